@@ -149,7 +149,7 @@ def test_everything_on_the_default_loom_has_room() -> None:
 
 def test_clearances_of_the_loom_are_those_of_brute_force_at_every_degree() -> None:
     made = loom()
-    bodies = {body.name: body for body in row_bodies(made.side, made.row_cyclogram, "comb")}
+    bodies = {body.name: body for body in row_bodies(made.side, made.row_cyclogram, made.beat.path, stack=False)}
     found = {frozenset((one.distance.first, one.distance.second)): one.distance for one in clearances(made)}
     angles = np.arange(0.0, turn, deg)
     for first, second in (("comb's bar", "sley"), ("comb's leaves", CARRIER), ("head", "comb's bar")):
@@ -175,16 +175,14 @@ def test_half_spans_of_80_mm_let_cams_run_into_what_holds_the_warps() -> None:
 
 
 def test_a_shed_too_low_for_its_carrier_fails_its_clearance() -> None:
-    made = loom(lift="40mm")
+    made = loom(lift="15mm")
     assert not next(check for check in room_checks(made, clearances(made)) if CARRIER in check.name).ok
 
 
 def test_heads_retreat_until_the_combs_bar_passes_them() -> None:
     made = loom()
     bar = made.side.comb[1]
-    assert made.side.head.reach + made.side.retreat == pytest.approx(
-        (bar.corner + bar.size).real + made.side.room.clearance
-    )
+    assert made.side.head.reach + made.side.retreat == pytest.approx(bar.real.max() + made.side.room.clearance)
     track = made.row_cyclogram.track("heads")
     assert track.stroke == made.side.retreat
     axes = [part.length for part in parts_of_loom(made).parts if part.name == "axis of the rail's retreat"]
@@ -193,7 +191,11 @@ def test_heads_retreat_until_the_combs_bar_passes_them() -> None:
 
 def test_the_stack_goes_down_with_the_comb_on_the_guide_cams() -> None:
     made = loom(beat="guide-cams")
-    (cams,) = (body for body in row_bodies(made.side, made.row_cyclogram, "guide-cams") if body.name == GUIDE_CAMS)
+    (cams,) = (
+        body
+        for body in row_bodies(made.side, made.row_cyclogram, made.beat.path, stack=True)
+        if body.name == GUIDE_CAMS
+    )
     heights = cams.parts[0].corners(samples())[:, 0].imag
     assert heights.max() - heights.min() == pytest.approx(made.side.beat_stroke, rel=1e-3)
 
@@ -202,9 +204,8 @@ def test_tools_reach_behind_the_warps_while_they_knot_and_stand_clear_in_the_row
     made = loom()
     knot, row = made.cyclograms
     deepest = {body.name: body.parts[0].corners(samples()).real.min() for body in knot_bodies(made.side, knot)}
-    clear = {
-        body.name: body.parts[0].corners(np.array([turn / 4])).real.min() for body in row_bodies(made.side, row, "comb")
-    }
+    in_row = row_bodies(made.side, row, made.beat.path, stack=False)
+    clear = {body.name: body.parts[0].corners(np.array([turn / 4])).real.min() for body in in_row}
     for tool in ("side grippers", "opener", "centre gripper"):
         assert deepest[tool] < -made.side.room.warp / 2
         assert clear[tool] > made.side.retreat

@@ -17,6 +17,9 @@ The lower cylinder has room for the whole carpet; only what lies between it and 
 import math
 from typing import TYPE_CHECKING
 
+import numpy as np
+
+from ilmek.arrays import ComplexArray
 from ilmek.machines.arrangement.head_shape import HeadShape, head_shape
 from ilmek.machines.arrangement.spans import (
     BAR,
@@ -34,6 +37,7 @@ from ilmek.records import computed, record, result
 from ilmek.units import mm
 
 if TYPE_CHECKING:
+    from ilmek.machines.beat import BeatPath
     from ilmek.machines.loom_task import LoomTask
 
 SPACER_BELOW = 50 * mm
@@ -47,6 +51,9 @@ ABOVE_FLOOR = 100 * mm
 
 ABOVE_CYLINDER = 50 * mm
 """The frame's columns above the upper cylinder [m]."""
+
+SWING_ROOM = 15 * mm
+"""Room for a comb that swings to the front, before its path is known [m]."""
 
 RAIL = 80 * mm
 """Side of the heads' rail in the side view, before the frame is designed [m]."""
@@ -84,7 +91,7 @@ class SideView:
     room, spans   what the spans of the shed leave room for, and the spans
     cams          the cam shafts, the lowest first
     carrier       of the weft, while it runs through the even shed; in the odd shed it is in the same position
-    comb          leaves and bar at rest
+    comb          convex polygons of what beats, at rest: leaves, bar [m]
     back_rest, upper, spacer, lower                                roll  radius of the lower cylinder with the carpet
     compensator   of the warps' tension, between back rest and upper cylinder
     head          while it knots                                   rail  of the heads while they knot
@@ -94,7 +101,7 @@ class SideView:
     spans: ShedSpans
     cams: tuple[CamPosition, ...]
     carrier: SideBox
-    comb: tuple[SideBox, ...]
+    comb: tuple[ComplexArray, ...]
     back_rest: RoundPart
     compensator: SideBox
     upper: RoundPart
@@ -149,8 +156,11 @@ class SideView:
         return max(self.upper.at.imag + self.upper.radius, highest) + ABOVE_CYLINDER
 
 
-def laid_out(task: "LoomTask") -> SideView:
-    """The side view of a loom whose head and shedding are designed; the cylinders where they are."""
+def laid_out(task: "LoomTask", path: "BeatPath | None" = None) -> SideView:
+    """The side view of a loom whose head and shedding are designed; the cylinders where they are.
+
+    path  of what beats; default: of a comb that goes straight down
+    """
     shedding, head = task.designs["shedding"], task.designs["weaver"]
     room, cylinder = shed_room(task), task.designs.get("warp-tension")
     prime, guide = shedding.cam.prime_radius, shedding.stack.guide_radius
@@ -158,7 +168,7 @@ def laid_out(task: "LoomTask") -> SideView:
     along, last = [one.beyond for one in shedding.shafts], shedding.shafts[-1].beyond
     spans = spans_at(room, prime, guide, tuple(front + one for one in along), tuple(back + last - one for one in along))
     radius = cylinder.outer_radius if cylinder else room.tube
-    shape, comb = head_shape(head, room.clearance), _comb(room, spans)
+    shape, comb = head_shape(head, room.clearance), _comb(room, spans, path)
     spacer, lower, roll = _lower_cylinders(task, radius, head)
     behind, rest = cylinder_offset(room), complex(-room.back_rest, spans.back_rest)
     case = shape.body + shape.size
@@ -183,7 +193,7 @@ def laid_out(task: "LoomTask") -> SideView:
         pile=head.drawn / 2,
         head=shape,
         rail=SideBox(complex(case.real, case.imag - (shape.size.imag + RAIL) / 2), complex(RAIL, RAIL)),
-        retreat=max(0.0, max((one.corner + one.size).real for one in comb) + room.clearance - shape.reach),
+        retreat=max(0.0, _front(comb, path, shape.top + room.clearance) + room.clearance - shape.reach),
     )
 
 
@@ -193,10 +203,32 @@ def _carrier(room: ShedRoom, spans: ShedSpans) -> SideBox:
     return SideBox(corner, complex(room.carrier_depth, room.carrier_width))
 
 
-def _comb(room: ShedRoom, spans: ShedSpans) -> tuple[SideBox, ...]:
-    """Leaves and bar of the comb at rest, before its machine is designed."""
+def rectangle(box: SideBox) -> ComplexArray:
+    """Corners of a rectangle, counter-clockwise [m]."""
+    return np.asarray(box.corner + np.array([0, box.size.real, box.size, 1j * box.size.imag]))
+
+
+def _comb(room: ShedRoom, spans: ShedSpans, path: "BeatPath | None") -> tuple[ComplexArray, ...]:
+    """What beats, at rest; without its path the usual comb, above the carrier."""
+    if path is not None:
+        return tuple(np.asarray(polygon + path.tip[0]) for polygon in path.outline)
     leaves = SideBox(complex(-LEAF_BEHIND, spans.comb), complex(LEAF_BEHIND + LEAF_REACH, room.leaf_height))
-    return leaves, SideBox(complex(LEAF_REACH, spans.comb), complex(BAR, room.leaf_height))
+    return rectangle(leaves), rectangle(SideBox(complex(LEAF_REACH, spans.comb), complex(BAR, room.leaf_height)))
+
+
+def _front(comb: tuple[ComplexArray, ...], path: "BeatPath | None", top: float) -> float:
+    """The greatest x of what beats while it is below a height above the fell [m]; 0: it never is.
+
+    Without its path: that of a usual comb on a swinging arm.
+    """
+    if path is None:
+        return max(float(polygon.real.max()) for polygon in comb) + SWING_ROOM
+    moved = path.tip - path.tip[0]
+    reached = (
+        float((polygon.real.max() + moved.real)[polygon.imag.min() + moved.imag <= top].max(initial=0.0))
+        for polygon in comb
+    )
+    return max(reached)
 
 
 def _lower_cylinders(task: "LoomTask", radius: float, head: Weaver) -> tuple[RoundPart, RoundPart, float]:

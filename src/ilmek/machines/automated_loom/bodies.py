@@ -8,8 +8,9 @@ import numpy as np
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.machines.arrangement.clearances import ConvexPart, MovingBody, moving, standing
 from ilmek.machines.arrangement.head_shape import HeadTool
-from ilmek.machines.arrangement.side_view import CamPosition, RoundPart, SideBox, SideView
+from ilmek.machines.arrangement.side_view import CamPosition, RoundPart, SideBox, SideView, rectangle
 from ilmek.machines.automated_loom.cyclogram import BEATER, EVEN, HEADS, ODD, weft_windows
+from ilmek.machines.beat import BeatPath
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.timing.track import Track, sample
 from ilmek.units import turn
@@ -19,27 +20,31 @@ BACK_REST, UPPER, SPACER, LOWER = "back rest", "upper cylinder", "spacer cylinde
 Displacement: TypeAlias = Callable[[FloatArray], ComplexArray]
 """Angles of a cyclogram [rad] -> displacement [m]."""
 
+NODES = 40
+"""Samples of a stroke of what beats, at least."""
+
 COMPENSATOR = "tension compensator"
 HEAD, RAIL, WARPS = "head", "heads' rail", "warps"
 
 
-def row_bodies(side: SideView, row: Cyclogram, kind: str) -> tuple[MovingBody, ...]:
+def row_bodies(side: SideView, row: Cyclogram, beat: BeatPath, *, stack: bool) -> tuple[MovingBody, ...]:
     """The bodies over the cyclogram of a row: the shed opens twice, the weft is laid, the comb beats, heads retreat.
 
-    kind  of the beat; of guide-cams the cams go down with the comb
+    beat   path of what beats        stack  whether the cams go down with it
     """
-    beater, heads = row.track(BEATER), row.track(HEADS)
-    down, away = _along(beater, -1j), _along(heads, 1 + 0j)
-    stack = down if kind == "guide-cams" else None
+    down, away = beat_displacement(beat, row), _along(row.track(HEADS), 1 + 0j)
     windows = weft_windows(row)
     return (
         *_sheets(side, row),
-        _cams(side, stack),
+        _cams(side, down if stack else None),
         *_comb(side, down),
         MovingBody(CARRIER, (_box(side.carrier),), windows),
-        MovingBody(HEAD, (moving(_corners(side.head.body, side.head.size), away),)),
-        *(MovingBody(tool.name, (moving(_corners(tool.corner, tool.size), away),)) for tool in side.head.tools),
-        MovingBody(RAIL, (moving(_corners(side.rail.corner, side.rail.size), away),)),
+        MovingBody(HEAD, (moving(rectangle(SideBox(side.head.body, side.head.size)), away),)),
+        *(
+            MovingBody(tool.name, (moving(rectangle(SideBox(tool.corner, tool.size)), away),))
+            for tool in side.head.tools
+        ),
+        MovingBody(RAIL, (moving(rectangle(side.rail), away),)),
         *_frame(side),
     )
 
@@ -51,11 +56,41 @@ def knot_bodies(side: SideView, knot: Cyclogram) -> tuple[MovingBody, ...]:
         MovingBody(WARPS, (standing(rest, side.room.warp / 2),)),
         _cams(side, None),
         *_comb(side, None),
-        MovingBody(HEAD, (standing(_corners(side.head.body, side.head.size)),)),
+        MovingBody(HEAD, (standing(rectangle(SideBox(side.head.body, side.head.size))),)),
         *(_tool(tool, knot) for tool in side.head.tools),
         MovingBody(RAIL, (_box(side.rail),)),
         *_frame(side),
     )
+
+
+def beat_displacement(beat: BeatPath, row: Cyclogram) -> Displacement:
+    """Displacement of what beats from its rest [m] at angles of the row [rad]."""
+    windows = beat_windows(row)
+
+    def displacement(angle: FloatArray) -> ComplexArray:
+        share = np.zeros(np.shape(angle))
+        for start, end in windows:
+            share += np.where((angle > start) & (angle < end), (angle - start) / (end - start), 0.0)
+        return np.asarray(beat(share) - beat.tip[0])
+
+    return displacement
+
+
+def beat_windows(row: Cyclogram) -> tuple[tuple[float, float], ...]:
+    """Angles of the row at which each beat begins and ends [rad]."""
+    parts = row.track(BEATER).segments
+    return tuple((first.start, last.end) for first, last in zip(parts[::2], parts[1::2], strict=True))
+
+
+def beat_joints(beat: BeatPath, row: Cyclogram) -> FloatArray:
+    """Angles of the row at which the first stroke down and the last stroke up of each beat are sampled [rad].
+
+    Strokes between these, of a beat that travels along the row, run over the same path.
+    """
+    near = np.flatnonzero(np.abs(beat.tip) <= np.abs(beat.tip).min() + 1e-9)
+    down, up = beat.share[: near[0] + 1], beat.share[near[-1] :]
+    shares = np.concatenate([one[np.linspace(0, len(one) - 1, NODES).astype(int)] for one in (down, up)])
+    return np.concatenate([start + shares * (end - start) for start, end in beat_windows(row)])
 
 
 def _along(track: Track, direction: complex) -> Displacement:
@@ -63,13 +98,12 @@ def _along(track: Track, direction: complex) -> Displacement:
     return lambda angle: np.asarray(direction * sample(track, np.mod(angle, turn)).position)
 
 
-def _corners(corner: complex, size: complex) -> ComplexArray:
-    """Corners of a rectangle, counter-clockwise."""
-    return corner + np.array([0, size.real, size, 1j * size.imag])
+def _at_rest(tool: HeadTool) -> ComplexArray:
+    return rectangle(SideBox(tool.corner, tool.size))
 
 
 def _box(box: SideBox) -> ConvexPart:
-    return standing(_corners(box.corner, box.size))
+    return standing(rectangle(box))
 
 
 def _sheets(side: SideView, row: Cyclogram) -> tuple[MovingBody, ...]:
@@ -104,13 +138,9 @@ def _cams(side: SideView, stack: Displacement | None) -> MovingBody:
 
 
 def _comb(side: SideView, down: Displacement | None) -> tuple[MovingBody, ...]:
-    return tuple(
-        MovingBody(
-            name,
-            (moving(_corners(box.corner, box.size), down) if down else _box(box),),
-        )
-        for name, box in zip((LEAVES, BAR), side.comb, strict=True)
-    )
+    """What beats: between the warps its leaves, in front of them its bar."""
+    leaves, *bar = (moving(polygon, down) if down else standing(polygon) for polygon in side.comb)
+    return MovingBody(LEAVES, (leaves,)), MovingBody(BAR, tuple(bar))
 
 
 def _tool(tool: HeadTool, knot: Cyclogram) -> MovingBody:
@@ -120,12 +150,12 @@ def _tool(tool: HeadTool, knot: Cyclogram) -> MovingBody:
     def displacement(angle: FloatArray) -> ComplexArray:
         return np.asarray(tool.direction * np.minimum(sample(track, np.mod(angle, turn)).position, tool.limit))
 
-    return MovingBody(tool.name, (moving(_corners(tool.corner, tool.size), displacement),))
+    return MovingBody(tool.name, (moving(_at_rest(tool), displacement),))
 
 
 def _frame(side: SideView) -> tuple[MovingBody, ...]:
     """What stands: carpet, back rest and cylinders, the lower one with the whole carpet."""
-    carpet = _corners(complex(-side.room.warp, side.lower.at.imag), complex(side.pile, -side.lower.at.imag))
+    carpet = rectangle(SideBox(complex(-side.room.warp, side.lower.at.imag), complex(side.pile, -side.lower.at.imag)))
     rollers: tuple[tuple[str, RoundPart, float], ...] = (
         (BACK_REST, side.back_rest, side.back_rest.radius),
         (UPPER, side.upper, side.upper.radius),

@@ -173,7 +173,8 @@ def design(params: AutomatedLoomParams) -> LoomDesign:
     for name in loom_parts():
         if name not in BEFORE_THE_ROW:
             machines[name], task = _made(name, task)
-    side = laid_out(task)
+    side = laid_out(task, beat.path)
+    timing = replace(timing, retreat=side.retreat)
     machines |= {name: replace(machines[name], number=heads) for name in knotting.children}
     chosen = replace(params, beat=option.kind, heads=heads, knotting=knotting.kind, weft=weft.carrier)
     return LoomDesign(

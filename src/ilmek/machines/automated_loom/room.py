@@ -4,6 +4,9 @@ from collections.abc import Mapping
 from dataclasses import replace
 from itertools import combinations
 
+import numpy as np
+
+from ilmek.arrays import FloatArray
 from ilmek.machines.arrangement.clearances import BodyDistance, MovingBody, least_clearances, samples
 from ilmek.machines.automated_loom.bodies import (
     BACK_REST,
@@ -18,6 +21,7 @@ from ilmek.machines.automated_loom.bodies import (
     SPACER,
     UPPER,
     WARPS,
+    beat_joints,
     knot_bodies,
     row_bodies,
 )
@@ -29,6 +33,9 @@ from ilmek.report import Check, at_least
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.timing.track import joints
 from ilmek.units import deg, mm
+
+GUIDED = "guide-cams"
+"""The beat with which the cams go down."""
 
 HORIZON = 50 * mm
 """Bodies whose swept boxes are farther apart are clear of each other [m]."""
@@ -84,18 +91,21 @@ def clearances(loom: LoomDesign) -> tuple[RoomFound, ...]:
     knot, row = loom.cyclograms
     found: dict[frozenset[str], RoomFound] = {}
     for cyclogram, bodies in (
-        (row, row_bodies(loom.side, row, loom.params.beat)),
+        (row, row_bodies(loom.side, row, loom.beat.path, stack=loom.params.beat == GUIDED)),
         (knot, knot_bodies(loom.side, knot)),
     ):
-        for clearance in _of_cyclogram(cyclogram, bodies, loom.params.clearance):
+        ends = beat_joints(loom.beat.path, row) if cyclogram is row else np.empty(0)
+        for clearance in _of_cyclogram(cyclogram, bodies, ends, loom.params.clearance):
             pair = frozenset((clearance.first, clearance.second))
             if pair not in found or clearance.value < found[pair].distance.value:
                 found[pair] = RoomFound(clearance, cyclogram.name)
     return tuple(sorted(found.values(), key=lambda one: one.distance.value))
 
 
-def _of_cyclogram(cyclogram: Cyclogram, bodies: tuple[MovingBody, ...], limit: float) -> tuple[BodyDistance, ...]:
-    ends = [angle for body in bodies for window in body.windows for angle in window]
+def _of_cyclogram(
+    cyclogram: Cyclogram, bodies: tuple[MovingBody, ...], nodes: FloatArray, limit: float
+) -> tuple[BodyDistance, ...]:
+    ends = [*nodes.tolist(), *(angle for body in bodies for window in body.windows for angle in window)]
     angles = samples([*ends, *(angle for track in cyclogram.tracks for angle in joints(track).tolist())])
     return least_clearances(bodies, angles, limit, TOUCHING, HORIZON)
 
