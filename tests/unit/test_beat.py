@@ -13,6 +13,7 @@ from ilmek.machines.automated_loom.design import LoomDesign, design
 from ilmek.machines.beat import BeatDrive, stroke_needed
 from ilmek.machines.catalogue import MACHINES
 from ilmek.report import results_of
+from ilmek.timing.cyclogram import Cyclogram, check_all
 from ilmek.units import turn
 
 
@@ -150,6 +151,43 @@ def test_a_comb_takes_the_time_of_its_beat_out_of_the_row() -> None:
     drive = driven("comb")
     params = drive.design.params
     assert params.step / params.shed_speed == pytest.approx(drive.beat.time)
+
+
+def test_the_cams_stand_for_a_beat_that_takes_long() -> None:
+    """The row is the turn of the cams, both stops, and both beats as far as the turn leaves no time for them."""
+    made = loom("travelling")
+    row, timing = made.row_cyclogram, made.row_timing
+    assert check_order(row) == []
+    cam_turn = timing.turning * row.period
+    assert cam_turn == pytest.approx(turn / made.shedding.params.speed)
+    beat = row.track("beater")
+    first = (beat.segment("back 1").end - beat.segment("beat 1").start) / turn * row.period
+    assert first == pytest.approx(made.beat.beat.time)
+    closed = row.track("even warps").segment("lower").end
+    stands = (turn / 2 - closed) / turn * row.period
+    assert stands == pytest.approx((row.period - cam_turn) / 2)
+    assert row.period < timing.beat.time * turn / (timing.beat_end - timing.window[1])
+    at = np.array([0.0, closed / 2, closed, turn / 2 - 1e-9, turn / 2, turn / 2 + closed, turn - 1e-9])
+    half = turn / 2
+    np.testing.assert_allclose(timing.cam_angle(at), [0, half / 2, half, half, half, turn, turn], atol=1e-6)
+    assert loom("comb").row_timing.turning == 1.0
+
+
+def test_the_slide_crosses_the_carpet_while_the_beater_strokes() -> None:
+    made = loom("travelling")
+    slide, beater = made.row_cyclogram.track("slide of the beater"), made.row_cyclogram.track("beater")
+    assert slide.segment("across").start >= beater.segment("beat 1").end * (1 - 1e-9)
+    assert slide.segment("across").end <= beater.segment("back 1").start * (1 + 1e-9)
+    assert slide.stroke == pytest.approx((made.task.warps - made.beat.beaten) * made.params.pitch)
+
+
+def check_order(row: Cyclogram) -> list[str]:
+    return [check.name for check in check_all(row, row.relations) if not check.ok]
+
+
+@pytest.mark.parametrize("kind", BEATS)
+def test_the_motions_of_a_row_follow_each_other(kind) -> None:
+    assert check_order(loom(kind).row_cyclogram) == []
 
 
 def test_every_kind_names_a_machine() -> None:

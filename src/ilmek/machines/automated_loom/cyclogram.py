@@ -7,6 +7,8 @@ A row is two wefts and two beats on one turn of the shedding cams.              
     3 180 to 270 deg    cams lift the odd warps; the sinuous weft is laid
     4 270 to 360 deg    they come down; the beater beats; the carpet is taken up by a row
 
+Where a beat takes longer than they leave for it, the cams stand after each half turn, the shed closed, until it is over.
+
 The heads stand clear of the warps for the whole turn; the knots of the row were tied before it began. The thesis prints
 the four steps of 90 degrees and the harmonic law; where within them weft, beater and take-up move is chosen here. A
 shuttle passes over and another back (`ilmek.machines.weft`): in every second row both start at the other edge, so that
@@ -14,7 +16,11 @@ the carriage's position is to be taken from there. A rapier goes in and out in e
 """
 
 import math
+from dataclasses import replace
 
+import numpy as np
+
+from ilmek.arrays import FloatArray
 from ilmek.cams.laws import LAWS, law_of
 from ilmek.machines import WEFT_CARRIERS
 from ilmek.machines.beat import Beat
@@ -40,6 +46,7 @@ from ilmek.timing.track import MotionLaw, shortest_period
 from ilmek.units import deg, turn
 
 EVEN, ODD, BEATER, TAKE_UP = "even warps", "odd warps", "beater", "take-up"
+SLIDE = "slide of the beater"
 SOURCE = "thesis, 3.3: the four steps of a row"
 HEADS = "heads"
 RETREAT_END = 36 * deg
@@ -59,6 +66,7 @@ class RowTiming:
     carrier     of the weft, and its passage beat_end, take_up_end  angles of each, and of the second, half
     beat        the beater's motion          row_pitch  carpet taken up for a row [m]
     retreat     of the heads from the warps [m]
+    turning     share of the row for which the shedding cams turn; else they stand, the shed closed, for the beats
     """
 
     lift: float
@@ -71,6 +79,25 @@ class RowTiming:
     row_pitch: float
     take_up_end: float
     retreat: float = 0.0
+    turning: float = 1.0
+
+    def early(self, angle: float) -> float:
+        """Master angle of a cam angle of the first half of the row, after which the cams stand [rad]."""
+        return self.turning * angle
+
+    def late(self, angle: float) -> float:
+        """Master angle as long before the end of the first half as a cam angle would be, were they to turn on [rad]."""
+        return _HALF - self.turning * (_HALF - angle)
+
+    def cam_angle(self, angle: FloatArray) -> FloatArray:
+        """Angle of the shedding cams [rad] at master angles of the row [rad]."""
+        half, within = np.divmod(np.asarray(angle), _HALF)
+        return np.asarray(half * _HALF + np.minimum(within / self.turning, _HALF))
+
+    @property
+    def open(self) -> tuple[float, float]:
+        """Master angles between which the even shed has room for the weft's carrier [rad]."""
+        return self.early(self.window[0]), self.early(self.window[1])
 
 
 CARRIAGE = "carriage"
@@ -116,20 +143,33 @@ _IN_THE_WARPS = (SIDE_MOTION, CENTRE_MOTION, OPENER, LEFT_ARM, RIGHT_ARM, CENTRE
 _CLEAR = "the head moves along the row only while no tool of it is in the warps"
 
 
-def shortest_row(timing: RowTiming) -> float:
-    """The shortest turn of the cams [s] in which the weft's carrier keeps its limits and the beat fits behind it.
+def shortest_passage(timing: RowTiming) -> float:
+    """The shortest turn of the cams [s] in which the weft's carrier keeps its limits; inf where no angle is left."""
+    first, last = timing.window
+    return timing.passage.time * turn / (last - first) if last > first else math.inf
 
-    inf where no angle is left for the passage, or between carrier and beat.
+
+def timed(timing: RowTiming, cam_turn: float, stop: float) -> tuple[RowTiming, float]:
+    """The timing with the share for which the cams turn, and the time of the row [s], for a turn of the cams [s].
+
+    stop  time in which the cams stop and start again [s]
+    The cams turn on where the beat fits between the weft's carrier and `beat_end`. Where it does not, they turn more
+    slowly, or stand twice with the shed closed: what takes less time. inf where no angle is left for the beat.
     """
     first, last = timing.window
-    room = timing.beat_end - last - GAP
-    if room <= 0 or last <= first:
-        return math.inf
-    return max(timing.passage.time * turn / (last - first), timing.beat.time * turn / room)
+    free = timing.beat_end - last - GAP
+    if free <= 0 or last <= first:
+        return timing, math.inf
+    slow = max(cam_turn, timing.beat.time * turn / free)
+    if slow <= cam_turn * (1 + 1e-12):
+        return timing, cam_turn
+    busy = turn * (timing.beat.time + stop) + (_HALF - timing.beat_end + last) * cam_turn
+    stands = max(busy / (_HALF - GAP), cam_turn + 2 * stop)
+    return (replace(timing, turning=cam_turn / stands), stands) if stands < slow else (timing, slow)
 
 
 def cyclogram(timing: RowTiming, period: float) -> Cyclogram:
-    """The cyclogram of a row at a period of the shedding cams [s].
+    """The cyclogram of a row at its time [s].
 
     Raises ParameterError where weft, beat and take-up do not follow each other.
     """
@@ -138,6 +178,7 @@ def cyclogram(timing: RowTiming, period: float) -> Cyclogram:
         _warps(ODD, timing, _HALF),
         _weft(timing),
         _beater(timing, period),
+        *_slide(timing, period),
         _take_up(timing),
         _heads(timing),
     )
@@ -170,19 +211,19 @@ def _law(name: str) -> MotionLaw:
 
 
 def _warps(name: str, timing: RowTiming, shift: float) -> Track:
-    law, quarter = _law(timing.law), turn / 4
+    law, quarter = _law(timing.law), timing.early(turn / 4)
     parts = (
         TrackSegment("lift", shift, shift + quarter, 0.0, timing.lift, law),
-        TrackSegment("lower", shift + quarter, shift + _HALF, timing.lift, 0.0, law),
+        TrackSegment("lower", shift + quarter, shift + 2 * quarter, timing.lift, 0.0, law),
     )
-    first, last = timing.window
+    first, last = timing.open
     events = (TrackEvent(f"room for the {timing.carrier}", shift + first), TrackEvent("room ends", shift + last))
     return Track(name, "shedding cams", parts, events)
 
 
 def _passes(timing: RowTiming) -> tuple[tuple[TrackSegment, ...], tuple[TrackSegment, ...]]:
     """The motions of the weft's carrier in the even and in the odd shed, each stretched to the window."""
-    (first, last), passage = timing.window, timing.passage
+    (first, last), passage = timing.open, timing.passage
     law, stroke = passage.law, passage.stroke
     if not passage.back:
         over = TrackSegment("pass", first, last, 0.0, stroke, law)
@@ -213,9 +254,9 @@ def weft_windows(row: Cyclogram) -> tuple[tuple[float, float], tuple[float, floa
 
 def _beater(timing: RowTiming, period: float) -> Track:
     """Two beats, each forward, pressed where it is, and back."""
-    beat, spent = timing.beat, turn * timing.beat.time / period
+    beat, spent, back = timing.beat, turn * timing.beat.time / period, timing.late(timing.beat_end)
     parts: list[TrackSegment] = []
-    for number, end in ((1, timing.beat_end), (2, _HALF + timing.beat_end)):
+    for number, end in ((1, back), (2, _HALF + back)):
         start = end - spent
         middle = start + beat.forward * spent
         parts += [
@@ -226,9 +267,23 @@ def _beater(timing: RowTiming, period: float) -> Track:
     return Track(BEATER, beat.actuator, tuple(parts), events)
 
 
+def _slide(timing: RowTiming, period: float) -> tuple[Track, ...]:
+    """The slide that carries the beater across, from edge to edge and back in the two beats; drawn as one motion."""
+    beat, back = timing.beat, timing.late(timing.beat_end)
+    if not beat.slide or beat.strokes == 1:
+        return ()
+    spent = turn * beat.time / period
+    start, end = back - spent * (1 - beat.forward), back - spent * (1 - beat.forward - beat.pressed)
+    parts = (
+        TrackSegment("across", start, end, 0.0, beat.slide, _law("modified-sine")),
+        TrackSegment("back", _HALF + start, _HALF + end, beat.slide, 0.0, _law("modified-sine")),
+    )
+    return (Track(SLIDE, "linear axis", parts),)
+
+
 def _take_up(timing: RowTiming) -> Track:
-    start = _HALF + timing.beat_end
-    part = TrackSegment("take up", start, _HALF + timing.take_up_end, 0.0, timing.row_pitch, TAKE_UP_LAW)
+    start, end = (_HALF + timing.late(angle) for angle in (timing.beat_end, timing.take_up_end))
+    part = TrackSegment("take up", start, end, 0.0, timing.row_pitch, TAKE_UP_LAW)
     return Track(TAKE_UP, "warp cylinder", (part,), revolves=timing.row_pitch)
 
 
@@ -236,8 +291,8 @@ def _heads(timing: RowTiming) -> Track:
     """The heads' rail: away from the warps while the shed opens, and back behind the second beat."""
     law = _law("cycloidal")
     parts = (
-        TrackSegment("retreat", 0.0, RETREAT_END, 0.0, timing.retreat, law),
-        TrackSegment("return", _HALF + timing.beat_end, turn, timing.retreat, 0.0, law),
+        TrackSegment("retreat", 0.0, timing.early(RETREAT_END), 0.0, timing.retreat, law),
+        TrackSegment("return", _HALF + timing.late(timing.beat_end), turn, timing.retreat, 0.0, law),
     )
     return Track(HEADS, "linear axes", parts)
 
@@ -248,5 +303,5 @@ def shortest_retreat(timing: RowTiming, speed_limit: float, acceleration_limit: 
 
 
 def take_up_time(timing: RowTiming, period: float) -> float:
-    """Time of the take-up [s] at a period of the cams [s]."""
-    return (timing.take_up_end - timing.beat_end) / turn * period
+    """Time of the take-up [s] at a time of the row [s]."""
+    return timing.turning * (timing.take_up_end - timing.beat_end) / turn * period

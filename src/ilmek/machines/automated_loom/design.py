@@ -18,9 +18,10 @@ from ilmek.machines.automated_loom.cyclogram import (
     RowTiming,
     cyclogram,
     knot_cyclogram,
+    shortest_passage,
     shortest_retreat,
-    shortest_row,
     take_up_time,
+    timed,
 )
 from ilmek.machines.automated_loom.knotting import KnottingHead, knotting_head
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
@@ -153,10 +154,10 @@ def design(params: AutomatedLoomParams) -> LoomDesign:
     machines["shedding"], task = _made("shedding", task)
     task = replace(task, side=laid_out(task))
     head, weft, cams = knotting.weaver, laid.design, machines["shedding"].design
-    options = beat_options(task, lambda plan: _row_period(params, _row_timing(task, cams, plan.beat), cams))
+    options = beat_options(task, lambda plan: _timed_row(params, _row_timing(task, cams, plan.beat), cams)[1])
     option, choices = chosen_beat(options, params.aim)
-    timing, period = _row_timing(task, cams, option.plan.beat), option.period
-    machines["shedding"] = _at_period(machines["shedding"], period)
+    timing, period = _timed_row(params, _row_timing(task, cams, option.plan.beat), cams)
+    machines["shedding"] = _at_period(machines["shedding"], timing.turning * period)
     times = times_at(head, 2 * params.pitch, period)
     most = heads_that_fit(columns, 2 * params.pitch, head.width)
     _require_room(params, most, head.width)
@@ -270,8 +271,10 @@ def _row_timing(task: LoomTask, cams: SheddingDesign, beat: Beat) -> RowTiming:
     )
 
 
-def _row_period(params: AutomatedLoomParams, timing: RowTiming, cams: SheddingDesign) -> float:
-    """Time of a turn of the shedding cams [s]: the given one, or the shortest that weft and beat allow."""
+def _timed_row(params: AutomatedLoomParams, timing: RowTiming, cams: SheddingDesign) -> tuple[RowTiming, float]:
+    """The timing and the time of a row [s]: a turn of the shedding cams as given, or the shortest that weft, heads and
+    beat allow.
+    """
     shed, window, name = format_quantity(timing.lift, "mm"), timing.window, timing.carrier
     if window[1] - window[0] < 1e-6:
         raise LoomError(
@@ -279,8 +282,10 @@ def _row_period(params: AutomatedLoomParams, timing: RowTiming, cams: SheddingDe
             allowed=f"an opening that lasts, for the {name} to pass",
             do="set a smaller open_share",
         )
-    shortest = shortest_row(timing)
-    if not math.isfinite(shortest):
+    heads = shortest_retreat(timing, params.retreat_speed, params.retreat_acceleration)
+    turned = max(turn / cams.params.speed, shortest_passage(timing), heads)
+    found, period = timed(timing, turned, params.shed_stop)
+    if not math.isfinite(period):
         raise LoomError(
             f"the beater is to be back at {format_quantity(params.beat_end, 'deg')}",
             allowed=f"the shed is free of the {name} from {format_quantity(window[1], 'deg')} on",
@@ -288,5 +293,4 @@ def _row_period(params: AutomatedLoomParams, timing: RowTiming, cams: SheddingDe
         )
     if params.take_up_end <= params.beat_end:
         raise LoomError("the take-up ends before the beat", do="set take_up_end after beat_end")
-    heads = shortest_retreat(timing, params.retreat_speed, params.retreat_acceleration)
-    return max(turn / cams.params.speed, shortest, heads)
+    return found, period

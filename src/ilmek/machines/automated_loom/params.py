@@ -108,6 +108,12 @@ class AutomatedLoomParams(Params):
     beat_speed: float = kind.angular_speed(
         15.5, unit="rad/s", at_least=0.1, at_most=1e3, doc="speed of the beat-up's crank"
     )
+    shed_stop: float = kind.time(
+        0.3,
+        at_least=0.0,
+        at_most=60.0,
+        doc="time in which the shedding cams stop and start where they stand for a beat",
+    )
     beat_end: float = kind.angle(158 * deg, above=0.0, below=turn / 2, doc="cam angle at which the beater is back")
     take_up_end: float = kind.angle(
         178 * deg, above=0.0, at_most=turn / 2, doc="cam angle, after half a turn, at which the take-up ends"

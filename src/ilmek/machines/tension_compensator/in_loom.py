@@ -7,7 +7,7 @@ from ilmek.machines.shedding import shed_lengthenings
 from ilmek.machines.tension_compensator.design import TensionCompensator
 from ilmek.machines.tension_compensator.params import STEEL, TensionCompensatorParams
 from ilmek.report import NOT_WEIGHED, Part
-from ilmek.units import format_quantity, mm, turn
+from ilmek.units import format_quantity, mm
 
 SAMPLES = 73
 """Angles of the cam shaft at which the lengthening of the warps is computed, 5 degrees apart."""
@@ -35,7 +35,7 @@ def fit(task: LoomTask) -> TensionCompensatorParams:
             dwell=shed.dwell,
             fall=shed.fall_angle,
             law=shed.law,
-            speed=turn / task.period,
+            speed=shed.speed,
         ),
     )
 
