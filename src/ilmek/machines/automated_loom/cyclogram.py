@@ -7,7 +7,7 @@ A row is two wefts and two beats on one turn of the shedding cams.              
     3 180 to 270 deg    cams lift the odd warps; the sinuous weft is laid
     4 270 to 360 deg    they come down; the beater beats; the carpet is taken up by a row
 
-Where a beat takes longer than they leave for it, the cams stand after each half turn, the shed closed, until it is over.
+Where a beat takes longer than they leave for it, the cams stand after each half turn, the shed closed, until it ends.
 
 The heads stand clear of the warps for the whole turn; the knots of the row were tied before it began. The thesis prints
 the four steps of 90 degrees and the harmonic law; where within them weft, beater and take-up move is chosen here. A

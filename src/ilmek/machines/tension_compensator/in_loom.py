@@ -7,7 +7,7 @@ from ilmek.machines.shedding import shed_lengthenings
 from ilmek.machines.tension_compensator.design import TensionCompensator
 from ilmek.machines.tension_compensator.params import STEEL, TensionCompensatorParams
 from ilmek.report import NOT_WEIGHED, Part
-from ilmek.units import format_quantity, mm
+from ilmek.units import format_quantity, mm, turn
 
 SAMPLES = 73
 """Angles of the cam shaft at which the lengthening of the warps is computed, 5 degrees apart."""
