@@ -31,7 +31,7 @@ def failed(report: Report) -> set[str]:
 
 @pytest.mark.parametrize(("thickness", "height", "cosine"), [(3e-4, 0.06, 1), (1e-3, 0.1, 0.87), (2e-3, 0.02, 0.7)])
 def test_nose_buckles_at_the_least_eigenvalue_of_the_wedge(thickness, height, cosine) -> None:
-    """-w'' = N / (E I(x)) w with I = 2 x t^3 / 12, w(0) = 0 at the tip, w'(a) = 0 at the foot, by finite differences."""
+    """-w'' = N / (E I(x)) w with I = 2 x t^3 / 12, w(0) = 0 at the tip, w'(a) = 0 at the foot (differences)."""
     number, modulus, long = 800, 200e9, height / cosine
     step = long / number
     x = step * np.arange(1, number + 1)
