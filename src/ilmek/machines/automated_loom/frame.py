@@ -2,8 +2,9 @@
 
 Columns: the cylinders at their ends are drawn together by all warps, in the worst of their three cases half of the pull
 on each column, off its axis by the radius e of the cylinder; half the weight of what the frame carries comes on top, P
-in all, as if at e too [`elements.columns`]. The beat's reaction F comes at half height, half of it on each column:
-stress F h c / (8 I) and bow F h^3 / (96 E I) more, magnified by the compression by 1 / (1 - P / Euler's load)
+in all, as if at e too [`elements.columns`]. A beat by vertical axes presses along the columns, and adds to P. The
+force F of crank-rockers may have any direction and is taken across, at half height, half of it on each column: stress
+F h c / (8 I) and bow F h^3 / (96 E I) more, magnified by the compression by 1 / (1 - P / Euler's load)
 [Timoshenko and Gere, Theory of Elastic Stability, 1.11].
 
 The rail: each span between columns and posts simply supported, its own weight and as many heads as find room side by
@@ -37,7 +38,7 @@ class FrameTask:
 
     width, height   between the columns, and of them [m]      depth   of the feet [m]
     pull            of all warps, worst case [N]               lever   of the pull off a column's axis [m]
-    reaction        of the beat, across the columns [N]
+    across, along   force of the beat on the frame, across and along the columns [N]
     carried         mass on the columns [kg]
     heads           that ride on the rail                      head_mass, head_width  of one [kg, m]
     rail_spans      of the rail, between columns and posts     sag_limit  of the rail [m]
@@ -54,12 +55,13 @@ class FrameTask:
     head_width: float
     rail_spans: int
     sag_limit: float
-    reaction: float = 0.0
+    across: float = 0.0
+    along: float = 0.0
 
     @property
     def force(self) -> float:
         """Compression of a column [N]."""
-        return (self.pull + self.carried * GRAVITY) / 2
+        return (self.pull + self.carried * GRAVITY + self.along) / 2
 
 
 @record
@@ -115,7 +117,7 @@ def column_load(task: FrameTask, section: HollowSquare) -> tuple[float, float]:
     stress, bow = eccentric(task.force, task.lever, task.height, section)
     if not math.isfinite(stress):
         return stress, bow
-    share = task.reaction / 2 / (1 - task.force / euler(task.height, section))
+    share = task.across / 2 / (1 - task.force / euler(task.height, section))
     bent = share * task.height * section.side / 2 / (4 * section.inertia)
     return stress + bent, bow + share * task.height**3 / (48 * STEEL.modulus * section.inertia)
 

@@ -63,8 +63,8 @@ def parts_of_loom(loom: LoomDesign) -> PartsList:
 
 def frame_task(loom: LoomDesign, carried: float) -> FrameTask:
     """The load of this loom's frame, with the mass of the parts that it carries [kg]."""
-    params, cylinder = loom.params, loom.warp_tension
-    wide = loom.task.width
+    params, cylinder, beat = loom.params, loom.warp_tension, loom.beat
+    wide, turning = loom.task.width, beat.crank_rockers > 0
     return FrameTask(
         width=wide,
         height=loom.side.loom_height,
@@ -77,6 +77,8 @@ def frame_task(loom: LoomDesign, carried: float) -> FrameTask:
         head_width=loom.head_width,
         rail_spans=math.ceil(wide / params.rail_span - 1e-9),
         sag_limit=params.rail_sag,
+        across=beat.frame_force if turning else 0.0,
+        along=0.0 if turning else beat.frame_force,
     )
 
 
