@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ilmek.machines.weft.bobbin import Winding
 from ilmek.machines.weft.design import Weft
 from ilmek.machines.weft.rapier import DRIVE
 from ilmek.machines.weft.shuttle import BOX_END, Shuttle
@@ -34,9 +35,9 @@ def shed_drawing(made: Weft) -> Drawing:
         Stroke(np.array([0, opening + 1j * span]), "yarn", "lifted warps"),
         Stroke(np.array([-0.4 * opening, 1.2 * opening]) + 0j, "ground", "fell"),
         Stroke(np.array([-0.2 * opening, 1.2 * opening]) + 1j * span, "construction", "axis of the cams"),
-        Stroke(carrier, "link", params.carrier, closed=True, filled=True),
+        Stroke(carrier, "outline", params.carrier, closed=True),
         Stroke(np.array([0, opening]) + 1.1j * span, "dimension", format_quantity(opening, "mm", 3)),
-        Stroke(np.array([0, wide]) + 1j * (low - 0.4 * carried.width), "dimension", format_quantity(wide, "mm", 3)),
+        Stroke(np.array([0, wide]) + 1j * low, "dimension", format_quantity(wide, "mm", 3)),
         *_wound(made, middle),
     )
     note = "as near to the fell as it has room; in a loom the side view states where it runs"
@@ -48,10 +49,10 @@ def _wound(made: Weft, middle: complex) -> tuple[Stroke, ...]:
     circle = np.exp(2j * np.pi * np.arange(49) / 48)
     if isinstance(made.carried, Shuttle):
         size = made.carried.bobbin
-        return tuple(Stroke(middle + circle * r / 2, "construction") for r in (size.diameter, size.core))
+        return tuple(Stroke(middle + circle * r / 2, "path") for r in (size.diameter, size.core))
     tall, wide, _ = made.carried.tube
     corners = np.array([-wide - 1j * tall, wide - 1j * tall, wide + 1j * tall, -wide + 1j * tall]) / 2
-    return (Stroke(middle + corners, "construction", closed=True),)
+    return (Stroke(middle + corners, "path", closed=True),)
 
 
 def plan_drawing(made: Weft) -> Drawing:
@@ -67,17 +68,17 @@ def plan_drawing(made: Weft) -> Drawing:
         length, bay = carried.length, carried.length + BOX_END
         left = -edge - length
         strokes += [
-            _box((left, left + length, 0.1 * deep, 0.9 * deep), "link", "straight weft"),
-            _box((cloth + edge, cloth + edge + length, 1.1 * deep, 1.9 * deep), "link", "sinuous weft"),
-            _box((-edge - bay, -edge, 0.0, 2 * deep), "outline", ""),
-            _box((cloth + edge, cloth + edge + bay, 0.0, 2 * deep), "outline", ""),
+            _box((left, left + length, 0.1 * deep, 0.9 * deep), "outline", "straight weft"),
+            _box((cloth + edge, cloth + edge + length, 1.1 * deep, 1.9 * deep), "outline", "sinuous weft"),
+            _box((-edge - bay, -edge, 0.0, 2 * deep), "construction", ""),
+            _box((cloth + edge, cloth + edge + bay, 0.0, 2 * deep), "construction", "box"),
             Stroke(np.array([left, 0]) + 3j * deep, "dimension", format_quantity(edge + length, "mm", 3)),
         ]
         note = "each box has two cells: one shuttle arrives, the other leaves"
     else:
         length = carried.length
         strokes += [
-            _box((-edge - length, -edge, 0.2 * deep, 0.8 * deep), "link", "rapier"),
+            _box((-edge - length, -edge, 0.2 * deep, 0.8 * deep), "outline", "rapier"),
             _box((-edge - length - DRIVE, -edge - length, 0.0, deep), "outline", "drive"),
             _box((cloth + edge, cloth + edge + 2 * deep, 0.0, 2 * deep), "outline", "packages"),
             Stroke(np.array([-edge - length, 0]) + 3j * deep, "dimension", format_quantity(edge + length, "m", 3)),
@@ -91,7 +92,7 @@ def _box(bounds: tuple[float, float, float, float], role: str, label: str) -> St
     """A rectangle; bounds: left, right, low, high [m]."""
     left, right, low, high = bounds
     corners = np.array([left + 1j * low, right + 1j * low, right + 1j * high, left + 1j * high])
-    return Stroke(corners, role, label, closed=True, filled=role == "link")
+    return Stroke(corners, role, label, closed=True)
 
 
 def motion_plots(made: Weft) -> tuple[Plot, Plot]:
@@ -129,10 +130,17 @@ def motion_plots(made: Weft) -> tuple[Plot, Plot]:
 def bobbin_plot(made: Weft) -> Plot:
     """Weft left on the bobbins over the rows: each row takes its length, each stop brings a full one."""
     assert isinstance(made.carried, Shuttle)
-    rows = np.arange(min(made.params.rows, MOST_ROWS) + 1)
-    series = tuple(
-        Series(one.name, rows.astype(float), one.capacity - one.a_row * (rows % max(1, one.rows)))
-        for one in made.carried.windings
-    )
+    last = min(made.params.rows, MOST_ROWS)
+    series = tuple(_left(one, last) for one in made.carried.windings)
     axes = Axis("rows of knots woven"), Axis("weft on the bobbin", "m")
     return Plot("weft-bobbins", "Weft on the bobbins", *axes, series, note="each jump is a stop of the loom")
+
+
+def _left(one: Winding, last: int) -> Series:
+    """Weft left on a bobbin up to a row: down to what a stop finds, up to a full one."""
+    lasts = max(1, one.rows)
+    starts = np.arange(0, last + 1, lasts)
+    ends = np.minimum(starts + lasts, last)
+    rows = np.column_stack([starts, ends]).ravel().astype(float)
+    left = np.column_stack([np.full(len(starts), one.capacity), one.capacity - one.a_row * (ends - starts)]).ravel()
+    return Series(one.name, rows, left)
