@@ -72,9 +72,9 @@ class Weft:
 
     @computed("J", "energy of a passage: what moves, from rest to its largest speed, friction and weft")
     def passage_energy(self) -> float:
-        moves = 2 if self.passage.back else 1
         resisting = self.resisting / self.params.belt_efficiency
-        return moves * (0.5 * self.axis.mass * self.passage.speed**2 + resisting * self.passage.stroke)
+        once: float = 0.5 * self.axis.mass * self.passage.speed**2 + resisting * self.passage.stroke
+        return (2 if self.passage.back else 1) * once
 
     @property
     def carrier_depth(self) -> float:
