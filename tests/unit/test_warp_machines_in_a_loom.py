@@ -5,7 +5,6 @@ import math
 import numpy as np
 import pytest
 
-from ilmek.elements.carpet_yarns import carpet_yarns
 from ilmek.machines import shedding, warp_tension
 from ilmek.machines.automated_loom import AutomatedLoomParams, design
 from ilmek.machines.loom_task import LoomTask
@@ -14,23 +13,14 @@ from ilmek.machines.warp_tension.design import USUAL_TUBES, keeps_limits, worst_
 from ilmek.units import mm
 
 
-def task(**settings: str) -> LoomTask:
-    """A loom of as many knots a row as its width has, 300 by default."""
-    params = AutomatedLoomParams.read(settings)
-    yarns = carpet_yarns(params.yarns, params.pitch)
-    return LoomTask(
-        params, 450, round(params.width / (2 * params.pitch)), yarns, 15.0, {}, take_up_time=0.7, row_time=90.0
-    )
-
-
 def whole(**settings: str) -> LoomTask:
     """The task of a loom, all machines designed."""
     return design(AutomatedLoomParams.read(settings)).task
 
 
 def test_fitted_cams_leave_room_for_the_bore_of_their_own_shaft() -> None:
-    assert shedding.MACHINE.fit(task()).prime_radius is None
-    found = shedding.MACHINE.fit(task(width="3m", length="4m", shaft_span="4m"))
+    assert shedding.MACHINE.fit(whole()).prime_radius is None
+    found = shedding.MACHINE.fit(whole(width="3m", length="4m", shaft_span="4m"))
     made = shedding.design(found)
     assert made.cam.prime_radius > made.prime_radius_min
     assert made.cam.prime_radius >= made.prime_radius_for_bore
@@ -39,7 +29,7 @@ def test_fitted_cams_leave_room_for_the_bore_of_their_own_shaft() -> None:
 
 
 def test_a_prime_radius_that_the_user_set_stays() -> None:
-    assert shedding.MACHINE.fit(task(**{"shedding.prime_radius": "150mm"})).prime_radius == pytest.approx(0.15)
+    assert shedding.MACHINE.fit(whole(**{"shedding.prime_radius": "150mm"})).prime_radius == pytest.approx(0.15)
 
 
 def test_parts_of_the_shedding_weigh_what_the_design_weighs() -> None:
