@@ -233,6 +233,14 @@ def test_choices_name_the_check_that_the_next_cheaper_fails() -> None:
     assert chosen["bearing"].decided_by in failed(bearing)
 
 
+def test_a_shaft_that_starts_and_stops_bears_its_inertia() -> None:
+    """J w / t at the shaft, through the reducer; no more than the warps' torque where it takes its time."""
+    steady, quick = made(**SPANS), made(stop_time=1e-3, **SPANS)
+    shaft = quick.stack.inertia * quick.params.speed / 1e-3
+    assert quick.drive.motor_torque == pytest.approx(shaft / 100 / 0.85)
+    assert made(stop_time=1.0, **SPANS).drive.motor_torque == steady.drive.motor_torque < quick.drive.motor_torque
+
+
 def test_two_shafts_in_a_loom() -> None:
     loom = LOOM.design(AutomatedLoomParams.read({"shedding.shafts": "2"}))
     assert len(loom.shedding.shafts) == 2

@@ -278,12 +278,16 @@ def _shaft_task(params: SheddingParams, mass: float, across: float, torque: floa
 
 
 def _drive(params: SheddingParams, shed: Shed, loads: _Loads, inertia: float) -> SheddingDrive:
-    """Torque over the turn, and the motor with its reducer, the inertia of the stack [kg m^2] included."""
+    """Torque over the turn, and the motor with its reducer, the inertia of the stack [kg m^2] included.
+
+    The shaft starts and stops with the shed closed, when no warp loads it: its motor then bears J w / t alone.
+    """
     (most, least), rms = loads.peaks, loads.rms
     reducer = Reducer(params.ratio, params.efficiency)
     # Falling warps drive the cams: the motor brakes what the reducer's friction leaves.
     braking = -least.value * max(reducer.back_driving_efficiency, 0.0) / params.ratio
-    needed = max(reducer.motor_torque(most.value), braking, 0.0)
+    starting = 0.0 if params.stop_time is None else inertia * params.speed / params.stop_time
+    needed = max(reducer.motor_torque(max(most.value, starting)), braking, 0.0)
     speed = params.speed * params.ratio
     if params.motor_torque is not None:
         return SheddingDrive(most, least, rms, reducer, needed, speed, None, params.motor_torque, None)

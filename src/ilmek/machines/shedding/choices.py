@@ -3,6 +3,8 @@
 Of several shafts the choices are those of the one with the largest torque.
 """
 
+from dataclasses import replace
+
 from ilmek.elements import bearings, shafts
 from ilmek.elements.bearing_table import INSERT, RollingBearing
 from ilmek.elements.motors import MOTORS
@@ -16,14 +18,23 @@ CHEAPEST = "price"
 
 def choices(design: SheddingDesign) -> tuple[Choice, ...]:
     """Shafts and guides, prime radius, bar, bearing and motor, where they were left open."""
-    params, one = design.params, max(design.shafts, key=lambda each: each.drive.torque_max.value)
-    return (
-        *((design.choice,) if design.choice else ()),
-        *((_prime(design.first),) if params.prime_radius is None else ()),
+    params, index = design.params, max(range(len(design.shafts)), key=lambda at: _torque(design.shafts[at]))
+    one = design.shafts[index]
+    of_one = (
         *((_bar(one),) if params.shaft_bar is None else ()),
         *((_bearing(one),) if params.bearing is None else ()),
         *((_motor(one),) if one.drive.motor else ()),
     )
+    named = tuple(replace(each, name=f"{each.name} of shaft {index + 1}") for each in of_one)
+    return (
+        *((design.choice,) if design.choice else ()),
+        *((_prime(design.first),) if params.prime_radius is None else ()),
+        *(named if len(design.shafts) > 1 else of_one),
+    )
+
+
+def _torque(one: CamShaft) -> float:
+    return one.drive.torque_max.value
 
 
 def _prime(one: CamShaft) -> Choice:
