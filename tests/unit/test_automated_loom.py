@@ -70,26 +70,6 @@ def test_results_and_figures() -> None:
     assert [type(figure) for figure in made.figures] == [Drawing, Timing, Timing, Plot, Plot]
 
 
-def test_the_arms_are_made_for_the_pitch_and_the_knot_of_the_carpet() -> None:
-    for knot, pitch in (("symmetric", 2 * mm), ("asymmetric", 1.25 * mm)):
-        made = reported(knot=knot, warp_pitch=pitch)
-        arms = made.as_json()["results"]["knotting_dyad"]
-        assert arms["knot_tied"] == knot
-        assert 0 < arms["clearance_min"] == pytest.approx(arms["clearance_bound"], abs=1e-9)
-        assert arms["cycle_time"] < made.as_json()["results"]["cycle_time_knot"]
-        assert not any("knotting-dyad cannot" in said for said in made.all_warnings)
-
-
-@pytest.mark.parametrize(
-    ("pitch", "said"), [(1 * mm, "the yarn bends the needle"), (0.15 * mm, "needle_diameter=0.006 mm is out of bounds")]
-)
-def test_a_pitch_too_fine_for_arms_is_said_and_no_failure_of_the_loom(pitch: float, said: str) -> None:
-    made = reported(width=0.3, length=0.3, warp_pitch=pitch)
-    assert "knotting_dyad" not in made.as_json()["results"]
-    assert made.failed == ()
-    assert any("a knotting-dyad" in warning and said in warning for warning in made.all_warnings)
-
-
 def test_shuttle_and_beater_are_never_in_the_shed_together() -> None:
     loom = design(AutomatedLoomParams())
     angle = np.linspace(0, 2 * math.pi, 7201)

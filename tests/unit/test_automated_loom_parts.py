@@ -218,12 +218,6 @@ def test_heads_are_busy_but_for_the_wefts_and_their_unequal_parts() -> None:
     assert 0.8 * (1 - found.wefts) < found.utilisation <= 1 - found.wefts + 1e-12
 
 
-def test_arms_are_an_alternative_that_is_no_part_of_the_loom() -> None:
-    children = {child.name: child for child in loom().children}
-    assert children["knotting-dyad"].number == 0
-    assert all(child.number > 0 for name, child in children.items() if name != "knotting-dyad")
-
-
 def test_shares_of_the_time_name_the_bottleneck():
     assert time_shares(loom()).bottleneck == "knotting"
     quick = design(

@@ -20,7 +20,7 @@ from ilmek.machines.component import Child
 from ilmek.machines.knotting_dyad import KnottingDyad, KnottingDyadParams
 from ilmek.machines.knotting_dyad.drives import head_motion
 from ilmek.machines.knotting_dyad.motion import CyclePart
-from ilmek.machines.knotting_dyad.sequence import LEFT, RIGHT
+from ilmek.machines.knotting_dyad.sequence import CENTRE, LEFT, RIGHT
 from ilmek.machines.loom_task import LoomTask
 from ilmek.machines.weaver import Weaver, WeaverParams
 from ilmek.machines.weaver.cyclogram import arms_window
@@ -152,17 +152,23 @@ def with_arms(weaver: Weaver, arms: KnottingDyad) -> Cyclogram:
             if span[0] != span[1]:
                 ends = (scale * one + offset for one in span)
                 tracks[name].append(TrackSegment(part.name, at(part.start), at(part.end), *ends, ARM_LAW))
-    by = {LEFT_ARM: LEFT, RIGHT_ARM: RIGHT, CENTRE_ARM: "centre"}
     made = (
-        Track(name, "linear axis" if name == CENTRE_ARM else "two servos", tuple(segments), _grips(parts, by[name], at))
-        for name, segments in tracks.items()
+        Track(name, actuator, tuple(tracks[name]), _grips(parts, gripper, at, speed))
+        for name, actuator, gripper in (
+            (LEFT_ARM, "two servos", LEFT),
+            (RIGHT_ARM, "two servos", RIGHT),
+            (CENTRE_ARM, "linear axis", CENTRE),
+        )
     )
     opener, *others = tied.tracks
     return replace(tied, tracks=(opener, *made, *others))
 
 
-def _grips(parts: tuple[CyclePart, ...], gripper: str, at: Callable[[float], float]) -> tuple[TrackEvent, ...]:
+def _grips(
+    parts: tuple[CyclePart, ...], gripper: str, at: Callable[[float], float], speed: float
+) -> tuple[TrackEvent, ...]:
     """The ends of a gripper's grasps and releases as events, numbered."""
     mine = [part for part in parts if gripper in part.grippers]
     counted = [sum(one.name == part.name for one in mine[: k + 1]) for k, part in enumerate(mine)]
-    return tuple(TrackEvent(f"{part.name} {k}", at(part.end)) for part, k in zip(mine, counted, strict=True))
+    ends = [at(part.start) + (part.end - part.start) * speed for part in mine]
+    return tuple(TrackEvent(f"{part.name} {k}", end) for part, k, end in zip(mine, counted, ends, strict=True))

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
+from ilmek.machines.weaver.choices import choices
 from ilmek.machines.weaver.design import Weaver, design, head_relations
 from ilmek.machines.weaver.in_loom import params_for, parts, work
 from ilmek.machines.weaver.limits import head_mass, mass_of
@@ -17,7 +18,6 @@ from ilmek.machines.weaver.report import (
     analyse,
     cam_tables,
     checks,
-    choices,
     figures,
     plates,
     tables,

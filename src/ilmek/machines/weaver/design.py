@@ -15,7 +15,7 @@ from ilmek.machines.weaver.grippers import Grippers, grippers_for, yarn_needed
 from ilmek.machines.weaver.knot import on_the_pair, proof_text, tied_by
 from ilmek.machines.weaver.magazine import Magazine, fewest_tiers
 from ilmek.machines.weaver.motions import CENTRE_MOTION, HANDLER, OPENER, SIDE_MOTION, SLEY
-from ilmek.machines.weaver.opener import Opener, opener_for
+from ilmek.machines.weaver.opener import TEETH, Opener, opener_for
 from ilmek.machines.weaver.params import WeaverParams
 from ilmek.records import computed, record, result
 from ilmek.timing.cyclogram import Cyclogram, Relation
@@ -179,7 +179,7 @@ def _opener(params: WeaverParams, grippers: Grippers) -> Opener:
     arms = params.arms
     outside = params.pair / 2 + (arms.outer or pitch)
     reach = arms.depth if params.with_arms else params.opening + grippers.crossing
-    return opener_for(
+    made = opener_for(
         params.pair,
         outside if params.with_arms else abs(grippers.warps[-1].real),
         params.opening,
@@ -187,8 +187,11 @@ def _opener(params: WeaverParams, grippers: Grippers) -> Opener:
         params.warp,
         spans,
         params.forces.friction,
-        (own.wall, 2 * own.plate, reach),
+        (own.wall or TEETH[-1], 2 * own.plate, reach),
     )
+    if own.wall is not None:
+        return made
+    return next((one for one in (replace(made, wall=wall) for wall in TEETH) if one.bend <= own.bend_limit), made)
 
 
 def _magazine(params: WeaverParams, rest: float) -> Magazine:

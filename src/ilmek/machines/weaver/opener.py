@@ -15,11 +15,15 @@ import numpy as np
 
 from ilmek.arrays import Float, FloatArray
 from ilmek.elements.materials import MATERIALS
-from ilmek.records import computed, record
+from ilmek.records import computed, record, result
+from ilmek.units import mm
 from ilmek.weaving.warp_opening import WarpSpans, force_of, shifts, tension_of, wall_force
 
 POSITIONS = 41
 """Positions of the travel at which the force is computed; between them it is interpolated."""
+
+TEETH = (1 * mm, 1.5 * mm, 2 * mm, 2.5 * mm, 3 * mm, 4 * mm, 5 * mm)
+"""Widths of its teeth from which the least is chosen."""
 
 LEAST_ROOM = 0.02
 """Least 1 - mu h that counts: below it the wedge is locked, and a check fails."""
@@ -44,7 +48,7 @@ class Opener:
     diameter: float
     warp: WarpSpans
     friction: float
-    wall: float
+    wall: float = result("mm", "width of the opener's teeth", name="opener_tooth")
     breadth: float
     reach: float
 

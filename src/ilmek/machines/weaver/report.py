@@ -13,7 +13,7 @@ from ilmek.machines.weaver.checks import head_checks
 from ilmek.machines.weaver.design import Weaver, shaft_torque
 from ilmek.machines.weaver.grippers import YARN_TOLERANCE, Grippers
 from ilmek.machines.weaver.limits import HeadLimits, head_limits
-from ilmek.machines.weaver.magazine import Magazine, tier_width
+from ilmek.machines.weaver.magazine import Magazine
 from ilmek.machines.weaver.motions import HANDLER
 from ilmek.machines.weaver.opener import Opener
 from ilmek.machines.weaver.opener_figures import opener_figures
@@ -24,7 +24,6 @@ from ilmek.report import (
     Axis,
     CamTable,
     Check,
-    Choice,
     Drawing,
     Figure,
     Plate,
@@ -33,9 +32,7 @@ from ilmek.report import (
     Stroke,
     Table,
     Timing,
-    at_most,
     columns,
-    failing,
 )
 from ilmek.timing.figures import draw
 from ilmek.timing.track import sample
@@ -102,22 +99,6 @@ def analyse(weaver: Weaver) -> WeaverAnalysis:
 def checks(found: WeaverAnalysis) -> tuple[Check, ...]:
     """The checks of a head."""
     return head_checks(found.weaver, found.limits)
-
-
-def choices(weaver: Weaver) -> tuple[Choice, ...]:
-    """Width, and tiers of the tubes, where they were left open, and what decided them."""
-    params, magazine = weaver.params, weaver.magazine
-    found: list[Choice] = []
-    if params.head_width is None:
-        widest = max(weaver.needs, key=lambda name: weaver.needs[name])
-        found.append(Choice("head_width", format_quantity(weaver.width, "mm", 4), f"width of the {widest}"))
-    if params.tube_tiers is None:
-        fewer = magazine.tiers - 1
-        wide = tier_width(magazine.kind, -(-magazine.tubes // fewer), magazine.pitch) if fewer else 0.0
-        check = at_most("tubes on the head", wide, weaver.width, "mm", "head_width")
-        failed = failing(check) if not check.ok else ""
-        found.append(Choice("tube_tiers", str(magazine.tiers), check.name, str(fewer) if fewer else "", failed))
-    return tuple(found)
 
 
 def warnings(found: WeaverAnalysis) -> tuple[str, ...]:

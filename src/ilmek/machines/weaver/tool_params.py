@@ -40,7 +40,9 @@ class OpenerParams(Params):
     placing: float = kind.length(
         0.04 * mm, at_least=0.0, at_most=0.05, doc="error of the head's position against the warps"
     )
-    wall: float = kind.length(2 * mm, at_least=1e-4, at_most=0.05, doc="width of the teeth that hold warps away")
+    wall: float | None = kind.length(
+        None, at_least=1e-4, at_most=0.05, doc="width of the teeth that hold warps away; default: as bend_limit needs"
+    )
     bend_limit: float = kind.length(0.5 * mm, above=0.0, at_most=0.05, doc="allowed deflection of a tooth's end")
 
 
