@@ -75,7 +75,7 @@ class BeatDrive:
     name, design  of its machine                      beat         in time
     fabric        at the fell, for one warp           torque       greatest, on the crank shaft of all [N m]; else 0
     parts, work   of all its mechanisms together      path         in the side view
-    machine_checks   of its machine: they are in its report
+    machine_checks   of its machine: they are in its report      loom_checks  what it asks of the loom's other machines
     """
 
     name: str
@@ -94,6 +94,7 @@ class BeatDrive:
     force: float = result("N", "force of the beat on all warps that are beaten at once", name="beat_force")
     beaten: int = result("1", "warps that are beaten at once", name="beaten_warps", least=0.0)
     frame_force: float = result("N", "greatest force of the beat on the frame", name="beat_frame_force")
+    loom_checks: tuple[Check, ...] = ()
 
     beat_strokes = computed("1", "strokes of a beat across the width", lambda it: it.beat.strokes)
     beat_time = computed("s", "time of a beat from rest to rest, all its strokes", lambda it: it.beat.time)
@@ -140,6 +141,7 @@ class BeatDrive:
             at_least(
                 "beat: stroke", self.beat.stroke, stroke_needed(self.task), "mm", stroke, cure="set a larger stroke"
             ),
+            *self.loom_checks,
         )
 
 

@@ -154,7 +154,8 @@ def timed(timing: RowTiming, cam_turn: float, stop: float) -> tuple[RowTiming, f
 
     stop  time in which the cams stop and start again [s]
     The cams turn on where the beat fits between the weft's carrier and `beat_end`. Where it does not, they turn more
-    slowly, or stand twice with the shed closed: what takes less time. inf where no angle is left for the beat.
+    slowly, or stand twice with the shed closed for beat and take-up: what takes less time. inf where no angle is left
+    for the beat.
     """
     first, last = timing.window
     free = timing.beat_end - last - GAP
@@ -163,8 +164,8 @@ def timed(timing: RowTiming, cam_turn: float, stop: float) -> tuple[RowTiming, f
     slow = max(cam_turn, timing.beat.time * turn / free)
     if slow <= cam_turn * (1 + 1e-12):
         return timing, cam_turn
-    busy = turn * (timing.beat.time + stop) + (_HALF - timing.beat_end + last) * cam_turn
-    stands = max(busy / (_HALF - GAP), cam_turn + 2 * stop)
+    after = (_HALF - timing.beat_end) / turn * cam_turn
+    stands = cam_turn + 2 * (stop + timing.beat.time + after)
     return (replace(timing, turning=cam_turn / stands), stands) if stands < slow else (timing, slow)
 
 

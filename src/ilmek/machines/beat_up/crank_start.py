@@ -212,7 +212,7 @@ def _started(  # noqa: PLR0917
     lossy = np.where(moved * rate >= 0, moved / params.efficiency, moved * params.efficiency)
     clutch = drive == "clutch"
     shaft = np.where(np.arange(time.size) <= end, speed, rate) if clutch else rate
-    run_up = float(_integral(lossy * rate, time)[end])
+    lost = float(_integral((lossy - moved) * rate, time)[end])
     slip = float(_integral(np.maximum(lossy, 0.0) * (shaft - rate), time)[end])
     energy = float(load.inertia[end] * speed**2 / 2)
     resisted = float(_integral(-load.fell * load.slope * rate, time)[end])
@@ -236,9 +236,9 @@ def _started(  # noqa: PLR0917
         drive=drive,
         beat_time=total,
         run_up_time=float(time[end]),
-        run_up_work=run_up + slip,
+        run_up_work=energy + resisted + lost + slip,
         run_up_energy=energy,
-        run_up_loss=run_up + slip - energy - resisted,
+        run_up_loss=lost + slip,
         start_work=drawn,
         clutch_torque=torque if clutch else 0.0,
         start_flywheel=drawn / duty.starts / (params.speed_drop * speed**2) if clutch else 0.0,

@@ -26,7 +26,10 @@ from ilmek.weaving.fell import Fabric
 STEEL = "structural steel"
 
 TOOTH, BAR = 10 * mm, 30 * mm
-"""Height of the beater's teeth, and height and depth of its bar: assumed by this project."""
+"""Height of the beater's teeth, and height and depth of its bar [m]: assumed by this project."""
+
+BAR_IN_FRONT, BAR_ABOVE = 20 * mm, 5 * mm
+"""The bar in front of the warps, and above the edge that strikes, clear of the pile [m]: assumed by this project."""
 
 
 def fit(task: LoomTask) -> BeatUpParams:
@@ -74,10 +77,11 @@ def frame_force(linkage: BeatUp) -> float:
 
 
 def outline(reach: float) -> tuple[ComplexArray, ...]:
-    """The beater in the side view [m]: its teeth through the warps, and the bar in front of their roots."""
-    tooth = np.array([-reach / 2, reach / 2, reach / 2, -reach / 2])
-    bar, up = np.array([0.0, BAR, BAR, 0.0]) + reach / 2, np.array([0, 0, 1j, 1j])
-    return tooth + TOOTH * up, bar + BAR * up
+    """The beater in the side view [m]: its teeth through the warps, and the bar in front of them, above the pile."""
+    front = BAR_IN_FRONT
+    tooth = np.array([-reach / 2, front, front, -reach / 2])
+    bar, up = np.array([0.0, BAR, BAR, 0.0]) + front, np.array([0, 0, 1j, 1j])
+    return tooth + TOOTH * up, bar + 1j * BAR_ABOVE + BAR * up
 
 
 @record

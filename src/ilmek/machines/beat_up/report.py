@@ -11,6 +11,7 @@ from ilmek.machines.beat_up.family_figures import family_figures
 from ilmek.machines.beat_up.figures import figures_of
 from ilmek.machines.beat_up.params import BeatUpParams
 from ilmek.machines.beat_up.use import BeatUpUse, in_use, use_checks
+from ilmek.machines.beat_up.use_figures import start_plots, stroke_plot
 from ilmek.records import record
 from ilmek.report import Check, Column, Figure, Plate, Table, at_least, at_most, columns, group
 from ilmek.synthesis.crank_rocker.dead_centres import grashof_margin
@@ -77,8 +78,9 @@ def tables(found: BeatUpAnalysis) -> tuple[Table, ...]:
 
 
 def figures(found: BeatUpAnalysis) -> tuple[Figure, ...]:
-    """The mechanism, its curves over a turn, its run, and its family."""
-    return (*figures_of(found.design, found.running), *family_figures(found.family))
+    """The mechanism, its curves over a turn, its run, its use, and its family."""
+    used = (*start_plots(found.use.start), stroke_plot(found.use.travel, found.use.start))
+    return (*figures_of(found.design, found.running), *used, *family_figures(found.family))
 
 
 def plates(design: BeatUp) -> tuple[Plate, ...]:

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from ilmek.arrays import ComplexArray
+from ilmek.machines.beat_up.use_figures import start_plots
 from ilmek.machines.hammer.axis import CombDrive
 from ilmek.machines.hammer.design import Hammer
 from ilmek.report import Axis, Drawing, Figure, Mark, Plot, Series, Stroke
@@ -16,7 +17,9 @@ SHOWN, ROWS = 7, 5
 
 def figures(design: Hammer) -> tuple[Figure, ...]:
     """All figures, in the order of the report."""
-    driven = () if design.axis is None else axis_plots(design.axis)
+    driven = axis_plots(design.axis) if design.axis else ()
+    if design.linkage is not None:
+        driven = start_plots(design.linkage.start, "hammer")
     return (drawing(design), packing_plot(design), fell_plot(design), *across_plots(design), *driven)
 
 

@@ -23,7 +23,7 @@ from ilmek.machines.hammer.params import STEEL, HammerParams
 from ilmek.machines.hammer.report import checks
 from ilmek.machines.loom_task import LoomTask
 from ilmek.records import record
-from ilmek.report import Choice, Part, Work
+from ilmek.report import Check, Choice, Part, Work, at_most, must
 from ilmek.units import format_quantity, mm, turn
 
 BEHIND = 5 * mm
@@ -92,6 +92,16 @@ def work(hammer: Hammer) -> tuple[Work, ...]:
     return (Work("beating", hammer.params.warps * hammer.energy + lifted, "beat"),)
 
 
+def _carried(task: LoomTask) -> tuple[Check, ...]:
+    """Whether there are guide cams that carry the leaves, on one shaft."""
+    shedding = task.designs["shedding"]
+    cure = "set another beat, or shedding.guides=cams and a coarser pitch"
+    return (
+        must("guide cams that carry the leaves", shedding.guides == "cams", "thesis 3.3", cure=cure),
+        at_most("cam shafts that go down with the comb", len(shedding.shafts), 1, "1", "thesis 3.3", cure=cure),
+    )
+
+
 def outline(params: HammerParams) -> tuple[ComplexArray, ...]:
     """The comb in the side view [m]: its leaves through the warps, and the bar in front of their roots."""
     leaf = np.array([-BEHIND, params.leaf_reach, params.leaf_reach, -BEHIND], dtype=complex)
@@ -142,6 +152,7 @@ class CombBeat:
             force=hammer.params.warps * hammer.force,
             beaten=hammer.params.warps,
             frame_force=force,
+            loom_checks=_carried(task) if self.kind == "guide-cams" else (),
         )
 
     def _path(self, params: HammerParams) -> BeatPath:
