@@ -1,7 +1,6 @@
 """Figures of the automated loom: cyclogram of a row, weaving time against heads, and the front of the loom."""
 
 import math
-from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -9,8 +8,10 @@ import numpy as np
 from ilmek.carpet.design import MOST_KNOTS
 from ilmek.carpet.quality import COARSEST, FINEST
 from ilmek.loom.sharing import halves, heads_that_fit, share
+from ilmek.machines.arrangement.side_view import CamPosition, SideView
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.estimate import estimated_time, estimated_times_at
+from ilmek.machines.automated_loom.side_figures import room, side, spread
 from ilmek.report import Axis, Drawing, Mark, Plot, Series, Stroke, Timing
 from ilmek.report.left_out import LazyFigure
 from ilmek.timing.figures import draw
@@ -26,37 +27,14 @@ _KINK, _APART = 0.05, 0.06
 """Where a leader turns level beyond the frame, and the least distance of two names, in widths of the frame."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Heights:
-    """Heights over the floor [m]; chosen, as is every height of the drawing, but never less than the parts need."""
-
-    bottom: float
-    spacer: float
-    fell: float
-    heads: float
-    comb: float
-    cams: float
-    top: float
-
-
 _WIDTH = 0.05
 """Height of the dimension of the width [m]."""
-
-
-def _heights(loom: LoomDesign) -> _Heights:
-    tube, guide = loom.tube[0], loom.shedding.stack.guide_radius
-    bottom = max(0.25, 0.10 + tube / 2)
-    spacer = max(bottom + 0.35, bottom + 1.1 * tube)
-    fell = spacer + max(0.20, tube / 2 + 0.08)
-    comb = fell + 0.32
-    cams = max(fell + 0.70, comb + guide + 0.08)
-    return _Heights(bottom, spacer, fell, fell + 0.15, comb, cams, cams + max(0.50, guide + tube / 2 + 0.08))
 
 
 def figures(loom: LoomDesign) -> tuple[LazyFigure, ...]:
     """The loom's figures, the head's cyclogram among them."""
     scaling = (time_of_one_head,) if loom.heads_max == 1 else (time_against_heads, time_against_pitch)
-    return tuple(partial(make, loom) for make in (front, one_row, one_knot, *scaling))
+    return tuple(partial(make, loom) for make in (side, room, front, one_row, one_knot, *scaling))
 
 
 def one_row(loom: LoomDesign) -> Timing:
@@ -141,28 +119,26 @@ def time_of_one_head(loom: LoomDesign) -> Plot:
 
 
 def front(loom: LoomDesign) -> Drawing:
-    """The loom from the front, true across; heights chosen."""
-    params = loom.params
-    edge, wide, at, cloth = params.margin, loom.task.width, _heights(loom), loom.task.cloth_width
+    """The loom from the front, to scale."""
+    params, view = loom.params, loom.side
+    edge, wide, cloth = params.margin, loom.task.width, loom.task.cloth_width
+    up = -view.floor
+    lower = view.lower.at.imag + up
     strokes = (
+        *(_box(complex(x, 0), complex(0.06, view.loom_height), "outline", filled=True) for x in (-0.06, wide)),
+        *_cylinders(view, wide),
+        *_warps(loom, edge),
+        _box(complex(edge, lower), complex(cloth, up - lower), "yarn", filled=True),
         *(
-            _box(complex(x, 0), complex(0.06, at.top + loom.tube[0] / 2 + 0.08), "outline", filled=True)
-            for x in (-0.06, wide)
+            _box(complex(edge, one.imag.min() + up), complex(cloth, np.ptp(one.imag)), "outline")
+            for one in view.comb[1:]
         ),
-        *_cylinders(wide, loom.tube[0], at),
-        *_warps(loom, edge, at),
-        _box(complex(edge, at.spacer), complex(cloth, at.fell - at.spacer), "yarn", filled=True),
-        Stroke(np.array([edge, edge + cloth]) + 1j * at.comb, "link"),
-        _cams(loom, edge, wide, at.cams),
-        *_heads(loom, edge, at),
-        Stroke(
-            np.array([edge, edge + cloth]) + 1j * _WIDTH,
-            "dimension",
-            format_quantity(cloth, "m"),
-        ),
-        *_names(edge + cloth, wide, at),
+        *(_cams(loom, edge, wide, cam) for cam in view.cams),
+        *_heads(loom, edge),
+        Stroke(np.array([edge, edge + cloth]) + 1j * _WIDTH, "dimension", format_quantity(cloth, "m")),
+        *_names(edge + cloth, wide, view),
     )
-    note = f"{loom.warps} warps at {params.pitch * 1e3:.4g} mm, not all drawn; true across, heights chosen"
+    note = f"{loom.warps} warps at {params.pitch * 1e3:.4g} mm, not all drawn; true to scale"
     return Drawing("loom-front", "The loom from the front", strokes, (), "m", note)
 
 
@@ -172,48 +148,46 @@ def _box(corner: complex, size: complex, role: str, label: str = "", *, filled: 
     return Stroke(corners, role, label, closed=True, filled=filled)
 
 
-def _cylinders(wide: float, diameter: float, at: _Heights) -> tuple[Stroke, ...]:
+def _cylinders(view: SideView, wide: float) -> tuple[Stroke, ...]:
+    """Lower, spacer and upper cylinder, and the back rest."""
     return tuple(
-        _box(complex(0, height - diameter / 2), complex(wide, diameter), "outline")
-        for height in (at.bottom, at.spacer, at.top)
+        _box(complex(0, one.at.imag - view.floor - one.radius), complex(wide, 2 * one.radius), "outline")
+        for one in (view.lower, view.spacer, view.upper, view.back_rest)
     )
 
 
-def _names(edge: float, wide: float, at: _Heights) -> tuple[Stroke, ...]:
+def _names(edge: float, wide: float, view: SideView) -> tuple[Stroke, ...]:
     """Leaders from the parts to their names beside the frame, where no warp runs through them."""
+    cams = {f"cam shaft {number + 1}" if number else "shedding cams": cam.at for number, cam in enumerate(view.cams)}
     named = {
-        at.bottom: "carpet cylinder",
-        at.spacer: "spacer cylinder",
-        (at.spacer + at.fell) / 2: "carpet",
-        at.heads: "knotting heads",
-        at.comb: "comb of the beater",
-        at.cams: "shedding cams",
-        at.top: "warp cylinder",
+        "lower cylinder": view.lower.at.imag,
+        "spacer cylinder": view.spacer.at.imag,
+        "carpet": -view.spacer.radius / 4,
+        "knotting heads": view.head.top / 2,
+        "comb": float(view.comb[-1].imag.mean()),
+        **{name: at.imag for name, at in cams.items()},
+        "warp cylinder": view.upper.at.imag - view.upper.radius / 2,
+        "back rest": view.back_rest.at.imag,
     }
+    named = {name: height - view.floor for name, height in sorted(named.items(), key=lambda one: one[1])}
     end, kink = wide + 0.06 + _NAMES * wide, wide + 0.06 + _KINK * wide
+    apart = _APART * max(wide, view.loom_height)
     return tuple(
         Stroke(np.array([end + 1j * stands, kink + 1j * stands, edge + 1j * height]), "construction", name)
-        for stands, (height, name) in zip(_spread(list(named), _APART * wide), named.items(), strict=True)
+        for stands, (name, height) in zip(spread(list(named.values()), apart), named.items(), strict=True)
     )
 
 
-def _spread(heights: list[float], apart: float) -> list[float]:
-    """Heights in ascending order, at least `apart` from each other, near those given in that order."""
-    spread = [heights[0]]
-    for height in heights[1:]:
-        spread.append(max(height, spread[-1] + apart))
-    lower = (spread[-1] - heights[-1]) / 2
-    return [height - lower for height in spread]
-
-
-def _warps(loom: LoomDesign, edge: float, at: _Heights) -> tuple[Stroke, ...]:
+def _warps(loom: LoomDesign, edge: float) -> tuple[Stroke, ...]:
     number = min(loom.warps, _MOST_LINES)
-    places = edge + loom.task.cloth_width * (np.arange(number) + 0.5) / number
-    return tuple(Stroke(np.array([x + 1j * at.fell, x + 1j * at.top]), "construction") for x in places.tolist())
+    view = loom.side
+    ends = np.array([0.0, view.spans.back_rest]) - view.floor
+    columns = edge + loom.task.cloth_width * (np.arange(number) + 0.5) / number
+    return tuple(Stroke(x + 1j * ends, "construction") for x in columns.tolist())
 
 
-def _cams(loom: LoomDesign, edge: float, wide: float, height: float) -> Stroke:
-    radius = loom.shedding.stack.guide_radius
+def _cams(loom: LoomDesign, edge: float, wide: float, cam: CamPosition) -> Stroke:
+    radius, height = cam.guide_radius, cam.at.imag - loom.side.floor
     shaft = loom.shedding.shaft.bar / 2
     ends = edge, wide - edge
     profile = [
@@ -228,16 +202,17 @@ def _cams(loom: LoomDesign, edge: float, wide: float, height: float) -> Stroke:
     return Stroke(np.array(profile + upper), "outline", closed=True)
 
 
-def _heads(loom: LoomDesign, edge: float, at: _Heights) -> tuple[Stroke, ...]:
-    """Each head in the middle of the half it works first, and its block of the row under it."""
-    parts = halves(loom.heads)
+def _heads(loom: LoomDesign, edge: float) -> tuple[Stroke, ...]:
+    """Each head in the middle of the half it works first, and its block of the row above it."""
+    parts, view = halves(loom.heads), loom.side
     edges = share(loom.columns, loom.heads) * loom.knot_pitch + edge
+    low, top = (height - view.floor for height in (view.head.body.imag, view.head.top))
     strokes = []
     for head in range(loom.heads):
-        low, high, end = (float(edges[head * parts + k]) for k in (0, 1, parts))
-        body = (low + high) / 2 + loom.head_width * np.array([-0.5, 0.5])
+        first, last, end = (float(edges[head * parts + k]) for k in (0, 1, parts))
+        left = (first + last - loom.head_width) / 2
         strokes += [
-            Stroke(body + 1j * at.heads, "link"),
-            Stroke(np.array([low, end]) + 1j * (at.fell + 0.05), "dimension"),
+            _box(complex(left, low), complex(loom.head_width, top - low), "outline", filled=True),
+            Stroke(np.array([first, end]) + 1j * (top + 0.03), "dimension"),
         ]
     return tuple(strokes)
