@@ -112,4 +112,4 @@ def test_cams_are_designed_for_the_tension_that_the_compensator_leaves(settings:
     compensator = loom.machines["tension-compensator"].design
     assert loom.shedding.params.compensation == pytest.approx(compensator.relief, abs=0.02)
     assert loom.warp_tension.loads.lifted == pytest.approx(compensator.tension_open, rel=0.01)
-    assert compensator.swing == loom.side.room.swing
+    assert compensator.swing <= loom.side.room.swing

@@ -75,7 +75,7 @@ def _number(value: object, usual: float) -> float:
 def loads_in_loom(task: LoomTask) -> WarpLoads:
     """The loads of a loom's warps; with the tensions that its compensator leaves, where it is among the designs.
 
-    The beat is taken as too quick for the compensator: that stretches the warps most.
+    For the beat the compensator is taken as fixed, and all warps as beaten at once: both are the worst.
     """
     side, tension, stiffness = task.side, task.tension, task.yarns.warp.stiffness
     assert side is not None

@@ -18,6 +18,9 @@ from ilmek.weaving.shed import shed_lengthening
 SAMPLES = 181
 """Cam angles of the analysis, 2 degrees apart."""
 
+BALANCE = 1e-6
+"""Torque missing to the equilibrium, over that of the warps, that counts as rounding."""
+
 BEYOND = 0.02
 """Rotation beyond rest and open shed in which the equilibrium is sought [rad]."""
 
@@ -50,6 +53,11 @@ class CompensatorAnalysis:
     )
 
     @property
+    def balanced(self) -> bool:
+        """Whether warps and springs are in equilibrium over the whole turn."""
+        return bool(np.abs(self.effort).max() <= BALANCE * self.design.loads.torque)
+
+    @property
     def both(self) -> FloatArray:
         """Tensions of both parities [N], (2, SAMPLES)."""
         return np.stack([self.even, self.odd])
@@ -75,7 +83,10 @@ def lifting(params: TensionCompensatorParams) -> CamProgramme:
 
 
 def equilibrium(one: SprungLever, lengthening: FloatArray) -> FloatArray:
-    """Rotations of a lever [rad] at which warps of a mean lengthening [m] and springs are in equilibrium."""
+    """Rotations of a lever [rad] at which warps of a mean lengthening [m] and springs are in equilibrium.
+
+    0 where there is none: the lever counts as fixed.
+    """
     lever, task = one.lever, one.task
 
     def torque(phi: FloatArray) -> FloatArray:
@@ -84,7 +95,8 @@ def equilibrium(one: SprungLever, lengthening: FloatArray) -> FloatArray:
         return np.asarray(warps - one.springs * spring_forces(one, phi) * lever.spring_moment_arm(phi))
 
     low = np.full(lengthening.shape, -BEYOND)
-    return bracketed_roots(torque, low, np.full(lengthening.shape, one.angle + BEYOND))
+    found = bracketed_roots(torque, low, np.full(lengthening.shape, one.angle + BEYOND))
+    return np.where(np.isfinite(found) & (one.angle > 0), found, 0.0)
 
 
 def mean_tension(task: BarTask, lengthening: FloatArray, slack: FloatArray) -> FloatArray:

@@ -60,9 +60,13 @@ class TensionCompensator:
     spring_preload = computed("N", "force of a spring at rest", lambda it: it.one.preload)
     spring_force = computed("N", "force of a spring in the open shed", lambda it: it.one.force)
     spring_wire = computed("mm", "wire of a spring", lambda it: it.wound("wire_diameter"), absent="none is enough")
-    spring_diameter = computed("mm", "mean diameter of a spring", lambda it: it.wound("diameter"), absent="as above")
+    spring_diameter = computed(
+        "mm", "mean diameter of a spring", lambda it: it.wound("diameter"), absent="none is enough"
+    )
     spring_coils = computed("1", "active coils of a spring", lambda it: it.wound("coils"), absent="none is enough")
-    spring_length = computed("mm", "its length without load", lambda it: it.wound("free_length"), absent="as above")
+    spring_length = computed(
+        "mm", "its length without load", lambda it: it.wound("free_length"), absent="none is enough"
+    )
     spring_lean = computed("deg", "lean of the springs at rest", lambda it: float(it.one.lever.lean))
     lever_angle = computed("deg", "rotation of a lever from rest to the open shed", lambda it: it.one.angle)
     bar_travel = computed(
@@ -126,7 +130,9 @@ def design(params: TensionCompensatorParams) -> TensionCompensator:
     tube = _tube(params, task)
     one = synthesise(params, task, tube[0].outer_radius)
     loads = _loads(params, one)
-    mean = float(equilibrium_tension(one, np.linspace(0.0, one.angle, STEPS)).max())
+    mean = task.tension + rate * task.lengthening
+    if one.angle > 0:
+        mean = float(equilibrium_tension(one, np.linspace(0.0, one.angle, STEPS)).max())
     apart = rate * (longer - task.lengthening)
     found = TensionCompensator(
         params=params,

@@ -41,7 +41,9 @@ class WarpPath:
         total = np.zeros(np.shape(bar))
         for side, angle in zip((1, -1), self.strands(bar), strict=True):
             distance = np.abs(bar - self._rod(side))
-            total = total + np.sqrt(distance**2 - 4 * self.radius**2) + 2 * self.radius * angle
+            with np.errstate(invalid="ignore"):
+                tangent = np.sqrt(distance**2 - 4 * self.radius**2)
+            total = total + tangent + 2 * self.radius * angle
         return np.asarray(total)
 
     def pull(self, bar: ComplexArray) -> ComplexArray:

@@ -26,6 +26,7 @@ def checks(found: CompensatorAnalysis) -> tuple[Check, ...]:
     return (
         *swing_checks(params, found.tension_max, found.tension_min),
         spring_check(design),
+        must("equilibrium over the turn", found.balanced, "linkage engine", cure="set a larger rate_share"),
         *_motion_checks(design),
         *bar_checks(params, members.tube, loads.line),
         *lever_checks(params, members.lever, loads),

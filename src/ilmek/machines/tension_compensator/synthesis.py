@@ -23,9 +23,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ilmek.elements.springs import CompressionSpring, choose_spring
+from ilmek.errors import ParameterError
 from ilmek.machines.tension_compensator.geometry import Lever, WarpPath
 from ilmek.machines.tension_compensator.params import TensionCompensatorParams
-from ilmek.units import deg, mm
+from ilmek.units import deg, format_quantity, mm
 
 LEANS = np.arange(0.0, 46.0, 1.0) * deg
 """Leans of the springs that are tried [rad]; beyond 45 deg small errors of the pins change the arm too much."""
@@ -35,6 +36,9 @@ SPRINGS = (1, 2, 3, 4, 6, 8, 12, 16, 20)
 
 SPREAD, ARM_SHARE = 6.0, 0.55
 """Least height of the rods over the bar, over the warp that a bar gives and over its arm; assumed by this project."""
+
+NARROWEST = 2.5
+"""Least height of the rods over the bar, over the radius of both: they do not meet."""
 
 SEATS = 40 * mm
 """Of the springs' length from pin to pin, taken by their seats and pins; assumed by this project."""
@@ -85,8 +89,13 @@ class SprungLever:
 def lever_for(params: TensionCompensatorParams, radius: float, slack: float) -> Lever:
     """The lever for rollers of a radius [m] that is to give a length of warp [m], its springs upright.
 
-    The rods stand so far from the bar that the strands' deflection changes little.
+    The rods stand so far from the bar that the strands' deflection changes little. Raises ParameterError for a
+    guide_span at which bar and rods meet.
     """
+    if params.guide_span is not None and params.guide_span < NARROWEST * radius:
+        shown, least = (format_quantity(one, "mm") for one in (params.guide_span, NARROWEST * radius))
+        given = f"guide_span={shown} between rollers of {format_quantity(2 * radius, 'mm')}"
+        raise ParameterError(given, allowed=f"at least {least}", do="leave guide_span out, or set a smaller bar_tube")
     path = WarpPath(params.guide_span or max(4 * radius, SPREAD * slack, ARM_SHARE * params.bar_arm), radius)
     rest = path.at_rest(params.strand_angle)
     return Lever(path, rest, params.bar_arm, params.arm_angle, params.spring_arm, params.strut, 0.0)
@@ -127,8 +136,8 @@ def synthesise(params: TensionCompensatorParams, task: BarTask, radius: float) -
     )
     if np.isfinite(energy[best]):
         return with_springs(params, found)
-    # No lean gives so small a torque: springs of any rate do, and their check fails.
-    return replace(found, force=found.preload, rate=found.preload / params.strut)
+    # No lean gives such torques: the lever counts as fixed, and its check fails.
+    return replace(found, angle=0.0, force=found.preload, rate=found.preload / params.strut)
 
 
 def with_springs(params: TensionCompensatorParams, one: SprungLever) -> SprungLever:
