@@ -16,8 +16,8 @@ from ilmek.machines.arrangement.clearances import (
     standing,
 )
 from ilmek.machines.arrangement.spans import ShedRoom, shed_spans, spans_at
+from ilmek.machines.automated_loom import LoomDesign, design
 from ilmek.machines.automated_loom.bodies import CARRIER, GUIDE_CAMS, LEAVES, knot_bodies, row_bodies
-from ilmek.machines.automated_loom.design import LoomDesign, design
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.automated_loom.parts import parts_of_loom
 from ilmek.machines.automated_loom.room import TOUCHING, clearances, room_checks

@@ -8,8 +8,7 @@ import pytest
 
 from ilmek.cams.laws import LAWS
 from ilmek.machines import BEATS
-from ilmek.machines.automated_loom import AutomatedLoomParams
-from ilmek.machines.automated_loom.design import LoomDesign, design
+from ilmek.machines.automated_loom import AutomatedLoomParams, LoomDesign, design
 from ilmek.machines.beat import BeatDrive, stroke_needed
 from ilmek.machines.catalogue import MACHINES
 from ilmek.report import results_of

@@ -12,9 +12,9 @@ from ilmek.loom.production import Production, production_time
 from ilmek.machines import SUMMARIES
 from ilmek.machines.arrangement.side_view import SideView
 from ilmek.machines.automated_loom.cyclogram import BEATER, EVEN, ODD
-from ilmek.machines.automated_loom.design import LoomDesign, design
+from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.energy import Energy
-from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time, programme_for
+from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time
 from ilmek.machines.automated_loom.figures import figures
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.automated_loom.parts import PartsList, parts_of_loom
@@ -28,6 +28,7 @@ from ilmek.machines.automated_loom.report import (
     tables,
     warnings,
 )
+from ilmek.machines.automated_loom.selection import design, programme_for
 from ilmek.machines.beat import BeatDrive
 from ilmek.machines.component import Component
 from ilmek.timing.cyclogram import Cyclogram

@@ -52,12 +52,6 @@ def beat_options(task: LoomTask, period_of: Callable[[PlannedBeat], float]) -> t
     return tuple(sorted(options, key=lambda one: (one.period, one.price) if by_time else (one.price, one.period)))
 
 
-def chosen_beat(options: tuple[BeatOption, ...], aim: str) -> tuple[BeatOption, tuple[Choice, ...]]:
-    """The beat of the loom, and the choice where it was left open."""
-    index, choice = choose("beat", [Alternative(one.kind, one.checks) for one in options], aim)
-    return options[index], (choice,) if len(options) > 1 else ()
-
-
 def chosen_heads(
     params: AutomatedLoomParams, most: int, time_of: Callable[[int], float]
 ) -> tuple[int, tuple[Choice, ...]]:

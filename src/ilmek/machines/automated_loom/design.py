@@ -13,7 +13,7 @@ from ilmek.loom.programme import Times, least_time
 from ilmek.loom.sharing import heads_that_fit, least_distance, share
 from ilmek.machines import loom_parts
 from ilmek.machines.arrangement.side_view import SideView, laid_out
-from ilmek.machines.automated_loom.choice import beat_options, chosen_beat, chosen_heads
+from ilmek.machines.automated_loom.choice import BeatOption, beat_options, chosen_heads
 from ilmek.machines.automated_loom.cyclogram import (
     RowTiming,
     cyclogram,
@@ -140,11 +140,28 @@ class LoomDesign:
         return knot_cyclogram(self.weaver, self.times.knot), self.row_cyclogram
 
 
-def design(params: AutomatedLoomParams) -> LoomDesign:
-    """The loom for a carpet.
+@record
+class ReadyLoom:
+    """A loom as far as it does not depend on its beat.
 
-    Raises LoomError where the heads do not fit, no stock tube carries the warps, or the shed leaves no time for shuttle
-    and beat; CarpetError for a carpet without knots; the errors of the machines where those cannot be made.
+    machines, task   the machines designed before the beat is chosen, and the task of the others
+    head, choices    what ties the knots, and what was chosen for it
+    options          kinds of beat that it may have, in ascending order of what its aim makes least
+    """
+
+    params: AutomatedLoomParams
+    machines: Mapping[str, Child]
+    task: LoomTask
+    head: KnottingHead
+    choices: tuple[Choice, ...]
+    options: tuple[BeatOption, ...]
+
+
+def ready_loom(params: AutomatedLoomParams) -> ReadyLoom:
+    """The loom for a carpet up to its beat.
+
+    Raises LoomError where the shed leaves no time for the weft; CarpetError for a carpet without knots; the errors of
+    the machines where their parameters contradict each other.
     """
     rows, columns = knot_grid(CarpetSize(params.width, params.length), params.quality)
     laid, task = _made("weft", _task(params, rows, columns))
@@ -153,9 +170,19 @@ def design(params: AutomatedLoomParams) -> LoomDesign:
     task = replace(task, designs={name: child.design for name, child in machines.items()})
     machines["shedding"], task = _made("shedding", task)
     task = replace(task, side=laid_out(task))
-    head, weft, cams = knotting.weaver, laid.design, machines["shedding"].design
+    cams = machines["shedding"].design
     options = beat_options(task, lambda plan: _timed_row(params, _row_timing(task, cams, plan.beat), cams)[1])
-    option, choices = chosen_beat(options, params.aim)
+    return ReadyLoom(params, machines, task, knotting, of_knotting, options)
+
+
+def with_beat(ready: ReadyLoom, option: BeatOption, choices: tuple[Choice, ...] = ()) -> LoomDesign:
+    """The loom with one of its kinds of beat, and the choice of it.
+
+    Raises LoomError where more heads are given than fit.
+    """
+    params, task, knotting = ready.params, ready.task, ready.head
+    machines, rows, columns = dict(ready.machines), task.rows, task.columns
+    head, weft, cams = knotting.weaver, machines["weft"].design, machines["shedding"].design
     timing, period = _timed_row(params, _row_timing(task, cams, option.plan.beat), cams)
     machines["shedding"] = _at_period(machines["shedding"], timing.turning * period)
     times = times_at(head, 2 * params.pitch, period)
@@ -192,7 +219,7 @@ def design(params: AutomatedLoomParams) -> LoomDesign:
         row_timing=timing,
         row_cyclogram=_row_cyclogram(timing, period, machines),
         times=times,
-        choices=(*of_knotting, *choices, *of_heads),
+        choices=(*choices, *ready.choices, *of_heads),
     )
 
 

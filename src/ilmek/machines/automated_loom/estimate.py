@@ -7,42 +7,17 @@ the slower of two heads is not in the estimate; a programme has it.
 """
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
-from ilmek.arrays import FloatArray, Indices
+from ilmek.arrays import FloatArray
 from ilmek.carpet.design import knot_grid
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
-from ilmek.errors import LoomError
 from ilmek.loom.bobbins import stop_time
-from ilmek.loom.programme import Programme, heads_for, least_time, make_programme
-from ilmek.machines.automated_loom.design import LoomDesign, design, times_at, with_changes
-from ilmek.machines.automated_loom.params import AutomatedLoomParams
+from ilmek.loom.programme import least_time
+from ilmek.machines.automated_loom.design import LoomDesign, times_at, with_changes
 from ilmek.records import computed, record, result
-
-
-def programme_for(
-    knots: Indices, yarns: int, params: AutomatedLoomParams, deadline: float | None = None
-) -> tuple[LoomDesign, Programme]:
-    """The loom and the programme for a chart of indices below `yarns`, row 0 = top.
-
-    With a deadline [s] the loom gets the smallest number of heads that meets it. Raises LoomError where none does, and
-    where the chart is not the knots of the loom's carpet; and the errors of `design`.
-    """
-    loom = design(replace(params, heads=None) if deadline is not None else params)
-    if knots.shape != (loom.rows, loom.columns):
-        raise LoomError(
-            f"a chart of {knots.shape[1]} x {knots.shape[0]} knots",
-            allowed=f"the carpet of this loom has {loom.columns} x {loom.rows}",
-            do="give the loom the size and quality of the chart",
-        )
-    if deadline is not None:
-        loom = design(
-            replace(params, heads=heads_for(knots, yarns, deadline, loom.times, loom.heads_max, bobbins=loom.bobbins))
-        )
-    return loom, make_programme(knots, yarns, loom.heads, loom.times, bobbins=loom.bobbins)
 
 
 def estimated_time(loom: LoomDesign, heads: int | None = None) -> float:

@@ -12,9 +12,9 @@ from ilmek.carpet.quality import COARSEST
 from ilmek.carpet.sizes import SMALLEST
 from ilmek.elements.knot_kinds import WRAPS
 from ilmek.errors import IlmekError
-from ilmek.machines.automated_loom.design import design
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.automated_loom.report import all_checks
+from ilmek.machines.automated_loom.selection import design
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 from ilmek.units import format_quantity

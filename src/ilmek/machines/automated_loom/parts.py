@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from functools import lru_cache
 
 from ilmek.elements.drive_parts import belt_motor_part
 from ilmek.elements.prices import PriceRates, price_of, read_prices
@@ -46,6 +47,7 @@ def driven_axes(parts: tuple[Part, ...]) -> int:
     return sum(part.number for part in parts if part.drives)
 
 
+@lru_cache(maxsize=4)
 def parts_of_loom(loom: LoomDesign) -> PartsList:
     """The parts list. Raises ParameterError for unreadable prices."""
     prices = read_prices(loom.params.prices)

@@ -1,6 +1,7 @@
 """What is reported of an automated loom beside its machines: time, beat, parts, energy, checks of the whole."""
 
 from dataclasses import replace
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -79,6 +80,7 @@ class LoomAnalysis:
         return {"diameter": diameter, "wall": wall}
 
 
+@lru_cache(maxsize=4)
 def analyse(loom: LoomDesign) -> LoomAnalysis:
     """Time, parts and energy of a loom."""
     listed = parts_of_loom(loom)
@@ -91,6 +93,7 @@ def results(found: LoomAnalysis) -> tuple[Any, ...]:
     return (found, found.loom.side, found.shares, found.beat, found.energy, found.listed)
 
 
+@lru_cache(maxsize=4)
 def checks(found: LoomAnalysis) -> tuple[Check, ...]:
     """Room of the heads, limits of the weft's carrier, order of the motions, strength and stiffness of the frame."""
     loom = found.loom
@@ -206,9 +209,10 @@ def warnings(found: LoomAnalysis) -> tuple[str, ...]:
     if share > HEAVY_SHARE:
         mass, part = format_quantity(loom.warp_tension.mass, "kg", 3), format_quantity(share, "%", 2)
         texts.append(f"a cylinder weighs {mass}, {part} of what the warps pull: weave narrower, or support it between")
-    if loom.times.weft > turn / params.shed_speed * (1 + 1e-9):
-        slower = format_quantity(turn / loom.times.weft, "rpm")
+    turned = loom.shedding.params.speed
+    if turned < params.shed_speed * (1 - 1e-9):
+        slower = format_quantity(turned, "rpm")
         texts.append(
-            f"the shedding cams turn at {slower} only: {loom.row_timing.carrier} and beat need that time at this width"
+            f"the shedding cams turn at {slower} only: the {loom.row_timing.carrier} needs that time at this width"
         )
     return tuple(texts)
