@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from ilmek.carpet.ground import GroundParams, ground_yarns
+from ilmek.carpet.ground import ground_yarns
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.elements.materials import GRAVITY
@@ -175,9 +175,10 @@ def test_a_loom_times_its_carrier_within_its_limits(carrier: str) -> None:
 @pytest.mark.parametrize("selvedge", [8, 20])
 @pytest.mark.parametrize("pitch", [0.5 * mm, 2 * mm])
 def test_bill_and_loom_have_the_same_wefts_warps_and_lengths(selvedge: int, pitch: float) -> None:
-    loom = loom_for(AutomatedLoomParams(width=0.8, warp_pitch=pitch, selvedge_warps=selvedge, heads=1))
+    given = {"width": 0.8, "warp_pitch": pitch, "selvedge_warps": selvedge, "heads": 1, "weft.turn": 30 * mm}
+    loom = loom_for(AutomatedLoomParams.read({**given, "yarns.weft": "wool"}))
     size, quality = CarpetSize(0.8, 1.8), Quality(0.5 / pitch, 0.5 / pitch)
-    ground = GroundParams(selvedge_warps=selvedge)
+    ground = loom.params.ground
     warp, straight, sinuous = ground_yarns(size, quality, loom.rows, loom.columns, ground)
     weft, yarns = loom.weft, loom.task.yarns
     assert weft.weft_need == pytest.approx({"straight weft": straight.length, "sinuous weft": sinuous.length})

@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from ilmek.carpet.bill import yarn_bill
 from ilmek.io.chart.symbols import symbols
 from ilmek.io.json_file import write_json
 from ilmek.io.output import Outputs, joined
@@ -109,6 +110,7 @@ def _weave(
 ) -> WeaveResult:
     charted = make_charted(order, progress.part(0.0, 0.4, "picture"))
     loomed = make_loomed(loom_order, order, charted.chart, progress.part(0.4, 0.5, "loom"))
+    charted = replace(charted, bill=yarn_bill(charted.chart, order.pile, loom_order.params.ground))
     woven = WeaveResult(charted, loom_order, loomed, folder)
     left_out: list[str] = []
     with outputs.folder(folder) as work:

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from ilmek.cams.laws import SMOOTH_LAWS
-from ilmek.carpet.ground import SELVEDGE_WARPS
+from ilmek.carpet.ground import SELVEDGE_WARPS, WEFT_TURN, GroundParams
 from ilmek.carpet.quality import COARSEST, FINEST, Quality
 from ilmek.carpet.sizes import LARGEST, SMALLEST
 from ilmek.elements.carpet_yarns import CarpetYarnParams
@@ -155,6 +155,12 @@ class AutomatedLoomParams(Params):
         """The carpet's quality; by default knots across follow the warp pitch, and rows follow knots across."""
         across = self.knots_across or 0.5 / self.pitch
         return Quality(across, self.knots_along or across)
+
+    @property
+    def ground(self) -> GroundParams:
+        """Warp and wefts of the carpet for its yarn bill: those of the loom."""
+        turn = self.machines.of("weft").get("turn", WEFT_TURN)
+        return GroundParams(selvedge_warps=self.selvedge_warps, weft_turn=float(str(turn)), yarns=self.yarns)
 
     def check_together(self) -> None:
         """Raise LoomError where the warp pitch does not give the knots across."""

@@ -18,7 +18,7 @@ from ilmek.machines.weft.axis import BeltAxis, belt_axis
 from ilmek.machines.weft.params import AUTO, RAPIER, SHUTTLE, WeftParams
 from ilmek.machines.weft.parts import parts_of
 from ilmek.machines.weft.passage import WeftPassage
-from ilmek.machines.weft.rapier import Rapier, rapier_checks, rapier_for, reach
+from ilmek.machines.weft.rapier import DRIVE, Rapier, rapier_checks, rapier_for, reach
 from ilmek.machines.weft.shuttle import BOX_END, Shuttle, friction, shuttle_checks, shuttle_for
 from ilmek.machines.weft.tension import draw_off_tension
 from ilmek.records import computed, record, result
@@ -68,7 +68,7 @@ class Weft:
         made = self.carried
         if isinstance(made, Shuttle):
             return self.params.edge + made.length + BOX_END
-        return self.params.edge + made.length
+        return self.params.edge + made.length + DRIVE
 
     @computed("J", "energy of a passage: what moves, from rest to its largest speed, friction and weft")
     def passage_energy(self) -> float:
@@ -127,7 +127,7 @@ class Weft:
             if isinstance(made, Shuttle)
             else rapier_checks(self.params, made, passage.acceleration, tight)
         )
-        return (*own, *_tension_checks(self), *_axis_checks(self), *_edge_checks(self.params))
+        return (*own, _room_check(self), *_tension_checks(self), *_axis_checks(self), *_edge_checks(self.params))
 
 
 def design(params: WeftParams) -> Weft:
@@ -175,6 +175,17 @@ def _friction(params: WeftParams, carried: Carrier) -> float:
     if isinstance(carried, Shuttle):
         return friction(params)
     return params.yarns.friction * carried.mass * GRAVITY
+
+
+def _room_check(made: Weft) -> Check:
+    return at_most(
+        f"room of the {made.params.carrier} beside the cloth",
+        made.side_room,
+        made.params.room,
+        "m",
+        "assumed by this project: parameter room",
+        cure="set more weft.room, or weft=shuttle",
+    )
 
 
 def _tension_checks(made: Weft) -> tuple[Check, ...]:

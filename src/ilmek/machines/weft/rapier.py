@@ -123,25 +123,16 @@ def size_checks(params: WeftParams, made: Rapier, acceleration: float) -> tuple[
             "Euler, one end clamped; safety 3, assumed by this project",
             cure="set a lower weft.acceleration or weft=shuttle",
         ),
-        shed_check(params, made.opening),
+        shed_check(params, made.opening, "weft=shuttle"),
     )
 
 
 def rapier_checks(params: WeftParams, made: Rapier, acceleration: float, tension: float) -> tuple[Check, ...]:
     """All checks of the rapier at an acceleration [m/s²] and a tension of the weft [N]."""
     holds = 2 * params.yarns.friction * params.grip_force
-    beside = params.edge + made.length + DRIVE
     tucked = params.turn / 2 / params.warp_pitch
     return (
         *size_checks(params, made, acceleration),
-        at_most(
-            "room of the rapier beside the cloth",
-            beside,
-            params.room,
-            "m",
-            "as long as the cloth; assumed by this project: parameter room",
-            cure="set weft=shuttle, or more weft.room",
-        ),
         at_most(
             "pull of the weft in the gripper",
             params.safety * tension,

@@ -23,13 +23,13 @@ def needed_opening(params: WeftParams, depth: float) -> float:
     return depth + 2 * params.play + params.carpet_yarns.warp.diameter
 
 
-def shed_check(params: WeftParams, opening: float) -> Check:
-    """Whether the shed opens far enough."""
+def shed_check(params: WeftParams, opening: float, thinner: str) -> Check:
+    """Whether the shed opens far enough; thinner: what to set for a thinner carrier."""
     return at_most(
         "opening of the shed for the carrier",
         opening,
         HIGHEST_SHARE * params.open_share * params.lift,
         "mm",
         "0.8 of the opening at the cams, assumed by this project; parameters lift, open_share, play",
-        cure="set a higher lift, or a smaller weft.bobbin_diameter",
+        cure=f"set a higher lift, or {thinner}",
     )

@@ -96,7 +96,7 @@ def size_checks(params: WeftParams, made: Shuttle) -> tuple[Check, ...]:
     supports = "every second warp is lifted; three supports, assumed by this project"
     return (
         at_least("rows between two changes of a bobbin", lasts, least, "1", where, cure=cure),
-        shed_check(params, made.opening),
+        shed_check(params, made.opening, "a smaller weft.bobbin_diameter"),
         at_least(
             "lifted warps under the shuttle",
             made.supports,
