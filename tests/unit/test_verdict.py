@@ -12,6 +12,7 @@ from click.testing import CliRunner, Result
 from ilmek.cli import main
 from ilmek.errors import MechanismError, ParameterError
 from ilmek.io.output import MANIFEST
+from ilmek.machines.automated_loom.nearest import NearestFit
 from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.component import Component
 
@@ -196,3 +197,22 @@ def test_every_choice_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
     assert "decided by" in shown
     machine: Component = MACHINES["automated-loom"]
     assert [choice.name for choice in machine.report_for({}).all_choices] == [one["name"] for one in found["choices"]]
+
+
+def test_the_nearest_carpets_are_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    fits = (NearestFit("quality", "20/dm x 20/dm"), NearestFit("width", "0.9 m"))
+    monkeypatch.setattr("ilmek.jobs.nearest.nearest_fits", lambda *_: fits)
+    found = run("design", "automated-loom", *FAILS[1:], "--json", "-")
+    expected = [{"wish": one.wish, "value": one.value} for one in fits]
+    data = json.loads(found.stdout)
+    assert data["nearest"] == data["results"]["nearest"] == expected
+    page = tmp_path / "page.html"
+    shown = run("design", "automated-loom", *FAILS[1:], "--report", str(page)).stdout
+    assert "\nnearest that weaves: quality 20/dm x 20/dm; width 0.9 m\n" in shown
+    assert "quality 20/dm x 20/dm; width 0.9 m." in page.read_text(encoding="utf-8")
+    monkeypatch.setattr("ilmek.jobs.weave.carpet_page", lambda page, *_: page.nearest)
+    out = tmp_path / "out"
+    woven = run("weave", MEDALLION, *SMALL, *FAILS, "--out", str(out))
+    assert "\nnearest that weaves: quality 20/dm x 20/dm; width 0.9 m\n" in woven.stdout
+    assert json.loads((out / "report.json").read_text(encoding="utf-8"))["nearest"] == expected
+    assert (out / "report.html").read_text(encoding="utf-8") == "quality 20/dm x 20/dm; width 0.9 m"

@@ -17,7 +17,7 @@ def headline_of(report: Report) -> str:
 def show_report(report: Report) -> None:
     """Print the verdict with its reasons, results, brief tables, choices and checks."""
     say(report.title)
-    show_verdict(report.all_checks, headline_of(report))
+    show_verdict(report.all_checks, headline_of(report), report.nearest)
     shown = [(r.name, _shown(r), r.meaning) for r in report.results if r.shown]
     show_table(("result", "value", "meaning"), shown, right=(1,))
     more = [result.name for result in report.results if not result.shown]

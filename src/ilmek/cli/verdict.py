@@ -22,13 +22,18 @@ def exit_code(checks: Sequence[Check]) -> int:
     return 0 if all(check.ok for check in checks) else CHECK_FAILS
 
 
-def show_verdict(checks: Sequence[Check], headline: str = CHECKS) -> None:
-    """Print the headline, and each reason with value, limit and cure; nothing without checks."""
+def show_verdict(checks: Sequence[Check], headline: str = CHECKS, nearest: str = "") -> None:
+    """Print the headline, and each reason with value, limit and cure; nothing without checks.
+
+    nearest  carpets that the loom could weave, in words
+    """
     if checks:
         failed = reasons(checks)
         click.echo(f"{headline}: {_words(checks, failed, headline)}")
         for reason in failed:
             click.echo(printable(f"  {line(reason)}"))
+        if nearest:
+            click.echo(f"nearest that weaves: {nearest}")
 
 
 def note_verdict(checks: Sequence[Check], headline: str = CHECKS) -> None:

@@ -98,7 +98,7 @@ def show_woven(woven: WeaveResult) -> None:
     """Print the verdict with its reasons, a summary of the job, the loom's choices, and the path of the report."""
     chart, bill, checks = woven.charted.chart, woven.charted.bill, woven.checks
     failed = sum(not check.ok for check in checks)
-    show_verdict(checks, WEAVES)
+    show_verdict(checks, WEAVES, woven.loom.nearest)
     show_pairs(
         [
             ("carpet", f"{chart.size}, {chart.quality}, {chart.knot} knot"),

@@ -8,12 +8,16 @@ from typing import TYPE_CHECKING, Any
 
 from ilmek.io.output import Outputs, joined
 from ilmek.machines.catalogue import find_machine
-from ilmek.params import Setting
+from ilmek.params import Params, Setting
 from ilmek.progress import SILENT, Progress
 from ilmek.report import Report
 
 if TYPE_CHECKING:
     from ilmek.jobs.workshop import Workshop
+
+
+LOOM = "automated-loom"
+"""The machine whose report names the nearest carpets, where it cannot weave what is required."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,8 +70,17 @@ def design_machine(
         designed = machine.designed(params, progress.part(0.0, 0.6, "design"))
         progress.part(0.6, 0.8, "report")
         report = machine.report(designed)
+        if report.machine == LOOM:
+            report = _with_nearest(report, params, progress.part(0.7, 0.8))
         progress.part(0.8, 1.0, "files")
         return DesignResult(report, write(report) if write is not None else None)
+
+
+def _with_nearest(report: Report, params: Params, progress: Progress) -> Report:
+    """A loom's report with the nearest carpets that it could weave; the loom is imported only for one."""
+    from ilmek.jobs.nearest import with_nearest
+
+    return with_nearest(report, params, progress)
 
 
 def _workshop_writer(workshop: WorkshopOrder | None, outputs: Outputs) -> "Callable[[Report], Workshop] | None":

@@ -19,6 +19,7 @@ from ilmek.jobs.existing_loom import (
     row_pitch_left,
     yarns_on,
 )
+from ilmek.jobs.nearest import with_nearest
 from ilmek.jobs.order import CarpetOrder
 from ilmek.jobs.wishes import Wishes, heads_for_wishes, require_price
 from ilmek.loom.programme import Programme, make_programme
@@ -176,13 +177,13 @@ def make_loomed(loom_order: LoomOrder, order: CarpetOrder, chart: Chart, progres
             made.heads,
             made.times,
             bobbins=made.bobbins,
-            progress=progress.part(0.7, 1.0),
+            progress=progress.part(0.7, 0.9),
         )
     except IlmekError as error:
         if loom_order.settings and _can_be_designed(_without_settings(params)):
             raise
-        return LoomResult(_without_design(params, error), ())
-    report = MACHINE.report(made)
+        return LoomResult(with_nearest(_without_design(params, error), params, progress.part(0.7, 1.0)), ())
+    report = with_nearest(MACHINE.report(made), params, progress.part(0.9, 1.0))
     require_price(loom_order.wishes, made, report, programme.duration)
     left = made.beat.row_pitch_left
     return LoomResult(report, deadline_checks(loom_order.deadline, programme), made, programme, left)

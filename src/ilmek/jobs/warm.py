@@ -12,7 +12,8 @@ import numpy as np
 from PIL import Image
 
 from ilmek.io.picture import read_picture
-from ilmek.io.programme_file import open_programme
+from ilmek.io.programme_file import open_programme, write_programme
+from ilmek.io.programme_meta import Label
 from ilmek.jobs.loom import read_loom_order
 from ilmek.jobs.order import read_order
 from ilmek.jobs.weave import weave
@@ -29,8 +30,12 @@ def warm() -> float:
         Image.fromarray(noise).save(Path(folder) / "noise.jpg")
         read_picture(Path(folder) / "noise.jpg")
         order = read_order(picture, size="16x16cm", quality="10x10/dm", colours=8)
-        weave(order, read_loom_order(order, deadline="100h"), out)
-        with open_programme(out / "programme.ilmek") as programme:
+        woven = weave(order, read_loom_order(order, deadline="100h"), out)
+        chart, made = woven.charted.chart, woven.loomed.programme
+        assert made is not None
+        label = Label(chart.size, chart.quality, chart.knot, chart.yarns, 0.5 / order.quality.across, ())
+        write_programme(out / "again.ilmek", made, label)  # the loom's own is written only where it weaves
+        with open_programme(out / "again.ilmek") as programme:
             programme.row(0).ties()
             return programme.totals.duration
 

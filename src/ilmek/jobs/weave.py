@@ -14,7 +14,7 @@ from ilmek.jobs.chart import ChartResult, chart_results, job_json, make_charted,
 from ilmek.jobs.loom import LoomOrder, LoomResult, make_loomed
 from ilmek.jobs.order import CarpetOrder
 from ilmek.progress import SILENT, Progress
-from ilmek.report import Check, Report, verdict_json
+from ilmek.report import NEAREST, Check, Report, verdict_json
 from ilmek.report.left_out import made_or_left_out
 from ilmek.units import format_quantity, hour
 from ilmek.viz.page import CarpetPage, carpet_page
@@ -145,6 +145,7 @@ def weave_results(woven: WeaveResult) -> dict[str, Any]:
     return {
         "weaves": woven.weaves,
         "row_pitch_left": woven.loomed.row_pitch_left,
+        "nearest": woven.loom[NEAREST] if woven.loom_order.existing is None else [],
         **chart_results(woven.charted),
         "heads": programme and programme.heads,
         "heads_max": made and made.heads_max,
@@ -200,6 +201,7 @@ def _page(woven: WeaveResult) -> CarpetPage:
         files=woven.notes,
         warnings=(*woven.charted.warnings, *woven.charted.notes, *woven.loomed.notes, *woven.left_out),
         choices=woven.loom.all_choices,
+        nearest=woven.loom.nearest,
     )
 
 

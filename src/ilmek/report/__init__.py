@@ -8,7 +8,7 @@ from ilmek.records import DeclaredResult, computed, declared_results, group, rec
 from ilmek.report.bill import NOT_WEIGHED, Part, Work
 from ilmek.report.check import Check, at_least, at_most, in_words, must, snap_to_limit
 from ilmek.report.choice import Alternative, Choice, choose, failing
-from ilmek.report.document import Report
+from ilmek.report.document import NEAREST, Report
 from ilmek.report.figure import (
     Animation,
     Axis,
@@ -36,6 +36,7 @@ from ilmek.report.verdict import Reason, reasons, verdict_json
 from ilmek.report.workshop import CamTable, Contour, Hole, Plate
 
 __all__ = [
+    "NEAREST",
     "NOT_WEIGHED",
     "Alternative",
     "Animation",

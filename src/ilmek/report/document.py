@@ -16,6 +16,9 @@ from ilmek.report.table import Table
 from ilmek.report.verdict import Reason, reasons, verdict_json
 from ilmek.report.workshop import CamTable, Plate
 
+NEAREST = "nearest"
+"""Name of a result: the nearest tasks that the machine could do, each a wish and its value."""
+
 _Named = TypeVar("_Named", Plate, CamTable)
 
 
@@ -83,6 +86,17 @@ class Report:
     def reasons(self) -> tuple[Reason, ...]:
         """Why the machine does not do its work, the heaviest reason first; empty where every check holds."""
         return reasons(self.all_checks)
+
+    @property
+    def nearest(self) -> str:
+        """The nearest tasks that the machine could do, in words; "" where its results name none.
+
+        >>> fits = [{"wish": "width", "value": "1 m"}, {"wish": "knot", "value": "symmetric"}]
+        >>> Report("loom", "Loom", {}, (Result("nearest", fits, "", "what it could weave"),), ()).nearest
+        'width 1 m; knot symmetric'
+        """
+        found: Any = next((result.value for result in self.results if result.name == NEAREST), ())
+        return "; ".join(f"{one['wish']} {one['value']}" for one in found)
 
     @property
     def all_choices(self) -> tuple[Choice, ...]:

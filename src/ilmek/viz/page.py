@@ -41,6 +41,7 @@ class CarpetPage:
     files          the other files of the folder
     warnings       warnings, and notes on changes made to the picture
     choices        what the loom chose of what was left open
+    nearest        carpets that the loom could weave, in words, where it cannot weave this one
     """
 
     title: str
@@ -54,16 +55,18 @@ class CarpetPage:
     files: tuple[FileNote, ...] = ()
     warnings: tuple[str, ...] = ()
     choices: tuple[Choice, ...] = ()
+    nearest: str = ""
 
 
 @dataclass(frozen=True, slots=True)
 class _Verdict:
-    """The verdict at the top of a page: its question, the answer, and the reasons where it is no."""
+    """The verdict at the top of a page: its sentences, the number of checks, the reasons where it is no."""
 
     good: str
     bad: str
     checks: int
     reasons: tuple[Reason, ...]
+    nearest: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,6 +119,7 @@ def carpet_page(page: CarpetPage, left_out: list[str] | None = None, progress: P
             "The loom cannot weave this carpet, and there is no programme.",
             len(judged),
             reasons(_named(one) for one in judged),
+            page.nearest,
         ),
         choices=page.choices,
         warnings=warnings,
@@ -138,16 +142,21 @@ def machine_page(report: Report, left_out: list[str] | None = None) -> str:
     return _render(
         "machine.html.j2",
         title=report.title,
-        lead=f"{len(report.all_checks) - len(report.failed)} of {len(report.all_checks)} checks hold"
-        if report.all_checks
-        else "",
-        verdict=_Verdict("Every check holds.", "A check fails.", len(report.all_checks), report.reasons),
+        lead="",
+        verdict=_machine_verdict(report),
         choices=report.all_choices,
         section=section,
         moves=_holds(section, "moves"),
         timed=_holds(section, "wide timed"),
         checks=_failures_first([_Judged(report.title, check) for check in report.all_checks]),
     )
+
+
+def _machine_verdict(report: Report) -> _Verdict:
+    loom = "weaves" in report.headline
+    good = "The loom weaves its carpet." if loom else "Every check holds."
+    bad = "The loom cannot weave its carpet." if loom else "Not every check holds."
+    return _Verdict(good, bad, len(report.all_checks), report.reasons, report.nearest)
 
 
 def _section(index: int, report: Report, left_out: list[str]) -> _Section:
