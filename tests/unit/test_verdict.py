@@ -33,6 +33,12 @@ def plain_page(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("ilmek.jobs.weave.carpet_page", lambda page, *_: page.title)
 
 
+@pytest.fixture(autouse=True)
+def nothing_near(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No search of the nearest carpets, which takes seconds."""
+    monkeypatch.setattr("ilmek.jobs.nearest.nearest_fits", lambda *_: ())
+
+
 def judged(found: dict[str, Any]) -> int:
     """The exit code that the checks of a JSON demand; its verdict agrees with them."""
     failed = {check["name"] for check in found["checks"] if not check["ok"]}

@@ -177,7 +177,7 @@ def make_loomed(loom_order: LoomOrder, order: CarpetOrder, chart: Chart, progres
             made.heads,
             made.times,
             bobbins=made.bobbins,
-            progress=progress.part(0.7, 0.9),
+            progress=progress.part(0.7, 0.9, "programme"),
         )
     except IlmekError as error:
         if loom_order.settings and _can_be_designed(_without_settings(params)):
@@ -201,7 +201,9 @@ def _on_existing(
         return LoomResult(existing.report, checks, made, None, left)
     heads = min(heads_used(existing, chart), loom_order.wishes.heads or made.heads)
     notes = (f"{heads} of the loom's {made.heads} heads are used; the others are parked",) if heads < made.heads else ()
-    programme = make_programme(chart.knots, len(chart.yarns), heads, made.times, progress=progress)
+    programme = make_programme(
+        chart.knots, len(chart.yarns), heads, made.times, progress=progress.part(0.0, 1.0, "programme")
+    )
     checks = (*checks, *deadline_checks(loom_order.deadline, programme))
     return LoomResult(existing.report, checks, made, programme, left, notes)
 
