@@ -157,13 +157,13 @@ def test_a_setting_that_prevents_a_design_is_bad_input(tmp_path: Path, monkeypat
 @pytest.mark.parametrize(
     ("wishes", "named"),
     [
-        (("--heads", "2", "--deadline", "3h"), ("2 heads weave it in", "3 h needs", "mm fit 0.8 m")),
+        (("--heads", "2", "--deadline", "3h"), ("2 heads weave it in", "the deadline of 3 h", "mm fit 0.8 m")),
         (("--heads", "40"), ("40 heads", "mm fit 0.8 m")),
         (("--deadline", "1h"), ("the deadline of 1 h", "mm fit 0.8 m")),
         (("--loom", "price_limit=10"), ("the price is to be at most 10", "this loom costs", "weave the carpet in")),
         (
             ("--heads", "2", "--deadline", "3h", "--loom", "price_limit=10"),
-            ("2 heads weave it in", "3 h needs", "mm fit 0.8 m", "at most 10"),
+            ("2 heads weave it in", "the deadline of 3 h", "mm fit 0.8 m", "at most 10"),
         ),
     ],
 )

@@ -170,7 +170,7 @@ def make_loomed(loom_order: LoomOrder, order: CarpetOrder, chart: Chart, progres
     if loom_order.existing is not None:
         return _on_existing(loom_order, loom_order.existing, order, chart, progress)
     try:
-        made = heads_for_wishes(params, loom_order.wishes, chart, progress.part(0.0, 0.7))
+        made, choices = heads_for_wishes(params, loom_order.wishes, chart, progress.part(0.0, 0.7))
         programme = make_programme(
             chart.knots,
             len(chart.yarns),
@@ -183,7 +183,9 @@ def make_loomed(loom_order: LoomOrder, order: CarpetOrder, chart: Chart, progres
         if loom_order.settings and _can_be_designed(_without_settings(params)):
             raise
         return LoomResult(with_nearest(_without_design(params, error), params, progress.part(0.7, 1.0)), ())
-    report = with_nearest(MACHINE.report(made), params, progress.part(0.9, 1.0))
+    report = MACHINE.report(made)
+    report = replace(report, choices=(*choices, *report.choices))
+    report = with_nearest(report, params, progress.part(0.9, 1.0))
     require_price(loom_order.wishes, made, report, programme.duration)
     left = made.beat.row_pitch_left
     return LoomResult(report, deadline_checks(loom_order.deadline, programme), made, programme, left)
@@ -201,9 +203,8 @@ def _on_existing(
         return LoomResult(existing.report, checks, made, None, left)
     heads = min(heads_used(existing, chart), loom_order.wishes.heads or made.heads)
     notes = (f"{heads} of the loom's {made.heads} heads are used; the others are parked",) if heads < made.heads else ()
-    programme = make_programme(
-        chart.knots, len(chart.yarns), heads, made.times, progress=progress.part(0.0, 1.0, "programme")
-    )
+    part = progress.part(0.0, 1.0, "programme")
+    programme = make_programme(chart.knots, len(chart.yarns), heads, made.times, bobbins=made.bobbins, progress=part)
     checks = (*checks, *deadline_checks(loom_order.deadline, programme))
     return LoomResult(existing.report, checks, made, programme, left, notes)
 

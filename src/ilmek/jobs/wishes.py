@@ -11,9 +11,13 @@ from ilmek.loom.bobbins import stop_time
 from ilmek.loom.programme import least_heads, weaving_time
 from ilmek.loom.sharing import MOST_HEADS
 from ilmek.machines.automated_loom import AutomatedLoomParams, LoomDesign, design
+from ilmek.machines.automated_loom.params import AIMS
 from ilmek.progress import SILENT, Progress
-from ilmek.report import Report
+from ilmek.report import Choice, Report
 from ilmek.units import format_number, format_quantity, hour
+
+TIME = AIMS[1]
+"""The aim for which all that is left open is chosen, where the deadline cannot be kept otherwise."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,9 +31,10 @@ class Wishes:
 
 def heads_for_wishes(
     params: AutomatedLoomParams, wishes: Wishes, chart: Chart, progress: Progress = SILENT
-) -> LoomDesign:
-    """The loom with the heads that are wished, or that its choice or the deadline needs.
+) -> tuple[LoomDesign, tuple[Choice, ...]]:
+    """The loom with the heads that are wished, or that its choice or the deadline needs; what was chosen for these.
 
+    Where what is chosen for the least price cannot keep the deadline, all that is open is chosen for the least time.
     Raises ParameterError, naming every wish, where they cannot all hold; the errors of the loom's design.
     """
     try:
@@ -41,11 +46,31 @@ def heads_for_wishes(
     if (wishes.heads or 1) > made.heads_max:
         raise _contradiction(wishes, made, chart)
     if wishes.deadline is None or _time(made, chart, made.heads, wishes.deadline) <= wishes.deadline:
-        return made
-    needed = _needed(wishes.deadline, made, chart, made.heads_max, progress)
-    if needed is None or wishes.heads is not None:
-        raise _contradiction(wishes, made, chart)
-    return design(replace(params, heads=needed))
+        return made, ()
+    for aim in dict.fromkeys((params.aim, TIME)):
+        if aim != params.aim:
+            made = design(replace(params, aim=aim))
+        if wishes.heads is not None:
+            if _time(made, chart, wishes.heads, wishes.deadline) <= wishes.deadline:
+                return made, _of_aim(aim, params)
+            continue
+        needed = _needed(wishes.deadline, made, chart, made.heads_max, progress)
+        if needed is not None:
+            made = design(replace(params, aim=aim, heads=needed))
+            return made, (*_of_aim(aim, params), _of_heads(made, chart))
+    raise _contradiction(wishes, made, chart)
+
+
+def _of_aim(aim: str, params: AutomatedLoomParams) -> tuple[Choice, ...]:
+    """The choice of another aim than the one wished, which the deadline needs."""
+    return () if aim == params.aim else (Choice("aim", aim, "the deadline", params.aim, "the deadline"),)
+
+
+def _of_heads(made: LoomDesign, chart: Chart) -> Choice:
+    """The choice of the fewest heads that keep the deadline."""
+    fewer = made.heads - 1
+    failed = f"weaving time {_hours(_time(made, chart, fewer))}" if fewer else ""
+    return Choice("heads", str(made.heads), "the deadline", str(fewer) if fewer else "", failed)
 
 
 def require_price(wishes: Wishes, made: LoomDesign, report: Report, duration: float) -> None:
@@ -83,7 +108,7 @@ def _deadline_needs(deadline: float, made: LoomDesign, chart: Chart) -> str:
     if needed is not None:
         return f"the deadline of {_hours(deadline)} needs {_heads(needed)}"
     wefts = chart.rows * made.times.weft + stop_time(made.bobbins, chart.rows)
-    alone = f": the wefts and beats of {chart.rows} rows alone take {_hours(wefts)}" if wefts >= deadline else ""
+    alone = f": the wefts, beats and stops of {chart.rows} rows alone take {_hours(wefts)}" if wefts >= deadline else ""
     return f"the deadline of {_hours(deadline)} cannot be met by any number of heads{alone}"
 
 
