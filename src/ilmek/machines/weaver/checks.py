@@ -25,7 +25,8 @@ def head_checks(weaver: Weaver, limits: HeadLimits) -> tuple[Check, ...]:
         *_tool_checks(weaver),
         *_order_checks(weaver),
         *(() if weaver.params.with_arms else _knot_checks(weaver)),
-        *cam_checks(weaver, limits),
+        *cam_checks(weaver),
+        *_drive_checks(weaver, limits),
         *opener_checks(weaver),
         *_room_checks(weaver),
     )
@@ -102,8 +103,8 @@ def _knot_checks(weaver: Weaver) -> tuple[Check, ...]:
     )
 
 
-def cam_checks(weaver: Weaver, limits: HeadLimits) -> tuple[Check, ...]:
-    """Cams within their limits and the head, the cutter within its time, a motor for the shaft."""
+def cam_checks(weaver: Weaver) -> tuple[Check, ...]:
+    """Cams within their limits and the head."""
     params, cams = weaver.params, weaver.cams
     worst, widest = max(cams, key=lambda cam: cam.pressure_max), max(cams, key=lambda cam: cam.radius)
     sharpest, steep = min(cams, key=lambda cam: cam.convex_radius), max(cams, key=lambda cam: cam.pressure_angle)
@@ -139,13 +140,6 @@ def cam_checks(weaver: Weaver, limits: HeadLimits) -> tuple[Check, ...]:
             cure="leave head_width to the design, or set thinner cams",
         ),
         at_most(f"diameter, {widest.name}", 2 * widest.radius, params.cam_room, "mm", "cam_room", cure=larger),
-        at_most("cutter", limits.cutting_time, limits.cutting_window, "s", "draw to presenting", cure=LONGER),
-        must(
-            "motor of the cam shaft",
-            weaver.drive.servo is not None,
-            f"motors of the table; {weaver.drive.torque_max:.3g} Nm with a cut of {cutting_energy(params):.3g} J",
-            cure="set lighter tools, a longer knot_cycle, or a lower tension",
-        ),
     )
     if params.closure == "groove":
         hollow = min(cams, key=lambda cam: cam.concave_radius)
@@ -158,6 +152,20 @@ def cam_checks(weaver: Weaver, limits: HeadLimits) -> tuple[Check, ...]:
     speed, cure = weaver.cyclogram.speed, "set closure=groove, or lighter tools"
     name = f"speed before lift-off, {loose.name}"
     return (*found, at_most(name, speed, loose.lift_off, "rpm", "return springs", cure=cure))
+
+
+def _drive_checks(weaver: Weaver, limits: HeadLimits) -> tuple[Check, ...]:
+    """The cutter within its time, a motor for the shaft."""
+    params = weaver.params
+    return (
+        at_most("cutter", limits.cutting_time, limits.cutting_window, "s", "draw to presenting", cure=LONGER),
+        must(
+            "motor of the cam shaft",
+            weaver.drive.servo is not None,
+            f"motors of the table; {weaver.drive.torque_max:.3g} Nm with a cut of {cutting_energy(params):.3g} J",
+            cure="set lighter tools, a longer knot_cycle, or a lower tension",
+        ),
+    )
 
 
 def opener_checks(weaver: Weaver) -> tuple[Check, ...]:
@@ -198,6 +206,14 @@ def opener_checks(weaver: Weaver) -> tuple[Check, ...]:
             "assumed by this project: parameter opener.bend_limit",
             cure="set a wider weaver.opener.wall, or a lower tension",
         ),
+        *_opener_room_checks(weaver),
+    )
+
+
+def _opener_room_checks(weaver: Weaver) -> tuple[Check, ...]:
+    """The tools fit between the opener's plates, the sley reaches the fell, the neighbouring head's warps stand."""
+    params, own, opener = weaver.params, weaver.params.opener, weaver.opener
+    return (
         at_least(
             "opener: room of the tools between its plates",
             own.height,

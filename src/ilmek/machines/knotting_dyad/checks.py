@@ -1,0 +1,209 @@
+"""The checks of a knotting dyad: arms, knot, needle and yarn in the gaps, drives."""
+
+import math
+
+import numpy as np
+
+from ilmek.arrays import FloatArray
+from ilmek.machines.knotting_dyad.design import KnottingDyad, longest_link
+from ilmek.machines.knotting_dyad.drives import HeadMotion
+from ilmek.machines.knotting_dyad.head import Head
+from ilmek.machines.knotting_dyad.params import KnottingDyadParams
+from ilmek.machines.knotting_dyad.section import GREATEST_DEPTH, WarpSection
+from ilmek.machines.knotting_dyad.yarn import MISSED
+from ilmek.num.brackets import bracketed_roots
+from ilmek.report import Check, at_least, at_most, must
+from ilmek.timing.path_speed.solve import TOLERANCE
+from ilmek.units import format_quantity
+
+CLOSURE, BALANCE, ROUNDING = 1e-9, 1e-9, 1e-9
+
+
+def dyad_checks(design: KnottingDyad, motion: HeadMotion | None) -> tuple[Check, ...]:
+    """Every arm closes, the one to build is within its limits; the knot, the clearances, the limits of the drives."""
+    params, head = design.params, design.head
+    of_head = () if head is None else (*_knot_checks(params, head), *_needle_checks(params, head), *_gap_checks(head))
+    return (
+        *_arm_checks(design),
+        *of_head,
+        *(() if motion is None else _motion_checks(motion)),
+    )
+
+
+def _arm_checks(design: KnottingDyad) -> tuple[Check, ...]:
+    missed = max(design.residual(dyad) / design.size(dyad) for dyad in design.dyads)
+    links = sum(1 for dyad in design.dyads if dyad.first)
+    move = "move a point or an angle"
+    closes = at_most(
+        "closure of every arm at the points, of its size", missed, CLOSURE, "1", "loop equation", cure=move
+    )
+    real = at_least("real arms of two links", links, 1, "", "the task has three roots", cure=move)
+    if design.built is None:
+        return closes, real
+    where = "at the points" if design.head is None else "along the way"
+    sine = float(design.bends[design.built]) if design.head is None else design.head.arm.bend
+    off = float(np.arcsin(max(sine, 0.0)))
+    longest, limits = longest_link(design.dyads[design.built]), design.params
+    return (
+        closes,
+        real,
+        at_most(
+            "longest link of the arm to build",
+            longest,
+            limits.link_limit,
+            "mm",
+            "link_limit",
+            cure="set a larger link_limit, a smaller pivot_room or bend_limit, or a shorter leg",
+        ),
+        at_least(
+            f"angle between its links, off straight, {where}",
+            off + ROUNDING,
+            limits.bend_limit,
+            "deg",
+            "bend_limit",
+            cure="set a smaller bend_limit, or a larger link_limit",
+        ),
+    )
+
+
+def _knot_checks(params: KnottingDyadParams, head: Head) -> tuple[Check, ...]:
+    """The knot is tied, everything stays clear, the hand-over meets, the motors have room."""
+    section = head.section
+    apart = float(abs(head.arm.tip(np.array([1.0]))[0] - section.handover))
+    pivots, tied = 2 * (section.middle - head.arm.pivot.real), 1.0 if head.knot_tied else 0.0
+    return (
+        at_least(
+            "the knot asked for is tied, proved: 1",
+            tied,
+            1.0,
+            "",
+            "word of the yarn's path",
+            cure="leave depth, opening and leg to the design",
+        ),
+        at_least(
+            "clearance over the whole cycle",
+            head.clearance_min,
+            section.required - ROUNDING,
+            "mm",
+            "clearance",
+            cure=remedy(params, section),
+        ),
+        at_most(
+            "arm and centre gripper apart at the hand-over",
+            apart,
+            MISSED,
+            "um",
+            "grip of the tips",
+            cure="leave the arm to the design",
+        ),
+        at_least(
+            "room of the motors between the pivots",
+            pivots,
+            params.pivot_room,
+            "mm",
+            "parameter pivot_room",
+            cure="set a larger link_limit, or a smaller pivot_room",
+        ),
+    )
+
+
+def _needle_checks(params: KnottingDyadParams, head: Head) -> tuple[Check, ...]:
+    """The needle neither bends into the warps nor buckles."""
+    return (
+        at_most(
+            "needle bent aside by the yarn",
+            head.bent,
+            max(head.clearance_min, 0.0),
+            "um",
+            "clearance_min; pull of the yarn assumed by this project: parameter yarn_pull",
+            cure="set a broader or thicker needle, narrower links, or a larger opening",
+        ),
+        at_least(
+            "needle against buckling under the yarn's pull",
+            head.buckling,
+            params.buckling_safety * params.yarn_pull,
+            "N",
+            "Euler; assumed by this project: parameters buckling_safety, yarn_pull",
+            cure="set a broader or thicker needle, or narrower links",
+        ),
+    )
+
+
+def _gap_checks(head: Head) -> tuple[Check, ...]:
+    """Yarn, and needle and yarn together, in the opened gaps; the gap of the warps as they stand."""
+    section = head.section
+    both = section.needle + section.yarn
+    pressed = "thickness of the pressed pile assumed by this project: yarns.pressed_packing, yarns.flattening"
+    opened = "leave opening and pair_opened to the design, or set a finer pile yarn"
+    rooms = (
+        ("pile yarn in the gap between the warps", section.yarn, min(section.between, section.beside), "opened gaps"),
+        ("needle and pile yarn together, beside the pair", both, section.beside, "room across the needle"),
+        ("needle and pile yarn together, between the pair", both, section.between, "gap of the pair"),
+    )
+    standing = "set a thinner warp, or a wider pitch"
+    return (
+        *(at_most(name, size, room, "mm", f"{what}; {pressed}", cure=opened) for name, size, room, what in rooms),
+        at_least(
+            "gap between two warps", section.pitch - section.warp, 0.0, "mm", "warps beside each other", cure=standing
+        ),
+    )
+
+
+def _motion_checks(motion: HeadMotion) -> tuple[Check, ...]:
+    used = "greatest use of a drive's limit: speed, acceleration, jerk"
+    return (
+        at_most(
+            used,
+            motion.cycle.usage,
+            1 + TOLERANCE,
+            "1",
+            "limits of joints and centre gripper",
+            cure="set higher limits of speed, acceleration and jerk",
+        ),
+        must(
+            "servos of the joints",
+            all(joint.motor for joint in motion.joints),
+            "servos of the table",
+            cure="set a lower joint_acceleration, or a gear_ratio",
+        ),
+        at_most(
+            "power balance of the torques",
+            motion.power_error,
+            BALANCE,
+            "1",
+            "virtual power",
+            cure="set masses and speeds within their usual sizes",
+        ),
+    )
+
+
+def remedy(params: KnottingDyadParams, section: WarpSection) -> str:
+    """How the needle gets its room."""
+    pair = section.pair - section.warp - 2 * section.required
+    if pair < section.needle:
+        fine = f"take a needle of {format_quantity(pair, 'mm', 3)} or less" if pair > ROUNDING else "take finer warps"
+        return f"{fine}, or a pair of warps {format_quantity(section.pair + section.needle - pair, 'mm', 3)} apart"
+    cosine = (section.warp + section.needle + 2 * section.required) / section.outer
+    across = (section.pair + section.outer) / 2
+    thin = section.needle - 2 * (section.required - section.clearance_bound)
+    remedies = [f"a needle of {format_quantity(thin, 'mm', 3)}"] if thin > 0 else []
+    if cosine < 1:
+        remedies.append(f"a depth of {format_quantity(across / math.tan(math.acos(cosine)), 'mm', 3)}")
+    opening = _opening(section)
+    if opening is not None:
+        remedies.append(f"an opening of {format_quantity(opening, 'mm', 3)}")
+    limit = "" if params.depth else f" (unless given, the depth is {GREATEST_DEPTH:g} gaps at most)"
+    return f"try {' or '.join(remedies)}{limit}" if remedies else "take finer warps, or a wider pitch"
+
+
+def _opening(section: WarpSection) -> float | None:
+    """The least opening that gives the outer gaps the clearance at this depth [m], None if none."""
+
+    def spare(opening: FloatArray) -> FloatArray:
+        outer = section.pitch + opening
+        cosine = np.cos(np.arctan2((section.pair + outer) / 2, section.depth))
+        return np.asarray(outer / 2 * cosine - (section.warp + section.needle) / 2 - section.required)
+
+    low, high = section.outer - section.pitch, section.outer + 8 * section.pitch
+    found = float(bracketed_roots(spare, np.array([low]), np.array([high]))[0])
+    return found if math.isfinite(found) else None
