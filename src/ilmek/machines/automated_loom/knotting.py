@@ -136,12 +136,12 @@ def with_arms(weaver: Weaver, arms: KnottingDyad) -> Cyclogram:
     assert arms.head is not None
     motion, tied = head_motion(arms.params, arms.head), weaver.cyclogram
     parts, speed = motion.cycle.parts, tied.speed
-    begin = arms_window(tied)[0]
+    opened = arms_window(tied)[0]
     first = next(part.start for part in parts if not part.grippers)
     home = tied.track(HANDLER).segment("home").start
 
     def at(time: float) -> float:
-        return begin + (time - first) * speed if time >= first else home + (time - first) * speed
+        return opened + (time - first) * speed if time >= first else home + (time - first) * speed
 
     moved = [part for part in parts if not part.grippers]
     tracks: dict[str, list[TrackSegment]] = {LEFT_ARM: [], RIGHT_ARM: [], CENTRE_ARM: []}
@@ -150,8 +150,8 @@ def with_arms(weaver: Weaver, arms: KnottingDyad) -> Cyclogram:
         spans = (phase.left, stroke, 0.0), (phase.right, stroke, 0.0), (phase.centre, -1.0, front)
         for name, (span, scale, offset) in zip(tracks, spans, strict=True):
             if span[0] != span[1]:
-                ends = (scale * one + offset for one in span)
-                tracks[name].append(TrackSegment(part.name, at(part.start), at(part.end), *ends, ARM_LAW))
+                begin, finish = (scale * one + offset for one in span)
+                tracks[name].append(TrackSegment(part.name, at(part.start), at(part.end), begin, finish, ARM_LAW))
     made = (
         Track(name, actuator, tuple(tracks[name]), _grips(parts, gripper, at, speed))
         for name, actuator, gripper in (

@@ -214,6 +214,14 @@ def _opener_room_checks(weaver: Weaver) -> tuple[Check, ...]:
     """The tools fit between the opener's plates, the sley reaches the fell, the neighbouring head's warps stand."""
     params, own, opener = weaver.params, weaver.params.opener, weaver.opener
     return (
+        at_most(
+            "opener: teeth in the gap beside the pair",
+            opener.wall,
+            opener.aside - opener.pair / 2 - opener.diameter,
+            "mm",
+            "from the pair's warps to their neighbours",
+            cure="set a larger opening of the arms, or a smaller weaver.opener.wall",
+        ),
         at_least(
             "opener: room of the tools between its plates",
             own.height,

@@ -4,6 +4,8 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from ilmek.arrays import FloatArray
 from ilmek.cams.loaded_plate_cam import CamShaftDrive, LoadedPlateCam, drive_for, torque_at
 from ilmek.elements.carpet_yarns import usual_warp
@@ -162,7 +164,7 @@ def head_relations(weaver: Weaver) -> tuple[Relation, ...]:
 
 def shaft_torque(weaver: Weaver, angle: FloatArray) -> FloatArray:
     """Torque on the cam shaft, of cams and cutter [N m], at cam angles [rad], any shape."""
-    return torque_at(weaver.cams, angle) + cutter_torque(weaver.params, weaver.cyclogram, angle)
+    return np.asarray(torque_at(weaver.cams, angle) + cutter_torque(weaver.params, weaver.cyclogram, angle))
 
 
 def _opener(params: WeaverParams, grippers: Grippers) -> Opener:

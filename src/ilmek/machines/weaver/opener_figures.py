@@ -23,10 +23,9 @@ def _plan(opener: Opener) -> Drawing:
     natural = opener.pitch * (1.5 + np.arange(len(moved) + _BESIDE))
     stands = natural + np.concatenate([moved, np.zeros(_BESIDE)])
     radius, shown = opener.diameter / 2, 4 * opener.diameter
-    # The wall ends one radius before the nearest warp; where there is no opening it stands in the gap.
-    wall = opener.aside - radius - opener.wall / 2 + 1j * np.array([-2, 2]) * opener.diameter
-    if opener.wall > opener.aside - opener.pair / 2 - 2 * radius:  # a tooth as wide as the gap
-        wall = (opener.aside + opener.pair / 2) / 2 + 1j * wall.imag
+    # A tooth stands beside the warp that it holds away.
+    outer, half = opener.aside - radius, 2 * opener.diameter
+    tooth = np.array([outer, outer, outer - opener.wall, outer - opener.wall]) + 1j * half * np.array([-1, 1, 1, -1])
     strokes: list[Stroke] = []
     for side in (-1, 1):
         pair = side * opener.pair / 2
@@ -35,7 +34,8 @@ def _plan(opener: Opener) -> Drawing:
             *(Stroke(side * x - 1j * shown + radius * _RING, "construction", closed=True) for x in (*natural,)),
             Stroke(pair + radius * _RING, "outline", closed=True, filled=True),
             Stroke(side * opener.pitch / 2 - 1j * shown + radius * _RING, "construction", closed=True),
-            Stroke(side * wall.real + 1j * wall.imag, "link", "tooth of the opener" if side > 0 else ""),
+            Stroke(side * tooth.real + 1j * tooth.imag, "outline", closed=True),
+            Stroke(side * tooth.real[:2] + 1j * half, "construction", "tooth of the opener" if side > 0 else ""),
         ]
     number, most = 2 * len(moved), format_quantity(opener.shift, "mm", 3)
     note = f"{number} warps are displaced, by {most} at most; below, dashed: the same warps without the opener"
