@@ -10,6 +10,7 @@ from ilmek.elements.yarns import COTTON, SILK, WOOL, usual_warp_density
 from ilmek.errors import CarpetError
 from ilmek.weaving import ShedWarp, capstan, shed_lengthening, take_up_tension, tension_history, usual_tension
 from ilmek.weaving.knots import SampledPath, end_path, knot_of_ends, yarn_between
+from ilmek.weaving.tension import bars_needed, compensated_tension
 
 
 def test_yarn_of_a_material_is_as_thick_stiff_and_strong_as_its_mass_makes_it() -> None:
@@ -108,3 +109,20 @@ def test_an_end_that_is_missed_ties_no_knot_and_says_why() -> None:
 def test_bounds_of_the_yarn_are_never_below_its_chords() -> None:
     short = SampledPath(np.array([0j, 1 + 0j]), np.array([0.5]))
     assert yarn_between(short, short).lengths.tolist() == [1.0, 0.0, 1.0]
+
+
+def test_a_sprung_back_rest_against_springs_in_series() -> None:
+    """Brute force: the bar where its spring and its warps have equal forces; one bar bears both halves of the warps."""
+    rate, longer, share = 900.0, 0.02, 0.25
+    for bars, lengthenings in ((2, [longer]), (1, [longer, 0.0])):
+        at = np.linspace(0.0, longer, 200_001)
+        warps = sum(rate * (one - at) for one in lengthenings) / len(lengthenings)
+        given = at[np.argmin(np.abs(warps - share * rate * at))]
+        high, low = compensated_tension(15.0, rate * longer, bars, share)
+        assert high == pytest.approx(15.0 + rate * (longer - given), abs=1e-3)
+        assert low == pytest.approx(15.0 if bars == 2 else 15.0 - rate * given, abs=1e-3)
+
+
+@pytest.mark.parametrize(("gain", "bars"), [(0.0, 1), (13.0, 1), (14.5, 2), (40.0, 2)])
+def test_a_bar_for_each_parity_where_one_leaves_too_much(gain: float, bars: int) -> None:
+    assert bars_needed(15.0, gain) == bars
