@@ -126,13 +126,17 @@ def test_wefts_that_cross_wrongly_let_the_outermost_warps_go() -> None:
         (dict(brake=50.0), "tension of the straight weft"),
         (dict(speed=90.0, acceleration=9e3, jerk=1e7), "torque of the axis' servo"),
         (dict(carriage_mass=50.0, acceleration=2000.0, jerk=1e6), "belt of the axis"),
-        (dict(selvedge_warps=1), "selvedge warps at an edge"),
     ],
 )
 def test_shuttles_that_would_not_work_fail_a_check_with_a_cure(settings: dict[str, object], name: str) -> None:
     found = {check.name: check for check in shuttle(**settings)[0].checks}
     assert not found[name].ok
     assert found[name].cure
+
+
+def test_an_edge_without_selvedge_is_reported() -> None:
+    assert MACHINE.report(design(WeftParams())).warnings == ()
+    assert "no selvedge warp" in MACHINE.report(design(WeftParams(selvedge_warps=1))).warnings[0]
 
 
 @pytest.mark.parametrize(

@@ -14,7 +14,7 @@ from ilmek.machines.weft.in_loom import fit, work
 from ilmek.machines.weft.params import WeftParams
 from ilmek.machines.weft.passage import WeftPassage
 from ilmek.machines.weft.rapier import Rapier
-from ilmek.machines.weft.report import results, tables
+from ilmek.machines.weft.report import results, tables, warnings
 from ilmek.machines.weft.shuttle import Shuttle
 
 __all__ = ["MACHINE", "Rapier", "Shuttle", "Weft", "WeftParams", "WeftPassage", "design"]
@@ -30,6 +30,7 @@ MACHINE = Component(
     checks=lambda made: made.checks,
     tables=tables,
     figures=figures,
+    warnings=warnings,
     parts=lambda made: made.parts,
     work=work,
     choices=lambda made: made.choices,

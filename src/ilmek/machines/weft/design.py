@@ -212,16 +212,12 @@ def _axis_checks(made: Weft) -> tuple[Check, ...]:
 
 
 def _edge_checks(params: WeftParams) -> tuple[Check, ...]:
-    """Whether selvedges bind the wefts' turns, or their tucked ends."""
-    source = "a warp without knots at each edge for the turn of a weft; assumed by this project"
-    bound = at_least(
-        "selvedge warps at an edge", params.edge_warps, 1, "1", source, cure="set selvedge_warps to 2 or more"
-    )
+    """Whether the outermost warps hold the turns of shuttles; the ends of a rapier are checked with it."""
     if params.carrier == RAPIER:
-        return (bound,)
+        return ()
     why = "each weft turns in the same shed: the other holds its turn, where they cross so (weaving.selvedge)"
     cure = "set weft.crossed=yes: exchange the cells of the shuttles' boxes"
-    return (bound, at_most("outermost warps that a turn lets go", let_go(params), 0, "1", why, cure=cure))
+    return (at_most("outermost warps that a turn lets go", let_go(params), 0, "1", why, cure=cure),)
 
 
 def let_go(params: WeftParams) -> int:

@@ -16,6 +16,13 @@ def results(made: Weft) -> tuple[object, ...]:
     return (made, made.carried, made.passage, made.axis)
 
 
+def warnings(made: Weft) -> tuple[str, ...]:
+    """An edge without a selvedge."""
+    if made.params.edge_warps:
+        return ()
+    return ("an edge has no selvedge warp: the wefts turn about warps with knots",)
+
+
 def tables(made: Weft) -> tuple[Table, ...]:
     """Carriers, and for shuttles bobbins and stops."""
     carriers = (_carriers(made),) if made.alternatives else ()
