@@ -48,7 +48,7 @@ class BeaterTravel:
     mode: str = result("", "crank between two strokes: through or start-stop", name="stroke_mode")
     step_time: float = result("s", "time of a step of the slide")
     out_time: float = result("s", "time of a turn for which the beater is out of the warps")
-    clear: float = result("mm", "distance of the beater from the warps, at its farthest")
+    clear: float = result("mm", "distance of the beater from the warps, at its farthest", name="beater_out")
     pause: float = result("s", "time for which the crank stands between two strokes", name="stroke_pause")
     slide_mass: float = result("kg", "mass on the slide")
 
