@@ -126,7 +126,7 @@ def least_clearances(
     """The least distance of every two bodies at and between angles of the turn [rad].
 
     allowed  distance [m], above which there is no need of the exact one
-    ignored  pairs of names that may touch       horizon  pairs whose swept boxes are farther apart are left out [m]
+    ignored  pairs of names that may touch       horizon  pairs that are farther apart are left out [m]
     """
     every = [swept(body, angles) for body in bodies]
     pairs = (pair for pair in combinations(every, 2) if frozenset(one.body.name for one in pair) not in ignored)
@@ -142,8 +142,8 @@ def _least_of_bodies(
     near = [(a, b) for a in one.parts for b in other.parts if _gap_of_boxes(a.whole, b.whole) <= limits[1]]
     if not len(present) or not near:
         return None
-    value, angle = min(_least(a, b, angles, present, limits[0]) for a, b in near)
-    return BodyDistance(one.body.name, other.body.name, value, angle)
+    value, angle = min(_least(a, b, angles, present, limits) for a, b in near)
+    return BodyDistance(one.body.name, other.body.name, value, angle) if value <= limits[1] else None
 
 
 def _swept_part(part: ConvexPart, angles: FloatArray) -> SweptPart:
@@ -170,7 +170,7 @@ def _within(windows: tuple[tuple[float, float], ...], angles: FloatArray) -> Boo
 
 
 def _least(
-    one: SweptPart, other: SweptPart, angles: FloatArray, present: IntArray, allowed: float
+    one: SweptPart, other: SweptPart, angles: FloatArray, present: IntArray, limits: tuple[float, float]
 ) -> tuple[float, float]:
     """The least distance of two parts, and its angle."""
     together = one.part.displacement is not None and one.part.displacement is other.part.displacement
@@ -178,7 +178,10 @@ def _least(
         return float(_at(one, other, present[:1])[0]), float(angles[present[0]])
     gap = np.broadcast_to(_gap_of_boxes(one.boxes, other.boxes), angles.shape)[present]
     moved = np.broadcast_to(one.moved + other.moved, angles.shape)[present]
-    nearest = present[int(np.argmin(gap))]
+    first = int(np.argmin(gap))
+    if gap[first] > limits[1]:
+        return float(gap[first]), float(angles[present[first]])
+    nearest = present[first]
     best = float(_at(one, other, np.array([nearest]))[0])
     near = np.flatnonzero(gap - np.maximum(moved, np.roll(moved, 1)) <= best + TOLERANCE)
     distance = gap.copy()
@@ -187,9 +190,9 @@ def _least(
     found = float(distance[index]), float(angles[present[index]])
     intervals = np.flatnonzero(np.diff(present) == 1)
     bound = (distance[intervals] + distance[intervals + 1] - moved[intervals]) / 2
-    intervals = intervals[bound < min(found[0] - TOLERANCE, allowed)]
+    intervals = intervals[bound < min(found[0] - TOLERANCE, limits[0])]
     sampled = angles[present], distance, moved
-    return _refined(one.part, other.part, sampled, intervals, found, allowed) if len(intervals) else found
+    return _refined(one.part, other.part, sampled, intervals, found, limits[0]) if len(intervals) else found
 
 
 def _at(one: SweptPart, other: SweptPart, index: IntArray) -> FloatArray:

@@ -38,7 +38,7 @@ GUIDED = "guide-cams"
 """The beat with which the cams go down."""
 
 HORIZON = 50 * mm
-"""Bodies whose swept boxes are farther apart are clear of each other [m]."""
+"""Bodies that are always farther apart are not reported [m]."""
 
 TOOLS = ("side grippers", LEFT_ARM, RIGHT_ARM, "centre gripper", "opener", "lower plate of the opener", "sley")
 SHEETS = (EVEN, ODD, WARPS)

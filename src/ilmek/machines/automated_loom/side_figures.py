@@ -53,7 +53,7 @@ def room(loom: LoomDesign) -> Drawing:
         *(Stroke(polygon, "outline", "comb at rest", closed=True, filled=True) for polygon in view.comb),
         *(Stroke(polygon + down, "construction", closed=True) for polygon in view.comb),
         *((Stroke(stroke, "path", "path of the comb's tip"),) if np.ptp(stroke.real) > _SEEN else ()),
-        Stroke(rectangle(view.carrier), "outline", "carrier of the weft", closed=True, filled=True),
+        Stroke(rectangle(view.carrier), "outline", closed=True, filled=True),
         *_head(view, 0.0, "outline", "head while it knots"),
         *_head(view, view.retreat, "construction"),
         *_room_dimensions(view, sight.real),
