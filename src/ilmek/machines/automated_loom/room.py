@@ -29,7 +29,7 @@ from ilmek.machines.automated_loom.cyclogram import EVEN, ODD
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.weaver.motions import LEFT_ARM, RIGHT_ARM
 from ilmek.records import record
-from ilmek.report import Check, at_least
+from ilmek.report import Check, Table, at_least, columns
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.timing.track import joints
 from ilmek.units import deg, mm
@@ -122,3 +122,15 @@ def _check(found: RoomFound, limit: float) -> Check:
     limit = 0.0 if FRAME.issuperset(names) else limit
     cure = next((CURES[name] for name in CURES if name in names), "leave the spans of the shed open")
     return replace(at_least(f"clearance: {one.first} and {one.second}", one.value, limit, "mm", where), cure=cure)
+
+
+def room_tables(found: tuple[RoomFound, ...]) -> tuple[Table, ...]:
+    """Least clearances, and the bodies that may touch with the reasons."""
+    near = tuple(
+        (one.distance.first, one.distance.second, one.distance.value, one.cyclogram, one.distance.angle) for one in found
+    )
+    touching = tuple((*sorted(pair), why) for pair, why in TOUCHING.items())
+    return (
+        Table("loom-room", "Least clearances", columns("body", "and", "least [mm]", "cyclogram", "at [deg]"), near),
+        Table("loom-touching", "Bodies that may touch", columns("body", "and", "why"), touching),
+    )

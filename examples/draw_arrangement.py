@@ -1,0 +1,31 @@
+"""Draws docs/_static/loom-side.svg and loom-side-room.svg: the default loom from the side, beating with a comb.
+
+Run it as `python examples/draw_arrangement.py`; it ends with the least clearance of all that moves.
+"""
+
+from pathlib import Path
+
+from ilmek.machines.automated_loom import AutomatedLoomParams, design
+from ilmek.machines.automated_loom.room import clearances
+from ilmek.machines.automated_loom.side_figures import room, side
+from ilmek.units import format_quantity
+from ilmek.viz.svg import svg
+
+OUT = Path(__file__).parents[1] / "docs" / "_static"
+
+
+def drawn() -> dict[str, str]:
+    """The figures of the default loom, by name."""
+    loom = design(AutomatedLoomParams(beat="comb"))
+    return {figure.name: svg(figure) + "\n" for figure in (side(loom), room(loom))}
+
+
+def least() -> float:
+    """The least clearance [m]."""
+    return min(one.distance.value for one in clearances(design(AutomatedLoomParams(beat="comb"))))
+
+
+if __name__ == "__main__":
+    for name, text in drawn().items():
+        (OUT / f"{name}.svg").write_text(text, encoding="utf-8")
+    print(format_quantity(least(), "mm", 3))
