@@ -6,6 +6,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from examples import draw_arrangement
 
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.machines.arrangement.clearances import (
@@ -18,9 +19,11 @@ from ilmek.machines.arrangement.clearances import (
 from ilmek.machines.arrangement.spans import ShedRoom, shed_spans, spans_at
 from ilmek.machines.automated_loom import LoomDesign, design
 from ilmek.machines.automated_loom.bodies import CARRIER, GUIDE_CAMS, LEAVES, knot_bodies, row_bodies
+from ilmek.machines.automated_loom.figures import front
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.automated_loom.parts import parts_of_loom
-from ilmek.machines.automated_loom.room import TOUCHING, clearances, room_checks
+from ilmek.machines.automated_loom.room import TOUCHING, clearances, room_checks, room_tables
+from ilmek.machines.automated_loom.side_figures import room, side
 from ilmek.units import deg, mm, turn
 
 ROOM = ShedRoom(24 * mm, 36 * mm, 54 * mm, 20 * mm, 80 * mm, 30 * mm, 0.28, 0.35, 70 * mm, 1 * mm, 3 * mm)
@@ -218,3 +221,52 @@ def test_coordinates_agree() -> None:
     assert side.loom_height > side.spans.back_rest + side.fell_height
     assert side.lower.at.imag - side.roll > side.floor
     assert side.roll**2 == pytest.approx(side.lower.radius**2 + 1.8 * (8 * mm + 3 * side.room.warp) / math.pi)
+
+
+def test_the_figures_of_the_docs_are_those_of_the_default_loom() -> None:
+    for name, text in draw_arrangement.drawn().items():
+        assert 'width="' in text
+        assert (draw_arrangement.OUT / f"{name}.svg").read_text(encoding="utf-8")[:200] == text[:200]
+    assert draw_arrangement.least() >= 2 * mm
+
+
+def test_the_side_views_dimensions_are_the_results() -> None:
+    made = loom()
+    (retreat,) = (one for one in room(made).strokes if one.label.startswith("retreat"))
+    assert abs(retreat.points[1] - retreat.points[0]) == pytest.approx(made.side.retreat)
+    spans = [one for one in side(made).strokes if one.role == "dimension"]
+    lengths = [abs(one.points[-1] - one.points[0]) for one in spans]
+    for size in (made.side.front_span, made.side.back_span, made.side.fell_height, made.side.loom_height):
+        assert any(length == pytest.approx(size) for length in lengths)
+
+
+def test_front_and_side_show_the_same_heights() -> None:
+    made = loom()
+    columns = [one for one in front(made).strokes if one.closed and one.points.real.min() < 0]
+    assert max(one.points.imag.max() for one in columns) == pytest.approx(made.side.loom_height)
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [
+        {"beat": "linkage"},
+        {"beat": "guide-cams"},
+        {"knot": "asymmetric"},
+        {"width": "4m"},
+        {"shedding.shafts": "2"},
+        {"knots_across": "60/dm"},
+        {"shedding.half_span": "80mm"},
+    ],
+    ids=str,
+)
+def test_other_looms_have_their_views_and_clearances(settings: dict[str, str]) -> None:
+    made = loom(**settings)
+    found = clearances(made)
+    assert found
+    assert len(side(made).strokes) > 20
+    assert len(room(made).strokes) > 10
+    kept = all(check.ok for check in room_checks(made, found))
+    assert kept == ("shedding.half_span" not in settings)
+    tables = room_tables(found)
+    assert len(tables[0].rows) == len(found)
+    assert all(all(row) for row in tables[1].rows)

@@ -118,7 +118,7 @@ def shed_room(task: "LoomTask") -> ShedRoom:
         carrier_depth=weft.carrier_depth,
         carrier_width=weft.carrier_width,
         opening=params.open_share * params.lift,
-        leaf_height=task.params.machines.of("hammer").get("leaf_height", LEAF_HEIGHT),
+        leaf_height=float(task.params.machines.of("hammer").get("leaf_height") or LEAF_HEIGHT),
         head=USUAL_HEAD,
         back_rest=max(made.roller_radius, BACK_REST) if made else BACK_REST,
         swing=max(made.swing, COMPENSATOR) if made else COMPENSATOR,

@@ -8,12 +8,12 @@ import numpy as np
 
 from ilmek.elements.prices import price_of
 from ilmek.machines.automated_loom.choice import deadline_check, row_check
-from ilmek.machines.automated_loom.cyclogram import BEATER, CARRIAGE, TAKE_UP, cam_tables_of
+from ilmek.machines.automated_loom.cyclogram import BEATER, CARRIAGE, HEADS, TAKE_UP, cam_tables_of
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.energy import Energy, energy_of
 from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time, time_shares
 from ilmek.machines.automated_loom.parts import PartsList, parts_of_loom
-from ilmek.machines.automated_loom.room import HORIZON, RoomFound, clearances, room_checks
+from ilmek.machines.automated_loom.room import HORIZON, RoomFound, clearances, room_checks, room_tables
 from ilmek.machines.beat import BeatDrive
 from ilmek.records import computed, record
 from ilmek.report import CamTable, Check, Json, Report, Table, at_least, at_most, columns
@@ -120,7 +120,27 @@ def checks(found: LoomAnalysis) -> tuple[Check, ...]:
         *(replace(check, name=f"row: {check.name}") for check in check_all(row, row.relations)),
         *(replace(check_apart(knot, one), name=f"knot: {one.label(knot.units)}") for one in knot.exclusions),
         *room_checks(loom, found.room),
+        *_retreat_checks(loom),
         *found.listed.frame.checks,
+    )
+
+
+def _retreat_checks(loom: LoomDesign) -> tuple[Check, ...]:
+    """The limits of the axes on which the heads' rail retreats."""
+    params, row = loom.params, loom.row_cyclogram
+    heads = row.track(HEADS)
+    speed, acceleration = peak_speed(heads, row.period), peak_acceleration(heads, row.period)
+    cure = "set a lower shed_speed, or a higher limit"
+    return (
+        at_most("heads: speed of the retreat", speed, params.retreat_speed, "m/s", "retreat_speed", cure=cure),
+        at_most(
+            "heads: acceleration of the retreat",
+            acceleration,
+            params.retreat_acceleration,
+            "m/s^2",
+            "retreat_acceleration",
+            cure=cure,
+        ),
     )
 
 
@@ -150,8 +170,9 @@ def _least_room(loom: LoomDesign) -> float:
 
 
 def tables(found: LoomAnalysis) -> tuple[Table, ...]:
-    """Time by number of heads, parts, prices, motions of a row."""
-    return (_heads_table(found), _parts_table(found.listed), _prices_table(found.listed), _row_table(found.loom))
+    """Time by number of heads, parts, prices, motions of a row, clearances."""
+    listed = _heads_table(found), _parts_table(found.listed), _prices_table(found.listed), _row_table(found.loom)
+    return (*listed, *room_tables(found.room))
 
 
 def _heads_table(found: LoomAnalysis) -> Table:

@@ -126,9 +126,8 @@ def _check(found: RoomFound, limit: float) -> Check:
 
 def room_tables(found: tuple[RoomFound, ...]) -> tuple[Table, ...]:
     """Least clearances, and the bodies that may touch with the reasons."""
-    near = tuple(
-        (one.distance.first, one.distance.second, one.distance.value, one.cyclogram, one.distance.angle) for one in found
-    )
+    bodies = ((one.distance, one.cyclogram) for one in found)
+    near = tuple((one.first, one.second, one.value, name, one.angle) for one, name in bodies)
     touching = tuple((*sorted(pair), why) for pair, why in TOUCHING.items())
     return (
         Table("loom-room", "Least clearances", columns("body", "and", "least [mm]", "cyclogram", "at [deg]"), near),

@@ -63,8 +63,9 @@ def fit(task: LoomTask) -> SheddingParams:
 
 def _usual(task: LoomTask, given: Mapping[str, Any]) -> SheddingParams:
     """Parameters with the loom's lift, for spans of which the user may set one or all."""
-    both = {} if "half_span" in given else {"front_span": USUAL_SPAN, "back_span": USUAL_SPAN}
-    return SheddingParams(lift=task.params.lift, tension=task.tension, **{"half_span": given.get("half_span"), **both})
+    if "half_span" in given:
+        return SheddingParams(lift=task.params.lift, tension=task.tension, half_span=given["half_span"])
+    return SheddingParams(lift=task.params.lift, tension=task.tension, front_span=USUAL_SPAN, back_span=USUAL_SPAN)
 
 
 def _outline_of(made: SheddingDesign) -> _Outline:
