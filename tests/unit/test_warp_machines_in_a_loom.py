@@ -113,3 +113,12 @@ def test_cams_are_designed_for_the_tension_that_the_compensator_leaves(settings:
     assert loom.shedding.params.compensation == pytest.approx(compensator.relief, abs=0.02)
     assert loom.warp_tension.loads.lifted == pytest.approx(compensator.tension_open, rel=0.01)
     assert compensator.swing <= loom.side.room.swing
+
+
+@pytest.mark.parametrize("kind", ["travelling", "comb"])
+def test_the_beat_pulls_at_the_warps_that_it_beats(kind: str) -> None:
+    loom = design(AutomatedLoomParams.read({"beat": kind}))
+    loads, drive = loom.warp_tension.loads, loom.beat
+    assert loads.beat == pytest.approx(15.0 + drive.warp_force_extra)
+    assert loads.pull("beat") == pytest.approx(608 * 15.0 + drive.beaten * drive.warp_force_extra)
+    assert loads.worst_case == ("beat" if kind == "comb" else "shed open")

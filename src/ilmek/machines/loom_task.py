@@ -10,6 +10,7 @@ from ilmek.records import record
 if TYPE_CHECKING:
     from ilmek.machines.arrangement.side_view import SideView
     from ilmek.machines.automated_loom.params import AutomatedLoomParams
+    from ilmek.machines.beat import BeatDrive
 
 P = TypeVar("P", bound=Params)
 
@@ -24,6 +25,7 @@ class LoomTask:
     take_up_time, row_time  [s]: of the take-up; of the shortest row; nan before they are known
     designs  of the machines designed before, by their names
     side     the side view of the loom; None before the shedding is designed
+    beat     the drive of the beat; None before it is designed
     """
 
     params: "AutomatedLoomParams"
@@ -36,6 +38,7 @@ class LoomTask:
     take_up_time: float = float("nan")
     row_time: float = float("nan")
     side: "SideView | None" = None
+    beat: "BeatDrive | None" = None
 
     @property
     def warps(self) -> int:

@@ -7,7 +7,7 @@ beat        n (T + kw x): the fell yields by x under the force R that the requir
 
 from ilmek.machines.loom_task import LoomTask
 from ilmek.records import computed, record, result
-from ilmek.weaving.fell import Fabric, assumed_fabric
+from ilmek.weaving.fell import Fabric
 from ilmek.weaving.shed import shed_lengthening
 from ilmek.weaving.tension import RATE_SHARE, TENSION_LEAST, TENSION_MOST, bars_needed, compensated_tension
 
@@ -16,13 +16,14 @@ STANDING, SHED, BEAT = "standing", "shed open", "beat"
 
 @record
 class WarpLoads:
-    """Tensions of a warp in the three cases [N]."""
+    """Tensions of a warp in the three cases [N]; `beaten`: warps that are beaten at once."""
 
     warps: int
+    beaten: int
     rest: float
     lifted: float = result("N", "tension of a lifted warp, the shed open", name="tension_lifted")
     others: float = result("N", "tension of the other warps then", name="tension_not_lifted")
-    beat: float = result("N", "tension of a warp at the beat", name="tension_beat")
+    beat: float = result("N", "tension of a warp that is beaten", name="tension_beat")
 
     pulls = computed("kN", "pull of all warps, by case", lambda it: {one: it.pull(one) for one in it.cases})
     worst_case = computed("", "case of the greatest pull", lambda it: max(it.cases, key=it.pull))
@@ -34,7 +35,8 @@ class WarpLoads:
         """Mean tension of a warp by case [N]."""
         even = (self.warps + 1) // 2 / self.warps
         shed = even * max(self.lifted, self.others) + (1 - even) * min(self.lifted, self.others)
-        return {STANDING: self.rest, SHED: shed, BEAT: self.beat}
+        beat = self.rest + (self.beat - self.rest) * self.beaten / self.warps
+        return {STANDING: self.rest, SHED: shed, BEAT: beat}
 
     def pull(self, case: str) -> float:
         """Pull of all warps in a case [N]."""
@@ -49,6 +51,7 @@ class WarpLoads:
 def beat_tension(fabric: Fabric, row_pitch: float) -> float:
     """Tension of a warp [N] while the fell resists with the force that rows at a pitch [m] need.
 
+    >>> from ilmek.weaving.fell import assumed_fabric
     >>> round(beat_tension(assumed_fabric(4e-3, 15.0, 1800.0, 1.5), 4e-3), 9)
     17.5
     """
@@ -75,15 +78,16 @@ def _number(value: object, usual: float) -> float:
 def loads_in_loom(task: LoomTask) -> WarpLoads:
     """The loads of a loom's warps; with the tensions that its compensator leaves, where it is among the designs.
 
-    For the beat the compensator is taken as fixed, and all warps as beaten at once: both are the worst.
+    For the beat the compensator is taken as fixed: that stretches the warps most.
     """
     side, tension, stiffness = task.side, task.tension, task.yarns.warp.stiffness
     assert side is not None
-    fabric = assumed_fabric(task.row_pitch, tension, stiffness, side.warp_length)
     compensator = task.designs.get("tension-compensator")
     if compensator is None:
-        longer = float(shed_lengthening(side.cams[0].lift, side.front_span, side.back_span))
+        longer = float(shed_lengthening(side.lift, side.front_span, side.back_span))
         lifted, others = tension + stiffness / side.warp_length * longer, tension
     else:
         lifted, others = compensator.tension_open, compensator.tension_low
-    return WarpLoads(task.warps, tension, lifted, others, beat_tension(fabric, task.row_pitch))
+    if task.beat is None:
+        return WarpLoads(task.warps, task.warps, tension, lifted, others, tension)
+    return WarpLoads(task.warps, task.beat.beaten, tension, lifted, others, tension + task.beat.warp_force_extra)

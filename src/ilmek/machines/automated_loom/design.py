@@ -198,6 +198,7 @@ def with_beat(ready: ReadyLoom, option: BeatOption, choices: tuple[Choice, ...] 
         row_time=least_time(1, columns, heads, times),
     )
     beat = option.plan.drive(task)
+    task = replace(task, beat=beat)
     for name in loom_parts():
         if name not in BEFORE_THE_ROW:
             machines[name], task = _made(name, task)

@@ -38,6 +38,7 @@ def fit(task: LoomTask) -> WarpTensionParams:
             tension_shed=loads.lifted,
             tension_shed_low=loads.others,
             tension_beat=loads.beat,
+            warps_beaten=loads.beaten,
             breaking_force=task.yarns.warp.breaking_force,
         ),
     )

@@ -33,5 +33,5 @@ def loads_of(params: WarpTensionParams) -> WarpLoads:
     if beat is None:
         fabric = assumed_fabric(params.row_pitch, params.tension, stiffness_of(params), params.free_length)
         beat = beat_tension(fabric, params.row_pitch)
-    shed = tensions_of(params).shed
-    return WarpLoads(params.warps, params.tension, shed, params.tension if low is None else low, beat)
+    shed, beaten = tensions_of(params).shed, min(params.warps_beaten or params.warps, params.warps)
+    return WarpLoads(params.warps, beaten, params.tension, shed, params.tension if low is None else low, beat)

@@ -101,6 +101,9 @@ class WarpTensionParams(Params):
     tension_beat: float | None = kind.force(
         None, at_least=1e-6, at_most=1e5, doc="tension of a warp at the beat; default: as the required rows need"
     )
+    warps_beaten: int | None = kind.count(
+        None, at_least=1, at_most=100_000, doc="warps that are beaten at once; default: all"
+    )
     breaking_force: float | None = kind.force(
         None, at_least=1e-6, at_most=1e6, doc="breaking force of a warp; default: of the usual warp, of cotton"
     )

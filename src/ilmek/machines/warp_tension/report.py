@@ -113,7 +113,7 @@ def _warp_checks(found: WarpTensionAnalysis) -> tuple[Check, ...]:
 
 
 def warnings(found: WarpTensionAnalysis) -> tuple[str, ...]:
-    """Drives that do not hold the warps or are too weak; a spacer for which there is no tube."""
+    """Drives that do not hold the warps or are too weak."""
     design, made = found.design, []
     params, efficiency = design.params, format_number(design.params.efficiency)
     if params.self_locking and not design.reducer.self_locking:
@@ -128,11 +128,6 @@ def warnings(found: WarpTensionAnalysis) -> tuple[str, ...]:
         )
     if params.motor_torque is None and design.motor is None:
         made.append(no_motor(design.motor_torque, design.motor_speed))
-    spacer = found.spacer
-    if params.spacer_tube is None and (
-        spacer.slope > params.slope_limit or spacer.deflection > params.deflection_limit
-    ):
-        made.append("no stock tube is stiff enough for the spacer: lower the tension, width or spacer_wrap")
     return tuple(made)
 
 
