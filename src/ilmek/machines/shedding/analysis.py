@@ -1,6 +1,5 @@
 """What only the report of shedding cams needs: other phases of the cams, and the warps as yarns draped over them."""
 
-import math
 
 import numpy as np
 
@@ -73,7 +72,7 @@ class SheddingAnalysis:
             "tension_max": tension,
             "lifted_angle": yarn.lifted,
             "wrap_max": wrap,
-            "pressure_max": tension / radius if radius > 0 else math.inf,
+            "pressure_max": tension / radius if radius > 0 else None,
             "capstan_ratio": capstan(self.design.params.friction, wrap),
         }
 

@@ -21,6 +21,7 @@ from ilmek.cams.sizing import CamLimits, pressure_prime
 from ilmek.elements.duty import LoadCycle, MotorDuty, duty
 from ilmek.elements.motors import Motor, Reducer, most_torque, smallest_motor, strongest_motor
 from ilmek.elements.nose_buckling import nose_buckling
+from ilmek.elements.shafts import STOCK_SIDES
 from ilmek.elements.square_shaft import SquareShaft, SquareShaftTask, square_shaft
 from ilmek.machines.shedding.params import NO_DWELL, SheddingParams
 from ilmek.machines.shedding.phases import Shed, chosen_shed
@@ -162,10 +163,12 @@ def cam_shaft(params: SheddingParams, numbers: tuple[int, int], shares: PitchSha
     loads, cams = _loads(replace(params, speed=_ANY_SPEED), numbers), sum(numbers)
     smallest, across, shed = loads.smallest, loads.across, replace(loads.shed, params=params)
     torque = max(loads.peaks[0].value, -loads.peaks[1].value)
-    cam = PlateCam(loads.even, params.prime_radius or smallest.value, roller_radius=params.roller_radius)
+    first = params.prime_radius or max(smallest.value, least_prime(params))
+    cam = PlateCam(loads.even, first, roller_radius=params.roller_radius)
     while True:
         mass, inertia = filled(params, cam, shares, cams)
-        shaft = square_shaft(_shaft_task(params, mass, across.value, torque))
+        length = params.shaft_length or cams * shares.pitch
+        shaft = square_shaft(_shaft_task(params, length, mass, across.value, torque))
         least = _for_bore(params, shaft.bar)
         if params.prime_radius is not None or cam.prime_radius >= least or least > LARGEST_PRIME:
             break
@@ -215,6 +218,11 @@ _ANY_SPEED = 1.0
 _ROUNDING = 1e-9
 
 
+def least_prime(params: SheddingParams) -> float:
+    """Prime radius that the bore of the smallest bar of stock, or of a given one, needs [m], in whole millimetres."""
+    return math.ceil(_for_bore(params, params.shaft_bar or STOCK_SIDES[0]) / mm - _ROUNDING) * mm
+
+
 def _for_bore(params: SheddingParams, bar: float) -> float:
     return bar / math.sqrt(2) + params.bore_wall + params.roller_radius
 
@@ -232,7 +240,6 @@ def of_shaft(params: SheddingParams, beyond: float, last: float, number: int) ->
         cam_thickness=None,
         warps=max(number, 2),
         stagger_groups=max(min(params.stagger_groups, number // 2), 1),
-        shaft_length=params.shaft_length or params.warps * params.warp_pitch,
     )
     if spans is None:
         return own
@@ -253,10 +260,10 @@ HIGHEST_LIFT, _LARGEST_PRIME, _LONGEST = 1.0, 2.0, 10.0
 """Bounds of the parameters of a shaft [m]."""
 
 
-def _shaft_task(params: SheddingParams, mass: float, across: float, torque: float) -> SquareShaftTask:
-    """The shaft's task: the mass [kg] of the stack, bores filled, the pull of the warps [N], their torque [N m]."""
+def _shaft_task(params: SheddingParams, length: float, mass: float, across: float, torque: float) -> SquareShaftTask:
+    """The shaft's task: its length [m], the mass of the stack with filled bores [kg], the warps' pull [N], torque [N m]."""
     return SquareShaftTask(
-        length=params.shaft_length or params.warps * params.warp_pitch,
+        length=length,
         spans=params.spans,
         speed=params.speed,
         mass=mass,

@@ -24,7 +24,7 @@ from ilmek.cams import limits
 from ilmek.cams.plate import PlateCam
 from ilmek.cams.programme import TURN, CamProgramme, jumps
 from ilmek.elements.square_shaft import SquareShaft
-from ilmek.machines.shedding.cam_shaft import CamShaft, SheddingDrive, cam_shaft, of_shaft, smallest_prime
+from ilmek.machines.shedding.cam_shaft import CamShaft, SheddingDrive, cam_shaft, least_prime, of_shaft, smallest_prime
 from ilmek.machines.shedding.guideway import Guideway, guideway_of
 from ilmek.machines.shedding.params import SheddingParams
 from ilmek.machines.shedding.phases import Shed
@@ -233,20 +233,19 @@ def design(params: SheddingParams) -> SheddingDesign:
 
 def _shafts(params: SheddingParams, chosen: ChosenStack, slender: float) -> tuple[CamShaft, ...]:
     """The shafts, so far apart that the guides of neighbours clear each other also where bores enlarge the cams."""
-    numbers, least_prime = dealt(params.warps, chosen.shafts), 0.0
+    numbers, needed = dealt(params.warps, chosen.shafts), least_prime(params)
     if chosen.shafts == 1:
         return (cam_shaft(params, numbers[0], chosen.shares),)
     for _ in range(_TRIALS):
-        along = positions(params, chosen.shafts, slender, least_prime)
+        along = positions(params, chosen.shafts, slender, needed)
         shafts = tuple(
             cam_shaft(of_shaft(params, beyond, along[-1], sum(number)), number, chosen.shares, beyond)
             for beyond, number in zip(along, numbers, strict=True)
         )
         enlarged = [one.cam.prime_radius for one in shafts if one.cam.prime_radius > one.params.lift * slender + _SAME]
-        needed = max(enlarged, default=0.0)
-        if needed <= least_prime:
+        if max(enlarged, default=0.0) <= needed:
             break
-        least_prime = needed
+        needed = max(enlarged)
     return shafts
 
 

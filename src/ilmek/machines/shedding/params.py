@@ -151,7 +151,7 @@ class SheddingParams(Params):
         unit="s",
         at_least=1e-3,
         at_most=60.0,
-        doc="time in which the shaft stops, or starts; default: it turns on",
+        doc="time in which the shaft stops or starts; default: it turns on",
     )
     shaft_length: float | None = kind.length(
         None, unit="m", at_least=1 * mm, at_most=20.0, doc="between its bearings; default: warps x pitch", symbol="l"

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.elements.nose_buckling import nose_buckling
-from ilmek.machines.shedding.cam_shaft import of_shaft
+from ilmek.machines.shedding.cam_shaft import least_prime, of_shaft
 from ilmek.machines.shedding.params import AUTO, DISCS, MOST_SHAFTS, REED, SheddingParams
 from ilmek.machines.shedding.positions import positions
 from ilmek.machines.shedding.stack import PitchShares, shared
@@ -114,7 +114,7 @@ ONE_LINE = 1e-4
 def _standing_checks(params: SheddingParams, shafts: int, shares: PitchShares, slender: float) -> tuple[Check, ...]:
     """Buckling on the last shaft, where the lift is highest, and the shed line; before the shafts are designed."""
     prime = params.prime_radius
-    along = positions(params, shafts, slender if prime is None else prime / params.lift)
+    along = positions(params, shafts, slender if prime is None else prime / params.lift, least_prime(params))
     last = of_shaft(params, along[-1], along[-1], params.warps)
     cosine = math.cos(params.pressure_angle_limit)
     force = float(warp_force(last, np.array(last.lift))) / cosine
