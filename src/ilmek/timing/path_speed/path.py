@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 from typing import TypeAlias
 
 import numpy as np
-from scipy.interpolate import BPoly, PPoly
+from scipy.interpolate import PPoly
 
 from ilmek.arrays import Float, FloatArray
 from ilmek.errors import ParameterError
@@ -66,8 +66,21 @@ class JointPath:
             raise ParameterError("nodes of a path", allowed="two or more, s ascending, all numbers finite")
         if not (np.ptp(self.positions, axis=0).any() or self.slopes.any()):
             raise ParameterError("a path on which no axis moves", allowed="one that moves", do="omit the path")
-        values = np.stack([self.positions, self.slopes, self.bends], axis=1)
-        object.__setattr__(self, "_curve", PPoly.from_bernstein_basis(BPoly.from_derivatives(self.s, values)))
+        object.__setattr__(self, "_curve", PPoly(self._coefficients(), self.s))
+
+    def _coefficients(self) -> FloatArray:
+        """Coefficients of the quintics between the nodes, the highest power first: (6, intervals, axes)."""
+        h = np.diff(self.s)[:, None]
+        p, v, b = self.positions[:-1], self.slopes[:-1], self.bends[:-1]
+        rest = self.positions[1:] - p - v * h - b * h**2 / 2  # beyond the parabola of the left node
+        slope = (self.slopes[1:] - v - b * h) * h
+        bend = (self.bends[1:] - b) * h**2 / 2
+        third, fourth, fifth = (
+            10 * rest - 4 * slope + bend,
+            -15 * rest + 7 * slope - 2 * bend,
+            6 * rest - 3 * slope + bend,
+        )
+        return np.stack([fifth / h**5, fourth / h**4, third / h**3, b / 2, v, p])
 
     @property
     def length(self) -> float:
