@@ -15,10 +15,11 @@ _BESIDE = 3
 
 def opener_figures(weaver: Weaver) -> tuple[Figure, ...]:
     """The opener's plan view and its forces."""
-    return _plan(weaver.opener), _forces(weaver.opener)
+    return opener_plan(weaver.opener), _forces(weaver.opener)
 
 
-def _plan(opener: Opener) -> Drawing:
+def opener_plan(opener: Opener) -> Drawing:
+    """The warps beside the opened pair, and as they stand without the opener."""
     moved = opener.shifts
     natural = opener.pitch * (1.5 + np.arange(len(moved) + _BESIDE))
     stands = natural + np.concatenate([moved, np.zeros(_BESIDE)])
