@@ -8,7 +8,14 @@ import numpy as np
 
 from ilmek.elements.prices import price_of
 from ilmek.machines.automated_loom.choice import deadline_check, row_check
-from ilmek.machines.automated_loom.cyclogram import BEATER, CARRIAGE, HEADS, TAKE_UP, cam_tables_of
+from ilmek.machines.automated_loom.cyclogram import (
+    BEATER,
+    CARRIAGE,
+    HEADS,
+    TAKE_UP,
+    cam_tables_of,
+    shortest_passage,
+)
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.energy import Energy, energy_of
 from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time, time_shares
@@ -233,7 +240,7 @@ def warnings(found: LoomAnalysis) -> tuple[str, ...]:
     turned = loom.shedding.params.speed
     if turned < params.shed_speed * (1 - 1e-9):
         slower = format_quantity(turned, "rpm")
-        texts.append(
-            f"the shedding cams turn at {slower} only: the {loom.row_timing.carrier} needs that time at this width"
-        )
+        passing = shortest_passage(loom.row_timing) >= turn / turned * (1 - 1e-9)
+        slowest = f"the {loom.row_timing.carrier} needs" if passing else "the heads' retreat needs"
+        texts.append(f"the shedding cams turn at {slower} only: {slowest} that time")
     return tuple(texts)
