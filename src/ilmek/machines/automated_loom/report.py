@@ -28,6 +28,10 @@ from ilmek.timing.cyclogram import check_all, check_apart
 from ilmek.timing.track import peak_acceleration, peak_speed
 from ilmek.units import format_quantity, turn
 
+FEWER_HEADS = "set fewer heads, or narrower ones"
+SLOWER_CAMS = "set a lower shed_speed, or a quicker weft and beat"
+SLOWER_KNOT = "set a longer knot_cycle, or a quicker carriage"
+
 HEAVY_SHARE = 0.25
 """Weight of a cylinder over the pull of its warps from which there is a warning; assumed by this project."""
 
@@ -108,24 +112,37 @@ def checks(found: LoomAnalysis) -> tuple[Check, ...]:
     carrier, weft = loom.row_timing.carrier, loom.weft
     moving = row.track(carrier)
     speed, acceleration = peak_speed(moving, row.period), peak_acceleration(moving, row.period)
-    apart = (at_least("distance of two heads", loom.head_distance, loom.head_width, "mm", "head_width"),)
+    apart = (
+        at_least("distance of two heads", loom.head_distance, loom.head_width, "mm", "head_width", cure=FEWER_HEADS),
+    )
     return (
-        at_most("heads that share a row", loom.heads, loom.heads_max, "1", "width and head_width"),
+        at_most("heads that share a row", loom.heads, loom.heads_max, "1", "width and head_width", cure=FEWER_HEADS),
         *(apart if loom.heads > 1 else ()),
         row_check(found.beat),
         *found.beat.checks,
         *_wishes(found),
-        at_most(f"{carrier}: speed", speed, weft.params.speed, "m/s", "weft.speed"),
-        at_most(f"{carrier}: acceleration", acceleration, weft.params.acceleration, "m/s^2", "weft.acceleration"),
+        at_most(f"{carrier}: speed", speed, weft.params.speed, "m/s", "weft.speed", cure=SLOWER_CAMS),
+        at_most(
+            f"{carrier}: acceleration",
+            acceleration,
+            weft.params.acceleration,
+            "m/s^2",
+            "weft.acceleration",
+            cure=SLOWER_CAMS,
+        ),
         at_least(
             f"{carrier}: room in the shed",
             _least_room(loom),
             loom.shedding.params.shuttle_height,
             "mm",
             "open_share of the lift",
+            cure="set a larger lift, or a smaller open_share",
         ),
-        *(replace(check, name=f"row: {check.name}") for check in check_all(row, row.relations)),
-        *(replace(check_apart(knot, one), name=f"knot: {one.label(knot.units)}") for one in knot.exclusions),
+        *(replace(check, name=f"row: {check.name}", cure=SLOWER_CAMS) for check in check_all(row, row.relations)),
+        *(
+            replace(check_apart(knot, one), name=f"knot: {one.label(knot.units)}", cure=SLOWER_KNOT)
+            for one in knot.exclusions
+        ),
         *room_checks(loom, found.room),
         *_retreat_checks(loom),
         *found.listed.frame.checks,

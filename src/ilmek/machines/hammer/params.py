@@ -129,7 +129,9 @@ class HammerParams(Params):
     shed_speed: float = kind.angular_speed(
         5 * rpm, at_least=0.01 * rpm, at_most=120 * rpm, doc="speed of the shed cams"
     )
-    step: float = kind.angle(90 * deg, at_least=1e-3 * deg, at_most=180 * deg, doc="cam angle of a beat: down, press, up")
+    step: float = kind.angle(
+        90 * deg, at_least=1e-3 * deg, at_most=180 * deg, doc="cam angle of a beat: down, press, up"
+    )
     press_share: float = kind.ratio(0.15, at_least=0.0, at_most=0.9, doc="share of it for which the comb presses")
     stack_mass: float | None = kind.mass(
         None, at_least=0.0, at_most=1e5, doc="cams that go down with the comb; default: 550 kg on 1.2 m"

@@ -1,6 +1,5 @@
 """What only the report of shedding cams needs: other phases of the cams, and the warps as yarns draped over them."""
 
-
 import numpy as np
 
 from ilmek.machines.shedding.design import SheddingDesign
