@@ -7,11 +7,10 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.cams.laws import LAWS
 from ilmek.cams.programme import TURN, CamProgramme, dwell, fall, rise
-from ilmek.machines.tension_compensator.design import TensionCompensator
+from ilmek.machines.tension_compensator.design import TensionCompensator, equilibrium_tension
 from ilmek.machines.tension_compensator.linkage import PIVOT, lever_forces, spring_forces
 from ilmek.machines.tension_compensator.params import TensionCompensatorParams
 from ilmek.machines.tension_compensator.synthesis import BarTask, SprungLever
-from ilmek.num.brackets import bracketed_roots
 from ilmek.records import computed, group, record
 from ilmek.weaving.shed import shed_lengthening
 
@@ -23,6 +22,9 @@ BALANCE = 1e-6
 
 BEYOND = 0.02
 """Rotation beyond rest and open shed in which the equilibrium is sought [rad]."""
+
+TABLE, POLISHING = 129, 5
+"""Rotations of the table by which the equilibrium is found, and corrections after it."""
 
 
 @record
@@ -85,18 +87,26 @@ def lifting(params: TensionCompensatorParams) -> CamProgramme:
 def equilibrium(one: SprungLever, lengthening: FloatArray) -> FloatArray:
     """Rotations of a lever [rad] at which warps of a mean lengthening [m] and springs are in equilibrium.
 
-    0 where there is none: the lever counts as fixed.
+    The lengthening that belongs to a rotation is known in closed form: what the lever gives and what the tension that
+    holds the springs stretches. It is inverted on a table, then to rounding. 0 where the lever counts as fixed: where
+    the lengthening does not grow with the rotation, a small one has no equilibrium.
     """
-    lever, task = one.lever, one.task
+    task, fixed = one.task, np.zeros(lengthening.shape)
+    if one.angle <= 0:
+        return fixed
 
-    def torque(phi: FloatArray) -> FloatArray:
-        tension = mean_tension(task, lengthening, lever.slack(phi))
-        warps = task.warps * tension * lever.warp_arm(phi)
-        return np.asarray(warps - one.springs * spring_forces(one, phi) * lever.spring_moment_arm(phi))
+    def longer(phi: FloatArray) -> FloatArray:
+        return np.asarray(one.lever.slack(phi) + (equilibrium_tension(one, phi) - task.tension) / task.rate)
 
-    low = np.full(lengthening.shape, -BEYOND)
-    found = bracketed_roots(torque, low, np.full(lengthening.shape, one.angle + BEYOND))
-    return np.where(np.isfinite(found) & (one.angle > 0), found, 0.0)
+    angles = np.linspace(-BEYOND, one.angle + BEYOND, TABLE)
+    table = longer(angles)
+    slope = np.gradient(table, angles)
+    if not (slope > 0).all():
+        return fixed
+    found = np.interp(lengthening, table, angles)
+    for _ in range(POLISHING):
+        found = found - (longer(found) - lengthening) / np.interp(found, angles, slope)
+    return np.asarray(found)
 
 
 def mean_tension(task: BarTask, lengthening: FloatArray, slack: FloatArray) -> FloatArray:
