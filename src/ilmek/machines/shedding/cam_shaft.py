@@ -261,7 +261,7 @@ HIGHEST_LIFT, _LARGEST_PRIME, _LONGEST = 1.0, 2.0, 10.0
 
 
 def _shaft_task(params: SheddingParams, length: float, mass: float, across: float, torque: float) -> SquareShaftTask:
-    """The shaft's task: its length [m], the mass of the stack with filled bores [kg], the warps' pull [N], torque [N m]."""
+    """The shaft's task: its length [m], the stack's mass with filled bores [kg], the warps' pull [N], torque [N m]."""
     return SquareShaftTask(
         length=length,
         spans=params.spans,
