@@ -31,9 +31,16 @@ class Reason:
 
 
 def reasons(checks: Iterable[Check]) -> tuple[Reason, ...]:
-    """The failed checks, the heaviest first; equal ones in their order."""
+    """The failed checks, the heaviest first; equal ones in their order. A check without a cure refers to its limit."""
     failed = sorted((check for check in checks if not check.ok), key=weight, reverse=True)
-    return tuple(Reason(one.name, one.value, one.limit, one.unit, one.cure, one.source, one.relation) for one in failed)
+    return tuple(
+        Reason(one.name, one.value, one.limit, one.unit, one.cure or _usual_cure(one), one.source, one.relation)
+        for one in failed
+    )
+
+
+def _usual_cure(check: Check) -> str:
+    return f"change what sets its value, or its limit: {check.source}" if check.source else "change what sets its value"
 
 
 def verdict_json(checks: Iterable[Check]) -> dict[str, Any]:

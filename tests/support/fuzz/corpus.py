@@ -21,10 +21,13 @@ from PIL import Image, UnidentifiedImageError, features
 from fuzz.case import MINE, OLD
 from fuzz.mutations import changed_bytes, changed_text, changed_tree, scalar
 from ilmek.io.cyclogram_file import cyclogram_toml
+from ilmek.io.programme_file import write_programme
+from ilmek.io.programme_meta import Label
 from ilmek.jobs.cyclogram import find
 from ilmek.jobs.loom import read_loom_order
 from ilmek.jobs.order import read_order
 from ilmek.jobs.weave import weave
+from ilmek.loom.programme import make_programme
 
 ROOT = Path(__file__).parents[3]
 CYCLOGRAMS = ("weaver", "automated-loom:row", "automated-loom:knot")
@@ -106,6 +109,7 @@ class Corpus:
     texts: dict[str, bytes]
     yarns: dict[str, Any]
     programme: bytes
+    loom: dict[str, Any]
 
 
 def make_corpus() -> Corpus:
@@ -115,8 +119,16 @@ def make_corpus() -> Corpus:
         picture, out = Path(folder) / "rgb.png", Path(folder) / "out"
         picture.write_bytes(pictures["rgb.png"])
         order = read_order(picture, size=SIZE, quality=QUALITY, colours=5)
-        weave(order, read_loom_order(order, heads=2), out)
-        programme = (out / "programme.ilmek").read_bytes()
+        woven = weave(order, read_loom_order(order), out)
+        chart, made = woven.charted.chart, woven.loomed
+        assert made.design is not None
+        by_two = make_programme(chart.knots, len(chart.yarns), 2, made.design.times, bobbins=made.design.bobbins)
+        label = Label(
+            chart.size, chart.quality, chart.knot, chart.yarns, made.design.params.pitch, made.design.cyclograms
+        )
+        write_programme(Path(folder) / "programme.ilmek", by_two, label)
+        programme = (Path(folder) / "programme.ilmek").read_bytes()
+        loom = json.loads((out / "machine.json").read_text(encoding="utf-8"))
     examples = {path.name: path.read_bytes() for path in sorted((ROOT / "examples").glob("*.toml"))}
     examples |= {f"{name.replace(':', '-')}.toml": cyclogram_toml(find(name, {})).encode() for name in CYCLOGRAMS}
     trees = {name: tomllib.loads(text.decode()) for name, text in examples.items()}
@@ -127,6 +139,7 @@ def make_corpus() -> Corpus:
         examples,
         trees["wool.toml"],
         programme,
+        {name: loom[name] for name in ("machine", "parameters", "results", "machines")},
     )
 
 

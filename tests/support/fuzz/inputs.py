@@ -281,6 +281,13 @@ def weave(draw: Random, corpus: Corpus) -> tuple[Words, Files]:
     words += _given(draw, 0.05, "--heads", _one_of("3", "0", "999"))
     words += _given(draw, 0.05, "--deadline", _one_of("1s", "72", "50h"))
     words += _given(draw, 0.1, "--warp-pitch", _one_of("20mm", "10mm", "0mm", "1mm"))
+    words += _given(draw, 0.1, "--aim", _one_of("price", "time", "speed"))
+    if draw.random() < 0.15:
+        loom = json.loads(json.dumps(corpus.loom))
+        if draw.random() < 0.5:
+            loom = {"machine": loom["machine"], "parameters": loom["parameters"]}
+        files["loom.json"] = json.dumps(changed_tree(draw, loom) if draw.random() < 0.8 else loom).encode()
+        return ["weave", *words, "--loom", "loom.json"], files
     for one in _settings(draw, "automated-loom", files) if draw.random() < 0.7 else []:
         words += ["--loom", one]
     return ["weave", *words], files
