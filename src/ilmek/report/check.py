@@ -1,9 +1,9 @@
 """Checks: every judgement of a design is a value against a limit, with the source of the limit."""
 
 import math
-from dataclasses import dataclass
 from typing import Any, Protocol
 
+from ilmek.records import value_record
 from ilmek.report.json import plain
 from ilmek.units import format_quantity
 
@@ -11,7 +11,7 @@ ROUNDING = 1e-9
 """Relative difference to a limit that counts as rounding: a part made for exactly its limit keeps it."""
 
 
-@dataclass(frozen=True, slots=True)
+@value_record
 class Check:
     """A judgement: `value` against `limit` [SI, shown in `unit`], the source of the limit, and what cures a failure."""
 
