@@ -23,6 +23,7 @@ from ilmek.machines.automated_loom.figures import front
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.automated_loom.parts import parts_of_loom
 from ilmek.machines.automated_loom.room import TOUCHING, clearances, room_checks, room_tables
+from ilmek.machines.automated_loom.row_animation import one_row_from_the_side
 from ilmek.machines.automated_loom.side_figures import room, side
 from ilmek.units import deg, mm, turn
 
@@ -143,7 +144,7 @@ def test_bodies_that_are_never_in_the_loom_together_have_no_clearance() -> None:
 
 def test_everything_on_the_default_loom_has_room() -> None:
     found = clearances(loom())
-    assert all(check.ok for check in room_checks(loom(), found))
+    assert all(check.ok for check in room_checks(loom(), found, 0.1))
     pairs = {frozenset((one.distance.first, one.distance.second)) for one in found}
     assert frozenset((CARRIER, "even warps")) in pairs
     assert frozenset((GUIDE_CAMS, LEAVES)) in pairs
@@ -170,7 +171,7 @@ def test_clearances_of_the_loom_are_those_of_brute_force_at_every_degree() -> No
 def test_half_spans_of_80_mm_let_cams_run_into_what_holds_the_warps() -> None:
     """The thesis' loom with spans too short: the clearances find it."""
     made = loom(**{"shedding.half_span": "80mm"})
-    failed = [check for check in room_checks(made, clearances(made)) if not check.ok]
+    failed = [check for check in room_checks(made, clearances(made), 0.1) if not check.ok]
     worst = {check.name: check.value for check in failed}
     assert worst["clearance: guide cams and carpet"] < 0
     assert worst["clearance: guide cams and back rest"] < 0
@@ -179,7 +180,7 @@ def test_half_spans_of_80_mm_let_cams_run_into_what_holds_the_warps() -> None:
 
 def test_a_shed_too_low_for_its_carrier_fails_its_clearance() -> None:
     made = loom(lift="15mm")
-    assert not next(check for check in room_checks(made, clearances(made)) if CARRIER in check.name).ok
+    assert not next(check for check in room_checks(made, clearances(made), 0.1) if CARRIER in check.name).ok
 
 
 def test_heads_retreat_until_the_combs_bar_passes_them() -> None:
@@ -265,8 +266,21 @@ def test_other_looms_have_their_views_and_clearances(settings: dict[str, str]) -
     assert found
     assert len(side(made).strokes) > 20
     assert len(room(made).strokes) > 10
-    kept = all(check.ok for check in room_checks(made, found))
+    kept = all(check.ok for check in room_checks(made, found, 0.1))
     assert kept == ("shedding.half_span" not in settings)
     tables = room_tables(found)
     assert len(tables[0].rows) == len(found)
     assert all(all(row) for row in tables[1].rows)
+
+
+def test_the_row_from_the_side_has_its_carrier_only_in_the_shed() -> None:
+    made = loom()
+    moving_row = one_row_from_the_side(made)
+    carrier = next(one for one in moving_row.strokes if one.label == "carrier").points
+    size = np.ptp(carrier.real, axis=1)
+    first, last = made.row_timing.window
+    inside = (moving_row.at >= first) & (moving_row.at <= last)
+    assert size[inside] == pytest.approx(made.side.carrier.size.real)
+    assert size[moving_row.at < first] == pytest.approx(0.0, abs=1e-12)
+    comb = next(one for one in moving_row.strokes if one.label == "comb").points
+    assert comb.imag.min() == pytest.approx(0.0, abs=10 * mm)

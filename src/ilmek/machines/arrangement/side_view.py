@@ -145,6 +145,11 @@ class SideView:
         return self.cams[0].lift
 
     @property
+    def column(self) -> float:
+        """Axis of the columns, x [m]: of the lower cylinders that they hold."""
+        return self.spacer.at.real
+
+    @property
     def floor(self) -> float:
         """Height of the floor, the fell at 0 [m]."""
         return self.lower.at.imag - self.roll - ABOVE_FLOOR

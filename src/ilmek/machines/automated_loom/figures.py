@@ -11,6 +11,7 @@ from ilmek.loom.sharing import halves, heads_that_fit, share
 from ilmek.machines.arrangement.side_view import CamPosition, SideView
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.estimate import estimated_time, estimated_times_at
+from ilmek.machines.automated_loom.row_animation import one_row_from_the_side
 from ilmek.machines.automated_loom.side_figures import room, side, spread
 from ilmek.report import Axis, Drawing, Mark, Plot, Series, Stroke, Timing
 from ilmek.report.left_out import LazyFigure
@@ -34,7 +35,9 @@ _WIDTH = 0.05
 def figures(loom: LoomDesign) -> tuple[LazyFigure, ...]:
     """The loom's figures, the head's cyclogram among them."""
     scaling = (time_of_one_head,) if loom.heads_max == 1 else (time_against_heads, time_against_pitch)
-    return tuple(partial(make, loom) for make in (side, room, front, one_row, one_knot, *scaling))
+    return tuple(
+        partial(make, loom) for make in (side, room, one_row_from_the_side, front, one_row, one_knot, *scaling)
+    )
 
 
 def one_row(loom: LoomDesign) -> Timing:

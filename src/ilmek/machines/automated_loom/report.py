@@ -143,7 +143,7 @@ def checks(found: LoomAnalysis) -> tuple[Check, ...]:
             replace(check_apart(knot, one), name=f"knot: {one.label(knot.units)}", cure=SLOWER_KNOT)
             for one in knot.exclusions
         ),
-        *room_checks(loom, found.room),
+        *room_checks(loom, found.room, found.listed.frame.column.side),
         *_retreat_checks(loom),
         *found.listed.frame.checks,
     )

@@ -12,6 +12,7 @@ from ilmek.machines.automated_loom.bodies import (
     BACK_REST,
     BAR,
     CARPET,
+    CARRIER,
     COMPENSATOR,
     GUIDE_CAMS,
     HEAD,
@@ -110,9 +111,22 @@ def _of_cyclogram(
     return least_clearances(bodies, angles, limit, TOUCHING, HORIZON)
 
 
-def room_checks(loom: LoomDesign, found: tuple[RoomFound, ...]) -> tuple[Check, ...]:
-    """The clearances against the least that is allowed."""
-    return tuple(_check(one, loom.params.clearance) for one in found)
+def room_checks(loom: LoomDesign, found: tuple[RoomFound, ...], column: float) -> tuple[Check, ...]:
+    """The clearances against the least that is allowed; the carrier runs out in front of the columns.
+
+    column  side of the columns' section [m]
+    """
+    view, limit = loom.side, loom.params.clearance
+    gap = view.carrier.corner.real - view.column - column / 2
+    columns_clear = at_least(
+        f"clearance: {CARRIER} and columns",
+        gap,
+        limit,
+        "mm",
+        "parameter clearance, assumed by this project; at both ends of its run",
+        cure="set a lower tension, for lighter columns",
+    )
+    return (*(_check(one, limit) for one in found), columns_clear)
 
 
 def _check(found: RoomFound, limit: float) -> Check:

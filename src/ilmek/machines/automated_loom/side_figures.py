@@ -58,12 +58,9 @@ def room(loom: LoomDesign) -> Drawing:
         *_head(view, view.retreat, "construction"),
         *_room_dimensions(view, sight.real),
     )
-    note = (
-        "dashed: the comb at the fell, the heads retreated; carrier in the even shed when it may pass at the earliest"
-    )
-    return Drawing(
-        "loom-side-room", "Room between fell and guide cams", strokes, (Dot(0j, "fell", "point"),), "mm", note
-    )
+    note = "the even shed is open; dashed: the comb at the fell, the heads retreated as in the row"
+    dots = Dot(0j, "fell", "point"), Dot(view.carrier.corner + view.carrier.size / 2, "carrier", "point")
+    return Drawing("loom-side-room", "Room between fell and guide cams", strokes, dots, "mm", note)
 
 
 def _front(view: SideView) -> float:
@@ -81,7 +78,7 @@ def _carpet(view: SideView, low: float) -> ComplexArray:
 
 def _frame(view: SideView, left: float, right: float) -> tuple[Stroke, ...]:
     """Floor and one column, behind the others."""
-    column = SideBox(complex(view.spacer.at.real - _COLUMN / 2, view.floor), complex(_COLUMN, view.top - view.floor))
+    column = SideBox(complex(view.column - _COLUMN / 2, view.floor), complex(_COLUMN, view.top - view.floor))
     floor = np.array([left - 0.05, right + 0.1]) + 1j * view.floor
     return Stroke(floor, "ground"), Stroke(rectangle(column), "construction", closed=True)
 
