@@ -10,13 +10,15 @@ USUAL_WARP_LENGTH = 1.5
 
 def loom_fabric(task: LoomTask) -> Fabric:
     """The fabric for one warp of the task. Raises ParameterError where values set for it contradict each other."""
-    carpet = MACHINES["hammer"].params(
-        warps=task.warps,
-        warp_pitch=task.params.pitch,
-        row_pitch=task.row_pitch,
-        tension=task.tension,
-        warp_stiffness=task.yarns.warp.stiffness,
-        warp_length=task.side.warp_length if task.side else USUAL_WARP_LENGTH,
+    carpet = MACHINES["hammer"].params.read(
+        {
+            "warps": task.warps,
+            "warp_pitch": task.params.pitch,
+            "row_pitch": task.row_pitch,
+            "tension": task.tension,
+            "warp_stiffness": task.yarns.warp.stiffness,
+            "warp_length": task.side.warp_length if task.side else USUAL_WARP_LENGTH,
+        }
     )
     fabric: Fabric = task.parameters("hammer", carpet).fabric  # type: ignore[attr-defined]
     return fabric

@@ -30,7 +30,7 @@ from ilmek.report import Check, Json, Part, at_most, must
 from ilmek.units import format_quantity, turn
 from ilmek.weaving.fell import Fabric
 
-CLUTCHES = (7.5, 15.0, 30.0, 60.0, 120.0, 240.0, 480.0, 960.0, 1920.0, 3840.0)
+CLUTCHES = (7.5, 15.0, 30.0, 60.0, 120.0, 240.0, 480.0, 960.0, 1920.0, 3840.0, 7680.0)
 """Torques of clutches and brakes to choose from [N m], each twice the one before: usual sizes."""
 
 CLUTCH_MASS = 0.1

@@ -13,6 +13,7 @@ from ilmek.machines.beat_up.crank_start import crank_start, start_parts
 from ilmek.machines.beat_up.design import BeatUp, design, ground_for
 from ilmek.machines.beat_up.params import BeatUpParams
 from ilmek.machines.beat_up.report import criteria
+from ilmek.machines.beat_up.strength import SECTIONS, strength_checks
 from ilmek.machines.beat_up.travel import travel_parts
 from ilmek.machines.beat_up.use import BeatUpUse, in_use, use_checks
 from ilmek.machines.beat_up.use_params import TravelParams
@@ -21,7 +22,6 @@ from ilmek.machines.loom_task import LoomTask
 from ilmek.records import record
 from ilmek.report import Part, Work
 from ilmek.units import format_quantity, mm, turn
-from ilmek.weaving.fell import Fabric
 
 STEEL = "structural steel"
 
@@ -98,7 +98,8 @@ class TravellingBeat:
 
     def drive(self, task: LoomTask) -> BeatDrive:
         """The same for the time from beat to beat."""
-        params, fabric = task.parameters("beat-up", fit(task)), loom_fabric(task)
+        fabric = loom_fabric(task)
+        params = task.parameters("beat-up", replace(self.design.params, interval=fit(task).interval))
         # Only the time from beat to beat is new: it decides on motor and flywheel.
         made = replace(self.design, params=params)
         duty = replace(self.use.start.duty, linkage=made, every=params.interval)
@@ -124,7 +125,12 @@ class TravellingBeat:
 
 
 def planned_beat(task: LoomTask, _kind: str) -> TravellingBeat:
-    """The travelling beater of a loom. Raises the errors of `beat_up.design`."""
-    fabric: Fabric = loom_fabric(task)
-    made = design(task.parameters("beat-up", fit(task)))
-    return TravellingBeat(made, in_use(made, fabric))
+    """The travelling beater of a loom, its links as the paper's or stronger. Raises the errors of `beat_up.design`."""
+    usual, fabric = fit(task), loom_fabric(task)
+    for width, thickness in SECTIONS:
+        made = design(task.parameters("beat-up", replace(usual, width=width, thickness=thickness)))
+        found = in_use(made, fabric)
+        given = (made.params.width, made.params.thickness) != (width, thickness)
+        if given or all(check.ok for check in strength_checks(found.strength)):
+            break
+    return TravellingBeat(made, found)

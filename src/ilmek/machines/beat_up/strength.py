@@ -26,6 +26,14 @@ from ilmek.units import MPa, mm
 PIN_DIAMETERS = tuple(size * mm for size in (6, 8, 10, 12, 16, 20, 25, 30, 40, 50, 63, 80, 100))
 """Diameters of pins to choose from [m]: of ISO 2341 and 2340."""
 
+SECTIONS = tuple(
+    (width * mm, thickness * mm)
+    for width, thickness in (
+        (30, 10), (40, 12), (50, 15), (60, 20), (80, 25), (100, 30), (120, 40), (150, 50), (200, 60), (250, 80),
+    )
+)  # fmt: skip
+"""Width and thickness of links to choose from [m]: flat steel."""
+
 WIDEST_PIN = 0.6
 """Largest diameter of a pin over the width of its links; assumed by this project."""
 
@@ -198,6 +206,6 @@ def _with_pins(  # noqa: PLR0917
 def _wear(design: BeatUp, pin: str) -> float:
     """Mean over a turn of half the force of a pin times the relative angular velocity of its links [N/s]."""
     joint = next(one for one in design.plan.mechanism.joints if one.name == pin)
-    motion = design.state.motion
-    sliding = np.abs(motion.omega(joint.second) - motion.omega(joint.first))
+    first, second = (design.state.motion.omega(body) for body in joint.bodies)
+    sliding = np.abs(second - first)
     return float(np.mean((design.state.pins[pin] * sliding)[:-1])) / 2

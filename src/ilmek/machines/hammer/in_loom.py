@@ -17,6 +17,7 @@ from ilmek.elements.materials import GRAVITY
 from ilmek.machines import beat_up
 from ilmek.machines.beat import Beat, BeatDrive, BeatPath, stroke_needed
 from ilmek.machines.beat_up.crank_path import crank_beat, crank_path
+from ilmek.machines.fell_of_loom import USUAL_WARP_LENGTH
 from ilmek.machines.hammer.design import Hammer, design
 from ilmek.machines.hammer.linkage import chosen_linkage, linkage_parts
 from ilmek.machines.hammer.params import STEEL, HammerParams
@@ -166,7 +167,8 @@ class CombBeat:
 def planned_beat(task: LoomTask, kind: str) -> CombBeat:
     """The comb's beat in a loom. Raises ParameterError where values set for it contradict each other."""
     params = task.parameters("hammer", _of_carpet(task, kind))
-    made, choices = None, ()
+    made: Beat | None = None
+    choices: tuple[Choice, ...] = ()
     if params.drive == "linkage":
         fabric = params.fabric
         params, linkage, choices = chosen_linkage(params, fabric, float(fabric.resistance(params.required_pitch)))

@@ -32,6 +32,7 @@ from ilmek.machines.beat_up.crank_start import (
 )
 from ilmek.machines.beat_up.in_loom import frame_force, links_parts
 from ilmek.machines.beat_up.strength import (
+    SECTIONS,
     LinkLoads,
     LinkSection,
     LinkStrength,
@@ -45,19 +46,11 @@ from ilmek.machines.hammer.comb import comb_mass, with_depth
 from ilmek.machines.hammer.params import HammerParams
 from ilmek.records import computed, group, record, result
 from ilmek.report import Alternative, Check, Choice, Part, at_most, choose
-from ilmek.units import format_quantity, mm, turn
+from ilmek.units import format_quantity, turn
 from ilmek.weaving.fell import Fabric
 
 SPEEDS = (8.0, 10.0, 12.5, 15.5, 20.0, 25.0, 31.5, 40.0)
 """Speeds of the crank to choose from [rad/s]; 15.5 is the paper's."""
-
-SECTIONS = tuple(
-    (width * mm, thickness * mm)
-    for width, thickness in (
-        (30, 10), (40, 12), (50, 15), (60, 20), (80, 25), (100, 30), (120, 40), (150, 50), (200, 60), (250, 80),
-    )
-)  # fmt: skip
-"""Width and thickness of links to choose from [m]: flat steel."""
 
 MORE_BEATERS = 3
 """Numbers of crank-rockers that are compared, from the least on."""
