@@ -65,6 +65,7 @@ def checks(found: BeatUpAnalysis) -> tuple[Check, ...]:
             limit.bound,
             limit.unit,
             "given",
+            cure="relax this limit, or leave others out",
         )
         for limit in limits(design.params)
     )
@@ -100,14 +101,24 @@ def criteria(design: BeatUp) -> tuple[Check, ...]:
     wanted, tolerated = (math.pi / 2 - deviation for deviation in DEVIATIONS)
     angle, ratio = design.transmission_angle_min, design.crank_coupler_ratio
     margin, force = float(grashof_margin(design.links)), design.beater_force_max
+    turns, beats = "set crank_rotation=180deg, or other links", "set a higher speed, or a heavier beater_mass"
+    ratio_cure, margin_cure = "set beta, or a shorter crank", "set a shorter crank"
+    rule = f"{PAPER}, criterion"
     return (
-        at_least("transmission angle, to run at all", angle, tolerated, "deg", f"{PAPER}, criterion i: 90° - µ < 50°"),
-        at_least("transmission angle, to run well", angle, wanted, "deg", f"{PAPER}, criterion i: 90° - µ < 40°"),
-        at_most("crank/coupler ratio", ratio, RATIO_LIMIT, "1", f"{PAPER}, criterion ii"),
-        at_least("Grashof margin, in ground links", margin, 0.0, "1", f"{PAPER}, criterion iii"),
-        at_least("force on the beater", force, design.params.beat_force, "N", f"{PAPER}, abstract: over 60 N"),
-        at_most("power balance of the forces", design.state.forces.power_error, POWER_LIMIT, "1", "virtual power"),
+        at_least("transmission angle, to run at all", angle, tolerated, "deg", f"{rule} i: 90° - µ < 50°", cure=turns),
+        at_least("transmission angle, to run well", angle, wanted, "deg", f"{rule} i: 90° - µ < 40°", cure=turns),
+        at_most("crank/coupler ratio", ratio, RATIO_LIMIT, "1", f"{rule} ii", cure=ratio_cure),
+        at_least("Grashof margin, in ground links", margin, 0.0, "1", f"{rule} iii", cure=margin_cure),
+        at_least(
+            "force on the beater", force, design.params.beat_force, "N", f"{PAPER}, abstract: over 60 N", cure=beats
+        ),
+        at_most("power balance of the forces", design.state.forces.power_error, POWER_LIMIT, "1", _POWER, cure=_LINKS),
     )
+
+
+_POWER, _LINKS = "virtual power", "set links farther from a toggle"
+_STRONGER = "set a larger motor_torque, or a lower speed"
+_FLYWHEEL = "leave flywheel out, or set a larger one"
 
 
 def _running_checks(params: BeatUpParams, running: MotorRun) -> tuple[Check, ...]:
@@ -118,10 +129,21 @@ def _running_checks(params: BeatUpParams, running: MotorRun) -> tuple[Check, ...
     energy = max(run.energy_error for run in running.runs)
     last = running.last_turn
     return (
-        at_least("speed that the motor reaches", reached, REACHED * params.speed, "rad/s", "forward run, 95 % of it"),
-        at_most("energy balance of the runs", energy, ENERGY_LIMIT, "1", "work of motor and weight against energy"),
+        at_least(
+            "speed that the motor reaches",
+            reached,
+            REACHED * params.speed,
+            "rad/s",
+            "forward run, 95 % of it",
+            cure=_STRONGER,
+        ),
+        at_most("energy balance of the runs", energy, ENERGY_LIMIT, "1", "work of motor and weight", cure=_LINKS),
         *(
-            (at_most("fluctuation of the speed", last.fluctuation, params.fluctuation, "1", "forward run"),)
+            (
+                at_most(
+                    "fluctuation of the speed", last.fluctuation, params.fluctuation, "1", "forward run", cure=_FLYWHEEL
+                ),
+            )
             if last
             else ()
         ),
