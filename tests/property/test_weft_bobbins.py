@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ilmek.errors import LoomError
-from ilmek.loom.bobbins import Bobbin, change_stops, stop_time
+from ilmek.loom.bobbins import Bobbin, change_stops, stop_count, stop_time
 from ilmek.loom.programme import Times, heads_for, make_programme
 
 TIMES = Times(knot=2.0, colour_change=0.5, travel=0.03, weft=12.0)
@@ -33,6 +33,7 @@ def simulated(bobbins: tuple[Bobbin, ...], rows: int) -> list[tuple[int, tuple[s
 def test_stops_are_those_of_a_loom_that_weaves_row_by_row(bobbins: tuple[Bobbin, ...], rows: int) -> None:
     stops = change_stops(bobbins, rows)
     assert [(one.row, one.yarns, one.time) for one in stops] == simulated(bobbins, rows)
+    assert stop_count(bobbins, rows) == len(stops)
     assert stop_time(bobbins, rows) == pytest.approx(sum(one.time for one in stops))
 
 

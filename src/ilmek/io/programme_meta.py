@@ -41,7 +41,7 @@ MOST_CYCLOGRAMS, MOST_TRACKS, MOST_MOTIONS, MOST_EVENTS = 4, 64, 200, 200
 MOST_LAW_NUMBERS = 500
 """Largest number of parameters of all motion laws: a spline through 250 points takes all of them and 0.2 s."""
 
-MOST_BOBBINS = 16
+MOST_BOBBINS = 4
 """Largest number of yarns of weft."""
 
 MOST_TRAVEL = 4 * MOST_YARNS * MOST_KNOTS

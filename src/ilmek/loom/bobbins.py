@@ -7,6 +7,8 @@ starts. Bobbins that run out at the same row are changed in one stop, one after 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from ilmek.errors import LoomError
 
 
@@ -57,6 +59,15 @@ def change_stops(bobbins: Sequence[Bobbin], rows: int) -> tuple[ChangeStop, ...]
     return tuple(
         ChangeStop(row, tuple(one.yarn for one in ones), sum(one.time for one in ones)) for row, ones in due.items()
     )
+
+
+def stop_count(bobbins: Sequence[Bobbin], rows: int) -> int:
+    """Number of stops while a number of rows is woven.
+
+    >>> stop_count((Bobbin("straight weft", 2, 90.0), Bobbin("sinuous weft", 3, 90.0)), 7)
+    4
+    """
+    return len(np.unique(np.concatenate([np.arange(0), *(np.arange(one.rows, rows, one.rows) for one in bobbins)])))
 
 
 def stop_time(bobbins: Sequence[Bobbin], rows: int) -> float:

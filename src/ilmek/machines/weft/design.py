@@ -12,7 +12,7 @@ from ilmek.carpet.ground import WeftLengths, weft_lengths
 from ilmek.elements.carpet_yarns import YarnProperties
 from ilmek.elements.materials import GRAVITY
 from ilmek.elements.prices import price_of, read_prices
-from ilmek.loom.bobbins import Bobbin, change_stops, stop_time
+from ilmek.loom.bobbins import Bobbin, stop_count, stop_time
 from ilmek.machines import WEFT_CARRIERS
 from ilmek.machines.weft.axis import BeltAxis, belt_axis
 from ilmek.machines.weft.params import AUTO, RAPIER, SHUTTLE, WeftParams
@@ -58,9 +58,7 @@ class Weft:
         "length of each weft for the carpet",
         lambda it: {name: it.params.rows * length for name, length in it.weft_length.items()},
     )
-    stops = computed(
-        "1", "stops of the loom for new bobbins", lambda it: len(change_stops(it.bobbins, it.params.rows)), name="stops"
-    )
+    stops = computed("1", "stops of the loom for new bobbins", lambda it: stop_count(it.bobbins, it.params.rows))
     stop_time = computed("min", "time of all stops", lambda it: stop_time(it.bobbins, it.params.rows))
 
     @computed("m", "room beside the cloth, at the edge that needs more")

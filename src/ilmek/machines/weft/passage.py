@@ -53,7 +53,8 @@ class WeftPassage:
     @property
     def share(self) -> float:
         """Share of the passage's time of a move in one direction."""
-        return self.move.time / self.time
+        both: float = self.time
+        return self.move.time / both
 
     def at(self, time: FloatArray) -> FloatArray:
         """Position, speed, acceleration and jerk at times from the begin of a passage [s], (4, times)."""

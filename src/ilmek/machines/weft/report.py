@@ -62,6 +62,7 @@ def _bobbins(made: Weft) -> Table:
 
 def _stops(made: Weft) -> Table:
     heads = columns("before row", "new bobbins", "time [s]")
-    stops = change_stops(made.bobbins, made.params.rows)[:MOST_STOPS]
+    first = MOST_STOPS * min(one.rows for one in made.bobbins) + 1
+    stops = change_stops(made.bobbins, min(first, made.params.rows))[:MOST_STOPS]
     rows = tuple((one.row + 1, " and ".join(one.yarns), one.time) for one in stops)
     return Table("weft-stops", "Stops for new bobbins, rows from the bottom", heads, rows)
