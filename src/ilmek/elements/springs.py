@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ilmek.arrays import FloatArray
 from ilmek.elements.catalogue import pick
 from ilmek.errors import ParameterError
 from ilmek.units import GPa, MPa, mm
@@ -187,14 +188,8 @@ def choose_spring(
             allowed="a rate above 0, preload and travel 0 or more",
         )
     deflection = preload / rate + travel
-    thick, mean = (grid.ravel() for grid in np.meshgrid(WIRE_DIAMETERS, INDICES, indexing="ij"))
-    mean = thick * mean
-    coils = kind.shear_modulus * thick**4 / (8 * mean**3 * rate)
-    # What no spring can be seen from without its properties: the wound shape, then its stress at the solid length.
-    index, solid = mean / thick, (1 + CLASH) * deflection * rate
-    wahl = (4 * index - 1) / (4 * index - 4) + 0.615 / index
-    allowed = kind.share * kind.strength * (thick / mm) ** -kind.power
-    strong = wahl * 8 * solid * mean <= np.pi * thick**3 * allowed * _LOOSE
+    thick, mean, coils, used = _wound(kind, rate, deflection)
+    strong = used <= 1 + _ROUNDING
     wound = (coils >= 3) & (mean + thick <= outer) & (mean - thick >= inner) & strong
     light = thick**2 * mean * coils
     for at in np.flatnonzero(wound)[np.argsort(light[wound], kind="stable")].tolist():
@@ -212,5 +207,30 @@ def choose_spring(
     return None
 
 
-_LOOSE = 1 + 1e-9
-"""Factor on the allowed stress where springs are only sorted out."""
+def least_stress_share(rate: float, deflection: float, wire: str = "music wire") -> float:
+    """Least stress at the solid length over that allowed, of all springs of a rate [N/m] with three coils or more.
+
+    deflection  [m], beyond which `CLASH` is left     wire  of the table; inf where no spring has three coils
+
+    >>> least_stress_share(2000.0, 0.03) < 1 < least_stress_share(2000.0, 1.0)
+    True
+    """
+    _, _, coils, used = _wound(pick(WIRES, wire, "spring wire"), rate, deflection)
+    return float(np.min(used, where=coils >= 3, initial=np.inf))
+
+
+def _wound(wire: Wire, rate: float, deflection: float) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Springs of a rate [N/m]: diameters of wire and coil [m], active coils, stress at the solid length over allowed.
+
+    The stress is that of `CompressionSpring.solid_stress`, for all at once.
+    """
+    thick, index = (grid.ravel() for grid in np.meshgrid(WIRE_DIAMETERS, INDICES, indexing="ij"))
+    mean = thick * index
+    coils = wire.shear_modulus * thick**4 / (8 * mean**3 * rate)
+    wahl = (4 * index - 1) / (4 * index - 4) + 0.615 / index
+    stress = wahl * 8 * (1 + CLASH) * deflection * rate * mean / (np.pi * thick**3)
+    return thick, mean, coils, stress / (wire.share * wire.strength * (thick / mm) ** -wire.power)
+
+
+_ROUNDING = 1e-9
+"""Relative difference in stress that counts as rounding where springs are only sorted out."""

@@ -2,11 +2,13 @@
 
 import math
 
+from ilmek.elements.springs import choose_spring, least_stress_share
 from ilmek.machines.tension_compensator.analysis import CompensatorAnalysis
 from ilmek.machines.tension_compensator.design import TensionCompensator, swing_checks
 from ilmek.machines.tension_compensator.members import bar_checks, beam_checks, lever_checks, pin_checks
-from ilmek.machines.tension_compensator.synthesis import SPRINGS, shared
-from ilmek.report import Alternative, Check, Choice, Table, at_least, choose, columns, must
+from ilmek.machines.tension_compensator.params import TensionCompensatorParams
+from ilmek.machines.tension_compensator.synthesis import SEATS, SPRINGS, SprungLever, shared
+from ilmek.report import Alternative, Check, Choice, Table, at_least, at_most, choose, columns, must
 from ilmek.units import deg, mm, turn
 
 STRAND_LEAST = 10 * deg
@@ -14,6 +16,8 @@ STRAND_LEAST = 10 * deg
 
 CLEARANCE = 3 * mm
 """Least distance of a lever from a rod's surface, its warps between them; assumed by this project."""
+
+SPRING_SOURCE = "stress at the solid length, fatigue, buckling and length [EN 13906-1]"
 
 SHARE_TOLERANCE = 0.02
 """Share by which the rate of the synthesised linkage may miss that which is wished; assumed by this project."""
@@ -37,9 +41,8 @@ def checks(found: CompensatorAnalysis) -> tuple[Check, ...]:
 
 def spring_check(design: TensionCompensator) -> Check:
     """Whether there is a spring that is strong enough, lasts, and fits."""
-    source = "stress at the solid length, fatigue, buckling and length [EN 13906-1]"
     cure = "set a longer spring_arm or strut, more springs, or a shorter support_span"
-    return must("springs of the table", design.one.spring is not None, source, cure=cure)
+    return must("springs of the table", design.one.spring is not None, SPRING_SOURCE, cure=cure)
 
 
 def _motion_checks(design: TensionCompensator) -> tuple[Check, ...]:
@@ -85,12 +88,27 @@ def choices(design: TensionCompensator) -> tuple[Choice, ...]:
 def _spring_choice(design: TensionCompensator) -> Choice:
     """The springs on a lever, and why fewer are not enough."""
     tried = [number for number in SPRINGS if number <= design.springs]
-    candidates = []
-    for number in tried:
-        one = design.one if number == design.springs else shared(design.params, design.one, number)
-        found = must("springs of the table", one.spring is not None, "EN 13906-1")
-        candidates.append(Alternative(str(number), (found,)))
-    return choose("springs", candidates)[1]
+    levers = [design.one if number == design.springs else shared(design.params, design.one, number) for number in tried]
+    found = [Alternative(str(one.springs), fewer_checks(design.params, one)) for one in levers]
+    return choose("springs", found)[1]
+
+
+def fewer_checks(params: TensionCompensatorParams, one: SprungLever) -> tuple[Check, ...]:
+    """What a lever's springs fail: strength, or the lightest of those strong enough its fatigue or its length."""
+    if one.spring is not None:
+        return (must("springs of the table", True, SPRING_SOURCE),)
+    used = least_stress_share(one.rate, one.force / one.rate, params.wire)
+    strong = choose_spring(one.rate, one.preload, (one.force - one.preload) / one.rate, wire=params.wire)
+    if strong is None:
+        named = at_most("stress of a spring over that allowed", used, 1.0, "1", SPRING_SOURCE)
+        return (must("springs strong enough that do not buckle", False, SPRING_SOURCE),) if named.ok else (named,)
+    fatigue, length = strong.fatigue_safety(one.preload, one.force), strong.free_length - one.preload / one.rate
+    found = (
+        at_least("fatigue of a spring", fatigue, params.spring_fatigue, "1", "parameter spring_fatigue"),
+        at_most("length of a spring at rest", length, params.strut - SEATS, "mm", "parameter strut"),
+    )
+    failed = tuple(check for check in found if not check.ok)
+    return failed or (must("springs of the table", False, SPRING_SOURCE),)
 
 
 def tables(found: CompensatorAnalysis) -> tuple[Table, ...]:
