@@ -131,7 +131,9 @@ def matches(check: Check, pattern: str) -> bool:
     return re.search(pattern, check.name) is not None
 
 
-@pytest.mark.parametrize(("settings", "expected"), TABLE, ids=lambda one: str(one) if isinstance(one, dict) else "")
+@pytest.mark.parametrize(
+    ("settings", "expected"), TABLE, ids=[" ".join(f"{k}={v}" for k, v in one.items()) or "default" for one, _ in TABLE]
+)
 def test_the_verdict_has_these_reasons_and_no_other(
     settings: dict[str, Any], expected: dict[str, Figure | None]
 ) -> None:
