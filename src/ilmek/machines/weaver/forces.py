@@ -21,7 +21,6 @@ from collections.abc import Callable
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.elements.yarns import WOOL
 from ilmek.machines.weaver.motions import (
     CENTRE_GRASP,
     CENTRE_MOTION,
@@ -115,7 +114,7 @@ def load_on(head: HeadForces, name: str, ratio: float) -> Callable[[FloatArray],
 def cutting_energy(params: WeaverParams) -> float:
     """Work of a cut [J]: through the yarn, and to start and to stop the blade."""
     blade = params.forces.cutter_mass * params.cutter_acceleration * 2 * params.yarn
-    return WOOL.breaking_force(params.yarn_density) * params.yarn + blade
+    return params.strength * params.yarn + blade
 
 
 def cutter_torque(params: WeaverParams, cyclogram: Cyclogram, angle: FloatArray) -> FloatArray:

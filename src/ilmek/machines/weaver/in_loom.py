@@ -27,6 +27,7 @@ def params_for(task: LoomTask) -> WeaverParams:
         yarn_density=task.yarns.pile.linear_density,
         yarn_diameter=task.yarns.pile.diameter,
         yarn_pressed=task.yarns.pressed,
+        yarn_strength=task.yarns.pile.breaking_force,
         warp_diameter=task.yarns.warp.diameter,
         acceleration_limit=loom.head_acceleration,
         head_width=loom.head_width,

@@ -20,7 +20,6 @@ from ilmek.arrays import FloatArray
 from ilmek.cams.loaded_plate_cam import PRESSURE_LIMIT, STEEL
 from ilmek.elements.duty import MARGIN
 from ilmek.elements.motors import FULL_STEPS, NO_MOTOR, Motor, smallest_motor
-from ilmek.elements.yarns import WOOL
 from ilmek.machines.weaver.design import Weaver, shaft_torque
 from ilmek.machines.weaver.motions import HANDLER
 from ilmek.num.brackets import bracketed_roots
@@ -70,7 +69,7 @@ def head_limits(weaver: Weaver) -> HeadLimits:
     """The limits of a head."""
     return HeadLimits(
         cycle_limits=cycle_limits(weaver),
-        cutting_force=WOOL.breaking_force(weaver.params.yarn_density),
+        cutting_force=weaver.params.strength,
         cutting_time=weaver.params.cutting_time,
         cutting_window=cut_share(weaver) * weaver.cycle,
         selector=selector_of(weaver),

@@ -112,6 +112,9 @@ class WeaverParams(Params):
     yarn_pressed: float | None = kind.length(
         None, above=0.0, at_most=0.05, doc="its thickness pressed between jaws; default: of wool, packed to 0.65, flat"
     )
+    yarn_strength: float | None = kind.force(
+        None, above=0.0, at_most=1e5, doc="breaking force of all its fibres together; default: of wool"
+    )
     warp_diameter: float | None = kind.length(
         None, above=0.0, at_most=10 * mm, doc="diameter of a warp; default: of the usual warp"
     )
@@ -224,6 +227,11 @@ class WeaverParams(Params):
     def pressed(self) -> float:
         """Thickness of the pile yarn pressed between jaws [m]."""
         return self.yarn_pressed or pressed_thickness(self.yarn_density, WOOL)
+
+    @property
+    def strength(self) -> float:
+        """Breaking force of all fibres of the pile yarn together [N]."""
+        return self.yarn_strength or WOOL.breaking_force(self.yarn_density)
 
     @property
     def with_arms(self) -> bool:
