@@ -203,7 +203,9 @@ def _axis_checks(made: Weft) -> tuple[Check, ...]:
     cure = "set a lower weft.acceleration or weft.speed"
     return (
         at_most("speed of the passage", passage.speed, params.speed, "m/s", "speed", cure=cure),
-        at_most("acceleration of the passage", passage.acceleration, params.acceleration, "m/s^2", "acceleration"),
+        at_most(
+            "acceleration of the passage", passage.acceleration, params.acceleration, "m/s^2", "acceleration", cure=cure
+        ),
         must("belt of the axis", not math.isnan(axis.width), "pull of the teeth in mesh, widths of stock", cure=cure),
         at_least("torque of the axis' servo", reserve, 1.0, "1", "motor table, margin 1.25", cure=cure),
     )
