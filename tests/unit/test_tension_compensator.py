@@ -1,6 +1,7 @@
 """The tension compensator: equilibrium against the least energy, energy balance, swing, strength, choices."""
 
 import math
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -163,6 +164,19 @@ def test_tensions_on_the_way_hold_the_springs() -> None:
     tension = equilibrium_tension(usual().one, angles)
     longer = usual().one.lever.slack(angles) + (tension - 15) / usual().one.task.rate
     assert equilibrium(usual().one, longer) == pytest.approx(angles, abs=1e-9)
+
+
+@pytest.mark.parametrize("error", [0.9, 1.1])
+def test_an_error_of_the_springs_rate_changes_the_tension_by_a_few_percent(error: float) -> None:
+    """The preload is set again; the rate is not that of the design."""
+    one = usual().one
+    wrong = replace(one, rate=error * one.rate)
+    assert wrong.free_length - one.lever.spring_length(0.0) == pytest.approx(one.preload / wrong.rate)
+    longer = np.array([0.0, one.task.lengthening])
+    rotation = equilibrium(wrong, longer)
+    tension = mean_tension(one.task, longer, one.lever.slack(rotation))
+    assert tension[0] == pytest.approx(15.0)
+    assert tension[1] == pytest.approx(15 + one.task.rate * LIFT / 11, rel=0.04)
 
 
 def test_springs_hold_their_force_and_fit() -> None:

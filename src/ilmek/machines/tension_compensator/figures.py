@@ -14,7 +14,7 @@ RING = np.exp(1j * np.linspace(0, turn, 73))
 
 def figures(found: CompensatorAnalysis) -> tuple[Figure, ...]:
     """All figures, in the order of the report."""
-    return side_view(found.design), tension_plot(found), force_plot(found)
+    return side_view(found.design), tension_plot(found), travel_plot(found), force_plot(found)
 
 
 def tension_plot(found: CompensatorAnalysis) -> Plot:
@@ -26,6 +26,18 @@ def tension_plot(found: CompensatorAnalysis) -> Plot:
     series = (Series("even warps", x, found.even), Series("odd warps", x, found.odd), allowed, fixed)
     axes = Axis("cam angle", "deg"), Axis("tension", "N")
     return Plot("tension-compensator-tension", "Tension of a warp over the turn", *axes, series)
+
+
+def travel_plot(found: CompensatorAnalysis) -> Plot:
+    """Travel of the even warps' bar, or of the only one, and the warp that it gives, over the turn."""
+    lever = found.design.one.lever
+    travel = np.abs(lever.bar(found.rotation) - lever.rest)
+    series = (
+        Series("travel of the bar", found.angle, np.asarray(travel)),
+        Series("warp that it gives", found.angle, lever.slack(found.rotation)),
+    )
+    axes = Axis("cam angle", "deg"), Axis("length", "mm")
+    return Plot("tension-compensator-travel", "Travel of a bar over the turn", *axes, series)
 
 
 def force_plot(found: CompensatorAnalysis) -> Plot:

@@ -51,7 +51,7 @@ class TensionCompensatorParams(Params):
         RATE_SHARE,
         at_least=1e-3,
         at_most=100.0,
-        doc="rate of the compensator over that of its warps: the less, the less swing; the more, the less it sways",
+        doc="rate of the compensator over that of its warps: the less, the less swing",
     )
     strand_angle: float = kind.angle(40 * deg, at_least=10 * deg, at_most=75 * deg, doc="deflection of a warp at rest")
     guide_span: float | None = kind.length(

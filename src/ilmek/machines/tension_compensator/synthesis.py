@@ -5,9 +5,9 @@ gives x of warp against the rate K, referred to the warp, is in equilibrium at
 
     x = N k l / (K + N k),      T = T0 + k (l - x) = T0 + k l s / (1 + s),      s = K / (N k)
 
-The smaller s, the less the tension swings; s is given (`rate_share`), so that tolerances of the springs leave the bar a
-restoring force. Rest and open shed then fix the torque of the springs in two positions, and with a lean delta their
-preload and rate:
+The smaller s, the less the tension swings; s is given (`rate_share`). An error of a tenth in the springs' rate changes
+the tension in the open shed by a few percent. Rest and open shed fix the torque of the springs in two positions, and
+with a lean delta their preload and rate:
 
     F0 = N T0 W(0) / S(0),    F1 = N T1 W(phi1) / S(phi1),    ks = (F1 - F0) / (c(0) - c(phi1))
 
