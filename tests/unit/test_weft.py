@@ -1,6 +1,7 @@
 """The weft side: what a bobbin holds, when it is changed, how the carrier moves, what holds its turns, its price."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -190,6 +191,27 @@ def test_bill_and_loom_have_the_same_wefts_warps_and_lengths(selvedge: int, pitc
     assert sinuous.mass == pytest.approx(sinuous.length * yarns.sinuous_weft.linear_density)
     assert warp.length / (1.8 + 2 * ground.fringe + ground.loom_waste) == pytest.approx(loom.warps)
     assert loom.weft.params.cloth_width == pytest.approx(loom.task.cloth_width)
+
+
+def test_the_bobbins_of_a_shuttle_last_longer_for_a_narrower_cloth_and_a_thinner_weft() -> None:
+    made, carried = shuttle()
+    params = made.params
+    assert made.bobbins_for(params.warps, params.yarns) == made.bobbins
+    assert [one.rows for one in made.bobbins] == [one.rows for one in carried.windings]
+    narrow = made.bobbins_for(params.warps // 2, params.yarns)
+    same = design(
+        replace(
+            params,
+            carrier="shuttle",
+            warps=params.warps // 2,
+            bobbin_diameter=carried.bobbin.diameter,
+            bobbin_length=carried.bobbin.length,
+        )
+    )
+    assert narrow == same.bobbins
+    thin = made.bobbins_for(params.warps, replace(params.yarns, straight_weft_density=2e-4))
+    assert thin[0].rows > made.bobbins[0].rows
+    assert rapier()[0].bobbins_for(100, params.yarns) == ()
 
 
 @pytest.mark.parametrize("carrier", ["shuttle", "rapier"])

@@ -204,7 +204,8 @@ def _on_existing(
     heads = min(heads_used(existing, chart), loom_order.wishes.heads or made.heads)
     notes = (f"{heads} of the loom's {made.heads} heads are used; the others are parked",) if heads < made.heads else ()
     part = progress.part(0.0, 1.0, "programme")
-    programme = make_programme(chart.knots, len(chart.yarns), heads, made.times, bobbins=made.bobbins, progress=part)
+    bobbins = made.weft.bobbins_for(2 * chart.columns + made.params.selvedge_warps, yarns)
+    programme = make_programme(chart.knots, len(chart.yarns), heads, made.times, bobbins=bobbins, progress=part)
     checks = (*checks, *deadline_checks(loom_order.deadline, programme))
     return LoomResult(existing.report, checks, made, programme, left, notes)
 

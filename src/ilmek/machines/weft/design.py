@@ -9,12 +9,13 @@ from dataclasses import replace
 from typing import TypeAlias
 
 from ilmek.carpet.ground import WeftLengths, weft_lengths
-from ilmek.elements.carpet_yarns import YarnProperties
+from ilmek.elements.carpet_yarns import CarpetYarnParams, YarnProperties
 from ilmek.elements.materials import GRAVITY
 from ilmek.elements.prices import price_of, read_prices
 from ilmek.loom.bobbins import Bobbin, stop_count, stop_time
 from ilmek.machines import WEFT_CARRIERS
 from ilmek.machines.weft.axis import BeltAxis, belt_axis
+from ilmek.machines.weft.bobbin import windings
 from ilmek.machines.weft.params import AUTO, RAPIER, SHUTTLE, WeftParams
 from ilmek.machines.weft.parts import parts_of
 from ilmek.machines.weft.passage import WeftPassage
@@ -92,10 +93,16 @@ class Weft:
     @property
     def bobbins(self) -> tuple[Bobbin, ...]:
         """The bobbins in the shuttles; none where the weft comes from packages at rest."""
-        made = self.carried
-        if not isinstance(made, Shuttle):
+        return self.bobbins_for(self.params.warps, self.params.yarns)
+
+    def bobbins_for(self, warps: int, yarns: CarpetYarnParams) -> tuple[Bobbin, ...]:
+        """The bobbins in the same shuttles for a cloth of another number of warps, or of other yarns."""
+        if not isinstance(self.carried, Shuttle):
             return ()
-        return tuple(Bobbin(one.name, max(1, one.rows), self.params.change_time) for one in made.windings)
+        params = replace(self.params, warps=warps, yarns=yarns)
+        lengths = weft_lengths(params.cloth_width, params.warp_pitch, params.carpet_yarns, params.turn)
+        wound = windings(params, self.carried.bobbin, lengths)
+        return tuple(Bobbin(one.name, max(1, one.rows), params.change_time) for one in wound)
 
     @property
     def parts(self) -> tuple[Part, ...]:
