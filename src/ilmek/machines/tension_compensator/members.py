@@ -13,6 +13,7 @@ from ilmek.elements.beam import uniform
 from ilmek.elements.columns import SECTIONS, HollowSquare
 from ilmek.elements.tubes import TUBES, Tube, find_tube
 from ilmek.machines.tension_compensator.params import STEEL, TensionCompensatorParams
+from ilmek.records import record
 from ilmek.report import Alternative, Check, Choice, at_most, choose
 from ilmek.units import MPa, format_quantity, mm
 
@@ -42,7 +43,7 @@ class Loads:
     pivot: float
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Members:
     """What was chosen: tube of bars and rods, height of a lever [m], its pin [m], the beam; and the choices."""
 

@@ -26,6 +26,7 @@ from ilmek.elements.springs import CompressionSpring, choose_spring
 from ilmek.errors import ParameterError
 from ilmek.machines.tension_compensator.geometry import Lever, WarpPath
 from ilmek.machines.tension_compensator.params import TensionCompensatorParams
+from ilmek.records import record
 from ilmek.units import deg, format_quantity, mm
 
 LEANS = np.arange(0.0, 46.0, 1.0) * deg
@@ -63,7 +64,7 @@ class BarTask:
         return self.tension + self.rate * self.lengthening * share / (1 + share)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class SprungLever:
     """A lever with its springs.
 
