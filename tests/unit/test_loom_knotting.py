@@ -5,6 +5,7 @@ from functools import cache
 import numpy as np
 import pytest
 
+from ilmek.errors import LoomError
 from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, LoomDesign, cyclograms, design
 from ilmek.machines.automated_loom.knotting import ARMS, CAMS
 from ilmek.machines.knotting_dyad.section import NEIGHBOURS
@@ -147,3 +148,32 @@ def test_200_colours_choose_tiers_and_a_given_width_that_is_too_small_fails() ->
     failed = [check.name for check in loom(colours="200", head_width="30mm").head.checks if not check.ok]
     assert "cams beside each other" in failed
     assert "tubes on the head" not in failed or loom(colours="200", head_width="30mm").weaver.magazine.tiers > 13
+
+
+@pytest.mark.parametrize(
+    ("settings", "words"),
+    [
+        ({"weaver.knot": "symmetric", "knot": "asymmetric"}, "weaver.knot=symmetric in a loom for asymmetric knots"),
+        ({"knotting-dyad.knot": "symmetric", "knot": "asymmetric"}, "knotting-dyad.knot=symmetric in a loom"),
+        ({"weaver.arms.time": "0.5s", "knotting": "cams"}, "set knotting=arms"),
+        (
+            {
+                "knotting": "arms",
+                "knotting-dyad.points": "(12mm,4mm) (18.5mm,9.5mm) (24mm,8mm) (27mm,3mm)",
+                "knotting-dyad.angles": "20deg 65deg 100deg 150deg",
+            },
+            "leave knotting-dyad.points and angles out",
+        ),
+    ],
+)
+def test_settings_of_the_machines_that_contradict_the_loom_are_refused(settings: dict[str, str], words: str) -> None:
+    with pytest.raises(LoomError, match=words):
+        design(AutomatedLoomParams.read(settings))
+
+
+def test_warps_thicker_than_their_pitch_are_a_failed_check_of_a_head_of_usual_size() -> None:
+    for knotting in (CAMS, ARMS):
+        made = loom("symmetric", knotting, 0.5 * mm, **{"yarns.warp": "wool"})
+        failed = {check.name for check in made.head.checks if not check.ok}
+        assert "opener: points between two warps" in failed
+        assert made.head.width <= 0.31

@@ -13,8 +13,10 @@ aim of time, where they keep the required time of a knot too. Where neither keep
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import lru_cache
+from typing import TypeVar
 
 from ilmek.cams.laws import LAWS
+from ilmek.errors import LoomError
 from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.component import Child
 from ilmek.machines.knotting_dyad import KnottingDyad, KnottingDyadParams
@@ -36,6 +38,8 @@ KNOTTING = (CAMS, ARMS)
 """Kinds of knotting, the cheaper first."""
 
 AUTO = "auto"
+
+H = TypeVar("H", WeaverParams, KnottingDyadParams)
 
 ARM_LAW = LAWS["3-4-5"]
 """Law by which the arms' motions are drawn; their own is the quickest that the drives allow [`timing.path_speed`]."""
@@ -66,7 +70,10 @@ class KnottingHead:
 
 
 def knotting_head(task: LoomTask) -> tuple[KnottingHead, tuple[Choice, ...]]:
-    """The head of a loom, and the choice where it was left open. Never refuses a pitch or a knot: checks fail."""
+    """The head of a loom, and the choice where it was left open. No pitch and no knot is refused: checks fail.
+
+    Raises LoomError where the settings of its machines contradict the loom's.
+    """
     wanted = task.params.knotting
     if wanted != AUTO:
         return _head(wanted, task), ()
@@ -84,9 +91,13 @@ def _head(kind: str, task: LoomTask) -> KnottingHead:
     assert component.fit is not None
     params: WeaverParams = component.fit(task)
     if kind == CAMS:
-        return _of(kind, component.design(task.parameters(WEAVER, params)), {})
+        given: WeaverParams = _of_the_knot(WEAVER, task.parameters(WEAVER, params), task)
+        if given.with_arms:
+            raise LoomError("weaver.arms.time, and knotting=cams", do="set knotting=arms, or leave weaver.arms out")
+        return _of(kind, component.design(given), {})
     arms = _arms(task)
-    assert arms.head is not None
+    if arms.head is None:
+        raise LoomError("points for the arms of a loom", do="leave knotting-dyad.points and angles out")
     inside = arms.head.section
     params = replace(
         params,
@@ -101,7 +112,7 @@ def _head(kind: str, task: LoomTask) -> KnottingHead:
             mass=sum(part.mass_all for part in MACHINES[DYAD].parts(arms)),
         ),
     )
-    made: Weaver = component.design(task.parameters(WEAVER, params))
+    made: Weaver = component.design(_of_the_knot(WEAVER, task.parameters(WEAVER, params), task))
     return _of(kind, replace(made, cyclogram=with_arms(made, arms)), {DYAD: Child(MACHINES[DYAD], arms)})
 
 
@@ -118,7 +129,17 @@ def _arms(task: LoomTask) -> KnottingDyad:
     component = MACHINES[DYAD]
     assert component.fit is not None
     params: KnottingDyadParams = task.parameters(DYAD, component.fit(task))
-    return _designed(params)
+    return _designed(_of_the_knot(DYAD, params, task))
+
+
+def _of_the_knot(name: str, params: H, task: LoomTask) -> H:
+    """The parameters of a machine that ties the loom's knot. Raises LoomError where they have another one."""
+    if params.knot != task.params.knot:
+        raise LoomError(
+            f"{name}.knot={params.knot} in a loom for {task.params.knot} knots",
+            do=f"leave it out, and set knot={params.knot}",
+        )
+    return params
 
 
 @lru_cache(maxsize=32)

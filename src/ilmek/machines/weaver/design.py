@@ -129,7 +129,10 @@ def design(params: WeaverParams) -> Weaver:
     opener = _opener(params, grippers)
     forces = HeadForces(params, cycle, opener, radius)
     window, cams = carriage_window(cycle), cams_for(forces)
-    rest = {"cams": stack_width(params, cams) + 2 * params.side_plate, "warps pushed aside": opener.crowd}
+    rest = {
+        "cams": stack_width(params, cams) + 2 * params.side_plate,
+        "warps pushed aside": min(opener.crowd, params.opener.crowd_limit),
+    }
     if params.with_arms:
         rest["arms"] = params.arms.width
     magazine = _magazine(params, max(rest.values()))

@@ -43,6 +43,9 @@ class OpenerParams(Params):
     wall: float | None = kind.length(
         None, at_least=1e-4, at_most=0.05, doc="width of the teeth that hold warps away; default: as bend_limit needs"
     )
+    crowd_limit: float = kind.length(
+        0.3, at_least=0.01, at_most=5.0, doc="width of the displaced warps for which a head is made wider, at most"
+    )
     bend_limit: float = kind.length(0.5 * mm, above=0.0, at_most=0.05, doc="allowed deflection of a tooth's end")
 
 
