@@ -8,6 +8,7 @@ machine states are assumed by this project.
 from collections.abc import Iterator
 
 from ilmek.machines.weaver.design import Weaver
+from ilmek.machines.weaver.magazine import DRUM
 from ilmek.machines.weaver.motions import CENTRE_ARM, CENTRE_MOTION, LEFT_ARM, OPENER, RIGHT_ARM, SIDE_MOTION, SLEY
 from ilmek.records import record
 from ilmek.units import mm
@@ -41,12 +42,20 @@ class HeadShape:
 
     body   its lower corner next to the warps [m]     size   depth + i height of the body [m]
     tools  that reach to the warps                    reach  the least x of any tool at rest [m]
+    magazine, magazine_size   of the yarn tubes, in front of the body, with its motion from tier to tier [m]
     """
 
     body: complex
     size: complex
     tools: tuple[HeadTool, ...]
     reach: float
+    magazine: complex
+    magazine_size: complex
+
+    @property
+    def front(self) -> float:
+        """The foremost x [m]."""
+        return self.magazine.real + self.magazine_size.real
 
     @property
     def top(self) -> float:
@@ -105,10 +114,23 @@ def _sley(weaver: Weaver, span: complex) -> HeadTool:
 
 
 def _around(weaver: Weaver, tools: tuple[HeadTool, ...], face: float) -> HeadShape:
-    """The head with its tools: the body in front of its face [m], as deep as its largest cam."""
+    """The head with its tools: the body in front of its face [m], as deep as its largest cam, and the magazine.
+
+    The magazine stands in front of the body, and moves each tier to the height at which the knot is tied.
+    """
+    magazine, tied = weaver.magazine, (tools[0].corner + tools[0].size / 2).imag
+    tall = (2 * magazine.tiers - 1) * magazine.pitch
+    wide = magazine.width if magazine.kind == DRUM else magazine.pitch
     deep = 2 * max(cam.radius for cam in weaver.cams) + 2 * CASE
     top = max((tool.corner + tool.size).imag for tool in tools) + CASE
-    return HeadShape(complex(face, top - deep), complex(deep, deep), tools, min(tool.corner.real for tool in tools))
+    return HeadShape(
+        body=complex(face, top - deep),
+        size=complex(deep, deep),
+        tools=tools,
+        reach=min(tool.corner.real for tool in tools),
+        magazine=complex(face + deep, tied - tall / 2),
+        magazine_size=complex(wide, tall),
+    )
 
 
 def _with_arms(weaver: Weaver, clearance: float) -> HeadShape:

@@ -197,7 +197,7 @@ def laid_out(task: "LoomTask", path: "BeatPath | None" = None) -> SideView:
         roll=roll,
         pile=head.drawn / 2,
         head=shape,
-        rail=SideBox(complex(case.real, case.imag - (shape.size.imag + RAIL) / 2), complex(RAIL, RAIL)),
+        rail=SideBox(complex(shape.front, case.imag - (shape.size.imag + RAIL) / 2), complex(RAIL, RAIL)),
         retreat=max(0.0, _front(comb, path, shape.top + room.clearance) + room.clearance - shape.reach),
     )
 

@@ -23,6 +23,7 @@ Displacement: TypeAlias = Callable[[FloatArray], ComplexArray]
 NODES = 40
 """Samples of a stroke of what beats, at least."""
 
+MAGAZINE = "magazine of the yarns"
 COMPENSATOR = "tension compensator"
 HEAD, RAIL, WARPS = "head", "heads' rail", "warps"
 
@@ -57,6 +58,7 @@ def knot_bodies(side: SideView, knot: Cyclogram) -> tuple[MovingBody, ...]:
         _cams(side, None),
         *_comb(side, None),
         MovingBody(HEAD, (standing(rectangle(SideBox(side.head.body, side.head.size))),)),
+        MovingBody(MAGAZINE, (standing(_magazine(side)),)),
         *(_tool(tool, knot) for tool in side.head.tools),
         MovingBody(RAIL, (_box(side.rail),)),
         *_frame(side),
@@ -96,6 +98,10 @@ def beat_joints(beat: BeatPath, row: Cyclogram) -> FloatArray:
 def _along(track: Track, direction: complex) -> Displacement:
     """Displacement by a track's position along a direction."""
     return lambda angle: np.asarray(direction * sample(track, np.mod(angle, turn)).position)
+
+
+def _magazine(side: SideView) -> ComplexArray:
+    return rectangle(SideBox(side.head.magazine, side.head.magazine_size))
 
 
 def _at_rest(tool: HeadTool) -> ComplexArray:

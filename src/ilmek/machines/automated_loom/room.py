@@ -18,6 +18,7 @@ from ilmek.machines.automated_loom.bodies import (
     HEAD,
     LEAVES,
     LOWER,
+    MAGAZINE,
     RAIL,
     SPACER,
     UPPER,
@@ -65,7 +66,8 @@ TOUCHING: Mapping[frozenset[str], str] = {
     frozenset((COMPENSATOR, BACK_REST)): "warps run from one to the other",
     frozenset((COMPENSATOR, UPPER)): "warps run from one to the other",
     frozenset((HEAD, RAIL)): "the rail carries the heads",
-    **{frozenset((tool, RAIL)): "the rail carries the heads" for tool in TOOLS},
+    **{frozenset((part, RAIL)): "the rail carries the heads" for part in (*TOOLS, MAGAZINE)},
+    **{frozenset((part, MAGAZINE)): "the head carries its magazine" for part in (*TOOLS, HEAD)},
 }
 """Pairs that may touch, by intention, and why."""
 

@@ -131,6 +131,7 @@ def _moving(view: SideView) -> tuple[Stroke, ...]:
         Stroke(rectangle(view.carrier), "outline", closed=True, filled=True),
         *_head(view, 0.0, "outline"),
         *_head(view, view.retreat, "construction"),
+        Stroke(rectangle(SideBox(view.head.magazine, view.head.magazine_size)), "outline", closed=True),
         Stroke(rectangle(view.rail), "outline", closed=True),
         Stroke(rectangle(view.rail) + view.retreat, "construction", closed=True),
     )
@@ -200,6 +201,7 @@ def _names(view: SideView, right: float) -> tuple[Stroke, ...]:
         "carrier of the weft": view.carrier.corner + view.carrier.size.real,
         "rail of the heads": view.rail.corner + view.rail.size,
         "knotting head": view.head.body + view.head.size,
+        "yarns of the head": view.head.magazine + view.head.magazine_size.real / 2,
         "spacer cylinder": view.spacer.at + view.spacer.radius * np.exp(-0.9j),
         "carpet": complex(view.pile, (view.lower.at + view.spacer.at).imag / 2),
         "lower cylinder, full": view.lower.at + view.roll,
