@@ -96,7 +96,7 @@ def _contradiction(wishes: Wishes, made: LoomDesign, chart: Chart) -> ParameterE
         parts.append(_deadline_needs(wishes.deadline, made, chart))
     width = format_quantity(made.params.width, "m"), format_quantity(made.head_width, "mm")
     reached = _hours(_time(made, chart, fit))
-    parts.append(f"at most {fit} heads of {width[1]} fit {width[0]}, they weave it in {reached}")
+    parts.append(f"at most {_heads(fit)} of {width[1]} fit {width[0]}, weaving it in {reached}")
     if wishes.price is not None:
         parts.append(f"the price is to be at most {format_number(wishes.price)}")
     return _error(parts, "give more time, other heads, a wider carpet, a coarser quality or narrower heads")
