@@ -91,10 +91,10 @@ def _head(kind: str, task: LoomTask) -> KnottingHead:
     assert component.fit is not None
     params: WeaverParams = component.fit(task)
     if kind == CAMS:
-        given: WeaverParams = _of_the_knot(WEAVER, task.parameters(WEAVER, params), task)
-        if given.with_arms:
+        params = _of_the_knot(WEAVER, task.parameters(WEAVER, params), task)
+        if params.with_arms:
             raise LoomError("weaver.arms.time, and knotting=cams", do="set knotting=arms, or leave weaver.arms out")
-        return _of(kind, component.design(given), {})
+        return _on_cams(params)
     arms = _arms(task)
     if arms.head is None:
         raise LoomError("points for the arms of a loom", do="leave knotting-dyad.points and angles out")
@@ -112,8 +112,20 @@ def _head(kind: str, task: LoomTask) -> KnottingHead:
             mass=sum(part.mass_all for part in MACHINES[DYAD].parts(arms)),
         ),
     )
-    made: Weaver = component.design(_of_the_knot(WEAVER, task.parameters(WEAVER, params), task))
-    return _of(kind, replace(made, cyclogram=with_arms(made, arms)), {DYAD: Child(MACHINES[DYAD], arms)})
+    return _by_arms(_of_the_knot(WEAVER, task.parameters(WEAVER, params), task), arms)
+
+
+@lru_cache(maxsize=4)
+def _on_cams(params: WeaverParams) -> KnottingHead:
+    """A head on its cams, designed once for each set of parameters: a loom's choices ask for the same one."""
+    return _of(CAMS, MACHINES[WEAVER].design(params), {})
+
+
+@lru_cache(maxsize=4)
+def _by_arms(params: WeaverParams, arms: KnottingDyad) -> KnottingHead:
+    """A head with arms, designed once for each set of parameters."""
+    made: Weaver = MACHINES[WEAVER].design(params)
+    return _of(ARMS, replace(made, cyclogram=with_arms(made, arms)), {DYAD: Child(MACHINES[DYAD], arms)})
 
 
 def _of(kind: str, weaver: Weaver, others: Mapping[str, Child]) -> KnottingHead:
