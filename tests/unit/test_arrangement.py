@@ -284,3 +284,20 @@ def test_the_row_from_the_side_has_its_carrier_only_in_the_shed() -> None:
     assert size[moving_row.at < first] == pytest.approx(0.0, abs=1e-12)
     comb = next(one for one in moving_row.strokes if one.label == "comb").points
     assert comb.imag.min() == pytest.approx(0.0, abs=10 * mm)
+
+
+@pytest.mark.parametrize("settings", [{}, {"width": "6m"}, {"shedding.shafts": "2"}], ids=str)
+def test_machines_are_designed_for_the_lengths_that_the_view_reports(settings: dict[str, str]) -> None:
+    """But for a compensator that needs more room than was kept for it."""
+    made = loom(**settings)
+    assert made.task.side is not None
+    tolerance = 0.02 if "shedding.shafts" in settings else 1e-9
+    for length in (made.task.side.warp_length, made.warp_tension.params.free_length, made.shedding.params.warp_length):
+        assert length == pytest.approx(made.side.warp_length, rel=tolerance)
+    assert made.shedding.params.front_span == pytest.approx(made.side.front_span)
+
+
+def test_more_colours_than_a_tier_holds_make_the_head_deeper_not_the_row_wider() -> None:
+    few, many = loom(), loom(colours="200")
+    assert many.side.head.magazine_size.imag > few.side.head.magazine_size.imag
+    assert all(check.ok for check in room_checks(many, clearances(many), 0.1))

@@ -64,7 +64,6 @@ TOUCHING: Mapping[frozenset[str], str] = {
     **{frozenset(pair): "plan view of the head" for pair in combinations((*TOOLS, HEAD), 2)},
     **{frozenset((COMPENSATOR, sheet)): "warps run through the compensator" for sheet in SHEETS},
     frozenset((COMPENSATOR, BACK_REST)): "warps run from one to the other",
-    frozenset((COMPENSATOR, UPPER)): "warps run from one to the other",
     frozenset((HEAD, RAIL)): "the rail carries the heads",
     **{frozenset((part, RAIL)): "the rail carries the heads" for part in (*TOOLS, MAGAZINE)},
     **{frozenset((part, MAGAZINE)): "the head carries its magazine" for part in (*TOOLS, HEAD)},
