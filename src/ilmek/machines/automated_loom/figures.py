@@ -42,9 +42,7 @@ def figures(loom: LoomDesign) -> tuple[LazyFigure, ...]:
 
 def one_row(loom: LoomDesign) -> Timing:
     """The cyclogram of a row."""
-    note = (
-        "Four steps of 90° and the warps' harmonic motion: thesis, 3.3; shuttle, beat and take-up placed within them."
-    )
+    note = "Four steps of 90° and the warps' harmonic motion: thesis, 3.3; weft, beat and take-up placed within them."
     return draw(loom.row_cyclogram, "One row: two wefts, two beats", note)
 
 
