@@ -129,7 +129,7 @@ class AutomatedLoomParams(Params):
     )
     rail_sag: float = kind.length(0.2 * mm, at_least=1e-6, at_most=0.05, doc="allowed sag of the heads' rail")
     retreat_speed: float = kind.speed(
-        0.3, at_least=1e-3, at_most=10.0, doc="allowed speed of the heads' rail from and to the warps"
+        0.35, at_least=1e-3, at_most=10.0, doc="allowed speed of the heads' rail from and to the warps"
     )
     retreat_acceleration: float = kind.acceleration(
         2.0, at_least=1e-3, at_most=100.0, doc="allowed acceleration of the heads' rail from and to the warps"
