@@ -111,6 +111,11 @@ class Weaver:
     def colour_change_longest(self) -> float:
         return self.magazine.longest_time
 
+    @property
+    def tools(self) -> tuple[Track, ...]:
+        """The tracks of its own tools; the cyclogram has those of arms besides."""
+        return tuple(track for track in self.cyclogram.tracks if track.name in self.peaks)
+
     @computed("", "the track that sets the shortest cycle", name="cycle_time_set_by")
     def limiting(self) -> str:
         return max(self.peaks, key=lambda name: self.peaks[name].shortest)

@@ -135,7 +135,7 @@ def _knot_warnings(weaver: Weaver) -> tuple[str, ...]:
 def tables(found: WeaverAnalysis) -> tuple[Table, ...]:
     """Greatest values of the tracks, cams, motions."""
     weaver = found.weaver
-    tracks = tuple(track for track in weaver.cyclogram.tracks if track.name in weaver.peaks)
+    tracks = weaver.tools
     peaks = Table(
         "tracks",
         "Tracks of the head; the handler at its tip",
@@ -196,7 +196,7 @@ def _accelerations(weaver: Weaver) -> Plot:
     arms = {HANDLER: weaver.handler_radius}
     series = tuple(
         Series(track.name, angle, sample(track, angle).bend * w**2 * arms.get(track.name, 1.0))
-        for track in weaver.cyclogram.tracks
+        for track in weaver.tools
     )
     axes = Axis("cam angle", "deg"), Axis("acceleration", "m/s^2")
     note = f"at {60 / weaver.cycle:.3g} knots a minute; the handler at its tip"
@@ -283,7 +283,7 @@ def cam_tables(weaver: Weaver) -> tuple[CamTable, ...]:
     """The tracks' motions, for a head whose tools have axes of their own."""
     return tuple(
         cam_table(track, track.name.replace(" ", "-"), f"{track.name} over the cam angle", weaver.cycle)
-        for track in weaver.cyclogram.tracks
+        for track in weaver.tools
     )
 
 
