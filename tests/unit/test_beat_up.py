@@ -108,6 +108,7 @@ def test_figures_are_a_drawing_of_the_beat_and_curves_over_a_turn() -> None:
     drawing, moving, *plots, start = said.figures[:10]
     assert start.name == "run-speed"
     assert [figure.name for figure in said.figures[10:]] == [
+        *(f"beat-up-{name}" for name in ("start-speed", "start-torque", "strokes")),
         *(f"family-{name}" for name in ("angle", "beat", "force", "torque", "rocker", "alpha", "links", "size")),
         *(f"family-front-{name}" for name in ("force-at-beat", "drive-torque")),
     ]

@@ -13,6 +13,7 @@ from ilmek.machines.beat_up.design import BeatUp, design, ground_for
 from ilmek.machines.beat_up.in_loom import fit, parts, planned_beat, work
 from ilmek.machines.beat_up.params import BeatUpParams
 from ilmek.machines.beat_up.report import BeatUpAnalysis, analyse, checks, figures, plates, tables, warnings
+from ilmek.machines.beat_up.use import use_choices
 from ilmek.machines.component import Component
 
 __all__ = ["MACHINE", "BeatUp", "BeatUpParams", "design", "ground_for"]
@@ -32,6 +33,7 @@ MACHINE = Component(
     plates=plates,
     parts=parts,
     work=work,
+    choices=use_choices,
     fit=fit,
     beat=planned_beat,
     own_figures=("family",),

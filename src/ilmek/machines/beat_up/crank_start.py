@@ -13,6 +13,8 @@ the crank has the speed, loses half of what it transmits, and the brake takes th
     E = int M W dt (slipping) + int M w dt (coupled),   J_f = E / (d W^2),   P = E / (time of a beat and its rest)
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from ilmek.arrays import FloatArray
@@ -26,7 +28,7 @@ from ilmek.linkage.solve import solve
 from ilmek.machines.beat_up.design import BeatUp
 from ilmek.machines.beat_up.use_params import STARTS, CrankStartParams
 from ilmek.records import computed, record, result
-from ilmek.report import Check, Json, Part, at_most, must
+from ilmek.report import Alternative, Check, Choice, Json, Part, at_most, choose, must
 from ilmek.units import format_quantity, turn
 from ilmek.weaving.fell import Fabric
 
@@ -102,6 +104,7 @@ class CrankStart:
     start_work: float = result("J", "work of the drive for a beat, none of it recovered")
     clutch_torque: float = result("Nm", "torque that clutch and brake need")
     start_flywheel: float = result("kg*m^2", "flywheel on the motor's side of the clutch")
+    choices: tuple[Choice, ...] = ()
 
     start_torque = computed("Nm", "greatest torque on the crank shaft", lambda it: float(np.max(np.abs(it.torque))))
 
@@ -122,8 +125,9 @@ def crank_start(duty: CrankDuty, params: CrankStartParams) -> CrankStart:
     load, turns = _load(duty, angle), _turns_work(duty, params)
     drives = (params.drive,) if params.drive else STARTS
     made = [_started(duty, params, drive, (time, rate, rise), load, turns) for drive in drives]
-    able = [one for one in made if one.pair is not None and (one.drive == "servo" or one.clutch is not None)]
-    return min(able or made, key=lambda one: sum(price_of(part, PRICES) for part in start_parts(one)))
+    made.sort(key=lambda one: sum(price_of(part, PRICES) for part in start_parts(one)))
+    index, choice = choose("start.drive", [Alternative(one.drive, start_checks(one)) for one in made])
+    return replace(made[index], choices=(choice,) if len(made) > 1 else ())
 
 
 def start_checks(found: CrankStart) -> tuple[Check, ...]:

@@ -13,6 +13,7 @@ fell's resistance opposes the inertia of the beater and relieves the pins.      
 
 import math
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -20,8 +21,8 @@ from ilmek.machines.beat_up.design import PINS, BeatUp
 from ilmek.machines.beat_up.use_params import StrengthParams
 from ilmek.plane.vectors import dot
 from ilmek.records import record, result
-from ilmek.report import Check, at_least, at_most
-from ilmek.units import MPa, mm
+from ilmek.report import Alternative, Check, Choice, at_least, at_most, choose
+from ilmek.units import MPa, format_quantity, mm
 
 PIN_DIAMETERS = tuple(size * mm for size in (6, 8, 10, 12, 16, 20, 25, 30, 40, 50, 63, 80, 100))
 """Diameters of pins to choose from [m]: of ISO 2341 and 2340."""
@@ -51,6 +52,7 @@ class LinkStrength:
     pin_shear: float = result("MPa", "greatest shear stress of a pin, in a fork")
     pin_pressure: float = result("MPa", "greatest pressure of a pin on its bush")
     pin_wear: float = result("1", "greatest mean of pressure times sliding speed of a pin over the time, in MPa m/s")
+    choices: tuple[Choice, ...] = ()
 
 
 @record
@@ -96,7 +98,14 @@ def link_strength(design: BeatUp, limits: StrengthParams, every: float | None = 
     """
     params = design.params
     section = LinkSection(params.width, params.thickness, params.width * params.thickness * params.density)
-    return section_strength(section, link_loads(design, every), design.lengths, params.speed, limits)
+    loads = link_loads(design, every)
+    found = section_strength(section, loads, design.lengths, params.speed, limits)
+    smaller = [size for size in PIN_DIAMETERS if size < found.pin_diameter * (1 - 1e-9)]
+    if limits.pin_diameter is not None or not smaller:
+        return found
+    other = section_strength(section, loads, design.lengths, params.speed, replace(limits, pin_diameter=smaller[-1]))
+    tried = [Alternative(format_quantity(one.pin_diameter, "mm"), pin_checks(one)) for one in (other, found)]
+    return replace(found, choices=(choose("strength.pin_diameter", tried)[1],))
 
 
 def section_strength(

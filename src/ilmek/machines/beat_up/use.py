@@ -5,7 +5,7 @@ from ilmek.machines.beat_up.design import BeatUp
 from ilmek.machines.beat_up.strength import LinkStrength, link_strength, strength_checks
 from ilmek.machines.beat_up.travel import BeaterTravel, travel, travel_checks
 from ilmek.records import group, record
-from ilmek.report import Check
+from ilmek.report import Check, Choice
 from ilmek.weaving.fell import Fabric, assumed_fabric
 from ilmek.weaving.tension import usual_tension
 
@@ -46,3 +46,9 @@ def in_use(design: BeatUp, fabric: Fabric | None = None) -> BeatUpUse:
 def use_checks(found: BeatUpUse) -> tuple[Check, ...]:
     """Whether links, pins, motor and slide do their work."""
     return (*strength_checks(found.strength), *travel_checks(found.travel), *start_checks(found.start))
+
+
+def use_choices(design: BeatUp) -> tuple[Choice, ...]:
+    """What was chosen of pins, start and stop."""
+    found = in_use(design)
+    return (*found.strength.choices, *found.start.choices)

@@ -117,7 +117,8 @@ def chosen_linkage(
     candidates = [Alternative(_named(one), linkage_checks(linkage)) for one, linkage in made]
     index, choice = choose("crank-rockers", candidates)
     option, linkage = made[index]
-    return option, linkage, (choice,) if len(ranked) > 1 else ()
+    found = (choice,) if len(ranked) > 1 else ()
+    return option, linkage, (*found, *linkage.strength.choices, *linkage.start.choices)
 
 
 def _named(params: HammerParams) -> str:
