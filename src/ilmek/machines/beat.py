@@ -12,7 +12,7 @@ and path for the arrangement of the loom. Values that the user set for the machi
 """
 
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -154,6 +154,7 @@ USUAL_STROKE = 0.1
 """Stroke of the comb [m] where there is no side view: assumed by this project."""
 
 
+@runtime_checkable
 class PlannedBeat(Protocol):
     """A beat before the row is timed."""
 

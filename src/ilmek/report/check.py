@@ -1,7 +1,7 @@
 """Checks: every judgement of a design is a value against a limit, with the source of the limit."""
 
 import math
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
 from ilmek.records import value_record
 from ilmek.report.json import plain
@@ -29,6 +29,7 @@ class Check:
         return {name: plain(getattr(self, name)) for name in Check.__slots__}
 
 
+@runtime_checkable
 class Judged(Protocol):
     """A check, or a reason: a value against a limit."""
 
