@@ -130,8 +130,15 @@ def _moved(functions: FloatArray, order: int) -> FloatArray:
 
 def _transfer(z: float) -> FloatArray:
     """Transfer matrix of (w, w', w'', w''') by l x from the start of a piece of length z to its end."""
-    functions = krylov(np.array(z))
-    return np.stack([_moved(functions, order) for order in range(4)])
+    one, two, three, four = krylov(np.array(z)).tolist()
+    return np.array(
+        [
+            [one, two, three, four],
+            [-4 * four, one, two, three],
+            [-4 * three, -4 * four, one, two],
+            [-4 * two, -4 * three, -4 * four, one],
+        ]
+    )
 
 
 def _end(state: FloatArray, z: float) -> FloatArray:

@@ -4,8 +4,8 @@
 
 c is the acceleration of the beater at the beat for a crank speed of 1 rad/s. For each number of crank-rockers and each
 speed the mass follows from the force that the rows need; links and pins of stock from the greatest loads, which go with
-m W^2; then the price is estimated. The cheapest two are designed in full, and the cheaper one whose checks hold is
-taken. The comb's weight is taken to be balanced by springs: the paper leaves weight out.
+m W^2; then the price is estimated. In that order they are designed in full until the checks of one hold. The comb's
+weight is taken to be balanced by springs: the paper leaves weight out.
 
 The comb also bears its own inertia: between supports s apart, with s / 2 beyond the last ones, the greatest moment of
 q = m a / L is q s^2 / 8, that of the overhang.                                                        [theory of beams]
@@ -18,7 +18,7 @@ from functools import lru_cache
 
 from ilmek.elements.duty import MARGIN
 from ilmek.elements.motors import MOTORS, SERVO
-from ilmek.elements.prices import PRICES, price_of
+from ilmek.elements.prices import PRICES
 from ilmek.machines import beat_up
 from ilmek.machines.beat_up.crank_start import (
     CLUTCH_MASS,
@@ -52,10 +52,10 @@ from ilmek.weaving.fell import Fabric
 SPEEDS = (8.0, 10.0, 12.5, 15.5, 20.0, 25.0, 31.5, 40.0)
 """Speeds of the crank to choose from [rad/s]; 15.5 is the paper's."""
 
-MORE_BEATERS = 3
+MORE_BEATERS = 2
 """Numbers of crank-rockers that are compared, from the least on."""
 
-_DESIGNED = 2
+_DESIGNED = 4
 _RESERVE = 1.001
 
 
@@ -112,13 +112,18 @@ def chosen_linkage(
     Raises MechanismError where the crank-rockers do not move.
     """
     ranked = sorted(_options(params, fabric, needed), key=lambda one: (not one[1], _estimated(one[0], fabric, needed)))
-    made = [(option, linkage_for(option, fabric, needed)) for option, _ in ranked[:_DESIGNED]]
-    made.sort(key=lambda one: sum(price_of(part, PRICES) for part in linkage_parts(one[1])))
-    candidates = [Alternative(_named(one), linkage_checks(linkage)) for one, linkage in made]
+    made: list[tuple[HammerParams, CombLinkage]] = []
+    candidates: list[Alternative] = []
+    for option, _ in ranked[:_DESIGNED]:
+        made.append((option, linkage_for(option, fabric, needed)))
+        candidates.append(Alternative(_named(option), linkage_checks(made[-1][1])))
+        if not candidates[-1].failed:
+            break
     index, choice = choose("crank-rockers", candidates)
     option, linkage = made[index]
     found = (choice,) if len(ranked) > 1 else ()
-    return option, linkage, (*found, *linkage.strength.choices, *linkage.start.choices)
+    pins = (replace(one, name="links.pin_diameter") for one in linkage.strength.choices)
+    return option, linkage, (*found, *pins, *linkage.start.choices)
 
 
 def _named(params: HammerParams) -> str:
