@@ -1,6 +1,7 @@
 """Checks: every judgement of a design is a value against a limit, with the source of the limit."""
 
 import math
+from dataclasses import fields
 from typing import Any, Protocol, runtime_checkable
 
 from ilmek.records import value_record
@@ -26,7 +27,7 @@ class Check:
 
     def as_json(self) -> dict[str, Any]:
         """The check as plain data: name, value, limit, unit (to show it in), ok, source, relation, cure."""
-        return {name: plain(getattr(self, name)) for name in Check.__slots__}
+        return {one.name: plain(getattr(self, one.name)) for one in fields(self)}
 
 
 @runtime_checkable
