@@ -11,7 +11,7 @@ from ilmek.units import deg, mm
 
 @pytest.fixture(scope="module")
 def loom() -> LoomDesign:
-    return design(AutomatedLoomParams(selvedge_warps=0))
+    return design(AutomatedLoomParams(selvedge_warps=0, beat="guide-cams"))
 
 
 def test_warps_and_knots_of_chapter_3_1(loom: LoomDesign) -> None:

@@ -229,7 +229,10 @@ WEAVE = {
     "deadline too soon": ("--deadline 1min", "deadline of .* cannot be met"),
     "no heads": ("--heads 0", "heads"),
     "more heads than fit": ("--heads 5000", "heads"),
-    "heads and deadline": ("--heads 2 --deadline 1min", "the wishes contradict each other: 2 heads.*; the deadline of .*; at most"),
+    "heads and deadline": (
+        "--heads 2 --deadline 1min",
+        "the wishes contradict each other: 2 heads.*; the deadline of .*; at most",
+    ),
     "quality beyond the pitch": ("--quality 40x40/dm --warp-pitch 2mm", r"1\.25 ?mm"),
     "pitch of nothing": ("--warp-pitch 0mm", "pitch"),
 }

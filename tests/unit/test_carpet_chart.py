@@ -167,7 +167,8 @@ def test_bill_of_the_ground(chart: Chart) -> None:
     params = GroundParams(weft_share=0.0, yarns=yarns)
     warp, straight, sinuous = yarn_bill(chart, ground=params).ground
     assert warp.length == pytest.approx((2 * 600 + 8) * (0.9 + 0.6))
-    assert straight.length == pytest.approx(900 * 0.62) == sinuous.length
+    across = 0.6 + 8 * 0.5e-3  # the wefts run over the selvedges
+    assert straight.length == pytest.approx(900 * (across + 0.02)) == sinuous.length
     assert (warp.mass, straight.mass) == pytest.approx((warp.length * 1e-3, straight.length * 2e-3))
     assert yarn_bill(chart).ground[2].length > straight.length
 

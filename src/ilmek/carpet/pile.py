@@ -26,10 +26,11 @@ n); a yarn of P strands then has the metric count Nm = P / (1000 mu).
 from dataclasses import dataclass
 
 from ilmek.carpet.quality import Quality
-from ilmek.elements.carpet_yarns import usual_warp
+from ilmek.elements.carpet_yarns import YarnProperties, usual_warp
 from ilmek.elements.knot_kinds import WRAPS, parse_knot
-from ilmek.elements.yarns import WOOL, yarn_diameter
+from ilmek.elements.yarns import MATERIALS, WOOL, yarn_diameter
 from ilmek.params import Params, param
+from ilmek.report import Check, at_most
 from ilmek.units import mm
 
 
@@ -83,6 +84,21 @@ def knot_length(knot: str, quality: Quality, linear_density: float, pile: PilePa
 def leg_length(warp_diameter: float, yarn_diameter: float, pile: PileParams) -> float:
     """Length of a leg [m], from the warps' axes to the tip of the yarn as woven: D/2 + d + h + c; diameters in m."""
     return warp_diameter / 2 + yarn_diameter + pile.pile_height + pile.cut_waste
+
+
+def pile_check(yarn: YarnProperties, quality: Quality) -> Check:
+    """Whether the pile fits into its ground: the share of the ground that a yarn fills at a quality, at most 1."""
+    fibre = MATERIALS[yarn.material]
+    return fill_check(
+        pile_fill(quality, yarn.linear_density, PileParams(fibre_density=fibre.density, packing=fibre.packing))
+    )
+
+
+def fill_check(fill: float) -> Check:
+    """The check of the share of the ground that the pile fills [-]."""
+    source = "two legs per knot in the knot's cell, fibre packed as in the free yarn"
+    cure = "take a finer yarn or a coarser quality"
+    return at_most("pile: share of the ground filled", fill, 1.0, "%", source, cure=cure)
 
 
 def pile_fill(quality: Quality, linear_density: float, pile: PileParams | None = None) -> float:

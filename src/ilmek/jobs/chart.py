@@ -10,7 +10,7 @@ from ilmek.arrays import Rgb
 from ilmek.carpet.bill import YarnBill, YarnNeed, yarn_bill
 from ilmek.carpet.chart import Chart, chart_of_design
 from ilmek.carpet.design import LARGEST_DISTORTION, distortion, knot_grid, resampled
-from ilmek.carpet.pile import coarsest_count, pile_fill
+from ilmek.carpet.pile import coarsest_count, fill_check, pile_fill
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import Yarn
 from ilmek.io.chart.pdf import chart_cut, write_chart_pdf
@@ -21,7 +21,7 @@ from ilmek.io.picture import read_picture
 from ilmek.io.yarn_csv import write_yarn_csv
 from ilmek.jobs.order import MOST_PRINTED, CarpetOrder
 from ilmek.progress import SILENT, Progress
-from ilmek.report import Check, at_most, verdict_json
+from ilmek.report import Check, verdict_json
 from ilmek.report.left_out import made_or_left_out
 from ilmek.units import format_quantity
 
@@ -60,10 +60,7 @@ class ChartResult:
     @property
     def checks(self) -> tuple[Check, ...]:
         """Share of the ground that the pile fills, against 100 %."""
-        fill = pile_fill(self.chart.quality, self.thickest.linear_density, self.order.pile)
-        source = "two legs per knot in the knot's cell, fibre packed as in the free yarn"
-        cure = "take a finer yarn or a coarser quality"
-        return (at_most("pile: share of the ground filled", fill, 1.0, "%", source, cure=cure),)
+        return (fill_check(pile_fill(self.chart.quality, self.thickest.linear_density, self.order.pile)),)
 
     @property
     def warnings(self) -> tuple[str, ...]:

@@ -60,7 +60,8 @@ class WeaveResult:
     @property
     def checks(self) -> tuple[Check, ...]:
         """All checks: of the job, the loom and its machines; the latter begin with the machine's name."""
-        return (*self.own_checks, *self.loom.all_checks)
+        own = {check.name for check in self.own_checks}
+        return (*self.own_checks, *(check for check in self.loom.all_checks if check.name not in own))
 
     @property
     def own_checks(self) -> tuple[Check, ...]:

@@ -28,7 +28,7 @@ from ilmek.machines.automated_loom.report import (
     tables,
     warnings,
 )
-from ilmek.machines.automated_loom.selection import design, programme_for
+from ilmek.machines.automated_loom.selection import design
 from ilmek.machines.beat import BeatDrive
 from ilmek.machines.component import Component
 from ilmek.timing.cyclogram import Cyclogram
@@ -42,7 +42,6 @@ __all__ = [
     "design",
     "estimated_time",
     "production_time",
-    "programme_for",
 ]
 
 

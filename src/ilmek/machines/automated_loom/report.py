@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from ilmek.carpet.pile import pile_check
 from ilmek.elements.prices import price_of
 from ilmek.machines.automated_loom.choice import deadline_check, row_check
 from ilmek.machines.automated_loom.cyclogram import (
@@ -107,7 +108,7 @@ def results(found: LoomAnalysis) -> tuple[Any, ...]:
 @lru_cache(maxsize=4)
 def checks(found: LoomAnalysis) -> tuple[Check, ...]:
     """Room of the heads, limits of the weft's carrier, order of the motions, strength and stiffness of the frame."""
-    loom = found.loom
+    loom, params = found.loom, found.loom.params
     knot, row = loom.cyclograms
     carrier, weft = loom.row_timing.carrier, loom.weft
     moving = row.track(carrier)
@@ -121,6 +122,7 @@ def checks(found: LoomAnalysis) -> tuple[Check, ...]:
         row_check(found.beat),
         *found.beat.checks,
         *_wishes(found),
+        pile_check(loom.task.yarns.pile, params.quality),
         at_most(f"{carrier}: speed", speed, weft.params.speed, "m/s", "weft.speed", cure=SLOWER_CAMS),
         at_most(
             f"{carrier}: acceleration",

@@ -1,15 +1,11 @@
 """The loom for a carpet, with what its parameters leave open chosen so that every check holds.
 
 Kinds of beat are tried in ascending order of what the aim makes least: first by the checks of the drive alone, then in
-the whole loom, until one keeps every limit.
+the whole loom, until one keeps every limit. With a deadline a quicker beat may save heads: then the price of the whole
+loom decides.
 """
 
-from dataclasses import replace
-
-from ilmek.arrays import Indices
-from ilmek.errors import LoomError
-from ilmek.loom.programme import Programme, heads_for, make_programme
-from ilmek.machines.automated_loom.design import LoomDesign, ready_loom, with_beat
+from ilmek.machines.automated_loom.design import LoomDesign, ReadyLoom, ready_loom, with_beat
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.automated_loom.report import analyse, checks
 from ilmek.report import Alternative, choose
@@ -24,6 +20,8 @@ def design(params: AutomatedLoomParams) -> LoomDesign:
     ready = ready_loom(params)
     if len(ready.options) == 1:
         return with_beat(ready, ready.options[0])
+    if params.deadline is not None and params.heads is None and params.aim == "price":
+        return _by_whole_price(ready)
     alternatives = [Alternative(one.kind, one.checks) for one in ready.options]
     looms: dict[int, LoomDesign] = {}
     for index, option in enumerate(ready.options):
@@ -37,23 +35,16 @@ def design(params: AutomatedLoomParams) -> LoomDesign:
     return looms.get(index) or with_beat(ready, ready.options[index], (choice,))
 
 
-def programme_for(
-    knots: Indices, yarns: int, params: AutomatedLoomParams, deadline: float | None = None
-) -> tuple[LoomDesign, Programme]:
-    """The loom and the programme for a chart of indices below `yarns`, row 0 = top.
-
-    With a deadline [s] the loom gets the smallest number of heads that meets it. Raises LoomError where none does, and
-    where the chart is not the knots of the loom's carpet; and the errors of `design`.
-    """
-    loom = design(replace(params, heads=None) if deadline is not None else params)
-    if knots.shape != (loom.rows, loom.columns):
-        raise LoomError(
-            f"a chart of {knots.shape[1]} x {knots.shape[0]} knots",
-            allowed=f"the carpet of this loom has {loom.columns} x {loom.rows}",
-            do="give the loom the size and quality of the chart",
-        )
-    if deadline is not None:
-        loom = design(
-            replace(params, heads=heads_for(knots, yarns, deadline, loom.times, loom.heads_max, bobbins=loom.bobbins))
-        )
-    return loom, make_programme(knots, yarns, loom.heads, loom.times, bobbins=loom.bobbins)
+def _by_whole_price(ready: ReadyLoom) -> LoomDesign:
+    """The cheapest loom of those with each kind of beat, each with the heads that its deadline needs."""
+    whole = sorted(
+        (
+            (analyse(loom).listed.price, option.kind, option, loom)
+            for option in ready.options
+            for loom in [with_beat(ready, option)]
+        ),
+        key=lambda one: one[:2],
+    )
+    found = [Alternative(kind, (*option.checks, *checks(analyse(loom)))) for _, kind, option, loom in whole]
+    index, choice = choose("beat", found)
+    return with_beat(ready, whole[index][2], (choice,))

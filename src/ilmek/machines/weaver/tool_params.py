@@ -35,7 +35,7 @@ class OpenerParams(Params):
         0.5, above=0.0, at_most=1.0, doc="tension of a displaced warp over its breaking force, at most"
     )
     tip: float = kind.length(
-        0.1 * mm, at_least=0.0, at_most=0.05, doc="thickness of the points that enter between two warps"
+        0.09 * mm, at_least=0.0, at_most=0.05, doc="thickness of the points that enter between two warps"
     )
     placing: float = kind.length(
         0.04 * mm, at_least=0.0, at_most=0.05, doc="error of the head's position against the warps"
