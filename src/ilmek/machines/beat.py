@@ -11,14 +11,13 @@ and path for the arrangement of the loom. Values that the user set for the machi
 `Child(MACHINES[drive.name], drive.design, drive.number)`.
 """
 
-from dataclasses import dataclass
 from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray, RealField
 from ilmek.machines.loom_task import LoomTask
-from ilmek.records import computed, record, result
+from ilmek.records import computed, record, result, value_record
 from ilmek.report import Check, Part, Work, at_least
 from ilmek.timing.track import MotionLaw
 from ilmek.weaving.fell import Fabric
@@ -27,7 +26,7 @@ FORCE_TOLERANCE = 0.05
 """Share by which the force of a warp may be short: rows are then left less than 2 % too far apart."""
 
 
-@dataclass(frozen=True, slots=True)
+@value_record
 class Beat:
     """A beat in time: forward, pressed, back.
 

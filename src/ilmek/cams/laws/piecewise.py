@@ -4,12 +4,11 @@ Each piece is a polynomial of t = (u - begin)/length. The extremes are taken at 
 that overshoots has its exact bounds. [derived here]
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ilmek.arrays import FloatArray, IntArray, RealField
 from ilmek.cams.laws.law import Law, LawValues, Parameters
+from ilmek.records import record
 
 _SAME = 1e-9
 """Share of a derivative's peak below which its step at a knot, or its value at an end, counts as rounding."""
@@ -18,7 +17,7 @@ _EXACT = 1e-12
 """Distance from a whole number below which a value is snapped to it."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record
 class Piecewise:
     """Polynomials between ascending knots from 0 to 1.
 

@@ -43,7 +43,7 @@ from ilmek.machines.beat_up.strength import (
 )
 from ilmek.machines.beat_up.travel import force_at_beat
 from ilmek.machines.hammer.comb import comb_mass, with_depth
-from ilmek.machines.hammer.params import HammerParams
+from ilmek.machines.hammer.params import MOST_BEATERS, HammerParams
 from ilmek.records import computed, group, record, result
 from ilmek.report import Alternative, Check, Choice, Part, at_most, choose
 from ilmek.units import format_quantity, turn
@@ -134,7 +134,8 @@ def _named(params: HammerParams) -> str:
 def _options(params: HammerParams, fabric: Fabric, needed: float) -> Iterator[tuple[HammerParams, bool]]:
     """Each number of crank-rockers and speed, with ballast and links, and whether there are links strong enough."""
     acceleration = force_at_beat(_unit(params.ground))
-    for number in (params.beaters,) if params.beaters else range(params.rockers, params.rockers + MORE_BEATERS):
+    most = params.rockers if params.beaters else min(params.rockers + MORE_BEATERS - 1, MOST_BEATERS)
+    for number in range(params.rockers, most + 1):
         shared = with_depth(replace(params, beaters=number), fabric, params.force or needed)
         comb = comb_mass(shared)
         for speed in (params.beat_speed,) if params.beat_speed else SPEEDS:

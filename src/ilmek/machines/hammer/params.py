@@ -27,6 +27,12 @@ DEPTHS = tuple(depth * 10 * mm for depth in range(2, 51))
 LEADS = (10 * mm, 20 * mm, 40 * mm)
 """Leads of screws to choose from [m]."""
 
+MOST_HOLDS = 200
+"""Most supports, and most vertical axes, of a comb."""
+
+MOST_BEATERS = 100
+"""Most crank-rockers of a comb."""
+
 BEATER_WIDTH = 1.5
 """Width of the comb for each crank-rocker, and for each vertical axis beyond the first [m]."""
 
@@ -102,7 +108,7 @@ class HammerParams(Params):
     supports: int | None = kind.count(
         None,
         at_least=1,
-        at_most=200,
+        at_most=MOST_HOLDS,
         doc="points that hold the comb; default: both ends and every 1.5 m, or the crank-rockers",
     )
     support_inset: float | None = kind.length(
@@ -140,7 +146,7 @@ class HammerParams(Params):
     axes: int | None = kind.count(
         None,
         at_least=1,
-        at_most=200,
+        at_most=MOST_HOLDS,
         doc="vertical axes of the comb; default: one a support, or more where these fail",
     )
     axis: str = kind.choice("screw", AXES, doc="ball screws or toothed belts")
@@ -172,7 +178,10 @@ class HammerParams(Params):
         None, at_least=0.0, at_most=1e5, doc="mass added to the comb on crank-rockers; default: what the force needs"
     )
     beaters: int | None = kind.count(
-        None, at_least=1, at_most=100, doc="crank-rockers; default: one per 1.5 m of width, or more if that is cheaper"
+        None,
+        at_least=1,
+        at_most=MOST_BEATERS,
+        doc="crank-rockers; default: one per 1.5 m of width, or more if that is cheaper",
     )
     ground: float = kind.length(0.3, at_least=1 * mm, at_most=10.0, doc="distance of the pivots of crank and rocker")
     link_width: float | None = kind.length(
@@ -239,12 +248,12 @@ class HammerParams(Params):
     @property
     def rockers(self) -> int:
         """Crank-rockers of the linkage."""
-        return self.beaters or math.ceil(self.width / BEATER_WIDTH - 1e-9)
+        return self.beaters or min(math.ceil(self.width / BEATER_WIDTH - 1e-9), MOST_BEATERS)
 
     @property
     def support_count(self) -> int:
         """Points that hold the comb."""
-        return self.supports or (self.rockers + 1 if self.drive == "comb" else self.rockers)
+        return self.supports or min(self.rockers + 1 if self.drive == "comb" else self.rockers, MOST_HOLDS)
 
     @property
     def axis_count(self) -> int:
