@@ -162,7 +162,7 @@ def test_sag_of_a_load_over_the_middle_is_its_influence_line_integrated(share):
 
 @given(st.floats(1e3, 1e5), st.floats(0.5, 4.0), st.floats(0.01, 0.2))
 def test_the_frame_keeps_its_limits_with_the_lightest_section(pull, width, lever):
-    task = FrameTask(width, 2.0, 0.6, pull, lever, 500.0, 4, 8.0, 0.08, 2, 2e-4)
+    task = FrameTask(width, 2.0, 0.6, pull, lever, 500.0, 4, 8.0, 0.08, 2, 2e-4, 2.0, 4.0, 1e-3)
     frame = frame_for(task)
     assert frame.column_stress <= STEEL.strength / 2
     assert frame.buckling_factor >= 4

@@ -18,7 +18,6 @@ from ilmek.io.loom_file import LoomFile, read_loom_file
 from ilmek.jobs.order import CarpetOrder
 from ilmek.loom.sharing import heads_that_fit
 from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, LoomDesign, design
-from ilmek.machines.automated_loom.choice import ROW_TOLERANCE
 from ilmek.machines.automated_loom.cyclogram import cyclogram
 from ilmek.params import Setting
 from ilmek.report import Check, Report, at_least, at_most, must, plain
@@ -199,8 +198,8 @@ def _fit_checks(made: LoomDesign, order: CarpetOrder, chart: Chart) -> tuple[Che
 def _row_checks(existing: ExistingLoom, order: CarpetOrder) -> tuple[Check, ...]:
     """The distance of rows: what the beat leaves, and what the take-up moves."""
     row_pitch, own = 1 / order.quality.along, existing.design.task.row_pitch
-    most = row_pitch * (1 + ROW_TOLERANCE)
-    source = "row pitch of the quality, 2 % more allowed; fabric as assumed by this project"
+    most = row_pitch * (1 + existing.design.params.row_tolerance)
+    source = "row pitch of the quality, and row_tolerance; fabric as assumed by this project"
     dense = f"{existing.design.params.quality.along * dm:.4g}"
     return (
         at_most(

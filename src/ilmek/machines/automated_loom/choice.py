@@ -16,9 +16,6 @@ from ilmek.machines.loom_task import LoomTask
 from ilmek.records import record
 from ilmek.report import Alternative, Check, Choice, at_most, choose
 
-ROW_TOLERANCE = 0.02
-"""Share by which rows may be left farther apart than required; assumed by this project."""
-
 
 @record
 class BeatOption:
@@ -80,7 +77,10 @@ def deadline_check(deadline: float, time: float) -> Check:
 
 def row_check(drive: BeatDrive) -> Check:
     """The distance of the rows that the beat leaves."""
-    most = drive.task.row_pitch * (1 + ROW_TOLERANCE)
-    source = "row pitch of the quality, 2 % more allowed; fabric as assumed by this project: laid, jammed, packing"
+    most = drive.task.row_pitch * (1 + drive.task.params.row_tolerance)
+    source = (
+        "row pitch of the quality; assumed by this project: parameters row_tolerance, hammer.laid_pitch, "
+        "hammer.jammed_pitch, hammer.packing"
+    )
     cure = "set beat=auto or beat=comb, or a coarser quality along"
     return at_most("distance of the rows that the beat leaves", drive.row_pitch_left, most, "mm", source, cure=cure)

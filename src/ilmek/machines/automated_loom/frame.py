@@ -23,13 +23,8 @@ from ilmek.elements.columns import SECTIONS, STEEL, HollowSquare, eccentric, eul
 from ilmek.elements.materials import GRAVITY
 from ilmek.records import computed, record, result
 from ilmek.report import Alternative, Check, Choice, at_least, at_most, choose
-from ilmek.units import mm
 
-STRESS_SAFETY, BUCKLING_SAFETY = 2.0, 4.0
-"""Against yield, and against Euler's load; assumed by this project."""
-
-BOW_LIMIT = 1 * mm
-"""Of a column [m]: as much as the thesis allows the cylinders that it holds [3.1]."""
+EULER = "Euler's load; assumed by this project: parameter buckling_safety"
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,6 +37,7 @@ class FrameTask:
     carried         mass on the columns [kg]
     heads           that ride on the rail                      head_mass, head_width  of one [kg, m]
     rail_spans      of the rail, between columns and posts     sag_limit  of the rail [m]
+    stress_safety, buckling_safety   of a column, against yield and Euler's load      bow_limit  of a column [m]
     """
 
     width: float
@@ -55,6 +51,9 @@ class FrameTask:
     head_width: float
     rail_spans: int
     sag_limit: float
+    stress_safety: float
+    buckling_safety: float
+    bow_limit: float
     across: float = 0.0
     along: float = 0.0
 
@@ -124,12 +123,12 @@ def column_load(task: FrameTask, section: HollowSquare) -> tuple[float, float]:
 
 def column_checks(task: FrameTask, section: HollowSquare) -> tuple[Check, ...]:
     """Stress, bow and buckling of a column of a section."""
-    (stress, bow), limit = column_load(task, section), STEEL.strength / STRESS_SAFETY
+    (stress, bow), limit = column_load(task, section), STEEL.strength / task.stress_safety
     cure, factor = "set a lower tension, or a narrower carpet", euler(task.height, section)
     return (
-        at_most("frame: stress of a column", stress, limit, "MPa", "half of yield, S235", cure=cure),
-        at_most("frame: bow of a column", bow, BOW_LIMIT, "mm", "as the cylinders' deflection, thesis 3.1", cure=cure),
-        at_least("frame: against buckling", factor / task.force, BUCKLING_SAFETY, "1", "Euler's load", cure=cure),
+        at_most("frame: stress of a column", stress, limit, "MPa", "yield of S235 over column_safety", cure=cure),
+        at_most("frame: bow of a column", bow, task.bow_limit, "mm", "column_bow", cure=cure),
+        at_least("frame: against buckling", factor / task.force, task.buckling_safety, "1", EULER, cure=cure),
     )
 
 

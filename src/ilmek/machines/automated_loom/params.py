@@ -102,6 +102,9 @@ class AutomatedLoomParams(Params):
         doc="what beats the rows: a travelling beater, a comb on crank-rockers, on its own axes or on the guide cams; "
         "auto: chosen by aim",
     )
+    row_tolerance: float = kind.ratio(
+        0.02, unit="%", at_least=0.0, at_most=0.5, doc="share by which rows may be left farther apart than required"
+    )
     comb_acceleration: float = kind.acceleration(
         3.0, at_least=1e-3, at_most=1e3, doc="allowed acceleration of the comb, cams and all"
     )
@@ -128,6 +131,15 @@ class AutomatedLoomParams(Params):
         2.0, unit="m", at_least=0.1, at_most=20.0, doc="largest span of the heads' rail between columns and posts"
     )
     rail_sag: float = kind.length(0.2 * mm, at_least=1e-6, at_most=0.05, doc="allowed sag of the heads' rail")
+    column_safety: float = kind.ratio(
+        2.0, at_least=1.0, at_most=20.0, doc="yield over the stress of a frame's column at least"
+    )
+    buckling_safety: float = kind.ratio(
+        4.0, at_least=1.0, at_most=50.0, doc="Euler's load over the force of a frame's column at least"
+    )
+    column_bow: float = kind.length(
+        1 * mm, at_least=1e-6, at_most=0.1, doc="allowed bow of a frame's column; as the thesis allows the cylinders"
+    )
     retreat_speed: float = kind.speed(
         0.35, at_least=1e-3, at_most=10.0, doc="allowed speed of the heads' rail from and to the warps"
     )

@@ -79,6 +79,9 @@ def frame_task(loom: LoomDesign, carried: float) -> FrameTask:
         head_width=loom.head_width,
         rail_spans=math.ceil(wide / params.rail_span - 1e-9),
         sag_limit=params.rail_sag,
+        stress_safety=params.column_safety,
+        buckling_safety=params.buckling_safety,
+        bow_limit=params.column_bow,
         across=beat.frame_force if turning else 0.0,
         along=0.0 if turning else beat.frame_force,
     )

@@ -42,9 +42,7 @@ from ilmek.report import Check, at_least, at_most
 from ilmek.units import hour, mm
 from ilmek.weaving.tension import capstan
 
-STATIC_SAFETY = 1.5
 STUB = MATERIALS["heat-treatable steel"]
-STUB_SAFETY = 1.5
 THESIS_BEARING = "UCF 207"
 LEAST_WALL = 3 * mm
 """Metal under the slots of the spacer; assumed by this project."""
@@ -206,9 +204,9 @@ def bearing_checks(
     )
     safety = STUB.strength / stress if stress > 0 else math.inf
     return (
-        at_least("static safety", static, STATIC_SAFETY, "1", "ISO 76"),
+        at_least("static safety", static, params.static_safety, "1", "ISO 76: parameter static_safety"),
         at_most("slope of the bearing", slope, slope_limit(bearing), "rad", "its kind"),
-        at_least("shaft end", safety, STUB_SAFETY, "1", f"yield of {STUB.name}"),
+        at_least("shaft end", safety, params.stub_safety, "1", f"yield of {STUB.name}: parameter stub_safety"),
     )
 
 

@@ -61,6 +61,12 @@ class WarpTensionParams(Params):
     bearing: str | None = kind.text(
         None, doc="bearing of the cylinders by its designation; default: the thesis' UCF 207, or a larger one if needed"
     )
+    static_safety: float = kind.ratio(
+        1.5, at_least=0.5, at_most=20.0, doc="static safety C0 / P0 of a bearing at least; ISO 76: 1 to 2"
+    )
+    stub_safety: float = kind.ratio(
+        1.5, at_least=1.0, at_most=20.0, doc="yield over the stress of a shaft end at least"
+    )
     stub: float = kind.length(40 * mm, at_least=0.0, at_most=1.0, doc="overhang of the shaft ends, bearing to tube")
     row_time: float = kind.time(150 * s, at_least=1 * ms, at_most=1e6, doc="time of a row, its knots included")
     spacer_tube: str | None = kind.text(None, doc="tube of the spacer; default: the lightest that keeps the limits")

@@ -6,7 +6,7 @@ from ilmek.elements.drive_parts import no_motor
 from ilmek.elements.tubes import TUBES
 from ilmek.machines.warp_loads import WarpLoads
 from ilmek.machines.warp_tension.analysis import WarpTensionAnalysis
-from ilmek.machines.warp_tension.cylinders import LEAST_WALL, STATIC_SAFETY, STUB, STUB_SAFETY, Cylinder
+from ilmek.machines.warp_tension.cylinders import LEAST_WALL, STUB, Cylinder
 from ilmek.machines.warp_tension.design import WarpTensionDesign, outer_radii_min, tubes_within_limits
 from ilmek.report import Check, Table, at_least, at_most, columns
 from ilmek.units import format_number, format_quantity, mm
@@ -69,11 +69,17 @@ def _cylinder_checks(found: WarpTensionAnalysis) -> tuple[Check, ...]:
             if slope_limit(one.bearing) < one.slope <= params.slope_limit
         ),
         at_least(
-            *(f"static safety, {tired.bearing.name}", tired.static_safety, STATIC_SAFETY, "1", f"ISO 76; {case}"),
+            *(
+                f"static safety, {tired.bearing.name}",
+                tired.static_safety,
+                params.static_safety,
+                "1",
+                f"ISO 76; {case}",
+            ),
             cure=larger,
         ),
         at_least(
-            *(f"shaft end of the {weak.name} cylinder", weak.stub_safety, STUB_SAFETY, "1"),
+            *(f"shaft end of the {weak.name} cylinder", weak.stub_safety, params.stub_safety, "1"),
             f"yield of {STUB.name}; {case}",
             cure=f"{larger}, or a shorter stub",
         ),
