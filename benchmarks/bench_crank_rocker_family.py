@@ -39,7 +39,7 @@ def timed(work: Callable[[], Any], times: int = 3) -> tuple[float, Any]:
 
 def whole(params: BeatUpParams, count: int) -> tuple[dict[str, FloatArray], int]:
     """Every quantity of every member, and how many are on the front."""
-    members = family(params.swing, params.crank_rotation, count)
+    members = family(params.rocker_swing, params.crank_rotation, count)
     table = dict(tabulate(params, members.links, members.beta))
     return table, int(front(np.stack([sign * table[name] for name, sign in FRONT], axis=1)).sum())
 
@@ -79,7 +79,7 @@ def one(params: BeatUpParams) -> None:
     """A line of the table: one family."""
     taken, (table, on_front) = timed(lambda: whole(params, MEMBERS))
     places = np.linspace(0, MEMBERS - 1, LOOPED).astype(int).tolist()
-    members = family(params.swing, params.crank_rotation, MEMBERS)
+    members = family(params.rocker_swing, params.crank_rotation, MEMBERS)
     loop, sampled = timed(lambda: looped(params, members, places), 1)
     loop *= MEMBERS / LOOPED
     missed = 1 - sampled / np.stack([table[name][places] for name in PEAKS], axis=1)

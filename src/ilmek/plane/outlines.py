@@ -76,7 +76,7 @@ def to_outline(points: Complex[np.ndarray, "*batch"], outline: Outline) -> Float
 
 
 def between(
-    first: Complex[np.ndarray, "*batch a"], second: Complex[np.ndarray, "*batch b"]
+    first: Complex[np.ndarray, "*#batch a"], second: Complex[np.ndarray, "*#batch b"]
 ) -> Float[np.ndarray, "*batch"]:
     """Distance of two convex polygons by their corners [m]; for overlap minus the penetration depth.
 
@@ -114,14 +114,14 @@ def _foot(corners: Complex[np.ndarray, " a"], polygon: Complex[np.ndarray, " b"]
 
 
 def _corners_to_edges(
-    first: Complex[np.ndarray, "*batch a"], second: Complex[np.ndarray, "*batch b"]
+    first: Complex[np.ndarray, "*#batch a"], second: Complex[np.ndarray, "*#batch b"]
 ) -> Float[np.ndarray, "*batch"]:
     starts, ends = second[..., None, :], np.roll(second, -1, axis=-1)[..., None, :]
     return np.asarray(np.min(to_segments(first[..., :, None], starts, ends), axis=(-2, -1)))
 
 
 def _separation(
-    first: Complex[np.ndarray, "*batch a"], second: Complex[np.ndarray, "*batch b"]
+    first: Complex[np.ndarray, "*#batch a"], second: Complex[np.ndarray, "*#batch b"]
 ) -> Float[np.ndarray, "*batch"]:
     """Greatest separation [m] along the normals of the first's edges, below 0 for none; -inf for a point."""
     edges = np.roll(first, -1, axis=-1) - first

@@ -43,7 +43,7 @@ from ilmek.machines.beat_up.strength import (
 )
 from ilmek.machines.beat_up.travel import force_at_beat
 from ilmek.machines.hammer.comb import comb_mass, with_depth
-from ilmek.machines.hammer.params import MOST_BEATERS, HammerParams
+from ilmek.machines.hammer.params import MOST_BALLAST, MOST_BEATERS, HammerParams
 from ilmek.records import computed, group, record, result
 from ilmek.report import Alternative, Check, Choice, Part, at_most, choose
 from ilmek.units import format_quantity, turn
@@ -140,7 +140,7 @@ def _options(params: HammerParams, fabric: Fabric, needed: float) -> Iterator[tu
         comb = comb_mass(shared)
         for speed in (params.beat_speed,) if params.beat_speed else SPEEDS:
             mass = _RESERVE * (params.force or needed) * params.warps / (acceleration * speed**2)
-            ballast = max(mass - comb, 0.0) if params.ballast is None else params.ballast
+            ballast = min(max(mass - comb, 0.0), MOST_BALLAST) if params.ballast is None else params.ballast
             yield _with_links(replace(shared, beat_speed=speed, ballast=ballast), (comb + ballast) / number)
 
 

@@ -33,6 +33,9 @@ MOST_HOLDS = 200
 MOST_BEATERS = 100
 """Most crank-rockers of a comb."""
 
+MOST_BALLAST = 1e5
+"""Largest ballast of a comb [kg]."""
+
 BEATER_WIDTH = 1.5
 """Width of the comb for each crank-rocker, and for each vertical axis beyond the first [m]."""
 
@@ -175,7 +178,10 @@ class HammerParams(Params):
         doc="speed of the crank; default: the cheapest that gives the force",
     )
     ballast: float | None = kind.mass(
-        None, at_least=0.0, at_most=1e5, doc="mass added to the comb on crank-rockers; default: what the force needs"
+        None,
+        at_least=0.0,
+        at_most=MOST_BALLAST,
+        doc="mass added to the comb on crank-rockers; default: what the force needs",
     )
     beaters: int | None = kind.count(
         None,
