@@ -36,5 +36,8 @@ MACHINE = Component(
     choices=use_choices,
     fit=fit,
     beat=planned_beat,
-    own_figures=("family",),
+    own_figures=(
+        *("family", "beat-up-moving", "beater-travel", "beater-velocity", "beater-acceleration"),
+        *("transmission-angle", "shaking-force", "run-speed"),
+    ),
 )

@@ -45,5 +45,5 @@ MACHINE = Component(
     parts=parts,
     work=work,
     fit=fit,
-    own_figures=("shedding-stagger",),
+    own_figures=("shedding-stagger", "shedding-velocity", "shedding-curvature"),
 )

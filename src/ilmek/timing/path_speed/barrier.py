@@ -14,8 +14,7 @@ same points, so w cannot vanish at one of them.
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.interpolate import BSpline
-from scipy.linalg import solveh_banded
+import scipy
 
 from ilmek.arrays import Float, FloatArray, IntArray
 
@@ -74,7 +73,7 @@ def local_basis(knots: FloatArray, share: FloatArray, order: int = 0) -> FloatAr
     width = np.diff(knots)[:, None]
     u = (knots[:-1, None] + width * share).ravel()
     every = np.eye(len(knots) + ORDER - 2)
-    values = BSpline(clamped(knots), every, ORDER - 1)(u, nu=order)
+    values = scipy.interpolate.BSpline(clamped(knots), every, ORDER - 1)(u, nu=order)
     return np.asarray(np.take_along_axis(values, _seen(len(knots) - 1, len(share)), 1))
 
 
@@ -134,7 +133,7 @@ def _newton(
     curvature = _blocks((0.75 * task.weight * state.w**-2.5)[:, None] * task.basis, task.basis, intervals)
     steep = gradients * (duals / state.slack)[..., None]
     curvature += _blocks(steep.reshape(-1, ORDER), gradients.reshape(-1, ORDER), intervals)
-    step = solveh_banded(_banded(curvature), -slope, lower=True)
+    step = scipy.linalg.solveh_banded(_banded(curvature), -slope, lower=True)
     change = (gradients @ step[seen][..., None])[..., 0]
     return step, change, (mean - duals * change) / state.slack - duals
 

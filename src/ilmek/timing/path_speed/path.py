@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 from typing import TypeAlias
 
 import numpy as np
-from scipy.interpolate import PPoly
+import scipy
 
 from ilmek.arrays import Float, FloatArray
 from ilmek.errors import ParameterError
@@ -58,7 +58,7 @@ class JointPath:
     positions: Float[np.ndarray, "nodes axes"]
     slopes: Float[np.ndarray, "nodes axes"]
     bends: Float[np.ndarray, "nodes axes"]
-    _curve: PPoly = field(init=False, repr=False)
+    _curve: "scipy.interpolate.PPoly" = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
         nodes = np.column_stack([self.s, self.positions, self.slopes, self.bends])
@@ -66,7 +66,7 @@ class JointPath:
             raise ParameterError("nodes of a path", allowed="two or more, s ascending, all numbers finite")
         if not (np.ptp(self.positions, axis=0).any() or self.slopes.any()):
             raise ParameterError("a path on which no axis moves", allowed="one that moves", do="omit the path")
-        object.__setattr__(self, "_curve", PPoly(self._coefficients(), self.s))
+        object.__setattr__(self, "_curve", scipy.interpolate.PPoly(self._coefficients(), self.s))
 
     def _coefficients(self) -> FloatArray:
         """Coefficients of the quintics between the nodes, the highest power first: (6, intervals, axes)."""

@@ -14,7 +14,7 @@ down until every limit holds. The result is a local optimum within the spline: t
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.interpolate import BSpline
+import scipy
 
 from ilmek.arrays import Float, FloatArray
 from ilmek.errors import ParameterError
@@ -62,7 +62,7 @@ class PathMotion:
     limits: AxesLimits
     knots: FloatArray
     times: FloatArray
-    square: BSpline
+    square: "scipy.interpolate.BSpline"
     usage: Float[np.ndarray, "3 axes"]
 
     @property
@@ -120,7 +120,9 @@ def quickest_motion(path: JointPath, limits: AxesLimits, intervals: int = INTERV
     return _timed(path, limits, *_found(path, limits, knots, ROUNDS))
 
 
-def _found(path: JointPath, limits: AxesLimits, knots: FloatArray, rounds: int) -> tuple[FloatArray, BSpline]:
+def _found(
+    path: JointPath, limits: AxesLimits, knots: FloatArray, rounds: int
+) -> "tuple[FloatArray, scipy.interpolate.BSpline]":
     """The optimal w, and its knots; each further round divides or tightens the intervals that exceed a limit."""
     share = np.ones((len(knots) - 1, 1 + 4 * len(limits.jerk)))
     while True:
@@ -135,12 +137,12 @@ def _found(path: JointPath, limits: AxesLimits, knots: FloatArray, rounds: int) 
         knots = np.append(0.0, np.cumsum(np.repeat(np.diff(knots) / parts, parts)))
 
 
-def _best(path: JointPath, limits: AxesLimits, knots: FloatArray, share: FloatArray) -> BSpline:
+def _best(path: JointPath, limits: AxesLimits, knots: FloatArray, share: FloatArray) -> "scipy.interpolate.BSpline":
     """The optimal w where every interval may use a share of the limits."""
     task, tight = _task(path, limits, knots), np.repeat(share, len(_POINTS), axis=0)
     task = replace(task, constant=task.constant * tight, root=task.root * tight)
     x = quickest(task, 0.8 * float(share.min()) ** 2 / _slowness(path, limits, knots) ** 2)
-    return BSpline(clamped(knots), x, 3)
+    return scipy.interpolate.BSpline(clamped(knots), x, 3)
 
 
 def _slowness(path: JointPath, limits: AxesLimits, knots: FloatArray) -> float:
@@ -169,7 +171,9 @@ def _task(path: JointPath, limits: AxesLimits, knots: FloatArray) -> SpeedTask:
     return SpeedTask(knots, b0, weight, rows, constant, 1.0 - constant)
 
 
-def _overstep(path: JointPath, limits: AxesLimits, knots: FloatArray, square: BSpline) -> FloatArray:
+def _overstep(
+    path: JointPath, limits: AxesLimits, knots: FloatArray, square: "scipy.interpolate.BSpline"
+) -> FloatArray:
     """Largest use of every constraint in every interval, (intervals, constraints)."""
     used = _used(path, limits, _at(knots, _FINE), square)
     speed = np.max(used[0] ** 2, axis=1)[:, None]
@@ -177,14 +181,14 @@ def _overstep(path: JointPath, limits: AxesLimits, knots: FloatArray, square: BS
     return np.asarray(every.reshape(len(knots) - 1, len(_FINE), -1).max(axis=1))
 
 
-def _used(path: JointPath, limits: AxesLimits, u: FloatArray, square: BSpline) -> Three:
+def _used(path: JointPath, limits: AxesLimits, u: FloatArray, square: "scipy.interpolate.BSpline") -> Three:
     """Speed, acceleration and jerk over their limits, signed, (points, axes) each."""
     w, w1, w2 = (one[:, None] for one in _derivatives(square, u))
     speed, acceleration, jerk = rates(path.derivatives(u), (w, w1, w2))
     return speed / limits.speed, acceleration / limits.acceleration, jerk / limits.jerk
 
 
-def _knots(path: JointPath, square: BSpline, intervals: int) -> FloatArray:
+def _knots(path: JointPath, square: "scipy.interpolate.BSpline", intervals: int) -> FloatArray:
     """Knots: a third each even in u, even in time, and by the curvature of the path."""
     u = np.linspace(0.0, 1.0, 16 * COARSE + 1)
     middle = (u[1:] + u[:-1]) / 2
@@ -198,12 +202,12 @@ def _knots(path: JointPath, square: BSpline, intervals: int) -> FloatArray:
     return np.interp(np.linspace(0.0, grown[-1], intervals + 1), grown, u)
 
 
-def _timed(path: JointPath, limits: AxesLimits, knots: FloatArray, square: BSpline) -> PathMotion:
+def _timed(path: JointPath, limits: AxesLimits, knots: FloatArray, square: "scipy.interpolate.BSpline") -> PathMotion:
     """The motion of a spline, scaled in time until the tightest limit is just kept on the fine grid."""
     u = np.append(_at(knots, _FINE), _beside_nodes(path))
     used = [np.abs(one).max(axis=0) for one in _used(path, limits, u, square)]
     slow = max(used[0].max(), np.sqrt(used[1].max()), np.cbrt(used[2].max()))
-    square = BSpline(square.t, square.c / slow**2, square.k)
+    square = scipy.interpolate.BSpline(square.t, square.c / slow**2, square.k)
     takes = _passing(square, knots[:-1], knots[1:])
     usage = np.stack([one / slow**power for power, one in enumerate(used, 1)])
     return PathMotion(path, limits, knots, np.append(0.0, np.cumsum(takes)), square, usage)
@@ -220,14 +224,14 @@ def _beside_nodes(path: JointPath) -> FloatArray:
     return np.append(low, high)
 
 
-def _passing(square: BSpline, low: FloatArray, high: FloatArray) -> FloatArray:
+def _passing(square: "scipy.interpolate.BSpline", low: FloatArray, high: FloatArray) -> FloatArray:
     """Times [s] from one u to another of the same interval, by Gauss's five points."""
     half = (high - low) / 2
     u = low[..., None] + half[..., None] * (1 + _GAUSS)
     return np.asarray(half * np.sum(_WEIGHT / np.sqrt(square(u)), axis=-1))
 
 
-def _derivatives(square: BSpline, u: FloatArray) -> Three:
+def _derivatives(square: "scipy.interpolate.BSpline", u: FloatArray) -> Three:
     """W and its first two derivatives by u."""
     w, first, second = (np.asarray(square(u, nu=order)) for order in range(3))
     return w, first, second
