@@ -138,15 +138,16 @@ def _force_plots(design: CamDesign) -> tuple[Plot, ...]:
             (follower_load.preload + follower_load.rate * design.state(angle).trace.motion.s) / arc
         )
         note = "the follower stays on the cam as long as the force is above 0"
-    mark = Mark(extremes.normal.at, format_quantity(extremes.normal.value, "N"))
+    mark = None if extremes.jammed else Mark(extremes.normal.at, format_quantity(extremes.normal.value, "N"))
     title, newton = "Force between cam and follower", Axis("force", "N")
     over = design.programme
     force = cam_figures.turn_plot(
         title, newton, forces, over, name="contact-force", dashed=("spring",), mark=mark, note=note
     )
-    mark = Mark(extremes.torque.at, format_quantity(extremes.torque.value, "N*m"))
+    mark = None if extremes.jammed else Mark(extremes.torque.at, format_quantity(extremes.torque.value, "N*m"))
     note = "positive: the shaft drives the cam; negative: the follower drives it"
-    curve, level = {"torque": lambda angle: design.state(angle).torque}, {"root mean square": extremes.torque_rms}
+    curve = {"torque": lambda angle: design.state(angle).torque}
+    level = {} if extremes.jammed else {"root mean square": extremes.rms}
     axis = Axis("torque", "N*m")
     title = "Torque of the shaft"
     torque = cam_figures.turn_plot(title, axis, curve, over, name="torque", levels=level, mark=mark, note=note)
