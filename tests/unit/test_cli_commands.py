@@ -248,3 +248,11 @@ def test_full_disk_leaves_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     assert (result.exit_code, result.stdout, result.stderr.count("\n")) == (2, "", 1)
     assert "cannot be written" in result.stderr
     assert list(tmp_path.iterdir()) == []
+
+
+def test_the_aim_of_a_loom_is_an_option_too() -> None:
+    option, setting = (
+        json.loads(run("design", "automated-loom", "beat=comb", *aim, "--json", "-").stdout)["results"]["heads"]
+        for aim in (("--aim", "time"), ("--set", "aim=time"))
+    )
+    assert option == setting > 1

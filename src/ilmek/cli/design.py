@@ -33,6 +33,9 @@ The parameters of a machine, and their limits: ilmek machines MACHINE
     metavar="NAME=VALUE",
     help="Set a parameter, with its unit; @FILE reads the value from FILE.",
 )
+@click.option(
+    "--aim", metavar="price|time", help="The same as --set aim=price or aim=time: what a loom's choice makes least."
+)
 @json_option
 @click.option("--report", "page_to", type=click.Path(path_type=Path), metavar="FILE.html", help="Write a report page.")
 @click.option(
@@ -48,6 +51,7 @@ def command(  # noqa: PLR0917 - click calls it by name
     name: str,
     more: tuple[str, ...],
     settings: tuple[str, ...],
+    aim: str | None,
     json_to: str | None,
     page_to: Path | None,
     parts_to: Path | None,
@@ -57,7 +61,7 @@ def command(  # noqa: PLR0917 - click calls it by name
     """Design MACHINE and report it: results, checks against limits, warnings. Ends with 3 where a check fails."""
     if parts_to is None and tolerance is not None:
         raise click.UsageError("--tolerance needs --workshop DIR")
-    given = (*settings, *more)
+    given = (*settings, *more, *(() if aim is None else (f"aim={aim}",)))
     files = {"--json": json_to, "--report": page_to}
     workshop = None if parts_to is None else WorkshopOrder(parts_to, tolerance)
     with call_outputs(files, force=force, inputs=setting_files(given)) as call:
