@@ -53,7 +53,7 @@ def _warm_up(jobs: int) -> None:
     """Run what is right once, so that the kernels are compiled; complain where that fails."""
     _show("compiling the kernels with checked indices (about two minutes, once)")
     for outcome in outcomes(usual_cases(make_corpus()), jobs, Limits(hang=600.0, timing=False)):
-        if outcome.code != 0:
+        if outcome.code not in (0, 3):  # 3: a check of the design fails
             _show(f"an input that is right ends with {outcome.code}: {outcome.task}")
 
 
