@@ -77,6 +77,18 @@ class ServoDrive:
     reducer: Reducer
     duty: MotorDuty
 
+    def as_json(self) -> dict[str, str | float]:
+        """Motor, ratio of the reducer, and duty as plain data, SI."""
+        duty = self.duty
+        return {
+            "motor": self.motor.name,
+            "ratio": self.reducer.ratio,
+            "torque_rms": duty.rms,
+            "torque_peak": duty.peak,
+            "speed_max": duty.speed_max,
+            "inertia_ratio": duty.inertia_ratio,
+        }
+
 
 def duty(cycle: LoadCycle, motor: Motor, reducer: Reducer = DIRECT) -> MotorDuty:
     """The motor's duty M = Mr(T + J a) + Jm i a over a cycle.

@@ -42,7 +42,8 @@ def figures(loom: LoomDesign) -> tuple[LazyFigure, ...]:
 
 def one_row(loom: LoomDesign) -> Timing:
     """The cyclogram of a row."""
-    note = "Four steps of 90° and the warps' harmonic motion: thesis, 3.3; weft, beat and take-up placed within them."
+    stand = "; the cams stand, the shed closed, for the beats" if loom.row_timing.turning < 1 else ""
+    note = f"Four steps and the warps' harmonic motion: thesis, 3.3; weft, beat and take-up placed within them{stand}."
     return draw(loom.row_cyclogram, "One row: two wefts, two beats", note)
 
 

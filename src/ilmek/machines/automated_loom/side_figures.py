@@ -150,8 +150,8 @@ def _head(view: SideView, away: float, role: str, label: str = "") -> tuple[Stro
 
 
 def _axes(view: SideView) -> tuple[Dot, ...]:
-    places = (*(cam.at for cam in view.cams), view.upper.at, view.spacer.at, view.lower.at)
-    return tuple(Dot(at, "", "point") for at in places)
+    axes = (*(cam.at for cam in view.cams), view.upper.at, view.spacer.at, view.lower.at)
+    return tuple(Dot(at, "", "point") for at in axes)
 
 
 def _upright(x: float, low: float, high: float, name: str = "") -> Stroke:

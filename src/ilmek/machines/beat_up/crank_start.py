@@ -169,10 +169,10 @@ def _motion(linkage: BeatUp, run_up: float) -> tuple[FloatArray, FloatArray, Flo
     first, last = run_up * (turn - back), run_up * back
     u = np.linspace(0.0, 1.0, _SAMPLES + 1)
     ramp, slope = 3 * u**2 - 2 * u**3, 6 * u - 6 * u**2
-    way = 2 * (u**3 - u**4 / 2)
+    turned = 2 * (u**3 - u**4 / 2)
     up, down, even = 2 * first / speed, 2 * last / speed, (turn - first - last) / speed
     time = np.concatenate([up * u, (up + even * u)[1:], (up + even + down * u)[1:]])
-    angle = np.concatenate([first * way, (first + (turn - first - last) * u)[1:], (turn - last * way[::-1])[1:]])
+    angle = np.concatenate([first * turned, (first + (turn - first - last) * u)[1:], (turn - last * turned[::-1])[1:]])
     rate = np.concatenate([speed * ramp, np.full(_SAMPLES, speed), speed * ramp[::-1][1:]])
     rise = np.concatenate([speed / up * slope, np.zeros(_SAMPLES), -speed / down * slope[::-1][1:]])
     return time, linkage.back_angle + angle, rate, rise

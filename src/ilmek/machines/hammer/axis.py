@@ -78,17 +78,7 @@ class CombDrive:
 
     @computed("", "servo of each axis", absent="none of the table is enough")
     def servo(self) -> Json:
-        if self.drive is None:
-            return None
-        duty = self.drive.duty
-        return {
-            "motor": self.drive.motor.name,
-            "ratio": self.drive.reducer.ratio,
-            "torque_rms": duty.rms,
-            "torque_peak": duty.peak,
-            "speed_max": duty.speed_max,
-            "inertia_ratio": duty.inertia_ratio,
-        }
+        return None if self.drive is None else self.drive.as_json()
 
 
 def _most(values: FloatArray) -> float:

@@ -60,17 +60,7 @@ class BeltAxis:
 
     @computed("", "servo of the axis", absent="none of the table is enough")
     def servo(self) -> Json:
-        if self.drive is None:
-            return None
-        duty = self.drive.duty
-        return {
-            "motor": self.drive.motor.name,
-            "ratio": self.drive.reducer.ratio,
-            "torque_rms": duty.rms,
-            "torque_peak": duty.peak,
-            "speed_max": duty.speed_max,
-            "inertia_ratio": duty.inertia_ratio,
-        }
+        return None if self.drive is None else self.drive.as_json()
 
 
 def belt_axis(params: WeftParams, passage: WeftPassage, moved: float, resisting: float) -> BeltAxis:
