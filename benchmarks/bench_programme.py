@@ -18,7 +18,7 @@ from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import Yarn
 from ilmek.io.programme_file import open_programme, write_programme
 from ilmek.io.programme_meta import Label
-from ilmek.loom.programme import Times, heads_for, make_programme
+from ilmek.loom.programme import Times, least_heads, make_programme
 
 ROWS, COLUMNS, YARNS = 5000, 4000, 16
 TIMES = Times(knot=2.0, colour_change=0.54, travel=0.0022, weft=12.0)
@@ -55,7 +55,7 @@ def _measure(name: str, knots: Indices) -> None:
         ordered = time.perf_counter()
         write_programme(path, programme, label)
         written = time.perf_counter()
-        heads = heads_for(knots, YARNS, 1.3 * programme.duration, TIMES, 13)
+        heads = least_heads(knots, YARNS, 1.3 * programme.duration, TIMES, 13)
         searched = time.perf_counter()
         size = path.stat().st_size
         row, ties = _read(path, ties=False), _read(path, ties=True)

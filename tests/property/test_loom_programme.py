@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ilmek.arrays import Indices
-from ilmek.loom.programme import Programme, Times, heads_for, least_time, make_programme, weaving_time
+from ilmek.loom.programme import Programme, Times, least_heads, least_time, make_programme, weaving_time
 from ilmek.loom.sharing import halves, least_distance
 
 TIMES = Times(knot=2.0, colour_change=0.5, travel=0.03, weft=12.0)
@@ -93,7 +93,7 @@ def test_deadline_gives_the_smallest_number_of_heads(case: tuple[Indices, int, i
     durations = [make_programme(knots, yarns, heads, TIMES).duration for heads in range(1, heads_max + 1)]
     deadline = min(durations) * slack + 0.01
     smallest = next(heads for heads, duration in enumerate(durations, start=1) if duration <= deadline)
-    assert heads_for(knots, yarns, deadline, TIMES, heads_max) == smallest
+    assert least_heads(knots, yarns, deadline, TIMES, heads_max) == smallest
 
 
 @given(charts())

@@ -11,7 +11,7 @@ from ilmek.lazy import lazy_names
 PUBLIC = {
     "Programme": "ilmek.loom.programme",
     "Times": "ilmek.loom.programme",
-    "heads_for": "ilmek.loom.programme",
+    "least_heads": "ilmek.loom.programme",
     "make_programme": "ilmek.loom.programme",
     "weaving_time": "ilmek.loom.programme",
 }
@@ -22,6 +22,6 @@ __getattr__, __dir__ = lazy_names(__name__, PUBLIC)
 if TYPE_CHECKING:
     from ilmek.loom.programme import Programme as Programme
     from ilmek.loom.programme import Times as Times
-    from ilmek.loom.programme import heads_for as heads_for
+    from ilmek.loom.programme import least_heads as least_heads
     from ilmek.loom.programme import make_programme as make_programme
     from ilmek.loom.programme import weaving_time as weaving_time

@@ -25,7 +25,6 @@ from ilmek.loom.schedule import NONE, ByteTable, Layout, RowSpan, ScheduleResult
 from ilmek.loom.sharing import MOST_HEADS, halves, require_whole, share
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
-from ilmek.units import format_number, hour
 
 MOST_PER_SIDE = round(LARGEST * FINEST)
 """Largest number of rows, and of knots in a row: the largest carpet in the finest quality."""
@@ -182,34 +181,6 @@ def least_time(rows: int, columns: int, heads: int, times: Times, bobbins: Seque
     return rows * _least_row(share(columns, heads), heads, times) + stop_time(bobbins, rows)
 
 
-def heads_for(
-    knots: Indices,
-    yarns: int,
-    deadline: float,
-    times: Times,
-    heads_max: int,
-    *,
-    bobbins: Sequence[Bobbin] = (),
-    progress: Progress = SILENT,
-) -> int:
-    """The smallest number of heads, up to `heads_max`, that weaves the chart within the deadline [s], stops included.
-
-    Raises LoomError, with the reason, where no number meets the deadline.
-    """
-    _require_chart(knots, yarns)
-    stops = stop_time(bobbins, knots.shape[0])
-    _require_wefts(knots.shape[0], deadline, times, stops)
-    heads = least_heads(knots, yarns, deadline, times, heads_max, bobbins=bobbins, progress=progress)
-    if heads is not None:
-        return heads
-    reached = weaving_time(knots, yarns, heads_max, times, bobbins=bobbins, progress=progress.part(1.0, 1.0))
-    raise LoomError(
-        f"the deadline of {_hours(deadline)} cannot be met",
-        allowed=f"at most {heads_max} heads fit this width; they weave it in {_hours(reached)}",
-        do="give more time, a coarser quality, a faster knot or narrower heads",
-    )
-
-
 def least_heads(
     knots: Indices,
     yarns: int,
@@ -280,17 +251,3 @@ def _require_chart(knots: Indices, yarns: int) -> None:
     require_whole("yarns", yarns, MOST_YARNS)
     if int(knots.max()) >= yarns:
         raise LoomError(f"a knot of yarn {int(knots.max())}", allowed=f"the list has yarns 0 to {yarns - 1}")
-
-
-def _require_wefts(rows: int, deadline: float, times: Times, stops: float) -> None:
-    wefts = rows * times.weft + stops
-    if not wefts < deadline:
-        raise LoomError(
-            f"the deadline of {_hours(deadline)} cannot be met by any number of heads",
-            allowed=f"the wefts and beats of {rows} rows alone take {_hours(wefts)}",
-            do="give more time, fewer rows or faster wefts",
-        )
-
-
-def _hours(seconds: float) -> str:
-    return f"{format_number(seconds / hour, 3)} h"
