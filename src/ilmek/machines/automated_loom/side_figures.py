@@ -112,10 +112,6 @@ def _cylinders(view: SideView) -> tuple[Stroke, ...]:
     )
 
 
-def _rollers(view: SideView) -> tuple[RoundPart, ...]:
-    return view.upper, view.back_rest, view.spacer, view.lower
-
-
 def _cams(view: SideView) -> tuple[Stroke, ...]:
     return tuple(
         Stroke(cam.at + radius * _AROUND, role)

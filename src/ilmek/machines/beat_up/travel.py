@@ -27,8 +27,7 @@ from ilmek.machines.beat_up.use_params import TravelParams
 from ilmek.records import computed, record, result
 from ilmek.report import Check, Part, at_least, at_most, must
 from ilmek.timing.s_curve import AxisLimits, SCurve, s_curve
-from ilmek.units import mm, turn
-from ilmek.weaving.fell import assumed_fabric
+from ilmek.units import turn
 
 _SAMPLES = 200
 _TURN_SAMPLES = 1440
@@ -95,12 +94,6 @@ def force_at_beat(design: BeatUp) -> float:
     motion = solve(design.plan, np.array([design.beta]), design.params.speed)
     beater = attached(motion, "rocker", design.plan.mechanism.point("rocker", "E"))
     return design.params.beater_mass * float(abs(beater.acceleration[0] - design.params.gravity_vector))
-
-
-def usual_warp_force(tension: float) -> float:
-    """Force of a warp [N] that rows need, with the fabric as assumed; independent of their distance."""
-    fabric = assumed_fabric(4 * mm, tension, 1000.0, 1.0)
-    return float(fabric.resistance(4 * mm))
 
 
 def travel_checks(found: BeaterTravel) -> tuple[Check, ...]:
