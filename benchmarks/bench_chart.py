@@ -17,7 +17,7 @@ from ilmek.arrays import FloatArray, Indices, Rgb
 from ilmek.carpet.chart import make_chart
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.colour_difference import delta_e_2000
-from ilmek.carpet.isolated_knots import count_lone
+from ilmek.carpet.confetti import count_lone
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import Yarn, yarn_labs
@@ -128,10 +128,8 @@ def run() -> None:
     distinct = len(np.unique(rgb.reshape(-1, 3) @ np.array([65536, 256, 1])))
     print(f"{WIDTH} × {HEIGHT} picture, {distinct:,} distinct colours, {len(small.yarns)} yarns")
     print(f"{'method':<42} {'s':>8} {'mean dE00':>9} {'lone':>9} {'chg/knot':>9}")
-    exact, knots = best_of(3, lambda: make_chart(rgb, SIZE, QUALITY, yarns, keep_lone=True).knots)
+    exact, knots = best_of(3, lambda: make_chart(rgb, SIZE, QUALITY, yarns).knots)
     print(line("ilmek, exact CIEDE2000", exact, rgb, knots, labs))
-    merged, knots = best_of(3, lambda: make_chart(rgb, SIZE, QUALITY, yarns).knots)
-    print(line("ilmek, lone knots merged", merged, rgb, knots, labs))
     seconds, knots = best_of(3, lambda: pillow(rgb, yarns))
     print(line("Pillow, quantize to the palette", seconds, rgb, knots, labs))
     part = np.ascontiguousarray(rgb[::6, ::6])

@@ -15,10 +15,11 @@ from hypothesis.extra.numpy import arrays
 from ilmek.arrays import Indices
 from ilmek.carpet.bill import yarn_bill
 from ilmek.carpet.chart import Chart
-from ilmek.carpet.pile import PileParams, knot_length
+from ilmek.carpet.pile import knot_length
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import Yarn
+from ilmek.carpet.yarn_plan import YarnPlanParams
 from ilmek.elements.knot_kinds import WRAPS
 from ilmek.io.chart.symbols import symbols
 from ilmek.io.yarn_csv import write_yarn_csv
@@ -27,7 +28,7 @@ from ilmek.jobs.chart import ChartResult, chart_results
 from ilmek.jobs.order import CarpetOrder
 from ilmek.viz.page_parts import yarn_lines
 
-PILE = PileParams(pile_height=0.0065)
+PLAN = YarnPlanParams(pile_height=0.0065)
 YARN = st.fixed_dictionaries(
     {"srgb": st.integers(0, 0xFFFFFF).map("#{:06x}".format), "nm": st.floats(0.5, 20.0), "ply": st.integers(1, 4)},
     optional={"price": st.floats(0.0, 99.0)},
@@ -45,9 +46,9 @@ def charted(records: list[dict[str, Any]], knots: Indices, across: float, along:
     knots = knots % np.uint8(len(yarns))
     quality = Quality(across, along)
     size = CarpetSize(knots.shape[1] / across, knots.shape[0] / along)
-    chart = Chart(knots, yarns, size, quality, kind, 0.0, 0.0)
-    order = CarpetOrder(Path("x.png"), size, quality, kind, yarns, None, False, PILE)
-    return ChartResult(order, chart, yarn_bill(chart, PILE), ())
+    chart = Chart(knots, yarns, size, quality, kind)
+    order = CarpetOrder(Path("x.png"), size, quality, kind, yarns, plan=PLAN).resolved()
+    return ChartResult(order, chart, yarn_bill(chart, PLAN.pile(quality)), ())
 
 
 def written(made: ChartResult) -> list[dict[str, str]]:
@@ -79,7 +80,7 @@ def test_the_yarn_is_the_same_everywhere(
     assert [need["knots"] for need in pile] == counts == [line.need.knots for line in shown if line.colour]
     assert [int(line["knots"]) for line in lines if line["knots"]] == counts
     for need, yarn, count in zip(pile, used, counts, strict=True):
-        length = count * knot_length(made.chart.knot, made.chart.quality, yarn.linear_density, made.order.pile)
+        length = count * knot_length(made.chart.knot, made.chart.quality, yarn.linear_density, made.pile)
         assert math.isclose(need["length"], length, rel_tol=1e-12)
         assert math.isclose(need["mass"], length * yarn.ply / (1000 * yarn.metric_count), rel_tol=1e-12)
 

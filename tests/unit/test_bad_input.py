@@ -120,9 +120,9 @@ CARPET = {
     "negative pile": ("--pile-height -8mm", "pile_height=-8 mm is out of bounds"),
     "pile in metres": ("--pile-height 8", "did you mean 8mm"),
     "pile in kilograms": ("--pile-height 8kg", "wrong unit"),
-    "one colour": ("--colours 1", "2 to 16"),
+    "one colour": ("--colours 1", "colours=1 is out of bounds"),
     "more colours than yarns": ("--colours 40", "2 to 16"),
-    "colours in words": ("--colours many", "'many' is not a valid int"),
+    "colours in words": ("--colours many", "'many' is not a quantity"),
 }
 
 YARNS = {

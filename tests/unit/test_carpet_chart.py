@@ -6,6 +6,7 @@ import pytest
 from ilmek.carpet.bill import YarnBill, yarn_bill
 from ilmek.carpet.chart import Chart, make_chart
 from ilmek.carpet.ground import GroundParams, sinuous_length
+from ilmek.carpet.palette_rules import PaletteParams
 from ilmek.carpet.pile import PileParams, knot_length
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
@@ -48,18 +49,6 @@ def chart() -> Chart:
     return make_chart(medallion(), SIZE, QUALITY, YARNS)
 
 
-def test_medallion_with_grain_is_weavable(chart: Chart) -> None:
-    raw = make_chart(medallion(), SIZE, QUALITY, YARNS, keep_lone=True)
-    assert raw.lone_fraction > 0.005
-    assert raw.merged == 0
-    assert raw.mean_delta_e == raw.least_delta_e == chart.least_delta_e
-    assert chart.lone_fraction <= 1e-4
-    assert chart.mean_delta_e <= 1.005 * chart.least_delta_e
-    assert chart.changes_per_knot <= 0.06 < raw.changes_per_knot
-    assert chart.merged <= raw.lone_fraction * raw.knots.size
-    assert (chart.rows, chart.columns) == (900, 600)
-
-
 def test_counts_are_of_all_knots(chart: Chart) -> None:
     assert sum(chart.counts) == chart.knots.size
     assert chart.counts[0] == np.count_nonzero(chart.knots == 0)
@@ -79,7 +68,14 @@ def test_top_of_the_picture_is_row_0() -> None:
 
 
 def test_best_colours_keep_the_order_of_the_list() -> None:
-    chart = make_chart(medallion(90, 60), CarpetSize(0.6, 0.9), Quality(100.0, 100.0), YARNS, colours=4, knot="Persian")
+    chart = make_chart(
+        medallion(90, 60),
+        CarpetSize(0.6, 0.9),
+        Quality(100.0, 100.0),
+        YARNS,
+        palette=PaletteParams(colours=4),
+        knot="Persian",
+    )
     places = [YARNS.index(yarn) for yarn in chart.yarns]
     assert len(places) == 4
     assert places == sorted(places)
@@ -105,7 +101,7 @@ def test_refused_in_words() -> None:
     with pytest.raises(YarnError, match="1 yarns"):
         make_chart(rgb, SIZE, QUALITY, YARNS[:1])
     with pytest.raises(YarnError, match="2 to 10"):
-        make_chart(rgb, SIZE, QUALITY, YARNS, colours=11)
+        make_chart(rgb, SIZE, QUALITY, YARNS, palette=PaletteParams(colours=11))
     with pytest.raises(CarpetError, match="did you mean symmetric"):
         make_chart(rgb, SIZE, QUALITY, YARNS, knot="symetric")
     with pytest.raises(PictureError, match="empty"):

@@ -23,7 +23,7 @@ def chart(rows: int, columns: int, yarns: int, along: float = 250.0) -> Chart:
     threads = tuple(Yarn(f"yarn-{n}", (r, g, b), (0.0, 0.0, 0.0), 4.0) for n, (r, g, b) in enumerate(colours))
     knots = rng.integers(0, yarns, (rows, columns), dtype=np.uint8)
     size = CarpetSize(columns / 250.0, rows / along, "seccade")
-    return Chart(knots, threads, size, Quality(250.0, along), "symmetric", 1.0, 1.0)
+    return Chart(knots, threads, size, Quality(250.0, along), "symmetric")
 
 
 def written(path: Path, made: Chart) -> PdfReader:

@@ -145,18 +145,9 @@ def test_chart_json_has_its_names_and_makes_no_folder(tmp_path: Path, monkeypatc
     found = data("chart", MEDALLION, *SMALL, "--colours", "6")
     assert (found["rows"], found["columns"], found["colours"]) == (90, 60, 6)
     assert 0 < found["mean_delta_e"] < 20
-    assert found["lone_fraction"] < 0.001
     assert 0 < found["changes_per_knot"] < 1
     assert len(found["yarn"]) == 6
     assert list(tmp_path.iterdir()) == []
-
-
-def test_chart_keeps_lone_knots_where_asked(tmp_path: Path) -> None:
-    rgb = np.random.default_rng(1).integers(0, 256, (60, 40, 3), dtype=np.uint8)
-    Image.fromarray(rgb).save(tmp_path / "noise.png")
-    noise = str(tmp_path / "noise.png")
-    kept = data("chart", noise, *SMALL, "--keep-lone")
-    assert kept["lone_fraction"] > 10 * data("chart", noise, *SMALL)["lone_fraction"]
 
 
 def test_chart_without_a_folder_takes_a_free_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -106,7 +106,7 @@ def made(
 ) -> LoomResult:
     order = read_order(picture, **{"size": SIZE, "quality": QUALITY, **carpet})
     loom_order = read_loom_order(order, deadline=deadline, heads=heads, loom_file=loom_file)
-    return make_loomed(loom_order, order, make_charted(order).chart)
+    return make_loomed(loom_order, make_charted(order))
 
 
 def failed(result: LoomResult) -> set[str]:
@@ -148,10 +148,10 @@ def test_colours_and_yarns_are_checked(existing: ExistingLoom, tmp_path: Path, p
     yarns = tmp_path / "thick.csv"
     yarns.write_text("name,srgb,nm,ply\nred,781418,1,2\nivory,f0f0f0,1,2\n")
     order = read_order(picture, size=SIZE, quality=QUALITY, yarn_file=yarns)
-    found = make_loomed(read_loom_order(order, loom_file=existing.path), order, make_charted(order).chart)
+    found = make_loomed(read_loom_order(order, loom_file=existing.path), make_charted(order))
     assert failed(found) >= {"thickness of the pile in a gripper"}
     order = read_order(Path(MEDALLION), size=SIZE, quality=QUALITY)
-    found = make_loomed(read_loom_order(order, loom_file=existing.path), order, make_charted(order).chart)
+    found = make_loomed(read_loom_order(order, loom_file=existing.path), make_charted(order))
     assert failed(found) == {"colours"}
 
 
@@ -168,7 +168,7 @@ def test_warps_of_the_carpet_are_those_of_the_loom(
 ) -> None:
     order = read_order(picture, size=SIZE, quality=QUALITY)
     loom_order = read_loom_order(order, loom=setting, loom_file=loom_file)
-    assert failed(make_loomed(loom_order, order, make_charted(order).chart)) == names
+    assert failed(make_loomed(loom_order, make_charted(order))) == names
 
 
 def test_a_deadline_is_a_check_and_fewer_heads_can_be_used(loom_file: Path, picture: Path) -> None:
@@ -190,7 +190,7 @@ def test_a_narrow_carpet_parks_heads(existing: ExistingLoom, picture: Path) -> N
 def test_finer_rows_are_taken_up_by_less_and_cost_the_same_force(existing: ExistingLoom, picture: Path) -> None:
     order = read_order(picture, size=SIZE, quality="15x20/dm")
     chart = make_charted(order).chart
-    checks = carpet_checks(existing, order, chart, existing.design.params.yarns, 0.02)
+    checks = carpet_checks(existing, chart, existing.design.params.yarns, 0.02)
     left = next(check for check in checks if check.name == "carpet: distance of the rows that the beat leaves")
     beat = existing.design.beat
     assert left.value == pytest.approx(beat.row_pitch_left * 15 / 20)

@@ -28,13 +28,13 @@ def test_order_reads_texts() -> None:
     order = read_order(MEDALLION, size="kelle", quality="40 raj", knot="Senneh", pile_height="6mm", colours=5)
     assert (order.size.width, order.size.length, order.knot) == (2.0, 3.0, "asymmetric")
     assert order.quality.across == pytest.approx(40 / 0.07)
-    assert order.pile.pile_height == 0.006
-    assert order.as_dict()["colours"] == 5
+    assert order.plan.pile_height == 0.006
+    assert order.resolved().as_dict()["colours"] == 5
 
 
 def test_order_is_judged_before_the_picture_is_opened() -> None:
     with pytest.raises(YarnError):
-        read_order(Path("nowhere.png"), colours=17)
+        read_order(Path("nowhere.png"), yarn_file=MEDALLION.with_name("wool.toml"), colours=200)
     with pytest.raises(LoomError, match=r"1\.25 mm"):
         read_loom_order(read_order(Path("nowhere.png"), quality="40x40/dm"), warp_pitch="2mm")
     with pytest.raises(ParameterError, match="set it by --deadline"):
@@ -44,18 +44,18 @@ def test_order_is_judged_before_the_picture_is_opened() -> None:
 def test_loom_follows_the_chart() -> None:
     order = read_order(MEDALLION, size="20x30cm", quality="20x20/dm", colours=6)
     charted = make_charted(order)
-    loomed = make_loomed(read_loom_order(order), order, charted.chart)
+    loomed = make_loomed(read_loom_order(order), charted)
     params = loomed.design.params
     assert params.colours == charted.chart.colours <= 6
     assert params.pitch == 0.0025
     # A longer pile takes more yarn a knot, which the handler must draw.
     deep = read_order(MEDALLION, size="20x30cm", quality="20x20/dm", colours=6, pile_height="20mm")
-    assert make_loomed(read_loom_order(deep), deep, charted.chart).design.params.knot_yarn > params.knot_yarn + 0.02
+    assert make_loomed(read_loom_order(deep), make_charted(deep)).design.params.knot_yarn > params.knot_yarn + 0.02
 
 
 def test_heads_are_as_many_as_fit_where_few_fit() -> None:
     order = read_order(MEDALLION, size="20x30cm", quality="20x20/dm")
-    loomed = make_loomed(read_loom_order(order), order, make_charted(order).chart)
+    loomed = make_loomed(read_loom_order(order), make_charted(order))
     assert loomed.programme.heads == loomed.design.heads_max < 4
 
 

@@ -20,9 +20,7 @@ def chart(rows: int, columns: int, across: float, along: float) -> Chart:
     knots = np.zeros((rows, columns), dtype=np.uint8)
     knots[rows // 2 :] = 1
     yarns = tuple(Yarn(name, srgb, (0.0, 0.0, 0.0), 4.0, 2) for name, srgb in (("red", RED), ("blue", BLUE)))
-    return Chart(
-        knots, yarns, CarpetSize(columns / across, rows / along), Quality(across, along), "symmetric", 0.0, 0.0
-    )
+    return Chart(knots, yarns, CarpetSize(columns / across, rows / along), Quality(across, along), "symmetric")
 
 
 def opened(picture: bytes) -> Image.Image:

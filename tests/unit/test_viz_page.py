@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from ilmek.carpet.bill import yarn_bill
-from ilmek.carpet.chart import Chart
+from ilmek.carpet.chart import Chart, ChartReading
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import Yarn
@@ -86,7 +86,9 @@ def carpet(name: str = "madder") -> Chart:
         Yarn(name, (150, 30, 40), (0.0, 0.0, 0.0), 4.0, 2, 10.0),
         Yarn("ivory", (240, 230, 210), (9.0, 0.0, 0.0), 4.0),
     )
-    return Chart(knots, yarns, CarpetSize(0.08, 0.12), Quality(250.0, 250.0), "symmetric", 1.25, 1.0)
+    return Chart(
+        knots, yarns, CarpetSize(0.08, 0.12), Quality(250.0, 250.0), "symmetric", ChartReading("photo", "", 1.25, 1.0)
+    )
 
 
 def page(name: str = "plain", checks: tuple[Check, ...] = ()) -> str:

@@ -21,7 +21,7 @@ from ilmek.io.output import Outputs
 from ilmek.io.picture import Picture
 from ilmek.jobs import weave as weaving
 from ilmek.jobs.loom import read_loom_order
-from ilmek.jobs.order import read_order
+from ilmek.jobs.order import read_groups, read_order
 from ilmek.jobs.weave import WeaveResult
 from ilmek.params import Setting
 from ilmek.progress import SILENT, Progress
@@ -49,27 +49,28 @@ def make_chart(
     yarns: str | Path | Sequence[Yarn] | None = None,
     *,
     knot: str = "symmetric",
-    colours: int | None = None,
-    keep_lone: bool = False,
     progress: Progress = SILENT,
+    **settings: Setting,
 ) -> Chart:
     """The knot chart of a picture.
 
     picture  a path, a picture, or its pixels: rows x columns x 3, 0 to 255
     size     like "120x180cm" or "seccade"      quality  like "40x40/dm"
     yarns    a path or a list; default: the wool list that is built in      knot  "symmetric" or "asymmetric"
-    colours  how many yarns of the list are used at most; default: all      keep_lone  single knots stay as they are
+    settings  of the fit, the reading and the palette, by the names of the command line's options: colours=8
 
     Raises PictureError, CarpetError or YarnError; Cancelled.
     """
+    groups = read_groups(settings)
     return charting.make_chart(
         _pixels(picture),
         parse_size(size) if isinstance(size, str) else size,
         parse_quality(quality) if isinstance(quality, str) else quality,
         read_yarns(yarns) if yarns is None or isinstance(yarns, str | Path) else tuple(yarns),
         knot=knot,
-        colours=colours,
-        keep_lone=keep_lone,
+        fit=groups["fit"],
+        reading=groups["reading"],
+        palette=groups["palette"],
         progress=progress,
     )
 
@@ -112,13 +113,10 @@ def weave(
     picture: str | Path,
     out: str | Path,
     *,
-    size: str = "seccade",
-    quality: str = "25x25/dm",
-    knot: str = "symmetric",
+    size: str | None = None,
+    quality: str | None = None,
+    knot: str | None = None,
     yarns: str | Path | None = None,
-    colours: int | None = None,
-    keep_lone: bool = False,
-    pile_height: Setting = "8mm",
     heads: int | None = None,
     deadline: str | None = None,
     aim: str | None = None,
@@ -127,16 +125,20 @@ def weave(
     loom_file: str | Path | None = None,
     force: bool = False,
     progress: Progress = SILENT,
+    **settings: Setting,
 ) -> WeaveResult:
     """Picture to chart, yarn, loom, programme and report in the folder `out`, whole or not at all.
 
-    size, quality, knot, yarns, colours, keep_lone  as of `make_chart`; `yarns` is a path
+    size, quality, knot, yarns  as of `make_chart`; `yarns` is a path; default: those of a chart, else 120 x 180 cm, 25
+                     knots/dm, symmetric and the wool list
     heads, deadline  knotting heads; time for the whole carpet, like "72h"; default: chosen by aim; any time
     aim              "price" or "time": what is least in the choice of all that is left open; default: price
     warp_pitch       distance of two warps; default: that of the quality
     loom             parameters of the loom by name, those of its machines dotted: {"shedding.law": "modified-sine"}
     loom_file        of a loom that exists, written by `weave` as machine.json or by `ilmek design --json`
     force            replace a folder that ilmek made
+
+    settings         further options of the command line by name: colours=8, pile_height="6mm"
 
     Settings are texts with units or numbers in SI. Where the loom cannot weave the carpet, `weaves` of the result is
     False, its `checks` have the reasons, and there is no programme. Raises any IlmekError; then nothing is written;
@@ -148,9 +150,8 @@ def weave(
         quality=quality,
         knot=knot,
         yarn_file=None if yarns is None else Path(yarns),
-        colours=colours,
-        keep_lone=keep_lone,
-        pile_height=pile_height,
+        pdf=None,
+        **settings,
     )
     wanted = read_loom_order(
         order,

@@ -1,7 +1,8 @@
 """Chart: one yarn per knot, from a picture, a size, a quality and a yarn list.
 
-The picture is averaged onto the knot grid (`design`), each distinct colour gets the yarn of the least CIEDE2000
-difference (`palette`), and lone knots take the yarn of a neighbour (`isolated_knots`).
+The picture is fitted to the carpet (`fitting`) and read as a design with one colour for each knot (`reading`). Each
+distinct colour of the design gets the yarn of the least CIEDE2000 difference (`palette`) among those that the rules
+leave (`palette_rules`).
 """
 
 from collections.abc import Sequence
@@ -10,10 +11,13 @@ from dataclasses import dataclass, field, fields
 import numpy as np
 
 from ilmek.arrays import Indices, Rgb
-from ilmek.carpet.design import bands, knot_grid, resampled
-from ilmek.carpet.isolated_knots import count_lone, merge_lone
-from ilmek.carpet.palette import best_yarns, distinct_colours, nearest_yarns, paint
+from ilmek.carpet.confetti import count_lone
+from ilmek.carpet.design import bands, knot_grid
+from ilmek.carpet.fitting import Fit, FitParams, fit_picture
+from ilmek.carpet.palette import distinct_colours, nearest_yarns, paint
+from ilmek.carpet.palette_rules import PaletteParams, choose_yarns
 from ilmek.carpet.quality import Quality
+from ilmek.carpet.reading import Design, ReadParams, read_design
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import MOST_YARNS, Yarn, yarn_labs
 from ilmek.elements.knot_kinds import parse_knot
@@ -32,14 +36,33 @@ class _Tally:
 
 
 @record
+class ChartReading:
+    """How a picture became a chart.
+
+    kind           exact, flat or photo          reason   of that decision, one sentence
+    mean_delta_e   mean CIEDE2000 of the knots' yarns to the design
+    least_delta_e  the same if each knot had its nearest yarn of the list: the optimum
+    changed        number of knots that were changed because their patch was too small
+    foreign        number of knots whose yarn is that of no true colour of their cell; None: no true colours
+    fit            how the picture was fitted to the carpet
+    """
+
+    kind: str
+    reason: str
+    mean_delta_e: float
+    least_delta_e: float
+    changed: int = 0
+    foreign: int | None = None
+    fit: Fit = field(default_factory=Fit)
+
+
+@record
 class Chart:
     """A knot chart.
 
-    knots          index in `yarns` of each knot's yarn, (rows, columns); row 0 is the top of the picture
-    knot           symmetric or asymmetric
-    mean_delta_e   mean CIEDE2000 of the knots' yarns to the averaged picture
-    least_delta_e  the same if each knot had its nearest yarn of the list: the optimum
-    merged         number of lone knots that were changed
+    knots    index in `yarns` of each knot's yarn, (rows, columns); row 0 is the top of the picture
+    knot     symmetric or asymmetric
+    reading  how the picture was read
     """
 
     knots: Indices
@@ -47,9 +70,7 @@ class Chart:
     size: CarpetSize
     quality: Quality
     knot: str
-    mean_delta_e: float
-    least_delta_e: float
-    merged: int = 0
+    reading: ChartReading = field(default_factory=lambda: ChartReading("exact", "drawn knot by knot", 0.0, 0.0))
     _tallies: list[_Tally] = field(default_factory=list, init=False)
     """The tally, once it is made: many results need it."""
 
@@ -111,53 +132,49 @@ def make_chart(
     yarns: Sequence[Yarn],
     *,
     knot: str = "symmetric",
-    keep_lone: bool = False,
-    colours: int | None = None,
+    fit: FitParams | None = None,
+    reading: ReadParams | None = None,
+    palette: PaletteParams | None = None,
     progress: Progress = SILENT,
 ) -> Chart:
     """The knot chart of a picture.
 
-    rgb        picture, uint8 (height, width, 3)      keep_lone  leave lone knots unchanged
-    colours    number of yarns to choose from the list; default: all
+    rgb   picture, uint8 (height, width, 3)      fit, reading, palette  default: those of the classes
     Raises PictureError for an empty picture, CarpetError for an unknown knot and a grid out of bounds, YarnError for a
-    list of less than 2 or more than 255 yarns, and for `colours` out of bounds.
+    list of less than 2 or more than 255 yarns, and for palette rules that no list of yarns meets.
     """
     if rgb.size == 0:
         raise PictureError("the picture is empty", allowed="at least 1 × 1 pixels")
     _check_yarns(yarns)
     parse_knot(knot)
-    picture = resampled(rgb, *knot_grid(size, quality), progress.part(0.0, 0.4))
+    fitted, done = fit_picture(rgb, size, fit, progress.part(0.0, 0.1))
+    design = read_design(fitted, knot_grid(size, quality), reading, progress.part(0.1, 0.4))
     return chart_of_design(
-        picture, size, quality, yarns, knot=knot, keep_lone=keep_lone, colours=colours, progress=progress.part(0.4, 1.0)
+        design, size, quality, yarns, knot=knot, fit=done, palette=palette, progress=progress.part(0.4, 1.0)
     )
 
 
 def chart_of_design(
-    picture: Rgb,
+    design: Design,
     size: CarpetSize,
     quality: Quality,
     yarns: Sequence[Yarn],
     *,
     knot: str = "symmetric",
-    keep_lone: bool = False,
-    colours: int | None = None,
+    fit: Fit | None = None,
+    palette: PaletteParams | None = None,
     progress: Progress = SILENT,
 ) -> Chart:
-    """As `make_chart`, of a picture with one pixel for each knot, which the caller need not keep."""
+    """As `make_chart`, of a design with one colour for each knot, which the caller need not keep."""
     _check_yarns(yarns)
     kind = parse_knot(knot)
-    distinct = distinct_colours(picture, progress.part(0.0, 0.3))
-    chosen = tuple(yarns)
-    if colours is not None:
-        best = best_yarns(distinct, yarn_labs(yarns), colours, progress.part(0.3, 0.6))
-        chosen = tuple(yarns[number] for number in best)
-    labs = yarn_labs(chosen)
-    yarn_of, difference = nearest_yarns(distinct, labs, progress.part(0.6, 0.8))
-    knots = paint(picture, distinct, yarn_of, progress.part(0.8, 0.9))
-    lone = progress.part(0.9, 0.95)
-    merged, added = (0, 0.0) if keep_lone else merge_lone(knots, picture, distinct, labs, difference, progress=lone)
-    least = float(np.sum(distinct.counts * difference))  # not a dot product: its order depends on the threads
-    chart = Chart(knots, chosen, size, quality, kind, (least + added) / knots.size, least / knots.size, merged)
+    distinct = distinct_colours(design.colours, progress.part(0.0, 0.3))
+    chosen = choose_yarns(distinct, yarns, palette or PaletteParams(), progress.part(0.3, 0.6))
+    yarn_of, difference = nearest_yarns(distinct, yarn_labs(chosen), progress.part(0.6, 0.8))
+    knots = paint(design.colours, distinct, yarn_of, progress.part(0.8, 0.95))
+    least = float(np.sum(distinct.counts * difference)) / knots.size  # a dot product's order depends on the threads
+    made = ChartReading(design.kind, design.reason, least, least, 0, design.foreign, fit or Fit())
+    chart = Chart(knots, chosen, size, quality, kind, made)
     chart.tally(progress.part(0.95, 1.0))
     return chart
 

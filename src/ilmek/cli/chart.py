@@ -7,7 +7,8 @@ import click
 
 from ilmek.carpet.bill import YarnBill
 from ilmek.cli.call_outputs import call_outputs
-from ilmek.cli.options import carpet_inputs, carpet_options, force_option, json_option
+from ilmek.cli.carpet_options import carpet_inputs, carpet_options
+from ilmek.cli.options import force_option, json_option
 from ilmek.cli.terminal import note, say, show_pairs, show_table
 from ilmek.cli.verdict import exit_code, note_verdict, show_verdict
 from ilmek.jobs.chart import ChartResult, chart_json, chart_order
@@ -54,15 +55,17 @@ def command(out: Path | None, force: bool, json_to: str | None, **carpet: Any) -
 
 def show_chart(charted: ChartResult) -> None:
     """Print a summary of a chart and its yarn bill."""
-    chart = charted.chart
+    chart, made = charted.chart, charted.chart.reading
     show_verdict(charted.checks)
     show_pairs(
         [
             ("carpet", f"{chart.size}, {chart.quality}, {chart.knot} knot"),
             ("knots", f"{chart.rows * chart.columns:,} ({chart.rows} rows of {chart.columns})"),
             ("colours", f"{chart.colours} of {len(charted.order.yarns)} yarns"),
-            ("colour difference", f"{chart.mean_delta_e:.2f} mean CIEDE2000 (lower bound {chart.least_delta_e:.2f})"),
-            ("lone knots", f"{chart.lone_fraction:.2%} ({chart.merged:,} merged)"),
+            ("colour difference", f"{made.mean_delta_e:.2f} mean CIEDE2000 (lower bound {made.least_delta_e:.2f})"),
+            ("reading", f"{made.kind}: {made.reason}"),
+            ("changed knots", f"{made.changed:,}"),
+            ("lone knots", f"{chart.lone_fraction:.2%}"),
             ("colour changes", f"{chart.changes_per_knot:.3f} per knot"),
             ("pile", pile_in_words(charted)),
         ]

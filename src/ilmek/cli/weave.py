@@ -6,7 +6,8 @@ from typing import Any
 import click
 
 from ilmek.cli.call_outputs import call_outputs
-from ilmek.cli.options import carpet_inputs, carpet_options, force_option, json_option
+from ilmek.cli.carpet_options import carpet_inputs, carpet_options
+from ilmek.cli.options import force_option, json_option
 from ilmek.cli.settings import loom_settings, read_settings, setting_files
 from ilmek.cli.terminal import note, show_pairs
 from ilmek.cli.verdict import WEAVES, exit_code, note_verdict, show_verdict

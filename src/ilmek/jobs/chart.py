@@ -6,11 +6,12 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from ilmek.arrays import Rgb
 from ilmek.carpet.bill import YarnBill, YarnNeed, yarn_bill
 from ilmek.carpet.chart import Chart, chart_of_design
-from ilmek.carpet.design import LARGEST_DISTORTION, distortion, knot_grid, resampled
-from ilmek.carpet.pile import coarsest_count, fill_check, pile_fill
+from ilmek.carpet.design import LARGEST_DISTORTION, knot_grid
+from ilmek.carpet.fitting import Fit, fit_picture
+from ilmek.carpet.pile import PileParams, coarsest_count, fill_check, pile_fill
+from ilmek.carpet.reading import Design, read_design
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import Yarn
 from ilmek.io.chart.pdf import chart_cut, write_chart_pdf
@@ -19,7 +20,7 @@ from ilmek.io.json_file import write_json
 from ilmek.io.output import Outputs, joined
 from ilmek.io.picture import read_picture
 from ilmek.io.yarn_csv import write_yarn_csv
-from ilmek.jobs.order import MOST_PRINTED, CarpetOrder
+from ilmek.jobs.order import MOST_PRINTED, CarpetOrder, ResolvedOrder, check_sheets
 from ilmek.progress import SILENT, Progress
 from ilmek.report import Check, verdict_json
 from ilmek.report.left_out import made_or_left_out
@@ -36,10 +37,15 @@ class ChartResult:
     notes  changes made to the picture, and files that are left out
     """
 
-    order: CarpetOrder
+    order: ResolvedOrder
     chart: Chart
     bill: YarnBill
     notes: tuple[str, ...]
+
+    @property
+    def pile(self) -> PileParams:
+        """The parameters of the pile."""
+        return self.order.order.plan.pile(self.chart.quality)
 
     @property
     def files(self) -> tuple[str, ...]:
@@ -49,7 +55,7 @@ class ChartResult:
     @property
     def _printed(self) -> bool:
         """Whether chart.pdf is written; default: if it has at most MOST_SHEETS sheets."""
-        return chart_cut(self.chart).count <= MOST_SHEETS if self.order.pdf is None else self.order.pdf
+        return chart_cut(self.chart).count <= MOST_SHEETS if self.order.order.pdf is None else self.order.order.pdf
 
     @property
     def thickest(self) -> Yarn:
@@ -60,7 +66,7 @@ class ChartResult:
     @property
     def checks(self) -> tuple[Check, ...]:
         """Share of the ground that the pile fills, against 100 %."""
-        return (fill_check(pile_fill(self.chart.quality, self.thickest.linear_density, self.order.pile)),)
+        return (fill_check(pile_fill(self.chart.quality, self.thickest.linear_density, self.pile)),)
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -69,7 +75,7 @@ class ChartResult:
             return ()
         yarn = self.thickest
         # Rounded up, because a finer count fits.
-        fits = math.ceil(100 * coarsest_count(self.chart.quality, yarn.ply, self.order.pile)) / 100
+        fits = math.ceil(100 * coarsest_count(self.chart.quality, yarn.ply, self.pile)) / 100
         problem = f"{yarn.name!r} (Nm {yarn.metric_count:g}, ply {yarn.ply}) is too thick for {self.chart.quality}"
         takes = f"its pile would take {format_quantity(fails[0].value, '%', 3)} of the ground"
         return (f"{problem}: {takes}; with ply {yarn.ply}, Nm {fits:g} or finer fits, or take a coarser quality",)
@@ -106,26 +112,30 @@ def chart_order(
 
 def make_charted(order: CarpetOrder, progress: Progress = SILENT) -> ChartResult:
     """Read the picture and chart it. Raises PictureError, CarpetError or YarnError."""
-    picture, notes = _read_design(order, progress.part(0.0, 0.4))
+    made = order.resolved()
+    check_sheets(made.size, made.quality, order.pdf)
+    design, fit, notes = _read_design(made, progress.part(0.0, 0.4))
     chart = chart_of_design(
-        picture,
-        order.size,
-        order.quality,
-        order.yarns,
-        knot=order.knot,
-        keep_lone=order.keep_lone,
-        colours=order.colours,
+        design,
+        made.size,
+        made.quality,
+        made.yarns,
+        knot=made.knot,
+        fit=fit,
+        palette=order.palette,
         progress=progress.part(0.4, 1.0, "chart"),
     )
-    return ChartResult(order, chart, yarn_bill(chart, order.pile), (*notes, *_left_out(order, chart)))
+    bill = yarn_bill(chart, order.plan.pile(chart.quality))
+    return ChartResult(made, chart, bill, (*notes, *_left_out(order, chart)))
 
 
-def _read_design(order: CarpetOrder, progress: Progress) -> tuple[Rgb, tuple[str, ...]]:
-    """The picture with one pixel for each knot, and notes; the picture itself is not kept."""
-    picture = read_picture(order.picture, progress.part(0.0, 0.5, "picture"))
-    rows, columns = knot_grid(order.size, order.quality)
-    design = resampled(picture.rgb, rows, columns, progress.part(0.5, 1.0, "chart"))
-    return design, (*picture.notes, *_fit(picture.rgb, order.size, rows, columns))
+def _read_design(made: ResolvedOrder, progress: Progress) -> tuple[Design, Fit, tuple[str, ...]]:
+    """The design of the picture, how it was fitted, and notes; the picture itself is not kept."""
+    picture = read_picture(made.order.picture, progress.part(0.0, 0.5, "picture"))
+    grid = knot_grid(made.size, made.quality)
+    fitted, fit = fit_picture(picture.rgb, made.size, made.order.fit, progress.part(0.5, 0.6))
+    design = read_design(fitted, grid, made.order.reading, progress.part(0.6, 1.0, "chart"))
+    return design, fit, (*picture.notes, *_fit_notes(fit, fitted.shape[:2], made.size, grid))
 
 
 def _left_out(order: CarpetOrder, chart: Chart) -> tuple[str, ...]:
@@ -136,10 +146,9 @@ def _left_out(order: CarpetOrder, chart: Chart) -> tuple[str, ...]:
     return (f"chart.pdf would have {sheets:,} sheets and is left out; {remedy}",)
 
 
-def _fit(rgb: Rgb, size: CarpetSize, rows: int, columns: int) -> tuple[str, ...]:
+def _fit_notes(fit: Fit, pixels: tuple[int, ...], size: CarpetSize, grid: tuple[int, int]) -> tuple[str, ...]:
     """Notes on a picture that is stretched or coarser than the carpet."""
-    height, width = rgb.shape[:2]
-    stretch = distortion(rgb, size)
+    (height, width), (rows, columns), stretch = pixels, grid, fit.stretch
     notes = []
     if abs(stretch) > LARGEST_DISTORTION:
         wider = f"{1 + stretch:.3g} times as wide as it is" if stretch >= 1 else f"{stretch:.0%} wider"
@@ -155,14 +164,18 @@ def _fit(rgb: Rgb, size: CarpetSize, rows: int, columns: int) -> tuple[str, ...]
 
 def chart_results(charted: ChartResult) -> dict[str, Any]:
     """The results of a chart by their JSON names, SI."""
-    chart, bill = charted.chart, charted.bill
+    chart, bill, reading = charted.chart, charted.bill, charted.chart.reading
     return {
         "rows": chart.rows,
         "columns": chart.columns,
         "knots": chart.rows * chart.columns,
         "colours": chart.colours,
-        "mean_delta_e": chart.mean_delta_e,
-        "least_delta_e": chart.least_delta_e,
+        "reading": reading.kind,
+        "changed_knots": reading.changed,
+        "foreign_fraction": None if reading.foreign is None else reading.foreign / chart.knots.size,
+        "fit": {"kind": reading.fit.kind, "stretch": reading.fit.stretch, "cropped": reading.fit.cropped},
+        "mean_delta_e": reading.mean_delta_e,
+        "least_delta_e": reading.least_delta_e,
         "lone_fraction": chart.lone_fraction,
         "changes_per_knot": chart.changes_per_knot,
         "yarn": [_need(need) for need in bill.pile],

@@ -11,11 +11,9 @@ from pathlib import Path
 from typing import Any
 
 from ilmek.carpet.chart import Chart
-from ilmek.carpet.design import knot_grid
 from ilmek.elements.carpet_yarns import CarpetYarnParams, CarpetYarns, carpet_yarns
 from ilmek.errors import IlmekError, LoomError, ParameterError
 from ilmek.io.loom_file import LoomFile, read_loom_file
-from ilmek.jobs.order import CarpetOrder
 from ilmek.loom.sharing import heads_that_fit
 from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, LoomDesign, design
 from ilmek.machines.automated_loom.cyclogram import cyclogram
@@ -123,9 +121,7 @@ def row_pitch_left(existing: ExistingLoom, row_pitch: float) -> float:
     return float(scaled.spacing(beat.beat_force_warp))
 
 
-def carpet_checks(
-    existing: ExistingLoom, order: CarpetOrder, chart: Chart, yarns: CarpetYarnParams, knot_yarn: float
-) -> tuple[Check, ...]:
+def carpet_checks(existing: ExistingLoom, chart: Chart, yarns: CarpetYarnParams, knot_yarn: float) -> tuple[Check, ...]:
     """What a carpet needs, against what the loom has.
 
     yarns  of the carpet, the pile as of the chart       knot_yarn  the longest pile yarn of a knot [m]
@@ -139,8 +135,8 @@ def carpet_checks(
             f"{existing.path.name}{f' differs in {same}' if same else ''}",
             cure="design the loom again with this version of ilmek, or leave its file as it was written",
         ),
-        *_fit_checks(made, order, chart),
-        *_row_checks(existing, order),
+        *_fit_checks(made, chart),
+        *_row_checks(existing, chart),
         at_most(
             "carpet: colours",
             chart.colours,
@@ -153,12 +149,11 @@ def carpet_checks(
     )
 
 
-def _fit_checks(made: LoomDesign, order: CarpetOrder, chart: Chart) -> tuple[Check, ...]:
+def _fit_checks(made: LoomDesign, chart: Chart) -> tuple[Check, ...]:
     """Warps, their pitch, the knot and the length."""
-    params, quality = made.params, order.quality
+    params, quality = made.params, chart.quality
     own = 0.5 / params.pitch
     pitch, dense = format_quantity(params.pitch, "mm"), f"{own * dm:.4g}"
-    columns = knot_grid(order.size, order.quality)[1]
     widest = format_quantity((made.warps - params.selvedge_warps) * params.pitch, "cm")
     source = f"cams, slots and heads of the loom stand at warps {pitch} apart: {dense} knots/dm"
     return (
@@ -172,7 +167,7 @@ def _fit_checks(made: LoomDesign, order: CarpetOrder, chart: Chart) -> tuple[Che
         ),
         at_most(
             "carpet: warps",
-            2 * columns + params.selvedge_warps,
+            2 * chart.columns + params.selvedge_warps,
             made.warps,
             "1",
             "cams, slots and healds of the loom",
@@ -186,7 +181,7 @@ def _fit_checks(made: LoomDesign, order: CarpetOrder, chart: Chart) -> tuple[Che
         ),
         at_most(
             "carpet: length",
-            order.size.length,
+            chart.size.length,
             params.length,
             "m",
             "warp and roll of the loom's cylinders",
@@ -195,9 +190,9 @@ def _fit_checks(made: LoomDesign, order: CarpetOrder, chart: Chart) -> tuple[Che
     )
 
 
-def _row_checks(existing: ExistingLoom, order: CarpetOrder) -> tuple[Check, ...]:
+def _row_checks(existing: ExistingLoom, chart: Chart) -> tuple[Check, ...]:
     """The distance of rows: what the beat leaves, and what the take-up moves."""
-    row_pitch, own = 1 / order.quality.along, existing.design.task.row_pitch
+    row_pitch, own = 1 / chart.quality.along, existing.design.task.row_pitch
     most = row_pitch * (1 + existing.design.params.row_tolerance)
     source = "row pitch of the quality, and row_tolerance; fabric as assumed by this project"
     dense = f"{existing.design.params.quality.along * dm:.4g}"

@@ -7,9 +7,9 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from ilmek.carpet.chart import Chart
 from ilmek.carpet.pile import knot_length
 from ilmek.errors import IlmekError, ParameterError, UnitError
+from ilmek.jobs.chart import ChartResult
 from ilmek.jobs.existing_loom import (
     ExistingLoom,
     carpet_checks,
@@ -125,16 +125,20 @@ def read_loom_order(
         return _order_on(read_existing_loom(loom_file), Wishes(heads, limit), loom, fixed)
     given = {"heads": heads, "deadline": limit, "aim": aim, "warp_pitch": warp_pitch, **loom}
     given = {name: value for name, value in given.items() if value is not None}
-    settings: dict[str, Setting] = dict(
-        width=order.size.width,
-        length=order.size.length,
-        knots_across=order.quality.across,
-        knots_along=order.quality.along,
-        knot=order.knot,
-        **given,
-    )
-    params = AutomatedLoomParams.read(settings)
+    params = AutomatedLoomParams.read({**_of_the_order(order), **given})
     return LoomOrder(params, Wishes(heads, limit, params.price_limit), tuple(given))
+
+
+def _of_the_order(order: CarpetOrder) -> dict[str, Setting]:
+    """The loom's parameters that the order gives; the rest follow from the chart."""
+    given: dict[str, Setting] = {}
+    if order.size is not None:
+        given |= {"width": order.size.width, "length": order.size.length}
+    if order.quality is not None:
+        given |= {"knots_across": order.quality.across, "knots_along": order.quality.along}
+    if order.knot is not None:
+        given["knot"] = order.knot
+    return given
 
 
 def _order_on(
@@ -160,15 +164,15 @@ def _deadline(text: str) -> float:
     return seconds
 
 
-def make_loomed(loom_order: LoomOrder, order: CarpetOrder, chart: Chart, progress: Progress = SILENT) -> LoomResult:
+def make_loomed(loom_order: LoomOrder, charted: ChartResult, progress: Progress = SILENT) -> LoomResult:
     """The loom for a chart, with the number of heads required, and its programme.
 
     A loom that cannot be designed is a result without design, with the reason as a failed check.
     Raises ParameterError for wishes that contradict each other, and the errors of a design that only settings prevent.
     """
-    params = params_for(loom_order, order, chart)
+    chart, params = charted.chart, params_for(loom_order, charted)
     if loom_order.existing is not None:
-        return _on_existing(loom_order, loom_order.existing, order, chart, progress)
+        return _on_existing(loom_order, loom_order.existing, charted, progress)
     try:
         made, choices = heads_for_wishes(params, loom_order.wishes, chart, progress.part(0.0, 0.7))
         programme = make_programme(
@@ -191,13 +195,11 @@ def make_loomed(loom_order: LoomOrder, order: CarpetOrder, chart: Chart, progres
     return LoomResult(report, deadline_checks(loom_order.deadline, programme), made, programme, left)
 
 
-def _on_existing(
-    loom_order: LoomOrder, existing: ExistingLoom, order: CarpetOrder, chart: Chart, progress: Progress
-) -> LoomResult:
+def _on_existing(loom_order: LoomOrder, existing: ExistingLoom, charted: ChartResult, progress: Progress) -> LoomResult:
     """The loom that exists, with what the chart needs of it as checks; a programme where it fits."""
-    yarns = params_for(loom_order, order, chart).yarns
-    checks = carpet_checks(existing, order, chart, yarns, yarn_of_a_knot(order, chart))
-    row_pitch = 1 / order.quality.along
+    chart, yarns = charted.chart, params_for(loom_order, charted).yarns
+    checks = carpet_checks(existing, chart, yarns, yarn_of_a_knot(charted))
+    row_pitch = 1 / chart.quality.along
     made, left = for_rows(existing, row_pitch), row_pitch_left(existing, row_pitch)
     if not all(check.ok for check in checks):
         return LoomResult(existing.report, checks, made, None, left)
@@ -210,21 +212,28 @@ def _on_existing(
     return LoomResult(existing.report, checks, made, programme, left, notes)
 
 
-def params_for(loom_order: LoomOrder, order: CarpetOrder, chart: Chart) -> AutomatedLoomParams:
-    """The parameters of the loom with what follows from the chart: colours, changes, pile yarn."""
+def params_for(loom_order: LoomOrder, charted: ChartResult) -> AutomatedLoomParams:
+    """The parameters of the loom with what follows from the chart: size, quality, knot, colours, changes, pile yarn."""
+    chart = charted.chart
     heaviest = max(yarn.linear_density for yarn in chart.yarns)
     return replace(
         loom_order.params,
+        width=chart.size.width,
+        length=chart.size.length,
+        knots_across=chart.quality.across,
+        knots_along=chart.quality.along,
+        knot=chart.knot,
         yarns=replace(loom_order.params.yarns, pile_density=heaviest),
         colours=chart.colours,
-        knot_yarn=yarn_of_a_knot(order, chart),
+        knot_yarn=yarn_of_a_knot(charted),
         changes_per_knot=min(1.0, chart.changes_per_knot),
     )
 
 
-def yarn_of_a_knot(order: CarpetOrder, chart: Chart) -> float:
+def yarn_of_a_knot(charted: ChartResult) -> float:
     """The longest pile yarn of a knot of a chart [m]."""
-    return max(knot_length(chart.knot, chart.quality, yarn.linear_density, order.pile) for yarn in chart.yarns)
+    chart, pile = charted.chart, charted.pile
+    return max(knot_length(chart.knot, chart.quality, yarn.linear_density, pile) for yarn in chart.yarns)
 
 
 def deadline_checks(deadline: float | None, programme: Programme) -> tuple[Check, ...]:

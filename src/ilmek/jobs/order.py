@@ -1,85 +1,146 @@
-"""The order of a carpet, read from texts and checked before any work is done."""
+"""The order of a carpet, read from texts and checked before any work is done.
 
-from dataclasses import dataclass
+Its parameters stand in groups, `GROUPS`. Each parameter of a group is an option of the command line, `--least-patch`,
+and a key of a recipe, `least_patch`; no two groups have a parameter of the same name.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from ilmek.carpet.design import knot_grid
-from ilmek.carpet.pile import PileParams
+from ilmek.carpet.fitting import FitParams
+from ilmek.carpet.palette_rules import PaletteParams
 from ilmek.carpet.quality import Quality, parse_quality
+from ilmek.carpet.reading import ReadParams
 from ilmek.carpet.sizes import CarpetSize, parse_size
 from ilmek.carpet.yarn import Yarn
+from ilmek.carpet.yarn_plan import YarnPlanParams
 from ilmek.elements.knot_kinds import parse_knot
-from ilmek.errors import CarpetError, YarnError
+from ilmek.errors import CarpetError, ParameterError, YarnError, did_you_mean
 from ilmek.io.chart.sheets import cut
 from ilmek.io.yarn_file import default_yarns, read_yarns
-from ilmek.params import Setting
+from ilmek.params import Params, Setting, declared
+
+SIZE, QUALITY, KNOT = "seccade", "25x25/dm", "symmetric"
+"""What holds where neither the user nor the picture gives it."""
 
 MOST_PRINTED = 2_000
 """Largest number of sheets of a chart.pdf: 50 s, 13 MB and 300 MB of memory."""
+
+GROUPS: Mapping[str, type[Params]] = MappingProxyType(
+    {"fit": FitParams, "reading": ReadParams, "palette": PaletteParams, "plan": YarnPlanParams}
+)
+"""The groups of parameters of an order, by the name of the field."""
 
 
 @dataclass(frozen=True, slots=True)
 class CarpetOrder:
     """The order of a carpet.
 
-    picture    file of the picture
-    yarns      yarn list
-    colours    number of yarns to use; default: as many as match the picture best
-    keep_lone  keep knots that differ from all four neighbours
-    pdf        print the chart; default: if it has few enough sheets (`jobs.chart.MOST_SHEETS`)
+    picture  file of the picture
+    size, quality, knot, yarns  default: those of the picture where it is a chart, else SIZE, QUALITY, KNOT and the wool
+             list that is built in
+    fit      how the picture is fitted to the carpet        reading  how it is read
+    palette  which yarns of the list are taken              plan     the yarn
+    pdf      print the chart; default: if it has few enough sheets (`jobs.chart.MOST_SHEETS`)
     """
 
     picture: Path
+    size: CarpetSize | None = None
+    quality: Quality | None = None
+    knot: str | None = None
+    yarns: tuple[Yarn, ...] | None = None
+    fit: FitParams = field(default_factory=FitParams)
+    reading: ReadParams = field(default_factory=ReadParams)
+    palette: PaletteParams = field(default_factory=PaletteParams)
+    plan: YarnPlanParams = field(default_factory=YarnPlanParams)
+    pdf: bool | None = None
+
+    def resolved(self) -> "ResolvedOrder":
+        """The order with the defaults for all that is left open."""
+        return ResolvedOrder(
+            self,
+            self.size or parse_size(SIZE),
+            self.quality or parse_quality(QUALITY),
+            self.knot or KNOT,
+            self.yarns or default_yarns(),
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class ResolvedOrder:
+    """An order with nothing left open: what the carpet of a picture is made to."""
+
+    order: CarpetOrder
     size: CarpetSize
     quality: Quality
     knot: str
     yarns: tuple[Yarn, ...]
-    colours: int | None
-    keep_lone: bool
-    pile: PileParams
-    pdf: bool | None = None
 
     def as_dict(self) -> dict[str, Any]:
         """The order as plain data, SI."""
         return {
-            "picture": str(self.picture),
+            "picture": str(self.order.picture),
             "size": {"width": self.size.width, "length": self.size.length, "name": self.size.name},
             "quality": {"across": self.quality.across, "along": self.quality.along},
             "knot": self.knot,
             "yarns": [yarn.name for yarn in self.yarns],
-            "colours": self.colours,
-            "keep_lone": self.keep_lone,
-            "pile": self.pile.as_dict(),
-            "pdf": self.pdf,
+            **{name: value for group in GROUPS for name, value in getattr(self.order, group).as_dict().items()},
+            "pdf": self.order.pdf,
         }
 
 
 def read_order(
     picture: Path,
     *,
-    size: str = "seccade",
-    quality: str = "25x25/dm",
-    knot: str = "symmetric",
+    size: str | None = None,
+    quality: str | None = None,
+    knot: str | None = None,
     yarn_file: Path | None = None,
-    colours: int | None = None,
-    keep_lone: bool = False,
-    pile_height: Setting = "8mm",
     pdf: bool | None = None,
+    **settings: Setting,
 ) -> CarpetOrder:
-    """The order from texts; the picture is not opened. Raises CarpetError, YarnError or ParameterError."""
-    kind, wide, fine = parse_knot(knot), parse_size(size), parse_quality(quality)
-    pile = PileParams.read({"pile_height": pile_height})
-    _check_sheets(wide, fine, pdf)
-    yarns = default_yarns() if yarn_file is None else read_yarns(yarn_file)
-    if colours is not None and not 2 <= colours <= len(yarns):
+    """The order from texts; the picture is not opened.
+
+    settings  of the parameters of `GROUPS`, by name; None: the default
+    Raises CarpetError, YarnError or ParameterError.
+    """
+    order = CarpetOrder(
+        picture,
+        None if size is None else parse_size(size),
+        None if quality is None else parse_quality(quality),
+        None if knot is None else parse_knot(knot),
+        None if yarn_file is None else read_yarns(yarn_file),
+        pdf=pdf,
+        **read_groups(settings),
+    )
+    if order.yarns is not None and (order.palette.colours or 2) > len(order.yarns):
         raise YarnError(
-            f"--colours {colours}", allowed=f"2 to {len(yarns)}, the yarns of the list", do="or leave it out"
+            f"--colours {order.palette.colours}",
+            allowed=f"2 to {len(order.yarns)}, the yarns of the list",
+            do="or leave it out",
         )
-    return CarpetOrder(picture, wide, fine, kind, yarns, colours, keep_lone, pile, pdf)
+    if order.size is not None and order.quality is not None:
+        check_sheets(order.size, order.quality, pdf)
+    return order
 
 
-def _check_sheets(size: CarpetSize, quality: Quality, pdf: bool | None) -> None:
+def read_groups(settings: Mapping[str, Setting]) -> dict[str, Any]:
+    """The groups of parameters from settings by name; None: the default. Raises ParameterError."""
+    own = {parameter.name: group for group, cls in GROUPS.items() for parameter in declared(cls)}
+    sorted_settings: dict[str, dict[str, Setting]] = {group: {} for group in GROUPS}
+    for name, setting in settings.items():
+        if name not in own:
+            raise ParameterError(f"unknown parameter {name!r} of a carpet", do=did_you_mean(name, own))
+        if setting is not None:
+            sorted_settings[own[name]][name] = setting
+    return {group: cls.read(sorted_settings[group]) for group, cls in GROUPS.items()}
+
+
+def check_sheets(size: CarpetSize, quality: Quality, pdf: bool | None) -> None:
     """Raise CarpetError for a carpet of too few or too many knots, and for a PDF of more than MOST_PRINTED sheets."""
     rows, columns = knot_grid(size, quality)
     sheets = cut(rows, columns, quality.across / quality.along).count

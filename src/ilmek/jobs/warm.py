@@ -33,7 +33,7 @@ def warm() -> float:
         woven = weave(order, read_loom_order(order, deadline="100h"), out)
         chart, made = woven.charted.chart, woven.loomed.programme
         assert made is not None
-        label = Label(chart.size, chart.quality, chart.knot, chart.yarns, 0.5 / order.quality.across, ())
+        label = Label(chart.size, chart.quality, chart.knot, chart.yarns, 0.5 / chart.quality.across, ())
         write_programme(out / "again.ilmek", made, label)  # the loom's own is written only where it weaves
         with open_programme(out / "again.ilmek") as programme:
             programme.row(0).ties()

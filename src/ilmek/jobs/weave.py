@@ -11,7 +11,7 @@ from ilmek.io.output import Outputs, joined
 from ilmek.io.programme_file import write_programme
 from ilmek.io.programme_meta import Label
 from ilmek.jobs.chart import ChartResult, chart_results, job_json, make_charted, write_chart
-from ilmek.jobs.loom import LoomOrder, LoomResult, make_loomed
+from ilmek.jobs.loom import LoomOrder, LoomResult, make_loomed, params_for
 from ilmek.jobs.order import CarpetOrder
 from ilmek.progress import SILENT, Progress
 from ilmek.report import NEAREST, Check, Report, verdict_json
@@ -110,8 +110,9 @@ def _weave(
     order: CarpetOrder, loom_order: LoomOrder, folder: Path, outputs: Outputs, progress: Progress
 ) -> WeaveResult:
     charted = make_charted(order, progress.part(0.0, 0.4, "picture"))
-    loomed = make_loomed(loom_order, order, charted.chart, progress.part(0.4, 0.5, "loom"))
-    charted = replace(charted, bill=yarn_bill(charted.chart, order.pile, loom_order.params.ground))
+    loom_order = replace(loom_order, params=params_for(loom_order, charted))
+    loomed = make_loomed(loom_order, charted, progress.part(0.4, 0.5, "loom"))
+    charted = replace(charted, bill=yarn_bill(charted.chart, charted.pile, loom_order.params.ground))
     woven = WeaveResult(charted, loom_order, loomed, folder)
     left_out: list[str] = []
     with outputs.folder(folder) as work:
@@ -191,7 +192,7 @@ def time_in_words(seconds: float) -> str:
 def _page(woven: WeaveResult) -> CarpetPage:
     chart = woven.charted.chart
     return CarpetPage(
-        title=woven.charted.order.picture.stem,
+        title=woven.charted.order.order.picture.stem,
         lead=f"{chart.size}, {chart.quality}, {chart.knot} knot",
         chart=chart,
         bill=woven.charted.bill,

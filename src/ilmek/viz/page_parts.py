@@ -89,7 +89,7 @@ def carpet_facts(chart: Chart, bill: YarnBill, more: Sequence[Fact], checks: Seq
             f"{format_number(quality.across / 10)} × {format_number(quality.along / 10)} / dm",
             f"{chart.knot} knot",
         ),
-        Fact("Colours", str(chart.colours), f"mean ΔE {chart.mean_delta_e:.1f} to the picture"),
+        Fact("Colours", str(chart.colours), f"mean ΔE {chart.reading.mean_delta_e:.1f} to the picture"),
         Fact("Yarn", f"{fixed(bill.mass, 1, 2)} kg", _pile(bill.pile_mass, size.area)),
         *more,
     ]

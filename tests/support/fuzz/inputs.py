@@ -263,7 +263,7 @@ def _carpet(draw: Random, corpus: Corpus) -> tuple[Words, Files]:
     words += _given(draw, 0.1, "--knot", _one_of("symmetric", "asymmetric", "jufti"))
     words += _given(draw, 0.2, "--colours", _one_of("2", "5", "16", "255", "1", "-1"))
     words += _given(draw, 0.1, "--pile-height", _one_of("8mm", "0mm", "1km"))
-    words += draw.choice(([], [], [], ["--keep-lone"], ["--no-pdf"], ["--pdf"])) + _json(draw)
+    words += draw.choice(([], [], [], ["--least-patch", "3"], ["--no-pdf"], ["--pdf"])) + _json(draw)
     folder = _output(draw, "") if draw.random() < 0.4 else draw.choice(("new", OLD))
     words += _given(draw, 0.5, "--out", _one_of(folder))
     words += draw.choice(([], [], ["--force"]))

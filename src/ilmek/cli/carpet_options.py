@@ -1,0 +1,87 @@
+"""Options of the commands that make a carpet."""
+
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+from typing import Any, TypeVar
+
+import click
+
+from ilmek.jobs.order import GROUPS, QUALITY, SIZE
+from ilmek.params import Parameter, declared
+from ilmek.units import format_quantity
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+SIZES = "a standard size (seccade, kelle, ...) or width x length, like 120x180cm"
+QUALITIES = "knots across x knots along, like 25x25/dm; also 40raj, 130kpsi, 62500/m2, 9/60 (India), 90line (China)"
+
+
+def carpet_options(command: F) -> F:
+    """Options of a carpet: picture, size, quality, knot, yarns, output, and the parameters of the order's groups."""
+    for option in reversed((*_CARPET, *_of_the_groups(), *_OUTPUT)):
+        command = option(command)
+    return command
+
+
+def carpet_inputs(carpet: Mapping[str, Any]) -> dict[str, Path | None]:
+    """The files that a carpet is read from, by name in messages."""
+    return {"PICTURE": carpet["picture"], "--yarns": carpet["yarn_file"]}
+
+
+def _of_the_groups() -> Iterator[Callable[[F], F]]:
+    """One option for each parameter of `jobs.order.GROUPS`, with the declared meaning as help."""
+    return (_option(parameter) for group in GROUPS.values() for parameter in declared(group))
+
+
+def _option(parameter: Parameter) -> Callable[[F], F]:
+    """The option of a parameter; its text is read and checked with the order."""
+    name = (parameter.alias or parameter.name).replace("_", "-")
+    meaning = f"{parameter.doc[0].upper()}{parameter.doc[1:]}"
+    if parameter.kind is bool:
+        return click.option(f"--{name}/--no-{name}", parameter.name, default=None, help=f"{meaning}.")
+    default = "" if parameter.default is None else f"; default: {_shown(parameter)}"
+    return click.option(f"--{name}", parameter.name, metavar=_metavar(parameter), help=f"{meaning}{default}.")
+
+
+def _shown(parameter: Parameter) -> str:
+    value = parameter.default
+    return format_quantity(value, parameter.unit) if isinstance(value, int | float) else str(value)
+
+
+def _metavar(parameter: Parameter) -> str:
+    if parameter.choices:
+        return "|".join(parameter.choices)
+    return {"mm": "LENGTH", "%": "SHARE", "deg": "ANGLE", "kg": "MASS", "g": "MASS"}.get(
+        parameter.unit, "TEXT" if parameter.kind is str else "N"
+    )
+
+
+_CARPET = (
+    click.argument("picture", type=click.Path(path_type=Path)),
+    click.option(
+        "--size", metavar="SIZE", help=f"Carpet size: {SIZES}; default: that of the picture if it is a chart, {SIZE}."
+    ),
+    click.option(
+        "--quality",
+        metavar="QUALITY",
+        help=f"Knot density: {QUALITIES}; default: that of the picture if it is a chart, {QUALITY}.",
+    ),
+    click.option("--knot", metavar="KNOT", help="symmetric or asymmetric; default: that of a chart, symmetric."),
+    click.option(
+        "--yarns",
+        "yarn_file",
+        type=click.Path(path_type=Path),
+        metavar="FILE",
+        help="Yarn list, TOML or CSV; default: that of a chart, the sixteen wool yarns that come with ilmek.",
+    ),
+)
+_OUTPUT = (
+    click.option(
+        "--pdf/--no-pdf",
+        default=None,
+        help="Write the chart as PDF or not; default: only if it has at most 400 sheets.",
+    ),
+    click.option(
+        "--out", type=click.Path(path_type=Path), metavar="DIR", help="Output folder; on an error nothing is written."
+    ),
+)
