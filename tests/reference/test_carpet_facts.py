@@ -77,7 +77,9 @@ def test_turkish_densities(text: str, density: float) -> None:
 
 def test_pile_yarn_of_the_worked_example() -> None:
     """40 raj, 104 × 156 cm counted as 640 × 960 knots of 40 mm: 614,400 knots, 24,576 m, 15.1 km/m²."""
-    need = pile_need(Yarn("wool", (0, 0, 0), (0.0, 0.0, 0.0), metric_count=10.0, ply=2, price=20.0), 640 * 960, 40 * mm)
+    need = pile_need(
+        Yarn("wool", (0, 0, 0), (0.0, 0.0, 0.0), metric_count=10.0, ply=2, price=20.0), 640 * 960, 640 * 960 * 40 * mm
+    )
     assert need.knots == 614_400
     assert need.length == pytest.approx(24_576, rel=1e-12)
     assert need.length / (1.04 * 1.56) / 1e3 == pytest.approx(15.1, abs=0.05)

@@ -2,7 +2,7 @@
 
     metres = knots × length per knot,   kilograms = metres × linear density,   linear density = ply / (1000 Nm)
 
-for each colour of the pile; the ground needs warp and two wefts.
+for each colour of the pile, whole, half and jufti knots with their own lengths; the ground needs warp and two wefts.
 """
 
 from dataclasses import dataclass
@@ -11,6 +11,7 @@ from ilmek.carpet.chart import Chart
 from ilmek.carpet.ground import GroundParams, ground_yarns
 from ilmek.carpet.pile import PileParams, knot_length
 from ilmek.carpet.yarn import Yarn
+from ilmek.elements.knot_kinds import FORMS
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,9 +63,8 @@ class YarnBill:
         return sum(prices) if len(prices) == len(self.pile) else None
 
 
-def pile_need(yarn: Yarn, knots: int, length_per_knot: float) -> YarnNeed:
-    """The line of a pile yarn, for its number of knots and the length per knot [m]."""
-    length = knots * length_per_knot
+def pile_need(yarn: Yarn, knots: int, length: float) -> YarnNeed:
+    """The line of a pile yarn, for its number of knots and the length of them all [m]."""
     mass = length * yarn.linear_density
     return YarnNeed(yarn.name, "pile", knots, length, mass, None if yarn.price is None else mass * yarn.price)
 
@@ -74,14 +74,20 @@ def yarn_bill(chart: Chart, pile: PileParams | None = None, ground: GroundParams
 
     pile, ground  parameters; default: those of `PileParams` and `GroundParams`
     """
-    needs = tuple(
-        pile_need(yarn, knots, knot_length(chart.knot, chart.quality, yarn.linear_density, pile))
-        for yarn, knots in zip(chart.yarns, chart.counts, strict=True)
-        if knots
-    )
+    tied = chart.tied
+    needs = tuple(pile_need(chart.yarns[yarn], tied.of(yarn), pile_length(chart, yarn, pile)) for yarn in chart.used)
     uses = ("warp", "weft", "weft")
     threads = ground_yarns(chart.size, chart.quality, chart.rows, chart.columns, ground)
     return YarnBill(
         needs,
         tuple(YarnNeed(need.name, use, 0, need.length, need.mass) for need, use in zip(threads, uses, strict=True)),
+    )
+
+
+def pile_length(chart: Chart, yarn: int, pile: PileParams | None = None) -> float:
+    """Length of a yarn of the list in all knots of a chart [m]: whole, half and jufti knots, each with its length."""
+    density = chart.yarns[yarn].linear_density
+    numbers = {form: knots for form, knots in zip(FORMS, (of[yarn] for of in chart.tied), strict=True) if knots}
+    return sum(
+        (knots * knot_length(chart.knot, chart.quality, density, pile, form) for form, knots in numbers.items()), 0.0
     )

@@ -14,6 +14,7 @@ from ilmek.arrays import Indices, Rgb
 from ilmek.carpet.confetti import count_lone
 from ilmek.carpet.design import bands, knot_grid
 from ilmek.carpet.fitting import Fit, FitParams, fit_picture
+from ilmek.carpet.overlay import Overlay, TiedKnots, no_overlay, require_fit, tied_knots
 from ilmek.carpet.palette import distinct_colours, nearest_yarns, paint
 from ilmek.carpet.palette_rules import PaletteParams, choose_yarns
 from ilmek.carpet.quality import Quality
@@ -63,6 +64,8 @@ class Chart:
     knots    index in `yarns` of each knot's yarn, (rows, columns); row 0 is the top of the picture
     knot     symmetric or asymmetric
     reading  how the picture was read
+    overlay  half knots and jufti knots; default: none
+    Raises CarpetError for an overlay that does not fit the knots.
     """
 
     knots: Indices
@@ -71,8 +74,12 @@ class Chart:
     quality: Quality
     knot: str
     reading: ChartReading = field(default_factory=lambda: ChartReading("exact", "drawn knot by knot", 0.0, 0.0))
+    overlay: Overlay = field(default_factory=no_overlay)
     _tallies: list[_Tally] = field(default_factory=list, init=False)
     """The tally, once it is made: many results need it."""
+
+    def __post_init__(self) -> None:
+        require_fit(self.overlay, self.knots, len(self.yarns))
 
     def __repr__(self) -> str:
         return brief(self, (one.name for one in fields(self) if one.init))
@@ -95,13 +102,24 @@ class Chart:
 
     @property
     def counts(self) -> tuple[int, ...]:
-        """Knots of each yarn, in the order of `yarns`."""
+        """Cells of each yarn, in the order of `yarns`: its knots where there is no overlay."""
         return self.tally().counts
+
+    @property
+    def tied(self) -> TiedKnots:
+        """The knots to tie of each yarn: whole, half and jufti."""
+        return tied_knots(self.overlay, self.knots, self.counts)
+
+    @property
+    def used(self) -> tuple[int, ...]:
+        """The yarns that at least one knot has, by index."""
+        tied = self.tied
+        return tuple(yarn for yarn in range(len(self.yarns)) if tied.of(yarn))
 
     @property
     def colours(self) -> int:
         """Number of yarns that at least one knot has."""
-        return sum(count > 0 for count in self.counts)
+        return len(self.used)
 
     @property
     def lone_fraction(self) -> float:

@@ -27,7 +27,7 @@ from dataclasses import dataclass
 
 from ilmek.carpet.quality import Quality
 from ilmek.elements.carpet_yarns import YarnProperties, usual_warp
-from ilmek.elements.knot_kinds import WRAPS, parse_knot
+from ilmek.elements.knot_kinds import parse_knot, wrap_of
 from ilmek.elements.yarns import MATERIALS, WOOL, yarn_diameter
 from ilmek.params import Params, param
 from ilmek.report import Check, at_most
@@ -64,21 +64,24 @@ class PileParams(Params):
     )
 
 
-def knot_length(knot: str, quality: Quality, linear_density: float, pile: PileParams | None = None) -> float:
+def knot_length(
+    knot: str, quality: Quality, linear_density: float, pile: PileParams | None = None, form: str = "whole"
+) -> float:
     """Length of pile yarn per knot [m].
 
     knot  its kind      linear_density  of the pile yarn [kg/m]      pile  default: `PileParams()`
+    form  whole on two warps, half on one, jufti on four [`ilmek.elements.knot_kinds`]
     Raises CarpetError for an unknown knot.
 
     >>> round(knot_length("symmetric", Quality(250.0, 250.0), 0.8e-3) * 1e3, 1)
     34.2
     """
     pile = pile or PileParams()
-    wrap = WRAPS[parse_knot(knot)]
+    kind = parse_knot(knot)
     warp = pile.warp_diameter or usual_warp(quality.warp_pitch).diameter
     yarn = yarn_diameter(linear_density, pile.fibre_density, pile.packing)
     leg = leg_length(warp, yarn, pile)
-    return pile.calibration * (2 * leg + wrap(quality.warp_pitch, (warp + yarn) / 2))
+    return pile.calibration * (2 * leg + wrap_of(kind, form, quality.warp_pitch, (warp + yarn) / 2))
 
 
 def leg_length(warp_diameter: float, yarn_diameter: float, pile: PileParams) -> float:

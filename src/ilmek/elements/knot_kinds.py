@@ -15,6 +15,10 @@ The yarn's axis turns round a warp on the radius r; the warps have the pitch p. 
 
             Where the warps are closer than 2r the yarn is perpendicular to their plane: alpha = 90°, no straight part.
 
+    single-warp: one and a half turns around one warp (customs definition of heading 5701):
+
+                wrap = 3 pi r
+
 The jufti forms combine neighbouring warps: the straight parts grow by whole pitches, the turns are equal. The same
 curve, point by point, is `ilmek.weaving.knots.path`.                                             [derived: geometry]
 """
@@ -46,7 +50,34 @@ def asymmetric_wrap(pitch: float, radius: float, passed: int = 1, encircled: int
     return straight + 2 * radius * (math.pi + alpha)
 
 
+def single_wrap(radius: float) -> float:
+    """Length of a single-warp knot around its warp [m]: 3 pi r.
+
+    radius  r of the yarn's axis on the warp [m]
+    """
+    return 3 * math.pi * radius
+
+
 WRAPS: dict[str, Callable[[float, float], float]] = {"symmetric": symmetric_wrap, "asymmetric": asymmetric_wrap}
+
+FORMS = ("whole", "half", "jufti")
+"""Forms of a carpet's knot: on two warps, on a single one, and on four, in pairs."""
+
+
+def wrap_of(knot: str, form: str, pitch: float, radius: float) -> float:
+    """Length of a form of the carpet's knot around its warps [m]; the single-warp knot has one kind.
+
+    knot  symmetric or asymmetric      form  of FORMS      pitch, radius  p and r [m]
+
+    >>> [round(wrap_of("symmetric", form, 4.0, 1.0), 2) for form in FORMS]
+    [13.42, 9.42, 29.42]
+    """
+    if form == "half":
+        return single_wrap(radius)
+    if form == "jufti":
+        return (symmetric_wrap if knot == "symmetric" else asymmetric_wrap)(pitch, radius, 2, 2)
+    return WRAPS[knot](pitch, radius)
+
 
 _OTHER_NAMES = {
     **dict.fromkeys(("turkish", "ghiordes", "gördes", "gordes", "double"), "symmetric"),

@@ -60,8 +60,7 @@ class ChartResult:
     @property
     def thickest(self) -> Yarn:
         """The thickest yarn that is used."""
-        used = (yarn for yarn, knots in zip(self.chart.yarns, self.chart.counts, strict=True) if knots)
-        return max(used, key=lambda yarn: yarn.linear_density)
+        return max((self.chart.yarns[yarn] for yarn in self.chart.used), key=lambda yarn: yarn.linear_density)
 
     @property
     def checks(self) -> tuple[Check, ...]:

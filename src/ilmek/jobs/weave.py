@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from ilmek.carpet.bill import yarn_bill
+from ilmek.carpet.chart import Chart
 from ilmek.io.chart.symbols import symbols
 from ilmek.io.json_file import write_json
 from ilmek.io.output import Outputs, joined
@@ -14,7 +15,7 @@ from ilmek.jobs.chart import ChartResult, chart_results, job_json, make_charted,
 from ilmek.jobs.loom import LoomOrder, LoomResult, make_loomed, params_for
 from ilmek.jobs.order import CarpetOrder
 from ilmek.progress import SILENT, Progress
-from ilmek.report import NEAREST, Check, Report, verdict_json
+from ilmek.report import NEAREST, Check, Report, must, verdict_json
 from ilmek.report.left_out import made_or_left_out
 from ilmek.units import format_quantity, hour
 from ilmek.viz.page import CarpetPage, carpet_page
@@ -65,8 +66,8 @@ class WeaveResult:
 
     @property
     def own_checks(self) -> tuple[Check, ...]:
-        """Checks of the job: the carpet, and the deadline if one is given."""
-        return (*self.charted.checks, *self.loomed.checks)
+        """Checks of the job: the carpet, its overlay, and the deadline if one is given."""
+        return (*self.charted.checks, *overlay_checks(self.charted.chart), *self.loomed.checks)
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -129,6 +130,15 @@ def _weave(
         woven = replace(woven, written=written, left_out=tuple(left_out))
         write_json(work / "report.json", weave_json(woven))
     return woven
+
+
+def overlay_checks(chart: Chart) -> tuple[Check, ...]:
+    """That every knot is on two warps, as the loom ties it; failed for a chart with half knots or jufti knots."""
+    if not len(chart.overlay):
+        return ()
+    source = f"{chart.overlay.halves:,} cells of half knots, {chart.overlay.juftis:,} jufti knots; the loom ties none"
+    cure = "weave by hand from rows.pdf, or leave the overlay out"
+    return (must("every knot on two warps", False, source, cure=cure),)
 
 
 def _write_programme(woven: WeaveResult, folder: Path, progress: Progress) -> tuple[str, ...]:

@@ -90,7 +90,7 @@ def _sheet_grid(canvas: Any, plan: SheetLayout, wide: float, high: float) -> Non
 
 def draw_legend(canvas: Any, chart: Chart, inks: Inks) -> None:
     """Draw the legend: swatch with symbol, symbol alone, name, count and share of every yarn that is used."""
-    used = [index for index, count in enumerate(chart.counts) if count]
+    used = chart.used
     canvas.bookmarkPage("legend")
     canvas.addOutlineEntry("Legend", "legend", 0)
     for first in range(0, len(used), 2 * _LINES):

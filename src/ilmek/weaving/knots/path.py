@@ -23,7 +23,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray, IntArray, RealField
-from ilmek.elements.knot_kinds import asymmetric_wrap, symmetric_wrap
+from ilmek.elements.knot_kinds import asymmetric_wrap, single_wrap, symmetric_wrap
 from ilmek.errors import CarpetError
 from ilmek.units import format_quantity, mm
 from ilmek.weaving.knots.word import SINGLE, Knot, Word
@@ -158,7 +158,7 @@ def wrap_length(knot: Knot, dimensions: KnotDimensions) -> float:
         return symmetric_wrap(pitch, radius, left, right)
     if knot.kind == "asymmetric":
         return asymmetric_wrap(pitch, radius, *((left, right) if knot.opens == "left" else (right, left)))
-    return 3 * math.pi * radius
+    return single_wrap(radius)
 
 
 def warp_positions(warps: Word, pitch: float) -> ComplexArray:
