@@ -16,7 +16,7 @@ from ilmek.errors import OutputError, PictureError
 from ilmek.io import picture as pictures
 from ilmek.io import yarn_file
 from ilmek.io.chart.pdf import write_chart_pdf
-from ilmek.io.chart.png import ChartPicture, read_chart_png, write_chart_png
+from ilmek.io.chart.png import read_chart_png, write_chart_png
 from ilmek.io.output import Outputs
 from ilmek.io.picture import Picture
 from ilmek.jobs import weave as weaving
@@ -104,8 +104,8 @@ def write_chart(path: str | Path, chart: Chart) -> None:
         writers[path.suffix.lower()](work, chart)
 
 
-def read_chart(path: str | Path) -> ChartPicture:
-    """The knots of a chart .png written by `write_chart`, with its yarns, size and quality. Raises PictureError."""
+def read_chart(path: str | Path) -> Chart:
+    """The chart of a .png written by `write_chart` or a job, as it was. Raises PictureError."""
     return read_chart_png(Path(path))
 
 

@@ -12,7 +12,7 @@ written is read again first, so that no file is written which cannot be read.
 import json
 import sys
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, fields, replace
+from dataclasses import asdict, dataclass, fields
 from typing import Any
 
 import numpy as np
@@ -21,13 +21,13 @@ from ilmek.arrays import IntArray
 from ilmek.cams.laws import law_of
 from ilmek.carpet.design import MOST_KNOTS
 from ilmek.carpet.quality import Quality
-from ilmek.carpet.sizes import LARGEST, CarpetSize
+from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import MOST_YARNS, Yarn
 from ilmek.elements.knot_kinds import WRAPS
 from ilmek.errors import LoomError, shortened
+from ilmek.io.carpet_facts import quality_entry, size_entry, yarn_entries
 from ilmek.io.meta_entry import MetaEntry
 from ilmek.io.sqlite_readonly import LARGEST_VALUE
-from ilmek.io.yarn_file import yarns_from_records
 from ilmek.loom.bobbins import Bobbin, stop_time
 from ilmek.loom.programme import LONGEST_TIME, MOST_PER_SIDE, HeadWork, Programme, Times
 from ilmek.loom.sharing import MOST_HEADS, halves, share
@@ -158,10 +158,10 @@ def read_meta(texts: Mapping[str, str]) -> ProgrammeMeta:
     given_times = entries["times"].table(*Times.__slots__)
     times = Times(**{key: one.number(0.0, LONGEST_TIME) for key, one in given_times.items()})
     label = Label(
-        _size(entries["size"]),
-        Quality(**{key: one.number() for key, one in entries["quality"].table("across", "along").items()}),
+        size_entry(entries["size"]),
+        quality_entry(entries["quality"]),
         entries["knot"].one_of(*WRAPS),
-        _yarns(entries["yarns"]),
+        yarn_entries(entries["yarns"]),
         entries["warp_pitch"].number(1e-6, 1.0),
         _CyclogramReader().cyclograms(entries["cyclograms"]),
     )
@@ -178,31 +178,6 @@ def _parsed(key: str, text: str) -> Any:
         return json.loads(text)
     except (ValueError, RecursionError) as error:  # no JSON, a number of thousands of digits, deeply nested brackets
         raise LoomError(f"{key} is not JSON ({shortened(str(error), 100)})") from None
-
-
-def _size(entry: MetaEntry) -> CarpetSize:
-    sides = entry.table("width", "length", "name")
-    return CarpetSize(sides["width"].number(0.0, LARGEST), sides["length"].number(0.0, LARGEST), sides["name"].text())
-
-
-def _yarns(entry: MetaEntry) -> tuple[Yarn, ...]:
-    """The yarns, by the rules of a yarn list."""
-    found = []
-    for one in entry.rows(2, MOST_YARNS):
-        given = one.table(*(field.name for field in fields(Yarn)))
-        lightness, a, b = (part.number(-200.0, 200.0) for part in given["lab"].rows(3, 3))
-        red, green, blue = (part.whole(0, 255) for part in given["srgb"].rows(3, 3))
-        price = None if given["price"].value is None else given["price"].number()
-        numbers = given["metric_count"].number(), given["ply"].whole(1, MOST_YARNS), price
-        found.append(Yarn(given["name"].text(least=1), (red, green, blue), (lightness, a, b), *numbers))
-    records = [
-        {"name": yarn.name, "srgb": yarn.hex, "nm": yarn.metric_count, "ply": yarn.ply, "price": yarn.price}
-        for yarn in found
-    ]
-    for yarn, read in zip(found, yarns_from_records(records), strict=True):
-        if replace(read, lab=yarn.lab) != yarn:
-            raise LoomError(f"the yarn {yarn.name!r} has spaces round its name")
-    return tuple(found)
 
 
 def _bobbins(entry: MetaEntry) -> tuple[Bobbin, ...]:

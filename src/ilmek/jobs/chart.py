@@ -7,20 +7,16 @@ from pathlib import Path
 from typing import Any
 
 from ilmek.carpet.bill import YarnBill, YarnNeed, yarn_bill
-from ilmek.carpet.chart import Chart, chart_of_design
-from ilmek.carpet.design import LARGEST_DISTORTION, knot_grid
-from ilmek.carpet.fitting import Fit, fit_picture
+from ilmek.carpet.chart import Chart
 from ilmek.carpet.pile import PileParams, coarsest_count, fill_check, pile_fill
-from ilmek.carpet.reading import Design, read_design
-from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import Yarn
 from ilmek.io.chart.pdf import chart_cut, write_chart_pdf
 from ilmek.io.chart.png import write_chart_png
 from ilmek.io.json_file import write_json
 from ilmek.io.output import Outputs, joined
-from ilmek.io.picture import read_picture
 from ilmek.io.yarn_csv import write_yarn_csv
-from ilmek.jobs.order import MOST_PRINTED, CarpetOrder, ResolvedOrder, check_sheets
+from ilmek.jobs.charting import chart_of_order
+from ilmek.jobs.order import MOST_PRINTED, CarpetOrder, ResolvedOrder
 from ilmek.progress import SILENT, Progress
 from ilmek.report import Check, verdict_json
 from ilmek.report.left_out import made_or_left_out
@@ -111,30 +107,9 @@ def chart_order(
 
 def make_charted(order: CarpetOrder, progress: Progress = SILENT) -> ChartResult:
     """Read the picture and chart it. Raises PictureError, CarpetError or YarnError."""
-    made = order.resolved()
-    check_sheets(made.size, made.quality, order.pdf)
-    design, fit, notes = _read_design(made, progress.part(0.0, 0.4))
-    chart = chart_of_design(
-        design,
-        made.size,
-        made.quality,
-        made.yarns,
-        knot=made.knot,
-        fit=fit,
-        palette=order.palette,
-        progress=progress.part(0.4, 1.0, "chart"),
-    )
+    made, chart, notes = chart_of_order(order, progress)
     bill = yarn_bill(chart, order.plan.pile(chart.quality))
     return ChartResult(made, chart, bill, (*notes, *_left_out(order, chart)))
-
-
-def _read_design(made: ResolvedOrder, progress: Progress) -> tuple[Design, Fit, tuple[str, ...]]:
-    """The design of the picture, how it was fitted, and notes; the picture itself is not kept."""
-    picture = read_picture(made.order.picture, progress.part(0.0, 0.5, "picture"))
-    grid = knot_grid(made.size, made.quality)
-    fitted, fit = fit_picture(picture.rgb, made.size, made.order.fit, progress.part(0.5, 0.6))
-    design = read_design(fitted, grid, made.order.reading, progress.part(0.6, 1.0, "chart"))
-    return design, fit, (*picture.notes, *_fit_notes(fit, fitted.shape[:2], made.size, grid))
 
 
 def _left_out(order: CarpetOrder, chart: Chart) -> tuple[str, ...]:
@@ -143,22 +118,6 @@ def _left_out(order: CarpetOrder, chart: Chart) -> tuple[str, ...]:
         return ()
     remedy = "--pdf writes it" if sheets <= MOST_PRINTED else f"at most {MOST_PRINTED:,} are written"
     return (f"chart.pdf would have {sheets:,} sheets and is left out; {remedy}",)
-
-
-def _fit_notes(fit: Fit, pixels: tuple[int, ...], size: CarpetSize, grid: tuple[int, int]) -> tuple[str, ...]:
-    """Notes on a picture that is stretched or coarser than the carpet."""
-    (height, width), (rows, columns), stretch = pixels, grid, fit.stretch
-    notes = []
-    if abs(stretch) > LARGEST_DISTORTION:
-        wider = f"{1 + stretch:.3g} times as wide as it is" if stretch >= 1 else f"{stretch:.0%} wider"
-        drawn = wider if stretch > 0 else f"{-stretch:.0%} narrower"
-        notes.append(f"the picture ({width} x {height} pixels) is drawn {drawn} to fill {size}")
-    if width < columns or height < rows:
-        knots = f"{columns} x {rows} knots"
-        notes.append(
-            f"the picture ({width} x {height} pixels) is coarser than the carpet ({knots}): edges will be stepped"
-        )
-    return tuple(notes)
 
 
 def chart_results(charted: ChartResult) -> dict[str, Any]:

@@ -1,12 +1,11 @@
 """Knot charts as indexed PNG: one pixel per knot, one palette entry per yarn.
 
 The pHYs chunk has the knots per metre in both directions, so that viewers that use it show true proportions. Text
-chunks have the title and, as JSON under `ilmek-chart`, yarns, size, quality and knot.
+chunks have the title and, as JSON under `ilmek-chart`, all facts of the chart (`carpet_facts`).
 """
 
 import io
-import json
-import math
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -17,30 +16,29 @@ from PIL.PngImagePlugin import PngInfo
 from ilmek.arrays import Indices
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.design import MOST_KNOTS
-from ilmek.carpet.yarn import MOST_YARNS
+from ilmek.carpet.yarn import Yarn
 from ilmek.errors import PictureError
-from ilmek.io.picture_file import MeteredBytes, check_structure, pillow_settings, read_bytes
-from ilmek.progress import SILENT, Progress
-from ilmek.records import record
+from ilmek.io.carpet_facts import chart_facts, chart_of_facts, read_facts
+from ilmek.io.picture_file import (
+    DamagedError,
+    MeteredBytes,
+    check_structure,
+    pillow_settings,
+    read_bytes,
+    shortened,
+)
+from ilmek.io.regular_file import open_regular
+from ilmek.progress import SILENT, Cancelled, Progress
 
 KEY = "ilmek-chart"
 _CHUNKS = 1_000_000
 """Reads allowed of a chart: Pillow writes 64 kB in a chunk, and reads it in four pieces."""
 
+_BEGIN = 65_536
+"""Bytes in which the data of a chart begin."""
+
 _METRE = 0.0254
 """Metres per inch: Pillow takes dots per inch and writes dots per metre."""
-
-
-@record
-class ChartPicture:
-    """Contents of a chart PNG: indices, yarn names and colours in their order; size [m], quality [knots/m], knot."""
-
-    knots: Indices
-    names: tuple[str, ...]
-    srgb: tuple[tuple[int, int, int], ...]
-    size: tuple[float, float]
-    quality: tuple[float, float]
-    knot: str
 
 
 class _Counted(io.FileIO):
@@ -69,61 +67,59 @@ def chart_picture(chart: Chart) -> Image.Image:
 
 def write_chart_png(path: Path, chart: Chart, progress: Progress = SILENT) -> None:
     """Write the chart to `path`."""
-    facts = {
-        "yarns": [{"name": yarn.name, "srgb": list(yarn.srgb)} for yarn in chart.yarns],
-        "size": [chart.size.width, chart.size.length],
-        "quality": [chart.quality.across, chart.quality.along],
-        "knot": chart.knot,
-    }
     info = PngInfo()
     info.add_text("Title", "Knot chart: one pixel one knot")
     info.add_text("Software", "ilmek")
-    info.add_itxt(KEY, json.dumps(facts, ensure_ascii=False))
+    info.add_itxt(KEY, chart_facts(chart))
     dots = (chart.quality.across * _METRE, chart.quality.along * _METRE)
     with _Counted(path, chart.knots.size, progress) as file:
         chart_picture(chart).save(file, format="PNG", pnginfo=info, dpi=dots)
 
 
-def read_chart_png(path: Path) -> ChartPicture:
-    """Read a chart that `write_chart_png` wrote, of at most `carpet.design.MOST_KNOTS` knots.
+def is_chart_png(path: Path) -> bool:
+    """Whether a file begins as a PNG file with the data of a chart; False if it cannot be read."""
+    try:
+        file, _ = open_regular(path)
+        with file:
+            begin = file.read(_BEGIN)
+    except OSError:
+        return False
+    return begin.startswith(b"\x89PNG") and b"iTXt" + KEY.encode() + b"\0" in begin
+
+
+def read_chart_png(path: Path, progress: Progress = SILENT) -> Chart:
+    """The chart that `write_chart_png` wrote, of at most `carpet.design.MOST_KNOTS` knots.
 
     Raises PictureError for any other file.
     """
-    data = read_bytes(path)
+    data = read_bytes(path, progress.part(0.0, 0.3))
     try:
         with pillow_settings(MOST_KNOTS):
-            check_structure(data)
+            check_structure(data, progress.part(0.3, 0.6))
             stream = MeteredBytes(data)
             stream.allow(_CHUNKS, 2 * len(data))
             with Image.open(stream, formats=("PNG",)) as picture:
                 if picture.mode != "P":
-                    raise ValueError("a chart has a palette")
+                    raise DamagedError("it has no palette")
                 picture.load()
-                facts = json.loads(str(getattr(picture, "text", {})[KEY]))
-                return _chart(np.array(picture, dtype=np.uint8), facts)
-    except MemoryError:
+                facts = read_facts(str(getattr(picture, "text", {}).get(KEY, "")))
+                palette = picture.getpalette("RGB") or []
+                knots = np.array(picture, dtype=np.uint8)
+        _require_yarns(knots, palette, facts.yarns)
+    except (MemoryError, Cancelled):
         raise
     except Exception as error:  # a decoder may raise any
-        raise PictureError(f"{path} is no knot chart", allowed="a chart.png written by ilmek") from error
+        raise PictureError(
+            f"{path} is no knot chart ({shortened(error)})", allowed="a chart.png written by ilmek"
+        ) from error
+    progress(1.0)
+    return chart_of_facts(knots, facts, "a knot chart of ilmek")
 
 
-def _chart(knots: Indices, facts: dict[str, object]) -> ChartPicture:
-    """The chart from the JSON of its text chunk. Raises KeyError, TypeError, IndexError or ValueError."""
-    yarns, size, quality = facts["yarns"], facts["size"], facts["quality"]
-    if not (isinstance(yarns, list) and isinstance(size, list) and isinstance(quality, list)):
-        raise TypeError("yarns, size and quality are lists")
-    if not int(knots.max()) < len(yarns) <= MOST_YARNS:
-        raise ValueError("a knot without a yarn")
-    colours = [yarn["srgb"] for yarn in yarns]
-    if not all(0 <= channel <= 255 for colour in colours for channel in colour):
-        raise ValueError("a colour out of bounds")
-    if not all(0 < float(number) < math.inf for number in (*size, *quality)):
-        raise ValueError("a size or quality out of bounds")
-    return ChartPicture(
-        knots,
-        tuple(str(yarn["name"]) for yarn in yarns),
-        tuple((int(red), int(green), int(blue)) for red, green, blue in colours),
-        (float(size[0]), float(size[1])),
-        (float(quality[0]), float(quality[1])),
-        str(facts["knot"]),
-    )
+def _require_yarns(knots: Indices, palette: list[int], yarns: Sequence[Yarn]) -> None:
+    """Raise DamagedError unless every knot has a yarn, of the colour that the palette has for it."""
+    if knots.max() >= len(yarns):
+        raise DamagedError("a knot has no yarn")
+    colours = [channel for yarn in yarns for channel in yarn.srgb]
+    if palette[: len(colours)] != colours:
+        raise DamagedError("its palette was changed after it was written")

@@ -1,0 +1,113 @@
+"""A chart as the picture of an order: it comes back as it was, and what the order gives acts on it."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+from PIL.PngImagePlugin import PngInfo
+
+from ilmek.carpet.chart import Chart
+from ilmek.carpet.quality import Quality
+from ilmek.carpet.sizes import CarpetSize, parse_size
+from ilmek.carpet.yarn import Yarn
+from ilmek.io.chart.png import KEY, write_chart_png
+from ilmek.jobs.chart import ChartResult, make_charted
+from ilmek.jobs.order import read_order
+
+RED = (150, 48, 40)
+YARNS = (
+    Yarn("madder", RED, (36.123456789, 41.0, 27.5), 5.0, 3, 14.5),
+    Yarn("madder, second dyer", RED, (36.2, 41.0, 27.5), 4.5, 2),
+    Yarn("indigo № 3", (27, 36, 66), (15.1, 4.0, -19.0), 2.5, 2, 0.0),
+    Yarn("ivory", (239, 230, 208), (91.3, -0.3, 12.2), 2.5, 2),
+)
+KNOTS = np.random.default_rng(5).integers(0, 4, (45, 30), dtype=np.uint8)
+CHART = Chart(KNOTS, YARNS, parse_size("seccade"), Quality(25.0, 25.0), "asymmetric")
+
+
+@pytest.fixture
+def path(tmp_path: Path) -> Path:
+    write_chart_png(tmp_path / "chart.png", CHART)
+    return tmp_path / "chart.png"
+
+
+def charted(path: Path, **options: object) -> ChartResult:
+    return make_charted(read_order(path, **options))
+
+
+def test_a_chart_comes_back_bit_for_bit_with_yarns_of_one_colour(path: Path, tmp_path: Path) -> None:
+    made = charted(path)
+    again = made.chart
+    assert np.array_equal(again.knots, KNOTS)
+    assert (again.yarns, again.size, again.quality, again.knot) == (YARNS, CHART.size, CHART.quality, CHART.knot)
+    assert (again.reading.kind, again.reading.changed, made.notes) == ("exact", 0, ())
+    write_chart_png(tmp_path / "again.png", again)
+    assert (tmp_path / "again.png").read_bytes() == path.read_bytes()
+
+
+def test_its_own_facts_as_options_change_nothing(path: Path) -> None:
+    again = charted(path, size="120x180cm", quality="2.5x2.5/dm", reading="exact", least_patch="0").chart
+    assert np.array_equal(again.knots, KNOTS)
+    assert (again.yarns, again.size) == (YARNS, CHART.size)
+
+
+def test_another_knot_alone_is_changed(path: Path) -> None:
+    again = charted(path, knot="symmetric").chart
+    assert again.knot == "symmetric"
+    assert np.array_equal(again.knots, KNOTS)
+
+
+def test_a_quality_or_a_size_keeps_the_grid_and_the_other_follows(path: Path) -> None:
+    finer = charted(path, quality="5x5/dm").chart
+    assert (finer.size.width, finer.size.length) == pytest.approx((0.6, 0.9))
+    smaller = charted(path, size="60x60cm").chart
+    assert (smaller.quality.across, smaller.quality.along) == pytest.approx((50.0, 75.0))
+    assert np.array_equal(finer.knots, KNOTS)
+    assert np.array_equal(smaller.knots, KNOTS)
+
+
+def test_size_and_quality_of_another_grid_read_it_as_a_picture(path: Path) -> None:
+    again = charted(path, size="60x90cm", quality="10x10/dm").chart
+    assert again.knots.shape == (90, 60)
+    assert again.yarns == YARNS
+
+
+def test_other_yarns_take_each_colour_once(path: Path, tmp_path: Path) -> None:
+    (tmp_path / "two.csv").write_text("name,srgb,nm\nred,#900000,2\nwhite,#ffffff,2\n")
+    again = charted(path, yarn_file=tmp_path / "two.csv").chart
+    assert [yarn.name for yarn in again.yarns] == ["red", "white"]
+    assert np.array_equal(again.knots, (KNOTS == 3).astype(np.uint8))
+
+
+def test_rules_of_the_palette_act_on_its_yarns(path: Path) -> None:
+    again = charted(path, colours="2").chart
+    assert again.colours == 2
+    assert set(again.yarns) < set(YARNS)
+
+
+def spoilt(path: Path, kind: str) -> None:
+    """A chart that another program has changed."""
+    with Image.open(path) as picture:
+        picture.load()
+        info = PngInfo()
+        info.add_itxt(KEY, picture.text[KEY] if kind != "facts" else "{}")
+        if kind == "palette":
+            picture.putpalette([7] * 3 + [200] * 9)
+        changed = picture.crop((0, 0, 20, 20)) if kind == "grid" else picture
+        changed.save(path, pnginfo=info)
+
+
+@pytest.mark.parametrize("kind", ["palette", "grid", "facts"])
+def test_a_chart_that_was_changed_by_another_program_is_a_picture(path: Path, kind: str) -> None:
+    spoilt(path, kind)
+    made = charted(path, size="60x90cm")
+    assert "it is read as a picture" in made.notes[0]
+
+
+def test_a_size_of_the_same_sides_keeps_its_name(path: Path) -> None:
+    assert charted(path, size="120x180cm").chart.size.name == "seccade"
+    named = replace(CHART, size=CarpetSize(1.2, 1.8, "a size with a name"))
+    write_chart_png(path, named)
+    assert charted(path).chart.size.name == "a size with a name"
