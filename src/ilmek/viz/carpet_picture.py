@@ -5,8 +5,9 @@ gives the same picture.
 """
 
 import io
-import math
+import zlib
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from PIL import Image
@@ -14,13 +15,18 @@ from PIL import Image
 from ilmek.arrays import Rgb
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.colour import LINEAR
-from ilmek.carpet.design import resampled_rows
+from ilmek.carpet.design import bands, resampled_rows
+from ilmek.carpet.sizes import CarpetSize
+from ilmek.errors import CarpetError
 from ilmek.progress import SILENT, Progress
 from ilmek.viz.carpet_edges import flat_band, fringe, selvedge
 from ilmek.viz.tufts import encoded, tufted, yarn_light
 
 LONGEST = 1400
-"""Largest number of pixels along the longer side of the picture."""
+"""Number of pixels along the longer side of the picture, where no width is given."""
+
+NARROWEST, WIDEST, MOST_PIXELS = 100, 20_000, 60_000_000
+"""Bounds of the picture's width, and of its pixels: 60 million take 8 s and 1 GB."""
 _FRINGE, _BAND, _SELVEDGE = 0.055, 0.012, 0.008
 """Length of the fringe, of the flat-woven end, width of the selvedge [m]."""
 _CLOSE_UP = (40, 30)
@@ -29,26 +35,63 @@ _FIBRE = 0.10
 
 
 @dataclass(frozen=True, slots=True)
+class Pile:
+    """The pile's part of the picture: left, top, width, height, as shares of the picture's width and height."""
+
+    left: float
+    top: float
+    width: float
+    height: float
+
+
+@dataclass(frozen=True, slots=True)
 class _Layout:
-    """Sizes of pile and frame [pixels]; a knot has `across` x `down` pixels, 0 if knots are averaged."""
+    """Sizes of pile and frame [pixels]."""
 
     width: int
     height: int
-    across: int
-    down: int
     fringe: int
     band: int
     selvedge: int
 
+    @property
+    def whole(self) -> tuple[int, int]:
+        """Width and height of the picture."""
+        return self.width + 2 * self.selvedge, self.height + 2 * (self.fringe + self.band)
+
 
 def carpet_picture(chart: Chart, longest: int = LONGEST, seed: int = 1, progress: Progress = SILENT) -> bytes:
     """The whole carpet as a JPEG file on white, its longer side at most `longest` pixels."""
-    rng = np.random.default_rng(seed)
-    layout = _layout(chart, longest)
-    pile = Image.fromarray(_pile(chart, layout, rng, progress))
-    if pile.size != (layout.width, layout.height):
-        pile = pile.resize((layout.width, layout.height), Image.Resampling.LANCZOS)
-    return _jpeg(_framed(chart, pile, layout, rng), 84)
+    return _jpeg(_drawn(chart, _layout(chart.size, longest / max(_framed_size(chart.size))), seed, progress), 84)
+
+
+def write_carpet_png(path: Path, chart: Chart, width: int | None = None, progress: Progress = SILENT) -> None:
+    """Write the whole carpet as PNG, `width` pixels wide; default: LONGEST along the longer side.
+
+    Raises CarpetError as `check_carpet_width`.
+    """
+    check_carpet_width(chart.size, width)
+    across, along = _framed_size(chart.size)
+    layout = _layout(chart.size, LONGEST / max(across, along) if width is None else width / across)
+    _drawn(chart, layout, 1, progress).save(path, format="PNG", compress_level=1, compress_type=zlib.Z_HUFFMAN_ONLY)
+
+
+def check_carpet_width(size: CarpetSize, width: int | None) -> None:
+    """Raise CarpetError for a width [pixels] out of bounds, and for a picture of more than MOST_PIXELS."""
+    across, along = _framed_size(size)
+    most = min(WIDEST, int((MOST_PIXELS * across / along) ** 0.5))
+    if width is not None and not NARROWEST <= width <= most:
+        raise CarpetError(
+            f"--carpet-width {width}", allowed=f"{NARROWEST} to {most:,} pixels for {size}", do="or leave it out"
+        )
+
+
+def pile_part(chart: Chart) -> Pile:
+    """Where the picture of the carpet shows the pile."""
+    layout = _layout(chart.size, LONGEST / max(_framed_size(chart.size)))
+    width, height = layout.whole
+    top = layout.fringe + layout.band
+    return Pile(layout.selvedge / width, top / height, layout.width / width, layout.height / height)
 
 
 def close_up(chart: Chart, seed: int = 1) -> bytes:
@@ -60,30 +103,42 @@ def close_up(chart: Chart, seed: int = 1) -> bytes:
     across = _CLOSE_WIDTH // _CLOSE_UP[0]
     down = max(2, round(across * chart.quality.across / chart.quality.along))
     light = yarn_light(piece, [yarn.srgb for yarn in chart.yarns], rng, 0.06)
-    return _jpeg(Image.fromarray(encoded(tufted(light, across, down, rng, _FIBRE))), 86)
+    return _jpeg(Image.fromarray(tufted(light, across * columns, down * rows, rng, fibre=_FIBRE)), 86)
 
 
-def _layout(chart: Chart, longest: int) -> _Layout:
-    """The proportions follow the carpet's size. Tufts are drawn on whole pixels and then scaled down."""
-    width, length = chart.size.width, chart.size.length
-    scale = longest / max(width + 2 * _SELVEDGE, length + 2 * (_FRINGE + _BAND))
-    across, down = (math.ceil(scale * side - 1e-6) for side in (width / chart.columns, length / chart.rows))
-    if min(across, down) < 2:
-        across = down = 0
+def _framed_size(size: CarpetSize) -> tuple[float, float]:
+    """Width and length of the carpet with selvedges, flat ends and fringes [m]."""
+    return size.width + 2 * _SELVEDGE, size.length + 2 * (_FRINGE + _BAND)
+
+
+def _layout(size: CarpetSize, scale: float) -> _Layout:
+    """The sizes at a scale [pixels/m]; the proportions follow the carpet's size."""
     framing = (max(2, int(scale * side)) for side in (_FRINGE, _BAND, _SELVEDGE))
-    return _Layout(max(1, int(scale * width)), max(1, int(scale * length)), across, down, *framing)
+    return _Layout(max(1, int(scale * size.width)), max(1, int(scale * size.length)), *framing)
+
+
+def _drawn(chart: Chart, layout: _Layout, seed: int, progress: Progress) -> Image.Image:
+    rng = np.random.default_rng(seed)
+    pile = Image.fromarray(_pile(chart, layout, rng, progress))
+    if pile.size != (layout.width, layout.height):
+        pile = pile.resize((layout.width, layout.height), Image.Resampling.LANCZOS)
+    return _framed(chart, pile, layout, rng)
 
 
 def _pile(chart: Chart, layout: _Layout, rng: np.random.Generator, progress: Progress) -> Rgb:
     srgb = [yarn.srgb for yarn in chart.yarns]
-    if layout.across:
-        return encoded(tufted(yarn_light(chart.knots, srgb, rng, 0.05), layout.across, layout.down, rng))
+    if layout.width >= 2 * chart.columns and layout.height >= 2 * chart.rows:
+        return tufted(yarn_light(chart.knots, srgb, rng, 0.05), layout.width, layout.height, rng, progress=progress)
     height, width = min(layout.height, chart.rows), min(layout.width, chart.columns)
     palette, size = np.array(srgb, dtype=np.uint8), (chart.rows, chart.columns)
     mean = resampled_rows(lambda part: palette[chart.knots[part]], size, (height, width), progress)
-    bands = 1.0 + np.repeat(rng.normal(0.0, 0.015, height // 12 + 1), 12)[:height, np.newaxis]
-    shade = bands * (0.94 + 0.03 * rng.standard_normal((height, width)))
-    return encoded((LINEAR[mean] * shade[:, :, np.newaxis]).astype(np.float32))
+    shades = 1.0 + np.repeat(rng.normal(0.0, 0.015, height // 12 + 1), 12)[:height].astype(np.float32)
+    out = np.empty((height, width, 3), dtype=np.uint8)
+    for band in bands(height, width):
+        grain = 0.94 + 0.03 * rng.standard_normal(mean[band].shape[:2], dtype=np.float32)
+        light = LINEAR[mean[band]].astype(np.float32)
+        out[band] = encoded(light * (shades[band, np.newaxis] * grain)[:, :, np.newaxis])
+    return out
 
 
 def _framed(chart: Chart, pile: Image.Image, layout: _Layout, rng: np.random.Generator) -> Image.Image:

@@ -17,12 +17,15 @@ import numpy as np
 
 from ilmek.arrays import Float32, Indices, Rgb
 from ilmek.carpet.colour import LINEAR, encode
+from ilmek.carpet.design import bands
+from ilmek.num.compiled import compiled
+from ilmek.progress import SILENT, Progress
 
 Plane = Float32[np.ndarray, "rows columns"]
 Light = Float32[np.ndarray, "rows columns 3"]
 """The linear colours of knots."""
 
-Pixels = Float32[np.ndarray, "height width 3"]
+Pixels = Float32[np.ndarray, "height width channels"]
 """A picture in linear light."""
 
 _FOOT = (0.66, 0.74)
@@ -30,18 +33,19 @@ _LEAN = 0.10
 _LOOSE = 0.10
 """Half axes of a tuft's foot, shift of its tip towards the viewer's lower edge, spread of its position [pitches]."""
 _SUN = (-0.34, -0.26)
+_SLICE = 1 << 20
+"""Pixels of one call of the kernel: about 0.1 s, in which an interrupt waits."""
 _FINE = 65535
 _CODES = np.rint(255 * encode(np.arange(_FINE + 1) / _FINE)).astype(np.uint8)
 
 
 @dataclass(frozen=True, slots=True)
 class _Tufts:
-    """Tufts of a piece of pile and of a ring of neighbours around it: position in the cell, height, linear colour."""
+    """Tufts of a piece of pile: position in the cell, height."""
 
     across: Plane
     down: Plane
     height: Plane
-    colour: Float32[np.ndarray, "rows columns 3"]
 
 
 def encoded(light: Pixels) -> Rgb:
@@ -64,68 +68,87 @@ def abrash(yarns: int, rows: int, rng: np.random.Generator) -> Float32[np.ndarra
 
 def yarn_light(knots: Indices, srgb: Sequence[tuple[int, int, int]], rng: np.random.Generator, grain: float) -> Light:
     """The linear colour of every knot: palette, abrash, and `grain` as the spread between knots."""
-    rows = np.arange(knots.shape[0])[:, np.newaxis]
     palette = LINEAR[np.array(srgb, dtype=np.uint8)].astype(np.float32)
     shades = palette[:, np.newaxis, :] * abrash(len(palette), knots.shape[0], rng)
-    light = shades[knots, rows]
-    return np.asarray(light * (1.0 + grain * rng.standard_normal(knots.shape, dtype=np.float32))[:, :, np.newaxis])
+    light = np.empty((*knots.shape, 3), dtype=np.float32)
+    for band in bands(*knots.shape):
+        rows = np.arange(band.start, band.stop)[:, np.newaxis]
+        spread = rng.standard_normal(knots[band].shape, dtype=np.float32)[:, :, np.newaxis]
+        light[band] = shades[knots[band], rows] * (1.0 + grain * spread)
+    return light
 
 
-def tufted(light: Light, across: int, down: int, rng: np.random.Generator, fibre: float = 0.0) -> Pixels:
-    """The pile of knots with these linear colours, `across` x `down` pixels per knot.
+def tufted(
+    light: Light,
+    width: int,
+    height: int,
+    rng: np.random.Generator,
+    *,
+    fibre: float = 0.0,
+    progress: Progress = SILENT,
+) -> Rgb:
+    """The pile of knots with these linear colours, on `width` x `height` pixels.
 
     fibre  strength of single fibres: streaks in the light, frayed borders between tufts; for close-ups
     """
     tufts = _scattered(light, rng)
-    rows, columns = light.shape[:2]
-    cells = np.empty((rows, down, columns, across, 3), dtype=np.float32)
-    for j in range(down):
-        for i in range(across):
-            cells[:, j, :, i] = _seen(tufts, (i + 0.5) / across, (j + 0.5) / down, rng, fibre)
-    out = cells.reshape(rows * down, columns * across, 3)
+    fibres = np.zeros((0, 0, 5), dtype=np.float32)
     if fibre:
-        out *= _streaks(out.shape[0], out.shape[1], across, rng, fibre)[:, :, np.newaxis]
+        fibres = np.empty((height, width, 5), dtype=np.float32)
+        rng.standard_normal(out=fibres, dtype=np.float32)
+        fibres *= np.float32(1.3 * fibre)
+        fibres[:, :, 4] = _streaks(height, width, width // light.shape[1], rng, fibre)
+    out = np.empty((height, width, 3), dtype=np.uint8)
+    for band in bands(height, width, _SLICE):
+        _draw(tufts.across, tufts.down, tufts.height, light, fibres, out[band], band.start, height)
+        progress(band.stop / height)
     return out
 
 
 def _scattered(light: Light, rng: np.random.Generator) -> _Tufts:
-    ringed = np.pad(light, ((1, 1), (1, 1), (0, 0)), mode="edge")
-    shape = ringed.shape[:2]
+    shape = light.shape[:2]
     return _Tufts(
         0.5 + _LOOSE * rng.standard_normal(shape, dtype=np.float32),
         0.5 + _LEAN + _LOOSE * rng.standard_normal(shape, dtype=np.float32),
         1.0 + 0.13 * rng.standard_normal(shape, dtype=np.float32),
-        ringed,
     )
 
 
-def _seen(tufts: _Tufts, x: float, y: float, rng: np.random.Generator, fray: float) -> Light:
-    """The light at one point of every cell: the highest of its own tuft and the three nearest neighbours."""
-    aside, above = (1 if x > 0.5 else -1), (1 if y > 0.5 else -1)
-    best, lit, colour = _tuft(tufts, x, y, 0, 0)
-    best = best + _roughness(fray, best.shape, rng)
-    for dx, dy in ((aside, 0), (0, above), (aside, above)):
-        z, slope, other = _tuft(tufts, x, y, dx, dy)
-        z = z + _roughness(fray, z.shape, rng)
-        higher = z > best
-        best, lit = np.where(higher, z, best), np.where(higher, slope, lit)
-        colour = np.where(higher[:, :, np.newaxis], other, colour)
-    depth = np.clip(best, -0.4, 1.2)
-    return np.asarray(colour * (0.60 + 0.42 * depth + lit)[:, :, np.newaxis])
-
-
-def _tuft(tufts: _Tufts, x: float, y: float, dx: int, dy: int) -> tuple[Plane, Plane, Light]:
-    """Height, brightness by its slope, and colour of the tufts dx, dy cells away, at one point of every cell."""
-    part = (slice(1 + dy, tufts.height.shape[0] - 1 + dy), slice(1 + dx, tufts.height.shape[1] - 1 + dx))
-    u = (np.float32(x - dx) - tufts.across[part]) * np.float32(1 / _FOOT[0])
-    v = (np.float32(y - dy) - tufts.down[part]) * np.float32(1 / _FOOT[1])
-    slope = u * np.float32(_SUN[0]) + v * np.float32(_SUN[1])
-    return tufts.height[part] - u * u - v * v, slope, tufts.colour[part]
-
-
-def _roughness(fray: float, shape: tuple[int, ...], rng: np.random.Generator) -> Plane | np.float32:
-    """Random unevenness of the fibre tips [pitches]."""
-    return np.float32(1.3 * fray) * rng.standard_normal(shape, dtype=np.float32) if fray else np.float32(0)
+@compiled
+def _draw(  # noqa: PLR0917
+    across: Plane, down: Plane, height: Plane, light: Light, fibres: Pixels, out: Rgb, first: int, high: int
+) -> None:
+    # The highest of a pixel's own tuft and its three nearest neighbours; at the edges a tuft is its own neighbour.
+    rows, columns = across.shape
+    wide, frayed = out.shape[1], fibres.shape[0] > 0
+    for j in range(out.shape[0]):
+        y = (first + j + 0.5) * rows / high
+        row = int(y)
+        y -= row
+        above = 1 if y > 0.5 else -1
+        for i in range(wide):
+            x = (i + 0.5) * columns / wide
+            column = int(x)
+            x -= column
+            aside = 1 if x > 0.5 else -1
+            best, lit, seen_row, seen_column = -np.inf, 0.0, row, column
+            for which in range(4):
+                dx, dy = aside * (which % 2), above * (which // 2)
+                r = min(max(row + dy, 0), rows - 1)
+                c = min(max(column + dx, 0), columns - 1)
+                u = (x - dx - across[r, c]) / _FOOT[0]
+                v = (y - dy - down[r, c]) / _FOOT[1]
+                z = height[r, c] - u * u - v * v
+                if frayed:
+                    z += fibres[first + j, i, which]
+                if z > best:
+                    best, lit, seen_row, seen_column = z, u * _SUN[0] + v * _SUN[1], r, c
+            shade = 0.60 + 0.42 * min(max(best, -0.4), 1.2) + lit
+            if frayed:
+                shade *= fibres[first + j, i, 4]
+            for channel in range(3):
+                value = min(max(light[seen_row, seen_column, channel] * shade, 0.0), 1.0)
+                out[j, i, channel] = _CODES[int(value * _FINE)]
 
 
 def _streaks(height: int, width: int, across: int, rng: np.random.Generator, strength: float) -> Plane:
