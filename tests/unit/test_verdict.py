@@ -98,7 +98,7 @@ def test_a_loom_that_cannot_weave_gets_no_programme(tmp_path: Path) -> None:
     assert refused.exit_code == 3
     assert re.match(r"weaves: NO, \d+ reasons?\n  ", refused.stdout)
     there = {path.name for path in (tmp_path / "out").iterdir()}
-    assert there == {"report.html", "report.json", "chart.png", "yarn.csv", "machine.json", MANIFEST}
+    assert there == {"report.html", "report.json", "chart.png", "carpet.png", "yarn.csv", "machine.json", MANIFEST}
     found = json.loads((tmp_path / "out" / "report.json").read_text(encoding="utf-8"))
     assert (found["weaves"], found["holds"], judged(found)) == (False, False, 3)
     assert not any(file.endswith("programme.ilmek") for file in found["files"])

@@ -9,6 +9,7 @@ from typing import Any
 from ilmek.carpet.bill import YarnBill, YarnNeed, yarn_bill
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.pile import PileParams, coarsest_count, fill_check, pile_fill
+from ilmek.carpet.statistics import chart_statistics
 from ilmek.carpet.yarn import Yarn
 from ilmek.io.chart.pdf import chart_cut, write_chart_pdf
 from ilmek.io.chart.png import write_chart_png
@@ -21,6 +22,7 @@ from ilmek.progress import SILENT, Progress
 from ilmek.report import Check, verdict_json
 from ilmek.report.left_out import made_or_left_out
 from ilmek.units import format_quantity
+from ilmek.viz.carpet_picture import check_carpet_width, write_carpet_png
 
 MOST_SHEETS = 400
 """Largest number of sheets for which chart.pdf is written by default."""
@@ -46,7 +48,7 @@ class ChartResult:
     @property
     def files(self) -> tuple[str, ...]:
         """Names of the files that `write_chart` writes."""
-        return ("chart.png", "chart.pdf", "yarn.csv") if self._printed else ("chart.png", "yarn.csv")
+        return ("chart.png", "carpet.png", *(("chart.pdf",) if self._printed else ()), "yarn.csv")
 
     @property
     def _printed(self) -> bool:
@@ -108,6 +110,7 @@ def chart_order(
 def make_charted(order: CarpetOrder, progress: Progress = SILENT) -> ChartResult:
     """Read the picture and chart it. Raises PictureError, CarpetError or YarnError."""
     made, chart, notes = chart_of_order(order, progress)
+    check_carpet_width(chart.size, order.files.carpet_width)
     bill = yarn_bill(chart, order.plan.pile(chart.quality))
     return ChartResult(made, chart, bill, (*notes, *_left_out(order, chart)))
 
@@ -136,12 +139,21 @@ def chart_results(charted: ChartResult) -> dict[str, Any]:
         "least_delta_e": reading.least_delta_e,
         "lone_fraction": chart.lone_fraction,
         "changes_per_knot": chart.changes_per_knot,
+        "statistics": _statistics(chart),
         "yarn": [_need(need) for need in bill.pile],
         "ground": [_need(need) for need in bill.ground],
         "pile_mass": bill.pile_mass,
         "pile_mass_per_area": bill.pile_mass / chart.size.area,
         "yarn_mass": bill.mass,
         "price": bill.price,
+    }
+
+
+def _statistics(chart: Chart) -> dict[str, Any]:
+    found = chart_statistics(chart)
+    return {
+        "mean_changes": found.mean_changes,
+        "hardest_rows": [{"row": row, "changes": found.of_row(row)} for row in found.hardest],
     }
 
 
@@ -154,13 +166,15 @@ def write_chart(
 ) -> tuple[str, ...]:
     """Write the chart's files into a folder; returns their names. A PDF that cannot be made is added to `left_out`.
 
-    Raises OSError.
+    Raises OSError, and CarpetError for a carpet.png of too many pixels.
     """
-    write_chart_png(folder / "chart.png", charted.chart, progress.part(0.0, 0.3, "chart.png"))
+    chart, width = charted.chart, charted.order.order.files.carpet_width
+    write_chart_png(folder / "chart.png", chart, progress.part(0.0, 0.2, "chart.png"))
+    write_carpet_png(folder / "carpet.png", chart, width, progress.part(0.2, 0.4, "carpet.png"))
     write_yarn_csv(folder / "yarn.csv", charted.bill, charted.chart.yarns)
     written = charted.files
     if "chart.pdf" in written:
-        pdf, before, printing = folder / "chart.pdf", len(left_out), progress.part(0.3, 1.0, "chart.pdf")
+        pdf, before, printing = folder / "chart.pdf", len(left_out), progress.part(0.4, 1.0, "chart.pdf")
         made_or_left_out("chart.pdf", lambda: write_chart_pdf(pdf, charted.chart, progress=printing), left_out)
         if len(left_out) > before:
             pdf.unlink(missing_ok=True)

@@ -19,8 +19,8 @@ from ilmek.io.picture import read_picture
 from ilmek.jobs.order import GROUPS, QUALITY, CarpetOrder, ResolvedOrder, check_sheets
 from ilmek.progress import SILENT, Progress
 
-_OF_THE_KNOTS = tuple(group for group in GROUPS if group != "plan")
-"""Groups of parameters that act on the knots; the others act on the yarn alone."""
+_OF_THE_KNOTS = tuple(group for group in GROUPS if group not in ("plan", "files"))
+"""Groups of parameters that act on the knots; the others act on the yarn or the files alone."""
 
 
 def chart_of_order(order: CarpetOrder, progress: Progress = SILENT) -> tuple[ResolvedOrder, Chart, tuple[str, ...]]:

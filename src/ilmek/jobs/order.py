@@ -22,7 +22,9 @@ from ilmek.elements.knot_kinds import parse_knot
 from ilmek.errors import CarpetError, ParameterError, YarnError, did_you_mean
 from ilmek.io.chart.sheets import cut
 from ilmek.io.yarn_file import default_yarns, read_yarns
+from ilmek.jobs.carpet_files import FileParams
 from ilmek.params import Params, Setting, declared
+from ilmek.viz.carpet_picture import check_carpet_width
 
 SIZE, QUALITY, KNOT = "seccade", "25x25/dm", "symmetric"
 """What holds where neither the user nor the picture gives it."""
@@ -31,7 +33,7 @@ MOST_PRINTED = 2_000
 """Largest number of sheets of a chart.pdf: 50 s, 13 MB and 300 MB of memory."""
 
 GROUPS: Mapping[str, type[Params]] = MappingProxyType(
-    {"fit": FitParams, "reading": ReadParams, "palette": PaletteParams, "plan": YarnPlanParams}
+    {"fit": FitParams, "reading": ReadParams, "palette": PaletteParams, "plan": YarnPlanParams, "files": FileParams}
 )
 """The groups of parameters of an order, by the name of the field."""
 
@@ -44,7 +46,7 @@ class CarpetOrder:
     size, quality, knot, yarns  default: those of the picture where it is a chart, else SIZE, QUALITY, KNOT and the wool
              list that is built in
     fit      how the picture is fitted to the carpet        reading  how it is read
-    palette  which yarns of the list are taken              plan     the yarn
+    palette  which yarns of the list are taken              plan     the yarn      files  the files of the folder
     pdf      print the chart; default: if it has few enough sheets (`jobs.chart.MOST_SHEETS`)
     """
 
@@ -57,6 +59,7 @@ class CarpetOrder:
     reading: ReadParams = field(default_factory=ReadParams)
     palette: PaletteParams = field(default_factory=PaletteParams)
     plan: YarnPlanParams = field(default_factory=YarnPlanParams)
+    files: FileParams = field(default_factory=FileParams)
     pdf: bool | None = None
 
     def resolved(self) -> "ResolvedOrder":
@@ -123,6 +126,8 @@ def read_order(
             allowed=f"2 to {len(order.yarns)}, the yarns of the list",
             do="or leave it out",
         )
+    if order.size is not None:
+        check_carpet_width(order.size, order.files.carpet_width)
     if order.size is not None and order.quality is not None:
         check_sheets(order.size, order.quality, pdf)
     return order

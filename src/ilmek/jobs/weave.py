@@ -11,6 +11,7 @@ from ilmek.io.json_file import write_json
 from ilmek.io.output import Outputs, joined
 from ilmek.io.programme_file import write_programme
 from ilmek.io.programme_meta import Label
+from ilmek.jobs.carpet_files import file_notes
 from ilmek.jobs.chart import ChartResult, chart_results, job_json, make_charted, write_chart
 from ilmek.jobs.loom import LoomOrder, LoomResult, make_loomed, params_for
 from ilmek.jobs.order import CarpetOrder
@@ -20,17 +21,6 @@ from ilmek.report.left_out import made_or_left_out
 from ilmek.units import format_quantity, hour
 from ilmek.viz.page import CarpetPage, carpet_page
 from ilmek.viz.page_parts import Fact, FileNote
-
-FILES = (
-    FileNote("report.html", "this page: pictures, yarn, machines, checks"),
-    FileNote("report.json", "the same results as data, SI"),
-    FileNote("chart.png", "the knot chart, one pixel one knot"),
-    FileNote("chart.pdf", "the knot chart to weave from, with symbols and row numbers"),
-    FileNote("yarn.csv", "the yarn to buy"),
-    FileNote("programme.ilmek", "the loom programme; show it with `ilmek inspect`"),
-    FileNote("machine.json", "the loom and its machines: parameters, results, checks"),
-)
-"""Files of the output folder."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +35,7 @@ class WeaveResult:
     loom_order: LoomOrder
     loomed: LoomResult
     folder: Path
-    written: tuple[str, ...] = tuple(file.name for file in FILES)
+    written: tuple[str, ...] = ()
     left_out: tuple[str, ...] = ()
 
     @property
@@ -77,7 +67,7 @@ class WeaveResult:
     @property
     def notes(self) -> tuple[FileNote, ...]:
         """The files that are written, with descriptions."""
-        return tuple(file for file in FILES if file.name in self.written)
+        return file_notes(self.written)
 
     @property
     def files(self) -> list[str]:

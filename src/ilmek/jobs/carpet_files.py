@@ -1,0 +1,39 @@
+"""The files of a carpet's folder: what they are, and what is set for them."""
+
+from collections.abc import Collection
+from dataclasses import dataclass
+
+from ilmek.params import Params, kind
+from ilmek.viz.carpet_picture import NARROWEST, WIDEST
+from ilmek.viz.page_parts import FileNote
+
+FILES = (
+    FileNote("report.html", "this page: the carpet, its yarn and statistics"),
+    FileNote("loom.html", "the loom: its machines, choices and checks"),
+    FileNote("report.json", "the same results as data, SI"),
+    FileNote("carpet.png", "the simulated carpet, to show"),
+    FileNote("chart.png", "the knot chart, one pixel one knot; weave and chart read it again"),
+    FileNote("chart.pdf", "the knot chart to weave from, with symbols and row numbers"),
+    FileNote("chart.json", "the results as data, SI"),
+    FileNote("yarn.csv", "the yarn to buy"),
+    FileNote("programme.ilmek", "the loom programme; show it with `ilmek inspect`"),
+    FileNote("machine.json", "the loom and its machines: parameters, results, checks"),
+)
+"""All files of `weave` and `chart`, in the order of the page."""
+
+
+@dataclass(frozen=True, slots=True)
+class FileParams(Params):
+    """What is set for the files of a carpet."""
+
+    carpet_width: int | None = kind.count(
+        None,
+        at_least=NARROWEST,
+        at_most=WIDEST,
+        doc="width of carpet.png, the simulated carpet, in pixels; default: 1400 pixels along the longer side",
+    )
+
+
+def file_notes(written: Collection[str]) -> tuple[FileNote, ...]:
+    """The files that are written, with their meanings."""
+    return tuple(file for file in FILES if file.name in written)
