@@ -123,6 +123,14 @@ CARPET = {
     "one colour": ("--colours 1", "colours=1 is out of bounds"),
     "more colours than yarns": ("--colours 40", "2 to 16"),
     "colours in words": ("--colours many", "'many' is not a quantity"),
+    "unknown fit": ("--fit strech", "did you mean stretch"),
+    "crop of one corner": ("--crop 10,10", "1 points; 2 points"),
+    "crop in words": ("--crop left", "no list of points"),
+    "crop outside the picture": ("--crop 0,0;21,30", "reaches outside the picture"),
+    "empty crop": ("--crop 5,5;5,30", "leaves no pixel"),
+    "border colour in words": ("--fit pad --border-colour red", "'red' is no colour"),
+    "border colour without a border": ("--border-colour #ffffff", "needs fit pad"),
+    "turned without a unit": ("--turn 90", "did you mean 90deg"),
 }
 
 YARNS = {

@@ -165,8 +165,9 @@ def make_chart(
         raise PictureError("the picture is empty", allowed="at least 1 × 1 pixels")
     _check_yarns(yarns)
     parse_knot(knot)
-    fitted, done = fit_picture(rgb, size, fit, progress.part(0.0, 0.1))
-    design = read_design(fitted, knot_grid(size, quality), reading, progress.part(0.1, 0.4))
+    grid = knot_grid(size, quality)
+    fitted, done = fit_picture(rgb, size, fit, progress.part(0.0, 0.1), grid=grid)
+    design = read_design(fitted, grid, reading, progress.part(0.1, 0.4))
     return chart_of_design(
         design, size, quality, yarns, knot=knot, fit=done, palette=palette, progress=progress.part(0.4, 1.0)
     )

@@ -73,7 +73,7 @@ def distortion(rgb: Rgb, size: CarpetSize) -> float:
 
 
 @compiled
-def _encoded(light: float) -> int:
+def encoded(light: float) -> int:
     """The sRGB code nearest to a linear light (0 to 1), by the encoded value."""
     code: int = _GUESSES[int(min(max(light, 0.0), 1.0) * _STEPS)]
     while light > _THRESHOLDS[code]:
@@ -113,9 +113,9 @@ def _resample(rgb: Rgb, out: Rgb, first: int, rows: int, top: int, height: int) 
                 red += share * line[x, 0]
                 green += share * line[x, 1]
                 blue += share * line[x, 2]
-            out[row, column, 0] = _encoded(red)
-            out[row, column, 1] = _encoded(green)
-            out[row, column, 2] = _encoded(blue)
+            out[row, column, 0] = encoded(red)
+            out[row, column, 1] = encoded(green)
+            out[row, column, 2] = encoded(blue)
 
 
 def resampled(rgb: Rgb, rows: int, columns: int, progress: Progress = SILENT) -> UInt8[np.ndarray, "rows columns 3"]:

@@ -1,46 +1,276 @@
-"""Fit: the picture's part that the carpet shows, and its proportions."""
+"""Fit: the picture's part that the carpet shows, and its proportions.
 
-from dataclasses import dataclass
+Order: the carpet is straightened from its corners (`corners`), turned (`turn`), cropped (`crop`), and what is left is
+fitted to the carpet's proportions, width : length (`fit`). A picture that then has the grid of the knots is left as it
+is: each of its pixels is a knot.
+"""
+
+import math
+from dataclasses import dataclass, replace
+from typing import TypeAlias
+
+import numpy as np
 
 from ilmek.arrays import Rgb
-from ilmek.carpet.design import distortion
+from ilmek.carpet.design import LARGEST_DISTORTION, distortion
+from ilmek.carpet.picture_points import in_pixels, read_colour, read_points
+from ilmek.carpet.projection import inner_rectangle, outer_rectangle, projected, rotation_about
 from ilmek.carpet.sizes import CarpetSize
+from ilmek.errors import ParameterError, PictureError
 from ilmek.params import Params, kind
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
+from ilmek.units import deg, format_quantity
 
-FITS = ("auto", "stretch")
+FITS = ("auto", "crop", "pad", "stretch", "turn")
+CROP_EXAMPLE = 'write two opposite corners, like "10%,5% 90%,95%" or "120,80 1910,1440" in pixels'
+
+MOST_PADDED = 200_000_000
+"""Largest number of pixels of a picture with its padding: 0.6 GB."""
+
+_SAME = 12
+"""Largest difference of a channel within which the pixels of a border count as one colour."""
+
+Colour: TypeAlias = tuple[int, int, int]
 
 
 @dataclass(frozen=True, slots=True)
 class FitParams(Params):
-    """How a picture is fitted to the carpet."""
+    """How a picture is fitted to the carpet: straightened, turned, cropped and fitted, in this order."""
 
-    fit: str = kind.choice("auto", FITS, doc="what is done where the proportions of picture and carpet differ")
+    fit: str = kind.choice(
+        "auto",
+        FITS,
+        doc="what is done where the proportions of picture and carpet differ: crop about the centre, pad, stretch, or "
+        "turn by 90 degrees where that suits better and then as auto; auto: up to 2 % is stretched, else cropped",
+    )
+    border_colour: str | None = kind.text(
+        None, doc="colour of the border with fit pad, like #e8dfc8; default: that of the picture's border, else white"
+    )
+    crop: str | None = kind.text(
+        None, doc='part of the picture that is used, by two opposite corners in pixels or percent: "10%,5% 90%,95%"'
+    )
+    turn: float = kind.angle(
+        0.0, at_least=-360 * deg, at_most=360 * deg, doc="angle by which the picture is turned clockwise, like 90deg"
+    )
+
+    def check_together(self) -> None:
+        """Raise ParameterError for texts that are no points or colours, and for a border colour without a border."""
+        if self.crop is not None:
+            read_points("crop", self.crop, 2, CROP_EXAMPLE)
+        if self.border_colour is not None:
+            read_colour("border_colour", self.border_colour)
+            if self.fit != "pad":
+                raise ParameterError(f"border_colour is given, but fit={self.fit}", do="a border needs fit pad")
 
 
 @record
 class Fit:
     """What was done to fit the picture.
 
-    kind     stretch
+    kind     whole: its proportions are the carpet's; else stretch, crop or pad
     stretch  of the picture's width against its height [-]; negative where it is compressed
-    cropped  share of the picture's area that the carpet does not show [-]
+    cropped  share of the straightened and turned picture that the carpet does not show [-]
+    padded   share of the carpet that is border [-]        border  colour of that border, `#rrggbb`
+    turned   angle by which the picture was turned clockwise [rad]
     """
 
-    kind: str = "stretch"
+    kind: str = "whole"
     stretch: float = 0.0
     cropped: float = 0.0
+    padded: float = 0.0
+    border: str | None = None
+    turned: float = 0.0
+
+    @property
+    def words(self) -> str:
+        """What was done, in words, in the order in which it was done."""
+        done = []
+        if self.turned:
+            done.append(f"turned by {format_quantity(self.turned, 'deg')}")
+        if self.cropped:
+            done.append(f"cropped, {format_quantity(self.cropped, '%', 3)} of the picture is not shown")
+        if self.padded:
+            done.append(f"border of {self.border}, {format_quantity(self.padded, '%', 3)} of the carpet")
+        if abs(self.stretch) >= 0.0005:
+            sense = "wider" if self.stretch > 0 else "narrower"
+            done.append(f"drawn {format_quantity(abs(self.stretch), '%', 3)} {sense}")
+        return ", ".join(done) or "whole picture"
 
 
 def fit_picture(
-    rgb: Rgb, size: CarpetSize, params: FitParams | None = None, progress: Progress = SILENT
+    rgb: Rgb,
+    size: CarpetSize,
+    params: FitParams | None = None,
+    progress: Progress = SILENT,
+    *,
+    grid: tuple[int, int] | None = None,
 ) -> tuple[Rgb, Fit]:
     """The picture as the carpet shows it, pixels (height, width, 3), and what was done to it.
 
+    grid  rows and columns of knots: a picture with that grid is not stretched, cropped or padded
+
     The result has the carpet's proportions up to `Fit.stretch`; it is a view of the picture where nothing but its edges
-    changes.
+    changes or it is turned by right angles. Raises PictureError for a part that is empty or not in the picture.
     """
-    del params
-    progress(1.0)
-    return rgb, Fit("stretch", distortion(rgb, size))
+    params = params or FitParams()
+    prepared, fit = prepare_picture(rgb, params, progress.part(0.0, 0.9))
+    return fit_prepared(prepared, fit, size, params, grid=grid)
+
+
+def prepare_picture(rgb: Rgb, params: FitParams, progress: Progress = SILENT) -> tuple[Rgb, Fit]:
+    """The picture turned by a stated angle and cropped to a stated part, and what was done: all but `params.fit`.
+
+    Raises PictureError for a part that is empty or not in the picture.
+    """
+    picture, fit = _turned(rgb, params, progress)
+    if params.crop is None:
+        return picture, fit
+    part = _cut(picture, params.crop)
+    return part, replace(fit, cropped=1 - (1 - fit.cropped) * _area(part) / _area(picture))
+
+
+def fit_prepared(
+    rgb: Rgb, fit: Fit, size: CarpetSize, params: FitParams, *, grid: tuple[int, int] | None = None
+) -> tuple[Rgb, Fit]:
+    """A prepared picture fitted to the carpet's proportions by `params.fit`; other arguments as of `fit_picture`."""
+    if params.fit == "turn" and rgb.shape[:2] != grid and _suits_turned(rgb, size):
+        rgb, fit = np.rot90(rgb, -1), replace(fit, turned=(fit.turned + math.pi / 2) % (2 * math.pi))
+    if rgb.shape[:2] == grid:
+        return rgb, fit
+    if params.fit == "pad":
+        border = read_colour("border", fit.border or params.border_colour or _hex(border_colour(rgb)))
+        made = _padded(rgb, size, border)
+        padded = 1 - (1 - fit.padded) * _area(rgb) / _area(made)
+        fit = replace(fit, padded=padded, border=_hex(border) if padded else None)
+    elif params.fit == "stretch" or (params.fit != "crop" and abs(distortion(rgb, size)) <= LARGEST_DISTORTION):
+        made = rgb
+    else:
+        made = _centre(rgb, size)
+        fit = replace(fit, cropped=1 - (1 - fit.cropped) * _area(made) / _area(rgb))
+    stretch = distortion(made, size)
+    name = "pad" if fit.padded else "crop" if made.shape != rgb.shape else "stretch" if stretch else "whole"
+    return made, replace(fit, kind=name, stretch=stretch)
+
+
+def fit_notes(fit: Fit, pixels: tuple[int, ...], size: CarpetSize, grid: tuple[int, int]) -> tuple[str, ...]:
+    """Notes on a picture that is cropped, padded, stretched, or coarser than the carpet.
+
+    pixels  height and width of the fitted picture      grid  rows and columns of knots
+    """
+    (height, width), (rows, columns) = pixels, grid
+    notes = []
+    if max(abs(fit.stretch), fit.cropped, fit.padded) > LARGEST_DISTORTION:
+        others = "; --fit offers crop, pad, stretch and turn" if fit.kind != "whole" else ""
+        notes.append(f"the picture is fitted to {size}: {fit.words}{others}")
+    if width < columns or height < rows:
+        knots = f"{columns} x {rows} knots"
+        notes.append(
+            f"the picture ({width} x {height} pixels) is coarser than the carpet ({knots}): edges will be stepped"
+        )
+    return tuple(notes)
+
+
+def _area(rgb: Rgb) -> int:
+    return int(rgb.shape[0]) * int(rgb.shape[1])
+
+
+def _hex(colour: Colour) -> str:
+    return "#{:02x}{:02x}{:02x}".format(*colour)
+
+
+def border_colour(rgb: Rgb) -> Colour:
+    """The colour of a picture's border: the median of the outermost pixels, channel by channel, where at least half of
+    them have nearly that colour; else white.
+    """
+    border = np.concatenate([rgb[0], rgb[-1], rgb[1:-1, 0], rgb[1:-1, -1]])
+    red, green, blue = np.sort(border, axis=0)[len(border) // 2].tolist()
+    near = np.abs(border.astype(int) - (red, green, blue)).max(axis=1) <= _SAME
+    return (red, green, blue) if 2 * np.count_nonzero(near) >= len(border) else (255, 255, 255)
+
+
+def _turned(rgb: Rgb, params: FitParams, progress: Progress) -> tuple[Rgb, Fit]:
+    """The picture turned clockwise: by right angles exactly, else resampled.
+
+    Then the largest rectangle without corners from outside the picture is kept, with fit pad the whole picture.
+    """
+    quarters, fit = params.turn / (math.pi / 2), Fit(turned=params.turn % (2 * math.pi))
+    if abs(quarters - round(quarters)) < 1e-9:
+        return (np.rot90(rgb, -round(quarters)), fit) if round(quarters) % 4 else (rgb, Fit())
+    height, width = int(rgb.shape[0]), int(rgb.shape[1])
+    if params.fit == "pad":
+        shape = outer_rectangle(width, height, params.turn)
+        _check_padded(shape)
+        outside = params.border_colour or _hex(border_colour(rgb))
+        fit = replace(fit, padded=1 - width * height / (shape[0] * shape[1]), border=outside)
+        border = read_colour("border_colour", outside)
+    else:
+        shape, border = inner_rectangle(width, height, params.turn), None
+        fit = replace(fit, cropped=1 - shape[0] * shape[1] / (width * height))
+    return projected(rgb, shape, rotation_about(params.turn, (height, width), shape), border, progress), fit
+
+
+def _cut(rgb: Rgb, text: str) -> Rgb:
+    """The part of the picture between two opposite corners, rounded to whole pixels."""
+    height, width = int(rgb.shape[0]), int(rgb.shape[1])
+    corners = np.rint(in_pixels(read_points("crop", text, 2, CROP_EXAMPLE), width, height)).astype(int)
+    (left, top), (right, bottom) = corners.min(axis=0).tolist(), corners.max(axis=0).tolist()
+    allowed = f"x 0 to {width}, y 0 to {height}: the picture has {width} x {height} pixels"
+    if left < 0 or top < 0 or right > width or bottom > height:
+        raise PictureError(f"crop={text!r} reaches outside the picture", allowed=allowed, do=CROP_EXAMPLE)
+    if left == right or top == bottom:
+        raise PictureError(f"crop={text!r} leaves no pixel", allowed=allowed, do=CROP_EXAMPLE)
+    return rgb[top:bottom, left:right]
+
+
+def _suits_turned(rgb: Rgb, size: CarpetSize) -> bool:
+    """Whether the picture turned by 90 degrees is nearer to the carpet's proportions."""
+    height, width = rgb.shape[:2]
+    return bool((width - height) * (size.width - size.length) < 0)
+
+
+def _sides(rgb: Rgb, size: CarpetSize, *, larger: bool) -> tuple[int, int]:
+    """(height, width) with the carpet's proportions within or around the picture.
+
+    A side differs from the picture's by an even number, so that the centre stays.
+    """
+    height, width = int(rgb.shape[0]), int(rgb.shape[1])
+    proportions = size.width / size.length
+    if (width > height * proportions) != larger:
+        return height, _of_same_parity(height * proportions, width)
+    return _of_same_parity(width / proportions, height), width
+
+
+def _of_same_parity(side: float, like: int) -> int:
+    """The positive whole number nearest to `side` that is even where `like` is, odd where it is odd."""
+    odd = like % 2
+    return max(2 * round((side - odd) / 2) + odd, 2 - odd)
+
+
+def _centre(rgb: Rgb, size: CarpetSize) -> Rgb:
+    """The largest part about the centre with the carpet's proportions."""
+    height, width = _sides(rgb, size, larger=False)
+    top, left = (rgb.shape[0] - height) // 2, (rgb.shape[1] - width) // 2
+    return rgb[top : top + height, left : left + width]
+
+
+def _padded(rgb: Rgb, size: CarpetSize, border: Colour) -> Rgb:
+    """The picture in the middle of a border, with the carpet's proportions."""
+    height, width = _sides(rgb, size, larger=True)
+    if (height, width) == rgb.shape[:2]:
+        return rgb
+    _check_padded((height, width))
+    made = np.empty((height, width, 3), dtype=np.uint8)
+    made[:] = border
+    top, left = (height - rgb.shape[0]) // 2, (width - rgb.shape[1]) // 2
+    made[top : top + rgb.shape[0], left : left + rgb.shape[1]] = rgb
+    return made
+
+
+def _check_padded(shape: tuple[int, int]) -> None:
+    if shape[0] * shape[1] > MOST_PADDED:
+        raise PictureError(
+            f"with its border the picture would have {shape[1]} x {shape[0]} pixels",
+            allowed=f"at most {MOST_PADDED // 1_000_000} million pixels",
+            do="crop it, or take a smaller picture",
+        )

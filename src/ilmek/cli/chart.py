@@ -63,6 +63,7 @@ def show_chart(charted: ChartResult) -> None:
             ("knots", f"{chart.rows * chart.columns:,} ({chart.rows} rows of {chart.columns})"),
             ("colours", f"{chart.colours} of {len(charted.order.yarns)} yarns"),
             ("colour difference", f"{made.mean_delta_e:.2f} mean CIEDE2000 (lower bound {made.least_delta_e:.2f})"),
+            ("fit", made.fit.words),
             ("reading", f"{made.kind}: {made.reason}"),
             ("changed knots", f"{made.changed:,}"),
             ("lone knots", f"{chart.lone_fraction:.2%}"),

@@ -104,6 +104,7 @@ def show_woven(woven: WeaveResult) -> None:
         [
             ("carpet", f"{chart.size}, {chart.quality}, {chart.knot} knot"),
             ("knots", f"{chart.knots.size:,} ({chart.rows} rows of {chart.columns})"),
+            ("fit", chart.reading.fit.words),
             ("colours", f"{chart.colours} of {len(woven.charted.order.yarns)} yarns"),
             ("yarn", f"{format_quantity(bill.mass, 'kg', 3)}, pile {format_quantity(bill.pile_mass, 'kg', 3)}"),
             *_loom_pairs(woven),

@@ -2,12 +2,13 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Any
 
 from ilmek.carpet.bill import YarnBill, YarnNeed, yarn_bill
 from ilmek.carpet.chart import Chart
+from ilmek.carpet.fitting import Fit
 from ilmek.carpet.pile import PileParams, coarsest_count, fill_check, pile_fill
 from ilmek.carpet.statistics import chart_statistics
 from ilmek.carpet.yarn import Yarn
@@ -134,7 +135,7 @@ def chart_results(charted: ChartResult) -> dict[str, Any]:
         "reading": reading.kind,
         "changed_knots": reading.changed,
         "foreign_fraction": None if reading.foreign is None else reading.foreign / chart.knots.size,
-        "fit": {"kind": reading.fit.kind, "stretch": reading.fit.stretch, "cropped": reading.fit.cropped},
+        "fit": fit_results(reading.fit),
         "mean_delta_e": reading.mean_delta_e,
         "least_delta_e": reading.least_delta_e,
         "lone_fraction": chart.lone_fraction,
@@ -155,6 +156,11 @@ def _statistics(chart: Chart) -> dict[str, Any]:
         "mean_changes": found.mean_changes,
         "hardest_rows": [{"row": row, "changes": found.of_row(row)} for row in found.hardest],
     }
+
+
+def fit_results(fit: Fit) -> dict[str, Any]:
+    """How a picture was fitted, by the JSON names, SI."""
+    return {one.name: getattr(fit, one.name) for one in fields(fit)}
 
 
 def _need(need: YarnNeed) -> dict[str, Any]:

@@ -7,9 +7,9 @@ import numpy as np
 
 from ilmek.arrays import Rgb
 from ilmek.carpet.chart import Chart, chart_of_design
-from ilmek.carpet.design import LARGEST_DISTORTION, knot_grid
+from ilmek.carpet.design import knot_grid
 from ilmek.carpet.exact import has_grid, of_grid
-from ilmek.carpet.fitting import Fit, fit_picture
+from ilmek.carpet.fitting import Fit, fit_notes, fit_picture
 from ilmek.carpet.quality import parse_quality
 from ilmek.carpet.reading import Design, ReadParams, read_design
 from ilmek.carpet.sizes import CarpetSize
@@ -107,22 +107,6 @@ def _keeps_knots(order: CarpetOrder, chart: Chart) -> bool:
 def _read_design(made: ResolvedOrder, rgb: Rgb, progress: Progress) -> tuple[Design, Fit, tuple[str, ...]]:
     """The design of the picture, how it was fitted, and notes."""
     grid = knot_grid(made.size, made.quality)
-    fitted, fit = fit_picture(rgb, made.size, made.order.fit, progress.part(0.0, 0.2))
+    fitted, fit = fit_picture(rgb, made.size, made.order.fit, progress.part(0.0, 0.2), grid=grid)
     design = read_design(fitted, grid, made.order.reading, progress.part(0.2, 1.0))
-    return design, fit, _fit_notes(fit, fitted.shape[:2], made.size, grid)
-
-
-def _fit_notes(fit: Fit, pixels: tuple[int, ...], size: CarpetSize, grid: tuple[int, int]) -> tuple[str, ...]:
-    """Notes on a picture that is stretched or coarser than the carpet."""
-    (height, width), (rows, columns), stretch = pixels, grid, fit.stretch
-    notes = []
-    if abs(stretch) > LARGEST_DISTORTION:
-        wider = f"{1 + stretch:.3g} times as wide as it is" if stretch >= 1 else f"{stretch:.0%} wider"
-        drawn = wider if stretch > 0 else f"{-stretch:.0%} narrower"
-        notes.append(f"the picture ({width} x {height} pixels) is drawn {drawn} to fill {size}")
-    if width < columns or height < rows:
-        knots = f"{columns} x {rows} knots"
-        notes.append(
-            f"the picture ({width} x {height} pixels) is coarser than the carpet ({knots}): edges will be stepped"
-        )
-    return tuple(notes)
+    return design, fit, fit_notes(fit, fitted.shape[:2], made.size, grid)
