@@ -7,10 +7,11 @@ leave (`palette_rules`).
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, fields
+from typing import NamedTuple
 
 import numpy as np
 
-from ilmek.arrays import Indices, Rgb
+from ilmek.arrays import FloatArray, Indices, IntArray, Rgb
 from ilmek.carpet.confetti import count_lone
 from ilmek.carpet.design import bands, knot_grid
 from ilmek.carpet.fitting import Fit, FitParams, fit_picture
@@ -36,6 +37,13 @@ class _Tally:
     lone: int
 
 
+class YarnDifference(NamedTuple):
+    """CIEDE2000 between a yarn and the colours of the design that it stands for: mean over the knots, and the worst."""
+
+    mean: float
+    worst: float
+
+
 @record
 class ChartReading:
     """How a picture became a chart.
@@ -46,6 +54,7 @@ class ChartReading:
     changed        number of knots that were changed because their patch was too small
     foreign        number of knots whose yarn is that of no true colour of their cell; None: no true colours
     fit            how the picture was fitted to the carpet
+    differences    of each yarn of the chart to the colours that it is the nearest of; 0 of one that is of none
     """
 
     kind: str
@@ -55,6 +64,7 @@ class ChartReading:
     changed: int = 0
     foreign: int | None = None
     fit: Fit = field(default_factory=Fit)
+    differences: tuple[YarnDifference, ...] = ()
 
 
 @record
@@ -192,10 +202,20 @@ def chart_of_design(
     yarn_of, difference = nearest_yarns(distinct, yarn_labs(chosen), progress.part(0.6, 0.8))
     knots = paint(design.colours, distinct, yarn_of, progress.part(0.8, 0.95))
     least = float(np.sum(distinct.counts * difference)) / knots.size  # a dot product's order depends on the threads
-    made = ChartReading(design.kind, design.reason, least, least, 0, design.foreign, fit or Fit())
+    of_yarns = _differences(distinct.counts, yarn_of, difference, len(chosen))
+    made = ChartReading(design.kind, design.reason, least, least, 0, design.foreign, fit or Fit(), of_yarns)
     chart = Chart(knots, chosen, size, quality, kind, made)
     chart.tally(progress.part(0.95, 1.0))
     return chart
+
+
+def _differences(counts: IntArray, yarn_of: IntArray, difference: FloatArray, yarns: int) -> tuple[YarnDifference, ...]:
+    """The differences of each yarn, from the knots, yarn and difference of each distinct colour."""
+    total = np.bincount(yarn_of, weights=counts * difference, minlength=yarns)
+    mean = total / np.maximum(np.bincount(yarn_of, weights=counts, minlength=yarns), 1)
+    worst = np.zeros(yarns)
+    np.maximum.at(worst, yarn_of, difference)
+    return tuple(map(YarnDifference, mean.tolist(), worst.tolist()))
 
 
 def _check_yarns(yarns: Sequence[Yarn]) -> None:

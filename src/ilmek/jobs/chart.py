@@ -6,6 +6,7 @@ from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Any
 
+from ilmek.arrays import Rgb
 from ilmek.carpet.bill import YarnBill, YarnNeed, yarn_bill
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.fitting import Fit
@@ -33,13 +34,15 @@ MOST_SHEETS = 400
 class ChartResult:
     """Chart and yarn bill of an order.
 
-    notes  changes made to the picture, and files that are left out
+    notes   changes made to the picture, and files that are left out
+    source  the fitted picture, made small; None of a chart as input, and where it is not wanted
     """
 
     order: ResolvedOrder
     chart: Chart
     bill: YarnBill
     notes: tuple[str, ...]
+    source: Rgb | None = None
 
     @property
     def pile(self) -> PileParams:
@@ -108,12 +111,16 @@ def chart_order(
     return charted, files
 
 
-def make_charted(order: CarpetOrder, progress: Progress = SILENT) -> ChartResult:
-    """Read the picture and chart it. Raises PictureError, CarpetError or YarnError."""
-    made, chart, notes = chart_of_order(order, progress)
+def make_charted(order: CarpetOrder, progress: Progress = SILENT, *, with_source: bool = False) -> ChartResult:
+    """Read the picture and chart it. Raises PictureError, CarpetError or YarnError.
+
+    with_source  keep the fitted picture, made small, for a page
+    """
+    made = chart_of_order(order, progress, with_source=with_source)
+    chart = made.chart
     check_carpet_width(chart.size, order.files.carpet_width)
     bill = yarn_bill(chart, order.plan.pile(chart.quality))
-    return ChartResult(made, chart, bill, (*notes, *_left_out(order, chart)))
+    return ChartResult(made.order, chart, bill, (*made.notes, *_left_out(order, chart)), made.source)
 
 
 def _left_out(order: CarpetOrder, chart: Chart) -> tuple[str, ...]:

@@ -7,24 +7,42 @@ import numpy as np
 
 from ilmek.arrays import Rgb
 from ilmek.carpet.chart import Chart, chart_of_design
-from ilmek.carpet.design import knot_grid
+from ilmek.carpet.design import knot_grid, resampled
 from ilmek.carpet.exact import has_grid, of_grid
-from ilmek.carpet.fitting import Fit, fit_notes, fit_picture
+from ilmek.carpet.fitting import fit_notes, fit_picture
 from ilmek.carpet.quality import parse_quality
-from ilmek.carpet.reading import Design, ReadParams, read_design
+from ilmek.carpet.reading import ReadParams, read_design
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.errors import PictureError
 from ilmek.io.chart.png import is_chart_png, read_chart_png
 from ilmek.io.picture import read_picture
 from ilmek.jobs.order import GROUPS, QUALITY, CarpetOrder, ResolvedOrder, check_sheets
 from ilmek.progress import SILENT, Progress
+from ilmek.records import record
+
+SHOWN = 1000
+"""Largest side of the picture that a page shows [pixels]."""
 
 _OF_THE_KNOTS = tuple(group for group in GROUPS if group not in ("plan", "files"))
 """Groups of parameters that act on the knots; the others act on the yarn or the files alone."""
 
 
-def chart_of_order(order: CarpetOrder, progress: Progress = SILENT) -> tuple[ResolvedOrder, Chart, tuple[str, ...]]:
+@record
+class OrderedChart:
     """The order with nothing left open, its chart, and notes.
+
+    source  the fitted picture, at most SHOWN pixels on its longer side; None where it is not wanted, and where the file
+            is a chart that is taken as it is
+    """
+
+    order: ResolvedOrder
+    chart: Chart
+    notes: tuple[str, ...]
+    source: Rgb | None = None
+
+
+def chart_of_order(order: CarpetOrder, progress: Progress = SILENT, *, with_source: bool = False) -> OrderedChart:
+    """The chart of an order.
 
     A chart that ilmek wrote is taken as it is; what the order gives acts on it. Another knot is put in the place of its
     knot. A size or a quality keeps its grid, and the other follows. Yarns, rules of the palette, a fit or a reading act
@@ -35,18 +53,24 @@ def chart_of_order(order: CarpetOrder, progress: Progress = SILENT) -> tuple[Res
     if chart is None:
         picture = read_picture(order.picture, progress.part(0.0, 0.2, "picture"))
         rgb, notes = picture.rgb, (*notes, *picture.notes)
+        del picture
     else:
         order = _on_the_chart(order, chart)
         made = order.resolved()
         check_sheets(made.size, made.quality, order.pdf)
         if _keeps_knots(order, chart):
-            return made, replace(chart, size=made.size, quality=made.quality, knot=made.knot), notes
+            return OrderedChart(made, replace(chart, size=made.size, quality=made.quality, knot=made.knot), notes)
         rgb = np.array([yarn.srgb for yarn in chart.yarns], dtype=np.uint8)[chart.knots]
         del chart
     made = order.resolved()
     check_sheets(made.size, made.quality, order.pdf)
-    design, fit, more = _read_design(made, rgb, progress.part(0.2, 0.4, "chart"))
+    grid = knot_grid(made.size, made.quality)
+    fitted, fit = fit_picture(rgb, made.size, order.fit, progress.part(0.2, 0.25, "chart"), grid=grid)
     del rgb
+    source = _shown(fitted) if with_source else None
+    more = fit_notes(fit, fitted.shape[:2], made.size, grid)
+    design = read_design(fitted, grid, order.reading, progress.part(0.25, 0.4, "chart"))
+    del fitted
     made_chart = chart_of_design(
         design,
         made.size,
@@ -57,7 +81,7 @@ def chart_of_order(order: CarpetOrder, progress: Progress = SILENT) -> tuple[Res
         palette=order.palette,
         progress=progress.part(0.4, 1.0, "chart"),
     )
-    return made, made_chart, (*notes, *more)
+    return OrderedChart(made, made_chart, (*notes, *more), source)
 
 
 def _own_chart(order: CarpetOrder, progress: Progress) -> tuple[Chart | None, tuple[str, ...]]:
@@ -104,9 +128,8 @@ def _keeps_knots(order: CarpetOrder, chart: Chart) -> bool:
     return untouched and has_grid((chart.rows, chart.columns), order.size, order.quality)
 
 
-def _read_design(made: ResolvedOrder, rgb: Rgb, progress: Progress) -> tuple[Design, Fit, tuple[str, ...]]:
-    """The design of the picture, how it was fitted, and notes."""
-    grid = knot_grid(made.size, made.quality)
-    fitted, fit = fit_picture(rgb, made.size, made.order.fit, progress.part(0.0, 0.2), grid=grid)
-    design = read_design(fitted, grid, made.order.reading, progress.part(0.2, 1.0))
-    return design, fit, fit_notes(fit, fitted.shape[:2], made.size, grid)
+def _shown(fitted: Rgb) -> Rgb:
+    """The fitted picture, made smaller until its longer side has at most SHOWN pixels."""
+    height, width = fitted.shape[:2]
+    scale = min(1.0, SHOWN / max(height, width))
+    return resampled(fitted, max(1, round(scale * height)), max(1, round(scale * width)))

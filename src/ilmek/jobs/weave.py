@@ -100,7 +100,7 @@ def weave(
 def _weave(
     order: CarpetOrder, loom_order: LoomOrder, folder: Path, outputs: Outputs, progress: Progress
 ) -> WeaveResult:
-    charted = make_charted(order, progress.part(0.0, 0.4, "picture"))
+    charted = make_charted(order, progress.part(0.0, 0.4, "picture"), with_source=True)
     loom_order = replace(loom_order, params=params_for(loom_order, charted))
     loomed = make_loomed(loom_order, charted, progress.part(0.4, 0.5, "loom"))
     charted = replace(charted, bill=yarn_bill(charted.chart, charted.pile, loom_order.params.ground))
