@@ -90,7 +90,7 @@ def _sheet_grid(canvas: Any, plan: SheetLayout, wide: float, high: float) -> Non
 
 def draw_legend(canvas: Any, chart: Chart, inks: Inks) -> None:
     """Draw the legend: swatch with symbol, symbol alone, name, count and share of every yarn that is used."""
-    used = chart.used
+    used, tied = chart.used, chart.tied
     canvas.bookmarkPage("legend")
     canvas.addOutlineEntry("Legend", "legend", 0)
     for first in range(0, len(used), 2 * _LINES):
@@ -102,12 +102,13 @@ def draw_legend(canvas: Any, chart: Chart, inks: Inks) -> None:
             column, down = divmod(line, _LINES)
             width = (330.0, 231.5)[columns - 1]
             y = _TOP - 28.0 - _LINE * down
-            _entry(canvas, chart, inks, index, (_LEFT + column * (width + 24.0), y, width))
+            _entry(canvas, chart, inks, (index, tied.of(index)), (_LEFT + column * (width + 24.0), y, width))
         canvas.showPage()
 
 
-def _entry(canvas: Any, chart: Chart, inks: Inks, index: int, box: tuple[float, float, float]) -> None:
-    x, y, width = box
+def _entry(canvas: Any, chart: Chart, inks: Inks, counted: tuple[int, int], box: tuple[float, float, float]) -> None:
+    """Draw the entry of a yarn: its index, and its number of knots."""
+    (index, count), (x, y, width) = counted, box
     canvas.setFillColorRGB(*inks.fills[index])
     canvas.setStrokeGray(0.4)
     canvas.setLineWidth(0.4)
@@ -118,12 +119,11 @@ def _entry(canvas: Any, chart: Chart, inks: Inks, index: int, box: tuple[float, 
     canvas.setFillGray(0.1)
     canvas.drawCentredString(x + 38.0, y, inks.symbols[index])
     canvas.setFont(TEXT, 9)
-    count = chart.counts[index]
     share = 100 * count / chart.knots.size
     canvas.drawRightString(x + width, y, f"{share:.1f} %" if share >= 0.05 else "< 0.1 %")
-    counted = _count(count)
-    canvas.drawRightString(x + width - 44.0, y, counted)
-    _write_name(canvas, chart.yarns[index].name, (x + 52.0, y), width - 106.0 - canvas.stringWidth(counted, TEXT, 9))
+    number = _count(count)
+    canvas.drawRightString(x + width - 44.0, y, number)
+    _write_name(canvas, chart.yarns[index].name, (x + 52.0, y), width - 106.0 - canvas.stringWidth(number, TEXT, 9))
 
 
 def _write_name(canvas: Any, name: str, at: tuple[float, float], room: float) -> None:

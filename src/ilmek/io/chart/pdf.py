@@ -33,7 +33,7 @@ def write_chart_pdf(path: Path, chart: Chart, progress: Progress = SILENT, title
     plan = chart_cut(chart)
     inks = Inks.of(chart.yarns, symbols(len(chart.yarns)))
     name = title or chart.size.name or f"{chart.columns} × {chart.rows} knots"
-    with _plain_streams():
+    with plain_streams():
         canvas = Canvas(str(path), pagesize=A4, pageCompression=1, invariant=1)
         canvas.setTitle(f"Knot chart: {name}")
         canvas.setCreator("ilmek")
@@ -51,7 +51,7 @@ def chart_cut(chart: Chart) -> SheetLayout:
 
 
 @contextmanager
-def _plain_streams() -> Iterator[None]:
+def plain_streams() -> Iterator[None]:
     """Write streams as bytes, not as base-85 text: smaller, and several times faster."""
     config: Any = rl_config
     before = config.useA85

@@ -1,0 +1,147 @@
+"""Rows split by colours as PDF: of each row every yarn once, with the number of its knots and their cells."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from reportlab.lib.pagesizes import A4
+from reportlab.pdfgen.canvas import Canvas
+
+from ilmek.carpet.chart import Chart
+from ilmek.carpet.rows import Run, Span, directions, row_codes, runs_of, spans_by_yarn
+from ilmek.io.chart.front_pages import draw_legend
+from ilmek.io.chart.grid import Inks
+from ilmek.io.chart.pdf import plain_streams
+from ilmek.io.chart.symbols import ADVANCE, SIGNS, STRONG, TEXT, register_fonts, symbols
+from ilmek.progress import SILENT, Progress
+
+_LEFT, _TOP, _LOW = 42.0, 800.0, 40.0
+_SIZE, _LINE = 7.0, 9.0
+_CELLS_AT = 118.0
+"""Where the cells of a yarn begin, from the left edge [pt]."""
+
+_CHARACTERS = int((A4[0] - 2 * _LEFT - _CELLS_AT) / (ADVANCE * _SIZE))
+"""Characters of a line of cells."""
+
+_LINES = int((_TOP - 30.0 - _LOW) / _LINE)
+"""Lines of a page, gaps between rows included."""
+
+_BAND = 1 << 18
+_GREY = (0.36, 0.40, 0.44)
+
+
+@dataclass(frozen=True, slots=True)
+class ColourLine:
+    """A line of a page: the heading of a row (yarn None), a yarn with its knots, or more of its cells (knots 0)."""
+
+    text: str
+    yarn: int | None = None
+    knots: int = 0
+
+
+def span_text(span: Span, columns: int, rightward: bool) -> str:
+    """The cells of a span as numbers from the edge where the row begins.
+
+    >>> span_text(Span(0, 3, "L"), 10, True), span_text(Span(0, 1, ""), 10, False)
+    ('1-3L', '10')
+    """
+    first = span.first + 1 if rightward else columns - span.first - span.cells + 1
+    return f"{first}{f'-{first + span.cells - 1}' if span.cells > 1 else ''}{span.part}"
+
+
+def _row_lines(number: int, runs: tuple[Run, ...], columns: int, direction: str) -> Iterator[ColourLine]:
+    for rightward in directions(number, direction):
+        yield ColourLine(f"Row {number} {'→' if rightward else '←'}")
+        for yarn, spans in spans_by_yarn(runs).items():
+            words = [span_text(span, columns, rightward) for span in (spans if rightward else spans[::-1])]
+            knots, line = sum(span.knots for span in spans), ""
+            for word in words:
+                if line and len(line) + 2 + len(word) > _CHARACTERS:
+                    yield ColourLine(line, yarn, knots)
+                    knots, line = 0, ""
+                line += f"{'  ' if line else ''}{word}"
+            yield ColourLine(line, yarn, knots)
+
+
+def colour_pages(chart: Chart, direction: str) -> Iterator[list[ColourLine]]:
+    """The lines of each page; a row that fits a page is not divided."""
+    page: list[ColourLine] = []
+    for first in range(0, chart.rows, step := max(1, _BAND // chart.columns)):
+        for row, codes in enumerate(row_codes(chart, first, min(first + step, chart.rows)), start=first + 1):
+            lines = list(_row_lines(row, runs_of(codes), chart.columns, direction))
+            if page and len(page) + len(lines) > _LINES:
+                yield page
+                page = []
+            while len(lines) > _LINES:
+                yield lines[:_LINES]
+                lines = lines[_LINES:]
+            page += lines
+    yield page
+
+
+def write_colours_pdf(path: Path, chart: Chart, direction: str, pages: int, progress: Progress = SILENT) -> None:
+    """Write the rows of a chart, split by colours, to `path`.
+
+    pages  their number, of `colour_pages`
+    """
+    register_fonts()
+    inks = Inks.of(chart.yarns, symbols(len(chart.yarns)))
+    name = chart.size.name or f"{chart.columns} × {chart.rows} knots"
+    with plain_streams():
+        canvas = Canvas(str(path), pagesize=A4, pageCompression=1, invariant=1)
+        canvas.setTitle(f"Rows to weave by: {name}")
+        canvas.setCreator("ilmek")
+        draw_legend(canvas, chart, inks)
+        for number, lines in enumerate(colour_pages(chart, direction), start=1):
+            canvas.setFillGray(0.1)
+            canvas.setFont(STRONG, 11)
+            canvas.drawString(_LEFT, _TOP, "Rows by colours")
+            canvas.setFont(TEXT, 7)
+            canvas.setFillColorRGB(*_GREY)
+            canvas.drawRightString(A4[0] - _LEFT, _TOP, f"{name}, page {number} of {pages}")
+            canvas.drawString(
+                _LEFT,
+                _TOP - 12.0,
+                "Row 1 is the first that is woven. Cells count from the left (→) or the right (←) edge; L, R: half "
+                "knots on left, right warps; j: jufti knots.",
+            )
+            for line, text in enumerate(lines):
+                _draw_line(canvas, text, chart, inks, _TOP - 30.0 - line * _LINE)
+            canvas.showPage()
+            progress(number / pages)
+        canvas.save()
+
+
+def _draw_line(canvas: Any, line: ColourLine, chart: Chart, inks: Inks, y: float) -> None:
+    canvas.setFillGray(0.1)
+    if line.yarn is None:
+        canvas.setStrokeGray(0.75)
+        canvas.setLineWidth(0.4)
+        canvas.line(_LEFT, y + 7.0, A4[0] - _LEFT, y + 7.0)
+        canvas.setStrokeGray(0.2)
+        canvas.rect(_LEFT, y - 0.8, 6.5, 6.5, stroke=1, fill=0)
+        canvas.setFont(STRONG, 8)
+        canvas.drawString(_LEFT + 12.0, y, line.text)
+        return
+    if line.knots:
+        canvas.setFillColorRGB(*inks.fills[line.yarn])
+        canvas.setStrokeGray(0.4)
+        canvas.setLineWidth(0.3)
+        canvas.rect(_LEFT + 12.0, y - 1.2, 12.0, 7.4, stroke=1, fill=1)
+        canvas.setFillGray(0.1)
+        canvas.setFont(SIGNS, _SIZE)
+        canvas.drawString(_LEFT + 28.0, y, inks.symbols[line.yarn])
+        canvas.drawRightString(_LEFT + _CELLS_AT - 8.0, y, str(line.knots))
+        canvas.setFont(TEXT, 6)
+        canvas.drawString(_LEFT + 36.0, y, _short(canvas, chart.yarns[line.yarn].name))
+    canvas.setFont(SIGNS, _SIZE)
+    canvas.drawString(_LEFT + _CELLS_AT, y, line.text)
+
+
+def _short(canvas: Any, name: str) -> str:
+    """The name, without its end where it is too long for its column."""
+    shown = name
+    while shown and canvas.stringWidth(shown, TEXT, 6) > 50.0:
+        shown = shown[:-1]
+    return shown if shown == name else f"{shown[:-1]}…"

@@ -1,0 +1,135 @@
+"""Rows to weave by as PDF, rows.pdf: the legend, then each row as a strip of cells on one line, row 1 first.
+
+A page tells how it is read; each row has a box to tick, its number at both ends, counts and symbols of its runs, the
+numbers of the knots, and the knots of each yarn. The same chart gives the same file.
+"""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from reportlab.lib.pagesizes import A4
+from reportlab.pdfgen.canvas import Canvas
+
+from ilmek.carpet.chart import Chart
+from ilmek.carpet.rows import directions, row_codes, runs_of
+from ilmek.io.chart.front_pages import draw_legend
+from ilmek.io.chart.grid import Inks
+from ilmek.io.chart.pdf import plain_streams
+from ilmek.io.chart.rows_layout import FOOT, HEAD, LEFT, MARGIN, RIGHT, RULER, SMALLEST, RowsLayout, rows_layout
+from ilmek.io.chart.rows_strip import Strip, Typesetter, draw_strip, knots_in_words
+from ilmek.io.chart.symbols import SIGNS, STRONG, TEXT, register_fonts, symbols
+from ilmek.progress import SILENT, Progress
+
+_GREY = (0.36, 0.40, 0.44)
+_BAND = 1 << 20
+
+
+def chart_rows_layout(chart: Chart, direction: str = "both") -> RowsLayout:
+    """The layout of a chart's rows; `.count` is the number of pages with strips."""
+    rulers = 2 if direction == "both" else 1
+    return rows_layout(chart.rows, chart.columns, marked=len(chart.overlay) > 0, rulers=rulers)
+
+
+def write_rows_pdf(
+    path: Path, chart: Chart, direction: str = "both", progress: Progress = SILENT, title: str = ""
+) -> None:
+    """Write the rows of a chart to `path`, each as one strip where it fits the paper.
+
+    direction  of `carpet.rows.DIRECTIONS`: from which edges the knots are numbered
+    A page takes about 0.02 s; `chart_rows_layout` gives their number.
+    """
+    register_fonts()
+    plan = chart_rows_layout(chart, direction)
+    inks = Inks.of(chart.yarns, symbols(len(chart.yarns)))
+    name = title or chart.size.name or f"{chart.columns} × {chart.rows} knots"
+    with plain_streams():
+        canvas = Canvas(str(path), pagesize=A4, pageCompression=1, invariant=1)
+        canvas.setTitle(f"Rows to weave by: {name}")
+        canvas.setCreator("ilmek")
+        draw_legend(canvas, chart, inks)
+        setter = Typesetter(canvas, plan.size)
+        page: list[Strip] = []
+        number = 0
+        for strip in _strips(chart, plan):
+            page.append(strip)
+            if len(page) == plan.lines or (strip.number == chart.rows and strip.stop == chart.columns):
+                number += 1
+                _draw_page(setter, page, plan, (number, name, direction), inks)
+                page = []
+                progress(number / plan.count)
+        canvas.save()
+
+
+def _strips(chart: Chart, plan: RowsLayout) -> Iterator[Strip]:
+    step = max(1, _BAND // chart.columns)
+    for first in range(0, chart.rows, step):
+        codes = row_codes(chart, first, min(first + step, chart.rows))
+        for row, line in enumerate(codes, start=first + 1):
+            runs = runs_of(line)
+            for part in range(plan.parts):
+                begin = part * plan.part_columns
+                label = f"part {part + 1} of {plan.parts}" if plan.parts > 1 else ""
+                yield Strip(row, runs, begin, min(begin + plan.part_columns, plan.columns), label)
+
+
+def _draw_page(
+    setter: Typesetter, strips: list[Strip], plan: RowsLayout, titles: tuple[int, str, str], inks: Inks
+) -> None:
+    """Draw a page of strips; titles: number of the page, name of the carpet, direction."""
+    canvas = setter.canvas
+    number, name, direction = titles
+    canvas.setPageSize((plan.width, plan.height))
+    rows = f"rows {strips[0].number}–{strips[-1].number}"
+    canvas.bookmarkPage(f"rows-{number}")
+    canvas.addOutlineEntry(rows, f"rows-{number}", 0)
+    _write_head(canvas, plan, (f"{rows} of {plan.rows}", f"{name}, page {number} of {plan.count}"), direction)
+    top = plan.height - MARGIN - HEAD
+    wide = plan.width - 2 * MARGIN - LEFT - RIGHT
+    for line, strip in enumerate(strips):
+        reading = direction
+        if direction == "alternate":
+            reading = "right" if next(directions(strip.number, direction)) else "left"
+        low = top - (line + 1) * plan.pitch
+        below = plan.rulers * RULER + 7.5
+        canvas.saveState()
+        canvas.translate(MARGIN + LEFT, low + below)
+        draw_strip(setter, strip, plan, inks, reading)
+        canvas.setFont(SIGNS, SMALLEST)
+        canvas.setFillColorRGB(*_GREY)
+        if strip.stop == plan.columns:
+            canvas.drawString(0.0, -below + 0.3, knots_in_words(strip, inks, wide))
+        canvas.restoreState()
+    canvas.showPage()
+
+
+def _reads(direction: str) -> str:
+    return {
+        "right": "Read from left to right.",
+        "left": "Read from right to left.",
+        "alternate": "Read odd rows from left to right, even rows from right to left.",
+    }.get(direction, "Black numbers count from the left, grey ones from the right.")
+
+
+def _write_head(canvas: Any, plan: RowsLayout, titles: tuple[str, str], direction: str) -> None:
+    top = plan.height - MARGIN
+    canvas.setFillGray(0.1)
+    canvas.setFont(STRONG, 12)
+    canvas.drawString(MARGIN, top - 11.0, titles[0][0].upper() + titles[0][1:])
+    canvas.setFont(TEXT, 8)
+    canvas.setFillColorRGB(*_GREY)
+    canvas.drawRightString(plan.width - MARGIN, top - 11.0, titles[1])
+    canvas.setFont(TEXT, 7)
+    canvas.drawString(
+        MARGIN,
+        top - 24.0,
+        f"Row 1 is the first that is woven, at the lower edge. Count over symbol: a run of knots; a symbol alone: one "
+        f"knot. {_reads(direction)}",
+    )
+    canvas.drawString(
+        MARGIN,
+        top - 33.0,
+        "2½ over AC: 2 cells with half knots, A on the left warp, C on the right. 3j over A: 3 jufti knots, each on "
+        "four warps, two cells (bars).",
+    )
+    canvas.drawRightString(plan.width - MARGIN, MARGIN - FOOT / 2, "Below each row: its knots of each yarn.")
