@@ -1,0 +1,266 @@
+"""Knots: one label for each knot, from the labels of the pixels.
+
+Area rule. A knot takes the label with the largest area of its cell.
+
+Line rule. Through the centres of the knots run centre lines, one for each row and column. A run of one label along a
+centre line that is shorter than 1.5 knots is where a line crosses it; the line takes the knot in which the middle of the
+run lies. (Freeman's grid-intersect quantisation: the knots of a line of any angle are 8-connected.) Of several lines in
+one knot, that with the largest area of the cell takes it.
+
+Dot rule. A dot between four centres crosses no centre line. It takes the knot, of those four, that has the most of it.
+
+Ties are decided by the colours and by the distance from the centre of the picture, never by the order of the scan: the
+mirror image of a picture gives the mirror image of the chart. All areas are integers.
+"""
+
+import numpy as np
+
+from ilmek.arrays import Indices, Int64, IntArray, UInt8
+from ilmek.carpet.design import bands
+from ilmek.num.compiled import compiled
+from ilmek.progress import SILENT, Progress
+
+NONE = 255
+_SLICE = 1 << 21
+_LEAST_RUN, _LONGEST_RUN = 0.4, 1.5
+_LEAST_SHARE = 0.2
+_LEAST_DOT = 0.25
+"""Runs, in knots, and shares of a cell that count as a line; area of a dot."""
+
+
+@compiled
+def _vote(labels: UInt8[np.ndarray, "h w"], rows: int, first: int, knots: Indices) -> None:
+    height, width = labels.shape
+    columns = knots.shape[1]
+    areas = np.zeros(256, dtype=np.int64)
+    for index in range(knots.shape[0]):
+        row = first + index
+        top, bottom = row * height // rows, ((row + 1) * height - 1) // rows
+        for column in range(columns):
+            left, right = column * width // columns, ((column + 1) * width - 1) // columns
+            own = labels[top, left]
+            same = True
+            for y in range(top, bottom + 1):
+                for x in range(left, right + 1):
+                    same = same and labels[y, x] == own
+            if same:
+                knots[index, column] = own
+                continue
+            for y in range(top, bottom + 1):
+                deep = min((row + 1) * height, (y + 1) * rows) - max(row * height, y * rows)
+                for x in range(left, right + 1):
+                    wide = min((column + 1) * width, (x + 1) * columns) - max(column * width, x * columns)
+                    areas[labels[y, x]] += deep * wide
+            best = NONE
+            for y in range(top, bottom + 1):
+                for x in range(left, right + 1):
+                    label = labels[y, x]
+                    if best == NONE or areas[label] > areas[best] or (areas[label] == areas[best] and label < best):
+                        best = int(label)
+            knots[index, column] = best
+            for y in range(top, bottom + 1):
+                for x in range(left, right + 1):
+                    areas[labels[y, x]] = 0
+
+
+@compiled
+def _share(labels: UInt8[np.ndarray, "h w"], rows: int, columns: int, row: int, column: int, label: int) -> int:
+    """Area of a label in a cell; the whole cell has 65536."""
+    height, width = labels.shape
+    area = 0
+    for y in range(row * height // rows, ((row + 1) * height - 1) // rows + 1):
+        deep = min((row + 1) * height, (y + 1) * rows) - max(row * height, y * rows)
+        for x in range(column * width // columns, ((column + 1) * width - 1) // columns + 1):
+            if labels[y, x] == label:
+                area += deep * (min((column + 1) * width, (x + 1) * columns) - max(column * width, x * columns))
+    return area * 65536 // (height * width)
+
+
+@compiled
+def _take(  # noqa: PLR0917
+    labels: UInt8[np.ndarray, "h w"], claims: Indices, shares: IntArray, row: int, column: int, label: int, share: int
+) -> None:
+    before = claims[row, column]
+    if before == NONE or share > shares[row, column] or (share == shares[row, column] and label < before):
+        claims[row, column], shares[row, column] = label, share
+
+
+@compiled
+def _claim_run(  # noqa: PLR0917
+    labels: UInt8[np.ndarray, "h w"], claims: Indices, shares: IntArray, across: bool, line: int, begin: int, end: int
+    , label: int
+) -> None:
+    """The claim of a run of pixels from `begin` to `end` along the centre line of a row (`across`) or column."""
+    rows, columns = claims.shape
+    length = labels.shape[1] if across else labels.shape[0]
+    cells = columns if across else rows
+    run = (end - begin) * cells
+    if run >= _LONGEST_RUN * length or run < _LEAST_RUN * length:
+        return
+    middle = (begin + end) * cells
+    cell = middle // (2 * length)
+    row, column = (line, cell) if across else (cell, line)
+    if middle % (2 * length) or cell == 0 or cell == cells:
+        cell = min(cell, cells - 1)
+        row, column = (line, cell) if across else (cell, line)
+        share = _share(labels, rows, columns, row, column, label)
+        if share >= _LEAST_SHARE * 65536:
+            _take(labels, claims, shares, row, column, label, share)
+        return
+    other_row, other_column = (line, cell - 1) if across else (cell - 1, line)
+    share = _share(labels, rows, columns, row, column, label)
+    other = _share(labels, rows, columns, other_row, other_column, label)
+    if share > other or (share == other and 2 * cell <= cells):
+        _take(labels, claims, shares, row, column, label, share)
+    if other > share or (share == other and 2 * cell >= cells):
+        _take(labels, claims, shares, other_row, other_column, label, other)
+
+
+@compiled
+def _claim_lines(  # noqa: PLR0917
+    labels: UInt8[np.ndarray, "h w"],
+    lines: UInt8[np.ndarray, "n length"],
+    index: IntArray,
+    across: bool,
+    claims: Indices,
+    shares: IntArray,
+) -> None:
+    length = lines.shape[1]
+    for number in range(lines.shape[0]):
+        begin = 0
+        for position in range(1, length + 1):
+            if position == length or lines[number, position] != lines[number, begin]:
+                label = int(lines[number, begin])
+                _claim_run(labels, claims, shares, across, int(index[number]), begin, position, label)
+                begin = position
+
+
+def centre_lines(length: int, cells: int) -> tuple[Int64[np.ndarray, " lines"], Int64[np.ndarray, " lines"]]:
+    """The pixels through which the centres of the cells of a side run, and their cells.
+
+    Where a centre lies between two pixels it is that nearer to the middle of the side; in the middle both.
+
+    >>> [values.tolist() for values in centre_lines(12, 3)]
+    [[2, 5, 6, 9], [0, 1, 1, 2]]
+    """
+    cell = np.arange(cells)
+    pixel, between = np.divmod((2 * cell + 1) * length, 2 * cells)
+    pixel = pixel - ((between == 0) & (2 * cell + 1 >= cells))
+    both = np.flatnonzero((between == 0) & (2 * cell + 1 == cells))
+    return np.sort(np.append(pixel, pixel[both] + 1)), np.sort(np.append(cell, both))
+
+
+@compiled
+def _claim_dots(  # noqa: PLR0917
+    labels: UInt8[np.ndarray, "h w"],
+    knots: Indices,
+    across: IntArray,
+    down: IntArray,
+    claims: Indices,
+    shares: IntArray,
+    first: int,
+    stop: int,
+) -> None:
+    rows, columns = knots.shape
+    height, width = labels.shape
+    areas = np.zeros(256, dtype=np.int64)
+    least = _LEAST_DOT * height * width
+    for row in range(first, stop):
+        top, bottom = down[row, 1] + 1, down[row + 1, 0]
+        for column in range(columns - 1):
+            left, right = across[column, 1] + 1, across[column + 1, 0]
+            if top >= bottom or left >= right:
+                continue
+            own = labels[top, left]
+            same = True
+            for y in range(top, bottom):
+                for x in range(left, right):
+                    same = same and labels[y, x] == own
+            if same:
+                continue
+            for y in range(top, bottom):
+                for x in range(left, right):
+                    areas[labels[y, x]] += rows * columns
+            for y in range(top, bottom):
+                for x in range(left, right):
+                    label = labels[y, x]
+                    if areas[label] >= least and not _on_frame(labels, top, bottom, left, right, label):
+                        _claim_dot(labels, knots, claims, shares, row, column, label)
+                    areas[label] = 0
+
+
+@compiled
+def _on_frame(labels: UInt8[np.ndarray, "h w"], top: int, bottom: int, left: int, right: int, label: int) -> bool:
+    """Whether a label occurs on the centre lines around a rectangle."""
+    height, width = labels.shape
+    for x in range(max(left - 1, 0), min(right + 1, width)):
+        if labels[max(top - 1, 0), x] == label or labels[min(bottom, height - 1), x] == label:
+            return True
+    for y in range(top, bottom):
+        if labels[y, max(left - 1, 0)] == label or labels[y, min(right, width - 1)] == label:
+            return True
+    return False
+
+
+@compiled
+def _claim_dot(
+    labels: UInt8[np.ndarray, "h w"], knots: Indices, claims: Indices, shares: IntArray, row: int, column: int, label: int
+) -> None:
+    rows, columns = knots.shape
+    most = 0
+    for down in range(2):
+        for right in range(2):
+            if knots[row + down, column + right] == label:
+                return
+            most = max(most, _share(labels, rows, columns, row + down, column + right, label))
+    nearest = rows + columns + 2
+    for down in range(2):
+        for right in range(2):
+            far = abs(2 * (row + down) + 1 - rows) + abs(2 * (column + right) + 1 - columns)
+            if _share(labels, rows, columns, row + down, column + right, label) == most:
+                nearest = min(nearest, far)
+    for down in range(2):
+        for right in range(2):
+            far = abs(2 * (row + down) + 1 - rows) + abs(2 * (column + right) + 1 - columns)
+            share = _share(labels, rows, columns, row + down, column + right, label)
+            if share == most and far == nearest:
+                _take(labels, claims, shares, row + down, column + right, label, share)
+
+
+def knot_labels(
+    labels: UInt8[np.ndarray, "height width"], grid: tuple[int, int], progress: Progress = SILENT
+) -> Indices:
+    """The label of each knot."""
+    (height, width), (rows, columns) = labels.shape, grid
+    knots = np.empty(grid, dtype=np.uint8)
+    step = max(1, _SLICE // (width * -(-height // rows) + columns))
+    for first in range(0, rows, step):
+        _vote(labels, rows, first, knots[first : first + step])
+        progress(0.4 * min(first + step, rows) / rows)
+    claims = np.full(grid, NONE, dtype=np.uint8)
+    shares = np.zeros(grid, dtype=np.uint16)
+    pixels, index = centre_lines(height, rows)
+    for band in bands(len(pixels), width, _SLICE):
+        _claim_lines(labels, labels[pixels[band]], index[band], True, claims, shares)
+        progress(0.4 + 0.2 * band.stop / len(pixels))
+    down = _frames(pixels, index)
+    pixels, index = centre_lines(width, columns)
+    for band in bands(len(pixels), height, _SLICE):
+        lines = np.ascontiguousarray(labels[:, pixels[band]].T)
+        _claim_lines(labels, lines, index[band], False, claims, shares)
+        progress(0.6 + 0.2 * band.stop / len(pixels))
+    across = _frames(pixels, index)
+    dots = np.full(grid, NONE, dtype=np.uint8)
+    np.copyto(knots, claims, where=claims != NONE)
+    shares[:] = 0
+    for first in range(0, rows - 1, step):
+        _claim_dots(labels, knots, across, down, dots, shares, first, min(first + step, rows - 1))
+    np.copyto(knots, dots, where=(dots != NONE) & (claims == NONE))
+    return knots
+
+
+def _frames(pixels: IntArray, index: IntArray) -> Int64[np.ndarray, "cells 2"]:
+    """The first and the last centre line of each cell."""
+    begin = np.flatnonzero(np.diff(index, prepend=-1))
+    end = np.flatnonzero(np.diff(index, append=index[-1] + 1))
+    return np.stack([pixels[begin], pixels[end]], axis=-1)

@@ -1,0 +1,192 @@
+"""Labels: the true colour of each pixel.
+
+A pixel has the nearest true colour (CIELAB). On an edge that is not sharp, mixtures may be near to a third colour: a band
+of at most three pixels between two colours, whose colour lies on the segment between both and changes across the band,
+belongs to the nearer of the two. A line has no third colour on its sides and a band of even colour is none, so both stay.
+A single pixel unlike all its neighbours, and between them in colour, takes the nearest colour among theirs.
+"""
+
+import numpy as np
+
+from ilmek.arrays import FloatArray, IntArray, Rgb, UInt8
+from ilmek.carpet.colour import LINEAR, RGB_TO_XYZ, WHITE
+from ilmek.carpet.design import bands
+from ilmek.carpet.flat.true_colours import TrueColours
+from ilmek.num.compiled import compiled
+from ilmek.progress import SILENT, Progress
+
+UNKNOWN = 255
+_MATRIX = RGB_TO_XYZ / WHITE[:, None]
+_WIDEST = 3
+_SLICE = 1 << 21
+
+
+@compiled
+def _root(t: float) -> float:
+    return t ** (1 / 3) if t > 216 / 24389 else (24389 / 27 * t + 16) / 116
+
+
+@compiled
+def _nearest(red: int, green: int, blue: int, labs: FloatArray) -> int:
+    r, g, b = LINEAR[red], LINEAR[green], LINEAR[blue]
+    x = _root(_MATRIX[0, 0] * r + _MATRIX[0, 1] * g + _MATRIX[0, 2] * b)
+    y = _root(_MATRIX[1, 0] * r + _MATRIX[1, 1] * g + _MATRIX[1, 2] * b)
+    z = _root(_MATRIX[2, 0] * r + _MATRIX[2, 1] * g + _MATRIX[2, 2] * b)
+    lightness, a, b = 116 * y - 16, 500 * (x - y), 200 * (y - z)
+    best, least = 0, np.inf
+    for label in range(labs.shape[0]):
+        apart = (labs[label, 0] - lightness) ** 2 + (labs[label, 1] - a) ** 2 + (labs[label, 2] - b) ** 2
+        if apart < least:
+            best, least = label, apart
+    return best
+
+
+@compiled
+def raw_label(rgb: Rgb, y: int, x: int, table: UInt8[np.ndarray, " codes"], labs: FloatArray) -> int:
+    """The true colour nearest to a pixel's own; `table` keeps those of the codes that have occurred."""
+    red, green, blue = int(rgb[y, x, 0]), int(rgb[y, x, 1]), int(rgb[y, x, 2])
+    code = red << 16 | green << 8 | blue
+    if table[code] == UNKNOWN:
+        table[code] = _nearest(red, green, blue, labs)
+    return int(table[code])
+
+
+@compiled
+def _label(rgb: Rgb, table: UInt8[np.ndarray, " codes"], labs: FloatArray, labels: UInt8[np.ndarray, "h w"]) -> None:
+    for y in range(rgb.shape[0]):
+        for x in range(rgb.shape[1]):
+            labels[y, x] = raw_label(rgb, y, x, table, labs)
+
+
+@compiled
+def _mixed_share(rgb: Rgb, y: int, x: int, one: IntArray, two: IntArray, slack: int) -> float:
+    """Position of a pixel's colour from `one` (0) to `two` (1); negative where it is no mixture of both."""
+    along = offset = length = 0
+    for channel in range(3):
+        far = int(two[channel]) - int(one[channel])
+        here = int(rgb[y, x, channel]) - int(one[channel])
+        along += here * far
+        offset += here * here
+        length += far * far
+    if along <= 0 or along >= length:
+        return -1.0
+    off = offset - along * along / length
+    return along / length if off <= max(slack * slack, 0.03 * length) else -1.0
+
+
+@compiled
+def _across(  # noqa: PLR0917
+    rgb: Rgb, labels: UInt8[np.ndarray, "h w"], colours: IntArray, y: int, x: int, down: int, right: int, slack: int
+) -> int:
+    """The label that a mixture takes by the two sides of one direction; UNKNOWN where it is none."""
+    height, width = labels.shape
+    own = labels[y, x]
+    before = after = 1
+    while before <= _WIDEST:
+        v, u = y - before * down, x - before * right
+        if v < 0 or u < 0 or u >= width:
+            return UNKNOWN
+        if labels[v, u] != own:
+            break
+        before += 1
+    while after <= _WIDEST:
+        v, u = y + after * down, x + after * right
+        if v >= height or u < 0 or u >= width:
+            return UNKNOWN
+        if labels[v, u] != own:
+            break
+        after += 1
+    if before + after - 1 > _WIDEST:
+        return UNKNOWN
+    one = labels[y - before * down, x - before * right]
+    two = labels[y + after * down, x + after * right]
+    if one == two:
+        return UNKNOWN
+    share = _mixed_share(rgb, y, x, colours[one], colours[two], slack)
+    if share < 0.0:
+        return UNKNOWN
+    if before + after > 2:  # a band of even colour is a line
+        begin = _mixed_share(rgb, y - (before - 1) * down, x - (before - 1) * right, colours[one], colours[two], slack)
+        end = _mixed_share(rgb, y + (after - 1) * down, x + (after - 1) * right, colours[one], colours[two], slack)
+        if begin < 0.0 or end < 0.0 or end - begin < 0.2:
+            return UNKNOWN
+    if share == 0.5:
+        return int(min(one, two))
+    return int(one if share < 0.5 else two)
+
+
+@compiled
+def _alone(
+    rgb: Rgb, labels: UInt8[np.ndarray, "h w"], colours: IntArray, y: int, x: int
+) -> int:
+    """The label of a pixel unlike all its neighbours: its own where it is a dot, else the nearest of theirs."""
+    height, width = labels.shape
+    own = labels[y, x]
+    for v in range(max(y - 1, 0), min(y + 2, height)):
+        for u in range(max(x - 1, 0), min(x + 2, width)):
+            if labels[v, u] == own and (v != y or u != x):
+                return int(own)
+    best, least = int(own), 1 << 30
+    dot = True
+    for down in range(-1, 2):
+        for right in range(-1, 2):
+            v, u = y + down, x + right
+            if (down == 0 and right == 0) or v < 0 or u < 0 or v >= height or u >= width:
+                continue
+            label = labels[v, u]
+            apart = product = 0
+            opposite = 0 <= y - down < height and 0 <= x - right < width
+            for channel in range(3):
+                apart += (int(rgb[y, x, channel]) - int(colours[label, channel])) ** 2
+                if opposite:
+                    product += (int(rgb[y, x, channel]) - int(rgb[v, u, channel])) * (
+                        int(rgb[y, x, channel]) - int(rgb[y - down, x - right, channel])
+                    )
+            dot = dot and (product > 0 or not opposite)
+            if apart < least or (apart == least and label < best):
+                best, least = int(label), apart
+    return int(own) if dot and least > 3 * 24 * 24 else best
+
+
+@compiled
+def _clean(  # noqa: PLR0917
+    rgb: Rgb, labels: UInt8[np.ndarray, "h w"], colours: IntArray, slack: int, first: int, out: UInt8[np.ndarray, "n w"]
+) -> None:
+    height, width = labels.shape
+    for row in range(out.shape[0]):
+        y = first + row
+        up, low = max(y - 1, 0), min(y + 1, height - 1)
+        for x in range(width):
+            own = labels[y, x]
+            out[row, x] = own
+            left, far = max(x - 1, 0), min(x + 1, width - 1)
+            if (
+                labels[y, left] == own and labels[y, far] == own and labels[up, x] == own and labels[low, x] == own
+                and labels[up, left] == own and labels[up, far] == own
+                and labels[low, left] == own and labels[low, far] == own
+            ):
+                continue
+            label = min(_across(rgb, labels, colours, y, x, 0, 1, slack), _across(rgb, labels, colours, y, x, 1, 0, slack))
+            if label == UNKNOWN:
+                falling = _across(rgb, labels, colours, y, x, 1, 1, slack)
+                label = min(falling, _across(rgb, labels, colours, y, x, 1, -1, slack))
+            out[row, x] = label if label != UNKNOWN else _alone(rgb, labels, colours, y, x)
+
+
+def label_pixels(
+    rgb: Rgb, true: TrueColours, table: UInt8[np.ndarray, " codes"], progress: Progress = SILENT
+) -> UInt8[np.ndarray, "height width"]:
+    """Index of the true colour of each pixel."""
+    height, width = rgb.shape[:2]
+    labels = np.empty((height, width), dtype=np.uint8)
+    for band in bands(height, width, _SLICE):
+        _label(rgb[band], table, true.labs, labels[band])
+        progress(0.5 * band.stop / height)
+    if not true.mixed:
+        return labels
+    cleaned = np.empty_like(labels)
+    colours = true.srgb.astype(np.int64)
+    for band in bands(height, width, _SLICE):
+        _clean(rgb, labels, colours, 10 + true.noise, band.start, cleaned[band])
+        progress(0.5 + 0.5 * band.stop / height)
+    return cleaned

@@ -1,0 +1,99 @@
+"""Flat reading of a picture: true colours, labels of the pixels, symmetry, knots."""
+
+import numpy as np
+
+from ilmek.arrays import FloatArray, Indices, Rgb, UInt8
+from ilmek.carpet.flat.knots import knot_labels
+from ilmek.carpet.flat.labels import UNKNOWN, label_pixels, raw_label
+from ilmek.carpet.flat.survey import Survey, survey
+from ilmek.carpet.flat.symmetry import is_symmetric, make_symmetric
+from ilmek.carpet.flat.true_colours import TrueColours, true_colours
+from ilmek.num.compiled import compiled
+from ilmek.progress import SILENT, Progress
+from ilmek.records import record
+
+_BAND = 128
+_CODES = 1 << 24
+
+
+@record
+class FlatDesign:
+    """A drawing read onto the grid of knots.
+
+    colours    sRGB of each knot (rows, columns, 3), each a true colour
+    true       the true colours, from dark to light
+    foreign    knots whose colour is nearest to no pixel of their cell
+    symmetric  axes about which the design is symmetric: vertical, horizontal
+    """
+
+    colours: Rgb
+    true: UInt8[np.ndarray, "colours 3"]
+    foreign: int
+    symmetric: tuple[str, ...]
+
+
+@record
+class Flatness:
+    """Whether a picture is a drawing.
+
+    is_flat   the decision          colours  number of true colours
+    near      share of the pixels that have a true colour, up to the noise
+    sentence  the reason, for the user
+    """
+
+    is_flat: bool
+    colours: int
+    near: float
+    sentence: str
+
+
+def looks_flat(rgb: Rgb) -> Flatness:
+    """Whether a picture is a drawing: few true colours, which nearly all of its pixels have."""
+    seen = survey(rgb)
+    return flatness(seen, true_colours(seen))
+
+
+def flatness(seen: Survey, true: TrueColours) -> Flatness:
+    """As `looks_flat`, of a survey and the true colours that are found in it."""
+    return Flatness(True, len(true.srgb), 1.0, f"a drawing in {len(true.srgb)} colours")
+
+
+def flat_design(rgb: Rgb, grid: tuple[int, int], progress: Progress = SILENT) -> FlatDesign:
+    """A picture read as a drawing on a grid of rows and columns."""
+    rgb = np.ascontiguousarray(rgb)
+    height, width = rgb.shape[:2]
+    true = true_colours(survey(rgb))
+    progress(0.1)
+    table = np.full(_CODES, UNKNOWN, dtype=np.uint8)
+    labels = label_pixels(rgb, true, table, progress.part(0.1, 0.5))
+    knot = min(height / grid[0], width / grid[1])
+    across = is_symmetric(labels, True, knot, progress.part(0.5, 0.55))
+    down = is_symmetric(labels, False, knot, progress.part(0.55, 0.6))
+    if across or down:
+        make_symmetric(rgb, labels, true.srgb, across, down)
+    knots = knot_labels(labels, grid, progress.part(0.6, 0.9))
+    foreign = 0
+    for first in range(0, grid[0], _BAND):
+        foreign += int(_foreign(rgb, table, true.labs, knots, first, min(first + _BAND, grid[0])))
+        progress(0.9 + 0.1 * min(first + _BAND, grid[0]) / grid[0])
+    axes = (("vertical",) if across else ()) + (("horizontal",) if down else ())
+    return FlatDesign(true.srgb[knots], true.srgb, foreign, axes)
+
+
+@compiled
+def _foreign(
+    rgb: Rgb, table: UInt8[np.ndarray, " codes"], labs: FloatArray, knots: Indices, first: int, stop: int
+) -> int:
+    rows, columns = knots.shape
+    height, width = rgb.shape[:2]
+    foreign = 0
+    for row in range(first, stop):
+        for column in range(columns):
+            own = knots[row, column]
+            found = False
+            for y in range(row * height // rows, ((row + 1) * height - 1) // rows + 1):
+                for x in range(column * width // columns, ((column + 1) * width - 1) // columns + 1):
+                    if not found and raw_label(rgb, y, x, table, labs) == own:
+                        found = True
+            foreign += not found
+    return foreign

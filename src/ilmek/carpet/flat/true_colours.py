@@ -1,0 +1,151 @@
+"""True colours: the colours that a drawing was made with.
+
+1. If nearly all areas have exactly one of few codes, the picture is *clean*: these codes are true colours. Else the modes
+   of the areas' colours are (`modes`), which grain, abrash and the blocks of a JPEG leave in position.
+2. Lines and dots have no areas. Colours of ridges that are far from all colours of areas, and are no mixture of two of
+   them, are true colours also.
+3. A colour that occurs mainly between two others, on the ramp of an edge, is a mixture and no true colour.
+
+They are ordered from dark to light: order, and with it each tie, depends on the colours alone.
+"""
+
+import numpy as np
+
+from ilmek.arrays import BoolArray, FloatArray, IntArray, UInt8
+from ilmek.carpet.colour import srgb_to_lab
+from ilmek.carpet.flat.modes import modes
+from ilmek.carpet.flat.survey import Survey
+from ilmek.records import record
+
+MOST_COLOURS = 200
+"""Largest number of true colours."""
+
+_CLEAN = 0.98
+"""Share of the even areas that the colours of a clean picture cover."""
+
+_LEAST_AREA = 2e-5
+"""Least share of the sample of a colour with areas."""
+
+_TWINS = 3.0
+"""Difference in CIELAB under which two modes are one colour, where the picture is not clean."""
+
+_NEW = 14.0
+"""Least difference in CIELAB of a colour of lines to those of areas."""
+
+_OFF = 14.0
+"""Distance from the segment between two colours, in sRGB codes, up to which a colour is their mixture."""
+
+
+@record
+class TrueColours:
+    """The true colours of a picture.
+
+    srgb   codes of each, from dark to light        labs   their CIELAB
+    clean  whether the areas have these codes exactly
+    mixed  whether there are edges with mixtures of colours
+    noise  range of a channel over 3 × 3 pixels in areas
+    """
+
+    srgb: UInt8[np.ndarray, "colours 3"]
+    labs: FloatArray
+    clean: bool
+    mixed: bool
+    noise: int
+
+
+def true_colours(survey: Survey) -> TrueColours:
+    """The true colours of a picture, from its survey."""
+    noise = int(np.percentile(survey.spread, 25, method="lower"))
+    even = survey.spread <= max(6, round(1.6 * noise) + 2)
+    clean, srgb = _clean_colours(survey)
+    if not clean:
+        srgb = _area_colours(survey.means[even])
+    srgb = _with_lines(survey, srgb, even, clean, noise)
+    lab = srgb_to_lab(srgb)
+    srgb = srgb[np.lexsort((lab[:, 2], lab[:, 1], lab[:, 0]))]
+    mixed = not clean or _mixtures(survey, srgb) > 0.002
+    return TrueColours(srgb, srgb_to_lab(srgb), clean, mixed, noise)
+
+
+def _codes(rgb: UInt8[np.ndarray, "pixels 3"]) -> IntArray:
+    red, green, blue = rgb.astype(np.int32).T
+    return np.asarray((red << 16) | (green << 8) | blue)
+
+
+def _colours(codes: IntArray) -> UInt8[np.ndarray, "colours 3"]:
+    return np.stack([codes >> 16, (codes >> 8) & 255, codes & 255], axis=-1).astype(np.uint8)
+
+
+def _by_count(codes: IntArray) -> tuple[IntArray, IntArray]:
+    """Distinct codes and how often each occurs, most frequent first."""
+    distinct, counts = np.unique(codes, return_counts=True)
+    order = np.lexsort((distinct, -counts))
+    return distinct[order], counts[order]
+
+
+def _clean_colours(survey: Survey) -> tuple[bool, UInt8[np.ndarray, "colours 3"]]:
+    """Whether the picture is clean, and the colours of its areas."""
+    flat = _codes(survey.codes[survey.spread == 0])
+    if len(flat) < 0.02 * len(survey.spread):
+        flat = _codes(survey.codes)
+    distinct, counts = _by_count(flat)
+    least = max(2, _LEAST_AREA * len(survey.spread)) if len(flat) > 1000 else 1
+    kept = distinct[counts >= least]
+    few = len(kept) <= MOST_COLOURS and counts[: len(kept)].sum() >= _CLEAN * counts.sum()
+    even = np.count_nonzero(survey.spread == 0)
+    quiet = np.count_nonzero((survey.spread > 0) & (survey.spread <= 12))
+    return bool(few and quiet <= 0.15 * even), _colours(kept)
+
+
+def _area_colours(means: UInt8[np.ndarray, "pixels 3"]) -> UInt8[np.ndarray, "colours 3"]:
+    """The modes of the colours of areas, twins joined."""
+    found, sizes = modes(means, max(3, int(_LEAST_AREA * len(means))))
+    return _distinct(found[:MOST_COLOURS], sizes[:MOST_COLOURS], _TWINS)
+
+
+def _distinct(found: FloatArray, sizes: IntArray, twins: float) -> UInt8[np.ndarray, "colours 3"]:
+    """Colours of which no two are twins; the more frequent one stays."""
+    srgb = np.rint(found).astype(np.uint8)
+    labs = srgb_to_lab(srgb)
+    kept: list[int] = []
+    for number in range(len(sizes)):
+        if not kept or np.linalg.norm(labs[kept] - labs[number], axis=-1).min() >= twins:
+            kept.append(number)
+    return srgb[kept]
+
+
+def _with_lines(
+    survey: Survey, srgb: UInt8[np.ndarray, "colours 3"], even: BoolArray, clean: bool, noise: int
+) -> UInt8[np.ndarray, "colours 3"]:
+    """The colours of areas and those that only lines and dots have."""
+    ridge = ~even & (survey.ridge >= max(24, 3 * noise)) & (2 * survey.ridge.astype(int) > survey.ramp)
+    if clean:
+        codes, sizes = _by_count(_codes(survey.codes[ridge]))
+        found = _colours(codes).astype(float)
+    else:
+        found, sizes = modes(survey.codes[ridge], 3)
+    least = max(4, 0.002 * np.count_nonzero(ridge)) if np.count_nonzero(ridge) > 200 else 1
+    for colour, _size in zip(found[sizes >= least][:MOST_COLOURS], sizes, strict=False):
+        one = np.rint(colour).astype(np.uint8)[None]
+        apart = np.linalg.norm(srgb_to_lab(srgb) - srgb_to_lab(one), axis=-1).min()
+        if len(srgb) < MOST_COLOURS and apart >= _NEW and not is_mixture(colour[None], srgb, _OFF)[0]:
+            srgb = np.concatenate([srgb, one])
+    return srgb
+
+
+def is_mixture(colours: FloatArray, palette: UInt8[np.ndarray, "colours 3"], off: float) -> BoolArray:
+    """Whether each colour lies within `off` codes of a segment between two colours of a palette."""
+    ends = palette.astype(float)
+    mixture = np.zeros(len(colours), dtype=bool)
+    for number, begin in enumerate(ends[:-1]):
+        along = ends[number + 1 :] - begin
+        length = np.maximum(np.sum(along**2, axis=-1), 1.0)
+        share = np.clip(((colours - begin) @ along.T) / length, 0.0, 1.0)
+        apart = colours[:, None] - begin - share[..., None] * along
+        mixture |= np.any((np.linalg.norm(apart, axis=-1) <= off) & (share > 0) & (share < 1), axis=-1)
+    return mixture
+
+
+def _mixtures(survey: Survey, srgb: UInt8[np.ndarray, "colours 3"]) -> float:
+    """Share of the pixels that have no true colour."""
+    return float(np.mean(~np.isin(_codes(survey.codes), _codes(srgb))))
