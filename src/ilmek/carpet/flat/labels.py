@@ -44,7 +44,7 @@ def _nearest(red: int, green: int, blue: int, labs: FloatArray) -> int:
 @compiled
 def raw_label(rgb: Rgb, y: int, x: int, table: UInt8[np.ndarray, " codes"], labs: FloatArray) -> int:
     """The true colour nearest to a pixel's own; `table` keeps those of the codes that have occurred."""
-    red, green, blue = int(rgb[y, x, 0]), int(rgb[y, x, 1]), int(rgb[y, x, 2])
+    red, green, blue = np.int64(rgb[y, x, 0]), np.int64(rgb[y, x, 1]), np.int64(rgb[y, x, 2])
     code = red << 16 | green << 8 | blue
     if table[code] == UNKNOWN:
         table[code] = _nearest(red, green, blue, labs)
@@ -63,8 +63,8 @@ def _mixed_share(rgb: Rgb, y: int, x: int, one: IntArray, two: IntArray, slack: 
     """Position of a pixel's colour from `one` (0) to `two` (1); negative where it is no mixture of both."""
     along = offset = length = 0
     for channel in range(3):
-        far = int(two[channel]) - int(one[channel])
-        here = int(rgb[y, x, channel]) - int(one[channel])
+        far = np.int64(two[channel]) - np.int64(one[channel])
+        here = np.int64(rgb[y, x, channel]) - np.int64(one[channel])
         along += here * far
         offset += here * here
         length += far * far
@@ -137,10 +137,10 @@ def _alone(
             apart = product = 0
             opposite = 0 <= y - down < height and 0 <= x - right < width
             for channel in range(3):
-                apart += (int(rgb[y, x, channel]) - int(colours[label, channel])) ** 2
+                apart += (np.int64(rgb[y, x, channel]) - np.int64(colours[label, channel])) ** 2
                 if opposite:
-                    product += (int(rgb[y, x, channel]) - int(rgb[v, u, channel])) * (
-                        int(rgb[y, x, channel]) - int(rgb[y - down, x - right, channel])
+                    product += (np.int64(rgb[y, x, channel]) - np.int64(rgb[v, u, channel])) * (
+                        np.int64(rgb[y, x, channel]) - np.int64(rgb[y - down, x - right, channel])
                     )
             dot = dot and (product > 0 or not opposite)
             if apart < least or (apart == least and label < best):

@@ -76,8 +76,8 @@ def _join(  # noqa: PLR0917
             if labels[y, far] == own and labels[low, x] == own and labels[low, far] == own:
                 continue
             for channel in range(3):
-                total[channel] = int(rgb[y, x, channel]) + int(rgb[y, far, channel])
-                total[channel] += int(rgb[low, x, channel]) + int(rgb[low, far, channel])
+                total[channel] = np.int64(rgb[y, x, channel]) + np.int64(rgb[y, far, channel])
+                total[channel] += np.int64(rgb[low, x, channel]) + np.int64(rgb[low, far, channel])
             best, least = 255, 1 << 60
             for label in (own, labels[y, far], labels[low, x], labels[low, far]):
                 apart = 0
