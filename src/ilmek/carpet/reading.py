@@ -1,6 +1,7 @@
 """Reading: from the pixels of a fitted picture to a design, one colour for each knot.
 
 exact  every pixel is a knot
+flat   a drawing: each knot has a true colour of its cell [`flat`]
 photo  box averages in linear light [`design`]
 """
 
@@ -8,11 +9,12 @@ from dataclasses import dataclass
 
 from ilmek.arrays import Rgb
 from ilmek.carpet.design import resampled
+from ilmek.carpet.flat import flat_design, looks_flat
 from ilmek.params import Params, kind, param
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 
-READINGS = ("auto", "exact", "photo")
+READINGS = ("auto", "exact", "flat", "photo")
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,4 +52,11 @@ def read_design(
     params = params or ReadParams()
     if params.reading == "exact" or (params.reading == "auto" and rgb.shape[:2] == grid):
         return Design(rgb, "exact", f"the picture has the grid of the knots, {grid[1]} × {grid[0]}", 0)
-    return Design(resampled(rgb, *grid, progress), "photo", "the picture has more colours than a drawing")
+    if params.reading == "photo":
+        return Design(resampled(rgb, *grid, progress), "photo", "read as a photo, as required")
+    seen = looks_flat(rgb)
+    if params.reading == "auto" and not seen.is_flat:
+        return Design(resampled(rgb, *grid, progress), "photo", seen.sentence)
+    flat = flat_design(rgb, grid, progress, seen.true)
+    axes = f"; symmetric about the {' and the '.join(flat.symmetric)} axis" if flat.symmetric else ""
+    return Design(flat.colours, "flat", seen.sentence + axes, flat.foreign)

@@ -1,1 +1,9 @@
-"""Flat reading: drawings, with few colours and edges, onto the grid of knots."""
+"""Flat reading: drawings, with few colours and edges, onto the grid of knots.
+
+picture -> sample [`survey`] -> true colours [`modes`, `true_colours`] -> true colour of each pixel [`labels`]
+        -> symmetry [`symmetry`] -> true colour of each knot [`knots`]
+"""
+
+from ilmek.carpet.flat.reading import FlatDesign, Flatness, flat_design, looks_flat
+
+__all__ = ["FlatDesign", "Flatness", "flat_design", "looks_flat"]

@@ -87,8 +87,14 @@ def _take(  # noqa: PLR0917
 
 @compiled
 def _claim_run(  # noqa: PLR0917
-    labels: UInt8[np.ndarray, "h w"], claims: Indices, shares: IntArray, across: bool, line: int, begin: int, end: int
-    , label: int
+    labels: UInt8[np.ndarray, "h w"],
+    claims: Indices,
+    shares: IntArray,
+    across: bool,
+    line: int,
+    begin: int,
+    end: int,
+    label: int,
 ) -> None:
     """The claim of a run of pixels from `begin` to `end` along the centre line of a row (`across`) or column."""
     rows, columns = claims.shape
@@ -204,7 +210,13 @@ def _on_frame(labels: UInt8[np.ndarray, "h w"], top: int, bottom: int, left: int
 
 @compiled
 def _claim_dot(
-    labels: UInt8[np.ndarray, "h w"], knots: Indices, claims: Indices, shares: IntArray, row: int, column: int, label: int
+    labels: UInt8[np.ndarray, "h w"],
+    knots: Indices,
+    claims: Indices,
+    shares: IntArray,
+    row: int,
+    column: int,
+    label: int,
 ) -> None:
     rows, columns = knots.shape
     most = 0

@@ -116,9 +116,7 @@ def _across(  # noqa: PLR0917
 
 
 @compiled
-def _alone(
-    rgb: Rgb, labels: UInt8[np.ndarray, "h w"], colours: IntArray, y: int, x: int
-) -> int:
+def _alone(rgb: Rgb, labels: UInt8[np.ndarray, "h w"], colours: IntArray, y: int, x: int) -> int:
     """The label of a pixel unlike all its neighbours: its own where it is a dot, else the nearest of theirs."""
     height, width = labels.shape
     own = labels[y, x]
@@ -161,12 +159,19 @@ def _clean(  # noqa: PLR0917
             out[row, x] = own
             left, far = max(x - 1, 0), min(x + 1, width - 1)
             if (
-                labels[y, left] == own and labels[y, far] == own and labels[up, x] == own and labels[low, x] == own
-                and labels[up, left] == own and labels[up, far] == own
-                and labels[low, left] == own and labels[low, far] == own
+                labels[y, left] == own
+                and labels[y, far] == own
+                and labels[up, x] == own
+                and labels[low, x] == own
+                and labels[up, left] == own
+                and labels[up, far] == own
+                and labels[low, left] == own
+                and labels[low, far] == own
             ):
                 continue
-            label = min(_across(rgb, labels, colours, y, x, 0, 1, slack), _across(rgb, labels, colours, y, x, 1, 0, slack))
+            label = min(
+                _across(rgb, labels, colours, y, x, 0, 1, slack), _across(rgb, labels, colours, y, x, 1, 0, slack)
+            )
             if label == UNKNOWN:
                 falling = _across(rgb, labels, colours, y, x, 1, 1, slack)
                 label = min(falling, _across(rgb, labels, colours, y, x, 1, -1, slack))

@@ -3,9 +3,10 @@
 import numpy as np
 
 from ilmek.arrays import FloatArray, Indices, Rgb, UInt8
+from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.flat.knots import knot_labels
 from ilmek.carpet.flat.labels import UNKNOWN, label_pixels, raw_label
-from ilmek.carpet.flat.survey import Survey, survey
+from ilmek.carpet.flat.survey import survey
 from ilmek.carpet.flat.symmetry import is_symmetric, make_symmetric
 from ilmek.carpet.flat.true_colours import TrueColours, true_colours
 from ilmek.num.compiled import compiled
@@ -13,6 +14,10 @@ from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 
 _BAND = 128
+
+_NEAR, _LEAST_NEAR = 5.0, 0.8
+"""Difference in CIELAB up to which an even area has a true colour; least share of them in a drawing."""
+
 _CODES = 1 << 24
 
 
@@ -37,32 +42,41 @@ class Flatness:
     """Whether a picture is a drawing.
 
     is_flat   the decision          colours  number of true colours
-    near      share of the pixels that have a true colour, up to the noise
+    near      share of the even areas that have a true colour, up to the noise
     sentence  the reason, for the user
+    true      the true colours
     """
 
     is_flat: bool
     colours: int
     near: float
     sentence: str
+    true: TrueColours
 
 
 def looks_flat(rgb: Rgb) -> Flatness:
     """Whether a picture is a drawing: few true colours, which nearly all of its pixels have."""
     seen = survey(rgb)
-    return flatness(seen, true_colours(seen))
+    true = true_colours(seen)
+    number = len(true.srgb)
+    even = seen.means[seen.spread <= true.even]
+    apart = np.full(len(even), np.inf)
+    labs = srgb_to_lab(even)
+    for lab in true.labs:
+        np.minimum(apart, np.sum((labs - lab) ** 2, axis=-1), out=apart)
+    near = float(np.mean(apart <= _NEAR**2)) if len(even) else 0.0
+    is_flat = true.clean or near >= _LEAST_NEAR
+    areas = f"{100 * near:.0f} % of its even areas have one of {number} colours"
+    return Flatness(is_flat, number, near, f"a drawing: {areas}" if is_flat else f"no drawing: only {areas}", true)
 
 
-def flatness(seen: Survey, true: TrueColours) -> Flatness:
-    """As `looks_flat`, of a survey and the true colours that are found in it."""
-    return Flatness(True, len(true.srgb), 1.0, f"a drawing in {len(true.srgb)} colours")
-
-
-def flat_design(rgb: Rgb, grid: tuple[int, int], progress: Progress = SILENT) -> FlatDesign:
-    """A picture read as a drawing on a grid of rows and columns."""
+def flat_design(
+    rgb: Rgb, grid: tuple[int, int], progress: Progress = SILENT, true: TrueColours | None = None
+) -> FlatDesign:
+    """A picture read as a drawing on a grid of rows and columns; `true`: default: found in the picture."""
     rgb = np.ascontiguousarray(rgb)
     height, width = rgb.shape[:2]
-    true = true_colours(survey(rgb))
+    true = true or true_colours(survey(rgb))
     progress(0.1)
     table = np.full(_CODES, UNKNOWN, dtype=np.uint8)
     labels = label_pixels(rgb, true, table, progress.part(0.1, 0.5))

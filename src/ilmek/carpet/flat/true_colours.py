@@ -43,7 +43,7 @@ class TrueColours:
     srgb   codes of each, from dark to light        labs   their CIELAB
     clean  whether the areas have these codes exactly
     mixed  whether there are edges with mixtures of colours
-    noise  range of a channel over 3 × 3 pixels in areas
+    noise  range of a channel over 3 × 3 pixels in areas      even   largest such range of an even area
     """
 
     srgb: UInt8[np.ndarray, "colours 3"]
@@ -51,12 +51,14 @@ class TrueColours:
     clean: bool
     mixed: bool
     noise: int
+    even: int
 
 
 def true_colours(survey: Survey) -> TrueColours:
     """The true colours of a picture, from its survey."""
     noise = int(np.percentile(survey.spread, 25, method="lower"))
-    even = survey.spread <= max(6, round(1.6 * noise) + 2)
+    most = max(6, round(1.6 * noise) + 2)
+    even = survey.spread <= most
     clean, srgb = _clean_colours(survey)
     if not clean:
         srgb = _area_colours(survey.means[even])
@@ -64,7 +66,7 @@ def true_colours(survey: Survey) -> TrueColours:
     lab = srgb_to_lab(srgb)
     srgb = srgb[np.lexsort((lab[:, 2], lab[:, 1], lab[:, 0]))]
     mixed = not clean or _mixtures(survey, srgb) > 0.002
-    return TrueColours(srgb, srgb_to_lab(srgb), clean, mixed, noise)
+    return TrueColours(srgb, srgb_to_lab(srgb), clean, mixed, noise, most)
 
 
 def _codes(rgb: UInt8[np.ndarray, "pixels 3"]) -> IntArray:
