@@ -7,17 +7,18 @@ leave (`palette_rules`).
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, fields
-from typing import NamedTuple
 
 import numpy as np
 
-from ilmek.arrays import FloatArray, Indices, IntArray, Rgb
-from ilmek.carpet.confetti import count_lone
+from ilmek.arrays import Indices, Rgb
+from ilmek.carpet.confetti import count_lone, merge_patches
 from ilmek.carpet.design import bands, knot_grid
+from ilmek.carpet.differences import YarnDifference, differences
 from ilmek.carpet.fitting import Fit, FitParams, fit_picture
 from ilmek.carpet.overlay import Overlay, TiedKnots, no_overlay, require_fit, tied_knots
 from ilmek.carpet.palette import distinct_colours, nearest_yarns, paint
 from ilmek.carpet.palette_rules import PaletteParams, choose_yarns
+from ilmek.carpet.patches import count_patches
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.reading import Design, ReadParams, read_design
 from ilmek.carpet.sizes import CarpetSize
@@ -27,21 +28,18 @@ from ilmek.errors import PictureError, YarnError
 from ilmek.progress import SILENT, Progress
 from ilmek.records import brief, record
 
+SMALL_PATCH = 3
+"""Knots of the largest patch that is counted as small."""
+
 
 @dataclass(frozen=True, slots=True)
 class _Tally:
-    """Numbers of a chart: knots of each yarn, changes of yarn along the rows, lone knots."""
+    """Numbers of a chart: knots of each yarn, changes of yarn along the rows, lone knots, small patches."""
 
     counts: tuple[int, ...]
     changes: int
     lone: int
-
-
-class YarnDifference(NamedTuple):
-    """CIEDE2000 between a yarn and the colours of the design that it stands for: mean over the knots, and the worst."""
-
-    mean: float
-    worst: float
+    small_patches: int
 
 
 @record
@@ -137,6 +135,11 @@ class Chart:
         return self.tally().lone / self.knots.size
 
     @property
+    def small_patches(self) -> int:
+        """Number of patches (8-connected knots of one yarn) of at most SMALL_PATCH knots."""
+        return self.tally().small_patches
+
+    @property
     def changes_per_knot(self) -> float:
         """Changes of yarn along the rows, per knot [-]."""
         return self.tally().changes / self.knots.size
@@ -150,7 +153,8 @@ def _tally(knots: Indices, yarns: int, progress: Progress) -> _Tally:
         counts += np.bincount(part.ravel(), minlength=yarns)
         changes += int(np.count_nonzero(part[:, 1:] != part[:, :-1]))
         progress(0.5 * band.stop / len(knots))
-    return _Tally(tuple(counts.tolist()), changes, count_lone(knots, progress.part(0.5, 1.0)))
+    lone = count_lone(knots, progress.part(0.5, 0.7))
+    return _Tally(tuple(counts.tolist()), changes, lone, count_patches(knots, SMALL_PATCH, progress.part(0.7, 1.0)))
 
 
 def make_chart(
@@ -179,7 +183,15 @@ def make_chart(
     fitted, done = fit_picture(rgb, size, fit, progress.part(0.0, 0.1), grid=grid)
     design = read_design(fitted, grid, reading, progress.part(0.1, 0.4))
     return chart_of_design(
-        design, size, quality, yarns, knot=knot, fit=done, palette=palette, progress=progress.part(0.4, 1.0)
+        design,
+        size,
+        quality,
+        yarns,
+        knot=knot,
+        fit=done,
+        reading=reading,
+        palette=palette,
+        progress=progress.part(0.4, 1.0),
     )
 
 
@@ -191,31 +203,29 @@ def chart_of_design(
     *,
     knot: str = "symmetric",
     fit: Fit | None = None,
+    reading: ReadParams | None = None,
     palette: PaletteParams | None = None,
     progress: Progress = SILENT,
 ) -> Chart:
     """As `make_chart`, of a design with one colour for each knot, which the caller need not keep."""
     _check_yarns(yarns)
     kind = parse_knot(knot)
-    distinct = distinct_colours(design.colours, progress.part(0.0, 0.3))
-    chosen = choose_yarns(distinct, yarns, palette or PaletteParams(), progress.part(0.3, 0.6))
-    yarn_of, difference = nearest_yarns(distinct, yarn_labs(chosen), progress.part(0.6, 0.8))
-    knots = paint(design.colours, distinct, yarn_of, progress.part(0.8, 0.95))
-    least = float(np.sum(distinct.counts * difference)) / knots.size  # a dot product's order depends on the threads
-    of_yarns = _differences(distinct.counts, yarn_of, difference, len(chosen))
-    made = ChartReading(design.kind, design.reason, least, least, 0, design.foreign, fit or Fit(), of_yarns)
+    distinct = distinct_colours(design.colours, progress.part(0.0, 0.2))
+    chosen = choose_yarns(distinct, yarns, palette or PaletteParams(), progress.part(0.2, 0.4))
+    labs = yarn_labs(chosen)
+    yarn_of, difference = nearest_yarns(distinct, labs, progress.part(0.4, 0.6))
+    painted = paint(design.colours, distinct, yarn_of, progress.part(0.6, 0.7))
+    least_patch = (reading or ReadParams()).least_patch_of(design.kind)
+    knots, changed = merge_patches(painted, design.colours, labs, least_patch, progress.part(0.7, 0.9))
+    found = differences(
+        design.colours, distinct, yarn_of, difference, knots, labs, changed > 0, progress.part(0.9, 0.95)
+    )
+    made = ChartReading(
+        design.kind, design.reason, found.mean, found.least, changed, design.foreign, fit or Fit(), found.of_yarns
+    )
     chart = Chart(knots, chosen, size, quality, kind, made)
     chart.tally(progress.part(0.95, 1.0))
     return chart
-
-
-def _differences(counts: IntArray, yarn_of: IntArray, difference: FloatArray, yarns: int) -> tuple[YarnDifference, ...]:
-    """The differences of each yarn, from the knots, yarn and difference of each distinct colour."""
-    total = np.bincount(yarn_of, weights=counts * difference, minlength=yarns)
-    mean = total / np.maximum(np.bincount(yarn_of, weights=counts, minlength=yarns), 1)
-    worst = np.zeros(yarns)
-    np.maximum.at(worst, yarn_of, difference)
-    return tuple(map(YarnDifference, mean.tolist(), worst.tolist()))
 
 
 def _check_yarns(yarns: Sequence[Yarn]) -> None:

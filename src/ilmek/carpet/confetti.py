@@ -1,16 +1,49 @@
-"""Lone knots: a knot unlike its neighbours left, right, above and below (fewer at an edge)."""
+"""Confetti: patches too small to be seen, which a weaver would tie for nothing.
+
+A patch is an 8-connected component of knots of one yarn [`patches`]. A patch of fewer than `least` knots is merged
+into a yarn around it, unless one of three reasons keeps it:
+
+contrast  n c >= 10 `least`, with its n knots and its contrast c, the CIEDE2000 of its mean colour in the design to that
+          of the knots around it that have the other yarn. For small areas the product of area and contrast decides
+          whether they are seen (Ricco's law): a lone knot is as visible at the contrast 10 `least` as a patch of
+          `least` knots at 10. The colours are those of the design: two yarns far apart may meet in a smooth area
+line      the knots of its yarn or of near ones within 5 knots lie along a line, as the pieces of a thin line do
+          [`thin_lines`]
+dots      patches of its yarn and of like size follow at equal steps, five or more in a row [`dots`]
+
+The yarn that it takes is one with at least a quarter of the knots around it, or with most of them; of these the one of
+the least contrast. Of patches that touch, the smallest is merged first, of equal ones that of the yarn first in the
+list, and what remains is judged again until nothing changes. No choice depends on positions: a mirrored or turned
+design gives the mirrored or turned chart.
+
+Source of the law: A. Ricco, Relazione fra il minimo angolo visuale e l'intensita luminosa, 1877.
+"""
 
 import numpy as np
 
-from ilmek.arrays import Indices
+from ilmek.arrays import BoolArray, Float, FloatArray, Indices, Int32, IntArray, Rgb
+from ilmek.carpet.colour_difference import ciede2000, delta_e_2000
 from ilmek.carpet.design import bands
+from ilmek.carpet.dots import REACH, Sizes, in_row, middle_of
+from ilmek.carpet.light import LIGHT, lab_of_light
+from ilmek.carpet.patches import Marks, Members, begins, fill, room
+from ilmek.carpet.thin_lines import between_areas, on_line
 from ilmek.num.compiled import compiled
 from ilmek.progress import SILENT, Progress
+
+KEPT = 255
+"""Stands for no yarn: indices of yarns are at most 254."""
+
+Starts = Int32[np.ndarray, " patches"]
+Labs = Float[np.ndarray, "yarns 3"]
+
+VISIBLE = 10.0
+"""Contrast [CIEDE2000] at which a patch of the least number of knots is kept."""
 
 
 @compiled
 def is_lone(knots: Indices, row: int, column: int) -> bool:
-    """Whether a knot has neighbours and differs from all of them."""
+    """Whether a knot has neighbours and differs from all of them: left, right, above and below (fewer at an edge)."""
     yarn = knots[row, column]
     last_row, last_column = knots.shape[0] - 1, knots.shape[1] - 1
     return bool(
@@ -39,3 +72,225 @@ def count_lone(knots: Indices, progress: Progress = SILENT) -> int:
         lone += int(_count_lone(knots, band.start, band.stop))
         progress(band.stop / len(knots))
     return lone
+
+
+@compiled
+def _add_light(rgb: Rgb, row: int, column: int, sums: IntArray) -> None:
+    # Whole numbers: the sum does not depend on the order.
+    for channel in range(3):
+        sums[channel] += LIGHT[rgb[row, column, channel]]
+
+
+@compiled
+def _contrast(one: IntArray, ones: int, other: IntArray, others: int) -> float:
+    l1, a1, b1 = lab_of_light(one[0] / ones, one[1] / ones, one[2] / ones)
+    l2, a2, b2 = lab_of_light(other[0] / others, other[1] / others, other[2] / others)
+    return ciede2000(l1, a1, b1, l2, a2, b2)
+
+
+@compiled
+def _surround(  # noqa: PLR0917
+    knots: Indices, rgb: Rgb, members: Members, number: int, marks: Marks, mark: int, around: IntArray, sums: IntArray
+) -> int:
+    """The number of knots around a patch, and of each yarn their number and light; `mark` + 1 is set at them."""
+    middle = marks.shape[0] // 2
+    up, left = middle - members[0, 0], middle - members[0, 1]
+    around[:] = 0
+    sums[:] = 0
+    ring = 0
+    for k in range(number):
+        y, x = members[k]
+        for i in range(max(y - 1, 0), min(y + 2, knots.shape[0])):
+            for j in range(max(x - 1, 0), min(x + 2, knots.shape[1])):
+                if marks[i + up, j + left] < mark:
+                    marks[i + up, j + left] = mark + 1
+                    yarn = knots[i, j]
+                    around[yarn] += 1
+                    ring += 1
+                    _add_light(rgb, i, j, sums[yarn])
+    return ring
+
+
+@compiled
+def _nearest_around(own: IntArray, number: int, ring: int, around: IntArray, sums: IntArray) -> tuple[int, float]:
+    """The yarn around a patch that it would take, and the contrast to it."""
+    most = around.max()
+    best, least = -1, np.inf
+    for yarn in range(len(around)):
+        if around[yarn] > 0 and (4 * around[yarn] >= ring or around[yarn] == most):
+            contrast = _contrast(own, number, sums[yarn], around[yarn])
+            if contrast < least:
+                best, least = yarn, contrast
+    return best, least
+
+
+@compiled
+def _measure(  # noqa: PLR0917
+    knots: Indices, least: int, side: int, wanted: BoolArray, sizes: Sizes, starts: Starts, members: Members,
+    marks: Marks
+) -> int:  # fmt: skip
+    """Number of patches of fewer than `least` knots that begin in the wanted tiles.
+
+    sizes  receives the size of each at its knots, and 0 elsewhere      starts  receives the first knot of each
+    """
+    found, mark = 0, 0
+    marks[:] = 0
+    sizes[:] = 0
+    for row in range(knots.shape[0]):
+        for tile in range(wanted.shape[1]):
+            if wanted[row // side, tile]:
+                for column in range(tile * side, min((tile + 1) * side, knots.shape[1])):
+                    if begins(knots, row, column):
+                        mark += 1
+                        number = fill(knots, row, column, least, True, members, marks, mark)
+                        if 0 < number < least:
+                            starts[found] = row * knots.shape[1] + column
+                            found += 1
+                            for k in range(number):
+                                sizes[members[k, 0], members[k, 1]] = number
+    return found
+
+
+@compiled
+def _judge(  # noqa: PLR0917
+    knots: Indices, rgb: Rgb, gap: FloatArray, least: int, side: int, wanted: BoolArray, sizes: Sizes, starts: Starts,
+    targets: Indices, loose: BoolArray, members: Members, marks: Marks
+) -> None:  # fmt: skip
+    """Write the yarn that each patch takes, KEPT if none, and mark the knots of those that take one as loose."""
+    around, sums = np.zeros(len(gap), dtype=np.int64), np.zeros((len(gap), 3), dtype=np.int64)
+    own = np.zeros(3, dtype=np.int64)
+    others, other_marks = np.empty_like(members), np.zeros_like(marks)
+    mark = 0
+    marks[:] = 0
+    for patch in range(len(starts)):
+        row, column = divmod(starts[patch], knots.shape[1])
+        targets[patch] = KEPT
+        if not wanted[row // side, column // side]:
+            continue
+        mark += 2
+        yarn = knots[row, column]
+        number = fill(knots, row, column, least, False, members, marks, mark)
+        own[:] = 0
+        for k in range(number):
+            _add_light(rgb, members[k, 0], members[k, 1], own)
+        ring = _surround(knots, rgb, members, number, marks, mark, around, sums)
+        other, contrast = _nearest_around(own, number, ring, around, sums)
+        if other < 0 or number * contrast >= VISIBLE * least:
+            continue
+        line = not between_areas(around, ring, yarn, other, gap)
+        if line and on_line(knots, *middle_of(members, number), number, yarn, other, gap):
+            continue
+        if in_row(knots, sizes, members, number, least, others, other_marks):
+            continue
+        targets[patch] = other
+        for k in range(number):
+            loose[members[k, 0], members[k, 1]] = True
+
+
+@compiled
+def _first_of_its_neighbours(  # noqa: PLR0917
+    knots: Indices, sizes: Sizes, loose: BoolArray, members: Members, number: int, yarn: int
+) -> bool:
+    """Whether no patch that touches this one and takes another yarn is smaller, or equal and of an earlier yarn."""
+    for k in range(number):
+        y, x = members[k]
+        for i in range(max(y - 1, 0), min(y + 2, knots.shape[0])):
+            for j in range(max(x - 1, 0), min(x + 2, knots.shape[1])):
+                if loose[i, j] and (sizes[i, j] < number or (sizes[i, j] == number and knots[i, j] < yarn)):
+                    return False
+    return True
+
+
+@compiled
+def _merge(  # noqa: PLR0917
+    knots: Indices, out: Indices, top: int, least: int, side: int, sizes: Sizes, starts: Starts, targets: Indices,
+    loose: BoolArray, again: BoolArray, members: Members, marks: Marks
+) -> None:  # fmt: skip
+    """Merge the loose patches that are first of their neighbours.
+
+    out    the knots of the window from row `top` on, which receive the yarns
+    again  by tile of `out`, receives where patches are merged or wait for others
+    """
+    mark = 0
+    marks[:] = 0
+    for patch in range(len(starts)):
+        if targets[patch] == KEPT:
+            continue
+        row, column = divmod(starts[patch], knots.shape[1])
+        mark += 1
+        number = fill(knots, row, column, least, False, members, marks, mark)
+        first = _first_of_its_neighbours(knots, sizes, loose, members, number, knots[row, column])
+        for k in range(number):
+            y, x = members[k]
+            if top <= y < top + out.shape[0]:
+                again[(y - top) // side, x // side] = True
+                if first:
+                    out[y - top, x] = targets[patch]
+
+
+def merge_patches(
+    knots: Indices, rgb: Rgb, yarn_labs: Labs, least: int, progress: Progress = SILENT
+) -> tuple[Indices, int]:
+    """The chart (rows, columns) with its confetti merged, and the number of knots that changed.
+
+    rgb  the design      yarn_labs  CIELAB of the yarns      least  knots of a patch that is never merged
+    """
+    knots, rgb = np.ascontiguousarray(knots), np.ascontiguousarray(rgb)
+    if least < 2:
+        return knots, 0
+    gap = delta_e_2000(yarn_labs[:, None], yarn_labs[None, :])
+    side = _side(least)
+    merged = knots.copy()
+    wanted = np.ones((-(-knots.shape[0] // side), -(-knots.shape[1] // side)), dtype=bool)
+    share = 0.0
+    while wanted.any():
+        then = 0.2 * share + 0.8  # the number of rounds is not known
+        wanted = _round(merged, rgb, gap, least, _grown(wanted), progress.part(share, then))
+        share = then
+    return merged, sum(int(np.count_nonzero(merged[band] != knots[band])) for band in bands(*knots.shape))
+
+
+def _round(  # noqa: PLR0917
+    knots: Indices, rgb: Rgb, gap: FloatArray, least: int, wanted: BoolArray, progress: Progress
+) -> BoolArray:
+    """Merge the patches of the wanted tiles that are first of their neighbours; the tiles where work remains."""
+    side = _side(least)
+    again = np.zeros_like(wanted)
+    above = knots[:0].copy()
+    for tiles in bands(len(wanted), side * knots.shape[1]):
+        start, stop = tiles.start * side, min(tiles.stop * side, len(knots))
+        window = np.concatenate([above, knots[start : stop + side]])
+        near = wanted[max(tiles.start - 1, 0) : tiles.stop + 1]
+        if near.any():
+            top = start - len(above)
+            seen = rgb[top : top + len(window)]
+            _merge_window(window, seen, knots[start:stop], start - top, gap, least, near, again[tiles])
+        above = window[len(above) + stop - start - side : len(above) + stop - start]
+        progress(stop / len(knots))
+    return again
+
+
+def _merge_window(  # noqa: PLR0917
+    window: Indices, rgb: Rgb, out: Indices, top: int, gap: FloatArray, least: int, wanted: BoolArray, again: BoolArray
+) -> None:  # fmt: skip
+    """Merge in a window of rows; `out`: its own rows, from row `top` on, which receive the yarns."""
+    side = _side(least)
+    members, marks = room(least)
+    sizes, loose = np.empty(window.shape, dtype=np.uint8), np.zeros(window.shape, dtype=bool)
+    starts = np.empty(window.size, dtype=np.int32)
+    found = _measure(window, least, side, _grown(wanted), sizes, starts, members, marks)
+    starts, targets = starts[:found], np.empty(found, dtype=np.uint8)
+    _judge(window, rgb, gap, least, side, wanted, sizes, starts, targets, loose, members, marks)
+    _merge(window, out, top, least, side, sizes, starts, targets, loose, again, members, marks)
+
+
+def _side(least: int) -> int:
+    """Side of a tile: no judgement depends on a knot as far away."""
+    return REACH + 4 * least
+
+
+def _grown(tiles: BoolArray) -> BoolArray:
+    """The tiles and those that touch them."""
+    padded = np.pad(tiles, 1)
+    rows = padded[:-2] | padded[1:-1] | padded[2:]
+    return np.asarray(rows[:, :-2] | rows[:, 1:-1] | rows[:, 2:])

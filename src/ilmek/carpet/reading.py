@@ -6,6 +6,7 @@ photo  box averages in linear light [`design`]
 """
 
 from dataclasses import dataclass
+from types import MappingProxyType
 
 from ilmek.arrays import Rgb
 from ilmek.carpet.design import resampled
@@ -16,6 +17,9 @@ from ilmek.records import record
 
 READINGS = ("auto", "exact", "flat", "photo")
 
+LEAST_PATCHES = MappingProxyType({"exact": 0, "flat": 2, "photo": 4})
+"""Default of the least patch by the kind of reading."""
+
 
 @dataclass(frozen=True, slots=True)
 class ReadParams(Params):
@@ -25,8 +29,15 @@ class ReadParams(Params):
         "auto", choices=READINGS, doc="how the picture is read; auto: decided by its pixels", alias="read"
     )
     least_patch: int | None = kind.count(
-        None, at_least=0, at_most=100, doc="patches of fewer knots are merged; default: by the reading, exact 0"
+        None,
+        at_least=0,
+        at_most=100,
+        doc="patches of fewer knots are merged where they hardly show; default: exact 0, flat 2, photo 4",
     )
+
+    def least_patch_of(self, kind: str) -> int:
+        """The least patch of a design that was read as this kind."""
+        return LEAST_PATCHES[kind] if self.least_patch is None else self.least_patch
 
 
 @record

@@ -146,6 +146,7 @@ def chart_results(charted: ChartResult) -> dict[str, Any]:
         "mean_delta_e": reading.mean_delta_e,
         "least_delta_e": reading.least_delta_e,
         "lone_fraction": chart.lone_fraction,
+        "small_patches": chart.small_patches,
         "changes_per_knot": chart.changes_per_knot,
         "statistics": _statistics(chart),
         "yarn": [_need(need) for need in bill.pile],

@@ -78,6 +78,7 @@ def chart_of_order(order: CarpetOrder, progress: Progress = SILENT, *, with_sour
         made.yarns,
         knot=made.knot,
         fit=fit,
+        reading=order.reading,
         palette=order.palette,
         progress=progress.part(0.4, 1.0, "chart"),
     )

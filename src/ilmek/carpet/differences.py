@@ -1,0 +1,89 @@
+"""Differences: CIEDE2000 between the yarns of a chart and the colours of its design."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ilmek.arrays import Float, FloatArray, Indices, IntArray, Rgb, UInt8
+from ilmek.carpet.colour_difference import ciede2000
+from ilmek.carpet.design import bands
+from ilmek.carpet.palette import Colours
+from ilmek.num.compiled import compiled
+from ilmek.progress import SILENT, Progress
+
+_UNIT = 2.0**24
+
+
+class YarnDifference(NamedTuple):
+    """CIEDE2000 between a yarn and the colours of the design that it stands for: mean over the knots, and the worst."""
+
+    mean: float
+    worst: float
+
+
+class Differences(NamedTuple):
+    """CIEDE2000 of a chart to its design.
+
+    mean     over the knots                                least   the same if each knot had its nearest yarn
+    of_yarns  of each yarn, 0 for one without a knot
+    """
+
+    mean: float
+    least: float
+    of_yarns: tuple[YarnDifference, ...]
+
+
+@compiled
+def _move(  # noqa: PLR0917
+    rgb: Rgb, index: IntArray, labs: FloatArray, yarn_of: UInt8[np.ndarray, " colours"], difference: FloatArray,
+    knots: Indices, yarn_labs: FloatArray, sums: IntArray, counts: IntArray, worst: FloatArray
+) -> None:  # fmt: skip
+    # In whole units, so that the sums do not depend on the order.
+    for row in range(rgb.shape[0]):
+        for column in range(rgb.shape[1]):
+            code = np.int32(rgb[row, column, 0]) << 16 | np.int32(rgb[row, column, 1]) << 8 | rgb[row, column, 2]
+            colour, yarn = index[code] - 1, knots[row, column]
+            old = yarn_of[colour]
+            if old != yarn:
+                l1, a1, b1 = labs[colour]
+                l2, a2, b2 = yarn_labs[yarn]
+                delta = ciede2000(l1, a1, b1, l2, a2, b2)
+                sums[yarn] += round(delta * _UNIT)
+                sums[old] -= round(difference[colour] * _UNIT)
+                counts[yarn] += 1
+                counts[old] -= 1
+                worst[yarn] = max(worst[yarn], delta)
+
+
+def differences(  # noqa: PLR0917
+    design: Rgb,
+    colours: Colours,
+    yarn_of: UInt8[np.ndarray, " colours"],
+    difference: Float[np.ndarray, " colours"],
+    knots: Indices,
+    yarn_labs: Float[np.ndarray, "yarns 3"],
+    changed: bool = True,
+    progress: Progress = SILENT,
+) -> Differences:
+    """The differences of a chart to its design.
+
+    yarn_of, difference  of each distinct colour its nearest yarn [`palette.nearest_yarns`]
+    knots                the chart; unless `changed`, each knot has the nearest yarn
+    """
+    yarns = len(yarn_labs)
+    least = float(np.sum(colours.counts * difference))  # a dot product's order depends on the threads
+    sums, counts = np.zeros(yarns, dtype=np.int64), np.zeros(yarns, dtype=np.int64)
+    worst = np.zeros(yarns)
+    np.maximum.at(worst, yarn_of, difference)
+    design = np.ascontiguousarray(design)
+    for band in bands(*knots.shape) if changed else ():
+        _move(
+            design[band], colours.index, colours.labs, yarn_of, difference, knots[band], yarn_labs, sums, counts, worst
+        )
+        progress(band.stop / len(knots))
+    total = np.bincount(yarn_of, weights=colours.counts * difference, minlength=yarns) + sums / _UNIT
+    number = np.bincount(yarn_of, weights=colours.counts, minlength=yarns) + counts
+    of_yarns = np.where(number > 0, total / np.maximum(number, 1), 0.0), np.where(number > 0, worst, 0.0)
+    mean = (least + int(sums.sum()) / _UNIT) / knots.size
+    pairs = zip(of_yarns[0].tolist(), of_yarns[1].tolist(), strict=True)
+    return Differences(mean, least / knots.size, tuple(YarnDifference(*pair) for pair in pairs))

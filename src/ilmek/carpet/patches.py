@@ -1,0 +1,94 @@
+"""Patches: the 8-connected components of knots of one yarn, of fewer than a given number of knots.
+
+A small patch is found by a fill from its first knot in the order of reading, which stops at the given number. A fill
+begins only where no earlier neighbour (left, above, above left, above right) has the same yarn, and is given up where
+it meets a knot before its first. So the time is linear in the knots, and no labels are kept.
+"""
+
+import numpy as np
+
+from ilmek.arrays import Indices, Int32, Int64
+from ilmek.carpet.design import bands
+from ilmek.num.compiled import compiled
+from ilmek.progress import SILENT, Progress
+
+Members = Int64[np.ndarray, "knots 2"]
+Marks = Int32[np.ndarray, "side side"]
+
+
+def room(least: int) -> tuple[Members, Marks]:
+    """The arrays of a fill of patches of fewer than `least` knots: their knots, and marks around the first one."""
+    return np.empty((least + 1, 2), dtype=np.int64), np.zeros((2 * least + 3, 2 * least + 3), dtype=np.int32)
+
+
+@compiled
+def begins(knots: Indices, row: int, column: int) -> bool:
+    """Whether no earlier neighbour has the yarn of a knot."""
+    yarn = knots[row, column]
+    if column > 0 and knots[row, column - 1] == yarn:
+        return False
+    if row == 0:
+        return True
+    return bool(
+        knots[row - 1, column] != yarn
+        and (column == 0 or knots[row - 1, column - 1] != yarn)
+        and (column == knots.shape[1] - 1 or knots[row - 1, column + 1] != yarn)
+    )
+
+
+@compiled
+def fill(  # noqa: PLR0917
+    knots: Indices, row: int, column: int, least: int, first: bool, members: Members, marks: Marks, mark: int
+) -> int:
+    """The number of knots of the patch of a knot, at most `least`; 0 where `first` and an earlier knot belongs to it.
+
+    members  receives the rows and columns of the knots
+    marks    receives `mark` at each of them; its middle is at (row, column)
+    """
+    yarn = knots[row, column]
+    middle = marks.shape[0] // 2
+    up, left = middle - row, middle - column
+    members[0, 0], members[0, 1] = row, column
+    marks[middle, middle] = mark
+    found, done = 1, 0
+    while done < found:
+        y, x = members[done]
+        done += 1
+        for i in range(max(y - 1, 0), min(y + 2, knots.shape[0])):
+            for j in range(max(x - 1, 0), min(x + 2, knots.shape[1])):
+                if knots[i, j] == yarn and marks[i + up, j + left] != mark:
+                    if first and (i < row or (i == row and j < column)):
+                        return 0
+                    if found == least - 1:
+                        return least
+                    marks[i + up, j + left] = mark
+                    members[found, 0], members[found, 1] = i, j
+                    found += 1
+    return found
+
+
+@compiled
+def _count(knots: Indices, first: int, stop: int, least: int, members: Members, marks: Marks) -> int:  # noqa: PLR0917
+    patches, mark = 0, 0
+    marks[:] = 0
+    for row in range(first, stop):
+        for column in range(knots.shape[1]):
+            if begins(knots, row, column):
+                mark += 1
+                patches += 0 < fill(knots, row, column, least, True, members, marks, mark) < least
+    return patches
+
+
+def count_patches(knots: Indices, most: int, progress: Progress = SILENT) -> int:
+    """Number of patches of at most `most` knots of a chart (rows, columns).
+
+    >>> count_patches(np.array([[1, 0, 0, 2], [0, 1, 0, 2], [0, 0, 0, 2]], dtype=np.uint8), 2)
+    1
+    """
+    knots = np.ascontiguousarray(knots)
+    members, marks = room(most + 1)
+    patches = 0
+    for band in bands(*knots.shape):
+        patches += int(_count(knots, band.start, band.stop, most + 1, members, marks))
+        progress(band.stop / len(knots))
+    return patches
