@@ -37,7 +37,7 @@ from typing import Any
 
 from ilmek.cams.laws import LAWS
 from ilmek.errors import MechanismError, ParameterError
-from ilmek.io.cyclogram_entries import FileEntry
+from ilmek.io.cyclogram_entries import CyclogramEntry
 from ilmek.io.data_text import DataText, parse_data, read_data
 from ilmek.io.output import write_file
 from ilmek.io.schema import SourceText
@@ -88,7 +88,7 @@ def parse_cyclogram(text: str, *, name: str = "cyclogram", toml: bool = True) ->
 
 def _read(text: DataText, name: str) -> Cyclogram:
     try:
-        return _cyclogram(FileEntry(text.data, (), SourceText(name, text.lines)))
+        return _cyclogram(CyclogramEntry(text.data, (), SourceText(name, text.lines)))
     except MechanismError as error:
         raise ParameterError(error.given, allowed=error.allowed, do=error.do) from None
 
@@ -124,7 +124,7 @@ def cyclogram_json(cyclogram: Cyclogram) -> str:
     return json.dumps(cyclogram_data(cyclogram), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
 
 
-def _cyclogram(root: FileEntry) -> Cyclogram:
+def _cyclogram(root: CyclogramEntry) -> Cyclogram:
     root.keys("name", "period", "tracks", "relations", "exclusions", needs=("period", "tracks"))
     tracks = tuple(_track(name, entry) for name, entry in root.table("tracks").entries())
     units = {track.name: track.unit for track in tracks}
@@ -147,7 +147,7 @@ def _cyclogram(root: FileEntry) -> Cyclogram:
         return Cyclogram(known.name, known.period, tracks, relations, exclusions)
 
 
-def _check_counts(root: FileEntry, tracks: Sequence[Track], exclusions: Sequence[Exclusion]) -> None:
+def _check_counts(root: CyclogramEntry, tracks: Sequence[Track], exclusions: Sequence[Exclusion]) -> None:
     motions = {track.name: len(track.segments) for track in tracks}
     presences = [one for exclusion in exclusions for one in (exclusion.first, exclusion.second)]
     zones = [one.track for one in presences if isinstance(one, Zone)]
@@ -164,7 +164,7 @@ def _check_counts(root: FileEntry, tracks: Sequence[Track], exclusions: Sequence
             root.refuse(ParameterError(f"has {count} {noun}", allowed=f"at most {most}"), key)
 
 
-def _track(name: str, entry: FileEntry) -> Track:
+def _track(name: str, entry: CyclogramEntry) -> Track:
     entry.keys("actuator", "unit", "revolves", "limits", "held", "motions", "events")
     with entry.located():
         unit = entry.text("unit", "mm")
@@ -176,7 +176,7 @@ def _track(name: str, entry: FileEntry) -> Track:
         return Track(name, bare.actuator, parts, events, unit, bare.revolves, limits, locked=entry.flag("held"))
 
 
-def _motion(name: str, entry: FileEntry, unit: str) -> TrackSegment:
+def _motion(name: str, entry: CyclogramEntry, unit: str) -> TrackSegment:
     entry.keys("start", "end", "from", "to", "law", needs=("start", "end", "from", "to", "law"))
     angles = entry.quantity("start", "rad"), entry.quantity("end", "rad")
     if 0 < angles[1] - angles[0] < LEAST:
@@ -184,7 +184,7 @@ def _motion(name: str, entry: FileEntry, unit: str) -> TrackSegment:
     return TrackSegment(name, *angles, entry.quantity("from", unit), entry.quantity("to", unit), entry.law("law"))
 
 
-def _event(track: Track, name: str, entry: FileEntry) -> TrackEvent:
+def _event(track: Track, name: str, entry: CyclogramEntry) -> TrackEvent:
     entry.keys("angle", "on", "share", "passing")
     with entry.located():
         if not entry.has("on"):
@@ -198,7 +198,7 @@ def _event(track: Track, name: str, entry: FileEntry) -> TrackEvent:
         return TrackEvent(name, angle, made.on, made.share)
 
 
-def _limits(entry: FileEntry, unit: str) -> ActuatorLimits:
+def _limits(entry: CyclogramEntry, unit: str) -> ActuatorLimits:
     entry.keys(*_LIMITS, "time")
     with entry.located():
         found = {key: entry.quantity(key, unit + per, math.inf) for key, per in _LIMITS.items()}
@@ -208,7 +208,7 @@ def _limits(entry: FileEntry, unit: str) -> ActuatorLimits:
         return ActuatorLimits(**found, time=entry.quantity("time", "s", 0.0))
 
 
-def _relation(entry: FileEntry, units: Mapping[str, str]) -> Relation:
+def _relation(entry: CyclogramEntry, units: Mapping[str, str]) -> Relation:
     entry.keys("then", "first", "gap", "most", "turns", "delay", "why", needs=("then", "first"))
     with entry.located():
         least = -math.inf if entry.has("most") else 0.0
@@ -223,7 +223,7 @@ def _relation(entry: FileEntry, units: Mapping[str, str]) -> Relation:
         )
 
 
-def _moment(entry: FileEntry, units: Mapping[str, str]) -> Moment:
+def _moment(entry: CyclogramEntry, units: Mapping[str, str]) -> Moment:
     if entry.has("angle"):
         entry.keys("angle")
         return Moment("", "", "angle", entry.quantity("angle", "rad"))
@@ -234,7 +234,7 @@ def _moment(entry: FileEntry, units: Mapping[str, str]) -> Moment:
     return Moment(track, entry.text(edge), _EDGES[edge], at)
 
 
-def _known(entry: FileEntry, units: Mapping[str, str]) -> str:
+def _known(entry: CyclogramEntry, units: Mapping[str, str]) -> str:
     """The track that an entry names. Raises ParameterError for an unknown one."""
     track = entry.text("track")
     if track not in units:
@@ -242,14 +242,14 @@ def _known(entry: FileEntry, units: Mapping[str, str]) -> str:
     return track
 
 
-def _exclusion(entry: FileEntry, units: Mapping[str, str]) -> Exclusion:
+def _exclusion(entry: CyclogramEntry, units: Mapping[str, str]) -> Exclusion:
     entry.keys("first", "second", "gap", "why", needs=("first", "second"))
     with entry.located():
         first, second = (_presence(entry.table(key), units) for key in ("first", "second"))
         return Exclusion(first, second, entry.quantity("gap", "rad", 0.0), entry.text("why", "never both"))
 
 
-def _presence(entry: FileEntry, units: Mapping[str, str]) -> Presence:
+def _presence(entry: CyclogramEntry, units: Mapping[str, str]) -> Presence:
     if entry.has("windows"):
         entry.keys("name", "windows")
         with entry.located():

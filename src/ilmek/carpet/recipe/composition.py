@@ -1,0 +1,274 @@
+"""Composition: the design of a recipe, one colour for each knot.
+
+From the edge inwards: the borders, then the field with its picture, repeat or plain ground, then the motifs. A yarn that
+is named is drawn in its colour and listed, so that the chart has exactly this yarn there. All parts are composed before
+the palette rules, which therefore see the whole carpet.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from ilmek.arrays import Bool, Rgb
+from ilmek.carpet.design import knot_grid, resampled
+from ilmek.carpet.fitting import Fit, FitParams, fit_picture
+from ilmek.carpet.quality import Quality
+from ilmek.carpet.reading import Design, ReadParams, read_design
+from ilmek.carpet.recipe.border import draw_border, edges, teeth_tile
+from ilmek.carpet.recipe.edits import located, srgb_of, yarn_number
+from ilmek.carpet.recipe.layout import BorderLayout, Layout, lay_out
+from ilmek.carpet.recipe.mirror import complete, part_grid
+from ilmek.carpet.recipe.recipe import MOST_TILE, Motif, Recipe
+from ilmek.carpet.recipe.repeat import repeated
+from ilmek.carpet.sizes import LARGEST, SMALLEST, CarpetSize
+from ilmek.carpet.yarn import Yarn
+from ilmek.errors import CarpetError
+from ilmek.progress import SILENT, Progress
+from ilmek.records import record
+
+Area = tuple[slice, slice]
+"""Rows and columns of a part of the grid."""
+
+_KINDS = ("exact", "flat", "photo")
+_HALF = 188
+"""The sRGB code of half the light."""
+
+
+@record
+class Composition:
+    """The design of a recipe.
+
+    fit     of the field's picture
+    yarns   areas in which the knots of a yarn's colour are that yarn, by its index in the list; later ones prevail
+    drawn   areas whose pictures are no photos, to which no rule for photos applies, and which of their knots
+    """
+
+    design: Design
+    fit: Fit
+    layout: Layout
+    yarns: tuple[tuple[Area, int], ...] = ()
+    drawn: tuple[tuple[Area, Bool[np.ndarray, "rows columns"] | None], ...] = ()
+
+
+@dataclass(slots=True)
+class _Canvas:
+    """What is drawn so far, and from what: pictures of parts, and what every part is made of."""
+
+    colours: Rgb
+    pictures: Mapping[Path, Rgb]
+    list_of_yarns: tuple[Yarn, ...]
+    quality: Quality
+    reading: ReadParams
+    yarns: list[tuple[Area, int]] = field(default_factory=list)
+    drawn: list[tuple[Area, Bool[np.ndarray, "rows columns"] | None]] = field(default_factory=list)
+    designs: list[Design] = field(default_factory=list)
+
+    def colour(self, name: str, area: Area) -> tuple[int, int, int]:
+        """The colour of a yarn, which the area has; a yarn that is named is listed."""
+        if name.startswith("#"):
+            return srgb_of(name)
+        number = yarn_number(name, self.list_of_yarns)
+        self.yarns.append((area, number))
+        return self.list_of_yarns[number].srgb
+
+    def read(self, rgb: Rgb, grid: tuple[int, int], progress: Progress = SILENT) -> Rgb:
+        """A picture on the grid of its part."""
+        self.designs.append(read_design(rgb, grid, self.reading, progress))
+        return self.designs[-1].colours
+
+    def tile(self, path: Path, grid: tuple[int, int]) -> Rgb:
+        """A tile on its grid."""
+        rgb = self.pictures[path]
+        if rgb.shape[0] * rgb.shape[1] > MOST_TILE:
+            given = f"{path.name} has {rgb.shape[1]} x {rgb.shape[0]} pixels"
+            raise CarpetError(given, allowed=f"at most {MOST_TILE:,} of a tile or a motif", do="scale it down")
+        return self.read(rgb, grid)
+
+
+def compose(
+    recipe: Recipe,
+    size: CarpetSize,
+    quality: Quality,
+    yarns: tuple[Yarn, ...],
+    pictures: Mapping[Path, Rgb],
+    *,
+    fit: FitParams | None = None,
+    reading: ReadParams | None = None,
+    progress: Progress = SILENT,
+) -> Composition:
+    """The design of a recipe from the pixels of its pictures.
+
+    pictures  sRGB of each file of `recipe.pictures`
+    yarns     the list, in which the recipe's yarns are found
+    Raises CarpetError, with file and line, for a part that does not fit and a yarn that is not in the list.
+    """
+    grid = knot_grid(size, quality)
+    shapes = {path: (int(rgb.shape[0]), int(rgb.shape[1])) for path, rgb in pictures.items()}
+    layout = lay_out(recipe, size, quality, grid, shapes)
+    canvas = _Canvas(np.empty((*grid, 3), dtype=np.uint8), pictures, yarns, quality, reading or ReadParams())
+    for one in layout.borders:
+        with located(one.border.where):
+            _draw_border(canvas, one)
+        progress(0.1)
+    with located(recipe.where):
+        done = _draw_field(canvas, recipe, layout, fit, progress.part(0.1, 0.9))
+    for motif in recipe.motifs:
+        with located(motif.where):
+            _draw_motif(canvas, motif, layout)
+        progress(0.9)
+    return Composition(_whole(canvas), done, layout, tuple(canvas.yarns), tuple(canvas.drawn))
+
+
+def _whole(canvas: _Canvas) -> Design:
+    """The design of all parts: a photo if one of them is, else flat if one is."""
+    kinds = [design.kind for design in canvas.designs]
+    kind = max(kinds, key=_KINDS.index, default="exact")
+    counted = ", ".join(f"{kinds.count(one)} {one}" for one in _KINDS if one in kinds)
+    reason = f"composed by a recipe of pictures: {counted}" if counted else "composed by a recipe without pictures"
+    if len(canvas.designs) == 1:
+        reason = f"the picture of a recipe: {canvas.designs[0].reason}"
+    foreign = [design.foreign for design in canvas.designs]
+    total = None if None in foreign else sum(count or 0 for count in foreign)
+    return Design(canvas.colours, kind, reason, total)
+
+
+def _draw_border(canvas: _Canvas, one: BorderLayout) -> None:
+    border, (high, wide) = one.border, one.breadth
+    rows, columns = canvas.colours.shape[:2]
+    area = (slice(one.inset[0], rows - one.inset[0]), slice(one.inset[1], columns - one.inset[1]))
+    out = canvas.colours[area]
+    if border.yarn:
+        colour = canvas.colour(border.yarn, area)
+        for part in edges(*out.shape[:2], one.breadth):
+            out[part] = colour
+        return
+    assert one.tile is not None
+    if border.teeth:
+        outer, inner = (canvas.colour(name, area) for name in border.teeth)
+        tiles = [teeth_tile((outer, inner), breadth) for breadth in one.breadth]
+    else:
+        assert border.tile is not None
+        kind = len(canvas.designs)
+        tiles = [canvas.tile(border.tile, (high, one.tile[0]))]
+        same = (wide, one.tile[1]) == (high, one.tile[0])
+        tiles.append(tiles[0] if same else canvas.tile(border.tile, (wide, one.tile[1])))
+        del canvas.designs[kind + 1 :]
+    corner = None if border.corner is None else canvas.tile(border.corner, (high, wide))
+    draw_border(out, (tiles[0], np.swapaxes(tiles[1], 0, 1)), one.repeats, corner)
+    _mark_drawn(canvas, area, one.breadth)
+
+
+def _mark_drawn(canvas: _Canvas, area: Area, breadth: tuple[int, int]) -> None:
+    """List the four sides of a border."""
+    top, left = area[0].start, area[1].start
+    for rows, columns in edges(area[0].stop - top, area[1].stop - left, breadth):
+        shifted = (slice(rows.start + top, rows.stop + top), slice(columns.start + left, columns.stop + left))
+        canvas.drawn.append((shifted, None))
+
+
+def _draw_field(canvas: _Canvas, recipe: Recipe, layout: Layout, fit: FitParams | None, progress: Progress) -> Fit:
+    """Draw the field; returns how its picture was fitted."""
+    (top, left), (rows, columns) = layout.inset, layout.field
+    area = (slice(top, top + rows), slice(left, left + columns))
+    out, done = canvas.colours[area], Fit()
+    if recipe.plain:
+        out[:] = canvas.colour(recipe.plain, area)
+    if recipe.picture is not None:
+        part = part_grid(recipe.mirror, layout.field)
+        size = _part_size(part, canvas.quality)
+        fitted, done = fit_picture(canvas.pictures[recipe.picture], size, fit, progress.part(0.0, 0.3))
+        out[: part[0], : part[1]] = canvas.read(fitted, part, progress.part(0.3, 1.0))
+    if recipe.repeat is not None:
+        with located(recipe.repeat.where):
+            _draw_repeat(canvas, recipe, out)
+    complete(out, recipe.mirror)
+    return done
+
+
+def _part_size(part: tuple[int, int], quality: Quality) -> CarpetSize:
+    """The size of a part of the carpet. Raises CarpetError for one that no picture can fill."""
+    width, length = part[1] / quality.across, part[0] / quality.along
+    if min(width, length) < SMALLEST or max(width, length) > LARGEST:
+        raise CarpetError(
+            f"the field of {part[1]} × {part[0]} knots is too small for a picture",
+            do="make the borders narrower, or take a larger size",
+        )
+    return CarpetSize(width, length)
+
+
+def _draw_repeat(canvas: _Canvas, recipe: Recipe, out: Rgb) -> None:
+    repeat = recipe.repeat
+    assert repeat is not None
+    height, width = canvas.pictures[repeat.tile].shape[:2]
+    tile = canvas.tile(repeat.tile, (repeat.length or height, repeat.width or width))
+    filled = repeated(tile, out, repeat.order, cut=repeat.cut)
+    if not filled and not recipe.plain:
+        given = f"whole tiles of {tile.shape[1]} × {tile.shape[0]} knots do not fill the field of "
+        given += f"{out.shape[1]} × {out.shape[0]}"
+        raise CarpetError(given, do='give the ground, like plain = "ivory", or cut = true')
+
+
+def _draw_motif(canvas: _Canvas, motif: Motif, layout: Layout) -> None:
+    """Draw a motif and its reflections."""
+    rgb = canvas.pictures[motif.picture]
+    height, width = _sides(motif, rgb)
+    first = _first(motif, (height, width), layout, canvas.colours.shape[:2])
+    colours = canvas.tile(motif.picture, (height, width))
+    shown = _shown(motif, rgb, (height, width))
+    rows, columns = canvas.colours.shape[:2]
+    for down, right in _copies(motif):
+        top = rows - first[0] - height if down else first[0]
+        left = columns - first[1] - width if right else first[1]
+        step = (slice(None, None, -1 if down else 1), slice(None, None, -1 if right else 1))
+        area = (slice(top, top + height), slice(left, left + width))
+        canvas.colours[area][shown[step]] = colours[step][shown[step]]
+        canvas.drawn.append((area, shown[step]))
+
+
+def _sides(motif: Motif, rgb: Rgb) -> tuple[int, int]:
+    """Rows and columns of a motif; in proportion to its pixels where one of them is given."""
+    height, width = int(rgb.shape[0]), int(rgb.shape[1])
+    if motif.width is None and motif.length is None:
+        return height, width
+    if motif.width is None:
+        return motif.length or height, max(1, round(width * (motif.length or height) / height))
+    return motif.length or max(1, round(height * motif.width / width)), motif.width
+
+
+def _first(motif: Motif, sides: tuple[int, int], layout: Layout, grid: tuple[int, ...]) -> tuple[int, int]:
+    """Row and column of the upper left knot of a motif. Raises CarpetError if it lies outside field or carpet."""
+    (height, width), (top, left), (rows, columns) = sides, layout.inset, layout.field
+    given = f"the motif of {width} × {height} knots"
+    if isinstance(motif.position, tuple):
+        row, column = grid[0] - motif.position[0] - height + 1, motif.position[1] - 1
+        if min(row, column) < 0 or motif.position[0] < 1 or column + width > grid[1]:
+            at = f"{given} with its lower left knot at {motif.position[0]},{motif.position[1]} lies outside the carpet"
+            raise CarpetError(at, allowed=f"rows 1 to {grid[0]}, columns 1 to {grid[1]}")
+        return row, column
+    if height > rows or width > columns:
+        raise CarpetError(f"{given} does not fit into the field", allowed=f"at most {columns} × {rows} knots")
+    middle = top + (rows - height) // 2, left + (columns - width) // 2
+    corner = motif.position == "corners"
+    return (
+        top if corner or motif.position == "ends" else middle[0],
+        left if corner or motif.position == "sides" else middle[1],
+    )
+
+
+def _copies(motif: Motif) -> list[tuple[bool, bool]]:
+    """Whether each copy is reflected downwards and to the right."""
+    mirror = {"corners": "both", "ends": "along", "sides": "across"}.get(str(motif.position), motif.mirror)
+    down = (False, True) if mirror in ("along", "both") else (False,)
+    right = (False, True) if mirror in ("across", "both") else (False,)
+    return [(one, other) for one in down for other in right]
+
+
+def _shown(motif: Motif, rgb: Rgb, sides: tuple[int, int]) -> Bool[np.ndarray, "rows columns"]:
+    """The knots of a motif that are not transparent."""
+    if not motif.transparent:
+        return np.ones(sides, dtype=bool)
+    opaque = (rgb != np.array(srgb_of(motif.transparent), dtype=np.uint8)).any(axis=-1)
+    light = np.where(opaque[..., None], np.uint8(255), np.uint8(0)).repeat(3, axis=-1)
+    return np.asarray(resampled(light, *sides)[..., 0] >= _HALF)

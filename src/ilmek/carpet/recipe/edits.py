@@ -1,0 +1,240 @@
+"""Edits: changes of the knots of a chart, each one line, in order.
+
+    set 12,40 madder red              one knot or several: set 12,40 12,41 madder red
+    line 1,1 30,30 ivory              a line, 8-connected
+    fill 100,50 indigo navy           the connected area of one yarn about a knot
+    replace ivory by camel            every knot of a yarn
+    replace ivory by camel in 1,1 50,50     within a rectangle
+
+A knot is given as row,column. Rows are counted as they are woven, from 1 at the carpet's lower edge; columns from 1 at
+the left edge.
+"""
+
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+import numpy as np
+
+from ilmek.arrays import Indices, Int64
+from ilmek.carpet.colour import srgb_to_lab
+from ilmek.carpet.colour_difference import nearest
+from ilmek.carpet.design import bands
+from ilmek.carpet.yarn import Yarn, yarn_labs
+from ilmek.errors import CarpetError, IlmekError, did_you_mean, shortened
+from ilmek.num.compiled import compiled
+from ilmek.progress import SILENT, Progress
+
+Knot = tuple[int, int]
+
+_POINT = re.compile(r"\s*(\d{1,9})\s*,\s*(\d{1,9})(?=\s|$)")
+_FLOOD = 1 << 20
+FORMS = {
+    "set": "set ROW,COLUMN YARN",
+    "fill": "fill ROW,COLUMN YARN",
+    "line": "line ROW,COLUMN ROW,COLUMN YARN",
+    "replace": "replace YARN by YARN, or replace YARN by YARN in ROW,COLUMN ROW,COLUMN",
+}
+"""How each edit is written."""
+
+
+@dataclass(frozen=True, slots=True)
+class Edit:
+    """An edit as it is written.
+
+    kind   of FORMS      knots  rows and columns, from 1      yarns  the text of the yarns      where  file and line
+    """
+
+    kind: str
+    knots: tuple[Knot, ...]
+    yarns: str
+    text: str
+    where: str = ""
+
+
+def parse_edit(text: str, where: str = "") -> Edit:
+    """The edit of a line; yarns and bounds are checked when it is applied. Raises CarpetError.
+
+    >>> parse_edit("line 1,1 30, 30 ivory").knots
+    ((1, 1), (30, 30))
+    """
+    kind, _, rest = text.strip().partition(" ")
+    if kind not in FORMS:
+        near = did_you_mean(kind, FORMS)
+        raise CarpetError(f"unknown edit {shortened(kind)!r}", allowed=", ".join(FORMS), do=near)
+    if kind == "replace":
+        yarns, inside, region = rest.partition(" in ")
+        knots, left = _points(region)
+        fits = not left and len(knots) == (2 if inside else 0)
+    else:
+        knots, yarns = _points(rest)
+        fits = len(knots) == (2 if kind == "line" else 1) or (kind == "set" and len(knots) > 1)
+    yarns = " ".join(yarns.split())
+    if not fits or not yarns:
+        raise CarpetError(f"{shortened(text.strip())!r} is no edit", do=f"write {FORMS[kind]}")
+    return Edit(kind, knots, yarns, " ".join(text.split()), where)
+
+
+def _points(text: str) -> tuple[tuple[Knot, ...], str]:
+    """The knots at the begin of a text, and the rest."""
+    knots = []
+    while found := _POINT.match(text):
+        knots.append((int(found[1]), int(found[2])))
+        text = text[found.end() :]
+    return tuple(knots), text.strip()
+
+
+def yarn_number(name: str, yarns: Sequence[Yarn]) -> int:
+    """Index of the yarn of a name, or of the one nearest to a colour #rrggbb. Raises CarpetError."""
+    if name.startswith("#"):
+        return int(nearest(srgb_to_lab(np.array([srgb_of(name)], dtype=np.uint8)), yarn_labs(yarns))[0][0])
+    names = {yarn.name.casefold(): number for number, yarn in enumerate(yarns)}
+    if name.casefold() not in names:
+        allowed = f"a yarn of the list, or a colour like #9e2b25: {shortened(', '.join(y.name for y in yarns), 400)}"
+        raise CarpetError(f"unknown yarn {shortened(name)!r}", allowed=allowed, do=did_you_mean(name.casefold(), names))
+    return names[name.casefold()]
+
+
+def srgb_of(name: str) -> tuple[int, int, int]:
+    """The codes of a colour #rrggbb. Raises CarpetError.
+
+    >>> srgb_of("#9e2b25")
+    (158, 43, 37)
+    """
+    if not re.fullmatch("#[0-9a-fA-F]{6}", name):
+        raise CarpetError(f"{shortened(name)!r} is no colour", allowed="# and six hexadecimal digits, like #9e2b25")
+    return int(name[1:3], 16), int(name[3:5], 16), int(name[5:7], 16)
+
+
+def named_yarns(edit: Edit, yarns: Sequence[Yarn]) -> tuple[int, ...]:
+    """Indices of the yarns of an edit: one, or of `replace` the old and the new one. Raises CarpetError."""
+    if edit.kind != "replace":
+        return (yarn_number(edit.yarns, yarns),)
+    old, by, new = edit.yarns.partition(" by ")
+    if by:
+        return yarn_number(old, yarns), yarn_number(new, yarns)
+    words = edit.yarns.split(" ")
+    splits = [(" ".join(words[:count]), " ".join(words[count:])) for count in range(1, len(words))]
+    names = {yarn.name.casefold() for yarn in yarns}
+    known = [pair for pair in splits if all(name.startswith("#") or name.casefold() in names for name in pair)]
+    if len(known) != 1:
+        raise CarpetError(f"{edit.yarns!r} does not name two yarns of the list", do="write replace YARN by YARN")
+    return yarn_number(known[0][0], yarns), yarn_number(known[0][1], yarns)
+
+
+def check_knots(edit: Edit, rows: int, columns: int) -> None:
+    """Raise CarpetError for a knot outside the grid."""
+    for row, column in edit.knots:
+        if not (1 <= row <= rows and 1 <= column <= columns):
+            allowed = f"row 1 (lower edge) to {rows}, column 1 (left) to {columns}"
+            raise CarpetError(f"knot {row},{column} lies outside the carpet", allowed=allowed)
+
+
+def apply_edit(knots: Indices, edit: Edit, yarns: tuple[int, ...], progress: Progress = SILENT) -> None:
+    """Apply an edit to the knots of a chart, row 0 on top; yarns: indices as of `named_yarns`."""
+    at = [(len(knots) - row, column - 1) for row, column in edit.knots]
+    _APPLY[edit.kind](knots, at, yarns, progress)
+
+
+def _set(knots: Indices, at: list[Knot], yarns: tuple[int, ...], progress: Progress) -> None:
+    progress(0.0)
+    for row, column in at:
+        knots[row, column] = yarns[0]
+
+
+def _line(knots: Indices, at: list[Knot], yarns: tuple[int, ...], progress: Progress) -> None:
+    progress(0.0)
+    knots[line_knots(*at)] = yarns[0]
+
+
+def line_knots(begin: Knot, end: Knot) -> tuple[Int64[np.ndarray, " knots"], Int64[np.ndarray, " knots"]]:
+    """Rows and columns of an 8-connected line between two knots; the same from either end.
+
+    >>> [line.tolist() for line in line_knots((0, 0), (2, 4))]
+    [[0, 0, 1, 1, 2], [0, 1, 2, 3, 4]]
+    """
+    begin, end = sorted((begin, end))
+    steps = max(abs(end[0] - begin[0]), abs(end[1] - begin[1]), 1)
+    number = np.arange(steps + 1)
+    rows, columns = (
+        first + (2 * number * (last - first) + steps - (last > first)) // (2 * steps)
+        for first, last in zip(begin, end, strict=True)
+    )
+    return rows, columns
+
+
+def _replace(knots: Indices, at: list[Knot], yarns: tuple[int, ...], progress: Progress) -> None:
+    if at:
+        (top, left), (bottom, right) = np.sort(np.array(at), axis=0).tolist()
+        knots = knots[top : bottom + 1, left : right + 1]
+    for band in bands(*knots.shape):
+        part = knots[band]
+        part[part == yarns[0]] = yarns[1]
+        progress(band.stop / len(knots))
+
+
+def _fill(knots: Indices, at: list[Knot], yarns: tuple[int, ...], progress: Progress) -> None:
+    ((row, column),) = at
+    old = int(knots[row, column])
+    if old == yarns[0]:
+        return
+    stack = np.empty((4096, 2), dtype=np.int64)
+    stack[0] = row, column
+    count = 1
+    while count:
+        while len(stack) < count + knots.shape[1] + 4:  # a run of a row adds less than a row
+            stack = np.concatenate([stack, np.empty_like(stack)])
+        count = int(_flood(knots, stack, count, old, yarns[0], _FLOOD))
+        progress(0.0)
+
+
+@compiled
+def _flood(knots: Indices, stack: Int64[np.ndarray, "knots 2"], count: int, old: int, new: int, most: int) -> int:  # noqa: PLR0917
+    """Fill runs of the row of each knot on the stack, until it is empty or nearly full or `most` knots are filled."""
+    rows, columns = knots.shape
+    filled = 0
+    while count > 0 and filled < most:
+        row, column = stack[count - 1, 0], stack[count - 1, 1]
+        if knots[row, column] != old:
+            count -= 1
+            continue
+        left = column
+        while left > 0 and knots[row, left - 1] == old:
+            left -= 1
+        right = column
+        while right < columns - 1 and knots[row, right + 1] == old:
+            right += 1
+        if count + right - left + 4 > len(stack):
+            return count
+        count -= 1
+        for at in range(left, right + 1):
+            knots[row, at] = new
+        filled += right - left + 1
+        for near in (row - 1, row + 1):
+            if near < 0 or near >= rows:
+                continue
+            for at in range(left, right + 1):
+                if knots[near, at] == old and (at == left or knots[near, at - 1] != old):
+                    stack[count, 0], stack[count, 1] = near, at
+                    count += 1
+    return count
+
+
+_APPLY: Mapping[str, Callable[[Indices, list[Knot], tuple[int, ...], Progress], None]] = {
+    "set": _set,
+    "fill": _fill,
+    "line": _line,
+    "replace": _replace,
+}
+
+
+@contextmanager
+def located(where: str) -> Iterator[None]:
+    """Add the file and line of an entry to errors raised inside."""
+    try:
+        yield
+    except IlmekError as error:
+        if not where or error.given.startswith(where.partition(", line")[0]):
+            raise
+        raise CarpetError(f"{where}: {error.given}", allowed=error.allowed, do=error.do) from None

@@ -1,0 +1,93 @@
+"""Finish: what a recipe fixes on the chart of its design: drawn areas, yarns that it names, and edits."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from ilmek.arrays import FloatArray, Indices, Rgb
+from ilmek.carpet.chart import Chart
+from ilmek.carpet.colour import srgb_to_lab
+from ilmek.carpet.colour_difference import nearest
+from ilmek.carpet.design import bands
+from ilmek.carpet.recipe.composition import Composition
+from ilmek.carpet.recipe.edits import apply_edit, check_knots, located, named_yarns
+from ilmek.carpet.recipe.recipe import Recipe
+from ilmek.carpet.yarn import Yarn, yarn_labs
+from ilmek.progress import SILENT, Progress
+
+
+def finish(
+    chart: Chart, recipe: Recipe, yarns: Sequence[Yarn], made: Composition | None, progress: Progress = SILENT
+) -> tuple[Chart, int]:
+    """The chart of a recipe from that of its design, and the number of knots that its edits changed.
+
+    yarns  the whole list      made  the composition; None: one whole picture
+    A yarn that the recipe names is in the chart, whatever the palette rules chose.
+    Raises CarpetError, with file and line, for an edit outside the grid or of a yarn that is not in the list.
+    """
+    if made is None and not recipe.edits:
+        return chart, 0
+    numbers = []
+    for edit in recipe.edits:
+        with located(edit.where):
+            check_knots(edit, chart.rows, chart.columns)
+            numbers.append(named_yarns(edit, yarns))
+    named = {number for found in numbers for number in found}
+    named |= {number for _, number in made.yarns} if made is not None else set()
+    chart, index = _with_yarns(chart, yarns, named)
+    knots = chart.knots
+    if made is not None:
+        knots = _as_composed(chart, made, index, progress.part(0.0, 0.5))
+    before = knots.copy() if recipe.edits else knots
+    editing = progress.part(0.5, 0.9, "edits")
+    for count, (edit, found) in enumerate(zip(recipe.edits, numbers, strict=True)):
+        part = editing.part(count / len(numbers), (count + 1) / len(numbers))
+        apply_edit(knots, edit, tuple(index[number] for number in found), part)
+    changed = sum(int(np.count_nonzero(knots[band] != before[band])) for band in bands(*knots.shape))
+    finished = replace(chart, knots=knots)
+    finished.tally(progress.part(0.9, 1.0))
+    return finished, changed
+
+
+def _with_yarns(chart: Chart, yarns: Sequence[Yarn], named: set[int]) -> tuple[Chart, dict[int, int]]:
+    """The chart with the named yarns in its own list, and the index in it of each of these.
+
+    The chart's knots are its own, and may be changed.
+    """
+    names = {yarn.name for yarn in chart.yarns}
+    kept = [number for number, yarn in enumerate(yarns) if yarn.name in names or number in named]
+    chosen = tuple(yarns[number] for number in kept)
+    if chosen == chart.yarns:
+        return chart, {number: at for at, number in enumerate(kept)}
+    new = {yarn.name: at for at, yarn in enumerate(chosen)}
+    table = np.array([new[yarn.name] for yarn in chart.yarns], dtype=np.uint8)
+    knots: Indices = np.empty_like(chart.knots)
+    for band in bands(*knots.shape):
+        knots[band] = table[chart.knots[band]]
+    return replace(chart, knots=knots, yarns=chosen), {number: at for at, number in enumerate(kept)}
+
+
+def _as_composed(chart: Chart, made: Composition, index: dict[int, int], progress: Progress) -> Indices:
+    """The knots with drawn areas as they were drawn, and named yarns where they are."""
+    knots, colours = chart.knots, made.design.colours
+    if made.design.kind == "photo":
+        labs = yarn_labs(chart.yarns)
+        for area, shown in made.drawn:
+            np.copyto(knots[area], _nearest(colours[area], labs), where=True if shown is None else shown)
+            progress(0.5)
+    for (rows, columns), number in made.yarns:
+        srgb = np.array(chart.yarns[index[number]].srgb, dtype=np.uint8)
+        for first in range(rows.start, rows.stop, 512):
+            band = (slice(first, min(first + 512, rows.stop)), columns)
+            knots[band][(colours[band] == srgb).all(axis=-1)] = index[number]
+        progress(1.0)
+    return knots
+
+
+def _nearest(colours: Rgb, labs: FloatArray) -> Indices:
+    """The nearest yarn of each knot of a small area."""
+    codes = colours.astype(np.int32) @ np.array([1 << 16, 1 << 8, 1], dtype=np.int32)
+    found, at = np.unique(codes, return_inverse=True)
+    channels = np.stack([found >> 16, found >> 8 & 255, found & 255], axis=-1).astype(np.uint8)
+    return np.asarray(nearest(srgb_to_lab(channels), labs)[0].astype(np.uint8)[at].reshape(codes.shape))

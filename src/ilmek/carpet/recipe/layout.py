@@ -1,0 +1,185 @@
+"""Layout: where the borders and the field of a recipe lie on the grid of knots.
+
+Where the tiles of a border do not fill a side by whole repeats, the carpets nearest in size on which they do are
+offered, and the qualities at which they do on this carpet.
+"""
+
+import itertools
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
+
+from ilmek.carpet.quality import Quality
+from ilmek.carpet.recipe.edits import located
+from ilmek.carpet.recipe.recipe import Border, Recipe
+from ilmek.carpet.sizes import CarpetSize
+from ilmek.errors import CarpetError
+from ilmek.records import record
+from ilmek.units import cm, format_number
+
+Sides = tuple[int, int]
+"""Rows and columns."""
+
+_SEARCHED = 20_000
+"""Sizes that are tried on either side of a carpet's own [knots]."""
+
+
+@record
+class BorderLayout:
+    """A border on the grid.
+
+    inset    knots between the carpet's edge and the border: above, and at the left
+    breadth  knots of the upper and of the left side
+    tile     knots along the upper and along the left side; None: no tile
+    repeats  on the upper and on the left side
+    """
+
+    border: Border
+    inset: Sides
+    breadth: Sides
+    tile: Sides | None = None
+    repeats: Sides = (0, 0)
+
+
+@record
+class Layout:
+    """Borders from the edge inwards, and the field (rows, columns) with its inset from the upper left corner."""
+
+    borders: tuple[BorderLayout, ...]
+    inset: Sides
+    field: Sides
+
+
+def lay_out(recipe: Recipe, size: CarpetSize, quality: Quality, grid: Sides, pixels: Mapping[Path, Sides]) -> Layout:
+    """The layout of a recipe.
+
+    pixels  height and width of each tile
+    Raises CarpetError, with file and line, for a border that does not fit.
+    """
+    rows, columns = grid
+    high = wide = 0
+    borders = []
+    for border in recipe.borders:
+        with located(border.where):
+            breadth = _breadth(border, quality, pixels)
+            if 2 * (high + breadth[0]) >= rows or 2 * (wide + breadth[1]) >= columns:
+                given = f"the borders up to here take {2 * (high + breadth[0])} of {rows} rows and "
+                given += f"{2 * (wide + breadth[1])} of {columns} columns"
+                raise CarpetError(given, do="make them narrower, or take a larger size")
+        borders.append(BorderLayout(border, (high, wide), breadth, _tile(border, breadth, quality, pixels)))
+        high, wide = high + breadth[0], wide + breadth[1]
+    made = [_repeated(one, grid) for one in borders]
+    for one, fits in zip(borders, made, strict=True):
+        if fits is None:
+            with located(one.border.where):
+                raise _no_fit(one, borders, size, quality, grid)
+    return Layout(tuple(fits for fits in made if fits is not None), (high, wide), (rows - 2 * high, columns - 2 * wide))
+
+
+def _breadth(border: Border, quality: Quality, pixels: Mapping[Path, Sides]) -> Sides:
+    if border.width is not None:
+        return border.width.on(quality.along), border.width.on(quality.across)
+    if border.tile is None:
+        raise CarpetError("the border has no width", do='give it in knots, or like "3cm"')
+    height = pixels[border.tile][0]
+    return height, height
+
+
+def _tile(border: Border, breadth: Sides, quality: Quality, pixels: Mapping[Path, Sides]) -> Sides | None:
+    """Knots of a tile along the upper and along the left side."""
+    if border.teeth:
+        return 2 * breadth[0], 2 * breadth[1]
+    if border.tile is None:
+        return None
+    height, width = pixels[border.tile]
+    if border.length is not None:
+        return border.length, border.length
+    if breadth == (height, height):
+        return width, width
+    # In the picture's proportions on the carpet: a knot is 1/across wide and 1/along long.
+    upper = breadth[0] / quality.along * width / height * quality.across
+    left = breadth[1] / quality.across * width / height * quality.along
+    return max(1, round(upper)), max(1, round(left))
+
+
+def _sides(one: BorderLayout, grid: Sides) -> Sides:
+    """Knots of the upper and the left side between the corners."""
+    return grid[1] - 2 * (one.inset[1] + one.breadth[1]), grid[0] - 2 * (one.inset[0] + one.breadth[0])
+
+
+def _repeated(one: BorderLayout, grid: Sides) -> BorderLayout | None:
+    """The border with its numbers of repeats; None if these are not whole."""
+    if one.tile is None:
+        return one
+    sides = _sides(one, grid)
+    whole = all(side % tile == 0 for side, tile in zip(sides, one.tile, strict=True))
+    if not whole and not one.border.adjust:
+        return None
+    upper, left = (side // tile for side, tile in zip(sides, one.tile, strict=True))
+    if not upper or not left:
+        return None
+    return BorderLayout(one.border, one.inset, one.breadth, one.tile, (upper, left))
+
+
+def _no_fit(
+    one: BorderLayout, borders: Sequence[BorderLayout], size: CarpetSize, quality: Quality, grid: Sides
+) -> CarpetError:
+    """The error of a border whose repeats are not whole, with the carpets on which all borders fit."""
+    assert one.tile is not None
+    sides = _sides(one, grid)
+    given = (
+        f"the tile is {_both(one.tile)} knots long, and the sides between the corners are {_both(sides)}: "
+        f"{_both(tuple(side / tile for side, tile in zip(sides, one.tile, strict=True)))} repeats"
+    )
+    columns = _nearest(grid[1], lambda count: all(_whole(other, 0, count) for other in borders))
+    rows = _nearest(grid[0], lambda count: all(_whole(other, 1, count) for other in borders))
+    adjust = "adjust = true makes the repeats a little longer"
+    if not columns or not rows:
+        return CarpetError(given, allowed="no carpet near this size has whole repeats", do=adjust)
+    pairs = sorted(itertools.product(columns, rows), key=lambda pair: _change(pair, grid))[:3]
+    sizes = [_size(pair, quality) for pair in pairs]
+    offered = f"at {quality} these sizes fit: {', '.join(sizes)}"
+    counted = all(other.border.width is None or other.border.width.length is None for other in borders)
+    if counted and all(
+        other.border.tile is None or other.border.length or other.border.width is None for other in borders
+    ):
+        across, along = pairs[0][0] / size.width / 10, pairs[0][1] / size.length / 10
+        offered += f"; at {size} this quality: {across:.2f}x{along:.2f}/dm"
+    return CarpetError(given, allowed=offered, do=adjust)
+
+
+def _both(pair: Sequence[float]) -> str:
+    upper, left = (format_number(one, 4) for one in pair)
+    return upper if upper == left else f"{upper} (across) and {left} (along)"
+
+
+def _whole(one: BorderLayout, direction: int, count: int) -> bool:
+    """Whether a border has at least one and only whole repeats on a grid of so many columns (0) or rows (1)."""
+    if one.tile is None or one.border.adjust:
+        return True
+    side, tile = _sides(one, (count, count))[direction], one.tile[direction]
+    return side >= tile and side % tile == 0
+
+
+def _nearest(count: int, fits: Callable[[int], bool]) -> list[int]:
+    """The nearest numbers of knots below and above that fit, or the number itself."""
+    if fits(count):
+        return [count]
+    below = next((near for near in range(count - 1, max(1, count - _SEARCHED), -1) if fits(near)), None)
+    above = next((near for near in range(count + 1, count + _SEARCHED) if fits(near)), None)
+    return [near for near in (below, above) if near is not None]
+
+
+def _change(pair: Sides, grid: Sides) -> float:
+    return abs(pair[0] / grid[1] - 1) + abs(pair[1] / grid[0] - 1)
+
+
+def _size(pair: Sides, quality: Quality) -> str:
+    """The size of a grid of columns and rows, as it is given."""
+    width, length = pair[0] / quality.across, pair[1] / quality.along
+    return f"{_shortest(width, quality.across)}x{_shortest(length, quality.along)}cm"
+
+
+def _shortest(side: float, density: float) -> str:
+    """A side in cm with the fewest decimals that give its number of knots."""
+    texts: Iterator[str] = (f"{side / cm:.{digits}f}" for digits in range(7))
+    return next(text for text in texts if round(float(text) * cm * density) == round(side * density))

@@ -1,0 +1,36 @@
+"""Mirrors: a half or a quarter of a carpet that is completed by reflection.
+
+On an odd number of columns (rows) the middle one belongs to the given part, which has it as its last.
+"""
+
+import numpy as np
+
+from ilmek.arrays import Rgb
+
+
+def part_grid(mirror: str, grid: tuple[int, int]) -> tuple[int, int]:
+    """Rows and columns of the part that is given for a grid.
+
+    mirror  across: the left half; along: the upper half; both: the upper left quarter; "": the whole
+
+    >>> part_grid("both", (451, 300))
+    (226, 150)
+    """
+    rows, columns = grid
+    halves = (mirror in ("along", "both"), mirror in ("across", "both"))
+    return (-(-rows // 2) if halves[0] else rows), (-(-columns // 2) if halves[1] else columns)
+
+
+def complete(colours: Rgb, mirror: str) -> None:
+    """Complete an area of colours (rows, columns, 3), whose given part is drawn, by reflection, in place.
+
+    >>> area = np.array([[[1], [2], [0]]], dtype=np.uint8)
+    >>> complete(area, "across")
+    >>> area.ravel().tolist()
+    [1, 2, 1]
+    """
+    rows, columns = colours.shape[:2]
+    if mirror in ("across", "both"):
+        colours[:, columns - columns // 2 :] = colours[:, : columns // 2][:, ::-1]
+    if mirror in ("along", "both"):
+        colours[rows - rows // 2 :] = colours[: rows // 2][::-1]

@@ -1,0 +1,183 @@
+"""The records of a recipe.
+
+A yarn is named as in the yarn list, and is then exactly that yarn; or it is a colour, #rrggbb, and is then the nearest
+yarn of the list. `where` is the file and line of an entry, for messages.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ilmek.carpet.recipe.edits import Edit
+
+MIRRORS = ("across", "along", "both")
+"""across: the left half is given; along: the upper half; both: the upper left quarter."""
+
+ORDERS = ("straight", "brick", "half-drop", "mirrored")
+"""straight: in rows and columns; brick: every second row is shifted by half a tile; half-drop: every second column is;
+mirrored: every second tile is reflected, in both directions."""
+
+POSITIONS = ("centre", "corners", "ends", "sides")
+"""Of a motif in the field: its centre; at the corners, drawn for the upper left one; at the middle of the upper and the
+lower end, drawn for the upper one; at the middle of both sides, drawn for the left one."""
+
+MOST_BORDERS, MOST_MOTIFS, MOST_EDITS = 60, 60, 10_000
+"""Largest numbers of borders, motifs and edits of a recipe."""
+
+MOST_TILE = 4_000_000
+"""Largest number of pixels of a tile, a corner or a motif."""
+
+
+@dataclass(frozen=True, slots=True)
+class Breadth:
+    """A breadth: a number of knots, or a length [m]."""
+
+    knots: int | None = None
+    length: float | None = None
+
+    def on(self, density: float) -> int:
+        """The number of knots at a density [1/m]."""
+        if self.knots is not None:
+            return self.knots
+        assert self.length is not None
+        return max(1, round(self.length * density))
+
+    def as_plain(self) -> int | str:
+        """As in a file: knots, or a length with its unit."""
+        return self.knots if self.knots is not None else f"{self.length!r}m"
+
+
+@dataclass(frozen=True, slots=True)
+class Repeat:
+    """A tile over the field.
+
+    width, length  of the tile [knots]; default: its own pixels
+    cut            the tiles at the edges of the field are cut; else the whole tiles that fit are centred
+    """
+
+    tile: Path
+    width: int | None = None
+    length: int | None = None
+    order: str = ORDERS[0]
+    cut: bool = False
+    where: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Border:
+    """A border, from one edge to the next: a stripe of one yarn, teeth of two, or a tile.
+
+    width   default: that of the tile; of teeth it is half their length along the border
+    length  of the tile along the border [knots]; default: its own pixels, in proportion to the width
+    corner  picture of the upper left corner; default: the tile, reflected at the diagonal
+    adjust  the tiles of a side are made a little longer until they fill it
+    """
+
+    width: Breadth | None = None
+    yarn: str = ""
+    teeth: tuple[str, ...] = ()
+    tile: Path | None = None
+    length: int | None = None
+    corner: Path | None = None
+    adjust: bool = False
+    where: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Motif:
+    """A picture in the field.
+
+    position     of POSITIONS, or row and column of the motif's lower left knot, counted from 1 at the carpet's lower
+                 left corner
+    mirror       further copies by reflection, of MIRRORS; "": none
+    width, length  [knots]; default: its own pixels
+    transparent  colour of its pixels that leave the field as it is; "": none
+    """
+
+    picture: Path
+    position: str | tuple[int, int] = POSITIONS[0]
+    mirror: str = ""
+    width: int | None = None
+    length: int | None = None
+    transparent: str = ""
+    where: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Recipe:
+    """A carpet as a recipe.
+
+    picture  of the field, or with `mirror` of its half or quarter      plain  yarn of the field
+    repeat   tile of the field; `plain` is the ground of tiles that do not fill it
+    """
+
+    file: Path
+    picture: Path | None = None
+    plain: str = ""
+    repeat: Repeat | None = None
+    mirror: str = ""
+    borders: tuple[Border, ...] = ()
+    motifs: tuple[Motif, ...] = ()
+    edits: tuple[Edit, ...] = ()
+    where: str = ""
+
+    @property
+    def pictures(self) -> Iterator[Path]:
+        """The files of all pictures."""
+        found = [self.picture, self.repeat and self.repeat.tile]
+        found += [path for border in self.borders for path in (border.tile, border.corner)]
+        found += [motif.picture for motif in self.motifs]
+        return (path for path in dict.fromkeys(found) if path is not None)
+
+    @property
+    def is_composed(self) -> bool:
+        """Whether anything but one whole picture makes the design."""
+        return self.picture is None or bool(self.mirror or self.borders or self.motifs)
+
+    def as_dict(self) -> dict[str, Any]:
+        """The recipe as plain data; paths are relative to its folder."""
+        return plain_data(self, self.file.parent)
+
+
+def plain_data(recipe: Recipe, folder: Path) -> dict[str, Any]:
+    """The layout and the edits of a recipe with the keys of a file in a folder; what is left open is left out."""
+
+    def path(file: Path | None) -> str:
+        return "" if file is None else file.relative_to(folder).as_posix()
+
+    def given(**entries: Any) -> dict[str, Any]:
+        return {key: value for key, value in entries.items() if value or value == 0 and value is not False}
+
+    data = given(picture=path(recipe.picture), plain=recipe.plain, mirror=recipe.mirror)
+    if (tiled := recipe.repeat) is not None:
+        order = tiled.order if tiled.order != ORDERS[0] else ""
+        data["repeat"] = given(
+            tile=path(tiled.tile), width=tiled.width, length=tiled.length, order=order, cut=tiled.cut
+        )
+    if recipe.borders:
+        data["border"] = [
+            given(
+                width=border.width and border.width.as_plain(),
+                yarn=border.yarn,
+                teeth=list(border.teeth),
+                tile=path(border.tile),
+                length=border.length,
+                corner=path(border.corner),
+                adjust=border.adjust,
+            )
+            for border in recipe.borders
+        ]
+    if recipe.motifs:
+        data["motif"] = [
+            given(
+                picture=path(motif.picture),
+                position=list(motif.position) if isinstance(motif.position, tuple) else motif.position,
+                mirror=motif.mirror,
+                width=motif.width,
+                length=motif.length,
+                transparent=motif.transparent,
+            )
+            for motif in recipe.motifs
+        ]
+    return {**data, **given(edits=[edit.text for edit in recipe.edits])}
