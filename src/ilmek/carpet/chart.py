@@ -53,6 +53,7 @@ class ChartReading:
     foreign        number of knots whose yarn is that of no true colour of their cell; None: no true colours
     fit            how the picture was fitted to the carpet
     differences    of each yarn of the chart to the colours that it is the nearest of; 0 of one that is of none
+    edited         number of knots that the edits of a recipe changed
     """
 
     kind: str
@@ -63,6 +64,7 @@ class ChartReading:
     foreign: int | None = None
     fit: Fit = field(default_factory=Fit)
     differences: tuple[YarnDifference, ...] = ()
+    edited: int = 0
 
 
 @record

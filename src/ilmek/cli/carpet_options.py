@@ -1,12 +1,13 @@
 """Options of the commands that make a carpet."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any, TypeVar
 
 import click
 
-from ilmek.jobs.order import GROUPS, QUALITY, SIZE
+from ilmek.cli.call_outputs import STANDARD
+from ilmek.jobs.order import GROUPS, QUALITY, SIZE, CarpetOrder
 from ilmek.params import Parameter, declared
 from ilmek.units import format_quantity
 
@@ -23,9 +24,14 @@ def carpet_options(command: F) -> F:
     return command
 
 
-def carpet_inputs(carpet: Mapping[str, Any]) -> dict[str, Path | None]:
+def carpet_inputs(order: CarpetOrder) -> dict[str, Path | None]:
     """The files that a carpet is read from, by name in messages."""
-    return {"PICTURE": carpet["picture"], "--yarns": carpet["yarn_file"]}
+    return {**order.inputs}
+
+
+def recipe_folder(save_recipe: str | None) -> Path:
+    """The folder of the recipe that is written, of which it names its files: of standard output the current one."""
+    return Path() if save_recipe in (None, STANDARD) else Path(str(save_recipe)).parent
 
 
 def _of_the_groups() -> Iterator[Callable[[F], F]]:
@@ -80,6 +86,11 @@ _OUTPUT = (
         "--pdf/--no-pdf",
         default=None,
         help="Write the chart as PDF or not; default: only if it has at most 400 sheets.",
+    ),
+    click.option(
+        "--save-recipe",
+        metavar="FILE",
+        help="Write the carpet as a recipe, with all that was set or decided; - prints it.",
     ),
     click.option(
         "--out", type=click.Path(path_type=Path), metavar="DIR", help="Output folder; on an error nothing is written."

@@ -7,13 +7,14 @@ import click
 
 from ilmek.carpet.bill import YarnBill
 from ilmek.cli.call_outputs import call_outputs
-from ilmek.cli.carpet_options import carpet_inputs, carpet_options
+from ilmek.cli.carpet_options import carpet_inputs, carpet_options, recipe_folder
 from ilmek.cli.options import force_option, json_option
 from ilmek.cli.terminal import note, say, show_pairs, show_table
 from ilmek.cli.verdict import exit_code, note_verdict, show_verdict
 from ilmek.jobs.chart import ChartResult, chart_json, chart_order
 from ilmek.jobs.order import read_order
 from ilmek.jobs.output_folder import free_folder
+from ilmek.jobs.recipe import saved_recipe
 from ilmek.units import format_quantity, g
 
 EXAMPLES = """\b
@@ -21,6 +22,8 @@ Examples:
   ilmek chart photo.jpg --size 120x180cm --quality 40x40/dm --out photo-chart
   ilmek chart photo.jpg --size kelle --colours 8 --yarns wool.toml
   ilmek chart photo.jpg --json -
+  ilmek chart photo.jpg --size kelle --colours 8 --save-recipe carpet.toml
+  ilmek chart carpet.toml
 
 Limits: picture file 500 MB, 150,000,000 pixels; 255 yarns; 200,000,000 knots.
 """
@@ -30,8 +33,8 @@ Limits: picture file 500 MB, 150,000,000 pixels; 255 yarns; 200,000,000 knots.
 @carpet_options
 @force_option
 @json_option
-def command(out: Path | None, force: bool, json_to: str | None, **carpet: Any) -> int:
-    """Make the knot chart of PICTURE and the yarn bill.
+def command(out: Path | None, force: bool, json_to: str | None, save_recipe: str | None, **carpet: Any) -> int:
+    """Make the knot chart of PICTURE and the yarn bill; a RECIPE, .toml, stands for picture and options.
 
     The output folder contains chart.png (one pixel per knot), chart.pdf (printed chart; see --pdf), yarn.csv and
     chart.json. With --json and without --out no folder is made. Ends with 3 where a check fails: the pile does not fit
@@ -39,9 +42,12 @@ def command(out: Path | None, force: bool, json_to: str | None, **carpet: Any) -
     """
     order = read_order(**carpet)
     folder = out or (None if json_to else free_folder(order.picture, "chart"))
-    with call_outputs({"--json": json_to}, force=force, inputs=carpet_inputs(carpet)) as call:
+    to = {"--json": json_to, "--save-recipe": save_recipe}
+    with call_outputs(to, force=force, inputs=carpet_inputs(order)) as call:
         charted, files = chart_order(order, folder, outputs=call.outputs, progress=call.progress)
         call.give_json(lambda: chart_json(charted, files))
+        folder_of_recipe = recipe_folder(save_recipe)
+        call.give("--save-recipe", lambda: saved_recipe(charted.order, charted.chart, folder_of_recipe))
     if not call.quiet:
         show_chart(charted)
         if folder is not None:
@@ -66,6 +72,7 @@ def show_chart(charted: ChartResult) -> None:
             ("fit", made.fit.words),
             ("reading", f"{made.kind}: {made.reason}"),
             ("changed knots", f"{made.changed:,}"),
+            *([("edited knots", f"{made.edited:,}")] if charted.order.order.recipe is not None else []),
             ("lone knots", f"{chart.lone_fraction:.2%}"),
             ("colour changes", f"{chart.changes_per_knot:.3f} per knot"),
             ("pile", pile_in_words(charted)),

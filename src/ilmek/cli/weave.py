@@ -6,7 +6,7 @@ from typing import Any
 import click
 
 from ilmek.cli.call_outputs import call_outputs
-from ilmek.cli.carpet_options import carpet_inputs, carpet_options
+from ilmek.cli.carpet_options import carpet_inputs, carpet_options, recipe_folder
 from ilmek.cli.options import force_option, json_option
 from ilmek.cli.settings import loom_settings, read_settings, setting_files
 from ilmek.cli.terminal import note, show_pairs
@@ -14,6 +14,7 @@ from ilmek.cli.verdict import WEAVES, exit_code, note_verdict, show_verdict
 from ilmek.jobs.loom import read_loom_order
 from ilmek.jobs.order import read_order
 from ilmek.jobs.output_folder import free_folder
+from ilmek.jobs.recipe import saved_recipe
 from ilmek.jobs.weave import WeaveResult, time_in_words, weave, weave_json
 from ilmek.machines.automated_loom.params import AIMS
 from ilmek.units import format_quantity
@@ -24,6 +25,7 @@ Examples:
   ilmek weave photo.jpg --size 120x180cm --quality 40x40/dm --yarns wool.toml --knot symmetric --deadline 72h
   ilmek weave photo.jpg --size kelle --colours 8 --heads 6 --out carpet --force
   ilmek weave photo.jpg --loom beat=comb --loom shedding.law=modified-sine --loom prices=@prices.txt
+  ilmek weave carpet.toml --deadline 72h
   ilmek weave other.jpg --size 80x120cm --loom carpet/machine.json
 
 Limits: picture file 500 MB, 150,000,000 pixels; 255 yarns; 200,000,000 knots; 1,000 heads.
@@ -62,9 +64,12 @@ def command(
     settings: tuple[str, ...],
     force: bool,
     json_to: str | None,
+    save_recipe: str | None,
     **carpet: Any,
 ) -> int:
     """Turn PICTURE into all that is needed to weave it: knot chart, yarn bill, loom, programme, report.
+
+    A RECIPE, .toml, stands for picture and options; options given beside it override its keys.
 
     The output folder contains report.html, report.json, chart.png, chart.pdf (see --pdf), yarn.csv, programme.ilmek and
     machine.json. Where the loom cannot weave the carpet, the report has the reasons and what would cure them, there is
@@ -82,10 +87,12 @@ def command(
         loom_file=loom_file,
     )
     folder = out or free_folder(order.picture, "carpet")
-    inputs = {**carpet_inputs(carpet), "--loom": loom_file, **setting_files(settings)}
-    with call_outputs({"--json": json_to}, force=force, inputs=inputs) as call:
+    inputs = {**carpet_inputs(order), "--loom": loom_order.given.loom_file, **setting_files(settings)}
+    with call_outputs({"--json": json_to, "--save-recipe": save_recipe}, force=force, inputs=inputs) as call:
         woven = weave(order, loom_order, folder, outputs=call.outputs, progress=call.progress)
         call.give_json(lambda: weave_json(woven))
+        made, base = woven.charted, recipe_folder(save_recipe)
+        call.give("--save-recipe", lambda: saved_recipe(made.order, made.chart, base, loom_order.given))
     if not call.quiet:
         show_woven(woven)
     else:

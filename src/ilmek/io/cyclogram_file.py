@@ -41,7 +41,7 @@ from ilmek.io.cyclogram_entries import CyclogramEntry
 from ilmek.io.data_text import DataText, parse_data, read_data
 from ilmek.io.output import write_file
 from ilmek.io.schema import SourceText
-from ilmek.io.toml_text import toml_section, toml_text
+from ilmek.io.toml_text import toml_section, toml_text, written_quantity
 from ilmek.timing.crossings import passing_share
 from ilmek.timing.cyclogram import (
     ActuatorLimits,
@@ -58,7 +58,7 @@ from ilmek.timing.cyclogram import (
 from ilmek.timing.relations import Presence
 from ilmek.timing.track import MotionLaw, riding
 from ilmek.timing.windows import windows_of
-from ilmek.units import in_bounds, parse_quantity, parse_unit
+from ilmek.units import parse_unit
 
 MOST_TRACKS, MOST_MOTIONS, MOST_EVENTS, MOST_RELATIONS = 50, 100, 200, 200
 """Largest numbers of tracks, of motions and events of all tracks, and of relations and of exclusions."""
@@ -265,7 +265,7 @@ def cyclogram_data(cyclogram: Cyclogram) -> dict[str, Any]:
     units = cyclogram.units
     data: dict[str, Any] = {
         "name": cyclogram.name,
-        "period": _written(cyclogram.period, "s"),
+        "period": written_quantity(cyclogram.period, "s"),
         "tracks": {track.name: _track_data(track) for track in cyclogram.tracks},
         "relations": [_relation_data(relation, units) for relation in cyclogram.relations],
         "exclusions": [_exclusion_data(exclusion, units) for exclusion in cyclogram.exclusions],
@@ -275,16 +275,16 @@ def cyclogram_data(cyclogram: Cyclogram) -> dict[str, Any]:
 
 def _track_data(track: Track) -> dict[str, Any]:
     limits = {
-        key: _written(getattr(track.limits, key), track.unit + per)
+        key: written_quantity(getattr(track.limits, key), track.unit + per)
         for key, per in _LIMITS.items()
         if getattr(track.limits, key) < math.inf
     }
     if track.limits.time:
-        limits["time"] = _written(track.limits.time, "s")
+        limits["time"] = written_quantity(track.limits.time, "s")
     data = {
         "actuator": track.actuator,
         "unit": track.unit,
-        "revolves": _written(track.revolves, track.unit) if track.revolves else 0,
+        "revolves": written_quantity(track.revolves, track.unit) if track.revolves else 0,
         "held": track.locked,
         "limits": limits,
         "motions": {part.name: _motion_data(part, track.unit) for part in track.segments},
@@ -294,8 +294,8 @@ def _track_data(track: Track) -> dict[str, Any]:
 
 
 def _motion_data(part: TrackSegment, unit: str) -> dict[str, Any]:
-    angles = {key: _written(value, "deg") for key, value in (("start", part.start), ("end", part.end))}
-    ends = {key: _written(value, unit) for key, value in (("from", part.begin), ("to", part.finish))}
+    angles = {key: written_quantity(value, "deg") for key, value in (("start", part.start), ("end", part.end))}
+    ends = {key: written_quantity(value, unit) for key, value in (("from", part.begin), ("to", part.finish))}
     return {**angles, **ends, "law": _law_data(part.law)}
 
 
@@ -318,43 +318,34 @@ def _events_data(events: Sequence[TrackEvent]) -> dict[str, Any]:
 
 def _event_data(event: TrackEvent) -> dict[str, Any]:
     rides = {"on": event.on, "share": event.share} if event.on else {}
-    return {"angle": _written(event.angle, "deg"), **rides}
+    return {"angle": written_quantity(event.angle, "deg"), **rides}
 
 
 def _relation_data(one: Relation, units: Mapping[str, str]) -> dict[str, Any]:
     data: dict[str, Any] = {"then": _moment_data(one.then, units), "first": _moment_data(one.first, units)}
     if one.gap > -math.inf:
-        data["gap"] = _written(one.gap, "deg")
+        data["gap"] = written_quantity(one.gap, "deg")
     if one.most < math.inf:
-        data["most"] = _written(one.most, "deg")
+        data["most"] = written_quantity(one.most, "deg")
     return data | {key: getattr(one, key) for key in ("turns", "delay", "why") if getattr(one, key)}
 
 
 def _moment_data(one: Moment, units: Mapping[str, str]) -> dict[str, Any]:
     if one.edge == "angle":
-        return {"angle": _written(one.at, "deg")}
+        return {"angle": written_quantity(one.at, "deg")}
     edge = next(key for key, value in _EDGES.items() if value == one.edge)
-    at = {"at": _written(one.at, units[one.track])} if one.edge == "past" else {}
+    at = {"at": written_quantity(one.at, units[one.track])} if one.edge == "past" else {}
     return {"track": one.track, edge: one.motion, **at}
 
 
 def _exclusion_data(one: Exclusion, units: Mapping[str, str]) -> dict[str, Any]:
     both = {key: _presence_data(getattr(one, key), units) for key in ("first", "second")}
-    return {**both, "gap": _written(one.gap, "deg"), "why": one.why}
+    return {**both, "gap": written_quantity(one.gap, "deg"), "why": one.why}
 
 
 def _presence_data(one: Presence, units: Mapping[str, str]) -> dict[str, Any]:
     if isinstance(one, Spans):
         return {"name": one.name, "windows": [[window.start, window.end] for window in one.windows]}
-    ends = {key: _written(at, units[one.track]) for key, at in (("above", one.low), ("below", one.high))
+    ends = {key: written_quantity(at, units[one.track]) for key, at in (("above", one.low), ("below", one.high))
             if math.isfinite(at)}  # fmt: skip
     return {"track": one.track, **ends, **({"name": one.name} if one.name else {})}
-
-
-def _written(value: float, unit: str) -> str | float:
-    """The number in its unit if that is read as the same number again, else in SI."""
-    shown = value / parse_unit(unit).factor
-    tries: Sequence[str] = [f"{shown:.{digits}g}{unit.removeprefix('1')}" for digits in (4, 8, 12, 16, 17)]
-    shows = unit not in ("", "1") and in_bounds(value)
-    plain = [text for text in tries if shows and parse_quantity(text, unit) == value]
-    return plain[0] if plain else float(value)

@@ -83,7 +83,7 @@ class Picture:
     notes: tuple[str, ...] = ()
 
 
-def read_picture(path: Path, progress: Progress = SILENT) -> Picture:
+def read_picture(path: Path, progress: Progress = SILENT, *, smallest: int = SMALLEST) -> Picture:
     """The picture in a file.
 
     The first frame is used, EXIF rotation applied, an embedded colour profile converted to sRGB, 16 bits reduced to 8,
@@ -98,7 +98,7 @@ def read_picture(path: Path, progress: Progress = SILENT) -> Picture:
             stream = MeteredBytes(data)
             stream.allow(_ENTRIES, _HEADER + len(data) * (data[:4] == b"RIFF" or data[4:8] == b"ftyp"))
             with contextlib.closing(Image.open(stream, formats=_OPENED)) as opened:
-                _check_size(path, opened)
+                _check_size(path, opened, smallest)
                 return _decoded(opened, stream, progress)
         except (PictureError, Cancelled, MemoryError):
             raise
@@ -133,11 +133,11 @@ def _at_most(pixels: int, name: str = "") -> str:
     return f"at most {pixels // 1_000_000} megapixels" + (f" of {name}" if name else "")
 
 
-def _check_size(path: Path, opened: Image.Image) -> None:
+def _check_size(path: Path, opened: Image.Image, smallest: int) -> None:
     width, height = opened.size
     size = f"{path} is {width} x {height} pixels"
-    if width < SMALLEST or height < SMALLEST:
-        raise PictureError(size, allowed=f"at least {SMALLEST} x {SMALLEST}", do="use a larger picture")
+    if width < smallest or height < smallest:
+        raise PictureError(size, allowed=f"at least {smallest} x {smallest}", do="use a larger picture")
     limit, name, do = LARGEST, "", "scale it down"
     if opened.format == "JPEG2000":
         limit, name, do = LARGEST_JPEG_2000, "JPEG 2000", "save it as PNG"

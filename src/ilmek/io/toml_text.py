@@ -16,6 +16,8 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from ilmek.units import in_bounds, parse_quantity, parse_unit
+
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
 
 
@@ -43,6 +45,17 @@ def toml_section(path: Sequence[str], table: Mapping[str, Any], *, many: bool = 
     heading = ".".join(map(_key, path))
     lines = (_line(key, value) for key, value in table.items())
     return "\n".join([f"[[{heading}]]" if many else f"[{heading}]", *lines])
+
+
+def toml_list(key: str, entries: Sequence[Any]) -> str:
+    """A list with one line per entry.
+
+    >>> print(toml_list("edits", ["set 1,1 ivory"]))
+    edits = [
+        "set 1,1 ivory",
+    ]
+    """
+    return "\n".join([f"{_key(key)} = [", *(f"    {_value(entry)}," for entry in entries), "]"])
 
 
 def _tables(heading: str, table: Mapping[str, Any]) -> list[str]:
@@ -80,3 +93,12 @@ def _value(value: Any) -> str:
 def _text(text: str) -> str:
     """A string in quotes with escapes that both TOML and JSON accept."""
     return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
+
+
+def written_quantity(value: float, unit: str) -> str | float:
+    """The number in its unit if that is read as the same number again, else in SI."""
+    shown = value / parse_unit(unit).factor
+    tries: Sequence[str] = [f"{shown:.{digits}g}{unit.removeprefix('1')}" for digits in (4, 8, 12, 16, 17)]
+    shows = unit not in ("", "1") and in_bounds(value)
+    plain = [text for text in tries if shows and parse_quantity(text, unit) == value]
+    return plain[0] if plain else float(value)

@@ -20,6 +20,7 @@ from ilmek.io.output import Outputs, joined
 from ilmek.io.yarn_csv import write_yarn_csv
 from ilmek.jobs.charting import chart_of_order
 from ilmek.jobs.order import MOST_PRINTED, CarpetOrder, ResolvedOrder
+from ilmek.jobs.recipe import chart_of_recipe
 from ilmek.progress import SILENT, Progress
 from ilmek.report import Check, verdict_json
 from ilmek.report.left_out import made_or_left_out
@@ -116,7 +117,8 @@ def make_charted(order: CarpetOrder, progress: Progress = SILENT, *, with_source
 
     with_source  keep the fitted picture, made small, for a page
     """
-    made = chart_of_order(order, progress, with_source=with_source)
+    charted_by = chart_of_order if order.recipe is None else chart_of_recipe
+    made = charted_by(order, progress, with_source=with_source)
     chart = made.chart
     check_carpet_width(chart.size, order.files.carpet_width)
     bill = yarn_bill(chart, order.plan.pile(chart.quality))
@@ -141,6 +143,7 @@ def chart_results(charted: ChartResult) -> dict[str, Any]:
         "colours": chart.colours,
         "reading": reading.kind,
         "changed_knots": reading.changed,
+        "edited_knots": reading.edited,
         "foreign_fraction": None if reading.foreign is None else reading.foreign / chart.knots.size,
         "fit": fit_results(reading.fit),
         "mean_delta_e": reading.mean_delta_e,

@@ -67,7 +67,7 @@ def chart_of_order(order: CarpetOrder, progress: Progress = SILENT, *, with_sour
     grid = knot_grid(made.size, made.quality)
     fitted, fit = fit_picture(rgb, made.size, order.fit, progress.part(0.2, 0.25, "chart"), grid=grid)
     del rgb
-    source = _shown(fitted) if with_source else None
+    source = shown_source(fitted) if with_source else None
     more = fit_notes(fit, fitted.shape[:2], made.size, grid)
     design = read_design(fitted, grid, order.reading, progress.part(0.25, 0.4, "chart"))
     del fitted
@@ -129,7 +129,7 @@ def _keeps_knots(order: CarpetOrder, chart: Chart) -> bool:
     return untouched and has_grid((chart.rows, chart.columns), order.size, order.quality)
 
 
-def _shown(fitted: Rgb) -> Rgb:
+def shown_source(fitted: Rgb) -> Rgb:
     """The fitted picture, made smaller until its longer side has at most SHOWN pixels."""
     height, width = fitted.shape[:2]
     scale = min(1.0, SHOWN / max(height, width))

@@ -2,13 +2,15 @@
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
 from ilmek.carpet.pile import knot_length
+from ilmek.carpet.recipe.edits import located
 from ilmek.errors import IlmekError, ParameterError, UnitError
+from ilmek.io.recipe_file import LoomKeys
 from ilmek.jobs.chart import ChartResult
 from ilmek.jobs.existing_loom import (
     ExistingLoom,
@@ -38,12 +40,14 @@ class LoomOrder:
     wishes    number of heads, and time for the whole carpet
     settings  names of the parameters that the user set
     existing  the loom that exists; default: one is designed
+    given     all that was set, by the options or the recipe
     """
 
     params: AutomatedLoomParams
     wishes: Wishes
     settings: tuple[str, ...] = ()
     existing: ExistingLoom | None = None
+    given: LoomKeys = field(default_factory=LoomKeys)
 
     @property
     def deadline(self) -> float | None:
@@ -116,17 +120,39 @@ def read_loom_order(
     loom_file  of a loom that exists; then only its `yarns.*` can be set, and fewer heads
     Raises ParameterError, UnitError, or LoomError if the quality does not fit the warp pitch or the file is no loom.
     """
-    for name in loom:
+    keys = _with_recipe(order, LoomKeys(deadline, heads, aim, warp_pitch, loom_file, loom))
+    for name in keys.loom:
         if name in OF_THE_CARPET:
             raise ParameterError(f"{name} of the loom follows from the carpet", do=f"set it by {OF_THE_CARPET[name]}")
-    limit = None if deadline is None else _deadline(deadline)
-    if loom_file is not None:
-        fixed = {"--aim": aim, "--warp-pitch": warp_pitch}
-        return _order_on(read_existing_loom(loom_file), Wishes(heads, limit), loom, fixed)
-    given = {"heads": heads, "deadline": limit, "aim": aim, "warp_pitch": warp_pitch, **loom}
+    limit = None if keys.deadline is None else _deadline(keys.deadline)
+    wishes = Wishes(keys.heads, limit)
+    if keys.loom_file is not None:
+        fixed = {"--aim": keys.aim, "--warp-pitch": keys.warp_pitch}
+        return replace(_order_on(read_existing_loom(keys.loom_file), wishes, keys.loom, fixed), given=keys)
+    given = {"heads": keys.heads, "deadline": limit, "aim": keys.aim, "warp_pitch": keys.warp_pitch, **keys.loom}
     given = {name: value for name, value in given.items() if value is not None}
     params = AutomatedLoomParams.read({**_of_the_order(order), **given})
-    return LoomOrder(params, Wishes(heads, limit, params.price_limit), tuple(given))
+    return LoomOrder(params, replace(wishes, price=params.price_limit), tuple(given), given=keys)
+
+
+def _with_recipe(order: CarpetOrder, given: LoomKeys) -> LoomKeys:
+    """What is given, and beside it what the order's recipe sets of the loom; a loom that exists replaces its loom.
+
+    Raises CarpetError, with file and line, for a setting of the recipe that no loom has.
+    """
+    of_recipe = order.loom
+    if of_recipe.loom and of_recipe.loom_file is None:
+        with located(of_recipe.where):
+            AutomatedLoomParams.read(of_recipe.loom)
+    exists = given.loom_file is not None
+    return LoomKeys(
+        of_recipe.deadline if given.deadline is None else given.deadline,
+        of_recipe.heads if given.heads is None else given.heads,
+        of_recipe.aim if given.aim is None and not exists else given.aim,
+        of_recipe.warp_pitch if given.warp_pitch is None and not exists else given.warp_pitch,
+        given.loom_file or of_recipe.loom_file,
+        given.loom if exists else {**of_recipe.loom, **given.loom},
+    )
 
 
 def _of_the_order(order: CarpetOrder) -> dict[str, Setting]:

@@ -5,7 +5,7 @@ and a key of a recipe, `least_patch`; no two groups have a parameter of the same
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -15,15 +15,18 @@ from ilmek.carpet.fitting import FitParams
 from ilmek.carpet.palette_rules import PaletteParams
 from ilmek.carpet.quality import Quality, parse_quality
 from ilmek.carpet.reading import ReadParams
+from ilmek.carpet.recipe.edits import located
+from ilmek.carpet.recipe.recipe import Recipe
 from ilmek.carpet.sizes import CarpetSize, parse_size
 from ilmek.carpet.yarn import Yarn
 from ilmek.carpet.yarn_plan import YarnPlanParams
 from ilmek.elements.knot_kinds import parse_knot
 from ilmek.errors import CarpetError, ParameterError, YarnError, did_you_mean
 from ilmek.io.chart.sheets import cut
+from ilmek.io.recipe_file import LoomKeys, RecipeFile, read_recipe
 from ilmek.io.yarn_file import default_yarns, read_yarns
 from ilmek.jobs.carpet_files import FileParams
-from ilmek.params import Params, Setting, declared
+from ilmek.params import Parameter, Params, Setting, declared
 from ilmek.viz.carpet_picture import check_carpet_width
 
 SIZE, QUALITY, KNOT = "seccade", "25x25/dm", "symmetric"
@@ -31,6 +34,9 @@ SIZE, QUALITY, KNOT = "seccade", "25x25/dm", "symmetric"
 
 MOST_PRINTED = 2_000
 """Largest number of sheets of a chart.pdf: 50 s, 13 MB and 300 MB of memory."""
+
+RECIPE = ".toml"
+"""Ending of a recipe's file."""
 
 GROUPS: Mapping[str, type[Params]] = MappingProxyType(
     {"fit": FitParams, "reading": ReadParams, "palette": PaletteParams, "plan": YarnPlanParams, "files": FileParams}
@@ -48,6 +54,8 @@ class CarpetOrder:
     fit      how the picture is fitted to the carpet        reading  how it is read
     palette  which yarns of the list are taken              plan     the yarn      files  the files of the folder
     pdf      print the chart; default: if it has few enough sheets (`jobs.chart.MOST_SHEETS`)
+    recipe   of the carpet, if `picture` is its file; default: the carpet is the picture
+    yarn_file  of the yarns, if they are from a file      loom  what the recipe sets of the loom
     """
 
     picture: Path
@@ -61,6 +69,16 @@ class CarpetOrder:
     plan: YarnPlanParams = field(default_factory=YarnPlanParams)
     files: FileParams = field(default_factory=FileParams)
     pdf: bool | None = None
+    recipe: Recipe | None = None
+    yarn_file: Path | None = None
+    loom: LoomKeys = field(default_factory=LoomKeys)
+
+    @property
+    def inputs(self) -> dict[str, Path]:
+        """The files that the carpet is read from, by their name in messages."""
+        pictures = () if self.recipe is None else self.recipe.pictures
+        yarns = {} if self.yarn_file is None else {"the yarn list": self.yarn_file}
+        return {"PICTURE": self.picture, **{f"{path.name} of the recipe": path for path in pictures}, **yarns}
 
     def resolved(self) -> "ResolvedOrder":
         """The order with the defaults for all that is left open."""
@@ -93,6 +111,7 @@ class ResolvedOrder:
             "yarns": [yarn.name for yarn in self.yarns],
             **{name: value for group in GROUPS for name, value in getattr(self.order, group).as_dict().items()},
             "pdf": self.order.pdf,
+            "recipe": None if self.order.recipe is None else self.order.recipe.as_dict(),
         }
 
 
@@ -106,20 +125,24 @@ def read_order(
     pdf: bool | None = None,
     **settings: Setting,
 ) -> CarpetOrder:
-    """The order from texts; the picture is not opened.
+    """The order from texts; the picture is not opened, but a recipe is read.
 
+    picture   a picture, or a recipe (.toml); what is given here overrides the recipe's keys
     settings  of the parameters of `GROUPS`, by name; None: the default
     Raises CarpetError, YarnError or ParameterError.
     """
-    order = CarpetOrder(
-        picture,
-        None if size is None else parse_size(size),
-        None if quality is None else parse_quality(quality),
-        None if knot is None else parse_knot(knot),
-        None if yarn_file is None else read_yarns(yarn_file),
-        pdf=pdf,
-        **read_groups(settings),
-    )
+    found = _read_recipe(picture) if picture.suffix.lower() == RECIPE else None
+    base = CarpetOrder(picture) if found is None else _order_of(picture, found)
+    given: dict[str, Any] = {
+        "size": None if size is None else parse_size(size),
+        "quality": None if quality is None else parse_quality(quality),
+        "knot": None if knot is None else parse_knot(knot),
+        "yarns": None if yarn_file is None else read_yarns(yarn_file),
+        "yarn_file": yarn_file,
+        "pdf": pdf,
+    }
+    groups = read_groups({**({} if found is None else found.settings), **_given(settings)})
+    order = replace(base, **_given(given), **groups)
     if order.yarns is not None and (order.palette.colours or 2) > len(order.yarns):
         raise YarnError(
             f"--colours {order.palette.colours}",
@@ -129,8 +152,46 @@ def read_order(
     if order.size is not None:
         check_carpet_width(order.size, order.files.carpet_width)
     if order.size is not None and order.quality is not None:
-        check_sheets(order.size, order.quality, pdf)
+        check_sheets(order.size, order.quality, order.pdf)
     return order
+
+
+def _read_recipe(path: Path) -> RecipeFile:
+    """The recipe of a file, all of its keys checked."""
+    found = read_recipe(path, recipe_parameters())
+    with located(str(path)):
+        read_groups(found.settings)
+    return found
+
+
+def _order_of(path: Path, found: RecipeFile) -> CarpetOrder:
+    """The order of a recipe, without its groups of parameters."""
+    return CarpetOrder(
+        path,
+        found.size,
+        found.quality,
+        found.knot,
+        found.yarns,
+        pdf=found.pdf,
+        recipe=found.recipe,
+        yarn_file=found.yarn_file,
+        loom=found.loom,
+    )
+
+
+def recipe_parameters() -> dict[str, Parameter]:
+    """The parameters of all groups by the keys that a recipe may have for them: the option's name, and their own."""
+    parameters = [parameter for cls in GROUPS.values() for parameter in declared(cls)]
+    return {key: one for one in parameters for key in (recipe_key(one), one.name)}
+
+
+def recipe_key(parameter: Parameter) -> str:
+    """The key of a parameter in a recipe, as the option's name."""
+    return (parameter.alias or parameter.name).replace("-", "_")
+
+
+def _given(settings: Mapping[str, Any]) -> dict[str, Any]:
+    return {name: setting for name, setting in settings.items() if setting is not None}
 
 
 def read_groups(settings: Mapping[str, Setting]) -> dict[str, Any]:

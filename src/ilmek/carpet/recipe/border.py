@@ -12,6 +12,8 @@ number is odd, the middle of the side is the middle of a tile, whose first half 
 symmetric itself is drawn whole everywhere. A tile that is not runs from every corner to the middle of the side.
 """
 
+import itertools
+
 import numpy as np
 
 from ilmek.arrays import Int64, Rgb
@@ -31,7 +33,7 @@ def repeat_lines(length: int, repeat: int, tile: int, before: int) -> Int64[np.n
     ends = [(number * length + repeat // 2) // repeat for number in range(repeat // 2 + 1)]
     if repeat % 2:
         ends.append(length - ends[-1])
-    lines = [_stretched(end - begin, tile) for begin, end in zip(ends[:-1], ends[1:], strict=True)]
+    lines = [_stretched(end - begin, tile) for begin, end in itertools.pairwise(ends)]
     corner = np.arange(-before, 0) % tile
     return np.concatenate([corner, *lines])[: before + (length + 1) // 2]
 

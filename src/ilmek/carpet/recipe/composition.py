@@ -1,8 +1,8 @@
 """Composition: the design of a recipe, one colour for each knot.
 
-From the edge inwards: the borders, then the field with its picture, repeat or plain ground, then the motifs. A yarn that
-is named is drawn in its colour and listed, so that the chart has exactly this yarn there. All parts are composed before
-the palette rules, which therefore see the whole carpet.
+From the edge inwards: the borders, then the field with its picture, repeat or plain ground, then the motifs. A yarn
+that is named is drawn in its colour and listed, so that the chart has exactly this yarn there. All parts are composed
+before the palette rules, which therefore see the whole carpet.
 """
 
 from collections.abc import Mapping
@@ -13,12 +13,12 @@ import numpy as np
 
 from ilmek.arrays import Bool, Rgb
 from ilmek.carpet.design import knot_grid, resampled
-from ilmek.carpet.fitting import Fit, FitParams, fit_picture
+from ilmek.carpet.fitting import Fit, FitParams, fit_notes, fit_picture
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.reading import Design, ReadParams, read_design
 from ilmek.carpet.recipe.border import draw_border, edges, teeth_tile
 from ilmek.carpet.recipe.edits import located, srgb_of, yarn_number
-from ilmek.carpet.recipe.layout import BorderLayout, Layout, lay_out
+from ilmek.carpet.recipe.layout import BorderLayout, CarpetLayout, lay_out
 from ilmek.carpet.recipe.mirror import complete, part_grid
 from ilmek.carpet.recipe.recipe import MOST_TILE, Motif, Recipe
 from ilmek.carpet.recipe.repeat import repeated
@@ -43,13 +43,15 @@ class Composition:
     fit     of the field's picture
     yarns   areas in which the knots of a yarn's colour are that yarn, by its index in the list; later ones prevail
     drawn   areas whose pictures are no photos, to which no rule for photos applies, and which of their knots
+    notes   on the fit
     """
 
     design: Design
     fit: Fit
-    layout: Layout
+    layout: CarpetLayout
     yarns: tuple[tuple[Area, int], ...] = ()
     drawn: tuple[tuple[Area, Bool[np.ndarray, "rows columns"] | None], ...] = ()
+    notes: tuple[str, ...] = ()
 
 
 @dataclass(slots=True)
@@ -64,6 +66,7 @@ class _Canvas:
     yarns: list[tuple[Area, int]] = field(default_factory=list)
     drawn: list[tuple[Area, Bool[np.ndarray, "rows columns"] | None]] = field(default_factory=list)
     designs: list[Design] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
 
     def colour(self, name: str, area: Area) -> tuple[int, int, int]:
         """The colour of a yarn, which the area has; a yarn that is named is listed."""
@@ -118,7 +121,7 @@ def compose(
         with located(motif.where):
             _draw_motif(canvas, motif, layout)
         progress(0.9)
-    return Composition(_whole(canvas), done, layout, tuple(canvas.yarns), tuple(canvas.drawn))
+    return Composition(_whole(canvas), done, layout, tuple(canvas.yarns), tuple(canvas.drawn), tuple(canvas.notes))
 
 
 def _whole(canvas: _Canvas) -> Design:
@@ -141,7 +144,7 @@ def _draw_border(canvas: _Canvas, one: BorderLayout) -> None:
     out = canvas.colours[area]
     if border.yarn:
         colour = canvas.colour(border.yarn, area)
-        for part in edges(*out.shape[:2], one.breadth):
+        for part in edges(out.shape[0], out.shape[1], one.breadth):
             out[part] = colour
         return
     assert one.tile is not None
@@ -168,7 +171,9 @@ def _mark_drawn(canvas: _Canvas, area: Area, breadth: tuple[int, int]) -> None:
         canvas.drawn.append((shifted, None))
 
 
-def _draw_field(canvas: _Canvas, recipe: Recipe, layout: Layout, fit: FitParams | None, progress: Progress) -> Fit:
+def _draw_field(
+    canvas: _Canvas, recipe: Recipe, layout: CarpetLayout, fit: FitParams | None, progress: Progress
+) -> Fit:
     """Draw the field; returns how its picture was fitted."""
     (top, left), (rows, columns) = layout.inset, layout.field
     area = (slice(top, top + rows), slice(left, left + columns))
@@ -178,7 +183,8 @@ def _draw_field(canvas: _Canvas, recipe: Recipe, layout: Layout, fit: FitParams 
     if recipe.picture is not None:
         part = part_grid(recipe.mirror, layout.field)
         size = _part_size(part, canvas.quality)
-        fitted, done = fit_picture(canvas.pictures[recipe.picture], size, fit, progress.part(0.0, 0.3))
+        fitted, done = fit_picture(canvas.pictures[recipe.picture], size, fit, progress.part(0.0, 0.3), grid=part)
+        canvas.notes += fit_notes(done, fitted.shape[:2], size, part)
         out[: part[0], : part[1]] = canvas.read(fitted, part, progress.part(0.3, 1.0))
     if recipe.repeat is not None:
         with located(recipe.repeat.where):
@@ -210,7 +216,7 @@ def _draw_repeat(canvas: _Canvas, recipe: Recipe, out: Rgb) -> None:
         raise CarpetError(given, do='give the ground, like plain = "ivory", or cut = true')
 
 
-def _draw_motif(canvas: _Canvas, motif: Motif, layout: Layout) -> None:
+def _draw_motif(canvas: _Canvas, motif: Motif, layout: CarpetLayout) -> None:
     """Draw a motif and its reflections."""
     rgb = canvas.pictures[motif.picture]
     height, width = _sides(motif, rgb)
@@ -237,7 +243,7 @@ def _sides(motif: Motif, rgb: Rgb) -> tuple[int, int]:
     return motif.length or max(1, round(height * motif.width / width)), motif.width
 
 
-def _first(motif: Motif, sides: tuple[int, int], layout: Layout, grid: tuple[int, ...]) -> tuple[int, int]:
+def _first(motif: Motif, sides: tuple[int, int], layout: CarpetLayout, grid: tuple[int, ...]) -> tuple[int, int]:
     """Row and column of the upper left knot of a motif. Raises CarpetError if it lies outside field or carpet."""
     (height, width), (top, left), (rows, columns) = sides, layout.inset, layout.field
     given = f"the motif of {width} × {height} knots"

@@ -190,7 +190,7 @@ def _fill(knots: Indices, at: list[Knot], yarns: tuple[int, ...], progress: Prog
 
 
 @compiled
-def _flood(knots: Indices, stack: Int64[np.ndarray, "knots 2"], count: int, old: int, new: int, most: int) -> int:  # noqa: PLR0917
+def _flood(knots: Indices, stack: Int64[np.ndarray, "knots 2"], count: int, old: int, new: int, most: int) -> int:  # noqa: C901, PLR0917 - one kernel
     """Fill runs of the row of each knot on the stack, until it is empty or nearly full or `most` knots are filled."""
     rows, columns = knots.shape
     filled = 0

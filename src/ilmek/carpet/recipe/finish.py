@@ -19,15 +19,15 @@ from ilmek.progress import SILENT, Progress
 
 def finish(
     chart: Chart, recipe: Recipe, yarns: Sequence[Yarn], made: Composition | None, progress: Progress = SILENT
-) -> tuple[Chart, int]:
-    """The chart of a recipe from that of its design, and the number of knots that its edits changed.
+) -> Chart:
+    """The chart of a recipe from that of its design.
 
     yarns  the whole list      made  the composition; None: one whole picture
     A yarn that the recipe names is in the chart, whatever the palette rules chose.
     Raises CarpetError, with file and line, for an edit outside the grid or of a yarn that is not in the list.
     """
     if made is None and not recipe.edits:
-        return chart, 0
+        return chart
     numbers = []
     for edit in recipe.edits:
         with located(edit.where):
@@ -45,9 +45,9 @@ def finish(
         part = editing.part(count / len(numbers), (count + 1) / len(numbers))
         apply_edit(knots, edit, tuple(index[number] for number in found), part)
     changed = sum(int(np.count_nonzero(knots[band] != before[band])) for band in bands(*knots.shape))
-    finished = replace(chart, knots=knots)
+    finished = replace(chart, knots=knots, reading=replace(chart.reading, edited=changed))
     finished.tally(progress.part(0.9, 1.0))
-    return finished, changed
+    return finished
 
 
 def _with_yarns(chart: Chart, yarns: Sequence[Yarn], named: set[int]) -> tuple[Chart, dict[int, int]]:

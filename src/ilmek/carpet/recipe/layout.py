@@ -41,7 +41,7 @@ class BorderLayout:
 
 
 @record
-class Layout:
+class CarpetLayout:
     """Borders from the edge inwards, and the field (rows, columns) with its inset from the upper left corner."""
 
     borders: tuple[BorderLayout, ...]
@@ -49,7 +49,9 @@ class Layout:
     field: Sides
 
 
-def lay_out(recipe: Recipe, size: CarpetSize, quality: Quality, grid: Sides, pixels: Mapping[Path, Sides]) -> Layout:
+def lay_out(
+    recipe: Recipe, size: CarpetSize, quality: Quality, grid: Sides, pixels: Mapping[Path, Sides]
+) -> CarpetLayout:
     """The layout of a recipe.
 
     pixels  height and width of each tile
@@ -72,7 +74,9 @@ def lay_out(recipe: Recipe, size: CarpetSize, quality: Quality, grid: Sides, pix
         if fits is None:
             with located(one.border.where):
                 raise _no_fit(one, borders, size, quality, grid)
-    return Layout(tuple(fits for fits in made if fits is not None), (high, wide), (rows - 2 * high, columns - 2 * wide))
+    return CarpetLayout(
+        tuple(fits for fits in made if fits is not None), (high, wide), (rows - 2 * high, columns - 2 * wide)
+    )
 
 
 def _breadth(border: Border, quality: Quality, pixels: Mapping[Path, Sides]) -> Sides:

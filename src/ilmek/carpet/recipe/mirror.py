@@ -3,8 +3,6 @@
 On an odd number of columns (rows) the middle one belongs to the given part, which has it as its last.
 """
 
-import numpy as np
-
 from ilmek.arrays import Rgb
 
 
@@ -24,6 +22,7 @@ def part_grid(mirror: str, grid: tuple[int, int]) -> tuple[int, int]:
 def complete(colours: Rgb, mirror: str) -> None:
     """Complete an area of colours (rows, columns, 3), whose given part is drawn, by reflection, in place.
 
+    >>> import numpy as np
     >>> area = np.array([[[1], [2], [0]]], dtype=np.uint8)
     >>> complete(area, "across")
     >>> area.ravel().tolist()

@@ -4,7 +4,7 @@ A yarn is named as in the yarn list, and is then exactly that yarn; or it is a c
 yarn of the list. `where` is the file and line of an entry, for messages.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -125,7 +125,7 @@ class Recipe:
     @property
     def pictures(self) -> Iterator[Path]:
         """The files of all pictures."""
-        found = [self.picture, self.repeat and self.repeat.tile]
+        found = [self.picture, None if self.repeat is None else self.repeat.tile]
         found += [path for border in self.borders for path in (border.tile, border.corner)]
         found += [motif.picture for motif in self.motifs]
         return (path for path in dict.fromkeys(found) if path is not None)
@@ -137,17 +137,20 @@ class Recipe:
 
     def as_dict(self) -> dict[str, Any]:
         """The recipe as plain data; paths are relative to its folder."""
-        return plain_data(self, self.file.parent)
+        return plain_data(self, lambda path: path.relative_to(self.file.parent).as_posix())
 
 
-def plain_data(recipe: Recipe, folder: Path) -> dict[str, Any]:
-    """The layout and the edits of a recipe with the keys of a file in a folder; what is left open is left out."""
+def plain_data(recipe: Recipe, named: Callable[[Path], str]) -> dict[str, Any]:
+    """The layout and the edits of a recipe with the keys of a file; what is left open is left out.
+
+    named  a picture's path as it is written
+    """
 
     def path(file: Path | None) -> str:
-        return "" if file is None else file.relative_to(folder).as_posix()
+        return "" if file is None else named(file)
 
     def given(**entries: Any) -> dict[str, Any]:
-        return {key: value for key, value in entries.items() if value or value == 0 and value is not False}
+        return {key: value for key, value in entries.items() if value}
 
     data = given(picture=path(recipe.picture), plain=recipe.plain, mirror=recipe.mirror)
     if (tiled := recipe.repeat) is not None:

@@ -40,7 +40,7 @@ def repeated(tile: Rgb, out: Rgb, order: str, *, cut: bool) -> bool:
 _Grid = Int64[np.ndarray, "rows columns"]
 
 
-def _of_the_tile(
+def _of_the_tile(  # noqa: PLR0917
     rows: Int64[np.ndarray, "rows 1"],
     columns: Int64[np.ndarray, "1 columns"],
     sides: tuple[int, ...],

@@ -1,0 +1,110 @@
+"""The chart of a recipe, and the recipe of a chart."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+
+from ilmek.arrays import Rgb
+from ilmek.carpet.chart import Chart, chart_of_design
+from ilmek.carpet.reading import READINGS
+from ilmek.carpet.recipe.composition import compose
+from ilmek.carpet.recipe.edits import located
+from ilmek.carpet.recipe.finish import finish
+from ilmek.carpet.recipe.recipe import Recipe
+from ilmek.io.picture import SMALLEST, read_picture
+from ilmek.io.recipe_file import LoomKeys, RecipeFile
+from ilmek.io.recipe_text import recipe_text
+from ilmek.io.toml_text import written_quantity
+from ilmek.jobs.charting import OrderedChart, chart_of_order, shown_source
+from ilmek.jobs.order import GROUPS, CarpetOrder, ResolvedOrder, check_sheets, recipe_key
+from ilmek.params import declared
+from ilmek.progress import SILENT, Progress
+
+
+def chart_of_recipe(order: CarpetOrder, progress: Progress = SILENT, *, with_source: bool = False) -> OrderedChart:
+    """As `charting.chart_of_order`, of an order whose picture is a recipe; the source is the design as composed.
+
+    Raises as it does.
+    """
+    recipe = order.recipe
+    assert recipe is not None
+    if not recipe.is_composed:
+        assert recipe.picture is not None
+        picture = replace(order, picture=recipe.picture, recipe=None)
+        with located(recipe.where):
+            done = chart_of_order(picture, progress.part(0.0, 0.8), with_source=with_source)
+        chart = finish(done.chart, recipe, done.order.yarns, None, progress.part(0.8, 1.0, "edits"))
+        return OrderedChart(replace(done.order, order=order), chart, done.notes, done.source)
+    made = order.resolved()
+    check_sheets(made.size, made.quality, order.pdf)
+    pictures, notes = _pictures(recipe, progress.part(0.0, 0.3, "picture"))
+    composition = compose(
+        recipe,
+        made.size,
+        made.quality,
+        made.yarns,
+        pictures,
+        fit=order.fit,
+        reading=order.reading,
+        progress=progress.part(0.3, 0.5, "chart"),
+    )
+    del pictures
+    chart = chart_of_design(
+        composition.design,
+        made.size,
+        made.quality,
+        made.yarns,
+        knot=made.knot,
+        fit=composition.fit,
+        palette=order.palette,
+        progress=progress.part(0.5, 0.8, "chart"),
+    )
+    source = shown_source(composition.design.colours) if with_source else None
+    chart = finish(chart, recipe, made.yarns, composition, progress.part(0.8, 1.0, "edits"))
+    return OrderedChart(made, chart, (*notes, *composition.notes), source)
+
+
+def _pictures(recipe: Recipe, progress: Progress) -> tuple[Mapping[Path, Rgb], tuple[str, ...]]:
+    """The pixels of all pictures, and notes on them."""
+    found, notes = {}, []
+    paths = list(recipe.pictures)
+    for number, path in enumerate(paths):
+        with located(str(recipe.file)):
+            least = SMALLEST if path == recipe.picture else 1
+            picture = read_picture(path, progress.part(number / len(paths), (number + 1) / len(paths)), smallest=least)
+        found[path] = picture.rgb
+        notes += [f"{path.name}: {note}" for note in picture.notes]
+    return found, tuple(notes)
+
+
+def saved_recipe(made: ResolvedOrder, chart: Chart, folder: Path, loom: LoomKeys | None = None) -> str:
+    """The text of the recipe of a chart, for a file in a folder: all that was set, and size, quality, knot and reading
+    as they were decided.
+
+    Raises CarpetError for a picture that does not lie in the folder.
+    """
+    order = made.order
+    recipe = order.recipe or Recipe(folder / "carpet.toml", order.picture)
+    decided = {} if recipe.is_composed or chart.reading.kind not in READINGS else {"reading": chart.reading.kind}
+    settings = {}
+    for group, cls in GROUPS.items():
+        values = {**getattr(order, group).as_dict()}
+        for parameter in declared(cls):
+            value = values[parameter.name]
+            if value == parameter.default:
+                value = decided.get(parameter.name, value)
+            if value != parameter.default:
+                is_real = isinstance(value, float) and parameter.unit not in ("", "1")
+                settings[recipe_key(parameter)] = written_quantity(value, parameter.unit) if is_real else value
+    found = RecipeFile(
+        recipe,
+        made.size,
+        made.quality,
+        made.knot,
+        order.yarns,
+        order.yarn_file,
+        order.pdf,
+        settings,
+        loom or order.loom,
+    )
+    return recipe_text(found, folder)

@@ -1,0 +1,145 @@
+"""Recipes: what a file means, and one error with file and line for each fault."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from PIL import Image
+
+from ilmek.cli import main
+from ilmek.errors import IlmekError
+from ilmek.io.chart.png import read_chart_png
+from ilmek.jobs.chart import chart_order
+from ilmek.jobs.order import CarpetOrder, read_order
+
+RED, IVORY, NAVY = (158, 43, 37), (239, 230, 208), (27, 36, 66)
+FIELD = 'plain = "ivory"\nsize = "40x60cm"\n'
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """A folder with some pictures, and a picture beside it."""
+    inside = tmp_path / "carpet"
+    inside.mkdir()
+    noise = np.random.default_rng(5).integers(0, 256, (90, 60, 3), dtype=np.uint8)
+    Image.fromarray(noise).save(inside / "photo.png")
+    tile = np.full((6, 10, 3), RED, dtype=np.uint8)
+    tile[2:4, 4:6] = IVORY
+    Image.fromarray(tile).save(inside / "tile.png")
+    Image.fromarray(noise).save(tmp_path / "outside.png")
+    (inside / "link.png").symlink_to(tmp_path / "outside.png")
+    return inside
+
+
+def order_of(folder: Path, text: str, **options: str) -> CarpetOrder:
+    (folder / "carpet.toml").write_text(text)
+    return read_order(folder / "carpet.toml", **options)
+
+
+FAULTS = {
+    "unknown key": (FIELD + 'qualty = "25x25/dm"', r"line 3, qualty: .*'quality'"),
+    "unknown key of a border": (FIELD + "[[border]]\nwidht = 3\nyarn = 'ivory'", r"line 4, border.0.widht: .*'width'"),
+    "nothing": ('size = "40x60cm"', r"line 1: the recipe has no field"),
+    "two fields": ('picture = "photo.png"\nplain = "ivory"', r"line 2, plain: the field has a picture already"),
+    "missing picture": ('picture = "phto.png"', r"line 1, picture: 'phto.png' is not there"),
+    "parent": ('picture = "../outside.png"', r"line 1, picture: '../outside.png' reaches outside"),
+    "absolute": ('picture = "/etc/hostname"', r"line 1, picture: '/etc/hostname' reaches outside"),
+    "link": ('picture = "link.png"', r"line 1, picture: 'link.png' is a link to a file outside"),
+    "folder": ('picture = "."', r"line 1, picture: '.' is no file"),
+    "yarn list outside": (FIELD + 'yarns = "../wool.toml"', r"line 3, yarns: '../wool.toml' reaches outside"),
+    "edit outside": (
+        FIELD + 'edits = ["set 1,1 ivory",\n"set 151,1 ivory"]',
+        r"line 4, edits.1: knot 151,1 lies outside the carpet; row 1 \(lower edge\) to 150, column 1 \(left\) to 100",
+    ),
+    "unknown edit": (FIELD + 'edits = ["sett 1,1 ivory"]', r"line 3, edits.0: unknown edit 'sett'; .*'set'"),
+    "edit without yarn": (FIELD + 'edits = ["set 1,1"]', r"line 3, edits.0: .* is no edit; write set ROW,COLUMN YARN"),
+    "edit of a number": (FIELD + "edits = [3]", r"line 3, edits.0: 3 is no edit"),
+    "unknown yarn of an edit": (FIELD + 'edits = ["set 1,1 ivry"]', r"line 3, edits.0: unknown yarn 'ivry'.*'ivory'"),
+    "two yarns": (FIELD + 'edits = ["replace ivory"]', r"line 3, edits.0: 'ivory' does not name two yarns"),
+    "unknown yarn of the field": ('plain = "madder"', r"line 1, plain: unknown yarn 'madder'.*'madder red'"),
+    "unknown yarn of a border": (
+        FIELD + '[[border]]\nyarn = "indigo"\nwidth = 2',
+        r"line 3, border.0: unknown yarn 'indigo'.*'indigo navy'",
+    ),
+    "wide border": (FIELD + '[[border]]\nyarn = "ivory"\nwidth = 50', r"line 3, border.0: .* take 100 of 150 rows"),
+    "border of nothing": (FIELD + "[[border]]\nwidth = 5", r"line 3, border.0: has nothing to be made of"),
+    "border without width": (FIELD + '[[border]]\nyarn = "ivory"', r"line 3, border.0: the border has no width"),
+    "broken repeat": (
+        FIELD + '[[border]]\ntile = "tile.png"',
+        r"line 3, border.0: the tile is 10 knots long.* these sizes fit: 40.8x61cm, 40.8x56.8cm",
+    ),
+    "repeat without ground": (
+        'size = "40x60cm"\n[repeat]\ntile = "tile.png"\nwidth = 7',
+        r"line 2, repeat: whole tiles of 7 × 6 knots do not fill",
+    ),
+    "motif outside": (
+        FIELD + '[[motif]]\npicture = "tile.png"\nposition = [150, 1]',
+        r"line 3, motif.0: the motif of 10 × 6 knots with its lower left knot at 150,1 lies outside",
+    ),
+    "position": (FIELD + '[[motif]]\npicture = "tile.png"\nposition = "centr"', r"line 5, motif.0.position: 'centr'"),
+    "size": ('plain = "ivory"\nsize = "40x60"', r"line 2, size: size '40x60' has no unit"),
+    "group": (FIELD + "colours = 1", r"line 3, colours: colours=1 is out of bounds"),
+    "kind": (FIELD + 'reading = "exat"', r"line 3, reading: .* did you mean exact"),
+    "twice": (FIELD + 'reading = "exact"\nread = "exact"', r"reading is given twice"),
+    "mirror": (FIELD + 'mirror = "up"', r"line 3, mirror: 'up' is unknown; one of across, along, both"),
+    "not TOML": ("plain = ivory", r"carpet.toml, line 1"),
+    "too many": (FIELD + "edits = [" + "'set 1,1 ivory'," * 10_001 + "]", r"line 3, edits: has 10,001 edits"),
+}
+
+
+@pytest.mark.parametrize("name", FAULTS)
+def test_a_fault_is_one_error_with_file_and_line(folder: Path, name: str) -> None:
+    text, expected = FAULTS[name]
+    with pytest.raises(IlmekError, match=expected) as caught:
+        chart_order(order_of(folder, text))
+    assert str(caught.value).count("carpet.toml") == 1
+    assert "carpet.toml, line " in str(caught.value)
+
+
+def test_a_setting_of_no_loom_is_an_error_with_its_line(folder: Path) -> None:
+    (folder / "carpet.toml").write_text(FIELD + '[loom]\nbeet = "comb"\n')
+    result = CliRunner().invoke(main, ["weave", str(folder / "carpet.toml"), "--out", str(folder / "out")])
+    assert result.exit_code == 2
+    assert "carpet.toml, line 3, loom: unknown parameter 'beet'" in result.stderr
+    assert not (folder / "out").exists()
+
+
+def test_options_override_keys(folder: Path) -> None:
+    order = order_of(folder, FIELD + 'quality = "20x20/dm"\ncolours = 5\npile_height = "6mm"\n', quality="30x30/dm")
+    assert order.quality is not None
+    assert (order.quality.across, order.palette.colours, order.plan.pile_height) == (300.0, 5, 0.006)
+
+
+def test_edits_in_order(folder: Path) -> None:
+    edits = '["line 1,1 1,100 madder red", "fill 2,1 indigo navy", "set 150,1 150,100 gold", "replace gold by ivory"]'
+    chart = chart_order(order_of(folder, FIELD + f"edits = {edits}"))[0].chart
+    srgb = np.array([yarn.srgb for yarn in chart.yarns])[chart.knots]
+    assert (srgb[-1] == RED).all()
+    assert (srgb[:-1, 1:-1] == NAVY).all()
+    assert (srgb[0, [0, -1]] == IVORY).all()
+    assert chart.reading.edited == 15_000 - 2
+
+
+def test_a_recipe_of_options_is_the_chart_of_the_options(folder: Path) -> None:
+    """The recipe that is saved gives the same chart, bit for bit; files beside it are its inputs."""
+    run = CliRunner()
+    command = ["chart", str(folder / "photo.png"), "--size", "30x45cm", "--colours", "5", "--knot", "asymmetric"]
+    first = run.invoke(main, [*command, "--out", str(folder / "a"), "--save-recipe", str(folder / "saved.toml")])
+    assert first.exit_code == 0, first.output
+    again = run.invoke(main, ["chart", str(folder / "saved.toml"), "--out", str(folder / "b")])
+    assert again.exit_code == 0, again.output
+    assert (folder / "a/chart.png").read_bytes() == (folder / "b/chart.png").read_bytes()
+    assert read_chart_png(folder / "b/chart.png").knot == "asymmetric"
+    over = run.invoke(main, ["chart", str(folder / "saved.toml"), "--json", str(folder / "photo.png")])
+    assert over.exit_code == 2
+    assert "photo.png" in over.stderr
+
+
+def test_a_recipe_is_not_saved_away_from_its_pictures(folder: Path, tmp_path: Path) -> None:
+    command = ["chart", str(folder / "photo.png"), "--size", "30x45cm", "--json", str(tmp_path / "x.json")]
+    (tmp_path / "other").mkdir()
+    result = CliRunner().invoke(main, [*command, "--save-recipe", str(tmp_path / "other/saved.toml")])
+    assert result.exit_code == 2
+    assert "save the recipe in" in result.stderr
+    assert not (tmp_path / "x.json").exists()
