@@ -130,6 +130,11 @@ CARPET = {
     "empty crop": ("--crop 5,5;5,30", "leaves no pixel"),
     "border colour in words": ("--fit pad --border-colour red", "'red' is no colour"),
     "border colour without a border": ("--border-colour #ffffff", "needs fit pad"),
+    "three corners": ("--corners 1,1;2,2;3,3", "3 points; 4 points"),
+    "corners that cross": ("--corners 1,1;19,29;19,1;1,29", "cross"),
+    "corners outside the picture": ("--corners 1,1;25,1;25,29;1,29", "reaches outside the picture"),
+    "corners on one line": ("--corners 1,1;9,1;18,1;1,29", "lie on one line"),
+    "an outline that is not clear": ("--corners auto", "outline of the carpet is not clear"),
     "turned without a unit": ("--turn 90", "did you mean 90deg"),
 }
 

@@ -13,20 +13,28 @@ import numpy as np
 
 from ilmek.arrays import Rgb
 from ilmek.carpet.design import LARGEST_DISTORTION, distortion
+from ilmek.carpet.outline import find_outline
 from ilmek.carpet.picture_points import in_pixels, read_colour, read_points
 from ilmek.carpet.projection import inner_rectangle, outer_rectangle, projected, rotation_about
 from ilmek.carpet.sizes import CarpetSize
-from ilmek.errors import ParameterError, PictureError
+from ilmek.carpet.straightening import check_corners, straightened, true_proportions
+from ilmek.errors import ParameterError, PictureError, shortened
 from ilmek.params import Params, kind
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 from ilmek.units import deg, format_quantity
 
 FITS = ("auto", "crop", "pad", "stretch", "turn")
+CORNERS_EXAMPLE = 'write the four corners, like "412,180 1150,240 1302,1050 300,985", or auto'
 CROP_EXAMPLE = 'write two opposite corners, like "10%,5% 90%,95%" or "120,80 1910,1440" in pixels'
 
 MOST_PADDED = 200_000_000
 """Largest number of pixels of a picture with its padding: 0.6 GB."""
+
+AUTO = "auto"
+
+_CREDIBLE = 0.1
+"""Largest relative difference within which a photographed carpet has the proportions of the carpet to be woven."""
 
 _SAME = 12
 """Largest difference of a channel within which the pixels of a border count as one colour."""
@@ -47,6 +55,11 @@ class FitParams(Params):
     border_colour: str | None = kind.text(
         None, doc="colour of the border with fit pad, like #e8dfc8; default: that of the picture's border, else white"
     )
+    corners: str | None = kind.text(
+        None,
+        doc="corners of a carpet photographed at an angle, in pixels or percent: top left, top right, bottom right, "
+        "bottom left; auto: found in the picture where the outline is clear",
+    )
     crop: str | None = kind.text(
         None, doc='part of the picture that is used, by two opposite corners in pixels or percent: "10%,5% 90%,95%"'
     )
@@ -56,6 +69,8 @@ class FitParams(Params):
 
     def check_together(self) -> None:
         """Raise ParameterError for texts that are no points or colours, and for a border colour without a border."""
+        if self.corners not in (None, AUTO):
+            read_points("corners", self.corners, 4, CORNERS_EXAMPLE)
         if self.crop is not None:
             read_points("crop", self.crop, 2, CROP_EXAMPLE)
         if self.border_colour is not None:
@@ -73,6 +88,8 @@ class Fit:
     cropped  share of the straightened and turned picture that the carpet does not show [-]
     padded   share of the carpet that is border [-]        border  colour of that border, `#rrggbb`
     turned   angle by which the picture was turned clockwise [rad]
+    corners  of the carpet in the photograph [pixels]; None: it was not straightened
+    clearness  of the outline, 0 to 1, where the corners were found in the picture
     """
 
     kind: str = "whole"
@@ -81,11 +98,16 @@ class Fit:
     padded: float = 0.0
     border: str | None = None
     turned: float = 0.0
+    corners: tuple[tuple[float, float], ...] | None = None
+    clearness: float | None = None
 
     @property
     def words(self) -> str:
         """What was done, in words, in the order in which it was done."""
         done = []
+        if self.corners:
+            found = "" if self.clearness is None else f" (found, clearness {self.clearness:.2f})"
+            done.append(f"straightened from {' '.join(f'{x:.1f},{y:.1f}' for x, y in self.corners)}{found}")
         if self.turned:
             done.append(f"turned by {format_quantity(self.turned, 'deg')}")
         if self.cropped:
@@ -114,16 +136,22 @@ def fit_picture(
     changes or it is turned by right angles. Raises PictureError for a part that is empty or not in the picture.
     """
     params = params or FitParams()
-    prepared, fit = prepare_picture(rgb, params, progress.part(0.0, 0.9))
+    prepared, fit = prepare_picture(rgb, params, progress, size=size)
     return fit_prepared(prepared, fit, size, params, grid=grid)
 
 
-def prepare_picture(rgb: Rgb, params: FitParams, progress: Progress = SILENT) -> tuple[Rgb, Fit]:
-    """The picture turned by a stated angle and cropped to a stated part, and what was done: all but `params.fit`.
+def prepare_picture(
+    rgb: Rgb, params: FitParams, progress: Progress = SILENT, *, size: CarpetSize | None = None
+) -> tuple[Rgb, Fit]:
+    """The picture straightened, turned by a stated angle and cropped to a stated part, and what was done.
 
-    Raises PictureError for a part that is empty or not in the picture.
+    size  proportions within 10 % of which a photographed carpet is taken to have them; default: those of its corners
+
+    Raises PictureError for corners of no rectangle, and for a part that is empty or not in the picture.
     """
-    picture, fit = _turned(rgb, params, progress)
+    rgb, straight = _straightened(rgb, params, size, progress.part(0.0, 0.6))
+    picture, fit = _turned(rgb, params, progress.part(0.6, 1.0))
+    fit = replace(fit, corners=straight.corners, clearness=straight.clearness)
     if params.crop is None:
         return picture, fit
     part = _cut(picture, params.crop)
@@ -187,6 +215,29 @@ def border_colour(rgb: Rgb) -> Colour:
     red, green, blue = np.sort(border, axis=0)[len(border) // 2].tolist()
     near = np.abs(border.astype(int) - (red, green, blue)).max(axis=1) <= _SAME
     return (red, green, blue) if 2 * np.count_nonzero(near) >= len(border) else (255, 255, 255)
+
+
+def _straightened(rgb: Rgb, params: FitParams, size: CarpetSize | None, progress: Progress) -> tuple[Rgb, Fit]:
+    """The carpet between the corners, with its true proportions; those of the size, or of the turned size, if near."""
+    if params.corners is None:
+        return rgb, Fit()
+    height, width = int(rgb.shape[0]), int(rgb.shape[1])
+    if params.corners == AUTO:
+        corners, clearness = find_outline(rgb, progress.part(0.0, 0.3))
+    else:
+        corners = in_pixels(read_points("corners", params.corners, 4, CORNERS_EXAMPLE), width, height)
+        clearness = None
+    check_corners(corners, width, height, f"corners={shortened(params.corners)!r}")
+    proportions = true_proportions(corners, width, height)
+    if size is not None:
+        turned = params.turn % math.pi
+        wanted = size.width / size.length
+        for one in (1 / wanted, wanted) if math.pi / 4 < turned < 3 * math.pi / 4 else (wanted, 1 / wanted):
+            if abs(proportions / one - 1) <= _CREDIBLE:
+                proportions = one
+                break
+    picture = straightened(rgb, corners, proportions, progress.part(0.3, 1.0))
+    return picture, Fit(corners=tuple((x, y) for x, y in corners.tolist()), clearness=clearness)
 
 
 def _turned(rgb: Rgb, params: FitParams, progress: Progress) -> tuple[Rgb, Fit]:
