@@ -15,7 +15,7 @@ from ilmek.carpet.quality import Quality
 from ilmek.carpet.rows import row_runs, spans_by_yarn
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import Yarn
-from ilmek.io.chart.grid import Inks
+from ilmek.io.chart.inks import Inks
 from ilmek.io.chart.rows_colours_pdf import colour_pages, write_colours_pdf
 from ilmek.io.chart.rows_layout import LABEL_GAP, LEAST_CELL, SMALLEST, rows_layout
 from ilmek.io.chart.rows_pdf import chart_rows_layout, write_rows_pdf

@@ -7,7 +7,7 @@ from PIL import Image
 from reportlab.lib.utils import ImageReader, simpleSplit
 
 from ilmek.carpet.chart import Chart
-from ilmek.io.chart.grid import Inks
+from ilmek.io.chart.inks import Inks
 from ilmek.io.chart.sheets import SheetLayout
 from ilmek.io.chart.symbols import SIGNS, STRONG, TEXT
 from ilmek.units import format_number
@@ -102,12 +102,17 @@ def draw_legend(canvas: Any, chart: Chart, inks: Inks) -> None:
             column, down = divmod(line, _LINES)
             width = (330.0, 231.5)[columns - 1]
             y = _TOP - 28.0 - _LINE * down
-            _entry(canvas, chart, inks, (index, tied.of(index)), (_LEFT + column * (width + 24.0), y, width))
+            draw_entry(canvas, chart, inks, (index, tied.of(index)), (_LEFT + column * (width + 24.0), y, width))
         canvas.showPage()
 
 
-def _entry(canvas: Any, chart: Chart, inks: Inks, counted: tuple[int, int], box: tuple[float, float, float]) -> None:
-    """Draw the entry of a yarn: its index, and its number of knots."""
+def draw_entry(
+    canvas: Any, chart: Chart, inks: Inks, counted: tuple[int, int], box: tuple[float, float, float]
+) -> None:
+    """Draw the entry of a yarn in the legend.
+
+    counted  index of the yarn and its number of knots      box  left edge, baseline and width [pt]
+    """
     (index, count), (x, y, width) = counted, box
     canvas.setFillColorRGB(*inks.fills[index])
     canvas.setStrokeGray(0.4)

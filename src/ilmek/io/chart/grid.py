@@ -1,15 +1,13 @@
 """One sheet of a knot chart: cells, symbols, lines, numbers, marks."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from ilmek.arrays import Indices
 from ilmek.carpet.chart import Chart
-from ilmek.carpet.colour import LINEAR
-from ilmek.carpet.yarn import Yarn
+from ilmek.io.chart.inks import Inks
+from ilmek.io.chart.overlay_marks import draw_marks
 from ilmek.io.chart.sheets import ChartSheet, SheetLayout
 from ilmek.io.chart.symbols import ADVANCE, SIGNS, STRONG, TEXT
 
@@ -18,43 +16,29 @@ _LEFT, _TOP = 54.0, 800.0
 _GREY, _LIGHT = (0.36, 0.40, 0.44), (0.55, 0.58, 0.62)
 
 
-@dataclass(frozen=True, slots=True)
-class Inks:
-    """Print of each yarn: fill colour 0 to 1, symbol, and whether the symbol is white."""
-
-    fills: tuple[tuple[float, float, float], ...]
-    symbols: str
-    white: tuple[bool, ...]
-
-    @staticmethod
-    def of(yarns: Sequence[Yarn], symbols: str) -> "Inks":
-        """The inks of a yarn list: the symbol is black or white, whichever has the higher contrast with the yarn."""
-        fills = tuple((yarn.srgb[0] / 255, yarn.srgb[1] / 255, yarn.srgb[2] / 255) for yarn in yarns)
-        return Inks(fills, symbols, tuple(_luminance(yarn.srgb) < 0.179 for yarn in yarns))
-
-
-def _luminance(srgb: tuple[int, int, int]) -> float:
-    """Relative luminance, black 0, white 1; black and white contrast equally at 0.179   [WCAG 2.2, 1.4.3]."""
-    return float(LINEAR[list(srgb)] @ np.array([0.2126, 0.7152, 0.0722]))
-
-
 def draw_sheet(canvas: Any, chart: Chart, plan: SheetLayout, sheet: ChartSheet, inks: Inks) -> None:
     """Draw a sheet on a page of its own."""
-    rows = slice(chart.rows - sheet.shown_high, chart.rows - sheet.low)
-    cells = chart.knots[rows, sheet.left : sheet.shown_right][::-1]
     canvas.bookmarkPage(f"sheet-{sheet.number}")
     canvas.addOutlineEntry(f"Sheet {sheet.number}: {sheet.title}", f"sheet-{sheet.number}", 1)
     canvas.saveState()
     canvas.translate(_LEFT, _TOP - 42.0 - (sheet.shown_high - sheet.low) * plan.cell_height)
+    draw_cells(canvas, chart, plan, sheet, inks)
+    canvas.restoreState()
+    _write_title(canvas, plan, sheet)
+    canvas.showPage()
+
+
+def draw_cells(canvas: Any, chart: Chart, plan: SheetLayout, sheet: ChartSheet, inks: Inks) -> None:
+    """Draw the knots of a sheet with their symbols, marks, lines and numbers; the origin is their lower left corner."""
+    rows = slice(chart.rows - sheet.shown_high, chart.rows - sheet.low)
+    cells = chart.knots[rows, sheet.left : sheet.shown_right][::-1]
     _fill_cells(canvas, cells, plan, inks)
     _write_symbols(canvas, cells, plan, inks)
+    draw_marks(canvas, chart, plan, sheet, inks)
     _shade_overlap(canvas, plan, sheet)
     _draw_lines(canvas, plan, sheet)
     _write_numbers(canvas, plan, sheet)
     _mark_middle(canvas, plan, sheet)
-    canvas.restoreState()
-    _write_title(canvas, plan, sheet)
-    canvas.showPage()
 
 
 def runs(cells: Indices) -> dict[int, list[tuple[int, int, int]]]:

@@ -18,7 +18,8 @@ from reportlab.pdfgen.canvas import Canvas
 
 from ilmek.carpet.chart import Chart
 from ilmek.io.chart.front_pages import draw_legend, draw_overview
-from ilmek.io.chart.grid import Inks, draw_sheet
+from ilmek.io.chart.grid import draw_sheet
+from ilmek.io.chart.inks import Inks
 from ilmek.io.chart.sheets import SheetLayout, cut
 from ilmek.io.chart.symbols import register_fonts, symbols
 from ilmek.progress import SILENT, Progress

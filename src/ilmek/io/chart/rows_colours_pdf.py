@@ -11,7 +11,7 @@ from reportlab.pdfgen.canvas import Canvas
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.rows import Run, Span, directions, row_codes, runs_of, spans_by_yarn
 from ilmek.io.chart.front_pages import draw_legend
-from ilmek.io.chart.grid import Inks
+from ilmek.io.chart.inks import Inks
 from ilmek.io.chart.pdf import plain_streams
 from ilmek.io.chart.symbols import ADVANCE, SIGNS, STRONG, TEXT, register_fonts, symbols
 from ilmek.progress import SILENT, Progress

@@ -14,7 +14,7 @@ from reportlab.pdfgen.canvas import Canvas
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.rows import directions, row_codes, runs_of
 from ilmek.io.chart.front_pages import draw_legend
-from ilmek.io.chart.grid import Inks
+from ilmek.io.chart.inks import Inks
 from ilmek.io.chart.pdf import plain_streams
 from ilmek.io.chart.rows_layout import FOOT, HEAD, LEFT, MARGIN, RIGHT, RULER, SMALLEST, RowsLayout, rows_layout
 from ilmek.io.chart.rows_strip import Strip, Typesetter, draw_strip, knots_in_words

@@ -7,7 +7,7 @@ from reportlab.pdfbase.pdfmetrics import stringWidth
 
 from ilmek.carpet.overlay import HALF, JUFTI
 from ilmek.carpet.rows import Run
-from ilmek.io.chart.grid import Inks
+from ilmek.io.chart.inks import Inks
 from ilmek.io.chart.rows_layout import LABEL_GAP, LEFT, RULER, SMALLEST, STRIP, RowsLayout
 from ilmek.io.chart.symbols import ADVANCE, SIGNS, STRONG, TEXT
 

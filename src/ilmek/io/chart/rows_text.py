@@ -23,7 +23,6 @@ from ilmek.errors import printable
 from ilmek.io.chart.symbols import symbols
 from ilmek.num.compiled import compiled
 from ilmek.progress import SILENT, Progress
-from ilmek.units import format_number
 
 MAGIC = "ilmek-rows 1"
 """First line: name and version of the format."""
@@ -82,7 +81,7 @@ def header(chart: Chart, split: str, direction: str) -> str:
     ]
     for index, yarn in enumerate(chart.yarns):
         name = " ".join(printable(yarn.name).split())
-        lines.append(f"yarn {signs[index]} {yarn.hex} {format_number(tied.of(index))} {name}")
+        lines.append(f"yarn {signs[index]} {yarn.hex} {tied.of(index)} {name}")
     return "\n".join(lines) + "\n\n"
 
 
