@@ -13,7 +13,6 @@ A run is a longest part of a row with one code.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -21,31 +20,15 @@ import numpy as np
 from ilmek.arrays import Indices, Int32
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.overlay import HALF, JUFTI, Mark, Overlay, overlay_of
-from ilmek.params import Params, param
 
-SPLITS = ("runs", "colours", "none")
+SPLITS = ("runs", "colours")
+"""How a row is split: into its runs, or into its colours, each once."""
+
 DIRECTIONS = ("both", "right", "left", "alternate")
+"""Directions in which a row is read: to the right, to the left, both, or odd rows right and even rows left."""
 
 JUFTI_CODE, HALF_CODE = 256, 512
 """First codes of the two kinds of marks."""
-
-
-@dataclass(frozen=True, slots=True)
-class PrintParams(Params):
-    """What is printed for the weaver."""
-
-    rows: str | None = param(
-        None,
-        choices=SPLITS,
-        doc="rows to weave by: the runs of each row, or each colour once per row with its knots; default: runs, where "
-        "the carpet has at most 5 million knots",
-    )
-    rows_direction: str = param(
-        "both",
-        choices=DIRECTIONS,
-        doc="direction in which a row is read: to the right, to the left, both, or odd rows right and even rows left",
-    )
-    wall: bool = param(False, doc="draw the whole chart on one large sheet, wall.pdf")
 
 
 class Run(NamedTuple):

@@ -85,7 +85,7 @@ _OUTPUT = (
     click.option(
         "--pdf/--no-pdf",
         default=None,
-        help="Write the chart as PDF or not; default: only if it has at most 400 sheets.",
+        help="Write chart.pdf, or no chart.pdf and rows.pdf; default: those of at most 400 sheets.",
     ),
     click.option(
         "--save-recipe",

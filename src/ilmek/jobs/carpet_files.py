@@ -3,7 +3,8 @@
 from collections.abc import Collection
 from dataclasses import dataclass
 
-from ilmek.params import Params, kind
+from ilmek.carpet.rows import DIRECTIONS, SPLITS
+from ilmek.params import Params, kind, param
 from ilmek.viz.carpet_picture import NARROWEST, WIDEST
 from ilmek.viz.page_parts import FileNote
 
@@ -14,6 +15,9 @@ FILES = (
     FileNote("carpet.png", "the simulated carpet, to show"),
     FileNote("chart.png", "the knot chart, one pixel one knot; weave and chart read it again"),
     FileNote("chart.pdf", "the knot chart to weave from, with symbols and row numbers"),
+    FileNote("wall.pdf", "the whole knot chart on one large sheet"),
+    FileNote("rows.pdf", "the rows to weave by, to print and tick off"),
+    FileNote("rows.txt", "the rows to weave by as text"),
     FileNote("chart.json", "the results as data, SI"),
     FileNote("yarn.csv", "the yarn to buy"),
     FileNote("programme.ilmek", "the loom programme; show it with `ilmek inspect`"),
@@ -32,6 +36,18 @@ class FileParams(Params):
         at_most=WIDEST,
         doc="width of carpet.png, the simulated carpet, in pixels; default: 1400 pixels along the longer side",
     )
+    rows: str | None = param(
+        None,
+        choices=(*SPLITS, "none"),
+        doc="rows to weave by: the runs of each row, or each colour once per row with its knots; default: runs, where "
+        "the carpet has at most 5 million knots",
+    )
+    rows_direction: str = param(
+        "both",
+        choices=DIRECTIONS,
+        doc="direction in which rows are read: to the right, to the left, both, or odd rows right and even rows left",
+    )
+    wall: bool = param(False, doc="draw the whole chart on one large sheet, wall.pdf")
 
 
 def file_notes(written: Collection[str]) -> tuple[FileNote, ...]:

@@ -19,16 +19,14 @@ from ilmek.io.json_file import write_json
 from ilmek.io.output import Outputs, joined
 from ilmek.io.yarn_csv import write_yarn_csv
 from ilmek.jobs.charting import chart_of_order
-from ilmek.jobs.order import MOST_PRINTED, CarpetOrder, ResolvedOrder
+from ilmek.jobs.order import MOST_PRINTED, MOST_SHEETS, CarpetOrder, ResolvedOrder
 from ilmek.jobs.recipe import chart_of_recipe
+from ilmek.jobs.rows import rows_plan, write_rows
 from ilmek.progress import SILENT, Progress
 from ilmek.report import Check, verdict_json
 from ilmek.report.left_out import made_or_left_out
 from ilmek.units import format_quantity
 from ilmek.viz.carpet_picture import check_carpet_width, write_carpet_png
-
-MOST_SHEETS = 400
-"""Largest number of sheets for which chart.pdf is written by default."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +51,8 @@ class ChartResult:
     @property
     def files(self) -> tuple[str, ...]:
         """Names of the files that `write_chart` writes."""
-        return ("chart.png", "carpet.png", *(("chart.pdf",) if self._printed else ()), "yarn.csv")
+        rows = rows_plan(self.chart, self.order.order).names
+        return ("chart.png", "carpet.png", *(("chart.pdf",) if self._printed else ()), *rows, "yarn.csv")
 
     @property
     def _printed(self) -> bool:
@@ -126,11 +125,11 @@ def make_charted(order: CarpetOrder, progress: Progress = SILENT, *, with_source
 
 
 def _left_out(order: CarpetOrder, chart: Chart) -> tuple[str, ...]:
-    sheets = chart_cut(chart).count
+    sheets, rows = chart_cut(chart).count, rows_plan(chart, order).notes
     if order.pdf is not None or sheets <= MOST_SHEETS:
-        return ()
+        return rows
     remedy = "--pdf writes it" if sheets <= MOST_PRINTED else f"at most {MOST_PRINTED:,} are written"
-    return (f"chart.pdf would have {sheets:,} sheets and is left out; {remedy}",)
+    return (f"chart.pdf would have {sheets:,} sheets and is left out; {remedy}", *rows)
 
 
 def chart_results(charted: ChartResult) -> dict[str, Any]:
@@ -148,6 +147,8 @@ def chart_results(charted: ChartResult) -> dict[str, Any]:
         "fit": fit_results(reading.fit),
         "mean_delta_e": reading.mean_delta_e,
         "least_delta_e": reading.least_delta_e,
+        "half_knots": sum(chart.tied.half),
+        "jufti_knots": sum(chart.tied.jufti),
         "lone_fraction": chart.lone_fraction,
         "small_patches": chart.small_patches,
         "changes_per_knot": chart.changes_per_knot,
@@ -189,14 +190,16 @@ def write_chart(
     write_chart_png(folder / "chart.png", chart, progress.part(0.0, 0.2, "chart.png"))
     write_carpet_png(folder / "carpet.png", chart, width, progress.part(0.2, 0.4, "carpet.png"))
     write_yarn_csv(folder / "yarn.csv", charted.bill, charted.chart.yarns)
-    written = charted.files
-    if "chart.pdf" in written:
-        pdf, before, printing = folder / "chart.pdf", len(left_out), progress.part(0.4, 1.0, "chart.pdf")
+    written = ["chart.png", "carpet.png"]
+    if "chart.pdf" in charted.files:
+        pdf, before, printing = folder / "chart.pdf", len(left_out), progress.part(0.4, 0.7, "chart.pdf")
         made_or_left_out("chart.pdf", lambda: write_chart_pdf(pdf, charted.chart, progress=printing), left_out)
         if len(left_out) > before:
             pdf.unlink(missing_ok=True)
-            written = tuple(name for name in written if name != "chart.pdf")
-    return written
+        else:
+            written.append("chart.pdf")
+    rows = write_rows(chart, charted.order.order, folder, left_out, progress.part(0.7, 1.0))
+    return (*written, *rows, "yarn.csv")
 
 
 def chart_json(charted: ChartResult, files: Sequence[str]) -> dict[str, Any]:

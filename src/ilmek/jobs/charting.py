@@ -57,13 +57,13 @@ def chart_of_order(order: CarpetOrder, progress: Progress = SILENT, *, with_sour
     else:
         order = _on_the_chart(order, chart)
         made = order.resolved()
-        check_sheets(made.size, made.quality, order.pdf)
+        check_sheets(made.size, made.quality, order)
         if _keeps_knots(order, chart):
             return OrderedChart(made, replace(chart, size=made.size, quality=made.quality, knot=made.knot), notes)
         rgb = np.array([yarn.srgb for yarn in chart.yarns], dtype=np.uint8)[chart.knots]
         del chart
     made = order.resolved()
-    check_sheets(made.size, made.quality, order.pdf)
+    check_sheets(made.size, made.quality, order)
     grid = knot_grid(made.size, made.quality)
     fitted, fit = fit_picture(rgb, made.size, order.fit, progress.part(0.2, 0.25, "chart"), grid=grid)
     del rgb

@@ -22,7 +22,7 @@ from ilmek.carpet.yarn import Yarn
 from ilmek.carpet.yarn_plan import YarnPlanParams
 from ilmek.elements.knot_kinds import parse_knot
 from ilmek.errors import CarpetError, ParameterError, YarnError, did_you_mean
-from ilmek.io.chart.sheets import cut
+from ilmek.io.chart.sheets import cut, require_wall
 from ilmek.io.recipe_file import LoomKeys, RecipeFile, read_recipe
 from ilmek.io.yarn_file import default_yarns, read_yarns
 from ilmek.jobs.carpet_files import FileParams
@@ -31,6 +31,9 @@ from ilmek.viz.carpet_picture import check_carpet_width
 
 SIZE, QUALITY, KNOT = "seccade", "25x25/dm", "symmetric"
 """What holds where neither the user nor the picture gives it."""
+
+MOST_SHEETS = 400
+"""Largest number of sheets for which chart.pdf is written by default; the same of rows.pdf."""
 
 MOST_PRINTED = 2_000
 """Largest number of sheets of a chart.pdf: 50 s, 13 MB and 300 MB of memory."""
@@ -53,7 +56,7 @@ class CarpetOrder:
              list that is built in
     fit      how the picture is fitted to the carpet        reading  how it is read
     palette  which yarns of the list are taken              plan     the yarn      files  the files of the folder
-    pdf      print the chart; default: if it has few enough sheets (`jobs.chart.MOST_SHEETS`)
+    pdf      print the chart; default: if it has few enough sheets (`MOST_SHEETS`)
     recipe   of the carpet, if `picture` is its file; default: the carpet is the picture
     yarn_file  of the yarns, if they are from a file      loom  what the recipe sets of the loom
     """
@@ -152,7 +155,7 @@ def read_order(
     if order.size is not None:
         check_carpet_width(order.size, order.files.carpet_width)
     if order.size is not None and order.quality is not None:
-        check_sheets(order.size, order.quality, order.pdf)
+        check_sheets(order.size, order.quality, order)
     return order
 
 
@@ -206,13 +209,15 @@ def read_groups(settings: Mapping[str, Setting]) -> dict[str, Any]:
     return {group: cls.read(sorted_settings[group]) for group, cls in GROUPS.items()}
 
 
-def check_sheets(size: CarpetSize, quality: Quality, pdf: bool | None) -> None:
-    """Raise CarpetError for a carpet of too few or too many knots, and for a PDF of more than MOST_PRINTED sheets."""
+def check_sheets(size: CarpetSize, quality: Quality, order: CarpetOrder) -> None:
+    """Raise CarpetError for a carpet of too few or too many knots, and for printed charts that are too large."""
     rows, columns = knot_grid(size, quality)
     sheets = cut(rows, columns, quality.across / quality.along).count
-    if pdf and sheets > MOST_PRINTED:
+    if order.pdf and sheets > MOST_PRINTED:
         raise CarpetError(
             f"--pdf: the chart of {size} at {quality} has {sheets:,} sheets",
             allowed=f"at most {MOST_PRINTED:,}",
             do="leave --pdf out, or take a coarser quality",
         )
+    if order.files.wall:
+        require_wall(rows * columns)

@@ -8,10 +8,14 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from ilmek.errors import CarpetError
 from ilmek.records import record
 
 OVERLAP = 3
 """Number of knots of the next sheet that are shown too."""
+
+MOST_WALL_KNOTS = 4_000_000
+"""Largest number of knots of a wall.pdf: 5 s, 4 MB and 300 MB of memory."""
 
 _ROOM = (482.0, 694.0)
 _SMALLEST = 7.4
@@ -101,3 +105,13 @@ def _tens(room: float, total: int) -> int:
         return total
     most = max(10, int((room - OVERLAP) // 10) * 10)
     return math.ceil(total / math.ceil(total / most) / 10) * 10
+
+
+def require_wall(knots: int) -> None:
+    """Raise CarpetError for a chart of more than MOST_WALL_KNOTS knots, which makes no wall.pdf."""
+    if knots > MOST_WALL_KNOTS:
+        raise CarpetError(
+            f"--wall: the chart has {knots:,} knots",
+            allowed=f"at most {MOST_WALL_KNOTS:,}",
+            do="leave --wall out; chart.pdf has many sheets",
+        )

@@ -13,12 +13,11 @@ from reportlab.pdfbase.pdfdoc import PDFPage
 from reportlab.pdfgen.canvas import Canvas
 
 from ilmek.carpet.chart import Chart
-from ilmek.errors import CarpetError
 from ilmek.io.chart.front_pages import draw_entry
 from ilmek.io.chart.grid import draw_cells
 from ilmek.io.chart.inks import Inks
 from ilmek.io.chart.pdf import plain_streams
-from ilmek.io.chart.sheets import SheetLayout
+from ilmek.io.chart.sheets import SheetLayout, require_wall
 from ilmek.io.chart.symbols import STRONG, TEXT, register_fonts, symbols
 from ilmek.progress import SILENT, Progress
 from ilmek.units import format_number
@@ -28,9 +27,6 @@ WALL_CELL = 7.4
 
 MOST_UNITS = 14_400
 """Largest side of a page of PDF, in its units of length."""
-
-MOST_WALL_KNOTS = 4_000_000
-"""Largest number of knots of a wall.pdf."""
 
 _SIDE, _HEAD, _FOOT = 54.0, 84.0, 40.0
 _ENTRY, _LINE = 250.0, 19.0
@@ -54,13 +50,8 @@ class WallSheet:
 
 
 def wall_sheet(chart: Chart) -> WallSheet:
-    """The sheet of a chart. Raises CarpetError for more than MOST_WALL_KNOTS knots."""
-    if chart.knots.size > MOST_WALL_KNOTS:
-        raise CarpetError(
-            f"--wall: a chart of {chart.knots.size:,} knots",
-            allowed=f"at most {MOST_WALL_KNOTS:,}",
-            do="leave --wall out; chart.pdf has many sheets",
-        )
+    """The sheet of a chart. Raises CarpetError as `require_wall`."""
+    require_wall(chart.knots.size)
     proportion = chart.quality.across / chart.quality.along
     cell = WALL_CELL * max(1.0, 1.0 / proportion)
     cells = SheetLayout(chart.rows, chart.columns, 1, 1, chart.columns, chart.rows, cell, cell * proportion)
