@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ilmek.carpet.chart import Chart
-from ilmek.carpet.overlay import HALF, JUFTI, Mark, overlay_of
+from ilmek.carpet.overlay import HALF, JUFTI, KnotMark, overlay_of
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.rows import DIRECTIONS, chart_of_codes, row_codes, row_runs, spans_by_yarn
 from ilmek.carpet.sizes import CarpetSize
@@ -38,8 +38,8 @@ def random_chart(seed: int, grid: tuple[int, int], yarns: int, share: float, mar
     return replace(chart, overlay=overlay_of(random_marks(rng, knots, yarns, marks)))
 
 
-def random_marks(rng: np.random.Generator, knots: np.ndarray, yarns: int, number: int) -> list[Mark]:
-    found: dict[tuple[int, int], Mark] = {}
+def random_marks(rng: np.random.Generator, knots: np.ndarray, yarns: int, number: int) -> list[KnotMark]:
+    found: dict[tuple[int, int], KnotMark] = {}
     taken: set[tuple[int, int]] = set()
     for row, column in zip(
         rng.integers(0, knots.shape[0], number), rng.integers(0, knots.shape[1], number), strict=True
@@ -50,10 +50,10 @@ def random_marks(rng: np.random.Generator, knots: np.ndarray, yarns: int, number
             continue
         if rng.random() < 0.5:
             second = (int(knots[cell]) + 1 + int(rng.integers(0, yarns - 1))) % yarns
-            found[cell] = Mark(*cell, HALF, second)
+            found[cell] = KnotMark(*cell, HALF, second)
             taken.add(cell)
         elif beside[1] < knots.shape[1] and beside not in taken and knots[cell] == knots[beside]:
-            found[cell] = Mark(*cell, JUFTI)
+            found[cell] = KnotMark(*cell, JUFTI)
             taken |= {cell, beside}
     return list(found.values())
 
@@ -105,7 +105,7 @@ def test_long_rows_go_on_in_bounded_lines() -> None:
 def test_the_format_by_an_example() -> None:
     yarns = tuple(Yarn(name, (n, n, n), (0.0, 0.0, 0.0), 4.0) for n, name in enumerate(("red", "blue", "ivory")))
     knots = np.array([[0, 0, 0, 1, 1, 1, 0, 2], [1, 1, 1, 1, 1, 1, 1, 1]], dtype=np.uint8)
-    overlay = overlay_of([Mark(0, 2, HALF, 2), Mark(0, 4, JUFTI)])
+    overlay = overlay_of([KnotMark(0, 2, HALF, 2), KnotMark(0, 4, JUFTI)])
     chart = Chart(knots, yarns, CarpetSize(0.08, 0.02), Quality(100.0, 100.0), "symmetric", overlay=overlay)
     assert text_of(chart, "runs", "both").partition("\n\n")[2] == (
         "1 > 8B\n1 < 8B\n2 > 2A 1½AC 1B 1jB 1A 1C\n2 < 1C 1A 1jB 1B 1½CA 2A\n"

@@ -7,7 +7,7 @@ import pytest
 
 from ilmek.carpet.bill import yarn_bill
 from ilmek.carpet.chart import Chart
-from ilmek.carpet.overlay import HALF, JUFTI, Mark, no_overlay, overlay_of
+from ilmek.carpet.overlay import HALF, JUFTI, KnotMark, no_overlay, overlay_of
 from ilmek.carpet.pile import PileParams, knot_length
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
@@ -85,8 +85,8 @@ def test_what_does_not_fit_is_refused(marks: list[tuple[int, int, int, int]], sa
 
 def test_marks_of_some_rows() -> None:
     overlay = MARKED.overlay
-    assert list(overlay) == [Mark(0, 1, HALF, 3), Mark(0, 2, JUFTI), Mark(1, 1, JUFTI)]
-    assert list(overlay.between(1, 2)) == [Mark(1, 1, JUFTI)]
+    assert list(overlay) == [KnotMark(0, 1, HALF, 3), KnotMark(0, 2, JUFTI), KnotMark(1, 1, JUFTI)]
+    assert list(overlay.between(1, 2)) == [KnotMark(1, 1, JUFTI)]
     assert overlay.equals(overlay_of(reversed(list(overlay))))
     assert not overlay.equals(no_overlay())
 

@@ -10,7 +10,7 @@ import pytest
 from pypdf import PdfReader
 
 from ilmek.carpet.chart import Chart
-from ilmek.carpet.overlay import HALF, JUFTI, Mark, overlay_of
+from ilmek.carpet.overlay import HALF, JUFTI, KnotMark, overlay_of
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.rows import row_runs, spans_by_yarn
 from ilmek.carpet.sizes import CarpetSize
@@ -23,7 +23,7 @@ from ilmek.io.chart.rows_strip import Strip, levels_of, strip_labels
 from ilmek.io.chart.symbols import symbols
 
 
-def chart(rows: int, columns: int, yarns: int, marks: tuple[Mark, ...] = (), seed: int = 5) -> Chart:
+def chart(rows: int, columns: int, yarns: int, marks: tuple[KnotMark, ...] = (), seed: int = 5) -> Chart:
     rng = np.random.default_rng(seed)
     threads = tuple(Yarn(f"yarn-{n}", (n, 99, 255 - n), (0.0, 0.0, 0.0), 4.0) for n in range(yarns))
     knots = rng.integers(0, yarns, (rows, columns), dtype=np.uint8)
@@ -77,7 +77,7 @@ def test_480_knots_are_one_line_of_one_page(tmp_path: Path) -> None:
 def test_labels_never_meet(seed: int) -> None:
     """On the levels that a page has space for, no two labels are closer than their gap, and each is over its run."""
     rng = np.random.default_rng(seed)
-    marks = [Mark(0, column, HALF if rng.random() < 0.5 else JUFTI, 1) for column in range(0, 478, 3 + seed)]
+    marks = [KnotMark(0, column, HALF if rng.random() < 0.5 else JUFTI, 1) for column in range(0, 478, 3 + seed)]
     made = chart(1, 480 if seed < 4 else 1200, 3, tuple(marks) if seed % 2 else (), seed)
     plan = chart_rows_layout(made)
     inks = Inks.of(made.yarns, symbols(3))
@@ -106,7 +106,7 @@ def test_strips_keep_the_paper(columns: int) -> None:
 
 
 def test_counts_marks_and_knots_of_each_yarn_are_printed(tmp_path: Path) -> None:
-    marks = (Mark(1, 2, HALF, 2), Mark(0, 4, JUFTI))
+    marks = (KnotMark(1, 2, HALF, 2), KnotMark(0, 4, JUFTI))
     made = chart(2, 10, 3, marks)
     knots = np.array([[1, 1, 1, 1, 0, 0, 2, 2, 2, 2], [0, 0, 0, 1, 1, 1, 1, 1, 1, 1]], dtype=np.uint8)
     made = replace(made, knots=knots)
@@ -132,7 +132,7 @@ def test_a_run_over_the_end_of_a_strip_has_its_whole_count(tmp_path: Path) -> No
 
 
 def test_rows_by_colours_are_printed_whole(tmp_path: Path) -> None:
-    made = chart(30, 200, 6, (Mark(3, 7, HALF, 2), Mark(4, 4, JUFTI)))
+    made = chart(30, 200, 6, (KnotMark(3, 7, HALF, 2), KnotMark(4, 4, JUFTI)))
     pages = list(colour_pages(made, "alternate"))
     write_colours_pdf(tmp_path / "rows.pdf", made, "alternate", len(pages))
     reader = PdfReader(tmp_path / "rows.pdf")

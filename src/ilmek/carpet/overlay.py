@@ -29,7 +29,7 @@ MOST_MARKS = 2_000_000
 """Largest number of marks of a chart."""
 
 
-class Mark(NamedTuple):
+class KnotMark(NamedTuple):
     """A mark of the overlay: row and column of its cell, from 0 at the top left as in `Chart.knots`; kind; and of a
     half knot the index of its second yarn, that of the right warp.
     """
@@ -65,10 +65,10 @@ class Overlay:
         """Number of marks."""
         return len(self.rows)
 
-    def __iter__(self) -> Iterator[Mark]:
+    def __iter__(self) -> Iterator[KnotMark]:
         """The marks in order."""
         arrays = (self.rows, self.columns, self.kinds, self.seconds)
-        return (Mark(*one) for one in zip(*(array.tolist() for array in arrays), strict=True))
+        return (KnotMark(*one) for one in zip(*(array.tolist() for array in arrays), strict=True))
 
     @property
     def halves(self) -> int:
@@ -91,13 +91,13 @@ class Overlay:
         return all(np.array_equal(getattr(self, name), getattr(other, name)) for name in names)
 
 
-def overlay_of(marks: Iterable[Mark | tuple[int, int, int, int]]) -> Overlay:
+def overlay_of(marks: Iterable[KnotMark | tuple[int, int, int, int]]) -> Overlay:
     """The overlay of some marks, in any order; whether they fit a chart, `require_fit` checks.
 
     Raises CarpetError for more than MOST_MARKS, and for numbers out of the bounds of any chart.
 
-    >>> list(overlay_of([Mark(2, 0, JUFTI), Mark(1, 5, HALF, 3)]))
-    [Mark(row=1, column=5, kind=1, second=3), Mark(row=2, column=0, kind=2, second=0)]
+    >>> list(overlay_of([KnotMark(2, 0, JUFTI), KnotMark(1, 5, HALF, 3)]))
+    [KnotMark(row=1, column=5, kind=1, second=3), KnotMark(row=2, column=0, kind=2, second=0)]
     """
     table = sorted(tuple(mark) for mark in marks)
     if len(table) > MOST_MARKS:

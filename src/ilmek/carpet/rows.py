@@ -19,7 +19,7 @@ import numpy as np
 
 from ilmek.arrays import Indices, Int32
 from ilmek.carpet.chart import Chart
-from ilmek.carpet.overlay import HALF, JUFTI, Mark, Overlay, overlay_of
+from ilmek.carpet.overlay import HALF, JUFTI, KnotMark, Overlay, overlay_of
 
 SPLITS = ("runs", "colours")
 """How a row is split: into its runs, or into its colours, each once."""
@@ -82,11 +82,12 @@ def chart_of_codes(codes: Int32[np.ndarray, "rows columns"]) -> tuple[Indices, O
     half = codes >= HALF_CODE
     knots = np.where(half, (codes - HALF_CODE) // 256, codes % 256).astype(np.uint8)
     marks = [
-        Mark(row, column, HALF, int(codes[row, column] - HALF_CODE) % 256) for row, column in np.argwhere(half).tolist()
+        KnotMark(row, column, HALF, int(codes[row, column] - HALF_CODE) % 256)
+        for row, column in np.argwhere(half).tolist()
     ]
     for row in np.flatnonzero(((codes >= JUFTI_CODE) & ~half).any(axis=1)).tolist():
         runs = (run for run in runs_of(codes[row]) if run.mark == JUFTI)
-        marks += [Mark(row, run.first + 2 * knot, JUFTI) for run in runs for knot in range(run.knots)]
+        marks += [KnotMark(row, run.first + 2 * knot, JUFTI) for run in runs for knot in range(run.knots)]
     return knots, overlay_of(marks)
 
 
@@ -106,7 +107,7 @@ Run(first=6, cells=1, mark=1, yarn=0, second=4))
 
 
 def decoded(code: int) -> tuple[int, int, int]:
-    """Mark (0, HALF or JUFTI), yarn and second yarn of a code."""
+    """KnotMark (0, HALF or JUFTI), yarn and second yarn of a code."""
     if code >= HALF_CODE:
         return (HALF, *divmod(code - HALF_CODE, 256))
     return (JUFTI, code - JUFTI_CODE, 0) if code >= JUFTI_CODE else (0, code, 0)

@@ -36,7 +36,7 @@ def chart_of_recipe(order: CarpetOrder, progress: Progress = SILENT, *, with_sou
         chart = finish(done.chart, recipe, done.order.yarns, None, progress.part(0.8, 1.0, "edits"))
         return OrderedChart(replace(done.order, order=order), chart, done.notes, done.source)
     made = order.resolved()
-    check_sheets(made.size, made.quality, order.pdf)
+    check_sheets(made.size, made.quality, order)
     pictures, notes = _pictures(recipe, progress.part(0.0, 0.3, "picture"))
     composition = compose(
         recipe,

@@ -7,7 +7,7 @@ its two cells.
 from typing import Any
 
 from ilmek.carpet.chart import Chart
-from ilmek.carpet.overlay import HALF, Mark
+from ilmek.carpet.overlay import HALF, KnotMark
 from ilmek.io.chart.inks import Inks
 from ilmek.io.chart.sheets import ChartSheet, SheetLayout
 from ilmek.io.chart.symbols import SIGNS
@@ -31,7 +31,7 @@ def draw_marks(canvas: Any, chart: Chart, plan: SheetLayout, sheet: ChartSheet, 
     canvas.restoreState()
 
 
-def _draw_half(canvas: Any, chart: Chart, plan: SheetLayout, inks: Inks, at: tuple[Mark, float, float]) -> None:
+def _draw_half(canvas: Any, chart: Chart, plan: SheetLayout, inks: Inks, at: tuple[KnotMark, float, float]) -> None:
     mark, x, y = at
     size = min(0.5 * plan.cell_height, 0.75 * plan.cell_width)
     half = plan.cell_width / 2

@@ -26,7 +26,7 @@ class Strip:
 
 
 @dataclass(frozen=True, slots=True)
-class Label:
+class RunLabel:
     """A run's label: its middle [pt], from the left edge of the strip, count (empty: one knot) and symbols."""
 
     middle: float
@@ -59,7 +59,7 @@ class Typesetter:
         self.canvas._code.append("\n".join(["BT", *shown, "ET"]))
 
 
-def strip_labels(strip: Strip, plan: RowsLayout, inks: Inks) -> list[Label]:
+def strip_labels(strip: Strip, plan: RowsLayout, inks: Inks) -> list[RunLabel]:
     """The labels of a strip's runs, from left to right.
 
     A run that begins before the strip has an arrow alone; one that goes on beyond it an arrow beside its whole count.
@@ -77,11 +77,11 @@ def strip_labels(strip: Strip, plan: RowsLayout, inks: Inks) -> list[Label]:
         elif end < run.first + run.cells:
             count = f"{run.knots}{mark}→"
         middle = ((begin + end) / 2 - strip.first) * plan.cell
-        made.append(Label(middle, count, signs, max(len(count), len(signs)) * ADVANCE * plan.size))
+        made.append(RunLabel(middle, count, signs, max(len(count), len(signs)) * ADVANCE * plan.size))
     return made
 
 
-def levels_of(labels: list[Label]) -> list[int]:
+def levels_of(labels: list[RunLabel]) -> list[int]:
     """The level of each label, 0 the lowest: the lowest one on which it keeps its distance from the one before."""
     ends: list[float] = []
     found = []
