@@ -14,13 +14,14 @@ from ilmek.arrays import Indices, Rgb
 from ilmek.carpet.confetti import count_lone, merge_patches
 from ilmek.carpet.design import bands, knot_grid
 from ilmek.carpet.differences import YarnDifference, differences
-from ilmek.carpet.fitting import Fit, FitParams, fit_picture
+from ilmek.carpet.fitting import Fit, FitParams, fit_prepared, prepare_picture
+from ilmek.carpet.matches import ColourMatch, colour_matches
 from ilmek.carpet.overlay import Overlay, TiedKnots, no_overlay, require_fit, tied_knots
 from ilmek.carpet.palette import distinct_colours, nearest_yarns, paint
 from ilmek.carpet.palette_rules import PaletteParams, choose_yarns
 from ilmek.carpet.patches import count_patches
 from ilmek.carpet.quality import Quality
-from ilmek.carpet.reading import Design, ReadParams, read_design
+from ilmek.carpet.reading import Design, ReadParams, exact_design, read_design
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import MOST_YARNS, Yarn, yarn_labs
 from ilmek.elements.knot_kinds import parse_knot
@@ -54,6 +55,7 @@ class ChartReading:
     fit            how the picture was fitted to the carpet
     differences    of each yarn of the chart to the colours that it is the nearest of; 0 of one that is of none
     edited         number of knots that the edits of a recipe changed
+    matches        of each colour of an exact or flat design, most knots first, at most MOST_MATCHES
     """
 
     kind: str
@@ -65,6 +67,7 @@ class ChartReading:
     fit: Fit = field(default_factory=Fit)
     differences: tuple[YarnDifference, ...] = ()
     edited: int = 0
+    matches: tuple[ColourMatch, ...] = ()
 
 
 @record
@@ -181,9 +184,14 @@ def make_chart(
         raise PictureError("the picture is empty", allowed="at least 1 × 1 pixels")
     _check_yarns(yarns)
     parse_knot(knot)
-    grid = knot_grid(size, quality)
-    fitted, done = fit_picture(rgb, size, fit, progress.part(0.0, 0.1), grid=grid)
-    design = read_design(fitted, grid, reading, progress.part(0.1, 0.4))
+    prepared, done = prepare_picture(rgb, fit or FitParams(), progress.part(0.0, 0.1))
+    exact = exact_design(prepared, size, quality, reading, progress=progress.part(0.1, 0.2))
+    if exact is not None:
+        design = exact[0]
+    else:
+        grid = knot_grid(size, quality)
+        fitted, done = fit_prepared(prepared, done, size, fit or FitParams(), grid=grid)
+        design = read_design(fitted, grid, reading, progress.part(0.2, 0.4))
     return chart_of_design(
         design,
         size,
@@ -223,7 +231,15 @@ def chart_of_design(
         design.colours, distinct, yarn_of, difference, knots, labs, changed > 0, progress.part(0.9, 0.95)
     )
     made = ChartReading(
-        design.kind, design.reason, found.mean, found.least, changed, design.foreign, fit or Fit(), found.of_yarns
+        design.kind,
+        design.reason,
+        found.mean,
+        found.least,
+        changed,
+        design.foreign,
+        fit or Fit(),
+        found.of_yarns,
+        matches=() if design.kind == "photo" else colour_matches(distinct, yarn_of, difference),
     )
     chart = Chart(knots, chosen, size, quality, kind, made)
     chart.tally(progress.part(0.95, 1.0))

@@ -130,29 +130,28 @@ def find_drawing(
     if drawn:
         size, quality = of_grid(pixels, size, quality)
         return Drawing(rgb, size, quality, f"each of its {pixels[1]} × {pixels[0]} pixels is a knot")
+    return _of_its_own_grid(rgb, size, quality, progress)
+
+
+def _of_its_own_grid(rgb: Rgb, size: CarpetSize | None, quality: Quality | None, progress: Progress) -> Drawing | None:
+    """The drawing of a picture that states its grid by itself."""
     few = few_colours(rgb, MOST_DRAWN_COLOURS, progress.part(0.0, 0.4))
-    if few is None or len(few.palette) < 2:
-        return None
-    scale = enlargement(few.numbers)
-    grid = pixels[0] // scale, pixels[1] // scale
-    if not (min(grid) >= LEAST_DRAWN and max(grid) <= MOST_DRAWN):
+    scale = enlargement(few.numbers) if few is not None else 1
+    grid = int(rgb.shape[0]) // scale, int(rgb.shape[1]) // scale
+    if few is None or len(few.palette) < 2 or not (min(grid) >= LEAST_DRAWN and max(grid) <= MOST_DRAWN):
         return None
     details = measured(FewColours(few.numbers[::scale, ::scale], few.palette), progress.part(0.4, 1.0))
-    if not details.drawn:
-        return None
     try:
         size, quality = of_grid(grid, size, quality)
     except CarpetError:
         return None
-    if not _usual(quality):
+    if not (details.drawn and _usual(quality)):
         return None
     share = f"{len(few.palette)} colours, {details.fine:.1%} of the knots in details of one knot"
     return Drawing(_reduced(rgb, scale), size, quality, f"drawn knot by knot{_in_words(grid, scale)}: {share}")
 
 
-def _of_the_grid(
-    rgb: Rgb, size: CarpetSize, quality: Quality, *, drawn: bool, progress: Progress
-) -> Drawing | None:
+def _of_the_grid(rgb: Rgb, size: CarpetSize, quality: Quality, *, drawn: bool, progress: Progress) -> Drawing | None:
     """The drawing of a picture that has the knots of a size and a quality, or a whole number of pixels for each."""
     rows, columns = grid = knot_grid(size, quality)
     scale = int(rgb.shape[0]) // rows
@@ -235,7 +234,7 @@ def enlargement(numbers: Indices) -> int:
         part = numbers[max(band.start - 1, 0) : band.stop]
         changed_rows[max(band.start, 1) : band.stop] = (part[1:] != part[:-1]).any(axis=1)
         changed_columns[1:] |= (part[:, 1:] != part[:, :-1]).any(axis=0)
-        if changed_rows[1] and changed_columns[1]:
+        if changed_rows[1] or changed_columns[1]:
             return 1
     edges = [*np.flatnonzero(changed_rows).tolist(), *np.flatnonzero(changed_columns).tolist()]
     return math.gcd(scale, *edges) if edges else 1
@@ -289,7 +288,7 @@ def _is_mix(before: IntArray, colour: IntArray, after: IntArray) -> bool:
 
 
 @compiled
-def _look(
+def _look(  # noqa: PLR0917
     numbers: Indices,
     palette: Int[np.ndarray, "colours 3"],
     first: int,

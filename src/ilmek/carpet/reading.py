@@ -1,6 +1,6 @@
 """Reading: from the pixels of a fitted picture to a design, one colour for each knot.
 
-exact  every pixel is a knot
+exact  every pixel is a knot [`exact`]
 flat   a drawing: each knot has a true colour of its cell [`flat`]
 photo  box averages in linear light [`design`]
 """
@@ -10,7 +10,10 @@ from types import MappingProxyType
 
 from ilmek.arrays import Rgb
 from ilmek.carpet.design import resampled
+from ilmek.carpet.exact import find_drawing
 from ilmek.carpet.flat import flat_design, looks_flat
+from ilmek.carpet.quality import Quality
+from ilmek.carpet.sizes import CarpetSize
 from ilmek.params import Params, kind, param
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
@@ -56,13 +59,34 @@ class Design:
     foreign: int | None = None
 
 
+def exact_design(
+    rgb: Rgb,
+    size: CarpetSize | None,
+    quality: Quality | None,
+    params: ReadParams | None = None,
+    *,
+    drawn: bool = False,
+    progress: Progress = SILENT,
+) -> tuple[Design, CarpetSize, Quality] | None:
+    """The design of a picture whose pixels are the knots, and the size and quality of its carpet; None: they are not.
+
+    size, quality  as far as they are given      drawn  it is known that the picture is drawn knot by knot
+    Raises CarpetError where the reading is to be exact and the pixels are not the knots of size and quality.
+    """
+    params = params or ReadParams()
+    if params.reading not in ("auto", "exact"):
+        return None
+    found = find_drawing(rgb, size, quality, drawn=drawn or params.reading == "exact", progress=progress)
+    if found is None:
+        return None
+    return Design(found.rgb, "exact", found.reason, 0), found.size, found.quality
+
+
 def read_design(
     rgb: Rgb, grid: tuple[int, int], params: ReadParams | None = None, progress: Progress = SILENT
 ) -> Design:
-    """The design of a fitted picture on a grid of rows and columns."""
+    """The design of a fitted picture that is not exact, on a grid of rows and columns."""
     params = params or ReadParams()
-    if params.reading == "exact" or (params.reading == "auto" and rgb.shape[:2] == grid):
-        return Design(rgb, "exact", f"the picture has the grid of the knots, {grid[1]} × {grid[0]}", 0)
     if params.reading == "photo":
         return Design(resampled(rgb, *grid, progress), "photo", "read as a photo, as required")
     seen = looks_flat(rgb)

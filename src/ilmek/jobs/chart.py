@@ -10,6 +10,7 @@ from ilmek.arrays import Rgb
 from ilmek.carpet.bill import YarnBill, YarnNeed, yarn_bill
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.fitting import Fit
+from ilmek.carpet.matches import shared_yarns
 from ilmek.carpet.pile import PileParams, coarsest_count, fill_check, pile_fill
 from ilmek.carpet.statistics import chart_statistics
 from ilmek.carpet.yarn import Yarn
@@ -27,6 +28,9 @@ from ilmek.report import Check, verdict_json
 from ilmek.report.left_out import made_or_left_out
 from ilmek.units import format_quantity
 from ilmek.viz.carpet_picture import check_carpet_width, write_carpet_png
+
+MOST_SHARED = 5
+"""Largest number of yarns with two or more colours that are named."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +75,11 @@ class ChartResult:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """Remedies for the checks that fail."""
+        """Colours that have one yarn together, and remedies for the checks that fail."""
+        return (*_shared_yarns(self.chart), *self._remedies)
+
+    @property
+    def _remedies(self) -> tuple[str, ...]:
         if not (fails := [check for check in self.checks if not check.ok]):
             return ()
         yarn = self.thickest
@@ -124,6 +132,18 @@ def make_charted(order: CarpetOrder, progress: Progress = SILENT, *, with_source
     return ChartResult(made.order, chart, bill, (*made.notes, *_left_out(order, chart)), made.source)
 
 
+def _shared_yarns(chart: Chart) -> tuple[str, ...]:
+    """A warning for each yarn that two or more colours of the drawing have, at most MOST_SHARED."""
+    shared = shared_yarns(chart.reading.matches)
+    warnings = [
+        f"the colours {' and '.join(sorted(match.hex for match in found))} have the same yarn, "
+        f"{chart.yarns[found[0].yarn].name!r}"
+        for found in shared[:MOST_SHARED]
+    ]
+    more = len(shared) - MOST_SHARED
+    return (*warnings, *((f"{more} more yarns have two or more colours each",) if more > 0 else ()))
+
+
 def _left_out(order: CarpetOrder, chart: Chart) -> tuple[str, ...]:
     sheets, rows = chart_cut(chart).count, rows_plan(chart, order).notes
     if order.pdf is not None or sheets <= MOST_SHEETS:
@@ -143,6 +163,10 @@ def chart_results(charted: ChartResult) -> dict[str, Any]:
         "reading": reading.kind,
         "changed_knots": reading.changed,
         "edited_knots": reading.edited,
+        "matches": [
+            {"srgb": match.hex, "knots": match.knots, "yarn": chart.yarns[match.yarn].name, "delta_e": match.delta_e}
+            for match in reading.matches
+        ],
         "foreign_fraction": None if reading.foreign is None else reading.foreign / chart.knots.size,
         "fit": fit_results(reading.fit),
         "mean_delta_e": reading.mean_delta_e,

@@ -8,15 +8,15 @@ import numpy as np
 from ilmek.arrays import Rgb
 from ilmek.carpet.chart import Chart, chart_of_design
 from ilmek.carpet.design import knot_grid, resampled
-from ilmek.carpet.exact import has_grid, of_grid
-from ilmek.carpet.fitting import fit_notes, fit_picture
-from ilmek.carpet.quality import parse_quality
-from ilmek.carpet.reading import ReadParams, read_design
+from ilmek.carpet.exact import few_colours, has_grid, of_grid
+from ilmek.carpet.fitting import Fit, FitParams, fit_notes, fit_prepared, prepare_picture
+from ilmek.carpet.reading import Design, ReadParams, exact_design, read_design
 from ilmek.carpet.sizes import CarpetSize
+from ilmek.carpet.yarn import MOST_YARNS
 from ilmek.errors import PictureError
 from ilmek.io.chart.png import is_chart_png, read_chart_png
 from ilmek.io.picture import read_picture
-from ilmek.jobs.order import GROUPS, QUALITY, CarpetOrder, ResolvedOrder, check_sheets
+from ilmek.jobs.order import GROUPS, CarpetOrder, ResolvedOrder, check_sheets
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 
@@ -54,35 +54,77 @@ def chart_of_order(order: CarpetOrder, progress: Progress = SILENT, *, with_sour
         picture = read_picture(order.picture, progress.part(0.0, 0.2, "picture"))
         rgb, notes = picture.rgb, (*notes, *picture.notes)
         del picture
+        prepared, fit = prepare_picture(rgb, order.fit, progress.part(0.2, 0.25))
+        drawn = False
     else:
-        order = _on_the_chart(order, chart)
+        given, order = order, _on_the_chart(order, chart)
         made = order.resolved()
         check_sheets(made.size, made.quality, order)
         if _keeps_knots(order, chart):
             return OrderedChart(made, replace(chart, size=made.size, quality=made.quality, knot=made.knot), notes)
         rgb = np.array([yarn.srgb for yarn in chart.yarns], dtype=np.uint8)[chart.knots]
+        prepared, fit = prepare_picture(rgb, order.fit, progress.part(0.2, 0.25))
+        drawn = given.size is None and _is_part(prepared, chart)
+        order = replace(order, size=None) if drawn else order
         del chart
-    made = order.resolved()
-    check_sheets(made.size, made.quality, order)
-    grid = knot_grid(made.size, made.quality)
-    fitted, fit = fit_picture(rgb, made.size, order.fit, progress.part(0.2, 0.25, "chart"), grid=grid)
     del rgb
-    source = shown_source(fitted) if with_source else None
-    more = fit_notes(fit, fitted.shape[:2], made.size, grid)
-    design = read_design(fitted, grid, order.reading, progress.part(0.25, 0.4, "chart"))
-    del fitted
+    read = _read(order, prepared, fit, progress.part(0.25, 0.4, "chart"), drawn=drawn, with_source=with_source)
+    del prepared
+    made = read.order
     made_chart = chart_of_design(
-        design,
+        read.design,
         made.size,
         made.quality,
         made.yarns,
         knot=made.knot,
-        fit=fit,
+        fit=read.fit,
         reading=order.reading,
         palette=order.palette,
         progress=progress.part(0.4, 1.0, "chart"),
     )
-    return OrderedChart(made, made_chart, (*notes, *more), source)
+    return OrderedChart(made, made_chart, (*notes, *read.notes), read.source)
+
+
+@record
+class _ReadPicture:
+    """The order with nothing left open, the design of its picture, how it was fitted, notes, and what a page shows."""
+
+    order: ResolvedOrder
+    design: Design
+    fit: Fit
+    notes: tuple[str, ...]
+    source: Rgb | None
+
+
+def _read(
+    order: CarpetOrder, prepared: Rgb, fit: Fit, progress: Progress, *, drawn: bool, with_source: bool
+) -> _ReadPicture:
+    """Read a picture that is turned and cropped.
+
+    fit    what was done to it      drawn  every pixel is a knot, whatever the size
+    """
+    begun = order.reading if order.fit.fit == FitParams().fit else replace(order.reading, reading="auto")
+    if order.reading.reading not in ("auto", "exact"):
+        begun = order.reading
+    exact = exact_design(prepared, order.size, order.quality, begun, drawn=drawn, progress=progress.part(0.0, 0.4))
+    if exact is not None:
+        design, size, quality = exact
+        made = replace(order, size=size, quality=quality).resolved()
+        check_sheets(size, quality, order)
+        return _ReadPicture(made, design, fit, (), shown_source(prepared) if with_source else None)
+    made = order.resolved()
+    check_sheets(made.size, made.quality, order)
+    grid = knot_grid(made.size, made.quality)
+    fitted, fit = fit_prepared(prepared, fit, made.size, order.fit, grid=grid)
+    exact = exact_design(fitted, made.size, made.quality, order.reading, progress=progress.part(0.4, 0.5))
+    design = exact[0] if exact else read_design(fitted, grid, order.reading, progress.part(0.5, 1.0))
+    notes = fit_notes(fit, fitted.shape[:2], made.size, grid)
+    return _ReadPicture(made, design, fit, notes, shown_source(fitted) if with_source else None)
+
+
+def _is_part(prepared: Rgb, chart: Chart) -> bool:
+    """Whether a picture made from a chart has another grid, and still one knot for each pixel."""
+    return prepared.shape[:2] != chart.knots.shape and few_colours(prepared, MOST_YARNS) is not None
 
 
 def _own_chart(order: CarpetOrder, progress: Progress) -> tuple[Chart | None, tuple[str, ...]]:
@@ -105,7 +147,7 @@ def _on_the_chart(order: CarpetOrder, chart: Chart) -> CarpetOrder:
     if (size or chart.size) == chart.size and (order.quality or chart.quality) == chart.quality:
         size, quality = chart.size, chart.quality
     elif size is None or order.quality is None:
-        size, quality = of_grid(grid, size, order.quality, parse_quality(QUALITY))
+        size, quality = of_grid(grid, size, order.quality)
     else:
         quality = order.quality
     return replace(order, size=size, quality=quality, knot=order.knot or chart.knot, yarns=order.yarns or chart.yarns)

@@ -1,0 +1,54 @@
+"""Matches: the colours of a drawing and the yarns that they take, one by one."""
+
+from collections.abc import Iterable
+from typing import NamedTuple
+
+import numpy as np
+
+from ilmek.arrays import Float, UInt8
+from ilmek.carpet.palette import Colours
+
+MOST_MATCHES = 255
+"""Largest number of colours of a design that are reported one by one."""
+
+
+class ColourMatch(NamedTuple):
+    """A colour of a design: sRGB, its knots, the index of its yarn, and the CIEDE2000 difference of the two."""
+
+    srgb: tuple[int, int, int]
+    knots: int
+    yarn: int
+    delta_e: float
+
+    @property
+    def hex(self) -> str:
+        """The colour as `#rrggbb`."""
+        return "#{:02x}{:02x}{:02x}".format(*self.srgb)
+
+
+def colour_matches(
+    distinct: Colours, yarn_of: UInt8[np.ndarray, " colours"], difference: Float[np.ndarray, " colours"]
+) -> tuple[ColourMatch, ...]:
+    """The match of each distinct colour, most knots first; none where there are more than MOST_MATCHES."""
+    if len(distinct.counts) > MOST_MATCHES:
+        return ()
+    codes = np.flatnonzero(distinct.index)
+    numbers = distinct.index[codes] - 1
+    found = [
+        ColourMatch(
+            (code >> 16, code >> 8 & 255, code & 255),
+            int(distinct.counts[number]),
+            int(yarn_of[number]),
+            float(difference[number]),
+        )
+        for code, number in zip(codes.tolist(), numbers.tolist(), strict=True)
+    ]
+    return tuple(sorted(found, key=lambda match: (-match.knots, match.srgb)))
+
+
+def shared_yarns(matches: Iterable[ColourMatch]) -> tuple[tuple[ColourMatch, ...], ...]:
+    """The colours that have one yarn together, of each yarn with two or more."""
+    of_yarn: dict[int, list[ColourMatch]] = {}
+    for match in matches:
+        of_yarn.setdefault(match.yarn, []).append(match)
+    return tuple(tuple(found) for found in of_yarn.values() if len(found) > 1)
