@@ -8,7 +8,7 @@ With size and quality, a picture is exact where it has their grid, or n × n equ
 MOST_YARNS colours. Where one of them is open, the picture has to state the grid by itself: it is drawn knot by knot.
 Three measures tell a drawing from a photo of few colours, from a dithered one and from artwork of many pixels a knot:
 
-    details   share of the pixels that are one pixel wide, in the row or in the column, and no mix of both sides: 0.2 to
+    details   share of the pixels that are one pixel wide, in the row or in the column, and no mix of both sides: 1 to
               25 %. Artwork has less, a dithered photo more; smoothed edges are mixes
     alike     share of neighbours of one colour: at least 60 %
     contrast  mean CIEDE2000 of the neighbours of two colours, over that of any two pixels of two colours: at least 0.6.
@@ -43,7 +43,7 @@ MOST_DRAWN_COLOURS = 64
 LEAST_DRAWN, MOST_DRAWN = 16, 5000
 """Least and greatest side [knots] of such a picture."""
 
-LEAST_DETAILS, MOST_DETAILS, LEAST_ALIKE, LEAST_CONTRAST = 0.002, 0.25, 0.6, 0.6
+LEAST_DETAILS, MOST_DETAILS, LEAST_ALIKE, LEAST_CONTRAST = 0.01, 0.25, 0.6, 0.6
 COARSEST_DRAWN, FINEST_DRAWN, MOST_OBLONG = 150.0, 2000.0, 2.0
 """Qualities [knots/m] and their ratio that a size may give to such a picture."""
 

@@ -6,6 +6,7 @@ from typing import Any
 import click
 
 from ilmek.carpet.bill import YarnBill
+from ilmek.carpet.chart import Chart
 from ilmek.cli.call_outputs import call_outputs
 from ilmek.cli.carpet_options import carpet_inputs, carpet_options, recipe_folder
 from ilmek.cli.options import force_option, json_option
@@ -71,6 +72,7 @@ def show_chart(charted: ChartResult) -> None:
             ("colour difference", f"{made.mean_delta_e:.2f} mean CIEDE2000 (lower bound {made.least_delta_e:.2f})"),
             ("fit", made.fit.words),
             ("reading", f"{made.kind}: {made.reason}"),
+            *([("farthest colours", _farthest(chart))] if made.matches else []),
             ("changed knots", f"{made.changed:,}"),
             *([("edited knots", f"{made.edited:,}")] if charted.order.order.recipe is not None else []),
             ("lone knots", f"{chart.lone_fraction:.2%}"),
@@ -79,6 +81,12 @@ def show_chart(charted: ChartResult) -> None:
         ]
     )
     show_yarn(charted.bill)
+
+
+def _farthest(chart: Chart) -> str:
+    """The colours of a drawing that are farthest from their yarns."""
+    worst = sorted(chart.reading.matches, key=lambda match: -match.delta_e)[:3]
+    return ", ".join(f"{match.hex} {match.delta_e:.1f} from {chart.yarns[match.yarn].name}" for match in worst)
 
 
 def pile_in_words(charted: ChartResult) -> str:
