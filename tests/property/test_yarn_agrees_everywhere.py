@@ -48,7 +48,7 @@ def charted(records: list[dict[str, Any]], knots: Indices, across: float, along:
     size = CarpetSize(knots.shape[1] / across, knots.shape[0] / along)
     chart = Chart(knots, yarns, size, quality, kind)
     order = CarpetOrder(Path("x.png"), size, quality, kind, yarns, plan=PLAN).resolved()
-    return ChartResult(order, chart, yarn_bill(chart, PLAN.pile(quality)), ())
+    return ChartResult(order, chart, yarn_bill(chart, PLAN), ())
 
 
 def written(made: ChartResult) -> list[dict[str, str]]:
@@ -88,8 +88,11 @@ def test_the_yarn_is_the_same_everywhere(
     for need, line, one in zip(every, lines, shown, strict=True):
         assert abs(float(line["length [m]"]) - need["length"]) <= 0.0501
         assert abs(float(line["mass [g]"]) - 1000 * need["mass"]) <= 0.0501
-        assert (line["price"] == "") == (need["price"] is None)
+        assert abs(float(line["to buy [g]"]) - 1000 * need["to_buy"]) <= 0.0501
+        assert abs(float(line["price [EUR]"]) - need["price"]) <= 0.00501
+        assert (line["count"], int(line["hanks"]), int(line["lots"])) == (need["count"], need["hanks"], need["lots"])
         assert (one.need.length, one.need.mass) == (need["length"], need["mass"])
     assert math.isclose(results["yarn_mass"], sum(need["mass"] for need in every), rel_tol=1e-12)
+    assert math.isclose(results["price"], sum(need["price"] for need in every), rel_tol=1e-12)
     assert math.isclose(results["pile_mass"], sum(need["mass"] for need in pile), rel_tol=1e-12)
     assert results["knots"] == sum(counts)

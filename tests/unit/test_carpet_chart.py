@@ -11,6 +11,7 @@ from ilmek.carpet.pile import PileParams, knot_length
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import Yarn
+from ilmek.carpet.yarn_plan import YarnPlanParams
 from ilmek.elements.carpet_yarns import CarpetYarnParams
 from ilmek.elements.knot_kinds import asymmetric_wrap, parse_knot, symmetric_wrap
 from ilmek.errors import CarpetError, PictureError, YarnError
@@ -147,24 +148,27 @@ def test_sinuous_weft_is_the_length_of_its_curve() -> None:
 
 
 def test_bill_adds_up(chart: Chart) -> None:
-    bill = yarn_bill(chart)
+    bill = yarn_bill(chart, YarnPlanParams(pile_height=8e-3))
     per_knot = knot_length("symmetric", QUALITY, 0.8e-3)
     assert isinstance(bill, YarnBill)
     assert bill.knots == chart.knots.size
-    assert [need.name for need in bill.ground] == ["warp", "straight weft", "sinuous weft"]
+    assert [need.name for need in bill.ground] == ["warp", "straight weft", "sinuous weft", "ends", "selvedges"]
     assert sum(need.length for need in bill.pile) == pytest.approx(chart.knots.size * per_knot)
     assert bill.pile_mass == pytest.approx(chart.knots.size * per_knot * 0.8e-3)
-    assert bill.price == pytest.approx(20 * bill.pile_mass)
+    prices = {"selvedges": 20.0} | dict.fromkeys(("warp", "straight weft", "sinuous weft", "ends"), 8.0)
+    ground = sum(prices[need.name] * need.mass for need in bill.ground)
+    assert bill.price == pytest.approx(1.1 * (20 * bill.pile_mass + ground))
     assert bill.mass == pytest.approx(sum(need.mass for need in bill.needs))
 
 
 def test_bill_of_the_ground(chart: Chart) -> None:
     yarns = CarpetYarnParams(warp_density=1e-3, straight_weft_density=2e-3, sinuous_weft_density=0.5e-3)
     params = GroundParams(weft_share=0.0, yarns=yarns)
-    warp, straight, sinuous = yarn_bill(chart, ground=params).ground
+    warp, straight, sinuous, ends, _ = yarn_bill(chart, ground=params).ground
     assert warp.length == pytest.approx((2 * 600 + 8) * (0.9 + 0.6))
     across = 0.6 + 8 * 0.5e-3  # the wefts run over the selvedges
     assert straight.length == pytest.approx(900 * (across + 0.02)) == sinuous.length
+    assert ends.length == pytest.approx(2 * 24 * (across + 0.02))  # 20 mm of picks of 0.835 mm, at each end
     assert (warp.mass, straight.mass) == pytest.approx((warp.length * 1e-3, straight.length * 2e-3))
     assert yarn_bill(chart).ground[2].length > straight.length
 
@@ -172,6 +176,11 @@ def test_bill_of_the_ground(chart: Chart) -> None:
 def test_bill_without_prices_or_knots_of_a_yarn() -> None:
     rgb = np.zeros((10, 10, 3), dtype=np.uint8)
     yarns = wools("000000", "ffffff", price=None)
-    bill = yarn_bill(make_chart(rgb, CarpetSize(0.1, 0.1), Quality(100.0, 100.0), yarns))
+    chart = make_chart(rgb, CarpetSize(0.1, 0.1), Quality(100.0, 100.0), yarns)
+    bill = yarn_bill(chart)
     assert [need.name for need in bill.pile] == ["000000"]
-    assert bill.price is None
+    (need,) = bill.pile
+    assert need.price == pytest.approx(20 * need.to_buy)  # wool in EUR
+    lira = yarn_bill(chart, YarnPlanParams(currency="TRY", warp_price=300, weft_price=300))
+    assert (lira.price, lira.pile[0].price, lira.currency) == (None, None, "TRY")
+    assert all(line.price for line in lira.ground if line.use != "selvedge")

@@ -12,6 +12,7 @@ from ilmek.carpet.pile import PileParams, knot_length
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import Yarn
+from ilmek.carpet.yarn_plan import YarnPlanParams
 from ilmek.errors import CarpetError
 from ilmek.jobs.weave import overlay_checks
 from ilmek.units import mm
@@ -34,8 +35,8 @@ def test_every_knot_is_counted_once() -> None:
 
 
 def test_the_bill_has_the_yarn_of_each_form() -> None:
-    pile = PileParams()
-    bill = yarn_bill(MARKED, pile)
+    plan = YarnPlanParams()
+    pile, bill = plan.pile(MARKED.quality), yarn_bill(MARKED, plan)
     assert [need.knots for need in bill.pile] == [3, 3, 2, 1]
     for need, yarn, forms in zip(bill.pile, YARNS, zip(*MARKED.tied, strict=True), strict=True):
         lengths = [

@@ -35,7 +35,7 @@ def test_read(text: str, across: float, along: float) -> None:
 def test_written_in_every_notation() -> None:
     quality = parse_quality("40raj")
     assert write_quality(quality, "raj") == "40raj"
-    assert write_quality(quality, "raj", gereh=0.065, digits=4) == "37.14raj@6.5cm"
+    assert write_quality(quality, "raj", gereh=0.065, digits=4) == "37.14raj/6.5cm"
     assert write_quality(quality, "dm", digits=4) == str(quality) == "57.14x57.14/dm"
     assert write_quality(parse_quality("9/60"), "india") == "9/60"
     assert write_quality(parse_quality("9/16 per inch"), "inch") == "9x16/in"

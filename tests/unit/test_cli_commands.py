@@ -83,7 +83,7 @@ def test_machine_json_has_every_machine(woven: tuple[Path, Any]) -> None:
     assert machine["machine"] == "automated-loom"
     assert set(machine["machines"]) >= {"weaver", "hammer", "shedding", "warp-tension"}
     assert machine["machines"]["shedding"]["parameters"]["warp_pitch"] == machine["results"]["warp_pitch"]
-    assert machine["machines"]["weaver"]["results"]["knot_tied"] == "symmetric"
+    assert machine["machines"]["weaver"]["parameters"]["knot"] == "symmetric"
     assert "row_pitch" in machine["machines"]["hammer"]["results"]
     assert machine["parameters"]["width"] == 0.4
 
@@ -94,7 +94,7 @@ def test_yarn_csv_adds_up(woven: tuple[Path, Any]) -> None:
         lines = list(csv.DictReader(file))
     grams = sum(float(line["mass [g]"]) for line in lines)
     assert grams == pytest.approx(1000 * found["yarn_mass"], abs=0.05 * len(lines))
-    assert [line["use"] for line in lines[-3:]] == ["warp", "weft", "weft"]
+    assert [line["use"] for line in lines[-5:]] == ["warp", "weft", "weft", "end", "selvedge"]
 
 
 def test_report_needs_no_network(woven: tuple[Path, Any]) -> None:

@@ -42,7 +42,7 @@ def test_order_is_judged_before_the_picture_is_opened() -> None:
 
 
 def test_loom_follows_the_chart() -> None:
-    order = read_order(MEDALLION, size="20x30cm", quality="20x20/dm", colours=6)
+    order = read_order(MEDALLION, size="20x30cm", quality="20x20/dm", colours=6, pile_height="8mm")
     charted = make_charted(order)
     loomed = make_loomed(read_loom_order(order), charted)
     params = loomed.design.params

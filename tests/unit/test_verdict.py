@@ -188,7 +188,7 @@ def test_heads_and_a_deadline_that_agree_are_both_kept(tmp_path: Path) -> None:
 
 
 def test_the_chart_and_the_cyclogram_end_with_their_checks(tmp_path: Path) -> None:
-    thick = run("chart", MEDALLION, "--size", "20x30cm", "--quality", "80x100/dm", "--json", "-")
+    thick = run("chart", MEDALLION, "--size", "20x30cm", "--quality", "80x100/dm", "--yarn-count", "2/2", "--json", "-")
     assert thick.exit_code == judged(json.loads(thick.stdout)) == 3
     press = str(EXAMPLES / "press.toml")
     given, solved = run("cyclogram", press, "--json", "-"), run("cyclogram", press, "--solve", "period", "--json", "-")

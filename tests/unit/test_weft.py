@@ -184,11 +184,14 @@ def test_bill_and_loom_have_the_same_wefts_warps_and_lengths(selvedge: int, pitc
     loom = loom_for(AutomatedLoomParams.read({**given, "yarns.weft": "wool"}))
     size, quality = CarpetSize(0.8, 1.8), Quality(0.5 / pitch, 0.5 / pitch)
     ground = loom.params.ground
-    warp, straight, sinuous = ground_yarns(size, quality, loom.rows, loom.columns, ground)
+    warp, straight, sinuous, ends = ground_yarns(size, quality, loom.rows, loom.columns, ground)
     weft, yarns = loom.weft, loom.task.yarns
     assert weft.weft_need == pytest.approx({"straight weft": straight.length, "sinuous weft": sinuous.length})
     assert straight.mass == pytest.approx(straight.length * yarns.straight_weft.linear_density)
     assert sinuous.mass == pytest.approx(sinuous.length * yarns.sinuous_weft.linear_density)
+    assert ends.length == pytest.approx(
+        2 * math.ceil(20 * mm / yarns.sinuous_weft.diameter) * sinuous.length / loom.rows
+    )
     assert warp.length / (1.8 + 2 * ground.fringe + ground.loom_waste) == pytest.approx(loom.warps)
     assert loom.weft.params.cloth_width == pytest.approx(loom.task.cloth_width)
 

@@ -2,23 +2,34 @@
 
     metres = knots × length per knot,   kilograms = metres × linear density,   linear density = ply / (1000 Nm)
 
-for each colour of the pile, whole, half and jufti knots with their own lengths; the ground needs warp and two wefts.
+for each colour of the pile, whole, half and jufti knots with their own lengths; the ground needs warp, two wefts, ends,
+and the overcasting of the selvedges. The need is what is drawn from the hanks, waste included; a reserve is bought
+beyond it.
 """
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 
 from ilmek.carpet.chart import Chart
-from ilmek.carpet.ground import GroundParams, ground_yarns
+from ilmek.carpet.dye_lots import rows_of_new_lots, whole
+from ilmek.carpet.ground import GroundParams, GroundYarn, ground_yarns, selvedge_yarn
 from ilmek.carpet.pile import PileParams, knot_length
+from ilmek.carpet.usual_pile import MassBand, published_band
 from ilmek.carpet.yarn import Yarn
+from ilmek.carpet.yarn_plan import YarnPlanParams, parse_hank, write_count
 from ilmek.elements.knot_kinds import FORMS
 
 
 @dataclass(frozen=True, slots=True)
 class YarnNeed:
-    """A line of the bill: yarn and use (pile, warp, weft), knots (0 for the ground), length [m], mass [kg], price.
+    """A line of the bill: yarn and use (pile, warp, weft, end, selvedge), knots (0 but for the pile).
 
-    price  None where no price per kg is known
+    length, mass  needed, waste included [m], [kg]
+    price         of what is to buy, reserve included; None where no price per kg is known
+    count         metric count and ply, like 5/2; "" for the ground
+    kept          mass that stays in the carpet [kg]
+    to_buy        mass with the reserve [kg]           hanks     to buy, whole ones
+    lots          dye lots for the mass to buy         lot_rows  rows, from 1 at the lower edge, where a new lot begins
     """
 
     name: str
@@ -27,14 +38,28 @@ class YarnNeed:
     length: float
     mass: float
     price: float | None = None
+    count: str = ""
+    kept: float = 0.0
+    to_buy: float = 0.0
+    hanks: int = 0
+    lots: int = 1
+    lot_rows: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
 class YarnBill:
-    """The bill: pile yarns in the order of the list (those with knots), then warp and wefts."""
+    """The bill: pile yarns in the order of the list (those with knots), then warp, wefts, ends and selvedges.
+
+    area      of the carpet [m²]
+    currency  of all prices
+    band      published mass of carpets of this density [kg/m²]; None: none is published
+    """
 
     pile: tuple[YarnNeed, ...]
     ground: tuple[YarnNeed, ...]
+    area: float
+    currency: str
+    band: MassBand | None = None
 
     @property
     def needs(self) -> tuple[YarnNeed, ...]:
@@ -48,40 +73,48 @@ class YarnBill:
 
     @property
     def pile_mass(self) -> float:
-        """Mass of the pile yarns [kg]."""
+        """Mass of the pile yarns needed [kg]."""
         return sum(need.mass for need in self.pile)
 
     @property
     def mass(self) -> float:
-        """Mass of all yarns [kg]."""
+        """Mass of all yarns needed [kg]."""
         return sum(need.mass for need in self.needs)
 
     @property
+    def mass_per_area(self) -> float:
+        """Mass of the finished carpet over its area [kg/m²], without waste and reserve."""
+        return sum(need.kept for need in self.needs) / self.area
+
+    @property
     def price(self) -> float | None:
-        """Price of the pile yarns; None unless every one has a price."""
-        prices = [need.price for need in self.pile if need.price is not None]
-        return sum(prices) if len(prices) == len(self.pile) else None
+        """Price of all yarns to buy; None unless every one has a price."""
+        prices = [need.price for need in self.needs if need.price is not None]
+        return sum(prices) if len(prices) == len(self.needs) else None
+
+    @property
+    def field(self) -> YarnNeed:
+        """The pile yarn with the most knots."""
+        return max(self.pile, key=lambda need: need.knots)
 
 
-def pile_need(yarn: Yarn, knots: int, length: float) -> YarnNeed:
-    """The line of a pile yarn, for its number of knots and the length of them all [m]."""
-    mass = length * yarn.linear_density
-    return YarnNeed(yarn.name, "pile", knots, length, mass, None if yarn.price is None else mass * yarn.price)
-
-
-def yarn_bill(chart: Chart, pile: PileParams | None = None, ground: GroundParams | None = None) -> YarnBill:
+def yarn_bill(chart: Chart, plan: YarnPlanParams | None = None, ground: GroundParams | None = None) -> YarnBill:
     """The yarn bill of a chart.
 
-    pile, ground  parameters; default: those of `PileParams` and `GroundParams`
+    plan    default: that of the class
+    ground  of the loom, whose ends are the plan's; default: that of the class
     """
-    tied = chart.tied
-    needs = tuple(pile_need(chart.yarns[yarn], tied.of(yarn), pile_length(chart, yarn, pile)) for yarn in chart.used)
-    uses = ("warp", "weft", "weft")
-    threads = ground_yarns(chart.size, chart.quality, chart.rows, chart.columns, ground)
-    return YarnBill(
-        needs,
-        tuple(YarnNeed(need.name, use, 0, need.length, need.mass) for need, use in zip(threads, uses, strict=True)),
+    plan = plan or YarnPlanParams()
+    ground = plan.ground(ground)
+    pile = plan.pile(chart.quality)
+    most = chart.yarns[max(chart.used, key=chart.tied.of)]
+    threads = (
+        *ground_yarns(chart.size, chart.quality, chart.rows, chart.columns, ground),
+        selvedge_yarn(chart.size, chart.quality, most.linear_density, ground),
     )
+    needs = tuple(_pile_need(chart, index, plan, pile, ground.yarns.pile) for index in chart.used)
+    lines = tuple(_ground_need(thread, most, plan) for thread in threads if thread.length > 0)
+    return YarnBill(needs, lines, chart.size.area, plan.currency, published_band(chart.quality))
 
 
 def pile_length(chart: Chart, yarn: int, pile: PileParams | None = None) -> float:
@@ -90,4 +123,43 @@ def pile_length(chart: Chart, yarn: int, pile: PileParams | None = None) -> floa
     numbers = {form: knots for form, knots in zip(FORMS, (of[yarn] for of in chart.tied), strict=True) if knots}
     return sum(
         (knots * knot_length(chart.knot, chart.quality, density, pile, form) for form, knots in numbers.items()), 0.0
+    )
+
+
+def _pile_need(chart: Chart, index: int, plan: YarnPlanParams, pile: PileParams, material: str) -> YarnNeed:
+    """The line of a pile yarn; of its knots both ends are cut, whatever their form."""
+    yarn, knots, length = chart.yarns[index], chart.tied.of(index), pile_length(chart, index, pile)
+    waste = 2 * pile.calibration * pile.cut_waste * knots
+    thread = GroundYarn(yarn.name, "pile", material, length, length * yarn.linear_density, max(0.0, 1 - waste / length))
+    rate = plan.price("pile", material) if yarn.price is None else yarn.price
+    need = _need(thread, plan, rate, yarn, knots)
+    rows = rows_of_new_lots(chart.knots, index, chart.counts[index] * plan.lot / need.to_buy, need.lots)
+    return replace(need, lot_rows=rows)
+
+
+def _ground_need(thread: GroundYarn, most: Yarn, plan: YarnPlanParams) -> YarnNeed:
+    """The line of a ground yarn; the selvedges are of the pile yarn with the most knots."""
+    if thread.use == "selvedge":
+        return _need(thread, plan, plan.price("pile", thread.material) if most.price is None else most.price, most)
+    return _need(thread, plan, plan.price("warp" if thread.use == "warp" else "weft", thread.material))
+
+
+def _need(
+    thread: GroundYarn, plan: YarnPlanParams, rate: float | None, yarn: Yarn | None = None, knots: int = 0
+) -> YarnNeed:
+    """The line of a yarn of a price per kg."""
+    to_buy, hank = thread.mass * (1 + plan.reserve), parse_hank(plan.hank)
+    share = thread.length * (1 + plan.reserve) / hank.length if hank.length else to_buy / (hank.mass or math.inf)
+    return YarnNeed(
+        thread.name,
+        thread.use,
+        knots,
+        thread.length,
+        thread.mass,
+        None if rate is None else to_buy * rate,
+        write_count(yarn) if yarn else "",
+        thread.kept * thread.mass,
+        to_buy,
+        whole(share),
+        max(1, whole(to_buy / plan.lot)),
     )

@@ -23,6 +23,7 @@ from ilmek.carpet.patches import count_patches
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.reading import Design, ReadParams, exact_design, read_design
 from ilmek.carpet.sizes import CarpetSize
+from ilmek.carpet.usual_pile import with_counts
 from ilmek.carpet.yarn import MOST_YARNS, Yarn, yarn_labs
 from ilmek.elements.knot_kinds import parse_knot
 from ilmek.errors import PictureError, YarnError
@@ -217,11 +218,16 @@ def chart_of_design(
     palette: PaletteParams | None = None,
     progress: Progress = SILENT,
 ) -> Chart:
-    """As `make_chart`, of a design with one colour for each knot, which the caller need not keep."""
+    """As `make_chart`, of a design with one colour for each knot, which the caller need not keep.
+
+    Yarns without a count take the usual one of the quality.
+    """
     _check_yarns(yarns)
     kind = parse_knot(knot)
     distinct = distinct_colours(design.colours, progress.part(0.0, 0.2))
-    chosen = choose_yarns(distinct, yarns, palette or PaletteParams(), progress.part(0.2, 0.4))
+    chosen = choose_yarns(
+        distinct, with_counts(yarns, quality, kind), palette or PaletteParams(), progress.part(0.2, 0.4)
+    )
     labs = yarn_labs(chosen)
     yarn_of, difference = nearest_yarns(distinct, labs, progress.part(0.4, 0.6))
     painted = paint(design.colours, distinct, yarn_of, progress.part(0.6, 0.7))

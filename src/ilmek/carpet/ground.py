@@ -4,6 +4,9 @@ Two wefts follow every row of knots: a straight, thick weft (Turkish alt atkı),
 of warps, and a sinuous, thin weft (üst atkı), which passes alternately over and under the warps.
 Both run from edge to edge of the cloth, selvedges included, and on by the turn into the next row.
 
+At both ends a strip of plain weave follows, close picks of the sinuous weft, each beside the last. At both sides the
+selvedge is overcast with pile yarn, turn beside turn: a helix about the selvedge's warps and wefts.
+
 Warp and wefts are those of `ilmek.elements.carpet_yarns`, the same as of the loom's machines.
 
 Sources: warp counts and the rule `warps = 2 × knots across, length = carpet + up to 60 cm`, iran-carpet.com 1726, 1804;
@@ -17,7 +20,8 @@ import scipy
 
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
-from ilmek.elements.carpet_yarns import CarpetYarnParams, CarpetYarns, carpet_yarns
+from ilmek.elements.carpet_yarns import CarpetYarnParams, CarpetYarns, YarnProperties, carpet_yarns
+from ilmek.elements.yarns import MATERIALS
 from ilmek.params import Params, nested, param
 from ilmek.units import mm
 
@@ -35,7 +39,12 @@ WEFT_SHARE = 0.5
 class GroundParams(Params):
     """Warp and wefts."""
 
-    fringe: float = param(0.10, unit="mm", at_least=0.0, at_most=1.0, doc="warp left at each end as fringe")
+    fringe: float = param(
+        0.10, unit="mm", at_least=0.0, at_most=1.0, doc="warp beyond the pile at each end: flat-woven end and fringe"
+    )
+    end_length: float = param(
+        0.02, unit="mm", at_least=0.0, at_most=1.0, doc="flat-woven end before the first row and after the last"
+    )
     loom_waste: float = param(0.40, unit="mm", at_least=0.0, at_most=10.0, doc="warp lost in the loom, both ends")
     selvedge_warps: int = param(SELVEDGE_WARPS, at_least=0, at_most=200, doc="warps without knots, both edges together")
     weft_turn: float = param(WEFT_TURN, unit="mm", at_least=0.0, at_most=0.5, doc="weft for the turn of a pick")
@@ -50,11 +59,17 @@ class GroundParams(Params):
 
 @dataclass(frozen=True, slots=True)
 class GroundYarn:
-    """Need of a ground yarn: name, length [m], mass [kg]."""
+    """Need of a ground yarn: name, use, material, length [m], mass [kg].
+
+    kept  share of it that stays in the carpet
+    """
 
     name: str
+    use: str
+    material: str
     length: float
     mass: float
+    kept: float = 1.0
 
 
 def sinuous_length(width: float, pitch: float, amplitude: float) -> float:
@@ -100,28 +115,59 @@ def weft_lengths(
     return WeftLengths(width + turn, sinuous_length(width, pitch, amplitude) + turn)
 
 
-def warp_need(columns: int, length: float, density: float, params: GroundParams) -> GroundYarn:
+def warp_need(columns: int, length: float, yarn: YarnProperties, params: GroundParams) -> GroundYarn:
     """Warp for `columns` knots across: two per knot and the selvedges.
 
-    length  of the carpet [m]; each warp is longer by both fringes and the loom's waste
-    density  of a warp [kg/m]
+    length  of the carpet [m]; each warp is longer by both ends and the loom's waste
     """
-    total = (2 * columns + params.selvedge_warps) * (length + 2 * params.fringe + params.loom_waste)
-    return GroundYarn("warp", total, total * density)
+    each = length + 2 * params.fringe + params.loom_waste
+    total = (2 * columns + params.selvedge_warps) * each
+    mass = total * yarn.linear_density
+    return GroundYarn("warp", "warp", yarn.material, total, mass, 1 - params.loom_waste / each)
 
 
 def ground_yarns(
     size: CarpetSize, quality: Quality, rows: int, columns: int, params: GroundParams | None = None
-) -> tuple[GroundYarn, GroundYarn, GroundYarn]:
-    """Warp, straight weft and sinuous weft of a carpet of rows × columns knots; the wefts bind the selvedges too."""
+) -> tuple[GroundYarn, GroundYarn, GroundYarn, GroundYarn]:
+    """Warp, straight weft, sinuous weft and ends of a carpet of rows × columns knots.
+
+    The wefts bind the selvedges too. The ends are of the sinuous weft; their picks lie beside each other.
+    """
     params = params or GroundParams()
     pitch = quality.warp_pitch
     yarns = carpet_yarns(params.yarns, pitch)
+    thin = yarns.sinuous_weft
     cloth = (2 * columns + params.selvedge_warps) * pitch
     a_row = weft_lengths(cloth, pitch, yarns, params.weft_turn, params.weft_share)
-    straight, sinuous = rows * a_row.straight, rows * a_row.sinuous
+    picks = 2 * math.ceil(params.end_length / thin.diameter)
     return (
-        warp_need(columns, size.length, yarns.warp.linear_density, params),
-        GroundYarn("straight weft", straight, straight * yarns.straight_weft.linear_density),
-        GroundYarn("sinuous weft", sinuous, sinuous * yarns.sinuous_weft.linear_density),
+        warp_need(columns, size.length, yarns.warp, params),
+        _weft("straight weft", "weft", yarns.straight_weft, rows * a_row.straight),
+        _weft("sinuous weft", "weft", thin, rows * a_row.sinuous),
+        _weft("ends", "end", thin, picks * a_row.sinuous),
     )
+
+
+def selvedge_yarn(
+    size: CarpetSize, quality: Quality, linear_density: float, params: GroundParams | None = None
+) -> GroundYarn:
+    """Pile yarn that overcasts both selvedges; none where no warp is without knots.
+
+    linear_density  mu of the pile yarn [kg/m], its diameter d
+
+    A selvedge of w warps of pitch p and diameter D is b = w p wide and t = D + s thick, s the sinuous weft's diameter.
+    A turn about it is a helix of the rise d:  s = sqrt((2 (b + t) + pi d)² + d²), one for each d of the length.
+    """
+    params = params or GroundParams()
+    pitch = quality.warp_pitch
+    yarns = carpet_yarns(params.yarns, pitch)
+    pile = MATERIALS[params.yarns.pile].diameter(linear_density)
+    if params.selvedge_warps == 0:
+        return GroundYarn("selvedges", "selvedge", params.yarns.pile, 0.0, 0.0)
+    around = 2 * (params.selvedge_warps / 2 * pitch + yarns.warp.diameter + yarns.sinuous_weft.diameter)
+    total = 2 * size.length / pile * math.hypot(around + math.pi * pile, pile)
+    return GroundYarn("selvedges", "selvedge", params.yarns.pile, total, total * linear_density)
+
+
+def _weft(name: str, use: str, yarn: YarnProperties, length: float) -> GroundYarn:
+    return GroundYarn(name, use, yarn.material, length, length * yarn.linear_density)

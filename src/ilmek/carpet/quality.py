@@ -5,7 +5,8 @@ Reading is exact (rational arithmetic, rounded once). Writing gives the shortest
 quality.
 
     pair      A × B knots over a length across and a length along     25x25/dm, 9x16/in, 9/60 (India)
-    line      N knots over a length, in both directions               40 raj (per gereh, 7 cm), 90 line (per foot)
+    line      N knots over a length, in both directions               40 raj (per gereh, 7 cm; 40raj/6.5cm for another),
+                                                                      90 line (per foot)
     area      N knots over an area, equal in both directions          130 kpsi (knots per square inch), 62500/m2
 
 Sources: raj = knots per gereh of 6.5 to 7 cm by town (Kerman and Tabriz 7); India A/B (bis/bhutan) = A knots in 0.9 in
@@ -118,7 +119,7 @@ NOTATIONS: dict[str, Notation] = {
     "m": _pair("m", "m", Fraction(1), Fraction(1)),
     "inch": _pair("in", "in|inch|inches", INCH, INCH),
     "india": _pair("", "", INCH * 9 / 10, INCH * 9 / 2),
-    "raj": _single(r"(?:raj|redj|radj)(?:\s*[@(]\s*([\d.]+)\s*cm\s*\)?)?", GEREH, GEREH, "{0}raj"),
+    "raj": _single(r"(?:raj|redj|radj)(?:\s*[/@(]\s*([\d.]+)\s*cm\s*\)?)?", GEREH, GEREH, "{0}raj"),
     "line": _single(r"lines?", INCH * 12, INCH * 12, "{0}line"),
     "kpsi": _single(r"kpsi", INCH**2, Fraction(0), "{0}kpsi"),
     "m2": _area("m", Fraction(1)),
@@ -140,6 +141,18 @@ def parse_quality(text: str) -> Quality:
     )
 
 
+def gereh_note(text: str) -> str:
+    """The gereh that a quality in raj is counted over, where the text leaves it open; "" for any other text.
+
+    >>> gereh_note("40 raj")
+    '40 raj is counted over a gereh of 7 cm; write 40raj/6.5cm for another'
+    """
+    matched = NOTATIONS["raj"].pattern.fullmatch(text.strip())
+    if matched is None or matched[3] is not None:
+        return ""
+    return f"{matched[1]} raj is counted over a gereh of 7 cm; write {matched[1]}raj/6.5cm for another"
+
+
 def _read(notation: Notation, first: str, second: str | None, gereh: str | None = None) -> Quality:
     """The quality of one or two numbers as text."""
     across, along = Fraction(first), Fraction(second or first)
@@ -155,7 +168,9 @@ def _gereh(text: str) -> Fraction:
     """The town's gereh [m] from centimetres."""
     if not re.fullmatch(r"[0-9]{1,15}(\.[0-9]{0,40})?", text) or not 5 <= Fraction(text) <= 10:
         raise CarpetError(
-            f"a gereh of {text} cm is out of bounds", allowed="5 to 10 cm; usual 6.5 to 7", do="40raj@6.5cm"
+            f"a gereh of {text} cm is out of bounds",
+            allowed="5 to 10 cm; usual 6.5 to 7",
+            do="like 40raj/6.5cm",
         )
     return Fraction(text) / 100
 
@@ -177,7 +192,7 @@ def write_quality(quality: Quality, notation: str, *, gereh: float = 0.07, digit
     form = NOTATIONS[notation]
     town = Fraction(str(gereh))
     if notation == "raj" and town != GEREH:
-        form = Notation(form.pattern, town, town, f"{{0}}raj@{_plain(town * 100, 12)}cm")
+        form = Notation(form.pattern, town, town, f"{{0}}raj/{_plain(town * 100, 12)}cm")
     if form.is_pair:
         across = _shortest(Fraction(quality.across) * form.across, form.across, digits)
         return form.form.format(across, _shortest(Fraction(quality.along) * form.along, form.along, digits))

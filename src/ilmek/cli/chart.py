@@ -16,7 +16,7 @@ from ilmek.jobs.chart import ChartResult, chart_json, chart_order
 from ilmek.jobs.order import read_order
 from ilmek.jobs.output_folder import free_folder
 from ilmek.jobs.recipe import saved_recipe
-from ilmek.units import format_quantity, g
+from ilmek.units import format_number, format_quantity, g
 
 EXAMPLES = """\b
 Examples:
@@ -78,6 +78,8 @@ def show_chart(charted: ChartResult) -> None:
             ("lone knots", f"{chart.lone_fraction:.2%}"),
             ("colour changes", f"{chart.changes_per_knot:.3f} per knot"),
             ("pile", pile_in_words(charted)),
+            ("carpet mass", mass_in_words(charted.bill)),
+            ("yarn to buy", to_buy_in_words(charted)),
         ]
     )
     show_yarn(charted.bill)
@@ -90,21 +92,45 @@ def _farthest(chart: Chart) -> str:
 
 
 def pile_in_words(charted: ChartResult) -> str:
-    """The pile's mass, mass per area, and share of the ground filled."""
-    mass, area = charted.bill.pile_mass, charted.chart.size.area
-    fill = charted.checks[0]
+    """The pile's height and counts, given or by the quality, and the share of the ground filled."""
+    plan, fill = charted.order.order.plan, charted.checks[0]
+    height = format_quantity(charted.pile.pile_height, "mm", 3)
+    counts = ", ".join(dict.fromkeys(need.count for need in charted.bill.pile))
     filled = f"{format_quantity(fill.value, fill.unit, 3)} of the ground filled"
-    return f"{format_quantity(mass, 'kg', 3)}, {format_quantity(mass / area, 'kg/m^2', 3)}, {filled}"
+    by_quality = " (by the quality)"
+    return (
+        f"{height} high{'' if plan.pile_height is not None else by_quality}, "
+        f"Nm {counts}{by_quality if charted.usual_counts else ''}, {filled}"
+    )
+
+
+def mass_in_words(bill: YarnBill) -> str:
+    """The mass of the finished carpet over its area, beside the published one."""
+    mass = format_quantity(bill.mass_per_area, "kg/m^2", 3)
+    if bill.band is None:
+        return f"{mass} (none is published for this density)"
+    return f"{mass} (published: {format_number(bill.band.least, 3)} to {format_number(bill.band.most, 3)})"
+
+
+def to_buy_in_words(charted: ChartResult) -> str:
+    """Mass to buy with its reserve, its price, and the dye lots of the yarn of most knots."""
+    bill, plan = charted.bill, charted.order.order.plan
+    to_buy = format_quantity(sum(need.to_buy for need in bill.needs), "kg", 3)
+    price = "" if bill.price is None else f", {bill.price:,.2f} {bill.currency}"
+    lots = f"{bill.field.lots} dye lots" if bill.field.lots > 1 else "one dye lot"
+    reserve = format_quantity(plan.reserve, "%", 3)
+    return f"{to_buy} with a reserve of {reserve}{price}; {bill.field.name}: {lots}"
 
 
 def show_yarn(bill: YarnBill) -> None:
     """Print the yarn bill as a table."""
     rows = [
         (need.name, need.use, f"{need.knots:,}" if need.knots else "", _amount(need.length), _amount(need.mass / g),
-         "" if need.price is None else f"{need.price:,.2f}")
+         _amount(need.to_buy / g), str(need.hanks), "" if need.price is None else f"{need.price:,.2f}")
         for need in bill.needs
     ]  # fmt: skip
-    show_table(("yarn", "use", "knots", "metres", "grams", "price"), rows, right=(2, 3, 4, 5))
+    names = ("yarn", "use", "knots", "metres", "grams", "to buy", "hanks", bill.currency)
+    show_table(names, rows, right=(2, 3, 4, 5, 6, 7))
 
 
 def _amount(value: float) -> str:

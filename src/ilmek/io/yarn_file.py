@@ -3,7 +3,7 @@
     [[yarn]]
     name = "madder red"
     srgb = "#8c1f28"          # or lab = [31.5, 45.0, 27.0]: CIELAB under D65
-    nm = 5.0                  # metric count of the single strand [m/g]
+    nm = 5.0                  # metric count of the single strand [m/g]; optional: by the quality of the carpet
     ply = 3
     price = 14.5              # per kilogram; optional
 
@@ -11,7 +11,7 @@ A CSV file has the columns name, srgb or lab ("31.5 45 27"), nm, ply, price; sep
 Empty lines and lines that begin with # are ignored.
 
 A record is one yarn as read from the file: a mapping with the fields `name`, `srgb` ("#8b1a1a") or `lab` ([L, a, b]),
-`nm`, `ply` and `price`, numbers or texts.
+`nm`, `ply` and `price`, numbers or texts. Prices are per kilogram, in the currency of the yarn plan.
 """
 
 import re
@@ -23,7 +23,7 @@ from typing import TypeAlias
 import numpy as np
 
 from ilmek.carpet.colour import lab_to_srgb, srgb_to_lab
-from ilmek.carpet.yarn import MOST_YARNS, Yarn
+from ilmek.carpet.yarn import COUNTS, MOST_YARNS, PLIES, Yarn
 from ilmek.errors import YarnError, did_you_mean, shortened
 from ilmek.io.csv_lines import csv_lines, decimal_points
 from ilmek.io.data_text import LONGEST_NAME, parse_data
@@ -120,8 +120,11 @@ def yarns_from_records(records: Sequence[Record]) -> tuple[Yarn, ...]:
             f"the yarn list has {count}", allowed=f"2 to {MOST_YARNS} yarns", do="a design needs two colours"
         )
     yarns = tuple(_yarn(record, number) for number, record in enumerate(records, start=1))
+    counted = any(yarn.metric_count is not None for yarn in yarns)
     seen: dict[str, int] = {}
     for number, yarn in enumerate(yarns, start=1):
+        if counted and yarn.metric_count is None:
+            raise _no_count(f"yarn {number} ({shortened(yarn.name)})")
         first = seen.setdefault(yarn.name.casefold(), number)
         if first != number:
             raise YarnError(
@@ -143,15 +146,23 @@ def _yarn(record: Record, number: int) -> Yarn:
         raise YarnError(f"yarn {number} has the name {shortened(ascii(name))}", allowed=allowed)
     srgb, lab = _colour(record, called)
     count = _number(record, "nm", called)
-    if count is None:
-        raise YarnError(f"{called} has no nm", allowed="the metric count, m/g of one strand", do="like nm = 2.5")
     ply = _number(record, "ply", called)
+    if count is None and ply is not None:
+        raise _no_count(called)
     if ply is not None and ply != round(ply):
         raise YarnError(f"{called}: ply {ply:g} is not a whole number", allowed="strands twisted together: 1 to 64")
     return Yarn(name, srgb, lab, count, 1 if ply is None else round(ply), _number(record, "price", called))
 
 
-_BOUNDS = {"nm": (0.05, 500.0), "ply": (1.0, 64.0), "price": (0.0, 1e6)}
+def _no_count(called: str) -> YarnError:
+    return YarnError(
+        f"{called} has no nm",
+        allowed="the metric count, m/g of one strand, of every yarn or of none",
+        do="like nm = 2.5; without any nm and ply the count follows from the quality",
+    )
+
+
+_BOUNDS: Mapping[str, tuple[float, float]] = {"nm": COUNTS, "ply": PLIES, "price": (0.0, 1e6)}
 
 
 def _number(record: Record, field: str, called: str) -> float | None:

@@ -1,6 +1,5 @@
 """From a picture to knot chart and yarn bill, and their files."""
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
@@ -11,7 +10,7 @@ from ilmek.carpet.bill import YarnBill, YarnNeed, yarn_bill
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.fitting import Fit
 from ilmek.carpet.matches import shared_yarns
-from ilmek.carpet.pile import PileParams, coarsest_count, fill_check, pile_fill
+from ilmek.carpet.pile import PileParams, fill_check, pile_fill
 from ilmek.carpet.statistics import chart_statistics
 from ilmek.carpet.yarn import Yarn
 from ilmek.io.chart.pdf import chart_cut, write_chart_pdf
@@ -23,10 +22,10 @@ from ilmek.jobs.charting import chart_of_order
 from ilmek.jobs.order import MOST_PRINTED, MOST_SHEETS, CarpetOrder, ResolvedOrder
 from ilmek.jobs.recipe import chart_of_recipe
 from ilmek.jobs.rows import rows_plan, write_rows
+from ilmek.jobs.yarn_warnings import yarn_warnings
 from ilmek.progress import SILENT, Progress
-from ilmek.report import Check, verdict_json
+from ilmek.report import Check, plain, verdict_json
 from ilmek.report.left_out import made_or_left_out
-from ilmek.units import format_quantity
 from ilmek.viz.carpet_picture import check_carpet_width, write_carpet_png
 
 MOST_SHARED = 5
@@ -53,6 +52,12 @@ class ChartResult:
         return self.order.order.plan.pile(self.chart.quality)
 
     @property
+    def usual_counts(self) -> bool:
+        """Whether the counts of the pile yarns follow from the quality."""
+        order = self.order.order
+        return order.plan.yarn_count is None and (order.yarns is None or order.yarns[0].metric_count is None)
+
+    @property
     def files(self) -> tuple[str, ...]:
         """Names of the files that `write_chart` writes."""
         rows = rows_plan(self.chart, self.order.order).names
@@ -75,19 +80,8 @@ class ChartResult:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """Colours that have one yarn together, and remedies for the checks that fail."""
-        return (*_shared_yarns(self.chart), *self._remedies)
-
-    @property
-    def _remedies(self) -> tuple[str, ...]:
-        if not (fails := [check for check in self.checks if not check.ok]):
-            return ()
-        yarn = self.thickest
-        # Rounded up, because a finer count fits.
-        fits = math.ceil(100 * coarsest_count(self.chart.quality, yarn.ply, self.pile)) / 100
-        problem = f"{yarn.name!r} (Nm {yarn.metric_count:g}, ply {yarn.ply}) is too thick for {self.chart.quality}"
-        takes = f"its pile would take {format_quantity(fails[0].value, '%', 3)} of the ground"
-        return (f"{problem}: {takes}; with ply {yarn.ply}, Nm {fits:g} or finer fits, or take a coarser quality",)
+        """Colours that have one yarn together, remedies for the checks that fail, the mass, dye lots."""
+        return (*_shared_yarns(self.chart), *yarn_warnings(self.chart, self.bill, self.thickest, self.checks[0]))
 
 
 def chart_order(
@@ -128,8 +122,9 @@ def make_charted(order: CarpetOrder, progress: Progress = SILENT, *, with_source
     made = charted_by(order, progress, with_source=with_source)
     chart = made.chart
     check_carpet_width(chart.size, order.files.carpet_width)
-    bill = yarn_bill(chart, order.plan.pile(chart.quality))
-    return ChartResult(made.order, chart, bill, (*made.notes, *_left_out(order, chart)), made.source)
+    bill = yarn_bill(chart, order.plan)
+    notes = (*order.notes, *made.notes, *_left_out(order, chart))
+    return ChartResult(made.order, chart, bill, notes, made.source)
 
 
 def _shared_yarns(chart: Chart) -> tuple[str, ...]:
@@ -182,7 +177,11 @@ def chart_results(charted: ChartResult) -> dict[str, Any]:
         "pile_mass": bill.pile_mass,
         "pile_mass_per_area": bill.pile_mass / chart.size.area,
         "yarn_mass": bill.mass,
+        "pile_height": charted.pile.pile_height,
+        "mass_per_area": bill.mass_per_area,
+        "mass_band": None if bill.band is None else [bill.band.least, bill.band.most],
         "price": bill.price,
+        "currency": bill.currency,
     }
 
 
@@ -199,8 +198,11 @@ def fit_results(fit: Fit) -> dict[str, Any]:
     return {one.name: getattr(fit, one.name) for one in fields(fit)}
 
 
+_NEED = ("name", "use", "knots", "length", "mass", "price", "count", "to_buy", "hanks", "lots", "lot_rows")
+
+
 def _need(need: YarnNeed) -> dict[str, Any]:
-    return {name: getattr(need, name) for name in ("name", "use", "knots", "length", "mass", "price")}
+    return {name: plain(getattr(need, name)) for name in _NEED}
 
 
 def write_chart(

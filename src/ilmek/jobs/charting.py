@@ -61,7 +61,8 @@ def chart_of_order(order: CarpetOrder, progress: Progress = SILENT, *, with_sour
         made = order.resolved()
         check_sheets(made.size, made.quality, order)
         if _keeps_knots(order, chart):
-            return OrderedChart(made, replace(chart, size=made.size, quality=made.quality, knot=made.knot), notes)
+            kept = replace(chart, yarns=made.yarns, size=made.size, quality=made.quality, knot=made.knot)
+            return OrderedChart(made, kept, notes)
         rgb = np.array([yarn.srgb for yarn in chart.yarns], dtype=np.uint8)[chart.knots]
         prepared, fit = prepare_picture(rgb, order.fit, progress.part(0.2, 0.25))
         drawn = given.size is None and _is_part(prepared, chart)

@@ -13,7 +13,7 @@ from typing import Any
 from ilmek.carpet.design import knot_grid
 from ilmek.carpet.fitting import FitParams
 from ilmek.carpet.palette_rules import PaletteParams
-from ilmek.carpet.quality import Quality, parse_quality
+from ilmek.carpet.quality import Quality, gereh_note, parse_quality
 from ilmek.carpet.reading import ReadParams
 from ilmek.carpet.recipe.edits import located
 from ilmek.carpet.recipe.recipe import Recipe
@@ -59,6 +59,7 @@ class CarpetOrder:
     pdf      print the chart; default: if it has few enough sheets (`MOST_SHEETS`)
     recipe   of the carpet, if `picture` is its file; default: the carpet is the picture
     yarn_file  of the yarns, if they are from a file      loom  what the recipe sets of the loom
+    notes    on what the texts of the order leave open
     """
 
     picture: Path
@@ -75,6 +76,7 @@ class CarpetOrder:
     recipe: Recipe | None = None
     yarn_file: Path | None = None
     loom: LoomKeys = field(default_factory=LoomKeys)
+    notes: tuple[str, ...] = ()
 
     @property
     def inputs(self) -> dict[str, Path]:
@@ -84,14 +86,10 @@ class CarpetOrder:
         return {"PICTURE": self.picture, **{f"{path.name} of the recipe": path for path in pictures}, **yarns}
 
     def resolved(self) -> "ResolvedOrder":
-        """The order with the defaults for all that is left open."""
-        return ResolvedOrder(
-            self,
-            self.size or parse_size(SIZE),
-            self.quality or parse_quality(QUALITY),
-            self.knot or KNOT,
-            self.yarns or default_yarns(),
-        )
+        """The order with the defaults for all that is left open; each yarn has its count."""
+        quality, knot = self.quality or parse_quality(QUALITY), self.knot or KNOT
+        yarns = self.plan.counted(self.yarns or default_yarns(), quality, knot)
+        return ResolvedOrder(self, self.size or parse_size(SIZE), quality, knot, yarns)
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,6 +141,7 @@ def read_order(
         "yarns": None if yarn_file is None else read_yarns(yarn_file),
         "yarn_file": yarn_file,
         "pdf": pdf,
+        "notes": (gereh_note(quality),) if quality and gereh_note(quality) else None,
     }
     groups = read_groups({**({} if found is None else found.settings), **_given(settings)})
     order = replace(base, **_given(given), **groups)

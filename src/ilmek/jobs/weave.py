@@ -103,7 +103,7 @@ def _weave(
     charted = make_charted(order, progress.part(0.0, 0.4, "picture"), with_source=True)
     loom_order = replace(loom_order, params=params_for(loom_order, charted))
     loomed = make_loomed(loom_order, charted, progress.part(0.4, 0.5, "loom"))
-    charted = replace(charted, bill=yarn_bill(charted.chart, charted.pile, loom_order.params.ground))
+    charted = replace(charted, bill=yarn_bill(charted.chart, order.plan, loom_order.params.ground))
     woven = WeaveResult(charted, loom_order, loomed, folder)
     left_out: list[str] = []
     with outputs.folder(folder) as work:

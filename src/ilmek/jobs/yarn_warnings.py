@@ -1,0 +1,64 @@
+"""What to do where the yarn of a carpet does not fit, weighs too much or too little, or takes several dye lots."""
+
+import math
+
+from ilmek.carpet.bill import YarnBill
+from ilmek.carpet.chart import Chart
+from ilmek.carpet.pile import coarsest_count
+from ilmek.carpet.quality import Quality
+from ilmek.carpet.usual_pile import BAND_SOURCE, USUAL_PLY, usual_count
+from ilmek.carpet.yarn import Yarn
+from ilmek.report import Check
+from ilmek.units import format_number, format_quantity
+
+
+def yarn_warnings(chart: Chart, bill: YarnBill, thickest: Yarn, fill: Check) -> tuple[str, ...]:
+    """The warnings on the yarn of a chart: the thickest yarn that is used, the mass, the dye lots of the field."""
+    found = (too_thick(chart, thickest, fill), mass_warning(bill, chart.quality), lot_warning(bill))
+    return tuple(filter(None, found))
+
+
+def too_thick(chart: Chart, thickest: Yarn, fill: Check) -> str:
+    """The count that fits where the pile does not; "" where it does."""
+    if fill.ok:
+        return ""
+    yarn, quality = thickest, chart.quality
+    # Rounded up, because a finer count fits.
+    fits = math.ceil(100 * coarsest_count(quality, yarn.ply)) / 100
+    usual = f"{usual_count(quality, chart.knot):g}/{USUAL_PLY}"
+    problem = f"{yarn.name!r} (Nm {yarn.metric_count:g}, ply {yarn.ply}) is too thick for {quality}"
+    takes = f"its pile would take {format_quantity(fill.value, '%', 3)} of the ground"
+    finer = f"with ply {yarn.ply}, Nm {fits:g} or finer fits; usual is {usual}: --yarn-count {usual}"
+    return f"{problem}: {takes}; {finer}, or take a coarser quality"
+
+
+def mass_warning(bill: YarnBill, quality: Quality) -> str:
+    """What to do where the carpet's mass is outside the published band; "" where it is within or none is published."""
+    band = bill.band
+    if band is None or bill.mass_per_area in band:
+        return ""
+    light = bill.mass_per_area < band.least
+    mass = format_quantity(bill.mass_per_area, "kg/m^2", 3)
+    published = f"{format_number(band.least, 3)} to {format_quantity(band.most, 'kg/m^2', 3)}"
+    cure = "a heavier yarn or a higher pile" if light else "a finer yarn or a lower pile"
+    return (
+        f"the carpet weighs {mass}, {'below' if light else 'above'} the {published} published for {quality} "
+        f"({BAND_SOURCE}): calibrate, or take {cure} (--calibration, --yarn-count, --pile-height)"
+    )
+
+
+def lot_warning(bill: YarnBill) -> str:
+    """The rows in which the field's dye lot changes; "" where it comes from one."""
+    field = bill.field
+    if field.lots == 1:
+        return ""
+    listed = ", ".join(str(row) for row in field.lot_rows[:_MOST_ROWS])
+    more = "" if len(field.lot_rows) <= _MOST_ROWS else f" and {len(field.lot_rows) - _MOST_ROWS} more"
+    return (
+        f"{field.name!r}, the yarn of the most knots, needs {field.lots} dye lots: a new one begins in row {listed}"
+        f"{more} from the lower edge; blend there, row by row, or find a larger lot (--lot)"
+    )
+
+
+_MOST_ROWS = 8
+"""Largest number of rows that a warning lists."""
