@@ -129,6 +129,16 @@ def spans_by_yarn(runs: tuple[Run, ...]) -> dict[int, list[Span]]:
     return dict(sorted(found.items()))
 
 
+def span_text(span: Span, columns: int, rightward: bool) -> str:
+    """The cells of a span as numbers from the edge where the row begins.
+
+    >>> span_text(Span(0, 3, "L"), 10, True), span_text(Span(0, 1, ""), 10, False)
+    ('1-3L', '10')
+    """
+    first = span.first + 1 if rightward else columns - span.first - span.cells + 1
+    return f"{first}{f'-{first + span.cells - 1}' if span.cells > 1 else ''}{span.part}"
+
+
 def directions(number: int, direction: str) -> Iterator[bool]:
     """The directions in which a row is read, True from left to right; `direction` of DIRECTIONS."""
     right = direction in ("both", "right") or (direction == "alternate" and number % 2 == 1)

@@ -33,6 +33,7 @@ main = LazyGroup(
             "Turn a picture into a chart, a yarn bill, a loom and its programme.",
         ),
         "chart": ("ilmek.cli.chart", "Make only the knot chart of a picture and the yarn bill."),
+        "call": ("ilmek.cli.call", "Call a chart row by row on a terminal, for the weaver."),
         "machines": ("ilmek.cli.machines", "List the machines, or the parameters of one machine."),
         "design": ("ilmek.cli.design", "Design one machine and report it."),
         "mechanism": ("ilmek.cli.mechanism", "Analyse a mechanism from a file: structure, mobility, motion, report."),

@@ -31,6 +31,9 @@ _LONGEST = 2000
 _ERRORS: list[int] = []
 """A handle of the error stream of its own: from the usual one, messages of a library that decodes are caught."""
 
+_RESTORES: list[tuple[Callable[[], object], str]] = []
+"""What is done before a signal ends the process, to set back a terminal; and what the line then states."""
+
 _POLL = 0.1
 """Interval in which the main thread looks for signals that another thread has received [s]."""
 
@@ -54,6 +57,16 @@ def handle(numbers: Iterable[int]) -> None:
             _ERRORS.append(os.dup(sys.stderr.fileno()))
     for number in numbers:
         signal.signal(number, _end)
+
+
+@contextlib.contextmanager
+def before_end(restore: Callable[[], object], account: str) -> Iterator[None]:
+    """Call `restore` where a signal ends the process inside of the block, and state `account`: what is kept."""
+    _RESTORES.append((restore, account))
+    try:
+        yield
+    finally:
+        _RESTORES.pop()
 
 
 def leave(message: str, status: int) -> NoReturn:
@@ -116,7 +129,11 @@ def _end(number: int, _frame: FrameType | None) -> NoReturn:
     try:
         for other in SIGNALS:
             signal.signal(other, signal.SIG_IGN)  # one is enough
-        line = _line(f"interrupted; {_output('abandon')}")
+        account = _output("abandon")
+        for restore, account in _RESTORES:  # noqa: B007 - the last one is stated
+            with contextlib.suppress(Exception):
+                restore()
+        line = _line(f"interrupted; {account}")
         for errors in _ERRORS:
             if os.isatty(errors):
                 line = f"\r\x1b[2K\x1b[?25h{line}"  # on the line of the progress bar, with the cursor that it hid

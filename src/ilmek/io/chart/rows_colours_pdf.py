@@ -9,7 +9,7 @@ from reportlab.lib.pagesizes import A4
 from reportlab.pdfgen.canvas import Canvas
 
 from ilmek.carpet.chart import Chart
-from ilmek.carpet.rows import Run, Span, directions, row_codes, runs_of, spans_by_yarn
+from ilmek.carpet.rows import Run, directions, row_codes, runs_of, span_text, spans_by_yarn
 from ilmek.io.chart.front_pages import draw_legend
 from ilmek.io.chart.inks import Inks
 from ilmek.io.chart.pdf import plain_streams
@@ -38,16 +38,6 @@ class ColourLine:
     text: str
     yarn: int | None = None
     knots: int = 0
-
-
-def span_text(span: Span, columns: int, rightward: bool) -> str:
-    """The cells of a span as numbers from the edge where the row begins.
-
-    >>> span_text(Span(0, 3, "L"), 10, True), span_text(Span(0, 1, ""), 10, False)
-    ('1-3L', '10')
-    """
-    first = span.first + 1 if rightward else columns - span.first - span.cells + 1
-    return f"{first}{f'-{first + span.cells - 1}' if span.cells > 1 else ''}{span.part}"
 
 
 def _row_lines(number: int, runs: tuple[Run, ...], columns: int, direction: str) -> Iterator[ColourLine]:
