@@ -18,6 +18,7 @@ from ilmek.io.chart.png import write_chart_png
 from ilmek.io.json_file import write_json
 from ilmek.io.output import Outputs, joined
 from ilmek.io.yarn_csv import write_yarn_csv
+from ilmek.jobs.carpet_report import page_of
 from ilmek.jobs.charting import chart_of_order
 from ilmek.jobs.order import MOST_PRINTED, MOST_SHEETS, CarpetOrder, ResolvedOrder
 from ilmek.jobs.recipe import chart_of_recipe
@@ -26,6 +27,7 @@ from ilmek.jobs.yarn_warnings import yarn_warnings
 from ilmek.progress import SILENT, Progress
 from ilmek.report import Check, plain, verdict_json
 from ilmek.report.left_out import made_or_left_out
+from ilmek.viz.carpet_page import CarpetPage, carpet_page
 from ilmek.viz.carpet_picture import check_carpet_width, write_carpet_png
 
 MOST_SHARED = 5
@@ -103,14 +105,34 @@ def chart_order(
         return make_charted(order, progress), []
     with joined(outputs, force=force, progress=progress) as made:
         made.expect_folder(folder, "--out")
-        charted = make_charted(order, progress.part(0.0, 0.7))
+        charted = make_charted(order, progress.part(0.0, 0.6), with_source=True)
         left_out: list[str] = []
         with made.folder(folder) as work:
-            written = write_chart(charted, work, left_out, progress.part(0.7, 1.0, "files"))
+            written = write_chart(charted, work, left_out, progress.part(0.6, 0.9, "files"))
+            names = ["report.html", *written, "chart.json"]
+            shown = _page(charted, (*names, "chart.json"), left_out)
+            drawing = progress.part(0.9, 1.0, "report.html")
+            page = made_or_left_out("report.html", lambda: carpet_page(shown, left_out, drawing), left_out)
+            if page is None:
+                names.remove("report.html")
+            else:
+                (work / "report.html").write_text(page, encoding="utf-8")
             charted = replace(charted, notes=(*charted.notes, *left_out))
-            files = [str(folder / name) for name in (*written, "chart.json")]
+            files = [str(folder / name) for name in names]
             write_json(work / "chart.json", chart_json(charted, files))
     return charted, files
+
+
+def _page(charted: ChartResult, names: Sequence[str], left_out: Sequence[str]) -> CarpetPage:
+    return page_of(
+        charted.order.order.picture.stem,
+        charted.chart,
+        charted.bill,
+        charted.source,
+        names,
+        checks=charted.checks,
+        warnings=(*charted.warnings, *charted.notes, *left_out),
+    )
 
 
 def make_charted(order: CarpetOrder, progress: Progress = SILENT, *, with_source: bool = False) -> ChartResult:

@@ -6,12 +6,12 @@ from typing import Any
 
 from ilmek.carpet.bill import yarn_bill
 from ilmek.carpet.chart import Chart
-from ilmek.io.chart.symbols import symbols
 from ilmek.io.json_file import write_json
 from ilmek.io.output import Outputs, joined
 from ilmek.io.programme_file import write_programme
 from ilmek.io.programme_meta import Label
 from ilmek.jobs.carpet_files import file_notes
+from ilmek.jobs.carpet_report import page_of
 from ilmek.jobs.chart import ChartResult, chart_results, job_json, make_charted, write_chart
 from ilmek.jobs.loom import LoomOrder, LoomResult, make_loomed, params_for
 from ilmek.jobs.order import CarpetOrder
@@ -19,7 +19,8 @@ from ilmek.progress import SILENT, Progress
 from ilmek.report import NEAREST, Check, Report, must, verdict_json
 from ilmek.report.left_out import made_or_left_out
 from ilmek.units import format_quantity, hour
-from ilmek.viz.page import CarpetPage, carpet_page
+from ilmek.viz.carpet_page import CarpetPage, carpet_page
+from ilmek.viz.loom_page import BAD, GOOD, LoomPage, loom_page
 from ilmek.viz.page_parts import Fact, FileNote
 
 
@@ -110,14 +111,20 @@ def _weave(
         written = write_chart(charted, work, left_out, progress.part(0.5, 0.7, "chart"))
         written = (*written, *_write_programme(woven, work, progress.part(0.7, 0.8, "programme")))
         write_json(work / "machine.json", machine_json(woven))
+        written = ("report.html", "loom.html", *written, "machine.json", "report.json")
+        woven = replace(woven, written=written, left_out=tuple(left_out))
         drawing = progress.part(0.8, 1.0, "report")
-        written = (*written, "machine.json", "report.html", "report.json")
-        woven = replace(woven, written=written, left_out=tuple(left_out))
-        page = made_or_left_out("report.html", lambda: carpet_page(_page(woven), left_out, drawing), left_out)
-        if page is not None:
-            (work / "report.html").write_text(page, encoding="utf-8")
-        written = tuple(name for name in written if name != "report.html" or page is not None)
-        woven = replace(woven, written=written, left_out=tuple(left_out))
+        pages = {
+            "loom.html": lambda: loom_page(_loom_page(woven), left_out, drawing.part(0.0, 0.5)),
+            "report.html": lambda: carpet_page(_carpet_page(woven), left_out, drawing.part(0.5, 1.0)),
+        }
+        for name, make in pages.items():
+            page = made_or_left_out(name, make, left_out)
+            if page is not None:
+                (work / name).write_text(page, encoding="utf-8")
+            else:
+                written = tuple(one for one in written if one != name)
+            woven = replace(woven, written=written, left_out=tuple(left_out))
         write_json(work / "report.json", weave_json(woven))
     return woven
 
@@ -189,19 +196,33 @@ def time_in_words(seconds: float) -> str:
     return format_quantity(seconds, "h", 3) if seconds >= hour else format_quantity(seconds, "min", 3)
 
 
-def _page(woven: WeaveResult) -> CarpetPage:
-    chart = woven.charted.chart
-    return CarpetPage(
-        title=woven.charted.order.order.picture.stem,
-        lead=f"{chart.size}, {chart.quality}, {chart.knot} knot",
-        chart=chart,
-        bill=woven.charted.bill,
-        symbols=symbols(len(chart.yarns)),
+def _carpet_page(woven: WeaveResult) -> CarpetPage:
+    charted = woven.charted
+    return page_of(
+        charted.order.order.picture.stem,
+        charted.chart,
+        charted.bill,
+        charted.source,
+        woven.written,
         facts=_loom_facts(woven),
+        good=GOOD,
+        bad=BAD,
+        checks=woven.checks,
+        warnings=(*charted.warnings, *charted.notes, *woven.loomed.notes, *woven.left_out),
+        loom="loom.html",
+        nearest=woven.loom.nearest,
+    )
+
+
+def _loom_page(woven: WeaveResult) -> LoomPage:
+    chart = woven.charted.chart
+    return LoomPage(
+        title=f"Loom for {woven.charted.order.order.picture.stem}",
+        lead=f"{chart.size}, {chart.quality}, {chart.knot} knot",
+        back="report.html",
         reports=(woven.loom.own(), *woven.loom.children),
         checks=woven.own_checks,
-        files=woven.notes,
-        warnings=(*woven.charted.warnings, *woven.charted.notes, *woven.loomed.notes, *woven.left_out),
+        warnings=woven.loomed.notes,
         choices=woven.loom.all_choices,
         nearest=woven.loom.nearest,
     )

@@ -1,0 +1,54 @@
+"""The page of a carpet from its chart: what `weave` and `chart` show of it."""
+
+from collections.abc import Sequence
+from typing import Any
+
+from ilmek.arrays import Rgb
+from ilmek.carpet.bill import YarnBill
+from ilmek.carpet.chart import Chart
+from ilmek.carpet.statistics import chart_statistics
+from ilmek.io.chart.symbols import symbols
+from ilmek.jobs.carpet_files import file_notes
+from ilmek.viz.carpet_page import CarpetPage
+from ilmek.viz.number_format import count, share
+from ilmek.viz.page_parts import Fact
+
+
+def page_of(
+    title: str, chart: Chart, bill: YarnBill, source: Rgb | None, files: Sequence[str], **more: Any
+) -> CarpetPage:
+    """The contents of the page.
+
+    files  names of the files of the folder      more  further fields of `CarpetPage`
+    """
+    return CarpetPage(
+        title=title,
+        lead=f"{chart.size}, {chart.quality}, {chart.knot} knot",
+        chart=chart,
+        bill=bill,
+        statistics=chart_statistics(chart),
+        symbols=symbols(len(chart.yarns)),
+        source=source,
+        reading=reading_lines(chart),
+        files=file_notes(files),
+        **more,
+    )
+
+
+def reading_lines(chart: Chart) -> tuple[Fact, ...]:
+    """How a picture became a chart: reading, fit, changed and foreign knots, difference of the yarns."""
+    made, knots = chart.reading, int(chart.knots.size)
+    lines = [Fact("Read as", made.kind, made.reason), Fact("Fit", made.fit.words)]
+    note = f"{share(made.changed, knots)} of all" if made.changed else ""
+    lines.append(Fact("Changed knots", count(made.changed) if made.changed else "none", note))
+    if made.foreign is not None:
+        lines.append(Fact("Knots of a colour that is not in their cell", *_part(made.foreign, knots)))
+    exact = sum(one.worst == 0 for one, cells in zip(made.differences, chart.counts, strict=False) if cells)
+    if made.differences:
+        matched = f"{exact} of {chart.colours} yarns are exactly a colour of the picture"
+        lines.append(Fact("Mean ΔE of the yarns to the picture", f"{made.mean_delta_e:.2f}", matched))
+    return tuple(lines)
+
+
+def _part(part: int, whole: int) -> tuple[str, str]:
+    return (count(part), f"{share(part, whole)} of all") if part else ("none", "")

@@ -1,0 +1,173 @@
+"""The pictures of a carpet's page, and the data by which the page tells row, knot and yarn under the pointer.
+
+The chart's picture is thinned to every n-th row and knot where the chart is large. Each of its pixels is the knot of
+that row and column, so what the page tells of a pixel is exact. Yarns of one colour are told apart by their codes in
+the picture, which differ by a step that nobody sees.
+"""
+
+import base64
+import io
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from PIL import Image
+
+from ilmek.arrays import Rgb
+from ilmek.carpet.chart import Chart
+from ilmek.carpet.colour import LINEAR
+from ilmek.progress import SILENT, Progress
+from ilmek.report.left_out import made_or_left_out
+from ilmek.viz.carpet_picture import Pile, carpet_picture, close_up, pile_part
+
+LARGEST = 1600
+"""Largest number of pixels along the longer side of the chart's picture."""
+
+_TALLEST = 940
+"""Largest height of the compared pictures on the page [px]."""
+
+_SHARP = 700
+"""Largest width of a chart whose knots are drawn with sharp edges: each is at least a pixel of the page."""
+
+
+@dataclass(frozen=True, slots=True)
+class PagePicture:
+    """A picture of the page: data URL, proportions, description."""
+
+    source: str
+    width: int
+    height: int
+    alt: str
+    sharp: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class CarpetPictures:
+    """The pictures of a carpet; None for one that cannot be drawn, or is not there.
+
+    pile  where the picture of the carpet shows the pile
+    data  of the chart's picture: rows, columns, step, and of each yarn code, name, symbol, colour of letters
+    """
+
+    source: PagePicture | None
+    chart: PagePicture | None
+    carpet: PagePicture | None
+    knots: PagePicture | None
+    pile: Pile
+    data: dict[str, Any]
+
+    @property
+    def widest(self) -> int:
+        """Largest width of the compared pictures [px], so that a runner is not taller than a screen."""
+        shown = self.carpet or self.chart or self.source
+        return 1 if shown is None else max(1, round(_TALLEST * shown.width / shown.height))
+
+
+def pictures(
+    chart: Chart, source: Rgb | None, symbols: str, left_out: list[str], progress: Progress = SILENT
+) -> CarpetPictures:
+    """The pictures of a page; a warning is added to `left_out` for each that cannot be drawn."""
+    step, codes = thinning(chart), yarn_codes(chart)
+
+    def made(what: str, make: Callable[[], PagePicture]) -> PagePicture | None:
+        return made_or_left_out(f"the picture of {what}", make, left_out)
+
+    data = {
+        "rows": chart.rows,
+        "columns": chart.columns,
+        "step": step,
+        "codes": [red << 16 | green << 8 | blue for red, green, blue in codes],
+        "names": [yarn.name for yarn in chart.yarns],
+        "symbols": list(symbols),
+        "letters": [letter(yarn.srgb) for yarn in chart.yarns],
+    }
+    return CarpetPictures(
+        None if source is None else made("the source", lambda: _of_the_source(source, chart)),
+        made("the chart", lambda: _of_the_chart(chart, step, codes)),
+        made("the carpet", lambda: _of_the_carpet(chart, progress)),
+        made("the knots", lambda: _of_the_knots(chart)),
+        pile_part(chart),
+        data,
+    )
+
+
+def thinning(chart: Chart) -> int:
+    """Every which row and knot the page's picture of the chart shows; 1: all."""
+    return -(-max(chart.rows, chart.columns) // LARGEST)
+
+
+def yarn_codes(chart: Chart) -> list[tuple[int, int, int]]:
+    """The sRGB code of each yarn in the page's picture of the chart: its own, or the nearest that no other one has."""
+    taken: set[tuple[int, int, int]] = {yarn.srgb for yarn in chart.yarns}
+    seen: set[tuple[int, int, int]] = set()
+    codes = []
+    for yarn in chart.yarns:
+        code = yarn.srgb
+        if code in seen:
+            code = next(near for near in _near(code) if near not in taken)
+        seen.add(code)
+        taken.add(code)
+        codes.append(code)
+    return codes
+
+
+def _near(code: tuple[int, int, int]) -> Sequence[tuple[int, int, int]]:
+    """The codes about a code, the nearest first; more of them than yarns."""
+    red, green, blue = code
+    reach = range(-8, 9)
+    near = [(red + r, green + g, blue + b) for r in reach for g in reach for b in reach]
+    inside = [one for one in near if all(0 <= channel <= 255 for channel in one)]
+    return sorted(inside, key=lambda one: sum((a - b) ** 2 for a, b in zip(one, code, strict=True)))
+
+
+def letter(srgb: tuple[int, int, int]) -> str:
+    """The colour of a symbol on a yarn's colour: black or white, as in the printed chart   [WCAG 2.2, 1.4.3]."""
+    light = float(LINEAR[list(srgb)] @ np.array([0.2126, 0.7152, 0.0722]))
+    return "#ffffff" if light < 0.179 else "#000000"
+
+
+def _of_the_source(source: Rgb, chart: Chart) -> PagePicture:
+    stream = io.BytesIO()
+    Image.fromarray(source).save(stream, format="JPEG", quality=88)
+    address = _address(stream.getvalue(), "jpeg")
+    return PagePicture(address, *_proportions(chart), "The picture, as it is fitted to the carpet")
+
+
+def _of_the_chart(chart: Chart, step: int, codes: Sequence[tuple[int, int, int]]) -> PagePicture:
+    knots = np.ascontiguousarray(chart.knots[::step, ::step])
+    picture = Image.frombytes("P", (knots.shape[1], knots.shape[0]), knots.tobytes())
+    picture.putpalette([channel for code in codes for channel in code])
+    stream = io.BytesIO()
+    picture.save(stream, format="PNG")
+    sharp = knots.shape[1] <= _SHARP
+    return PagePicture(
+        _address(stream.getvalue(), "png"), *_proportions(chart), f"Knot chart, {_knots(chart)}", sharp=sharp
+    )
+
+
+def _of_the_carpet(chart: Chart, progress: Progress) -> PagePicture:
+    whole = carpet_picture(chart, progress=progress)
+    return PagePicture(_address(whole, "jpeg"), *_size(whole), f"Simulated carpet, {_knots(chart)}")
+
+
+def _of_the_knots(chart: Chart) -> PagePicture:
+    near = close_up(chart)
+    return PagePicture(_address(near, "jpeg"), *_size(near), "Simulated close-up of single tufts")
+
+
+def _proportions(chart: Chart) -> tuple[int, int]:
+    return max(1, round(1000 * chart.size.width)), max(1, round(1000 * chart.size.length))
+
+
+def _knots(chart: Chart) -> str:
+    return f"{chart.columns} by {chart.rows} knots in {chart.colours} colours"
+
+
+def _size(picture: bytes) -> tuple[int, int]:
+    with Image.open(io.BytesIO(picture)) as opened:
+        return opened.size
+
+
+def _address(picture: bytes, kind: str) -> str:
+    return f"data:image/{kind};base64,{base64.b64encode(picture).decode('ascii')}"
