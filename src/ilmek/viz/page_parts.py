@@ -4,7 +4,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ilmek.carpet.bill import YarnBill, YarnNeed
-from ilmek.carpet.chart import Chart, YarnDifference
+from ilmek.carpet.chart import Chart
+from ilmek.carpet.differences import YarnDifference
 from ilmek.report import Check
 from ilmek.units import format_number
 from ilmek.viz.number_format import count, fixed, share
