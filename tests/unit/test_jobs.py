@@ -69,6 +69,7 @@ def test_free_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_progress_ascends_to_the_end(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("ilmek.jobs.weave.carpet_page", lambda page, *_: page.title)
+    monkeypatch.setattr("ilmek.jobs.weave.loom_page", lambda page, *_: page.title)
     order = read_order(MEDALLION, size="20x30cm", quality="10x10/dm")
     told: list[tuple[str, float]] = []
     progress = Progress(lambda stage, share: told.append((stage, share)))

@@ -32,6 +32,7 @@ def run(*arguments: str) -> Result:
 def plain_page(monkeypatch: pytest.MonkeyPatch) -> None:
     """A page that is drawn at once; the true one has tests of its own."""
     monkeypatch.setattr("ilmek.jobs.weave.carpet_page", lambda page, *_: page.title)
+    monkeypatch.setattr("ilmek.jobs.weave.loom_page", lambda page, *_: page.title)
 
 
 @pytest.fixture(autouse=True)
@@ -98,7 +99,16 @@ def test_a_loom_that_cannot_weave_gets_no_programme(tmp_path: Path) -> None:
     assert refused.exit_code == 3
     assert re.match(r"weaves: NO, \d+ reasons?\n  ", refused.stdout)
     there = {path.name for path in (tmp_path / "out").iterdir()}
-    assert there == {"report.html", "report.json", "chart.png", "carpet.png", "yarn.csv", "machine.json", MANIFEST}
+    assert there == {
+        "report.html",
+        "loom.html",
+        "report.json",
+        "chart.png",
+        "carpet.png",
+        "yarn.csv",
+        "machine.json",
+        MANIFEST,
+    }
     found = json.loads((tmp_path / "out" / "report.json").read_text(encoding="utf-8"))
     assert (found["weaves"], found["holds"], judged(found)) == (False, False, 3)
     assert not any(file.endswith("programme.ilmek") for file in found["files"])
@@ -218,6 +228,7 @@ def test_the_nearest_carpets_are_named(tmp_path: Path, monkeypatch: pytest.Monke
     assert "\nnearest that weaves: quality 20/dm x 20/dm; width 0.9 m\n" in shown
     assert "quality 20/dm x 20/dm; width 0.9 m." in page.read_text(encoding="utf-8")
     monkeypatch.setattr("ilmek.jobs.weave.carpet_page", lambda page, *_: page.nearest)
+    monkeypatch.setattr("ilmek.jobs.weave.loom_page", lambda page, *_: page.title)
     out = tmp_path / "out"
     woven = run("weave", MEDALLION, *SMALL, *FAILS, "--out", str(out))
     assert "\nnearest that weaves: quality 20/dm x 20/dm; width 0.9 m\n" in woven.stdout

@@ -216,12 +216,13 @@ def _carpet_page(woven: WeaveResult) -> CarpetPage:
 
 def _loom_page(woven: WeaveResult) -> LoomPage:
     chart = woven.charted.chart
+    of_machines = {check.name for report in (woven.loom.own(), *woven.loom.children) for check in report.checks}
     return LoomPage(
         title=f"Loom for {woven.charted.order.order.picture.stem}",
         lead=f"{chart.size}, {chart.quality}, {chart.knot} knot",
         back="report.html",
         reports=(woven.loom.own(), *woven.loom.children),
-        checks=woven.own_checks,
+        checks=tuple(check for check in woven.own_checks if check.name not in of_machines),
         warnings=woven.loomed.notes,
         choices=woven.loom.all_choices,
         nearest=woven.loom.nearest,

@@ -22,7 +22,7 @@ _FIRST_REASONS = 3
 _DENSE = 24
 """Number of yarns beyond which the lines of their table are set closer."""
 
-_BARS = 360
+_BARS = 500
 """Largest number of points of the figure over the rows."""
 
 
