@@ -14,7 +14,7 @@ from ilmek.machines.catalogue import find_machine
 from ilmek.progress import Cancelled
 from ilmek.report import Axis, Plot
 from ilmek.report.left_out import SWITCH, made_figures, made_or_left_out
-from ilmek.viz import page
+from ilmek.viz import sections
 from ilmek.viz.page import machine_page
 
 FIGURE = Plot("name", "Title", Axis("x"), Axis("y"), ())
@@ -74,7 +74,7 @@ def test_a_page_names_the_figure_that_cannot_be_drawn(monkeypatch: pytest.Monkey
         raise ValueError("<b>")
 
     report = find_machine("function-four-bar").report_for({})
-    monkeypatch.setattr(page, "svg", fail)
+    monkeypatch.setattr(sections, "svg", fail)
     left_out: list[str] = []
     shown = machine_page(report, left_out)
     assert len(left_out) == len(report.figures)
