@@ -105,6 +105,7 @@ def test_a_loom_that_cannot_weave_gets_no_programme(tmp_path: Path) -> None:
         "report.json",
         "chart.png",
         "carpet.png",
+        "rows.txt",
         "yarn.csv",
         "machine.json",
         MANIFEST,
