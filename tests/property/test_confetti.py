@@ -156,7 +156,7 @@ def test_a_speck_of_the_ground_s_own_colour_goes() -> None:
 def test_windows_change_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     rgb = grained(9, (400, 60), 30.0)
     whole = merged(rgb)
-    monkeypatch.setattr(confetti, "bands", lambda rows, _, __=0: (slice(row, row + 1) for row in range(rows)))
+    monkeypatch.setattr(confetti, "bands", lambda rows, *_: (slice(row, row + 1) for row in range(rows)))
     assert np.array_equal(merged(rgb), whole)
 
 

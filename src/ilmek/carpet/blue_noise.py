@@ -34,9 +34,7 @@ def _extreme(field: IntArray, on: BoolArray, cluster: bool) -> int:
     """The tightest cluster or the largest void; of equal ones the first."""
     best = -1
     for cell in range(len(field)):
-        if on[cell] == cluster and (
-            best < 0 or (field[cell] > field[best] if cluster else field[cell] < field[best])
-        ):
+        if on[cell] == cluster and (best < 0 or (field[cell] > field[best] if cluster else field[cell] < field[best])):
             best = cell
     return best
 

@@ -10,11 +10,12 @@ from dataclasses import dataclass, field, fields
 
 import numpy as np
 
-from ilmek.arrays import Indices, Rgb
+from ilmek.arrays import BoolArray, FloatArray, Indices, Rgb
 from ilmek.carpet.confetti import count_lone, merge_patches
 from ilmek.carpet.design import bands, knot_grid
 from ilmek.carpet.differences import YarnDifference, differences
 from ilmek.carpet.fitting import Fit, FitParams, fit_prepared, prepare_picture
+from ilmek.carpet.halftone import draw_halftone
 from ilmek.carpet.matches import ColourMatch, colour_matches
 from ilmek.carpet.overlay import Overlay, TiedKnots, no_overlay, require_fit, tied_knots
 from ilmek.carpet.palette import distinct_colours, nearest_yarns, paint
@@ -223,22 +224,22 @@ def chart_of_design(
     Yarns without a count take the usual one of the quality.
     """
     _check_yarns(yarns)
-    kind = parse_knot(knot)
+    kind, reading = parse_knot(knot), reading or ReadParams()
     distinct = distinct_colours(design.colours, progress.part(0.0, 0.2))
     chosen = choose_yarns(
         distinct, with_counts(yarns, quality, kind), palette or PaletteParams(), progress.part(0.2, 0.4)
     )
     labs = yarn_labs(chosen)
     yarn_of, difference = nearest_yarns(distinct, labs, progress.part(0.4, 0.6))
-    painted = paint(design.colours, distinct, yarn_of, progress.part(0.6, 0.7))
-    least_patch = (reading or ReadParams()).least_patch_of(design.kind)
-    knots, changed = merge_patches(painted, design.colours, labs, least_patch, progress.part(0.7, 0.9))
-    found = differences(
-        design.colours, distinct, yarn_of, difference, knots, labs, changed > 0, progress.part(0.9, 0.95)
-    )
+    knots = paint(design.colours, distinct, yarn_of, progress.part(0.6, 0.7))
+    knots, drawn = _halftone(knots, design, labs, reading.halftone, progress.part(0.7, 0.8))
+    least = reading.least_patch_of(design.kind)
+    knots, changed = merge_patches(knots, design.colours, labs, least, kept=drawn, progress=progress.part(0.8, 0.9))
+    moved = changed > 0 or drawn is not None
+    found = differences(design.colours, distinct, yarn_of, difference, knots, labs, moved, progress.part(0.9, 0.95))
     made = ChartReading(
         design.kind,
-        design.reason,
+        design.reason if drawn is None else f"{design.reason}; patterns on {drawn.mean():.1%} of it",
         found.mean,
         found.least,
         changed,
@@ -250,6 +251,21 @@ def chart_of_design(
     chart = Chart(knots, chosen, size, quality, kind, made)
     chart.tally(progress.part(0.95, 1.0))
     return chart
+
+
+def _halftone(
+    knots: Indices, design: Design, labs: FloatArray, strength: float, progress: Progress
+) -> tuple[Indices, BoolArray | None]:
+    """The chart with its halftone, and the cells that have a pattern; None: no halftone."""
+    if strength == 0.0:
+        return knots, None
+    if design.kind != "photo":
+        raise PictureError(
+            f"halftone={strength:.0%}, but the picture is read as {design.kind} ({design.reason})",
+            allowed="a halftone needs a photo",
+            do="read it as a photo (--read photo), or leave the halftone out",
+        )
+    return draw_halftone(knots, design.colours, labs, strength, progress)
 
 
 def _check_yarns(yarns: Sequence[Yarn]) -> None:

@@ -19,12 +19,16 @@ design gives the mirrored or turned chart.
 Source of the law: A. Ricco, Relazione fra il minimo angolo visuale e l'intensita luminosa, 1877.
 """
 
+from concurrent.futures import ThreadPoolExecutor
+from typing import NamedTuple
+
 import numpy as np
 
 from ilmek.arrays import BoolArray, Float, FloatArray, Indices, Int32, IntArray, Rgb
 from ilmek.carpet.colour_difference import ciede2000, delta_e_2000
 from ilmek.carpet.design import bands
 from ilmek.carpet.dots import REACH, Sizes, in_row, middle_of
+from ilmek.carpet.halftone import CELL
 from ilmek.carpet.light import LIGHT, lab_of_light
 from ilmek.carpet.patches import Marks, Members, begins, fill, room
 from ilmek.carpet.thin_lines import between_areas, on_line
@@ -36,6 +40,9 @@ KEPT = 255
 
 Starts = Int32[np.ndarray, " patches"]
 Labs = Float[np.ndarray, "yarns 3"]
+
+_WINDOW = 1 << 21
+_THREADS = 2
 
 VISIBLE = 10.0
 """Contrast [CIEDE2000] at which a patch of the least number of knots is kept."""
@@ -152,11 +159,24 @@ def _measure(  # noqa: PLR0917
 
 
 @compiled
+def _is_kept(kept: BoolArray, members: Members, number: int) -> bool:
+    """Whether a knot of a patch lies in a cell of a halftone; `kept` is empty without one."""
+    for k in range(number if kept.size else 0):
+        y, x = members[k]
+        if kept[min(y // CELL, kept.shape[0] - 1), min(x // CELL, kept.shape[1] - 1)]:
+            return True
+    return False
+
+
+@compiled
 def _judge(  # noqa: PLR0917
-    knots: Indices, rgb: Rgb, gap: FloatArray, least: int, side: int, wanted: BoolArray, sizes: Sizes, starts: Starts,
-    targets: Indices, loose: BoolArray, members: Members, marks: Marks
+    knots: Indices, rgb: Rgb, gap: FloatArray, least: int, side: int, wanted: BoolArray, near: tuple[int, int],
+    sizes: Sizes, starts: Starts, targets: Indices, loose: BoolArray, kept: BoolArray, members: Members, marks: Marks
 ) -> None:  # fmt: skip
-    """Write the yarn that each patch takes, KEPT if none, and mark the knots of those that take one as loose."""
+    """Write the yarn that each patch takes, KEPT if none, and mark the knots of those that take one as loose.
+
+    wanted, near  tiles and rows in which patches that begin there are judged
+    """
     around, sums = np.zeros(len(gap), dtype=np.int64), np.zeros((len(gap), 3), dtype=np.int64)
     own = np.zeros(3, dtype=np.int64)
     others, other_marks = np.empty_like(members), np.zeros_like(marks)
@@ -165,11 +185,13 @@ def _judge(  # noqa: PLR0917
     for patch in range(len(starts)):
         row, column = divmod(starts[patch], knots.shape[1])
         targets[patch] = KEPT
-        if not wanted[row // side, column // side]:
+        if not (near[0] <= row < near[1] and wanted[row // side, column // side]):
             continue
         mark += 2
         yarn = knots[row, column]
         number = fill(knots, row, column, least, False, members, marks, mark)
+        if _is_kept(kept, members, number):
+            continue
         own[:] = 0
         for k in range(number):
             _add_light(rgb, members[k, 0], members[k, 1], own)
@@ -229,58 +251,82 @@ def _merge(  # noqa: PLR0917
 
 
 def merge_patches(
-    knots: Indices, rgb: Rgb, yarn_labs: Labs, least: int, progress: Progress = SILENT
+    knots: Indices,
+    rgb: Rgb,
+    yarn_labs: Labs,
+    least: int,
+    *,
+    kept: BoolArray | None = None,
+    progress: Progress = SILENT,
 ) -> tuple[Indices, int]:
     """The chart (rows, columns) with its confetti merged, and the number of knots that changed.
 
     rgb  the design      yarn_labs  CIELAB of the yarns      least  knots of a patch that is never merged
+    kept  cells whose patches are never merged [`halftone.draw_halftone`]; default: none
     """
     knots, rgb = np.ascontiguousarray(knots), np.ascontiguousarray(rgb)
     if least < 2:
         return knots, 0
     gap = delta_e_2000(yarn_labs[:, None], yarn_labs[None, :])
+    task = _Task(rgb, gap, least, np.zeros((0, 0), dtype=bool) if kept is None else kept)
     side = _side(least)
     merged = knots.copy()
     wanted = np.ones((-(-knots.shape[0] // side), -(-knots.shape[1] // side)), dtype=bool)
     share = 0.0
     while wanted.any():
         then = 0.2 * share + 0.8  # the number of rounds is not known
-        wanted = _round(merged, rgb, gap, least, _grown(wanted), progress.part(share, then))
+        wanted = _round(merged, task, _grown(wanted), progress.part(share, then))
         share = then
     return merged, sum(int(np.count_nonzero(merged[band] != knots[band])) for band in bands(*knots.shape))
 
 
-def _round(  # noqa: PLR0917
-    knots: Indices, rgb: Rgb, gap: FloatArray, least: int, wanted: BoolArray, progress: Progress
-) -> BoolArray:
-    """Merge the patches of the wanted tiles that are first of their neighbours; the tiles where work remains."""
-    side = _side(least)
+class _Task(NamedTuple):
+    """What every round takes: the design, CIEDE2000 of each two yarns, least patch, cells that are kept."""
+
+    rgb: Rgb
+    gap: FloatArray
+    least: int
+    kept: BoolArray
+
+
+def _round(knots: Indices, task: _Task, wanted: BoolArray, progress: Progress) -> BoolArray:
+    """Merge the patches of the wanted tiles that are first of their neighbours; the tiles where work remains.
+
+    Windows of rows, with a tile more above and below, are copies of the chart at the begin of the round, so that the
+    result does not depend on the windows, nor on the threads.
+    """
+    side = _side(task.least)
     again = np.zeros_like(wanted)
-    above = knots[:0].copy()
-    for tiles in bands(len(wanted), side * knots.shape[1]):
-        start, stop = tiles.start * side, min(tiles.stop * side, len(knots))
-        window = np.concatenate([above, knots[start : stop + side]])
-        near = wanted[max(tiles.start - 1, 0) : tiles.stop + 1]
-        if near.any():
-            top = start - len(above)
-            seen = rgb[top : top + len(window)]
-            _merge_window(window, seen, knots[start:stop], start - top, gap, least, near, again[tiles])
-        above = window[len(above) + stop - start - side : len(above) + stop - start]
-        progress(stop / len(knots))
+    parts = list(bands(len(wanted), side * knots.shape[1], _WINDOW))
+    above = knots[:0]
+    with ThreadPoolExecutor(_THREADS) as pool:
+        for first in range(0, len(parts), _THREADS):
+            works = []
+            for tiles in parts[first : first + _THREADS]:
+                start, stop = tiles.start * side, min(tiles.stop * side, len(knots))
+                window = np.concatenate([above, knots[start : stop + side]])
+                near = wanted[max(tiles.start - 1, 0) : tiles.stop + 1]
+                if near.any():
+                    works.append((window, start, len(above), knots[start:stop], near, again[tiles]))
+                above = knots[stop - side : stop].copy()
+            list(pool.map(lambda work: _merge_window(task, *work), works))
+            progress(stop / len(knots))
     return again
 
 
 def _merge_window(  # noqa: PLR0917
-    window: Indices, rgb: Rgb, out: Indices, top: int, gap: FloatArray, least: int, wanted: BoolArray, again: BoolArray
-) -> None:  # fmt: skip
-    """Merge in a window of rows; `out`: its own rows, from row `top` on, which receive the yarns."""
-    side = _side(least)
+    task: _Task, window: Indices, start: int, top: int, out: Indices, wanted: BoolArray, again: BoolArray
+) -> None:
+    """Merge in a window of rows whose own rows, from its row `top` on, are those of `out` and begin at row `start`."""
+    least, side, first = task.least, _side(task.least), start - top
     members, marks = room(least)
     sizes, loose = np.empty(window.shape, dtype=np.uint8), np.zeros(window.shape, dtype=bool)
     starts = np.empty(window.size, dtype=np.int32)
     found = _measure(window, least, side, _grown(wanted), sizes, starts, members, marks)
     starts, targets = starts[:found], np.empty(found, dtype=np.uint8)
-    _judge(window, rgb, gap, least, side, wanted, sizes, starts, targets, loose, members, marks)
+    rgb, kept = task.rgb[first : first + len(window)], task.kept[first // CELL :]
+    near = (top - 2 * least, top + len(out) + 2 * least)
+    _judge(window, rgb, task.gap, least, side, wanted, near, sizes, starts, targets, loose, kept, members, marks)
     _merge(window, out, top, least, side, sizes, starts, targets, loose, again, members, marks)
 
 

@@ -54,7 +54,7 @@ def _tone(rgb: Rgb, top: int, bottom: int, left: int, right: int, out: IntArray)
 def _tones(rgb: Rgb, tones: Int32[np.ndarray, "rows columns"], rough: BoolArray) -> None:
     """The tone of each cell as a code r·65536 + g·256 + b, and whether it holds or touches an outline."""
     rows, columns = tones.shape
-    own, there = np.empty(3, dtype=np.int64), np.empty(3, dtype=np.int64)
+    own = np.empty(3, dtype=np.int64)
     for i in range(rows):
         bottom = rgb.shape[0] if i == rows - 1 else CELL * (i + 1)
         for j in range(columns):
@@ -171,9 +171,7 @@ def _knots_of(knots: Indices, cells: slice, rows: int) -> Indices:
     return knots[CELL * cells.start : len(knots) if cells.stop == rows else CELL * cells.stop]
 
 
-def _mixtures(
-    keys: IntArray, labs: FloatArray, strength: float, progress: Progress
-) -> tuple[IntArray, IntArray]:
+def _mixtures(keys: IntArray, labs: FloatArray, strength: float, progress: Progress) -> tuple[IntArray, IntArray]:
     """The yarns of each tone's mixture, from dark to light, and the limits of the noise between them."""
     half = 1 << _STEP_BITS >> 1
     codes = np.stack([keys // _LEVELS**2, keys // _LEVELS % _LEVELS, keys % _LEVELS], axis=-1) * 2 * half + half

@@ -51,7 +51,7 @@ def _slope(light: FloatArray, matrix: FloatArray) -> None:
 
 @compiled
 def _dot(one: FloatArray, other: FloatArray) -> float:
-    return one[0] * other[0] + one[1] * other[1] + one[2] * other[2]
+    return float(one[0] * other[0] + one[1] * other[1] + one[2] * other[2])
 
 
 @compiled

@@ -3,6 +3,8 @@
 exact  every pixel is a knot [`exact`]
 flat   a drawing: each knot has a true colour of its cell [`flat`]
 photo  box averages in linear light [`design`]
+
+The tone of the design is changed after it is read, whatever the reading [`tone`].
 """
 
 from dataclasses import dataclass
@@ -12,8 +14,11 @@ from ilmek.arrays import Rgb
 from ilmek.carpet.design import resampled
 from ilmek.carpet.exact import find_drawing
 from ilmek.carpet.flat import flat_design, looks_flat
+from ilmek.carpet.picture_points import read_colour
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
+from ilmek.carpet.tone import AUTO, Tone, toned
+from ilmek.errors import ParameterError
 from ilmek.params import Params, kind, param
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
@@ -22,6 +27,9 @@ READINGS = ("auto", "exact", "flat", "photo")
 
 LEAST_PATCHES = MappingProxyType({"exact": 0, "flat": 2, "photo": 4})
 """Default of the least patch by the kind of reading."""
+
+DARKEST_WHITE = 64
+"""Least code of the brightest channel of a colour that becomes white."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,6 +45,37 @@ class ReadParams(Params):
         at_most=100,
         doc="patches of fewer knots are merged where they hardly show; default: exact 0, flat 2, photo 4",
     )
+
+    halftone: float = kind.ratio(
+        0.0,
+        unit="%",
+        at_least=0.0,
+        at_most=1.0,
+        doc="share of the tones between the yarns that patterns render in the smooth areas of a photo",
+    )
+    brightness: float = kind.ratio(
+        0.0, unit="%", at_least=-0.9, at_most=0.9, doc="share by which the mid tone gets lighter; black and white stay"
+    )
+    contrast: float = kind.ratio(
+        0.0, unit="%", at_least=-1.0, at_most=4.0, doc="share by which lightness moves away from the mid tone"
+    )
+    saturation: float = kind.ratio(0.0, unit="%", at_least=-1.0, at_most=4.0, doc="share by which chroma grows")
+    white: str | None = kind.text(
+        None, doc="colour of the picture that becomes white, like #f5efe0; auto: that of its brightest hundredth"
+    )
+
+    def check_together(self) -> None:
+        """Raise ParameterError for a white that is no colour, or black."""
+        if self.white not in (None, AUTO) and max(read_colour("white", self.white)) < DARKEST_WHITE:
+            raise ParameterError(
+                f"white={self.white!r} is nearly black", allowed="a code of at least 64", do="give a light colour"
+            )
+
+    @property
+    def tone(self) -> Tone:
+        """The changes of the colours."""
+        white = self.white if self.white in (None, AUTO) else read_colour("white", self.white)
+        return Tone(self.brightness, self.contrast, self.saturation, white)
 
     def least_patch_of(self, kind: str) -> int:
         """The least patch of a design that was read as this kind."""
@@ -79,7 +118,8 @@ def exact_design(
     found = find_drawing(rgb, size, quality, drawn=drawn or params.reading == "exact", progress=progress)
     if found is None:
         return None
-    return Design(found.rgb, "exact", found.reason, 0), found.size, found.quality
+    colours, tone = toned(found.rgb, params.tone)
+    return Design(colours, "exact", found.reason + tone, 0), found.size, found.quality
 
 
 def read_design(
@@ -88,10 +128,17 @@ def read_design(
     """The design of a fitted picture that is not exact, on a grid of rows and columns."""
     params = params or ReadParams()
     if params.reading == "photo":
-        return Design(resampled(rgb, *grid, progress), "photo", "read as a photo, as required")
+        return _photo(rgb, grid, params, "read as a photo, as required", progress)
     seen = looks_flat(rgb)
     if params.reading == "auto" and not seen.is_flat:
-        return Design(resampled(rgb, *grid, progress), "photo", seen.sentence)
+        return _photo(rgb, grid, params, seen.sentence, progress)
     flat = flat_design(rgb, grid, progress, seen.true)
     axes = f"; symmetric about the {' and the '.join(flat.symmetric)} axis" if flat.symmetric else ""
-    return Design(flat.colours, "flat", seen.sentence + axes, flat.foreign)
+    colours, tone = toned(flat.colours, params.tone)
+    return Design(colours, "flat", seen.sentence + axes + tone, flat.foreign)
+
+
+def _photo(rgb: Rgb, grid: tuple[int, int], params: ReadParams, reason: str, progress: Progress) -> Design:
+    averages = resampled(rgb, *grid, progress.part(0.0, 0.8))
+    colours, tone = toned(averages, params.tone, progress.part(0.8, 1.0))
+    return Design(colours, "photo", reason + tone)

@@ -56,6 +56,7 @@ def chart_of_recipe(order: CarpetOrder, progress: Progress = SILENT, *, with_sou
         made.yarns,
         knot=made.knot,
         fit=composition.fit,
+        reading=order.reading,
         palette=order.palette,
         progress=progress.part(0.5, 0.8, "chart"),
     )
