@@ -101,6 +101,12 @@ PICTURE = {
 }
 
 CARPET = {
+    "white that is no colour": ("--white ivory", "white='ivory' is no colour.*#"),
+    "black for white": ("--white #000011", "nearly black"),
+    "halftone of a drawing": ("--read flat --halftone 50%", "--read photo"),
+    "halftone above all": ("--halftone 120%", "at most 100%"),
+    "contrast below none": ("--contrast -120%", "at least -100%"),
+    "least patch without end": ("--least-patch 5000", "at most 100"),
     "unknown size": ("--size sejade", "unknown size 'sejade'.*did you mean 'seccade'"),
     "size without unit": ("--size 120x180", "has no unit"),
     "one side": ("--size 120cm", "unknown size"),

@@ -1,7 +1,7 @@
 """Tone: white, brightness, contrast and saturation of a design, applied in this order to each distinct colour.
 
 white       Chromatic adaptation and exposure: in the cone space of Bradford each channel is divided by that of the
-            white, so that the white becomes #ffffff; `auto` takes the mean light of the brightest hundredth of the knots
+            white, so that the white becomes #ffffff; `auto` takes the mean light of the brightest hundredth of knots
 brightness  L' = 100 (L/100)^g with g = ln((1 + b)/2)/ln(1/2): black and white stay, the mid tone 50 becomes 50 (1 + b)
 contrast    L' = 50 + (1 + c)(L - 50), within 0 to 100
 saturation  a' = (1 + s) a, b' = (1 + s) b
@@ -52,7 +52,7 @@ class Tone:
     @property
     def changes(self) -> bool:
         """Whether any colour changes."""
-        return self != Tone()
+        return bool(self.brightness or self.contrast or self.saturation or self.white)
 
 
 def toned_labs(labs: Float[np.ndarray, "*batch 3"], tone: Tone, white: FloatArray | None) -> FloatArray:
