@@ -260,14 +260,14 @@ class _RecipeReader:
         return Repeat(tile, *sides, order, entry.flag("cut"), self._where(entry))
 
     def _border(self, entry: FileEntry) -> Border:
-        entry.keys("width", "yarn", "teeth", "tile", "length", "corner", "adjust")
+        entry.keys("width", "yarn", "teeth", "tile", "length", "corner", "alternate", "adjust")
         kinds = [key for key in ("yarn", "teeth", "tile") if entry.has(key)]
         if len(kinds) != 1:
             given = f"has {' and '.join(kinds)}" if kinds else "has nothing to be made of"
             entry.refuse(CarpetError(given, allowed="one of yarn, teeth and tile"))
         if kinds[0] != "tile" and not entry.has("width"):
             entry.refuse(CarpetError("the border has no width", do='give it in knots, or like "3cm"'))
-        for key in ("length", "corner"):
+        for key in ("length", "corner", "alternate"):
             if entry.has(key) and kinds[0] != "tile":
                 entry.refuse(CarpetError(f"{key} is that of a tile, which is not given", do=f"leave {key} out"), key)
         return Border(
@@ -277,6 +277,7 @@ class _RecipeReader:
             self._file(entry, "tile"),
             _knots(entry, "length"),
             self._file(entry, "corner"),
+            entry.flag("alternate"),
             entry.flag("adjust"),
             self._where(entry),
         )

@@ -10,6 +10,8 @@ symmetric under the transposition, and the pattern turns the corner without a br
 with `along` < 0 in the corner. A side has a whole number of repeats, so half of it lies in the quarter; where that
 number is odd, the middle of the side is the middle of a tile, whose first half is drawn and reflected. A tile that is
 symmetric itself is drawn whole everywhere. A tile that is not runs from every corner to the middle of the side.
+
+A tile of two motifs that alternate, A and B, has one half repeat more: a side is A B A ... B A, and the corner is B.
 """
 
 import itertools
@@ -20,20 +22,25 @@ from ilmek.arrays import Int64, Rgb
 from ilmek.carpet.recipe.mirror import complete
 
 
-def repeat_lines(length: int, repeat: int, tile: int, before: int) -> Int64[np.ndarray, " knots"]:
+def repeat_lines(length: int, units: int, tile: int, before: int, motifs: int = 1) -> Int64[np.ndarray, " knots"]:
     """The line of the tile at each knot of the first half of a side, and of `before` knots of the corner.
 
-    length  of the side between the corners [knots]      repeat  number of repeats      tile  lines of the tile
-    A repeat is longer than the tile where the tile does not divide the length: some lines are drawn twice, the same in
-    every repeat up to one knot, symmetric about its middle.
+    length  of the side between the corners [knots]      units   number of motifs on it
+    tile    lines of the tile                            motifs  of the tile, which has an equal part for each
+    A motif is longer than its part of the tile where the parts do not divide the length: some lines are drawn twice,
+    the same in every motif up to one knot, symmetric about its middle.
 
-    >>> repeat_lines(12, 3, 4, 2).tolist(), repeat_lines(7, 1, 4, 0).tolist()
-    ([2, 3, 0, 1, 2, 3, 0, 1], [0, 0, 1, 2])
+    >>> repeat_lines(12, 3, 4, 2).tolist(), repeat_lines(7, 1, 4, 0).tolist(), repeat_lines(6, 3, 4, 2, 2).tolist()
+    ([2, 3, 0, 1, 2, 3, 0, 1], [0, 0, 1, 2], [2, 3, 0, 1, 2])
     """
-    ends = [(number * length + repeat // 2) // repeat for number in range(repeat // 2 + 1)]
-    if repeat % 2:
+    part = tile // motifs
+    ends = [(number * length + units // 2) // units for number in range(units // 2 + 1)]
+    if units % 2:
         ends.append(length - ends[-1])
-    lines = [_stretched(end - begin, tile) for begin, end in itertools.pairwise(ends)]
+    lines = [
+        number % motifs * part + _stretched(end - begin, part)
+        for number, (begin, end) in enumerate(itertools.pairwise(ends))
+    ]
     corner = np.arange(-before, 0) % tile
     return np.concatenate([corner, *lines])[: before + (length + 1) // 2]
 
@@ -44,18 +51,21 @@ def _stretched(length: int, tile: int) -> Int64[np.ndarray, " knots"]:
     return np.concatenate([half, tile - 1 - half[: length // 2][::-1]])
 
 
-def draw_border(out: Rgb, tiles: tuple[Rgb, Rgb], repeats: tuple[int, int], corner: Rgb | None = None) -> None:
+def draw_border(
+    out: Rgb, tiles: tuple[Rgb, Rgb], units: tuple[int, int], motifs: int = 1, corner: Rgb | None = None
+) -> None:
     """Draw a border round an area.
 
     out      colours of the area with the border's outer edge as its edge (rows, columns, 3), in place; the inside stays
     tiles    of the upper side, (breadth, length, 3), and of the left side as it stands there, (length, breadth, 3)
-    repeats  numbers of repeats on the upper and on the left side      corner  the upper left one; default: of the tiles
+    units    numbers of motifs on the upper and on the left side, of which a tile has `motifs`
+    corner   the upper left one; default: of the tiles
     """
     upper, left = tiles
     high, wide = upper.shape[0], left.shape[1]
     rows, columns = out.shape[:2]
-    across = repeat_lines(columns - 2 * wide, repeats[0], upper.shape[1], wide)
-    along = repeat_lines(rows - 2 * high, repeats[1], left.shape[0], high)
+    across = repeat_lines(columns - 2 * wide, units[0], upper.shape[1], wide, motifs)
+    along = repeat_lines(rows - 2 * high, units[1], left.shape[0], high, motifs)
     out[:high, : len(across)] = upper[:, across]
     out[high : len(along), :wide] = left[along[high:]]
     if corner is not None:

@@ -159,7 +159,7 @@ def _draw_border(canvas: _Canvas, one: BorderLayout) -> None:
         tiles.append(tiles[0] if same else canvas.tile(border.tile, (wide, one.tile[1])))
         del canvas.designs[kind + 1 :]
     corner = None if border.corner is None else canvas.tile(border.corner, (high, wide))
-    draw_border(out, (tiles[0], np.swapaxes(tiles[1], 0, 1)), one.repeats, corner)
+    draw_border(out, (tiles[0], np.swapaxes(tiles[1], 0, 1)), one.units, one.motifs, corner)
     _mark_drawn(canvas, area, one.breadth)
 
 

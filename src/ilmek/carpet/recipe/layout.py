@@ -30,14 +30,19 @@ class BorderLayout:
     inset    knots between the carpet's edge and the border: above, and at the left
     breadth  knots of the upper and of the left side
     tile     knots along the upper and along the left side; None: no tile
-    repeats  on the upper and on the left side
+    units    motifs on the upper and on the left side, of which a tile has `motifs`
     """
 
     border: Border
     inset: Sides
     breadth: Sides
     tile: Sides | None = None
-    repeats: Sides = (0, 0)
+    units: Sides = (0, 0)
+
+    @property
+    def motifs(self) -> int:
+        """Number of motifs of the tile."""
+        return 2 if self.border.alternate else 1
 
 
 @record
@@ -114,14 +119,22 @@ def _repeated(one: BorderLayout, grid: Sides) -> BorderLayout | None:
     """The border with its numbers of repeats; None if these are not whole."""
     if one.tile is None:
         return one
-    sides = _sides(one, grid)
-    whole = all(side % tile == 0 for side, tile in zip(sides, one.tile, strict=True))
-    if not whole and not one.border.adjust:
+    found = [_units(one, side, tile) for side, tile in zip(_sides(one, grid), one.tile, strict=True)]
+    if None in found:
         return None
-    upper, left = (side // tile for side, tile in zip(sides, one.tile, strict=True))
-    if not upper or not left:
-        return None
+    upper, left = (units or 0 for units in found)
     return BorderLayout(one.border, one.inset, one.breadth, one.tile, (upper, left))
+
+
+def _units(one: BorderLayout, side: int, tile: int) -> int | None:
+    """The number of motifs on a side; None if no such number fills it."""
+    motifs = one.motifs
+    units = side * motifs // tile
+    if one.border.adjust:
+        units -= motifs == 2 and units % 2 == 0
+        return units if units > 0 else None
+    fits = side >= tile // motifs and side * motifs % tile == 0 and (motifs == 1 or units % 2 == 1)
+    return units if fits else None
 
 
 def _no_fit(
@@ -133,6 +146,7 @@ def _no_fit(
     given = (
         f"the tile is {_both(one.tile)} knots long, and the sides between the corners are {_both(sides)}: "
         f"{_both(tuple(side / tile for side, tile in zip(sides, one.tile, strict=True)))} repeats"
+        f"{', where a half is needed besides whole ones' if one.border.alternate else ''}"
     )
     columns = _nearest(grid[1], lambda count: all(_whole(other, 0, count) for other in borders))
     rows = _nearest(grid[0], lambda count: all(_whole(other, 1, count) for other in borders))
@@ -157,11 +171,10 @@ def _both(pair: Sequence[float]) -> str:
 
 
 def _whole(one: BorderLayout, direction: int, count: int) -> bool:
-    """Whether a border has at least one and only whole repeats on a grid of so many columns (0) or rows (1)."""
-    if one.tile is None or one.border.adjust:
+    """Whether a border has at least one and no broken repeats on a grid of so many columns (0) or rows (1)."""
+    if one.tile is None:
         return True
-    side, tile = _sides(one, (count, count))[direction], one.tile[direction]
-    return side >= tile and side % tile == 0
+    return _units(one, _sides(one, (count, count))[direction], one.tile[direction]) is not None
 
 
 def _nearest(count: int, fits: Callable[[int], bool]) -> list[int]:

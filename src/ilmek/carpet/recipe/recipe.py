@@ -71,7 +71,8 @@ class Border:
     width   default: that of the tile; of teeth it is half their length along the border
     length  of the tile along the border [knots]; default: its own pixels, in proportion to the width
     corner  picture of the upper left corner; default: the tile, reflected at the diagonal
-    adjust  the tiles of a side are made a little longer until they fill it
+    alternate  the tile is two motifs that alternate: a side begins and ends with the first, the corner is the second
+    adjust  the motifs of a side are made a little longer until they fill it
     """
 
     width: Breadth | None = None
@@ -80,6 +81,7 @@ class Border:
     tile: Path | None = None
     length: int | None = None
     corner: Path | None = None
+    alternate: bool = False
     adjust: bool = False
     where: str = ""
 
@@ -167,6 +169,7 @@ def plain_data(recipe: Recipe, named: Callable[[Path], str]) -> dict[str, Any]:
                 tile=path(border.tile),
                 length=border.length,
                 corner=path(border.corner),
+                alternate=border.alternate,
                 adjust=border.adjust,
             )
             for border in recipe.borders

@@ -1,0 +1,193 @@
+"""Recipes: mirrors are exact, borders turn their corners, tiles repeat, a saved recipe is the same carpet."""
+
+from pathlib import Path
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from ilmek.carpet.quality import Quality
+from ilmek.carpet.recipe.border import draw_border, edges, repeat_lines
+from ilmek.carpet.recipe.composition import compose
+from ilmek.carpet.recipe.edits import apply_edit, line_knots, parse_edit
+from ilmek.carpet.recipe.mirror import complete, part_grid
+from ilmek.carpet.recipe.recipe import MIRRORS, ORDERS, Border, Breadth, Motif, Recipe, Repeat
+from ilmek.carpet.recipe.repeat import repeated
+from ilmek.carpet.sizes import CarpetSize
+from ilmek.io.recipe_file import LoomKeys, RecipeFile, read_recipe
+from ilmek.io.recipe_text import recipe_text
+from ilmek.io.yarn_file import default_yarns
+from ilmek.jobs.order import recipe_parameters
+
+SIDE = st.integers(2, 40)
+YARNS = st.sampled_from([yarn.name for yarn in default_yarns()])
+
+
+def noise(seed: int, *shape: int) -> np.ndarray:
+    return np.random.default_rng(seed).integers(0, 256, (*shape, 3), dtype=np.uint8)
+
+
+@given(SIDE, SIDE, st.sampled_from(MIRRORS), st.integers(0, 99))
+def test_a_mirror_is_exact_on_any_grid(rows: int, columns: int, mirror: str, seed: int) -> None:
+    area = noise(seed, rows, columns)
+    part = part_grid(mirror, (rows, columns))
+    before = area[: part[0], : part[1]].copy()
+    complete(area, mirror)
+    assert (area[: part[0], : part[1]] == before).all()
+    assert mirror == "along" or (area == area[:, ::-1]).all()
+    assert mirror == "across" or (area == area[::-1]).all()
+
+
+@given(st.integers(1, 60), st.integers(1, 12), st.integers(1, 12), st.integers(0, 9), st.sampled_from((1, 2)))
+def test_a_side_has_every_line_of_its_tile_in_order(
+    extra: int, units: int, part: int, before: int, motifs: int
+) -> None:
+    """Lines ascend within a motif, from the first to the last, and a motif that fits is the tile itself."""
+    units += motifs == 2 and units % 2 == 0
+    length, tile = units * part, motifs * part
+    lines = repeat_lines(length, units, tile, before, motifs)
+    assert (lines == np.arange(-before, (length + 1) // 2) % tile).all()
+    longer = repeat_lines(length + extra, units, tile, 0, motifs)
+    steps = np.diff(longer)
+    assert ((steps == 0) | (steps == 1) | (longer[1:] % part == 0)).all()
+    whole = np.concatenate([longer, longer[: (length + extra) // 2][::-1]])
+    assert len(whole) == length + extra
+
+
+@settings(max_examples=60)
+@given(st.integers(1, 8), st.integers(1, 9), st.integers(1, 6), st.integers(1, 6), st.integers(0, 99))
+def test_a_border_of_whole_repeats_tiles_its_sides_and_turns_its_corners(
+    breadth: int, length: int, across: int, along: int, seed: int
+) -> None:
+    tile = noise(seed, breadth, length)
+    area = noise(seed + 1, along * length + 2 * breadth, across * length + 2 * breadth)
+    inside = area[breadth:-breadth, breadth:-breadth].copy()
+    draw_border(area, (tile, np.swapaxes(tile, 0, 1)), (across, along))
+    assert (area[breadth:-breadth, breadth:-breadth] == inside).all()
+    corner = area[:breadth, :breadth]
+    assert (corner == np.swapaxes(corner, 0, 1)).all()
+    for number in range(across // 2):
+        first = breadth + number * length
+        assert (area[:breadth, first : first + length] == tile).all()
+    for number in range(along // 2):
+        first = breadth + number * length
+        assert (area[first : first + length, :breadth] == np.swapaxes(tile, 0, 1)).all()
+    for side in edges(*area.shape[:2], (breadth, breadth)):
+        assert (area[side] == area[:, ::-1][side]).all()
+        assert (area[side] == area[::-1][side]).all()
+
+
+@given(st.integers(3, 30), st.integers(3, 30), st.integers(1, 2), st.integers(1, 2))
+def test_the_sides_of_a_border_cover_each_knot_once(rows: int, columns: int, high: int, wide: int) -> None:
+    high, wide = min(high, (rows - 1) // 2), min(wide, (columns - 1) // 2)
+    count = np.zeros((rows, columns), dtype=int)
+    for side in edges(rows, columns, (high, wide)):
+        count[side] += 1
+    inner = count[high : rows - high, wide : columns - wide]
+    assert inner.sum() == 0
+    assert count.sum() == count.size - inner.size
+    assert count.max() == 1
+
+
+@given(st.integers(1, 9), st.integers(1, 9), SIDE, SIDE, st.sampled_from(ORDERS))
+def test_a_cut_repeat_fills_its_area_and_whole_tiles_are_whole(
+    height: int, width: int, rows: int, columns: int, order: str
+) -> None:
+    tile = np.arange(1, height * width + 1, dtype=np.uint8).reshape(height, width, 1).repeat(3, axis=2)
+    cut = np.zeros((rows, columns, 3), dtype=np.uint8)
+    assert repeated(tile, cut, order, cut=True)
+    assert cut.all()
+    if height <= rows and width <= columns:
+        whole = np.zeros((rows, columns, 3), dtype=np.uint8)
+        filled = repeated(tile, whole, order, cut=False)
+        found = np.bincount(whole[..., 0].ravel(), minlength=256)[1 : height * width + 1]
+        assert found.min() == found.max() > 0
+        assert filled == bool(whole.all())
+
+
+@given(*4 * [st.integers(0, 30)])
+def test_a_line_is_8_connected_from_either_end(top: int, left: int, bottom: int, right: int) -> None:
+    rows, columns = line_knots((top, left), (bottom, right))
+    assert {(top, left), (bottom, right)} <= set(zip(rows.tolist(), columns.tolist(), strict=True))
+    assert max(abs(np.diff(rows)).max(initial=0), abs(np.diff(columns)).max(initial=0)) <= 1
+    again = line_knots((bottom, right), (top, left))
+    assert (rows == again[0]).all()
+    assert (columns == again[1]).all()
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.integers(0, 999))
+def test_a_fill_is_the_connected_area(seed: int) -> None:
+    generator = np.random.default_rng(seed)
+    knots = generator.integers(0, 2, generator.integers(1, 14, 2), dtype=np.uint8)
+    row, column = (int(generator.integers(0, side)) for side in knots.shape)
+    expected, stack = {(row, column)}, [(row, column)]
+    while stack:
+        i, j = stack.pop()
+        for near in ((i + 1, j), (i - 1, j), (i, j + 1), (i, j - 1)):
+            inside = 0 <= near[0] < knots.shape[0] and 0 <= near[1] < knots.shape[1]
+            if inside and near not in expected and knots[near] == knots[i, j]:
+                expected.add(near)
+                stack.append(near)
+    filled = knots.copy()
+    apply_edit(filled, parse_edit(f"fill {len(knots) - row},{column + 1} gold"), (2,))
+    assert set(map(tuple, np.argwhere(filled == 2).tolist())) == expected
+    assert (filled[filled != 2] == knots[filled != 2]).all()
+
+
+@st.composite
+def recipes(draw: st.DrawFn, folder: Path) -> Recipe:
+    """A recipe of a carpet of 40 x 60 cm at 25 knots per dm."""
+    adjusted = st.builds(
+        Border, tile=st.just(folder / "tile.png"), adjust=st.just(True), alternate=st.booleans(), width=st.none()
+    )
+    stripe = st.builds(
+        Border, yarn=YARNS, width=st.one_of(st.builds(Breadth, st.integers(1, 4)), st.just(Breadth(None, 0.012)))
+    )
+    teeth = st.builds(
+        Border, teeth=st.tuples(YARNS, YARNS), width=st.builds(Breadth, st.integers(2, 4)), adjust=st.just(True)
+    )
+    borders = tuple(draw(st.lists(st.one_of(adjusted, stripe, teeth), max_size=3)))
+    picture = draw(st.booleans())
+    tiled = st.builds(Repeat, st.just(folder / "tile.png"), order=st.sampled_from(ORDERS), cut=st.booleans())
+    repeat = None if picture else draw(st.one_of(st.none(), tiled))
+    motif = st.builds(
+        Motif,
+        st.just(folder / "tile.png"),
+        st.one_of(st.sampled_from(("centre", "corners", "ends", "sides")), st.just((30, 20))),
+        st.sampled_from(("", *MIRRORS)),
+        transparent=st.sampled_from(("", "#9e2b25")),
+    )
+    lines = ["set 1,1 2,2 gold", "line 1,1 150,100 ivory", "fill 75,50 rose", "replace rose by camel in 1,1 99,99"]
+    return Recipe(
+        folder / "carpet.toml",
+        folder / "photo.png" if picture else None,
+        "" if picture else draw(YARNS),
+        repeat,
+        draw(st.sampled_from(("", *MIRRORS))),
+        borders,
+        tuple(draw(st.lists(motif, max_size=2))),
+        tuple(parse_edit(line) for line in draw(st.lists(st.sampled_from(lines), max_size=3))),
+    )
+
+
+def test_a_saved_recipe_reads_as_the_same_carpet(tmp_path: Path) -> None:
+    """Records and composed colours are the same, for random recipes."""
+    for name in ("photo.png", "tile.png"):
+        (tmp_path / name).write_bytes(b"not opened")
+    size, quality, yarns = CarpetSize(0.4, 0.6), Quality(250.0, 250.0), default_yarns()
+    pictures = {tmp_path / "photo.png": noise(1, 90, 60), tmp_path / "tile.png": noise(2, 6, 10)}
+
+    @settings(max_examples=40, deadline=None)
+    @given(recipes(tmp_path), st.sampled_from((None, "asymmetric")))
+    def check(recipe: Recipe, knot: str | None) -> None:
+        made = RecipeFile(recipe, size, quality, knot, None, None, None, {"least_patch": 2}, LoomKeys(heads=3))
+        (tmp_path / "carpet.toml").write_text(recipe_text(made, tmp_path), encoding="utf-8")
+        read = read_recipe(tmp_path / "carpet.toml", recipe_parameters())
+        assert (read.size, read.quality, read.knot) == (size, quality, knot)
+        assert (read.settings, read.loom.heads) == ({"least_patch": 2}, 3)
+        assert read.recipe.as_dict() == recipe.as_dict()
+        first, second = (compose(one, size, quality, yarns, pictures) for one in (recipe, read.recipe))
+        assert (first.design.colours == second.design.colours).all()
+
+    check()
