@@ -143,3 +143,20 @@ def test_a_recipe_is_not_saved_away_from_its_pictures(folder: Path, tmp_path: Pa
     assert result.exit_code == 2
     assert "save the recipe in" in result.stderr
     assert not (tmp_path / "x.json").exists()
+
+
+def test_a_drawn_border_round_a_photo_stays_as_it_is_drawn(folder: Path) -> None:
+    """Patches are merged in the photo, never in the border; a named yarn is there whatever the rules take."""
+    text = 'picture = "photo.png"\nsize = "40x56.8cm"\ncolours = 3\nleast_patch = 9\n'
+    text += '[[border]]\nyarn = "dark green"\nwidth = 2\n'
+    tile = '[[border]]\ntile = "tile.png"\nadjust = true\n'
+    chart = chart_order(order_of(folder, text + tile))[0].chart
+    names = np.array([yarn.name for yarn in chart.yarns])[chart.knots]
+    assert (names[:2] == "dark green").all()
+    assert (names[:, -2:] == "dark green").all()
+    assert chart.reading.kind == "photo"
+    assert len(set(names[8:-8, 8:-8].ravel().tolist())) <= 3
+    dots = names[4:6, 8:-8] == names[4, 13]
+    assert 0.15 < dots.mean() < 0.25
+    assert (names[2:8] == names[2:8, ::-1]).all()
+    assert len(chart.reading.differences) == len(chart.yarns) >= 4

@@ -89,5 +89,6 @@ def _yarn(yarn: Yarn) -> Mapping[str, Any]:
     """A yarn as an entry of a yarn list."""
     lab = tuple(srgb_to_lab(np.array(yarn.srgb, dtype=np.uint8)).tolist())
     colour: dict[str, Any] = {"srgb": yarn.hex} if lab == yarn.lab else {"lab": list(yarn.lab)}
+    count = {} if yarn.metric_count is None else {"nm": yarn.metric_count, "ply": yarn.ply}
     price = {} if yarn.price is None else {"price": yarn.price}
-    return {"name": yarn.name, **colour, "nm": yarn.metric_count, "ply": yarn.ply, **price}
+    return {"name": yarn.name, **colour, **count, **price}

@@ -11,6 +11,8 @@ from ilmek.carpet.recipe.composition import compose
 from ilmek.carpet.recipe.edits import located
 from ilmek.carpet.recipe.finish import finish
 from ilmek.carpet.recipe.recipe import Recipe
+from ilmek.carpet.usual_pile import with_counts
+from ilmek.carpet.yarn import Yarn
 from ilmek.io.picture import SMALLEST, read_picture
 from ilmek.io.recipe_file import LoomKeys, RecipeFile
 from ilmek.io.recipe_text import recipe_text
@@ -33,7 +35,7 @@ def chart_of_recipe(order: CarpetOrder, progress: Progress = SILENT, *, with_sou
         picture = replace(order, picture=recipe.picture, recipe=None)
         with located(recipe.where):
             done = chart_of_order(picture, progress.part(0.0, 0.8), with_source=with_source)
-        chart = finish(done.chart, recipe, done.order.yarns, None, progress.part(0.8, 1.0, "edits"))
+        chart = finish(done.chart, recipe, _counted(done.order), None, progress.part(0.8, 1.0, "edits"))
         return OrderedChart(replace(done.order, order=order), chart, done.notes, done.source)
     made = order.resolved()
     check_sheets(made.size, made.quality, order)
@@ -61,8 +63,13 @@ def chart_of_recipe(order: CarpetOrder, progress: Progress = SILENT, *, with_sou
         progress=progress.part(0.5, 0.8, "chart"),
     )
     source = shown_source(composition.design.colours) if with_source else None
-    chart = finish(chart, recipe, made.yarns, composition, progress.part(0.8, 1.0, "edits"))
+    chart = finish(chart, recipe, _counted(made), composition, progress.part(0.8, 1.0, "edits"))
     return OrderedChart(made, chart, (*notes, *composition.notes), source)
+
+
+def _counted(made: ResolvedOrder) -> tuple[Yarn, ...]:
+    """The whole list of yarns, as a chart has them."""
+    return with_counts(made.yarns, made.quality, made.knot)
 
 
 def _pictures(recipe: Recipe, progress: Progress) -> tuple[Mapping[Path, Rgb], tuple[str, ...]]:

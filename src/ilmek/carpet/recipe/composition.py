@@ -13,9 +13,10 @@ import numpy as np
 
 from ilmek.arrays import Bool, Rgb
 from ilmek.carpet.design import knot_grid, resampled
+from ilmek.carpet.exact import few_colours
 from ilmek.carpet.fitting import Fit, FitParams, fit_notes, fit_picture
 from ilmek.carpet.quality import Quality
-from ilmek.carpet.reading import Design, ReadParams, read_design
+from ilmek.carpet.reading import Design, ReadParams, exact_design, read_design
 from ilmek.carpet.recipe.border import draw_border, edges, teeth_tile
 from ilmek.carpet.recipe.edits import located, srgb_of, yarn_number
 from ilmek.carpet.recipe.layout import BorderLayout, CarpetLayout, lay_out
@@ -23,7 +24,7 @@ from ilmek.carpet.recipe.mirror import complete, part_grid
 from ilmek.carpet.recipe.recipe import MOST_TILE, Motif, Recipe
 from ilmek.carpet.recipe.repeat import repeated
 from ilmek.carpet.sizes import LARGEST, SMALLEST, CarpetSize
-from ilmek.carpet.yarn import Yarn
+from ilmek.carpet.yarn import MOST_YARNS, Yarn
 from ilmek.errors import CarpetError
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
@@ -42,7 +43,7 @@ class Composition:
 
     fit     of the field's picture
     yarns   areas in which the knots of a yarn's colour are that yarn, by its index in the list; later ones prevail
-    drawn   areas whose pictures are no photos, to which no rule for photos applies, and which of their knots
+    drawn   areas of an exacter reading than that of the whole, to which none of its rules applies, and which knots
     notes   on the fit
     """
 
@@ -64,7 +65,7 @@ class _Canvas:
     quality: Quality
     reading: ReadParams
     yarns: list[tuple[Area, int]] = field(default_factory=list)
-    drawn: list[tuple[Area, Bool[np.ndarray, "rows columns"] | None]] = field(default_factory=list)
+    drawn: list[tuple[Area, str, Bool[np.ndarray, "rows columns"] | None]] = field(default_factory=list)
     designs: list[Design] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
 
@@ -76,10 +77,27 @@ class _Canvas:
         self.yarns.append((area, number))
         return self.list_of_yarns[number].srgb
 
-    def read(self, rgb: Rgb, grid: tuple[int, int], progress: Progress = SILENT) -> Rgb:
-        """A picture on the grid of its part."""
-        self.designs.append(read_design(rgb, grid, self.reading, progress))
+    def read(self, rgb: Rgb, grid: tuple[int, int], size: CarpetSize | None = None, progress: Progress = SILENT) -> Rgb:
+        """A picture on the grid of its part; each of its pixels is a knot where it has that grid and few colours.
+
+        size  of the part; default: of a tile, which is exact if it has the grid
+        """
+        exact = None
+        if size is not None:
+            found = exact_design(rgb, size, self.quality, self.reading, progress=progress.part(0.0, 0.5))
+            exact = None if found is None else found[0]
+        elif self.reading.reading in ("auto", "exact") and rgb.shape[:2] == grid and few_colours(rgb, MOST_YARNS):
+            exact = Design(rgb, "exact", f"its pixels are the {grid[1]} × {grid[0]} knots", 0)
+        elif self.reading.reading == "exact":
+            pixels = f"{rgb.shape[1]} × {rgb.shape[0]} pixels"
+            given = f"reading is exact, and a tile of {pixels} has {grid[1]} × {grid[0]} knots"
+            raise CarpetError(given, do="leave out its width and length, or the reading")
+        self.designs.append(exact or read_design(rgb, grid, self.reading, progress.part(0.5, 1.0)))
         return self.designs[-1].colours
+
+    def mark(self, area: Area, kind: str = "", shown: Bool[np.ndarray, "rows columns"] | None = None) -> None:
+        """List an area with its reading; default: that of the picture that was read last."""
+        self.drawn.append((area, kind or self.designs[-1].kind, shown))
 
     def tile(self, path: Path, grid: tuple[int, int]) -> Rgb:
         """A tile on its grid."""
@@ -121,7 +139,9 @@ def compose(
         with located(motif.where):
             _draw_motif(canvas, motif, layout)
         progress(0.9)
-    return Composition(_whole(canvas), done, layout, tuple(canvas.yarns), tuple(canvas.drawn), tuple(canvas.notes))
+    whole = _whole(canvas)
+    kept = tuple((area, shown) for area, kind, shown in canvas.drawn if _KINDS.index(kind) < _KINDS.index(whole.kind))
+    return Composition(whole, done, layout, tuple(canvas.yarns), kept, tuple(canvas.notes))
 
 
 def _whole(canvas: _Canvas) -> Design:
@@ -160,15 +180,14 @@ def _draw_border(canvas: _Canvas, one: BorderLayout) -> None:
         del canvas.designs[kind + 1 :]
     corner = None if border.corner is None else canvas.tile(border.corner, (high, wide))
     draw_border(out, (tiles[0], np.swapaxes(tiles[1], 0, 1)), one.units, one.motifs, corner)
-    _mark_drawn(canvas, area, one.breadth)
+    _mark_sides(canvas, area, one.breadth, "exact" if border.teeth else "")
 
 
-def _mark_drawn(canvas: _Canvas, area: Area, breadth: tuple[int, int]) -> None:
+def _mark_sides(canvas: _Canvas, area: Area, breadth: tuple[int, int], kind: str) -> None:
     """List the four sides of a border."""
     top, left = area[0].start, area[1].start
     for rows, columns in edges(area[0].stop - top, area[1].stop - left, breadth):
-        shifted = (slice(rows.start + top, rows.stop + top), slice(columns.start + left, columns.stop + left))
-        canvas.drawn.append((shifted, None))
+        canvas.mark((slice(rows.start + top, rows.stop + top), slice(columns.start + left, columns.stop + left)), kind)
 
 
 def _draw_field(
@@ -185,10 +204,11 @@ def _draw_field(
         size = _part_size(part, canvas.quality)
         fitted, done = fit_picture(canvas.pictures[recipe.picture], size, fit, progress.part(0.0, 0.3), grid=part)
         canvas.notes += fit_notes(done, fitted.shape[:2], size, part)
-        out[: part[0], : part[1]] = canvas.read(fitted, part, progress.part(0.3, 1.0))
+        out[: part[0], : part[1]] = canvas.read(fitted, part, size, progress.part(0.3, 1.0))
     if recipe.repeat is not None:
         with located(recipe.repeat.where):
             _draw_repeat(canvas, recipe, out)
+        canvas.mark(area)
     complete(out, recipe.mirror)
     return done
 
@@ -230,7 +250,7 @@ def _draw_motif(canvas: _Canvas, motif: Motif, layout: CarpetLayout) -> None:
         step = (slice(None, None, -1 if down else 1), slice(None, None, -1 if right else 1))
         area = (slice(top, top + height), slice(left, left + width))
         canvas.colours[area][shown[step]] = colours[step][shown[step]]
-        canvas.drawn.append((area, shown[step]))
+        canvas.mark(area, shown=shown[step])
 
 
 def _sides(motif: Motif, rgb: Rgb) -> tuple[int, int]:

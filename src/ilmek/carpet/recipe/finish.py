@@ -10,6 +10,7 @@ from ilmek.carpet.chart import Chart
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.colour_difference import nearest
 from ilmek.carpet.design import bands
+from ilmek.carpet.differences import YarnDifference
 from ilmek.carpet.recipe.composition import Composition
 from ilmek.carpet.recipe.edits import apply_edit, check_knots, located, named_yarns
 from ilmek.carpet.recipe.recipe import Recipe
@@ -65,13 +66,21 @@ def _with_yarns(chart: Chart, yarns: Sequence[Yarn], named: set[int]) -> tuple[C
     knots: Indices = np.empty_like(chart.knots)
     for band in bands(*knots.shape):
         knots[band] = table[chart.knots[band]]
-    return replace(chart, knots=knots, yarns=chosen), {number: at for at, number in enumerate(kept)}
+    known = dict(zip((yarn.name for yarn in chart.yarns), chart.reading.differences, strict=False))
+    none = YarnDifference(0.0, 0.0)
+    reading = replace(
+        chart.reading,
+        differences=tuple(known.get(yarn.name, none) for yarn in chosen) if known else (),
+        matches=tuple(match._replace(yarn=int(table[match.yarn])) for match in chart.reading.matches),
+    )
+    made = replace(chart, knots=knots, yarns=chosen, reading=reading)
+    return made, {number: at for at, number in enumerate(kept)}
 
 
 def _as_composed(chart: Chart, made: Composition, index: dict[int, int], progress: Progress) -> Indices:
     """The knots with drawn areas as they were drawn, and named yarns where they are."""
     knots, colours = chart.knots, made.design.colours
-    if made.design.kind == "photo":
+    if made.drawn:
         labs = yarn_labs(chart.yarns)
         for area, shown in made.drawn:
             np.copyto(knots[area], _nearest(colours[area], labs), where=True if shown is None else shown)
