@@ -1,6 +1,6 @@
 """Carpets: picture to knot chart, chart to files, the whole job."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
 
@@ -15,6 +15,9 @@ from ilmek.carpet.yarn import Yarn
 from ilmek.errors import OutputError, PictureError
 from ilmek.io import picture as pictures
 from ilmek.io import yarn_file
+from ilmek.io.chart.bmp import write_chart_bmp
+from ilmek.io.chart.oxs import write_chart_oxs
+from ilmek.io.chart.oxs_reading import is_oxs, read_chart_oxs
 from ilmek.io.chart.pdf import write_chart_pdf
 from ilmek.io.chart.png import read_chart_png, write_chart_png
 from ilmek.io.output import Outputs
@@ -91,22 +94,32 @@ def _pixels(picture: str | Path | Picture | Rgb) -> Rgb:
 
 
 def write_chart(path: str | Path, chart: Chart) -> None:
-    """Write a chart as .png (one pixel one knot) or .pdf (with symbols and row numbers).
+    """Write a chart as .png (one pixel one knot), .bmp (the same, without its facts), .oxs (for cross-stitch programs)
+    or .pdf (with symbols and row numbers).
 
     An existing file is replaced, whole or not at all.
     Raises OutputError for another ending, and if the file cannot be written.
     """
     path = Path(path)
-    writers = {".png": write_chart_png, ".pdf": write_chart_pdf}
+    writers: dict[str, Callable[[Path, Chart], None]] = {
+        ".png": write_chart_png,
+        ".bmp": write_chart_bmp,
+        ".oxs": write_chart_oxs,
+        ".pdf": write_chart_pdf,
+    }
     if path.suffix.lower() not in writers:
-        raise OutputError(f"chart {path} ends in {path.suffix!r}", allowed=".png or .pdf")
+        raise OutputError(f"chart {path} ends in {path.suffix!r}", allowed=f"one of {', '.join(writers)}")
     with Outputs(force=True) as outputs, outputs.file(path) as work:
         writers[path.suffix.lower()](work, chart)
 
 
 def read_chart(path: str | Path) -> Chart:
-    """The chart of a .png written by `write_chart` or a job, as it was. Raises PictureError."""
-    return read_chart_png(Path(path))
+    """The chart of a .png or .oxs written by `write_chart` or a job, as it was; an .oxs may be of another program.
+
+    Raises PictureError, and CarpetError for an .oxs that no carpet of the usual quality has the grid of.
+    """
+    path = Path(path)
+    return read_chart_oxs(path)[0] if is_oxs(path) else read_chart_png(path)
 
 
 def weave(

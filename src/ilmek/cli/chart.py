@@ -72,7 +72,7 @@ def show_chart(charted: ChartResult) -> None:
             ("colour difference", f"{made.mean_delta_e:.2f} mean CIEDE2000 (lower bound {made.least_delta_e:.2f})"),
             ("fit", made.fit.words),
             ("reading", f"{made.kind}: {made.reason}"),
-            *([("farthest colours", _farthest(chart))] if made.matches else []),
+            *([("farthest colours", far)] if (far := _farthest(chart)) else []),
             ("changed knots", f"{made.changed:,}"),
             *([("edited knots", f"{made.edited:,}")] if charted.order.order.recipe is not None else []),
             ("lone knots", f"{chart.lone_fraction:.2%}"),
@@ -86,8 +86,9 @@ def show_chart(charted: ChartResult) -> None:
 
 
 def _farthest(chart: Chart) -> str:
-    """The colours of a drawing that are farthest from their yarns."""
-    worst = sorted(chart.reading.matches, key=lambda match: -match.delta_e)[:3]
+    """The colours of a drawing that are farthest from their yarns; "" where each has its own."""
+    far = [match for match in chart.reading.matches if match.delta_e >= 0.05]
+    worst = sorted(far, key=lambda match: -match.delta_e)[:3]
     return ", ".join(f"{match.hex} {match.delta_e:.1f} from {chart.yarns[match.yarn].name}" for match in worst)
 
 

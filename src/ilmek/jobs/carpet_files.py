@@ -14,6 +14,8 @@ FILES = (
     FileNote("report.json", "the same results as data, SI"),
     FileNote("carpet.png", "the simulated carpet, to show"),
     FileNote("chart.png", "the knot chart, one pixel one knot; weave and chart read it again"),
+    FileNote("chart.bmp", "the knot chart as indexed BMP, for carpet CAD programs"),
+    FileNote("chart.oxs", "the knot chart for cross-stitch programs; weave and chart read it again"),
     FileNote("chart.pdf", "the knot chart to weave from, with symbols and row numbers"),
     FileNote("wall.pdf", "the whole knot chart on one large sheet"),
     FileNote("rows.pdf", "the rows to weave by, to print and tick off"),
@@ -48,6 +50,8 @@ class FileParams(Params):
         doc="direction in which rows are read: to the right, to the left, both, or odd rows right and even rows left",
     )
     wall: bool = param(False, doc="draw the whole chart on one large sheet, wall.pdf")
+    bmp: bool = kind.flag(False, doc="write chart.bmp, an indexed BMP of one pixel a knot, for carpet CAD programs")
+    oxs: bool = kind.flag(False, doc="write chart.oxs, the open XML chart of cross-stitch programs")
 
 
 def file_notes(written: Collection[str]) -> tuple[FileNote, ...]:

@@ -13,6 +13,8 @@ from ilmek.carpet.matches import shared_yarns
 from ilmek.carpet.pile import PileParams, fill_check, pile_fill
 from ilmek.carpet.statistics import chart_statistics
 from ilmek.carpet.yarn import Yarn
+from ilmek.io.chart.bmp import write_chart_bmp
+from ilmek.io.chart.oxs import write_chart_oxs
 from ilmek.io.chart.pdf import chart_cut, write_chart_pdf
 from ilmek.io.chart.png import write_chart_png
 from ilmek.io.json_file import write_json
@@ -63,7 +65,14 @@ class ChartResult:
     def files(self) -> tuple[str, ...]:
         """Names of the files that `write_chart` writes."""
         rows = rows_plan(self.chart, self.order.order).names
-        return ("chart.png", "carpet.png", *(("chart.pdf",) if self._printed else ()), *rows, "yarn.csv")
+        printed = ("chart.pdf",) if self._printed else ()
+        return ("chart.png", *self._exchanged, "carpet.png", *printed, *rows, "yarn.csv")
+
+    @property
+    def _exchanged(self) -> tuple[str, ...]:
+        """The charts for other programs."""
+        files = self.order.order.files
+        return tuple(name for name, wanted in (("chart.bmp", files.bmp), ("chart.oxs", files.oxs)) if wanted)
 
     @property
     def _printed(self) -> bool:
@@ -235,10 +244,14 @@ def write_chart(
     Raises OSError, and CarpetError for a carpet.png of too many pixels.
     """
     chart, width = charted.chart, charted.order.order.files.carpet_width
-    write_chart_png(folder / "chart.png", chart, progress.part(0.0, 0.2, "chart.png"))
+    write_chart_png(folder / "chart.png", chart, progress.part(0.0, 0.1, "chart.png"))
+    if "chart.bmp" in charted.files:
+        write_chart_bmp(folder / "chart.bmp", chart, progress.part(0.1, 0.15, "chart.bmp"))
+    if "chart.oxs" in charted.files:
+        write_chart_oxs(folder / "chart.oxs", chart, progress.part(0.15, 0.2, "chart.oxs"))
     write_carpet_png(folder / "carpet.png", chart, width, progress.part(0.2, 0.4, "carpet.png"))
     write_yarn_csv(folder / "yarn.csv", charted.bill, charted.chart.yarns)
-    written = ["chart.png", "carpet.png"]
+    written = [name for name in charted.files if name in ("chart.png", "chart.bmp", "chart.oxs", "carpet.png")]
     if "chart.pdf" in charted.files:
         pdf, before, printing = folder / "chart.pdf", len(left_out), progress.part(0.4, 0.7, "chart.pdf")
         made_or_left_out("chart.pdf", lambda: write_chart_pdf(pdf, charted.chart, progress=printing), left_out)

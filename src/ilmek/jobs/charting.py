@@ -14,6 +14,7 @@ from ilmek.carpet.reading import Design, ReadParams, exact_design, read_design
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import MOST_YARNS
 from ilmek.errors import PictureError
+from ilmek.io.chart.oxs_reading import is_oxs, read_chart_oxs
 from ilmek.io.chart.png import is_chart_png, read_chart_png
 from ilmek.io.picture import read_picture
 from ilmek.jobs.order import GROUPS, CarpetOrder, ResolvedOrder, check_sheets
@@ -63,6 +64,7 @@ def chart_of_order(order: CarpetOrder, progress: Progress = SILENT, *, with_sour
         if _keeps_knots(order, chart):
             kept = replace(chart, yarns=made.yarns, size=made.size, quality=made.quality, knot=made.knot)
             return OrderedChart(made, kept, notes)
+        notes = (*notes, *_flattened(chart))
         rgb = np.array([yarn.srgb for yarn in chart.yarns], dtype=np.uint8)[chart.knots]
         prepared, fit = prepare_picture(rgb, order.fit, progress.part(0.2, 0.25))
         drawn = given.size is None and _is_part(prepared, chart)
@@ -123,13 +125,22 @@ def _read(
     return _ReadPicture(made, design, fit, notes, shown_source(fitted) if with_source else None)
 
 
+def _flattened(chart: Chart) -> tuple[str, ...]:
+    """A note on the marks of a chart that is read as a drawing."""
+    if not len(chart.overlay):
+        return ()
+    return (f"its {chart.overlay.halves:,} half knots and {chart.overlay.juftis:,} jufti knots are left out",)
+
+
 def _is_part(prepared: Rgb, chart: Chart) -> bool:
     """Whether a picture made from a chart has another grid, and still one knot for each pixel."""
     return prepared.shape[:2] != chart.knots.shape and few_colours(prepared, MOST_YARNS) is not None
 
 
 def _own_chart(order: CarpetOrder, progress: Progress) -> tuple[Chart | None, tuple[str, ...]]:
-    """The chart in the order's file, if it is one; a note where its data cannot be used."""
+    """The chart in the order's file, if it is one, and notes, also where the data of a chart cannot be used."""
+    if is_oxs(order.picture):
+        return read_chart_oxs(order.picture, order.size, order.quality, progress)
     if not is_chart_png(order.picture):
         return None, ()
     try:

@@ -22,6 +22,7 @@ from ilmek.carpet.yarn import Yarn
 from ilmek.carpet.yarn_plan import YarnPlanParams
 from ilmek.elements.knot_kinds import parse_knot
 from ilmek.errors import CarpetError, ParameterError, YarnError, did_you_mean
+from ilmek.io.chart.oxs import require_oxs
 from ilmek.io.chart.sheets import cut, require_wall
 from ilmek.io.recipe_file import LoomKeys, RecipeFile, read_recipe
 from ilmek.io.yarn_file import default_yarns, read_yarns
@@ -220,3 +221,5 @@ def check_sheets(size: CarpetSize, quality: Quality, order: CarpetOrder) -> None
         )
     if order.files.wall:
         require_wall(rows * columns)
+    if order.files.oxs:
+        require_oxs(rows * columns)

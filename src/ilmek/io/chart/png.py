@@ -1,11 +1,13 @@
 """Knot charts as indexed PNG: one pixel per knot, one palette entry per yarn.
 
 The pHYs chunk has the knots per metre in both directions, so that viewers that use it show true proportions. Text
-chunks have the title and, as JSON under `ilmek-chart`, all facts of the chart (`carpet_facts`).
+chunks have the title, as JSON under `ilmek-chart` all facts of the chart (`carpet_facts`), and under `ilmek-overlay`
+its half knots and jufti knots (`overlay_text`).
 """
 
 import io
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +21,7 @@ from ilmek.carpet.design import MOST_KNOTS
 from ilmek.carpet.yarn import Yarn
 from ilmek.errors import PictureError
 from ilmek.io.carpet_facts import chart_facts, chart_of_facts, read_facts
+from ilmek.io.overlay_text import overlay_text, read_overlay
 from ilmek.io.picture_file import (
     DamagedError,
     MeteredBytes,
@@ -30,18 +33,18 @@ from ilmek.io.picture_file import (
 from ilmek.io.regular_file import open_regular
 from ilmek.progress import SILENT, Cancelled, Progress
 
-KEY = "ilmek-chart"
+KEY, OVERLAY_KEY = "ilmek-chart", "ilmek-overlay"
 _CHUNKS = 1_000_000
 """Reads allowed of a chart: Pillow writes 64 kB in a chunk, and reads it in four pieces."""
 
 _BEGIN = 65_536
 """Bytes in which the data of a chart begin."""
 
-_METRE = 0.0254
+METRE = 0.0254
 """Metres per inch: Pillow takes dots per inch and writes dots per metre."""
 
 
-class _Counted(io.FileIO):
+class CountedFile(io.FileIO):
     """A file that is written with progress by the bytes written; `most` of them are expected."""
 
     def __init__(self, path: Path, most: int, progress: Progress) -> None:
@@ -71,8 +74,10 @@ def write_chart_png(path: Path, chart: Chart, progress: Progress = SILENT) -> No
     info.add_text("Title", "Knot chart: one pixel one knot")
     info.add_text("Software", "ilmek")
     info.add_itxt(KEY, chart_facts(chart))
-    dots = (chart.quality.across * _METRE, chart.quality.along * _METRE)
-    with _Counted(path, chart.knots.size, progress) as file:
+    if len(chart.overlay):
+        info.add_itxt(OVERLAY_KEY, overlay_text(chart.overlay, chart.columns))
+    dots = (chart.quality.across * METRE, chart.quality.along * METRE)
+    with CountedFile(path, chart.knots.size, progress) as file:
         chart_picture(chart).save(file, format="PNG", pnginfo=info, dpi=dots)
 
 
@@ -102,10 +107,12 @@ def read_chart_png(path: Path, progress: Progress = SILENT) -> Chart:
                 if picture.mode != "P":
                     raise DamagedError("it has no palette")
                 picture.load()
-                facts = read_facts(str(getattr(picture, "text", {}).get(KEY, "")))
+                texts = getattr(picture, "text", {})
+                facts = read_facts(str(texts.get(KEY, "")))
                 palette = picture.getpalette("RGB") or []
                 knots = np.array(picture, dtype=np.uint8)
         _require_yarns(knots, palette, facts.yarns)
+        overlay = read_overlay(str(texts.get(OVERLAY_KEY, "")), knots, len(facts.yarns))
     except (MemoryError, Cancelled):
         raise
     except Exception as error:  # a decoder may raise any
@@ -113,7 +120,7 @@ def read_chart_png(path: Path, progress: Progress = SILENT) -> Chart:
             f"{path} is no knot chart ({shortened(error)})", allowed="a chart.png written by ilmek"
         ) from error
     progress(1.0)
-    return chart_of_facts(knots, facts, "a knot chart of ilmek")
+    return replace(chart_of_facts(knots, facts, "a knot chart of ilmek"), overlay=overlay)
 
 
 def _require_yarns(knots: Indices, palette: list[int], yarns: Sequence[Yarn]) -> None:

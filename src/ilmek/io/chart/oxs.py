@@ -1,0 +1,81 @@
+"""Knot charts as OXS, the open XML charts of cross-stitch programs: one full stitch for each knot.
+
+    <chart>
+      <properties software="ilmek" chartwidth chartheight stitchesperinch stitchesperinch_y palettecount .../>
+      <palette>  <palette_item index number name color .../>  </palette>        item 0 is the cloth
+      <fullstitches>  <stitch x y palindex/>  </fullstitches>                    x to the right, y down, both from 0
+      <partstitches/> <backstitches/> ...                                        empty
+      <ilmek facts overlay/>                                                     all facts of the chart
+    </chart>
+
+Other programs ignore the element `ilmek`. Format: the specification of UrsaSoftware, which made it, as extended by
+Embroidery Space (xsp-specs, oxs/OXS.md).
+"""
+
+from collections.abc import Iterator
+from pathlib import Path
+from xml.sax.saxutils import quoteattr
+
+from ilmek.carpet.chart import Chart
+from ilmek.errors import CarpetError
+from ilmek.io.carpet_facts import chart_facts
+from ilmek.io.chart.png import METRE
+from ilmek.io.overlay_text import overlay_text
+from ilmek.progress import SILENT, Progress
+
+MOST_OXS_KNOTS = 4_000_000
+"""Largest number of knots of an OXS file: 160 MB."""
+
+
+def require_oxs(knots: int) -> None:
+    """Raise CarpetError for more knots than an OXS file can have."""
+    if knots > MOST_OXS_KNOTS:
+        raise CarpetError(
+            f"--oxs: the chart has {knots:,} knots",
+            allowed=f"at most {MOST_OXS_KNOTS:,}",
+            do="chart.png has everything, and --bmp any number of knots",
+        )
+
+
+def write_chart_oxs(path: Path, chart: Chart, progress: Progress = SILENT) -> None:
+    """Write the chart to `path`. Raises OSError, and CarpetError for a chart of too many knots."""
+    require_oxs(chart.knots.size)
+    with path.open("w", encoding="utf-8", newline="\n") as file:
+        for number, text in enumerate(_lines(chart)):
+            file.write(text)
+            progress(min(1.0, number / chart.rows))
+
+
+def _lines(chart: Chart) -> Iterator[str]:
+    """The text of the file in parts, one for each row of knots."""
+    yield '<?xml version="1.0" encoding="UTF-8"?>\n<chart>\n'
+    properties = {
+        "oxsversion": "1.0",
+        "software": "ilmek",
+        "chartheight": chart.rows,
+        "chartwidth": chart.columns,
+        "charttitle": "Knot chart",
+        "stitchesperinch": f"{chart.quality.across * METRE:.6g}",
+        "stitchesperinch_y": f"{chart.quality.along * METRE:.6g}",
+        "palettecount": len(chart.yarns),
+    }
+    yield f"  {_element('properties', properties)}\n  <palette>\n"
+    cloth = {"index": 0, "number": "cloth", "name": "cloth", "color": "FFFFFF"}
+    yield f"    {_element('palette_item', cloth)}\n"
+    for index, yarn in enumerate(chart.yarns, start=1):
+        item = {"index": index, "number": f"ilmek {index}", "name": yarn.name, "color": yarn.hex[1:].upper()}
+        yield f"    {_element('palette_item', {**item, 'strands': yarn.ply})}\n"
+    yield "  </palette>\n  <fullstitches>\n"
+    begins = [f'    <stitch x="{column}" y="' for column in range(chart.columns)]
+    for number, row in enumerate(chart.knots):
+        ends = [f'{number}" palindex="{yarn + 1}"/>\n' for yarn in range(len(chart.yarns))]
+        yield "".join([begin + ends[yarn] for begin, yarn in zip(begins, row.tolist(), strict=True)])
+    yield "  </fullstitches>\n"
+    for empty in ("partstitches", "backstitches", "ornaments_inc_knots_and_beads", "commentboxes"):
+        yield f"  <{empty}/>\n"
+    facts = {"facts": chart_facts(chart), "overlay": overlay_text(chart.overlay, chart.columns)}
+    yield f"  {_element('ilmek', facts)}\n</chart>\n"
+
+
+def _element(name: str, attributes: dict[str, object]) -> str:
+    return f"<{name} {' '.join(f'{key}={quoteattr(str(value))}' for key, value in attributes.items())}/>"

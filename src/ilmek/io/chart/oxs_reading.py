@@ -1,0 +1,274 @@
+"""Reading of OXS charts, ilmek's own and those of cross-stitch programs, as knot charts.
+
+The file is untrusted: no document type, hence no entities; bounded size, depth, grid and palette. It is parsed in
+blocks; every element is checked as it comes.
+"""
+
+import re
+from collections import Counter
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+from xml.parsers import expat
+
+import numpy as np
+
+from ilmek.arrays import Indices, Int
+from ilmek.carpet.chart import Chart
+from ilmek.carpet.colour import srgb_to_lab
+from ilmek.carpet.exact import of_grid
+from ilmek.carpet.quality import Quality
+from ilmek.carpet.sizes import CarpetSize
+from ilmek.carpet.yarn import MOST_YARNS, Yarn
+from ilmek.errors import IlmekError, PictureError, shortened
+from ilmek.io.carpet_facts import ChartFacts, chart_of_facts, read_facts
+from ilmek.io.chart.oxs import MOST_OXS_KNOTS
+from ilmek.io.data_text import LONGEST_NAME
+from ilmek.io.overlay_text import read_overlay
+from ilmek.io.regular_file import open_regular
+from ilmek.io.yarn_file import default_yarns
+from ilmek.progress import SILENT, Progress
+
+LARGEST_OXS = 300_000_000
+"""Largest size of an OXS file [bytes]."""
+
+MOST_ITEMS = 2000
+"""Largest number of items of a palette, and largest index of one."""
+
+DEEPEST_OXS = 8
+"""Largest depth of elements; a chart has three."""
+
+SHORTEST_SIDE = 2
+
+_BLOCK = 1 << 20
+_BEGIN = 4096
+_WHOLE = re.compile(r"\s*([0-9]{1,7})(?:\.0{1,9})?\s*")
+_COLOUR = re.compile(r"\s*#?([0-9a-fA-F]{6})\s*")
+_LEFT_OUT = {
+    "partstitch": "part stitches",
+    "backstitch": "back stitches",
+    "object": "knots, beads and other ornaments",
+    "commentbox": "comments",
+}
+
+
+def is_oxs(path: Path) -> bool:
+    """Whether a file is named or begins as an OXS chart; False if it cannot be read."""
+    if path.suffix.lower() == ".oxs":
+        return True
+    try:
+        file, _ = open_regular(path)
+        with file:
+            begin = file.read(_BEGIN)
+    except OSError:
+        return False
+    return begin.lstrip(b"\xef\xbb\xbf \t\r\n").startswith((b"<?xml", b"<chart")) and b"<chart" in begin
+
+
+def read_chart_oxs(
+    path: Path, size: CarpetSize | None = None, quality: Quality | None = None, progress: Progress = SILENT
+) -> tuple[Chart, tuple[str, ...]]:
+    """The chart of an OXS file, and notes on what is left out.
+
+    A chart that ilmek wrote comes back as it was. Of another program's chart, the stitches are the knots, the colours
+    of the palette the yarns, with the count of the wool list that is built in; its size follows from the quality.
+
+    size, quality  of the carpet, for a chart of another program; default: as of a drawing
+    Raises PictureError for a file that is no such chart or exceeds the limits, CarpetError for a grid that no carpet of
+    the size or the quality has; Cancelled.
+    """
+    reader = _Reader()
+    try:
+        reader.parse(path, progress)
+        knots, more = reader.grid()
+        return _chart(reader, knots, more, size, quality)
+    except expat.ExpatError as error:
+        given = f"{path}, line {error.lineno}: {expat.errors.messages[error.code]}"
+        raise PictureError(given, do="it is damaged or truncated; save or copy it again") from None
+    except _FaultError as fault:
+        raise PictureError(f"{path}, line {reader.line}: {fault.given}", allowed=fault.allowed, do=fault.do) from None
+    except OSError as error:
+        raise PictureError(f"{path} cannot be read ({error.strerror or error})") from None
+
+
+class _FaultError(IlmekError):
+    """A fault of the file at the line that is read."""
+
+
+class _Reader:
+    """Takes the elements of a file one by one."""
+
+    def __init__(self) -> None:
+        self.depth = 0
+        self.palette: dict[int, tuple[str, str]] = {}  # name and colour by index
+        self.left_out: Counter[str] = Counter()
+        self.facts = self.overlay = self.software = ""
+        self._stitches: Int[np.ndarray, "rows columns"] | None = None
+        self._parser: Any = expat.ParserCreate()
+        self._parser.buffer_text = True
+        self._parser.StartElementHandler = self._start
+        self._parser.EndElementHandler = self._end
+        self._parser.StartDoctypeDeclHandler = self._refuse_doctype
+        self._parser.EntityDeclHandler = self._refuse_doctype
+
+    @property
+    def line(self) -> int:
+        """The line that is read."""
+        return int(self._parser.CurrentLineNumber)
+
+    def parse(self, path: Path, progress: Progress) -> None:
+        """Parse the whole file."""
+        file, size = open_regular(path)
+        with file:
+            if size > LARGEST_OXS:
+                raise _FaultError(f"it has {size / 1e6:,.0f} MB", allowed=f"at most {LARGEST_OXS // 1_000_000} MB")
+            done = 0
+            while done < size and (block := file.read(min(_BLOCK, size - done))):
+                done += len(block)
+                self._parser.Parse(block, False)
+                progress(done / size)
+            self._parser.Parse(b"", True)
+
+    def grid(self) -> tuple[Int[np.ndarray, "rows columns"], tuple[str, ...]]:
+        """The palette's index of each knot, 0 for the cloth, and notes."""
+        if self._stitches is None:
+            raise _FaultError("it has no stitches", allowed="a chart of full stitches")
+        rows, columns = (int(side) - 1 for side in self._stitches.shape)
+        beyond = bool(self._stitches[rows].any() or self._stitches[:, columns].any())
+        if not beyond:
+            return np.ascontiguousarray(self._stitches[:rows, :columns]), ()
+        if self._stitches[0].any() or self._stitches[:, 0].any():
+            given = f"a stitch is outside of the chart of {columns} × {rows}"
+            raise _FaultError(given, allowed=f"x 0 to {columns - 1}, y 0 to {rows - 1}")
+        return np.ascontiguousarray(self._stitches[1:, 1:]), ("its stitches are numbered from 1",)
+
+    def _refuse_doctype(self, *_: object) -> None:
+        raise _FaultError("it has a document type", allowed="an OXS chart has none")
+
+    def _start(self, name: str, given: dict[str, str]) -> None:
+        self.depth += 1
+        if self.depth > DEEPEST_OXS:
+            raise _FaultError("it is nested too deeply", allowed=f"at most {DEEPEST_OXS} levels")
+        if self.depth == 1 and name != "chart":
+            raise _FaultError(f"it is no OXS chart: it begins with {shortened(name)!r}", allowed="<chart>")
+        if name == "stitch":
+            self._stitch(given)
+        elif name == "palette_item":
+            self._palette_item(given)
+        elif name == "properties":
+            self._properties(given)
+        elif name == "ilmek":
+            self.facts, self.overlay = given.get("facts", ""), given.get("overlay", "")
+        elif name in _LEFT_OUT:
+            self.left_out[_LEFT_OUT[name]] += 1
+
+    def _end(self, _name: str) -> None:
+        self.depth -= 1
+
+    def _properties(self, given: dict[str, str]) -> None:
+        rows = _whole(given, "chartheight", MOST_OXS_KNOTS)
+        columns = _whole(given, "chartwidth", MOST_OXS_KNOTS)
+        if min(rows, columns) < SHORTEST_SIDE or rows * columns > MOST_OXS_KNOTS:
+            allowed = f"{SHORTEST_SIDE} × {SHORTEST_SIDE} to {MOST_OXS_KNOTS:,} in all"
+            raise _FaultError(f"a chart of {columns} × {rows} stitches", allowed=allowed)
+        if self._stitches is not None:
+            raise _FaultError("it has two sections of properties", allowed="one, before the stitches")
+        self.software = given.get("software", "")
+        self._stitches = np.zeros((rows + 1, columns + 1), dtype=np.int16)  # one more, for programs that count from 1
+
+    def _palette_item(self, given: dict[str, str]) -> None:
+        index = _whole(given, "index", MOST_ITEMS) if "index" in given else len(self.palette)
+        if index in self.palette:
+            raise _FaultError(f"the palette has two items {index}")
+        colour = _COLOUR.fullmatch(given.get("color", "FFFFFF" if index == 0 else "FF00FF"))
+        if colour is None:
+            raise _FaultError(f"color {shortened(given['color'])!r} is no colour", allowed="six hexadecimal digits")
+        number, name = given.get("number", "").split(), given.get("name", "").split()
+        words = name if number[:1] == ["ilmek"] or number == name else [*number, *name]
+        self.palette[index] = " ".join(words), colour[1].lower()
+
+    def _stitch(self, given: dict[str, str]) -> None:
+        if self._stitches is None:
+            raise _FaultError("a stitch comes before the properties", allowed="<properties> with chartwidth first")
+        rows, columns = self._stitches.shape
+        x, y = _whole(given, "x", columns - 1), _whole(given, "y", rows - 1)
+        index = _whole(given, "palindex", MOST_ITEMS)
+        if index not in self.palette:
+            raise _FaultError(f"the stitch at x {x}, y {y} has the colour {index}, which the palette has not")
+        self._stitches[y, x] = index
+
+
+def _whole(given: dict[str, str], name: str, most: int) -> int:
+    found = _WHOLE.fullmatch(given.get(name, ""))
+    if found is None or int(found[1]) > most:
+        written = f"{name} {shortened(given[name])!r}" if name in given else f"no {name}"
+        raise _FaultError(f"an element has {written}", allowed=f"a whole number, 0 to {most:,}")
+    return int(found[1])
+
+
+def _chart(
+    reader: _Reader,
+    stitches: Int[np.ndarray, "rows columns"],
+    notes: tuple[str, ...],
+    size: CarpetSize | None,
+    quality: Quality | None,
+) -> tuple[Chart, tuple[str, ...]]:
+    left_out = [f"{count:,} {name}" for name, count in sorted(reader.left_out.items())]
+    if left_out:
+        notes = (*notes, f"left out of the chart: {', '.join(left_out)}")
+    if reader.facts:
+        try:
+            return _own(reader, stitches), notes
+        except IlmekError as error:
+            notes = (*notes, f"its data of ilmek cannot be used ({error.given}); it is read as that of another program")
+    yarns, knots = _yarns(reader, stitches)
+    size, quality = of_grid((int(knots.shape[0]), int(knots.shape[1])), size, quality)
+    facts = ChartFacts(size, quality, "symmetric", yarns)
+    more = f"its palette is the yarn list, with Nm {yarns[0].metric_count:g}, ply {yarns[0].ply}"
+    return chart_of_facts(knots, facts, "an OXS chart"), (*notes, more)
+
+
+def _own(reader: _Reader, stitches: Int[np.ndarray, "rows columns"]) -> Chart:
+    """The chart that ilmek wrote. Raises an IlmekError where another program has changed it."""
+    facts = read_facts(reader.facts)
+    colours = [f"#{colour}" for index, (_, colour) in sorted(reader.palette.items()) if index > 0]
+    if colours != [yarn.hex for yarn in facts.yarns] or not stitches.all():
+        raise _FaultError("the palette or the stitches were changed")
+    knots = (stitches - 1).astype(np.uint8)
+    chart = chart_of_facts(knots, facts, "an OXS chart of ilmek")
+    return replace(chart, overlay=read_overlay(reader.overlay, knots, len(facts.yarns)))
+
+
+def _yarns(reader: _Reader, stitches: Int[np.ndarray, "rows columns"]) -> tuple[tuple[Yarn, ...], Indices]:
+    """The yarns of the palette, the cloth among them where it is seen, and the knots."""
+    seen = set(np.flatnonzero(np.bincount(stitches.ravel())).tolist())
+    reader.palette.setdefault(0, ("cloth", "ffffff"))
+    listed = [index for index in sorted(reader.palette) if index > 0 or 0 in seen]
+    if len(listed) > MOST_YARNS:
+        listed = [index for index in listed if index in seen]
+    if not 2 <= len(listed) <= MOST_YARNS:
+        raise _FaultError(f"its palette has {len(listed)} colours", allowed=f"2 to {MOST_YARNS}")
+    names: set[str] = set()
+    usual = default_yarns()[0]
+    yarns = []
+    for index in listed:
+        name, colour = reader.palette[index]
+        red, green, blue = bytes.fromhex(colour)
+        lightness, a, b = srgb_to_lab(np.array([red, green, blue], dtype=np.uint8)).tolist()
+        name = _unlike(name, index, names)
+        yarns.append(Yarn(name, (red, green, blue), (lightness, a, b), usual.metric_count, usual.ply))
+    position = np.zeros(MOST_ITEMS + 1, dtype=np.uint8)
+    position[listed] = np.arange(len(listed))
+    return tuple(yarns), position[stitches]
+
+
+def _unlike(name: str, index: int, names: set[str]) -> str:
+    """A printable name that no other yarn has."""
+    clean = "".join(letter if letter.isprintable() else " " for letter in name)[: LONGEST_NAME - 8].strip()
+    clean = clean or f"colour {index}"
+    if clean.casefold() in names:
+        clean = f"{clean} ({index})"
+    while clean.casefold() in names:
+        clean = f"{clean}'"
+    names.add(clean.casefold())
+    return clean
