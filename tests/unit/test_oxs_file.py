@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from ilmek.cli import main
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import Yarn
+from ilmek.cli import main
 from ilmek.errors import CarpetError, PictureError
 from ilmek.io.chart.oxs import MOST_OXS_KNOTS, require_oxs, write_chart_oxs
 from ilmek.io.chart.oxs_reading import DEEPEST_OXS, read_chart_oxs
