@@ -1,5 +1,6 @@
 """The chart PNG: read back it is the same chart; other files are told from it."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -22,12 +23,18 @@ def chart(yarns: int, rows: int = 37, columns: int = 23) -> Chart:
     return Chart(knots, threads, CarpetSize(1.2, 1.8), Quality(250.0, 330.0), "asymmetric")
 
 
+def read_back(folder: Path, made: Chart) -> bool:
+    write_chart_png(folder / "again.png", made)
+    return read_chart_png(folder / "again.png").yarns == made.yarns
+
+
 @pytest.mark.parametrize("yarns", [2, 3, 16, 17, 200, 255])
 def test_comes_back_knot_by_knot(tmp_path: Path, yarns: int) -> None:
     made = chart(yarns)
     write_chart_png(tmp_path / "chart.png", made)
     back = read_chart_png(tmp_path / "chart.png")
     assert np.array_equal(back.knots, made.knots)
+    assert read_back(tmp_path, replace(made, yarns=tuple(replace(yarn, metric_count=None) for yarn in made.yarns)))
     assert (back.yarns, back.size, back.quality, back.knot) == (made.yarns, made.size, made.quality, made.knot)
 
 

@@ -45,7 +45,7 @@ def test_the_palette_of_another_program_is_the_yarn_list(tmp_path: Path) -> None
     assert [yarn.hex for yarn in chart.yarns] == ["#ffffff", "#2c3225", "#a26d20"]
     assert chart.yarns[1].lab == pytest.approx((19.9, -3.3, 6.6), abs=0.2)
     assert (chart.size.width, chart.quality) == (pytest.approx(0.03), Quality(100.0, 100.0))
-    assert notes == ("its palette is the yarn list, with Nm 2.5, ply 2",)
+    assert notes == ("its palette is the yarn list",)
 
 
 def test_cloth_that_is_covered_is_no_yarn(tmp_path: Path) -> None:
@@ -88,6 +88,9 @@ def test_an_order_gives_yarns_quality_and_size(tmp_path: Path) -> None:
     assert made.chart.knots.tolist() == [[0, 1] * 15] * 20
     assert (made.chart.size.width, made.chart.size.length) == pytest.approx((0.3, 0.1))
     assert [yarn.name for yarn in made.chart.yarns] == ["black", "gold"]
+    own = make_charted(read_order(tmp_path / "design.oxs")).chart
+    assert own.knots.tolist() == [[0, 1] * 15] * 20
+    assert all(yarn.metric_count for yarn in own.yarns)
     other = make_charted(read_order(tmp_path / "design.oxs", size="60x40cm", quality="10x10/dm"))
     assert other.chart.knots.shape == (40, 60)
 

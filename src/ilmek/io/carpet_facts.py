@@ -85,10 +85,17 @@ def yarn_entries(entry: MetaEntry) -> tuple[Yarn, ...]:
         lightness, a, b = (part.number(-200.0, 200.0) for part in given["lab"].rows(3, 3))
         red, green, blue = (part.whole(0, 255) for part in given["srgb"].rows(3, 3))
         price = None if given["price"].value is None else given["price"].number()
-        numbers = given["metric_count"].number(), given["ply"].whole(1, MOST_YARNS), price
+        count = None if given["metric_count"].value is None else given["metric_count"].number()
+        numbers = count, given["ply"].whole(1, MOST_YARNS), price
         found.append(Yarn(given["name"].text(least=1), (red, green, blue), (lightness, a, b), *numbers))
     records = [
-        {"name": yarn.name, "srgb": yarn.hex, "nm": yarn.metric_count, "ply": yarn.ply, "price": yarn.price}
+        {
+            "name": yarn.name,
+            "srgb": yarn.hex,
+            "nm": yarn.metric_count,
+            "ply": None if yarn.metric_count is None and yarn.ply == 1 else yarn.ply,
+            "price": yarn.price,
+        }
         for yarn in found
     ]
     for yarn, read in zip(found, yarns_from_records(records), strict=True):

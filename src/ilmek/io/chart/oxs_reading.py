@@ -26,7 +26,6 @@ from ilmek.io.chart.oxs import MOST_OXS_KNOTS
 from ilmek.io.data_text import LONGEST_NAME
 from ilmek.io.overlay_text import read_overlay
 from ilmek.io.regular_file import open_regular
-from ilmek.io.yarn_file import default_yarns
 from ilmek.progress import SILENT, Progress
 
 LARGEST_OXS = 300_000_000
@@ -71,7 +70,7 @@ def read_chart_oxs(
     """The chart of an OXS file, and notes on what is left out.
 
     A chart that ilmek wrote comes back as it was. Of another program's chart, the stitches are the knots, the colours
-    of the palette the yarns, with the count of the wool list that is built in; its size follows from the quality.
+    of the palette the yarns, whose count is left open; its size follows from the quality.
 
     size, quality  of the carpet, for a chart of another program; default: as of a drawing
     Raises PictureError for a file that is no such chart or exceeds the limits, CarpetError for a grid that no carpet of
@@ -224,8 +223,7 @@ def _chart(
     yarns, knots = _yarns(reader, stitches)
     size, quality = of_grid((int(knots.shape[0]), int(knots.shape[1])), size, quality)
     facts = ChartFacts(size, quality, "symmetric", yarns)
-    more = f"its palette is the yarn list, with Nm {yarns[0].metric_count:g}, ply {yarns[0].ply}"
-    return chart_of_facts(knots, facts, "an OXS chart"), (*notes, more)
+    return chart_of_facts(knots, facts, "an OXS chart"), (*notes, "its palette is the yarn list")
 
 
 def _own(reader: _Reader, stitches: Int[np.ndarray, "rows columns"]) -> Chart:
@@ -249,14 +247,13 @@ def _yarns(reader: _Reader, stitches: Int[np.ndarray, "rows columns"]) -> tuple[
     if not 2 <= len(listed) <= MOST_YARNS:
         raise _FaultError(f"its palette has {len(listed)} colours", allowed=f"2 to {MOST_YARNS}")
     names: set[str] = set()
-    usual = default_yarns()[0]
     yarns = []
     for index in listed:
         name, colour = reader.palette[index]
         red, green, blue = bytes.fromhex(colour)
         lightness, a, b = srgb_to_lab(np.array([red, green, blue], dtype=np.uint8)).tolist()
         name = _unlike(name, index, names)
-        yarns.append(Yarn(name, (red, green, blue), (lightness, a, b), usual.metric_count, usual.ply))
+        yarns.append(Yarn(name, (red, green, blue), (lightness, a, b)))
     position = np.zeros(MOST_ITEMS + 1, dtype=np.uint8)
     position[listed] = np.arange(len(listed))
     return tuple(yarns), position[stitches]
