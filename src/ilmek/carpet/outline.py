@@ -72,7 +72,7 @@ def find_outline(rgb: Rgb, progress: Progress = SILENT) -> tuple[Points, float]:
     region = _region(difference, step)
     corners = _largest_quadrilateral(_hull(region)) * step
     alike = _common_share(region, corners / step)
-    shares = (0.0, 0.0, 0.0, 0.0)
+    shares: tuple[float, ...] = ()
     for reach in _REACH:
         corners, shares = _refined(difference, corners, reach * min(difference.shape))
         progress(0.9)
@@ -199,7 +199,7 @@ def _common_share(region: BoolArray, corners: Points) -> float:
     inside = np.ones(region.shape, dtype=bool)
     for (ax, ay), (bx, by) in zip(corners.tolist(), np.roll(corners, -1, axis=0).tolist(), strict=True):
         inside &= (bx - ax) * (y - ay) - (by - ay) * (x - ax) >= 0
-    return float(np.count_nonzero(inside & region) / max(1, np.count_nonzero(inside | region)))
+    return int(np.count_nonzero(inside & region)) / max(1, int(np.count_nonzero(inside | region)))
 
 
 def _check_surroundings(difference: FloatArray, margin: BoolArray, corners: Points) -> None:
