@@ -81,7 +81,7 @@ BAD = {
     "bad lab": ("a.toml", TOML.replace("[90, 1, 12]", "[190, 1, 12]"), "white.*no colour"),
     "both colours": ("a.toml", TOML + "srgb = '#ffffff'\n", "both srgb and lab"),
     "too many": ("a.csv", "name,srgb,nm\n" + "".join(f"y{i},#800000,2\n" for i in range(256)), "256 yarns"),
-    "other suffix": ("a.xls", "x", "'.xls'; a yarn list is a .toml or .csv file"),
+    "other suffix": ("a.xls", "x", "'.xls'; a yarn list is a .toml, .csv or .gpl file"),
     "zero bytes": ("a.csv", "name,srgb,nm\nre\0d,#800000,2\nx,#800000,2,3", "line"),
     "not text": ("a.csv", "", "UTF-8"),
     "huge": ("a.csv", "x" * 1_000_001, "too large"),
@@ -107,3 +107,21 @@ def test_missing_file_and_folder(tmp_path: Path) -> None:
         read_yarns(tmp_path)
     with pytest.raises(YarnError, match="is not a file"):
         read_yarns(Path("/dev/null"))
+
+
+def test_a_palette_of_gimp_is_a_yarn_list(tmp_path: Path) -> None:
+    """The shipped list written as GIMP writes it comes back with its names and colours, without counts."""
+    wool = default_yarns()
+    lines = [f"{r:3d} {g:3d} {b:3d}\t{yarn.name}" for yarn in wool for r, g, b in [yarn.srgb]]
+    path = tmp_path / "wool.gpl"
+    path.write_text("\n".join(["GIMP Palette", "Name: wool", "Columns: 4", "#", *lines, ""]))
+    found = read_yarns(path)
+    assert [(yarn.name, yarn.srgb, yarn.metric_count, yarn.ply) for yarn in found] == [
+        (yarn.name, yarn.srgb, None, 1) for yarn in wool
+    ]
+
+
+def test_names_of_a_palette_are_made_unique(tmp_path: Path) -> None:
+    path = tmp_path / "a.gpl"
+    path.write_text("GIMP Palette\n255 0 0 red\n250 0 0\tRed\n0 0 9 Untitled\n0 0 9\n 0 0 9 red 2\n", encoding="utf-8")
+    assert [yarn.name for yarn in read_yarns(path)] == ["red", "Red 2", "#000009", "#000009 2", "red 2 2"]

@@ -18,9 +18,10 @@ from ilmek.carpet.fitting import Fit, FitParams, fit_prepared, prepare_picture
 from ilmek.carpet.halftone import draw_halftone
 from ilmek.carpet.matches import ColourMatch, colour_matches
 from ilmek.carpet.overlay import Overlay, TiedKnots, no_overlay, require_fit, tied_knots
-from ilmek.carpet.palette import distinct_colours, nearest_yarns, paint
-from ilmek.carpet.palette_rules import PaletteParams, choose_yarns
+from ilmek.carpet.palette import Colours, distinct_colours, nearest_yarns, paint
+from ilmek.carpet.palette_rules import Palette, PaletteParams, choose_yarns
 from ilmek.carpet.patches import count_patches
+from ilmek.carpet.proposal import ProposedShade, propose_shades
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.reading import Design, ReadParams, exact_design, read_design
 from ilmek.carpet.sizes import CarpetSize
@@ -58,6 +59,8 @@ class ChartReading:
     differences    of each yarn of the chart to the colours that it is the nearest of; 0 of one that is of none
     edited         number of knots that the edits of a recipe changed
     matches        of each colour of an exact or flat design, most knots first, at most MOST_MATCHES
+    palette        how its yarns were chosen from the list; default: they were not
+    proposed       shades of the design itself, where they were required
     """
 
     kind: str
@@ -70,6 +73,8 @@ class ChartReading:
     differences: tuple[YarnDifference, ...] = ()
     edited: int = 0
     matches: tuple[ColourMatch, ...] = ()
+    palette: Palette = Palette(())
+    proposed: tuple[ProposedShade, ...] = ()
 
 
 @record
@@ -224,12 +229,11 @@ def chart_of_design(
     Yarns without a count take the usual one of the quality.
     """
     _check_yarns(yarns)
-    kind, reading = parse_knot(knot), reading or ReadParams()
+    kind, reading, rules = parse_knot(knot), reading or ReadParams(), palette or PaletteParams()
     distinct = distinct_colours(design.colours, progress.part(0.0, 0.2))
-    chosen = choose_yarns(
-        distinct, with_counts(yarns, quality, kind), palette or PaletteParams(), progress.part(0.2, 0.4)
-    )
-    labs = yarn_labs(chosen)
+    chosen = choose_yarns(distinct, with_counts(yarns, quality, kind), rules, progress.part(0.2, 0.35))
+    proposed = () if rules.propose is None else _proposed(distinct, design, rules.propose, progress.part(0.35, 0.4))
+    labs = yarn_labs(chosen.yarns)
     yarn_of, difference = nearest_yarns(distinct, labs, progress.part(0.4, 0.6))
     knots = paint(design.colours, distinct, yarn_of, progress.part(0.6, 0.7))
     knots, drawn = _halftone(knots, design, labs, reading.halftone, progress.part(0.7, 0.8))
@@ -247,8 +251,10 @@ def chart_of_design(
         fit or Fit(),
         found.of_yarns,
         matches=() if design.kind == "photo" else colour_matches(distinct, yarn_of, difference),
+        palette=chosen,
+        proposed=proposed,
     )
-    chart = Chart(knots, chosen, size, quality, kind, made)
+    chart = Chart(knots, chosen.yarns, size, quality, kind, made)
     chart.tally(progress.part(0.95, 1.0))
     return chart
 
@@ -266,6 +272,10 @@ def _halftone(
             do="read it as a photo (--read photo), or leave the halftone out",
         )
     return draw_halftone(knots, design.colours, labs, strength, progress)
+
+
+def _proposed(distinct: Colours, design: Design, count: int, progress: Progress) -> tuple[ProposedShade, ...]:
+    return propose_shades(distinct, count, drawn=design.kind != "photo", progress=progress)
 
 
 def _check_yarns(yarns: Sequence[Yarn]) -> None:

@@ -6,10 +6,11 @@ of them and looked up for every knot, through a table of all 2^24 codes.
 
 import itertools
 import math
+from collections.abc import Iterator
 
 import numpy as np
 
-from ilmek.arrays import Float, FloatArray, Indices, Int, Int32, Int64, IntArray, Rgb, UInt8
+from ilmek.arrays import Float, Float32, FloatArray, Indices, Int, Int32, Int64, IntArray, Rgb, UInt8
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.colour_difference import delta_e_2000, nearest
 from ilmek.carpet.design import bands
@@ -22,8 +23,8 @@ _CODES = 1 << 24
 _BATCH = 65536
 _LARGEST_TABLE = 1 << 25
 _MOST_TRIALS = 3_000_000
-_TABLE, _SWAPS = 0.3, 0.6
-"""Shares of the search for yarns at which the table of differences is made, and at which the swaps begin."""
+_TABLE, _SWAPS = 0.3, 0.4
+"""Share of the search for yarns in which the table of differences is made, and share of the rest before the swaps."""
 
 _CELLS = 256
 """Cells of the Lab space along a and b; both are -108 to 99 in sRGB."""
@@ -109,27 +110,61 @@ def paint(rgb: Rgb, colours: Colours, yarn_of: UInt8[np.ndarray, " colours"], pr
 
 
 def best_yarns(
-    colours: Colours, yarn_labs: Float[np.ndarray, "yarns 3"], count: int, progress: Progress = SILENT
+    colours: Colours,
+    yarn_labs: Float[np.ndarray, "yarns 3"],
+    count: int,
+    progress: Progress = SILENT,
+    kept: tuple[int, ...] = (),
 ) -> tuple[int, ...]:
     """Indices, ascending, of the `count` yarns with the least total CIEDE2000 over the picture.
 
+    kept  indices of yarns that are among them in any case
+
     Every choice is tried where these are few. Else yarns are added one by one, each the best addition, and then swapped
     one for one while a swap lowers the total. Where the table colours × yarns would exceed 2^25 entries, near colours
-    are pooled. Raises YarnError unless 2 <= count <= length of the list.
+    are pooled. Raises YarnError unless 2 <= count <= length of the list, and at least as many as are kept.
     """
-    if not 2 <= count <= len(yarn_labs):
-        raise YarnError(f"{count} colours cannot be picked from the list", allowed=f"2 to {len(yarn_labs)}, its length")
-    labs, weights = _pooled(colours, _LARGEST_TABLE // len(yarn_labs), progress)
+    if not max(2, len(kept)) <= count <= len(yarn_labs):
+        raise YarnError(
+            f"{count} colours cannot be picked from the list",
+            allowed=f"{max(2, len(kept))} to {len(yarn_labs)}, its length",
+        )
+    table = difference_table(
+        *pooled(colours, _LARGEST_TABLE // len(yarn_labs), progress), yarn_labs, progress.part(0.0, _TABLE)
+    )
+    return best_of_table(table, count, progress.part(_TABLE, 1.0), kept)
+
+
+def best_of_table(
+    table: Float[np.ndarray, "yarns colours"], count: int, progress: Progress = SILENT, kept: tuple[int, ...] = ()
+) -> tuple[int, ...]:
+    """As `best_yarns`, of a table of differences."""
+    others = [yarn for yarn in range(len(table)) if yarn not in kept]
+    more = count - len(kept)
+    if math.comb(len(others), more) * table.shape[1] * count <= _MOST_TRIALS:
+        choices = (kept + choice for choice in itertools.combinations(others, more))
+        return tuple(sorted(min(choices, key=lambda choice: total_difference(table, choice))))
+    adding = progress.part(0.0, _SWAPS)
+    begun = list(kept)
+    for yarn, _ in itertools.islice(additions(table, kept), more):
+        begun.append(yarn)
+        adding(len(begun) / count)
+    return tuple(sorted(swap_while_better(table, begun, progress.part(_SWAPS, 1.0), len(kept))))
+
+
+def difference_table(
+    labs: Float[np.ndarray, "colours 3"],
+    weights: Float[np.ndarray, " colours"],
+    yarn_labs: Float[np.ndarray, "yarns 3"],
+    progress: Progress = SILENT,
+) -> Float32[np.ndarray, "yarns colours"]:
+    """CIEDE2000 × weight (knots) of every yarn and every colour."""
     table = np.empty((len(yarn_labs), len(labs)), dtype=np.float32)
     for number, (row, lab) in enumerate(zip(table, yarn_labs, strict=True)):
         for part in bands(len(labs), 1, _BATCH):
             row[part] = delta_e_2000(labs[part], lab) * weights[part]
-            progress(_TABLE * number / len(table))
-    if math.comb(len(yarn_labs), count) * len(labs) * count <= _MOST_TRIALS:
-        choices = itertools.combinations(range(len(yarn_labs)), count)
-        return min(choices, key=lambda choice: total_difference(table, choice))
-    begun = _add_one_by_one(table, count, progress.part(_TABLE, _SWAPS))
-    return tuple(sorted(_swap_while_better(table, begun, progress.part(_SWAPS, 1.0))))
+            progress(number / len(table))
+    return table
 
 
 def total_difference(table: Float[np.ndarray, "yarns colours"], choice: tuple[int, ...]) -> float:
@@ -137,7 +172,7 @@ def total_difference(table: Float[np.ndarray, "yarns colours"], choice: tuple[in
     return float(table[list(choice)].min(axis=0).sum(dtype=float))
 
 
-def _pooled(colours: Colours, most: int, progress: Progress = SILENT) -> tuple[FloatArray, FloatArray]:
+def pooled(colours: Colours, most: int, progress: Progress = SILENT) -> tuple[FloatArray, FloatArray]:
     """CIELAB and knots of the colours; more than `most` colours are pooled by cells of the Lab space."""
     labs, weights = colours.labs, colours.counts.astype(float)
     cell = 1.0
@@ -163,17 +198,18 @@ def _cells(labs: FloatArray, cell: float) -> IntArray:
     return np.asarray((np.cumsum(occupied, dtype=np.int32) - 1)[keys])
 
 
-def _add_one_by_one(table: Float[np.ndarray, "yarns colours"], count: int, progress: Progress = SILENT) -> list[int]:
-    """The yarns of a greedy choice, in order."""
-    chosen: list[int] = []
-    least = np.full(table.shape[1], np.inf, dtype=np.float32)
-    for number in range(count):
-        totals = [float(np.minimum(row, least).sum(dtype=float)) for row in table]
-        best = min((yarn for yarn in range(len(table)) if yarn not in chosen), key=totals.__getitem__)
+def additions(table: Float[np.ndarray, "yarns colours"], kept: tuple[int, ...] = ()) -> Iterator[tuple[int, float]]:
+    """The best yarn to add to those kept, then the best to add to these, and so on, each with the total reached."""
+    chosen = list(kept)
+    least = table[chosen].min(axis=0) if chosen else np.full(table.shape[1], np.inf, dtype=np.float32)
+    while len(chosen) < len(table):
+        totals = {
+            yarn: float(np.minimum(row, least).sum(dtype=float)) for yarn, row in enumerate(table) if yarn not in chosen
+        }
+        best = min(totals, key=totals.__getitem__)
         chosen.append(best)
         least = np.minimum(least, table[best])
-        progress((number + 1) / count)
-    return chosen
+        yield best, totals[best]
 
 
 @compiled
@@ -190,10 +226,12 @@ def _swap_totals(
     totals += shared
 
 
-def _swap_while_better(
-    table: Float[np.ndarray, "yarns colours"], chosen: list[int], progress: Progress = SILENT
+def swap_while_better(
+    table: Float[np.ndarray, "yarns colours"], chosen: list[int], progress: Progress = SILENT, fixed: int = 0
 ) -> list[int]:
-    """Exchange the best pair (one chosen, one not) while that lowers the total."""
+    """Exchange the best pair (one chosen, one not) while that lowers the total; the first `fixed` stay."""
+    if fixed == len(chosen):
+        return chosen
     totals = np.empty(len(chosen))
     for swaps in itertools.count():
         nearest_chosen, least, second = _two_least(table, chosen)
@@ -202,7 +240,7 @@ def _swap_while_better(
             if candidate not in chosen:
                 progress(swaps / (swaps + len(chosen)))  # the number of swaps is not known
                 _swap_totals(table[candidate], nearest_chosen, least, second, totals)
-                leaving = int(totals.argmin())
+                leaving = fixed + int(totals[fixed:].argmin())
                 best = min(best, (float(totals[leaving]), candidate, leaving))
         if best[1] < 0:
             return chosen

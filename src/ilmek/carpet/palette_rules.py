@@ -1,30 +1,269 @@
-"""Palette rules: which yarns of the list a carpet takes."""
+"""Palette rules: which yarns of the list a carpet takes.
 
+1. Yarns that are never used leave the list.
+2. Of the rest the best N are taken (`palette.best_yarns`), with those that are kept. N is given, or found (`auto`): the
+   least, from two, for which the best N + 1 lower the mean CIEDE2000 of the best N by less than LEAST_GAIN.
+3. Yarns below the least share of the knots are merged, the rarest first: each of its colours goes to the nearest yarn
+   that remains. Kept yarns stay.
+
+A kept yarn is in the palette in any case; it has knots only where it is the nearest to a colour.
+"""
+
+import itertools
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ilmek.carpet.palette import Colours, best_yarns
-from ilmek.carpet.yarn import Yarn, yarn_labs
-from ilmek.params import Params, kind
+import numpy as np
+
+from ilmek.arrays import FloatArray
+from ilmek.carpet.colour_difference import delta_e_2000, nearest
+from ilmek.carpet.palette import (
+    Colours,
+    best_of_table,
+    best_yarns,
+    difference_table,
+    nearest_yarns,
+    pooled,
+    total_difference,
+)
+from ilmek.carpet.yarn import MOST_YARNS, Yarn, yarn_labs
+from ilmek.errors import ParameterError, YarnError, did_you_mean, shortened
+from ilmek.params import Params, kind, param
 from ilmek.progress import SILENT, Progress
+
+AUTO = "auto"
+
+LEAST_GAIN = 0.25
+"""Least gain in mean CIEDE2000 for which `auto` adds a yarn; assumed by this project."""
+
+LEAST_DIFFERENCE = 2.0
+"""CIEDE2000 below which two yarns are near twins; assumed by this project."""
+
+MOST_PROPOSED = 64
+"""Largest number of shades that are proposed."""
+
+_LARGEST_TABLE = 1 << 22
+"""Largest number of entries of the table of colours × yarns by which `auto` counts; near colours are pooled."""
+
+NAMES = 'names are separated by commas or semicolons; put "..." around a name that contains one'
+_NAME = re.compile(r'\s*(?:"([^"]*)"|([^",;]*))\s*(?:[,;]|$)')
 
 
 @dataclass(frozen=True, slots=True)
 class PaletteParams(Params):
     """Which yarns of the list a carpet takes."""
 
-    colours: int | None = kind.count(
+    colours: int | str | None = param(
         None,
         at_least=2,
-        at_most=255,
-        doc="number of yarns, those of the list that match the picture best; default: all",
+        at_most=MOST_YARNS,
+        choices=(AUTO,),
+        doc="number of yarns, those of the list that match the picture best; auto: as many as lower the mean CIEDE2000 "
+        f"by {LEAST_GAIN:g} or more; default: all",
     )
+    keep: str | None = kind.text(None, doc="yarns that are in the palette in any case, names separated by commas")
+    never: str | None = kind.text(None, doc="yarns of the list that are not used, names separated by commas")
+    least_share: float = param(
+        0.0,
+        unit="%",
+        at_least=0.0,
+        at_most=0.2,
+        doc="share of the knots below which a yarn is merged into the nearest that remains, unless it is kept",
+    )
+    propose: int | None = kind.count(
+        None,
+        at_least=2,
+        at_most=MOST_PROPOSED,
+        doc="number of shades proposed from the picture itself, as a yarn list to dye or match; default: none",
+    )
+
+    def check_together(self) -> None:
+        """Raise ParameterError for texts that are no names, a yarn kept and never used, and more kept than N."""
+        kept, never = yarn_names("keep", self.keep), yarn_names("never", self.never)
+        both = {name.casefold() for name in kept} & {name.casefold() for name in never}
+        if both:
+            name = next(name for name in kept if name.casefold() in both)
+            raise ParameterError(f"{name!r} is both in keep and in never", do="leave it out of one")
+        if isinstance(self.colours, int) and len(kept) > self.colours:
+            raise ParameterError(f"keep has {len(kept)} yarns, more than colours={self.colours}")
+
+
+@dataclass(frozen=True, slots=True)
+class MergedYarn:
+    """A yarn below the least share of the knots [-], and the yarn that has most of its knots."""
+
+    name: str
+    into: str
+    share: float
+
+
+@dataclass(frozen=True, slots=True)
+class Knee:
+    """Number of yarns that `auto` found, the mean CIEDE2000 with them, and with one more (None: there is none)."""
+
+    colours: int
+    mean: float
+    next_mean: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class Palette:
+    """The yarns that a carpet takes, in the order of the list, and how they were found."""
+
+    yarns: tuple[Yarn, ...]
+    merged: tuple[MergedYarn, ...] = ()
+    knee: Knee | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class TwinYarns:
+    """Two yarns that differ by less than LEAST_DIFFERENCE, and their CIEDE2000."""
+
+    names: tuple[str, str]
+    difference: float
+
+
+def yarn_names(option: str, text: str | None) -> tuple[str, ...]:
+    """The names of a text, each once. Raises ParameterError for a text without a name.
+
+    >>> yarn_names("keep", 'ivory, madder red; "No. 7, blue"')
+    ('ivory', 'madder red', 'No. 7, blue')
+    """
+    if text is None:
+        return ()
+    names, at = [], 0
+    while at < len(text):
+        found = _NAME.match(text, at)
+        if found is None:
+            raise ParameterError(f"{option}={shortened(text)!r} cannot be read", do=NAMES)
+        names.append((found[1] or found[2] or "").strip())
+        at = found.end()
+    if not all(names) or not names:
+        raise ParameterError(f"{option}={shortened(text)!r} has an empty name", do=NAMES)
+    return tuple({name.casefold(): name for name in names}.values())
+
+
+def check_palette(params: PaletteParams, yarns: Sequence[Yarn]) -> None:
+    """Raise YarnError for rules that the list of yarns cannot meet."""
+    _kept_and_allowed(params, yarns)
 
 
 def choose_yarns(
     distinct: Colours, yarns: Sequence[Yarn], params: PaletteParams, progress: Progress = SILENT
-) -> tuple[Yarn, ...]:
+) -> Palette:
     """The yarns of the list that a design takes, in the order of the list. Raises YarnError."""
-    if params.colours is None:
-        return tuple(yarns)
-    return tuple(yarns[number] for number in best_yarns(distinct, yarn_labs(yarns), params.colours, progress))
+    kept, allowed = _kept_and_allowed(params, yarns)
+    yarns, knee = [yarns[number] for number in allowed], None
+    fixed = tuple(allowed.index(number) for number in kept)
+    count = params.colours
+    if count == AUTO:
+        knee = _knee(distinct, yarn_labs(yarns), fixed, progress.part(0.0, 0.4))
+        count = knee.colours
+    if isinstance(count, int):
+        chosen = best_yarns(distinct, yarn_labs(yarns), count, progress.part(0.4, 0.8), fixed)
+        yarns, fixed = [yarns[number] for number in chosen], tuple(chosen.index(number) for number in fixed)
+    merged: tuple[MergedYarn, ...] = ()
+    if params.least_share > 0:
+        merged = _merged(distinct, yarns, fixed, params.least_share, progress.part(0.8, 1.0))
+        gone = {one.name for one in merged}
+        yarns = [yarn for yarn in yarns if yarn.name not in gone]
+    return Palette(tuple(yarns), merged, knee)
+
+
+def twin_yarns(yarns: Sequence[Yarn]) -> tuple[TwinYarns, ...]:
+    """The pairs of yarns that differ by less than LEAST_DIFFERENCE, the nearest first."""
+    labs, found = yarn_labs(yarns), []
+    for number, yarn in enumerate(yarns[1:], start=1):
+        differences = np.atleast_1d(delta_e_2000(labs[:number], labs[number]))
+        found += [
+            TwinYarns((yarns[other].name, yarn.name), float(differences[other]))
+            for other in np.flatnonzero(differences < LEAST_DIFFERENCE).tolist()
+        ]
+    return tuple(sorted(found, key=lambda twins: twins.difference))
+
+
+def _kept_and_allowed(params: PaletteParams, yarns: Sequence[Yarn]) -> tuple[tuple[int, ...], list[int]]:
+    """Indices of the yarns that are kept, and of all that may be used."""
+    kept, never = (_indices(name, text, yarns) for name, text in (("keep", params.keep), ("never", params.never)))
+    allowed = [number for number in range(len(yarns)) if number not in never]
+    without = " without those of --never" if never else ""
+    if len(allowed) < 2:
+        raise YarnError(f"--never leaves {len(allowed)} of {len(yarns)} yarns", allowed="at least 2")
+    if isinstance(params.colours, int) and params.colours > len(allowed):
+        raise YarnError(
+            f"--colours {params.colours}",
+            allowed=f"2 to {len(allowed)}, the yarns of the list{without}",
+            do="or leave it out",
+        )
+    return kept, allowed
+
+
+def _indices(option: str, text: str | None, yarns: Sequence[Yarn]) -> tuple[int, ...]:
+    numbers = {yarn.name.casefold(): number for number, yarn in enumerate(yarns)}
+    found = []
+    for name in yarn_names(option, text):
+        if name.casefold() not in numbers:
+            near = did_you_mean(name.casefold(), numbers, otherwise=f"the list has {_listed(yarns)}")
+            raise YarnError(f"--{option}: the list has no yarn {shortened(name)!r}", do=near)
+        found.append(numbers[name.casefold()])
+    return tuple(found)
+
+
+def _listed(yarns: Sequence[Yarn]) -> str:
+    names = [yarn.name for yarn in yarns[:20]]
+    return ", ".join(names) + (", ..." if len(yarns) > len(names) else "")
+
+
+def _knee(distinct: Colours, labs: FloatArray, kept: tuple[int, ...], progress: Progress) -> Knee:
+    """The least number of yarns, at least two and those kept, after which a further yarn gains less than LEAST_GAIN."""
+    table = difference_table(*pooled(distinct, _LARGEST_TABLE // len(labs), progress), labs, progress.part(0.0, 0.4))
+    knots, most = int(distinct.counts.sum()), len(labs)
+    begun = max(2, len(kept))
+    trying = progress.part(0.4, 1.0)
+
+    def mean(count: int) -> float:
+        trying(1 - 1 / (2 + count - begun))
+        return total_difference(table, best_of_table(table, count, SILENT, kept)) / knots
+
+    least = mean(begun)
+    for count in range(begun, most):
+        further = mean(count + 1)
+        if least - further < LEAST_GAIN:
+            return Knee(count, least, further)
+        least = further
+    return Knee(most, least, None)
+
+
+def _merged(
+    distinct: Colours, yarns: Sequence[Yarn], kept: tuple[int, ...], least_share: float, progress: Progress
+) -> tuple[MergedYarn, ...]:
+    """The yarns below the least share, in the order in which they are merged. Raises YarnError if only one is left."""
+    labs, total = yarn_labs(yarns), int(distinct.counts.sum())
+    yarn_of = nearest_yarns(distinct, labs, progress)[0].astype(np.int64)
+    remaining, merged = list(range(len(yarns))), []
+    for step in itertools.count():
+        progress(1 - 1 / (2 + step))
+        knots = _knots(yarn_of, distinct, len(yarns))
+        rare = [yarn for yarn in remaining if 0 < knots[yarn] < least_share * total and yarn not in kept]
+        if not rare:
+            return tuple(merged)
+        leaving = min(rare, key=knots.__getitem__)
+        remaining.remove(leaving)
+        if sum(knots[yarn] > 0 for yarn in remaining) < 2:
+            raise YarnError(
+                f"--least-share {least_share:.3%} would leave a single yarn",
+                allowed=f"the second most frequent has {knots[leaving] / total:.3%} of the knots",
+                do="give less, or --keep a yarn",
+            )
+        moved = yarn_of == leaving
+        yarn_of[moved] = np.array(remaining)[nearest(distinct.labs[moved], labs[remaining])[0]]
+        gained = [new - old for new, old in zip(_knots(yarn_of, distinct, len(yarns)), knots, strict=True)]
+        into = max(remaining, key=gained.__getitem__)
+        merged.append(MergedYarn(yarns[leaving].name, yarns[into].name, knots[leaving] / total))
+    raise AssertionError("each step leaves fewer yarns")
+
+
+def _knots(yarn_of: np.ndarray, distinct: Colours, yarns: int) -> list[int]:
+    counts = np.bincount(yarn_of, weights=distinct.counts, minlength=yarns)
+    return [round(count) for count in counts.tolist()]

@@ -56,7 +56,7 @@ def _shown(parameter: Parameter) -> str:
 
 def _metavar(parameter: Parameter) -> str:
     if parameter.choices:
-        return "|".join(parameter.choices)
+        return "|".join((*(() if parameter.kind is str else ("N",)), *parameter.choices))
     return {"mm": "LENGTH", "%": "SHARE", "deg": "ANGLE", "kg": "MASS", "g": "MASS"}.get(
         parameter.unit, "TEXT" if parameter.kind is str else "N"
     )
@@ -78,7 +78,7 @@ _CARPET = (
         "yarn_file",
         type=click.Path(path_type=Path),
         metavar="FILE",
-        help="Yarn list, TOML or CSV; default: that of a chart, the sixteen wool yarns that come with ilmek.",
+        help="Yarn list: TOML, CSV or a GIMP palette (.gpl); default: that of a chart, the sixteen wools of ilmek.",
     ),
 )
 _OUTPUT = (

@@ -10,6 +10,7 @@ from ilmek.carpet.chart import Chart
 from ilmek.cli.call_outputs import call_outputs
 from ilmek.cli.carpet_options import carpet_inputs, carpet_options, recipe_folder
 from ilmek.cli.options import force_option, json_option
+from ilmek.cli.proposed import show_proposed
 from ilmek.cli.terminal import note, say, show_pairs, show_table
 from ilmek.cli.verdict import exit_code, note_verdict, show_verdict
 from ilmek.jobs.chart import ChartResult, chart_json, chart_order
@@ -83,6 +84,7 @@ def show_chart(charted: ChartResult) -> None:
         ]
     )
     show_yarn(charted.bill)
+    show_proposed(chart)
 
 
 def _farthest(chart: Chart) -> str:

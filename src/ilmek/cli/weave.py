@@ -8,6 +8,7 @@ import click
 from ilmek.cli.call_outputs import call_outputs
 from ilmek.cli.carpet_options import carpet_inputs, carpet_options, recipe_folder
 from ilmek.cli.options import force_option, json_option
+from ilmek.cli.proposed import show_proposed
 from ilmek.cli.settings import loom_settings, read_settings, setting_files
 from ilmek.cli.terminal import note, show_pairs
 from ilmek.cli.verdict import WEAVES, exit_code, note_verdict, show_verdict
@@ -119,6 +120,7 @@ def show_woven(woven: WeaveResult) -> None:
             ("report", woven.files[0]),
         ]
     )
+    show_proposed(chart)
 
 
 def _loom_pairs(woven: WeaveResult) -> list[tuple[str, str]]:

@@ -1,4 +1,4 @@
-"""Yarn lists from TOML (one `[[yarn]]` table per yarn) or CSV (a header line, one line per yarn).
+"""Yarn lists from TOML (one `[[yarn]]` table per yarn), CSV (a header line, one line per yarn) or a GIMP palette.
 
     [[yarn]]
     name = "madder red"
@@ -9,6 +9,9 @@
 
 A CSV file has the columns name, srgb or lab ("31.5 45 27"), nm, ply, price; separated by commas, semicolons or tabs.
 Empty lines and lines that begin with # are ignored.
+
+A palette of GIMP (.gpl) has a colour and a name on each line. Names are made unique by a number; the metric
+count follows from the quality of the carpet.
 
 A record is one yarn as read from the file: a mapping with the fields `name`, `srgb` ("#8b1a1a") or `lab` ([L, a, b]),
 `nm`, `ply` and `price`, numbers or texts. Prices are per kilogram, in the currency of the yarn plan.
@@ -35,19 +38,22 @@ LARGEST = 250_000
 
 Record: TypeAlias = Mapping[str, object]
 
+GPL_HEADING = "GIMP Palette"
+_GPL_COLOUR = re.compile(r"\s*(\d{1,3})\s+(\d{1,3})\s+(\d{1,3})(?:\s+(.*))?")
+
 FIELDS = ("name", "srgb", "lab", "nm", "ply", "price")
 
 _MISSING = "check the path, or leave out --yarns to use the built-in wool list"
 
 
 def read_yarns(path: Path) -> tuple[Yarn, ...]:
-    """The yarns of a TOML or CSV file. Raises YarnError, naming the file and the line or yarn."""
-    readers = {".toml": _toml_records, ".csv": _csv_records}
+    """The yarns of a TOML, CSV or GPL file. Raises YarnError, naming the file and the line or yarn."""
+    readers = {".toml": _toml_records, ".csv": _csv_records, ".gpl": _gpl_records}
     reader = readers.get(path.suffix.lower())
     try:
         if reader is None and path.is_file():
-            raise YarnError(f"ends in {path.suffix!r}", allowed="a yarn list is a .toml or .csv file")
-        text = read_text(path, noun="yarn list, .toml or .csv", largest=LARGEST, error=YarnError, do=_MISSING)
+            raise YarnError(f"ends in {path.suffix!r}", allowed="a yarn list is a .toml, .csv or .gpl file")
+        text = read_text(path, noun="yarn list, .toml, .csv or .gpl", largest=LARGEST, error=YarnError, do=_MISSING)
         return yarns_from_records((reader or _toml_records)(text))
     except YarnError as error:
         raise YarnError(f"yarn list {path}: {error.given}", allowed=error.allowed, do=error.do) from None
@@ -110,6 +116,43 @@ def _csv_value(name: str, cell: str, line: int, delimiter: str) -> object:
     if len(values) != 1:
         raise YarnError(f"line {line}: {name} {cell!r} is not one number", do="correct that cell")
     return int(values[0]) if name == "ply" and values[0].is_integer() else values[0]
+
+
+def _gpl_records(text: str) -> Sequence[Record]:
+    lines = text.removeprefix("\ufeff").splitlines()
+    if not lines or lines[0].strip() != GPL_HEADING:
+        raise YarnError("line 1 is not that of a GIMP palette", allowed=f"{GPL_HEADING!r}", do="export it from GIMP")
+    records: list[Record] = []
+    seen: dict[str, int] = {}
+    for number, line in enumerate(lines[1:], start=2):
+        if not line.strip() or line.lstrip().startswith("#") or re.match(r"(Name|Columns):", line):
+            continue
+        found = _GPL_COLOUR.fullmatch(line)
+        codes = [int(code) for code in found.groups()[:3]] if found else []
+        if found is None or max(codes) > 255:
+            raise YarnError(f"line {number} {shortened(line)!r} is no colour", allowed="red, green and blue, 0 to 255")
+        if len(records) == MOST_YARNS:
+            raise YarnError(f"line {number}: the palette has more than {MOST_YARNS} colours", do="leave some out")
+        srgb = "#{:02x}{:02x}{:02x}".format(*codes)
+        records.append({"name": _unique(_gpl_name(found[4], srgb), seen), "srgb": srgb})
+    return records
+
+
+def _gpl_name(given: str | None, srgb: str) -> str:
+    """The name of a colour; its code where it has none."""
+    name = (given or "").strip()
+    return srgb if not name or name.casefold() == "untitled" else name
+
+
+def _unique(name: str, seen: dict[str, int]) -> str:
+    """The name with the next free number where it was seen before."""
+    made, number = name, seen.get(name.casefold(), 1)
+    while made.casefold() in seen:
+        number += 1
+        made = f"{name} {number}"
+    seen[name.casefold()] = number
+    seen.setdefault(made.casefold(), 1)
+    return made
 
 
 def yarns_from_records(records: Sequence[Record]) -> tuple[Yarn, ...]:

@@ -22,6 +22,7 @@ FILES = (
     FileNote("rows.txt", "the rows to weave by as text"),
     FileNote("chart.json", "the results as data, SI"),
     FileNote("yarn.csv", "the yarn to buy"),
+    FileNote("proposed.toml", "shades proposed from the picture itself: a yarn list for --yarns"),
     FileNote("programme.ilmek", "the loom programme; show it with `ilmek inspect`"),
     FileNote("machine.json", "the loom and its machines: parameters, results, checks"),
 )

@@ -20,11 +20,13 @@ from ilmek.io.chart.png import write_chart_png
 from ilmek.io.json_file import write_json
 from ilmek.io.output import Outputs, joined
 from ilmek.io.yarn_csv import write_yarn_csv
+from ilmek.io.yarn_proposal import write_proposal
 from ilmek.jobs.carpet_report import page_of
 from ilmek.jobs.charting import chart_of_order
 from ilmek.jobs.order import MOST_PRINTED, MOST_SHEETS, CarpetOrder, ResolvedOrder
 from ilmek.jobs.recipe import chart_of_recipe
 from ilmek.jobs.rows import rows_plan, write_rows
+from ilmek.jobs.yarn_choice import PROPOSED, proposed_shades, twin_warnings, yarn_choice_results, yarn_notes
 from ilmek.jobs.yarn_warnings import yarn_warnings
 from ilmek.progress import SILENT, Progress
 from ilmek.report import Check, plain, verdict_json
@@ -65,8 +67,9 @@ class ChartResult:
     def files(self) -> tuple[str, ...]:
         """Names of the files that `write_chart` writes."""
         rows = rows_plan(self.chart, self.order.order).names
+        proposed = (PROPOSED,) if self.chart.reading.proposed else ()
         printed = ("chart.pdf",) if self._printed else ()
-        return ("chart.png", *self._exchanged, "carpet.png", *printed, *rows, "yarn.csv")
+        return ("chart.png", *self._exchanged, "carpet.png", *printed, *rows, "yarn.csv", *proposed)
 
     @property
     def _exchanged(self) -> tuple[str, ...]:
@@ -91,8 +94,9 @@ class ChartResult:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """Colours that have one yarn together, remedies for the checks that fail, the mass, dye lots."""
-        return (*_shared_yarns(self.chart), *yarn_warnings(self.chart, self.bill, self.thickest, self.checks[0]))
+        """Colours that have one yarn together, near twins, remedies for the checks that fail, the mass, dye lots."""
+        of_yarns = yarn_warnings(self.chart, self.bill, self.thickest, self.checks[0])
+        return (*_shared_yarns(self.chart), *twin_warnings(self.chart), *of_yarns)
 
 
 def chart_order(
@@ -154,7 +158,7 @@ def make_charted(order: CarpetOrder, progress: Progress = SILENT, *, with_source
     chart = made.chart
     check_carpet_width(chart.size, order.files.carpet_width)
     bill = yarn_bill(chart, order.plan)
-    notes = (*order.notes, *made.notes, *_left_out(order, chart))
+    notes = (*order.notes, *made.notes, *yarn_notes(chart), *_left_out(order, chart))
     return ChartResult(made.order, chart, bill, notes, made.source)
 
 
@@ -195,6 +199,7 @@ def chart_results(charted: ChartResult) -> dict[str, Any]:
         ],
         "foreign_fraction": None if reading.foreign is None else reading.foreign / chart.knots.size,
         "fit": fit_results(reading.fit),
+        **yarn_choice_results(chart),
         "mean_delta_e": reading.mean_delta_e,
         "least_delta_e": reading.least_delta_e,
         "half_knots": sum(chart.tied.half),
@@ -260,7 +265,9 @@ def write_chart(
         else:
             written.append("chart.pdf")
     rows = write_rows(chart, charted.order.order, folder, left_out, progress.part(0.7, 1.0))
-    return (*written, *rows, "yarn.csv")
+    if shades := proposed_shades(chart):
+        write_proposal(folder / PROPOSED, shades)
+    return (*written, *rows, "yarn.csv", *((PROPOSED,) if shades else ()))
 
 
 def chart_json(charted: ChartResult, files: Sequence[str]) -> dict[str, Any]:

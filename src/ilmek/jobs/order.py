@@ -12,7 +12,7 @@ from typing import Any
 
 from ilmek.carpet.design import knot_grid
 from ilmek.carpet.fitting import FitParams
-from ilmek.carpet.palette_rules import PaletteParams
+from ilmek.carpet.palette_rules import PaletteParams, check_palette
 from ilmek.carpet.quality import Quality, gereh_note, parse_quality
 from ilmek.carpet.reading import ReadParams
 from ilmek.carpet.recipe.edits import located
@@ -21,7 +21,7 @@ from ilmek.carpet.sizes import CarpetSize, parse_size
 from ilmek.carpet.yarn import Yarn
 from ilmek.carpet.yarn_plan import YarnPlanParams
 from ilmek.elements.knot_kinds import parse_knot
-from ilmek.errors import CarpetError, ParameterError, YarnError, did_you_mean
+from ilmek.errors import CarpetError, ParameterError, did_you_mean
 from ilmek.io.chart.oxs import require_oxs
 from ilmek.io.chart.sheets import cut, require_wall
 from ilmek.io.recipe_file import LoomKeys, RecipeFile, read_recipe
@@ -146,12 +146,8 @@ def read_order(
     }
     groups = read_groups({**({} if found is None else found.settings), **_given(settings)})
     order = replace(base, **_given(given), **groups)
-    if order.yarns is not None and (order.palette.colours or 2) > len(order.yarns):
-        raise YarnError(
-            f"--colours {order.palette.colours}",
-            allowed=f"2 to {len(order.yarns)}, the yarns of the list",
-            do="or leave it out",
-        )
+    if order.yarns is not None:
+        check_palette(order.palette, order.yarns)
     if order.size is not None:
         check_carpet_width(order.size, order.files.carpet_width)
     if order.size is not None and order.quality is not None:

@@ -27,7 +27,7 @@ class Parameter:
 
     kind      float, int, bool or str
     unit      in which it is shown and explained; bounds and default are SI
-    choices   of a text: the only values allowed; empty: any
+    choices   of a text: the only values allowed; empty: any; of a number: words that are allowed besides numbers
     alias     second name under which it can be set, small and capital letters alike
     """
 
@@ -53,8 +53,8 @@ class Parameter:
             return setting
         text = setting.strip()
         try:
-            if self.kind is str:
-                return text
+            if self.kind is str or text.lower() in self.choices:
+                return text if self.kind is str else text.lower()
             if self.kind is bool:
                 return _TRUTH[text.lower()]
             if text.lower() == "none" and self.default is None:
@@ -98,7 +98,8 @@ class Parameter:
             if not isinstance(value, bool):
                 raise ParameterError(f"{self.name}={value!r} is neither true nor false")
             return
-        self._check_number(value)
+        if value not in self.choices:
+            self._check_number(value)
 
     def _check_number(self, value: Value) -> None:
         """Raise ParameterError unless the value is a number within the bounds."""
@@ -127,11 +128,12 @@ class Parameter:
 
     def allowed(self) -> str:
         """The bounds or choices in words: `allowed: above 0 mm, at most 500 mm`."""
-        if self.choices:
+        if self.choices and self.kind is str:
             return f"one of {', '.join(self.choices)}"
         limits = (("above", self.above), ("at least", self.at_least), ("below", self.below), ("at most", self.at_most))
         bounds = [f"{word} {format_quantity(limit, self.unit)}" for word, limit in limits if limit is not None]
-        return f"allowed: {', '.join(bounds)}" if bounds else ""
+        words = f" or {', '.join(self.choices)}" if self.choices else ""
+        return f"allowed: {', '.join(bounds)}{words}" if bounds else ""
 
     def _likely_slip(self, value: float) -> str:
         """The unit that was probably forgotten, where the number is short enough to have been typed as it is."""
