@@ -152,6 +152,9 @@ CARPET = {
     "corners outside the picture": ("--corners 1,1;25,1;25,29;1,29", "reaches outside the picture"),
     "corners on one line": ("--corners 1,1;9,1;18,1;1,29", "lie on one line"),
     "an outline that is not clear": ("--corners auto", "outline of the carpet is not clear"),
+    "unknown rows": ("--rows colors", "did you mean colours|colours"),
+    "unknown direction of rows": ("--rows-direction up", "right"),
+    "wall of too many knots": ("--wall --size 5x5m --quality 50x50/dm", "6,250,000 knots; at most 4,000,000"),
     "turned without a unit": ("--turn 90", "did you mean 90deg"),
 }
 
@@ -192,6 +195,9 @@ YARNS = {
 }
 
 OTHER = {
+    "call of no chart": ("call good.png", "is no knot chart"),
+    "call of nothing": ("call gone.png", "gone.png"),
+    "call of a direction that is none": ("call good.png --direction both", "right, left, alternate"),
     "unknown command": ("weav good.png", "did you mean 'weave'"),
     "strange command": ("qqq", "commands: weave, chart"),
     "unknown option": ("chart good.png --siez kelle", "No such option.*--size"),

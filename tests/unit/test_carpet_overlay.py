@@ -1,9 +1,11 @@
 """Half knots and jufti knots of a chart: what fits, what is counted, what yarn they take."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
+from pypdf import PdfReader
 
 from ilmek.carpet.bill import yarn_bill
 from ilmek.carpet.chart import Chart
@@ -14,6 +16,7 @@ from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import Yarn
 from ilmek.carpet.yarn_plan import YarnPlanParams
 from ilmek.errors import CarpetError
+from ilmek.io.chart.pdf import write_chart_pdf
 from ilmek.jobs.weave import overlay_checks
 from ilmek.units import mm
 from ilmek.weaving.knots.path import KnotDimensions, wrap_length
@@ -98,3 +101,15 @@ def test_the_loom_ties_no_half_knot() -> None:
     assert "rows.pdf" in check.cure
     assert "1 cells of half knots, 2 jufti knots" in check.source
     assert overlay_checks(PLAIN) == ()
+
+
+def test_printed_charts_show_both_halves_and_the_bar(tmp_path: Path) -> None:
+    """The symbols of a sheet: those of its cells, and of each half cell both, over the cell's own."""
+    write_chart_pdf(tmp_path / "plain.pdf", PLAIN)
+    write_chart_pdf(tmp_path / "marked.pdf", MARKED)
+    plain, marked = (PdfReader(tmp_path / f"{name}.pdf").pages[-1].get_contents() for name in ("plain", "marked"))
+    assert plain is not None
+    assert marked is not None
+    assert marked.get_data().count(b" re f") >= plain.get_data().count(b" re f") + 4
+    shown = PdfReader(tmp_path / "marked.pdf").pages[-1].extract_text()
+    assert shown.count("D") == 1

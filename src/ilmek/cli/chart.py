@@ -76,6 +76,7 @@ def show_chart(charted: ChartResult) -> None:
             *([("farthest colours", far)] if (far := _farthest(chart)) else []),
             ("changed knots", f"{made.changed:,}"),
             *([("edited knots", f"{made.edited:,}")] if charted.order.order.recipe is not None else []),
+            *([("overlay", overlay_in_words(chart))] if len(chart.overlay) else []),
             ("lone knots", f"{chart.lone_fraction:.2%}"),
             ("colour changes", f"{chart.changes_per_knot:.3f} per knot"),
             ("pile", pile_in_words(charted)),
@@ -85,6 +86,11 @@ def show_chart(charted: ChartResult) -> None:
     )
     show_yarn(charted.bill)
     show_proposed(chart)
+
+
+def overlay_in_words(chart: Chart) -> str:
+    """The half knots and jufti knots of a chart."""
+    return f"{sum(chart.tied.half):,} half knots, {sum(chart.tied.jufti):,} jufti knots"
 
 
 def _farthest(chart: Chart) -> str:

@@ -13,6 +13,7 @@ from ilmek.io.chart.wall import wall_sheet, write_wall_pdf
 from ilmek.jobs.order import MOST_PRINTED, MOST_SHEETS, CarpetOrder
 from ilmek.progress import SILENT, Progress
 from ilmek.report.left_out import made_or_left_out
+from ilmek.units import format_number
 
 MOST_ROW_KNOTS = 5_000_000
 """Largest number of knots of which rows are written by default."""
@@ -36,8 +37,8 @@ def rows_plan(chart: Chart, order: CarpetOrder) -> RowsPlan:
     files = order.files
     names = ["wall.pdf"] if files.wall else []
     notes = []
-    if files.wall and (unit := wall_sheet(chart).unit) > 1:
-        notes.append(f"wall.pdf has a unit of {unit} points; a viewer that ignores it shows it {unit} times smaller")
+    if files.wall:
+        notes.append(_wall_note(chart))
     split = files.rows or ("runs" if chart.knots.size <= MOST_ROW_KNOTS else "none")
     if split == "none":
         if files.rows is None:
@@ -53,6 +54,13 @@ def rows_plan(chart: Chart, order: CarpetOrder) -> RowsPlan:
         remedy = f"--rows {split} writes it" if pages <= MOST_PRINTED else f"at most {MOST_PRINTED:,} are written"
         notes.append(f"rows.pdf would have more than {most:,} pages and is left out; {remedy}")
     return RowsPlan(split, pages, (*names, "rows.txt"), tuple(notes))
+
+
+def _wall_note(chart: Chart) -> str:
+    sheet = wall_sheet(chart)
+    width, length = (format_number(100 * side, 3) for side in sheet.lengths)
+    smaller = f"; a viewer that ignores its unit of {sheet.unit} points shows it {sheet.unit} times smaller"
+    return f"wall.pdf is {width} × {length} cm{smaller if sheet.unit > 1 else ''}"
 
 
 def _pages(chart: Chart, split: str, direction: str, most: int) -> int:
