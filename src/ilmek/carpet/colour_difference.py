@@ -162,8 +162,8 @@ def delta_e_2000(first: Float[np.ndarray, "*#batch 3"], second: Float[np.ndarray
     """CIEDE2000 of CIELAB colours (*batch, 3), broadcast over all axes but the last."""
     one, other = np.broadcast_arrays(first, second)
     out = np.empty(one.shape[:-1])
-    flat = np.ascontiguousarray
-    _pairs(flat(one.reshape(-1, 3), dtype=float), flat(other.reshape(-1, 3), dtype=float), out.reshape(-1))
+    # Copies: NumPy warns of a broadcast array that a kernel might write to.
+    _pairs(np.array(one, dtype=float).reshape(-1, 3), np.array(other, dtype=float).reshape(-1, 3), out.reshape(-1))
     return out
 
 
