@@ -7,6 +7,7 @@ import click
 
 from ilmek.cli.call_outputs import call_outputs
 from ilmek.cli.carpet_options import carpet_inputs, carpet_options, recipe_folder
+from ilmek.cli.carpet_summary import carpet_pairs
 from ilmek.cli.options import force_option, json_option
 from ilmek.cli.proposed import show_proposed
 from ilmek.cli.settings import loom_settings, read_settings, setting_files
@@ -18,7 +19,6 @@ from ilmek.jobs.output_folder import free_folder
 from ilmek.jobs.recipe import saved_recipe
 from ilmek.jobs.weave import WeaveResult, time_in_words, weave, weave_json
 from ilmek.machines.automated_loom.params import AIMS
-from ilmek.units import format_quantity
 
 EXAMPLES = """\b
 Examples:
@@ -72,9 +72,9 @@ def command(
 
     A RECIPE, .toml, stands for picture and options; options given beside it override its keys.
 
-    The output folder contains report.html, report.json, chart.png, chart.pdf (see --pdf), yarn.csv, programme.ilmek and
-    machine.json. Where the loom cannot weave the carpet, the report has the reasons and what would cure them, there is
-    no programme, and the command ends with 3.
+    The output folder contains report.html (the carpet), loom.html, report.json, carpet.png, chart.png, chart.pdf (see
+    --pdf), rows.txt, rows.pdf, yarn.csv, programme.ilmek and machine.json. Where the loom cannot weave the carpet, the
+    report has the reasons and what would cure them, there is no programme, and the command ends with 3.
     """
     order = read_order(**carpet)
     loom_file, settings = loom_settings(settings)
@@ -105,16 +105,12 @@ def command(
 
 def show_woven(woven: WeaveResult) -> None:
     """Print the verdict with its reasons, a summary of the job, the loom's choices, and the path of the report."""
-    chart, bill, checks = woven.charted.chart, woven.charted.bill, woven.checks
+    checks = woven.checks
     failed = sum(not check.ok for check in checks)
     show_verdict(checks, WEAVES, woven.loom.nearest)
     show_pairs(
         [
-            ("carpet", f"{chart.size}, {chart.quality}, {chart.knot} knot"),
-            ("knots", f"{chart.knots.size:,} ({chart.rows} rows of {chart.columns})"),
-            ("fit", chart.reading.fit.words),
-            ("colours", f"{chart.colours} of {len(woven.charted.order.yarns)} yarns"),
-            ("yarn", f"{format_quantity(bill.mass, 'kg', 3)}, pile {format_quantity(bill.pile_mass, 'kg', 3)}"),
+            *carpet_pairs(woven.charted),
             *_loom_pairs(woven),
             ("checks", f"{len(checks) - failed} passed, {failed} failed"),
             ("report", woven.files[0]),

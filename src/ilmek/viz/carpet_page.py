@@ -14,7 +14,7 @@ from ilmek.viz.number_format import count, fixed
 from ilmek.viz.page import render
 from ilmek.viz.page_parts import Fact, FileNote, carpet_facts, yarn_lines
 from ilmek.viz.page_pictures import pictures
-from ilmek.viz.sections import Verdict, drawn
+from ilmek.viz.sections import PageVerdict, drawn
 
 _FIRST_REASONS = 3
 """Number of reasons that are shown at once: the carpet is not pushed out of the screen."""
@@ -77,7 +77,7 @@ def carpet_page(page: CarpetPage, left_out: list[str] | None = None, progress: P
         "carpet.html.j2",
         title=page.title,
         lead=page.lead,
-        verdict=Verdict(
+        verdict=PageVerdict(
             page.good, page.bad, len(page.checks), reasons(page.checks), _FIRST_REASONS, nearest=page.nearest
         ),
         facts=carpet_facts(page.chart, page.bill, page.facts, page.checks),

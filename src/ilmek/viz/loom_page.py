@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from ilmek.progress import SILENT, Progress
 from ilmek.report import Check, Choice, Report, reasons
 from ilmek.viz.page import render
-from ilmek.viz.sections import Verdict, failures_first, judged, section
+from ilmek.viz.sections import PageVerdict, failures_first, judged, section
 
 GOOD, BAD = "The loom weaves this carpet.", "The loom cannot weave this carpet, and there is no programme."
 
@@ -50,7 +50,7 @@ def loom_page(page: LoomPage, left_out: list[str] | None = None, progress: Progr
         title=page.title,
         lead=page.lead,
         back=page.back,
-        verdict=Verdict(GOOD, BAD, len(checks), reasons(one.named for one in checks), nearest=page.nearest),
+        verdict=PageVerdict(GOOD, BAD, len(checks), reasons(one.named for one in checks), nearest=page.nearest),
         choices=page.choices,
         warnings=[*page.warnings, *of_machines, *left_out],
         sections=sections,

@@ -15,7 +15,7 @@ from ilmek.errors import encodable
 from ilmek.report import Report, in_words
 from ilmek.viz.animation import SECONDS
 from ilmek.viz.number_format import amount, cells, count, fixed, number, quantity, sign, words
-from ilmek.viz.sections import Verdict, failures_first, judged, section
+from ilmek.viz.sections import PageVerdict, failures_first, judged, section
 from ilmek.viz.style import shown_unit, with_unit
 
 _TEMPLATES = Path(__file__).parent / "templates"
@@ -40,11 +40,11 @@ def machine_page(report: Report, left_out: list[str] | None = None) -> str:
     )
 
 
-def _verdict(report: Report) -> Verdict:
+def _verdict(report: Report) -> PageVerdict:
     loom = "weaves" in report.headline
     good = "The loom weaves its carpet." if loom else "Every check holds."
     bad = "The loom cannot weave its carpet." if loom else "Not every check holds."
-    return Verdict(good, bad, len(report.all_checks), report.reasons, nearest=report.nearest)
+    return PageVerdict(good, bad, len(report.all_checks), report.reasons, nearest=report.nearest)
 
 
 def render(template: str, **values: object) -> str:

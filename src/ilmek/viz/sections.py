@@ -11,7 +11,7 @@ from ilmek.viz.svg import svg
 
 
 @dataclass(frozen=True, slots=True)
-class Verdict:
+class PageVerdict:
     """The verdict at the top of a page: its sentences, the number of checks, the reasons where it is no.
 
     first    number of reasons that are shown at once; the others are folded
@@ -36,7 +36,7 @@ class Drawn:
 
 
 @dataclass(frozen=True, slots=True)
-class Section:
+class PageSection:
     """A machine's part of a page."""
 
     id: str
@@ -49,7 +49,7 @@ class Section:
 
 
 @dataclass(frozen=True, slots=True)
-class Judged:
+class MachineCheck:
     """A check and the machine it belongs to."""
 
     machine: str
@@ -61,9 +61,9 @@ class Judged:
         return replace(self.check, name=f"{self.machine}: {self.check.name}") if self.machine else self.check
 
 
-def section(index: int, report: Report, left_out: list[str]) -> Section:
+def section(index: int, report: Report, left_out: list[str]) -> PageSection:
     """The part of a report; a warning is added to `left_out` for each figure that cannot be drawn."""
-    return Section(f"m{index}", report, tuple(drawn(figure, left_out) for figure in report.figures))
+    return PageSection(f"m{index}", report, tuple(drawn(figure, left_out) for figure in report.figures))
 
 
 def drawn(figure: Figure, left_out: list[str]) -> Drawn:
@@ -80,12 +80,12 @@ def _kind(figure: Figure) -> str:
     return "moves" if isinstance(figure, Animation) else ""
 
 
-def judged(own: Sequence[Check], reports: Iterable[Report]) -> list[Judged]:
+def judged(own: Sequence[Check], reports: Iterable[Report]) -> list[MachineCheck]:
     """The checks that belong to no machine, then those of each report."""
-    of_reports = (Judged(report.title, check) for report in reports for check in report.checks)
-    return [*(Judged("", check) for check in own), *of_reports]
+    of_reports = (MachineCheck(report.title, check) for report in reports for check in report.checks)
+    return [*(MachineCheck("", check) for check in own), *of_reports]
 
 
-def failures_first(checks: Sequence[Judged]) -> list[Judged]:
+def failures_first(checks: Sequence[MachineCheck]) -> list[MachineCheck]:
     """The checks that fail, then the others."""
     return sorted(checks, key=lambda one: one.check.ok)

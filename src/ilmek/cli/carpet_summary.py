@@ -1,0 +1,101 @@
+"""The summary of a carpet that `weave` and `chart` print: how its picture was read, and its yarn."""
+
+from ilmek.carpet.bill import YarnBill
+from ilmek.carpet.chart import SMALL_PATCH, Chart
+from ilmek.cli.terminal import show_table
+from ilmek.jobs.chart import ChartResult
+from ilmek.units import format_number, format_quantity, g
+
+
+def carpet_pairs(charted: ChartResult) -> list[tuple[str, str]]:
+    """Carpet, knots, reading of the picture, what was changed, colours and yarn, one line each."""
+    chart, made, bill = charted.chart, charted.chart.reading, charted.bill
+    return [
+        ("carpet", f"{chart.size}, {chart.quality}, {chart.knot} knot"),
+        ("knots", f"{chart.knots.size:,} ({chart.rows} rows of {chart.columns})"),
+        ("read as", f"{made.kind}: {made.reason}"),
+        ("fit", made.fit.words),
+        ("changes", changes_in_words(chart)),
+        *([("overlay", overlay_in_words(chart))] if len(chart.overlay) else []),
+        ("colours", f"{chart.colours} of {len(charted.order.yarns)} yarns, {colours_in_words(chart)}"),
+        ("yarn", f"{format_quantity(bill.mass, 'kg', 3)}, pile {format_quantity(bill.pile_mass, 'kg', 3)}"),
+        ("to buy", to_buy_in_words(charted)),
+    ]
+
+
+def overlay_in_words(chart: Chart) -> str:
+    """The half knots and jufti knots of a chart."""
+    return f"{sum(chart.tied.half):,} half knots, {sum(chart.tied.jufti):,} jufti knots"
+
+
+def changes_in_words(chart: Chart) -> str:
+    """Knots that the reading and a recipe changed, knots of a foreign colour, small patches."""
+    made = chart.reading
+    parts = [f"{made.changed:,} knots changed" if made.changed else "no knot changed"]
+    if made.edited:
+        parts.append(f"{made.edited:,} edited")
+    if made.foreign is not None:
+        parts.append(
+            f"{made.foreign:,} of a colour foreign to its cell" if made.foreign else "none foreign to its cell"
+        )
+    parts.append(f"{chart.small_patches:,} patches of at most {SMALL_PATCH} knots")
+    return ", ".join(parts)
+
+
+def colours_in_words(chart: Chart) -> str:
+    """The yarns' difference to the picture; of a drawing the colour that is farthest from its yarn."""
+    made = chart.reading
+    mean = f"mean ΔE {made.mean_delta_e:.2f} (least {made.least_delta_e:.2f})"
+    if not made.matches:
+        return mean
+    worst = max(made.matches, key=lambda match: match.delta_e)
+    if worst.delta_e < 0.05:
+        return f"{mean}, each exactly a colour of the picture"
+    return f"{mean}, worst {worst.hex} {worst.delta_e:.1f} from {chart.yarns[worst.yarn].name}"
+
+
+def pile_in_words(charted: ChartResult) -> str:
+    """The pile's height and counts, given or by the quality, and the share of the ground filled."""
+    plan, fill = charted.order.order.plan, charted.checks[0]
+    height = format_quantity(charted.pile.pile_height, "mm", 3)
+    counts = ", ".join(dict.fromkeys(need.count for need in charted.bill.pile))
+    filled = f"{format_quantity(fill.value, fill.unit, 3)} of the ground filled"
+    by_quality = " (by the quality)"
+    return (
+        f"{height} high{'' if plan.pile_height is not None else by_quality}, "
+        f"Nm {counts}{by_quality if charted.usual_counts else ''}, {filled}"
+    )
+
+
+def mass_in_words(bill: YarnBill) -> str:
+    """The mass of the finished carpet over its area, beside the published one."""
+    mass = format_quantity(bill.mass_per_area, "kg/m^2", 3)
+    if bill.band is None:
+        return f"{mass} (none is published for this density)"
+    return f"{mass} (published: {format_number(bill.band.least, 3)} to {format_number(bill.band.most, 3)})"
+
+
+def to_buy_in_words(charted: ChartResult) -> str:
+    """Mass to buy with its reserve, its price, and the dye lots of the yarn of most knots."""
+    bill, plan = charted.bill, charted.order.order.plan
+    to_buy = format_quantity(sum(need.to_buy for need in bill.needs), "kg", 3)
+    price = "" if bill.price is None else f", {bill.price:,.2f} {bill.currency}"
+    lots = f"{bill.field.lots} dye lots" if bill.field.lots > 1 else "one dye lot"
+    reserve = format_quantity(plan.reserve, "%", 3)
+    return f"{to_buy} with a reserve of {reserve}{price}; {bill.field.name}: {lots}"
+
+
+def show_yarn(bill: YarnBill) -> None:
+    """Print the yarn bill as a table."""
+    rows = [
+        (need.name, need.use, f"{need.knots:,}" if need.knots else "", _amount(need.length), _amount(need.mass / g),
+         _amount(need.to_buy / g), str(need.hanks), "" if need.price is None else f"{need.price:,.2f}")
+        for need in bill.needs
+    ]  # fmt: skip
+    names = ("yarn", "use", "knots", "metres", "grams", "to buy", "hanks", bill.currency)
+    show_table(names, rows, right=(2, 3, 4, 5, 6, 7))
+
+
+def _amount(value: float) -> str:
+    """A whole number, or one decimal below 10."""
+    return f"{value:,.{0 if value >= 10 else 1}f}"
