@@ -27,6 +27,7 @@ from ilmek.cli.call_screen import colour_depth, large, screen_lines, swatch
 from ilmek.cli.keys import keys_of
 from ilmek.errors import ParameterError
 from ilmek.io.call_state import DamagedStateError, read_state, state_file
+from ilmek.io.chart.oxs import write_chart_oxs
 from ilmek.io.chart.png import write_chart_png
 from ilmek.jobs.call import Calling, begin_calling
 
@@ -177,6 +178,13 @@ def test_into_a_pipe_rows_are_printed_plainly(chart_file: Path) -> None:
     result = CliRunner().invoke(main, ["call", str(chart_file), "--by", "colours", "--direction", "left"])
     assert result.stdout.endswith("row 2 ← 1 A: 5, 4 B: 1-4\nrow 3 ← 2 A: 4-5, 2 B: 2-3, 1 C: 1\n")
     assert not state_file(CHART).exists()
+
+
+def test_an_oxs_chart_is_called_with_its_overlay(tmp_path: Path) -> None:
+    for write, name in ((write_chart_oxs, "chart.oxs"), (write_chart_png, "chart.png")):
+        write(tmp_path / name, MARKED)
+        result = CliRunner().invoke(main, ["call", str(tmp_path / name), "--from-row", "3"])
+        assert result.stdout.endswith("row 3 → 1½ AC, 1 A, 1j B, 1 C\n"), result.stderr
 
 
 def test_screens_keep_the_width_and_show_the_step() -> None:

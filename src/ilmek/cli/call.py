@@ -38,7 +38,7 @@ Limits: picture file 500 MB; 200,000,000 knots.
     help="Read rows to the right, to the left, or odd rows right and even rows left; default: right.",
 )
 def command(chart: Path, from_row: int | None, by: str, direction: str) -> int:
-    """Call the rows of CHART, a chart.png, step by step with large figures.
+    """Call the rows of CHART, a chart.png or .oxs file, step by step with large figures.
 
     Enter, space or → goes to the next step, b or ← back, n to the next row, p to the row before, q ends. Where it
     stopped is kept after every step, also for a computer that loses power, and the next call goes on there. Without a
@@ -52,11 +52,12 @@ def command(chart: Path, from_row: int | None, by: str, direction: str) -> int:
             hint = did_you_mean(value, choices)
             raise ParameterError(f"{option} {value!r}", allowed=", ".join(choices), do=hint)
     on_terminal = sys.stdout.isatty()
-    calling = begin_calling(read_called_chart(chart), by, direction, from_row, keep=on_terminal)
-    if not on_terminal:
+    read, notes = read_called_chart(chart)
+    calling = begin_calling(read, by, direction, from_row, keep=on_terminal)
+    if on_terminal:
+        step_on_terminal(calling)
+    else:
         print_rows(calling)
-        return 0
-    step_on_terminal(calling)
-    for text in calling.notes:
+    for text in (*notes, *calling.notes):
         note(text)
     return 0
