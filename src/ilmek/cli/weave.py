@@ -116,7 +116,7 @@ def show_woven(woven: WeaveResult) -> None:
             ("report", woven.files[0]),
         ]
     )
-    show_proposed(chart)
+    show_proposed(woven.charted.chart)
 
 
 def _loom_pairs(woven: WeaveResult) -> list[tuple[str, str]]:
