@@ -153,7 +153,7 @@ def test_colours_and_yarns_are_checked(existing: ExistingLoom, tmp_path: Path, p
     order = read_order(picture, size=SIZE, quality=QUALITY, yarn_file=yarns, pile_height="8mm")
     found = make_loomed(read_loom_order(order, loom_file=existing.path), make_charted(order))
     assert failed(found) >= {"thickness of the pile in a gripper"}
-    order = read_order(Path(MEDALLION), size=SIZE, quality=QUALITY, **PLAN)
+    order = read_order(Path(MEDALLION), size=SIZE, quality=QUALITY, reading="photo", **PLAN)
     found = make_loomed(read_loom_order(order, loom_file=existing.path), make_charted(order))
     assert failed(found) == {"colours"}
 

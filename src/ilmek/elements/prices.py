@@ -3,7 +3,7 @@
     price of a part = number * (each + per_kg mass + per_m length + per_W power)
 
 Each kind of part has its rates. The default rates are round numbers assumed by this project, for no maker or year, in
-any currency. A text with other rates has one line for each rate that differs from the default:
+euros. A text with other rates has one line for each rate that differs from the default:
 
     laser-cut part per kg = 4.5
     servo each = 380            # with its drive

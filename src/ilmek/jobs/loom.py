@@ -98,7 +98,8 @@ OF_THE_CARPET = {
     "warp_pitch": "--warp-pitch",
     "colours": "--colours",
     "knot_yarn": "--pile-height",
-    "yarns.pile_density": "--yarns",
+    "pile_height": "--pile-height",
+    "yarns.pile_density": "--yarn-count",
     "changes_per_knot": "the picture",
 }
 """Parameters of a loom that follow from the carpet, and the option that sets each."""
@@ -252,6 +253,7 @@ def params_for(loom_order: LoomOrder, charted: ChartResult) -> AutomatedLoomPara
         yarns=replace(loom_order.params.yarns, pile_density=heaviest),
         colours=chart.colours,
         knot_yarn=yarn_of_a_knot(charted),
+        pile_height=charted.pile.pile_height,
         changes_per_knot=min(1.0, chart.changes_per_knot),
     )
 
@@ -272,8 +274,11 @@ def deadline_checks(deadline: float | None, programme: Programme) -> tuple[Check
 
 def _without_settings(params: AutomatedLoomParams) -> AutomatedLoomParams:
     """The parameters that follow from the carpet alone."""
-    names = ("width", "length", "knots_across", "knots_along", "knot", "colours", "knot_yarn", "changes_per_knot")
-    return replace(AutomatedLoomParams(), **{name: getattr(params, name) for name in names})
+    names = ("width", "length", "knots_across", "knots_along", "knot", "colours", "knot_yarn", "pile_height",
+             "changes_per_knot")  # fmt: skip
+    plain = AutomatedLoomParams()
+    yarns = replace(plain.yarns, pile_density=params.yarns.pile_density)
+    return replace(plain, yarns=yarns, **{name: getattr(params, name) for name in names})
 
 
 def _can_be_designed(params: AutomatedLoomParams) -> bool:

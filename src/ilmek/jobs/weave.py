@@ -15,6 +15,7 @@ from ilmek.jobs.carpet_report import page_of
 from ilmek.jobs.chart import ChartResult, chart_results, job_json, make_charted, write_chart
 from ilmek.jobs.loom import LoomOrder, LoomResult, make_loomed, params_for
 from ilmek.jobs.order import CarpetOrder
+from ilmek.jobs.yarn_warnings import currency_warning
 from ilmek.progress import SILENT, Progress
 from ilmek.report import NEAREST, Check, Report, must, verdict_json
 from ilmek.report.left_out import made_or_left_out
@@ -63,7 +64,9 @@ class WeaveResult:
     @property
     def warnings(self) -> tuple[str, ...]:
         """All warnings: of the carpet, the loom and its machines."""
-        return (*self.charted.warnings, *self.loomed.notes, *self.loom.all_warnings, *self.left_out)
+        currency = currency_warning(self.charted.bill.currency, self.loom_order.params.prices)
+        found = (*self.charted.warnings, currency, *self.loomed.notes, *self.loom.all_warnings, *self.left_out)
+        return tuple(filter(None, found))
 
     @property
     def notes(self) -> tuple[FileNote, ...]:

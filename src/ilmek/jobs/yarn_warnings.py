@@ -8,6 +8,7 @@ from ilmek.carpet.pile import coarsest_count
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.usual_pile import BAND_SOURCE, USUAL_PLY, usual_count
 from ilmek.carpet.yarn import Yarn
+from ilmek.carpet.yarn_plan import EURO
 from ilmek.report import Check
 from ilmek.units import format_number, format_quantity
 
@@ -30,6 +31,13 @@ def too_thick(chart: Chart, thickest: Yarn, fill: Check) -> str:
     takes = f"its pile would take {format_quantity(fill.value, '%', 3)} of the ground"
     finer = f"with ply {yarn.ply}, Nm {fits:g} or finer fits; usual is {usual}: --yarn-count {usual}"
     return f"{problem}: {takes}; {finer}, or take a coarser quality"
+
+
+def currency_warning(currency: str, loom_prices: str | None) -> str:
+    """Where the yarn's prices are in another currency than the table of a loom's parts; "" where both are in euros."""
+    if currency == EURO or loom_prices is not None:
+        return ""
+    return f"prices of yarn are in {currency}, the table of prices of the loom's parts is in {EURO}: give --loom prices"
 
 
 def mass_warning(bill: YarnBill, quality: Quality) -> str:

@@ -67,6 +67,9 @@ class AutomatedLoomParams(Params):
     knot_yarn: float | None = kind.length(
         None, above=0.0, at_most=0.3, doc="pile yarn of a knot, from the yarn bill; default: of the head's usual pile"
     )
+    pile_height: float = kind.length(
+        8 * mm, at_least=0.0, at_most=100 * mm, doc="pile above the knots, shorn: thickness of the wound carpet"
+    )
     knot_law: str = param("modified-sine", choices=SMOOTH_LAWS, doc="law of the heads' cams")
     head_acceleration: float = kind.acceleration(
         20.0, at_least=1e-3, at_most=1e5, doc="allowed acceleration of a head's tools"

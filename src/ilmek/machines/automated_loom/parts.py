@@ -37,7 +37,7 @@ class PartsList:
     )
     price = computed(
         "",
-        "price of all parts by the table of prices, in its currency",
+        "price of all parts by the table of prices, in euros unless the prices are others",
         lambda it: sum(price_of(part, it.prices) for part in it.parts),
     )
 

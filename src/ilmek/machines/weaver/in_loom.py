@@ -24,6 +24,7 @@ def params_for(task: LoomTask) -> WeaverParams:
         law=loom.knot_law,
         knot=loom.knot,
         knot_yarn=loom.knot_yarn,
+        pile_height=loom.pile_height,
         yarn_density=task.yarns.pile.linear_density,
         yarn_diameter=task.yarns.pile.diameter,
         yarn_pressed=task.yarns.pressed,
