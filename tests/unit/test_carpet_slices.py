@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ilmek.carpet import confetti, design, palette
+from ilmek.carpet import confetti, design, differences, palette, patches, tally
 from ilmek.carpet.chart import Chart, make_chart
 from ilmek.carpet.palette_rules import PaletteParams
 from ilmek.carpet.quality import Quality
@@ -36,7 +36,7 @@ def test_slices_change_nothing(monkeypatch: pytest.MonkeyPatch, quality: float, 
     bands = design.bands
     for module in (design,):
         monkeypatch.setattr(module, "_SLICE", most)
-    for module in (palette, confetti):
+    for module in (palette, confetti, patches, tally, differences):
         monkeypatch.setattr(module, "bands", lambda rows, columns, _=0: bands(rows, columns, most))
     sliced = made(quality)
     assert np.array_equal(sliced.knots, whole.knots)
@@ -69,6 +69,6 @@ def test_progress_ascends_and_is_cancelled() -> None:
 def test_the_tally_is_made_once(monkeypatch: pytest.MonkeyPatch) -> None:
     chart = made(100.0)
     assert sum(chart.counts) == chart.knots.size
-    monkeypatch.setattr("ilmek.carpet.chart._tally", None)
+    monkeypatch.setattr("ilmek.carpet.chart.tally_of", None)
     assert chart.colours == 7
     assert "_tallies" not in repr(chart)

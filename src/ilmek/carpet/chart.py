@@ -6,13 +6,11 @@ leave (`palette_rules`).
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, fields
-
-import numpy as np
+from dataclasses import field, fields
 
 from ilmek.arrays import BoolArray, FloatArray, Indices, Rgb
-from ilmek.carpet.confetti import count_lone, merge_patches
-from ilmek.carpet.design import bands, knot_grid
+from ilmek.carpet.confetti import merge_patches
+from ilmek.carpet.design import knot_grid
 from ilmek.carpet.differences import YarnDifference, differences
 from ilmek.carpet.fitting import Fit, FitParams, fit_prepared, prepare_picture
 from ilmek.carpet.halftone import draw_halftone
@@ -20,30 +18,17 @@ from ilmek.carpet.matches import ColourMatch, colour_matches
 from ilmek.carpet.overlay import Overlay, TiedKnots, no_overlay, require_fit, tied_knots
 from ilmek.carpet.palette import Colours, distinct_colours, nearest_yarns, paint
 from ilmek.carpet.palette_rules import Palette, PaletteParams, choose_yarns
-from ilmek.carpet.patches import count_patches
 from ilmek.carpet.proposal import ProposedShade, propose_shades
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.reading import Design, ReadParams, exact_design, read_design
 from ilmek.carpet.sizes import CarpetSize
+from ilmek.carpet.tally import Tally, tally_of
 from ilmek.carpet.usual_pile import with_counts
 from ilmek.carpet.yarn import MOST_YARNS, Yarn, yarn_labs
 from ilmek.elements.knot_kinds import parse_knot
 from ilmek.errors import PictureError, YarnError
 from ilmek.progress import SILENT, Progress
 from ilmek.records import brief, record
-
-SMALL_PATCH = 3
-"""Knots of the largest patch that is counted as small."""
-
-
-@dataclass(frozen=True, slots=True)
-class _Tally:
-    """Numbers of a chart: knots of each yarn, changes of yarn along the rows, lone knots, small patches."""
-
-    counts: tuple[int, ...]
-    changes: int
-    lone: int
-    small_patches: int
 
 
 @record
@@ -95,7 +80,7 @@ class Chart:
     knot: str
     reading: ChartReading = field(default_factory=lambda: ChartReading("exact", "drawn knot by knot", 0.0, 0.0))
     overlay: Overlay = field(default_factory=no_overlay)
-    _tallies: list[_Tally] = field(default_factory=list, init=False)
+    _tallies: list[Tally] = field(default_factory=list, init=False)
     """The tally, once it is made: many results need it."""
 
     def __post_init__(self) -> None:
@@ -114,10 +99,10 @@ class Chart:
         """Knots per row."""
         return int(self.knots.shape[1])
 
-    def tally(self, progress: Progress = SILENT) -> _Tally:
+    def tally(self, progress: Progress = SILENT) -> Tally:
         """The counts of the whole chart, made once."""
         if not self._tallies:
-            self._tallies.append(_tally(self.knots, len(self.yarns), progress))
+            self._tallies.append(tally_of(self.knots, len(self.yarns), progress))
         return self._tallies[0]
 
     @property
@@ -155,18 +140,6 @@ class Chart:
     def changes_per_knot(self) -> float:
         """Changes of yarn along the rows, per knot [-]."""
         return self.tally().changes / self.knots.size
-
-
-def _tally(knots: Indices, yarns: int, progress: Progress) -> _Tally:
-    counts = np.zeros(yarns, dtype=np.int64)
-    changes = 0
-    for band in bands(*knots.shape):
-        part = knots[band]
-        counts += np.bincount(part.ravel(), minlength=yarns)
-        changes += int(np.count_nonzero(part[:, 1:] != part[:, :-1]))
-        progress(0.5 * band.stop / len(knots))
-    lone = count_lone(knots, progress.part(0.5, 0.7))
-    return _Tally(tuple(counts.tolist()), changes, lone, count_patches(knots, SMALL_PATCH, progress.part(0.7, 1.0)))
 
 
 def make_chart(
@@ -235,12 +208,13 @@ def chart_of_design(
     proposed = () if rules.propose is None else _proposed(distinct, design, rules.propose, progress.part(0.35, 0.4))
     labs = yarn_labs(chosen.yarns)
     yarn_of, difference = nearest_yarns(distinct, labs, progress.part(0.4, 0.6))
-    knots = paint(design.colours, distinct, yarn_of, progress.part(0.6, 0.7))
-    knots, drawn = _halftone(knots, design, labs, reading.halftone, progress.part(0.7, 0.8))
+    painted = paint(design.colours, distinct, yarn_of, progress.part(0.6, 0.7))
+    knots, drawn = _halftone(painted, design, labs, reading.halftone, progress.part(0.7, 0.8))
     least = reading.least_patch_of(design.kind)
     knots, changed = merge_patches(knots, design.colours, labs, least, kept=drawn, progress=progress.part(0.8, 0.9))
-    moved = changed > 0 or drawn is not None
-    found = differences(design.colours, distinct, yarn_of, difference, knots, labs, moved, progress.part(0.9, 0.95))
+    found = differences(
+        design.colours, distinct, (yarn_of, difference), (painted, knots), labs, progress.part(0.9, 0.95)
+    )
     made = ChartReading(
         design.kind,
         design.reason if drawn is None else f"{design.reason}; patterns on {drawn.mean():.1%} of it",

@@ -7,9 +7,8 @@ contrast  n c >= 10 `least`, with its n knots and its contrast c, the CIEDE2000 
           of the knots around it that have the other yarn. For small areas the product of area and contrast decides
           whether they are seen (Ricco's law): a lone knot is as visible at the contrast 10 `least` as a patch of
           `least` knots at 10. The colours are those of the design: two yarns far apart may meet in a smooth area
-line      the knots of its yarn or of near ones within 5 knots lie along a line, as the pieces of a thin line do
-          [`thin_lines`]
-dots      patches of its yarn and of like size follow at equal steps, five or more in a row [`dots`]
+line      c >= 5, and the knots of its yarn or of near ones within 5 knots lie along a line [`thin_lines`]
+dots      c >= 5, and patches of its yarn and of like size follow at equal steps, five or more in a row [`dots`]
 
 The yarn that it takes is one with at least a quarter of the knots around it, or with most of them; of these the one of
 the least contrast. Of patches that touch, the smallest is merged first, of equal ones that of the yarn first in the
@@ -19,7 +18,6 @@ design gives the mirrored or turned chart.
 Source of the law: A. Ricco, Relazione fra il minimo angolo visuale e l'intensita luminosa, 1877.
 """
 
-from concurrent.futures import ThreadPoolExecutor
 from typing import NamedTuple
 
 import numpy as np
@@ -33,6 +31,7 @@ from ilmek.carpet.light import LIGHT, lab_of_light
 from ilmek.carpet.patches import Marks, Members, begins, fill, room
 from ilmek.carpet.thin_lines import between_areas, on_line
 from ilmek.num.compiled import compiled
+from ilmek.num.threads import MOST_THREADS, in_threads
 from ilmek.progress import SILENT, Progress
 
 KEPT = 255
@@ -42,7 +41,9 @@ Starts = Int32[np.ndarray, " patches"]
 Labs = Float[np.ndarray, "yarns 3"]
 
 _WINDOW = 1 << 21
-_THREADS = 2
+
+DRAWN = 5.0
+"""Least contrast of what is drawn: fainter patches are grain, even along a line."""
 
 VISIBLE = 10.0
 """Contrast [CIEDE2000] at which a patch of the least number of knots is kept."""
@@ -199,11 +200,12 @@ def _judge(  # noqa: PLR0917
         other, contrast = _nearest_around(own, number, ring, around, sums)
         if other < 0 or number * contrast >= VISIBLE * least:
             continue
-        line = not between_areas(around, ring, yarn, other, gap)
-        if line and on_line(knots, *middle_of(members, number), number, yarn, other, gap):
-            continue
-        if in_row(knots, sizes, members, number, least, others, other_marks):
-            continue
+        if contrast >= DRAWN:
+            line = not between_areas(around, ring, yarn, other, gap)
+            if line and on_line(knots, *middle_of(members, number), number, yarn, other, gap):
+                continue
+            if in_row(knots, sizes, members, number, least, others, other_marks):
+                continue
         targets[patch] = other
         for k in range(number):
             loose[members[k, 0], members[k, 1]] = True
@@ -299,17 +301,16 @@ def _round(knots: Indices, task: _Task, wanted: BoolArray, progress: Progress) -
     again = np.zeros_like(wanted)
     parts = list(bands(len(wanted), side * knots.shape[1], _WINDOW))
     above = knots[:0]
-    with ThreadPoolExecutor(_THREADS) as pool:
-        for first in range(0, len(parts), _THREADS):
-            works = []
-            for tiles in parts[first : first + _THREADS]:
-                start, stop = tiles.start * side, min(tiles.stop * side, len(knots))
-                window = np.concatenate([above, knots[start : stop + side]])
-                near = wanted[max(tiles.start - 1, 0) : tiles.stop + 1]
-                if near.any():
-                    works.append((window, start, len(above), knots[start:stop], near, again[tiles]))
-                above = knots[stop - side : stop].copy()
-            list(pool.map(lambda work: _merge_window(task, *work), works))
+    for first in range(0, len(parts), MOST_THREADS):
+        works = []
+        for tiles in parts[first : first + MOST_THREADS]:
+            start, stop = tiles.start * side, min(tiles.stop * side, len(knots))
+            window = np.concatenate([above, knots[start : stop + side]])
+            near = wanted[max(tiles.start - 1, 0) : tiles.stop + 1]
+            if near.any():
+                works.append((window, start, len(above), knots[start:stop], near, again[tiles]))
+            above = knots[stop - side : stop].copy()
+        for _ in in_threads(lambda work: _merge_window(task, *work), works):
             progress(stop / len(knots))
     return again
 

@@ -31,6 +31,9 @@ _BAND = 128
 _SLICE = 1 << 22
 """Pixels or knots of one call of a kernel: about 0.1 s, in which an interrupt waits."""
 
+PART = 1 << 20
+"""Knots of one call of a kernel where several threads call it."""
+
 _STEPS = 4096
 
 # Linear light above which the next code is nearer, and the code at each of _STEPS even steps of light.

@@ -6,9 +6,10 @@ import numpy as np
 
 from ilmek.arrays import Float, FloatArray, Indices, IntArray, Rgb, UInt8
 from ilmek.carpet.colour_difference import ciede2000
-from ilmek.carpet.design import bands
+from ilmek.carpet.design import PART, bands
 from ilmek.carpet.palette import Colours
 from ilmek.num.compiled import compiled
+from ilmek.num.threads import in_threads
 from ilmek.progress import SILENT, Progress
 
 _UNIT = 2.0**24
@@ -35,16 +36,16 @@ class Differences(NamedTuple):
 
 @compiled
 def _move(  # noqa: PLR0917
-    rgb: Rgb, index: IntArray, labs: FloatArray, yarn_of: UInt8[np.ndarray, " colours"], difference: FloatArray,
-    knots: Indices, yarn_labs: FloatArray, sums: IntArray, counts: IntArray, worst: FloatArray
+    rgb: Rgb, index: IntArray, labs: FloatArray, difference: FloatArray, before: Indices, knots: Indices,
+    yarn_labs: FloatArray, sums: IntArray, counts: IntArray, worst: FloatArray
 ) -> None:  # fmt: skip
     # In whole units, so that the sums do not depend on the order.
     for row in range(rgb.shape[0]):
         for column in range(rgb.shape[1]):
-            code = np.int32(rgb[row, column, 0]) << 16 | np.int32(rgb[row, column, 1]) << 8 | rgb[row, column, 2]
-            colour, yarn = index[code] - 1, knots[row, column]
-            old = yarn_of[colour]
+            old, yarn = before[row, column], knots[row, column]
             if old != yarn:
+                code = np.int32(rgb[row, column, 0]) << 16 | np.int32(rgb[row, column, 1]) << 8 | rgb[row, column, 2]
+                colour = index[code] - 1
                 l1, a1, b1 = labs[colour]
                 l2, a2, b2 = yarn_labs[yarn]
                 delta = ciede2000(l1, a1, b1, l2, a2, b2)
@@ -58,32 +59,35 @@ def _move(  # noqa: PLR0917
 def differences(  # noqa: PLR0917
     design: Rgb,
     colours: Colours,
-    yarn_of: UInt8[np.ndarray, " colours"],
-    difference: Float[np.ndarray, " colours"],
-    knots: Indices,
+    nearest: tuple[UInt8[np.ndarray, " colours"], Float[np.ndarray, " colours"]],
+    charts: tuple[Indices, Indices],
     yarn_labs: Float[np.ndarray, "yarns 3"],
-    changed: bool = True,
     progress: Progress = SILENT,
 ) -> Differences:
     """The differences of a chart to its design.
 
-    yarn_of, difference  of each distinct colour its nearest yarn [`palette.nearest_yarns`]
-    knots                the chart; unless `changed`, each knot has the nearest yarn
+    nearest  yarn of each distinct colour and its difference [`palette.nearest_yarns`]
+    charts   knots with the nearest yarns, and of the chart
     """
-    yarns = len(yarn_labs)
-    least = float(np.sum(colours.counts * difference))  # a dot product's order depends on the threads
-    sums, counts = np.zeros(yarns, dtype=np.int64), np.zeros(yarns, dtype=np.int64)
-    worst = np.zeros(yarns)
-    np.maximum.at(worst, yarn_of, difference)
+    (yarn_of, difference), (before, knots), yarns = nearest, charts, len(yarn_labs)
     design = np.ascontiguousarray(design)
-    for band in bands(*knots.shape) if changed else ():
-        _move(
-            design[band], colours.index, colours.labs, yarn_of, difference, knots[band], yarn_labs, sums, counts, worst
-        )
+
+    def move(band: slice) -> tuple[IntArray, IntArray, FloatArray]:
+        sums, counts, worst = np.zeros(yarns, dtype=np.int64), np.zeros(yarns, dtype=np.int64), np.zeros(yarns)
+        args = (colours.index, colours.labs, difference, before[band], knots[band], yarn_labs, sums, counts, worst)
+        _move(design[band], *args)
+        return sums, counts, worst
+
+    least = float(np.sum(colours.counts * difference))  # a dot product's order depends on the threads
+    sums, counts, worst = np.zeros(yarns, dtype=np.int64), np.zeros(yarns, dtype=np.int64), np.zeros(yarns)
+    np.maximum.at(worst, yarn_of, difference)
+    for band, found in in_threads(move, () if before is knots else bands(knots.shape[0], knots.shape[1], PART)):
+        sums, counts, worst = sums + found[0], counts + found[1], np.maximum(worst, found[2])
         progress(band.stop / len(knots))
-    total = np.bincount(yarn_of, weights=colours.counts * difference, minlength=yarns) + sums / _UNIT
+    added = sums / _UNIT
+    total = np.bincount(yarn_of, weights=colours.counts * difference, minlength=yarns) + added
     number = np.bincount(yarn_of, weights=colours.counts, minlength=yarns) + counts
     of_yarns = np.where(number > 0, total / np.maximum(number, 1), 0.0), np.where(number > 0, worst, 0.0)
-    mean = (least + int(sums.sum()) / _UNIT) / knots.size
+    mean = (least + float(added.sum())) / knots.size
     pairs = zip(of_yarns[0].tolist(), of_yarns[1].tolist(), strict=True)
     return Differences(mean, least / knots.size, tuple(YarnDifference(*pair) for pair in pairs))

@@ -56,7 +56,7 @@ def middle_of(members: Members, number: int) -> tuple[int, int]:
 @compiled
 def _alike(knots: Indices, sizes: Sizes, i: int, j: int, yarn: int, number: int) -> bool:  # noqa: PLR0917
     size = sizes[i, j]
-    return bool(knots[i, j] == yarn and size > 0 and 2 * abs(size - number) <= max(2, number))
+    return bool(size > 0 and knots[i, j] == yarn and 2 * abs(size - number) <= max(2, number))
 
 
 @compiled

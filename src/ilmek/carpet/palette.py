@@ -13,14 +13,15 @@ import numpy as np
 from ilmek.arrays import Float, Float32, FloatArray, Indices, Int, Int32, Int64, IntArray, Rgb, UInt8
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.colour_difference import delta_e_2000, nearest
-from ilmek.carpet.design import bands
+from ilmek.carpet.design import PART, bands
 from ilmek.errors import YarnError
 from ilmek.num.compiled import compiled
+from ilmek.num.threads import in_threads
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 
 _CODES = 1 << 24
-_BATCH = 65536
+_BATCH = 1 << 14
 _LARGEST_TABLE = 1 << 25
 _MOST_TRIALS = 3_000_000
 _TABLE, _SWAPS = 0.3, 0.4
@@ -77,11 +78,13 @@ def distinct_colours(rgb: Rgb, progress: Progress = SILENT) -> Colours:
         found = int(_count(rgb[band], index, codes, counts, found))
         progress(0.5 * band.stop / rows)
     labs = np.empty((found, 3))
-    for start in range(0, found, _BATCH):
-        seen = codes[start : min(start + _BATCH, found)]
-        channels = np.stack([seen >> 16, seen >> 8 & 255, seen & 255], axis=-1).astype(np.uint8)
-        labs[start : start + len(seen)] = srgb_to_lab(channels)
-        progress(0.5 + 0.5 * (start + len(seen)) / found)
+
+    def convert(batch: slice) -> None:
+        channels = np.stack([codes[batch] >> 16, codes[batch] >> 8 & 255, codes[batch] & 255], axis=-1)
+        labs[batch] = srgb_to_lab(channels.astype(np.uint8))
+
+    for batch, _ in in_threads(convert, bands(found, 1, _BATCH)):
+        progress(0.5 + 0.5 * batch.stop / found)
     return Colours(index, labs, counts[:found].copy())
 
 
@@ -91,10 +94,12 @@ def nearest_yarns(
     """For each distinct colour the index of the nearest yarn by CIEDE2000, and its difference."""
     index = np.empty(len(colours.labs), dtype=np.uint8)
     delta = np.empty(len(colours.labs))
-    for start in range(0, len(index), _BATCH):
-        batch = slice(start, start + _BATCH)
+
+    def find(batch: slice) -> None:
         index[batch], delta[batch] = nearest(colours.labs[batch], yarn_labs)
-        progress(min(start + _BATCH, len(index)) / len(index))
+
+    for batch, _ in in_threads(find, bands(len(index), 1, _BATCH)):
+        progress(batch.stop / len(index))
     return index, delta
 
 
@@ -103,8 +108,8 @@ def paint(rgb: Rgb, colours: Colours, yarn_of: UInt8[np.ndarray, " colours"], pr
     rgb = np.ascontiguousarray(rgb)
     rows, columns = rgb.shape[:2]
     knots = np.empty((rows, columns), dtype=np.uint8)
-    for band in bands(rows, columns):
-        _paint(rgb[band], colours.index, yarn_of, knots[band])
+    parts = bands(rows, columns, PART)
+    for band, _ in in_threads(lambda band: _paint(rgb[band], colours.index, yarn_of, knots[band]), parts):
         progress(band.stop / rows)
     return knots
 

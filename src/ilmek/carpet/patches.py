@@ -8,8 +8,9 @@ it meets a knot before its first. So the time is linear in the knots, and no lab
 import numpy as np
 
 from ilmek.arrays import Indices, Int32, Int64
-from ilmek.carpet.design import bands
+from ilmek.carpet.design import PART, bands
 from ilmek.num.compiled import compiled
+from ilmek.num.threads import in_threads
 from ilmek.progress import SILENT, Progress
 
 Members = Int64[np.ndarray, "knots 2"]
@@ -86,9 +87,11 @@ def count_patches(knots: Indices, most: int, progress: Progress = SILENT) -> int
     1
     """
     knots = np.ascontiguousarray(knots)
-    members, marks = room(most + 1)
     patches = 0
-    for band in bands(*knots.shape):
-        patches += int(_count(knots, band.start, band.stop, most + 1, members, marks))
+    for band, number in in_threads(
+        lambda band: int(_count(knots, band.start, band.stop, most + 1, *room(most + 1))),
+        bands(knots.shape[0], knots.shape[1], PART),
+    ):
+        patches += number
         progress(band.stop / len(knots))
     return patches

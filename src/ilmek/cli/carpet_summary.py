@@ -1,7 +1,8 @@
 """The summary of a carpet that `weave` and `chart` print: how its picture was read, and its yarn."""
 
 from ilmek.carpet.bill import YarnBill
-from ilmek.carpet.chart import SMALL_PATCH, Chart
+from ilmek.carpet.chart import Chart
+from ilmek.carpet.tally import SMALL_PATCH
 from ilmek.cli.terminal import show_table
 from ilmek.jobs.chart import ChartResult
 from ilmek.units import format_number, format_quantity, g
