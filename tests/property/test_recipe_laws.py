@@ -1,19 +1,21 @@
 """Recipes: mirrors are exact, borders turn their corners, tiles repeat, a saved recipe is the same carpet."""
 
+import re
 from pathlib import Path
 
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ilmek.carpet.quality import Quality
+from ilmek.carpet.quality import Quality, parse_quality
 from ilmek.carpet.recipe.border import draw_border, edges, repeat_lines
 from ilmek.carpet.recipe.composition import compose
 from ilmek.carpet.recipe.edits import apply_edit, line_knots, parse_edit
 from ilmek.carpet.recipe.mirror import complete, part_grid
 from ilmek.carpet.recipe.recipe import MIRRORS, ORDERS, Border, Breadth, Motif, Recipe, Repeat
 from ilmek.carpet.recipe.repeat import repeated
-from ilmek.carpet.sizes import CarpetSize
+from ilmek.carpet.sizes import CarpetSize, parse_size
+from ilmek.errors import CarpetError
 from ilmek.io.recipe_file import LoomKeys, RecipeFile, read_recipe
 from ilmek.io.recipe_text import recipe_text
 from ilmek.io.yarn_file import default_yarns
@@ -87,6 +89,27 @@ def test_the_sides_of_a_border_cover_each_knot_once(rows: int, columns: int, hig
     assert inner.sum() == 0
     assert count.sum() == count.size - inner.size
     assert count.max() == 1
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.integers(2, 9), st.integers(2, 40), st.booleans(), st.integers(200, 900), st.integers(100, 500))
+def test_the_sizes_and_qualities_that_are_offered_fit(
+    breadth: int, length: int, alternate: bool, width: int, density: int
+) -> None:
+    border = Border(tile=Path("tile.png"), alternate=alternate and length % 2 == 0)
+    recipe = Recipe(Path("carpet.toml"), plain="ivory", borders=(Border(yarn="gold", width=Breadth(2)), border))
+    size, quality = CarpetSize(width / 1000, 1.5 * width / 1000), Quality(density, density * 1.1)
+    pictures = {Path("tile.png"): noise(3, breadth, 2 * length)}
+    try:
+        compose(recipe, size, quality, default_yarns(), pictures)
+    except CarpetError as error:
+        offered = re.findall(r"[\d.]+x[\d.]+cm", error.allowed)
+        assert len(offered) > 0 or "make them narrower" in str(error)
+        for text in offered:
+            compose(recipe, parse_size(text), quality, default_yarns(), pictures)
+        if not offered:
+            return
+        compose(recipe, size, parse_quality(error.allowed.rpartition("quality: ")[2]), default_yarns(), pictures)
 
 
 @given(st.integers(1, 9), st.integers(1, 9), SIDE, SIDE, st.sampled_from(ORDERS))

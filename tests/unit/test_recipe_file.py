@@ -67,7 +67,7 @@ FAULTS = {
     "border without width": (FIELD + '[[border]]\nyarn = "ivory"', r"line 3, border.0: the border has no width"),
     "broken repeat": (
         FIELD + '[[border]]\ntile = "tile.png"',
-        r"line 3, border.0: the tile is 10 knots long.* these sizes fit: 40.8x61cm, 40.8x56.8cm",
+        r"line 3, border.0: the tile is 10 knots long.* these sizes fit: 40.8x60.8cm, 40.8x56.8cm",
     ),
     "repeat without ground": (
         'size = "40x60cm"\n[repeat]\ntile = "tile.png"\nwidth = 7',

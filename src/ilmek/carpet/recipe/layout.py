@@ -14,7 +14,7 @@ from ilmek.carpet.recipe.recipe import Border, Recipe
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.errors import CarpetError
 from ilmek.records import record
-from ilmek.units import cm, format_number
+from ilmek.units import cm, dm, format_number
 
 Sides = tuple[int, int]
 """Rows and columns."""
@@ -156,13 +156,17 @@ def _no_fit(
     pairs = sorted(itertools.product(columns, rows), key=lambda pair: _change(pair, grid))[:3]
     sizes = [_size(pair, quality) for pair in pairs]
     offered = f"at {quality} these sizes fit: {', '.join(sizes)}"
-    counted = all(other.border.width is None or other.border.width.length is None for other in borders)
-    if counted and all(
-        other.border.tile is None or other.border.length or other.border.width is None for other in borders
-    ):
-        across, along = pairs[0][0] / size.width / 10, pairs[0][1] / size.length / 10
-        offered += f"; at {size} this quality: {across:.2f}x{along:.2f}/dm"
+    if all(_of_any_quality(other.border) for other in borders):
+        across, along = _written(pairs[0][0], size.width / dm), _written(pairs[0][1], size.length / dm)
+        offered += f"; at {size} this quality: {across}x{along}/dm"
     return CarpetError(given, allowed=offered, do=adjust)
+
+
+def _of_any_quality(border: Border) -> bool:
+    """Whether a border has the same knots at every quality."""
+    if border.width is None:
+        return True
+    return border.width.knots is not None and (border.tile is None or border.length is not None)
 
 
 def _both(pair: Sequence[float]) -> str:
@@ -192,11 +196,10 @@ def _change(pair: Sides, grid: Sides) -> float:
 
 def _size(pair: Sides, quality: Quality) -> str:
     """The size of a grid of columns and rows, as it is given."""
-    width, length = pair[0] / quality.across, pair[1] / quality.along
-    return f"{_shortest(width, quality.across)}x{_shortest(length, quality.along)}cm"
+    return f"{_written(pair[0], quality.across * cm)}x{_written(pair[1], quality.along * cm)}cm"
 
 
-def _shortest(side: float, density: float) -> str:
-    """A side in cm with the fewest decimals that give its number of knots."""
-    texts: Iterator[str] = (f"{side / cm:.{digits}f}" for digits in range(7))
-    return next(text for text in texts if round(float(text) * cm * density) == round(side * density))
+def _written(count: int, density: float) -> str:
+    """The number with the fewest decimals that gives a number of knots when it is multiplied by a density."""
+    texts: Iterator[str] = (format_number(count / density, digits) for digits in range(2, 12))
+    return next(text for text in texts if abs(float(text) * density - count) < 0.4)
