@@ -7,6 +7,7 @@ import pytest
 from click.testing import CliRunner
 from PIL import Image
 
+from ilmek.carpet.overlay import HALF, JUFTI
 from ilmek.cli import main
 from ilmek.errors import IlmekError
 from ilmek.io.chart.png import read_chart_png
@@ -163,3 +164,23 @@ def test_a_drawn_border_round_a_photo_stays_as_it_is_drawn(folder: Path) -> None
     assert 0.15 < dots.mean() < 0.25
     assert (names[2:8] == names[2:8, ::-1]).all()
     assert len(chart.reading.differences) == len(chart.yarns) == 4
+
+
+def test_half_knots_and_jufti_knots_are_marks_that_later_edits_drop(folder: Path) -> None:
+    edits = [
+        "half 1,1 rose",
+        "half 2,2 rose",
+        "replace rose by gold",
+        "jufti 150,1 150,6",
+        "set 150,4 gold",
+        "set 2,2 rose",
+    ]
+    chart = chart_order(order_of(folder, FIELD + f"edits = {edits}"))[0].chart
+    marks = {(mark.row, mark.column): (mark.kind, chart.yarns[mark.second].name) for mark in chart.overlay}
+    assert marks[149, 0] == (HALF, "gold")
+    assert {cell: kind for cell, (kind, _) in marks.items()} == {(149, 0): HALF, (0, 0): JUFTI, (0, 4): JUFTI}
+
+
+def test_a_jufti_knot_on_two_yarns_is_an_error(folder: Path) -> None:
+    with pytest.raises(IlmekError, match=r"line 3, edits.1: jufti 1,1: this cell and the next one are not of one yarn"):
+        chart_order(order_of(folder, FIELD + "edits = ['set 1,1 rose', 'jufti 1,1']"))

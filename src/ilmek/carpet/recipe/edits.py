@@ -5,6 +5,9 @@
     fill 100,50 indigo navy           the connected area of one yarn about a knot
     replace ivory by camel            every knot of a yarn
     replace ivory by camel in 1,1 50,50     within a rectangle
+    half 12,40 ivory                  two half knots: the cell's yarn on its left warp, this one on its right warp
+    jufti 12,40                       one knot on four warps: this cell and the next one, of one yarn
+    jufti 1,1 50,50                   within a rectangle: every two neighbours, from the left, of one yarn
 
 A knot is given as row,column. Rows are counted as they are woven, from 1 at the carpet's lower edge; columns from 1 at
 the left edge.
@@ -35,8 +38,13 @@ FORMS = {
     "fill": "fill ROW,COLUMN YARN",
     "line": "line ROW,COLUMN ROW,COLUMN YARN",
     "replace": "replace YARN by YARN, or replace YARN by YARN in ROW,COLUMN ROW,COLUMN",
+    "half": "half ROW,COLUMN YARN",
+    "jufti": "jufti ROW,COLUMN, or jufti ROW,COLUMN ROW,COLUMN",
 }
 """How each edit is written."""
+
+_KNOTS = {"set": (1, 10_000), "fill": (1, 1), "line": (2, 2), "half": (1, 1), "jufti": (1, 2)}
+"""Least and largest number of knots of an edit."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,9 +77,9 @@ def parse_edit(text: str, where: str = "") -> Edit:
         fits = not left and len(knots) == (2 if inside else 0)
     else:
         knots, yarns = _points(rest)
-        fits = len(knots) == (2 if kind == "line" else 1) or (kind == "set" and len(knots) > 1)
+        fits = _KNOTS[kind][0] <= len(knots) <= _KNOTS[kind][1]
     yarns = " ".join(yarns.split())
-    if not fits or not yarns:
+    if not fits or bool(yarns) == (kind == "jufti"):
         raise CarpetError(f"{shortened(text.strip())!r} is no edit", do=f"write {FORMS[kind]}")
     return Edit(kind, knots, yarns, " ".join(text.split()), where)
 
@@ -108,7 +116,9 @@ def srgb_of(name: str) -> tuple[int, int, int]:
 
 
 def named_yarns(edit: Edit, yarns: Sequence[Yarn]) -> tuple[int, ...]:
-    """Indices of the yarns of an edit: one, or of `replace` the old and the new one. Raises CarpetError."""
+    """Indices of the yarns of an edit: one; of `replace` old and new, of `jufti` none. Raises CarpetError."""
+    if edit.kind == "jufti":
+        return ()
     if edit.kind != "replace":
         return (yarn_number(edit.yarns, yarns),)
     old, by, new = edit.yarns.partition(" by ")
@@ -133,8 +143,9 @@ def check_knots(edit: Edit, rows: int, columns: int) -> None:
 
 def apply_edit(knots: Indices, edit: Edit, yarns: tuple[int, ...], progress: Progress = SILENT) -> None:
     """Apply an edit to the knots of a chart, row 0 on top; yarns: indices as of `named_yarns`."""
-    at = [(len(knots) - row, column - 1) for row, column in edit.knots]
-    _APPLY[edit.kind](knots, at, yarns, progress)
+    if edit.kind in _APPLY:  # half and jufti knots are marks beside the knots
+        at = [(len(knots) - row, column - 1) for row, column in edit.knots]
+        _APPLY[edit.kind](knots, at, yarns, progress)
 
 
 def _set(knots: Indices, at: list[Knot], yarns: tuple[int, ...], progress: Progress) -> None:

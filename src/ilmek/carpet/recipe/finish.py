@@ -11,8 +11,10 @@ from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.colour_difference import nearest
 from ilmek.carpet.design import bands
 from ilmek.carpet.differences import YarnDifference
+from ilmek.carpet.overlay import overlay_of
 from ilmek.carpet.recipe.composition import Composition
 from ilmek.carpet.recipe.edits import apply_edit, check_knots, located, named_yarns
+from ilmek.carpet.recipe.marks import EditedMarks
 from ilmek.carpet.recipe.recipe import Recipe
 from ilmek.carpet.yarn import Yarn, yarn_labs
 from ilmek.progress import SILENT, Progress
@@ -42,11 +44,17 @@ def finish(
         knots = _as_composed(chart, made, index, progress.part(0.0, 0.5))
     before = knots.copy() if recipe.edits else knots
     editing = progress.part(0.5, 0.9, "edits")
+    marks = EditedMarks()
+    marks.start(chart.overlay, knots)
     for count, (edit, found) in enumerate(zip(recipe.edits, numbers, strict=True)):
         part = editing.part(count / len(numbers), (count + 1) / len(numbers))
-        apply_edit(knots, edit, tuple(index[number] for number in found), part)
+        own = tuple(index[number] for number in found)
+        with located(edit.where):
+            apply_edit(knots, edit, own, part)
+            marks.apply(edit, knots, own)
     changed = sum(int(np.count_nonzero(knots[band] != before[band])) for band in bands(*knots.shape))
-    finished = replace(chart, knots=knots, reading=replace(chart.reading, edited=changed))
+    reading = replace(chart.reading, edited=changed)
+    finished = replace(chart, knots=knots, overlay=marks.overlay(), reading=reading)
     finished.tally(progress.part(0.9, 1.0))
     return finished
 
@@ -73,7 +81,8 @@ def _with_yarns(chart: Chart, yarns: Sequence[Yarn], named: set[int]) -> tuple[C
         differences=tuple(known.get(yarn.name, none) for yarn in chosen) if known else (),
         matches=tuple(match._replace(yarn=int(table[match.yarn])) for match in chart.reading.matches),
     )
-    made = replace(chart, knots=knots, yarns=chosen, reading=reading)
+    seconds = (mark._replace(second=int(table[mark.second])) for mark in chart.overlay)
+    made = replace(chart, knots=knots, yarns=chosen, overlay=overlay_of(seconds), reading=reading)
     return made, {number: at for at, number in enumerate(kept)}
 
 
