@@ -164,7 +164,7 @@ def make_chart(
         raise PictureError("the picture is empty", allowed="at least 1 × 1 pixels")
     _check_yarns(yarns)
     parse_knot(knot)
-    prepared, done = prepare_picture(rgb, fit or FitParams(), progress.part(0.0, 0.1))
+    prepared, done = prepare_picture(rgb, fit or FitParams(), progress.part(0.0, 0.1), size=size)
     exact = exact_design(prepared, size, quality, reading, progress=progress.part(0.1, 0.2))
     if exact is not None:
         design = exact[0]

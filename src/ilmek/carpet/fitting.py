@@ -12,7 +12,7 @@ from typing import TypeAlias
 import numpy as np
 
 from ilmek.arrays import Rgb
-from ilmek.carpet.design import LARGEST_DISTORTION, distortion
+from ilmek.carpet.design import LARGEST_DISTORTION, bands, distortion
 from ilmek.carpet.outline import find_outline
 from ilmek.carpet.picture_points import in_pixels, read_colour, read_points
 from ilmek.carpet.projection import inner_rectangle, outer_rectangle, projected, rotation_about
@@ -136,8 +136,8 @@ def fit_picture(
     changes or it is turned by right angles. Raises PictureError for a part that is empty or not in the picture.
     """
     params = params or FitParams()
-    prepared, fit = prepare_picture(rgb, params, progress, size=size)
-    return fit_prepared(prepared, fit, size, params, grid=grid)
+    prepared, fit = prepare_picture(rgb, params, progress.part(0.0, 0.8), size=size)
+    return fit_prepared(prepared, fit, size, params, progress.part(0.8, 1.0), grid=grid)
 
 
 def prepare_picture(
@@ -159,7 +159,13 @@ def prepare_picture(
 
 
 def fit_prepared(
-    rgb: Rgb, fit: Fit, size: CarpetSize, params: FitParams, *, grid: tuple[int, int] | None = None
+    rgb: Rgb,
+    fit: Fit,
+    size: CarpetSize,
+    params: FitParams,
+    progress: Progress = SILENT,
+    *,
+    grid: tuple[int, int] | None = None,
 ) -> tuple[Rgb, Fit]:
     """A prepared picture fitted to the carpet's proportions by `params.fit`; other arguments as of `fit_picture`."""
     if params.fit == "turn" and rgb.shape[:2] != grid and _suits_turned(rgb, size):
@@ -168,7 +174,7 @@ def fit_prepared(
         return rgb, fit
     if params.fit == "pad":
         border = read_colour("border", fit.border or params.border_colour or _hex(border_colour(rgb)))
-        made = _padded(rgb, size, border)
+        made = _padded(rgb, size, border, progress)
         padded = 1 - (1 - fit.padded) * _area(rgb) / _area(made)
         fit = replace(fit, padded=padded, border=_hex(border) if padded else None)
     elif params.fit == "stretch" or (params.fit != "crop" and abs(distortion(rgb, size)) <= LARGEST_DISTORTION):
@@ -305,16 +311,21 @@ def _centre(rgb: Rgb, size: CarpetSize) -> Rgb:
     return rgb[top : top + height, left : left + width]
 
 
-def _padded(rgb: Rgb, size: CarpetSize, border: Colour) -> Rgb:
+def _padded(rgb: Rgb, size: CarpetSize, border: Colour, progress: Progress) -> Rgb:
     """The picture in the middle of a border, with the carpet's proportions."""
     height, width = _sides(rgb, size, larger=True)
     if (height, width) == rgb.shape[:2]:
         return rgb
     _check_padded((height, width))
     made = np.empty((height, width, 3), dtype=np.uint8)
-    made[:] = border
+    line = np.full((width, 3), border, dtype=np.uint8)
     top, left = (height - rgb.shape[0]) // 2, (width - rgb.shape[1]) // 2
-    made[top : top + rgb.shape[0], left : left + rgb.shape[1]] = rgb
+    for band in bands(height, width):
+        made[band] = line
+        first, stop = max(band.start, top), min(band.stop, top + rgb.shape[0])
+        if first < stop:
+            made[first:stop, left : left + rgb.shape[1]] = rgb[first - top : stop - top]
+        progress(band.stop / height)
     return made
 
 

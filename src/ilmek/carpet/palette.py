@@ -147,7 +147,7 @@ def best_of_table(
     others = [yarn for yarn in range(len(table)) if yarn not in kept]
     more = count - len(kept)
     if math.comb(len(others), more) * table.shape[1] * count <= _MOST_TRIALS:
-        choices = (kept + choice for choice in itertools.combinations(others, more))
+        choices = ((*kept, *choice) for choice in itertools.combinations(others, more))
         return tuple(sorted(min(choices, key=lambda choice: total_difference(table, choice))))
     adding = progress.part(0.0, _SWAPS)
     begun = list(kept)

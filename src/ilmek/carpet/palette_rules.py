@@ -241,7 +241,7 @@ def _merged(
     """The yarns below the least share, in the order in which they are merged. Raises YarnError if only one is left."""
     labs, total = yarn_labs(yarns), int(distinct.counts.sum())
     yarn_of = nearest_yarns(distinct, labs, progress)[0].astype(np.int64)
-    remaining, merged = list(range(len(yarns))), []
+    remaining, merged = list(range(len(yarns))), list[MergedYarn]()
     for step in itertools.count():
         progress(1 - 1 / (2 + step))
         knots = _knots(yarn_of, distinct, len(yarns))

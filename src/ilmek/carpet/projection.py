@@ -3,8 +3,8 @@
     (x, y) = (X, Y)/Z,   (X, Y, Z) = M (u, v, 1)
 
 (u, v) is a point of the result, (x, y) one of the picture, both in pixels. Each pixel of the result is the mean of
-n × m bilinear samples; n and m are the sides of its image in the picture, rounded up, so that no pixel of the picture
-is skipped where the result is coarser.
+n × m bilinear samples; n and m are the sides of its image in the picture, rounded up but for a quarter of a pixel, so
+that no pixel of the picture is skipped where the result is coarser.
 
 Source of the closed form: P. S. Heckbert, Fundamentals of texture mapping and image warping, UCB/CSD-89-516 (1989),
 2.2.3.
@@ -24,6 +24,9 @@ from ilmek.progress import SILENT, Progress
 Homography = Float[np.ndarray, "3 3"]
 
 _SLICE = 1 << 17
+_SLACK = 0.25
+"""Part of a pixel by which samples may be farther apart than pixels: a bilinear sample covers two."""
+
 _MOST_SAMPLES = 8
 """Largest number of samples along a side of a pixel of the result."""
 
@@ -72,8 +75,8 @@ def _project(rgb: Rgb, out: Rgb, first: int, m: FloatArray, outside: FloatArray,
             y = (m[1, 0] * u + m[1, 1] * v + m[1, 2]) / z
             across = math.hypot(m[0, 0] - x * m[2, 0], m[1, 0] - y * m[2, 0]) / abs(z)
             along = math.hypot(m[0, 1] - x * m[2, 1], m[1, 1] - y * m[2, 1]) / abs(z)
-            n = min(max(math.ceil(across - 0.01), 1), _MOST_SAMPLES)
-            k = min(max(math.ceil(along - 0.01), 1), _MOST_SAMPLES)
+            n = min(max(math.ceil(across - _SLACK), 1), _MOST_SAMPLES)
+            k = min(max(math.ceil(along - _SLACK), 1), _MOST_SAMPLES)
             red, green, blue = 0.0, 0.0, 0.0
             for j in range(k):
                 for i in range(n):

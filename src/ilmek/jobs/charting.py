@@ -55,7 +55,7 @@ def chart_of_order(order: CarpetOrder, progress: Progress = SILENT, *, with_sour
         picture = read_picture(order.picture, progress.part(0.0, 0.2, "picture"))
         rgb, notes = picture.rgb, (*notes, *picture.notes)
         del picture
-        prepared, fit = prepare_picture(rgb, order.fit, progress.part(0.2, 0.25))
+        prepared, fit = prepare_picture(rgb, order.fit, progress.part(0.2, 0.25), size=order.resolved().size)
         drawn = False
     else:
         given, order = order, _on_the_chart(order, chart)
@@ -118,7 +118,7 @@ def _read(
     made = order.resolved()
     check_sheets(made.size, made.quality, order)
     grid = knot_grid(made.size, made.quality)
-    fitted, fit = fit_prepared(prepared, fit, made.size, order.fit, grid=grid)
+    fitted, fit = fit_prepared(prepared, fit, made.size, order.fit, progress.part(0.35, 0.4), grid=grid)
     exact = exact_design(fitted, made.size, made.quality, order.reading, progress=progress.part(0.4, 0.5))
     design = exact[0] if exact else read_design(fitted, grid, order.reading, progress.part(0.5, 1.0))
     notes = fit_notes(fit, fitted.shape[:2], made.size, grid)
