@@ -29,6 +29,7 @@ from ilmek.errors import ParameterError
 from ilmek.io.call_state import DamagedStateError, read_state, state_file
 from ilmek.io.chart.oxs import write_chart_oxs
 from ilmek.io.chart.png import write_chart_png
+from ilmek.io.output import disk
 from ilmek.jobs.call import Calling, begin_calling
 
 KNOTS = np.array([[0, 0, 1, 1, 2], [0, 1, 1, 1, 1], [2, 2, 2, 2, 2]], dtype=np.uint8)
@@ -133,6 +134,22 @@ def test_a_damaged_state_begins_with_row_1(text: str) -> None:
     calling.forward()
     calling.remember()
     assert begin_calling(CHART, "runs", "right").row == 2
+
+
+def test_a_state_is_on_the_disk_before_it_takes_its_name(monkeypatch: pytest.MonkeyPatch) -> None:
+    path, calls = state_file(CHART), []
+    path.parent.mkdir(parents=True)
+    (path.parent / f".{path.stem}.1.part").write_text("half a st", encoding="utf-8")
+    for name in ("write", "sync", "replace"):
+        real = getattr(disk, name)
+        monkeypatch.setattr(
+            disk, name, lambda *given, name=name, real=real: (calls.append((name, given[0])), real(*given))
+        )
+    calling = begin_calling(CHART, "runs", "right")
+    calling.remember()
+    new = path.with_name(f".{path.stem}.{os.getpid()}.part")
+    assert calls == [("write", new), ("sync", new), ("replace", new), ("sync", path.parent)]
+    assert list(path.parent.iterdir()) == [path]
 
 
 def test_a_state_that_cannot_be_kept_is_noted_once(tmp_path: Path) -> None:

@@ -87,6 +87,9 @@ def read_state(path: Path, rows: int) -> CallState | None:
 def write_state(path: Path, state: CallState) -> None:
     """Write a state, complete and synced. Raises OSError."""
     path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+    for left in path.parent.glob(f".{path.stem}.*.part"):  # by a call that was killed
+        with suppress(OSError):
+            disk.unlink(left)
     new = path.with_name(f".{path.stem}.{os.getpid()}.part")
     text = json.dumps({"version": _VERSION, **state._asdict()})
     try:

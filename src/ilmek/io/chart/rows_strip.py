@@ -109,6 +109,7 @@ def draw_strip(setter: Typesetter, strip: Strip, plan: RowsLayout, inks: Inks, r
     leaders = [(one.middle, STRIP, one.middle, base + level * plan.level) for one, level in placed if level]
     if leaders:
         canvas.lines(leaders)
+    _dividers(canvas, strip, plan, labels)
     canvas.setFillGray(0.0)
     texts = []
     for one, level in placed:
@@ -119,6 +120,22 @@ def draw_strip(setter: Typesetter, strip: Strip, plan: RowsLayout, inks: Inks, r
     setter.show(texts)
     _rulers(canvas, strip, plan, reading)
     _numbers(canvas, strip, wide)
+
+
+def _dividers(canvas: Any, strip: Strip, plan: RowsLayout, labels: list[RunLabel]) -> None:
+    """A fine line between neighbouring labels that keep within their runs, so that 2 and 2 are not read as 22."""
+    runs = [run for run in strip.runs if run.first < strip.stop and run.first + run.cells > strip.first]
+    within = [label.width <= run.cells * plan.cell for run, label in zip(runs, labels, strict=True)]
+    ends = ((run.first - strip.first) * plan.cell for run in runs[1:])
+    lines = [
+        (x, STRIP, x, STRIP + plan.level)
+        for x, one, two in zip(ends, within[:-1], within[1:], strict=True)
+        if one and two
+    ]
+    if lines:
+        canvas.setStrokeGray(0.7)
+        canvas.setLineWidth(0.2)
+        canvas.lines(lines)
 
 
 def _cells(canvas: Any, strip: Strip, plan: RowsLayout, inks: Inks) -> None:
