@@ -148,7 +148,8 @@ def best_of_table(
     more = count - len(kept)
     if math.comb(len(others), more) * table.shape[1] * count <= _MOST_TRIALS:
         choices = ((*kept, *choice) for choice in itertools.combinations(others, more))
-        return tuple(sorted(min(choices, key=lambda choice: total_difference(table, choice))))
+        best: tuple[int, ...] = min(choices, key=lambda choice: total_difference(table, choice))
+        return tuple(sorted(best))
     adding = progress.part(0.0, _SWAPS)
     begun = list(kept)
     for yarn, _ in itertools.islice(additions(table, kept), more):
