@@ -294,8 +294,8 @@ def test_a_killed_call_goes_on_at_its_step(chart_file: Path) -> None:
 
 @pytest.mark.filterwarnings("ignore:This process .* is multi-threaded:DeprecationWarning")
 def test_an_interrupt_keeps_the_step_and_the_terminal(chart_file: Path) -> None:
-    session = Session(chart_file)
-    session.wait_for("Row 1 of 3")
+    session = Session(chart_file, PYTHONIOENCODING="ascii")
+    assert "##" in session.wait_for("Row 1 of 3 >")
     session.press(b"n")
     session.wait_for("Row 2 of 3")
     session.press(b"\x03")

@@ -102,7 +102,12 @@ def step_on_terminal(calling: Calling) -> None:
 def _show(calling: Calling, depth: int, plain: bool) -> None:
     width, height = _terminal_size()
     lines = list(screen_lines(calling, depth, width))[: max(8, height - 1)]
-    sys.stdout.write(("" if plain else "\x1b[H\x1b[2J") + "\n".join(lines) + "\n")
+    text = "\n".join(lines)
+    try:
+        text.encode(sys.stdout.encoding or "ascii")
+    except UnicodeEncodeError:  # a figure of question marks cannot be read
+        text = text.replace("█", "#").replace("→", ">").replace("←", "<")
+    sys.stdout.write(("" if plain else "\x1b[H\x1b[2J") + text + "\n")
     sys.stdout.flush()
 
 
