@@ -8,11 +8,13 @@ import pytest
 from PIL import Image
 from scipy import ndimage
 
+from ilmek.carpet import halftone
 from ilmek.carpet.blue_noise import SIDE, blue_noise
 from ilmek.carpet.chart import Chart, make_chart
 from ilmek.carpet.colour import LINEAR, RGB_TO_XYZ, xyz_to_lab
 from ilmek.carpet.colour_difference import delta_e_2000
 from ilmek.carpet.confetti import count_lone
+from ilmek.carpet.design import bands
 from ilmek.carpet.halftone import CELL, draw_halftone
 from ilmek.carpet.palette import distinct_colours, nearest_yarns, paint
 from ilmek.carpet.patches import count_patches
@@ -125,3 +127,11 @@ def test_a_drawing_has_no_halftone() -> None:
     rgb[10:30, 10:30] = SRGB[0]
     with pytest.raises(PictureError, match="--read photo"):
         make_chart(rgb, CarpetSize(0.4, 0.4), Quality(100.0, 100.0), YARNS, reading=ReadParams(halftone=0.5))
+
+
+def test_slices_change_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    rgb = sky("dusk", 61, 47)
+    rgb[20:23, 10:30] = 0
+    whole = chart(rgb, halftone=1.0).knots
+    monkeypatch.setattr(halftone, "bands", lambda rows, columns, *_: bands(rows, columns, 300))
+    assert np.array_equal(chart(rgb, halftone=1.0).knots, whole)

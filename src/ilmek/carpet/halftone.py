@@ -9,7 +9,7 @@ smooth    No pattern is drawn in a cell that holds or touches an outline: its kn
           belongs to no square of 3 × 3 others. There the knots keep their nearest yarns.
 strength  The tone aimed at lies at this share of the path from the light of the nearest yarn to that of the cell.
 
-Mixtures are computed once for each tone, with channels rounded to steps of 4 codes.
+Mixtures are computed once for each tone, with channels rounded to steps of 4 codes, up or down by the noise.
 """
 
 import numpy as np
@@ -29,8 +29,13 @@ CELL = 2
 OUTLINE, OUTLINE_INSIDE = 24, 36
 """Differences of an outline, in codes of a channel."""
 
-_STEP_BITS = 2
-_LEVELS = 256 >> _STEP_BITS
+STEP = 4
+"""Codes between the rounded channels of two tones."""
+
+SHIFT = SIDE // 2
+"""Cells between the noise that draws the pattern and that which rounds the tones."""
+
+_LEVELS = 255 // STEP + 2
 _BATCH = 1024
 
 
@@ -73,17 +78,18 @@ def _tones(rgb: Rgb, tones: Int32[np.ndarray, "rows columns"], rough: BoolArray)
 
 
 @compiled
-def _key(tone: int) -> int:
-    """The number of a tone with its channels rounded."""
-    red, green, blue = tone >> 16 & 255, tone >> 8 & 255, tone & 255
-    return int(((red >> _STEP_BITS) * _LEVELS + (green >> _STEP_BITS)) * _LEVELS + (blue >> _STEP_BITS))
+def _key(tone: int, level: int) -> int:
+    """The number of a tone with its channels rounded up or down by the noise, so that no step is seen."""
+    up = level * STEP // (SIDE * SIDE)
+    red, green, blue = (tone >> 16 & 255) + up, (tone >> 8 & 255) + up, (tone & 255) + up
+    return int(((red // STEP) * _LEVELS + green // STEP) * _LEVELS + blue // STEP)
 
 
 @compiled
-def _note(tones: Int32[np.ndarray, "rows columns"], seen: BoolArray) -> None:
+def _note(tones: Int32[np.ndarray, "rows columns"], noise: IntArray, top: int, seen: BoolArray) -> None:
     for i in range(tones.shape[0]):
         for j in range(tones.shape[1]):
-            seen[_key(tones[i, j])] = True
+            seen[_key(tones[i, j], noise[(top + i + SHIFT) % SIDE, (j + SHIFT) % SIDE])] = True
 
 
 @compiled
@@ -124,7 +130,8 @@ def _draw(  # noqa: PLR0917
         for j in range(columns):
             if not _in_smooth_area(rough, i, j):
                 continue
-            mixture, level = number[_key(tones[i, j])], noise[(top + i) % SIDE, j % SIDE]
+            mixture = number[_key(tones[i, j], noise[(top + i + SHIFT) % SIDE, (j + SHIFT) % SIDE])]
+            level = noise[(top + i) % SIDE, j % SIDE]
             taken = (level >= limits[mixture, 0]) + (level >= limits[mixture, 1])
             drawn[i, j] = True
             for y in range(CELL * i, bottom):
@@ -151,7 +158,8 @@ def draw_halftone(
     parts = [(band, slice(max(band.start - 3, 0), min(band.stop + 3, rows))) for band in bands(rows, CELL**2 * columns)]
     seen = np.zeros(_LEVELS**3, dtype=bool)
     for band, around in parts:
-        _note(_tones_of(_knots_of(rgb, around, rows), (around.stop - around.start, columns))[0], seen)
+        tones, _ = _tones_of(_knots_of(rgb, around, rows), (around.stop - around.start, columns))
+        _note(tones, blue_noise(), around.start % SIDE, seen)
         progress(0.3 * band.stop / rows)
     keys = np.flatnonzero(seen)
     number = np.zeros(_LEVELS**3, dtype=np.int32)
@@ -173,9 +181,8 @@ def _knots_of(knots: Indices, cells: slice, rows: int) -> Indices:
 
 def _mixtures(keys: IntArray, labs: FloatArray, strength: float, progress: Progress) -> tuple[IntArray, IntArray]:
     """The yarns of each tone's mixture, from dark to light, and the limits of the noise between them."""
-    half = 1 << _STEP_BITS >> 1
-    codes = np.stack([keys // _LEVELS**2, keys // _LEVELS % _LEVELS, keys % _LEVELS], axis=-1) * 2 * half + half
-    tones, lights = LINEAR[codes], yarn_lights(labs)
+    codes = np.stack([keys // _LEVELS**2, keys // _LEVELS % _LEVELS, keys % _LEVELS], axis=-1) * STEP
+    tones, lights = LINEAR[np.minimum(codes, 255)], yarn_lights(labs)
     dark = np.argsort(np.argsort(labs[:, 0], kind="stable"), kind="stable")
     yarns, shares = np.empty((len(keys), 3), dtype=np.int64), np.empty((len(keys), 3))
     for part in bands(len(keys), 1, _BATCH):
