@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from PIL import Image
+from PIL import Image, ImageCms
 
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.overlay import HALF, JUFTI, KnotMark, overlay_of
@@ -102,6 +102,24 @@ def test_bmp_keeps_the_colours_and_the_order_of_the_yarns(folder: Path, chart: C
         assert np.array_equal(np.asarray(opened), chart.knots)
 
 
+def test_a_bmp_needs_no_option_whatever_is_drawn(folder: Path) -> None:
+    yarns = tuple(Yarn(f"{n}", (n, 255 - n, 7 * n % 256), (0.0, 0.0, 0.0), 5.0) for n in range(0, 200, 2))
+    knots = np.random.default_rng(1).integers(0, 100, (60, 50), dtype=np.uint8)
+    write_chart_bmp(folder / "a.bmp", Chart(knots, yarns, CarpetSize(0.1, 0.2), Quality(500.0, 300.0), "symmetric"))
+    made = make_charted(read_order(folder / "a.bmp", knot="asymmetric"))
+    assert (made.chart.reading.kind, made.chart.knots.shape) == ("exact", (60, 50))
+    assert made.chart.quality == Quality(500.0, 300.0)
+    assert "its resolution is that of knots: 50x30/dm" in made.notes
+    assert len(made.chart.reading.matches) == 100
+
+
+@pytest.mark.parametrize("dots", [72, 96, 300, 0.5])
+def test_the_resolution_of_a_screen_or_printer_states_no_knots(folder: Path, dots: float) -> None:
+    noise = np.random.default_rng(1).integers(0, 4, (60, 50, 1), dtype=np.uint8)
+    Image.fromarray(noise.repeat(3, 2) * 60).save(folder / "screen.png", dpi=(dots, dots))
+    assert make_charted(read_order(folder / "screen.png")).chart.reading.kind != "exact"
+
+
 INDEXED = [
     ("PNG", {"bits": 1}, 2), ("PNG", {"bits": 2}, 4), ("PNG", {"bits": 4}, 16), ("PNG", {"bits": 8}, 256),
     ("BMP", {}, 200), ("GIF", {}, 200), ("TIFF", {}, 200), ("PCX", {}, 200),
@@ -122,6 +140,16 @@ def test_indexed_pictures_are_read_with_exact_colours(
     picture.save(path, form, **how)
     read = read_picture(path)
     assert np.array_equal(read.rgb, palette[numbers])
+    assert read.notes == ()
+
+
+def test_a_profile_that_is_srgb_changes_no_colour(tmp_path: Path) -> None:
+    rng = np.random.default_rng(3)
+    rgb = rng.integers(0, 256, (40, 30, 3), dtype=np.uint8)
+    srgb = ImageCms.ImageCmsProfile(ImageCms.createProfile("sRGB"))
+    Image.fromarray(rgb).save(tmp_path / "a.png", icc_profile=srgb.tobytes().replace(b"sRGB", b"GIMP"))
+    read = read_picture(tmp_path / "a.png")
+    assert np.array_equal(read.rgb, rgb)
     assert read.notes == ()
 
 

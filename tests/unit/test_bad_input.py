@@ -33,11 +33,21 @@ def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
     pixels = np.random.default_rng(3).integers(0, 256, (30, 20, 3), dtype=np.uint8)
     Image.fromarray(pixels).save(folder / "good.png")
     whole = (folder / "good.png").read_bytes()
+    indexed = Image.fromarray(pixels[..., 0])
+    indexed.save(folder / "grey.bmp")
+    Image.fromarray(pixels).save(folder / "deep.bmp")
+    grey, deep = (folder / "grey.bmp").read_bytes(), (folder / "deep.bmp").read_bytes()
     (folder / "taken").mkdir()
     (folder / "taken/mine.txt").write_text("mine")
     contents = {
         "empty.png": b"",
         "text.png": b"not a picture",
+        "cut.bmp": grey[:-90],
+        "cut24.bmp": deep[: len(deep) // 2],
+        "head.bmp": grey[:30],
+        "cut.oxs": b"<?xml version='1.0'?>\n<chart><properties chartwidth='30' chartheight='20'/><palette>",
+        "entities.oxs": b"<!DOCTYPE chart [<!ENTITY a 'aaa'>]><chart>&a;</chart>",
+        "pattern.oxs": b"<pattern><stitch/></pattern>",
         "cut.png": whole[: len(whole) // 2],
         "pixel.png": png(1, 1, b"\0\0"),
         "line.png": png(400, 1, b"\0" * 401),
@@ -86,6 +96,8 @@ def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+SMALL = "--size 20x30cm --quality 20x20/dm"
+
 PICTURE = {
     "missing picture": ("gone.png", "gone.png does not exist"),
     "misspelt picture": ("godo.png", r"did you mean good\.png"),
@@ -102,9 +114,21 @@ PICTURE = {
     "pipe as picture": ("pipe.png", "is not a file"),
     "device as picture": ("/dev/null", "is not a file"),
     "name too long": ("x" * 400, "cannot be read"),
+    "truncated BMP": ("cut.bmp", "damaged or truncated"),
+    "truncated BMP of 24 bits": ("cut24.bmp", "damaged or truncated"),
+    "BMP without pixels": ("head.bmp", "damaged or truncated|is not a picture"),
+    "truncated OXS": ("cut.oxs", r"cut\.oxs, line \d+: no element found"),
+    "OXS with entities": ("entities.oxs", "has a document type"),
+    "OXS of another program's XML": ("pattern.oxs", "it is no OXS chart: it begins with 'pattern'"),
+    "missing OXS": ("gone.oxs", "cannot be read|does not exist"),
 }
 
 CARPET = {
+    "exact reading of another grid": (
+        f"--read exact {SMALL}",
+        "the picture has 20 × 30 pixels, and .* has 40 × 60 knots",
+    ),
+    "unknown reading": ("--read exakt", "did you mean exact"),
     "white that is no colour": ("--white ivory", "white='ivory' is no colour.*#"),
     "black for white": ("--white #000011", "nearly black"),
     "halftone of a drawing": ("--read flat --halftone 50%", "--read photo"),
@@ -289,7 +313,6 @@ WEAVE = {
     "pitch of nothing": ("--warp-pitch 0mm", "pitch"),
 }
 
-SMALL = "--size 20x30cm --quality 20x20/dm"
 CASES = {
     **{name: (f"chart {file} {SMALL} --out new", said) for name, (file, said) in PICTURE.items()},
     **{f"weave {name}": (f"weave {file} {SMALL} --out new", said) for name, (file, said) in PICTURE.items()},

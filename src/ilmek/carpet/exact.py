@@ -47,6 +47,9 @@ LEAST_DETAILS, MOST_DETAILS, LEAST_ALIKE, LEAST_CONTRAST = 0.01, 0.25, 0.6, 0.6
 COARSEST_DRAWN, FINEST_DRAWN, MOST_OBLONG = 150.0, 2000.0, 2.0
 """Qualities [knots/m] and their ratio that a size may give to such a picture."""
 
+COARSEST_STATED = 100.0
+"""Least number of pixels per metre that are taken for knots."""
+
 _CODES = 1 << 24
 _MIX = 0.02
 """Relative distance from the line between two colours, and from its ends, within which a colour is their mix."""
@@ -149,6 +152,22 @@ def _of_its_own_grid(rgb: Rgb, size: CarpetSize | None, quality: Quality | None,
         return None
     share = f"{len(few.palette)} colours, {details.fine:.1%} of the knots in details of one knot"
     return Drawing(_reduced(rgb, scale), size, quality, f"drawn knot by knot{_in_words(grid, scale)}: {share}")
+
+
+def stated_quality(density: tuple[float, float] | None, rgb: Rgb) -> Quality | None:
+    """The quality that a picture states by its pixels per metre, as chart.png and chart.bmp do.
+
+    density  pixels per metre across and along
+    None where they are not those of knots (screens and printers have 2800 and more), or the colours are not few.
+    """
+    if density is None or not all(COARSEST_STATED <= count <= FINEST_DRAWN for count in density):
+        return None
+    if few_colours(rgb, MOST_YARNS) is None:
+        return None
+    try:
+        return of_grid((int(rgb.shape[0]), int(rgb.shape[1])), None, Quality(*density))[1]
+    except CarpetError:
+        return None
 
 
 def _of_the_grid(rgb: Rgb, size: CarpetSize, quality: Quality, *, drawn: bool, progress: Progress) -> Drawing | None:

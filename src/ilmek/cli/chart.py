@@ -21,6 +21,8 @@ EXAMPLES = """\b
 Examples:
   ilmek chart photo.jpg --size 120x180cm --quality 40x40/dm --out photo-chart
   ilmek chart photo.jpg --size kelle --colours 8 --yarns wool.toml
+  ilmek chart design.bmp --quality 40x40/dm
+  ilmek chart chart.png --yarns wool.toml --oxs --bmp
   ilmek chart photo.jpg --json -
   ilmek chart photo.jpg --size kelle --colours 8 --save-recipe carpet.toml
   ilmek chart carpet.toml

@@ -23,6 +23,7 @@ from ilmek.machines.automated_loom.params import AIMS
 EXAMPLES = """\b
 Examples:
   ilmek weave photo.jpg
+  ilmek weave photo-chart/chart.png
   ilmek weave photo.jpg --size 120x180cm --quality 40x40/dm --yarns wool.toml --knot symmetric --deadline 72h
   ilmek weave photo.jpg --size kelle --colours 8 --heads 6 --out carpet --force
   ilmek weave photo.jpg --loom beat=comb --loom shedding.law=modified-sine --loom prices=@prices.txt

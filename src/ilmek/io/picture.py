@@ -65,6 +65,9 @@ _READS = 8
 _HEADER = 64_000_000
 """Bytes of a header that may be read, besides a file that is read whole: text, profiles, preview pictures."""
 
+METRE = 0.0254
+"""Metres per inch: Pillow gives and takes dots per inch."""
+
 _REPORT = 0.1
 """Time between reports while a picture is decoded [s]."""
 
@@ -77,10 +80,14 @@ _OF_A_CODEC = re.compile(
 
 @record
 class Picture:
-    """A picture as sRGB with 8 bits per channel, row 0 on top; notes on the conversions."""
+    """A picture as sRGB with 8 bits per channel, row 0 on top; notes on the conversions.
+
+    density  pixels per metre across and along, as the file states them; None: it does not
+    """
 
     rgb: Rgb
     notes: tuple[str, ...] = ()
+    density: tuple[float, float] | None = None
 
 
 def read_picture(path: Path, progress: Progress = SILENT, *, smallest: int = SMALLEST) -> Picture:
@@ -160,9 +167,23 @@ def _decoded(opened: Image.Image, stream: MeteredBytes, progress: Progress) -> P
     if not by_pillow:
         orientation, about_exif = _orientation(opened)
     pixels, converted = srgb_pixels(opened, progress.part(0.7, 1.0))
+    density = _density(opened)
     opened.close()  # before the pixels are copied
     upright = pixels if by_pillow else turned(pixels, orientation)
-    return Picture(upright, (*notes, *about_exif, *deep, *converted))
+    across, along = density or (0.0, 0.0)
+    if orientation >= 5 and not by_pillow:
+        across, along = along, across
+    return Picture(upright, (*notes, *about_exif, *deep, *converted), (across, along) if density else None)
+
+
+def _density(opened: Image.Image) -> tuple[float, float] | None:
+    """Whole pixels per metre across and along, from the dots per inch that the file states."""
+    dots = opened.info.get("dpi")
+    try:
+        across, along = (float(round(float(one) / METRE)) for one in dots)
+    except (TypeError, ValueError, OverflowError, ZeroDivisionError):
+        return None
+    return (across, along) if min(across, along) > 0 else None
 
 
 def _several_frames(opened: Image.Image) -> tuple[str, ...]:

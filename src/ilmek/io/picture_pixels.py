@@ -19,6 +19,9 @@ MOST_PROFILE = 4_000_000
 _STRIP = 1 << 21
 """Pixels of a strip."""
 
+_PROBES, _ROUNDING = 9, 3
+"""Codes of each channel of which a profile is judged, and the largest change by the rounding of a profile."""
+
 _RGB_PROFILE = ImageCms.createProfile("sRGB")
 _ICC_MODES = {"RGB": "RGB", "GRAY": "L", "CMYK": "CMYK", "Lab": "LAB"}
 _ALPHA = ("P", "PA", "RGBa", "La", "LA", "RGBA")
@@ -115,14 +118,26 @@ def _in_srgb(mode: str, profile: bytes | None) -> tuple[_Convert, tuple[str, ...
         try:
             embedded = ImageCms.ImageCmsProfile(io.BytesIO(profile))
             if mode == _ICC_MODES.get(embedded.profile.xcolor_space.strip()):
-                name = ImageCms.getProfileDescription(embedded).strip()
                 convert = _by_profile(embedded, mode)
-                return convert, () if name.startswith("sRGB") else (f"colours converted from {name!r} to sRGB",)
+                if mode == "RGB" and _keeps_colours(convert):
+                    return _plain, ()
+                name = ImageCms.getProfileDescription(embedded).strip()
+                return convert, (f"colours converted from {name!r} to sRGB",)
         except (ImageCms.PyCMSError, OSError, ValueError, TypeError):
             return _plain, ("its colour profile is damaged and ignored",)
     if mode == "LAB":
         return _by_profile(ImageCms.createProfile("LAB"), mode), ("CIELAB converted to sRGB",)
     return _plain, ("CMYK without a colour profile converted to sRGB",) if mode == "CMYK" else ()
+
+
+def _keeps_colours(convert: _Convert) -> bool:
+    """Whether a conversion changes no colour by more than the rounding of profiles: then they are those of sRGB, and
+    stay as they are, because a chart's colours are exact.
+    """
+    codes = np.linspace(0, 255, _PROBES).astype(np.uint8)
+    cube = np.stack(np.meshgrid(codes, codes, codes), axis=-1).reshape(_PROBES, _PROBES**2, 3)
+    changed = np.asarray(convert(Image.fromarray(cube)), dtype=np.int64)
+    return bool(np.abs(changed - cube).max() <= _ROUNDING)
 
 
 def _plain(strip: Image.Image) -> Image.Image:

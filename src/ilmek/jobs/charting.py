@@ -8,15 +8,16 @@ import numpy as np
 from ilmek.arrays import Rgb
 from ilmek.carpet.chart import Chart, chart_of_design
 from ilmek.carpet.design import knot_grid, resampled
-from ilmek.carpet.exact import few_colours, has_grid, of_grid
+from ilmek.carpet.exact import few_colours, has_grid, of_grid, stated_quality
 from ilmek.carpet.fitting import Fit, FitParams, fit_notes, fit_prepared, prepare_picture
+from ilmek.carpet.quality import Quality
 from ilmek.carpet.reading import Design, ReadParams, exact_design, read_design
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import MOST_YARNS
 from ilmek.errors import PictureError
 from ilmek.io.chart.oxs_reading import is_oxs, read_chart_oxs
 from ilmek.io.chart.png import is_chart_png, read_chart_png
-from ilmek.io.picture import read_picture
+from ilmek.io.picture import Picture, read_picture
 from ilmek.jobs.order import GROUPS, CarpetOrder, ResolvedOrder, check_sheets
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
@@ -54,9 +55,13 @@ def chart_of_order(order: CarpetOrder, progress: Progress = SILENT, *, with_sour
     if chart is None:
         picture = read_picture(order.picture, progress.part(0.0, 0.2, "picture"))
         rgb, notes = picture.rgb, (*notes, *picture.notes)
+        stated = _stated(order, picture)
+        drawn = stated is not None
+        if stated is not None:
+            order = replace(order, quality=stated)
+            notes = (*notes, f"its resolution is that of knots: {stated}")
         del picture
         prepared, fit = prepare_picture(rgb, order.fit, progress.part(0.2, 0.25), size=order.resolved().size)
-        drawn = False
     else:
         given, order = order, _on_the_chart(order, chart)
         made = order.resolved()
@@ -123,6 +128,13 @@ def _read(
     design = exact[0] if exact else read_design(fitted, grid, order.reading, progress.part(0.5, 1.0))
     notes = fit_notes(fit, fitted.shape[:2], made.size, grid)
     return _ReadPicture(made, design, fit, notes, shown_source(fitted) if with_source else None)
+
+
+def _stated(order: CarpetOrder, picture: Picture) -> Quality | None:
+    """The quality that the picture states, where the order leaves size, quality and reading open."""
+    if order.size is not None or order.quality is not None or order.reading.reading not in ("auto", "exact"):
+        return None
+    return None if order.fit != FitParams() else stated_quality(picture.density, picture.rgb)
 
 
 def _flattened(chart: Chart) -> tuple[str, ...]:

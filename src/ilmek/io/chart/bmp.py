@@ -6,7 +6,8 @@ Only the colours and, as pixels per metre, the quality are in the file; chart.pn
 from pathlib import Path
 
 from ilmek.carpet.chart import Chart
-from ilmek.io.chart.png import METRE, CountedFile, chart_picture
+from ilmek.io.chart.png import CountedFile, chart_picture
+from ilmek.io.picture import METRE
 from ilmek.progress import SILENT, Progress
 
 

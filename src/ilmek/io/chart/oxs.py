@@ -19,8 +19,8 @@ from xml.sax.saxutils import quoteattr
 from ilmek.carpet.chart import Chart
 from ilmek.errors import CarpetError
 from ilmek.io.carpet_facts import chart_facts
-from ilmek.io.chart.png import METRE
 from ilmek.io.overlay_text import overlay_text
+from ilmek.io.picture import METRE
 from ilmek.progress import SILENT, Progress
 
 MOST_OXS_KNOTS = 4_000_000

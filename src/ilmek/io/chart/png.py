@@ -22,6 +22,7 @@ from ilmek.carpet.yarn import Yarn
 from ilmek.errors import PictureError
 from ilmek.io.carpet_facts import chart_facts, chart_of_facts, read_facts
 from ilmek.io.overlay_text import overlay_text, read_overlay
+from ilmek.io.picture import METRE
 from ilmek.io.picture_file import (
     DamagedError,
     MeteredBytes,
@@ -39,9 +40,6 @@ _CHUNKS = 1_000_000
 
 _BEGIN = 65_536
 """Bytes in which the data of a chart begin."""
-
-METRE = 0.0254
-"""Metres per inch: Pillow takes dots per inch and writes dots per metre."""
 
 
 class CountedFile(io.FileIO):
