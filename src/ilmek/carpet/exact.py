@@ -68,7 +68,7 @@ class FewColours:
 
 
 @record
-class Drawing:
+class KnotDrawing:
     """A picture whose pixels are the knots of a carpet, and the carpet's size and quality; the reason in words."""
 
     rgb: Rgb
@@ -120,7 +120,7 @@ def find_drawing(
     *,
     drawn: bool = False,
     progress: Progress = SILENT,
-) -> Drawing | None:
+) -> KnotDrawing | None:
     """The drawing that a picture is; None: its pixels are not the knots.
 
     size, quality  as far as they are given
@@ -132,11 +132,13 @@ def find_drawing(
         return _of_the_grid(rgb, size, quality, drawn=drawn, progress=progress)
     if drawn:
         size, quality = of_grid(pixels, size, quality)
-        return Drawing(rgb, size, quality, f"each of its {pixels[1]} × {pixels[0]} pixels is a knot")
+        return KnotDrawing(rgb, size, quality, f"each of its {pixels[1]} × {pixels[0]} pixels is a knot")
     return _of_its_own_grid(rgb, size, quality, progress)
 
 
-def _of_its_own_grid(rgb: Rgb, size: CarpetSize | None, quality: Quality | None, progress: Progress) -> Drawing | None:
+def _of_its_own_grid(
+    rgb: Rgb, size: CarpetSize | None, quality: Quality | None, progress: Progress
+) -> KnotDrawing | None:
     """The drawing of a picture that states its grid by itself."""
     few = few_colours(rgb, MOST_DRAWN_COLOURS, progress.part(0.0, 0.4))
     scale = enlargement(few.numbers) if few is not None else 1
@@ -151,7 +153,7 @@ def _of_its_own_grid(rgb: Rgb, size: CarpetSize | None, quality: Quality | None,
     if not (details.drawn and _usual(quality)):
         return None
     share = f"{len(few.palette)} colours, {details.fine:.1%} of the knots in details of one knot"
-    return Drawing(_reduced(rgb, scale), size, quality, f"drawn knot by knot{_in_words(grid, scale)}: {share}")
+    return KnotDrawing(_reduced(rgb, scale), size, quality, f"drawn knot by knot{_in_words(grid, scale)}: {share}")
 
 
 def stated_quality(density: tuple[float, float] | None, rgb: Rgb) -> Quality | None:
@@ -170,7 +172,9 @@ def stated_quality(density: tuple[float, float] | None, rgb: Rgb) -> Quality | N
         return None
 
 
-def _of_the_grid(rgb: Rgb, size: CarpetSize, quality: Quality, *, drawn: bool, progress: Progress) -> Drawing | None:
+def _of_the_grid(
+    rgb: Rgb, size: CarpetSize, quality: Quality, *, drawn: bool, progress: Progress
+) -> KnotDrawing | None:
     """The drawing of a picture that has the knots of a size and a quality, or a whole number of pixels for each."""
     rows, columns = grid = knot_grid(size, quality)
     scale = int(rgb.shape[0]) // rows
@@ -178,10 +182,12 @@ def _of_the_grid(rgb: Rgb, size: CarpetSize, quality: Quality, *, drawn: bool, p
         few = few_colours(rgb, MOST_YARNS, progress)
         if scale == 1 and (drawn or few is not None):
             found = "its colours" if few is None else f"{len(few.palette)} colours"
-            return Drawing(rgb, size, quality, f"its pixels are the {columns} × {rows} knots, in {found}")
+            return KnotDrawing(rgb, size, quality, f"its pixels are the {columns} × {rows} knots, in {found}")
         if few is not None and enlargement(few.numbers) % scale == 0:
             found = f"{len(few.palette)} colours"
-            return Drawing(_reduced(rgb, scale), size, quality, f"drawn knot by knot{_in_words(grid, scale)}: {found}")
+            return KnotDrawing(
+                _reduced(rgb, scale), size, quality, f"drawn knot by knot{_in_words(grid, scale)}: {found}"
+            )
     if drawn:
         raise CarpetError(
             f"--read exact: the picture has {rgb.shape[1]} × {rgb.shape[0]} pixels, and {size} at {quality} has "

@@ -11,6 +11,7 @@ import contextlib
 import re
 import threading
 from pathlib import Path
+from typing import Any
 
 from PIL import Image, UnidentifiedImageError
 
@@ -178,7 +179,7 @@ def _decoded(opened: Image.Image, stream: MeteredBytes, progress: Progress) -> P
 
 def _density(opened: Image.Image) -> tuple[float, float] | None:
     """Whole pixels per metre across and along, from the dots per inch that the file states."""
-    dots = opened.info.get("dpi")
+    dots: Any = opened.info.get("dpi")
     try:
         across, along = (float(round(float(one) / METRE)) for one in dots)
     except (TypeError, ValueError, OverflowError, ZeroDivisionError):

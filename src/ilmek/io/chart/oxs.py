@@ -12,7 +12,7 @@ Other programs ignore the element `ilmek`. Format: the specification of UrsaSoft
 Embroidery Space (xsp-specs, oxs/OXS.md).
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from xml.sax.saxutils import quoteattr
 
@@ -77,5 +77,5 @@ def _lines(chart: Chart) -> Iterator[str]:
     yield f"  {_element('ilmek', facts)}\n</chart>\n"
 
 
-def _element(name: str, attributes: dict[str, object]) -> str:
+def _element(name: str, attributes: Mapping[str, object]) -> str:
     return f"<{name} {' '.join(f'{key}={quoteattr(str(value))}' for key, value in attributes.items())}/>"
