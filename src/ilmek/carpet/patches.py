@@ -69,15 +69,38 @@ def fill(  # noqa: PLR0917
 
 
 @compiled
-def _count(knots: Indices, first: int, stop: int, least: int, members: Members, marks: Marks) -> int:  # noqa: PLR0917
-    patches, mark = 0, 0
+def _count(  # noqa: PLR0917
+    knots: Indices, first: int, stop: int, members: Members, marks: Marks, found: Int64[np.ndarray, " sizes"]
+) -> None:
+    least, mark = len(found), 0
     marks[:] = 0
     for row in range(first, stop):
         for column in range(knots.shape[1]):
             if begins(knots, row, column):
                 mark += 1
-                patches += 0 < fill(knots, row, column, least, True, members, marks, mark) < least
-    return patches
+                size = fill(knots, row, column, least, True, members, marks, mark)
+                if 0 < size < least:
+                    found[size] += 1
+
+
+def patch_sizes(knots: Indices, most: int, progress: Progress = SILENT) -> Int64[np.ndarray, " sizes"]:
+    """Numbers of the patches of 0, 1, 2 ... `most` knots of a chart (rows, columns).
+
+    >>> patch_sizes(np.array([[1, 0, 0, 2], [0, 1, 0, 2], [0, 0, 0, 2]], dtype=np.uint8), 3).tolist()
+    [0, 0, 1, 1]
+    """
+    knots = np.ascontiguousarray(knots)
+
+    def of_band(band: slice) -> Int64[np.ndarray, " sizes"]:
+        sizes = np.zeros(most + 1, dtype=np.int64)
+        _count(knots, band.start, band.stop, *room(most + 1), sizes)
+        return sizes
+
+    found = np.zeros(most + 1, dtype=np.int64)
+    for band, sizes in in_threads(of_band, bands(knots.shape[0], knots.shape[1], PART)):
+        found += sizes
+        progress(band.stop / len(knots))
+    return found
 
 
 def count_patches(knots: Indices, most: int, progress: Progress = SILENT) -> int:
@@ -86,12 +109,4 @@ def count_patches(knots: Indices, most: int, progress: Progress = SILENT) -> int
     >>> count_patches(np.array([[1, 0, 0, 2], [0, 1, 0, 2], [0, 0, 0, 2]], dtype=np.uint8), 2)
     1
     """
-    knots = np.ascontiguousarray(knots)
-    patches = 0
-    for band, number in in_threads(
-        lambda band: int(_count(knots, band.start, band.stop, most + 1, *room(most + 1))),
-        bands(knots.shape[0], knots.shape[1], PART),
-    ):
-        patches += number
-        progress(band.stop / len(knots))
-    return patches
+    return int(patch_sizes(knots, most, progress).sum())

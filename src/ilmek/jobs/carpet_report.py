@@ -9,6 +9,7 @@ from ilmek.carpet.chart import Chart
 from ilmek.carpet.statistics import chart_statistics
 from ilmek.io.chart.symbols import symbols
 from ilmek.jobs.carpet_files import file_notes
+from ilmek.jobs.yarn_choice import proposed_shades
 from ilmek.viz.carpet_page import CarpetPage
 from ilmek.viz.number_format import count, share
 from ilmek.viz.page_parts import Fact
@@ -30,6 +31,7 @@ def page_of(
         symbols=symbols(len(chart.yarns)),
         source=source,
         reading=reading_lines(chart),
+        proposed=proposed_shades(chart),
         files=file_notes(files),
         **more,
     )
@@ -41,6 +43,12 @@ def reading_lines(chart: Chart) -> tuple[Fact, ...]:
     lines = [Fact("Read as", made.kind, made.reason), Fact("Fit", made.fit.words)]
     note = f"{share(made.changed, knots)} of all" if made.changed else ""
     lines.append(Fact("Changed knots", count(made.changed) if made.changed else "none", note))
+    if made.edited:
+        lines.append(Fact("Edited knots", count(made.edited), "by the recipe"))
+    if len(chart.overlay):
+        lines.append(
+            Fact("Half knots and jufti knots", f"{count(sum(chart.tied.half))}, {count(sum(chart.tied.jufti))}")
+        )
     if made.foreign is not None:
         lines.append(Fact("Knots of a colour that is not in their cell", *_part(made.foreign, knots)))
     exact = sum(one.worst == 0 for one, cells in zip(made.differences, chart.counts, strict=False) if cells)

@@ -226,6 +226,12 @@ def _statistics(chart: Chart) -> dict[str, Any]:
     return {
         "mean_changes": found.mean_changes,
         "hardest_rows": [{"row": row, "changes": found.of_row(row)} for row in found.hardest],
+        "patches": [group._asdict() for group in found.patches],
+        "yarn_delta_e": [
+            {"name": yarn.name, "mean": one.mean, "worst": one.worst}
+            for yarn, one, knots in zip(chart.yarns, chart.reading.differences, chart.counts, strict=False)
+            if knots
+        ],
     }
 
 

@@ -7,7 +7,8 @@ import numpy as np
 from ilmek.arrays import Rgb
 from ilmek.carpet.bill import YarnBill
 from ilmek.carpet.chart import Chart
-from ilmek.carpet.statistics import ChartStatistics
+from ilmek.carpet.proposal import MatchedShade
+from ilmek.carpet.statistics import ChartStatistics, PatchGroup
 from ilmek.progress import SILENT, Progress
 from ilmek.report import Axis, Check, Plot, Series, reasons
 from ilmek.viz.number_format import count, fixed
@@ -43,6 +44,7 @@ class CarpetPage:
     warnings       warnings, and notes on changes made to the picture
     loom           the page of the loom; default: none
     nearest        carpets that the loom could weave, in words, where it cannot weave this one
+    proposed       shades proposed from the picture
     """
 
     title: str
@@ -61,6 +63,7 @@ class CarpetPage:
     warnings: tuple[str, ...] = ()
     loom: str = ""
     nearest: str = ""
+    proposed: tuple[MatchedShade, ...] = ()
 
 
 def carpet_page(page: CarpetPage, left_out: list[str] | None = None, progress: Progress = SILENT) -> str:
@@ -84,6 +87,7 @@ def carpet_page(page: CarpetPage, left_out: list[str] | None = None, progress: P
         warnings=[*page.warnings, *left_out],
         shown=shown,
         reading=page.reading,
+        proposed=page.proposed,
         yarn=lines,
         dense=len(lines) > _DENSE,
         bill=page.bill,
@@ -101,10 +105,18 @@ def carpet_page(page: CarpetPage, left_out: list[str] | None = None, progress: P
 
 def _statistic_lines(found: ChartStatistics) -> list[Fact]:
     rows = ", ".join(f"{count(row)} ({count(found.of_row(row))})" for row in found.hardest)
+    patches = ", ".join(f"{count(one.patches)} of {_sizes(one)}" for one in found.patches)
     return [
         Fact("Changes of colour in a row", fixed(found.mean_changes, 1.0, 1), "mean over the rows"),
         Fact("Hardest rows", rows or "none", "row, from the lower edge (changes)"),
+        Fact("Small patches", patches, "of knots of one yarn that touch, also at a corner"),
     ]
+
+
+def _sizes(group: PatchGroup) -> str:
+    if group.least == group.most:
+        return f"{group.most} knot{'s' if group.most > 1 else ''}"
+    return f"{group.least} to {group.most} knots"
 
 
 def _row_figure(found: ChartStatistics) -> Plot:

@@ -43,20 +43,20 @@ class YarnLine:
 
 
 def carpet_facts(chart: Chart, bill: YarnBill, more: Sequence[Fact], checks: Sequence[Check]) -> list[Fact]:
-    """The summary: size, knots, colours, yarn, further facts, and the numbers of passed and failed checks."""
+    """The summary: size, knots, colours, yarn, mass, further facts, and the numbers of passed and failed checks."""
     passed = sum(check.ok for check in checks)
     failed = len(checks) - passed
-    size, quality = chart.size, chart.quality
+    size, quality = (
+        chart.size,
+        f"{format_number(chart.quality.across / 10)} × {format_number(chart.quality.along / 10)}",
+    )
+    to_buy = sum(need.to_buy for need in bill.needs)
     facts = [
-        Fact("Size", f"{_cm(size.width)} × {_cm(size.length)} cm", size.name),
+        Fact("Size", f"{_cm(size.width)} × {_cm(size.length)} cm", f"{quality} / dm, {chart.knot} knot"),
         Fact("Knots", count(int(chart.knots.size)), f"{count(chart.columns)} across × {count(chart.rows)} rows"),
-        Fact(
-            "Quality",
-            f"{format_number(quality.across / 10)} × {format_number(quality.along / 10)} / dm",
-            f"{chart.knot} knot",
-        ),
         Fact("Colours", str(chart.colours), f"mean ΔE {chart.reading.mean_delta_e:.1f} to the picture"),
-        Fact("Yarn", f"{fixed(bill.mass, 1, 2)} kg", _pile(bill.pile_mass, size.area)),
+        Fact("Yarn to buy", f"{fixed(to_buy, 1, 2)} kg", _price(bill)),
+        Fact("Mass of the carpet", f"{fixed(bill.mass_per_area, 1, 2)} kg/m²", _published(bill)),
         *more,
     ]
     if checks:
@@ -65,8 +65,15 @@ def carpet_facts(chart: Chart, bill: YarnBill, more: Sequence[Fact], checks: Seq
     return facts
 
 
-def _pile(mass: float, area: float) -> str:
-    return f"pile {fixed(mass, 1, 2)} kg, {fixed(mass / area, 1, 2)} kg/m²"
+def _price(bill: YarnBill) -> str:
+    return "no price given" if bill.price is None else f"{fixed(bill.price, 1, 2)} {bill.currency}"
+
+
+def _published(bill: YarnBill) -> str:
+    if bill.band is None:
+        return "none is published for this density"
+    least, most = format_number(bill.band.least, 3), format_number(bill.band.most, 3)
+    return f"published: {least} to {most} kg/m²"
 
 
 def _cm(length: float) -> str:
