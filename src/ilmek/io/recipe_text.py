@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from ilmek.carpet.colour import srgb_to_lab
-from ilmek.carpet.quality import write_quality
+from ilmek.carpet.quality import NOTATIONS, Quality, parse_quality, write_quality
 from ilmek.carpet.recipe.recipe import plain_data
 from ilmek.carpet.sizes import CarpetSize, parse_size
 from ilmek.carpet.yarn import Yarn
@@ -30,7 +30,7 @@ def recipe_text(made: RecipeFile, folder: Path) -> str:
     loom = made.loom
     data |= {
         "size": None if made.size is None else _size(made.size),
-        "quality": None if made.quality is None else write_quality(made.quality, "dm"),
+        "quality": None if made.quality is None else _quality(made.quality),
         "knot": made.knot,
         "yarns": _yarn_file(made, folder),
         "pdf": made.pdf,
@@ -79,6 +79,13 @@ def _size(size: CarpetSize) -> str:
     texts += [f"{sides[0]:.{digits}g}x{sides[1]:.{digits}g}cm" for digits in (4, 8, 12)]
     same = (text for text in texts if _same(parse_size(text), size))
     return next(same, f"{size.width!r}x{size.length!r}m")
+
+
+def _quality(quality: Quality) -> str:
+    """The quality in knots per dm, or where that is long in the shortest notation that reads back to the same."""
+    pair = write_quality(quality, "dm")
+    texts = (write_quality(quality, notation) for notation in NOTATIONS)
+    return min((text for text in texts if parse_quality(text) == quality), key=len) if len(pair) > 12 else pair
 
 
 def _same(one: CarpetSize, other: CarpetSize) -> bool:

@@ -75,11 +75,11 @@ def _counted(made: ResolvedOrder) -> tuple[Yarn, ...]:
 def _pictures(recipe: Recipe, progress: Progress) -> tuple[Mapping[Path, Rgb], tuple[str, ...]]:
     """The pixels of all pictures, and notes on them."""
     found, notes = {}, []
-    paths = list(recipe.pictures)
-    for number, path in enumerate(paths):
-        with located(str(recipe.file)):
-            least = SMALLEST if path == recipe.picture else 1
-            picture = read_picture(path, progress.part(number / len(paths), (number + 1) / len(paths)), smallest=least)
+    files = recipe.pictures
+    for number, (path, where) in enumerate(files.items()):
+        part = progress.part(number / len(files), (number + 1) / len(files))
+        with located(where):
+            picture = read_picture(path, part, smallest=SMALLEST if path == recipe.picture else 1)
         found[path] = picture.rgb
         notes += [f"{path.name}: {note}" for note in picture.notes]
     return found, tuple(notes)

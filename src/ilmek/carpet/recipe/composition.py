@@ -102,9 +102,10 @@ class _Canvas:
     def tile(self, path: Path, grid: tuple[int, int]) -> Rgb:
         """A tile on its grid."""
         rgb = self.pictures[path]
-        if rgb.shape[0] * rgb.shape[1] > MOST_TILE:
-            given = f"{path.name} has {rgb.shape[1]} x {rgb.shape[0]} pixels"
-            raise CarpetError(given, allowed=f"at most {MOST_TILE:,} of a tile or a motif", do="scale it down")
+        for (height, width), noun in ((rgb.shape[:2], "pixels"), (grid, "knots")):
+            if height * width > MOST_TILE:
+                given = f"{path.name} has {width} × {height} {noun}"
+                raise CarpetError(given, allowed=f"at most {MOST_TILE:,} of a tile or a motif", do="make it smaller")
         return self.read(rgb, grid)
 
 

@@ -246,6 +246,6 @@ def located(where: str) -> Iterator[None]:
     try:
         yield
     except IlmekError as error:
-        if not where or error.given.startswith(where.partition(", line")[0]):
+        if not where or error.given.startswith(f"{where.partition(', line')[0]}, line"):
             raise
         raise CarpetError(f"{where}: {error.given}", allowed=error.allowed, do=error.do) from None

@@ -96,8 +96,8 @@ def _as_composed(chart: Chart, made: Composition, index: dict[int, int], progres
             progress(0.5)
     for (rows, columns), number in made.yarns:
         srgb = np.array(chart.yarns[index[number]].srgb, dtype=np.uint8)
-        for first in range(rows.start, rows.stop, 512):
-            band = (slice(first, min(first + 512, rows.stop)), columns)
+        for part in bands(rows.stop - rows.start, columns.stop - columns.start):
+            band = (slice(rows.start + part.start, rows.start + part.stop), columns)
             knots[band][(colours[band] == srgb).all(axis=-1)] = index[number]
         progress(1.0)
     return knots

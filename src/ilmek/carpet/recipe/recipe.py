@@ -4,7 +4,7 @@ A yarn is named as in the yarn list, and is then exactly that yarn; or it is a c
 yarn of the list. `where` is the file and line of an entry, for messages.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -125,12 +125,13 @@ class Recipe:
     where: str = ""
 
     @property
-    def pictures(self) -> Iterator[Path]:
-        """The files of all pictures."""
-        found = [self.picture, None if self.repeat is None else self.repeat.tile]
-        found += [path for border in self.borders for path in (border.tile, border.corner)]
-        found += [motif.picture for motif in self.motifs]
-        return (path for path in dict.fromkeys(found) if path is not None)
+    def pictures(self) -> Mapping[Path, str]:
+        """The files of all pictures, and where each is first named."""
+        found: list[tuple[Path | None, str]] = [(self.picture, self.where)]
+        found += [] if self.repeat is None else [(self.repeat.tile, self.repeat.where)]
+        found += [(path, border.where) for border in self.borders for path in (border.tile, border.corner)]
+        found += [(motif.picture, motif.where) for motif in self.motifs]
+        return {path: where for path, where in reversed(found) if path is not None}
 
     @property
     def is_composed(self) -> bool:

@@ -3,9 +3,11 @@
 import numpy as np
 
 from ilmek.arrays import Bool, Int64, Rgb
+from ilmek.carpet.design import bands
 from ilmek.errors import CarpetError
 
-_BAND = 256
+_BAND = 1 << 19
+"""Knots that are drawn at once."""
 
 
 def repeated(tile: Rgb, out: Rgb, order: str, *, cut: bool) -> bool:
@@ -25,9 +27,9 @@ def repeated(tile: Rgb, out: Rgb, order: str, *, cut: bool) -> bool:
     first = [(size - (1 if cut else size // side) * side) // 2 for size, side in zip(area, sides, strict=True)]
     filled = True
     columns = np.arange(area[1])[None] - first[1]
-    for band in range(0, area[0], _BAND):
-        part = out[band : band + _BAND]
-        rows = np.arange(band, band + len(part))[:, None] - first[0]
+    for band in bands(area[0], area[1], _BAND):
+        part = out[band]
+        rows = np.arange(band.start, band.stop)[:, None] - first[0]
         row, column, whole = _of_the_tile(rows, columns, sides, order, first, area)
         if cut:
             part[:] = tile[row, column]
