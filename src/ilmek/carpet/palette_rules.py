@@ -31,6 +31,7 @@ from ilmek.carpet.yarn import MOST_YARNS, Yarn, yarn_labs
 from ilmek.errors import ParameterError, YarnError, did_you_mean, shortened
 from ilmek.params import Params, kind, param
 from ilmek.progress import SILENT, Progress
+from ilmek.records import value_record
 
 AUTO = "auto"
 
@@ -107,7 +108,7 @@ class Knee:
     next_mean: float | None
 
 
-@dataclass(frozen=True, slots=True)
+@value_record
 class Palette:
     """The yarns that a carpet takes, in the order of the list, and how they were found."""
 
