@@ -1,7 +1,7 @@
 """From a picture to knot chart and yarn bill, and their files."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +29,7 @@ from ilmek.jobs.rows import rows_plan, write_rows
 from ilmek.jobs.yarn_choice import PROPOSED, proposed_shades, twin_warnings, yarn_choice_results, yarn_notes
 from ilmek.jobs.yarn_warnings import yarn_warnings
 from ilmek.progress import SILENT, Progress
+from ilmek.records import record
 from ilmek.report import Check, plain, verdict_json
 from ilmek.report.left_out import made_or_left_out
 from ilmek.viz.carpet_page import CarpetPage, carpet_page
@@ -38,7 +39,7 @@ MOST_SHARED = 5
 """Largest number of yarns with two or more colours that are named."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ChartResult:
     """Chart and yarn bill of an order.
 

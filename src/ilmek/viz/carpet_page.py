@@ -1,7 +1,5 @@
 """The page of a carpet: verdict, summary, pictures, yarn, statistics, files. Its loom has a page of its own."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ilmek.arrays import Rgb
@@ -10,6 +8,7 @@ from ilmek.carpet.chart import Chart
 from ilmek.carpet.proposal import MatchedShade
 from ilmek.carpet.statistics import ChartStatistics, PatchGroup
 from ilmek.progress import SILENT, Progress
+from ilmek.records import record
 from ilmek.report import Axis, Check, Plot, Series, reasons
 from ilmek.viz.number_format import count, fixed
 from ilmek.viz.page import render
@@ -27,7 +26,7 @@ _BARS = 500
 """Largest number of points of the figure over the rows."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class CarpetPage:
     """Contents of the page of a carpet.
 

@@ -18,6 +18,7 @@ from ilmek.arrays import Rgb
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.colour import LINEAR
 from ilmek.progress import SILENT, Progress
+from ilmek.records import record
 from ilmek.report.left_out import made_or_left_out
 from ilmek.viz.carpet_picture import Pile, carpet_picture, close_up, pile_part
 
@@ -42,7 +43,7 @@ class PagePicture:
     sharp: bool = False
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class CarpetPictures:
     """The pictures of a carpet; None for one that cannot be drawn, or is not there.
 
