@@ -14,7 +14,7 @@ from ilmek.progress import SILENT, Progress
 DIRECTIONS = ("right", "left", "alternate")
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False)
 class Calling:
     """A chart that is called.
 

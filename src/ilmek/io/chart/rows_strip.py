@@ -35,7 +35,7 @@ class RunLabel:
     width: float
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False)
 class Typesetter:
     """Text in SIGNS at any position, much quicker than one call of the library for each: texts are encoded once."""
 
