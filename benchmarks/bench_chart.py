@@ -1,27 +1,47 @@
-"""Picture to knot chart: 2400 × 3600 knots onto the sixteen wools, beside Pillow's palette quantiser and plain NumPy.
+"""Picture to knot chart on the sixteen wools, beside Pillow, scikit-image, a majority vote and plain NumPy.
 
-The picture is a synthetic medallion (field, spandrels, three borders) with abrash (the slow change of a dyed yarn from
-row to row) and the grain of a photograph: some 265 thousand distinct colours.
+One table. The photo is a synthetic medallion of 2400 × 3600 (field, spandrels, three borders) with abrash (the slow
+change of a dyed yarn from row to row) and the grain of a photograph, some 265 thousand distinct colours; a pixel is a
+knot. Afar: after a blur of linear light by 3 knots. The drawings are those of the tests, with smooth edges and 4 × 4
+pixels a knot: knots whose yarn is that of no colour of their cell, and pieces of lines too many or too few.
 """
 
+import resource
+import subprocess
+import sys
 import time
 import tomllib
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from PIL import Image
+from scipy import ndimage
+from skimage.color import rgb2lab
 
 import ilmek
 from ilmek.arrays import FloatArray, Indices, Rgb
 from ilmek.carpet.chart import make_chart
-from ilmek.carpet.colour import srgb_to_lab
+from ilmek.carpet.colour import LINEAR, RGB_TO_XYZ, srgb_to_lab, xyz_to_lab
 from ilmek.carpet.colour_difference import delta_e_2000
-from ilmek.carpet.confetti import count_lone
+from ilmek.carpet.design import bands
+from ilmek.carpet.palette import distinct_colours, nearest_yarns, paint
 from ilmek.carpet.quality import Quality
+from ilmek.carpet.reading import ReadParams
 from ilmek.carpet.sizes import CarpetSize
+from ilmek.carpet.tally import tally_of
 from ilmek.carpet.yarn import Yarn, yarn_labs
 from ilmek.io.yarn_file import yarns_from_records
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "support"))
+from drawings import FLAT, Drawing, colours_in_cells, rendered
+
+Grid = tuple[int, int]
+Method = Callable[[Rgb, Grid], Indices]
+
+PIXELS = 4
+"""Pixels a knot of the drawings, along each side."""
 
 WIDTH, HEIGHT = 2400, 3600
 SIZE, QUALITY = CarpetSize(2.4, 3.6), Quality(1000.0, 1000.0)
@@ -68,12 +88,9 @@ def wool() -> tuple[Yarn, ...]:
     return yarns_from_records(tomllib.loads(text)["yarn"])
 
 
-def pillow(rgb: Rgb, yarns: tuple[Yarn, ...]) -> Indices:
-    """Pillow's quantiser onto the given palette, without dithering."""
-    palette = Image.new("P", (1, 1))
-    palette.putpalette([code for yarn in yarns for code in yarn.srgb] + list(yarns[0].srgb) * (256 - len(yarns)))
-    quantised = Image.fromarray(rgb).quantize(palette=palette, dither=Image.Dither.NONE)
-    return np.asarray(np.minimum(np.asarray(quantised), len(yarns) - 1), dtype=np.uint8)
+WOOL = wool()
+LABS = yarn_labs(WOOL)
+SRGB = np.array([yarn.srgb for yarn in WOOL], dtype=np.uint8)
 
 
 def brute_force(rgb: Rgb, labs: FloatArray) -> Indices:
@@ -103,6 +120,72 @@ def ciede2000_arrays(one: FloatArray, other: FloatArray) -> FloatArray:
     return np.asarray(np.sqrt(x * x + y * y + z * z + rotation * x * y))
 
 
+def ilmek_chart(**reading: Any) -> Method:
+    """Our chart with parameters of the reading."""
+
+    def chart(rgb: Rgb, grid: Grid) -> Indices:
+        size, quality = CarpetSize(grid[1] / 1000, grid[0] / 1000), QUALITY
+        return make_chart(rgb, size, quality, WOOL, reading=ReadParams(**reading)).knots
+
+    return chart
+
+
+def pillow(dither: Image.Dither) -> Method:
+    """Pillow's box filter and its quantiser onto the given palette."""
+
+    def chart(rgb: Rgb, grid: Grid) -> Indices:
+        palette = Image.new("P", (1, 1))
+        codes = [code for yarn in WOOL for code in yarn.srgb]
+        palette.putpalette(codes + list(WOOL[0].srgb) * (256 - len(WOOL)))
+        small = Image.fromarray(rgb).resize((grid[1], grid[0]), Image.Resampling.BOX)
+        quantised = np.asarray(small.quantize(palette=palette, dither=dither))
+        return np.asarray(np.minimum(quantised, len(WOOL) - 1), dtype=np.uint8)
+
+    return chart
+
+
+def scikit_image(rgb: Rgb, grid: Grid) -> Indices:
+    """Box filter, scikit-image's CIELAB and the least Euclidean distance."""
+    small = np.asarray(Image.fromarray(rgb).resize((grid[1], grid[0]), Image.Resampling.BOX))
+    knots = np.empty(grid, dtype=np.uint8)
+    for band in bands(grid[0], grid[1], 1 << 19):
+        labs = rgb2lab(small[band])
+        knots[band] = np.stack([((labs - lab) ** 2).sum(axis=-1) for lab in LABS]).argmin(axis=0)
+    return knots
+
+
+def majority(rgb: Rgb, grid: Grid) -> Indices:
+    """Nearest yarn of every pixel, and the most frequent one of each cell, of whole pixels."""
+    colours = distinct_colours(rgb)
+    pixels = paint(rgb, colours, nearest_yarns(colours, LABS)[0])
+    down, across = pixels.shape[0] // grid[0], pixels.shape[1] // grid[1]
+    cells = pixels.reshape(grid[0], down, grid[1], across)
+    best, knots = np.full(grid, -1), np.zeros(grid, dtype=np.uint8)
+    for yarn in range(len(WOOL)):
+        votes = (cells == yarn).sum(axis=(1, 3))
+        knots[votes > best], best = yarn, np.maximum(votes, best)
+    return knots
+
+
+METHODS: dict[str, tuple[Method, Method]] = {
+    "ilmek": (ilmek_chart(reading="photo"), ilmek_chart()),
+    "ilmek, photo": (ilmek_chart(reading="photo"), ilmek_chart(reading="photo")),
+    "ilmek, photo, no confetti rule": (
+        ilmek_chart(reading="photo", least_patch=0),
+        ilmek_chart(reading="photo", least_patch=0),
+    ),
+    "ilmek, photo, halftone": (
+        ilmek_chart(reading="photo", halftone=1.0),
+        ilmek_chart(reading="photo", halftone=1.0),
+    ),
+    "Pillow, nearest": (pillow(Image.Dither.NONE), pillow(Image.Dither.NONE)),
+    "Pillow, Floyd-Steinberg": (pillow(Image.Dither.FLOYDSTEINBERG), pillow(Image.Dither.FLOYDSTEINBERG)),
+    "scikit-image, nearest in CIELAB": (scikit_image, scikit_image),
+    "majority vote": (majority, majority),
+}
+"""By name the methods for the photo and for the drawings."""
+
+
 def best_of(runs: int, work: Callable[[], Indices]) -> tuple[float, Indices]:
     """The least wall time of some runs, and the answer."""
     seconds = []
@@ -113,28 +196,76 @@ def best_of(runs: int, work: Callable[[], Indices]) -> tuple[float, Indices]:
     return min(seconds), answer
 
 
-def line(name: str, seconds: float, rgb: Rgb, knots: Indices, labs: FloatArray) -> str:
+def afar(rgb: Rgb, knots: Indices) -> float:
+    """Mean CIEDE2000 at viewing distance, on every 16th knot of every 16th row."""
+    labs = []
+    for codes in (rgb, SRGB[knots]):
+        blurred = np.stack([ndimage.gaussian_filter(LINEAR[codes[..., axis]], 3)[::16, ::16] for axis in range(3)], -1)
+        labs.append(xyz_to_lab(blurred @ RGB_TO_XYZ.T))
+    return float(delta_e_2000(*labs).mean())
+
+
+def drawing_faults(method: Method, drawings: dict[str, Drawing]) -> tuple[float, int]:
+    """Share of the knots with a yarn of no colour of their cell, and pieces of lines too many or too few."""
+    foreign, knots_in_all, broken = 0, 0, 0
+    for drawing in drawings.values():
+        knots = method(rendered(drawing, PIXELS, "smooth"), (drawing.rows, drawing.columns))
+        yarns = delta_e_2000(srgb_to_lab(np.array(drawing.colours, np.uint8))[:, None], LABS[None]).argmin(axis=1)
+        has = np.zeros((drawing.rows, drawing.columns, len(WOOL)), dtype=bool)
+        for number, yarn in enumerate(yarns):
+            has[..., yarn] |= colours_in_cells(drawing)[..., number]
+        foreign += int((~np.take_along_axis(has, knots[..., None].astype(int), axis=2)).sum())
+        knots_in_all += knots.size
+        for line in drawing.lines:
+            fine = drawing.at(16 * drawing.rows, 16 * drawing.columns) == line
+            broken += abs(pieces(knots == yarns[line]) - pieces(fine))
+    return foreign / knots_in_all, broken
+
+
+def pieces(mask: np.ndarray) -> int:
+    """Number of 8-connected pieces."""
+    return int(ndimage.label(mask, np.ones((3, 3)))[1])
+
+
+def line(name: str, runs: int, rgb: Rgb) -> str:
     """One row of the table."""
-    difference = delta_e_2000(srgb_to_lab(rgb), labs[knots]).mean()
-    changes = np.count_nonzero(knots[:, 1:] != knots[:, :-1]) / knots.size
-    return f"{name:<42} {seconds:8.2f} {difference:9.3f} {count_lone(knots) / knots.size:9.3%} {changes:9.4f}"
+    photo, drawn = METHODS[name]
+    seconds, knots = best_of(runs, lambda: photo(rgb, rgb.shape[:2]))
+    near = float(
+        np.mean([delta_e_2000(srgb_to_lab(rgb[band]), LABS[knots[band]]).mean() for band in bands(3600, 2400)])
+    )
+    tally, (foreign, broken) = tally_of(knots, len(WOOL)), drawing_faults(drawn, FLAT)
+    lone, changes = tally.lone / knots.size, tally.changes / knots.size
+    figures = f"{seconds:7.2f} {near:6.2f} {afar(rgb, knots):6.2f} {lone:7.2%} {tally.small_patches:9,d} {changes:6.3f}"
+    return f"{name:<34} {figures} {foreign:8.2%} {broken:7d}"
+
+
+def large() -> None:
+    """Time and memory of 20 million knots, in this process alone."""
+    rgb = np.tile(medallion(1000, 1250), (4, 4, 1))
+    base = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    seconds, knots = best_of(2, lambda: ilmek_chart(reading="photo")(rgb, rgb.shape[:2]))
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    print(f"{knots.size / 1e6:.0f} million knots: {seconds:.2f} s, {peak / 1e3:,.0f} MB ({base / 1e3:,.0f} MB before)")
 
 
 def run() -> None:
     """Print the table."""
-    rgb, yarns = medallion(), wool()
-    labs = yarn_labs(yarns)
-    small = make_chart(rgb[:60, :40], CarpetSize(0.04, 0.06), QUALITY, yarns)  # compiles the kernels
+    rgb = medallion()
+    for photo, drawn in METHODS.values():  # compiles the kernels
+        photo(rgb[:60, :40].copy(), (60, 40)), drawn(rgb[:60, :40].copy(), (30, 20))
     distinct = len(np.unique(rgb.reshape(-1, 3) @ np.array([65536, 256, 1])))
-    print(f"{WIDTH} × {HEIGHT} picture, {distinct:,} distinct colours, {len(small.yarns)} yarns")
-    print(f"{'method':<42} {'s':>8} {'mean dE00':>9} {'lone':>9} {'chg/knot':>9}")
-    exact, knots = best_of(3, lambda: make_chart(rgb, SIZE, QUALITY, yarns).knots)
-    print(line("ilmek, exact CIEDE2000", exact, rgb, knots, labs))
-    seconds, knots = best_of(3, lambda: pillow(rgb, yarns))
-    print(line("Pillow, quantize to the palette", seconds, rgb, knots, labs))
+    print(f"{WIDTH} × {HEIGHT} photo, {distinct:,} distinct colours, {len(WOOL)} yarns; {len(FLAT)} drawings")
+    names = f"{'s':>7} {'dE00':>6} {'afar':>6} {'lone':>7} {'patches':>9} {'chg':>6} {'foreign':>8} {'broken':>7}"
+    print(f"{'method':<34} {names}")
+    for name in METHODS:
+        print(line(name, 5 if name.startswith(("ilmek", "Pillow")) else 1, rgb))
     part = np.ascontiguousarray(rgb[::6, ::6])
-    seconds, knots = best_of(1, lambda: brute_force(part, labs))
-    print(line("NumPy CIEDE2000, every knot (1/36, × 36)", 36 * seconds, part, knots, labs))
+    seconds, _ = best_of(1, lambda: brute_force(part, LABS))
+    print(f"{'NumPy CIEDE2000, every knot':<34} {36 * seconds:7.2f} (1/36, × 36)")
+    seconds, _ = best_of(5, lambda: ilmek_chart(reading="photo")(rgb, (1500, 1000)))
+    print(f"preview of 1,000 × 1,500 knots of the photo: {seconds:.3f} s")
+    subprocess.run([sys.executable, "-c", "from benchmarks.bench_chart import large; large()"], check=True)
 
 
 if __name__ == "__main__":
