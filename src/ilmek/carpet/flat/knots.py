@@ -22,10 +22,11 @@ from ilmek.progress import SILENT, Progress
 
 NONE = 255
 _SLICE = 1 << 21
-_LEAST_RUN, _LONGEST_RUN = 0.4, 1.5
-_LEAST_SHARE = 0.2
-_LEAST_DOT = 0.25
-"""Runs, in knots, and shares of a cell that count as a line; area of a dot."""
+_LEAST_WIDTH, _LONGEST_RUN = 0.6, 1.5
+"""Least width of a line and longest run across one, in knots; a run of pixels may be one pixel shorter."""
+
+_LEAST_SHARE, _LEAST_DOT = 0.1, 0.25
+"""Least share of a cell that a line has, and least area of a dot, in knots."""
 
 
 @compiled
@@ -77,9 +78,7 @@ def _share(labels: UInt8[np.ndarray, "h w"], rows: int, columns: int, row: int, 
 
 
 @compiled
-def _take(  # noqa: PLR0917
-    labels: UInt8[np.ndarray, "h w"], claims: Indices, shares: IntArray, row: int, column: int, label: int, share: int
-) -> None:
+def _take(claims: Indices, shares: IntArray, row: int, column: int, label: int, share: int) -> None:  # noqa: PLR0917
     before = claims[row, column]
     if before == NONE or share > shares[row, column] or (share == shares[row, column] and label < before):
         claims[row, column], shares[row, column] = label, share
@@ -100,26 +99,51 @@ def _claim_run(  # noqa: PLR0917
     rows, columns = claims.shape
     length = labels.shape[1] if across else labels.shape[0]
     cells = columns if across else rows
-    run = (end - begin) * cells
-    if run >= _LONGEST_RUN * length or run < _LEAST_RUN * length:
-        return
-    middle = (begin + end) * cells
-    cell = middle // (2 * length)
+    cell, rest = divmod((begin + end) * cells, 2 * length)
     row, column = (line, cell) if across else (cell, line)
-    if middle % (2 * length) or cell == 0 or cell == cells:
-        cell = min(cell, cells - 1)
-        row, column = (line, cell) if across else (cell, line)
-        share = _share(labels, rows, columns, row, column, label)
-        if share >= _LEAST_SHARE * 65536:
-            _take(labels, claims, shares, row, column, label, share)
-        return
-    other_row, other_column = (line, cell - 1) if across else (cell - 1, line)
     share = _share(labels, rows, columns, row, column, label)
-    other = _share(labels, rows, columns, other_row, other_column, label)
+    other_row, other_column, other = row, column, 0
+    if rest == 0:  # the middle between two knots
+        other_row, other_column = (line, cell - 1) if across else (cell - 1, line)
+        other = _share(labels, rows, columns, other_row, other_column, label)
+    if max(share, other) < _LEAST_SHARE * 65536:
+        return
     if share > other or (share == other and 2 * cell <= cells):
-        _take(labels, claims, shares, row, column, label, share)
+        _take(claims, shares, row, column, label, share)
     if other > share or (share == other and 2 * cell >= cells):
-        _take(labels, claims, shares, other_row, other_column, label, other)
+        _take(claims, shares, other_row, other_column, label, other)
+
+
+@compiled
+def _move_run(  # noqa: PLR0917
+    labels: UInt8[np.ndarray, "h w"],
+    knots: Indices,
+    claims: Indices,
+    moved: Indices,
+    shares: IntArray,
+    across: bool,
+    line: int,
+    begin: int,
+    end: int,
+    label: int,
+) -> None:
+    """The second claim of a run that got no knot: the next one on its longer side, if no line has claimed that."""
+    rows, columns = claims.shape
+    length = labels.shape[1] if across else labels.shape[0]
+    cells = columns if across else rows
+    for cell in range(begin * cells // length, (end * cells - 1) // length + 1):
+        row, column = (line, cell) if across else (cell, line)
+        if knots[row, column] == label:
+            return
+    cell, rest = divmod((begin + end) * cells, 2 * length)
+    before, after = cell * length - begin * cells, end * cells - (cell + 1) * length
+    if rest == 0 or before == after or max(before, after) <= 0:
+        return
+    cell += 1 if after > before else -1
+    row, column = (line, cell) if across else (cell, line)
+    share = _share(labels, rows, columns, row, column, label)
+    if claims[row, column] == NONE and share >= _LEAST_SHARE * 65536:
+        _take(moved, shares, row, column, label, share)
 
 
 @compiled
@@ -128,16 +152,28 @@ def _claim_lines(  # noqa: PLR0917
     lines: UInt8[np.ndarray, "n length"],
     index: IntArray,
     across: bool,
+    knots: Indices,
     claims: Indices,
+    moved: Indices,
     shares: IntArray,
+    first: bool,
 ) -> None:
+    """The first or the second claims of the runs along centre lines; runs at the border of the picture have none."""
     length = lines.shape[1]
+    cells = claims.shape[1] if across else claims.shape[0]
+    least = _LEAST_WIDTH * length - cells
     for number in range(lines.shape[0]):
         begin = 0
-        for position in range(1, length + 1):
-            if position == length or lines[number, position] != lines[number, begin]:
+        line = index[number]
+        for position in range(1, length):
+            if lines[number, position] != lines[number, begin]:
                 label = int(lines[number, begin])
-                _claim_run(labels, claims, shares, across, int(index[number]), begin, position, label)
+                run = (position - begin) * cells
+                if begin > 0 and least <= run < _LONGEST_RUN * length:
+                    if first:
+                        _claim_run(labels, claims, shares, across, line, begin, position, label)
+                    else:
+                        _move_run(labels, knots, claims, moved, shares, across, line, begin, position, label)
                 begin = position
 
 
@@ -236,7 +272,7 @@ def _claim_dot(
             far = abs(2 * (row + down) + 1 - rows) + abs(2 * (column + right) + 1 - columns)
             share = _share(labels, rows, columns, row + down, column + right, label)
             if share == most and far == nearest:
-                _take(labels, claims, shares, row + down, column + right, label, share)
+                _take(claims, shares, row + down, column + right, label, share)
 
 
 def knot_labels(
@@ -249,26 +285,44 @@ def knot_labels(
     for first in range(0, rows, step):
         _vote(labels, rows, first, knots[first : first + step])
         progress(0.4 * min(first + step, rows) / rows)
-    claims = np.full(grid, NONE, dtype=np.uint8)
-    shares = np.zeros(grid, dtype=np.uint16)
-    pixels, index = centre_lines(height, rows)
+    claims, shares = np.full(grid, NONE, dtype=np.uint8), np.zeros(grid, dtype=np.uint16)
+    _scan(labels, knots, claims, claims, shares, progress.part(0.4, 0.6))
+    np.copyto(knots, claims, where=claims != NONE)
+    second = np.full(grid, NONE, dtype=np.uint8)
+    shares[:] = 0
+    _scan(labels, knots, claims, second, shares, progress.part(0.6, 0.8))
+    np.copyto(knots, second, where=second != NONE)
+    np.copyto(claims, second, where=second != NONE)
+    second[:] = NONE
+    shares[:] = 0
+    across, down = _frames(*centre_lines(width, columns)), _frames(*centre_lines(height, rows))
+    for first in range(0, rows - 1, step):
+        _claim_dots(labels, knots, across, down, second, shares, first, min(first + step, rows - 1))
+        progress(0.8 + 0.2 * min(first + step, rows) / rows)
+    np.copyto(knots, second, where=(second != NONE) & (claims == NONE))
+    return knots
+
+
+def _scan(  # noqa: PLR0917
+    labels: UInt8[np.ndarray, "height width"],
+    knots: Indices,
+    claims: Indices,
+    made: Indices,
+    shares: UInt8[np.ndarray, "rows columns"],
+    progress: Progress,
+) -> None:
+    """The claims along all centre lines: first ones if `made` is `claims`, else second ones."""
+    height, width = labels.shape
+    first = made is claims
+    pixels, index = centre_lines(height, len(knots))
     for band in bands(len(pixels), width, _SLICE):
-        _claim_lines(labels, labels[pixels[band]], index[band], True, claims, shares)
-        progress(0.4 + 0.2 * band.stop / len(pixels))
-    down = _frames(pixels, index)
-    pixels, index = centre_lines(width, columns)
+        _claim_lines(labels, labels[pixels[band]], index[band], True, knots, claims, made, shares, first)
+        progress(0.5 * band.stop / len(pixels))
+    pixels, index = centre_lines(width, knots.shape[1])
     for band in bands(len(pixels), height, _SLICE):
         lines = np.ascontiguousarray(labels[:, pixels[band]].T)
-        _claim_lines(labels, lines, index[band], False, claims, shares)
-        progress(0.6 + 0.2 * band.stop / len(pixels))
-    across = _frames(pixels, index)
-    dots = np.full(grid, NONE, dtype=np.uint8)
-    np.copyto(knots, claims, where=claims != NONE)
-    shares[:] = 0
-    for first in range(0, rows - 1, step):
-        _claim_dots(labels, knots, across, down, dots, shares, first, min(first + step, rows - 1))
-    np.copyto(knots, dots, where=(dots != NONE) & (claims == NONE))
-    return knots
+        _claim_lines(labels, lines, index[band], False, knots, claims, made, shares, first)
+        progress(0.5 + 0.5 * band.stop / len(pixels))
 
 
 def _frames(pixels: IntArray, index: IntArray) -> Int64[np.ndarray, "cells 2"]:

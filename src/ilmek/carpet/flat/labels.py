@@ -8,54 +8,15 @@ A single pixel unlike all its neighbours, and between them in colour, takes the 
 
 import numpy as np
 
-from ilmek.arrays import FloatArray, IntArray, Rgb, UInt8
-from ilmek.carpet.colour import LINEAR, RGB_TO_XYZ, WHITE
+from ilmek.arrays import IntArray, Rgb, UInt8
 from ilmek.carpet.design import bands
+from ilmek.carpet.flat.nearest import UNKNOWN, label_rows
 from ilmek.carpet.flat.true_colours import TrueColours
 from ilmek.num.compiled import compiled
 from ilmek.progress import SILENT, Progress
 
-UNKNOWN = 255
-_MATRIX = RGB_TO_XYZ / WHITE[:, None]
 _WIDEST = 3
 _SLICE = 1 << 21
-
-
-@compiled
-def _root(t: float) -> float:
-    return t ** (1 / 3) if t > 216 / 24389 else (24389 / 27 * t + 16) / 116
-
-
-@compiled
-def _nearest(red: int, green: int, blue: int, labs: FloatArray) -> int:
-    r, g, b = LINEAR[red], LINEAR[green], LINEAR[blue]
-    x = _root(_MATRIX[0, 0] * r + _MATRIX[0, 1] * g + _MATRIX[0, 2] * b)
-    y = _root(_MATRIX[1, 0] * r + _MATRIX[1, 1] * g + _MATRIX[1, 2] * b)
-    z = _root(_MATRIX[2, 0] * r + _MATRIX[2, 1] * g + _MATRIX[2, 2] * b)
-    lightness, a, b = 116 * y - 16, 500 * (x - y), 200 * (y - z)
-    best, least = 0, np.inf
-    for label in range(labs.shape[0]):
-        apart = (labs[label, 0] - lightness) ** 2 + (labs[label, 1] - a) ** 2 + (labs[label, 2] - b) ** 2
-        if apart < least:
-            best, least = label, apart
-    return best
-
-
-@compiled
-def raw_label(rgb: Rgb, y: int, x: int, table: UInt8[np.ndarray, " codes"], labs: FloatArray) -> int:
-    """The true colour nearest to a pixel's own; `table` keeps those of the codes that have occurred."""
-    red, green, blue = np.int64(rgb[y, x, 0]), np.int64(rgb[y, x, 1]), np.int64(rgb[y, x, 2])
-    code = red << 16 | green << 8 | blue
-    if table[code] == UNKNOWN:
-        table[code] = _nearest(red, green, blue, labs)
-    return int(table[code])
-
-
-@compiled
-def _label(rgb: Rgb, table: UInt8[np.ndarray, " codes"], labs: FloatArray, labels: UInt8[np.ndarray, "h w"]) -> None:
-    for y in range(rgb.shape[0]):
-        for x in range(rgb.shape[1]):
-            labels[y, x] = raw_label(rgb, y, x, table, labs)
 
 
 @compiled
@@ -71,7 +32,7 @@ def _mixed_share(rgb: Rgb, y: int, x: int, one: IntArray, two: IntArray, slack: 
     if along <= 0 or along >= length:
         return -1.0
     off = offset - along * along / length
-    return along / length if off <= max(slack * slack, 0.03 * length) else -1.0
+    return along / length if off <= max(slack * slack, 0.09 * length) else -1.0
 
 
 @compiled
@@ -185,7 +146,7 @@ def label_pixels(
     height, width = rgb.shape[:2]
     labels = np.empty((height, width), dtype=np.uint8)
     for band in bands(height, width, _SLICE):
-        _label(rgb[band], table, true.labs, labels[band])
+        label_rows(rgb[band], table, true.labs, labels[band])
         progress(0.5 * band.stop / height)
     if not true.mixed:
         return labels

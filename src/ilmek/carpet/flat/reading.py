@@ -5,7 +5,8 @@ import numpy as np
 from ilmek.arrays import FloatArray, Indices, Rgb, UInt8
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.flat.knots import knot_labels
-from ilmek.carpet.flat.labels import UNKNOWN, label_pixels, raw_label
+from ilmek.carpet.flat.labels import label_pixels
+from ilmek.carpet.flat.nearest import UNKNOWN, raw_label
 from ilmek.carpet.flat.survey import survey
 from ilmek.carpet.flat.symmetry import is_symmetric, make_symmetric
 from ilmek.carpet.flat.true_colours import TrueColours, true_colours

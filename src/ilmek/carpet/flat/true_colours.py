@@ -13,6 +13,7 @@ import numpy as np
 
 from ilmek.arrays import BoolArray, FloatArray, IntArray, UInt8
 from ilmek.carpet.colour import srgb_to_lab
+from ilmek.carpet.flat.nearest import label_rows
 from ilmek.carpet.flat.modes import modes
 from ilmek.carpet.flat.survey import Survey
 from ilmek.records import record
@@ -31,6 +32,15 @@ _TWINS = 3.0
 
 _NEW = 14.0
 """Least difference in CIELAB of a colour of lines to those of areas."""
+
+_WEAK, _LEAST_LINES = 0.25, 0.4
+"""A colour is weak if less of its pixels, beside all pixels, lie in areas, and if less of them lie on ridges."""
+
+_HALO = 22.0
+"""Difference in CIELAB up to which a weak colour is the halo that a JPEG leaves around a stronger one."""
+
+_SLACK = 12.0
+"""Codes by which a blend's luma and chroma may lie outside of those of its two colours."""
 
 _OFF = 14.0
 """Distance from the segment between two colours, in sRGB codes, up to which a colour is their mixture."""
@@ -63,6 +73,8 @@ def true_colours(survey: Survey) -> TrueColours:
     if not clean:
         srgb = _area_colours(survey.means[even])
     srgb = _with_lines(survey, srgb, even, clean, noise)
+    if not clean:
+        srgb = _without_blends(survey, srgb, even)
     lab = srgb_to_lab(srgb)
     srgb = srgb[np.lexsort((lab[:, 2], lab[:, 1], lab[:, 0]))]
     mixed = not clean or _mixtures(survey, srgb) > 0.002
@@ -146,6 +158,51 @@ def is_mixture(colours: FloatArray, palette: UInt8[np.ndarray, "colours 3"], off
         apart = colours[:, None] - begin - share[..., None] * along
         mixture |= np.any((np.linalg.norm(apart, axis=-1) <= off) & (share > 0) & (share < 1), axis=-1)
     return mixture
+
+
+def _without_blends(
+    survey: Survey, srgb: UInt8[np.ndarray, "colours 3"], even: BoolArray
+) -> UInt8[np.ndarray, "colours 3"]:
+    """The colours without those that occur on edges and are blends of others."""
+    ridge = ~even & (survey.ridge >= np.maximum(40, survey.ramp))
+    labs = srgb_to_lab(srgb)
+    label = np.empty((1, len(survey.codes)), dtype=np.uint8)
+    label_rows(survey.codes[None], np.full(1 << 24, 255, dtype=np.uint8), labs, label)
+    pixels, inner, lines = (
+        np.bincount(label[0], weight, len(srgb)) for weight in (None, even.astype(float), ridge.astype(float))
+    )
+    least = float(np.mean(even)) * np.maximum(pixels, 1)
+    weak = (inner < _WEAK * least) & (lines < _LEAST_LINES * pixels)
+    kept: list[int] = []
+    for colour in np.lexsort((np.arange(len(srgb)), -pixels)):
+        stronger = [one for one in kept if pixels[one] >= 3 * pixels[colour]]
+        near = np.linalg.norm(labs[stronger] - labs[colour], axis=-1).min(initial=np.inf) < _HALO
+        if weak[colour] and (
+            (near and inner[colour] < 0.4 * _WEAK * least[colour]) or _is_blend(srgb[[colour]], srgb[kept])[0]
+        ):
+            continue
+        kept.append(int(colour))
+    return srgb[kept]
+
+
+def _is_blend(colours: UInt8[np.ndarray, "some 3"], palette: UInt8[np.ndarray, "colours 3"]) -> BoolArray:
+    """Whether the luma of a colour lies between those of two colours of a palette, and its chroma also."""
+    (y, u, v), (ys, us, vs) = _luma_chroma(colours), _luma_chroma(palette)
+    blend = np.zeros(len(colours), dtype=bool)
+    for one in range(len(palette)):
+        for two in range(one):
+            du, dv = us[two] - us[one], vs[two] - vs[one]
+            share = np.clip(((u - us[one]) * du + (v - vs[one]) * dv) / max(du * du + dv * dv, 1.0), 0.0, 1.0)
+            off = np.hypot(u - us[one] - share * du, v - vs[one] - share * dv)
+            low, high = min(ys[one], ys[two]) - _SLACK, max(ys[one], ys[two]) + _SLACK
+            blend |= (off <= _SLACK) & (y >= low) & (y <= high)
+    return blend
+
+
+def _luma_chroma(srgb: UInt8[np.ndarray, "colours 3"]) -> tuple[FloatArray, FloatArray, FloatArray]:
+    red, green, blue = srgb.astype(float).T
+    luma = 0.299 * red + 0.587 * green + 0.114 * blue
+    return luma, 0.564 * (blue - luma), 0.713 * (red - luma)
 
 
 def _mixtures(survey: Survey, srgb: UInt8[np.ndarray, "colours 3"]) -> float:

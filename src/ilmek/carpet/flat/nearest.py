@@ -1,0 +1,49 @@
+"""Nearest true colour of a pixel's own colour, by CIELAB."""
+
+import numpy as np
+
+from ilmek.arrays import FloatArray, Rgb, UInt8
+from ilmek.carpet.colour import LINEAR, RGB_TO_XYZ, WHITE
+from ilmek.num.compiled import compiled
+
+UNKNOWN = 255
+_MATRIX = RGB_TO_XYZ / WHITE[:, None]
+
+
+@compiled
+def _root(t: float) -> float:
+    return t ** (1 / 3) if t > 216 / 24389 else (24389 / 27 * t + 16) / 116
+
+
+@compiled
+def _nearest(red: int, green: int, blue: int, labs: FloatArray) -> int:
+    r, g, b = LINEAR[red], LINEAR[green], LINEAR[blue]
+    x = _root(_MATRIX[0, 0] * r + _MATRIX[0, 1] * g + _MATRIX[0, 2] * b)
+    y = _root(_MATRIX[1, 0] * r + _MATRIX[1, 1] * g + _MATRIX[1, 2] * b)
+    z = _root(_MATRIX[2, 0] * r + _MATRIX[2, 1] * g + _MATRIX[2, 2] * b)
+    lightness, a, b = 116 * y - 16, 500 * (x - y), 200 * (y - z)
+    best, least = 0, np.inf
+    for label in range(labs.shape[0]):
+        apart = (labs[label, 0] - lightness) ** 2 + (labs[label, 1] - a) ** 2 + (labs[label, 2] - b) ** 2
+        if apart < least:
+            best, least = label, apart
+    return best
+
+
+@compiled
+def raw_label(rgb: Rgb, y: int, x: int, table: UInt8[np.ndarray, " codes"], labs: FloatArray) -> int:
+    """The true colour nearest to a pixel's own; `table` keeps those of the codes that have occurred."""
+    red, green, blue = np.int64(rgb[y, x, 0]), np.int64(rgb[y, x, 1]), np.int64(rgb[y, x, 2])
+    code = red << 16 | green << 8 | blue
+    if table[code] == UNKNOWN:
+        table[code] = _nearest(red, green, blue, labs)
+    return int(table[code])
+
+
+@compiled
+def label_rows(rgb: Rgb, table: UInt8[np.ndarray, " codes"], labs: FloatArray, labels: UInt8[np.ndarray, "h w"]) -> None:
+    for y in range(rgb.shape[0]):
+        for x in range(rgb.shape[1]):
+            labels[y, x] = raw_label(rgb, y, x, table, labs)
+
+
