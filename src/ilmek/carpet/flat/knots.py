@@ -25,8 +25,8 @@ _SLICE = 1 << 21
 _LEAST_WIDTH, _LONGEST_RUN = 0.6, 1.5
 """Least width of a line and longest run across one, in knots; a run of pixels may be one pixel shorter."""
 
-_LEAST_SHARE, _LEAST_DOT = 0.1, 0.25
-"""Least share of a cell that a line has, and least area of a dot, in knots."""
+_LEAST_SHARE, _LEAST_PART, _LEAST_DOT = 0.2, 0.4, 0.25
+"""Least share of a cell that a line has, or part of the run across it; least area of a dot, in knots."""
 
 
 @compiled
@@ -78,6 +78,12 @@ def _share(labels: UInt8[np.ndarray, "h w"], rows: int, columns: int, row: int, 
 
 
 @compiled
+def _least_share(run: int, length: int) -> float:
+    """Least share of a cell that a run must have; `run` and `length` in the same units, `length` a knot."""
+    return 65536 * min(_LEAST_SHARE, _LEAST_PART * run / length)
+
+
+@compiled
 def _take(claims: Indices, shares: IntArray, row: int, column: int, label: int, share: int) -> None:  # noqa: PLR0917
     before = claims[row, column]
     if before == NONE or share > shares[row, column] or (share == shares[row, column] and label < before):
@@ -106,7 +112,7 @@ def _claim_run(  # noqa: PLR0917
     if rest == 0:  # the middle between two knots
         other_row, other_column = (line, cell - 1) if across else (cell - 1, line)
         other = _share(labels, rows, columns, other_row, other_column, label)
-    if max(share, other) < _LEAST_SHARE * 65536:
+    if max(share, other) < _least_share((end - begin) * cells, length):
         return
     if share > other or (share == other and 2 * cell <= cells):
         _take(claims, shares, row, column, label, share)
@@ -142,7 +148,7 @@ def _move_run(  # noqa: PLR0917
     cell += 1 if after > before else -1
     row, column = (line, cell) if across else (cell, line)
     share = _share(labels, rows, columns, row, column, label)
-    if claims[row, column] == NONE and share >= _LEAST_SHARE * 65536:
+    if claims[row, column] == NONE and share >= _least_share((end - begin) * cells, length):
         _take(moved, shares, row, column, label, share)
 
 

@@ -82,8 +82,8 @@ def flat_design(
     table = np.full(_CODES, UNKNOWN, dtype=np.uint8)
     labels = label_pixels(rgb, true, table, progress.part(0.1, 0.5))
     knot = min(height / grid[0], width / grid[1])
-    across = is_symmetric(labels, True, knot, progress.part(0.5, 0.55))
-    down = is_symmetric(labels, False, knot, progress.part(0.55, 0.6))
+    across = is_symmetric(rgb, labels, True, knot, true.noise, progress.part(0.5, 0.55))
+    down = is_symmetric(rgb, labels, False, knot, true.noise, progress.part(0.55, 0.6))
     if across or down:
         make_symmetric(rgb, labels, true.srgb, across, down)
     knots = knot_labels(labels, grid, progress.part(0.6, 0.9))

@@ -1,7 +1,7 @@
 """Symmetry: whether a drawing is its own mirror image, up to the grain.
 
-Labels that differ from their mirror image are due to grain if they are few beside the pixels on edges, and nowhere fill
-a square of 0.6 knot (at least 3 pixels). Such a drawing is made exactly symmetric: pixels that mirror each other take the
+Labels that differ from their mirror image are due to grain if they are few beside the pixels on edges, their colours are
+alike, and they nowhere fill a square of 0.6 knot (at least 3 pixels). Such a drawing is made exactly symmetric: pixels that mirror each other take the
 label, among theirs, that is nearest to their mean colour.
 """
 
@@ -13,17 +13,20 @@ from ilmek.num.compiled import compiled
 from ilmek.progress import SILENT, Progress
 
 _SLICE = 1 << 22
-_MOST = 0.5
-"""Largest number of differing pixels, as a share of the pixels on edges."""
+_MOST, _UNLIKE = 0.5, 0.05
+"""Largest numbers of pixels with another label, and with another colour, as shares of the pixels on edges."""
+
+_CONTRAST = 48
+"""Contrast in codes, beside the noise, of another colour."""
 
 
 @compiled
 def _differing(  # noqa: PLR0917
-    labels: UInt8[np.ndarray, "h w"], first: int, stop: int, across: bool, above: IntArray, most: int
-) -> tuple[int, int, int]:
-    """Differing pixels, pixels on edges, and whether a square of side `most` differs, in some rows."""
+    rgb: Rgb, labels: UInt8[np.ndarray, "h w"], first: int, stop: int, across: bool, above: IntArray, most: int, grain: int
+) -> tuple[int, int, int, int]:
+    """Pixels with another label, those of another colour, edges, and whether a square of side `most` differs."""
     height, width = labels.shape
-    differing = edges = solid = 0
+    differing = unlike = edges = solid = 0
     for y in range(first, stop):
         corner = 0
         left = 0
@@ -33,33 +36,43 @@ def _differing(  # noqa: PLR0917
             if (x > 0 and labels[y, x - 1] != own) or (y > 0 and labels[y - 1, x] != own):
                 edges += 1
             side = 0
-            if labels[opposite, width - 1 - x if across else x] != own:
+            far = width - 1 - x if across else x
+            if labels[opposite, far] != own:
                 differing += 1
+                contrast = 0
+                for channel in range(3):
+                    contrast = max(contrast, abs(np.int64(rgb[y, x, channel]) - np.int64(rgb[opposite, far, channel])))
+                unlike += contrast > grain
                 side = 1 + min(corner, left, above[x])
                 if side >= most:
                     solid = 1
             corner, left, above[x] = above[x], side, side
-    return differing, edges, solid
+    return differing, unlike, edges, solid
 
 
 def is_symmetric(
-    labels: UInt8[np.ndarray, "height width"], across: bool, knot: float, progress: Progress = SILENT
+    rgb: Rgb,
+    labels: UInt8[np.ndarray, "height width"],
+    across: bool,
+    knot: float,
+    noise: int,
+    progress: Progress = SILENT,
 ) -> bool:
     """Whether the left half mirrors the right (`across`), or the upper half the lower, up to the grain.
 
-    knot  least side of a knot in pixels
+    knot  least side of a knot in pixels      noise  range of a channel over 3 × 3 pixels in areas
     """
     height, width = labels.shape
     above = np.zeros(width, dtype=np.int64)
     most = max(3, round(0.6 * knot))
-    differing = edges = 0
+    total = np.zeros(4, dtype=np.int64)
     for band in bands(height, width, _SLICE):
-        one, two, solid = _differing(labels, band.start, band.stop, across, above, most)
-        differing, edges = differing + one, edges + two
+        total += _differing(rgb, labels, band.start, band.stop, across, above, most, _CONTRAST + noise)
         progress(band.stop / height)
-        if solid or differing > _MOST * edges + 0.01 * height * width:
+        if total[3]:
             return False
-    return differing <= _MOST * edges
+    differing, unlike, edges, _ = total.tolist()
+    return bool(differing <= _MOST * edges and unlike <= _UNLIKE * edges)
 
 
 @compiled
