@@ -25,6 +25,9 @@ _SLICE = 1 << 21
 _LEAST_WIDTH, _LONGEST_RUN = 0.6, 1.5
 """Least width of a line and longest run across one, in knots; a run of pixels may be one pixel shorter."""
 
+_TIP = 0.35
+"""Length, in knots, over which a run must go on."""
+
 _LEAST_SHARE, _LEAST_PART, _LEAST_DOT = 0.2, 0.4, 0.25
 """Least share of a cell that a line has, or part of the run across it; least area of a dot, in knots."""
 
@@ -81,6 +84,49 @@ def _share(labels: UInt8[np.ndarray, "h w"], rows: int, columns: int, row: int, 
 def _least_share(run: int, length: int) -> float:
     """Least share of a cell that a run must have; `run` and `length` in the same units, `length` a knot."""
     return 65536 * min(_LEAST_SHARE, _LEAST_PART * run / length)
+
+
+@compiled
+def _follow(  # noqa: PLR0917
+    labels: UInt8[np.ndarray, "h w"], across: bool, pixel: int, begin: int, end: int, step: int, depth: int, wide: int
+) -> int:
+    """What becomes of a run of pixels within `depth` lines on one side: 0 it ends, 1 it goes on, 2 it is an area."""
+    height, width = labels.shape
+    lines, length = (height, width) if across else (width, height)
+    label = labels[pixel, begin] if across else labels[begin, pixel]
+    for _ in range(depth):
+        pixel += step
+        if pixel < 0 or pixel >= lines:
+            return 1
+        low, high = length, -1
+        for position in range(max(begin - 1, 0), min(end + 1, length)):
+            if (labels[pixel, position] if across else labels[position, pixel]) == label:
+                low, high = min(low, position), position
+        if high < 0:
+            return 0
+        while low > 0 and high - low < wide and (labels[pixel, low - 1] if across else labels[low - 1, pixel]) == label:
+            low -= 1
+        while high - low < wide and high + 1 < length:
+            if (labels[pixel, high + 1] if across else labels[high + 1, pixel]) != label:
+                break
+            high += 1
+        if high - low >= wide:
+            return 2
+        begin, end = low, high + 1
+    return 1
+
+
+@compiled
+def _is_notch(  # noqa: PLR0917
+    labels: UInt8[np.ndarray, "h w"], across: bool, pixel: int, begin: int, end: int, rows: int, columns: int
+) -> bool:
+    """Whether a run is the tip of an area, or a dent in its edge: it ends on one side and is an area on the other."""
+    height, width = labels.shape
+    depth = max(1, round(_TIP * (height / rows if across else width / columns)))
+    wide = round(_LONGEST_RUN * (width / columns if across else height / rows))
+    one = _follow(labels, across, pixel, begin, end, -1, depth, wide)
+    two = _follow(labels, across, pixel, begin, end, 1, depth, wide)
+    return one + two == 2 and one != two
 
 
 @compiled
@@ -156,6 +202,7 @@ def _move_run(  # noqa: PLR0917
 def _claim_lines(  # noqa: PLR0917
     labels: UInt8[np.ndarray, "h w"],
     lines: UInt8[np.ndarray, "n length"],
+    pixels: IntArray,
     index: IntArray,
     across: bool,
     knots: Indices,
@@ -175,7 +222,8 @@ def _claim_lines(  # noqa: PLR0917
             if lines[number, position] != lines[number, begin]:
                 label = int(lines[number, begin])
                 run = (position - begin) * cells
-                if begin > 0 and least <= run < _LONGEST_RUN * length:
+                thin = begin > 0 and least <= run < _LONGEST_RUN * length
+                if thin and not _is_notch(labels, across, pixels[number], begin, position, *claims.shape):
                     if first:
                         _claim_run(labels, claims, shares, across, line, begin, position, label)
                     else:
@@ -322,12 +370,12 @@ def _scan(  # noqa: PLR0917
     first = made is claims
     pixels, index = centre_lines(height, len(knots))
     for band in bands(len(pixels), width, _SLICE):
-        _claim_lines(labels, labels[pixels[band]], index[band], True, knots, claims, made, shares, first)
+        _claim_lines(labels, labels[pixels[band]], pixels[band], index[band], True, knots, claims, made, shares, first)
         progress(0.5 * band.stop / len(pixels))
     pixels, index = centre_lines(width, knots.shape[1])
     for band in bands(len(pixels), height, _SLICE):
         lines = np.ascontiguousarray(labels[:, pixels[band]].T)
-        _claim_lines(labels, lines, index[band], False, knots, claims, made, shares, first)
+        _claim_lines(labels, lines, pixels[band], index[band], False, knots, claims, made, shares, first)
         progress(0.5 + 0.5 * band.stop / len(pixels))
 
 

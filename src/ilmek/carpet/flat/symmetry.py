@@ -13,7 +13,7 @@ from ilmek.num.compiled import compiled
 from ilmek.progress import SILENT, Progress
 
 _SLICE = 1 << 22
-_MOST, _UNLIKE = 0.5, 0.05
+_MOST, _UNLIKE = 0.5, 0.1
 """Largest numbers of pixels with another label, and with another colour, as shares of the pixels on edges."""
 
 _CONTRAST = 48
