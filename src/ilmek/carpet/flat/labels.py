@@ -1,8 +1,8 @@
 """Labels: the true colour of each pixel.
 
-A pixel has the nearest true colour (CIELAB). On an edge that is not sharp, mixtures may be near to a third colour: a band
-of at most three pixels between two colours, whose colour lies on the segment between both and changes across the band,
-belongs to the nearer of the two. A line has no third colour on its sides and a band of even colour is none, so both stay.
+A pixel has the nearest true colour (CIELAB). On an edge that is not sharp, mixtures may be near to a third colour: a
+band of at most three pixels between two colours, whose colour lies on the segment between both and changes across the
+band, belongs to the nearer of the two. A line with one colour on both sides stays, and a wider one of an even colour.
 A single pixel unlike all its neighbours, and between them in colour, takes the nearest colour among theirs.
 """
 
@@ -20,12 +20,14 @@ _SLICE = 1 << 21
 
 
 @compiled
-def _mixed_share(rgb: Rgb, y: int, x: int, one: IntArray, two: IntArray, slack: int) -> float:
+def _mixed_share(  # noqa: PLR0917
+    rgb: Rgb, y: int, x: int, one: IntArray, two: IntArray, slack: int
+) -> float:
     """Position of a pixel's colour from `one` (0) to `two` (1); negative where it is no mixture of both."""
     along = offset = length = 0
     for channel in range(3):
-        far = np.int64(two[channel]) - np.int64(one[channel])
-        here = np.int64(rgb[y, x, channel]) - np.int64(one[channel])
+        far = int(np.int64(two[channel])) - int(np.int64(one[channel]))
+        here = int(np.int64(rgb[y, x, channel])) - int(np.int64(one[channel]))
         along += here * far
         offset += here * here
         length += far * far
@@ -36,44 +38,38 @@ def _mixed_share(rgb: Rgb, y: int, x: int, one: IntArray, two: IntArray, slack: 
 
 
 @compiled
+def _reach(labels: UInt8[np.ndarray, "h w"], y: int, x: int, down: int, right: int) -> int:
+    """Pixels to the first other label in a direction; 0: none within a band, or the border."""
+    height, width = labels.shape
+    for far in range(1, _WIDEST + 1):
+        v, u = y + far * down, x + far * right
+        if v < 0 or u < 0 or v >= height or u >= width:
+            return 0
+        if labels[v, u] != labels[y, x]:
+            return far
+    return 0
+
+
+@compiled
 def _across(  # noqa: PLR0917
     rgb: Rgb, labels: UInt8[np.ndarray, "h w"], colours: IntArray, y: int, x: int, down: int, right: int, slack: int
 ) -> int:
     """The label that a mixture takes by the two sides of one direction; UNKNOWN where it is none."""
-    height, width = labels.shape
-    own = labels[y, x]
-    before = after = 1
-    while before <= _WIDEST:
-        v, u = y - before * down, x - before * right
-        if v < 0 or u < 0 or u >= width:
-            return UNKNOWN
-        if labels[v, u] != own:
-            break
-        before += 1
-    while after <= _WIDEST:
-        v, u = y + after * down, x + after * right
-        if v >= height or u < 0 or u >= width:
-            return UNKNOWN
-        if labels[v, u] != own:
-            break
-        after += 1
-    if before + after - 1 > _WIDEST:
+    before, after = _reach(labels, y, x, -down, -right), _reach(labels, y, x, down, right)
+    if before == 0 or after == 0 or before + after - 1 > _WIDEST:
         return UNKNOWN
     one = labels[y - before * down, x - before * right]
     two = labels[y + after * down, x + after * right]
-    if one == two:
-        return UNKNOWN
     share = _mixed_share(rgb, y, x, colours[one], colours[two], slack)
-    if share < 0.0:
+    if one == two or share < 0.0:
         return UNKNOWN
     if before + after > 2:  # a band of even colour is a line
         begin = _mixed_share(rgb, y - (before - 1) * down, x - (before - 1) * right, colours[one], colours[two], slack)
         end = _mixed_share(rgb, y + (after - 1) * down, x + (after - 1) * right, colours[one], colours[two], slack)
         if begin < 0.0 or end < 0.0 or end - begin < 0.2:
             return UNKNOWN
-    if share == 0.5:
-        return int(min(one, two))
-    return int(one if share < 0.5 else two)
+    nearer = one if share < 0.5 else two
+    return int(min(one, two) if share == 0.5 else nearer)
 
 
 @compiled
@@ -96,10 +92,10 @@ def _alone(rgb: Rgb, labels: UInt8[np.ndarray, "h w"], colours: IntArray, y: int
             apart = product = 0
             opposite = 0 <= y - down < height and 0 <= x - right < width
             for channel in range(3):
-                apart += (np.int64(rgb[y, x, channel]) - np.int64(colours[label, channel])) ** 2
+                apart += (int(np.int64(rgb[y, x, channel])) - int(np.int64(colours[label, channel]))) ** 2
                 if opposite:
-                    product += (np.int64(rgb[y, x, channel]) - np.int64(rgb[v, u, channel])) * (
-                        np.int64(rgb[y, x, channel]) - np.int64(rgb[y - down, x - right, channel])
+                    product += (int(np.int64(rgb[y, x, channel])) - int(np.int64(rgb[v, u, channel]))) * (
+                        int(np.int64(rgb[y, x, channel])) - int(np.int64(rgb[y - down, x - right, channel]))
                     )
             dot = dot and (product > 0 or not opposite)
             if apart < least or (apart == least and label < best):

@@ -91,4 +91,4 @@ def _climb(order: IntArray, density: FloatArray, root: IntArray) -> None:
 @compiled
 def _height(density: float) -> float:
     """The least height of a summit over its saddle; densities are 64 times a number of pixels."""
-    return max(0.35 * density, 24.0 * density**0.5)
+    return float(max(0.35 * density, 24.0 * density**0.5))

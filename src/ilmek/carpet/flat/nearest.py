@@ -33,7 +33,7 @@ def _nearest(red: int, green: int, blue: int, labs: FloatArray) -> int:
 @compiled
 def raw_label(rgb: Rgb, y: int, x: int, table: UInt8[np.ndarray, " codes"], labs: FloatArray) -> int:
     """The true colour nearest to a pixel's own; `table` keeps those of the codes that have occurred."""
-    red, green, blue = np.int64(rgb[y, x, 0]), np.int64(rgb[y, x, 1]), np.int64(rgb[y, x, 2])
+    red, green, blue = int(np.int64(rgb[y, x, 0])), int(np.int64(rgb[y, x, 1])), int(np.int64(rgb[y, x, 2]))
     code = red << 16 | green << 8 | blue
     if table[code] == UNKNOWN:
         table[code] = _nearest(red, green, blue, labs)
@@ -41,9 +41,10 @@ def raw_label(rgb: Rgb, y: int, x: int, table: UInt8[np.ndarray, " codes"], labs
 
 
 @compiled
-def label_rows(rgb: Rgb, table: UInt8[np.ndarray, " codes"], labs: FloatArray, labels: UInt8[np.ndarray, "h w"]) -> None:
+def label_rows(
+    rgb: Rgb, table: UInt8[np.ndarray, " codes"], labs: FloatArray, labels: UInt8[np.ndarray, "h w"]
+) -> None:
+    """The true colour nearest to each pixel's own."""
     for y in range(rgb.shape[0]):
         for x in range(rgb.shape[1]):
             labels[y, x] = raw_label(rgb, y, x, table, labs)
-
-

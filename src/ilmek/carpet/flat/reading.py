@@ -96,7 +96,7 @@ def flat_design(
 
 
 @compiled
-def _foreign(
+def _foreign(  # noqa: PLR0917
     rgb: Rgb, table: UInt8[np.ndarray, " codes"], labs: FloatArray, knots: Indices, first: int, stop: int
 ) -> int:
     rows, columns = knots.shape

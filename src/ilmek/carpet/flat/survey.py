@@ -41,7 +41,7 @@ def sample_positions(length: int, step: int) -> Int64[np.ndarray, " positions"]:
     [1, 4, 7]
     """
     position = np.arange(length)
-    return position[np.minimum(position, length - 1 - position) % step == step // 2]
+    return np.asarray(position[np.minimum(position, length - 1 - position) % step == step // 2])
 
 
 def survey(rgb: Rgb) -> Survey:
@@ -78,8 +78,8 @@ def _profile(rgb: Rgb, y: int, x: int, down: int, right: int) -> tuple[int, int]
             low, far = _inside(y + behind * down, height), _inside(x + behind * right, width)
             product = least = most = 0
             for channel in range(3):
-                one = np.int64(rgb[y, x, channel]) - np.int64(rgb[up, left, channel])
-                two = np.int64(rgb[y, x, channel]) - np.int64(rgb[low, far, channel])
+                one = int(np.int64(rgb[y, x, channel])) - int(np.int64(rgb[up, left, channel]))
+                two = int(np.int64(rgb[y, x, channel])) - int(np.int64(rgb[low, far, channel]))
                 product += one * two
                 least, most = max(least, abs(one)), max(most, abs(two))
             if product > 0:
@@ -109,7 +109,7 @@ def _survey(  # noqa: PLR0917
                 least, most, total = 255, 0, 0
                 for down in range(-1, 2):
                     for right in range(-1, 2):
-                        code = np.int64(rgb[_inside(y + down, height), _inside(x + right, width), channel])
+                        code = int(np.int64(rgb[_inside(y + down, height), _inside(x + right, width), channel]))
                         least, most = min(least, code), max(most, code)
                         total += code
                 spread = max(spread, most - least)

@@ -1,8 +1,8 @@
 """Symmetry: whether a drawing is its own mirror image, up to the grain.
 
-Labels that differ from their mirror image are due to grain if they are few beside the pixels on edges, their colours are
-alike, and they nowhere fill a square of 0.6 knot (at least 3 pixels). Such a drawing is made exactly symmetric: pixels that mirror each other take the
-label, among theirs, that is nearest to their mean colour.
+Labels that differ from their mirror image are due to grain if they are few beside the pixels on edges, if their colours
+are alike, and if they nowhere fill a square of 0.6 knot (at least 3 pixels). Such a drawing is made exactly symmetric:
+pixels that mirror each other take the label, among theirs, that is nearest to their mean colour.
 """
 
 import numpy as np
@@ -22,7 +22,14 @@ _CONTRAST = 48
 
 @compiled
 def _differing(  # noqa: PLR0917
-    rgb: Rgb, labels: UInt8[np.ndarray, "h w"], first: int, stop: int, across: bool, above: IntArray, most: int, grain: int
+    rgb: Rgb,
+    labels: UInt8[np.ndarray, "h w"],
+    first: int,
+    stop: int,
+    across: bool,
+    above: IntArray,
+    most: int,
+    grain: int,
 ) -> tuple[int, int, int, int]:
     """Pixels with another label, those of another colour, edges, and whether a square of side `most` differs."""
     height, width = labels.shape
@@ -41,7 +48,9 @@ def _differing(  # noqa: PLR0917
                 differing += 1
                 contrast = 0
                 for channel in range(3):
-                    contrast = max(contrast, abs(np.int64(rgb[y, x, channel]) - np.int64(rgb[opposite, far, channel])))
+                    contrast = max(
+                        contrast, abs(int(np.int64(rgb[y, x, channel])) - int(np.int64(rgb[opposite, far, channel])))
+                    )
                 unlike += contrast > grain
                 side = 1 + min(corner, left, above[x])
                 if side >= most:
@@ -50,7 +59,7 @@ def _differing(  # noqa: PLR0917
     return differing, unlike, edges, solid
 
 
-def is_symmetric(
+def is_symmetric(  # noqa: PLR0917
     rgb: Rgb,
     labels: UInt8[np.ndarray, "height width"],
     across: bool,
@@ -89,8 +98,8 @@ def _join(  # noqa: PLR0917
             if labels[y, far] == own and labels[low, x] == own and labels[low, far] == own:
                 continue
             for channel in range(3):
-                total[channel] = np.int64(rgb[y, x, channel]) + np.int64(rgb[y, far, channel])
-                total[channel] += np.int64(rgb[low, x, channel]) + np.int64(rgb[low, far, channel])
+                total[channel] = int(np.int64(rgb[y, x, channel])) + int(np.int64(rgb[y, far, channel]))
+                total[channel] += int(np.int64(rgb[low, x, channel])) + int(np.int64(rgb[low, far, channel]))
             best, least = 255, 1 << 60
             for label in (own, labels[y, far], labels[low, x], labels[low, far]):
                 apart = 0

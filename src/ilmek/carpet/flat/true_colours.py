@@ -1,10 +1,11 @@
 """True colours: the colours that a drawing was made with.
 
-1. If nearly all areas have exactly one of few codes, the picture is *clean*: these codes are true colours. Else the modes
-   of the areas' colours are (`modes`), which grain, abrash and the blocks of a JPEG leave in position.
+1. If nearly all areas have exactly one of few codes, the picture is *clean*: these codes are true colours. Else the
+   modes of the areas' colours are (`modes`), which grain, abrash and the blocks of a JPEG leave in position.
 2. Lines and dots have no areas. Colours of ridges that are far from all colours of areas, and are no mixture of two of
    them, are true colours also.
-3. A colour that occurs mainly between two others, on the ramp of an edge, is a mixture and no true colour.
+3. A colour that hardly has areas or ridges, beside the other colours, and is a blend of two of them or near to one of
+   them, is the mixture on an edge or the halo that a JPEG leaves there, and no true colour.
 
 They are ordered from dark to light: order, and with it each tie, depends on the colours alone.
 """
@@ -13,8 +14,8 @@ import numpy as np
 
 from ilmek.arrays import BoolArray, FloatArray, IntArray, UInt8
 from ilmek.carpet.colour import srgb_to_lab
-from ilmek.carpet.flat.nearest import label_rows
 from ilmek.carpet.flat.modes import modes
+from ilmek.carpet.flat.nearest import label_rows
 from ilmek.carpet.flat.survey import Survey
 from ilmek.records import record
 
@@ -125,7 +126,7 @@ def _distinct(found: FloatArray, sizes: IntArray, twins: float) -> UInt8[np.ndar
     for number in range(len(sizes)):
         if not kept or np.linalg.norm(labs[kept] - labs[number], axis=-1).min() >= twins:
             kept.append(number)
-    return srgb[kept]
+    return np.asarray(srgb[kept])
 
 
 def _with_lines(
