@@ -72,7 +72,7 @@ def is_line(rgb: Picture) -> np.ndarray:
 def test_a_line_of_any_angle_stays_in_one_piece_and_keeps_its_width(pixels: float, finish: str) -> None:
     rng = np.random.default_rng(7)
     for degrees, width, offset in zip(
-        [0.0, 45.0, *rng.uniform(0, 180, 10)], rng.choice([0.6, 0.7, 1.0, 1.5, 3.0], 12), rng.uniform(-0.45, 0.45, 12)
+        [0.0, 45.0, *rng.uniform(0, 180, 10)], rng.choice([0.6, 0.7, 1.0, 1.5, 3.0], 12), rng.uniform(-0.45, 0.45, 12), strict=True
     ):
         mask = is_line(flat_design(line_picture(pixels, degrees, width, offset, finish), (40, 40)).colours)
         name = f"{degrees:.1f}° {width} knots"

@@ -25,6 +25,15 @@ MOST_COLOURS = 200
 _CLEAN = 0.98
 """Share of the even areas that the colours of a clean picture cover."""
 
+_QUIET = 12
+"""Range of a channel over 3 × 3 pixels up to which they are no edge; a clean picture has few such pixels that differ."""
+
+_JPEG = 14
+"""Range of a channel over 3 × 3 pixels that a JPEG leaves in even areas near edges."""
+
+_EXPLAINED, _MOST_CODES = 0.8, 2000
+"""Least share of the pixels outside of even areas that mixtures explain in a clean picture; codes that are tried."""
+
 _LEAST_AREA = 2e-5
 """Least share of the sample of a colour with areas."""
 
@@ -38,7 +47,8 @@ _WEAK, _LEAST_LINES = 0.25, 0.4
 """A colour is weak if less of its pixels, beside all pixels, lie in areas, and if less of them lie on ridges."""
 
 _HALO = 22.0
-"""Difference in CIELAB up to which a weak colour is the halo that a JPEG leaves around a stronger one."""
+"""Difference in CIELAB up to which a weak colour is the halo that a JPEG leaves around a stronger one, and up to which two
+colours without areas are those of one line."""
 
 _SLACK = 12.0
 """Codes by which a blend's luma and chroma may lie outside of those of its two colours."""
@@ -71,10 +81,13 @@ def true_colours(survey: Survey) -> TrueColours:
     most = max(6, round(1.6 * noise) + 2)
     even = survey.spread <= most
     clean, srgb = _clean_colours(survey)
+    if clean:
+        srgb = _with_lines(survey, srgb, even, clean, noise)
+        clean = _is_explained(survey, srgb)
     if not clean:
-        srgb = _area_colours(survey.means[even])
-    srgb = _with_lines(survey, srgb, even, clean, noise)
-    if not clean:
+        most = max(_JPEG, most)
+        even = survey.spread <= most
+        srgb = _with_lines(survey, _area_colours(survey.means[even]), even, clean, noise)
         srgb = _without_blends(survey, srgb, even)
     lab = srgb_to_lab(srgb)
     srgb = srgb[np.lexsort((lab[:, 2], lab[:, 1], lab[:, 0]))]
@@ -107,9 +120,16 @@ def _clean_colours(survey: Survey) -> tuple[bool, UInt8[np.ndarray, "colours 3"]
     least = max(2, _LEAST_AREA * len(survey.spread)) if len(flat) > 1000 else 1
     kept = distinct[counts >= least]
     few = len(kept) <= MOST_COLOURS and counts[: len(kept)].sum() >= _CLEAN * counts.sum()
-    even = np.count_nonzero(survey.spread == 0)
-    quiet = np.count_nonzero((survey.spread > 0) & (survey.spread <= 12))
-    return bool(few and quiet <= 0.15 * even), _colours(kept)
+    quiet = np.count_nonzero((survey.spread > 0) & (survey.spread <= _QUIET))
+    return bool(few and quiet <= 0.15 * np.count_nonzero(survey.spread == 0)), _colours(kept)
+
+
+def _is_explained(survey: Survey, srgb: UInt8[np.ndarray, "colours 3"]) -> bool:
+    """Whether the pixels outside of even areas have true colours or mixtures of them."""
+    distinct, counts = _by_count(_codes(survey.codes[survey.spread > _QUIET]))
+    distinct, counts = distinct[:_MOST_CODES], counts[:_MOST_CODES]
+    known = np.isin(distinct, _codes(srgb)) | is_mixture(_colours(distinct).astype(float), srgb, 2 * _OFF)
+    return bool(counts[known].sum() >= _EXPLAINED * counts.sum())
 
 
 def _area_colours(means: UInt8[np.ndarray, "pixels 3"]) -> UInt8[np.ndarray, "colours 3"]:
@@ -174,15 +194,13 @@ def _without_blends(
     )
     least = float(np.mean(even)) * np.maximum(pixels, 1)
     weak = (inner < _WEAK * least) & (lines < _LEAST_LINES * pixels)
+    bare = inner < 0.4 * _WEAK * least
     kept: list[int] = []
     for colour in np.lexsort((np.arange(len(srgb)), -pixels)):
-        stronger = [one for one in kept if pixels[one] >= 3 * pixels[colour]]
-        near = np.linalg.norm(labs[stronger] - labs[colour], axis=-1).min(initial=np.inf) < _HALO
-        if weak[colour] and (
-            (near and inner[colour] < 0.4 * _WEAK * least[colour]) or _is_blend(srgb[[colour]], srgb[kept])[0]
-        ):
-            continue
-        kept.append(int(colour))
+        near = [one for one in kept if np.linalg.norm(labs[one] - labs[colour]) < _HALO]
+        halo = any(bare[one] or (weak[colour] and pixels[one] >= 3 * pixels[colour]) for one in near)
+        if not (bare[colour] and halo) and not (weak[colour] and _is_blend(srgb[[colour]], srgb[kept])[0]):
+            kept.append(int(colour))
     return srgb[kept]
 
 
