@@ -26,7 +26,7 @@ _CLEAN = 0.98
 """Share of the even areas that the colours of a clean picture cover."""
 
 _QUIET = 12
-"""Range of a channel over 3 × 3 pixels up to which they are no edge; a clean picture has few such pixels that differ."""
+"""Range of a channel over 3 × 3 pixels up to which they are no edge. A clean picture has few that differ by less."""
 
 _JPEG = 14
 """Range of a channel over 3 × 3 pixels that a JPEG leaves in even areas near edges."""
@@ -47,8 +47,8 @@ _WEAK, _LEAST_LINES = 0.25, 0.4
 """A colour is weak if less of its pixels, beside all pixels, lie in areas, and if less of them lie on ridges."""
 
 _HALO = 22.0
-"""Difference in CIELAB up to which a weak colour is the halo that a JPEG leaves around a stronger one, and up to which two
-colours without areas are those of one line."""
+"""Difference in CIELAB up to which a weak colour is the halo that a JPEG leaves around a stronger one. Up to the same
+difference, two colours without areas are those of one line."""
 
 _SLACK = 12.0
 """Codes by which a blend's luma and chroma may lie outside of those of its two colours."""
