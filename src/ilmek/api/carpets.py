@@ -60,16 +60,19 @@ def make_chart(
     picture  a path, a picture, or its pixels: rows x columns x 3, 0 to 255
     size     like "120x180cm" or "seccade"      quality  like "40x40/dm"
     yarns    a path or a list; default: the wool list that is built in      knot  "symmetric" or "asymmetric"
-    settings  of the fit, the reading and the palette, by the names of the command line's options: colours=8
+    settings  of the fit, the reading, the palette and the counts of the yarns, by the names of the command line's
+              options: colours=8
 
     Raises PictureError, CarpetError or YarnError; Cancelled.
     """
     groups = read_groups(settings)
+    density = parse_quality(quality) if isinstance(quality, str) else quality
+    listed = read_yarns(yarns) if yarns is None or isinstance(yarns, str | Path) else tuple(yarns)
     return charting.make_chart(
         _pixels(picture),
         parse_size(size) if isinstance(size, str) else size,
-        parse_quality(quality) if isinstance(quality, str) else quality,
-        read_yarns(yarns) if yarns is None or isinstance(yarns, str | Path) else tuple(yarns),
+        density,
+        groups["plan"].counted(listed, density, knot),
         knot=knot,
         fit=groups["fit"],
         reading=groups["reading"],

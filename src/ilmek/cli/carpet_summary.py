@@ -20,6 +20,7 @@ def carpet_pairs(charted: ChartResult) -> list[tuple[str, str]]:
         *([("overlay", overlay_in_words(chart))] if len(chart.overlay) else []),
         ("colours", f"{chart.colours} of {len(charted.order.yarns)} yarns, {colours_in_words(chart)}"),
         ("yarn", f"{format_quantity(bill.mass, 'kg', 3)}, pile {format_quantity(bill.pile_mass, 'kg', 3)}"),
+        ("carpet mass", mass_in_words(bill)),
         ("to buy", to_buy_in_words(charted)),
     ]
 

@@ -7,7 +7,7 @@ import click
 
 from ilmek.cli.call_outputs import call_outputs
 from ilmek.cli.carpet_options import carpet_inputs, carpet_options, recipe_folder
-from ilmek.cli.carpet_summary import carpet_pairs, mass_in_words, pile_in_words, show_yarn
+from ilmek.cli.carpet_summary import carpet_pairs, pile_in_words, show_yarn
 from ilmek.cli.options import force_option, json_option
 from ilmek.cli.proposed import show_proposed
 from ilmek.cli.terminal import note, say, show_pairs
@@ -69,7 +69,6 @@ def show_chart(charted: ChartResult) -> None:
         [
             *carpet_pairs(charted),
             ("pile", pile_in_words(charted)),
-            ("carpet mass", mass_in_words(charted.bill)),
             ("colour changes", f"{chart.changes_per_knot:.3f} per knot, {chart.lone_fraction:.2%} of the knots lone"),
         ]
     )

@@ -33,7 +33,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from ilmek.carpet.quality import Quality, parse_quality
+from ilmek.carpet.quality import Quality, gereh_note, parse_quality
 from ilmek.carpet.recipe.edits import FORMS, Edit, parse_edit
 from ilmek.carpet.recipe.recipe import (
     MIRRORS,
@@ -88,6 +88,7 @@ class RecipeFile:
     """The contents of a recipe's file; what it leaves open is None.
 
     settings   of the parameters of an order, by name      yarn_file  from which the yarns are read, if from a file
+    gereh      note on the quality, where its text leaves the gereh open
     """
 
     recipe: Recipe
@@ -99,6 +100,7 @@ class RecipeFile:
     pdf: bool | None
     settings: Mapping[str, Setting]
     loom: LoomKeys
+    gereh: str = ""
 
     def __hash__(self) -> int:
         return hash(self.recipe)
@@ -137,6 +139,7 @@ class _RecipeReader:
             root.flag("pdf") if root.has("pdf") else None,
             self._settings(parameters),
             self._loom(),
+            self._parsed("quality", gereh_note) or "",
         )
 
     def _where(self, entry: FileEntry, key: str | int | None = None) -> str:

@@ -142,7 +142,7 @@ def read_order(
         "yarns": None if yarn_file is None else read_yarns(yarn_file),
         "yarn_file": yarn_file,
         "pdf": pdf,
-        "notes": (gereh_note(quality),) if quality and gereh_note(quality) else None,
+        "notes": None if quality is None else tuple(filter(None, (gereh_note(quality),))),
     }
     groups = read_groups({**({} if found is None else found.settings), **_given(settings)})
     order = replace(base, **_given(given), **groups)
@@ -175,6 +175,7 @@ def _order_of(path: Path, found: RecipeFile) -> CarpetOrder:
         recipe=found.recipe,
         yarn_file=found.yarn_file,
         loom=found.loom,
+        notes=tuple(filter(None, (found.gereh,))),
     )
 
 
