@@ -31,6 +31,7 @@ __all__ = [
     "IntArray",
     "Num",
     "NumberArray",
+    "Pixels",
     "RealField",
     "Rgb",
     "UInt8",
@@ -69,6 +70,9 @@ else:
 
 Rgb: TypeAlias = UInt8[np.ndarray, "height width 3"]
 """A picture: sRGB, 8 bits a channel, row 0 on top."""
+
+Pixels: TypeAlias = UInt8[np.ndarray, "_ _ 3"]
+"""A picture of a size of its own, where a function has several."""
 
 Indices: TypeAlias = UInt8[np.ndarray, "rows columns"]
 """A knot chart: index of the yarn in the list for each knot, row 0 on top."""

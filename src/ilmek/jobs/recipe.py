@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
-from ilmek.arrays import Rgb
+from ilmek.arrays import Pixels
 from ilmek.carpet.chart import Chart, chart_of_design
 from ilmek.carpet.reading import READINGS
 from ilmek.carpet.recipe.composition import compose
@@ -72,7 +72,7 @@ def _counted(made: ResolvedOrder) -> tuple[Yarn, ...]:
     return with_counts(made.yarns, made.quality, made.knot)
 
 
-def _pictures(recipe: Recipe, progress: Progress) -> tuple[Mapping[Path, Rgb], tuple[str, ...]]:
+def _pictures(recipe: Recipe, progress: Progress) -> tuple[Mapping[Path, Pixels], tuple[str, ...]]:
     """The pixels of all pictures, and notes on them."""
     found, notes = {}, []
     files = recipe.pictures

@@ -18,7 +18,7 @@ import itertools
 
 import numpy as np
 
-from ilmek.arrays import Int64, Rgb
+from ilmek.arrays import Int64, Pixels
 from ilmek.carpet.recipe.mirror import complete
 
 
@@ -52,7 +52,7 @@ def _stretched(length: int, tile: int) -> Int64[np.ndarray, " knots"]:
 
 
 def draw_border(
-    out: Rgb, tiles: tuple[Rgb, Rgb], units: tuple[int, int], motifs: int = 1, corner: Rgb | None = None
+    out: Pixels, tiles: tuple[Pixels, Pixels], units: tuple[int, int], motifs: int = 1, corner: Pixels | None = None
 ) -> None:
     """Draw a border round an area.
 
@@ -92,7 +92,7 @@ def edges(rows: int, columns: int, breadth: tuple[int, int]) -> tuple[tuple[slic
     )
 
 
-def teeth_tile(colours: tuple[tuple[int, int, int], tuple[int, int, int]], breadth: int) -> Rgb:
+def teeth_tile(colours: tuple[tuple[int, int, int], tuple[int, int, int]], breadth: int) -> Pixels:
     """The tile of reciprocal teeth, 2 × breadth long: triangles of the first colour from outside between those of the
     second from inside, equal in shape and size.
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ilmek.arrays import Bool, Rgb
+from ilmek.arrays import Bool, Pixels
 from ilmek.carpet.design import knot_grid, resampled
 from ilmek.carpet.exact import few_colours
 from ilmek.carpet.fitting import Fit, FitParams, fit_notes, fit_picture
@@ -59,8 +59,8 @@ class Composition:
 class _Canvas:
     """What is drawn so far, and from what: pictures of parts, and what every part is made of."""
 
-    colours: Rgb
-    pictures: Mapping[Path, Rgb]
+    colours: Pixels
+    pictures: Mapping[Path, Pixels]
     list_of_yarns: tuple[Yarn, ...]
     quality: Quality
     reading: ReadParams
@@ -77,7 +77,9 @@ class _Canvas:
         self.yarns.append((area, number))
         return self.list_of_yarns[number].srgb
 
-    def read(self, rgb: Rgb, grid: tuple[int, int], size: CarpetSize | None = None, progress: Progress = SILENT) -> Rgb:
+    def read(
+        self, rgb: Pixels, grid: tuple[int, int], size: CarpetSize | None = None, progress: Progress = SILENT
+    ) -> Pixels:
         """A picture on the grid of its part; each of its pixels is a knot where it has that grid and few colours.
 
         size  of the part; default: of a tile, which is exact if it has the grid
@@ -99,7 +101,7 @@ class _Canvas:
         """List an area with its reading; default: that of the picture that was read last."""
         self.drawn.append((area, kind or self.designs[-1].kind, shown))
 
-    def tile(self, path: Path, grid: tuple[int, int]) -> Rgb:
+    def tile(self, path: Path, grid: tuple[int, int]) -> Pixels:
         """A tile on its grid."""
         rgb = self.pictures[path]
         for (height, width), noun in ((rgb.shape[:2], "pixels"), (grid, "knots")):
@@ -114,7 +116,7 @@ def compose(
     size: CarpetSize,
     quality: Quality,
     yarns: tuple[Yarn, ...],
-    pictures: Mapping[Path, Rgb],
+    pictures: Mapping[Path, Pixels],
     *,
     fit: FitParams | None = None,
     reading: ReadParams | None = None,
@@ -225,7 +227,7 @@ def _part_size(part: tuple[int, int], quality: Quality) -> CarpetSize:
     return CarpetSize(width, length)
 
 
-def _draw_repeat(canvas: _Canvas, recipe: Recipe, out: Rgb) -> None:
+def _draw_repeat(canvas: _Canvas, recipe: Recipe, out: Pixels) -> None:
     repeat = recipe.repeat
     assert repeat is not None
     height, width = canvas.pictures[repeat.tile].shape[:2]
@@ -254,7 +256,7 @@ def _draw_motif(canvas: _Canvas, motif: Motif, layout: CarpetLayout) -> None:
         canvas.mark(area, shown=shown[step])
 
 
-def _sides(motif: Motif, rgb: Rgb) -> tuple[int, int]:
+def _sides(motif: Motif, rgb: Pixels) -> tuple[int, int]:
     """Rows and columns of a motif; in proportion to its pixels where one of them is given."""
     height, width = int(rgb.shape[0]), int(rgb.shape[1])
     if motif.width is None and motif.length is None:
@@ -292,7 +294,7 @@ def _copies(motif: Motif) -> list[tuple[bool, bool]]:
     return [(one, other) for one in down for other in right]
 
 
-def _shown(motif: Motif, rgb: Rgb, sides: tuple[int, int]) -> Bool[np.ndarray, "rows columns"]:
+def _shown(motif: Motif, rgb: Pixels, sides: tuple[int, int]) -> Bool[np.ndarray, "rows columns"]:
     """The knots of a motif that are not transparent."""
     if not motif.transparent:
         return np.ones(sides, dtype=bool)

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ilmek.arrays import FloatArray, Indices, Rgb
+from ilmek.arrays import FloatArray, Indices, Pixels
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.colour_difference import nearest
@@ -103,7 +103,7 @@ def _as_composed(chart: Chart, made: Composition, index: dict[int, int], progres
     return knots
 
 
-def _nearest(colours: Rgb, labs: FloatArray) -> Indices:
+def _nearest(colours: Pixels, labs: FloatArray) -> Indices:
     """The nearest yarn of each knot of a small area."""
     codes = colours.astype(np.int32) @ np.array([1 << 16, 1 << 8, 1], dtype=np.int32)
     found, at = np.unique(codes, return_inverse=True)

@@ -13,7 +13,7 @@ from ilmek.carpet.recipe.edits import Edit
 from ilmek.errors import CarpetError
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False)
 class EditedMarks:
     """The marks of a chart while it is edited, by cell, row 0 on top; of each also the yarn of its cell."""
 

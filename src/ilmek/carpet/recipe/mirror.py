@@ -3,7 +3,7 @@
 On an odd number of columns (rows) the middle one belongs to the given part, which has it as its last.
 """
 
-from ilmek.arrays import Rgb
+from ilmek.arrays import Pixels
 
 
 def part_grid(mirror: str, grid: tuple[int, int]) -> tuple[int, int]:
@@ -19,14 +19,14 @@ def part_grid(mirror: str, grid: tuple[int, int]) -> tuple[int, int]:
     return (-(-rows // 2) if halves[0] else rows), (-(-columns // 2) if halves[1] else columns)
 
 
-def complete(colours: Rgb, mirror: str) -> None:
+def complete(colours: Pixels, mirror: str) -> None:
     """Complete an area of colours (rows, columns, 3), whose given part is drawn, by reflection, in place.
 
     >>> import numpy as np
-    >>> area = np.array([[[1], [2], [0]]], dtype=np.uint8)
+    >>> area = np.array([[[1, 1, 1], [2, 2, 2], [0, 0, 0]]], dtype=np.uint8)
     >>> complete(area, "across")
-    >>> area.ravel().tolist()
-    [1, 2, 1]
+    >>> area[..., 0].tolist()
+    [[1, 2, 1]]
     """
     rows, columns = colours.shape[:2]
     if mirror in ("across", "both"):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ilmek.arrays import Bool, Int64, Rgb
+from ilmek.arrays import Bool, Int64, Pixels
 from ilmek.carpet.design import bands
 from ilmek.errors import CarpetError
 
@@ -10,7 +10,7 @@ _BAND = 1 << 19
 """Knots that are drawn at once."""
 
 
-def repeated(tile: Rgb, out: Rgb, order: str, *, cut: bool) -> bool:
+def repeated(tile: Pixels, out: Pixels, order: str, *, cut: bool) -> bool:
     """Draw a tile over an area; whether it fills the area.
 
     out    colours of the area (rows, columns, 3), in place
