@@ -1,6 +1,7 @@
 """The simulated carpet: right colours, right proportions, the same each time."""
 
 import io
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,7 +11,8 @@ from ilmek.carpet.chart import Chart
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import Yarn
-from ilmek.viz.carpet_picture import carpet_picture, close_up
+from ilmek.errors import CarpetError
+from ilmek.viz.carpet_picture import carpet_picture, close_up, pile_part, write_carpet_png
 
 RED, BLUE = (150, 30, 40), (20, 40, 110)
 
@@ -69,3 +71,30 @@ def test_a_seed_gives_one_picture() -> None:
 
 def test_the_smallest_carpet_is_one_too() -> None:
     assert max(opened(carpet_picture(chart(3, 2, 20.0, 20.0), 300)).size) <= 300
+
+
+@pytest.mark.parametrize("width", [None, 100, 333])
+def test_the_file_has_the_width_and_shows_the_yarns_in_the_pile(tmp_path: Path, width: int | None) -> None:
+    made = chart(90, 60, 250.0, 250.0)
+    write_carpet_png(tmp_path / "carpet.png", made, width)
+    image = opened((tmp_path / "carpet.png").read_bytes())
+    if width is None:
+        assert 1395 <= max(image.size) <= 1400
+    else:
+        assert abs(image.width - width) <= 3
+    pile = pile_part(made)
+    left, top = pile.left * image.width, pile.top * image.height
+    right, bottom = left + pile.width * image.width, top + pile.height * image.height
+    inside = mean(image, (int(left) + 9, int(top) + 9, int(right) - 9, int((top + bottom) / 2) - 9))
+    assert inside == pytest.approx(RED, abs=22)
+
+
+def test_a_width_out_of_bounds_is_refused(tmp_path: Path) -> None:
+    made = chart(90, 60, 250.0, 250.0)
+    for width in (99, 20_001):
+        with pytest.raises(CarpetError, match="--carpet-width"):
+            write_carpet_png(tmp_path / "carpet.png", made, width)
+    runner = chart(3000, 60, 250.0, 250.0)
+    with pytest.raises(CarpetError, match=r"100 to [\d,]+ pixels"):
+        write_carpet_png(tmp_path / "carpet.png", runner, 5000)
+    assert list(tmp_path.iterdir()) == []

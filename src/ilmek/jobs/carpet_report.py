@@ -55,6 +55,12 @@ def reading_lines(chart: Chart) -> tuple[Fact, ...]:
     if made.differences:
         matched = f"{exact} of {chart.colours} yarns are exactly a colour of the picture"
         lines.append(Fact("Mean ΔE of the yarns to the picture", f"{made.mean_delta_e:.2f}", matched))
+    if made.matches:
+        worst = max(made.matches, key=lambda match: match.delta_e)
+        far = (
+            f"{worst.hex}, {worst.delta_e:.1f} from {chart.yarns[worst.yarn].name}" if worst.delta_e >= 0.05 else "none"
+        )
+        lines.append(Fact("Colour farthest from its yarn", far, f"of {count(len(made.matches))} colours"))
     return tuple(lines)
 
 
