@@ -23,8 +23,9 @@ from ilmek.carpet.design import resampled
 from ilmek.carpet.picture_points import Points
 from ilmek.errors import PictureError
 from ilmek.progress import SILENT, Progress
+from ilmek.records import record
 
-LEAST_CLEARNESS = 0.6
+LEAST_CLEARNESS = 0.7
 """Least clearness of an outline that is used."""
 
 _LONG, _COARSE = 2400, 600
@@ -40,7 +41,7 @@ _LEAST_SPREAD = 2.0
 _LEAST_AREA = 0.05
 """Least area of a carpet in the picture."""
 
-_THREAD = 0.015
+_THREAD = 0.03
 """Largest width of a thread of the fringe, of the side that it hangs on."""
 
 _FAINTEST = 0.15
@@ -56,6 +57,9 @@ _ENDS = 0.06
 _REACH = (0.06, 0.015)
 """Half length of the lines across a side, of the picture's short side, in the first and the second pass."""
 
+_SMOOTHED = 5
+"""Samples across a side that are averaged."""
+
 _STEP = 0.5
 """Distance of the samples on a line across [pixels]."""
 
@@ -65,22 +69,22 @@ def find_outline(rgb: Rgb, progress: Progress = SILENT) -> tuple[Points, float]:
 
     Raises PictureError where the outline is not clear.
     """
-    lab = _smooth_lab(_reduced(rgb, _LONG, progress.part(0.0, 0.8)))
+    lab: FloatArray = srgb_to_lab(_reduced(rgb, _LONG, progress.part(0.0, 0.8))).astype(np.float32)
     margin = _margin(lab.shape[0], lab.shape[1])
-    difference = _difference(lab, margin)
+    floor, difference = _difference(lab, margin)
     step = max(1, round(max(difference.shape) / _COARSE))
     region = _region(difference, step)
     corners = _largest_quadrilateral(_hull(region)) * step
     alike = _common_share(region, corners / step)
     shares: tuple[float, ...] = ()
     for reach in _REACH:
-        corners, shares = _refined(difference, corners, reach * min(difference.shape))
+        corners, shares = _refined(lab, floor, corners, reach * min(difference.shape))
         progress(0.9)
     clearness = min(alike, *shares)
     height, width = difference.shape
     if clearness < LEAST_CLEARNESS or (corners < 0).any() or (corners > (width, height)).any():
         raise _unclear(f"clearness {max(clearness, 0.0):.2f}, at least {LEAST_CLEARNESS:g} is required")
-    _check_surroundings(difference, margin, corners)
+    _check_surroundings(lab, floor, difference, margin, corners)
     return corners * (rgb.shape[1] / width, rgb.shape[0] / height), clearness
 
 
@@ -99,10 +103,19 @@ def _reduced(rgb: Rgb, long: int, progress: Progress) -> Rgb:
     return resampled(rgb, max(1, round(rgb.shape[0] / factor)), max(1, round(rgb.shape[1] / factor)), progress)
 
 
-def _smooth_lab(rgb: Rgb) -> Float[np.ndarray, "height width 3"]:
-    """CIELAB of a picture, the mean of 3 × 3 pixels."""
-    lab: FloatArray = scipy.ndimage.uniform_filter(srgb_to_lab(rgb).astype(np.float32), (3, 3, 1))
-    return lab
+@record
+class _Floor:
+    """Colours of the floor: means and standard deviations of the clusters; `unit` of the differences to them."""
+
+    clusters: tuple[tuple[FloatArray, FloatArray], ...]
+    unit: float
+
+    def difference(self, lab: FloatArray) -> FloatArray:
+        """Difference of colours to the nearest cluster; 1 is above all but 1 % of the margin."""
+        least = np.full(lab.shape[:-1], np.inf, dtype=np.float32)
+        for mean, spread in self.clusters:
+            np.minimum(least, (((lab - mean) / spread) ** 2).sum(axis=-1), out=least)
+        return np.asarray(np.sqrt(least) / self.unit)
 
 
 def _margin(height: int, width: int) -> BoolArray:
@@ -113,18 +126,17 @@ def _margin(height: int, width: int) -> BoolArray:
     return margin
 
 
-def _difference(lab: FloatArray, margin: BoolArray) -> Float[np.ndarray, "height width"]:
-    """Difference of each pixel to the colours of the margin; it is below 1 / 1.2 in 99 % of the margin."""
-    colours = lab[margin]
-    colours = colours[:: max(1, len(colours) // 20_000)]
-    least = np.full(lab.shape[:2], np.inf, dtype=np.float32)
-    for mean, spread in _floors(colours):
-        least = np.minimum(least, (((lab - mean) / spread) ** 2).sum(axis=-1))
-    found: FloatArray = np.sqrt(least) / (1.2 * np.sqrt(np.quantile(least[margin], 0.99)) + 1e-3)
-    return found
+def _difference(lab: FloatArray, margin: BoolArray) -> tuple[_Floor, Float[np.ndarray, "height width"]]:
+    """The floor, and the difference of each pixel to it, of the mean of 3 × 3 pixels."""
+    smooth: FloatArray = scipy.ndimage.uniform_filter(lab, (3, 3, 1))
+    colours = smooth[margin]
+    clusters = _floors(colours[:: max(1, len(colours) // 20_000)])
+    usual = _Floor(clusters, 1.0).difference(colours)
+    floor = _Floor(clusters, 1.2 * float(np.quantile(usual, 0.99)) + 1e-3)
+    return floor, floor.difference(smooth)
 
 
-def _floors(colours: Float[np.ndarray, "colours 3"]) -> list[tuple[FloatArray, FloatArray]]:
+def _floors(colours: Float[np.ndarray, "colours 3"]) -> tuple[tuple[FloatArray, FloatArray], ...]:
     """Means and standard deviations of the clusters of colours: k-means from the farthest colours."""
     means = [np.median(colours, axis=0)]
     for _ in range(_FLOORS - 1):
@@ -134,7 +146,7 @@ def _floors(colours: Float[np.ndarray, "colours 3"]) -> list[tuple[FloatArray, F
         nearest = np.argmin([((colours - mean) ** 2).sum(axis=1) for mean in means], axis=0)
         means = [colours[nearest == k].mean(axis=0) if (nearest == k).any() else mean for k, mean in enumerate(means)]
     large = [k for k in range(_FLOORS) if np.count_nonzero(nearest == k) >= 0.01 * len(colours)]
-    return [(means[k], np.maximum(colours[nearest == k].std(axis=0), _LEAST_SPREAD)) for k in large]
+    return tuple((means[k], np.maximum(colours[nearest == k].std(axis=0), _LEAST_SPREAD)) for k in large)
 
 
 def _region(difference: FloatArray, step: int) -> BoolArray:
@@ -202,12 +214,14 @@ def _common_share(region: BoolArray, corners: Points) -> float:
     return int(np.count_nonzero(inside & region)) / max(1, int(np.count_nonzero(inside | region)))
 
 
-def _check_surroundings(difference: FloatArray, margin: BoolArray, corners: Points) -> None:
+def _check_surroundings(
+    lab: FloatArray, floor: _Floor, difference: FloatArray, margin: BoolArray, corners: Points
+) -> None:
     """Raise PictureError where the outline is that of a part of the carpet: what is beside it is not the floor."""
     usual, fainter = float(np.median(difference[margin])), 0
     across = np.arange(_AROUND * min(difference.shape), 3.0, -1.0)
     for start, end in zip(corners, np.roll(corners, -1, axis=0), strict=True):
-        strip = _strip(difference, start, end, across)
+        strip = _strip(lab, floor, start, end, across)
         fainter += float(np.median(strip[:, across < 9])) > usual + _FAINTEST
         if (np.median(_without_threads(strip), axis=0) > 1).any():
             raise _unclear("another edge runs beside it")
@@ -215,15 +229,19 @@ def _check_surroundings(difference: FloatArray, margin: BoolArray, corners: Poin
         raise _unclear("a fainter edge runs around it")
 
 
-def _strip(difference: FloatArray, start: FloatArray, end: FloatArray, across: FloatArray) -> FloatArray:
-    """The difference at distances `across` outwards of points along a side, (samples, distances)."""
+def _strip(lab: FloatArray, floor: _Floor, start: FloatArray, end: FloatArray, across: FloatArray) -> FloatArray:
+    """The difference at distances `across` outwards of points along a side, (samples, distances).
+
+    Grain is smoothed across the side alone, so that threads of a fringe, which lie across it, are not mixed with the
+    floor between them.
+    """
     along = (end - start) / np.hypot(*(end - start))
     share = np.linspace(_ENDS, 1 - _ENDS, _SAMPLES)[:, None, None]
     points = start + share * (end - start) + across[:, None] * np.array([along[1], -along[0]]) - 0.5
-    found: FloatArray = scipy.ndimage.map_coordinates(
-        difference, (points[..., 1], points[..., 0]), order=1, mode="nearest"
-    )
-    return found
+    at = points[..., 1], points[..., 0]
+    seen = [scipy.ndimage.map_coordinates(lab[..., axis], at, order=1, mode="nearest") for axis in range(3)]
+    smoothed = scipy.ndimage.uniform_filter1d(np.stack(seen, axis=-1), _SMOOTHED, axis=1, mode="nearest")
+    return floor.difference(smoothed)
 
 
 def _without_threads(strip: FloatArray) -> FloatArray:
@@ -232,9 +250,9 @@ def _without_threads(strip: FloatArray) -> FloatArray:
     return opened
 
 
-def _refined(difference: FloatArray, corners: Points, reach: float) -> tuple[Points, tuple[float, ...]]:
+def _refined(lab: FloatArray, floor: _Floor, corners: Points, reach: float) -> tuple[Points, tuple[float, ...]]:
     """Corners as intersections of lines fitted to the sides, and for each side the share of points on its line."""
-    sides = [_side(difference, a, b, reach) for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True)]
+    sides = [_side(lab, floor, a, b, reach) for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True)]
     lines = [line for line, _ in sides]
     found = []
     for (a, b, c), (d, e, f) in zip(np.roll(lines, 1, axis=0).tolist(), [line.tolist() for line in lines], strict=True):
@@ -245,7 +263,7 @@ def _refined(difference: FloatArray, corners: Points, reach: float) -> tuple[Poi
     return np.array(found), tuple(share for _, share in sides)
 
 
-def _side(difference: FloatArray, start: FloatArray, end: FloatArray, reach: float) -> tuple[FloatArray, float]:
+def _side(lab: FloatArray, floor: _Floor, start: FloatArray, end: FloatArray, reach: float) -> tuple[FloatArray, float]:
     """The line a x + b y = c along a side, and the share of points on it."""
     length = float(np.hypot(*(end - start)))
     if length < 4:
@@ -253,7 +271,7 @@ def _side(difference: FloatArray, start: FloatArray, end: FloatArray, reach: flo
     along = (end - start) / length
     outwards = np.array([along[1], -along[0]])
     across = np.arange(reach, -reach, -_STEP)
-    strip = _without_threads(_strip(difference, start, end, across))
+    strip = _without_threads(_strip(lab, floor, start, end, across))
     share = np.linspace(_ENDS, 1 - _ENDS, _SAMPLES)
     offsets = np.array([_edge(line, across) for line in strip])
     return _fitted_line(start, along, outwards, share * length, offsets, max(1.5, 0.004 * length))
