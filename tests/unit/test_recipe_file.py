@@ -12,6 +12,7 @@ from ilmek.cli import main
 from ilmek.errors import IlmekError
 from ilmek.io.chart.png import read_chart_png
 from ilmek.jobs.chart import chart_order
+from ilmek.jobs.loom import read_loom_order
 from ilmek.jobs.order import CarpetOrder, read_order
 
 RED, IVORY, NAVY = (158, 43, 37), (239, 230, 208), (27, 36, 66)
@@ -104,6 +105,15 @@ def test_a_setting_of_no_loom_is_an_error_with_its_line(folder: Path) -> None:
     assert result.exit_code == 2
     assert "carpet.toml, line 3, loom: unknown parameter 'beet'" in result.stderr
     assert not (folder / "out").exists()
+
+
+def test_the_keys_of_the_loom_are_those_of_weave_and_options_override_them(folder: Path) -> None:
+    keys = 'heads = 3\ndeadline = "90h"\naim = "time"\n[loom]\nbeat = "comb"\nshedding.law = "modified-sine"\n'
+    order = order_of(folder, FIELD + keys)
+    assert read_loom_order(order).wishes.heads == 3
+    made = read_loom_order(order, heads=2, loom={"beat": "travelling"})
+    assert (made.wishes.heads, made.deadline, made.params.aim) == (2, 90 * 3600.0, "time")
+    assert (made.params.beat, made.given.loom["shedding.law"]) == ("travelling", "modified-sine")
 
 
 def test_options_override_keys(folder: Path) -> None:

@@ -210,7 +210,7 @@ def _draw_field(
         out[: part[0], : part[1]] = canvas.read(fitted, part, size, progress.part(0.3, 1.0))
     if recipe.repeat is not None:
         with located(recipe.repeat.where):
-            _draw_repeat(canvas, recipe, out)
+            _draw_repeat(canvas, recipe, out, progress)
         canvas.mark(area)
     complete(out, recipe.mirror)
     return done
@@ -227,12 +227,12 @@ def _part_size(part: tuple[int, int], quality: Quality) -> CarpetSize:
     return CarpetSize(width, length)
 
 
-def _draw_repeat(canvas: _Canvas, recipe: Recipe, out: Pixels) -> None:
+def _draw_repeat(canvas: _Canvas, recipe: Recipe, out: Pixels, progress: Progress) -> None:
     repeat = recipe.repeat
     assert repeat is not None
     height, width = canvas.pictures[repeat.tile].shape[:2]
     tile = canvas.tile(repeat.tile, (repeat.length or height, repeat.width or width))
-    filled = repeated(tile, out, repeat.order, cut=repeat.cut)
+    filled = repeated(tile, out, repeat.order, cut=repeat.cut, progress=progress)
     if not filled and not recipe.plain:
         given = f"whole tiles of {tile.shape[1]} × {tile.shape[0]} knots do not fill the field of "
         given += f"{out.shape[1]} × {out.shape[0]}"

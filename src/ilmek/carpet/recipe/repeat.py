@@ -5,12 +5,13 @@ import numpy as np
 from ilmek.arrays import Bool, Int64, Pixels
 from ilmek.carpet.design import bands
 from ilmek.errors import CarpetError
+from ilmek.progress import SILENT, Progress
 
 _BAND = 1 << 19
 """Knots that are drawn at once."""
 
 
-def repeated(tile: Pixels, out: Pixels, order: str, *, cut: bool) -> bool:
+def repeated(tile: Pixels, out: Pixels, order: str, *, cut: bool, progress: Progress = SILENT) -> bool:
     """Draw a tile over an area; whether it fills the area.
 
     out    colours of the area (rows, columns, 3), in place
@@ -36,6 +37,7 @@ def repeated(tile: Pixels, out: Pixels, order: str, *, cut: bool) -> bool:
         else:
             part[whole] = tile[row[whole], column[whole]]
             filled = filled and bool(whole.all())
+        progress(band.stop / area[0])
     return filled
 
 
