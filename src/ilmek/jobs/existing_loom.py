@@ -252,7 +252,7 @@ def _yarn_checks(made: LoomDesign, yarns: CarpetYarns, knot_yarn: float) -> tupl
             own.pressed,
             "mm",
             "grippers and gaps",
-            cure=finer,
+            cure=f"{finer}: --yarn-count",
         ),
         at_most(
             "carpet: pile yarn of a knot",
