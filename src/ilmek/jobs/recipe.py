@@ -35,7 +35,9 @@ def chart_of_recipe(order: CarpetOrder, progress: Progress = SILENT, *, with_sou
         picture = replace(order, picture=recipe.picture, recipe=None)
         with located(recipe.where):
             done = chart_of_order(picture, progress.part(0.0, 0.8), with_source=with_source)
-        chart = finish(done.chart, recipe, _counted(done.order), None, progress.part(0.8, 1.0, "edits"))
+        reading = replace(done.chart.reading, reason=f"{done.chart.reading.reason} (picture of {recipe.file.name})")
+        chart = replace(done.chart, reading=reading)
+        chart = finish(chart, recipe, _counted(done.order), None, progress.part(0.8, 1.0, "edits"))
         return OrderedChart(replace(done.order, order=order), chart, done.notes, done.source)
     made = order.resolved()
     check_sheets(made.size, made.quality, order)

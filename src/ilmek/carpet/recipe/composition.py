@@ -142,19 +142,19 @@ def compose(
         with located(motif.where):
             _draw_motif(canvas, motif, layout)
         progress(0.9)
-    whole = _whole(canvas)
+    whole = _whole(canvas, recipe.file.name)
     kept = tuple((area, shown) for area, kind, shown in canvas.drawn if _KINDS.index(kind) < _KINDS.index(whole.kind))
     return Composition(whole, done, layout, tuple(canvas.yarns), kept, tuple(canvas.notes))
 
 
-def _whole(canvas: _Canvas) -> Design:
+def _whole(canvas: _Canvas, file: str) -> Design:
     """The design of all parts: a photo if one of them is, else flat if one is."""
     kinds = [design.kind for design in canvas.designs]
     kind = max(kinds, key=_KINDS.index, default="exact")
     counted = ", ".join(f"{kinds.count(one)} {one}" for one in _KINDS if one in kinds)
-    reason = f"composed by a recipe of pictures: {counted}" if counted else "composed by a recipe without pictures"
+    reason = f"composed by {file} of pictures: {counted}" if counted else f"composed by {file} without pictures"
     if len(canvas.designs) == 1:
-        reason = f"the picture of a recipe: {canvas.designs[0].reason}"
+        reason = f"composed by {file}: {canvas.designs[0].reason}"
     foreign = [design.foreign for design in canvas.designs]
     total = None if None in foreign else sum(count or 0 for count in foreign)
     return Design(canvas.colours, kind, reason, total)
