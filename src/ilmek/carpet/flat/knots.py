@@ -154,6 +154,8 @@ def knot_labels(
     labels: UInt8[np.ndarray, "height width"], grid: tuple[int, int], progress: Progress = SILENT
 ) -> Indices:
     """The label of each knot."""
+    if labels.shape == grid:
+        return labels
     (height, width), (rows, columns) = labels.shape, grid
     knots = np.empty(grid, dtype=np.uint8)
     step = max(1, _SLICE // (width * -(-height // rows) + columns))

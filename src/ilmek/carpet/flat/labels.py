@@ -105,7 +105,13 @@ def _alone(rgb: Rgb, labels: UInt8[np.ndarray, "h w"], colours: IntArray, y: int
 
 @compiled
 def _clean(  # noqa: PLR0917
-    rgb: Rgb, labels: UInt8[np.ndarray, "h w"], colours: IntArray, slack: int, first: int, out: UInt8[np.ndarray, "n w"]
+    rgb: Rgb,
+    labels: UInt8[np.ndarray, "h w"],
+    colours: IntArray,
+    slack: int,
+    join_lone: bool,
+    first: int,
+    out: UInt8[np.ndarray, "n w"],
 ) -> None:
     height, width = labels.shape
     for row in range(out.shape[0]):
@@ -132,13 +138,16 @@ def _clean(  # noqa: PLR0917
             if label == UNKNOWN:
                 falling = _across(rgb, labels, colours, y, x, 1, 1, slack)
                 label = min(falling, _across(rgb, labels, colours, y, x, 1, -1, slack))
-            out[row, x] = label if label != UNKNOWN else _alone(rgb, labels, colours, y, x)
+            if label != UNKNOWN:
+                out[row, x] = label
+            elif join_lone:
+                out[row, x] = _alone(rgb, labels, colours, y, x)
 
 
 def label_pixels(
-    rgb: Rgb, true: TrueColours, table: UInt8[np.ndarray, " codes"], progress: Progress = SILENT
+    rgb: Rgb, true: TrueColours, table: UInt8[np.ndarray, " codes"], join_lone: bool, progress: Progress = SILENT
 ) -> UInt8[np.ndarray, "height width"]:
-    """Index of the true colour of each pixel."""
+    """Index of the true colour of each pixel; `join_lone`: single pixels that are no dots take a neighbour's."""
     height, width = rgb.shape[:2]
     labels = np.empty((height, width), dtype=np.uint8)
     for band in bands(height, width, _SLICE):
@@ -149,6 +158,6 @@ def label_pixels(
     cleaned = np.empty_like(labels)
     colours = true.srgb.astype(np.int64)
     for band in bands(height, width, _SLICE):
-        _clean(rgb, labels, colours, 10 + true.noise, band.start, cleaned[band])
+        _clean(rgb, labels, colours, 10 + true.noise, join_lone, band.start, cleaned[band])
         progress(0.5 + 0.5 * band.stop / height)
     return cleaned

@@ -16,7 +16,8 @@ def _root(t: float) -> float:
 
 
 @compiled
-def _nearest(red: int, green: int, blue: int, labs: FloatArray) -> int:
+def _nearest(red: int, green: int, blue: int, labs: FloatArray) -> tuple[int, float]:
+    """The index of the nearest true colour, and the square of its difference."""
     r, g, b = LINEAR[red], LINEAR[green], LINEAR[blue]
     x = _root(_MATRIX[0, 0] * r + _MATRIX[0, 1] * g + _MATRIX[0, 2] * b)
     y = _root(_MATRIX[1, 0] * r + _MATRIX[1, 1] * g + _MATRIX[1, 2] * b)
@@ -27,7 +28,7 @@ def _nearest(red: int, green: int, blue: int, labs: FloatArray) -> int:
         apart = (labs[label, 0] - lightness) ** 2 + (labs[label, 1] - a) ** 2 + (labs[label, 2] - b) ** 2
         if apart < least:
             best, least = label, apart
-    return best
+    return best, least
 
 
 @compiled
@@ -36,7 +37,7 @@ def raw_label(rgb: Rgb, y: int, x: int, table: UInt8[np.ndarray, " codes"], labs
     red, green, blue = int(np.int64(rgb[y, x, 0])), int(np.int64(rgb[y, x, 1])), int(np.int64(rgb[y, x, 2]))
     code = red << 16 | green << 8 | blue
     if table[code] == UNKNOWN:
-        table[code] = _nearest(red, green, blue, labs)
+        table[code] = _nearest(red, green, blue, labs)[0]
     return int(table[code])
 
 
@@ -48,3 +49,22 @@ def label_rows(
     for y in range(rgb.shape[0]):
         for x in range(rgb.shape[1]):
             labels[y, x] = raw_label(rgb, y, x, table, labs)
+
+
+@compiled
+def count_near(
+    colours: UInt8[np.ndarray, "pixels 3"], table: UInt8[np.ndarray, " codes"], labs: FloatArray, difference: float
+) -> int:
+    """Number of colours within a difference of a true colour; `table` keeps the answers, UNKNOWN before."""
+    near = 0
+    for pixel in range(colours.shape[0]):
+        red, green, blue = (
+            int(np.int64(colours[pixel, 0])),
+            int(np.int64(colours[pixel, 1])),
+            int(np.int64(colours[pixel, 2])),
+        )
+        code = red << 16 | green << 8 | blue
+        if table[code] == UNKNOWN:
+            table[code] = _nearest(red, green, blue, labs)[1] <= difference * difference
+        near += table[code]
+    return near

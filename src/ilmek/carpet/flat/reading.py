@@ -3,10 +3,9 @@
 import numpy as np
 
 from ilmek.arrays import FloatArray, Indices, Rgb, UInt8
-from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.flat.knots import knot_labels
 from ilmek.carpet.flat.labels import label_pixels
-from ilmek.carpet.flat.nearest import UNKNOWN, raw_label
+from ilmek.carpet.flat.nearest import UNKNOWN, count_near, raw_label
 from ilmek.carpet.flat.survey import survey
 from ilmek.carpet.flat.symmetry import is_symmetric, make_symmetric
 from ilmek.carpet.flat.true_colours import TrueColours, true_colours
@@ -15,6 +14,9 @@ from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 
 _BAND = 128
+
+_LONE = 1.5
+"""Pixels a knot under which a single pixel is a knot; whether it is confetti is decided later."""
 
 _NEAR, _LEAST_NEAR = 5.0, 0.8
 """Difference in CIELAB up to which an even area has a true colour; least share of them in a drawing."""
@@ -61,11 +63,8 @@ def looks_flat(rgb: Rgb) -> Flatness:
     true = true_colours(seen)
     number = len(true.srgb)
     even = seen.means[seen.spread <= true.even]
-    apart = np.full(len(even), np.inf)
-    labs = srgb_to_lab(even)
-    for lab in true.labs:
-        np.minimum(apart, np.sum((labs - lab) ** 2, axis=-1), out=apart)
-    near = float(np.mean(apart <= _NEAR**2)) if len(even) else 0.0
+    table = np.full(_CODES, UNKNOWN, dtype=np.uint8)
+    near = int(count_near(even, table, true.labs, _NEAR)) / max(len(even), 1)
     is_flat = true.clean or near >= _LEAST_NEAR
     areas = f"{100 * near:.0f} % of its even areas have one of {number} colours"
     return Flatness(is_flat, number, near, f"a drawing: {areas}" if is_flat else f"no drawing: only {areas}", true)
@@ -80,8 +79,8 @@ def flat_design(
     true = true or true_colours(survey(rgb))
     progress(0.1)
     table = np.full(_CODES, UNKNOWN, dtype=np.uint8)
-    labels = label_pixels(rgb, true, table, progress.part(0.1, 0.5))
     knot = min(height / grid[0], width / grid[1])
+    labels = label_pixels(rgb, true, table, knot >= _LONE, progress.part(0.1, 0.5))
     across = is_symmetric(rgb, labels, True, knot, true.noise, progress.part(0.5, 0.55))
     down = is_symmetric(rgb, labels, False, knot, true.noise, progress.part(0.55, 0.6))
     if across or down:

@@ -13,7 +13,7 @@ from ilmek.arrays import Int64, Rgb, UInt8
 from ilmek.num.compiled import compiled
 from ilmek.records import record
 
-_SAMPLE = 400_000
+_SAMPLE = 200_000
 """Pixels of the sample, about."""
 
 
