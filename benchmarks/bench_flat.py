@@ -48,7 +48,8 @@ def pillow(rgb: Rgb, grid: Grid) -> Indices:
 
 def skimage(rgb: Rgb, grid: Grid) -> Indices:
     """scikit-image's resize with anti-aliasing."""
-    return in_yarns(np.rint(255 * resize(rgb, grid, anti_aliasing=True)).astype(np.uint8))
+    smooth = resize(rgb, grid, anti_aliasing=True)  # type: ignore[no-untyped-call]
+    return in_yarns(np.rint(255 * smooth).astype(np.uint8))
 
 
 def majority(rgb: Rgb, grid: Grid) -> Indices:
