@@ -96,6 +96,15 @@ QUADS = {
 }
 
 
+FLOORS = {
+    "upright": ((95, 95, 100), 25.0),
+    "from below": ((89, 102, 213), 8.0),
+    "turned": ((64, 100, 64), 25.0),
+    "aslant": ((150, 120, 90), 12.0),
+}
+"""Colours and grain; the fringe stands out from the blue and the green floor as much as the carpet does."""
+
+
 def carpet() -> Rgb:
     """A carpet with three frames and a checkerboard of its field's colours, also one near the floor's."""
     rgb = np.empty((720, 480, 3), dtype=np.uint8)
@@ -108,7 +117,7 @@ def carpet() -> Rgb:
 @pytest.mark.parametrize("name", QUADS)
 def test_the_outline_on_a_floor_is_found(name: str) -> None:
     """To half a pixel; two knots are four."""
-    floor, noise = ((95, 95, 100), 25.0) if name in ("turned", "upright") else ((150, 120, 90), 12.0)
+    floor, noise = FLOORS[name]
     photo = photographs.photograph(carpet(), QUADS[name], floor=floor, noise=noise)
     found, clearness = find_outline(photo)
     assert np.abs(found - np.array(QUADS[name])).max() < 0.5

@@ -15,7 +15,7 @@ from ilmek.arrays import Rgb
 from ilmek.carpet.design import LARGEST_DISTORTION, bands, distortion
 from ilmek.carpet.outline import find_outline
 from ilmek.carpet.picture_points import in_pixels, read_colour, read_points
-from ilmek.carpet.projection import inner_rectangle, outer_rectangle, projected, rotation_about
+from ilmek.carpet.projection import MadeRgb, inner_rectangle, outer_rectangle, projected, rotation_about
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.straightening import check_corners, straightened, true_proportions
 from ilmek.errors import ParameterError, PictureError, shortened
@@ -127,7 +127,7 @@ def fit_picture(
     progress: Progress = SILENT,
     *,
     grid: tuple[int, int] | None = None,
-) -> tuple[Rgb, Fit]:
+) -> tuple[MadeRgb, Fit]:
     """The picture as the carpet shows it, pixels (height, width, 3), and what was done to it.
 
     grid  rows and columns of knots: a picture with that grid is not stretched, cropped or padded
@@ -142,7 +142,7 @@ def fit_picture(
 
 def prepare_picture(
     rgb: Rgb, params: FitParams, progress: Progress = SILENT, *, size: CarpetSize | None = None
-) -> tuple[Rgb, Fit]:
+) -> tuple[MadeRgb, Fit]:
     """The picture straightened, turned by a stated angle and cropped to a stated part, and what was done.
 
     size  proportions within 10 % of which a photographed carpet is taken to have them; default: those of its corners
@@ -166,7 +166,7 @@ def fit_prepared(
     progress: Progress = SILENT,
     *,
     grid: tuple[int, int] | None = None,
-) -> tuple[Rgb, Fit]:
+) -> tuple[MadeRgb, Fit]:
     """A prepared picture fitted to the carpet's proportions by `params.fit`; other arguments as of `fit_picture`."""
     if params.fit == "turn" and rgb.shape[:2] != grid and _suits_turned(rgb, size):
         rgb, fit = np.rot90(rgb, -1), replace(fit, turned=(fit.turned + math.pi / 2) % (2 * math.pi))
@@ -223,7 +223,7 @@ def border_colour(rgb: Rgb) -> Colour:
     return (red, green, blue) if 2 * np.count_nonzero(near) >= len(border) else (255, 255, 255)
 
 
-def _straightened(rgb: Rgb, params: FitParams, size: CarpetSize | None, progress: Progress) -> tuple[Rgb, Fit]:
+def _straightened(rgb: Rgb, params: FitParams, size: CarpetSize | None, progress: Progress) -> tuple[MadeRgb, Fit]:
     """The carpet between the corners, with its true proportions; those of the size, or of the turned size, if near."""
     if params.corners is None:
         return rgb, Fit()
@@ -246,7 +246,7 @@ def _straightened(rgb: Rgb, params: FitParams, size: CarpetSize | None, progress
     return picture, Fit(corners=tuple((x, y) for x, y in corners.tolist()), clearness=clearness)
 
 
-def _turned(rgb: Rgb, params: FitParams, progress: Progress) -> tuple[Rgb, Fit]:
+def _turned(rgb: Rgb, params: FitParams, progress: Progress) -> tuple[MadeRgb, Fit]:
     """The picture turned clockwise: by right angles exactly, else resampled.
 
     Then the largest rectangle without corners from outside the picture is kept, with fit pad the whole picture.
@@ -267,7 +267,7 @@ def _turned(rgb: Rgb, params: FitParams, progress: Progress) -> tuple[Rgb, Fit]:
     return projected(rgb, shape, rotation_about(params.turn, (height, width), shape), border, progress), fit
 
 
-def _cut(rgb: Rgb, text: str) -> Rgb:
+def _cut(rgb: Rgb, text: str) -> MadeRgb:
     """The part of the picture between two opposite corners, rounded to whole pixels."""
     height, width = int(rgb.shape[0]), int(rgb.shape[1])
     corners = np.rint(in_pixels(read_points("crop", text, 2, CROP_EXAMPLE), width, height)).astype(int)
@@ -304,14 +304,14 @@ def _of_same_parity(side: float, like: int) -> int:
     return max(2 * round((side - odd) / 2) + odd, 2 - odd)
 
 
-def _centre(rgb: Rgb, size: CarpetSize) -> Rgb:
+def _centre(rgb: Rgb, size: CarpetSize) -> MadeRgb:
     """The largest part about the centre with the carpet's proportions."""
     height, width = _sides(rgb, size, larger=False)
     top, left = (rgb.shape[0] - height) // 2, (rgb.shape[1] - width) // 2
     return rgb[top : top + height, left : left + width]
 
 
-def _padded(rgb: Rgb, size: CarpetSize, border: Colour, progress: Progress) -> Rgb:
+def _padded(rgb: Rgb, size: CarpetSize, border: Colour, progress: Progress) -> MadeRgb:
     """The picture in the middle of a border, with the carpet's proportions."""
     height, width = _sides(rgb, size, larger=True)
     if (height, width) == rgb.shape[:2]:

@@ -21,6 +21,7 @@ from ilmek.arrays import BoolArray, Float, FloatArray, Rgb
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.design import resampled
 from ilmek.carpet.picture_points import Points
+from ilmek.carpet.projection import MadeRgb
 from ilmek.errors import PictureError
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
@@ -96,7 +97,7 @@ def _unclear(reason: str) -> PictureError:
     )
 
 
-def _reduced(rgb: Rgb, long: int, progress: Progress) -> Rgb:
+def _reduced(rgb: Rgb, long: int, progress: Progress) -> MadeRgb:
     factor = max(rgb.shape[:2]) / long
     if factor <= 1:
         return rgb
@@ -188,7 +189,7 @@ def _hull(region: BoolArray) -> Points:
     return np.array(half(points) + half(points[::-1]))
 
 
-def _largest_quadrilateral(hull: Points) -> Points:
+def _largest_quadrilateral(hull: Points) -> Float[np.ndarray, "4 2"]:
     """The largest quadrilateral with corners among those of a convex polygon, clockwise from the upper left."""
     if len(hull) < 4:
         raise _unclear("what differs from the margin of the picture has no four corners")

@@ -14,7 +14,7 @@ import math
 
 import numpy as np
 
-from ilmek.arrays import Float, FloatArray, Rgb
+from ilmek.arrays import Float, FloatArray, Rgb, UInt8
 from ilmek.carpet.colour import LINEAR
 from ilmek.carpet.design import bands, encoded
 from ilmek.carpet.picture_points import Points
@@ -22,6 +22,9 @@ from ilmek.num.compiled import compiled
 from ilmek.progress import SILENT, Progress
 
 Homography = Float[np.ndarray, "3 3"]
+
+MadeRgb = UInt8[np.ndarray, "rows columns 3"]
+"""A picture made from another one: its height and width are its own."""
 
 _SLICE = 1 << 17
 _SLACK = 0.25
@@ -113,7 +116,7 @@ def projected(
     homography: Homography,
     outside: tuple[int, int, int] | None = None,
     progress: Progress = SILENT,
-) -> Rgb:
+) -> MadeRgb:
     """A picture of that (height, width) whose points (u, v) show the points M (u, v, 1) of `rgb`.
 
     outside  colour of what lies outside the picture; default: that of the nearest pixel

@@ -12,7 +12,7 @@ import numpy as np
 
 from ilmek.arrays import Rgb
 from ilmek.carpet.picture_points import Points
-from ilmek.carpet.projection import onto_corners, projected
+from ilmek.carpet.projection import MadeRgb, onto_corners, projected
 from ilmek.errors import PictureError
 from ilmek.progress import SILENT, Progress
 
@@ -66,7 +66,7 @@ def true_proportions(corners: Points, width: int, height: int) -> float:
     return wide / high
 
 
-def straightened(rgb: Rgb, corners: Points, proportions: float, progress: Progress = SILENT) -> Rgb:
+def straightened(rgb: Rgb, corners: Points, proportions: float, progress: Progress = SILENT) -> MadeRgb:
     """The carpet between four corners as an upright rectangle of those proportions, width over length.
 
     It is as large as its longer sides in the picture, with at most the picture's number of pixels.
