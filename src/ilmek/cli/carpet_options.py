@@ -65,12 +65,14 @@ def _metavar(parameter: Parameter) -> str:
 _CARPET = (
     click.argument("picture", type=click.Path(path_type=Path)),
     click.option(
-        "--size", metavar="SIZE", help=f"Carpet size: {SIZES}; default: that of the picture if it is a chart, {SIZE}."
+        "--size",
+        metavar="SIZE",
+        help=f"Carpet size: {SIZES}; default: that of a chart or a drawing made knot by knot, {SIZE}.",
     ),
     click.option(
         "--quality",
         metavar="QUALITY",
-        help=f"Knot density: {QUALITIES}; default: that of the picture if it is a chart, {QUALITY}.",
+        help=f"Knot density: {QUALITIES}; default: that of a chart or a drawing made knot by knot, {QUALITY}.",
     ),
     click.option("--knot", metavar="KNOT", help="symmetric or asymmetric; default: that of a chart, symmetric."),
     click.option(
