@@ -81,6 +81,10 @@ FAULTS = {
     ),
     "position": (FIELD + '[[motif]]\npicture = "tile.png"\nposition = "centr"', r"line 5, motif.0.position: 'centr'"),
     "size": ('plain = "ivory"\nsize = "40x60"', r"line 2, size: size '40x60' has no unit"),
+    "never": (
+        FIELD + 'never = ["rose"]\nedits = ["set 1,1 rose"]',
+        r"line 4, edits.0: 'rose' is named, and never",
+    ),
     "group": (FIELD + "colours = 1", r"line 3, colours: colours=1 is out of bounds"),
     "kind": (FIELD + 'reading = "exat"', r"line 3, reading: .* did you mean exact"),
     "twice": (FIELD + 'reading = "exact"\nread = "exact"', r"reading is given twice"),

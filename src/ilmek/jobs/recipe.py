@@ -6,6 +6,7 @@ from pathlib import Path
 
 from ilmek.arrays import Pixels
 from ilmek.carpet.chart import Chart, chart_of_design
+from ilmek.carpet.palette_rules import PaletteParams, yarn_names
 from ilmek.carpet.reading import READINGS
 from ilmek.carpet.recipe.composition import compose
 from ilmek.carpet.recipe.edits import located
@@ -13,6 +14,7 @@ from ilmek.carpet.recipe.finish import finish
 from ilmek.carpet.recipe.recipe import Recipe
 from ilmek.carpet.usual_pile import with_counts
 from ilmek.carpet.yarn import Yarn
+from ilmek.errors import CarpetError
 from ilmek.io.picture import SMALLEST, read_picture
 from ilmek.io.recipe_file import LoomKeys, RecipeFile
 from ilmek.io.recipe_text import recipe_text
@@ -30,6 +32,7 @@ def chart_of_recipe(order: CarpetOrder, progress: Progress = SILENT, *, with_sou
     """
     recipe = order.recipe
     assert recipe is not None
+    _check_never(recipe, order.palette)
     if not recipe.is_composed:
         assert recipe.picture is not None
         picture = replace(order, picture=recipe.picture, recipe=None)
@@ -67,6 +70,15 @@ def chart_of_recipe(order: CarpetOrder, progress: Progress = SILENT, *, with_sou
     source = shown_source(composition.design.colours) if with_source else None
     chart = finish(chart, recipe, _counted(made), composition, progress.part(0.8, 1.0, "edits"))
     return OrderedChart(made, chart, (*notes, *composition.notes), source)
+
+
+def _check_never(recipe: Recipe, palette: PaletteParams) -> None:
+    """Raise CarpetError for a yarn that the recipe names and that the palette rules exclude."""
+    never = {name.casefold() for name in yarn_names("never", palette.never)}
+    for name, where in recipe.named:
+        if name.casefold() in never:
+            with located(where):
+                raise CarpetError(f"{name!r} is named, and never excludes it", do="leave it out of one")
 
 
 def _counted(made: ResolvedOrder) -> tuple[Yarn, ...]:

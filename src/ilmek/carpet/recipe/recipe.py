@@ -4,7 +4,7 @@ A yarn is named as in the yarn list, and is then exactly that yarn; or it is a c
 yarn of the list. `where` is the file and line of an entry, for messages.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -132,6 +132,15 @@ class Recipe:
         found += [(path, border.where) for border in self.borders for path in (border.tile, border.corner)]
         found += [(motif.picture, motif.where) for motif in self.motifs]
         return {path: where for path, where in reversed(found) if path is not None}
+
+    @property
+    def named(self) -> Iterator[tuple[str, str]]:
+        """The yarns that the recipe gives to knots, by name or colour, and where each is named."""
+        yield self.plain, self.where
+        for border in self.borders:
+            yield from ((name, border.where) for name in (border.yarn, *border.teeth))
+        for edit in self.edits:
+            yield edit.yarns.rpartition(" by ")[2], edit.where
 
     @property
     def is_composed(self) -> bool:
