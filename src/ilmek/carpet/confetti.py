@@ -40,7 +40,7 @@ KEPT = 255
 Starts = Int32[np.ndarray, " patches"]
 Labs = Float[np.ndarray, "yarns 3"]
 
-_WINDOW = 1 << 21
+_WINDOW = 1 << 20
 
 DRAWN = 5.0
 """Least contrast of what is drawn: fainter patches are grain, even along a line."""
