@@ -17,6 +17,7 @@ from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.errors import CarpetError
 from ilmek.num.compiled import compiled
+from ilmek.num.threads import in_threads
 from ilmek.progress import SILENT, Progress
 
 MOST_KNOTS = 200_000_000
@@ -134,14 +135,18 @@ def resampled_rows(
 ) -> UInt8[np.ndarray, "rows columns 3"]:
     """As `resampled`, of a picture that is made in parts.
 
-    source  the picture's rows in a slice      size  its height and width      grid  rows and columns of the result
+    source  the picture's rows in a slice; several threads call it
+    size    its height and width      grid  rows and columns of the result
     """
     (height, width), (rows, columns) = size, grid
     out = np.empty((rows, columns, 3), dtype=np.uint8)
     step = min(_BAND, max(1, _SLICE // (width * -(-height // rows) + columns)))
-    for first in range(0, rows, step):
+
+    def average(first: int) -> None:
         band = out[first : first + step]
         top, bottom = first * height // rows, -(-(first + len(band)) * height // rows)
         _resample(np.ascontiguousarray(source(slice(top, bottom))), band, first, rows, top, height)
-        progress((first + len(band)) / rows)
+
+    for first, _ in in_threads(average, range(0, rows, step)):
+        progress(min(first + step, rows) / rows)
     return out
