@@ -19,6 +19,7 @@ from ilmek.carpet.reading import LEAST_PATCHES, ReadParams
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import yarn_labs
 from ilmek.io.yarn_file import default_yarns
+from ilmek.num import threads
 
 YARNS = default_yarns()
 LABS = yarn_labs(YARNS)
@@ -158,6 +159,20 @@ def test_windows_change_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     whole = merged(rgb)
     monkeypatch.setattr(confetti, "bands", lambda rows, *_: (slice(row, row + 1) for row in range(rows)))
     assert np.array_equal(merged(rgb), whole)
+
+
+@pytest.mark.parametrize("number", [1, 3])
+def test_threads_change_nothing(monkeypatch: pytest.MonkeyPatch, number: int) -> None:
+    rgb = grained(9, (700, 60), 30.0)
+    whole = chart(rgb, 4)
+    for module in (threads, confetti):
+        monkeypatch.setattr(module, "MOST_THREADS", number)
+    monkeypatch.setattr(confetti, "_WINDOW", 1)
+    made = chart(rgb, 4)
+    assert np.array_equal(made.knots, whole.knots)
+    assert made.tally() == whole.tally()
+    assert made.reading.mean_delta_e == whole.reading.mean_delta_e
+    assert made.reading.differences == whole.reading.differences
 
 
 def test_light_has_the_colour_of_its_codes() -> None:
