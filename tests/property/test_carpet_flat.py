@@ -171,6 +171,13 @@ def test_a_gradient_is_no_drawing_and_a_drawing_is_one() -> None:
     assert looks_flat(rendered(FLAT["rosette"], 4, "jpeg")).is_flat
 
 
+def test_a_photo_in_an_even_frame_is_no_drawing() -> None:
+    grain = np.random.default_rng(2).normal(scale=9, size=(200, 200, 3))
+    light = np.linspace(40, 200, 200)[:, None, None] * np.array([1.0, 0.8, 0.6]) + grain
+    framed = np.pad(light.clip(0, 255).astype(np.uint8), ((150, 150), (150, 150), (0, 0)), constant_values=255)
+    assert not looks_flat(framed).is_flat
+
+
 def test_a_picture_coarser_than_the_grid_gets_no_new_colours() -> None:
     rgb = scribble(np.random.default_rng(1), 30, 20, smooth=False)
     colours = flat_design(rgb, (90, 60)).colours

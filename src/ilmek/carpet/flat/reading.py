@@ -8,7 +8,7 @@ from ilmek.carpet.flat.labels import label_pixels
 from ilmek.carpet.flat.nearest import UNKNOWN, count_near, raw_label
 from ilmek.carpet.flat.survey import survey
 from ilmek.carpet.flat.symmetry import is_symmetric, make_symmetric
-from ilmek.carpet.flat.true_colours import TrueColours, true_colours
+from ilmek.carpet.flat.true_colours import TrueColours, explained_share, true_colours
 from ilmek.num.compiled import compiled
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
@@ -18,8 +18,9 @@ _BAND = 128
 _LONE = 1.5
 """Pixels a knot under which a single pixel is a knot; whether it is confetti is decided later."""
 
-_NEAR, _LEAST_NEAR = 5.0, 0.8
-"""Difference in CIELAB up to which an even area has a true colour; least share of them in a drawing."""
+_NEAR, _LEAST_NEAR, _LEAST_EXPLAINED = 5.0, 0.8, 0.82
+"""Difference in CIELAB up to which an even area has a true colour; least share of them in a drawing, and least share of
+the pixels unlike their neighbours that its colours explain."""
 
 _CODES = 1 << 24
 
@@ -65,9 +66,14 @@ def looks_flat(rgb: Rgb) -> Flatness:
     even = seen.means[seen.spread <= true.even]
     table = np.full(_CODES, UNKNOWN, dtype=np.uint8)
     near = int(count_near(even, table, true.labs, _NEAR)) / max(len(even), 1)
-    is_flat = true.clean or near >= _LEAST_NEAR
-    areas = f"{100 * near:.0f} % of its even areas have one of {number} colours"
-    return Flatness(is_flat, number, near, f"a drawing: {areas}" if is_flat else f"no drawing: only {areas}", true)
+    explained = explained_share(seen, true)
+    if explained < _LEAST_EXPLAINED:
+        sentence = f"no drawing: {number} true colours explain {100 * explained:.0f} % of the pixels outside of areas"
+    else:
+        areas = f"{100 * near:.0f} % of its even areas have one of {number} colours"
+        sentence = f"a drawing: {areas}" if near >= _LEAST_NEAR else f"no drawing: only {areas}"
+    is_flat = explained >= _LEAST_EXPLAINED and near >= _LEAST_NEAR
+    return Flatness(is_flat, number, near, sentence, true)
 
 
 def flat_design(
