@@ -7,11 +7,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from ilmek.carpet.chart import make_chart
 from ilmek.carpet.design import distortion
 from ilmek.carpet.fitting import Fit, FitParams, border_colour, fit_picture
 from ilmek.carpet.projection import inner_rectangle, outer_rectangle
+from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.errors import ParameterError, PictureError
+from ilmek.io.yarn_file import default_yarns
 from ilmek.units import deg
 
 SIDES = st.integers(20, 90)
@@ -197,3 +200,12 @@ def test_the_fit_is_told_in_words() -> None:
     assert Fit().words == "whole picture"
     done = Fit("crop", -0.013, 0.25, turned=90 * deg)
     assert done.words == "turned by 90 deg, cropped, 25% of the picture is not shown, drawn 1.3% narrower"
+
+
+def test_an_even_border_makes_no_drawing_of_a_photo() -> None:
+    """Noise alone is a photo; with a white border around it, it stays one."""
+    rgb = noise(60, 60)
+    size, quality = CarpetSize(0.5, 1.0), Quality(100.0, 100.0)
+    yarns = default_yarns()
+    for fit in ("crop", "pad"):
+        assert make_chart(rgb, size, quality, yarns, fit=FitParams(fit=fit)).reading.kind == "photo"

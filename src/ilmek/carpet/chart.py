@@ -171,7 +171,8 @@ def make_chart(
     else:
         grid = knot_grid(size, quality)
         fitted, done = fit_prepared(prepared, done, size, fit or FitParams(), grid=grid)
-        design = read_design(fitted, grid, reading, progress.part(0.2, 0.4))
+        inner = prepared if done.padded else None
+        design = read_design(fitted, grid, reading, progress.part(0.2, 0.4), unpadded=inner)
     return chart_of_design(
         design,
         size,

@@ -15,6 +15,7 @@ from ilmek.carpet.design import resampled
 from ilmek.carpet.exact import find_drawing
 from ilmek.carpet.flat import flat_design, looks_flat
 from ilmek.carpet.picture_points import read_colour
+from ilmek.carpet.projection import MadeRgb
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.tone import AUTO, Tone, toned
@@ -123,16 +124,24 @@ def exact_design(
 
 
 def read_design(
-    rgb: Rgb, grid: tuple[int, int], params: ReadParams | None = None, progress: Progress = SILENT
+    rgb: Rgb,
+    grid: tuple[int, int],
+    params: ReadParams | None = None,
+    progress: Progress = SILENT,
+    *,
+    unpadded: MadeRgb | None = None,
 ) -> Design:
-    """The design of a fitted picture that is not exact, on a grid of rows and columns."""
+    """The design of a fitted picture that is not exact, on a grid of rows and columns.
+
+    unpadded  the picture without the border that fits it to the carpet: an even border makes no drawing of a photo
+    """
     params = params or ReadParams()
     if params.reading == "photo":
         return _photo(rgb, grid, params, "read as a photo, as required", progress)
-    seen = looks_flat(rgb)
+    seen = looks_flat(rgb if unpadded is None else unpadded)
     if params.reading == "auto" and not seen.is_flat:
         return _photo(rgb, grid, params, seen.sentence, progress)
-    flat = flat_design(rgb, grid, progress, seen.true)
+    flat = flat_design(rgb, grid, progress, seen.true if unpadded is None else None)
     axes = f"; symmetric about the {' and the '.join(flat.symmetric)} axis" if flat.symmetric else ""
     colours, tone = toned(flat.colours, params.tone)
     return Design(colours, "flat", seen.sentence + axes + tone, flat.foreign)

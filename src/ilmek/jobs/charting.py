@@ -125,7 +125,9 @@ def _read(
     grid = knot_grid(made.size, made.quality)
     fitted, fit = fit_prepared(prepared, fit, made.size, order.fit, progress.part(0.35, 0.4), grid=grid)
     exact = exact_design(fitted, made.size, made.quality, order.reading, progress=progress.part(0.4, 0.5))
-    design = exact[0] if exact else read_design(fitted, grid, order.reading, progress.part(0.5, 1.0))
+    inner = prepared if fit.padded else None
+    reading = progress.part(0.5, 1.0)
+    design = exact[0] if exact else read_design(fitted, grid, order.reading, reading, unpadded=inner)
     notes = fit_notes(fit, fitted.shape[:2], made.size, grid)
     return _ReadPicture(made, design, fit, notes, shown_source(fitted) if with_source else None)
 
