@@ -60,7 +60,7 @@ class Flatness:
 
 def looks_flat(rgb: Rgb) -> Flatness:
     """Whether a picture is a drawing: few true colours, which nearly all of its pixels have."""
-    seen = survey(rgb)
+    seen = survey(np.ascontiguousarray(rgb))
     true = true_colours(seen)
     number = len(true.srgb)
     even = seen.means[seen.spread <= true.even]
@@ -92,12 +92,14 @@ def flat_design(
     if across or down:
         make_symmetric(rgb, labels, true.srgb, across, down)
     knots = knot_labels(labels, grid, progress.part(0.6, 0.9))
+    colours = np.empty((*grid, 3), dtype=np.uint8)
     foreign = 0
     for first in range(0, grid[0], _BAND):
+        colours[first : first + _BAND] = true.srgb[knots[first : first + _BAND]]
         foreign += int(_foreign(rgb, table, true.labs, knots, first, min(first + _BAND, grid[0])))
         progress(0.9 + 0.1 * min(first + _BAND, grid[0]) / grid[0])
     axes = (("vertical",) if across else ()) + (("horizontal",) if down else ())
-    return FlatDesign(true.srgb[knots], true.srgb, foreign, axes)
+    return FlatDesign(colours, true.srgb, foreign, axes)
 
 
 @compiled
