@@ -65,7 +65,7 @@ def rendered(drawing: Drawing, pixels: float, finish: str) -> Pixels:
     if finish != "jpeg":
         return rgb
     file = io.BytesIO()
-    Image.fromarray(rgb).save(file, format="JPEG", quality=70)
+    Image.fromarray(rgb).save(file, format="JPEG", quality=85)
     return np.asarray(Image.open(file).convert("RGB"))
 
 
@@ -132,9 +132,10 @@ def _zigzag(x: Points, y: Points) -> Numbers:
 
 def _spiral(x: Points, y: Points) -> Numbers:
     dx, dy = x - 30, y - 36
-    r = np.hypot(dx, dy)
-    turn = r - 4.0 * np.arctan2(dy, dx) / (2 * np.pi)
-    return (_stripes(turn, 4.0, 1.0) & (r > 3) & (r < 27)).astype(int)
+    turns = np.arctan2(dy, dx) / (2 * np.pi)
+    arm = np.rint(np.hypot(dx, dy) / 4 - turns)
+    apart = np.abs(np.hypot(dx, dy) - 4 * (arm + turns))
+    return ((apart < 0.5) & (arm + turns > 0.8) & (arm + turns < 6.8)).astype(int)
 
 
 def _rosette(x: Points, y: Points) -> Numbers:
