@@ -240,6 +240,7 @@ class Session:
         here = {**os.environ, "TERM": "xterm-256color", "COLORTERM": "truecolor", **environment}
         self.child, self.terminal = pty.fork()
         if self.child == 0:
+            signal.signal(signal.SIGINT, signal.SIG_DFL)  # a run of tests in the background ignores it
             os.execve(sys.executable, [sys.executable, "-m", "ilmek", "call", str(file), *words], here)
         self.shown = b""
 
