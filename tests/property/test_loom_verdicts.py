@@ -107,7 +107,7 @@ TABLE: tuple[tuple[dict[str, Any], dict[str, Figure | None]], ...] = (
         },
     ),
     (
-        {"beat": "comb", "width": "4m", "length": "6m", "warp-tension.tube": "140x5"},
+        {"beat": "comb", "width": "4m", "length": "6m", "warp-tension.tube": "140x5", "pile_height": "8mm"},
         {"^(?:warp-tension: )?deflection$": thin_tube, "slope in the bearings|bending stress": None},
     ),
     ({"beat": "comb", "hammer.force": "1N"}, {"distance of the rows that": weak_press, DRIVE: None}),

@@ -2,16 +2,21 @@
 
 import pytest
 
+from ilmek.elements.carpet_yarns import CarpetYarnParams
 from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, LoomDesign, design
 from ilmek.machines.automated_loom.cyclogram import BEATER, EVEN, ODD
 from ilmek.timing.cyclogram import Moment, moment_angle
 from ilmek.timing.track import peak_acceleration, peak_speed
-from ilmek.units import deg, mm
+from ilmek.units import deg, g, m, mm
 
 
 @pytest.fixture(scope="module")
 def loom() -> LoomDesign:
-    return design(AutomatedLoomParams(selvedge_warps=0, beat="guide-cams"))
+    return design(
+        AutomatedLoomParams(
+            selvedge_warps=0, beat="guide-cams", pile_height=8 * mm, yarns=CarpetYarnParams(pile_density=0.8 * g / m)
+        )
+    )
 
 
 def test_warps_and_knots_of_chapter_3_1(loom: LoomDesign) -> None:

@@ -216,12 +216,12 @@ def test_tools_reach_behind_the_warps_while_they_knot_and_stand_clear_in_the_row
 
 
 def test_coordinates_agree() -> None:
-    side = loom().side
+    side, pile = loom().side, loom().params.pile.pile_height
     assert side.warp_length > side.spans.back_rest
     assert side.fell_height == pytest.approx(-side.floor)
     assert side.loom_height > side.spans.back_rest + side.fell_height
     assert side.lower.at.imag - side.roll > side.floor
-    assert side.roll**2 == pytest.approx(side.lower.radius**2 + 1.8 * (8 * mm + 3 * side.room.warp) / math.pi)
+    assert side.roll**2 == pytest.approx(side.lower.radius**2 + 1.8 * (pile + 3 * side.room.warp) / math.pi)
 
 
 def test_the_figures_of_the_docs_are_those_of_the_default_loom() -> None:

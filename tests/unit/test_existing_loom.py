@@ -24,9 +24,6 @@ MEDALLION = str(Path(__file__).parents[2] / "examples" / "medallion.png")
 SIZE, QUALITY = "60x90cm", "15x15/dm"
 LOOM = ("width=0.6m", "length=0.9m", "knots_across=15/dm", "knots_along=15/dm", "colours=12", "heads=2", "beat=comb")
 
-PLAN = {"pile_height": "8mm", "yarn_count": "2.5/2"}
-"""The pile that a loom designed alone is for."""
-
 LOOMS = (
     (),
     ("aim=time",),
@@ -107,7 +104,7 @@ def picture(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def made(
     loom_file: Path, picture: Path, deadline: str | None = None, heads: int | None = None, **carpet: Any
 ) -> LoomResult:
-    order = read_order(picture, **{"size": SIZE, "quality": QUALITY, **PLAN, **carpet})
+    order = read_order(picture, **{"size": SIZE, "quality": QUALITY, **carpet})
     loom_order = read_loom_order(order, deadline=deadline, heads=heads, loom_file=loom_file)
     return make_loomed(loom_order, make_charted(order))
 
@@ -149,11 +146,11 @@ def test_each_need_of_a_carpet_is_checked(
 
 def test_colours_and_yarns_are_checked(existing: ExistingLoom, tmp_path: Path, picture: Path) -> None:
     yarns = tmp_path / "thick.csv"
-    yarns.write_text("name,srgb,nm,ply\nred,781418,1,2\nivory,f0f0f0,1,2\n")
-    order = read_order(picture, size=SIZE, quality=QUALITY, yarn_file=yarns, pile_height="8mm")
+    yarns.write_text("name,srgb,nm,ply\nred,781418,0.5,2\nivory,f0f0f0,0.5,2\n")
+    order = read_order(picture, size=SIZE, quality=QUALITY, yarn_file=yarns)
     found = make_loomed(read_loom_order(order, loom_file=existing.path), make_charted(order))
     assert failed(found) >= {"thickness of the pile in a gripper"}
-    order = read_order(Path(MEDALLION), size=SIZE, quality=QUALITY, reading="photo", **PLAN)
+    order = read_order(Path(MEDALLION), size=SIZE, quality=QUALITY, reading="photo")
     found = make_loomed(read_loom_order(order, loom_file=existing.path), make_charted(order))
     assert failed(found) == {"colours"}
 
@@ -169,7 +166,7 @@ def test_colours_and_yarns_are_checked(existing: ExistingLoom, tmp_path: Path, p
 def test_warps_of_the_carpet_are_those_of_the_loom(
     loom_file: Path, picture: Path, setting: dict[str, str], names: set[str]
 ) -> None:
-    order = read_order(picture, size=SIZE, quality=QUALITY, **PLAN)
+    order = read_order(picture, size=SIZE, quality=QUALITY)
     loom_order = read_loom_order(order, loom=setting, loom_file=loom_file)
     assert failed(make_loomed(loom_order, make_charted(order))) == names
 
@@ -186,12 +183,12 @@ def test_a_deadline_is_a_check_and_fewer_heads_can_be_used(loom_file: Path, pict
 
 
 def test_a_narrow_carpet_parks_heads(existing: ExistingLoom, picture: Path) -> None:
-    order = read_order(picture, size="20x30cm", quality=QUALITY, **PLAN)
+    order = read_order(picture, size="20x30cm", quality=QUALITY)
     assert heads_used(existing, make_charted(order).chart) == 1 < existing.design.heads
 
 
 def test_finer_rows_are_taken_up_by_less_and_cost_the_same_force(existing: ExistingLoom, picture: Path) -> None:
-    order = read_order(picture, size=SIZE, quality="15x20/dm", **PLAN)
+    order = read_order(picture, size=SIZE, quality="15x20/dm")
     chart = make_charted(order).chart
     checks = carpet_checks(existing, chart, existing.design.params.yarns, 0.02)
     left = next(check for check in checks if check.name == "carpet: distance of the rows that the beat leaves")
@@ -313,6 +310,6 @@ def test_a_missing_file_and_a_word_are_refused(tmp_path: Path) -> None:
 
 
 def test_the_order_names_what_cannot_be_set(loom_file: Path) -> None:
-    order = read_order(Path(MEDALLION), size=SIZE, quality=QUALITY, **PLAN)
+    order = read_order(Path(MEDALLION), size=SIZE, quality=QUALITY)
     with pytest.raises(ParameterError, match="leave --aim out"):
         read_loom_order(order, aim="price", loom_file=loom_file)

@@ -9,7 +9,7 @@ from ilmek.errors import CarpetError, LoomError, ParameterError, YarnError
 from ilmek.jobs.chart import make_charted
 from ilmek.jobs.design import WorkshopOrder, design_machine
 from ilmek.jobs.inspect import inspect_programme
-from ilmek.jobs.loom import make_loomed, read_loom_order
+from ilmek.jobs.loom import make_loomed, params_for, read_loom_order
 from ilmek.jobs.machines import machine_form, machine_list
 from ilmek.jobs.order import read_order
 from ilmek.jobs.output_folder import free_folder
@@ -51,6 +51,18 @@ def test_loom_follows_the_chart() -> None:
     # A longer pile takes more yarn a knot, which the handler must draw.
     deep = read_order(MEDALLION, size="20x30cm", quality="20x20/dm", colours=6, pile_height="20mm")
     assert make_loomed(read_loom_order(deep), make_charted(deep)).design.params.knot_yarn > params.knot_yarn + 0.02
+
+
+@pytest.mark.parametrize("knot", ["symmetric", "asymmetric"])
+@pytest.mark.parametrize("quality", ["12x10/dm", "25x25/dm", "40 raj", "100x90/dm"])
+def test_a_loom_without_a_carpet_has_the_pile_of_the_default_one(quality: str, knot: str) -> None:
+    order = read_order(MEDALLION, size="10x12cm", quality=quality, knot=knot)
+    alone = read_loom_order(order)
+    assert (alone.params.yarns.pile_density, alone.params.pile_height, alone.params.knot_yarn) == (None, None, None)
+    woven = params_for(alone, make_charted(order))
+    own, given = alone.params.carpet_yarns, woven.carpet_yarns
+    assert (own.pile.linear_density, own.pressed) == (given.pile.linear_density, given.pressed)
+    assert (alone.params.pile, alone.params.billed) == (woven.pile, woven.billed)
 
 
 def test_heads_are_as_many_as_fit_where_few_fit() -> None:

@@ -77,6 +77,15 @@ def usual_count(quality: Quality, knot: str) -> float:
     return float(Context(prec=2).create_decimal_from_float(max(fills, _COARSEST)))
 
 
+def usual_linear_density(quality: Quality, knot: str) -> float:
+    """Mass per length of the usual pile yarn [kg/m].
+
+    >>> round(usual_linear_density(Quality(250.0, 250.0), "symmetric") * 1e3, 3)
+    1.538
+    """
+    return USUAL_PLY / (1000.0 * usual_count(quality, knot))
+
+
 def with_counts(
     yarns: Iterable[Yarn], quality: Quality, knot: str, given: tuple[float, int] | None = None
 ) -> tuple[Yarn, ...]:

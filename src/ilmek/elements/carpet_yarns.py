@@ -19,10 +19,7 @@ FRICTION = 0.25
 """Usual friction coefficient of yarn on steel; assumed by this project."""
 
 PILE_DENSITY = 0.8 * g / m
-"""Linear density of the usual pile yarn of a coarse carpet, where no yarn list is given [kg/m]."""
-
-USUAL_FILL = 0.8
-"""Largest share of the ground that the usual pile fills; assumed by this project."""
+"""Linear density of the pile yarn of a machine without a loom [kg/m]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +49,7 @@ class CarpetYarnParams(Params):
         unit="g/m",
         above=0.0,
         at_most=0.1,
-        doc="mass per length of the heaviest pile yarn; default: 0.8 g/m, or finer where that fills the ground",
+        doc="mass per length of the heaviest pile yarn; default: by quality and knot in a loom, else 0.8 g/m",
     )
     pressed_packing: float = kind.ratio(
         PRESSED_PACKING, at_least=0.3, at_most=0.9, doc="packing of pile yarn pressed between warps or jaws; assumed"
@@ -95,7 +92,7 @@ class CarpetYarns:
 def carpet_yarns(params: CarpetYarnParams, pitch: float) -> CarpetYarns:
     """The yarns of a carpet with warps at a pitch [m]; whether they fit beside each other, their machines check."""
     warp, friction = params.warp_density or usual_warp_density(pitch, params.warp), params.friction
-    pile = params.pile_density or usual_pile_density(pitch, params.pile)
+    pile = params.pile_density or PILE_DENSITY
     usual = yarn(params.warp, warp, friction)
     return CarpetYarns(
         warp=replace(
@@ -126,19 +123,6 @@ def yarn(material: str, linear_density: float, friction: float = FRICTION) -> Ya
         kind.breaking_force(linear_density),
         friction,
     )
-
-
-def usual_pile_density(pitch: float, material: str = WOOL.name) -> float:
-    """Linear density of the usual pile yarn [kg/m] at a pitch of the warps [m]: 0.8 g/m, or what the ground takes.
-
-    Two legs of every knot, in a cell of two pitches by two, fill at most `USUAL_FILL`:  2 mu / (rho phi) <= F (2 p)²
-    [derived, by areas].
-
-    >>> usual_pile_density(2e-3), round(usual_pile_density(0.5e-3) * 1e3, 3)
-    (0.0008, 0.236)
-    """
-    kind = MATERIALS[material]
-    return min(PILE_DENSITY, USUAL_FILL * (2 * pitch) ** 2 * kind.density * kind.packing / 2)
 
 
 def usual_warp(pitch: float) -> YarnProperties:

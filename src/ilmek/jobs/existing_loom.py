@@ -218,8 +218,7 @@ def _row_checks(existing: ExistingLoom, chart: Chart) -> tuple[Check, ...]:
 
 def _yarn_checks(made: LoomDesign, yarns: CarpetYarns, knot_yarn: float) -> tuple[Check, ...]:
     """The yarns, against those that slots, opener, grippers and handler were made for."""
-    own, head = made.task.yarns, made.weaver
-    drawn = made.params.knot_yarn or head.drawn
+    own = made.task.yarns
     finer = "take a finer yarn"
     return (
         at_most(
@@ -257,7 +256,7 @@ def _yarn_checks(made: LoomDesign, yarns: CarpetYarns, knot_yarn: float) -> tupl
         at_most(
             "carpet: pile yarn of a knot",
             knot_yarn,
-            drawn,
+            made.weaver.drawn,
             "mm",
             "motion of the pile handler",
             cure="set a lower --pile-height",

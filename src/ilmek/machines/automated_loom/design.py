@@ -6,7 +6,6 @@ from dataclasses import replace
 
 from ilmek.carpet.design import knot_grid
 from ilmek.carpet.sizes import CarpetSize
-from ilmek.elements.carpet_yarns import carpet_yarns
 from ilmek.errors import LoomError
 from ilmek.loom.bobbins import Bobbin
 from ilmek.loom.programme import Times, least_time
@@ -226,7 +225,7 @@ def with_beat(ready: ReadyLoom, option: BeatOption, choices: tuple[Choice, ...] 
 
 def _task(params: AutomatedLoomParams, rows: int, columns: int) -> LoomTask:
     """The task of the first machine: carpet, yarns, and tension of the warps."""
-    yarns = carpet_yarns(params.yarns, params.pitch)
+    yarns = params.carpet_yarns
     tension = params.tension or usual_tension(params.pitch, yarns.warp.linear_density)
     return LoomTask(params, rows, columns, yarns, tension, {})
 

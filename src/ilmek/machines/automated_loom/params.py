@@ -1,12 +1,14 @@
 """Parameters of an automated loom for one carpet. Everything else is derived from them."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ilmek.cams.laws import SMOOTH_LAWS
 from ilmek.carpet.ground import SELVEDGE_WARPS, WEFT_TURN, GroundParams
+from ilmek.carpet.pile import PileParams, knot_length
 from ilmek.carpet.quality import COARSEST, FINEST, Quality
 from ilmek.carpet.sizes import LARGEST, SMALLEST
-from ilmek.elements.carpet_yarns import CarpetYarnParams
+from ilmek.carpet.usual_pile import usual_linear_density, usual_pile_height
+from ilmek.elements.carpet_yarns import CarpetYarnParams, CarpetYarns, carpet_yarns
 from ilmek.elements.knot_kinds import WRAPS
 from ilmek.errors import LoomError
 from ilmek.machines import BEATS, WEFT_CARRIERS, loom_machines
@@ -65,10 +67,13 @@ class AutomatedLoomParams(Params):
     )
     knot_cycle: float = kind.time(2.0, at_least=1e-3, at_most=3600.0, doc="required time of a knot")
     knot_yarn: float | None = kind.length(
-        None, above=0.0, at_most=0.3, doc="pile yarn of a knot, from the yarn bill; default: of the head's usual pile"
+        None, above=0.0, at_most=0.3, doc="pile yarn of a knot, from the yarn bill; default: by knot, quality and pile"
     )
-    pile_height: float = kind.length(
-        8 * mm, at_least=0.0, at_most=100 * mm, doc="pile above the knots, shorn: thickness of the wound carpet"
+    pile_height: float | None = kind.length(
+        None,
+        at_least=0.0,
+        at_most=100 * mm,
+        doc="pile above the knots, shorn: thickness of the wound carpet; default: by the quality, 10 mm at 25x25/dm",
     )
     knot_law: str = param("modified-sine", choices=SMOOTH_LAWS, doc="law of the heads' cams")
     head_acceleration: float = kind.acceleration(
@@ -170,6 +175,23 @@ class AutomatedLoomParams(Params):
         """The carpet's quality; by default knots across follow the warp pitch, and rows follow knots across."""
         across = self.knots_across or 0.5 / self.pitch
         return Quality(across, self.knots_along or across)
+
+    @property
+    def pile(self) -> PileParams:
+        """The pile: its height as given, or the usual one of the quality."""
+        height = usual_pile_height(self.quality) if self.pile_height is None else self.pile_height
+        return PileParams(pile_height=height)
+
+    @property
+    def carpet_yarns(self) -> CarpetYarns:
+        """The yarns of the carpet; the pile as given, or the usual one of quality and knot."""
+        pile = self.yarns.pile_density or usual_linear_density(self.quality, self.knot)
+        return carpet_yarns(replace(self.yarns, pile_density=pile), self.pitch)
+
+    @property
+    def billed(self) -> float:
+        """Pile yarn of a knot [m]: as given, or by knot, quality and pile."""
+        return self.knot_yarn or knot_length(self.knot, self.quality, self.carpet_yarns.pile.linear_density, self.pile)
 
     @property
     def ground(self) -> GroundParams:

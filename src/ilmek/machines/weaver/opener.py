@@ -22,7 +22,7 @@ from ilmek.weaving.warp_opening import WarpSpans, force_of, shifts, tension_of, 
 POSITIONS = 41
 """Positions of the travel at which the force is computed; between them it is interpolated."""
 
-TEETH = (1 * mm, 1.5 * mm, 2 * mm, 2.5 * mm, 3 * mm, 4 * mm, 5 * mm)
+TEETH = (0.8 * mm, 1 * mm, 1.5 * mm, 2 * mm, 2.5 * mm, 3 * mm, 4 * mm, 5 * mm)
 """Widths of its teeth from which the least is chosen."""
 
 LEAST_ROOM = 0.02
