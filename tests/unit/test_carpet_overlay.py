@@ -19,6 +19,7 @@ from ilmek.errors import CarpetError
 from ilmek.io.chart.pdf import write_chart_pdf
 from ilmek.jobs.weave import overlay_checks
 from ilmek.units import mm
+from ilmek.viz.page_parts import carpet_facts, yarn_lines
 from ilmek.weaving.knots.path import KnotDimensions, wrap_length
 from ilmek.weaving.knots.word import SINGLE, knot
 
@@ -99,7 +100,7 @@ def test_the_loom_ties_no_half_knot() -> None:
     (check,) = overlay_checks(MARKED)
     assert not check.ok
     assert "rows.pdf" in check.cure
-    assert "1 cells of half knots, 2 jufti knots" in check.source
+    assert "2 half knots, 2 jufti knots" in check.source
     assert overlay_checks(PLAIN) == ()
 
 
@@ -113,3 +114,14 @@ def test_printed_charts_show_both_halves_and_the_bar(tmp_path: Path) -> None:
     assert marked.get_data().count(b" re f") >= plain.get_data().count(b" re f") + 4
     shown = PdfReader(tmp_path / "marked.pdf").pages[-1].extract_text()
     assert shown.count("D") == 1
+
+
+def test_totals_and_shares_are_of_the_knots_to_tie() -> None:
+    """Half cells count twice, jufti knots once: on the page as in the legend, the shares add up to one."""
+    bill = yarn_bill(MARKED)
+    assert MARKED.tied.total == bill.knots == MARKED.knots.size + 1 - 2
+    (knots,) = (fact for fact in carpet_facts(MARKED, bill, (), ()) if fact.label == "Knots")
+    assert knots.value == str(bill.knots)
+    assert "half and jufti knots" in knots.note
+    shares = [float(line.share.split()[0]) for line in yarn_lines(MARKED, bill, "") if line.share]
+    assert abs(sum(shares) - 100.0) <= 0.1 * len(shares)

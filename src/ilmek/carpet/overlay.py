@@ -51,6 +51,11 @@ class TiedKnots(NamedTuple):
         """All knots of a yarn."""
         return self.whole[yarn] + self.half[yarn] + self.jufti[yarn]
 
+    @property
+    def total(self) -> int:
+        """All knots of all yarns."""
+        return sum(sum(numbers) for numbers in self)
+
 
 @record
 class Overlay:

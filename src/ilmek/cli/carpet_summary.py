@@ -26,8 +26,9 @@ def carpet_pairs(charted: ChartResult) -> list[tuple[str, str]]:
 
 
 def overlay_in_words(chart: Chart) -> str:
-    """The half knots and jufti knots of a chart."""
-    return f"{sum(chart.tied.half):,} half knots, {sum(chart.tied.jufti):,} jufti knots"
+    """The half knots and jufti knots of a chart, and all its knots: a half cell has two, two jufti cells one."""
+    tied = chart.tied
+    return f"{sum(tied.half):,} half knots, {sum(tied.jufti):,} jufti knots; {tied.total:,} knots to tie"
 
 
 def changes_in_words(chart: Chart) -> str:
@@ -88,14 +89,17 @@ def to_buy_in_words(charted: ChartResult) -> str:
 
 
 def show_yarn(bill: YarnBill) -> None:
-    """Print the yarn bill as a table."""
+    """Print the yarn bill as a table, with the dye lots where a yarn has more than one."""
+    several = any(need.lots > 1 for need in bill.needs)
     rows = [
         (need.name, need.use, f"{need.knots:,}" if need.knots else "", _amount(need.length), _amount(need.mass / g),
-         _amount(need.to_buy / g), str(need.hanks), "" if need.price is None else f"{need.price:,.2f}")
+         _amount(need.to_buy / g), str(need.hanks), *([str(need.lots)] if several else []),
+         "" if need.price is None else f"{need.price:,.2f}")
         for need in bill.needs
     ]  # fmt: skip
-    names = ("yarn", "use", "knots", "metres", "grams", "to buy", "hanks", bill.currency)
-    show_table(names, rows, right=(2, 3, 4, 5, 6, 7))
+    lots = ("lots",) if several else ()
+    names = ("yarn", "use", "knots", "metres", "grams", "to buy", "hanks", *lots, bill.currency)
+    show_table(names, rows, right=tuple(range(2, len(names))))
 
 
 def _amount(value: float) -> str:

@@ -46,9 +46,9 @@ def reading_lines(chart: Chart) -> tuple[Fact, ...]:
     if made.edited:
         lines.append(Fact("Edited knots", count(made.edited), "by the recipe"))
     if len(chart.overlay):
-        lines.append(
-            Fact("Half knots and jufti knots", f"{count(sum(chart.tied.half))}, {count(sum(chart.tied.jufti))}")
-        )
+        tied = chart.tied
+        lines.append(Fact("Half knots", count(sum(tied.half)), "on one warp each"))
+        lines.append(Fact("Jufti knots", count(sum(tied.jufti)), "on four warps each"))
     if made.foreign is not None:
         lines.append(Fact("Knots of a colour that is not in their cell", *_part(made.foreign, knots)))
     exact = sum(one.worst == 0 for one, cells in zip(made.differences, chart.counts, strict=False) if cells)

@@ -136,7 +136,7 @@ def overlay_checks(chart: Chart) -> tuple[Check, ...]:
     """That every knot is on two warps, as the loom ties it; failed for a chart with half knots or jufti knots."""
     if not len(chart.overlay):
         return ()
-    source = f"{chart.overlay.halves:,} cells of half knots, {chart.overlay.juftis:,} jufti knots; the loom ties none"
+    source = f"{2 * chart.overlay.halves:,} half knots, {chart.overlay.juftis:,} jufti knots; the loom ties none"
     cure = "weave by hand from rows.pdf, or leave the overlay out"
     return (must("every knot on two warps", False, source, cure=cure),)
 

@@ -53,7 +53,7 @@ def carpet_facts(chart: Chart, bill: YarnBill, more: Sequence[Fact], checks: Seq
     to_buy = sum(need.to_buy for need in bill.needs)
     facts = [
         Fact("Size", f"{_cm(size.width)} × {_cm(size.length)} cm", f"{quality} / dm, {chart.knot} knot"),
-        Fact("Knots", count(int(chart.knots.size)), f"{count(chart.columns)} across × {count(chart.rows)} rows"),
+        Fact("Knots", count(bill.knots), _grid(chart)),
         Fact("Colours", str(chart.colours), f"mean ΔE {chart.reading.mean_delta_e:.1f} to the picture"),
         Fact("Yarn to buy", f"{fixed(to_buy, 1, 2)} kg", _price(bill)),
         Fact("Mass of the carpet", f"{fixed(bill.mass_per_area, 1, 2)} kg/m²", _published(bill)),
@@ -63,6 +63,11 @@ def carpet_facts(chart: Chart, bill: YarnBill, more: Sequence[Fact], checks: Seq
         mood, note = ("bad", f"{passed} of {len(checks)} passed") if failed else ("good", "none failed")
         facts.append(Fact("Checks", f"{failed} failed" if failed else f"{passed} passed", note, mood))
     return facts
+
+
+def _grid(chart: Chart) -> str:
+    grid = f"{count(chart.columns)} across × {count(chart.rows)} rows"
+    return f"{grid} of cells, with half and jufti knots" if len(chart.overlay) else grid
 
 
 def _price(bill: YarnBill) -> str:
@@ -89,7 +94,7 @@ def yarn_lines(chart: Chart, bill: YarnBill, symbols: str) -> list[YarnLine]:
         index = indices[need.name]
         srgb = chart.yarns[index].srgb
         symbol = symbols[index] if index < len(symbols) else ""
-        colour, of_all = "#{:02x}{:02x}{:02x}".format(*srgb), share(need.knots, int(chart.knots.size))
+        colour, of_all = "#{:02x}{:02x}{:02x}".format(*srgb), share(need.knots, bill.knots)
         difference = differences[index] if index < len(differences) else None
         lines.append(YarnLine(need, symbol, colour, letter(srgb), of_all, difference))
     return lines + [YarnLine(need) for need in bill.ground]

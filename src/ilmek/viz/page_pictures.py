@@ -129,10 +129,12 @@ def letter(srgb: tuple[int, int, int]) -> str:
 
 
 def _of_the_source(source: Rgb, chart: Chart) -> PagePicture:
-    stream = io.BytesIO()
+    stream, alt = io.BytesIO(), "The picture, as it is fitted to the carpet"
+    if source.shape[:2] == chart.knots.shape and chart.columns <= _SHARP:
+        Image.fromarray(source).save(stream, format="PNG")
+        return PagePicture(_address(stream.getvalue(), "png"), *_proportions(chart), alt, sharp=True)
     Image.fromarray(source).save(stream, format="JPEG", quality=88)
-    address = _address(stream.getvalue(), "jpeg")
-    return PagePicture(address, *_proportions(chart), "The picture, as it is fitted to the carpet")
+    return PagePicture(_address(stream.getvalue(), "jpeg"), *_proportions(chart), alt)
 
 
 def _of_the_chart(chart: Chart, step: int, codes: Sequence[tuple[int, int, int]]) -> PagePicture:

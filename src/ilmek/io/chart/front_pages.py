@@ -91,29 +91,31 @@ def _sheet_grid(canvas: Any, plan: SheetLayout, wide: float, high: float) -> Non
 def draw_legend(canvas: Any, chart: Chart, inks: Inks) -> None:
     """Draw the legend: swatch with symbol, symbol alone, name, count and share of every yarn that is used."""
     used, tied = chart.used, chart.tied
+    total = tied.total
     canvas.bookmarkPage("legend")
     canvas.addOutlineEntry("Legend", "legend", 0)
     for first in range(0, len(used), 2 * _LINES):
         canvas.setFillColorRGB(0.1, 0.1, 0.1)
         canvas.setFont(STRONG, 13)
-        canvas.drawString(_LEFT, _TOP, f"Legend: {len(used)} colours, {_count(chart.knots.size)} knots")
+        canvas.drawString(_LEFT, _TOP, f"Legend: {len(used)} colours, {_count(total)} knots")
         columns = 1 if len(used) <= _LINES else 2
         for line, index in enumerate(used[first : first + 2 * _LINES]):
             column, down = divmod(line, _LINES)
             width = (330.0, 231.5)[columns - 1]
             y = _TOP - 28.0 - _LINE * down
-            draw_entry(canvas, chart, inks, (index, tied.of(index)), (_LEFT + column * (width + 24.0), y, width))
+            box = (_LEFT + column * (width + 24.0), y, width)
+            draw_entry(canvas, chart, inks, (index, tied.of(index), total), box)
         canvas.showPage()
 
 
 def draw_entry(
-    canvas: Any, chart: Chart, inks: Inks, counted: tuple[int, int], box: tuple[float, float, float]
+    canvas: Any, chart: Chart, inks: Inks, counted: tuple[int, int, int], box: tuple[float, float, float]
 ) -> None:
     """Draw the entry of a yarn in the legend.
 
-    counted  index of the yarn and its number of knots      box  left edge, baseline and width [pt]
+    counted  index of the yarn, its number of knots and that of all yarns      box  left edge, baseline and width [pt]
     """
-    (index, count), (x, y, width) = counted, box
+    (index, count, total), (x, y, width) = counted, box
     canvas.setFillColorRGB(*inks.fills[index])
     canvas.setStrokeGray(0.4)
     canvas.setLineWidth(0.4)
@@ -124,7 +126,7 @@ def draw_entry(
     canvas.setFillGray(0.1)
     canvas.drawCentredString(x + 38.0, y, inks.symbols[index])
     canvas.setFont(TEXT, 9)
-    share = 100 * count / chart.knots.size
+    share = 100 * count / total
     canvas.drawRightString(x + width, y, f"{share:.1f} %" if share >= 0.05 else "< 0.1 %")
     number = _count(count)
     canvas.drawRightString(x + width - 44.0, y, number)

@@ -88,11 +88,12 @@ def write_wall_pdf(path: Path, chart: Chart, progress: Progress = SILENT, title:
         canvas.restoreState()
         progress(0.6)
         tied, across = chart.tied, _entries(sheet.width)
+        total = tied.total
         top = sheet.height - _HEAD - chart.rows * sheet.cells.cell_height - 44.0
         for place, index in enumerate(chart.used):
             line, column = divmod(place, across)
             box = (_SIDE + column * _ENTRY, top - line * _LINE, _ENTRY - 20.0)
-            draw_entry(canvas, chart, inks, (index, tied.of(index)), box)
+            draw_entry(canvas, chart, inks, (index, tied.of(index), total), box)
         canvas.showPage()
         _set_unit(canvas, sheet.unit)
         canvas.save()
