@@ -184,3 +184,10 @@ def test_bill_without_prices_or_knots_of_a_yarn() -> None:
     lira = yarn_bill(chart, YarnPlanParams(currency="TRY", warp_price=300, weft_price=300))
     assert (lira.price, lira.pile[0].price, lira.currency) == (None, None, "TRY")
     assert all(line.price for line in lira.ground if line.use != "selvedge")
+
+
+def test_prices_of_the_shipped_wools_give_way_to_a_currency_and_a_price() -> None:
+    shipped = wools("000000", "ffffff", price=24.0)
+    assert YarnPlanParams().priced(shipped) == tuple(shipped)
+    for plan in (YarnPlanParams(currency="TRY"), YarnPlanParams(pile_price=30.0)):
+        assert [yarn.price for yarn in plan.priced(shipped)] == [None, None]

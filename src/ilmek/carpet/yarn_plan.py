@@ -64,7 +64,7 @@ class YarnPlanParams(Params):
         None,
         at_least=0.0,
         at_most=1e6,
-        doc="price per kg of pile yarn where the list gives none; default: 20 EUR for wool",
+        doc="price per kg of pile yarn where no list of yours gives one; default: 20 EUR for wool",
     )
     warp_price: float | None = kind.ratio(
         None, at_least=0.0, at_most=1e6, doc="price per kg of the warp; default: 8 EUR for cotton, 20 for wool"
@@ -103,6 +103,11 @@ class YarnPlanParams(Params):
         """The yarns with a count each: as given here, as in the list, or by the quality."""
         given = None if self.yarn_count is None else parse_count(self.yarn_count)
         return with_counts(yarns, quality, knot, given)
+
+    def priced(self, shipped: Sequence[Yarn]) -> tuple[Yarn, ...]:
+        """Yarns that come with ilmek, without their prices [EUR] where another currency or a price is given."""
+        holds = self.currency == EURO and self.pile_price is None
+        return tuple(shipped) if holds else tuple(replace(yarn, price=None) for yarn in shipped)
 
     def price(self, use: str, material: str) -> float | None:
         """Price per kg of a use (pile, warp, weft) where no list gives one; None: not known in this currency."""

@@ -89,7 +89,7 @@ class CarpetOrder:
     def resolved(self) -> "ResolvedOrder":
         """The order with the defaults for all that is left open; each yarn has its count."""
         quality, knot = self.quality or parse_quality(QUALITY), self.knot or KNOT
-        yarns = self.plan.counted(self.yarns or default_yarns(), quality, knot)
+        yarns = self.plan.counted(self.yarns or self.plan.priced(default_yarns()), quality, knot)
         return ResolvedOrder(self, self.size or parse_size(SIZE), quality, knot, yarns)
 
 

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from PIL import Image
+from PIL import Image, UnidentifiedImageError
 from PIL.PngImagePlugin import PngInfo
 
 from ilmek.arrays import Indices
@@ -113,6 +113,8 @@ def read_chart_png(path: Path, progress: Progress = SILENT) -> Chart:
         overlay = read_overlay(str(texts.get(OVERLAY_KEY, "")), knots, len(facts.yarns))
     except (MemoryError, Cancelled):
         raise
+    except UnidentifiedImageError as error:
+        raise PictureError(f"{path} is no knot chart (it is no PNG)", allowed="a chart.png written by ilmek") from error
     except Exception as error:  # a decoder may raise any
         raise PictureError(
             f"{path} is no knot chart ({shortened(error)})", allowed="a chart.png written by ilmek"
