@@ -163,7 +163,8 @@ def delta_e_2000(first: Float[np.ndarray, "*#batch 3"], second: Float[np.ndarray
     one, other = np.broadcast_arrays(first, second)
     out = np.empty(one.shape[:-1])
     # Copies: NumPy warns of a broadcast array that a kernel might write to.
-    _pairs(np.array(one, dtype=float).reshape(-1, 3), np.array(other, dtype=float).reshape(-1, 3), out.reshape(-1))
+    pairs = (np.array(labs, dtype=float, order="C").reshape(-1, 3) for labs in (one, other))
+    _pairs(*pairs, out.reshape(-1))
     return out
 
 

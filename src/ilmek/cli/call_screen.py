@@ -44,7 +44,7 @@ def large(text: str) -> tuple[str, ...]:
     |████        ██|
     |  ██        ██|
     |  ██      ██  |
-    |  ██      ██  |
+    |██████    ██  |
     """
     figures = [FIGURES[figure] for figure in text.replace("½", " 1/2")]
     return tuple("  ".join("".join(2 * cell for cell in one[line]) for one in figures) for line in range(5))

@@ -84,7 +84,7 @@ def rows_layout(rows: int, columns: int, *, marked: bool = False, rulers: int = 
 
     >>> plan = rows_layout(700, 480)
     >>> plan.width > 1000, plan.parts, round(plan.cell, 2), plan.size, plan.levels
-    (True, 1, 2.17, 6.0, 2)
+    (True, 1, 2.18, 6.0, 2)
     """
     width, height = next((page for page in (A4, A3) if _room(page) >= columns * LEAST_CELL), A3)
     room = _room((width, height))
