@@ -163,8 +163,8 @@ def delta_e_2000(first: Float[np.ndarray, "*#batch 3"], second: Float[np.ndarray
     one, other = np.broadcast_arrays(first, second)
     out = np.empty(one.shape[:-1])
     # Copies: NumPy warns of a broadcast array that a kernel might write to.
-    pairs = (np.array(labs, dtype=float, order="C").reshape(-1, 3) for labs in (one, other))
-    _pairs(*pairs, out.reshape(-1))
+    left, right = (np.array(labs, dtype=float, order="C").reshape(-1, 3) for labs in (one, other))
+    _pairs(left, right, out.reshape(-1))
     return out
 
 
