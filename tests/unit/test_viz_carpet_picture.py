@@ -1,6 +1,7 @@
 """The simulated carpet: right colours, right proportions, the same each time."""
 
 import io
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -8,6 +9,7 @@ import pytest
 from PIL import Image
 
 from ilmek.carpet.chart import Chart
+from ilmek.carpet.overlay import HALF, JUFTI, KnotMark, overlay_of
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import Yarn
@@ -98,3 +100,25 @@ def test_a_width_out_of_bounds_is_refused(tmp_path: Path) -> None:
     with pytest.raises(CarpetError, match=r"100 to [\d,]+ pixels"):
         write_carpet_png(tmp_path / "carpet.png", runner, 5000)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_half_knots_and_jufti_knots_are_tufts_of_their_own() -> None:
+    """The right half of a red cell is blue, its left half red; a jufti knot joins the tufts of two cells."""
+    plain = chart(10, 10, 250.0, 250.0)
+    half = replace(plain, overlay=overlay_of([KnotMark(2, 4, HALF, second=1)]))
+    cell = np.asarray(opened(close_up(half)).convert("RGB"))[56:64, 96:120].astype(int)
+    left, right = cell[:, 3:9].mean(axis=(0, 1)), cell[:, 15:21].mean(axis=(0, 1))
+    assert left[0] > 2 * left[2]
+    assert right[2] > 2 * right[0]
+    jufti = replace(plain, overlay=overlay_of([KnotMark(2, 4, JUFTI)]))
+    changed = np.any(np.asarray(opened(close_up(jufti))) != np.asarray(opened(close_up(plain))), axis=2)
+    rows, columns = np.nonzero(changed)
+    assert 24 <= rows.min() <= rows.max() < 5 * 24
+    assert 2 * 24 <= columns.min() <= columns.max() < 8 * 24
+
+
+def test_a_given_width_is_kept(tmp_path: Path) -> None:
+    for width in (301, 1999):
+        write_carpet_png(tmp_path / "carpet.png", chart(90, 60, 250.0, 250.0), width)
+        with Image.open(tmp_path / "carpet.png") as picture:
+            assert picture.width == width

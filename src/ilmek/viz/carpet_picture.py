@@ -1,12 +1,12 @@
 """Simulated picture of a carpet: the chart as pile, with selvedges, flat ends and fringes; and a close-up of the knots.
 
-Tufts are drawn (`tufts`) if a knot has at least two pixels; otherwise the light of the knots is averaged. The same seed
-gives the same picture.
+Tufts are drawn (`tufts`) if a knot has at least two pixels, with half knots and jufti knots; otherwise the light of the
+knots is averaged, one knot in each cell. The same seed gives the same picture.
 """
 
 import io
 import zlib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -20,7 +20,7 @@ from ilmek.carpet.sizes import CarpetSize
 from ilmek.errors import CarpetError
 from ilmek.progress import SILENT, Progress
 from ilmek.viz.carpet_edges import flat_band, fringe, selvedge
-from ilmek.viz.tufts import encoded, tufted, yarn_light
+from ilmek.viz.tufts import encoded, marked_tufts, tufted, yarn_light
 
 LONGEST = 1400
 """Number of pixels along the longer side of the picture, where no width is given."""
@@ -73,6 +73,8 @@ def write_carpet_png(path: Path, chart: Chart, width: int | None = None, progres
     check_carpet_width(chart.size, width)
     across, along = _framed_size(chart.size)
     layout = _layout(chart.size, LONGEST / max(across, along) if width is None else width / across)
+    if width is not None:
+        layout = replace(layout, width=width - 2 * layout.selvedge)
     _drawn(chart, layout, 1, progress).save(path, format="PNG", compress_level=1, compress_type=zlib.Z_HUFFMAN_ONLY)
 
 
@@ -102,8 +104,10 @@ def close_up(chart: Chart, seed: int = 1) -> bytes:
     rng = np.random.default_rng(seed)
     across = _CLOSE_WIDTH // _CLOSE_UP[0]
     down = max(2, round(across * chart.quality.across / chart.quality.along))
-    light = yarn_light(piece, [yarn.srgb for yarn in chart.yarns], rng, 0.06)
-    return _jpeg(Image.fromarray(tufted(light, across * columns, down * rows, rng, fibre=_FIBRE)), 86)
+    srgb = [yarn.srgb for yarn in chart.yarns]
+    light = yarn_light(piece, srgb, rng, 0.06)
+    marked = marked_tufts(chart.overlay, (top, left), (rows, columns), srgb, rng)
+    return _jpeg(Image.fromarray(tufted(light, across * columns, down * rows, rng, fibre=_FIBRE, marked=marked)), 86)
 
 
 def _framed_size(size: CarpetSize) -> tuple[float, float]:
@@ -128,7 +132,9 @@ def _drawn(chart: Chart, layout: _Layout, seed: int, progress: Progress) -> Imag
 def _pile(chart: Chart, layout: _Layout, rng: np.random.Generator, progress: Progress) -> Rgb:
     srgb = [yarn.srgb for yarn in chart.yarns]
     if layout.width >= 2 * chart.columns and layout.height >= 2 * chart.rows:
-        return tufted(yarn_light(chart.knots, srgb, rng, 0.05), layout.width, layout.height, rng, progress=progress)
+        light = yarn_light(chart.knots, srgb, rng, 0.05)
+        marked = marked_tufts(chart.overlay, (0, 0), (chart.rows, chart.columns), srgb, rng)
+        return tufted(light, layout.width, layout.height, rng, marked=marked, progress=progress)
     height, width = min(layout.height, chart.rows), min(layout.width, chart.columns)
     palette, size = np.array(srgb, dtype=np.uint8), (chart.rows, chart.columns)
     mean = resampled_rows(lambda part: palette[chart.knots[part]], size, (height, width), progress)

@@ -6,7 +6,8 @@ A tuft is a leaning mound with an elliptic foot:
 
 with a centre (cx, cy) and a height h that vary from knot to knot. At each point the highest tuft is visible. It is
 darker deep between the tufts and lighter where it faces the light (upper left). The pile leans towards the beginning of
-the weave, the lower edge. The yarn's colour varies a little from knot to knot, and in bands of rows from dye lot to dye
+the weave, the lower edge. A cell of two half knots has two tufts of half the width, a jufti knot one of twice the
+width over its two cells. The yarn's colour varies a little from knot to knot, and in bands of rows from dye lot to dye
 lot (abrash).
 """
 
@@ -15,9 +16,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ilmek.arrays import Float32, Indices, Rgb
+from ilmek.arrays import Float32, Indices, Int32, Rgb
 from ilmek.carpet.colour import LINEAR, encode
 from ilmek.carpet.design import bands
+from ilmek.carpet.overlay import HALF, Overlay
 from ilmek.num.compiled import compiled
 from ilmek.progress import SILENT, Progress
 
@@ -27,6 +29,16 @@ Light = Float32[np.ndarray, "rows columns 3"]
 
 Pixels = Float32[np.ndarray, "height width channels"]
 """A picture in linear light."""
+
+Marks = Int32[np.ndarray, "rows columns"]
+"""Forms of the knots of cells: 0 a whole knot; n > 0 two half knots, the right one in the n-th second colour; the left
+and the right cell of a jufti knot. Without a row: all are whole.
+"""
+
+SecondLight = Float32[np.ndarray, "halves 3"]
+"""The linear colours of the right half knots."""
+
+_JUFTI_LEFT, _JUFTI_RIGHT = -1, -2
 
 _FOOT = (0.66, 0.74)
 _LEAN = 0.10
@@ -46,6 +58,45 @@ class _Tufts:
     across: Plane
     down: Plane
     height: Plane
+
+
+@dataclass(frozen=True, slots=True)
+class MarkedTufts:
+    """The half knots and jufti knots of a piece of pile."""
+
+    marks: Marks
+    seconds: SecondLight
+
+
+def no_marks() -> MarkedTufts:
+    """Every knot is whole."""
+    return MarkedTufts(np.zeros((0, 0), dtype=np.int32), np.zeros((0, 3), dtype=np.float32))
+
+
+def marked_tufts(
+    overlay: Overlay,
+    corner: tuple[int, int],
+    shape: tuple[int, int],
+    srgb: Sequence[tuple[int, int, int]],
+    rng: np.random.Generator,
+) -> MarkedTufts:
+    """The marks of an overlay in a piece of `shape` (rows, columns) whose first cell is `corner` (row, column).
+
+    A jufti knot of which the piece has only the right cell is drawn as a whole knot.
+    """
+    part = overlay.between(corner[0], corner[0] + shape[0])
+    rows, columns = part.rows - corner[0], part.columns - corner[1]
+    inside, half = (columns >= 0) & (columns < shape[1]), part.kinds == HALF
+    if not inside.any():
+        return no_marks()
+    marks, halves, juftis = np.zeros(shape, dtype=np.int32), inside & half, inside & ~half
+    marks[rows[halves], columns[halves]] = 1 + np.arange(np.count_nonzero(halves))
+    marks[rows[juftis], columns[juftis]] = _JUFTI_LEFT
+    whole = juftis & (columns + 1 < shape[1])
+    marks[rows[whole], columns[whole] + 1] = _JUFTI_RIGHT
+    if not halves.any():
+        return MarkedTufts(marks, no_marks().seconds)
+    return MarkedTufts(marks, yarn_light(part.seconds[halves][np.newaxis], srgb, rng, 0.05)[0])
 
 
 def encoded(light: Pixels) -> Rgb:
@@ -85,12 +136,15 @@ def tufted(
     rng: np.random.Generator,
     *,
     fibre: float = 0.0,
+    marked: MarkedTufts | None = None,
     progress: Progress = SILENT,
 ) -> Rgb:
     """The pile of knots with these linear colours, on `width` x `height` pixels.
 
-    fibre  strength of single fibres: streaks in the light, frayed borders between tufts; for close-ups
+    fibre   strength of single fibres: streaks in the light, frayed borders between tufts; for close-ups
+    marked  half knots and jufti knots; default: none
     """
+    marked = marked or no_marks()
     tufts = _scattered(light, rng)
     fibres = np.zeros((0, 0, 5), dtype=np.float32)
     if fibre:
@@ -100,7 +154,18 @@ def tufted(
         fibres[:, :, 4] = _streaks(height, width, width // light.shape[1], rng, fibre)
     out = np.empty((height, width, 3), dtype=np.uint8)
     for band in bands(height, width, _SLICE):
-        _draw(tufts.across, tufts.down, tufts.height, light, fibres, out[band], band.start, height)
+        _draw(
+            tufts.across,
+            tufts.down,
+            tufts.height,
+            light,
+            marked.marks,
+            marked.seconds,
+            fibres,
+            out[band],
+            band.start,
+            height,
+        )
         progress(band.stop / height)
     return out
 
@@ -115,12 +180,21 @@ def _scattered(light: Light, rng: np.random.Generator) -> _Tufts:
 
 
 @compiled
-def _draw(  # noqa: PLR0917
-    across: Plane, down: Plane, height: Plane, light: Light, fibres: Pixels, out: Rgb, first: int, high: int
+def _draw(  # noqa: C901, PLR0917 - one kernel
+    across: Plane,
+    down: Plane,
+    height: Plane,
+    light: Light,
+    marks: Marks,
+    seconds: SecondLight,
+    fibres: Pixels,
+    out: Rgb,
+    first: int,
+    high: int,
 ) -> None:
     # The highest of a pixel's own tuft and its three nearest neighbours; at the edges a tuft is its own neighbour.
     rows, columns = across.shape
-    wide, frayed = out.shape[1], fibres.shape[0] > 0
+    wide, frayed, marked = out.shape[1], fibres.shape[0] > 0, marks.shape[0] > 0
     for j in range(out.shape[0]):
         y = (first + j + 0.5) * rows / high
         row = int(y)
@@ -131,23 +205,34 @@ def _draw(  # noqa: PLR0917
             column = int(x)
             x -= column
             aside = 1 if x > 0.5 else -1
-            best, lit, seen_row, seen_column = -np.inf, 0.0, row, column
+            best, lit, seen_row, seen_column, seen_half = -np.inf, 0.0, row, column, 0
             for which in range(4):
                 dx, dy = aside * (which % 2), above * (which // 2)
                 r = min(max(row + dy, 0), rows - 1)
                 c = min(max(column + dx, 0), columns - 1)
-                u = (x - dx - across[r, c]) / _FOOT[0]
+                away, foot, half = x - dx - across[r, c], _FOOT[0], 0
+                if marked and marks[r, c] > 0:
+                    away, foot = away + 0.5 * across[r, c], 0.5 * foot
+                    if away > 0.25:
+                        away, half = away - 0.5, marks[r, c]
+                elif marked and marks[r, c] < 0:
+                    if marks[r, c] == _JUFTI_RIGHT:
+                        c -= 1
+                        away = x - dx + 1.0 - across[r, c]
+                    away, foot = away - 0.5, 2.0 * foot
+                u = away / foot
                 v = (y - dy - down[r, c]) / _FOOT[1]
                 z = height[r, c] - u * u - v * v
                 if frayed:
                     z += fibres[first + j, i, which]
                 if z > best:
-                    best, lit, seen_row, seen_column = z, u * _SUN[0] + v * _SUN[1], r, c
+                    best, lit, seen_row, seen_column, seen_half = z, u * _SUN[0] + v * _SUN[1], r, c, half
             shade = 0.60 + 0.42 * min(max(best, -0.4), 1.2) + lit
             if frayed:
                 shade *= fibres[first + j, i, 4]
             for channel in range(3):
-                value = min(max(light[seen_row, seen_column, channel] * shade, 0.0), 1.0)
+                yarn = seconds[seen_half - 1, channel] if seen_half else light[seen_row, seen_column, channel]
+                value = min(max(yarn * shade, 0.0), 1.0)
                 out[j, i, channel] = _CODES[int(value * _FINE)]
 
 
