@@ -47,6 +47,12 @@ def test_a_chart_comes_back_bit_for_bit_with_yarns_of_one_colour(path: Path, tmp
     assert (tmp_path / "again.png").read_bytes() == path.read_bytes()
 
 
+def test_a_fit_that_is_given_acts_on_a_chart_of_another_size(path: Path) -> None:
+    """The size alone would change the quality until the chart fills it."""
+    chart = charted(path, size="180x180cm", fit="pad").chart
+    assert (chart.knots.shape, chart.reading.fit.kind) == ((45, 45), "pad")
+
+
 def test_its_own_facts_as_options_change_nothing(path: Path) -> None:
     again = charted(path, size="120x180cm", quality="2.5x2.5/dm", reading="exact", least_patch="0").chart
     assert np.array_equal(again.knots, KNOTS)

@@ -8,6 +8,7 @@ import pytest
 from drawings import FLAT, rendered, sunset
 from PIL import Image
 
+from ilmek.api import carpets
 from ilmek.carpet.chart import make_chart
 from ilmek.carpet.exact import USUAL, enlargement, few_colours, find_drawing, measured, of_grid
 from ilmek.carpet.quality import Quality, parse_quality
@@ -177,6 +178,8 @@ def test_a_padded_drawing_is_exact_where_it_then_has_the_knots(drawn: Path) -> N
     order = read_order(drawn, size="32x36cm", quality="25x25/dm", fit="pad", reading="exact")
     chart = make_charted(order).chart
     assert (chart.reading.kind, chart.knots.shape, chart.reading.fit.kind) == ("exact", (90, 80), "pad")
+    again = carpets.make_chart(drawn, "32x36cm", "25x25/dm", fit="pad", reading="exact")
+    assert np.array_equal(again.knots, chart.knots)
 
 
 def test_colours_of_one_yarn_are_warned_of(tmp_path: Path) -> None:

@@ -10,9 +10,9 @@ from dataclasses import field, fields
 
 from ilmek.arrays import BoolArray, FloatArray, Indices, Rgb
 from ilmek.carpet.confetti import merge_patches
-from ilmek.carpet.design import knot_grid
 from ilmek.carpet.differences import YarnDifference, differences
-from ilmek.carpet.fitting import Fit, FitParams, fit_prepared, prepare_picture
+from ilmek.carpet.fitted import fitted_design, unfitted_design
+from ilmek.carpet.fitting import Fit, FitParams, prepare_picture
 from ilmek.carpet.halftone import draw_halftone
 from ilmek.carpet.matches import ColourMatch, colour_matches
 from ilmek.carpet.overlay import Overlay, TiedKnots, no_overlay, require_fit, tied_knots
@@ -20,7 +20,7 @@ from ilmek.carpet.palette import Colours, distinct_colours, nearest_yarns, paint
 from ilmek.carpet.palette_rules import Palette, PaletteParams, choose_yarns
 from ilmek.carpet.proposal import ProposedShade, propose_shades
 from ilmek.carpet.quality import Quality
-from ilmek.carpet.reading import Design, ReadParams, exact_design, read_design
+from ilmek.carpet.reading import Design, ReadParams
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.tally import Tally, tally_of
 from ilmek.carpet.usual_pile import with_counts
@@ -164,15 +164,15 @@ def make_chart(
         raise PictureError("the picture is empty", allowed="at least 1 × 1 pixels")
     _check_yarns(yarns)
     parse_knot(knot)
-    prepared, done = prepare_picture(rgb, fit or FitParams(), progress.part(0.0, 0.1), size=size)
-    exact = exact_design(prepared, size, quality, reading, progress=progress.part(0.1, 0.2))
+    fitting, read = fit or FitParams(), reading or ReadParams()
+    prepared, done = prepare_picture(rgb, fitting, progress.part(0.0, 0.1), size=size)
+    exact = unfitted_design(prepared, size, quality, fitting=fitting, reading=read, progress=progress.part(0.1, 0.2))
     if exact is not None:
         design = exact[0]
     else:
-        grid = knot_grid(size, quality)
-        fitted, done = fit_prepared(prepared, done, size, fit or FitParams(), grid=grid)
-        inner = prepared if done.padded else None
-        design = read_design(fitted, grid, reading, progress.part(0.2, 0.4), unpadded=inner)
+        design, _, done = fitted_design(
+            prepared, done, size, quality, fitting=fitting, reading=read, progress=progress.part(0.2, 0.4)
+        )
     return chart_of_design(
         design,
         size,

@@ -109,7 +109,8 @@ class Fit:
             found = "" if self.clearness is None else f" (found, clearness {self.clearness:.2f})"
             done.append(f"straightened from {' '.join(f'{x:.1f},{y:.1f}' for x, y in self.corners)}{found}")
         if self.turned:
-            done.append(f"turned by {format_quantity(self.turned, 'deg')}")
+            turned = self.turned - (2 * math.pi if self.turned > math.pi else 0.0)
+            done.append(f"turned by {format_quantity(turned, 'deg')}")
         if self.cropped:
             done.append(f"cropped, {format_quantity(self.cropped, '%', 3)} of the picture is not shown")
         if self.padded:

@@ -11,7 +11,7 @@ A kept yarn is in the palette in any case; it has knots only where it is the nea
 
 import itertools
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -148,6 +148,15 @@ def yarn_names(option: str, text: str | None) -> tuple[str, ...]:
 def check_palette(params: PaletteParams, yarns: Sequence[Yarn]) -> None:
     """Raise YarnError for rules that the list of yarns cannot meet."""
     _kept_and_allowed(params, yarns)
+
+
+def names_text(names: Iterable[str]) -> str:
+    """The text of names, as `yarn_names` reads it; a name with a quotation mark is left out.
+
+    >>> names_text(["ivory", "No. 7, blue"])
+    '"ivory", "No. 7, blue"'
+    """
+    return ", ".join(f'"{name}"' for name in names if '"' not in name)
 
 
 def choose_yarns(

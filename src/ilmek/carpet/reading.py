@@ -137,14 +137,15 @@ def read_design(
     """
     params = params or ReadParams()
     if params.reading == "photo":
-        return _photo(rgb, grid, params, "read as a photo, as required", progress)
+        return _photo(rgb, grid, params, "as required", progress)
     seen = looks_flat(rgb if unpadded is None else unpadded)
     if params.reading == "auto" and not seen.is_flat:
         return _photo(rgb, grid, params, seen.sentence, progress)
     flat = flat_design(rgb, grid, progress, seen.true if unpadded is None else None)
+    required = "as required; " if params.reading == "flat" and not seen.is_flat else ""
     axes = f"; symmetric about the {' and the '.join(flat.symmetric)} axis" if flat.symmetric else ""
     colours, tone = toned(flat.colours, params.tone)
-    return Design(colours, "flat", seen.sentence + axes + tone, flat.foreign)
+    return Design(colours, "flat", required + seen.sentence + axes + tone, flat.foreign)
 
 
 def _photo(rgb: Rgb, grid: tuple[int, int], params: ReadParams, reason: str, progress: Progress) -> Design:

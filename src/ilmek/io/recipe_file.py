@@ -33,6 +33,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from ilmek.carpet.palette_rules import names_text
 from ilmek.carpet.quality import Quality, gereh_note, parse_quality
 from ilmek.carpet.recipe.edits import FORMS, Edit, parse_edit
 from ilmek.carpet.recipe.recipe import (
@@ -197,7 +198,8 @@ class _RecipeReader:
                 if parameter.name in found:
                     raise ParameterError(f"{parameter.name} is given twice", do="leave one of them out")
                 if isinstance(value, list) and all(isinstance(one, str | int | float) for one in value):
-                    value = ", ".join(str(one) for one in value)
+                    names = parameter.name in ("keep", "never")
+                    value = names_text(map(str, value)) if names else ", ".join(str(one) for one in value)
                 if not isinstance(value, str | int | float):
                     raise ParameterError(f"{shown(value)} is not a value", do='write it like "8mm", 8, true or "auto"')
                 parameter.check(parameter.read(value))

@@ -9,9 +9,10 @@ from ilmek.arrays import Rgb
 from ilmek.carpet.chart import Chart, chart_of_design
 from ilmek.carpet.design import knot_grid, resampled
 from ilmek.carpet.exact import few_colours, has_grid, of_grid, stated_quality
-from ilmek.carpet.fitting import Fit, FitParams, fit_notes, fit_prepared, prepare_picture
+from ilmek.carpet.fitted import fitted_design, unfitted_design
+from ilmek.carpet.fitting import Fit, FitParams, fit_notes, prepare_picture
 from ilmek.carpet.quality import Quality
-from ilmek.carpet.reading import Design, ReadParams, exact_design, read_design
+from ilmek.carpet.reading import Design, ReadParams
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import MOST_YARNS
 from ilmek.errors import PictureError
@@ -61,6 +62,8 @@ def chart_of_order(order: CarpetOrder, progress: Progress = SILENT, *, with_sour
             order = replace(order, quality=stated)
             notes = (*notes, f"its resolution is that of knots: {stated}")
         del picture
+        if order.size is not None and order.reading.reading == "auto" and order.fit.fit != FitParams().fit:
+            order = replace(order, quality=order.resolved().quality)
         prepared, fit = prepare_picture(rgb, order.fit, progress.part(0.2, 0.25), size=order.resolved().size)
     else:
         given, order = order, _on_the_chart(order, chart)
@@ -70,7 +73,7 @@ def chart_of_order(order: CarpetOrder, progress: Progress = SILENT, *, with_sour
             kept = replace(chart, yarns=made.yarns, size=made.size, quality=made.quality, knot=made.knot)
             return OrderedChart(made, kept, notes)
         notes = (*notes, *_flattened(chart))
-        rgb = np.array([yarn.srgb for yarn in chart.yarns], dtype=np.uint8)[chart.knots]
+        rgb = drawn_chart(chart)
         prepared, fit = prepare_picture(rgb, order.fit, progress.part(0.2, 0.25))
         drawn = given.size is None and _is_part(prepared, chart)
         order = replace(order, size=None) if drawn else order
@@ -111,10 +114,10 @@ def _read(
 
     fit    what was done to it      drawn  every pixel is a knot, whatever the size
     """
-    begun = order.reading if order.fit.fit == FitParams().fit else replace(order.reading, reading="auto")
-    if order.reading.reading not in ("auto", "exact"):
-        begun = order.reading
-    exact = exact_design(prepared, order.size, order.quality, begun, drawn=drawn, progress=progress.part(0.0, 0.4))
+    first = progress.part(0.0, 0.4)
+    exact = unfitted_design(
+        prepared, order.size, order.quality, fitting=order.fit, reading=order.reading, drawn=drawn, progress=first
+    )
     if exact is not None:
         design, size, quality = exact
         made = replace(order, size=size, quality=quality).resolved()
@@ -122,13 +125,11 @@ def _read(
         return _ReadPicture(made, design, fit, (), shown_source(prepared) if with_source else None)
     made = order.resolved()
     check_sheets(made.size, made.quality, order)
-    grid = knot_grid(made.size, made.quality)
-    fitted, fit = fit_prepared(prepared, fit, made.size, order.fit, progress.part(0.35, 0.4), grid=grid)
-    exact = exact_design(fitted, made.size, made.quality, order.reading, progress=progress.part(0.4, 0.5))
-    inner = prepared if fit.padded else None
-    reading = progress.part(0.5, 1.0)
-    design = exact[0] if exact else read_design(fitted, grid, order.reading, reading, unpadded=inner)
-    notes = fit_notes(fit, fitted.shape[:2], made.size, grid)
+    reading = progress.part(0.35, 1.0)
+    design, fitted, fit = fitted_design(
+        prepared, fit, made.size, made.quality, fitting=order.fit, reading=order.reading, progress=reading
+    )
+    notes = fit_notes(fit, fitted.shape[:2], made.size, knot_grid(made.size, made.quality))
     return _ReadPicture(made, design, fit, notes, shown_source(fitted) if with_source else None)
 
 
@@ -137,6 +138,12 @@ def _stated(order: CarpetOrder, picture: Picture) -> Quality | None:
     if order.size is not None or order.quality is not None or order.reading.reading not in ("auto", "exact"):
         return None
     return None if order.fit != FitParams() else stated_quality(picture.density, picture.rgb)
+
+
+def drawn_chart(chart: Chart) -> Rgb:
+    """The picture of a chart: each knot one pixel in the colour of its yarn."""
+    colours: Rgb = np.array([yarn.srgb for yarn in chart.yarns], dtype=np.uint8)[chart.knots]
+    return colours
 
 
 def _flattened(chart: Chart) -> tuple[str, ...]:
@@ -172,6 +179,8 @@ def _on_the_chart(order: CarpetOrder, chart: Chart) -> CarpetOrder:
     size = chart.size if order.size is not None and _same(order.size, chart.size) else order.size
     if (size or chart.size) == chart.size and (order.quality or chart.quality) == chart.quality:
         size, quality = chart.size, chart.quality
+    elif size is not None and order.quality is None and order.fit.fit != FitParams().fit:
+        quality = chart.quality
     elif size is None or order.quality is None:
         size, quality = of_grid(grid, size, order.quality)
     else:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from ilmek.arrays import Pixels
 from ilmek.carpet.chart import Chart, chart_of_design
-from ilmek.carpet.palette_rules import PaletteParams, yarn_names
+from ilmek.carpet.palette_rules import PaletteParams, names_text, yarn_names
 from ilmek.carpet.reading import READINGS
 from ilmek.carpet.recipe.composition import compose
 from ilmek.carpet.recipe.edits import located
@@ -15,11 +15,13 @@ from ilmek.carpet.recipe.recipe import Recipe
 from ilmek.carpet.usual_pile import with_counts
 from ilmek.carpet.yarn import Yarn
 from ilmek.errors import CarpetError
+from ilmek.io.chart.oxs_reading import is_oxs, read_chart_oxs
 from ilmek.io.picture import SMALLEST, read_picture
 from ilmek.io.recipe_file import LoomKeys, RecipeFile
 from ilmek.io.recipe_text import recipe_text
 from ilmek.io.toml_text import written_quantity
-from ilmek.jobs.charting import OrderedChart, chart_of_order, shown_source
+from ilmek.io.yarn_file import default_yarns
+from ilmek.jobs.charting import OrderedChart, chart_of_order, drawn_chart, shown_source
 from ilmek.jobs.order import GROUPS, CarpetOrder, ResolvedOrder, check_sheets, recipe_key
 from ilmek.params import declared
 from ilmek.progress import SILENT, Progress
@@ -33,6 +35,7 @@ def chart_of_recipe(order: CarpetOrder, progress: Progress = SILENT, *, with_sou
     recipe = order.recipe
     assert recipe is not None
     _check_never(recipe, order.palette)
+    given, order = order, replace(order, palette=_keeping(recipe, order))
     if not recipe.is_composed:
         assert recipe.picture is not None
         picture = replace(order, picture=recipe.picture, recipe=None)
@@ -41,7 +44,7 @@ def chart_of_recipe(order: CarpetOrder, progress: Progress = SILENT, *, with_sou
         reading = replace(done.chart.reading, reason=f"{done.chart.reading.reason} (picture of {recipe.file.name})")
         chart = replace(done.chart, reading=reading)
         chart = finish(chart, recipe, _counted(done.order), None, progress.part(0.8, 1.0, "edits"))
-        return OrderedChart(replace(done.order, order=order), chart, done.notes, done.source)
+        return OrderedChart(replace(done.order, order=given), chart, done.notes, done.source)
     made = order.resolved()
     check_sheets(made.size, made.quality, order)
     pictures, notes = _pictures(recipe, progress.part(0.0, 0.3, "picture"))
@@ -69,7 +72,7 @@ def chart_of_recipe(order: CarpetOrder, progress: Progress = SILENT, *, with_sou
     )
     source = shown_source(composition.design.colours) if with_source else None
     chart = finish(chart, recipe, _counted(made), composition, progress.part(0.8, 1.0, "edits"))
-    return OrderedChart(made, chart, (*notes, *composition.notes), source)
+    return OrderedChart(replace(made, order=given), chart, (*notes, *composition.notes), source)
 
 
 def _check_never(recipe: Recipe, palette: PaletteParams) -> None:
@@ -79,6 +82,25 @@ def _check_never(recipe: Recipe, palette: PaletteParams) -> None:
         if name.casefold() in never:
             with located(where):
                 raise CarpetError(f"{name!r} is named, and never excludes it", do="leave it out of one")
+
+
+def _keeping(recipe: Recipe, order: CarpetOrder) -> PaletteParams:
+    """The palette rules, where they choose yarns with the yarns that the recipe names among those that are kept.
+
+    Raises CarpetError for more of them than colours.
+    """
+    rules = order.palette
+    if rules.colours is None and not rules.least_share:
+        return rules
+    known = {yarn.name.casefold(): yarn.name for yarn in order.yarns or default_yarns()}
+    kept = {name.casefold(): name for name in yarn_names("keep", rules.keep)}
+    kept |= {name.casefold(): known[name.casefold()] for name, _ in recipe.named if name.casefold() in known}
+    if isinstance(rules.colours, int) and len(kept) > rules.colours:
+        raise CarpetError(
+            f"{recipe.file}: colours = {rules.colours}, and {len(kept)} yarns are named: {', '.join(kept.values())}",
+            do=f"give at least colours = {len(kept)}, or name fewer yarns",
+        )
+    return replace(rules, keep=names_text(kept.values())) if kept else rules
 
 
 def _counted(made: ResolvedOrder) -> tuple[Yarn, ...]:
@@ -93,10 +115,18 @@ def _pictures(recipe: Recipe, progress: Progress) -> tuple[Mapping[Path, Pixels]
     for number, (path, where) in enumerate(files.items()):
         part = progress.part(number / len(files), (number + 1) / len(files))
         with located(where):
-            picture = read_picture(path, part, smallest=SMALLEST if path == recipe.picture else 1)
-        found[path] = picture.rgb
-        notes += [f"{path.name}: {note}" for note in picture.notes]
+            found[path], more = _pixels(path, SMALLEST if path == recipe.picture else 1, part)
+        notes += [f"{path.name}: {note}" for note in more]
     return found, tuple(notes)
+
+
+def _pixels(path: Path, smallest: int, progress: Progress) -> tuple[Pixels, tuple[str, ...]]:
+    """The pixels of a picture or of an OXS chart, which has its yarns' colours, and notes."""
+    if not is_oxs(path):
+        picture = read_picture(path, progress, smallest=smallest)
+        return picture.rgb, picture.notes
+    chart, notes = read_chart_oxs(path, progress=progress)
+    return drawn_chart(chart), notes
 
 
 def saved_recipe(made: ResolvedOrder, chart: Chart, folder: Path, loom: LoomKeys | None = None) -> str:

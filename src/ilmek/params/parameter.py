@@ -67,11 +67,14 @@ class Parameter:
         if self.unit in _UNIT_REQUIRED and number != 0 and not has_unit(text):
             per = self.unit.removeprefix("1")
             raise ParameterError(f"{self.name}={text} has no unit", do=f"did you mean {text}{per}?")
-        if self.kind is int:
-            if number != round(number):
-                raise ParameterError(f"{self.name}={setting} is not a whole number", allowed=self.allowed())
-            return round(number)
-        return number
+        if has_unit(text) and abs(number) <= GREATEST and not self.within(number):
+            raise self._out_of_bounds(number)
+        return self._whole(number, setting) if self.kind is int else number
+
+    def _whole(self, number: float, setting: Setting) -> int:
+        if number != round(number):
+            raise ParameterError(f"{self.name}={setting} is not a whole number", allowed=self.allowed())
+        return round(number)
 
     def _check_text(self, text: Value) -> None:
         """Raise ParameterError for a value that is no text, is too long, or has characters that cannot be printed."""
@@ -112,10 +115,11 @@ class Parameter:
         if 0 < abs(value) < LEAST:
             raise ParameterError(f"{self.name}={value:g} is too small", allowed=self.allowed(), do="did you mean 0?")
         if not self.within(value):
-            shown = format_quantity(value, self.unit)
-            raise ParameterError(
-                f"{self.name}={shown} is out of bounds", allowed=self.allowed(), do=self._likely_slip(value)
-            )
+            raise self._out_of_bounds(value, self._likely_slip(value))
+
+    def _out_of_bounds(self, value: float, do: str = "") -> ParameterError:
+        shown = format_quantity(value, self.unit)
+        return ParameterError(f"{self.name}={shown} is out of bounds", allowed=self.allowed(), do=do)
 
     def within(self, value: float) -> bool:
         """Whether a number lies within the declared bounds: `above`, `below` exclude, `at_least`, `at_most` include."""

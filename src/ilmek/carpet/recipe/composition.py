@@ -14,9 +14,10 @@ import numpy as np
 from ilmek.arrays import Bool, Pixels
 from ilmek.carpet.design import knot_grid, resampled
 from ilmek.carpet.exact import few_colours
-from ilmek.carpet.fitting import Fit, FitParams, fit_notes, fit_picture
+from ilmek.carpet.fitted import fitted_design
+from ilmek.carpet.fitting import Fit, FitParams, fit_notes, prepare_picture
 from ilmek.carpet.quality import Quality
-from ilmek.carpet.reading import Design, ReadParams, exact_design, read_design
+from ilmek.carpet.reading import Design, ReadParams, read_design
 from ilmek.carpet.recipe.border import draw_border, edges, teeth_tile
 from ilmek.carpet.recipe.edits import located, srgb_of, yarn_number
 from ilmek.carpet.recipe.layout import BorderLayout, CarpetLayout, lay_out
@@ -77,24 +78,16 @@ class _Canvas:
         self.yarns.append((area, number))
         return self.list_of_yarns[number].srgb
 
-    def read(
-        self, rgb: Pixels, grid: tuple[int, int], size: CarpetSize | None = None, progress: Progress = SILENT
-    ) -> Pixels:
-        """A picture on the grid of its part; each of its pixels is a knot where it has that grid and few colours.
-
-        size  of the part; default: of a tile, which is exact if it has the grid
-        """
+    def read_tile(self, rgb: Pixels, grid: tuple[int, int]) -> Pixels:
+        """A tile on its grid; each of its pixels is a knot where it has that grid and few colours."""
         exact = None
-        if size is not None:
-            found = exact_design(rgb, size, self.quality, self.reading, progress=progress.part(0.0, 0.5))
-            exact = None if found is None else found[0]
-        elif self.reading.reading in ("auto", "exact") and rgb.shape[:2] == grid and few_colours(rgb, MOST_YARNS):
+        if self.reading.reading in ("auto", "exact") and rgb.shape[:2] == grid and few_colours(rgb, MOST_YARNS):
             exact = Design(rgb, "exact", f"its pixels are the {grid[1]} × {grid[0]} knots", 0)
         elif self.reading.reading == "exact":
             pixels = f"{rgb.shape[1]} × {rgb.shape[0]} pixels"
             given = f"reading is exact, and a tile of {pixels} has {grid[1]} × {grid[0]} knots"
             raise CarpetError(given, do="leave out its width and length, or the reading")
-        self.designs.append(exact or read_design(rgb, grid, self.reading, progress.part(0.5, 1.0)))
+        self.designs.append(exact or read_design(rgb, grid, self.reading))
         return self.designs[-1].colours
 
     def mark(self, area: Area, kind: str = "", shown: Bool[np.ndarray, "rows columns"] | None = None) -> None:
@@ -108,7 +101,7 @@ class _Canvas:
             if height * width > MOST_TILE:
                 given = f"{path.name} has {width} × {height} {noun}"
                 raise CarpetError(given, allowed=f"at most {MOST_TILE:,} of a tile or a motif", do="make it smaller")
-        return self.read(rgb, grid)
+        return self.read_tile(rgb, grid)
 
 
 def compose(
@@ -137,7 +130,7 @@ def compose(
             _draw_border(canvas, one)
         progress(0.1)
     with located(recipe.where):
-        done = _draw_field(canvas, recipe, layout, fit, progress.part(0.1, 0.9))
+        done = _draw_field(canvas, recipe, layout, fit or FitParams(), progress.part(0.1, 0.9))
     for motif in recipe.motifs:
         with located(motif.where):
             _draw_motif(canvas, motif, layout)
@@ -193,9 +186,7 @@ def _mark_sides(canvas: _Canvas, area: Area, breadth: tuple[int, int], kind: str
         canvas.mark((slice(rows.start + top, rows.stop + top), slice(columns.start + left, columns.stop + left)), kind)
 
 
-def _draw_field(
-    canvas: _Canvas, recipe: Recipe, layout: CarpetLayout, fit: FitParams | None, progress: Progress
-) -> Fit:
+def _draw_field(canvas: _Canvas, recipe: Recipe, layout: CarpetLayout, fitting: FitParams, progress: Progress) -> Fit:
     """Draw the field; returns how its picture was fitted."""
     (top, left), (rows, columns) = layout.inset, layout.field
     area = (slice(top, top + rows), slice(left, left + columns))
@@ -205,9 +196,20 @@ def _draw_field(
     if recipe.picture is not None:
         part = part_grid(recipe.mirror, layout.field)
         size = _part_size(part, canvas.quality)
-        fitted, done = fit_picture(canvas.pictures[recipe.picture], size, fit, progress.part(0.0, 0.3), grid=part)
+        prepared, done = prepare_picture(canvas.pictures[recipe.picture], fitting, progress.part(0.0, 0.3), size=size)
+        design, fitted, done = fitted_design(
+            prepared,
+            done,
+            size,
+            canvas.quality,
+            fitting=fitting,
+            reading=canvas.reading,
+            grid=part,
+            progress=progress.part(0.3, 1.0),
+        )
+        canvas.designs.append(design)
         canvas.notes += fit_notes(done, fitted.shape[:2], size, part)
-        out[: part[0], : part[1]] = canvas.read(fitted, part, size, progress.part(0.3, 1.0))
+        out[: part[0], : part[1]] = design.colours
     if recipe.repeat is not None:
         with located(recipe.repeat.where):
             _draw_repeat(canvas, recipe, out, progress)

@@ -1,0 +1,56 @@
+"""From a prepared picture to the design: a drawing is taken before the fit changes it, else it is fitted and read."""
+
+from dataclasses import replace
+
+from ilmek.arrays import Rgb
+from ilmek.carpet.design import knot_grid
+from ilmek.carpet.fitting import Fit, FitParams, fit_prepared
+from ilmek.carpet.projection import MadeRgb
+from ilmek.carpet.quality import Quality
+from ilmek.carpet.reading import Design, ReadParams, exact_design, read_design
+from ilmek.carpet.sizes import CarpetSize
+from ilmek.progress import SILENT, Progress
+
+
+def unfitted_design(
+    prepared: Rgb,
+    size: CarpetSize | None,
+    quality: Quality | None,
+    *,
+    fitting: FitParams,
+    reading: ReadParams,
+    drawn: bool = False,
+    progress: Progress = SILENT,
+) -> tuple[Design, CarpetSize, Quality] | None:
+    """As `reading.exact_design`, of a picture that is not fitted yet.
+
+    A fit that is given may still make the grid of the knots, so an exact reading is not required before it.
+    """
+    if reading.reading == "exact" and fitting.fit != FitParams().fit:
+        reading = replace(reading, reading="auto")
+    return exact_design(prepared, size, quality, reading, drawn=drawn, progress=progress)
+
+
+def fitted_design(
+    prepared: Rgb,
+    fit: Fit,
+    size: CarpetSize,
+    quality: Quality,
+    *,
+    fitting: FitParams,
+    reading: ReadParams,
+    grid: tuple[int, int] | None = None,
+    progress: Progress = SILENT,
+) -> tuple[Design, MadeRgb, Fit]:
+    """The design of a prepared picture, the picture as it is fitted, and all that was done to it.
+
+    fit   what was done to it before      grid  rows and columns of knots; default: those of size and quality
+    Raises CarpetError where the reading is to be exact and the fitted pixels are not the knots.
+    """
+    grid = grid or knot_grid(size, quality)
+    fitted, fit = fit_prepared(prepared, fit, size, fitting, progress.part(0.0, 0.1), grid=grid)
+    exact = exact_design(fitted, size, quality, reading, progress=progress.part(0.1, 0.3))
+    if exact is not None:
+        return exact[0], fitted, fit
+    inner = prepared if fit.padded else None
+    return read_design(fitted, grid, reading, progress.part(0.3, 1.0), unpadded=inner), fitted, fit
