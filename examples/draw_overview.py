@@ -87,7 +87,7 @@ def draw() -> str:
         caption(30, 40, "A picture", "medallion.png, 120 × 180 cm"),
         picture(30, 75, wide, tall, embedded(jpeg(photo, 400, 600))),
         arrow(245, 225),
-        caption(290, 40, "its knot chart", "16 wool yarns, 135 000 knots"),
+        caption(290, 40, "its knot chart", f"{chart.colours} wool yarns, 135 000 knots"),
         picture(290, 75, wide, tall, embedded(jpeg(chart_pixels(chart), 448, 672))),
         arrow(505, 225),
         caption(550, 40, "the carpet", "as it will look"),
