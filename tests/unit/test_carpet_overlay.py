@@ -20,6 +20,7 @@ from ilmek.io.chart.pdf import write_chart_pdf
 from ilmek.jobs.weave import overlay_checks
 from ilmek.units import mm
 from ilmek.viz.page_parts import carpet_facts, yarn_lines
+from ilmek.viz.page_pictures import pictures
 from ilmek.weaving.knots.path import KnotDimensions, wrap_length
 from ilmek.weaving.knots.word import SINGLE, knot
 
@@ -125,3 +126,10 @@ def test_totals_and_shares_are_of_the_knots_to_tie() -> None:
     assert "half and jufti knots" in knots.note
     shares = [float(line.share.split()[0]) for line in yarn_lines(MARKED, bill, "") if line.share]
     assert abs(sum(shares) - 100.0) <= 0.1 * len(shares)
+
+
+def test_the_page_tells_half_knots_and_jufti_knots() -> None:
+    """Cell "row,column": the second yarn, or the left and right cell of a jufti knot."""
+    data = pictures(MARKED, None, "", []).data
+    assert data["marks"] == {"0,1": 3, "0,2": -1, "0,3": -2, "1,1": -1, "1,2": -2}
+    assert pictures(PLAIN, None, "", []).data["marks"] == {}

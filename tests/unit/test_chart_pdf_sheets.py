@@ -15,6 +15,7 @@ from ilmek.carpet.yarn import Yarn
 from ilmek.io.chart.pdf import chart_cut, write_chart_pdf
 from ilmek.io.chart.sheets import OVERLAP, cut
 from ilmek.io.chart.symbols import SYMBOLS, symbols
+from ilmek.progress import Progress
 
 
 def chart(rows: int, columns: int, yarns: int, along: float = 250.0) -> Chart:
@@ -159,7 +160,7 @@ def test_cells_keep_their_proportion_and_the_paper(rows: int, columns: int, prop
 def test_progress_ends_at_one_and_the_file_is_the_same_each_time(tmp_path: Path) -> None:
     told: list[float] = []
     made = chart(130, 70, 5)
-    write_chart_pdf(tmp_path / "a.pdf", made, progress=told.append)
+    write_chart_pdf(tmp_path / "a.pdf", made, progress=Progress(lambda _, share: told.append(share)))
     write_chart_pdf(tmp_path / "b.pdf", made)
     assert told == sorted(told)
     assert told[-1] == 1.0

@@ -80,3 +80,14 @@ def lab_to_srgb(lab: Components) -> UInt8[np.ndarray, "*batch 3"]:
     linear: FloatArray = np.clip(lab_to_xyz(lab) @ XYZ_TO_RGB.T, 0.0, 1.0)
     codes: UInt8[np.ndarray, "*batch 3"] = np.rint(255 * encode(linear)).astype(np.uint8)
     return codes
+
+
+def takes_white(srgb: tuple[int, int, int]) -> bool:
+    """Whether white letters have more contrast with a colour than black ones: its relative luminance is below 0.179.
+
+    Black and white contrast equally at that luminance   [WCAG 2.2, 1.4.3].
+
+    >>> takes_white((158, 43, 37)), takes_white((239, 230, 208))
+    (True, False)
+    """
+    return float(LINEAR[list(srgb)] @ np.array([0.2126, 0.7152, 0.0722])) < 0.179

@@ -22,7 +22,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ilmek.arrays import BoolArray, Float, FloatArray, Indices, Int32, IntArray, Rgb
+from ilmek.arrays import BoolArray, Float, FloatArray, Indices, Int32, IntArray, Rgb, UInt8
 from ilmek.carpet.colour_difference import ciede2000, delta_e_2000
 from ilmek.carpet.design import bands
 from ilmek.carpet.dots import REACH, Sizes, in_row, middle_of
@@ -36,6 +36,9 @@ from ilmek.progress import SILENT, Progress
 
 KEPT = 255
 """Stands for no yarn: indices of yarns are at most 254."""
+
+OwnKnots = UInt8[np.ndarray, "own columns"]
+"""The rows of a window that it merges itself."""
 
 Starts = Int32[np.ndarray, " patches"]
 Labs = Float[np.ndarray, "yarns 3"]
@@ -227,7 +230,7 @@ def _first_of_its_neighbours(  # noqa: PLR0917
 
 @compiled
 def _merge(  # noqa: PLR0917
-    knots: Indices, out: Indices, top: int, least: int, side: int, sizes: Sizes, starts: Starts, targets: Indices,
+    knots: Indices, out: OwnKnots, top: int, least: int, side: int, sizes: Sizes, starts: Starts, targets: Indices,
     loose: BoolArray, again: BoolArray, members: Members, marks: Marks
 ) -> None:  # fmt: skip
     """Merge the loose patches that are first of their neighbours.
@@ -316,7 +319,7 @@ def _round(knots: Indices, task: _Task, wanted: BoolArray, progress: Progress) -
 
 
 def _merge_window(  # noqa: PLR0917
-    task: _Task, window: Indices, start: int, top: int, out: Indices, wanted: BoolArray, again: BoolArray
+    task: _Task, window: Indices, start: int, top: int, out: OwnKnots, wanted: BoolArray, again: BoolArray
 ) -> None:
     """Merge in a window of rows whose own rows, from its row `top` on, are those of `out` and begin at row `start`."""
     least, side, first = task.least, _side(task.least), start - top

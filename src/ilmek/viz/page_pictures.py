@@ -16,7 +16,8 @@ from PIL import Image
 
 from ilmek.arrays import Rgb
 from ilmek.carpet.chart import Chart
-from ilmek.carpet.colour import LINEAR
+from ilmek.carpet.colour import takes_white
+from ilmek.carpet.overlay import HALF, JUFTI
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 from ilmek.report.left_out import made_or_left_out
@@ -24,6 +25,9 @@ from ilmek.viz.carpet_picture import Pile, carpet_picture, close_up, pile_part
 
 LARGEST = 1600
 """Largest number of pixels along the longer side of the chart's picture."""
+
+MOST_MARKS = 50_000
+"""Largest number of half knots and jufti knots that the page tells under the pointer: 1 MB."""
 
 _TALLEST = 940
 """Largest height of the compared pictures on the page [px]."""
@@ -48,7 +52,8 @@ class CarpetPictures:
     """The pictures of a carpet; None for one that cannot be drawn, or is not there.
 
     pile  where the picture of the carpet shows the pile
-    data  of the chart's picture: rows, columns, step, and of each yarn code, name, symbol, colour of letters
+    data  of the chart's picture: rows, columns, step, half knots and jufti knots, and of each yarn code, name, symbol,
+          colour of letters
     """
 
     source: PagePicture | None
@@ -82,6 +87,7 @@ def pictures(
         "names": [yarn.name for yarn in chart.yarns],
         "symbols": list(symbols),
         "letters": [letter(yarn.srgb) for yarn in chart.yarns],
+        "marks": _marks(chart),
     }
     return CarpetPictures(
         None if source is None else made("the source", lambda: _of_the_source(source, chart)),
@@ -91,6 +97,20 @@ def pictures(
         pile_part(chart),
         data,
     )
+
+
+def _marks(chart: Chart) -> dict[str, int]:
+    """The yarn of the right half knot of each cell "row,column" that has one, -1 and -2 in the left and the right
+    cell of a jufti knot. Empty where there are more than MOST_MARKS: the page would be slow to open.
+    """
+    if len(chart.overlay) > MOST_MARKS:
+        return {}
+    marks = {}
+    for mark in chart.overlay:
+        marks[f"{mark.row},{mark.column}"] = mark.second if mark.kind == HALF else -1
+        if mark.kind == JUFTI:
+            marks[f"{mark.row},{mark.column + 1}"] = -2
+    return marks
 
 
 def thinning(chart: Chart) -> int:
@@ -123,9 +143,8 @@ def _near(code: tuple[int, int, int]) -> Sequence[tuple[int, int, int]]:
 
 
 def letter(srgb: tuple[int, int, int]) -> str:
-    """The colour of a symbol on a yarn's colour: black or white, as in the printed chart   [WCAG 2.2, 1.4.3]."""
-    light = float(LINEAR[list(srgb)] @ np.array([0.2126, 0.7152, 0.0722]))
-    return "#ffffff" if light < 0.179 else "#000000"
+    """The colour of a symbol on a yarn's colour: black or white, as in the printed chart."""
+    return "#ffffff" if takes_white(srgb) else "#000000"
 
 
 def _of_the_source(source: Rgb, chart: Chart) -> PagePicture:

@@ -20,6 +20,7 @@ async function point() {
     }
     return numbers.get(code);
   }
+  const markAt = (column, row) => chart.marks[`${row * chart.step},${column * chart.step}`];
   const css = (yarn) => `rgb(${parts(chart.codes[yarn]).join(" ")})`;
   const canvas = panel.querySelector("canvas"), pen = canvas.getContext("2d"), cells = 15, cell = canvas.width / cells;
   const answers = ["row", "knot", "yarn"].map((name) => panel.querySelector(`[data-${name}]`));
@@ -39,6 +40,11 @@ async function point() {
         pen.fillRect(x * cell, y * cell, cell - 0.5, cell - 0.5);
         pen.fillStyle = chart.letters[yarn];
         pen.fillText(chart.symbols[yarn] || "", (x + 0.5) * cell, (y + 0.55) * cell);
+        const second = markAt(i, j);
+        if (second === undefined) continue;
+        pen.fillStyle = second < 0 ? chart.letters[yarn] : css(second);
+        if (second < 0) pen.fillRect((x + (second === -1 ? 0.15 : 0)) * cell, (y + 0.88) * cell, 0.85 * cell, 0.08 * cell);
+        else pen.fillRect((x + 0.5) * cell, y * cell, 0.5 * cell - 0.5, cell - 0.5);
       }
     }
     pen.lineWidth = 3;
@@ -50,13 +56,19 @@ async function point() {
   }
   function tell(column, row) {
     here = [Math.min(wide - 1, Math.max(0, column)), Math.min(high - 1, Math.max(0, row))];
-    const yarn = yarnAt(...here), swatch = document.createElement("span");
-    swatch.className = "swatch";
-    swatch.textContent = chart.symbols[yarn] || "";
-    swatch.style.cssText = `background: ${css(yarn)}; color: ${chart.letters[yarn]}`;
+    const yarn = yarnAt(...here), second = markAt(...here);
+    const named = (one) => {
+      const swatch = document.createElement("span");
+      swatch.className = "swatch";
+      swatch.textContent = chart.symbols[one] || "";
+      swatch.style.cssText = `background: ${css(one)}; color: ${chart.letters[one]}`;
+      return [swatch, " ", chart.names[one]];
+    };
     answers[0].textContent = `${chart.rows - here[1] * chart.step} of ${chart.rows}`;
     answers[1].textContent = `${here[0] * chart.step + 1} of ${chart.columns}`;
-    answers[2].replaceChildren(swatch, " ", chart.names[yarn]);
+    answers[2].replaceChildren(...named(yarn));
+    if (second < 0) answers[2].append(", jufti knot");
+    else if (second !== undefined) answers[2].append(" and ", ...named(second), ", half knots");
     enlarge(...here);
     if (!wiping) return;
     mark.hidden = false;
