@@ -209,6 +209,11 @@ def test_a_list_of_names_holds_names_with_commas(folder: Path) -> None:
     assert yarn_names("never", order.palette.never) == ("grey", "No. 7, blue")
 
 
+def test_a_rule_of_the_palette_that_cannot_be_met_names_the_recipe_not_the_picture(folder: Path) -> None:
+    with pytest.raises(IlmekError, match=r"carpet.toml: --keep: the list has no yarn 'golld'; did you mean 'gold'"):
+        chart_order(order_of(folder, 'picture = "photo.png"\nsize = "40x60cm"\nkeep = "golld"'))
+
+
 def test_half_knots_and_jufti_knots_are_marks_that_later_edits_drop(folder: Path) -> None:
     edits = [
         "half 1,1 rose",

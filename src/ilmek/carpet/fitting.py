@@ -14,7 +14,7 @@ import numpy as np
 from ilmek.arrays import Rgb
 from ilmek.carpet.design import LARGEST_DISTORTION, bands, distortion
 from ilmek.carpet.outline import find_outline
-from ilmek.carpet.picture_points import in_pixels, read_colour, read_points
+from ilmek.carpet.picture_points import hex_colour, in_pixels, read_colour, read_points
 from ilmek.carpet.projection import MadeRgb, inner_rectangle, outer_rectangle, projected, rotation_about
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.straightening import check_corners, straightened, true_proportions
@@ -174,10 +174,10 @@ def fit_prepared(
     if rgb.shape[:2] == grid:
         return rgb, fit
     if params.fit == "pad":
-        border = read_colour("border", fit.border or params.border_colour or _hex(border_colour(rgb)))
+        border = read_colour("border", fit.border or params.border_colour or hex_colour(border_colour(rgb)))
         made = _padded(rgb, size, border, progress)
         padded = 1 - (1 - fit.padded) * _area(rgb) / _area(made)
-        fit = replace(fit, padded=padded, border=_hex(border) if padded else None)
+        fit = replace(fit, padded=padded, border=hex_colour(border) if padded else None)
     elif params.fit == "stretch" or (params.fit != "crop" and abs(distortion(rgb, size)) <= LARGEST_DISTORTION):
         made = rgb
     else:
@@ -208,10 +208,6 @@ def fit_notes(fit: Fit, pixels: tuple[int, ...], size: CarpetSize, grid: tuple[i
 
 def _area(rgb: Rgb) -> int:
     return int(rgb.shape[0]) * int(rgb.shape[1])
-
-
-def _hex(colour: Colour) -> str:
-    return "#{:02x}{:02x}{:02x}".format(*colour)
 
 
 def border_colour(rgb: Rgb) -> Colour:
@@ -259,7 +255,7 @@ def _turned(rgb: Rgb, params: FitParams, progress: Progress) -> tuple[MadeRgb, F
     if params.fit == "pad":
         shape = outer_rectangle(width, height, params.turn)
         _check_padded(shape)
-        outside = params.border_colour or _hex(border_colour(rgb))
+        outside = params.border_colour or hex_colour(border_colour(rgb))
         fit = replace(fit, padded=1 - width * height / (shape[0] * shape[1]), border=outside)
         border = read_colour("border_colour", outside)
     else:

@@ -7,6 +7,7 @@ import numpy as np
 
 from ilmek.arrays import Float, UInt8
 from ilmek.carpet.palette import Colours
+from ilmek.carpet.picture_points import hex_colour
 
 MOST_MATCHES = 255
 """Largest number of colours of a design that are reported one by one."""
@@ -23,7 +24,7 @@ class ColourMatch(NamedTuple):
     @property
     def hex(self) -> str:
         """The colour as `#rrggbb`."""
-        return "#{:02x}{:02x}{:02x}".format(*self.srgb)
+        return hex_colour(self.srgb)
 
 
 def colour_matches(

@@ -1,6 +1,7 @@
 """Points of a picture and colours, read from texts: `10%,5% 90%,95%`, `120,80 1910,95 ...`, `#e8dfc8`."""
 
 import re
+from collections.abc import Sequence
 from typing import TypeAlias
 
 import numpy as np
@@ -54,6 +55,15 @@ def in_pixels(points: tuple[tuple[tuple[float, bool], ...], ...], width: int, he
             for point in points
         ]
     )
+
+
+def hex_colour(srgb: Sequence[int]) -> str:
+    """The codes of a colour as `read_colour` reads them.
+
+    >>> hex_colour((232, 223, 200))
+    '#e8dfc8'
+    """
+    return "#{:02x}{:02x}{:02x}".format(*srgb)
 
 
 def read_colour(name: str, text: str) -> tuple[int, int, int]:

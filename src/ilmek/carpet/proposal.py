@@ -16,6 +16,7 @@ from ilmek.arrays import FloatArray
 from ilmek.carpet.colour import lab_to_srgb, srgb_to_lab
 from ilmek.carpet.colour_difference import nearest
 from ilmek.carpet.palette import Colours, additions, difference_table, pooled, swap_while_better
+from ilmek.carpet.picture_points import hex_colour
 from ilmek.carpet.yarn import Yarn, yarn_labs
 from ilmek.progress import SILENT, Progress
 
@@ -38,7 +39,7 @@ class ProposedShade:
     @property
     def hex(self) -> str:
         """The colour as `#rrggbb`."""
-        return "#{:02x}{:02x}{:02x}".format(*self.srgb)
+        return hex_colour(self.srgb)
 
 
 @dataclass(frozen=True, slots=True)

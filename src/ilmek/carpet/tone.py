@@ -21,6 +21,7 @@ from ilmek.arrays import Float, FloatArray, Int32, Rgb, UInt8
 from ilmek.carpet.colour import WHITE, lab_to_srgb, lab_to_xyz, srgb_to_lab, xyz_to_lab
 from ilmek.carpet.design import bands
 from ilmek.carpet.palette import Colours, distinct_colours
+from ilmek.carpet.picture_points import hex_colour
 from ilmek.num.compiled import compiled
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
@@ -120,6 +121,6 @@ def _in_words(tone: Tone, white: FloatArray | None) -> str:
     words = []
     if white is not None:
         red, green, blue = lab_to_srgb(xyz_to_lab(white)).tolist()
-        words.append(f"#{red:02x}{green:02x}{blue:02x} becomes white")
+        words.append(f"{hex_colour((red, green, blue))} becomes white")
     shares = {"brightness": tone.brightness, "contrast": tone.contrast, "saturation": tone.saturation}
     return ", ".join(words + [f"{name} {100 * share:+.4g} %" for name, share in shares.items() if share])

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.arrays import FloatArray
+from ilmek.carpet.picture_points import hex_colour
 from ilmek.errors import YarnError
 
 MOST_YARNS = 255
@@ -45,7 +46,7 @@ class Yarn:
     @property
     def hex(self) -> str:
         """The colour as `#rrggbb`."""
-        return "#{:02x}{:02x}{:02x}".format(*self.srgb)
+        return hex_colour(self.srgb)
 
 
 def yarn_labs(yarns: Sequence[Yarn]) -> FloatArray:

@@ -41,7 +41,9 @@ def changes_in_words(chart: Chart) -> str:
         parts.append(
             f"{made.foreign:,} of a colour foreign to its cell" if made.foreign else "none foreign to its cell"
         )
-    parts.append(f"{chart.small_patches:,} patches of at most {SMALL_PATCH} knots")
+    parts.append(
+        f"{chart.small_patches:,} {'patch' if chart.small_patches == 1 else 'patches'} of at most {SMALL_PATCH} knots"
+    )
     return ", ".join(parts)
 
 

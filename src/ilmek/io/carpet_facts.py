@@ -62,7 +62,7 @@ def read_facts(text: str) -> ChartFacts:
 
 def chart_of_facts(knots: Indices, facts: ChartFacts, file: str) -> Chart:
     """The chart of a file; `file`: what it is, for the user."""
-    reading = ChartReading("exact", f"{file}: knots, yarns, size and quality are its own", 0.0, 0.0, 0, 0)
+    reading = ChartReading("exact", f"{file}: knots and yarns are its own", 0.0, 0.0, 0, 0)
     return Chart(knots, facts.yarns, facts.size, facts.quality, facts.knot, reading)
 
 

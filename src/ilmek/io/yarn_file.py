@@ -26,6 +26,7 @@ from typing import TypeAlias
 import numpy as np
 
 from ilmek.carpet.colour import lab_to_srgb, srgb_to_lab
+from ilmek.carpet.picture_points import hex_colour
 from ilmek.carpet.yarn import COUNTS, MOST_YARNS, PLIES, Yarn
 from ilmek.errors import YarnError, did_you_mean, shortened
 from ilmek.io.csv_lines import csv_lines, decimal_points
@@ -133,7 +134,7 @@ def _gpl_records(text: str) -> Sequence[Record]:
             raise YarnError(f"line {number} {shortened(line)!r} is no colour", allowed="red, green and blue, 0 to 255")
         if len(records) == MOST_YARNS:
             raise YarnError(f"line {number}: the palette has more than {MOST_YARNS} colours", do="leave some out")
-        srgb = "#{:02x}{:02x}{:02x}".format(*codes)
+        srgb = hex_colour(codes)
         records.append({"name": _unique(_gpl_name(found[4], srgb), seen), "srgb": srgb})
     return records
 

@@ -14,7 +14,7 @@ from ilmek.carpet.recipe.finish import finish
 from ilmek.carpet.recipe.recipe import Recipe
 from ilmek.carpet.usual_pile import with_counts
 from ilmek.carpet.yarn import Yarn
-from ilmek.errors import CarpetError
+from ilmek.errors import CarpetError, IlmekError, PictureError
 from ilmek.io.chart.oxs_reading import is_oxs, read_chart_oxs
 from ilmek.io.picture import SMALLEST, read_picture
 from ilmek.io.recipe_file import LoomKeys, RecipeFile
@@ -39,8 +39,11 @@ def chart_of_recipe(order: CarpetOrder, progress: Progress = SILENT, *, with_sou
     if not recipe.is_composed:
         assert recipe.picture is not None
         picture = replace(order, picture=recipe.picture, recipe=None)
-        with located(recipe.where):
+        try:
             done = chart_of_order(picture, progress.part(0.0, 0.8), with_source=with_source)
+        except IlmekError as error:
+            with located(recipe.where if isinstance(error, PictureError) else str(recipe.file)):
+                raise
         reading = replace(done.chart.reading, reason=f"{done.chart.reading.reason} (picture of {recipe.file.name})")
         chart = replace(done.chart, reading=reading)
         chart = finish(chart, recipe, _counted(done.order), None, progress.part(0.8, 1.0, "edits"))

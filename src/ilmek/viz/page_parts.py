@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from ilmek.carpet.bill import YarnBill, YarnNeed
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.differences import YarnDifference
+from ilmek.carpet.picture_points import hex_colour
 from ilmek.report import Check
 from ilmek.units import format_number
 from ilmek.viz.number_format import count, fixed, share
@@ -94,7 +95,7 @@ def yarn_lines(chart: Chart, bill: YarnBill, symbols: str) -> list[YarnLine]:
         index = indices[need.name]
         srgb = chart.yarns[index].srgb
         symbol = symbols[index] if index < len(symbols) else ""
-        colour, of_all = "#{:02x}{:02x}{:02x}".format(*srgb), share(need.knots, bill.knots)
+        colour, of_all = hex_colour(srgb), share(need.knots, bill.knots)
         difference = differences[index] if index < len(differences) else None
         lines.append(YarnLine(need, symbol, colour, letter(srgb), of_all, difference))
     return lines + [YarnLine(need) for need in bill.ground]

@@ -68,9 +68,11 @@ def looks_flat(rgb: Rgb) -> Flatness:
     near = int(count_near(even, table, true.labs, _NEAR)) / max(len(even), 1)
     explained = explained_share(seen, true)
     if explained < _LEAST_EXPLAINED:
-        sentence = f"no drawing: {number} true colours explain {100 * explained:.0f} % of the pixels outside of areas"
+        colours = "1 true colour explains" if number == 1 else f"{number} true colours explain"
+        sentence = f"no drawing: {colours} {100 * explained:.0f} % of the pixels outside of areas"
     else:
-        areas = f"{100 * near:.0f} % of its even areas have one of {number} colours"
+        colours = "one colour" if number == 1 else f"one of {number} colours"
+        areas = f"{100 * near:.0f} % of its even areas have {colours}"
         sentence = f"a drawing: {areas}" if near >= _LEAST_NEAR else f"no drawing: only {areas}"
     is_flat = explained >= _LEAST_EXPLAINED and near >= _LEAST_NEAR
     return Flatness(is_flat, number, near, sentence, true)
