@@ -16,6 +16,7 @@ from scipy import ndimage
 from ilmek.carpet.chart import Chart, make_chart
 from ilmek.carpet.colour import LINEAR, srgb_to_lab
 from ilmek.carpet.colour_difference import delta_e_2000
+from ilmek.carpet.flat import looks_flat
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.reading import ReadParams
 from ilmek.carpet.sizes import CarpetSize
@@ -26,6 +27,25 @@ QUALITY = Quality(250.0, 250.0)
 EIGHT = np.ones((3, 3), dtype=int)
 YARNS = default_yarns()
 PHOTOGRAPHS = ("astronaut.png", "chelsea.png", "coffee.png", "rocket.jpg")
+DULL = (
+    "brick.png",
+    "camera.png",
+    "cell.png",
+    "clock_motion.png",
+    "coins.png",
+    "grass.png",
+    "gravel.png",
+    "hubble_deep_field.jpg",
+    "ihc.png",
+    "microaneurysms.png",
+    "moon.png",
+    "motorcycle_left.png",
+    "page.png",
+    "retina.jpg",
+    "text.png",
+)
+"""Photographs of low contrast, of few tones, of an even texture, or nearly all black."""
+ARTWORK = ("horse.png", "logo.png", "phantom.png")
 
 
 def charted(rgb: np.ndarray, rows: int, columns: int, reading: str = "auto") -> Chart:
@@ -101,12 +121,39 @@ def test_a_gradient_is_a_photo_and_a_halftone_shows_it(picture: object) -> None:
     assert toned.lone_fraction <= 0.01
 
 
+def supplied(name: str) -> np.ndarray:
+    """A picture of scikit-image."""
+    with Image.open(Path(skimage.__file__).parent / "data" / name) as image:
+        return np.asarray(image.convert("RGB"))
+
+
 @pytest.mark.parametrize("name", PHOTOGRAPHS)
 def test_a_photograph_is_read_as_one(name: str) -> None:
-    with Image.open(Path(skimage.__file__).parent / "data" / name) as image:
-        rgb = np.asarray(image.convert("RGB"))
+    rgb = supplied(name)
     rows, columns = rgb.shape[0] // 3, rgb.shape[1] // 3
     chart = charted(rgb, rows, columns)
     assert chart.reading.kind == "photo"
     assert chart.reading.foreign is None
     assert chart.reading.least_delta_e <= chart.reading.mean_delta_e <= 1.05 * chart.reading.least_delta_e
+
+
+@pytest.mark.parametrize("name", DULL)
+def test_a_photograph_of_few_tones_is_no_drawing(name: str) -> None:
+    rgb = supplied(name)
+    assert not looks_flat(rgb).is_flat
+    assert not looks_flat((0.4 * rgb + 90).astype(np.uint8)).is_flat
+
+
+@pytest.mark.parametrize("name", ARTWORK)
+def test_artwork_is_a_drawing_with_grain_too(name: str) -> None:
+    rgb = supplied(name)
+    grain = np.random.default_rng(3).normal(scale=5, size=rgb.shape)
+    assert looks_flat(rgb).is_flat
+    assert looks_flat(np.rint(rgb + grain).clip(0, 255).astype(np.uint8)).is_flat
+
+
+@pytest.mark.parametrize("pixels", [2.5, 8])
+@pytest.mark.parametrize("finish", FINISHES)
+def test_a_drawing_is_seen_at_any_number_of_pixels_a_knot(finish: str, pixels: float) -> None:
+    for name in ("checks", "dots", "grid", "kilim steps", "zigzag"):
+        assert looks_flat(rendered(FLAT[name], pixels, finish)).is_flat, name

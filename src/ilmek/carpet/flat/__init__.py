@@ -4,6 +4,7 @@ picture -> sample [`survey`] -> true colours [`modes`, `true_colours`] -> true c
         -> symmetry [`symmetry`] -> true colour of each knot [`knots`]
 """
 
-from ilmek.carpet.flat.reading import FlatDesign, Flatness, flat_design, looks_flat
+from ilmek.carpet.flat.decision import Flatness, looks_flat
+from ilmek.carpet.flat.reading import FlatDesign, flat_design
 
 __all__ = ["FlatDesign", "Flatness", "flat_design", "looks_flat"]

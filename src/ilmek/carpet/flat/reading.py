@@ -5,10 +5,10 @@ import numpy as np
 from ilmek.arrays import FloatArray, Indices, Rgb, UInt8
 from ilmek.carpet.flat.knots import knot_labels
 from ilmek.carpet.flat.labels import label_pixels
-from ilmek.carpet.flat.nearest import UNKNOWN, count_near, raw_label
+from ilmek.carpet.flat.nearest import UNKNOWN, raw_label
 from ilmek.carpet.flat.survey import survey
 from ilmek.carpet.flat.symmetry import is_symmetric, make_symmetric
-from ilmek.carpet.flat.true_colours import TrueColours, explained_share, true_colours
+from ilmek.carpet.flat.true_colours import TrueColours, true_colours
 from ilmek.num.compiled import compiled
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
@@ -17,10 +17,6 @@ _BAND = 128
 
 _LONE = 1.5
 """Pixels a knot under which a single pixel is a knot; whether it is confetti is decided later."""
-
-_NEAR, _LEAST_NEAR, _LEAST_EXPLAINED = 5.0, 0.8, 0.82
-"""Difference in CIELAB up to which an even area has a true colour; least share of them in a drawing, and least share of
-the pixels unlike their neighbours that its colours explain."""
 
 _CODES = 1 << 24
 
@@ -39,43 +35,6 @@ class FlatDesign:
     true: UInt8[np.ndarray, "colours 3"]
     foreign: int
     symmetric: tuple[str, ...]
-
-
-@record
-class Flatness:
-    """Whether a picture is a drawing.
-
-    is_flat   the decision          colours  number of true colours
-    near      share of the even areas that have a true colour, up to the noise
-    sentence  the reason, for the user
-    true      the true colours
-    """
-
-    is_flat: bool
-    colours: int
-    near: float
-    sentence: str
-    true: TrueColours
-
-
-def looks_flat(rgb: Rgb) -> Flatness:
-    """Whether a picture is a drawing: few true colours, which nearly all of its pixels have."""
-    seen = survey(np.ascontiguousarray(rgb))
-    true = true_colours(seen)
-    number = len(true.srgb)
-    even = seen.means[seen.spread <= true.even]
-    table = np.full(_CODES, UNKNOWN, dtype=np.uint8)
-    near = int(count_near(even, table, true.labs, _NEAR)) / max(len(even), 1)
-    explained = explained_share(seen, true)
-    if explained < _LEAST_EXPLAINED:
-        colours = "1 true colour explains" if number == 1 else f"{number} true colours explain"
-        sentence = f"no drawing: {colours} {100 * explained:.0f} % of the pixels outside of areas"
-    else:
-        colours = "one colour" if number == 1 else f"one of {number} colours"
-        areas = f"{100 * near:.0f} % of its even areas have {colours}"
-        sentence = f"a drawing: {areas}" if near >= _LEAST_NEAR else f"no drawing: only {areas}"
-    is_flat = explained >= _LEAST_EXPLAINED and near >= _LEAST_NEAR
-    return Flatness(is_flat, number, near, sentence, true)
 
 
 def flat_design(

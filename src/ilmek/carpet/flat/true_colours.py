@@ -34,12 +34,6 @@ _JPEG = 14
 _EXPLAINED, _MOST_CODES = 0.8, 2000
 """Least share of the pixels outside of even areas that mixtures explain in a clean picture; codes that are tried."""
 
-_ALIKE, _CLEAR = 2, 40
-"""Range of a channel over 3 × 3 pixels of neighbours that are alike; least contrast of a clear edge."""
-
-_SHUFFLE, _MOST_TRIALS = 2654435, 1_000_000
-"""A factor that shuffles codes, and the number of pairs of colours and codes that are tried."""
-
 _LEAST_AREA = 2e-5
 """Least share of the sample of a colour with areas."""
 
@@ -172,25 +166,6 @@ def _with_lines(
         if len(srgb) < MOST_COLOURS and apart >= _NEW and not is_mixture(colour[None], srgb, _OFF)[0]:
             srgb = np.concatenate([srgb, one])
     return srgb
-
-
-def explained_share(survey: Survey, true: TrueColours) -> float:
-    """Share, of the sampled pixels unlike their neighbours, that a drawing explains.
-
-    They have a true colour, up to the noise, or a mixture of two on a clear edge. Even areas do not count: a photo may
-    have an even frame. The pixels that are tried are a sample, chosen by their codes.
-    """
-    unlike = survey.spread > _ALIKE
-    codes, edge = _codes(survey.codes[unlike]), np.maximum(survey.ramp, survey.ridge)[unlike] >= _CLEAR
-    order = np.lexsort((codes, codes.astype(np.int64) * _SHUFFLE % (1 << 24)))
-    order = order[: _MOST_TRIALS // len(true.srgb) ** 2]
-    colours, edge = _colours(codes[order]), edge[order]
-    if len(colours) == 0:
-        return 1.0
-    labs = srgb_to_lab(colours)
-    apart = np.min([np.linalg.norm(labs - lab, axis=-1) for lab in true.labs], axis=0)
-    known = (apart <= _HALO / 2) | (edge & is_mixture(colours.astype(float), true.srgb, 2 * _OFF))
-    return float(np.mean(known))
 
 
 def is_mixture(colours: FloatArray, palette: UInt8[np.ndarray, "colours 3"], off: float) -> BoolArray:
