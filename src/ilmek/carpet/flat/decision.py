@@ -29,8 +29,12 @@ _LEAST_EXPLAINED, _EXPLAINED = 0.72, 11.0
 _LEAST_VARIANCE, _PLAIN_VARIANCE = 0.96, 0.985
 """Least explained share of the variance; share from which slopes do not count (abrash)."""
 
-_SLOPE, _SLOPE_NOISE = 0.3, 0.25
-"""Largest slope in CIELAB, and what each code of noise adds to it."""
+_FINE_VARIANCE, _FINE_EDGES, _FAR = 0.91, 0.985, 25.0
+"""Least explained share of the variance of fine lines and dots on one ground, all of whose other colours lie on clear
+edges: the least share that does; distance from the ground, in codes of luma and half of chroma, of another colour."""
+
+_LEAST_SLOPE, _SLOPE, _SLOPE_NOISE = 0.65, 0.3, 0.25
+"""Difference in CIELAB that is no slope; and with grain, what each code of noise adds to the second."""
 
 _ALIKE, _CLEAR = 2, 40
 """Range of a channel over 3 × 3 pixels of neighbours that are alike; least contrast of a clear edge."""
@@ -69,7 +73,7 @@ def looks_flat(rgb: Rgb) -> Flatness:
     seen = survey(np.ascontiguousarray(rgb))
     true = true_colours(seen)
     near, explained, variance = _near(seen, true), _explained(seen, true), _variance(seen, true)
-    slope, most = _slope(seen, true), _SLOPE + _SLOPE_NOISE * true.noise
+    slope, most = _slope(seen, true), max(_LEAST_SLOPE, _SLOPE + _SLOPE_NOISE * true.noise)
     colours = f"{len(true.srgb)} true colours" if len(true.srgb) > 1 else "one true colour"
     areas = f"{100 * near:.0f} % of its even areas have one of {len(true.srgb)} colours"
     is_flat = False
@@ -77,7 +81,7 @@ def looks_flat(rgb: Rgb) -> Flatness:
         sentence = f"no drawing: {colours} explain {100 * explained:.0f} % of the pixels outside of areas"
     elif near < _LEAST_NEAR:
         sentence = f"no drawing: only {areas}"
-    elif variance < _LEAST_VARIANCE:
+    elif variance < (_FINE_VARIANCE if _is_fine(seen, true) else _LEAST_VARIANCE):
         sentence = f"no drawing: {colours} explain {100 * max(variance, 0.0):.0f} % of the differences of colour"
     elif slope > most and variance < _PLAIN_VARIANCE:
         sentence = f"no drawing: its even areas have slopes, {slope:.1f} in CIELAB beside {most:.1f} of grain"
@@ -131,6 +135,15 @@ def _variance(seen: Survey, true: TrueColours) -> float:
     total = float(np.mean(np.sum((colours - colours.mean(axis=0)) ** 2, axis=-1)))
     grain = (true.noise / 3) ** 2
     return 1.0 if total <= grain else 1.0 - float(np.mean(off)) / total
+
+
+def _is_fine(seen: Survey, true: TrueColours) -> bool:
+    """Whether all pixels unlike the ground, the median colour, lie on clear edges."""
+    pixels = _sampled(seen.codes, len(true.srgb))
+    colours = seen.codes[pixels] @ _LUMA_CHROMA.T
+    far = np.linalg.norm(colours - np.median(colours, axis=0), axis=-1) > max(_FAR, 2.0 * true.noise)
+    edge = np.maximum(seen.ramp, seen.ridge)[pixels] >= _CLEAR
+    return bool(np.any(far)) and float(np.mean(edge[far])) >= _FINE_EDGES
 
 
 def _off_mixtures(colours: Float[np.ndarray, "some 3"], palette: Float[np.ndarray, "colours 3"]) -> FloatArray:
