@@ -74,15 +74,16 @@ def looks_flat(rgb: Rgb) -> Flatness:
     true = true_colours(seen)
     near, explained, variance = _near(seen, true), _explained(seen, true), _variance(seen, true)
     slope, most = _slope(seen, true), max(_LEAST_SLOPE, _SLOPE + _SLOPE_NOISE * true.noise)
-    colours = f"{len(true.srgb)} true colours" if len(true.srgb) > 1 else "one true colour"
-    areas = f"{100 * near:.0f} % of its even areas have one of {len(true.srgb)} colours"
+    one = len(true.srgb) == 1
+    colours = "1 true colour explains" if one else f"{len(true.srgb)} true colours explain"
+    areas = f"{100 * near:.0f} % of its even areas have {'one colour' if one else f'one of {len(true.srgb)} colours'}"
     is_flat = False
     if explained < _LEAST_EXPLAINED:
-        sentence = f"no drawing: {colours} explain {100 * explained:.0f} % of the pixels outside of areas"
+        sentence = f"no drawing: {colours} {100 * explained:.0f} % of the pixels outside of areas"
     elif near < _LEAST_NEAR:
         sentence = f"no drawing: only {areas}"
     elif variance < (_FINE_VARIANCE if _is_fine(seen, true) else _LEAST_VARIANCE):
-        sentence = f"no drawing: {colours} explain {100 * max(variance, 0.0):.0f} % of the differences of colour"
+        sentence = f"no drawing: {colours} {100 * max(variance, 0.0):.0f} % of the differences of colour"
     elif slope > most and variance < _PLAIN_VARIANCE:
         sentence = f"no drawing: its even areas have slopes, {slope:.1f} in CIELAB beside {most:.1f} of grain"
     else:
