@@ -61,6 +61,10 @@ FAULTS = {
     ),
     "unknown edit": (FIELD + 'edits = ["sett 1,1 ivory"]', r"line 3, edits.0: unknown edit 'sett'; .*'set'"),
     "edit without yarn": (FIELD + 'edits = ["set 1,1"]', r"line 3, edits.0: .* is no edit; write set ROW,COLUMN YARN"),
+    "half knot of one yarn": (
+        FIELD + 'edits = ["half 5,7 ivory"]',
+        r"line 3, edits.0: half 5,7: its cell has this yarn already; another yarn on its right warp",
+    ),
     "edit of a number": (FIELD + "edits = [3]", r"line 3, edits.0: 3 is no edit"),
     "unknown yarn of an edit": (FIELD + 'edits = ["set 1,1 ivry"]', r"line 3, edits.0: unknown yarn 'ivry'.*'ivory'"),
     "two yarns": (FIELD + 'edits = ["replace ivory"]', r"line 3, edits.0: 'ivory' does not name two yarns"),

@@ -28,6 +28,9 @@ class EditedMarks:
         """Follow an edit that has been applied to the knots; yarns: its indices. Raises CarpetError."""
         at = [(len(knots) - row, column - 1) for row, column in edit.knots]
         if edit.kind == "half":
+            if knots[at[0]] == yarns[0]:
+                given = f"half {edit.knots[0][0]},{edit.knots[0][1]}: its cell has this yarn already"
+                raise CarpetError(given, allowed="another yarn on its right warp", do="leave the edit out")
             self._put(KnotMark(*at[0], HALF, yarns[0]), knots)
         elif edit.kind == "jufti":
             self._jufti(at, knots)
