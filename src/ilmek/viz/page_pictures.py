@@ -26,7 +26,7 @@ from ilmek.viz.carpet_picture import Pile, carpet_picture, close_up, pile_part
 LARGEST = 1600
 """Largest number of pixels along the longer side of the chart's picture."""
 
-MOST_MARKS = 50_000
+MOST_POINTED = 50_000
 """Largest number of half knots and jufti knots that the page tells under the pointer: 1 MB."""
 
 _TALLEST = 940
@@ -101,9 +101,9 @@ def pictures(
 
 def _marks(chart: Chart) -> dict[str, int]:
     """The yarn of the right half knot of each cell "row,column" that has one, -1 and -2 in the left and the right
-    cell of a jufti knot. Empty where there are more than MOST_MARKS: the page would be slow to open.
+    cell of a jufti knot. Empty where there are more than MOST_POINTED: the page would be slow to open.
     """
-    if len(chart.overlay) > MOST_MARKS:
+    if len(chart.overlay) > MOST_POINTED:
         return {}
     marks = {}
     for mark in chart.overlay:
