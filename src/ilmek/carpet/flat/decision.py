@@ -82,7 +82,7 @@ def looks_flat(rgb: Rgb) -> Flatness:
         sentence = f"no drawing: {colours} {100 * explained:.0f} % of the pixels outside of areas"
     elif near < _LEAST_NEAR:
         sentence = f"no drawing: only {areas}"
-    elif variance < (_FINE_VARIANCE if _is_fine(seen, true) else _LEAST_VARIANCE):
+    elif variance < _FINE_VARIANCE or (variance < _LEAST_VARIANCE and not _is_fine(seen, true)):
         sentence = f"no drawing: {colours} {100 * max(variance, 0.0):.0f} % of the differences of colour"
     elif slope > most and variance < _PLAIN_VARIANCE:
         sentence = f"no drawing: its even areas have slopes, {slope:.1f} in CIELAB beside {most:.1f} of grain"
@@ -122,7 +122,9 @@ def _explained(seen: Survey, true: TrueColours) -> float:
     labs = srgb_to_lab(colours)
     apart = np.min([np.linalg.norm(labs - lab, axis=-1) for lab in true.labs], axis=0)
     edge = np.maximum(seen.ramp, seen.ridge)[pixels] >= _CLEAR
-    known = (apart <= _EXPLAINED) | (edge & is_mixture(colours.astype(float), true.srgb, _OFF))
+    known = apart <= _EXPLAINED
+    rest = np.flatnonzero(edge & ~known)
+    known[rest] = is_mixture(colours[rest].astype(float), true.srgb, _OFF)
     return float(np.mean(known))
 
 

@@ -13,10 +13,11 @@ from ilmek.carpet.design import bands
 from ilmek.carpet.flat.nearest import UNKNOWN, label_rows
 from ilmek.carpet.flat.true_colours import TrueColours
 from ilmek.num.compiled import compiled
+from ilmek.num.threads import in_threads
 from ilmek.progress import SILENT, Progress
 
 _WIDEST = 3
-_SLICE = 1 << 21
+_SLICE = 1 << 18
 
 
 @compiled
@@ -150,14 +151,20 @@ def label_pixels(
     """Index of the true colour of each pixel; `join_lone`: single pixels that are no dots take a neighbour's."""
     height, width = rgb.shape[:2]
     labels = np.empty((height, width), dtype=np.uint8)
-    for band in bands(height, width, _SLICE):
+
+    def label(band: slice) -> None:  # threads may find the same code, and write the same label into the table
         label_rows(rgb[band], table, true.labs, labels[band])
+
+    for band, _ in in_threads(label, bands(height, width, _SLICE)):
         progress(0.5 * band.stop / height)
     if not true.mixed:
         return labels
     cleaned = np.empty_like(labels)
     colours = true.srgb.astype(np.int64)
-    for band in bands(height, width, _SLICE):
+
+    def clean(band: slice) -> None:
         _clean(rgb, labels, colours, 10 + true.noise, join_lone, band.start, cleaned[band])
+
+    for band, _ in in_threads(clean, bands(height, width, _SLICE)):
         progress(0.5 + 0.5 * band.stop / height)
     return cleaned

@@ -10,6 +10,7 @@ from ilmek.carpet.flat.survey import survey
 from ilmek.carpet.flat.symmetry import is_symmetric, make_symmetric
 from ilmek.carpet.flat.true_colours import TrueColours, true_colours
 from ilmek.num.compiled import compiled
+from ilmek.num.threads import in_threads
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 
@@ -55,9 +56,13 @@ def flat_design(
     knots = knot_labels(labels, grid, progress.part(0.6, 0.9))
     colours = np.empty((*grid, 3), dtype=np.uint8)
     foreign = 0
-    for first in range(0, grid[0], _BAND):
+
+    def count(first: int) -> int:
         colours[first : first + _BAND] = true.srgb[knots[first : first + _BAND]]
-        foreign += int(_foreign(rgb, table, true.labs, knots, first, min(first + _BAND, grid[0])))
+        return int(_foreign(rgb, table, true.labs, knots, first, min(first + _BAND, grid[0])))
+
+    for first, many in in_threads(count, range(0, grid[0], _BAND)):
+        foreign += many
         progress(0.9 + 0.1 * min(first + _BAND, grid[0]) / grid[0])
     axes = (("vertical",) if across else ()) + (("horizontal",) if down else ())
     return FlatDesign(colours, true.srgb, foreign, axes)
@@ -73,10 +78,15 @@ def _foreign(  # noqa: PLR0917
     for row in range(first, stop):
         for column in range(columns):
             own = knots[row, column]
-            found = False
+            # Most cells have their colour at the first pixel that is tried, the middle one.
+            y, x = (2 * row + 1) * height // (2 * rows), (2 * column + 1) * width // (2 * columns)
+            found = raw_label(rgb, y, x, table, labs) == own
             for y in range(row * height // rows, ((row + 1) * height - 1) // rows + 1):
+                if found:
+                    break
                 for x in range(column * width // columns, ((column + 1) * width - 1) // columns + 1):
-                    if not found and raw_label(rgb, y, x, table, labs) == own:
+                    if raw_label(rgb, y, x, table, labs) == own:
                         found = True
+                        break
             foreign += not found
     return foreign
