@@ -180,7 +180,21 @@ def _scattered(light: Light, rng: np.random.Generator) -> _Tufts:
 
 
 @compiled
-def _draw(  # noqa: C901, PLR0917 - one kernel
+def _marked_tuft(away: float, centre: float, mark: int) -> tuple[float, float, int]:
+    """Distance from a tuft's middle, half its foot, and its second colour: of the nearer half knot, or of a jufti knot.
+
+    away, centre  of a whole knot in the cell, or in the left cell of the jufti knot
+    """
+    if mark < 0:
+        return away - 0.5, 2.0 * _FOOT[0], 0
+    left = away + 0.5 * centre
+    if left > 0.25:
+        return left - 0.5, 0.5 * _FOOT[0], mark
+    return left, 0.5 * _FOOT[0], 0
+
+
+@compiled
+def _draw(  # noqa: PLR0917 - one kernel
     across: Plane,
     down: Plane,
     height: Plane,
@@ -210,16 +224,11 @@ def _draw(  # noqa: C901, PLR0917 - one kernel
                 dx, dy = aside * (which % 2), above * (which // 2)
                 r = min(max(row + dy, 0), rows - 1)
                 c = min(max(column + dx, 0), columns - 1)
+                if marked and marks[r, c] == _JUFTI_RIGHT:
+                    c, dx = c - 1, dx - 1
                 away, foot, half = x - dx - across[r, c], _FOOT[0], 0
-                if marked and marks[r, c] > 0:
-                    away, foot = away + 0.5 * across[r, c], 0.5 * foot
-                    if away > 0.25:
-                        away, half = away - 0.5, marks[r, c]
-                elif marked and marks[r, c] < 0:
-                    if marks[r, c] == _JUFTI_RIGHT:
-                        c -= 1
-                        away = x - dx + 1.0 - across[r, c]
-                    away, foot = away - 0.5, 2.0 * foot
+                if marked and marks[r, c] != 0:
+                    away, foot, half = _marked_tuft(away, across[r, c], marks[r, c])
                 u = away / foot
                 v = (y - dy - down[r, c]) / _FOOT[1]
                 z = height[r, c] - u * u - v * v
