@@ -9,13 +9,16 @@ from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
 from ilmek.carpet.chart import Chart
+from ilmek.carpet.colour import srgb_to_lab
+from ilmek.carpet.colour_difference import delta_e_2000
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize, parse_size
 from ilmek.carpet.yarn import Yarn
 from ilmek.io.chart.png import KEY, write_chart_png
-from ilmek.jobs.chart import ChartResult, make_charted
+from ilmek.jobs.chart import ChartResult, chart_results, make_charted
 from ilmek.jobs.order import read_order
 
+MEDALLION = Path(__file__).parents[2] / "examples" / "medallion.png"
 RED = (150, 48, 40)
 YARNS = (
     Yarn("madder", RED, (36.123456789, 41.0, 27.5), 5.0, 3, 14.5),
@@ -77,7 +80,7 @@ def test_a_quality_or_a_size_keeps_the_grid_and_the_other_follows(path: Path) ->
 def test_size_and_quality_of_another_grid_read_it_as_a_picture(path: Path) -> None:
     again = charted(path, size="60x90cm", quality="10x10/dm").chart
     assert again.knots.shape == (90, 60)
-    assert again.yarns == YARNS
+    assert sorted(yarn.name for yarn in again.yarns) == sorted(yarn.name for yarn in YARNS)
 
 
 def test_other_yarns_take_each_colour_once(path: Path, tmp_path: Path) -> None:
@@ -117,3 +120,20 @@ def test_a_size_of_the_same_sides_keeps_its_name(path: Path) -> None:
     named = replace(CHART, size=CarpetSize(1.2, 1.8, "a size with a name"))
     write_chart_png(path, named)
     assert charted(path).chart.size.name == "a size with a name"
+
+
+def test_the_palette_of_the_chart_begins_with_the_yarns_of_the_bill(tmp_path: Path) -> None:
+    made = make_charted(read_order(MEDALLION, size="20x30cm", quality="10x10/dm"))
+    needs = chart_results(made)["yarn"]
+    assert 2 < len(needs) < len(made.chart.yarns)
+    write_chart_png(tmp_path / "chart.png", made.chart)
+    with Image.open(tmp_path / "chart.png") as picture:
+        assert picture.mode == "P"
+        counts = np.bincount(np.asarray(picture).ravel())
+    assert counts.tolist() == [need["knots"] for need in needs]
+    assert [yarn.name for yarn in made.chart.yarns[: len(needs)]] == [need["name"] for need in needs]
+    names = {yarn.name for yarn in made.chart.yarns}
+    assert {made.chart.yarns[match.yarn].name for match in made.chart.reading.matches} <= names
+    for match in made.chart.reading.matches:
+        difference = delta_e_2000(srgb_to_lab(np.array(match.srgb, np.uint8)), made.chart.yarns[match.yarn].lab)
+        assert float(difference) == pytest.approx(match.delta_e)

@@ -68,7 +68,7 @@ def make_chart(
     groups = read_groups(settings)
     density = parse_quality(quality) if isinstance(quality, str) else quality
     listed = read_yarns(yarns) if yarns is None or isinstance(yarns, str | Path) else tuple(yarns)
-    return charting.make_chart(
+    chart = charting.make_chart(
         _pixels(picture),
         parse_size(size) if isinstance(size, str) else size,
         density,
@@ -79,6 +79,7 @@ def make_chart(
         palette=groups["palette"],
         progress=progress,
     )
+    return charting.used_first(chart)
 
 
 def _pixels(picture: str | Path | Picture | Rgb) -> Rgb:

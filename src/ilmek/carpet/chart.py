@@ -6,10 +6,13 @@ leave (`palette_rules`).
 """
 
 from collections.abc import Sequence
-from dataclasses import field, fields
+from dataclasses import field, fields, replace
+
+import numpy as np
 
 from ilmek.arrays import BoolArray, FloatArray, Indices, Rgb
 from ilmek.carpet.confetti import merge_patches
+from ilmek.carpet.design import bands
 from ilmek.carpet.differences import YarnDifference, differences
 from ilmek.carpet.fitted import fitted_design, unfitted_design
 from ilmek.carpet.fitting import Fit, FitParams, prepare_picture
@@ -140,6 +143,32 @@ class Chart:
     def changes_per_knot(self) -> float:
         """Changes of yarn along the rows, per knot [-]."""
         return self.tally().changes / self.knots.size
+
+
+def used_first(chart: Chart) -> Chart:
+    """The chart with the yarns that it uses first, else in their order; the chart itself where they are.
+
+    A chart is passed on as an indexed picture: its palette then begins with the yarns of the yarn bill, in its order.
+    """
+    used = chart.used
+    order = (*used, *(yarn for yarn in range(len(chart.yarns)) if yarn not in used))
+    if order == tuple(range(len(order))):
+        return chart
+    moved = np.empty(len(order), dtype=np.uint8)
+    moved[list(order)] = np.arange(len(order), dtype=np.uint8)
+    knots = np.empty_like(chart.knots)
+    for band in bands(chart.rows, chart.columns):
+        knots[band] = moved[chart.knots[band]]
+    found, tally = chart.reading, chart.tally()
+    reading = replace(
+        found,
+        differences=tuple(found.differences[yarn] for yarn in order) if found.differences else (),
+        matches=tuple(match._replace(yarn=int(moved[match.yarn])) for match in found.matches),
+    )
+    yarns = tuple(chart.yarns[yarn] for yarn in order)
+    made = replace(chart, knots=knots, yarns=yarns, reading=reading, overlay=chart.overlay.with_yarns(moved))
+    made._tallies.append(replace(tally, counts=tuple(tally.counts[yarn] for yarn in order)))
+    return made
 
 
 def make_chart(

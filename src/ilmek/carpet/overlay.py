@@ -14,6 +14,7 @@ section: `ilmek.weaving.knots.word`. Lengths of yarn: `ilmek.carpet.pile.knot_le
 """
 
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -74,6 +75,10 @@ class Overlay:
         """The marks in order."""
         arrays = (self.rows, self.columns, self.kinds, self.seconds)
         return (KnotMark(*one) for one in zip(*(array.tolist() for array in arrays), strict=True))
+
+    def with_yarns(self, moved: UInt8[np.ndarray, " yarns"]) -> "Overlay":
+        """The same marks with other numbers of the yarns: `moved` has the new number of each."""
+        return replace(self, seconds=np.where(self.kinds == HALF, moved[self.seconds], 0).astype(np.uint8))
 
     @property
     def halves(self) -> int:
