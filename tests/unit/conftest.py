@@ -17,3 +17,11 @@ def memory(tmp_path: Path) -> Iterator[Path]:
         return
     with tempfile.TemporaryDirectory(dir=shared) as folder:
         yield Path(folder)
+
+
+@pytest.fixture
+def plain_page(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pages and a picture of the carpet that are made at once; the true ones have tests of their own."""
+    for name in ("carpet_page", "loom_page"):
+        monkeypatch.setattr(f"ilmek.jobs.weave.{name}", lambda page, *_: page.title)
+    monkeypatch.setattr("ilmek.jobs.chart.write_carpet_png", lambda path, *_: path.write_bytes(b""))

@@ -105,13 +105,6 @@ def test_report_needs_no_network(woven: tuple[Path, Any]) -> None:
     assert "medallion" in text
 
 
-@pytest.fixture
-def plain_page(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A page that is drawn at once; the true one has tests of its own."""
-    for name in ("carpet_page", "loom_page"):
-        monkeypatch.setattr(f"ilmek.jobs.weave.{name}", lambda page, *_: page.title)
-
-
 @pytest.mark.usefixtures("plain_page")
 def test_weave_shows_a_short_table_and_the_report(tmp_path: Path) -> None:
     shown = run("weave", MEDALLION, *SMALL, "--out", str(tmp_path / "out")).stdout

@@ -10,6 +10,6 @@ from kills.commands import COMMANDS
 def test_kills_lose_nothing(tmp_path: Path) -> None:
     command = next(command for command in COMMANDS if command.name == "mechanism")
     made = bench(tmp_path / "run", command)
-    results = [killed(made, kill, again=index == 0) for index, kill in enumerate(kills(made, 12, seed=3))]
+    results = [killed(made, kill, again=index == 0) for index, kill in enumerate(kills(made, 8, seed=3))]
     assert [f"{result.kill}: {text}" for result in results for text in result.findings] == []
     assert {result.outcome for result in results} >= {"old"}

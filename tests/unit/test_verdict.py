@@ -28,13 +28,6 @@ def run(*arguments: str) -> Result:
     return CliRunner().invoke(main, arguments)
 
 
-@pytest.fixture
-def plain_page(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A page that is drawn at once; the true one has tests of its own."""
-    monkeypatch.setattr("ilmek.jobs.weave.carpet_page", lambda page, *_: page.title)
-    monkeypatch.setattr("ilmek.jobs.weave.loom_page", lambda page, *_: page.title)
-
-
 @pytest.fixture(autouse=True)
 def nothing_near(monkeypatch: pytest.MonkeyPatch) -> None:
     """No search of the nearest carpets, which takes seconds."""
