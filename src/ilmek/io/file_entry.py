@@ -3,11 +3,13 @@
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import Any, NoReturn, Self
+from typing import Any, NoReturn, TypeVar
 
 from ilmek.errors import IlmekError, MechanismError, ParameterError
 from ilmek.io.line_numbers import Path
 from ilmek.io.schema import SourceText, key_faults, read_quantity, shown
+
+E = TypeVar("E", bound="FileEntry")
 
 _MISSING = object()
 
@@ -48,16 +50,16 @@ class FileEntry:
         """Whether the key exists."""
         return key in self.data
 
-    def entries(self) -> Iterator[tuple[str, Self]]:
+    def entries(self: E) -> Iterator[tuple[str, E]]:
         """The inner tables by name."""
         for key, value in self.data.items():
             yield key, type(self)(value, (*self.path, key), self.source)
 
-    def table(self, key: str) -> Self:
+    def table(self: E, key: str) -> E:
         """An inner table; empty if it is missing."""
         return type(self)(self.data.get(key, {}), (*self.path, key), self.source)
 
-    def rows(self, key: str) -> list[Self]:
+    def rows(self: E, key: str) -> list[E]:
         """An inner list of tables; empty if it is missing."""
         rows = self.data.get(key, [])
         if not isinstance(rows, list):

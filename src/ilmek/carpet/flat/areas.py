@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ilmek.arrays import Indices, IntArray, UInt8
+from ilmek.arrays import Indices, NumberArray, UInt8
 from ilmek.num.compiled import compiled
 
 NONE = 255
@@ -25,7 +25,7 @@ def area_share(  # noqa: PLR0917
 
 
 @compiled
-def take_knot(claims: Indices, shares: IntArray, row: int, column: int, label: int, share: int) -> None:  # noqa: PLR0917
+def take_knot(claims: Indices, shares: NumberArray, row: int, column: int, label: int, share: int) -> None:  # noqa: PLR0917
     """A claim to a knot: of several, that with the largest share of the cell has it; then the darkest colour."""
     before = claims[row, column]
     if before == NONE or share > shares[row, column] or (share == shares[row, column] and label < before):

@@ -12,7 +12,7 @@ mirror image of a picture gives the mirror image of the chart. All areas are int
 
 import numpy as np
 
-from ilmek.arrays import Indices, Int64, IntArray, UInt8
+from ilmek.arrays import Indices, Int64, IntArray, NumberArray, UInt8
 from ilmek.carpet.flat.areas import NONE, area_share, take_knot
 from ilmek.carpet.flat.lines import centre_lines, claim_lines
 from ilmek.num.compiled import compiled
@@ -81,7 +81,7 @@ def _claim_dots(  # noqa: PLR0917
     across: IntArray,
     down: IntArray,
     claims: Indices,
-    shares: IntArray,
+    shares: NumberArray,
     first: int,
     stop: int,
 ) -> None:
@@ -124,7 +124,7 @@ def _claim_dot(  # noqa: PLR0917
     labels: UInt8[np.ndarray, "h w"],
     knots: Indices,
     claims: Indices,
-    shares: IntArray,
+    shares: NumberArray,
     row: int,
     column: int,
     label: int,

@@ -10,7 +10,7 @@ A tip of an area, a dent in its edge, and a run at the border of the picture are
 
 import numpy as np
 
-from ilmek.arrays import Indices, Int64, IntArray, UInt8
+from ilmek.arrays import Indices, Int64, IntArray, NumberArray, UInt8
 from ilmek.carpet.design import bands
 from ilmek.carpet.flat.areas import NONE, area_share, take_knot
 from ilmek.num.compiled import compiled
@@ -80,7 +80,7 @@ def _is_notch(  # noqa: PLR0917
 def _claim_run(  # noqa: PLR0917
     labels: UInt8[np.ndarray, "h w"],
     claims: Indices,
-    shares: IntArray,
+    shares: NumberArray,
     across: bool,
     line: int,
     begin: int,
@@ -112,7 +112,7 @@ def _move_run(  # noqa: PLR0917
     knots: Indices,
     claims: Indices,
     moved: Indices,
-    shares: IntArray,
+    shares: NumberArray,
     across: bool,
     line: int,
     begin: int,
@@ -148,7 +148,7 @@ def _claims_along(  # noqa: PLR0917
     knots: Indices,
     claims: Indices,
     moved: Indices,
-    shares: IntArray,
+    shares: NumberArray,
     first: bool,
 ) -> None:
     """The first or the second claims of the runs along centre lines; runs at the border of the picture have none."""
@@ -191,7 +191,7 @@ def claim_lines(  # noqa: PLR0917
     knots: Indices,
     claims: Indices,
     made: Indices,
-    shares: IntArray,
+    shares: NumberArray,
     progress: Progress,
 ) -> None:
     """The claims along all centre lines: first ones if `made` is `claims`, else second ones."""
