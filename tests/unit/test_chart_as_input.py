@@ -137,3 +137,9 @@ def test_the_palette_of_the_chart_begins_with_the_yarns_of_the_bill(tmp_path: Pa
     for match in made.chart.reading.matches:
         difference = delta_e_2000(srgb_to_lab(np.array(match.srgb, np.uint8)), made.chart.yarns[match.yarn].lab)
         assert float(difference) == pytest.approx(match.delta_e)
+
+
+def test_a_chart_with_a_yarn_of_no_knot_comes_back_bit_for_bit(tmp_path: Path) -> None:
+    write_chart_png(tmp_path / "chart.png", replace(CHART, knots=np.where(KNOTS == 1, 3, KNOTS).astype(np.uint8)))
+    write_chart_png(tmp_path / "again.png", charted(tmp_path / "chart.png").chart)
+    assert (tmp_path / "again.png").read_bytes() == (tmp_path / "chart.png").read_bytes()

@@ -7,7 +7,7 @@ from typing import Any
 
 from ilmek.arrays import Rgb
 from ilmek.carpet.bill import YarnBill, YarnNeed, yarn_bill
-from ilmek.carpet.chart import Chart, used_first
+from ilmek.carpet.chart import Chart
 from ilmek.carpet.fitting import Fit
 from ilmek.carpet.matches import shared_yarns
 from ilmek.carpet.pile import PileParams, fill_check, pile_fill
@@ -156,7 +156,7 @@ def make_charted(order: CarpetOrder, progress: Progress = SILENT, *, with_source
     """
     charted_by = chart_of_order if order.recipe is None else chart_of_recipe
     made = charted_by(order, progress, with_source=with_source)
-    chart = used_first(made.chart)
+    chart = made.chart
     check_carpet_width(chart.size, order.files.carpet_width)
     bill = yarn_bill(chart, order.plan)
     notes = (*order.notes, *made.notes, *yarn_notes(chart), *_left_out(order, chart))

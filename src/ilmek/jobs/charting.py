@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from ilmek.arrays import Rgb
-from ilmek.carpet.chart import Chart, chart_of_design
+from ilmek.carpet.chart import Chart, chart_of_design, used_first
 from ilmek.carpet.design import knot_grid, resampled
 from ilmek.carpet.exact import few_colours, has_grid, of_grid, stated_quality
 from ilmek.carpet.fitted import fitted_design, unfitted_design
@@ -93,7 +93,7 @@ def chart_of_order(order: CarpetOrder, progress: Progress = SILENT, *, with_sour
         palette=order.palette,
         progress=progress.part(0.4, 1.0, "chart"),
     )
-    return OrderedChart(made, made_chart, (*notes, *read.notes), read.source)
+    return OrderedChart(made, used_first(made_chart), (*notes, *read.notes), read.source)
 
 
 @record

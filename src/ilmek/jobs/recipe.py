@@ -5,7 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from ilmek.arrays import Pixels
-from ilmek.carpet.chart import Chart, chart_of_design
+from ilmek.carpet.chart import Chart, chart_of_design, used_first
 from ilmek.carpet.palette_rules import PaletteParams, names_text, yarn_names
 from ilmek.carpet.reading import READINGS
 from ilmek.carpet.recipe.composition import compose
@@ -47,6 +47,7 @@ def chart_of_recipe(order: CarpetOrder, progress: Progress = SILENT, *, with_sou
         reading = replace(done.chart.reading, reason=f"{done.chart.reading.reason} (picture of {recipe.file.name})")
         chart = replace(done.chart, reading=reading)
         chart = finish(chart, recipe, _counted(done.order), None, progress.part(0.8, 1.0, "edits"))
+        chart = used_first(chart) if recipe.edits else chart
         return OrderedChart(replace(done.order, order=given), chart, done.notes, done.source)
     made = order.resolved()
     check_sheets(made.size, made.quality, order)
@@ -75,7 +76,7 @@ def chart_of_recipe(order: CarpetOrder, progress: Progress = SILENT, *, with_sou
     )
     source = shown_source(composition.design.colours) if with_source else None
     chart = finish(chart, recipe, _counted(made), composition, progress.part(0.8, 1.0, "edits"))
-    return OrderedChart(replace(made, order=given), chart, (*notes, *composition.notes), source)
+    return OrderedChart(replace(made, order=given), used_first(chart), (*notes, *composition.notes), source)
 
 
 def _check_never(recipe: Recipe, palette: PaletteParams) -> None:
