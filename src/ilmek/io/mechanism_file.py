@@ -33,6 +33,7 @@ from pathlib import Path
 from typing import Any
 
 from ilmek.dynamics.inertia import Inertia
+from ilmek.dynamics.own_machine import OwnMachine
 from ilmek.errors import IlmekError, MechanismError
 from ilmek.io.data_text import DataText, parse_data, read_data
 from ilmek.io.output import write_file
@@ -60,14 +61,23 @@ MOST_ENTRIES = 100
 
 @dataclass(frozen=True, slots=True)
 class MechanismFile:
-    """Contents of a file: the mechanism, and the inertias of those bodies that have some."""
+    """Contents of a file: the mechanism with its masses, loads, drive, members and task."""
 
-    mechanism: Mechanism
-    inertias: Mapping[str, Inertia] = field(default_factory=dict)
+    machine: OwnMachine
     source: SourceText = field(default_factory=lambda: SourceText("mechanism", {(): 1}), compare=False, repr=False)
 
     def __hash__(self) -> int:
         return hash((self.mechanism, tuple(self.inertias)))
+
+    @property
+    def mechanism(self) -> Mechanism:
+        """The mechanism."""
+        return self.machine.mechanism
+
+    @property
+    def inertias(self) -> Mapping[str, Inertia]:
+        """Inertias of those bodies that have some."""
+        return self.machine.inertias
 
     def __repr__(self) -> str:
         return brief(self)
@@ -160,7 +170,7 @@ def _built(data: Mapping[str, Any], source: SourceText) -> MechanismFile:
         )
         for entry in mechanism.inputs:
             _check_driven(mechanism, entry, data["inputs"][entry.joint])
-    return MechanismFile(mechanism, inertias, source)
+    return MechanismFile(OwnMachine(mechanism, inertias), source)
 
 
 def _joint(name: str, table: Mapping[str, Any]) -> Joint:

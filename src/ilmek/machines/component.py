@@ -43,6 +43,8 @@ class Component:
     results     analysis -> records with declared results (one, or a tuple of them); default: the analysis
     reported    the classes of these records, from which the reference of its JSON names is made
     checks, tables, figures, warnings   analysis -> each; a figure that cannot be made is left out with a warning
+    self_tests  analysis -> tests of the computation itself, such as a power balance; listed apart, a failed one is a
+                failed check too, so that such a design is never reported as sound
     plates, cam_tables, cyclograms      design -> what is made of it, what its axes follow, its timing
     parts       design -> lines of the parts list                work     design -> work of its acts
     tracks      design -> its tracks on the loom's cyclogram of a row
@@ -65,6 +67,7 @@ class Component:
     results: Callable[[Any], Any] = _itself
     reported: tuple[type, ...] = ()
     checks: Callable[[Any], tuple[Check, ...]] = _nothing
+    self_tests: Callable[[Any], tuple[Check, ...]] = _nothing
     tables: Callable[[Any], tuple[Table, ...]] = _nothing
     figures: Callable[[Any], tuple[Figure | LazyFigure, ...]] = _nothing
     warnings: Callable[[Any], tuple[str, ...]] = _nothing
@@ -105,12 +108,14 @@ class Component:
         figures = made_figures(lambda: self.figures(analysis), left_out)
         if in_a_loom and self.own_figures:
             figures = tuple(figure for figure in figures if not figure.name.startswith(self.own_figures))
+        tests = self.self_tests(analysis)
         made = Report(
             machine=self.name,
             title=self.title,
             parameters=self.parameters(design).as_dict(),
             results=results_of(*(records if isinstance(records, tuple) else (records,))),
-            checks=self.checks(analysis),
+            checks=(*self.checks(analysis), *(test for test in tests if not test.ok)),
+            self_tests=tests,
             tables=self.tables(analysis),
             figures=figures,
             warnings=(*self.warnings(analysis), *left_out),

@@ -28,7 +28,8 @@ class Report:
 
     `results`, `checks`, `warnings`, `plates` and `cam_tables` are its own; those of the whole tree carry the name of
     their machine: `all_checks`, `all_warnings`, `all_plates`, `all_cam_tables`. `headline` names results that stand at
-    the top level of the JSON too.
+    the top level of the JSON too. `self_tests` are tests of the computation, not of the machine: power balances,
+    closure; one that fails is among `checks` too.
     """
 
     machine: str
@@ -45,6 +46,7 @@ class Report:
     children: tuple["Report", ...] = ()
     choices: tuple[Choice, ...] = ()
     headline: tuple[str, ...] = ()
+    self_tests: tuple[Check, ...] = ()
 
     @property
     def key(self) -> str:
@@ -60,6 +62,16 @@ class Report:
             for check in child.all_checks
         )
         return (*self.checks, *below)
+
+    @property
+    def all_self_tests(self) -> tuple[Check, ...]:
+        """The self-tests of the whole tree; those of a machine in it begin with its name."""
+        below = (
+            replace(test, name=f"{child.machine}: {test.name}")
+            for child in self.children
+            for test in child.all_self_tests
+        )
+        return (*self.self_tests, *below)
 
     @property
     def all_warnings(self) -> tuple[str, ...]:
@@ -151,6 +163,7 @@ class Report:
             "parameters": plain(self.parameters),
             "results": results,
             "checks": [check.as_json() for check in self.all_checks],
+            "self_tests": [test.as_json() for test in self.all_self_tests],
             "choices": [choice.as_json() for choice in self.all_choices],
             "warnings": list(self.all_warnings),
             **({"machines": self._machines()} if self.children else {}),

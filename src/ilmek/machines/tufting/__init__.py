@@ -12,7 +12,7 @@ from ilmek.machines.component import Component
 from ilmek.machines.tufting.design import Tufting, design
 from ilmek.machines.tufting.figures import figures
 from ilmek.machines.tufting.params import TuftingParams
-from ilmek.machines.tufting.report import checks, plates, tables, warnings
+from ilmek.machines.tufting.report import checks, plates, self_tests, tables, warnings
 
 __all__ = ["MACHINE", "Tufting", "TuftingParams", "design"]
 
@@ -24,6 +24,7 @@ MACHINE = Component(
     design=design,
     reported=(Tufting,),
     checks=checks,
+    self_tests=self_tests,
     tables=tables,
     figures=figures,
     warnings=warnings,

@@ -24,16 +24,23 @@ def plates(design: Tufting) -> tuple[Plate, ...]:
 
 
 def checks(design: Tufting) -> tuple[Check, ...]:
-    """Stroke, backing, angles, and the balances of work and power."""
-    params, work = design.params, design.work
-    scale = max(abs(work["drive"]), design.main_shaft_torque_max)
-    unbalanced = abs(work["drive"] - work["friction"]) / scale if scale else 0.0
+    """Stroke, backing and angles."""
+    params = design.params
     levels = abs(design.entry_height - design.exit_height)
     return (
         at_least("stroke of the needle", design.stroke, params.stroke, "mm", f"required; {PAPER}: about 33 mm"),
         at_most("needle's height at entry against exit", levels, LEVELS, "mm", "one backing: both at its level"),
         at_least("transmission angle of rocker", design.transmission, TRANSMISSION, "deg", "rule of thumb for rockers"),
         at_most("pressure angle of the rod", design.pressure_angle, PRESSURE, "deg", "rule of thumb for sliders"),
+    )
+
+
+def self_tests(design: Tufting) -> tuple[Check, ...]:
+    """The balances of work and power."""
+    work = design.work
+    scale = max(abs(work["drive"]), design.main_shaft_torque_max)
+    unbalanced = abs(work["drive"] - work["friction"]) / scale if scale else 0.0
+    return (
         at_most("work of drive against friction, over a turn", unbalanced, BALANCE, "1", "energy balance"),
         at_most("power balance of the forces", design.state.forces.power_error, BALANCE, "1", "virtual power"),
     )

@@ -1,0 +1,164 @@
+"""A mechanism with all that its dynamics need: masses, loads, friction, drive, members, and what is to be studied.
+
+It is what a mechanism file states beyond the geometry (`ilmek.io.mechanism_file`), as records of this layer; nothing is
+computed here. All quantities are SI; angles are in radians.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import TypeAlias
+
+from ilmek.arrays import FloatArray
+from ilmek.dynamics.inertia import Inertia
+from ilmek.dynamics.joint_friction import JointFriction
+from ilmek.dynamics.loads import Load
+from ilmek.linkage.model import Mechanism
+from ilmek.records import record
+
+InputLaw: TypeAlias = Callable[[FloatArray], tuple[FloatArray, FloatArray, FloatArray]]
+"""Times [s] -> value [rad; m], speed and acceleration of an input: constant speed, motion laws in sequence, a table."""
+
+
+@record
+class NamedLoad:
+    """A load of the file, with the name by which forces, power and messages refer to it."""
+
+    name: str
+    load: Load
+
+
+@dataclass(frozen=True, slots=True)
+class FlatMember:
+    """A link as flat bar: what its strength depends on.
+
+    width      in the plane of motion [m]      thickness  across it [m]
+    material   name in `ilmek.elements.materials`
+    stress     allowed stress [Pa]; None: the material's fatigue limit, or its strength, over `safety`
+    safety     [1]
+    """
+
+    width: float
+    thickness: float
+    material: str
+    stress: float | None = None
+    safety: float = 2.0
+
+
+@dataclass(frozen=True, slots=True)
+class PinMember:
+    """A pin as a machine element.
+
+    diameter   [m]      length  bearing length in the bush [m]
+    fork       True: sheared in two sections; False: in one
+    shear      allowed shear stress [Pa]      pressure  allowed mean pressure F / (d l) [Pa]
+    wear       allowed mean of pressure times sliding speed [Pa m/s]
+    bearing    rolling bearing of the catalogue instead of a bush; None: a bush
+    life       required life of the bearing [s of running]
+    """
+
+    diameter: float
+    length: float
+    fork: bool = True
+    shear: float = 60e6
+    pressure: float = 15e6
+    wear: float = 1e6
+    bearing: str | None = None
+    life: float = 0.0
+
+
+@record
+class GivenMotion:
+    """An input that follows a law of time.
+
+    law     times -> value, speed, acceleration      period  [s]; the law repeats; None: it ends
+    breaks  times at which its acceleration jumps [s], ascending
+    """
+
+    law: InputLaw
+    period: float | None
+    breaks: tuple[float, ...] = ()
+
+
+@record
+class MotorDrive:
+    """A drive for forward runs: torque [N m] or force [N] on the input, M = M_0 tanh((w_0 - w) / (s w_0)), or constant.
+
+    effort     M_0 [N m; N]      speed  w_0 without load [rad/s; m/s]; None: constant effort
+    slip       s [1]             inertia  of rotor and flywheel, at the input [kg m²; kg]
+    """
+
+    effort: float
+    speed: float | None = None
+    slip: float = 0.05
+    inertia: float = 0.0
+
+
+@record
+class StopEvent:
+    """An event of a forward run: a quantity of the input crosses a value.
+
+    of        "position" [rad; m], "speed" [per s] or "time" [s]      value  in SI
+    terminal  the run ends there                                     direction  +1 upward, -1 downward, 0 both
+    """
+
+    name: str
+    of: str
+    value: float
+    terminal: bool = True
+    direction: int = 0
+
+
+@record
+class ForwardTask:
+    """A forward run: from a state of the driven input, under its drive, for a duration [s]."""
+
+    duration: float
+    position: float = 0.0
+    speed: float = 0.0
+    drive: MotorDrive | None = None
+    events: tuple[StopEvent, ...] = ()
+
+
+@record
+class SpeedStudy:
+    """Speeds of the driving input at which the machine is computed [rad/s; m/s], ascending."""
+
+    speeds: tuple[float, ...]
+
+
+@record
+class OwnMachine:
+    """A mechanism with masses, loads, friction, members and its task.
+
+    inertias   body -> inertia; a body that is not listed is massless
+    gravity    acceleration [m/s²], complex; 0: the plane of motion is horizontal
+    loads      forces, torques, springs, dampers, in the file's order
+    frictions  of joints
+    members    body -> its section; its strength is computed between the pins and points of the body
+    pins       joint -> its pin
+    motions    input -> the law that it follows; default: the constant speed of the call
+    forward    a forward run; None: none
+    study      speeds to compare; None: none
+    servo      input for which a motor of the catalogue is chosen; None: none
+    paths      (body, point) of each point whose path is drawn and listed; (): all points that are no joints
+    transmission  pins at which the transmission angle is listed; (): every free pin of a dyad
+    """
+
+    mechanism: Mechanism
+    inertias: Mapping[str, Inertia] = field(default_factory=dict)
+    gravity: complex = 0j
+    loads: tuple[NamedLoad, ...] = ()
+    frictions: tuple[JointFriction, ...] = ()
+    members: Mapping[str, FlatMember] = field(default_factory=dict)
+    pins: Mapping[str, PinMember] = field(default_factory=dict)
+    motions: Mapping[str, GivenMotion] = field(default_factory=dict)
+    forward: ForwardTask | None = None
+    study: SpeedStudy | None = None
+    servo: str | None = None
+    paths: tuple[tuple[str, str], ...] = ()
+    transmission: tuple[str, ...] = ()
+
+    @property
+    def has_forces(self) -> bool:
+        """Whether there is anything to compute forces of: a mass, a load or friction."""
+        return bool(self.inertias or self.loads or self.frictions)
