@@ -10,8 +10,8 @@ from ilmek.cli.terminal import note, say, show_table
 from ilmek.errors import MechanismError
 from ilmek.io.mechanism_file import mechanism_json, mechanism_toml, read_mechanism
 from ilmek.io.table_csv import MOST_NUMBERS, csv_text
-from ilmek.jobs.mechanism import MotionRequest, run
-from ilmek.jobs.mechanism_report import as_json, columns, report
+from ilmek.jobs.mechanism.report import as_json, columns, report
+from ilmek.jobs.mechanism.run import MotionRequest, run
 from ilmek.report import Report
 from ilmek.units import format_quantity
 

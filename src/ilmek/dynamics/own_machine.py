@@ -71,12 +71,14 @@ class GivenMotion:
     """An input that follows a law of time.
 
     law     times -> value, speed, acceleration      period  [s]; the law repeats; None: it ends
-    breaks  times at which its acceleration jumps [s], ascending
+    breaks  times at which its acceleration jumps [s], ascending; the last is the end of a law without a period
+    speed   constant speed [rad/s; m/s] of which the law consists; None: another law
     """
 
     law: InputLaw
     period: float | None
     breaks: tuple[float, ...] = ()
+    speed: float | None = None
 
 
 @record

@@ -7,7 +7,7 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.dynamics.animation import FRAMES, animated
 from ilmek.errors import MechanismError
-from ilmek.jobs.mechanism import MechanismRun
+from ilmek.jobs.mechanism.run import MechanismRun
 from ilmek.linkage.mobility import mobility
 from ilmek.linkage.model import Rotation, degrees_of_freedom
 from ilmek.linkage.motion import Status, moving_points
