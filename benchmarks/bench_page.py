@@ -18,10 +18,11 @@ from PIL import Image
 from benchmarks.bench_rows import chart_of_runs
 from ilmek.carpet.bill import yarn_bill
 from ilmek.carpet.chart import Chart
+from ilmek.carpet.statistics import chart_statistics
 from ilmek.carpet.usual_pile import with_counts
 from ilmek.jobs.carpet_report import page_of
 from ilmek.viz.carpet_page import carpet_page
-from ilmek.viz.carpet_picture import write_carpet_png
+from ilmek.viz.carpet_picture import draw_carpet
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 MEASURE = "<script>onload=()=>document.title=`${root.scrollHeight} ${root.scrollWidth}`</script>"
@@ -33,11 +34,11 @@ def run() -> None:
     browser = next(filter(None, map(shutil.which, BROWSERS)), None)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "carpet.png")
-        write_carpet_png(path, chart_of_runs(30, 20, 0.3))  # compiles the kernels
+        draw_carpet(chart_of_runs(30, 20, 0.3))  # compiles the kernels
         print(f"{'carpet.png of 4 MP':<18} {'s':>7} {'MB':>7} {'chart upscaled by Pillow, s':>28}")
         for name, grid in KINDS.items():
             chart = chart_of_runs(*grid, 0.09)
-            seconds = timed(write_carpet_png, path, chart, 1600)
+            seconds = timed(write_carpet, path, chart, 1600)
             peer = timed(upscaled, path.with_name("peer.png"), chart, 1600)
             print(f"{name:<18} {seconds:7.2f} {path.stat().st_size / 1e6:7.1f} {peer:28.2f}")
         print(f"{'report.html':<18} {'s':>7} {'MB':>7} {'px high at 1,400':>17} {'px wide at 500':>15}")
@@ -49,6 +50,11 @@ def run() -> None:
                 "" if browser is None else f"{measure(browser, page, 1400)[0]:17} {measure(browser, page, 500)[1]:15}"
             )
             print(f"{name:<18} {seconds:7.2f} {page.stat().st_size / 1e6:7.1f} {measured}")
+
+
+def write_carpet(path: Path, chart: Chart, width: int) -> None:
+    """Draw the carpet and write it as PNG."""
+    draw_carpet(chart, width).write_png(path)
 
 
 def timed(work: Callable[..., None], *arguments: object) -> float:
@@ -69,7 +75,14 @@ def write_page(path: Path, chart: Chart) -> None:
     """The page of a chart, its yarns with the usual counts."""
     chart = replace(chart, yarns=with_counts(chart.yarns, chart.quality, chart.knot))
     source = np.array([yarn.srgb for yarn in chart.yarns], dtype=np.uint8)[chart.knots[::8, ::8]]
-    path.write_text(carpet_page(page_of("carpet", chart, yarn_bill(chart), source, ("chart.png",))), encoding="utf-8")
+    path.write_text(
+        carpet_page(
+            page_of(
+                "carpet", chart, yarn_bill(chart), ("chart.png",), statistics=chart_statistics(chart), source=source
+            )
+        ),
+        encoding="utf-8",
+    )
 
 
 def measure(browser: str, page: Path, width: int) -> tuple[int, int]:

@@ -4,12 +4,13 @@ import math
 
 import numpy as np
 import pytest
+from fitted_picture import fit_picture
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ilmek.carpet.chart import make_chart
 from ilmek.carpet.design import distortion
-from ilmek.carpet.fitting import Fit, FitParams, border_colour, fit_picture
+from ilmek.carpet.fitting import Fit, FitParams, border_colour
 from ilmek.carpet.projection import inner_rectangle, outer_rectangle
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize

@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ilmek.carpet.confetti import count_lone
+from ilmek.carpet.tally import tally_of
 
 
 def lone_by_definition(knots: np.ndarray) -> np.ndarray:
@@ -16,4 +16,4 @@ def lone_by_definition(knots: np.ndarray) -> np.ndarray:
 @given(rows=st.integers(1, 12), columns=st.integers(1, 12), yarns=st.integers(2, 6), seed=st.integers(0, 10**6))
 def test_lone_knots_are_counted(rows: int, columns: int, yarns: int, seed: int) -> None:
     knots = np.random.default_rng(seed).integers(0, yarns, (rows, columns), dtype=np.uint8)
-    assert count_lone(knots) == lone_by_definition(knots).sum()
+    assert tally_of(knots, yarns).lone == lone_by_definition(knots).sum()

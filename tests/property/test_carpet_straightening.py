@@ -5,13 +5,14 @@ import math
 import numpy as np
 import photographs
 import pytest
+from fitted_picture import fit_picture
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from PIL import Image
 
 from ilmek.arrays import Rgb
 from ilmek.carpet.design import resampled
-from ilmek.carpet.fitting import FitParams, fit_picture
+from ilmek.carpet.fitting import FitParams
 from ilmek.carpet.outline import find_outline
 from ilmek.carpet.projection import onto_corners
 from ilmek.carpet.sizes import CarpetSize

@@ -18,6 +18,7 @@ from ilmek.carpet.chart import Chart
 from ilmek.carpet.pile import knot_length
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
+from ilmek.carpet.statistics import chart_statistics
 from ilmek.carpet.yarn import Yarn
 from ilmek.carpet.yarn_plan import YarnPlanParams
 from ilmek.elements.knot_kinds import WRAPS
@@ -48,7 +49,7 @@ def charted(records: list[dict[str, Any]], knots: Indices, across: float, along:
     size = CarpetSize(knots.shape[1] / across, knots.shape[0] / along)
     chart = Chart(knots, yarns, size, quality, kind)
     order = CarpetOrder(Path("x.png"), size, quality, kind, yarns, plan=PLAN).resolved()
-    return ChartResult(order, chart, yarn_bill(chart, PLAN), ())
+    return ChartResult(order, chart, yarn_bill(chart, PLAN), chart_statistics(chart), ())
 
 
 def written(made: ChartResult) -> list[dict[str, str]]:

@@ -13,7 +13,6 @@ from ilmek.carpet.blue_noise import SIDE, blue_noise
 from ilmek.carpet.chart import Chart, make_chart
 from ilmek.carpet.colour import LINEAR, RGB_TO_XYZ, xyz_to_lab
 from ilmek.carpet.colour_difference import delta_e_2000
-from ilmek.carpet.confetti import count_lone
 from ilmek.carpet.design import bands
 from ilmek.carpet.halftone import CELL, draw_halftone
 from ilmek.carpet.palette import distinct_colours, nearest_yarns, paint
@@ -21,6 +20,7 @@ from ilmek.carpet.patches import count_patches
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.reading import ReadParams
 from ilmek.carpet.sizes import CarpetSize
+from ilmek.carpet.tally import tally_of
 from ilmek.carpet.yarn import yarn_labs
 from ilmek.errors import PictureError
 from ilmek.io.yarn_file import default_yarns
@@ -72,7 +72,7 @@ def test_a_sky_at_viewing_distance(name: str, most: float) -> None:
     assert far(rgb, made.knots) < most
     assert far(rgb, made.knots) < far(rgb, peer)
     assert made.lone_fraction == 0.0
-    assert count_lone(peer) / peer.size > 0.35
+    assert tally_of(peer, len(YARNS)).lone / peer.size > 0.35
     assert count_patches(made.knots, CELL**2 - 1) == 0
     assert "patterns on" in made.reading.reason
 

@@ -6,6 +6,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from PIL import Image
+
+from ilmek.viz.carpet_picture import WHOLE, DrawnCarpet
 
 
 @pytest.fixture
@@ -21,7 +24,7 @@ def memory(tmp_path: Path) -> Iterator[Path]:
 
 @pytest.fixture
 def plain_page(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Pages and a picture of the carpet that are made at once; the true ones have tests of their own."""
+    """Pages and a small picture of the carpet; the true ones have tests of their own."""
     for name in ("carpet_page", "loom_page"):
         monkeypatch.setattr(f"ilmek.jobs.weave.{name}", lambda page, *_: page.title)
-    monkeypatch.setattr("ilmek.jobs.chart.write_carpet_png", lambda path, *_: path.write_bytes(b""))
+    monkeypatch.setattr("ilmek.jobs.chart.draw_carpet", lambda *_, **__: DrawnCarpet(Image.new("RGB", (2, 2)), WHOLE))

@@ -10,7 +10,7 @@ from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.io.yarn_file import default_yarns
 from ilmek.progress import Cancelled, Progress
-from ilmek.viz.carpet_picture import carpet_picture
+from ilmek.viz.carpet_picture import draw_carpet
 
 PICTURE = np.random.default_rng(3).integers(0, 256, (90, 70, 3), dtype=np.uint8)
 SIZE = CarpetSize(0.6, 0.7)
@@ -32,7 +32,7 @@ def made(quality: float, progress: Progress | None = None) -> Chart:
 @pytest.mark.parametrize("most", [1, 1000])
 def test_slices_change_nothing(monkeypatch: pytest.MonkeyPatch, quality: float, most: int) -> None:
     whole = made(quality)
-    picture = carpet_picture(whole)
+    picture = draw_carpet(whole).jpeg
     bands = design.bands
     for module in (design,):
         monkeypatch.setattr(module, "_SLICE", most)
@@ -43,7 +43,7 @@ def test_slices_change_nothing(monkeypatch: pytest.MonkeyPatch, quality: float, 
     for name in ("counts", "lone_fraction", "changes_per_knot", "yarns"):
         assert getattr(sliced, name) == getattr(whole, name)
     assert sliced.reading.mean_delta_e == whole.reading.mean_delta_e
-    assert carpet_picture(sliced) == picture
+    assert draw_carpet(sliced).jpeg == picture
 
 
 def test_cells_are_numbered_as_their_keys_ascend() -> None:

@@ -14,7 +14,7 @@ from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import Yarn
 from ilmek.errors import CarpetError
-from ilmek.viz.carpet_picture import carpet_picture, close_up, pile_part, write_carpet_png
+from ilmek.viz.carpet_picture import LONGEST, close_up, draw_carpet
 
 RED, BLUE = (150, 30, 40), (20, 40, 110)
 
@@ -44,7 +44,7 @@ def mean(image: Image.Image, box: tuple[int, int, int, int]) -> list[float]:
 )
 def test_shows_the_yarns_where_they_lie(rows: int, columns: int, across: float, along: float) -> None:
     made = chart(rows, columns, across, along)
-    image = opened(carpet_picture(made, longest=700))
+    image = draw_carpet(made, longest=700).image
     assert max(image.size) <= 700
     assert max(image.size) >= 500
     width, height = image.size
@@ -56,7 +56,7 @@ def test_shows_the_yarns_where_they_lie(rows: int, columns: int, across: float, 
 
 def test_keeps_the_proportions_of_the_carpet() -> None:
     """Rows twice as high as knots are wide: a piece of 120 x 90 knots is 24 x 36 cm, with fringes 13.4 cm longer."""
-    width, height = opened(carpet_picture(chart(90, 120, 500.0, 250.0))).size
+    width, height = draw_carpet(chart(90, 120, 500.0, 250.0)).image.size
     assert height / width == pytest.approx((0.36 + 2 * (0.055 + 0.012)) / (0.24 + 2 * 0.008), rel=0.01)
 
 
@@ -67,39 +67,39 @@ def test_close_up_draws_knots_in_proportion() -> None:
 
 def test_a_seed_gives_one_picture() -> None:
     made = chart(60, 40, 250.0, 250.0)
-    assert carpet_picture(made, 400) == carpet_picture(made, 400)
-    assert carpet_picture(made, 400) != carpet_picture(made, 400, seed=2)
+    assert draw_carpet(made, longest=400).jpeg == draw_carpet(made, longest=400).jpeg
+    assert draw_carpet(made, longest=400).jpeg != draw_carpet(made, longest=400, seed=2).jpeg
 
 
 def test_the_smallest_carpet_is_one_too() -> None:
-    assert max(opened(carpet_picture(chart(3, 2, 20.0, 20.0), 300)).size) <= 300
+    assert max(draw_carpet(chart(3, 2, 20.0, 20.0), longest=300).image.size) <= 300
 
 
 @pytest.mark.parametrize("width", [None, 100, 333])
 def test_the_file_has_the_width_and_shows_the_yarns_in_the_pile(tmp_path: Path, width: int | None) -> None:
     made = chart(90, 60, 250.0, 250.0)
-    write_carpet_png(tmp_path / "carpet.png", made, width)
+    drawn = draw_carpet(made, width)
+    drawn.write_png(tmp_path / "carpet.png")
     image = opened((tmp_path / "carpet.png").read_bytes())
     if width is None:
         assert 1395 <= max(image.size) <= 1400
     else:
         assert abs(image.width - width) <= 3
-    pile = pile_part(made)
+    pile = drawn.pile
     left, top = pile.left * image.width, pile.top * image.height
     right, bottom = left + pile.width * image.width, top + pile.height * image.height
     inside = mean(image, (int(left) + 9, int(top) + 9, int(right) - 9, int((top + bottom) / 2) - 9))
     assert inside == pytest.approx(RED, abs=22)
 
 
-def test_a_width_out_of_bounds_is_refused(tmp_path: Path) -> None:
+def test_a_width_out_of_bounds_is_refused() -> None:
     made = chart(90, 60, 250.0, 250.0)
     for width in (99, 20_001):
         with pytest.raises(CarpetError, match="--carpet-width"):
-            write_carpet_png(tmp_path / "carpet.png", made, width)
+            draw_carpet(made, width)
     runner = chart(3000, 60, 250.0, 250.0)
     with pytest.raises(CarpetError, match=r"100 to [\d,]+ pixels"):
-        write_carpet_png(tmp_path / "carpet.png", runner, 5000)
-    assert list(tmp_path.iterdir()) == []
+        draw_carpet(runner, 5000)
 
 
 def test_half_knots_and_jufti_knots_are_tufts_of_their_own() -> None:
@@ -117,8 +117,18 @@ def test_half_knots_and_jufti_knots_are_tufts_of_their_own() -> None:
     assert 2 * 24 <= columns.min() <= columns.max() < 8 * 24
 
 
-def test_a_given_width_is_kept(tmp_path: Path) -> None:
+def test_a_given_width_is_kept() -> None:
     for width in (301, 1999):
-        write_carpet_png(tmp_path / "carpet.png", chart(90, 60, 250.0, 250.0), width)
-        with Image.open(tmp_path / "carpet.png") as picture:
-            assert picture.width == width
+        assert draw_carpet(chart(90, 60, 250.0, 250.0), width).image.width == width
+
+
+def test_a_page_takes_the_picture_of_the_file_reduced_to_its_size() -> None:
+    """A picture that is too small for a page is not taken: the page draws its own."""
+    made = chart(90, 60, 250.0, 250.0)
+    large = draw_carpet(made, 1999).of_page()
+    assert large is not None
+    assert max(large.image.size) == LONGEST
+    assert large.image.width / large.image.height == pytest.approx(0.256 / 0.494, rel=0.02)
+    whole = draw_carpet(made)
+    assert whole.of_page() is whole
+    assert draw_carpet(made, 301).of_page() is None

@@ -67,25 +67,6 @@ def is_lone(knots: Indices, row: int, column: int) -> bool:
 
 
 @compiled
-def _count_lone(knots: Indices, first: int, stop: int) -> int:
-    lone = 0
-    for row in range(first, stop):
-        for column in range(knots.shape[1]):
-            lone += is_lone(knots, row, column)
-    return lone
-
-
-def count_lone(knots: Indices, progress: Progress = SILENT) -> int:
-    """Number of lone knots of a chart (rows, columns)."""
-    knots = np.ascontiguousarray(knots)
-    lone = 0
-    for band in bands(*knots.shape):
-        lone += int(_count_lone(knots, band.start, band.stop))
-        progress(band.stop / len(knots))
-    return lone
-
-
-@compiled
 def _add_light(rgb: Rgb, row: int, column: int, sums: IntArray) -> None:
     # Whole numbers: the sum does not depend on the order.
     for channel in range(3):

@@ -121,26 +121,6 @@ class Fit:
         return ", ".join(done) or "whole picture"
 
 
-def fit_picture(
-    rgb: Rgb,
-    size: CarpetSize,
-    params: FitParams | None = None,
-    progress: Progress = SILENT,
-    *,
-    grid: tuple[int, int] | None = None,
-) -> tuple[MadeRgb, Fit]:
-    """The picture as the carpet shows it, pixels (height, width, 3), and what was done to it.
-
-    grid  rows and columns of knots: a picture with that grid is not stretched, cropped or padded
-
-    The result has the carpet's proportions up to `Fit.stretch`; it is a view of the picture where nothing but its edges
-    changes or it is turned by right angles. Raises PictureError for a part that is empty or not in the picture.
-    """
-    params = params or FitParams()
-    prepared, fit = prepare_picture(rgb, params, progress.part(0.0, 0.8), size=size)
-    return fit_prepared(prepared, fit, size, params, progress.part(0.8, 1.0), grid=grid)
-
-
 def prepare_picture(
     rgb: Rgb, params: FitParams, progress: Progress = SILENT, *, size: CarpetSize | None = None
 ) -> tuple[MadeRgb, Fit]:
@@ -168,7 +148,14 @@ def fit_prepared(
     *,
     grid: tuple[int, int] | None = None,
 ) -> tuple[MadeRgb, Fit]:
-    """A prepared picture fitted to the carpet's proportions by `params.fit`; other arguments as of `fit_picture`."""
+    """A prepared picture as the carpet shows it by `params.fit`, and all that was done to it.
+
+    fit   what was done to prepare it      size  of the carpet
+    grid  rows and columns of knots: a picture with that grid is not stretched, cropped or padded
+
+    The result has the carpet's proportions up to `Fit.stretch`; it is a view of the picture where nothing but its edges
+    changes or it is turned by right angles.
+    """
     if params.fit == "turn" and rgb.shape[:2] != grid and _suits_turned(rgb, size):
         rgb, fit = np.rot90(rgb, -1), replace(fit, turned=(fit.turned + math.pi / 2) % (2 * math.pi))
     if rgb.shape[:2] == grid:

@@ -3,10 +3,9 @@
 from collections.abc import Sequence
 from typing import Any
 
-from ilmek.arrays import Rgb
 from ilmek.carpet.bill import YarnBill
 from ilmek.carpet.chart import Chart
-from ilmek.carpet.statistics import chart_statistics
+from ilmek.carpet.statistics import ChartStatistics
 from ilmek.io.chart.symbols import symbols
 from ilmek.jobs.carpet_files import file_notes
 from ilmek.jobs.yarn_choice import proposed_shades
@@ -16,7 +15,7 @@ from ilmek.viz.page_parts import Fact
 
 
 def page_of(
-    title: str, chart: Chart, bill: YarnBill, source: Rgb | None, files: Sequence[str], **more: Any
+    title: str, chart: Chart, bill: YarnBill, files: Sequence[str], *, statistics: ChartStatistics, **more: Any
 ) -> CarpetPage:
     """The contents of the page.
 
@@ -27,9 +26,8 @@ def page_of(
         lead=f"{chart.size}, {chart.quality}, {chart.knot} knot",
         chart=chart,
         bill=bill,
-        statistics=chart_statistics(chart),
+        statistics=statistics,
         symbols=symbols(len(chart.yarns)),
-        source=source,
         reading=reading_lines(chart),
         proposed=proposed_shades(chart),
         files=file_notes(files),

@@ -11,7 +11,7 @@ from ilmek.carpet.chart import Chart
 from ilmek.carpet.fitting import Fit
 from ilmek.carpet.matches import shared_yarns
 from ilmek.carpet.pile import PileParams, fill_check, pile_fill
-from ilmek.carpet.statistics import chart_statistics
+from ilmek.carpet.statistics import ChartStatistics, chart_statistics
 from ilmek.carpet.yarn import Yarn
 from ilmek.io.chart.bmp import write_chart_bmp
 from ilmek.io.chart.oxs import write_chart_oxs
@@ -33,7 +33,7 @@ from ilmek.records import record
 from ilmek.report import Check, plain, verdict_json
 from ilmek.report.left_out import made_or_left_out
 from ilmek.viz.carpet_page import CarpetPage, carpet_page
-from ilmek.viz.carpet_picture import check_carpet_width, write_carpet_png
+from ilmek.viz.carpet_picture import DrawnCarpet, check_carpet_width, draw_carpet
 
 MOST_SHARED = 5
 """Largest number of yarns with two or more colours that are named."""
@@ -43,13 +43,15 @@ MOST_SHARED = 5
 class ChartResult:
     """Chart and yarn bill of an order.
 
-    notes   changes made to the picture, and files that are left out
-    source  the fitted picture, made small; None of a chart as input, and where it is not wanted
+    statistics  of the chart
+    notes       changes made to the picture, and files that are left out
+    source      the fitted picture, made small; None of a chart as input, and where it is not wanted
     """
 
     order: ResolvedOrder
     chart: Chart
     bill: YarnBill
+    statistics: ChartStatistics
     notes: tuple[str, ...]
     source: Rgb | None = None
 
@@ -122,9 +124,9 @@ def chart_order(
         charted = make_charted(order, progress.part(0.0, 0.6), with_source=True)
         left_out: list[str] = []
         with made.folder(folder) as work:
-            written = write_chart(charted, work, left_out, progress.part(0.6, 0.9, "files"))
+            written, drawn = write_chart(charted, work, left_out, progress.part(0.6, 0.9, "files"))
             names = ["report.html", *written, "chart.json"]
-            shown = _page(charted, (*names, "chart.json"), left_out)
+            shown = _page(charted, (*names, "chart.json"), left_out, drawn)
             drawing = progress.part(0.9, 1.0, "report.html")
             page = made_or_left_out("report.html", lambda: carpet_page(shown, left_out, drawing), left_out)
             if page is None:
@@ -137,15 +139,17 @@ def chart_order(
     return charted, files
 
 
-def _page(charted: ChartResult, names: Sequence[str], left_out: Sequence[str]) -> CarpetPage:
+def _page(charted: ChartResult, names: Sequence[str], left_out: Sequence[str], drawn: DrawnCarpet | None) -> CarpetPage:
     return page_of(
         charted.order.order.picture.stem,
         charted.chart,
         charted.bill,
-        charted.source,
         names,
+        statistics=charted.statistics,
+        source=charted.source,
         checks=charted.checks,
         warnings=(*charted.warnings, *charted.notes, *left_out),
+        drawn=drawn,
     )
 
 
@@ -160,7 +164,7 @@ def make_charted(order: CarpetOrder, progress: Progress = SILENT, *, with_source
     check_carpet_width(chart.size, order.files.carpet_width)
     bill = yarn_bill(chart, order.plan)
     notes = (*order.notes, *made.notes, *yarn_notes(chart), *_left_out(order, chart))
-    return ChartResult(made.order, chart, bill, notes, made.source)
+    return ChartResult(made.order, chart, bill, chart_statistics(chart), notes, made.source)
 
 
 def _shared_yarns(chart: Chart) -> tuple[str, ...]:
@@ -208,7 +212,7 @@ def chart_results(charted: ChartResult) -> dict[str, Any]:
         "lone_fraction": chart.lone_fraction,
         "small_patches": chart.small_patches,
         "changes_per_knot": chart.changes_per_knot,
-        "statistics": _statistics(chart),
+        "statistics": _statistics(charted),
         "yarn": [_need(need) for need in bill.pile],
         "ground": [_need(need) for need in bill.ground],
         "pile_mass": bill.pile_mass,
@@ -222,8 +226,8 @@ def chart_results(charted: ChartResult) -> dict[str, Any]:
     }
 
 
-def _statistics(chart: Chart) -> dict[str, Any]:
-    found = chart_statistics(chart)
+def _statistics(charted: ChartResult) -> dict[str, Any]:
+    chart, found = charted.chart, charted.statistics
     return {
         "mean_changes": found.mean_changes,
         "hardest_rows": [{"row": row, "changes": found.of_row(row)} for row in found.hardest],
@@ -250,8 +254,10 @@ def _need(need: YarnNeed) -> dict[str, Any]:
 
 def write_chart(
     charted: ChartResult, folder: Path, left_out: list[str], progress: Progress = SILENT
-) -> tuple[str, ...]:
-    """Write the chart's files into a folder; returns their names. A PDF that cannot be made is added to `left_out`.
+) -> tuple[tuple[str, ...], DrawnCarpet | None]:
+    """Write the chart's files into a folder; returns their names, and the carpet as drawn for a page.
+
+    A PDF that cannot be made is added to `left_out`.
 
     Raises OSError, and CarpetError for a carpet.png of too many pixels.
     """
@@ -261,7 +267,9 @@ def write_chart(
         write_chart_bmp(folder / "chart.bmp", chart, progress.part(0.1, 0.15, "chart.bmp"))
     if "chart.oxs" in charted.files:
         write_chart_oxs(folder / "chart.oxs", chart, progress.part(0.15, 0.2, "chart.oxs"))
-    write_carpet_png(folder / "carpet.png", chart, width, progress.part(0.2, 0.4, "carpet.png"))
+    drawn = draw_carpet(chart, width, progress=progress.part(0.2, 0.4, "carpet.png"))
+    drawn.write_png(folder / "carpet.png")
+    drawn_for_page = drawn.of_page()
     write_yarn_csv(folder / "yarn.csv", charted.bill, charted.chart.yarns)
     written = [name for name in charted.files if name in ("chart.png", "chart.bmp", "chart.oxs", "carpet.png")]
     if "chart.pdf" in charted.files:
@@ -274,7 +282,7 @@ def write_chart(
     rows = write_rows(chart, charted.order.order, folder, left_out, progress.part(0.7, 1.0))
     if shades := proposed_shades(chart):
         write_proposal(folder / PROPOSED, shades)
-    return (*written, *rows, "yarn.csv", *((PROPOSED,) if shades else ()))
+    return (*written, *rows, "yarn.csv", *((PROPOSED,) if shades else ())), drawn_for_page
 
 
 def chart_json(charted: ChartResult, files: Sequence[str]) -> dict[str, Any]:

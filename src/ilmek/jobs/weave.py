@@ -21,6 +21,7 @@ from ilmek.report import NEAREST, Check, Report, must, verdict_json
 from ilmek.report.left_out import made_or_left_out
 from ilmek.units import format_quantity, hour
 from ilmek.viz.carpet_page import CarpetPage, carpet_page
+from ilmek.viz.carpet_picture import DrawnCarpet
 from ilmek.viz.loom_page import BAD, GOOD, LoomPage, loom_page
 from ilmek.viz.page_parts import Fact, FileNote
 
@@ -111,15 +112,15 @@ def _weave(
     woven = WeaveResult(charted, loom_order, loomed, folder)
     left_out: list[str] = []
     with outputs.folder(folder) as work:
-        written = write_chart(charted, work, left_out, progress.part(0.5, 0.7, "chart"))
-        written = (*written, *_write_programme(woven, work, progress.part(0.7, 0.8, "programme")))
+        of_chart, drawn = write_chart(charted, work, left_out, progress.part(0.5, 0.7, "chart"))
+        written = (*of_chart, *_write_programme(woven, work, progress.part(0.7, 0.8, "programme")))
         write_json(work / "machine.json", machine_json(woven))
         written = ("report.html", "loom.html", *written, "machine.json", "report.json")
         woven = replace(woven, written=written, left_out=tuple(left_out))
         drawing = progress.part(0.8, 1.0, "report")
         pages = {
             "loom.html": lambda: loom_page(_loom_page(woven), left_out, drawing.part(0.0, 0.5)),
-            "report.html": lambda: carpet_page(_carpet_page(woven), left_out, drawing.part(0.5, 1.0)),
+            "report.html": lambda: carpet_page(_carpet_page(woven, drawn), left_out, drawing.part(0.5, 1.0)),
         }
         for name, make in pages.items():
             page = made_or_left_out(name, make, left_out)
@@ -199,14 +200,15 @@ def time_in_words(seconds: float) -> str:
     return format_quantity(seconds, "h", 3) if seconds >= hour else format_quantity(seconds, "min", 3)
 
 
-def _carpet_page(woven: WeaveResult) -> CarpetPage:
+def _carpet_page(woven: WeaveResult, drawn: DrawnCarpet | None) -> CarpetPage:
     charted = woven.charted
     return page_of(
         charted.order.order.picture.stem,
         charted.chart,
         charted.bill,
-        charted.source,
         woven.written,
+        statistics=charted.statistics,
+        source=charted.source,
         facts=_loom_facts(woven),
         good=GOOD,
         bad=BAD,
@@ -214,6 +216,7 @@ def _carpet_page(woven: WeaveResult) -> CarpetPage:
         warnings=(*charted.warnings, *charted.notes, *woven.loomed.notes, *woven.left_out),
         loom="loom.html",
         nearest=woven.loom.nearest,
+        drawn=drawn,
     )
 
 

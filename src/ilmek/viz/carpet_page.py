@@ -10,6 +10,7 @@ from ilmek.carpet.statistics import ChartStatistics, PatchGroup
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 from ilmek.report import Axis, Check, Plot, Series, reasons
+from ilmek.viz.carpet_picture import DrawnCarpet
 from ilmek.viz.number_format import count, fixed
 from ilmek.viz.page import render
 from ilmek.viz.page_parts import Fact, FileNote, carpet_facts, yarn_lines
@@ -44,6 +45,7 @@ class CarpetPage:
     loom           the page of the loom; default: none
     nearest        carpets that the loom could weave, in words, where it cannot weave this one
     proposed       shades proposed from the picture
+    drawn          the carpet as drawn for carpet.png; default: it is drawn here
     """
 
     title: str
@@ -63,6 +65,7 @@ class CarpetPage:
     loom: str = ""
     nearest: str = ""
     proposed: tuple[MatchedShade, ...] = ()
+    drawn: DrawnCarpet | None = None
 
 
 def carpet_page(page: CarpetPage, left_out: list[str] | None = None, progress: Progress = SILENT) -> str:
@@ -71,7 +74,9 @@ def carpet_page(page: CarpetPage, left_out: list[str] | None = None, progress: P
     left_out  list to which a warning is appended for each figure and picture that cannot be drawn
     """
     left_out = [] if left_out is None else left_out
-    shown = pictures(page.chart, page.source, page.symbols, left_out, progress.part(0.0, 0.8))
+    shown = pictures(
+        page.chart, page.source, page.symbols, left_out, drawn=page.drawn, progress=progress.part(0.0, 0.8)
+    )
     rows = drawn(_row_figure(page.statistics), left_out)
     lines = yarn_lines(page.chart, page.bill, page.symbols)
     progress(0.9)

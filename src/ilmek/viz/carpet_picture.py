@@ -19,6 +19,7 @@ from ilmek.carpet.design import bands, resampled_rows
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.errors import CarpetError
 from ilmek.progress import SILENT, Progress
+from ilmek.records import record
 from ilmek.viz.carpet_edges import flat_band, fringe, selvedge
 from ilmek.viz.tufts import encoded, marked_tufts, tufted, yarn_light
 
@@ -27,6 +28,10 @@ LONGEST = 1400
 
 NARROWEST, WIDEST, MOST_PIXELS = 100, 20_000, 60_000_000
 """Bounds of the picture's width, and of its pixels: 60 million take 8 s and 1 GB."""
+
+_LEAST_OF_PAGE = 0.98
+"""Least size of a picture that a page can take, in LONGEST."""
+
 _FRINGE, _BAND, _SELVEDGE = 0.055, 0.012, 0.008
 """Length of the fringe, of the flat-woven end, width of the selvedge [m]."""
 _CLOSE_UP = (40, 30)
@@ -44,6 +49,10 @@ class Pile:
     height: float
 
 
+WHOLE = Pile(0.0, 0.0, 1.0, 1.0)
+"""The pile of a picture without frame."""
+
+
 @dataclass(frozen=True, slots=True)
 class _Layout:
     """Sizes of pile and frame [pixels]."""
@@ -59,23 +68,54 @@ class _Layout:
         """Width and height of the picture."""
         return self.width + 2 * self.selvedge, self.height + 2 * (self.fringe + self.band)
 
+    @property
+    def pile(self) -> Pile:
+        """Where the picture shows the pile."""
+        width, height = self.whole
+        top = self.fringe + self.band
+        return Pile(self.selvedge / width, top / height, self.width / width, self.height / height)
 
-def carpet_picture(chart: Chart, longest: int = LONGEST, seed: int = 1, progress: Progress = SILENT) -> bytes:
-    """The whole carpet as a JPEG file on white, its longer side at most `longest` pixels."""
-    return _jpeg(_drawn(chart, _layout(chart.size, longest / max(_framed_size(chart.size))), seed, progress), 84)
+
+@record
+class DrawnCarpet:
+    """The whole carpet on white, drawn, and where the picture shows its pile."""
+
+    image: Image.Image
+    pile: Pile
+
+    def write_png(self, path: Path) -> None:
+        """Write it as PNG. Raises OSError."""
+        self.image.save(path, format="PNG", compress_level=1, compress_type=zlib.Z_HUFFMAN_ONLY)
+
+    @property
+    def jpeg(self) -> bytes:
+        """The picture as a JPEG file."""
+        return _jpeg(self.image, 84)
+
+    def of_page(self) -> "DrawnCarpet | None":
+        """The same at most LONGEST pixels along its longer side; None where it is too small for a page."""
+        longest = max(self.image.size)
+        if longest < _LEAST_OF_PAGE * LONGEST:
+            return None
+        if longest <= LONGEST:
+            return self
+        size = tuple(max(1, round(side * LONGEST / longest)) for side in self.image.size)
+        return DrawnCarpet(self.image.resize((size[0], size[1]), Image.Resampling.LANCZOS), self.pile)
 
 
-def write_carpet_png(path: Path, chart: Chart, width: int | None = None, progress: Progress = SILENT) -> None:
-    """Write the whole carpet as PNG, `width` pixels wide; default: LONGEST along the longer side.
+def draw_carpet(
+    chart: Chart, width: int | None = None, *, longest: int = LONGEST, seed: int = 1, progress: Progress = SILENT
+) -> DrawnCarpet:
+    """The whole carpet, `width` pixels wide; default: at most `longest` pixels along its longer side.
 
     Raises CarpetError as `check_carpet_width`.
     """
     check_carpet_width(chart.size, width)
     across, along = _framed_size(chart.size)
-    layout = _layout(chart.size, LONGEST / max(across, along) if width is None else width / across)
+    layout = _layout(chart.size, longest / max(across, along) if width is None else width / across)
     if width is not None:
         layout = replace(layout, width=width - 2 * layout.selvedge)
-    _drawn(chart, layout, 1, progress).save(path, format="PNG", compress_level=1, compress_type=zlib.Z_HUFFMAN_ONLY)
+    return DrawnCarpet(_drawn(chart, layout, seed, progress), layout.pile)
 
 
 def check_carpet_width(size: CarpetSize, width: int | None) -> None:
@@ -86,14 +126,6 @@ def check_carpet_width(size: CarpetSize, width: int | None) -> None:
         raise CarpetError(
             f"--carpet-width {width}", allowed=f"{NARROWEST} to {most:,} pixels for {size}", do="or leave it out"
         )
-
-
-def pile_part(chart: Chart) -> Pile:
-    """Where the picture of the carpet shows the pile."""
-    layout = _layout(chart.size, LONGEST / max(_framed_size(chart.size)))
-    width, height = layout.whole
-    top = layout.fringe + layout.band
-    return Pile(layout.selvedge / width, top / height, layout.width / width, layout.height / height)
 
 
 def close_up(chart: Chart, seed: int = 1) -> bytes:

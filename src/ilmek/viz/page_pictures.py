@@ -1,7 +1,7 @@
-"""The pictures of a carpet's page, and the data by which the page tells row, knot and yarn under the pointer.
+"""The pictures of a carpet's page, and the data by which the page shows row, knot and yarn under the pointer.
 
 The chart's picture is thinned to every n-th row and knot where the chart is large. Each of its pixels is the knot of
-that row and column, so what the page tells of a pixel is exact. Yarns of one colour are told apart by their codes in
+that row and column, so what the page shows of a pixel is exact. Yarns of one colour are distinguished by their codes in
 the picture, which differ by a step that nobody sees.
 """
 
@@ -21,13 +21,13 @@ from ilmek.carpet.overlay import HALF, JUFTI
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 from ilmek.report.left_out import made_or_left_out
-from ilmek.viz.carpet_picture import Pile, carpet_picture, close_up, pile_part
+from ilmek.viz.carpet_picture import WHOLE, DrawnCarpet, Pile, close_up, draw_carpet
 
 LARGEST = 1600
 """Largest number of pixels along the longer side of the chart's picture."""
 
 MOST_POINTED = 50_000
-"""Largest number of half knots and jufti knots that the page tells under the pointer: 1 MB."""
+"""Largest number of half knots and jufti knots that the page shows under the pointer: 1 MB."""
 
 _TALLEST = 940
 """Largest height of the compared pictures on the page [px]."""
@@ -71,9 +71,18 @@ class CarpetPictures:
 
 
 def pictures(
-    chart: Chart, source: Rgb | None, symbols: str, left_out: list[str], progress: Progress = SILENT
+    chart: Chart,
+    source: Rgb | None,
+    symbols: str,
+    left_out: list[str],
+    *,
+    drawn: DrawnCarpet | None = None,
+    progress: Progress = SILENT,
 ) -> CarpetPictures:
-    """The pictures of a page; a warning is added to `left_out` for each that cannot be drawn."""
+    """The pictures of a page; a warning is added to `left_out` for each that cannot be drawn.
+
+    drawn  the carpet, as it was drawn for another file
+    """
     step, codes = thinning(chart), yarn_codes(chart)
 
     def made(what: str, make: Callable[[], PagePicture]) -> PagePicture | None:
@@ -89,12 +98,14 @@ def pictures(
         "letters": [letter(yarn.srgb) for yarn in chart.yarns],
         "marks": _marks(chart),
     }
+    what = "the picture of the carpet"
+    carpet = drawn or made_or_left_out(what, lambda: draw_carpet(chart, progress=progress), left_out)
     return CarpetPictures(
         None if source is None else made("the source", lambda: _of_the_source(source, chart)),
         made("the chart", lambda: _of_the_chart(chart, step, codes)),
-        made("the carpet", lambda: _of_the_carpet(chart, progress)),
+        None if carpet is None else _of_the_carpet(chart, carpet),
         made("the knots", lambda: _of_the_knots(chart)),
-        pile_part(chart),
+        WHOLE if carpet is None else carpet.pile,
         data,
     )
 
@@ -168,9 +179,8 @@ def _of_the_chart(chart: Chart, step: int, codes: Sequence[tuple[int, int, int]]
     )
 
 
-def _of_the_carpet(chart: Chart, progress: Progress) -> PagePicture:
-    whole = carpet_picture(chart, progress=progress)
-    return PagePicture(_address(whole, "jpeg"), *_size(whole), f"Simulated carpet, {_knots(chart)}")
+def _of_the_carpet(chart: Chart, drawn: DrawnCarpet) -> PagePicture:
+    return PagePicture(_address(drawn.jpeg, "jpeg"), *drawn.image.size, f"Simulated carpet, {_knots(chart)}")
 
 
 def _of_the_knots(chart: Chart) -> PagePicture:
