@@ -65,7 +65,7 @@ def numbers(text: str, name: str) -> np.ndarray:
 
 
 def read_neutral(text: str) -> Course:
-    heading, *lines = csv.reader(io.StringIO(text))
+    heading, *lines = csv.reader(line for line in io.StringIO(text) if not line.startswith("#"))
     assert heading[0] == "master [deg]"
     x, y = np.array(lines, dtype=float).T[:2]
     return lambda at: np.interp(at, x, y)
@@ -102,7 +102,8 @@ def read_positions(text: str) -> Course:
     pairs = np.array([float(value) for value in values.split(",")]).reshape(-1, 2)
     assert f"ARRAY[1..{len(pairs)}, 1..2]" in text
     assert f"NoOfRows := {len(pairs)}," in text
-    return cyclic_spline(*pairs.T)
+    x, y = pairs.T
+    return lambda at: np.interp(at, x, y)
 
 
 def read_kollmorgen(text: str, sampled: SampledTable, table: CamTable) -> Course:
@@ -162,7 +163,7 @@ def test_a_controller_keeps_the_stated_error_and_runs_on_without_a_jump(name: st
     table, kind = TABLES[case], FORMATS[name]
     unit = {"mm": 1e-3, "deg": math.pi / 180}[table.unit]
     sampled = sampled_once(case, kind.rule)
-    course = read(name, kind.write(table, sampled), sampled, table)
+    course = read(name, kind.text(table, sampled), sampled, table)
     degrees = np.linspace(0.0, 359.999, 7919)
     assert sampled.kept
     wrong = np.abs(course(degrees) - exact(table, degrees)).max() * unit
@@ -177,7 +178,7 @@ def test_a_controller_keeps_the_stated_error_and_runs_on_without_a_jump(name: st
 def test_the_block_of_structured_text_counts_turns_both_ways(case: str) -> None:
     table = TABLES[case]
     sampled = sample(table, FORMATS["iec"].rule, 1e-4 * stroke(table))
-    block = read_iec(FORMATS["iec"].write(table, sampled))
+    block = read_iec(FORMATS["iec"].text(table, sampled))
     gained = math.degrees(table.revolves)
     degrees = np.array([0.0, 15.0, 200.0, 359.9])
     for turns in (-2, -1, 1, 3):
@@ -227,12 +228,48 @@ def test_a_slave_that_stands_still_is_a_table_of_zeros() -> None:
     for kind in FORMATS.values():
         sampled = sample(still, kind.rule, 1e-9)
         assert sampled.error == 0.0
-        assert kind.write(still, sampled)
+        assert kind.text(still, sampled)
+
+
+def test_the_error_of_a_table_is_that_of_the_default_setting_and_the_better_one_stands_beside() -> None:
+    """TwinCAT interpolates a table of positions linearly unless its options set the spline."""
+    table, kind = TABLES["modified sine"], FORMATS["twincat-positions"]
+    sampled = sample(table, kind.rule, 1e-4 * stroke(table))
+    text = kind.text(table, sampled)
+    values = re.search(r"OF LREAL := \[(.*?)\]", text, re.DOTALL).group(1)  # type: ignore[union-attr]
+    x, y = np.array([float(value) for value in values.split(",")]).reshape(-1, 2).T
+    degrees = np.linspace(0.0, 360.0, 50_001)
+    linear = np.abs(np.interp(degrees, x, y) - exact(table, degrees)).max() * 1e-3
+    spline = np.abs(cyclic_spline(x, y)(degrees) - exact(table, degrees)).max() * 1e-3
+    assert sampled.error == pytest.approx(linear, rel=0.02)
+    assert sampled.better == pytest.approx(spline, rel=0.02)
+    assert spline < 0.1 * linear
+    assert f"linear interpolation: error at most {sampled.error * 1e3:.3g} mm" in text
+    assert f"with MC_INTERPOLATIONTYPE_SPLINE: error at most {sampled.better * 1e3:.3g} mm" in text
+
+
+def test_files_of_all_kinds_declare_names_of_their_own() -> None:
+    table = TABLES["modified sine"]
+    names: list[str] = []
+    for kind in FORMATS.values():
+        text = kind.text(table, sampled_once("modified sine", kind.rule))
+        names += re.findall(r"^\s*(?:FUNCTION_BLOCK )?(cam_1\w*)(?: :|$)", text, re.MULTILINE)
+    assert len(names) == 7
+    assert len(set(names)) == len(names)
+
+
+@pytest.mark.parametrize("name", FORMATS)
+def test_each_file_begins_with_what_must_be_set(name: str) -> None:
+    table, kind = TABLES["modified sine"], FORMATS[name]
+    sampled = sampled_once("modified sine", kind.rule)
+    head = "\n".join(kind.remarks(table, sampled)) if kind.headless else kind.text(table, sampled)[:1200]
+    for part in (kind.advice, "a turn in 2 s", "scale 1"):
+        assert part in head
 
 
 def test_remarks_say_where_the_axis_stands() -> None:
     table = programme_table("3-4-5", start=-0.7)
     sampled = sample(table, FORMATS["lenze"].rule, 1e-6)
-    text = FORMATS["lenze"].write(table, sampled)
+    text = FORMATS["lenze"].text(table, sampled)
     assert sampled.offset > 1e-3
     assert f"position 0 of the table is {sampled.offset * 1e3:.12g} mm of the axis" in text

@@ -49,7 +49,7 @@ def with_step() -> bool:
 def test_an_index_tells_of_every_file_how_exact_it_is(tmp_path: Path) -> None:
     made = write_workshop(report(plates=(crank(), crank()), tables=(table(), table())), tmp_path / "out")
     index = json.loads((tmp_path / "out" / "workshop.json").read_text())
-    names = sorted(entry["file"] for entry in index["files"])
+    names = sorted(entry[name] for entry in index["files"] for name in ("file", "remarks") if name in entry)
     there = sorted(path.name for path in (tmp_path / "out").iterdir())
     assert sorted([*names, "workshop.json", ".ilmek"]) == there
     assert sorted(Path(file).name for file in made.files) == sorted([*names, "workshop.json"])

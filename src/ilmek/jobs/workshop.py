@@ -3,7 +3,7 @@
 import importlib
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any, TypeVar
@@ -73,7 +73,8 @@ class Workshop:
     @property
     def files(self) -> list[str]:
         """The paths of all files, the index last."""
-        return [str(self.folder / name) for name in (*(entry["file"] for entry in self.entries), INDEX)]
+        written = (entry[name] for entry in self.entries for name in ("file", "remarks") if name in entry)
+        return [str(self.folder / name) for name in (*written, INDEX)]
 
     @property
     def summary(self) -> str:
@@ -237,17 +238,21 @@ def _step() -> tuple[Callable[[Path, Plate, PlateShape], None], Callable[[Path],
 
 
 def _table_files(table: CamTable, work: Path, name: str, tolerance: Tolerance) -> Iterator[dict[str, Any]]:
+    named = replace(table, name=name)
     for kind in FORMATS.values():
-        yield _table_file(table, work, f"{name}.{kind.name}.{kind.suffix}", kind, tolerance.of(table))
+        yield {"of": table.name} | _table_file(
+            named, work, f"{name}.{kind.name}.{kind.suffix}", kind, tolerance.of(table)
+        )
 
 
 def _table_file(table: CamTable, work: Path, file: str, kind: Format, tolerance: float) -> dict[str, Any]:
     sampled = sample(table, kind.rule, tolerance)
-    (work / file).write_text(kind.write(table, sampled), encoding="ascii", errors="replace", newline="\n")
+    _write_ascii(work / file, kind.text(table, sampled))
+    if kind.headless:
+        _write_ascii(work / f"{file}.txt", "".join(f"{line}\n" for line in kind.remarks(table, sampled)))
     return {
         "file": file,
         "kind": kind.name,
-        "of": table.name,
         "title": table.title,
         "format": kind.title,
         "unit": table.unit,
@@ -255,11 +260,17 @@ def _table_file(table: CamTable, work: Path, file: str, kind: Format, tolerance:
         "interpolation": sampled.interpolation,
         "error": sampled.error,
         "error_at": sampled.at,
+        **({"better_setting": kind.better, "better_error": sampled.better} if sampled.better is not None else {}),
         "tolerance": tolerance,
         "kept": sampled.kept,
         "offset": sampled.offset,
         "revolves": table.revolves,
         "start_speed": float(sampled.nodes.ds[0]) * turn / table.period,
         "advice": kind.advice,
+        **({"remarks": f"{file}.txt"} if kind.headless else {}),
         **kind.settings(table, sampled),
     }
+
+
+def _write_ascii(path: Path, text: str) -> None:
+    path.write_text(text, encoding="ascii", errors="replace", newline="\n")

@@ -5,7 +5,7 @@ Velocity and acceleration are derivatives with respect to the master. SMC_ReadCA
 degree through many points oscillate. [CODESYS, SM3_Basic: MC_CAM_REF, SMC_CAMXYVA]
 """
 
-from ilmek.io.cam_tables.format import Format, comment, identifier, number, remarks, rows
+from ilmek.io.cam_tables.format import Format, Remarks, comment, identifier, number, rows
 from ilmek.io.cam_tables.sampling import SampledTable, SamplingRule
 from ilmek.report import CamTable
 
@@ -22,7 +22,7 @@ END_VAR
 """
 
 
-def write(table: CamTable, sampled: SampledTable) -> str:
+def write(table: CamTable, sampled: SampledTable, remarks: Remarks) -> str:
     """The list of global variables: the points, and the cam for MC_CamTableSelect."""
     points = rows(table, sampled)
     entries = [
@@ -30,9 +30,12 @@ def write(table: CamTable, sampled: SampledTable) -> str:
         for x, y, v, a in zip(points.x, points.y, points.v, points.a, strict=True)
     ]
     text = _LIST.format(
-        name=identifier(table.name), last=len(entries) - 1, count=len(entries), points=",\n        ".join(entries)
+        name=identifier(table.name, "xyva"),
+        last=len(entries) - 1,
+        count=len(entries),
+        points=",\n        ".join(entries),
     )
-    return comment(remarks(table, sampled)) + text
+    return comment(remarks) + text
 
 
 FORMAT = Format(
@@ -41,5 +44,5 @@ FORMAT = Format(
     "CODESYS SoftMotion: MC_CAM_REF of type XYVA",
     SamplingRule("quintic", most=MOST),
     write,
-    "MC_CamIn with StartMode relative; periodic",
+    "MC_CamTableSelect Periodic := TRUE, MC_CamIn StartMode := relative; the type XYVA fixes the interpolation",
 )

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Callable, Sequence
+from typing import TypeAlias
 
 import numpy as np
 
@@ -27,6 +28,10 @@ class TablePoints:
     a: Float[np.ndarray, " nodes"]
 
 
+Remarks: TypeAlias = tuple[str, ...]
+"""Lines of text."""
+
+
 def no_more(table: CamTable, sampled: SampledTable) -> dict[str, float]:  # noqa: ARG001 - one of many
     """The `settings` of most formats: none."""
     return {}
@@ -39,18 +44,44 @@ class Format:
     name, suffix  of its files: NAME.name.suffix
     title         description
     rule          interpolation of the controller, and the number of points that it accepts
-    write         the file's text
-    advice        settings of the controller, in words
+    write         the file's text, with the remarks at its head
+    advice        what must be set in the controller, in words
     settings      settings of the controller, as numbers by name
+    better        name of the better setting of `rule.better`
+    headless      the format has no comments: the remarks stand in a file of their own
     """
 
     name: str
     suffix: str
     title: str
     rule: SamplingRule
-    write: Callable[[CamTable, SampledTable], str]
+    write: Callable[[CamTable, SampledTable, Remarks], str]
     advice: str
     settings: Callable[[CamTable, SampledTable], dict[str, float]] = no_more
+    better: str = ""
+    headless: bool = False
+
+    def text(self, table: CamTable, sampled: SampledTable) -> str:
+        """The file of a table."""
+        return self.write(table, sampled, self.remarks(table, sampled))
+
+    def remarks(self, table: CamTable, sampled: SampledTable) -> Remarks:
+        """What the table is, what must be set in the controller, and the errors that follow, in lines for a comment."""
+        factor = parse_unit(table.unit).factor
+        advance = f"; it advances {number(table.revolves / factor)} {table.unit} per turn" if table.revolves else ""
+        scales = "".join(f"; {name} {number(value)}" for name, value in self.settings(table, sampled).items())
+        error = f"error at most {sampled.error / factor:.3g} {table.unit}"
+        lines = (
+            f"{table.title} ({table.name}) for {self.title}",
+            f"set: {self.advice}",
+            f"set: master modulo 360 deg, a turn in {table.period:.6g} s; slave in {table.unit}, scale 1{scales}",
+            f"master 0 to 360 deg, slave from 0{advance}",
+            f"position 0 of the table is {number(sampled.offset / factor)} {table.unit} of the axis",
+            f"{len(sampled.nodes.angle)} points, {sampled.interpolation} interpolation: {error}",
+        )
+        if sampled.better is None:
+            return lines
+        return (*lines, f"with {self.better}: error at most {sampled.better / factor:.3g} {table.unit}")
 
 
 def rows(table: CamTable, sampled: SampledTable) -> TablePoints:
@@ -72,27 +103,14 @@ def number(value: float) -> str:
     return (digits if "." in digits else f"{digits}.0") + (f"E{power}" if exponent else "")
 
 
-def identifier(name: str) -> str:
-    """A name as an identifier of programming languages.
+def identifier(name: str, kind: str) -> str:
+    """A name as an identifier of programming languages; `kind` ends it, so that files of all kinds can be imported.
 
-    >>> identifier("side-gripper motion"), identifier("2nd cam")
-    ('side_gripper_motion', 'cam_2nd_cam')
+    >>> identifier("side-gripper motion", "xyva"), identifier("2nd cam", "block")
+    ('side_gripper_motion_xyva', 'cam_2nd_cam_block')
     """
     text = re.sub(r"[^a-z0-9]+", "_", name.lower()).strip("_") or "cam"
-    return text if text[0].isalpha() else f"cam_{text}"
-
-
-def remarks(table: CamTable, sampled: SampledTable) -> tuple[str, ...]:
-    """Remarks on a table, in lines for a comment."""
-    factor = parse_unit(table.unit).factor
-    gained = f"; it advances {number(table.revolves / factor)} {table.unit} per turn" if table.revolves else ""
-    return (
-        f"{table.title} ({table.name})",
-        f"master 0 to 360 deg, slave in {table.unit}, from 0{gained}",
-        f"position 0 of the table is {number(sampled.offset / factor)} {table.unit} of the axis",
-        f"{len(sampled.nodes.angle)} points, {sampled.interpolation} interpolation",
-        f"error at most {sampled.error / factor:.3g} {table.unit}",
-    )
+    return f"{text if text[0].isalpha() else f'cam_{text}'}_{kind}"
 
 
 def comment(lines: Sequence[str]) -> str:

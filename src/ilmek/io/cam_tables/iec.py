@@ -4,7 +4,7 @@ The steps are even and the interpolation is linear, so that no library is needed
 master; a slave that advances by a stroke per turn does so.
 """
 
-from ilmek.io.cam_tables.format import Format, comment, identifier, number, remarks, rows, wrapped
+from ilmek.io.cam_tables.format import Format, Remarks, comment, identifier, number, rows, wrapped
 from ilmek.io.cam_tables.sampling import SampledTable, SamplingRule
 from ilmek.report import CamTable
 
@@ -39,17 +39,17 @@ END_FUNCTION_BLOCK
 """
 
 
-def write(table: CamTable, sampled: SampledTable) -> str:
+def write(table: CamTable, sampled: SampledTable, remarks: Remarks) -> str:
     """The function block."""
     points = rows(table, sampled)
     block = _BLOCK.format(
-        name=identifier(table.name),
+        name=identifier(table.name, "block"),
         unit=table.unit,
         steps=len(points.y) - 1,
         advance=number(float(points.y[-1])),
         values=wrapped([number(value) for value in points.y]),
     )
-    return comment(remarks(table, sampled)) + block
+    return comment(remarks) + block
 
 
 FORMAT = Format(
@@ -58,5 +58,5 @@ FORMAT = Format(
     "IEC 61131-3 structured text: array of positions in even steps",
     SamplingRule("linear", even=True, least=37),
     write,
-    "call the block each cycle and give its position to the axis",
+    "call the block in each cycle and give its position to the axis; the block itself interpolates linearly",
 )

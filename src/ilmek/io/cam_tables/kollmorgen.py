@@ -5,7 +5,7 @@ motion that is never above 0 has no such value: it is written mirrored, and its 
 [Kollmorgen KAS, Import Cam Profile]
 """
 
-from ilmek.io.cam_tables.format import Format, number, rows
+from ilmek.io.cam_tables.format import Format, Remarks, number, rows
 from ilmek.io.cam_tables.sampling import SampledTable, SamplingRule
 from ilmek.report import CamTable
 from ilmek.units import parse_unit
@@ -18,7 +18,7 @@ def scales(table: CamTable, sampled: SampledTable) -> dict[str, float]:
     return {"master_scale": 360.0, "slave_scale": highest if highest > 0 else float(positions.min())}
 
 
-def write(table: CamTable, sampled: SampledTable) -> str:
+def write(table: CamTable, sampled: SampledTable, remarks: Remarks) -> str:  # noqa: ARG001 - its import knows no comments
     """The rows X;Y;SPLINE between the table's marks."""
     points = rows(table, sampled)
     sign = 1.0 if points.y.max() > 0 else -1.0
@@ -32,6 +32,7 @@ FORMAT = Format(
     "Kollmorgen KAS: cam profile to import",
     SamplingRule("spline", least=5),
     write,
-    "set the input's scale to master_scale and the output's to slave_scale, both offsets to 0",
+    "scale of the input master_scale, of the output slave_scale, both offsets 0; the file sets cyclic splines",
     scales,
+    headless=True,
 )

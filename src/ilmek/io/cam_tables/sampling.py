@@ -36,12 +36,14 @@ _ROUNDS, _CUTS = 24, 16
 class SamplingRule:
     """Requirements of a controller on its table.
 
-    interpolation  name of `INTERPOLATIONS`
+    interpolation  of the controller's default setting, a name of `INTERPOLATIONS`
+    better         that of a better setting; "": none
     even           equidistant points
     least, most    number of points that it accepts
     """
 
     interpolation: str
+    better: str = ""
     even: bool = False
     least: int = 2
     most: int = 10_000
@@ -53,8 +55,9 @@ class SampledTable:
 
     nodes      points from position 0
     offset     position of the motion at master angle 0, subtracted from the nodes [SI]
-    error      largest error of the controller's motion, on a fine grid between all points [SI]
+    error      largest error of the controller's motion in its default setting, on a fine grid between all points [SI]
     at         master angle of the largest error [rad]
+    better     largest error in the better setting [SI]; None: there is none
     tolerance  allowed error [SI]
     """
 
@@ -64,6 +67,7 @@ class SampledTable:
     error: float
     at: float
     tolerance: float
+    better: float | None = None
 
     @property
     def kept(self) -> bool:
@@ -89,8 +93,15 @@ def sample(table: CamTable, rule: SamplingRule, tolerance: float) -> SampledTabl
     angle = _between(nodes.angle, max(_LEAST_FINE, _FINE // len(nodes.angle)))
     wrong = _errors(table, nodes, interpolation, angle)
     worst = int(np.argmax(wrong))
+    better = float(_errors(table, nodes, INTERPOLATIONS[rule.better], angle).max()) if rule.better else None
     return SampledTable(
-        nodes, interpolation.name, _position(table, 0.0), float(wrong.flat[worst]), float(angle.flat[worst]), tolerance
+        nodes=nodes,
+        interpolation=interpolation.name,
+        offset=_position(table, 0.0),
+        error=float(wrong.flat[worst]),
+        at=float(angle.flat[worst]),
+        tolerance=tolerance,
+        better=better,
     )
 
 
