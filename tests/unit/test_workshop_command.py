@@ -57,6 +57,7 @@ def test_an_index_tells_of_every_file_how_exact_it_is(tmp_path: Path) -> None:
     expected = {f"{plate}.{kind}" for plate in plates for kind in ("dxf", "step") if kind == "dxf" or with_step()}
     slides = ["slide-left", "slide-left-2"]
     expected |= {f"{slide}.{kind.name}.{kind.suffix}" for slide in slides for kind in FORMATS.values()}
+    expected |= {f"{slide}.kollmorgen.csv.txt" for slide in slides}
     assert set(names) == expected
     for entry in index["files"]:
         if entry["kind"] == "dxf":
