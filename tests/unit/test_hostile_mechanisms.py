@@ -11,7 +11,8 @@ from ilmek.errors import MechanismError
 from ilmek.io.json_file import json_text
 from ilmek.io.mechanism_file import MOST_ENTRIES, mechanism_toml, parse_mechanism
 from ilmek.io.table_csv import MOST_NUMBERS, csv_text
-from ilmek.jobs.mechanism.run import MOST_BODIES, MotionRequest, run
+from ilmek.jobs.mechanism.request import MotionRequest
+from ilmek.jobs.mechanism.run import MOST_BODIES, run
 from ilmek.linkage import initial_pose
 from ilmek.linkage.constraint_assignment import assigned_constraints
 from ilmek.linkage.fourbar import four_bar

@@ -1,19 +1,24 @@
 """`ilmek mechanism`: analyse a mechanism from a file, tabulate and draw its motion."""
 
+import math
 from pathlib import Path
 
 import click
 
 from ilmek.cli.call_outputs import call_outputs
 from ilmek.cli.options import force_option, json_option
-from ilmek.cli.terminal import note, say, show_table
+from ilmek.cli.terminal import note, say, show_checks, show_table
+from ilmek.cli.verdict import exit_code, note_verdict, show_verdict
 from ilmek.errors import MechanismError
 from ilmek.io.mechanism_file import mechanism_json, mechanism_toml, read_mechanism
 from ilmek.io.table_csv import MOST_NUMBERS, csv_text
-from ilmek.jobs.mechanism.report import as_json, columns, report
-from ilmek.jobs.mechanism.run import MotionRequest, run
-from ilmek.report import Report
-from ilmek.units import format_quantity
+from ilmek.jobs.mechanism.analysis import analysis
+from ilmek.jobs.mechanism.data import as_json, columns
+from ilmek.jobs.mechanism.report import report
+from ilmek.jobs.mechanism.request import STEPS, MotionRequest
+from ilmek.jobs.mechanism.run import run
+from ilmek.report import Column, Report
+from ilmek.units import format_number, format_quantity, from_si
 
 EXAMPLES = """\b
 Examples:
@@ -41,7 +46,7 @@ Limits: file 250 kB; 100 bodies, joints, couplings; 2,000,000 numbers in a table
     "--speed", default="", metavar="SPEED", help="Speed of the driving input, like 60rpm; default: 1 rad/s or 1 m/s."
 )
 @click.option(
-    "--steps", type=click.IntRange(1, MOST_NUMBERS), default=72, show_default=True, help="Steps of the range."
+    "--steps", type=click.IntRange(1, MOST_NUMBERS), default=STEPS, show_default=True, help="Steps of the range."
 )
 @click.option(
     "--csv", "csv_to", metavar="-|FILE", help="Write the motion as CSV, SI and radians; - writes to standard output."
@@ -62,27 +67,34 @@ def command(
     kind: str | None,
     force: bool,
     json_to: str | None,
-) -> None:
-    """Read the mechanism in FILE (TOML or JSON), report its structure and mobility, and compute its motion."""
+) -> int:
+    """Read the mechanism in FILE (TOML or JSON) and compute its motion, and its forces if it has masses or loads.
+
+    Ends with 3 where a check fails.
+    """
     if kind is not None:
         given = read_mechanism(file)
         write = mechanism_toml if kind == "toml" else mechanism_json
         click.echo(write(given.mechanism, given.inertias), nl=False)
-        return
+        return 0
     files = {"--json": json_to, "--csv": csv_to, "--report": page_to}
     with call_outputs(files, force=force, inputs={"FILE": file}) as call:
         moved = run(read_mechanism(file), MotionRequest(_fixed(fixed), over, speed, steps), call.progress)
-        found_report = report(moved)
+        found = analysis(moved, call.progress)
+        found_report = report(found, drawn=page_to is not None)
         call.give_page("--report", found_report)
-        call.give_json(lambda: as_json(moved))
-        call.give("--csv", lambda: csv_text(columns(moved), call.progress.part(0.0, 1.0, "table")))
-    if not call.quiet:
+        call.give_json(lambda: as_json(found, found_report))
+        call.give("--csv", lambda: csv_text(columns(found), call.progress.part(0.0, 1.0, "table")))
+    if call.quiet:
+        note_verdict(found_report.all_checks)
+    else:
         show(found_report)
         for option, noun in (("--report", "report"), ("--csv", "table")):
             if option in call.files:
                 say(f"{noun}: {call.files[option]}")
     for warning in found_report.warnings:
         note(warning)
+    return exit_code(found_report.all_checks)
 
 
 def _fixed(texts: tuple[str, ...]) -> dict[str, str]:
@@ -97,24 +109,33 @@ def _fixed(texts: tuple[str, ...]) -> dict[str, str]:
 
 
 def show(shown: Report) -> None:
-    """Print the structure, and the tables of points and bodies."""
+    """Print the verdict, the structure and greatest values, the tables, and the checks."""
     say(shown.title)
+    show_verdict(shown.all_checks)
     for result in shown.results:
-        for value in result.value if isinstance(result.value, list) else [result.value]:
-            say(f"  {result.name}: {_shown(value, result.unit)}")
+        if result.shown:
+            for value in result.value if isinstance(result.value, list) else [result.value]:
+                say(f"  {result.name}: {_shown(value, result.unit)}")
     for table in shown.tables:
-        headings = [f"{c.heading} [{c.unit}]" if c.unit else c.heading for c in table.columns]
-        rows = [
-            tuple(
-                cell if isinstance(cell, str) else format_quantity(cell, column.unit).split(" ")[0]
-                for cell, column in zip(row, table.columns, strict=True)
-            )
-            for row in table.rows
-        ]
-        show_table(headings, rows, right=range(1, len(headings)))
+        if table.brief:
+            headings = [f"{c.heading} [{c.unit}]" if c.unit else c.heading for c in table.columns]
+            rows = [[_cell(cell, c) for cell, c in zip(row, table.columns, strict=True)] for row in table.rows]
+            show_table(headings, rows, right=range(1, len(headings)))
+    if shown.all_checks:
+        show_checks(shown.all_checks)
+
+
+def _cell(cell: float | int | str, column: Column) -> str:
+    if isinstance(cell, str):
+        return cell
+    return format_number(from_si(cell, column.unit), column.digits) if math.isfinite(cell) else "–"
 
 
 def _shown(value: object, unit: str) -> str:
+    if value is None:
+        return "–"
+    if isinstance(value, dict):
+        return ", ".join(f"{name} {_shown(one, unit)}" for name, one in value.items())
     if isinstance(value, list | tuple):
         return " .. ".join(_shown(one, unit) for one in value)
     return format_quantity(value, unit) if isinstance(value, float) else str(value)

@@ -1,13 +1,15 @@
-"""Force transmission of any mechanism: pressure angle at a slider, velocity ratio, mechanical advantage.
+"""Force transmission of any mechanism: transmission angle, pressure angle at a slider, velocity ratio, advantage.
 
 [Norton, Design of Machinery, chapter 6, for mechanical advantage; the rates by the input are those of `outputs`]
 """
 
+from collections.abc import Iterator, Sequence
+
 import numpy as np
 
-from ilmek.arrays import Float, FloatArray
+from ilmek.arrays import ComplexField, Float, FloatArray
 from ilmek.errors import MechanismError
-from ilmek.linkage.model import Mechanism, Pin, Slide
+from ilmek.linkage.model import GROUND, Mechanism, Pin, Slide
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.one_input import OneInput
 from ilmek.linkage.outputs import Output, output_history
@@ -39,6 +41,66 @@ def pressure_angle(motion: Motion, slide: str, link: str = "") -> Float[np.ndarr
     line = motion.direction(joint.guide) * unit(joint.along)
     angle: Float[np.ndarray, " samples"] = np.arctan2(np.abs(cross(line, rod)), np.abs(dot(line, rod)))
     return angle
+
+
+def transmission_angles(motion: Motion, pins: Sequence[str] = ()) -> dict[str, Float[np.ndarray, " samples"]]:
+    """Acute transmission angle [rad] at free pins of dyads: pin -> one value per sample; NaN where it does not close.
+
+    The angle between the two bodies of the dyad at their common pin: of a link the line from its other pin, of a slider
+    the normal of its line. pi/2 is best, 0 a dead centre.
+    pins  default: the free pins of all dyads. A pin of another group has the angle between its two links
+    Raises MechanismError for a slide, an unknown pin, and a link with no other pin.    [Norton, section 4.10]
+
+    >>> from ilmek.linkage.fourbar import slider_crank
+    >>> from ilmek.linkage.solve import solve
+    >>> from ilmek.linkage.structure import plan
+    >>> motion = solve(plan(slider_crank(0.1, 0.2, branch=+1)), np.array([0.0, np.pi / 2]))
+    >>> np.degrees(transmission_angles(motion)["B"]).round(9)
+    array([90., 60.])
+    """
+    mechanism = motion.plan.mechanism
+    free = dict(_free_pins(motion))
+    for pin in pins:
+        if not isinstance(mechanism.joint(pin), Pin):
+            raise MechanismError(f"{pin!r} is a slide", allowed="a transmission angle is at a pin between two links")
+    found = {}
+    for pin in pins or free:
+        joint = mechanism.joint(pin)
+        outer = free.get(pin, {})
+        first, second = (_direction(motion, body, pin, outer.get(body)) for body in joint.bodies)
+        angle = np.arctan2(np.abs(cross(first, second)), np.abs(dot(first, second)))
+        found[pin] = np.array(np.broadcast_to(angle, motion.status.shape))
+    return found
+
+
+def _free_pins(motion: Motion) -> Iterator[tuple[str, dict[str, Pin | Slide]]]:
+    """The free pin of each dyad, with the outer joint of each of its bodies."""
+    driven = {entry.joint for entry in motion.plan.mechanism.inputs}
+    known = {GROUND}
+    for step in motion.plan.steps:
+        own = set(step.bodies)
+        joints = [
+            joint
+            for joint in motion.plan.mechanism.joints
+            if own & set(joint.bodies) and set(joint.bodies) <= own | known and joint.name not in driven
+        ]
+        inner = [joint for joint in joints if set(joint.bodies) <= own]
+        if len(own) == 2 and len(joints) == 3 and len(inner) == 1 and isinstance(inner[0], Pin):
+            outer = [joint for joint in joints if joint is not inner[0]]
+            yield inner[0].name, {body: joint for joint in outer for body in own & set(joint.bodies)}
+        known |= own
+
+
+def _direction(motion: Motion, body: str, pin: str, outer: Pin | Slide | None) -> ComplexField:
+    """Direction of a body at its pin: the line from its outer pin, or the normal of its slide's line."""
+    mechanism = motion.plan.mechanism
+    if isinstance(outer, Slide):
+        return motion.direction(outer.guide) * 1j * unit(outer.along)
+    others = [one for one in mechanism.joints if isinstance(one, Pin) and body in one.bodies and one.name != pin]
+    start = outer or next(iter(others), None)
+    if start is None:
+        raise MechanismError(f"body {body!r} of {mechanism.name} has no pin but {pin!r}", do="choose another pin")
+    return motion.direction(body) * (mechanism.point(body, pin) - mechanism.point(body, start.name))
 
 
 def velocity_ratio(moved: OneInput, output: Output, values: FloatArray) -> Float[np.ndarray, " samples"]:

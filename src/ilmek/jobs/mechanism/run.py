@@ -1,13 +1,15 @@
 """The motion of a mechanism of a file over a range of one input."""
 
-from collections.abc import Mapping
 
 import numpy as np
 
 from ilmek.arrays import FloatArray, RealField
+from ilmek.dynamics.inverse_run import InverseRun, inverse_run
+from ilmek.dynamics.own_machine import OwnMachine
 from ilmek.errors import MechanismError
 from ilmek.io.mechanism_file import MechanismFile
 from ilmek.io.table_csv import check_size
+from ilmek.jobs.mechanism.request import DrivenInputs, MotionRequest, driven_inputs
 from ilmek.linkage.groups.general import GeneralGroup
 from ilmek.linkage.model import Input, Rotation
 from ilmek.linkage.motion import Motion, moving_points
@@ -16,7 +18,7 @@ from ilmek.linkage.status import Status
 from ilmek.linkage.structure import Plan
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
-from ilmek.units import parse_quantity, turn
+from ilmek.units import format_quantity
 
 CUTS, PIECES = 9, 64
 """The end of a range is located by so many subdivisions of a step into so many pieces, to machine precision."""
@@ -31,41 +33,49 @@ MOST_BODIES = 20
 
 
 @record
-class MotionRequest:
-    """The motion of a mechanism, as texts with units.
-
-    fixed  input -> value; "" for the only input. At most one input is left to drive
-    over   range "FROM..TO" of the driving input; default: a full turn
-    speed  of the driving input; default: 1 rad/s or 1 m/s
-    steps  number of steps of the range
-    """
-
-    fixed: Mapping[str, str]
-    over: str = ""
-    speed: str = ""
-    steps: int = 72
-
-
-@record
 class MechanismRun:
-    """A mechanism in motion.
+    """A mechanism in motion, with its forces.
 
     running  the driving input; None if all inputs are fixed: one pose
     values   of the driving input [rad or m]
-    speed    of the driving input [rad/s or m/s]
+    speed    constant speed of the driving input [rad/s or m/s]; None: it follows its motion of the file
+    time     of the samples [s]; None: nothing moves
+    forces   None: without masses, loads and friction, or as `left_out` states
     """
 
-    name: str
+    machine: OwnMachine
     plan: Plan
     motion: Motion
     running: Input | None
     values: FloatArray
-    speed: float
+    speed: float | None
+    time: FloatArray | None = None
+    forces: InverseRun | None = None
+    left_out: str = ""
+
+    @property
+    def name(self) -> str:
+        """Name of the mechanism."""
+        return self.plan.mechanism.name
 
     @property
     def unit(self) -> str:
         """Unit in which the driving input is shown."""
         return "mm" if self.running is not None and not isinstance(self.running, Rotation) else "deg"
+
+    def shown(self, value: float) -> str:
+        """A value of the driving input in its unit."""
+        return format_quantity(float(value), self.unit)
+
+    @property
+    def by_time(self) -> bool:
+        """Whether curves are drawn over time, because the driving input follows a law."""
+        return self.running is not None and self.speed is None
+
+    @property
+    def abscissa(self) -> FloatArray:
+        """What curves are drawn over: the driving input [rad; m], or the time [s]."""
+        return self.time if self.by_time and self.time is not None else self.values
 
     def at(self, values: FloatArray) -> dict[str, RealField]:
         """Values of all inputs for these values of the driving input [rad or m]."""
@@ -98,34 +108,37 @@ class MechanismRun:
 
 
 def run(file: MechanismFile, request: MotionRequest, progress: Progress = SILENT) -> MechanismRun:
-    """The motion of the mechanism of a file.
+    """The motion of the mechanism of a file, and its forces where the file has masses, loads or friction.
 
     Raises MechanismError if the mechanism cannot be solved, if the request names an unknown input or leaves two inputs
     to drive, if the mechanism closes nowhere or in more than `MOST_RANGES` ranges, and if its motion has more than
     `MOST_NUMBERS` numbers or a group more than `MOST_BODIES` bodies; UnitError for a value that cannot be read;
     Cancelled.
     """
-    motion_progress = progress.part(0.0, 1.0, "motion")
-    plan = file.plan()
+    machine, plan = file.machine, file.plan()
     _check_groups(plan)
-    inputs = {entry.name: entry for entry in plan.mechanism.inputs}
-    fixed = _fixed(plan, inputs, request.fixed)
-    free = [entry for name, entry in inputs.items() if name not in fixed]
-    if len(free) > 1:
-        names = " and ".join(entry.name for entry in free)
-        raise MechanismError(f"inputs {names} are both without a value", do=f"fix one, like --at {free[0].name}=0")
-    if not free:
-        motion = solve(plan, fixed).require()
-        return MechanismRun(plan.mechanism.name, plan, motion, None, np.zeros(1), 0.0)
-    (running,) = free
-    check_size(request.steps + 1, _columns(plan), "--steps", MechanismError)
-    values, speed = _values(running, request), _speed(running, request.speed)
-    motion = solve(plan, {**fixed, running.name: values}, {running.name: speed}, progress=motion_progress)
+    driven = driven_inputs(machine, plan, request)
+    check_size(len(driven.values), _columns(plan), "--steps", MechanismError)
+    motion = solve(plan, *driven.rates, progress=progress.part(0.0, 1.0, "motion"))
     if (motion.status != Status.OK).all():
         motion.require()
-    made = MechanismRun(plan.mechanism.name, plan, motion, running, values, speed)
+    forces, left_out = _forces(machine, motion, driven)
+    made = MechanismRun(
+        machine, plan, motion, driven.running, driven.values, driven.speed, driven.time, forces, left_out
+    )
     _check_ranges(made)
     return made
+
+
+def _forces(machine: OwnMachine, motion: Motion, driven: DrivenInputs) -> tuple[InverseRun | None, str]:
+    """The forces, or why there are none."""
+    if not machine.has_forces:
+        return None, ""
+    try:
+        name = driven.running.name if driven.running else None
+        return inverse_run(machine, motion, name, driven.time), ""
+    except MechanismError as error:
+        return None, f"forces are left out: {error}"
 
 
 def _check_groups(plan: Plan) -> None:
@@ -150,40 +163,3 @@ def _check_ranges(made: MechanismRun) -> None:
             allowed=f"at most {MOST_RANGES}",
             do="give a shorter range with --over",
         )
-
-
-def _fixed(plan: Plan, inputs: Mapping[str, Input], texts: Mapping[str, str]) -> dict[str, RealField]:
-    fixed: dict[str, RealField] = {}
-    for name, text in texts.items():
-        if not name and len(inputs) > 1:
-            raise MechanismError(f"{text} names no input", do=f"write NAME=VALUE, with one of {', '.join(inputs)}")
-        entry = inputs.get(name or next(iter(inputs), ""))
-        if entry is None:
-            raise MechanismError(
-                f"{plan.mechanism.name} has no input {name!r}", allowed=f"it has {', '.join(inputs) or 'none'}"
-            )
-        fixed[entry.name] = parse_quantity(text, "rad" if isinstance(entry, Rotation) else "m")
-    return fixed
-
-
-def _values(running: Input, request: MotionRequest) -> FloatArray:
-    """The values of the driving input. Raises MechanismError for a range that cannot be read or has no length."""
-    turning = isinstance(running, Rotation)
-    if not request.over and not turning:
-        raise MechanismError(
-            f"input {running.name!r} is a displacement and needs a range", do="give one, like --over 0mm..50mm"
-        )
-    start, dots, end = request.over.partition("..") if request.over else ("0", "..", str(turn))
-    if not dots or request.steps < 1:
-        raise MechanismError(
-            f"the range {request.over!r} in {request.steps} steps cannot be read",
-            do="write FROM..TO, like 0deg..360deg",
-        )
-    first, last = (parse_quantity(end, "rad" if turning else "m") for end in (start, end))
-    if first == last:
-        raise MechanismError(f"the range {request.over} has no length", do="give one pose with --at instead")
-    return np.linspace(first, last, request.steps + 1)
-
-
-def _speed(running: Input, text: str) -> float:
-    return parse_quantity(text, "rad/s" if isinstance(running, Rotation) else "m/s") if text else 1.0

@@ -1,0 +1,237 @@
+"""Inverse run of an own machine: joint forces, drive efforts, shaking force and work over given motions.
+
+    work of a drive  W = ∫ M dq,    power  P = M dq/dt      [M effort on the input q; trapezoidal rule over the samples]
+
+Two tests of the computation come with it. The power balance compares drives, loads and kinetic energy. The balance of
+the whole compares the force on the frame, summed over joints and drives, with loads and inertia of the moving bodies:
+
+    F_frame = Σ F_load - Σ m a_G,    M_frame = Σ M_load - Σ ((G x m a_G) + J alpha)     [Newton and Euler; about O]
+"""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from ilmek.arrays import FloatArray
+from ilmek.dynamics.attached import attached
+from ilmek.dynamics.balance import Shaking, on_frame, shaking
+from ilmek.dynamics.inertia import Inertia
+from ilmek.dynamics.inverse import MASSLESS, Forces, inverse
+from ilmek.dynamics.loads import Gravity, Load
+from ilmek.dynamics.own_machine import OwnMachine
+from ilmek.linkage.model import GROUND, Pin, Rotation
+from ilmek.linkage.motion import Motion
+from ilmek.linkage.outputs import Travel, output_history
+from ilmek.linkage.status import Status
+from ilmek.plane.vectors import cross
+from ilmek.records import computed, record, result
+
+ABOUT = 0j
+"""Point about which the shaking moment is reported: the ground's origin."""
+
+ROUNDING = 1e-12
+"""Work of the drive, relative to the sum of its magnitudes, that counts as rounding."""
+
+
+@record
+class InverseRun:
+    """Forces of a machine over a motion, one value per sample.
+
+    driving  name of the driving input; None: all inputs are fixed
+    time     of the samples [s]; None: the input stands still
+    forces   joint forces, efforts, powers        shaking  force and moment on the frame by the moving masses
+    frame    force and moment of all joints and drives on the frame, with gravity and loads
+    balance  greatest misfit of the frame's force and moment against loads and inertia, relative [1]
+    """
+
+    driving: str | None
+    time: FloatArray | None
+    forces: Forces
+    shaking: Shaking
+    frame: Shaking
+    balance: float = result(
+        "1", "greatest misfit of the forces on the frame, relative", name="frame_residual", shown=False
+    )
+
+    @property
+    def locked(self) -> np.ndarray:
+        """Samples at which friction locks the mechanism."""
+        found: np.ndarray = (self.forces.status != Status.OK) & (self.forces.motion.status == Status.OK)
+        return found
+
+    @property
+    def turning(self) -> bool:
+        """Whether the driving input turns."""
+        return any(isinstance(one, Rotation) for one in self.forces.mechanism.inputs if one.name == self.driving)
+
+    @property
+    def effort(self) -> FloatArray | None:
+        """Effort of the driving input [N m; N]; None without one."""
+        return None if self.driving is None else self.forces.effort(self.driving)
+
+    def _drive(self, turning: bool, kind: str) -> float | None:
+        """Peak, rms or mean of the driving effort, if the input is of that kind."""
+        effort = self.effort
+        if effort is None or self.turning is not turning:
+            return None
+        return {"peak": greatest, "rms": lambda e: rms(e, self.time), "mean": lambda e: mean(e, self.time)}[kind](
+            effort
+        )
+
+    @computed("N", "greatest force of each pin", shown=False)
+    def pin_forces_max(self) -> dict[str, float]:
+        pins = (one.name for one in self.forces.mechanism.joints if isinstance(one, Pin))
+        return {name: greatest(self.forces.reactions[name]) for name in pins}
+
+    @computed("N", "greatest force of each slide across its line", shown=False)
+    def slide_forces_max(self) -> dict[str, float]:
+        return {name: greatest(self.forces.reactions[name]) for name in self.forces.couples}
+
+    @computed("N*m", "greatest couple of each slide on its body", shown=False)
+    def slide_couples_max(self) -> dict[str, float]:
+        return {name: greatest(couple) for name, couple in self.forces.couples.items()}
+
+    @computed("N", "greatest tooth force of each coupling", shown=False)
+    def tooth_forces_max(self) -> dict[str, float]:
+        return {one.name: greatest(self.forces.tooth(one.name)) for one in self.forces.mechanism.couplings}
+
+    drive_torque_max = computed(
+        "N*m",
+        "greatest torque of the drive",
+        lambda it: it._drive(True, "peak"),
+        absent="the input slides, or is fixed",
+    )
+    drive_torque_rms = computed("N*m", "root mean square of it", lambda it: it._drive(True, "rms"), optional=True)
+    drive_torque_mean = computed("N*m", "its mean over time", lambda it: it._drive(True, "mean"), optional=True)
+    drive_force_max = computed("N", "greatest force of the drive", lambda it: it._drive(False, "peak"), optional=True)
+    drive_force_rms = computed("N", "root mean square of it", lambda it: it._drive(False, "rms"), optional=True)
+    drive_force_mean = computed("N", "its mean over time", lambda it: it._drive(False, "mean"), optional=True)
+
+    @computed("J", "work of the drive over the run", optional=True)
+    def drive_work(self) -> float | None:
+        if self.effort is None:
+            return None
+        if self.time is None:
+            return float(np.trapezoid(self.effort, np.asarray(self.forces.motion.drives[str(self.driving)].value)))
+        drive = self.forces.motion.drives[str(self.driving)]
+        power = self.effort * drive.speed
+        # Samples may run against time: over a descending range, or at a negative speed.
+        work = float(np.sign(self.time[-1] - self.time[0]) * np.trapezoid(power, self.time))
+        return 0.0 if abs(work) < ROUNDING * float(np.trapezoid(np.abs(power), np.abs(self.time))) else work
+
+    @computed("W", "greatest power of the drives", optional=True)
+    def drive_power_max(self) -> float | None:
+        return greatest(self.forces.input_power) if self.time is not None else None
+
+    @computed("W", "mean power lost to friction of joints", optional=True)
+    def friction_power_mean(self) -> float | None:
+        lost = friction_power(self.forces)
+        return None if lost is None or self.time is None else mean(lost, self.time)
+
+    @computed("N", "greatest shaking force on the frame, by the moving masses")
+    def shaking_force_max(self) -> float:
+        return greatest(self.shaking.force)
+
+    @computed("N*m", "greatest shaking moment about the ground's origin")
+    def shaking_moment_max(self) -> float:
+        return greatest(self.shaking.moment)
+
+    @computed("N", "greatest force of all joints and drives on the frame, with gravity and loads")
+    def frame_force_max(self) -> float:
+        return greatest(self.frame.force)
+
+    @computed("1", "greatest residual of the power balance, relative", shown=False)
+    def power_residual(self) -> float:
+        return self.forces.power_error
+
+
+def inverse_run(machine: OwnMachine, motion: Motion, driving: str | None, time: FloatArray | None) -> InverseRun:
+    """Forces of a machine over a motion.
+
+    motion   with speeds and accelerations      driving  name of the driving input; None: all inputs are fixed
+    time     of the samples [s], ascending; None: the inputs stand still, and the friction of joints is left out
+
+    Raises MechanismError as `inverse`: for a belt, whose force is not determined, and for unknown bodies or joints.
+    """
+    loads = all_loads(machine)
+    moves = any(np.any(np.asarray(drive.speed) != 0) for drive in motion.drives.values())
+    forces = inverse(motion, machine.inertias, loads, machine.frictions if moves else ())
+    shaken, frame = shaking(motion, machine.inertias, ABOUT), on_frame(forces, ABOUT)
+    return InverseRun(driving, time, forces, shaken, frame, _misfit(forces, frame, shaken, loads, machine.inertias))
+
+
+def all_loads(machine: OwnMachine) -> list[Load]:
+    """The loads of a machine, gravity included."""
+    weight: list[Load] = [Gravity(machine.gravity)] if machine.gravity else []
+    return weight + [one.load for one in machine.loads]
+
+
+def friction_power(forces: Forces) -> FloatArray | None:
+    """Power lost to the friction of joints [W], one value per sample; None without friction."""
+    if not forces.frictions:
+        return None
+    total = np.zeros(len(forces.motion))
+    for name, effort in forces.frictions.items():
+        total = total - effort * joint_rate(forces.motion, name)
+    return total
+
+
+def joint_rate(motion: Motion, name: str) -> FloatArray:
+    """Speed in a joint [rad/s; m/s along a slide], of a pin's second body or of the sliding body, per sample."""
+    joint = motion.plan.mechanism.joint(name)
+    if isinstance(joint, Pin):
+        return np.asarray(motion.omega(joint.second) - motion.omega(joint.first))
+    return output_history(motion, Travel(name)).rate
+
+
+def _misfit(
+    forces: Forces, frame: Shaking, shaken: Shaking, loads: list[Load], inertias: Mapping[str, Inertia]
+) -> float:
+    """Greatest difference between the force on the frame and loads plus inertia, relative to the joint forces."""
+    motion, mechanism = forces.motion, forces.mechanism
+    force, moment = np.array(shaken.force), np.array(shaken.moment)
+    bodies = {body: inertias.get(body, MASSLESS) for body in mechanism.moving}
+    size, turn_size = np.abs(force), np.abs(moment)
+    with np.errstate(invalid="ignore", over="ignore"):
+        for load in loads:
+            for wrench in load.wrenches(motion, bodies):
+                if wrench.body != GROUND:
+                    at = attached(motion, wrench.body, wrench.at).position
+                    turning = cross(at - ABOUT, np.asarray(wrench.force)) + wrench.torque
+                    force, moment = force + wrench.force, moment + turning
+                    size, turn_size = size + np.abs(wrench.force), turn_size + np.abs(turning)
+        for reaction in forces.reactions.values():
+            size = size + np.abs(reaction)
+        reach = max(abs(point) for body in mechanism.bodies for point in body.points.values()) or 1.0
+        sizes = np.array([greatest(size), greatest(turn_size) + reach * greatest(size)])
+        gaps = np.array([greatest(frame.force - force), greatest(frame.moment - moment)])
+    usable = np.isfinite(gaps) & np.isfinite(sizes) & (sizes > 0)
+    return float(np.max(gaps[usable] / sizes[usable], initial=0.0))
+
+
+def greatest(values: np.ndarray) -> float:
+    """Greatest magnitude of the finite samples; NaN without any.
+
+    >>> greatest(np.array([1.0, -3.0, np.nan]))
+    3.0
+    """
+    size = np.abs(values)
+    usable = size[np.isfinite(size)]
+    return float(usable.max()) if usable.size else float("nan")
+
+
+def mean(values: FloatArray, time: FloatArray | None) -> float:
+    """Mean over time; over the finite samples where some are not finite or time stands still.
+
+    >>> mean(np.array([0.0, 1.0, 2.0]), np.array([0.0, 1.0, 2.0]))
+    1.0
+    """
+    usable = np.isfinite(values)
+    if time is None or not usable.all() or len(values) < 2:
+        return float(np.mean(values[usable])) if usable.any() else float("nan")
+    return float(np.trapezoid(values, time) / (time[-1] - time[0]))
+
+
+def rms(values: FloatArray, time: FloatArray | None) -> float:
+    """Root mean square over time; see `mean`."""
+    return float(np.sqrt(mean(values**2, time)))

@@ -1,0 +1,106 @@
+"""Forward run of an own machine: its motion from a state under its drive and loads, and the joint forces of it.
+
+    M = M_0 tanh((w_0 - w) / (s w_0)),   or M = M_0 constant       [characteristic assumed by this project: `motor_run`]
+
+The friction of joints is not part of a forward run: it depends on the acceleration that is sought.
+"""
+
+import math
+
+import numpy as np
+
+from ilmek.dynamics.forward import RunEvent, forward
+from ilmek.dynamics.forward_run import Drive, ForwardRun, ForwardState
+from ilmek.dynamics.inverse import Forces, inverse
+from ilmek.dynamics.inverse_run import all_loads, greatest
+from ilmek.dynamics.own_machine import ForwardTask, MotorDrive, OwnMachine, StopEvent
+from ilmek.dynamics.reduced import reduce
+from ilmek.errors import MechanismError
+from ilmek.linkage.model import Pin, Rotation
+from ilmek.linkage.structure import Plan
+from ilmek.records import computed, record
+
+SAMPLES = 600
+"""Samples of a run that are reported."""
+
+RTOL, MOST_STEPS = 1e-9, 20_000
+"""Relative error of a step of the integrator, and its most steps."""
+
+
+@record
+class OwnForward:
+    """A forward run and the joint forces over it."""
+
+    run: ForwardRun
+    forces: Forces
+
+    forward_end = computed("", "why the forward run ended", lambda it: it.run.end.reason)
+    forward_time = computed("s", "time at its end", lambda it: float(it.run.end.state.time))
+    forward_turns = computed("1", "turns of the input in it", lambda it: it.turned(2 * math.pi, True), optional=True)
+    forward_travel = computed("mm", "travel of the input in it", lambda it: it.turned(1.0, False), optional=True)
+    forward_energy_residual = computed(
+        "1", "greatest energy residual of the forward run, relative", lambda it: it.run.energy_error, shown=False
+    )
+
+    @property
+    def turning(self) -> bool:
+        """Whether the input turns."""
+        return isinstance(self.forces.mechanism.inputs[0], Rotation)
+
+    def turned(self, unit: float, turning: bool) -> float | None:
+        """Travel of an input of that kind over a unit [rad; m]; None for the other kind."""
+        return float(np.ptp(self.run.position)) / unit if self.turning is turning else None
+
+    @computed("", "events of the forward run: name, time [s], position and speed of the input [SI]", shown=False)
+    def forward_events(self) -> list[dict[str, str | float]]:
+        return [
+            {"name": one.name, "time": one.time, "position": one.state.position, "speed": one.state.speed}
+            for one in self.run.events
+        ]
+
+    @computed("N", "greatest force of each pin in the forward run", shown=False)
+    def forward_pin_forces_max(self) -> dict[str, float]:
+        pins = (one.name for one in self.forces.mechanism.joints if isinstance(one, Pin))
+        return {name: greatest(self.forces.reactions[name]) for name in pins}
+
+
+def own_forward(machine: OwnMachine, plan: Plan, task: ForwardTask) -> OwnForward:
+    """The forward run of a machine with one input, and its joint forces without the friction of joints.
+
+    Raises MechanismError as `reduce` and `forward`: for several inputs, no moving mass, a start at which the mechanism
+    does not close, and a run that needs more than `MOST_STEPS` steps.
+    """
+    wheel = task.drive.inertia if task.drive is not None else 0.0
+    reduced = reduce(plan, machine.inertias, all_loads(machine), flywheel=wheel)
+    start = ForwardState(task.position, task.speed)
+    run = forward(
+        reduced,
+        start,
+        task.duration,
+        drive=None if task.drive is None else _drive(task.drive),
+        events=[_event(one) for one in task.events],
+        every=task.duration / SAMPLES,
+        rtol=RTOL,
+        most_steps=MOST_STEPS,
+    )
+    return OwnForward(run, inverse(run.motion(), machine.inertias, all_loads(machine)))
+
+
+def _drive(motor: MotorDrive) -> Drive:
+    def effort(_time: float, _position: float, speed: float) -> float:
+        if motor.speed is None:
+            return motor.effort
+        return motor.effort * math.tanh((motor.speed - speed) / (motor.slip * abs(motor.speed)))
+
+    return effort
+
+
+def _event(stop: StopEvent) -> RunEvent:
+    """An event at a position, speed or time. Raises MechanismError for another quantity."""
+    if stop.of not in ("position", "speed", "time"):
+        raise MechanismError(f"event {stop.name!r} is of {stop.of!r}", allowed="position, speed or time")
+
+    def value(state: ForwardState) -> float:
+        return float(getattr(state, stop.of)) - stop.value
+
+    return RunEvent(stop.name, value, stop.direction, stop.terminal)

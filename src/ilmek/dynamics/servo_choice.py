@@ -1,0 +1,102 @@
+"""A servo motor of the catalogue for the driving input of an own machine, and why it is sufficient.
+
+    J(q) = 2 T / q'²        inertia that the input feels: T kinetic energy of the bodies at the input's speed q'
+
+The duty is that of `elements.duty`: peak and rms torque, speed, and J's mean over the run against the rotor's inertia.
+"""
+
+import numpy as np
+
+from ilmek.arrays import FloatArray
+from ilmek.dynamics.attached import attached
+from ilmek.dynamics.inverse_run import InverseRun
+from ilmek.dynamics.own_machine import OwnMachine
+from ilmek.elements.duty import INERTIA_RATIO, MARGIN, LoadCycle, MotorDuty, ServoDrive, duty, size_motor
+from ilmek.elements.motors import SERVO, strongest_motor
+from ilmek.elements.reducers import DIRECT
+from ilmek.errors import MechanismError
+from ilmek.linkage.solve import solve
+from ilmek.records import computed, record
+from ilmek.report import Check, at_least, at_most
+
+CATALOGUE = "smallest servo of the catalogue, direct or with a planetary reducer"
+
+
+@record
+class ServoChoice:
+    """A servo for the driving input.
+
+    cycle  the load      drive  the smallest sufficient motor with its reducer; None: none is sufficient
+    """
+
+    cycle: LoadCycle
+    drive: ServoDrive | None
+
+    @computed("", "servo and reducer for the driving input, with their duty", absent="no servo is sufficient")
+    def servo(self) -> dict[str, str | float] | None:
+        return None if self.drive is None else self.drive.as_json()
+
+    @property
+    def judged(self) -> ServoDrive:
+        """The chosen drive, or the strongest motor at the speed, which is not sufficient."""
+        if self.drive is not None:
+            return self.drive
+        motor = strongest_motor(float(np.max(np.abs(self.cycle.speed))))
+        return ServoDrive(motor, DIRECT, duty(self.cycle, motor))
+
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """Torque, speed and inertia of the drive against the motor's limits."""
+        one = self.judged
+        found: MotorDuty = one.duty
+        source = f"{one.motor.name}, ratio {one.reducer.ratio:g}: {CATALOGUE}"
+        cure = "lower the speed, balance the load, or drive through a reducer and a flywheel"
+        return (
+            at_most(
+                "servo: rms torque",
+                found.rms * MARGIN,
+                one.motor.torque,
+                "N*m",
+                f"{MARGIN:g} times rms; {source}",
+                cure=cure,
+            ),
+            at_least("servo: reserve of peak torque", found.reserve, MARGIN, "1", source, cure=cure),
+            at_most("servo: speed", found.speed_max, one.motor.speed, "rpm", source, cure=cure),
+            at_most("servo: inertia ratio", found.inertia_ratio, INERTIA_RATIO, "1", source, cure=cure),
+        )
+
+
+def servo_choice(machine: OwnMachine, run: InverseRun) -> ServoChoice:
+    """The smallest servo that is sufficient for the driving input over a run.
+
+    run  at equal steps of time; samples at which the mechanism does not close or locks are left out
+    Raises MechanismError where the servo's input slides, is not the driving one, or stands still.
+    """
+    name = machine.servo
+    if name != run.driving or not run.turning or run.time is None:
+        raise MechanismError(
+            f"a servo is required for input {name!r}, the driving input is {run.driving or 'none'}",
+            allowed="the driving input, turning and moving",
+        )
+    motion, effort = run.forces.motion, run.forces.effort(name)
+    values = np.asarray(motion.drives[name].value, dtype=float)
+    speed, rate = (
+        np.broadcast_to(one, values.shape) for one in (motion.drives[name].speed, motion.drives[name].acceleration)
+    )
+    good = np.isfinite(effort)
+    good[-1] &= not np.isclose(effort[-1], effort[0], rtol=1e-6) or len(effort) == 1  # the end of a whole turn
+    felt = felt_inertia(machine, run, name)
+    inertia = float(np.mean(felt[good])) if good.any() else 0.0
+    cycle = LoadCycle(speed[good], rate[good], effort[good] - inertia * rate[good], inertia)
+    return ServoChoice(cycle, size_motor(cycle, kind=SERVO))
+
+
+def felt_inertia(machine: OwnMachine, run: InverseRun, name: str) -> FloatArray:
+    """Inertia of all bodies that an input feels [kg m²; kg], one value per sample, the other inputs at rest."""
+    motion = run.forces.motion
+    unit = solve(motion.plan, {entry: drive.value for entry, drive in motion.drives.items()}, {name: 1.0})
+    total = np.zeros(len(unit))
+    for body, inertia in machine.inertias.items():
+        centre = attached(unit, body, inertia.centre)
+        total = total + inertia.mass * np.abs(centre.velocity) ** 2 + inertia.moment * unit.omega(body) ** 2
+    return total

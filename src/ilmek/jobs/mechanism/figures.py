@@ -1,0 +1,140 @@
+"""Figures of a mechanism: in motion; angles, speeds, slides; forces of joints and drive; forward run."""
+
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ilmek.arrays import FloatArray
+from ilmek.dynamics.animation import FRAMES, animated
+from ilmek.dynamics.inverse_run import InverseRun
+from ilmek.jobs.mechanism.analysis import Analysis
+from ilmek.jobs.mechanism.run import MechanismRun
+from ilmek.linkage.model import GROUND, Pin, Rotation, Slide
+from ilmek.linkage.motion import moving_points
+from ilmek.linkage.outputs import Travel, output_history
+from ilmek.linkage.solve import solve
+from ilmek.report import Axis, Drawing, Figure, Plot, Series
+from ilmek.units import format_quantity, turn
+
+if TYPE_CHECKING:
+    from ilmek.dynamics.own_forward import OwnForward
+
+CURVES = 4
+"""Largest number of curves in a plot."""
+
+
+def figures(found: Analysis) -> tuple[Figure, ...]:
+    """The mechanism in motion over its longest range that closes, and curves over the driving input."""
+    run = found.run
+    if run.running is None:
+        return ()
+    x = Axis("time", "s") if run.by_time else Axis(run.running.name, run.unit)
+    forces = _force_plots(run, run.forces, x) if run.forces is not None else ()
+    forward = _forward_plots(found.forward) if found.forward is not None else ()
+    return (*_moving(run, x), *forces, *_transmission_plots(found, x), *_motion_plots(run, x), *forward)
+
+
+def traced_points(run: MechanismRun) -> list[tuple[str, str]]:
+    """Bodies and points whose paths are drawn: those of the file, or all points that are no joints."""
+    joints = {joint.name for joint in run.plan.mechanism.joints}
+    return list(run.machine.paths) or [one for one in moving_points(run.plan.mechanism) if one[1] not in joints]
+
+
+def _moving(run: MechanismRun, drive: Axis) -> Iterator[Figure]:
+    """The mechanism in motion, with the paths of its free points."""
+    drawn = Drawing("mechanism", f"{run.name} in motion", ())
+    if run.by_time:
+        return
+    at, travel = _frames(run)
+    speed = run.speed or 0.0
+    moved = solve(run.plan, run.at(at), {run.running.name: speed} if run.running else {})
+    if moved.ok:
+        period = travel / abs(speed) if speed else None
+        yield animated(moved, at, drawn, traces=traced_points(run), period=period, drive=drive)
+
+
+def _frames(run: MechanismRun) -> tuple[FloatArray, float]:
+    """Input values of the frames over the longest range that closes, and its length [rad or m]; a full turn is open."""
+    one, other = max(run.closing, key=lambda ends: abs(ends[1] - ends[0]))
+    first, last = min(one, other), max(one, other)
+    whole = isinstance(run.running, Rotation) and abs(last - first - turn) < 1e-9
+    return np.linspace(first, last, FRAMES, endpoint=not whole), last - first
+
+
+def _force_plots(run: MechanismRun, forces: InverseRun, x: Axis) -> Iterator[Figure]:
+    """Drive effort, joint forces over the input, forces on the frame's pins as hodographs, shaking force and moment."""
+    at = run.abscissa
+    if forces.effort is not None:
+        unit = "N*m" if forces.turning else "N"
+        noun = "torque" if forces.turning else "force"
+        level = (forces.drive_torque_mean if forces.turning else forces.drive_force_mean) or 0.0
+        mean = Series(f"mean, {format_quantity(level, unit)}", at[[0, -1]], np.array([level, level]), dashed=True)
+        curves = (Series(noun, at, forces.effort), mean)
+        yield Plot("drive", f"Drive {noun} on {forces.driving}", x, Axis(noun, unit), curves)
+    mechanism = run.plan.mechanism
+    sizes = {one.name: np.abs(forces.forces.reactions[one.name]) for one in (*mechanism.joints, *mechanism.couplings)}
+    yield from _groups("forces", "Forces of joints", x, Axis("force", "N"), at, sizes)
+    pivots = [one for one in mechanism.joints if isinstance(one, Pin) and GROUND in one.bodies]
+    loads = {one.name: forces.forces.pin(one.name, GROUND) for one in pivots}
+    yield from _hodographs("frame-pins", "Forces on the frame at its pins", loads)
+    if run.machine.inertias:
+        yield from _hodographs("shaking", "Shaking force on the frame", {"shaking force": forces.shaking.force})
+        moment = {"shaking moment": forces.shaking.moment}
+        yield from _groups("shaking-moment", "Shaking moment about the origin", x, Axis("moment", "N*m"), at, moment)
+
+
+def _transmission_plots(found: Analysis, x: Axis) -> Iterator[Figure]:
+    y = Axis("transmission angle", "deg")
+    yield from _groups("transmission", "Transmission angles", x, y, found.run.abscissa, found.transmission)
+
+
+def _motion_plots(run: MechanismRun, x: Axis) -> Iterator[Figure]:
+    """Slides' displacement, speed and acceleration; the bodies' angles, angular velocities and accelerations."""
+    at, motion = run.abscissa, run.motion
+    slides = [one.name for one in run.plan.mechanism.joints if isinstance(one, Slide)]
+    moved = {name: output_history(motion, Travel(name)) for name in slides}
+    for name, title, y, field in (
+        ("slide", "Displacement of slides", Axis("displacement", "mm"), "value"),
+        ("slide-speed", "Speed of slides", Axis("speed", "m/s"), "rate"),
+        ("slide-acceleration", "Acceleration of slides", Axis("acceleration", "m/s^2"), "second_rate"),
+    ):
+        yield from _groups(name, title, x, y, at, {slide: getattr(one, field) for slide, one in moved.items()})
+    turning = [body for body in run.plan.mechanism.moving if np.nanmax(np.abs(motion.omega(body)), initial=0) > 0]
+    for name, title, y, curve in (
+        ("angles", "Angles of the bodies", Axis("angle", "deg"), motion.angle),
+        ("speeds", "Angular velocities", Axis("angular velocity", "rad/s"), motion.omega),
+        ("accelerations", "Angular accelerations", Axis("angular acceleration", "rad/s^2"), motion.alpha),
+    ):
+        yield from _groups(name, title, x, y, at, {body: curve(body) for body in turning})
+
+
+def _forward_plots(forward: "OwnForward") -> Iterator[Figure]:
+    """Speed of the input, effort of the drive and joint forces over time."""
+    run = forward.run
+    time = Axis("time", "s")
+    speed, effort = ("rpm", "N*m") if forward.turning else ("m/s", "N")
+    entry = forward.forces.mechanism.inputs[0].name
+    yield from _groups("forward-speed", "Forward run: speed", time, Axis("speed", speed), run.time, {entry: run.speed})
+    drive = {"drive": run.effort}
+    yield from _groups("forward-drive", "Forward run: drive", time, Axis("effort", effort), run.time, drive)
+    pins = {name: np.abs(force) for name, force in forward.forces.reactions.items()}
+    yield from _groups("forward-forces", "Forward run: forces of joints", time, Axis("force", "N"), run.time, pins)
+
+
+def _groups(  # noqa: PLR0917 - two axes, the abscissae, the curves
+    name: str, title: str, x: Axis, y: Axis, at: FloatArray, curves: Mapping[str, FloatArray]
+) -> Iterator[Plot]:
+    """Plots of at most `CURVES` curves each."""
+    series = [Series(label, at, values) for label, values in curves.items()]
+    for start in range(0, len(series), CURVES):
+        number = start // CURVES + 1
+        yield Plot(f"{name}-{number}", title, x, y, tuple(series[start : start + CURVES]))
+
+
+def _hodographs(name: str, title: str, forces: Mapping[str, np.ndarray]) -> Iterator[Plot]:
+    """Ends of force vectors over the run, Fy over Fx."""
+    series = [Series(label, force.real, force.imag) for label, force in forces.items()]
+    for start in range(0, len(series), CURVES):
+        x, y = Axis("Fx", "N"), Axis("Fy", "N")
+        yield Plot(f"{name}-{start // CURVES + 1}", title, x, y, tuple(series[start : start + CURVES]))

@@ -1,0 +1,158 @@
+"""The motion that a call requires of a mechanism: values, speeds and accelerations of all inputs."""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from ilmek.arrays import FloatArray, RealField
+from ilmek.dynamics.own_machine import GivenMotion, OwnMachine
+from ilmek.errors import MechanismError
+from ilmek.linkage.model import Input, Rotation
+from ilmek.linkage.structure import Plan
+from ilmek.records import record
+from ilmek.units import parse_quantity, turn
+
+STEPS = 360
+"""Default number of steps of a range."""
+
+
+@record
+class MotionRequest:
+    """The motion of a mechanism, as texts with units.
+
+    fixed  input -> value; "" for the only input. At most one input without a motion of its own is left to drive
+    over   range "FROM..TO" of the driving input; default: a full turn, or the period of its motion
+    speed  of the driving input; default: that of its motion in the file, else 1 rad/s or 1 m/s
+    steps  number of steps of the range
+    """
+
+    fixed: Mapping[str, str]
+    over: str = ""
+    speed: str = ""
+    steps: int = STEPS
+
+
+@record
+class DrivenInputs:
+    """Motions of all inputs over the samples.
+
+    running  the driving input; None if all are fixed      values  of it [rad; m]; of a single pose: 0
+    speed    its constant speed [rad/s; m/s]; None: it follows a law of time, or all inputs are fixed and at rest
+    time     of the samples [s]; None: nothing moves
+    rates    values, speeds and accelerations of all inputs by name, as for `solve`
+    """
+
+    running: Input | None
+    values: FloatArray
+    speed: float | None
+    time: FloatArray | None
+    rates: tuple[dict[str, RealField], dict[str, RealField], dict[str, RealField]]
+
+
+def driven_inputs(machine: OwnMachine, plan: Plan, request: MotionRequest) -> DrivenInputs:
+    """The motions of all inputs: fixed by the request, by a motion of the file, or over the request's range.
+
+    Range and speed of the request take the place of the driving input's motion in the file. Raises MechanismError for
+    an unknown input, two inputs left to drive and a range that cannot be read; UnitError.
+    """
+    inputs = {entry.name: entry for entry in plan.mechanism.inputs}
+    fixed = _fixed(plan, inputs, request.fixed)
+    laws = {name: motion for name, motion in machine.motions.items() if name not in fixed}
+    free = [entry for name, entry in inputs.items() if name not in fixed]
+    if not free:
+        return _pose(inputs, fixed, request)
+    running = _running(free, laws)
+    law = laws.pop(running.name, None)
+    if law is not None and law.speed is None and not (request.over or request.speed):
+        return _over_time(running, law, laws, fixed, request.steps)
+    start = 0.0 if law is None else float(law.law(np.zeros(1))[0][0])
+    values = _values(running, request, start)
+    speed = _speed(running, request.speed, law)
+    time = None if speed == 0 else (values - start) / speed
+    rates = _rates(laws, np.zeros(len(values)) if time is None else time, fixed)
+    rates[0][running.name], rates[1][running.name] = values, speed
+    return DrivenInputs(running, values, speed, time, rates)
+
+
+def _running(free: list[Input], laws: Mapping[str, GivenMotion]) -> Input:
+    """The driving input: the only one without a motion in the file, or else the first."""
+    left = [entry for entry in free if entry.name not in laws]
+    if len(left) > 1:
+        names = " and ".join(entry.name for entry in left)
+        raise MechanismError(f"inputs {names} are both without a value", do=f"fix one, like --at {left[0].name}=0")
+    return (left or free)[0]
+
+
+def _pose(inputs: Mapping[str, Input], fixed: dict[str, RealField], request: MotionRequest) -> DrivenInputs:
+    """A single pose; a speed of the request is that of the only input."""
+    if not request.speed:
+        return DrivenInputs(None, np.zeros(1), None, None, (fixed, {}, {}))
+    if len(inputs) > 1:
+        raise MechanismError("a speed is given for a pose of several inputs", do="leave one input free, with --over")
+    (entry,) = inputs.values()
+    return DrivenInputs(None, np.zeros(1), None, None, (fixed, {entry.name: _speed(entry, request.speed, None)}, {}))
+
+
+def _over_time(
+    running: Input, law: GivenMotion, others: Mapping[str, GivenMotion], fixed: dict[str, RealField], steps: int
+) -> DrivenInputs:
+    """All inputs over the period of the driving input's law, or to its end."""
+    end = law.period if law.period is not None else (law.breaks[-1] if law.breaks else None)
+    if end is None:
+        raise MechanismError(f"the motion of {running.name!r} has neither a period nor an end", do="give it a period")
+    time = np.linspace(0.0, end, steps + 1)
+    rates = _rates({**others, running.name: law}, time, fixed)
+    return DrivenInputs(running, np.asarray(rates[0][running.name]), None, time, rates)
+
+
+def _rates(
+    laws: Mapping[str, GivenMotion], time: FloatArray, fixed: Mapping[str, RealField]
+) -> tuple[dict[str, RealField], dict[str, RealField], dict[str, RealField]]:
+    """Values, speeds and accelerations of the fixed inputs and of those with a law, at times [s]."""
+    rates: tuple[dict[str, RealField], dict[str, RealField], dict[str, RealField]] = ({**fixed}, {}, {})
+    for name, motion in laws.items():
+        for field, values in zip(rates, motion.law(time), strict=True):
+            field[name] = values
+    return rates
+
+
+def _fixed(plan: Plan, inputs: Mapping[str, Input], texts: Mapping[str, str]) -> dict[str, RealField]:
+    fixed: dict[str, RealField] = {}
+    for name, text in texts.items():
+        if not name and len(inputs) > 1:
+            raise MechanismError(f"{text} names no input", do=f"write NAME=VALUE, with one of {', '.join(inputs)}")
+        entry = inputs.get(name or next(iter(inputs), ""))
+        if entry is None:
+            raise MechanismError(
+                f"{plan.mechanism.name} has no input {name!r}", allowed=f"it has {', '.join(inputs) or 'none'}"
+            )
+        fixed[entry.name] = parse_quantity(text, "rad" if isinstance(entry, Rotation) else "m")
+    return fixed
+
+
+def _values(running: Input, request: MotionRequest, start: float) -> FloatArray:
+    """The values of the driving input. Raises MechanismError for a range that cannot be read or has no length."""
+    turning = isinstance(running, Rotation)
+    if not request.over:
+        if turning:
+            return np.linspace(start, start + turn, request.steps + 1)
+        raise MechanismError(
+            f"input {running.name!r} is a displacement and needs a range", do="give one, like --over 0mm..50mm"
+        )
+    begin, dots, end = request.over.partition("..")
+    if not dots or request.steps < 1:
+        raise MechanismError(
+            f"the range {request.over!r} in {request.steps} steps cannot be read",
+            do="write FROM..TO, like 0deg..360deg",
+        )
+    first, last = (parse_quantity(end, "rad" if turning else "m") for end in (begin, end))
+    if first == last:
+        raise MechanismError(f"the range {request.over} has no length", do="give one pose with --at instead")
+    return np.linspace(first, last, request.steps + 1)
+
+
+def _speed(running: Input, text: str, law: GivenMotion | None) -> float:
+    """Speed of the driving input [rad/s; m/s]: that of the request, of the file, or 1."""
+    if text:
+        return parse_quantity(text, "rad/s" if isinstance(running, Rotation) else "m/s")
+    return 1.0 if law is None or law.speed is None else law.speed

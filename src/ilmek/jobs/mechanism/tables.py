@@ -1,0 +1,153 @@
+"""Tables of a mechanism in motion: points, bodies, slides, forces of joints, transmission angles, events."""
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ilmek.dynamics.inverse_run import greatest
+from ilmek.jobs.mechanism.analysis import Analysis
+from ilmek.jobs.mechanism.run import MechanismRun
+from ilmek.linkage.model import Pin, Slide
+from ilmek.linkage.motion import moving_points
+from ilmek.linkage.outputs import Travel, output_history
+from ilmek.report import Column, Table, columns
+
+if TYPE_CHECKING:
+    from ilmek.dynamics.own_forward import OwnForward
+
+ROUNDING = 1e-12
+"""Component of a force, relative to its greatest magnitude, that counts as rounding."""
+
+Row = tuple[float | int | str, ...]
+
+
+def tables(found: Analysis) -> tuple[Table, ...]:
+    """The tables of a mechanism in motion, those of its forces first."""
+    return tuple(table for table in _tables(found) if table.rows)
+
+
+def _tables(found: Analysis) -> Iterator[Table]:
+    run = found.run
+    if run.forces is not None:
+        yield _forces_table(run)
+        yield _drives_table(run)
+    yield _transmission_table(found)
+    yield _slides_table(run)
+    yield _points_table(run)
+    yield _bodies_table(run)
+    if found.forward is not None:
+        yield _events_table(found.forward)
+
+
+def _events_table(forward: "OwnForward") -> Table:
+    position, speed = ("deg", "rpm") if forward.turning else ("mm", "m/s")
+    heads = columns("event", "time [s]", f"position [{position}]", f"speed [{speed}]")
+    rows = tuple((one.name, one.time, one.state.position, one.state.speed) for one in forward.run.events)
+    return Table("events", "Events of the forward run", heads, rows, brief=True)
+
+
+def _forces_table(run: MechanismRun) -> Table:
+    """Greatest force of each joint, where it occurs, and the range of its components."""
+    heads = (
+        *columns("joint", "of", "force up to [N]"),
+        Column("at", "s" if run.by_time else run.unit),
+        *columns("Fx from [N]", "Fx to [N]", "Fy from [N]", "Fy to [N]", "couple up to [N*m]"),
+    )
+    return Table("forces", "Forces of joints and teeth", heads, tuple(_force_rows(run)), brief=True)
+
+
+def _force_rows(run: MechanismRun) -> Iterator[Row]:
+    assert run.forces is not None
+    forces = run.forces.forces
+    mechanism = run.plan.mechanism
+    for one in (*mechanism.joints, *mechanism.couplings):
+        force = forces.reactions[one.name]
+        level = ROUNDING * greatest(force)
+        kind = "pin" if isinstance(one, Pin) else "slide" if isinstance(one, Slide) else one.kind
+        couple = greatest(forces.couples[one.name]) if one.name in forces.couples else ""
+        on = one.bodies[1] if not isinstance(one, Slide) else one.body
+        name = f"{one.name} ({kind})"
+        yield (
+            name,
+            f"on {on}",
+            greatest(force),
+            *_where(run, force),
+            *_ends(force.real, level),
+            *_ends(force.imag, level),
+            couple,
+        )
+
+
+def _where(run: MechanismRun, values: np.ndarray) -> tuple[float | str]:
+    """Value of the abscissa at the greatest magnitude."""
+    size = np.abs(values)
+    if not np.isfinite(size).any():
+        return ("",)
+    return (float(run.abscissa[int(np.nanargmax(size))]),)
+
+
+def _drives_table(run: MechanismRun) -> Table:
+    """Efforts of the inputs where there are several."""
+    assert run.forces is not None
+    heads = columns("input", "effort from", "effort to", "unit")
+    efforts = run.forces.forces.efforts
+    units = {
+        entry.name: "N*m" if entry.name in run.plan.mechanism.moving else "N" for entry in run.plan.mechanism.inputs
+    }
+    rows = tuple((name, *_ends(effort), units[name]) for name, effort in efforts.items()) if len(efforts) > 1 else ()
+    return Table("drives", "Efforts of the inputs", heads, rows, brief=True)
+
+
+def _transmission_table(found: Analysis) -> Table:
+    heads = (
+        *columns("pin", "least [deg]"),
+        Column("at", "s" if found.run.by_time else found.run.unit),
+        Column("greatest", "deg"),
+    )
+    rows = []
+    for pin, angle in found.transmission.items():
+        least, most = _ends(angle)
+        at = found.run.abscissa[int(np.nanargmin(angle))] if np.isfinite(angle).any() else ""
+        rows.append((pin, least, at if isinstance(at, str) else float(at), most))
+    return Table("transmission", "Transmission angles", heads, tuple(rows), brief=True)
+
+
+def _slides_table(run: MechanismRun) -> Table:
+    heads = columns("slide", "from [mm]", "to [mm]", "speed up to [m/s]", "acceleration up to [m/s^2]")
+    rows = []
+    for joint in run.plan.mechanism.joints:
+        if isinstance(joint, Slide):
+            moved = output_history(run.motion, Travel(joint.name))
+            rows.append((joint.name, *_ends(moved.value), greatest(moved.rate), greatest(moved.second_rate)))
+    return Table("slides", "Slides, along their guides", heads, tuple(rows), brief=True)
+
+
+def _points_table(run: MechanismRun) -> Table:
+    heads = columns("point", "x from [mm]", "x to [mm]", "y from [mm]", "y to [mm]", "speed up to [m/s]")
+    heads = (*heads, Column("acceleration up to", "m/s^2"))
+    rows = []
+    for body, point in moving_points(run.plan.mechanism):
+        moved = run.motion.point(body, point)
+        ends = [*_ends(np.real(moved.position)), *_ends(np.imag(moved.position))]
+        rows.append((f"{point} of {body}", *ends, greatest(moved.velocity), greatest(moved.acceleration)))
+    return Table("points", "Points that move", heads, tuple(rows), brief=True)
+
+
+def _bodies_table(run: MechanismRun) -> Table:
+    heads = columns("body", "angle from [deg]", "angle to [deg]", "speed up to [rad/s]")
+    heads = (*heads, Column("acceleration up to", "rad/s^2"))
+    motion = run.motion
+    rows = tuple(
+        (body, *_ends(motion.angle(body)), greatest(motion.omega(body)), greatest(motion.alpha(body)))
+        for body in run.plan.mechanism.moving
+    )
+    return Table("bodies", "Bodies", heads, rows, brief=True)
+
+
+def _ends(values: np.ndarray, rounding: float = 0.0) -> tuple[float, float]:
+    """Least and greatest of the finite samples, 0 where they are below the rounding; NaN without any."""
+    usable = values[np.isfinite(values)]
+    ends = (float(usable.min()), float(usable.max())) if usable.size else (float("nan"), float("nan"))
+    least, most = (0.0 if abs(end) <= rounding else end for end in ends)
+    return least, most
