@@ -26,6 +26,9 @@ SAME = 1e-9
 BEYOND = 0.15
 """Length of a guide beyond the range of its slider, over that range."""
 
+RIM = 48
+"""Corners of a pitch circle."""
+
 Naming = Callable[[str], str]
 
 
@@ -51,17 +54,20 @@ def animated(
     period: float | None = None,
     readings: tuple[Reading, ...] = (),
     drive: Axis = CRANK,
+    closes: bool | None = None,
 ) -> Animation:
-    """The mechanism over its frames; it runs to and fro where they are no whole turn.
+    """The mechanism over its frames; it runs to and fro where they do not close. Gears are their pitch circles.
 
     motion   solved at the values `at` of the drive [SI], ascending and evenly apart
     drawing  name, title and note, and the strokes and dots that do not move
     traces   bodies and their points whose paths are drawn
     names    labels of bodies, joints or points that differ from their names; "" for none
     start    value of the drive that is shown first            period  of a run of the real machine [s]
+    closes   the first frame follows the last; default: where the frames are a whole turn
     """
     named: Naming = lambda name: (names or {}).get(name, name)  # noqa: E731
-    closes = bool(abs(at[-1] + at[1] - 2 * at[0] - turn) < SAME)
+    if closes is None:
+        closes = bool(abs(at[-1] + at[1] - 2 * at[0] - turn) < SAME)
     pivots = _pivots(motion, named)
     paths = tuple(Stroke(_track(motion, *one), "path", named(one[0]), closed=closes) for one in traces)
     still = dataclasses.replace(
@@ -69,7 +75,7 @@ def animated(
     )
     points = (MovingDot(_track(motion, *one), named(one[1]), "point") for one in traces)
     first = 0 if start is None else int(np.argmin(np.abs(unit(at) - unit(start)) if closes else np.abs(at - start)))
-    bars = tuple(_bars(motion, named, traces))
+    bars = (*_wheels(motion), *_bars(motion, named, traces))
     dots = (*_blocks(motion, named), *_pins(motion, named, pivots), *points)
     return Animation(still, drive, at, bars, dots, closes, first, period, readings)
 
@@ -147,6 +153,33 @@ def _bars(motion: Motion, named: Naming, traces: Sequence[tuple[str, str]]) -> I
             points = np.column_stack([attached(motion, body, complex(corner)).position for corner in corners])
             role = "outline" if body in sliding else "link"
             yield MovingStroke(points, role, named(body), closed=len(corners) > 2)
+
+
+def _wheels(motion: Motion) -> Iterator[MovingStroke]:
+    """The pitch circles of gears and of a rack's pinion, each with a radius that shows its turning.
+
+    Radii r_1 = |i / (i - 1)| d and r_2 = |1 / (i - 1)| d of gears with the ratio i and the distance d of their centres;
+    of a pinion |i| [m/rad]. A belt has no pitch circles: only the ratio of its pulleys is known.
+    """
+    mechanism, drawn = motion.plan.mechanism, set()
+    for one in mechanism.couplings:
+        middles = [
+            attached(motion, body, mechanism.point(body, point)).position for body, point in (one.first, one.second)
+        ]
+        if one.kind == "rack":
+            radii: list[float] = [abs(one.ratio)]
+        elif one.kind == "gears" and one.ratio != 1:
+            apart = float(np.nanmedian(np.abs(middles[1] - middles[0])))
+            radii = [abs(share / (one.ratio - 1)) * apart for share in (one.ratio, 1.0)]
+        else:
+            radii = []
+        for (body, point), middle, radius in zip((one.first, one.second), middles, radii, strict=False):
+            key = (body, point, round(radius / SAME))
+            if key not in drawn:
+                drawn.add(key)
+                rim = np.concatenate(([0.0], radius * unit(np.linspace(0.0, turn, RIM + 1)))).astype(complex)
+                points = middle[:, None] + motion.direction(body)[:, None] * rim
+                yield MovingStroke(points, "outline")
 
 
 def _corners(points: ComplexArray) -> ComplexArray:

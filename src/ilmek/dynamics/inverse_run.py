@@ -69,6 +69,11 @@ class InverseRun:
         """Effort of the driving input [N m; N]; None without one."""
         return None if self.driving is None else self.forces.effort(self.driving)
 
+    @property
+    def peak(self) -> float | None:
+        """Greatest effort of the driving input [N m; N]; None without one."""
+        return None if self.effort is None else greatest(self.effort)
+
     def _drive(self, turning: bool, kind: str) -> float | None:
         """Peak, rms or mean of the driving effort, if the input is of that kind."""
         effort = self.effort

@@ -23,7 +23,7 @@ from ilmek.records import computed, record
 SAMPLES = 600
 """Samples of a run that are reported."""
 
-RTOL, MOST_STEPS = 1e-9, 20_000
+RTOL, MOST_STEPS = 1e-8, 20_000
 """Relative error of a step of the integrator, and its most steps."""
 
 

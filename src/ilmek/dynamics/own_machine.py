@@ -21,10 +21,14 @@ InputLaw: TypeAlias = Callable[[FloatArray], tuple[FloatArray, FloatArray, Float
 
 @record
 class NamedLoad:
-    """A load of the file, with the name by which forces, power and messages refer to it."""
+    """A load of the file, with the name by which forces, power and messages refer to it.
+
+    breaks  values of the driving input at which the load jumps [rad, of one turn; m], ascending
+    """
 
     name: str
     load: Load
+    breaks: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,13 +3,16 @@
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from ilmek.dynamics.inverse_run import InverseRun
+from ilmek.dynamics.machine_checks import locking
 from ilmek.dynamics.servo_choice import ServoChoice, servo_choice
+from ilmek.dynamics.speed_study import StudyOfSpeeds, speed_study
 from ilmek.errors import MechanismError
 from ilmek.jobs.mechanism.run import MechanismRun
 from ilmek.linkage.transmission import transmission_angles
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
-from ilmek.report import Check, at_most, must
+from ilmek.report import Check, at_most
 
 if TYPE_CHECKING:
     from ilmek.arrays import FloatArray
@@ -27,32 +30,21 @@ class Analysis:
     """A mechanism in motion with all that its file requires.
 
     transmission  pin -> acute transmission angle [rad] by sample
-    servo, forward  None: not required
+    servo, forward, study  None: not required
     """
 
     run: MechanismRun
     transmission: "dict[str, FloatArray]"
     servo: ServoChoice | None
     forward: "OwnForward | None"
+    study: StudyOfSpeeds | None
 
     @property
     def checks(self) -> tuple[Check, ...]:
         """What the machine must do: keep moving under friction, carry its forces, have a sufficient servo."""
-        servo = self.servo.checks if self.servo else ()
-        return (*self._locking, *servo, *(test for test in self.self_tests if not test.ok))
-
-    @property
-    def _locking(self) -> tuple[Check, ...]:
-        forces = self.run.forces
-        if forces is None or not forces.forces.frictions:
-            return ()
-        locked = self.run.values[forces.locked] if self.run.running else forces.locked.nonzero()[0]
-        where = (
-            f"; it locks from {self.run.shown(locked.min())} to {self.run.shown(locked.max())}" if locked.size else ""
-        )
-        source = f"the drive keeps it moving against the friction of its joints{where}"
-        cure = "lower the friction, lengthen the guides, or improve the transmission angle there"
-        return (must("not self-locking", not locked.size, source, cure=cure),)
+        forces, servo = self.run.forces, self.servo.checks if self.servo else ()
+        locked = locking(forces) if forces is not None else ()
+        return (*locked, *servo, *(test for test in self.self_tests if not test.ok))
 
     @property
     def self_tests(self) -> tuple[Check, ...]:
@@ -98,10 +90,28 @@ def analysis(run: MechanismRun, progress: Progress = SILENT) -> Analysis:
         from ilmek.dynamics.own_forward import own_forward  # the integrator of scipy
 
         forward = own_forward(machine, run.plan, machine.forward)
-    progress(1.0)
+    progress(0.5)
     return Analysis(
         run,
         transmission_angles(run.motion, machine.transmission),
         servo_choice(machine, forces) if machine.servo and forces is not None else None,
         forward,
+        _study(run, progress.part(0.5, 1.0, "study")),
     )
+
+
+def _study(run: MechanismRun, progress: Progress) -> StudyOfSpeeds | None:
+    """The machine at the speeds of its study. Raises MechanismError where it has no drive of constant speed."""
+    task = run.machine.study
+    if task is None or run.forces is None:
+        return None
+    if run.speed is None or run.running is None or not run.others_rest:
+        given = "a study of speeds is given for a machine without one driving input of constant speed"
+        raise MechanismError(given, do="leave out the study, or fix the other inputs with --at")
+
+    def at(speed: float) -> tuple[InverseRun, tuple[Check, ...]]:
+        progress(0.0)
+        found = run.at_speed(speed)
+        return found, locking(found)
+
+    return speed_study(task.speeds, at)

@@ -8,6 +8,7 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.dynamics.animation import FRAMES, animated
 from ilmek.dynamics.inverse_run import InverseRun
+from ilmek.dynamics.speed_study import StudyOfSpeeds
 from ilmek.jobs.mechanism.analysis import Analysis
 from ilmek.jobs.mechanism.run import MechanismRun
 from ilmek.linkage.model import GROUND, Pin, Rotation, Slide
@@ -32,7 +33,8 @@ def figures(found: Analysis) -> tuple[Figure, ...]:
     x = Axis("time", "s") if run.by_time else Axis(run.running.name, run.unit)
     forces = _force_plots(run, run.forces, x) if run.forces is not None else ()
     forward = _forward_plots(found.forward) if found.forward is not None else ()
-    return (*_moving(run, x), *forces, *_transmission_plots(found, x), *_motion_plots(run, x), *forward)
+    study = _study_plots(found.study) if found.study is not None else ()
+    return (*_moving(run, x), *study, *forces, *_transmission_plots(found, x), *_motion_plots(run, x), *forward)
 
 
 def traced_points(run: MechanismRun) -> list[tuple[str, str]]:
@@ -45,6 +47,7 @@ def _moving(run: MechanismRun, drive: Axis) -> Iterator[Figure]:
     """The mechanism in motion, with the paths of its free points."""
     drawn = Drawing("mechanism", f"{run.name} in motion", ())
     if run.by_time:
+        yield from _moving_over_time(run, drawn)
         return
     at, travel = _frames(run)
     speed = run.speed or 0.0
@@ -52,6 +55,24 @@ def _moving(run: MechanismRun, drive: Axis) -> Iterator[Figure]:
     if moved.ok:
         period = travel / abs(speed) if speed else None
         yield animated(moved, at, drawn, traces=traced_points(run), period=period, drive=drive)
+
+
+def _moving_over_time(run: MechanismRun, drawn: Drawing) -> Iterator[Figure]:
+    """The mechanism over the period of its given motion; to and fro where the motion ends."""
+    assert run.time is not None
+    assert run.running is not None
+    if run.motion.ok:
+        law = run.machine.motions[run.running.name]
+        picked = np.linspace(0, len(run.time) - 1, FRAMES + 1).round().astype(int)[: FRAMES + (law.period is None)]
+        at = np.linspace(run.time[0], run.time[-1], FRAMES + 1)[: len(picked)]
+        drives = {
+            name: np.broadcast_to(drive.value, run.time.shape)[picked] for name, drive in run.motion.drives.items()
+        }
+        moved = solve(run.plan, drives)
+        period = float(run.time[-1] - run.time[0])
+        closes = law.period is not None
+        traces = traced_points(run)
+        yield animated(moved, at, drawn, traces=traces, period=period, drive=Axis("time", "s"), closes=closes)
 
 
 def _frames(run: MechanismRun) -> tuple[FloatArray, float]:
@@ -107,6 +128,25 @@ def _motion_plots(run: MechanismRun, x: Axis) -> Iterator[Figure]:
         ("accelerations", "Angular accelerations", Axis("angular acceleration", "rad/s^2"), motion.alpha),
     ):
         yield from _groups(name, title, x, y, at, {body: curve(body) for body in turning})
+
+
+def _study_plots(study: StudyOfSpeeds) -> Iterator[Figure]:
+    """Greatest drive effort, pin forces and shaking force against the speed; least margin of the checks."""
+    unit, effort = ("rpm", "N*m") if study.turning else ("m/s", "N")
+    x, at = Axis("speed", unit), np.array([one.speed for one in study.points])
+    peaks = np.array([one.run.peak or 0.0 for one in study.points])
+    yield Plot(
+        "study-drive", "Greatest effort of the drive by speed", x, Axis("effort", effort), (Series("drive", at, peaks),)
+    )
+    runs = [one.run for one in study.points]
+    forces = {name: np.array([one.pin_forces_max[name] for one in runs]) for name in runs[0].pin_forces_max}
+    forces["shaking force"] = np.array([one.shaking_force_max for one in runs])
+    yield from _groups("study-forces", "Greatest forces by speed", x, Axis("force", "N"), at, forces)
+    margins = np.array([one.least_margin[1] for one in study.points])
+    if np.isfinite(margins).all():
+        limit = Series("limit", at[[0, -1]], np.ones(2), dashed=True)
+        curves = (Series("least margin", at, margins), limit)
+        yield Plot("study-margin", "Least margin of the checks by speed", x, Axis("margin", "1"), curves)
 
 
 def _forward_plots(forward: "OwnForward") -> Iterator[Figure]:

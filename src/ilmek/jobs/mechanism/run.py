@@ -1,6 +1,5 @@
 """The motion of a mechanism of a file over a range of one input."""
 
-
 import numpy as np
 
 from ilmek.arrays import FloatArray, RealField
@@ -81,6 +80,19 @@ class MechanismRun:
         """Values of all inputs for these values of the driving input [rad or m]."""
         fixed = {name: float(np.ravel(drive.value)[0]) for name, drive in self.motion.drives.items()}
         return {**fixed, **({self.running.name: values} if self.running else {})}
+
+    @property
+    def others_rest(self) -> bool:
+        """Whether all inputs but the driving one are fixed."""
+        drives = self.motion.drives.items()
+        return all(np.ptp(drive.value) == 0 for name, drive in drives if not self.running or name != self.running.name)
+
+    def at_speed(self, speed: float) -> InverseRun:
+        """The forces over the same values at another constant speed of the driving input [rad/s; m/s]."""
+        assert self.running is not None
+        motion = solve(self.plan, self.at(self.values), {self.running.name: speed})
+        time = None if speed == 0 else (self.values - self.values[0]) / speed
+        return inverse_run(self.machine, motion, self.running.name, time)
 
     @property
     def closing(self) -> tuple[tuple[float, float], ...]:

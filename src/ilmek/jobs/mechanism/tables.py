@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ilmek.dynamics.inverse_run import greatest
+from ilmek.dynamics.speed_study import StudyOfSpeeds
 from ilmek.jobs.mechanism.analysis import Analysis
 from ilmek.jobs.mechanism.run import MechanismRun
 from ilmek.linkage.model import Pin, Slide
@@ -32,12 +33,28 @@ def _tables(found: Analysis) -> Iterator[Table]:
     if run.forces is not None:
         yield _forces_table(run)
         yield _drives_table(run)
+    if found.study is not None:
+        yield _study_table(found.study)
     yield _transmission_table(found)
     yield _slides_table(run)
     yield _points_table(run)
     yield _bodies_table(run)
     if found.forward is not None:
         yield _events_table(found.forward)
+
+
+def _study_table(study: StudyOfSpeeds) -> Table:
+    speed, effort = ("rpm", "N*m") if study.turning else ("m/s", "N")
+    heads = columns(
+        f"speed [{speed}]", f"drive up to [{effort}]", "pin", "pin force up to [N]", "shaking force up to [N]"
+    )
+    rows = []
+    for point in study.points:
+        pin, force = point.pin_force
+        check, least = point.least_margin
+        row = (point.speed, point.run.peak or 0.0, pin, force, point.run.shaking_force_max)
+        rows.append((*row, least if check else "", check))
+    return Table("study", "Study of speeds", (*heads, *columns("least margin", "of")), tuple(rows), brief=True)
 
 
 def _events_table(forward: "OwnForward") -> Table:
