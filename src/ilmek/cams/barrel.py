@@ -24,7 +24,7 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from ilmek.arrays import ComplexField, Float, FloatArray
+from ilmek.arrays import ComplexField, Float, FloatArray, RealField
 from ilmek.cams.programme import CamProgramme, FollowerMotion
 from ilmek.cams.strip import trace_of_strip
 from ilmek.cams.trace import CamCurves, CamTrace
@@ -70,10 +70,11 @@ class Barrel(CamCurves):
         """Bounds of the mean radius [m], both excluded: the roller must not reach the cam's axis."""
         return self.roller_width / 2, math.inf
 
-    def flank(self, angle: FloatArray, depth: float, side: Literal[1, -1] = -1) -> Space:
+    def flank(self, angle: FloatArray, depth: RealField, side: Literal[1, -1] = -1) -> Space:
         """Contact points on a flank in space, (*angle, 3), in the cam's frame [m].
 
-        angle  cam angles [rad]      depth  distance rho from the axis along the roller [m]
+        angle  cam angles [rad]      depth  distance rho from the axis along the roller [m],
+        one or one per angle
         side   -1: the flank below the roller, which pushes it out on a rise; +1: the flank above it
 
         A contact point lies at |rho + i Im w| from the axis, slightly more than the depth.
@@ -93,12 +94,13 @@ class Barrel(CamCurves):
         wander = w.imag * distance * first.real / trace.flow**2
         return np.asarray(trace.flow + distance * trace.turning - wander)
 
-    def _section(self, angle: FloatArray, depth: float, side: int) -> tuple[CamTrace, np.ndarray]:
+    def _section(self, angle: FloatArray, depth: RealField, side: int) -> tuple[CamTrace, np.ndarray]:
         """Development at a depth [m], and the flank's points there, B + d n."""
         motion = self.programme.at(angle)
         point = self.roller_motion(motion)
-        size = {"radius": depth, "roller_radius": self.roller_radius}
-        trace = trace_of_strip(angle, motion, point, self.direction(motion), **size)
+        trace = trace_of_strip(
+            angle, motion, point, self.direction(motion), radius=depth, roller_radius=self.roller_radius
+        )
         return trace, np.asarray(point[0] + side * self.roller_radius * trace.normal)
 
 

@@ -17,7 +17,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from ilmek.arrays import ComplexField, FloatArray
+from ilmek.arrays import ComplexField, FloatArray, RealField
 from ilmek.cams.programme import TURN, CamProgramme, FollowerMotion
 from ilmek.cams.trace import CamCurves, CamTrace
 from ilmek.errors import ParameterError
@@ -32,7 +32,7 @@ def trace_of_strip(
     point: tuple[ComplexField, ComplexField, ComplexField],
     direction: ComplexField,
     *,
-    radius: float,
+    radius: RealField,
     roller_radius: float,
 ) -> CamTrace:
     """Trace of a roller on a cam that is developed at a radius.
@@ -40,7 +40,7 @@ def trace_of_strip(
     angle          cam angles [rad], any shape             motion  the follower's motion there
     point          roller's centre B and its derivatives B', B'' by the cam angle [m]
     direction      unit direction in which the roller moves as the displacement grows
-    radius         rho [m]                                 roller_radius  [m]
+    radius         rho [m], one or one per angle                           roller_radius  [m]
     """
     centre, first, second = point
     along = np.asarray(first - 1j * radius)

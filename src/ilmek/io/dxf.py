@@ -2,6 +2,7 @@
 
 PROFILE      the outline to cut            BORE    holes and cutouts        CUTTER_PATH  paths of the cutter's centre
 PITCH        pitch curves, paths of eyes   MARK    lines to scribe          CENTRE       centre marks
+GROOVE       flanks of a groove laid flat
 DIMENSION    main dimensions               TEXT         title, material, number of pieces
 """
 
@@ -32,6 +33,7 @@ options.write_fixed_meta_data_for_testing = True  # no time, no random number: t
 LAYERS = {
     "PROFILE": (7, "Continuous", 50),
     "BORE": (5, "Continuous", 35),
+    "GROOVE": (7, "Continuous", 35),
     "CUTTER_PATH": (1, "DASHDOT", 18),
     "PITCH": (3, "CENTER", 18),
     "MARK": (6, "Continuous", 25),
@@ -85,12 +87,19 @@ def dxf_document(plate: Plate, shape: PlateShape) -> Drawing:
         _add(space, "CUTTER_PATH" if "cutter" in name else "PITCH", path)
     for hole in plate.holes:
         space.add_circle(_xy(hole.at), hole.radius / mm, dxfattribs={"layer": "BORE"})
-    for line in plate.marks.values():
-        space.add_lwpolyline([_xy(point) for point in line], dxfattribs={"layer": "MARK"})
+    for name, line in plate.marks.items():
+        space.add_lwpolyline([_xy(point) for point in line], dxfattribs={"layer": _layer_of_mark(name)})
     _mark_centres(space, plate, shape)
     low = dimension(document, space, plate, shape)
     _write_texts(space, plate, shape, low, height)
     return document
+
+
+def _layer_of_mark(name: str) -> str:
+    """Flanks of a groove are cut, paths of the cutter are followed, other lines are scribed."""
+    if "flank" in name:
+        return "GROOVE"
+    return "CUTTER_PATH" if "cutter" in name else "MARK"
 
 
 def read_dxf(path: Path) -> DxfFacts:

@@ -221,7 +221,7 @@ def _plate_files(plate: Plate, work: Path, name: str) -> Iterator[dict[str, Any]
         write, volume = step
         write(work / f"{name}.step", plate, shape)
         read = volume(work / f"{name}.step")
-        exact = (known - shape.bored) * plate.thickness
+        exact = (known - shape.bored) * plate.thickness if plate.solid is None else plate.solid.volume
         off = abs(read / exact - 1)
         if not off <= AREA_ERROR:
             raise OutputError(f"plate {plate.name} gives no valid solid: its volume differs by {off:.2%}")

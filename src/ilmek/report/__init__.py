@@ -33,7 +33,7 @@ from ilmek.report.json import Json, plain
 from ilmek.report.results import Result, results_of
 from ilmek.report.table import Column, Table, columns
 from ilmek.report.verdict import Reason, reasons, verdict_json
-from ilmek.report.workshop import CamTable, Contour, Hole, Plate
+from ilmek.report.workshop import CamTable, Contour, Hole, Plate, RoundSolid
 
 __all__ = [
     "NEAREST",
@@ -66,6 +66,7 @@ __all__ = [
     "Reason",
     "Report",
     "Result",
+    "RoundSolid",
     "Series",
     "Shade",
     "Stroke",

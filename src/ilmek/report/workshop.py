@@ -29,6 +29,28 @@ class Contour:
 
 
 @record
+class RoundSolid:
+    """A solid of revolution about z with surfaces of a cam: a barrel with its groove, or an end cam [m].
+
+    inner, outer  radii; inner 0: a full cylinder          low, high  its ends along the axis
+    lower         points of the flank below the roller, (angles, radii, 3), once round, the last angle the first; the
+                  radii reach beyond those of the solid where the flank cuts it
+    upper         the same of the flank above it; None: an end cam, which ends at its lower flank
+    bore          contour in the plane of revolution, cut through; None: none
+    volume        [m^3], computed apart from the points
+    """
+
+    inner: float
+    outer: float
+    low: float
+    high: float
+    lower: FloatArray
+    upper: FloatArray | None
+    bore: Contour | None
+    volume: float
+
+
+@record
 class Plate:
     """A flat part for the workshop, in its own frame [m].
 
@@ -37,9 +59,10 @@ class Plate:
               ends of straight edges among them)
     holes     round holes             cutouts  closed contours inside the outline: a bore with its keyway, a groove
     paths     closed curves that guide a tool or an eye, not cut through, by name: `cutter path`, `pitch curve`
-    marks     lines to scribe, by name: `zero` at the angle 0
+    marks     open lines, by name: `zero` to scribe at the angle 0, flanks and cutter path of a groove laid flat
     area      inside the outline [m^2], holes and cutouts not taken off, reckoned apart from the points; None: not known
     number    pieces to be made        notes  what else the workshop must know: fits, a keyway's standard
+    solid     the part itself, where the outline is its development; None: the outline, `thickness` thick
     """
 
     name: str
@@ -54,6 +77,7 @@ class Plate:
     area: float | None = None
     number: int = 1
     notes: tuple[str, ...] = ()
+    solid: RoundSolid | None = None
 
 
 @record

@@ -26,7 +26,7 @@ def drawing(design: CamDesign) -> Drawing:
     end = float(design.cam.knots[-1])
     angle = np.linspace(0.0, end, POINTS)
     trace, radius = design.cam.trace(angle), design.cam.roller_radius
-    low, high = _edges(design)
+    low, high = axial_ends(design)
     corners = np.array([1j * low, design.cam.prime_radius * end + 1j * low])
     tops = corners + 1j * (high - low)
     surface = 1j * trace.surface
@@ -54,7 +54,7 @@ def moving(design: CamDesign) -> Animation:
     along = np.linspace(0.0, end, POINTS // 3) if wedge else np.linspace(-0.75 * TURN, 1.75 * TURN, POINTS)
     trace = cam.trace(along)
     shift = -cam.prime_radius * at[:, None]
-    low, _ = _edges(design)
+    low, _ = axial_ends(design)
     curves = [trace.surface, *([trace.parallel(cam.roller_radius)] if design.params.led else [])]
     if wedge:
         ends = np.array([cam.prime_radius * end + 1j * low, 1j * low])
@@ -97,7 +97,7 @@ def plate(design: CamDesign, title: str) -> Plate:
     end = float(design.cam.knots[-1])
     inner = np.asarray(design.cam.knots[1:-1])
     trace = design.cam.trace(np.unique(np.concatenate([np.linspace(0.0, end, 1441), inner])))
-    low, _ = _edges(design)
+    low, _ = axial_ends(design)
     foot = np.array([1j * low, design.cam.prime_radius * end + 1j * low])
     outline = np.concatenate([foot, (1j * trace.surface)[::-1]])
     cutter = design.params.cutter_radius or design.cam.roller_radius
@@ -109,17 +109,22 @@ def area(design: CamDesign) -> float:
     """Area [m^2] of a wedge's face over its foot; NaN of a barrel or end cam, which has no such face."""
     if design.params.kind != "wedge":
         return math.nan
-    low, cam = _edges(design)[0], design.cam
+    return _face(design) + _beyond_ends(design, axial_ends(design)[0])
+
+
+def _face(design: CamDesign) -> float:
+    """Area under the surface laid flat [m^2]: the contact moves by the flow less the roller's turning."""
+    low, cam = axial_ends(design)[0], design.cam
 
     def strip(angle: FloatArray) -> FloatArray:
         trace = cam.trace(angle)
         flow = trace.flow - cam.roller_radius * trace.turning
         return np.asarray((trace.surface.real - low) * trace.normal.real * flow)
 
-    return integral(strip, cam.knots) + _ends(design, low)
+    return integral(strip, cam.knots)
 
 
-def _ends(design: CamDesign, low: float) -> float:
+def _beyond_ends(design: CamDesign, low: float) -> float:
     """Area of the foot beyond the ends of the surface [m^2], where the surface slopes there."""
     cam = design.cam
     end = float(cam.knots[-1])
@@ -132,19 +137,18 @@ def mass(design: CamDesign) -> float:
     """Mass [kg] of a wedge; of a barrel, bored, without its groove; of an end cam's ring."""
     params, cam, width = design.params, design.cam, design.face_width
     density = MATERIALS[params.material].density
-    low, high = _edges(design)
+    low, high = axial_ends(design)
     if params.kind == "wedge":
         return density * width * area(design)
     if params.kind == "face":
-        height = integral(lambda at: np.asarray(cam.trace(at).surface.real - low), cam.knots)
-        return density * width * cam.prime_radius * height
+        return density * width * _face(design)
     outer, hub = cam.prime_radius + width / 2, design.hub
     bored = hub.area if hub.reach < cam.prime_radius - width / 2 else 0.0
     groove = 2 * cam.roller_radius * width * integral(lambda at: cam.trace(at).flow, cam.knots)
     return float(density * ((math.pi * outer**2 - bored) * (high - low) - groove))
 
 
-def _edges(design: CamDesign) -> tuple[float, float]:
+def axial_ends(design: CamDesign) -> tuple[float, float]:
     """Foot and top of the cam along the follower's path [m]: a rim beyond the reach of the roller."""
     reach = design.cam.roller_radius + design.params.rim
     low, high = design.programme.bounds

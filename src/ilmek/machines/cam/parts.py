@@ -11,6 +11,7 @@ from ilmek.cams.trace import CamRole
 from ilmek.elements.materials import MATERIALS
 from ilmek.machines.cam import developed_cams
 from ilmek.machines.cam.design import CamDesign
+from ilmek.machines.cam.round_cams import solid_plate
 from ilmek.num.piecewise import infimum, integral, supremum
 from ilmek.plane import contours
 from ilmek.report import CamTable, Contour, Plate
@@ -26,7 +27,12 @@ def plates(design: CamDesign) -> tuple[Plate, ...]:
         return ()
     title = f"Cam, lift {format_quantity(design.params.lift, 'mm')}"
     if design.params.laid_flat:
-        return (developed_cams.plate(design, title),) if design.params.kind == "wedge" else ()
+        wedge = design.params.kind == "wedge"
+        return (
+            developed_cams.plate(design, title)
+            if wedge
+            else solid_plate(design, title, developed_cams.axial_ends(design)),
+        )
     if design.params.kind == "grooved":
         return (_grooved(design, title),)
     if design.cams.pair is None:
