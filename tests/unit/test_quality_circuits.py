@@ -80,9 +80,9 @@ def test_bodies_along_a_circuit_close_their_loops_with_their_rates():
     lengths = np.linspace(0, circuit.stop, 40, endpoint=False) + 1e-3
     step = 1e-5
     before, at, after = (circuit.bodies(lengths + by) for by in (-step, 0, step))
-    for joint in circuit.free_input.moved.plan.mechanism.joints:
+    for joint in circuit.mechanism.joints:
         one, other = (
-            at[body].carry(circuit.free_input.moved.plan.mechanism.point(body, joint.name)) for body in joint.bodies
+            at[body].carry(circuit.mechanism.point(body, joint.name)) for body in joint.bodies
         )
         for part in ("position", "velocity", "acceleration"):
             np.testing.assert_allclose(getattr(one, part), getattr(other, part), atol=1e-12)

@@ -74,7 +74,7 @@ class Circuit:
     @property
     def mechanism(self) -> Mechanism:
         """The mechanism."""
-        return self.free_input.moved.plan.mechanism
+        return self.free_input.mechanism
 
     @property
     def breaks(self) -> Float[np.ndarray, " breaks"]:
@@ -157,7 +157,6 @@ def _assemblies(moved: OneInput) -> Iterator[OneInput]:
 
 def _seeds(assembly: OneInput, count: int) -> Iterator[Configurations]:
     """One configuration in each run of input values at which an assembly closes."""
-    free = free_input(assembly)
     if assembly.turns:
         values = -np.pi + (np.arange(count) + 0.5) * (2 * np.pi / count)
     else:
@@ -166,7 +165,16 @@ def _seeds(assembly: OneInput, count: int) -> Iterator[Configurations]:
     (closing,) = np.nonzero(assembly.motion(values).status == 0)
     runs = np.split(closing, np.flatnonzero(np.diff(closing) > 1) + 1) if len(closing) else []
     for run in runs:
-        yield free.posed(values[run[int(ASIDE * len(run)) :][:1]])
+        yield _posed(assembly, values[run[int(ASIDE * len(run)) :][:1]])
+
+
+def _posed(assembly: OneInput, values: FloatArray) -> Configurations:
+    """The configurations of an assembly at values of the input [rad, m], (rows,)."""
+    motion = assembly.motion(values)
+    names = assembly.plan.mechanism.moving
+    origins = np.stack([motion.origin(name) for name in names], axis=-1)
+    directions = np.stack([motion.direction(name) for name in names], axis=-1)
+    return Configurations(origins, directions, np.asarray(values, dtype=float))
 
 
 def _passes(circuit: Circuit, seed: Configurations) -> bool:
@@ -196,7 +204,7 @@ def _spread(seed: Configurations, rows: int) -> list[tuple[np.ndarray, tuple[int
 
 def _circuit(assembly: OneInput, seed: Configurations, assemblies: list[OneInput]) -> Circuit:
     """The circuit through a configuration."""
-    free = free_input(assembly)
+    free = free_input(assembly.plan.mechanism, assembly.name, assembly.locked)
     line = trace(free, seed)
     folds = line.folds()
     turns = round(float(line.at_nodes.inputs[-1] - line.at_nodes.inputs[0]) / (2 * np.pi)) if assembly.turns else 0
@@ -218,7 +226,7 @@ def _parts(
     end = float(line.lengths[-1])
     if not len(folds):
         first, last = float(line.at_nodes.inputs[0]), float(line.at_nodes.inputs[-1])
-        if free.moved.turns and line.closed:
+        if free.turns and line.closed:
             first, last = -np.pi, np.pi
         label = _label(free, line.at(np.array([0.5 * end]))[0], assemblies)
         return (Branch(min(first, last), max(first, last), label, full=line.closed),)
@@ -232,7 +240,7 @@ def _parts(
     found = []
     for k, middle in enumerate(middles):
         low, high = sorted((float(values[k]), float(values[k + 1])))
-        shift = _principal(low, free.moved.turns) - low
+        shift = _principal(low, free.turns) - low
         label = _label(free, line.at(np.array([middle]))[0], assemblies)
         found.append(Branch(low + shift, high + shift, label))
     return tuple(found)
@@ -241,7 +249,7 @@ def _parts(
 def _label(free: FreeInput, at: Configurations, assemblies: list[OneInput]) -> Mapping[str, int]:
     """The signs of the closed forms of a configuration; {} for none."""
     for assembly in assemblies:
-        given = free_input(assembly).posed(at.inputs)
+        given = _posed(assembly, at.inputs)
         if np.max(np.abs(free.between(at, given))) <= SAME * free.size:
             return dict(assembly.plan.mechanism.branches)
     return {}

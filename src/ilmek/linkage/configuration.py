@@ -7,6 +7,7 @@ rank two curves cross, and the mechanism may continue on either [Allgower, Georg
 chapters 2 and 8].
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,8 +18,7 @@ from ilmek.linkage.displacements import moving
 from ilmek.linkage.equations import Equation
 from ilmek.linkage.groups.group import InputMotion
 from ilmek.linkage.loops import Loops, loops
-from ilmek.linkage.model import GROUND
-from ilmek.linkage.one_input import OneInput
+from ilmek.linkage.model import GROUND, Mechanism, Rotation
 from ilmek.num.linear import solve_many
 from ilmek.records import record
 
@@ -46,10 +46,20 @@ class Configurations:
 
 @dataclass(frozen=True, slots=True)
 class FreeInput:
-    """A mechanism with one free input, the others locked; a step is a row of 3 numbers per body, then the input."""
+    """A mechanism with one free input; a step is a row of 3 numbers per body, then the input.
 
-    moved: OneInput
+    name  the free input      locked  the values [rad, m] of the others
+    """
+
+    mechanism: Mechanism
+    name: str
+    locked: Mapping[str, float]
     loops: Loops
+
+    @property
+    def turns(self) -> bool:
+        """Whether the free input is an angle."""
+        return any(isinstance(entry, Rotation) and entry.name == self.name for entry in self.mechanism.inputs)
 
     @property
     def size(self) -> float:
@@ -59,21 +69,13 @@ class FreeInput:
     @property
     def per_input(self) -> float:
         """Factor from the input to a length."""
-        return self.size if self.moved.turns else 1.0
-
-    def posed(self, values: FloatArray) -> Configurations:
-        """The configurations of the plan at values of the input [rad, m], (rows,)."""
-        motion = self.moved.motion(values)
-        names = self.moved.plan.mechanism.moving
-        origins = np.stack([motion.origin(name) for name in names], axis=-1)
-        directions = np.stack([motion.direction(name) for name in names], axis=-1)
-        return Configurations(origins, directions, np.asarray(values, dtype=float))
+        return self.size if self.turns else 1.0
 
     def bodies(self, at: Configurations) -> dict[str, BodyMotion]:
         """Every body at rest, anchored at its origin."""
         bodies = {
             name: BodyMotion(PointMotion(at.origins[:, k], 0j, 0j), 0j, at.directions[:, k], 0.0, 0.0)
-            for k, name in enumerate(self.moved.plan.mechanism.moving)
+            for k, name in enumerate(self.mechanism.moving)
         }
         return {GROUND: STILL, **bodies}
 
@@ -90,9 +92,15 @@ class FreeInput:
         step = np.stack([shift.real, shift.imag, turn], axis=-1).reshape(len(first), -1)
         return np.concatenate([step, np.zeros((len(first), 1))], axis=1)
 
+    def chords(self, at: Configurations) -> FloatArray:
+        """The steps from each configuration to the next, with that of the input."""
+        steps = self.between(at[:-1], at[1:])
+        steps[:, -1] = np.diff(at.inputs) * self.per_input
+        return steps
+
     def slope(self, at: Configurations) -> tuple[FloatArray, FloatArray]:
         """A = [F_x F_q] and F, row by row."""
-        equations = self._equations(at)
+        equations = self.equations(at)
         rows = (len(at),)
         by_input = np.zeros((*rows, len(equations), 1))
         by_input[:, self._driven, 0] = -self.loops.unit(equations[self._driven]) / self.per_input
@@ -130,7 +138,7 @@ class FreeInput:
         still = self.bodies(at)
         first = tangents / np.sum(tangents * across, axis=1)[:, None]
         rates = self.loops.moves(first[:, :-1])
-        bias = self.loops.column(equations := self._equations(at, first), [one.bias for one in equations], (len(at),))
+        bias = self.loops.column(equations := self.equations(at, first), [one.bias for one in equations], (len(at),))
         square = np.concatenate([self.slope(at)[0], across[:, None, :]], axis=1)
         seconds = self.loops.moves(solve_many(square, np.concatenate([-bias, np.zeros((len(at), 1))], axis=1))[:, :-1])
         moved = {}
@@ -143,18 +151,19 @@ class FreeInput:
     @property
     def _driven(self) -> int:
         """Index of the free input's equation."""
-        names = [entry.name for entry in self.moved.plan.mechanism.inputs]
-        return names.index(self.moved.name) - len(names) + len(self.loops.joints)
+        names = [entry.name for entry in self.mechanism.inputs]
+        return names.index(self.name) - len(names) + len(self.loops.joints)
 
-    def _equations(self, at: Configurations, tangents: FloatArray | None = None) -> list[Equation]:
-        drives = {name: InputMotion(value, 0.0, 0.0) for name, value in self.moved.locked.items()}
-        drives[self.moved.name] = InputMotion(at.inputs, 0.0, 0.0)
+    def equations(self, at: Configurations, tangents: FloatArray | None = None) -> list[Equation]:
+        """All loop equations of the configurations, at rest or moving along the tangents."""
+        drives = {name: InputMotion(value, 0.0, 0.0) for name, value in self.locked.items()}
+        drives[self.name] = InputMotion(at.inputs, 0.0, 0.0)
         bodies = self.bodies(at)
         if tangents is not None:
             bodies = moving(bodies, self.loops.moves(tangents[:, :-1]))
         return self.loops.equations(lambda _: bodies, drives)
 
 
-def free_input(moved: OneInput) -> FreeInput:
-    """The mechanism with a free moving input."""
-    return FreeInput(moved, loops(moved.plan.mechanism))
+def free_input(mechanism: Mechanism, name: str, locked: Mapping[str, float]) -> FreeInput:
+    """The mechanism with one free input of that name, the others locked at values [rad, m]."""
+    return FreeInput(mechanism, name, locked, loops(mechanism))

@@ -8,8 +8,8 @@ from ilmek.arrays import Bool, Float, Int8
 from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import STILL, BodyMotion
 from ilmek.linkage.groups.group import InputMotion, Known, Step
-from ilmek.linkage.initial_pose import starts
 from ilmek.linkage.model import GROUND, Input, Rotation
+from ilmek.linkage.newton_starts import starts
 from ilmek.linkage.status import Status, judge
 from ilmek.linkage.structure import Plan
 from ilmek.units import deg, mm

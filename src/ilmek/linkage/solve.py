@@ -12,9 +12,9 @@ from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import STILL, BodyMotion
 from ilmek.linkage.groups.general import GeneralGroup
 from ilmek.linkage.groups.group import Columns, InputMotion
-from ilmek.linkage.initial_pose import starts
 from ilmek.linkage.model import GROUND
 from ilmek.linkage.motion import Motion
+from ilmek.linkage.newton_starts import starts
 from ilmek.linkage.status import judge
 from ilmek.linkage.structure import Plan
 from ilmek.progress import SILENT, Progress

@@ -1,18 +1,19 @@
-"""Tracing of a mechanism's configuration curve from one configuration until it closes.
+"""Tracing of a mechanism's configuration curve from one configuration until it closes, or until the input reverses.
 
-Predictor along the tangent, corrector normal to it; the step length follows the rotation of the tangent.
-[Allgower, Georg: Numerical Continuation Methods, chapter 6.]
+Predictor along the tangent, corrector normal to it; the step length follows the rotation of the tangent and the
+distance to the corrected point. [Allgower, Georg: Numerical Continuation Methods, chapter 6.]
 """
 
 import numpy as np
 
 from ilmek.arrays import Float, FloatArray
 from ilmek.linkage.configuration import Configurations, FreeInput
-from ilmek.num.brackets import bracketed_roots
+from ilmek.num.brackets import bracketed_minima, bracketed_roots
 from ilmek.records import record
 
 TURN = 0.3
-"""Greatest rotation of the tangent in a step [rad]; after a step with less than half of it the step grows."""
+"""Greatest rotation of the tangent in a step [rad], and greatest correction relative to the step; after a step with
+less than half of it the step grows."""
 
 LONGEST, SHORTEST = 0.4, 1e-7
 """Bounds of a step, relative to the mechanism's size."""
@@ -23,6 +24,9 @@ ACROSS = 0.01
 STEPS = 2_000
 """Number of steps after which a curve counts as open: a closed one takes about 100."""
 
+DIP_STEPS = 30
+"""Steps of the search for the least component of a tangent between two nodes."""
+
 REACH = 100.0
 """Distance from the origin, relative to the mechanism's size, beyond which a curve counts as unbounded."""
 
@@ -32,6 +36,7 @@ class ConfigurationCurve:
     """A configuration curve: nodes on it, their unit tangents, and path lengths from the first [m], by chords.
 
     crossings  values of the input [rad, m] at which another curve crosses
+    seed       index of the node from which it was followed
     """
 
     free_input: FreeInput
@@ -40,6 +45,7 @@ class ConfigurationCurve:
     lengths: Float[np.ndarray, " nodes"]
     closed: bool
     crossings: tuple[float, ...]
+    seed: int = 0
 
     def at(self, lengths: FloatArray) -> tuple[Configurations, FloatArray, FloatArray]:
         """Exact configurations at path lengths [m], periodic on a closed curve.
@@ -53,17 +59,37 @@ class ConfigurationCurve:
         return self._from(lengths, node)
 
     def folds(self) -> Float[np.ndarray, " folds"]:
-        """Path lengths [m] at which the input reverses: the tangent has no component along it."""
-        part = self.tangents[:, -1]
-        (changed,) = np.nonzero(np.sign(part[:-1]) * np.sign(part[1:]) < 0)
-        if not len(changed):
+        """Path lengths [m] at which the input reverses, ascending: the tangent has no component along it."""
+        low, high, node = self._reversals()
+        if not len(node):
             return np.empty(0)
+        return np.sort(bracketed_roots(lambda lengths: self._from(lengths, node)[1][:, -1], low, high))
 
-        def along_input(lengths: FloatArray) -> FloatArray:
-            along: FloatArray = self._from(lengths, changed)[1][:, -1]
-            return along
+    def _reversals(self) -> tuple[FloatArray, FloatArray, np.ndarray]:
+        """Brackets of the folds, by path length, and the nodes before them.
 
-        return bracketed_roots(along_input, self.lengths[changed], self.lengths[changed + 1])
+        Two folds between neighbouring nodes are possible only where the tangent turns as far as to the reversal and
+        back; such intervals are divided at the least component along the input.
+        """
+        part = self.tangents[:, -1]
+        (single,) = np.nonzero(np.sign(part[:-1]) * np.sign(part[1:]) < 0)
+        low, high = self.lengths[:-1], self.lengths[1:]
+        bends = np.arccos(np.clip(np.sum(self.tangents[:-1] * self.tangents[1:], axis=1), -1, 1))
+        dips = (part[:-1] * part[1:] > 0) & (np.abs(part[:-1]) + np.abs(part[1:]) < 2 * bends)
+        (double,) = np.nonzero(dips)
+        if not len(double):
+            return low[single], high[single], single
+        sign = np.sign(part[double])
+        least, found = bracketed_minima(
+            lambda lengths: sign * self._from(lengths, double)[1][:, -1], low[double], high[double], steps=DIP_STEPS
+        )
+        least, double = least[found < 0], double[found < 0]
+        node = np.concatenate([single, double, double])
+        return (
+            np.concatenate([low[single], low[double], least]),
+            np.concatenate([high[single], least, high[double]]),
+            node,
+        )
 
     def _from(self, lengths: FloatArray, node: np.ndarray) -> tuple[Configurations, FloatArray, FloatArray]:
         """`at` from given nodes."""
@@ -73,15 +99,23 @@ class ConfigurationCurve:
         return found, self.free_input.tangents(found, across), across
 
 
-def trace(free_input: FreeInput, seed: Configurations) -> ConfigurationCurve:
-    """The curve through a configuration, followed until it closes, or to both ends outside the reach."""
-    ahead = np.zeros((1, 3 * len(free_input.moved.plan.mechanism.moving) + 1))
+def trace(
+    free_input: FreeInput, seed: Configurations, *, branch: bool = False, furthest: float = np.inf
+) -> ConfigurationCurve:
+    """The curve through a configuration, followed until it closes, or to both ends outside the reach.
+
+    branch    it ends just beyond the first reversal of the input on either side
+    furthest  distance of the input from its first value [rad, m] at which it ends too
+    """
+    ahead = np.zeros((1, 3 * len(free_input.mechanism.moving) + 1))
     ahead[0, -1] = 1.0
     first = free_input.tangents(seed, ahead)
-    nodes, tangents, closed, crossings = _followed(free_input, seed, first)
+    nodes, tangents, closed, crossings = _followed(free_input, seed, first, branch, furthest)
+    start = 0
     if not closed:
-        back, against, _, further = _followed(free_input, seed, -first)
+        back, against, _, further = _followed(free_input, seed, -first, branch, furthest)
         crossings += further
+        start = len(back) - 1
         nodes, tangents = back[:0:-1] + nodes, [-t for t in against[:0:-1]] + tangents
     at_nodes = Configurations(
         np.concatenate([one.origins for one in nodes]),
@@ -89,15 +123,13 @@ def trace(free_input: FreeInput, seed: Configurations) -> ConfigurationCurve:
         np.concatenate([one.inputs for one in nodes]),
     )
     stacked = np.concatenate(tangents)
-    chords = free_input.between(at_nodes[:-1], at_nodes[1:])
-    chords[:, -1] = np.diff(at_nodes.inputs) * free_input.per_input
-    along = np.sum(chords * stacked[:-1], axis=1)
+    along = np.sum(free_input.chords(at_nodes) * stacked[:-1], axis=1)
     lengths = np.concatenate([[0.0], np.cumsum(along)])
-    return ConfigurationCurve(free_input, at_nodes, stacked, lengths, closed, tuple(crossings))
+    return ConfigurationCurve(free_input, at_nodes, stacked, lengths, closed, tuple(crossings), start)
 
 
 def _followed(
-    free_input: FreeInput, seed: Configurations, first: FloatArray
+    free_input: FreeInput, seed: Configurations, first: FloatArray, branch: bool, furthest: float
 ) -> tuple[list[Configurations], list[FloatArray], bool, list[float]]:
     """Nodes and tangents from the seed on, the seed repeated at the end if the curve closes; inputs at crossings.
 
@@ -113,30 +145,39 @@ def _followed(
         if travelled > 3 * step and side == began and _is_home(home, t, first, step):
             end = Configurations(seed.origins, seed.directions, at.inputs + _input_left(free_input, at, seed))
             return [*nodes, end], [*tangents, first], True, crossings
-        new, new_t, new_side = _step(free_input, at, t, step)
-        bend = float(np.arccos(np.clip(np.sum(t * new_t), -1, 1)))
+        new, new_t, new_side, bend = _step(free_input, at, t, step)
         if not (bend <= TURN and new_side == side):
             if step > SHORTEST * free_input.size:
                 step *= 0.5
                 continue
             crossings.append(float(at.inputs[0]))
             step = ACROSS * free_input.size
-            new, new_t, side = _step(free_input, at, t, step)
+            new, new_t, side, _ = _step(free_input, at, t, step)
         if not np.isfinite(new_t).all() or np.max(np.abs(new.origins)) > REACH * free_input.size:
             break
         travelled += step
         nodes.append(new)
         tangents.append(new_t)
+        reversed_ = branch and new_t[0, -1] * first[0, -1] < 0
+        if reversed_ or abs(new.inputs[0] - seed.inputs[0]) > furthest:
+            break
         step = min(step * (1.6 if bend < 0.5 * TURN else 1.0), LONGEST * free_input.size)
     return nodes, tangents, False, crossings
 
 
 def _step(
     free_input: FreeInput, at: Configurations, t: FloatArray, step: float
-) -> tuple[Configurations, FloatArray, FloatArray]:
-    """The next configuration, its tangent, and its sign of det [A; t]."""
-    new = free_input.corrected(free_input.stepped(at, step * t), t)
-    return new, *free_input.oriented(new, t)
+) -> tuple[Configurations, FloatArray, FloatArray, float]:
+    """The next configuration, its tangent, its sign of det [A; t], and the bend of the curve over the step.
+
+    The bend is the rotation of the tangent [rad], or the correction relative to the step if that is larger.
+    """
+    expected = free_input.stepped(at, step * t)
+    new = free_input.corrected(expected, t)
+    new_t, side = free_input.oriented(new, t)
+    turned = float(np.arccos(np.clip(np.sum(t * new_t), -1, 1)))
+    aside = float(np.linalg.norm(free_input.between(expected, new))) / step
+    return new, new_t, side, max(turned, aside)
 
 
 def _is_home(home: FloatArray, t: FloatArray, first: FloatArray, step: float) -> bool:
@@ -151,5 +192,5 @@ def _is_home(home: FloatArray, t: FloatArray, first: FloatArray, step: float) ->
 def _input_left(free_input: FreeInput, at: Configurations, seed: Configurations) -> FloatArray:
     """Difference of the input to the seed's value, modulo whole turns."""
     left = seed.inputs - at.inputs
-    shortest: FloatArray = (left + np.pi) % (2 * np.pi) - np.pi if free_input.moved.turns else left
+    shortest: FloatArray = (left + np.pi) % (2 * np.pi) - np.pi if free_input.turns else left
     return shortest

@@ -1,10 +1,11 @@
-"""Newton's method for many small systems at once."""
+"""Newton's method: for many small systems at once, and damped for one system from afar."""
 
 from collections.abc import Callable
 from typing import TypeAlias
 
 import numpy as np
 
+from ilmek.arrays import Float
 from ilmek.num.linear import Matrices, Vectors, solve_many
 
 System: TypeAlias = Callable[[Vectors], tuple[Vectors, Matrices]]
@@ -32,3 +33,41 @@ def newton(system: System, start: Vectors, *, tolerance: float, steps: int = 30)
         if not (moved > tolerance).any():  # a diverged system remains NaN
             break
     return np.where((moved <= tolerance)[..., None], found, np.nan)
+
+
+Single: TypeAlias = Callable[[Float[np.ndarray, " n"]], tuple[Float[np.ndarray, " m"], Float[np.ndarray, "m n"]]]
+"""x -> (f(x), f'(x)) of one system, m <= n."""
+
+SHORTEST = 1e-6
+"""Shortest part of a damped step that is tried."""
+
+
+def damped_newton(
+    system: Single, start: Float[np.ndarray, " n"], *, tolerance: float, steps: int = 100
+) -> Float[np.ndarray, " n"]:
+    """Root of f(x) = 0 near a rough start, m equations in n >= m unknowns; NaN where none is found.
+
+    Each step is the shortest one that solves the linearised equations, halved until |f| decreases. So a system with
+    more unknowns than equations is moved to a root near the start.    [Nocedal and Wright, chapters 10 and 11]
+
+    >>> damped_newton(lambda x: (x[:1] ** 2 + x[1:] ** 2 - 1, 2 * x[None, :]), np.array([3.0, 4.0]), tolerance=1e-12)
+    array([0.6, 0.8])
+    """
+    found = np.array(start, dtype=float)
+    value, slope = system(found)
+    for _ in range(steps):
+        if not (np.isfinite(value).all() and np.isfinite(slope).all()):
+            break
+        step, share = np.linalg.lstsq(slope, value)[0], 1.0
+        least = float(np.linalg.norm(value))
+        small = float(np.max(np.abs(step))) <= tolerance
+        value, slope = system(found - step)
+        while not small and not np.linalg.norm(value) <= (1 - 0.1 * share) * least:
+            share *= 0.5
+            if share < SHORTEST:
+                return np.full(found.shape, np.nan)
+            value, slope = system(found - share * step)
+        found = found - share * step
+        if small:
+            return found
+    return np.full(found.shape, np.nan)

@@ -2,12 +2,12 @@
 
     J(x) dx = -c(x) to convergence;    J x' = input rates;    J x'' = second input rates - bias
 
-The start is a motion of the group's own bodies, given by `solve` with the known motions; see `initial_pose.starts`.
+The start is a motion of the group's own bodies, given by `solve` with the known motions; see `newton_starts`.
 Angles are scaled to lengths by the group's size, so that the condition of J does not depend on units [Nikravesh,
 Computer-Aided Analysis of Mechanical Systems, chapter 3].
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import field
 
 import numpy as np
@@ -21,7 +21,7 @@ from ilmek.linkage.groups.group import Columns, Group, GroupSolution, InputMotio
 from ilmek.linkage.groups.winding import LinearRelation, angles, first_angle
 from ilmek.linkage.model import Pin, Rotation, Slide
 from ilmek.num.linear import reciprocal_condition, solve_many
-from ilmek.num.newton import newton
+from ilmek.num.newton import System, damped_newton, newton
 from ilmek.records import record
 
 TOLERANCE = 1e-9
@@ -67,24 +67,37 @@ class GeneralGroup(Step):
 
     def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:
         """Directions, rates and origins of all bodies, starting from their motions in `known`."""
-        start = {body: _still(known[body]) for body in self.bodies}
         samples = np.broadcast_shapes(*(np.shape(drive.value) for drive in drives.values()))
+        at, system = self._system(known, drives, samples)
+        x = newton(system, np.zeros((*samples, 3 * len(self.bodies))), tolerance=TOLERANCE * self.scale)
+        posed = at(x)
+        matrix = self._matrix(self.equations(posed, drives), samples)
+        return self._rates(known, posed, drives, matrix)
+
+    def settled(self, known: Known, drives: Mapping[str, InputMotion]) -> dict[str, BodyMotion]:
+        """The bodies at rest, assembled from a rough start in `known` at one sample; NaN where that fails."""
+        at, system = self._system(known, drives, ())
+        x = damped_newton(system, np.zeros(3 * len(self.bodies)), tolerance=TOLERANCE * self.scale)
+        posed = at(x)
+        if not upright(self.equations(posed, drives)):
+            posed = at(np.full_like(x, np.nan))
+        return {body: posed[body] for body in self.bodies}
+
+    def _system(
+        self, known: Known, drives: Mapping[str, InputMotion], samples: tuple[int, ...]
+    ) -> tuple[Callable[[FloatArray], dict[str, BodyMotion]], System]:
+        """Displacements of the bodies from their start -> the bodies; -> values and derivatives of the equations."""
+        start = {body: _still(known[body]) for body in self.bodies}
         fixed = {body: _still(known[body]) for body in self.parents}
 
         def at(x: FloatArray) -> dict[str, BodyMotion]:
             return fixed | self._moved(start, x)
 
         def system(x: FloatArray) -> tuple[FloatArray, FloatArray]:
-            loop_equations = self.equations(at(x), drives)
-            return _stack([one.value * self._unit(one) for one in loop_equations], samples), self._matrix(
-                loop_equations, samples
-            )
+            found = self.equations(at(x), drives)
+            return _stack([one.value * self._unit(one) for one in found], samples), self._matrix(found, samples)
 
-        shape = (*samples, 3 * len(self.bodies))
-        x = newton(system, np.zeros(shape), tolerance=TOLERANCE * self.scale)
-        posed = at(x)
-        matrix = self._matrix(self.equations(posed, drives), samples)
-        return self._rates(known, posed, drives, matrix)
+        return at, system
 
     def locate(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:  # noqa: ARG002
         """The bodies, anchored at their origins."""
@@ -190,6 +203,11 @@ def from_group(group: Group) -> GeneralGroup:
     points = [abs(point) for body in group.bodies for point in group.mechanism.body(body).points.values()]
     reach = max([*points, *(abs(p) for p in group.mechanism.body("ground").points.values())])
     return GeneralGroup(group, reach or 1.0, angles(group.mechanism) if group.couplings else {})
+
+
+def upright(loop_equations: list[Equation]) -> bool:
+    """Whether no angle is off by half a turn: there its equation, a sine, is solved too."""
+    return all(np.all(next(iter(one.row.values()))[2] > 0) for one in loop_equations if not one.length)
 
 
 def _share(one: Equation, rates: Mapping[str, tuple[ComplexField, RealField]]) -> RealField:
