@@ -5,7 +5,9 @@ import time
 from dataclasses import replace
 from itertools import pairwise
 
+import numpy as np
 import pytest
+from mechanisms import two_motors
 
 from ilmek.errors import MechanismError
 from ilmek.io.json_file import json_text
@@ -17,6 +19,7 @@ from ilmek.linkage import initial_pose
 from ilmek.linkage.constraint_assignment import assigned_constraints
 from ilmek.linkage.fourbar import four_bar
 from ilmek.linkage.model import GROUND, Body, Mechanism, Pin, Rotation
+from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
 from ilmek.progress import Progress
 
@@ -101,13 +104,13 @@ def test_a_motion_that_closes_now_and_then_is_refused() -> None:
         run(file, MotionRequest({}, over="0turn..5000turn", steps=20_000))
 
 
-def test_a_range_far_from_the_pose_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_inputs_far_from_the_pose_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(initial_pose, "MOST_STEPS", 1)
-    mechanism = network(9, 2)
-    branches = {joint.name: 1 for joint in mechanism.joints[1:]}
-    file = parse_mechanism(mechanism_toml(replace(mechanism, branches=branches), {}))
+    motors = two_motors()
+    at_start = solve(plan(motors), {"left": 1.2, "right": 1.9}).pose()
+    drawn = plan(replace(motors, pose=at_start), closed_forms=False)
     with pytest.raises(MechanismError, match="steps from the mechanism's pose"):
-        run(file, MotionRequest({}, over="0deg..90deg"))
+        solve(drawn, {"left": np.array([1.2, 1.5]), "right": np.array([1.9, 2.2])})
 
 
 def test_tables_report_their_progress() -> None:

@@ -81,9 +81,7 @@ def test_bodies_along_a_circuit_close_their_loops_with_their_rates():
     step = 1e-5
     before, at, after = (circuit.bodies(lengths + by) for by in (-step, 0, step))
     for joint in circuit.mechanism.joints:
-        one, other = (
-            at[body].carry(circuit.mechanism.point(body, joint.name)) for body in joint.bodies
-        )
+        one, other = (at[body].carry(circuit.mechanism.point(body, joint.name)) for body in joint.bodies)
         for part in ("position", "velocity", "acceleration"):
             np.testing.assert_allclose(getattr(one, part), getattr(other, part), atol=1e-12)
     there, back = (body["coupler"].carry(0.1j) for body in (after, before))

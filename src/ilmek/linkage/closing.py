@@ -27,7 +27,7 @@ from ilmek.linkage.status import TOUCHING
 from ilmek.linkage.structure import Plan
 from ilmek.num.brackets import bracketed_minima, bracketed_roots
 from ilmek.records import record
-from ilmek.units import turn
+from ilmek.units import deg, mm, turn
 
 LEAST_SAMPLES, SAMPLES = 64, 360
 """Samples of a range: at least, and for each turn of the fastest angle that follows from the inputs alone."""
@@ -46,6 +46,9 @@ SAME_PHASE = 1e-6
 
 PAD = 0.02
 """Part of the required range by which it is examined beyond its ends, to find short ranges next to them."""
+
+SHOWN = 4
+"""Number of ranges listed in a message."""
 
 BESIDE = 1e-7
 """Distance from a dead centre [rad, m] at which the bodies in line are determined."""
@@ -85,14 +88,33 @@ def closing(moved: OneInput, start: float, stop: float) -> Closing:
     return _closing(moved.plan, moved.name, tuple(sorted(moved.locked.items())), float(start), float(stop))
 
 
+def closing_words(moved: OneInput) -> str:
+    """The ranges in which a mechanism closes over a turn, or its reach, for messages; "" for none.
+
+    >>> from ilmek.linkage.fourbar import four_bar
+    >>> from ilmek.linkage.one_input import one_input
+    >>> from ilmek.linkage.structure import plan
+    >>> closing_words(one_input(plan(four_bar(0.300, 0.200, 0.200, 0.230, branch=+1))))
+    '-117.226°..117.226°'
+    """
+    if moved.turns:
+        reach, unit, sign = np.pi, deg, "°"
+    else:
+        bodies = moved.plan.mechanism.bodies
+        reach, unit, sign = sum(abs(point) for body in bodies for point in body.points.values()), mm, " mm"
+    ranges = closing(moved, -reach, reach).ranges
+    words = [f"{low / unit:.3f}{sign}..{high / unit:.3f}{sign}" for low, high in ranges[:SHOWN]]
+    return ", ".join(words) + (f" and {len(ranges) - SHOWN} further ranges" if len(ranges) > SHOWN else "")
+
+
 @lru_cache(maxsize=64)
 def _closing(plan: Plan, name: str, locked: tuple[tuple[str, float], ...], start: float, stop: float) -> Closing:
     search, pad = _Search(plan, name, dict(locked), _fastest(plan, name)), PAD * (stop - start)
     wide, points = search.within(len(newton_steps(plan)), search.first_ranges(start - pad, stop + pad))
     ranges = [(max(low, start), min(high, stop)) for low, high in wide if low < stop and high > start]
     points = [point for point in points if start <= point <= stop]
-    ends = {end for ends in ranges for end in ends if start < end < stop}
-    dead = tuple((end, search.in_line(end)) for end in sorted(ends))
+    ends = sorted({end for ends in ranges for end in ends if start < end < stop})
+    dead = tuple(zip(ends, search.in_line(np.array(ends)), strict=True)) if ends else ()
     return Closing(tuple(ranges), dead, tuple(sorted(points)))
 
 
@@ -166,8 +188,10 @@ class _Search:
             return [(low, high)], []
         phases, signs, touched = _with_extremes(closeness, phases, found)
         (changed,) = np.nonzero(signs[:-1] != signs[1:])
-        ends = bracketed_roots(closeness, phases[changed], phases[changed + 1])
-        ends = np.where(np.isnan(ends), phases[changed], ends)
+        ends = np.empty(0)
+        if len(changed):
+            ends = bracketed_roots(closeness, phases[changed], phases[changed + 1])
+            ends = np.where(np.isnan(ends), phases[changed], ends)
         edges = [low, *(middle - half * np.cos(ends)).tolist(), high]
         sides = [signs[0], *signs[changed + 1]]
         both = isinstance(self.plan.steps[number], CrossedSliders)
@@ -202,18 +226,18 @@ class _Search:
             step = self.plan.steps[number]
             return step, known, step.solve(known, drives)
 
-    def in_line(self, end: float) -> tuple[str, ...]:
-        """The bodies of the step that is nearest to its dead centre next to a value of the input."""
-        values = end + BESIDE * np.array([-1.0, 1.0])
-        least, bodies = np.inf, tuple[str, ...]()
+    def in_line(self, ends: FloatArray) -> list[tuple[str, ...]]:
+        """The bodies of the step that is nearest to its dead centre next to each of some values of the input."""
+        values = (ends + BESIDE * np.array([[-1.0], [1.0]])).ravel()
+        least, nearest = np.full(ends.shape, np.inf), np.zeros(ends.shape, dtype=int)
         for number in range(len(self.plan.steps)):
-            step, _, solved = self._solved(number, values)
+            _, _, solved = self._solved(number, values)
             if solved.margin is not None:
-                margin = np.abs(np.broadcast_to(np.asarray(solved.margin, dtype=float), values.shape)) / solved.best
-                found = float(np.min(margin[np.isfinite(margin)], initial=np.inf))
-                if found < least:
-                    least, bodies = found, step.bodies
-        return bodies
+                margin = np.broadcast_to(np.abs(np.asarray(solved.margin, dtype=float)) / solved.best, values.shape)
+                beside = np.min(np.where(np.isfinite(margin), margin, np.inf).reshape(2, -1), axis=0)
+                nearest = np.where(beside < least, number, nearest)
+                least = np.minimum(beside, least)
+        return [self.plan.steps[number].bodies for number in nearest]
 
     @property
     def turns(self) -> bool:

@@ -9,7 +9,7 @@ from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import STILL, BodyMotion
 from ilmek.linkage.groups.group import InputMotion, Known, Step
 from ilmek.linkage.model import GROUND, Input, Rotation
-from ilmek.linkage.newton_starts import starts
+from ilmek.linkage.newton_starts import acting_inputs, branch_over, starts
 from ilmek.linkage.status import Status, judge
 from ilmek.linkage.structure import Plan
 from ilmek.units import deg, mm
@@ -21,6 +21,7 @@ SHOWN = 3
 def first_fault(plan: Plan, drives: Mapping[str, InputMotion], status: Int8[np.ndarray, " samples"]) -> MechanismError:
     """The error for the first step that fails anywhere: the failing samples are solved once more, step by step."""
     bad = status != Status.OK
+    whole = {name: np.atleast_1d(np.asarray(drive.value, dtype=float)) for name, drive in drives.items()}
     moving = _moving(plan, drives)
     drives = {name: drive.part(bad) for name, drive in drives.items()}
     known: dict[str, BodyMotion] = {GROUND: STILL, **starts(plan, drives)}
@@ -31,8 +32,9 @@ def first_fault(plan: Plan, drives: Mapping[str, InputMotion], status: Int8[np.n
             judge(step, known, solved, found)
             if found.any():
                 nowhere = len(found) == len(bad) > 1 and found.all()
+                branch = _branch(plan, moving, whole) if found.max() == Status.NOT_CONVERGED else ""
                 where = _where(moving, drives, bad, found), "" if nowhere else " or ".join(one.name for one in moving)
-                return _error(plan, step, where, known, Status(found.max()))
+                return _error(plan, step, where, known, Status(found.max()), branch)
             known.update(step.locate(known, solved.columns))
     raise AssertionError("a sample that failed fails again")
 
@@ -43,8 +45,23 @@ def _moving(plan: Plan, drives: Mapping[str, InputMotion]) -> tuple[Input, ...]:
     return varied or plan.mechanism.inputs
 
 
-def _error(plan: Plan, step: Step, failing: tuple[str, str], known: Known, status: Status) -> MechanismError:
-    """The error from the failing range and the names of the inputs to limit ("" where no limit helps)."""
+def _branch(plan: Plan, moving: tuple[Input, ...], values: Mapping[str, Float[np.ndarray, " samples"]]) -> str:
+    """What limits the groups without a closed form, in words."""
+    if len(moving) > 1:
+        return "Newton's method follows them from the mechanism's pose"
+    (entry,) = moving
+    branch = branch_over(plan, entry.name, values) if entry.name in acting_inputs(plan) else None
+    if branch is None or branch.full:
+        return "the mechanism's pose cannot be assembled"
+    unit, sign = (deg, "°") if isinstance(entry, Rotation) else (mm, " mm")
+    low, high = (f"{end / unit:.3f}{sign}" for end in (branch.start, branch.stop))
+    return f"the branch of the mechanism's pose goes from {low} to {high}, between dead centres"
+
+
+def _error(  # noqa: PLR0917
+    plan: Plan, step: Step, failing: tuple[str, str], known: Known, status: Status, branch: str
+) -> MechanismError:
+    """The error from the failing range, the names of the inputs to limit ("" where no limit helps), and the branch."""
     (where, limit), name, bodies = failing, plan.mechanism.name, " and ".join(step.bodies)
     if status is Status.DEAD_CENTRE:
         return MechanismError(
@@ -55,8 +72,8 @@ def _error(plan: Plan, step: Step, failing: tuple[str, str], known: Known, statu
     if status is Status.NOT_CONVERGED:
         return MechanismError(
             f"{name}: no position of {bodies} found for {where}",
-            allowed="Newton's method follows them from the mechanism's pose",
-            do="give a pose nearer to an assembled one, or limit the input",
+            allowed=branch,
+            do="limit the input" if "dead centres" in branch else "give a pose nearer to an assembled one",
         )
     missing, remedy = step.shortfall(known)
     remedy = f"{remedy} or limit the {limit}" if limit else remedy

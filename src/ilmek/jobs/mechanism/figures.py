@@ -24,6 +24,9 @@ if TYPE_CHECKING:
 CURVES = 4
 """Largest number of curves in a plot."""
 
+BESIDE = 1e-6
+"""Distance of the first and the last frame from a dead centre, relative to the range."""
+
 
 def figures(found: Analysis) -> tuple[Figure, ...]:
     """The mechanism in motion over its longest range that closes, and curves over the driving input."""
@@ -76,9 +79,15 @@ def _moving_over_time(run: MechanismRun, drawn: Drawing) -> Iterator[Figure]:
 
 
 def _frames(run: MechanismRun) -> tuple[FloatArray, float]:
-    """Input values of the frames over the longest range that closes, and its length [rad or m]; a full turn is open."""
+    """Input values of the frames over the longest range that closes, and its length [rad or m]; a full turn is open.
+
+    The frames begin and end next to a dead centre, not at it, where velocities have no bound.
+    """
     one, other = max(run.closing, key=lambda ends: abs(ends[1] - ends[0]))
     first, last = min(one, other), max(one, other)
+    dead = {value for value, _ in run.closed.dead_centres} if run.closed else set()
+    aside = BESIDE * (last - first)
+    first, last = first + aside * (first in dead), last - aside * (last in dead)
     whole = isinstance(run.running, Rotation) and abs(last - first - turn) < 1e-9
     return np.linspace(first, last, FRAMES, endpoint=not whole), last - first
 

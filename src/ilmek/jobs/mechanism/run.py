@@ -9,19 +9,17 @@ from ilmek.errors import MechanismError
 from ilmek.io.mechanism_file import MechanismFile
 from ilmek.io.table_csv import check_size
 from ilmek.jobs.mechanism.request import DrivenInputs, MotionRequest, driven_inputs
+from ilmek.linkage.closing import Closing, closing, closing_words
 from ilmek.linkage.groups.general import GeneralGroup
 from ilmek.linkage.model import Input, Rotation
 from ilmek.linkage.motion import Motion, moving_points
+from ilmek.linkage.one_input import OneInput
 from ilmek.linkage.solve import solve
 from ilmek.linkage.status import Status
 from ilmek.linkage.structure import Plan
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 from ilmek.units import format_quantity
-
-CUTS, PIECES = 9, 64
-"""The end of a range is located by so many subdivisions of a step into so many pieces, to machine precision."""
-
 
 MOST_RANGES = 100
 """Largest number of ranges in which a mechanism closes; the ends of each are located."""
@@ -95,28 +93,33 @@ class MechanismRun:
         return inverse_run(self.machine, motion, self.running.name, time)
 
     @property
+    def closed(self) -> Closing | None:
+        """Where the mechanism closes over the range of the driving input; None if none or several inputs move."""
+        if self.running is None or not self.others_rest:
+            return None
+        held = {name: float(value) for name, value in self.at(self.values).items() if name != self.running.name}
+        moved = OneInput(self.plan, self.running.name, held)
+        return closing(moved, float(np.min(self.values)), float(np.max(self.values)))
+
+    @property
     def closing(self) -> tuple[tuple[float, float], ...]:
-        """Ranges of the driving input in which the mechanism closes [rad or m]; their ends are exact to rounding."""
-        ends = self.samples_that_close
-        return tuple((self._end(first, first - 1), self._end(last, last + 1)) for first, last in ends)
+        """Ranges of the driving input in which the mechanism closes [rad or m]; their ends are exact to rounding.
+
+        In the direction of the motion. Where several inputs move: from the first to the last sample that closes.
+        """
+        found = self.closed
+        if found is None:
+            ends = self.samples_that_close if self.running is not None else []
+            return tuple((float(self.values[first]), float(self.values[last])) for first, last in ends)
+        forwards = self.values[-1] >= self.values[0]
+        return found.ranges if forwards else tuple((stop, start) for start, stop in reversed(found.ranges))
 
     @property
     def samples_that_close(self) -> list[tuple[int, int]]:
-        """First and last sample of each range in which the mechanism closes."""
+        """First and last sample of each run of samples that close."""
         good = np.flatnonzero(self.motion.status == Status.OK)
         runs = np.split(good, np.flatnonzero(np.diff(good) > 1) + 1) if len(good) else []
         return [(int(run[0]), int(run[-1])) for run in runs]
-
-    def _end(self, good: int, bad: int) -> float:
-        """Input value at which the mechanism ceases to close between two samples; at an end of the range, that end."""
-        if not 0 <= bad < len(self.values):
-            return float(self.values[good])
-        ends = self.values[[good, bad]]
-        for _ in range(CUTS):
-            cuts = np.linspace(ends[0], ends[1], PIECES + 1)
-            lost = int(np.argmax(solve(self.plan, self.at(cuts)).status != Status.OK))
-            ends = cuts[[lost - 1, lost]]
-        return float(ends[0])
 
 
 def run(file: MechanismFile, request: MotionRequest, progress: Progress = SILENT) -> MechanismRun:
@@ -133,7 +136,7 @@ def run(file: MechanismFile, request: MotionRequest, progress: Progress = SILENT
     check_size(len(driven.values), _columns(plan), "--steps", MechanismError)
     motion = solve(plan, *driven.rates, progress=progress.part(0.0, 1.0, "motion"))
     if (motion.status != Status.OK).all():
-        motion.require()
+        raise _closes_elsewhere(plan, motion, driven)
     forces, left_out = _forces(machine, motion, driven)
     made = MechanismRun(
         machine, plan, motion, driven.running, driven.values, driven.speed, driven.time, forces, left_out
@@ -153,6 +156,23 @@ def _forces(machine: OwnMachine, motion: Motion, driven: DrivenInputs) -> tuple[
         return None, f"forces are left out: {error}"
 
 
+def _closes_elsewhere(plan: Plan, motion: Motion, driven: DrivenInputs) -> MechanismError:
+    """The error of a motion without a sample that closes, with the ranges of the input in which it closes."""
+    try:
+        motion.require()
+    except MechanismError as error:
+        inputs = plan.mechanism.inputs
+        entry = driven.running or inputs[0]
+        others = {one.name: np.ravel(motion.drives[one.name].value) for one in inputs if one is not entry}
+        if (others and driven.running is None) or any(np.ptp(value) > 0 for value in others.values()):
+            return error
+        moved = OneInput(plan, entry.name, {name: float(value[0]) for name, value in others.items()})
+        where = closing_words(moved)
+        where = f"it closes for {entry.name} {where}" if where else f"it closes for no value of {entry.name}"
+        return MechanismError(error.given, allowed=error.allowed, do=f"{error.do}; {where}" if error.do else where)
+    raise AssertionError("no sample closes")
+
+
 def _check_groups(plan: Plan) -> None:
     for step in plan.steps:
         if isinstance(step, GeneralGroup) and len(step.bodies) > MOST_BODIES:
@@ -169,9 +189,9 @@ def _columns(plan: Plan) -> int:
 
 
 def _check_ranges(made: MechanismRun) -> None:
-    if len(made.samples_that_close) > MOST_RANGES:
+    if len(made.closing) > MOST_RANGES:
         raise MechanismError(
-            f"{made.name} closes in {len(made.samples_that_close)} ranges of {made.values[0]:g} to {made.values[-1]:g}",
+            f"{made.name} closes in {len(made.closing)} ranges of {made.values[0]:g} to {made.values[-1]:g}",
             allowed=f"at most {MOST_RANGES}",
             do="give a shorter range with --over",
         )
