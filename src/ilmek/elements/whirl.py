@@ -142,3 +142,11 @@ def _assembled(nodes: FloatArray, rigidity: float, linear_density: float) -> tup
 
 _STIFFNESS = np.array([[12.0, 6, -12, 6], [6, 4, -6, 2], [-12, -6, 12, -6], [6, 2, -6, 4]])
 _INERTIA = np.array([[156.0, 22, 54, -13], [22, 4, 13, -3], [54, 13, 156, -22], [-13, -3, -22, 4]])
+
+
+def torsional_frequency(stiffness: float, first: float, second: float = math.inf) -> float:
+    """Natural frequency [rad/s] of two discs on a shaft without inertia: sqrt(k (1/J1 + 1/J2)) [Rao, 5.3].
+
+    stiffness  k of the shaft in torsion, G J_t / l [N m/rad]      first, second  J1, J2 [kg m²]; inf: a clamped end
+    """
+    return math.sqrt(stiffness * (1 / first + 1 / second))

@@ -40,7 +40,7 @@ WIDEST_PIN = 0.6
 
 
 @record
-class LinkStrength:
+class BeatUpStrength:
     """Greatest stresses of links and pins; limits: those in force."""
 
     limits: StrengthParams
@@ -91,7 +91,7 @@ class LinkSection:
     line_mass: float
 
 
-def link_strength(design: BeatUp, limits: StrengthParams, every: float | None = None) -> LinkStrength:
+def link_strength(design: BeatUp, limits: StrengthParams, every: float | None = None) -> BeatUpStrength:
     """Stresses of the links and pins of a beat-up; of the stock pins the first that is enough, else the largest.
 
     every  time from one turn of the crank to the next [s]; default: it turns on
@@ -110,7 +110,7 @@ def link_strength(design: BeatUp, limits: StrengthParams, every: float | None = 
 
 def section_strength(
     section: LinkSection, loads: LinkLoads, lengths: Mapping[str, float], speed: float, limits: StrengthParams
-) -> LinkStrength:
+) -> BeatUpStrength:
     """The same for links of a section under given loads, at a speed of the crank [rad/s]."""
     widest = WIDEST_PIN * section.width
     stock = [size for size in PIN_DIAMETERS if size <= widest] or [widest]
@@ -119,7 +119,7 @@ def section_strength(
     return _next_enough(_with_pins(section, loads, lengths, own, limits, size) for size in offered)
 
 
-def _next_enough(tried: Iterable[LinkStrength]) -> LinkStrength:
+def _next_enough(tried: Iterable[BeatUpStrength]) -> BeatUpStrength:
     one = None
     for one in tried:
         if all(check.ok for check in pin_checks(one)):
@@ -128,7 +128,7 @@ def _next_enough(tried: Iterable[LinkStrength]) -> LinkStrength:
     return one
 
 
-def strength_checks(found: LinkStrength) -> tuple[Check, ...]:
+def strength_checks(found: BeatUpStrength) -> tuple[Check, ...]:
     """Whether links and pins bear a beat."""
     limits, wider = found.limits, "set wider or thicker links, a shorter ground, or a lower speed"
     source = "parameter strength.stress"
@@ -148,7 +148,7 @@ def strength_checks(found: LinkStrength) -> tuple[Check, ...]:
     )
 
 
-def pin_checks(found: LinkStrength) -> tuple[Check, ...]:
+def pin_checks(found: BeatUpStrength) -> tuple[Check, ...]:
     """Whether the pins bear a beat."""
     limits, cure = found.limits, "set wider and thicker links for larger pins, or a lower speed"
     assumed = "assumed by this project: parameter strength."
@@ -195,11 +195,11 @@ def _with_pins(  # noqa: PLR0917
     own: float,
     limits: StrengthParams,
     diameter: float,
-) -> LinkStrength:
+) -> BeatUpStrength:
     w, b = section.width, section.thickness
     area, modulus = max(w - diameter, 1e-9) * b, b * max(w**3 - diameter**3, 1e-18) / (6 * w)
     euler = math.pi**2 * limits.modulus * min(w * b**3, b * w**3) / 12 / lengths["coupler"] ** 2
-    return LinkStrength(
+    return BeatUpStrength(
         limits=limits,
         pin_diameter=diameter,
         crank_stress=loads.crank_moment / modulus + loads.crank_pull / area,

@@ -2,7 +2,7 @@
 
 from ilmek.machines.beat_up.crank_start import CrankDuty, CrankStart, crank_start, start_checks
 from ilmek.machines.beat_up.design import BeatUp
-from ilmek.machines.beat_up.strength import LinkStrength, link_strength, strength_checks
+from ilmek.machines.beat_up.strength import BeatUpStrength, link_strength, strength_checks
 from ilmek.machines.beat_up.travel import BeaterTravel, travel, travel_checks
 from ilmek.records import group, record
 from ilmek.report import Check, Choice
@@ -17,7 +17,7 @@ WARP_STIFFNESS, WARP_LENGTH = 1350.0, 1.5
 class BeatUpUse:
     """Strength, travel and start of a beat-up, by its own parameters."""
 
-    strength: LinkStrength = group()
+    strength: BeatUpStrength = group()
     travel: BeaterTravel = group()
     start: CrankStart = group()
 

@@ -35,7 +35,7 @@ from ilmek.machines.beat_up.strength import (
     SECTIONS,
     LinkLoads,
     LinkSection,
-    LinkStrength,
+    BeatUpStrength,
     link_loads,
     link_strength,
     section_strength,
@@ -74,7 +74,7 @@ class CombLinkage:
         "rad/s", "speed of the crank that the required rows need with this comb", absent="no speed is enough"
     )
     inertia_stress: float = result("MPa", "stress of the comb by its own inertia at the beat")
-    strength: LinkStrength = group()
+    strength: BeatUpStrength = group()
     start: CrankStart = group()
 
     transmission_angle_min = computed(
