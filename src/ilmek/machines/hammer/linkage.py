@@ -33,9 +33,9 @@ from ilmek.machines.beat_up.crank_start import (
 from ilmek.machines.beat_up.in_loom import frame_force, links_parts
 from ilmek.machines.beat_up.strength import (
     SECTIONS,
+    BeatUpStrength,
     LinkLoads,
     LinkSection,
-    BeatUpStrength,
     link_loads,
     link_strength,
     section_strength,
