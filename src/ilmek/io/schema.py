@@ -1,12 +1,14 @@
 """Validation of data by a schema; an error names the key and the line of the first invalid value.
 
 A schema is data in the vocabulary of JSON Schema. Supported: type, properties, required, additionalProperties, items,
-minItems, maxItems, enum, oneOf (distinguished by the first required key), $ref within the schema. One keyword is added,
-which other validators ignore: `unit`, for a quantity, given as a number in SI or a text with its unit.
+minItems, maxItems, minimum, maximum, enum, oneOf (tables are distinguished by their first required key, other values by
+their type), $ref within the schema. Two keywords are added, which other validators ignore: `unit`, for a quantity, and
+`units`, for a quantity of one of several dimensions.
 """
 
-from collections.abc import Iterable, Iterator, Mapping
-from typing import Any, NoReturn, TypeAlias
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from typing import Any, NamedTuple, NoReturn, TypeAlias
 
 from ilmek.errors import IlmekError, MechanismError, ParameterError, did_you_mean, shortened
 from ilmek.io.line_numbers import KeyLines, Path
@@ -15,7 +17,23 @@ from ilmek.units import GREATEST, in_bounds, parse_quantity, read_number
 
 Schema: TypeAlias = Mapping[str, Any]
 
-_NAMES = {"object": "a table", "array": "a list", "string": "text in quotes", "number": "a number"}
+_NAMES = {"object": "a table", "array": "a list", "string": "text in quotes", "boolean": "true or false"}
+_TYPES: Mapping[str, type] = {"object": dict, "array": list, "string": str, "boolean": bool}
+
+
+class Measured(NamedTuple):
+    """A quantity of one of several dimensions: its SI value, and the unit of its dimension; 0 may be of any, ""."""
+
+    value: float
+    unit: str
+
+
+QuantityReader: TypeAlias = Callable[[Any, Sequence[str]], Measured]
+"""A number or text, and units of the allowed dimensions -> the quantity. Raises IlmekError for anything else."""
+
+
+class LocatedError(MechanismError):
+    """An error whose message begins with the file and the line."""
 
 
 @record
@@ -31,7 +49,17 @@ class SourceText:
             path = path[:-1]
         key = ".".join(str(key) for key in path)
         given = f"{self.name}, line {self.lines[path]}{f', {key}' if key else ''}: {error.given}"
-        raise MechanismError(given, allowed=error.allowed, do=error.do) from None
+        raise LocatedError(given, allowed=error.allowed, do=error.do) from None
+
+    @contextmanager
+    def located(self, *path: str | int) -> Iterator[None]:
+        """Add the line of the entry that an error concerns, or of `path`, to errors raised inside that have none."""
+        try:
+            yield
+        except LocatedError:
+            raise
+        except IlmekError as error:
+            self.refuse(getattr(error, "about", ()) or path, error)
 
 
 @record
@@ -40,9 +68,10 @@ class Reader:
 
     schema: Schema
     source: SourceText
+    quantity: QuantityReader
 
     def read(self, data: Any) -> Any:
-        """The data with every quantity as an SI number. Raises MechanismError for the first invalid value."""
+        """The data with every quantity as an SI number, or `Measured`. Raises MechanismError for the first error."""
         return self._value(data, self.schema, ())
 
     def _value(self, value: Any, schema: Schema, path: Path) -> Any:
@@ -50,10 +79,13 @@ class Reader:
         if "enum" in schema:
             return self._one_of(value, schema["enum"], path)
         if "unit" in schema:
-            return self._quantity(value, schema["unit"], path)
+            return self._quantity(value, (schema["unit"],), path).value
+        if "units" in schema:
+            return self._quantity(value, schema["units"], path)
         kind: str = schema["type"]
-        expected: Any = {"object": dict, "array": list, "string": str}[kind]
-        if not isinstance(value, expected):
+        if kind == "integer":
+            return self._whole(value, schema, path)
+        if not isinstance(value, _TYPES[kind]):
             self._refuse(path, f"{shown(value)} is not {_NAMES[kind]}", schema.get("description", ""))
         if kind == "object":
             return self._table(value, schema, path)
@@ -67,14 +99,27 @@ class Reader:
                 found = found[key]
             return self._resolved(value, {**found, **{k: v for k, v in schema.items() if k != "$ref"}}, path)
         if "oneOf" in schema:
-            choices = {one["required"][0]: one for one in schema["oneOf"]}
-            if not isinstance(value, dict):
-                self._refuse(path, f"{shown(value)} is not a table")
-            picked = next((one for key, one in choices.items() if key in value), None)
-            if picked is None:
-                self._refuse(path, f"has none of {', '.join(choices)}", "one of them is required")
-            return dict(picked)
+            return self._resolved(value, self._chosen(value, schema, path), path)
         return schema
+
+    def _chosen(self, value: Any, schema: Schema, path: Path) -> Schema:
+        """The choice of a `oneOf` that fits the value's type, and of tables the one whose first key is given."""
+        found = [self._resolved(None, one, path) if "$ref" in one else one for one in schema["oneOf"]]
+        tables = [one for one in found if one.get("type") == "object"]
+        plain = [one for one in found if one.get("type") != "object"]
+        if isinstance(value, dict) and tables:
+            keys = {one["required"][0]: one for one in tables}
+            picked = next((one for key, one in keys.items() if key in value), None)
+            if picked is None:
+                near = next((hint for key in value if (hint := did_you_mean(str(key), keys))), "")
+                self._refuse(path, f"has none of {', '.join(keys)}", "one of them is required", near)
+            return picked
+        is_list = isinstance(value, list)
+        fitting = next((one for one in plain if (one.get("type") == "array") == is_list), None)
+        if fitting is None or isinstance(value, dict):
+            allowed = schema.get("description", "") if plain else ""
+            self._refuse(path, f"{shown(value)} is not {'a table' if not plain else 'allowed here'}", allowed)
+        return fitting
 
     def _table(self, table: Mapping[str, Any], schema: Schema, path: Path) -> dict[str, Any]:
         known, others = schema.get("properties", {}), schema.get("additionalProperties", False)
@@ -84,19 +129,27 @@ class Reader:
         return {key: self._value(value, known.get(key, others), (*path, key)) for key, value in table.items()}
 
     def _list(self, entries: list[Any], schema: Schema, path: Path) -> list[Any]:
-        count = schema["minItems"]
-        if len(entries) != count:
+        least, most = schema["minItems"], schema["maxItems"]
+        if not least <= len(entries) <= most:
+            count = str(least) if least == most else f"{least} to {most}"
             self._refuse(path, f"has {len(entries)} entries", f"{count}: {schema['description']}")
         return [self._value(entry, schema["items"], (*path, index)) for index, entry in enumerate(entries)]
 
-    def _one_of(self, value: Any, choices: Iterable[Any], path: Path) -> Any:
-        if isinstance(value, bool) or value not in choices or not isinstance(value, int):
-            self._refuse(path, f"is {shown(value)}", f"allowed: {', '.join(str(choice) for choice in choices)}")
+    def _one_of(self, value: Any, choices: Sequence[Any], path: Path) -> Any:
+        if type(value) is not type(choices[0]) or value not in choices:
+            near = did_you_mean(value, choices) if isinstance(value, str) and isinstance(choices[0], str) else ""
+            self._refuse(path, f"is {shown(value)}", f"allowed: {', '.join(str(choice) for choice in choices)}", near)
         return value
 
-    def _quantity(self, value: Any, unit: str, path: Path) -> float:
+    def _whole(self, value: Any, schema: Schema, path: Path) -> int:
+        least, most = schema["minimum"], schema["maximum"]
+        if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= most:
+            self._refuse(path, f"{shown(value)} is not a whole number from {least} to {most}")
+        return value
+
+    def _quantity(self, value: Any, units: Sequence[str], path: Path) -> Measured:
         try:
-            return read_quantity(value, unit)
+            return self.quantity(value, units)
         except IlmekError as error:
             self.source.refuse(path, error)
 

@@ -1,0 +1,103 @@
+"""Joints of a mechanism file. A pin of several bodies becomes pins of two bodies each.
+
+All pins of one point are attached to the body that is located first, outward from the ground and the inputs: so each
+dyad keeps its closed form. The first of these pins has the joint's name, the others `NAME.BODY`.
+
+>>> [pin.name for pin in joints_of({"M": {"pin": ["crank", "rod", "link"]}}, {}, {})]
+['M', 'M.link']
+"""
+
+from collections.abc import Iterator, Mapping
+from itertools import combinations
+from typing import Any
+
+from ilmek.linkage.model import GROUND, KINDS, Joint, Pin, Slide
+
+Members = Mapping[str, tuple[str, ...]]
+"""Joint -> its bodies, two or more."""
+
+
+def members_of(tables: Mapping[str, Any]) -> Members:
+    """The bodies of each joint of the file."""
+    return {name: tuple(table.get("pin") or table["slide"]) for name, table in tables.items()}
+
+
+def joints_of(tables: Mapping[str, Any], inputs: Mapping[str, str], couplings: Mapping[str, Any]) -> tuple[Joint, ...]:
+    """The joints of the file, each of two bodies.
+
+    tables, inputs, couplings  as in the file, checked by the schema
+    """
+    members = members_of(tables)
+    several = any(len(bodies) > 2 for bodies in members.values())
+    rank = _ranks(members, inputs, couplings) if several else {}
+    return tuple(joint for name, table in tables.items() for joint in _joints(name, table, rank))
+
+
+def pins_of(joint: str, joints: tuple[Joint, ...]) -> tuple[Joint, ...]:
+    """The joints into which a joint of the file was divided; itself for a joint of two bodies."""
+    return tuple(one for one in joints if one.name == joint or one.name.startswith(f"{joint}.") and _is_part(one, joint))
+
+
+def _is_part(one: Joint, joint: str) -> bool:
+    return one.name.removeprefix(f"{joint}.") in one.bodies
+
+
+def _joints(name: str, table: Mapping[str, Any], rank: Mapping[str, int]) -> Iterator[Joint]:
+    if "slide" in table:
+        body, guide = table["slide"]
+        yield Slide(name, body, guide, along=table.get("along", 0.0), turned=table.get("turned", 0.0))
+        return
+    bodies = table["pin"]
+    if len(bodies) == 2:
+        yield Pin(name, *bodies)
+        return
+    order = sorted(bodies, key=lambda body: (rank.get(body, len(rank)), bodies.index(body)))
+    first, *others = order
+    for number, other in enumerate(others):
+        pair = sorted((first, other), key=bodies.index)
+        yield Pin(name if number == 0 else f"{name}.{other}", *pair)
+
+
+def _ranks(members: Members, inputs: Mapping[str, str], couplings: Mapping[str, Any]) -> dict[str, int]:
+    """Body -> number of the step in which it is located: driven bodies, wheels and dyads, outward from the ground."""
+    known = {GROUND: 0}
+    while True:
+        found = _driven(known, members, inputs) or _geared(known, couplings) or _dyad(known, members)
+        if not found:
+            return known
+        step = max(known.values()) + 1
+        known |= dict.fromkeys(found, step)
+
+
+def _driven(known: Mapping[str, int], members: Members, inputs: Mapping[str, str]) -> tuple[str, ...]:
+    for joint, body in inputs.items():
+        bodies = members.get(joint, ())
+        if body in bodies and body not in known and known.keys() & set(bodies):
+            return (body,)
+    return ()
+
+
+def _geared(known: Mapping[str, int], couplings: Mapping[str, Any]) -> tuple[str, ...]:
+    for table in couplings.values():
+        kind = next(kind for kind in KINDS if kind in table)
+        bodies = {table[kind][0][0], table[kind][1][0], table.get("carrier", GROUND)}
+        left = tuple(body for body in bodies if body not in known)
+        if len(left) == 1:
+            return left
+    return ()
+
+
+def _dyad(known: Mapping[str, int], members: Members) -> tuple[str, ...]:
+    """Two bodies with a joint between them, each with another joint to a known body."""
+    attached: dict[str, set[str]] = {}
+    for joint, bodies in members.items():
+        if known.keys() & set(bodies):
+            for body in bodies:
+                attached.setdefault(body, set()).add(joint)
+    for joint, bodies in members.items():
+        if known.keys() & set(bodies):
+            continue
+        for pair in combinations(bodies, 2):
+            if all(attached.get(body, set()) - {joint} and body not in known for body in pair):
+                return pair
+    return ()

@@ -1,0 +1,145 @@
+"""Masses, sections and pins of a mechanism file: given, of shapes and a material, or of a bar's section."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from itertools import pairwise
+from typing import Any
+
+from ilmek.dynamics import shapes
+from ilmek.dynamics.inertia import Inertia, bar, combined, point_mass
+from ilmek.dynamics.own_machine import FlatMember, PinMember
+from ilmek.elements.bearings import find_bearing
+from ilmek.elements.materials import find_material
+from ilmek.errors import MechanismError
+from ilmek.io.mechanism.points import complex_of
+from ilmek.io.schema import SourceText
+from ilmek.linkage.model import Body, Joint
+
+Tables = Mapping[str, Mapping[str, Any]]
+"""Name -> table, checked by the schema."""
+
+
+def members_of_bodies(bodies: Tables, links: Mapping[str, Any] | None, jointed: Mapping[str, int]) -> dict[str, Any]:
+    """Body -> section: its own, or that of `links` for a link without a mass, shapes or a section of its own.
+
+    jointed  body -> number of its joints; a link has two or more
+    """
+    found: dict[str, Any] = {}
+    for name, table in bodies.items():
+        if "section" in table:
+            found[name] = table["section"]
+        elif links is not None and jointed.get(name, 0) > 1 and not table.keys() & {"mass", "shapes"}:
+            found[name] = links
+    return found
+
+
+def flat_member(section: Mapping[str, Any]) -> FlatMember:
+    """The section of a link. Raises IlmekError for a material that is not in the table."""
+    material = find_material(section["material"]).name
+    for key in ("width", "thickness", "stress", "safety"):
+        if key in section and not section[key] > 0:
+            raise MechanismError(f"{key} of a section is {section[key]:g}", allowed="above 0")
+    return FlatMember(**{**section, "material": material})
+
+
+def inertia_of(
+    table: Mapping[str, Any], body: Body, joints: Sequence[str], member: FlatMember | None
+) -> Inertia | None:
+    """The inertia of a body: given, of its shapes, else of bars of its section between its joints; None: massless.
+
+    table   of the body            joints  names of its joints in the file
+    Raises IlmekError for masses that are negative or given twice, and for shapes that cannot be.
+    """
+    stated = table.keys() & {"mass", "centre", "moment"}
+    if "shapes" in table:
+        if stated:
+            raise MechanismError(f"{', '.join(sorted(stated))} and shapes are both given", do="leave one of them")
+        return combined(*(_shape(one, body) for one in table["shapes"]))
+    if not stated:
+        return combined(*_bars(body, joints, member)) if member is not None else None
+    mass = table.get("mass", 0.0)
+    if "length" in table and not stated & {"centre", "moment"}:
+        start, end = list(body.points.values())[:2]
+        return bar(start, end, mass=mass)
+    return Inertia(mass, _at(table.get("centre", [0.0, 0.0]), body), table.get("moment", 0.0))
+
+
+def _bars(body: Body, joints: Sequence[str], member: FlatMember) -> Iterator[Inertia]:
+    """Bars of a section from joint to joint in the file's order, closed for three joints or more."""
+    positions = list(dict.fromkeys(body.points[joint] for joint in joints if joint in body.points))
+    if len(positions) < 2:
+        given = f"body {body.name!r} has a section, but no two joints apart"
+        raise MechanismError(given, do="give its mass or its shapes")
+    ends = [*pairwise(positions), *([(positions[-1], positions[0])] if len(positions) > 2 else [])]
+    density = find_material(member.material).density
+    for start, end in ends:
+        yield shapes.link(start, end, member.width, member.thickness, density)
+
+
+def _at(at: Any, body: Body) -> complex:
+    """A position given by the name of a point or by coordinates [m]."""
+    if not isinstance(at, str):
+        return complex_of(at)
+    if at not in body.points:
+        given = f"body {body.name!r} has no point {at!r}"
+        raise MechanismError(given, allowed=f"it has {', '.join(body.points) or 'none'}")
+    return body.points[at]
+
+
+def _shape(table: Mapping[str, Any], body: Body) -> Inertia:
+    if "point" in table:
+        return point_mass(_positive(table, "mass"), _at(table["point"], body))
+    by_mass = "mass" in table
+    thickness, density = (1.0, 1.0) if by_mass else (table.get("thickness", 0.0), _density(table))
+    if not by_mass and "thickness" not in table:
+        raise MechanismError("a shape has no thickness", do="give thickness and material, or its mass")
+    made = _flat(table, body, thickness, density)
+    if not by_mass:
+        return made
+    mass = _positive(table, "mass")
+    return replace(made, mass=mass, moment=made.moment * mass / made.mass)
+
+
+def _flat(table: Mapping[str, Any], body: Body, thickness: float, density: float) -> Inertia:
+    if "bar" in table:
+        start, end = (_at(one, body) for one in table["bar"])
+        return shapes.link(start, end, table["width"], thickness, density)
+    if "disc" in table:
+        return shapes.disc(table["radius"], thickness, density, at=_at(table["disc"], body))
+    if "ring" in table:
+        return shapes.ring(table["outer"], table["inner"], thickness, density, at=_at(table["ring"], body))
+    return shapes.plate([_at(one, body) for one in table["plate"]], thickness, density)
+
+
+def _density(table: Mapping[str, Any]) -> float:
+    given = table.keys() & {"material", "density", "mass"}
+    if len(given) != 1:
+        stated = " and ".join(sorted(given)) or "no mass"
+        raise MechanismError(f"a shape has {stated}", allowed="one of material, density and mass")
+    return find_material(table["material"]).density if "material" in table else float(table["density"])
+
+
+def _positive(table: Mapping[str, Any], key: str) -> float:
+    other = table.keys() & {"material", "density", "thickness"}
+    if other and key == "mass":
+        raise MechanismError(f"a shape has a mass and {', '.join(sorted(other))}", do="leave one of them")
+    if not table[key] > 0:
+        raise MechanismError(f"{key} of a shape is {table[key]:g}", allowed="above 0")
+    return float(table[key])
+
+
+def pin_members(tables: Tables, parts: Mapping[str, Sequence[Joint]], source: SourceText) -> dict[str, PinMember]:
+    """Joint -> its pin; a pin of several bodies is one pin with several pairs of bodies.
+
+    parts  joint of the file -> the joints into which it was divided
+    """
+    found = {}
+    for name, table in tables.items():
+        with source.located("pins", name):
+            for key, value in table.items():
+                if key not in ("fork", "bearing", "life") and not value > 0:
+                    raise MechanismError(f"{key} of a pin is {value:g}", allowed="above 0")
+            bearing = find_bearing(table["bearing"]).name if "bearing" in table else None
+            member = PinMember(**{**table, "bearing": bearing})
+            found |= {joint.name: member for joint in parts[name]}
+    return found
