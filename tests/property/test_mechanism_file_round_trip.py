@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from ilmek.dynamics.inertia import Inertia
 from ilmek.io.line_numbers import json_lines, tokens, toml_lines
+from ilmek.dynamics.own_machine import OwnMachine
 from ilmek.io.mechanism_file import mechanism_json, mechanism_toml, parse_mechanism
 from ilmek.io.toml_text import toml_text
 from ilmek.linkage.model import GROUND, Body, Coupling, Displacement, Mechanism, Pin, Rotation, Slide
@@ -69,12 +70,12 @@ def test_what_is_written_is_read_again(said, weights):
     mechanism = built(*said)
     inertias = {mechanism.moving[k % len(mechanism.moving)]: Inertia(*numbers) for k, numbers in weights.items()}
     for write, toml in ((mechanism_toml, True), (mechanism_json, False)):
-        text = write(mechanism, inertias)
+        text = write(OwnMachine(mechanism, inertias))
         found = parse_mechanism(text, toml=toml)
         assert found.mechanism == mechanism
         assert [body.name for body in found.mechanism.bodies] == [body.name for body in mechanism.bodies]
         assert found.inertias == inertias
-        assert write(found.mechanism, found.inertias) == text  # the order and the sign of zero too
+        assert write(found.machine) == text  # the order and the sign of zero too
 
 
 TREE = st.recursive(
@@ -125,7 +126,7 @@ def test_couplings_round_trip():
     joints = (Pin("a", GROUND, "a"), Pin("b", GROUND, "b"), slide)
     mechanism = Mechanism(bodies, joints, (Rotation("a", "a"),), couplings=couplings)
     for write, toml in ((mechanism_toml, True), (mechanism_json, False)):
-        assert parse_mechanism(write(mechanism, {}), toml=toml).mechanism == mechanism
+        assert parse_mechanism(write(OwnMachine(mechanism)), toml=toml).mechanism == mechanism
 
 
 def test_smallest_and_greatest_numbers_survive():
@@ -133,7 +134,7 @@ def test_smallest_and_greatest_numbers_survive():
     ground = Body(GROUND, {"A": 0, **{str(n): complex(x, -x) for n, x in enumerate(numbers)}})
     mechanism = Mechanism((ground, Body("arm", {"A": 0})), (Pin("A", GROUND, "arm"),), (Rotation("arm", "A"),))
     for write, toml in ((mechanism_toml, True), (mechanism_json, False)):
-        points = parse_mechanism(write(mechanism, {}), toml=toml).mechanism.body(GROUND).points
+        points = parse_mechanism(write(OwnMachine(mechanism)), toml=toml).mechanism.body(GROUND).points
         for n, x in enumerate(numbers):
             assert points[str(n)] == complex(x, -x)
             assert math.copysign(1, points[str(n)].real) == math.copysign(1, x)

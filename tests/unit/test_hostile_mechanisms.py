@@ -11,6 +11,7 @@ from mechanisms import two_motors
 
 from ilmek.errors import MechanismError
 from ilmek.io.json_file import json_text
+from ilmek.dynamics.own_machine import OwnMachine
 from ilmek.io.mechanism_file import MOST_ENTRIES, mechanism_toml, parse_mechanism
 from ilmek.io.table_csv import MOST_NUMBERS, csv_text
 from ilmek.jobs.mechanism.request import MotionRequest
@@ -73,7 +74,7 @@ def test_an_over_constrained_network_is_found_soon() -> None:
 
 
 def test_a_large_group_is_refused_before_it_is_solved() -> None:
-    file = parse_mechanism(mechanism_toml(network(41, 1), {}))
+    file = parse_mechanism(mechanism_toml(OwnMachine(network(41, 1))))
     assert max(len(step.bodies) for step in file.plan().steps) > MOST_BODIES
     begin = time.perf_counter()
     with pytest.raises(MechanismError, match=f"at most {MOST_BODIES} bodies"):
@@ -88,7 +89,7 @@ def test_a_file_has_at_most_so_many_bodies() -> None:
 
 
 def four_bar_file() -> object:
-    return parse_mechanism(mechanism_toml(four_bar(0.3, 0.06, 0.2, 0.23, branch=1), {}))
+    return parse_mechanism(mechanism_toml(OwnMachine(four_bar(0.3, 0.06, 0.2, 0.23, branch=1))))
 
 
 def test_a_motion_has_at_most_so_many_numbers() -> None:
@@ -99,7 +100,7 @@ def test_a_motion_has_at_most_so_many_numbers() -> None:
 
 
 def test_a_motion_that_closes_now_and_then_is_refused() -> None:
-    file = parse_mechanism(mechanism_toml(four_bar(0.3, 0.2, 0.1, 0.11, branch=1), {}))
+    file = parse_mechanism(mechanism_toml(OwnMachine(four_bar(0.3, 0.2, 0.1, 0.11, branch=1))))
     with pytest.raises(MechanismError, match="closes in [0-9]+ ranges"):
         run(file, MotionRequest({}, over="0turn..5000turn", steps=20_000))
 

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from ilmek.errors import MechanismError, OutputError
+from ilmek.dynamics.own_machine import OwnMachine
 from ilmek.io.mechanism_file import parse_mechanism, read_mechanism, schema, write_mechanism
 from ilmek.linkage.fourbar import four_bar, slider_crank
 from ilmek.linkage.model import Coupling
@@ -22,7 +23,7 @@ centre = ["30mm", 0]
 [bodies.coupler]
 points = { A = [0, 0], B = ["20cm", 0] }
 [bodies.rocker]
-points = { B0 = [0, 0], B = [0.23, 0] }
+points = { B0 = [0, 0], B = ["0.23m", 0] }
 
 [joints]
 A0 = { pin = ["ground", "crank"] }
@@ -175,12 +176,12 @@ def test_a_file_that_is_no_mechanism_file_is_refused(name: str, tmp_path: Path):
 def test_a_file_is_written_and_read_again(ending: str, tmp_path: Path):
     path = tmp_path / f"m.{ending}"
     mechanism = slider_crank(0.05, 0.2, offset=0.01, branch=-1)
-    write_mechanism(path, mechanism)
+    write_mechanism(path, OwnMachine(mechanism))
     assert read_mechanism(path).mechanism == mechanism
     with pytest.raises(OutputError):
-        write_mechanism(tmp_path / "gone" / "m.toml", mechanism)
+        write_mechanism(tmp_path / "gone" / "m.toml", OwnMachine(mechanism))
     with pytest.raises(MechanismError, match="ends in '.txt'"):
-        write_mechanism(tmp_path / "m.txt", mechanism)
+        write_mechanism(tmp_path / "m.txt", OwnMachine(mechanism))
 
 
 def test_a_file_may_name_its_schema():

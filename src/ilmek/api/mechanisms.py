@@ -13,6 +13,7 @@ from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.inverse import Forces
 from ilmek.dynamics.joint_friction import JointFriction
 from ilmek.dynamics.loads import Load
+from ilmek.dynamics.own_machine import OwnMachine
 from ilmek.dynamics.reduced import reduce
 from ilmek.errors import MechanismError
 from ilmek.io import mechanism_file
@@ -80,12 +81,15 @@ def read_mechanism(path: str | Path) -> MechanismFile:
     return mechanism_file.read_mechanism(Path(path))
 
 
-def write_mechanism(path: str | Path, mechanism: Mechanism, inertias: Mapping[str, Inertia] | None = None) -> None:
-    """Write a mechanism and its inertias to a .toml or .json file.
+def write_mechanism(
+    path: str | Path, mechanism: Mechanism | OwnMachine, inertias: Mapping[str, Inertia] | None = None
+) -> None:
+    """Write a mechanism and its inertias, or a machine with its loads and task, to a .toml or .json file.
 
     Raises MechanismError for another ending; OutputError where the file cannot be written.
     """
-    mechanism_file.write_mechanism(Path(path), mechanism, inertias)
+    machine = mechanism if isinstance(mechanism, OwnMachine) else OwnMachine(mechanism, inertias or {})
+    mechanism_file.write_mechanism(Path(path), machine)
 
 
 def solve(

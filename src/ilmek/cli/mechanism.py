@@ -75,7 +75,7 @@ def command(
     if kind is not None:
         given = read_mechanism(file)
         write = mechanism_toml if kind == "toml" else mechanism_json
-        click.echo(write(given.mechanism, given.inertias), nl=False)
+        click.echo(given.text if kind == "toml" and given.text else write(given.machine), nl=False)
         return 0
     files = {"--json": json_to, "--csv": csv_to, "--report": page_to}
     with call_outputs(files, force=force, inputs={"FILE": file}) as call:

@@ -40,20 +40,37 @@ class AngleRange:
         return np.asarray(inside | (abs(span) >= turn))
 
 
+@dataclass(frozen=True, slots=True)
+class ValueRange:
+    """Values of an input from `start` up to `end` [rad; m], once.
+
+    >>> ValueRange(0.0, 1.0).contains(np.array([-0.1, 0.0, 0.5, 1.0]))
+    array([False,  True,  True, False])
+    """
+
+    start: float
+    end: float
+
+    def contains(self, value: RealField) -> BoolArray:
+        """Whether values are in the range, of the same shape; the start is included, the end is not."""
+        values = np.asarray(value)
+        return np.asarray((values >= self.start) & (values < self.end))
+
+
 @record
 class WindowedLoad:
     """A load that acts only while an input is in a range: resistance of a backing, a knife's cut, a beat-up.
 
     load        the load inside the range
     input_name  name of the input
-    window      range of the input's angle [rad]
+    window      range of the input's angle [rad], or of its values
     side        at the ends of the range: +1 the load further on in the input, -1 further back; a number or one per
                 sample
     """
 
     load: Load
     input_name: str
-    window: AngleRange
+    window: AngleRange | ValueRange
     side: RealField = 1.0
 
     def wrenches(self, motion: Motion, inertias: Mapping[str, Inertia]) -> Iterable[Wrench]:
@@ -79,7 +96,7 @@ class Friction:
     point: str | complex
     magnitude: RealField
     input_name: str
-    window: AngleRange | None = None
+    window: AngleRange | ValueRange | None = None
     side: RealField = 1.0
 
     def force(self, motion: Motion) -> ComplexArray:

@@ -34,10 +34,11 @@ _SPACES = str.maketrans("\u00a0\u2009\u202f", "   ")
 
 
 class DataText(NamedTuple):
-    """Data of a text, and the line of each key."""
+    """Data of a text, the line of each key, and the text itself."""
 
     data: Any
     lines: KeyLines
+    text: str
 
 
 def read_data(
@@ -68,12 +69,12 @@ def parse_data(text: str, *, name: str, toml: bool, error: type[IlmekError], lon
         _check_texts(data, lines)
     except IlmekError as failed:
         raise error(f"{name}, {failed.given}", allowed=failed.allowed, do=failed.do) from None
-    return DataText(data, lines)
+    return DataText(data, lines, text)
 
 
-def _toml(text: str, found: list[Token]) -> DataText:
+def _toml(text: str, found: list[Token]) -> tuple[Any, KeyLines]:
     try:
-        return DataText(tomllib.loads(text), toml_lines(found))
+        return tomllib.loads(text), toml_lines(found)
     except tomllib.TOMLDecodeError as failed:
         reason, _, at = str(failed).removesuffix(")").rpartition(" (at ")
         raise IlmekError(f"{at or 'end'}: {reason[:1].lower()}{reason[1:]}", do="correct that line") from None
@@ -81,9 +82,9 @@ def _toml(text: str, found: list[Token]) -> DataText:
         raise IlmekError(f"not TOML: {failed}", do="correct that value") from None
 
 
-def _json(text: str, found: list[Token]) -> DataText:
+def _json(text: str, found: list[Token]) -> tuple[Any, KeyLines]:
     try:
-        return DataText(json.loads(text), json_lines(found))
+        return json.loads(text), json_lines(found)
     except json.JSONDecodeError as failed:
         reason = f"{failed.msg[:1].lower()}{failed.msg[1:]}"
         raise IlmekError(f"line {failed.lineno}, column {failed.colno}: {reason}", do="correct that line") from None

@@ -1,17 +1,22 @@
-"""Mechanisms as TOML or JSON: the same keys, the same schema (`ilmek.data/mechanism.schema.json`).
+"""Mechanism files, TOML or JSON: a whole machine with the same keys (`ilmek.data/mechanism.schema.json`).
 
-    name = "needle drive"
+    name = "slider-crank"
+    gravity = "9.81m/s^2"
 
-    [bodies.ground]
-    points = { O = [0, 0], guide = ["80mm", 0] }
+    [values]
+    r = "40mm"
 
-    [bodies.crank]
-    points = { O = [0, 0], A = ["40mm", 0] }
-    mass = "0.2kg"                              # with centre and moment, for dynamics
+    [bodies]
+    ground.points = { O = [0, 0], guide = [0, 0] }
+    crank.length = "r"                          # from its first joint, at the origin, to its second, on x
+    rod = { length = "3.5 r", mass = "0.4kg" }
+    ram = {}                                    # a block: all its joints at its origin
 
     [joints]
-    O = { pin = ["ground", "crank"] }
-    guide = { slide = ["needle", "ground"], along = "-90deg" }
+    O.pin = ["ground", "crank"]
+    A.pin = ["crank", "rod"]
+    B.pin = ["rod", "ram"]
+    guide = { slide = ["ram", "ground"], along = "0deg" }
 
     [inputs]
     O = "crank"                                 # the joint that is driven, and the body that it turns
@@ -19,13 +24,12 @@
     [branches]
     B = 1
 
-Numbers are SI and radians; text has its unit. Written files are read again without loss: every number to its last bit,
+Every quantity has its unit; 0 needs none. Written files are read again without loss: every number to its last bit,
 every name, every order.
 """
 
 import json
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
 from importlib import resources
@@ -33,38 +37,39 @@ from pathlib import Path
 from typing import Any
 
 from ilmek.dynamics.inertia import Inertia
-from ilmek.dynamics.own_machine import OwnMachine
-from ilmek.errors import IlmekError, MechanismError
+from ilmek.dynamics.own_machine import FlatMember, OwnMachine
+from ilmek.errors import MechanismError
 from ilmek.io.data_text import DataText, parse_data, read_data
+from ilmek.io.mechanism.joints import members_of
+from ilmek.io.mechanism.loads import frictions_of, gravity_of, loads_of
+from ilmek.io.mechanism.masses import flat_member, inertia_of, pin_members, sections_of
+from ilmek.io.mechanism.mechanism import mechanism_of
+from ilmek.io.mechanism.motions import motions_of
+from ilmek.io.mechanism.names import parts_of
+from ilmek.io.mechanism.tasks import forward_of, paths_of, servo_of, study_of, transmission_of
+from ilmek.io.mechanism.values import named_values
+from ilmek.io.mechanism.writing import machine_data
 from ilmek.io.output import write_file
 from ilmek.io.schema import Reader, Schema, SourceText
 from ilmek.io.toml_text import toml_text
-from ilmek.linkage.model import (
-    GROUND,
-    KINDS,
-    Body,
-    Coupling,
-    Displacement,
-    Input,
-    Joint,
-    Mechanism,
-    Pin,
-    Rotation,
-    Slide,
-)
+from ilmek.linkage.model import Mechanism
 from ilmek.linkage.structure import Plan, plan
 from ilmek.records import brief
 
 MOST_ENTRIES = 100
-"""Largest number of bodies, of joints and of couplings of a file."""
+"""Largest number of bodies, of joints, of couplings, and of loads, springs or dampers of a file."""
 
 
 @dataclass(frozen=True, slots=True)
 class MechanismFile:
-    """Contents of a file: the mechanism with its masses, loads, drive, members and task."""
+    """Contents of a file: the mechanism with its masses, loads, drive, members and task.
+
+    text  of a TOML file, with its comments; "" for JSON
+    """
 
     machine: OwnMachine
     source: SourceText = field(default_factory=lambda: SourceText("mechanism", {(): 1}), compare=False, repr=False)
+    text: str = field(default="", compare=False, repr=False)
 
     def __hash__(self) -> int:
         return hash((self.mechanism, tuple(self.inertias)))
@@ -84,7 +89,7 @@ class MechanismFile:
 
     def plan(self) -> Plan:
         """The mechanism's plan. Raises MechanismError with the file, the line and the key if it cannot be solved."""
-        with _located(self.source):
+        with self.source.located():
             return plan(self.mechanism)
 
 
@@ -103,31 +108,18 @@ def parse_mechanism(text: str, *, name: str = "mechanism", toml: bool = True) ->
 
 def _read(text: DataText, name: str) -> MechanismFile:
     source = SourceText(name, text.lines)
-    data = Reader(schema(), source).read(text.data)
-    for key in ("bodies", "joints", "couplings"):
-        if len(data.get(key, ())) > MOST_ENTRIES:
-            given = f"has {len(data[key])} {key}"
+    data = text.data
+    if isinstance(data, Mapping):
+        values = named_values(data.get("values", {}), source, si=data.get("units") == "SI")
+        data = {key: value for key, value in data.items() if key != "values"}
+    else:
+        values = named_values({}, source, si=False)
+    checked = Reader(schema(), source, values.quantity).read(data)
+    for key in ("bodies", "joints", "couplings", "loads", "springs", "dampers"):
+        if len(checked.get(key, ())) > MOST_ENTRIES:
+            given = f"has {len(checked[key])} {key}"
             source.refuse((key,), MechanismError(given, allowed=f"at most {MOST_ENTRIES}"))
-    return _built(data, source)
-
-
-def write_mechanism(path: Path, mechanism: Mechanism, inertias: Mapping[str, Inertia] | None = None) -> None:
-    """Write a .toml or .json file. Raises OutputError; MechanismError for another suffix."""
-    writers = {".toml": mechanism_toml, ".json": mechanism_json}
-    writer = writers.get(path.suffix.lower())
-    if writer is None:
-        raise MechanismError(f"mechanism file {path} ends in {path.suffix!r}", allowed=".toml or .json")
-    write_file(path, writer(mechanism, inertias or {}))
-
-
-def mechanism_toml(mechanism: Mechanism, inertias: Mapping[str, Inertia]) -> str:
-    """The mechanism as TOML text."""
-    return toml_text(_data(mechanism, inertias))
-
-
-def mechanism_json(mechanism: Mechanism, inertias: Mapping[str, Inertia]) -> str:
-    """The mechanism as JSON text."""
-    return json.dumps(_data(mechanism, inertias), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+    return MechanismFile(_machine(checked, source), source, text.text)
 
 
 @lru_cache(maxsize=1)
@@ -138,105 +130,67 @@ def schema() -> Schema:
     return found
 
 
-@contextmanager
-def _located(source: SourceText, *path: str) -> Iterator[None]:
-    """Add the line of the entry that an error concerns, or of `path`, to errors raised inside."""
-    try:
-        yield
-    except IlmekError as error:
-        source.refuse(getattr(error, "about", ()) or path, error)
-
-
-def _built(data: Mapping[str, Any], source: SourceText) -> MechanismFile:
+def _machine(data: Mapping[str, Any], source: SourceText) -> OwnMachine:
     """The records from data that satisfy the schema."""
-    bodies, inertias = [], {}
-    for name, table in data["bodies"].items():
-        with _located(source, "bodies", name):
-            bodies.append(Body(name, {point: complex(*at) for point, at in table["points"].items()}))
-            if table.keys() & {"mass", "centre", "moment"}:
-                centre = complex(*table.get("centre", (0, 0)))
-                inertias[name] = Inertia(table.get("mass", 0.0), centre, table.get("moment", 0.0))
-    joints = tuple(_joint(name, table) for name, table in data["joints"].items())
-    sliding = {joint.name for joint in joints if isinstance(joint, Slide)}
-    with _located(source):
-        mechanism = Mechanism(
-            bodies=tuple(bodies),
-            joints=joints,
-            inputs=tuple(_input(name, body, name in sliding) for name, body in data["inputs"].items()),
-            branches=data.get("branches", {}),
-            name=data.get("name", "mechanism"),
-            couplings=tuple(_coupling(name, table) for name, table in data.get("couplings", {}).items()),
-            pose={body: (complex(*pose["origin"]), pose["angle"]) for body, pose in data.get("pose", {}).items()},
-        )
-        for entry in mechanism.inputs:
-            _check_driven(mechanism, entry, data["inputs"][entry.joint])
-    return MechanismFile(OwnMachine(mechanism, inertias), source)
+    mechanism = mechanism_of(data, source)
+    if len(mechanism.joints) > MOST_ENTRIES:
+        given = f"{mechanism.name} has {len(mechanism.joints)} joints of two bodies"
+        source.refuse(("joints",), MechanismError(given, allowed=f"at most {MOST_ENTRIES}"))
+    parts = parts_of(data["joints"], mechanism)
+    members, inertias = _masses(data, mechanism, source)
+    pins = pin_members(data.get("pins", {}), parts, source)
+    return OwnMachine(
+        mechanism,
+        inertias,
+        gravity_of(data.get("gravity")),
+        loads_of(data, mechanism, source),
+        frictions_of(data.get("friction", {}), parts, pins, source),
+        members,
+        pins,
+        motions_of(data.get("motions", {}), mechanism, source),
+        forward_of(data.get("forward"), mechanism, source),
+        study_of(data.get("study"), mechanism, source),
+        servo_of(data.get("servo"), mechanism, source),
+        paths_of(data.get("paths", ()), mechanism, source),
+        transmission_of(data.get("transmission", ()), parts, source),
+    )
 
 
-def _joint(name: str, table: Mapping[str, Any]) -> Joint:
-    if "pin" in table:
-        first, second = table["pin"]
-        return Pin(name, first, second)
-    body, guide = table["slide"]
-    return Slide(name, body, guide, along=table.get("along", 0.0), turned=table.get("turned", 0.0))
-
-
-def _coupling(name: str, table: Mapping[str, Any]) -> Coupling:
-    kind = next(kind for kind in KINDS if kind in table)
-    first, second = (tuple(end) for end in table[kind])
-    carrier = table.get("carrier", GROUND)
-    return Coupling(name, kind, first, second, table["ratio"], table["first_at"], table["second_at"], carrier)
-
-
-def _input(joint: str, body: str, slides: bool) -> Input:
-    return Displacement(joint) if slides else Rotation(body, joint)
-
-
-def _check_driven(mechanism: Mechanism, entry: Input, body: str) -> None:
-    """Raise MechanismError if an input at a slide names another body than the sliding one."""
-    joint = mechanism.joint(entry.joint)
-    if isinstance(joint, Slide) and body != joint.body:
-        given = f"slide {joint.name!r} is driven by {body!r}"
-        raise MechanismError(given, allowed=f"its sliding body is {joint.body!r}", about=("inputs", joint.name))
-
-
-def _data(mechanism: Mechanism, inertias: Mapping[str, Inertia]) -> dict[str, Any]:
-    """The records as data that satisfy the schema."""
-    joined = {entry.joint: _driven(mechanism, entry) for entry in mechanism.inputs}
-    data: dict[str, Any] = {
-        "name": mechanism.name,
-        "bodies": {body.name: _body_data(body, inertias.get(body.name)) for body in mechanism.bodies},
-        "joints": {joint.name: _joint_data(joint) for joint in mechanism.joints},
-        "couplings": {coupling.name: _coupling_data(coupling) for coupling in mechanism.couplings},
-        "inputs": joined,
-        "branches": dict(mechanism.branches),
-        "pose": {body: {"origin": _xy(at), "angle": float(angle)} for body, (at, angle) in mechanism.pose.items()},
+def _masses(
+    data: Mapping[str, Any], mechanism: Mechanism, source: SourceText
+) -> tuple[dict[str, FlatMember], dict[str, Inertia]]:
+    """Sections and inertias of the bodies."""
+    joints = {
+        name: [joint for joint in data["joints"] if name in members_of(data["joints"])[joint]]
+        for name in data["bodies"]
     }
-    return {key: value for key, value in data.items() if value != {} or key in schema()["required"]}
+    sections = sections_of(data["bodies"], data.get("links"), {name: len(own) for name, own in joints.items()})
+    members, inertias = {}, {}
+    for name, table in data["bodies"].items():
+        with source.located(*(("links",) if "section" not in table and name in sections else ("bodies", name))):
+            if name in sections:
+                members[name] = flat_member(sections[name])
+        with source.located("bodies", name):
+            inertia = inertia_of(table, mechanism.body(name), joints[name], members.get(name))
+            if inertia is not None:
+                inertias[name] = inertia
+    return members, inertias
 
 
-def _driven(mechanism: Mechanism, entry: Input) -> str:
-    joint = mechanism.joint(entry.joint)
-    return joint.body if isinstance(joint, Slide) else entry.name
+def write_mechanism(path: Path, machine: OwnMachine) -> None:
+    """Write a .toml or .json file. Raises OutputError; MechanismError for another suffix."""
+    writers = {".toml": mechanism_toml, ".json": mechanism_json}
+    writer = writers.get(path.suffix.lower())
+    if writer is None:
+        raise MechanismError(f"mechanism file {path} ends in {path.suffix!r}", allowed=".toml or .json")
+    write_file(path, writer(machine))
 
 
-def _body_data(body: Body, inertia: Inertia | None) -> dict[str, Any]:
-    data: dict[str, Any] = {"points": {name: _xy(point) for name, point in body.points.items()}}
-    if inertia is not None:
-        data |= {"mass": float(inertia.mass), "centre": _xy(inertia.centre), "moment": float(inertia.moment)}
-    return data
+def mechanism_toml(machine: OwnMachine) -> str:
+    """The machine as TOML text, quantities with their units. Raises MechanismError for a load without a file form."""
+    return toml_text(machine_data(machine, si=False))
 
 
-def _joint_data(joint: Joint) -> dict[str, Any]:
-    if isinstance(joint, Pin):
-        return {"pin": list(joint.bodies)}
-    return {"slide": list(joint.bodies), "along": float(joint.along), "turned": float(joint.turned)}
-
-
-def _coupling_data(one: Coupling) -> dict[str, Any]:
-    numbers = {name: float(getattr(one, name)) for name in ("ratio", "first_at", "second_at")}
-    return {one.kind: [list(one.first), list(one.second)], "carrier": one.carrier, **numbers}
-
-
-def _xy(point: complex) -> list[float]:
-    return [float(point.real), float(point.imag)]
+def mechanism_json(machine: OwnMachine) -> str:
+    """The machine as JSON text, numbers in SI. Raises MechanismError for a load without a file form."""
+    return json.dumps(machine_data(machine, si=True), indent=2, ensure_ascii=False, allow_nan=False) + "\n"

@@ -16,6 +16,7 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from ilmek.errors import UnitError
 from ilmek.units import in_bounds, parse_quantity, parse_unit
 
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
@@ -100,5 +101,12 @@ def written_quantity(value: float, unit: str) -> str | float:
     shown = value / parse_unit(unit).factor
     tries: Sequence[str] = [f"{shown:.{digits}g}{unit.removeprefix('1')}" for digits in (4, 8, 12, 16, 17)]
     shows = unit not in ("", "1") and in_bounds(value)
-    plain = [text for text in tries if shows and parse_quantity(text, unit) == value]
+    plain = [text for text in tries if shows and _is_same(text, unit, value)]
     return plain[0] if plain else float(value)
+
+
+def _is_same(text: str, unit: str, value: float) -> bool:
+    try:
+        return parse_quantity(text, unit) == value
+    except UnitError:  # rounded up beyond the bounds
+        return False

@@ -33,15 +33,6 @@ def joints_of(tables: Mapping[str, Any], inputs: Mapping[str, str], couplings: M
     return tuple(joint for name, table in tables.items() for joint in _joints(name, table, rank))
 
 
-def pins_of(joint: str, joints: tuple[Joint, ...]) -> tuple[Joint, ...]:
-    """The joints into which a joint of the file was divided; itself for a joint of two bodies."""
-    return tuple(one for one in joints if one.name == joint or one.name.startswith(f"{joint}.") and _is_part(one, joint))
-
-
-def _is_part(one: Joint, joint: str) -> bool:
-    return one.name.removeprefix(f"{joint}.") in one.bodies
-
-
 def _joints(name: str, table: Mapping[str, Any], rank: Mapping[str, int]) -> Iterator[Joint]:
     if "slide" in table:
         body, guide = table["slide"]

@@ -11,15 +11,16 @@ from ilmek.dynamics.own_machine import FlatMember, PinMember
 from ilmek.elements.bearings import find_bearing
 from ilmek.elements.materials import find_material
 from ilmek.errors import MechanismError
+from ilmek.io.mechanism.names import unknown
 from ilmek.io.mechanism.points import complex_of
 from ilmek.io.schema import SourceText
-from ilmek.linkage.model import Body, Joint
+from ilmek.linkage.model import Body, Joint, Pin, Slide
 
 Tables = Mapping[str, Mapping[str, Any]]
 """Name -> table, checked by the schema."""
 
 
-def members_of_bodies(bodies: Tables, links: Mapping[str, Any] | None, jointed: Mapping[str, int]) -> dict[str, Any]:
+def sections_of(bodies: Tables, links: Mapping[str, Any] | None, jointed: Mapping[str, int]) -> dict[str, Any]:
     """Body -> section: its own, or that of `links` for a link without a mass, shapes or a section of its own.
 
     jointed  body -> number of its joints; a link has two or more
@@ -136,6 +137,8 @@ def pin_members(tables: Tables, parts: Mapping[str, Sequence[Joint]], source: So
     found = {}
     for name, table in tables.items():
         with source.located("pins", name):
+            if name not in parts or isinstance(parts[name][0], Slide):
+                raise unknown("pin", name, [joint for joint, own in parts.items() if isinstance(own[0], Pin)])
             for key, value in table.items():
                 if key not in ("fork", "bearing", "life") and not value > 0:
                     raise MechanismError(f"{key} of a pin is {value:g}", allowed="above 0")

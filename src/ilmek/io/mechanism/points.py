@@ -49,7 +49,9 @@ def _ends(body: str, table: Mapping[str, Any], free: list[str], source: SourceTe
     """The two joints of a link that is given by its length."""
     if "length" not in table:
         if "between" in table:
-            source.refuse(("bodies", body, "between"), MechanismError("is given without a length", do="give length too"))
+            source.refuse(
+                ("bodies", body, "between"), MechanismError("is given without a length", do="give length too")
+            )
         return ()
     if not table["length"] > 0:
         given = f"is {table['length']:g} m"

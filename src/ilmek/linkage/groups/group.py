@@ -14,7 +14,7 @@ from ilmek.arrays import RealField
 from ilmek.errors import MechanismError
 from ilmek.linkage.body_jerk import BodyJerk
 from ilmek.linkage.body_motion import BodyMotion
-from ilmek.linkage.model import Coupling, Input, Joint, Mechanism
+from ilmek.linkage.model import Coupling, Input, Joint, Mechanism, Slide
 from ilmek.records import record
 
 Columns: TypeAlias = tuple[Any, ...]
@@ -184,8 +184,9 @@ class Group:
         """The branch of a free pin or slide. Raises MechanismError where none is given."""
         branches = self.mechanism.branches
         if joint not in branches:
+            kind = "slide" if isinstance(self.mechanism.joint(joint), Slide) else "free pin"
             raise MechanismError(
-                f"{self.mechanism.name} has no branch for the free pin {joint!r} of {' and '.join(self.bodies)}",
+                f"{self.mechanism.name} has no branch for the {kind} {joint!r} of {' and '.join(self.bodies)}",
                 allowed="+1 or -1",
                 do=f"give branches={{{joint!r}: +1}}",
                 about=("joints", joint),

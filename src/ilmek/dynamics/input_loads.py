@@ -1,0 +1,93 @@
+"""Loads that follow the machine: over a table of an input, in the direction of a body, viscous drag."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ilmek.arrays import FloatArray
+from ilmek.dynamics.attached import attached
+from ilmek.dynamics.inertia import Inertia
+from ilmek.dynamics.loads import Load, Wrench
+from ilmek.errors import MechanismError
+from ilmek.linkage.motion import Motion
+from ilmek.records import record
+from ilmek.units import turn
+
+
+@dataclass(frozen=True, slots=True)
+class BodyForce:
+    """A constant force [N] on a point of a body, fixed to the body: its components are in the body's frame."""
+
+    body: str
+    point: str
+    force: complex
+
+    def wrenches(self, motion: Motion, inertias: Mapping[str, Inertia]) -> Iterable[Wrench]:  # noqa: ARG002
+        """One wrench."""
+        local = motion.plan.mechanism.point(self.body, self.point)
+        yield Wrench(self.body, self.force * motion.direction(self.body), local)
+
+
+@dataclass(frozen=True, slots=True)
+class Drag:
+    """Viscous resistance on a point of a body: F = -c v, with its velocity v; c [N s/m], not negative."""
+
+    body: str
+    point: str
+    coefficient: float
+
+    def __post_init__(self) -> None:
+        if not 0 <= self.coefficient < np.inf:
+            given = f"drag of {self.body!r} is {self.coefficient:g}"
+            raise MechanismError(given, allowed="finite and not negative")
+
+    def wrenches(self, motion: Motion, inertias: Mapping[str, Inertia]) -> Iterable[Wrench]:  # noqa: ARG002
+        """One wrench."""
+        local = motion.plan.mechanism.point(self.body, self.point)
+        yield Wrench(self.body, -self.coefficient * attached(motion, self.body, local).velocity, local)
+
+
+@record
+class TabulatedLoad:
+    """A load times a factor that is given at values of an input, with straight lines between.
+
+    load        the load at a factor of 1      input_name  name of the input
+    at          values of the input [rad; m], ascending      factors  [1] at these values
+    turns       whether the table repeats in every turn of the input; else its end values hold outside
+
+    A table that repeats is read from its last entry to its first one turn later. Raises MechanismError for fewer than
+    two entries, values that do not ascend, and a table that repeats and is longer than a turn.
+    """
+
+    load: Load
+    input_name: str
+    at: tuple[float, ...]
+    factors: tuple[float, ...]
+    turns: bool = True
+
+    def __post_init__(self) -> None:
+        if len(self.at) < 2 or len(self.at) != len(self.factors):
+            given = f"a table has {len(self.at)} values and {len(self.factors)} factors"
+            raise MechanismError(given, allowed="the same number, 2 or more")
+        if not np.all(np.diff(self.at) > 0):
+            raise MechanismError("the values of a table do not ascend", do="write each above the one before")
+        if self.turns and self.at[-1] - self.at[0] > turn * (1 + 1e-12):
+            given = f"a table over a turning input is {self.at[-1] - self.at[0]:g} rad long"
+            raise MechanismError(given, allowed="at most a turn")
+
+    def factor(self, values: FloatArray | float) -> FloatArray:
+        """The factor at values of the input [rad; m], of the same shape."""
+        at, factors = np.asarray(self.at), np.asarray(self.factors)
+        if self.turns:
+            values = at[0] + np.mod(np.asarray(values) - at[0], turn)
+            if at[-1] - at[0] < turn * (1 - 1e-12):
+                at, factors = np.append(at, at[0] + turn), np.append(factors, factors[0])
+        found: FloatArray = np.interp(values, at, factors)
+        return found
+
+    def wrenches(self, motion: Motion, inertias: Mapping[str, Inertia]) -> Iterable[Wrench]:
+        """The wrenches of the load, times the factor."""
+        factor = self.factor(motion.drives[self.input_name].value)
+        for wrench in self.load.wrenches(motion, inertias):
+            yield Wrench(wrench.body, wrench.force * factor, wrench.at, wrench.torque * factor)

@@ -1,0 +1,77 @@
+"""The mechanism of a file: bodies, joints, couplings, inputs, branches."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from ilmek.errors import MechanismError, did_you_mean
+from ilmek.io.mechanism.joints import joints_of, members_of
+from ilmek.io.mechanism.points import check_lengths, complex_of, points_of
+from ilmek.io.schema import SourceText
+from ilmek.linkage.model import GROUND, KINDS, Body, Coupling, Displacement, Input, Joint, Mechanism, Rotation, Slide
+
+
+def mechanism_of(data: Mapping[str, Any], source: SourceText) -> Mechanism:
+    """The mechanism of data that satisfy the schema. Raises MechanismError with the line and the key."""
+    name = data.get("name", "mechanism")
+    _check_bodies(data, name, source)
+    members = members_of(data["joints"])
+    with source.located("joints"):
+        joints = joints_of(data["joints"], data["inputs"], data.get("couplings", {}))
+    points = {body: points_of(body, table, members, joints, source) for body, table in data["bodies"].items()}
+    with source.located():
+        mechanism = Mechanism(
+            bodies=tuple(Body(body, own) for body, own in points.items()),
+            joints=joints,
+            inputs=tuple(_input(joint, body, joints, members) for joint, body in data["inputs"].items()),
+            branches=data.get("branches", {}),
+            name=name,
+            couplings=tuple(_coupling(one, table) for one, table in data.get("couplings", {}).items()),
+            pose={body: (complex_of(pose["origin"]), pose["angle"]) for body, pose in data.get("pose", {}).items()},
+        )
+        for entry in mechanism.inputs:
+            _check_driven(mechanism, entry, data["inputs"])
+    if "lengths" not in data.get("confirm", ()):
+        check_lengths(points, members, source)
+    return mechanism
+
+
+def _check_bodies(data: Mapping[str, Any], name: str, source: SourceText) -> None:
+    """Raise MechanismError for a joint with an unknown body, or twice with the same."""
+    known = data["bodies"]
+    for joint, bodies in members_of(data["joints"]).items():
+        for body in bodies:
+            if body not in known:
+                allowed = f"it has {', '.join(known) or 'none'}"
+                error = MechanismError(f"{name} has no body {body!r}", allowed=allowed, do=did_you_mean(body, known))
+                source.refuse(("joints", joint), error)
+        if len(set(bodies)) < len(bodies):
+            twice = next(body for body in bodies if bodies.count(body) > 1)
+            source.refuse(("joints", joint), MechanismError(f"joint {joint!r} of {name} joins {twice!r} to itself"))
+
+
+def _input(joint: str, body: str, joints: tuple[Joint, ...], members: Mapping[str, tuple[str, ...]]) -> Input:
+    """The input at a joint of the file; of a pin of several bodies, at the pin that holds the driven body."""
+    parts = [
+        one
+        for one in joints
+        if one.name == joint or (len(members.get(joint, ())) > 2 and one.name.startswith(f"{joint}."))
+    ]
+    if any(isinstance(one, Slide) for one in parts):
+        return Displacement(joint)
+    holding = [one.name for one in parts if body in one.bodies]
+    return Rotation(body, holding[0] if holding else joint)
+
+
+def _check_driven(mechanism: Mechanism, entry: Input, bodies: Mapping[str, str]) -> None:
+    """Raise MechanismError if an input at a slide names another body than the sliding one."""
+    joint = mechanism.joint(entry.joint)
+    if isinstance(joint, Slide) and bodies[joint.name] != joint.body:
+        given = f"slide {joint.name!r} is driven by {bodies[joint.name]!r}"
+        raise MechanismError(given, allowed=f"its sliding body is {joint.body!r}", about=("inputs", joint.name))
+
+
+def _coupling(name: str, table: Mapping[str, Any]) -> Coupling:
+    kind = next(kind for kind in KINDS if kind in table)
+    first, second = (tuple(end) for end in table[kind])
+    carrier = table.get("carrier", GROUND)
+    return Coupling(name, kind, first, second, table["ratio"], table["first_at"], table["second_at"], carrier)

@@ -1,0 +1,197 @@
+"""Given motions of inputs: constant speed, motion laws in sequence, a smooth curve through a table of values."""
+
+import itertools
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import scipy
+
+from ilmek.arrays import FloatArray
+from ilmek.cams.laws import law_of
+from ilmek.cams.laws.law import Law
+from ilmek.dynamics.own_machine import GivenMotion
+from ilmek.errors import MechanismError
+from ilmek.io.mechanism.masses import Tables
+from ilmek.io.mechanism.names import input_of, value_of
+from ilmek.io.schema import Measured, SourceText
+from ilmek.linkage.model import Mechanism, Rotation
+from ilmek.units import turn
+
+_SAME = 1e-9
+
+
+@dataclass(frozen=True, slots=True)
+class ConstantSpeed:
+    """value = start + speed t; start [rad; m], speed [rad/s; m/s]."""
+
+    start: float
+    speed: float
+
+    def __call__(self, time: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Value, speed and acceleration at times [s]."""
+        zero = np.zeros_like(np.asarray(time, dtype=float))
+        return self.start + self.speed * time, zero + self.speed, zero
+
+
+@dataclass(frozen=True, slots=True)
+class MotionStep:
+    """A motion to a value [rad; m] within a time [s] by a law; the same value again is a dwell."""
+
+    to: float
+    time: float
+    law: Law
+
+
+@dataclass(frozen=True, slots=True)
+class MotionSequence:
+    """Motions and dwells in sequence, from `start` [rad; m] on.
+
+    repeats  whether they repeat; each repetition begins where the last one ended
+
+    value = begin + (to - begin) s(u), u = (t - t_k) / time, within each step; at rest before and after.
+    """
+
+    start: float
+    steps: tuple[MotionStep, ...]
+    repeats: bool
+
+    @property
+    def ends(self) -> tuple[float, ...]:
+        """Times at which the steps end [s]."""
+        return tuple(itertools.accumulate(step.time for step in self.steps))
+
+    def __call__(self, time: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Value, speed and acceleration at times [s]."""
+        ends = np.array(self.ends)
+        within, further = _wrapped(time, ends[-1] if self.repeats else None, self.steps[-1].to - self.start)
+        value, speed, acceleration = (np.zeros_like(within) for _ in range(3))
+        value += np.where(within < 0, self.start, self.steps[-1].to)
+        begins = (self.start, *(step.to for step in self.steps[:-1]))
+        for step, begin, end in zip(self.steps, begins, ends, strict=True):
+            inside = (within >= end - step.time) & (within < end)
+            u = np.clip((within[inside] - (end - step.time)) / step.time, 0.0, 1.0)
+            found = step.law.motion(u)
+            rise = step.to - begin
+            value[inside] = begin + rise * found.s
+            speed[inside] = rise / step.time * found.v
+            acceleration[inside] = rise / step.time**2 * found.a
+        return value + further, speed, acceleration
+
+
+@dataclass(frozen=True, slots=True)
+class TableMotion:
+    """A cubic spline through values [rad; m] at times [s], ascending; at rest at the ends unless it repeats."""
+
+    times: tuple[float, ...]
+    values: tuple[float, ...]
+    repeats: bool
+
+    def __call__(self, time: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Value, speed and acceleration at times [s]."""
+        at, values = np.array(self.times), np.array(self.values)
+        span, rise = at[-1] - at[0], values[-1] - values[0]
+        slope = rise / span if self.repeats else 0.0
+        level = values - slope * (at - at[0])
+        if self.repeats:
+            level[-1] = level[0]
+        spline = scipy.interpolate.CubicSpline(at, level, bc_type="periodic" if self.repeats else "clamped")
+        within, further = _wrapped(np.asarray(time, dtype=float) - at[0], span if self.repeats else None, rise)
+        rest = (within < 0) | (within > span)
+        inside = np.clip(within, 0.0, span) + at[0]
+        value = spline(inside) + slope * (inside - at[0]) + further
+        speed = np.where(rest, 0.0, spline(inside, 1) + slope)
+        return value, speed, np.where(rest, 0.0, spline(inside, 2))
+
+
+def _wrapped(time: FloatArray, period: float | None, rise: float) -> tuple[FloatArray, FloatArray]:
+    """Times within the first period, and the rise of all periods before."""
+    times = np.asarray(time, dtype=float)
+    if period is None:
+        return times, np.zeros_like(times)
+    count = np.floor(times / period)
+    return times - count * period, count * rise
+
+
+def motions_of(tables: Tables, mechanism: Mechanism, source: SourceText) -> dict[str, GivenMotion]:
+    """Input -> the motion that it follows. Raises MechanismError with the line."""
+    found: dict[str, GivenMotion] = {}
+    for name, table in tables.items():
+        with source.located("motions", name):
+            entry = input_of(name, mechanism)
+            if entry.name in found:
+                raise MechanismError(f"the motion of {name!r} is given twice", do="give it once")
+            found[entry.name] = _motion(table, turning=isinstance(entry, Rotation))
+    return found
+
+
+def _motion(table: Mapping[str, Any] | Measured, *, turning: bool) -> GivenMotion:
+    if isinstance(table, Measured):
+        table = {"speed": table}
+    unit = "rad" if turning else "m"
+    start = value_of(table["start"], unit, "start") if "start" in table else 0.0
+    if "speed" in table:
+        speed = value_of(table["speed"], f"{unit}/s", "speed")
+        if speed == 0:
+            raise MechanismError("speed is 0: the input does not move", do="fix the input with --at, or give a speed")
+        return GivenMotion(ConstantSpeed(start, speed), None, (), speed)
+    if "table" in table:
+        return _table_motion(table, unit)
+    steps = _steps(table["steps"], unit, start)
+    repeats = _repeats(table.get("repeat"), start, steps[-1].to, turning=turning)
+    law = MotionSequence(start, steps, repeats)
+    breaks = sorted(
+        {
+            *law.ends,
+            *(end - step.time * (1 - u) for step, end in zip(steps, law.ends, strict=True) for u in step.law.breaks),
+        }
+    )
+    return GivenMotion(law, law.ends[-1] if repeats else None, tuple(breaks))
+
+
+def _steps(rows: Sequence[Mapping[str, Any]], unit: str, start: float) -> tuple[MotionStep, ...]:
+    steps: list[MotionStep] = []
+    at = start
+    for number, row in enumerate(rows, start=1):
+        duration = row["dwell"] if "dwell" in row else row["time"]
+        if not duration > 0:
+            raise MechanismError(f"step {number} lasts {duration:g} s", allowed="above 0")
+        at = value_of(row["to"], unit, "to") if "to" in row else at
+        law = _law(row.get("law", "3-4-5"))
+        if not math.isfinite(law.acceleration_peak):
+            given = f"the velocity of law {law.name} of step {number} jumps"
+            raise MechanismError(given, do="use a law of finite acceleration, like 3-4-5 or modified-uniform")
+        steps.append(MotionStep(at, duration, law))
+    if all(step.to == start for step in steps):
+        raise MechanismError("all steps are at one value: the input does not move")
+    return tuple(steps)
+
+
+def _law(given: str | Mapping[str, Any]) -> Law:
+    if isinstance(given, str):
+        return law_of(given)
+    return law_of(given["name"], {key: value for key, value in given.items() if key != "name"})
+
+
+def _table_motion(table: Mapping[str, Any], unit: str) -> GivenMotion:
+    rows = table["table"]
+    times = tuple(value_of(row[0], "s", "the first of a row") for row in rows)
+    values = tuple(value_of(row[1], unit, "the second of a row") for row in rows)
+    if times[0] != 0 or any(later <= earlier for earlier, later in itertools.pairwise(times)):
+        raise MechanismError("the times of a table do not ascend from 0 s", do="write each above the one before")
+    repeats = _repeats(table.get("repeat"), values[0], values[-1], turning=unit == "rad")
+    return GivenMotion(TableMotion(times, values, repeats), times[-1] if repeats else None, times[1:])
+
+
+def _repeats(given: bool | None, first: float, last: float, *, turning: bool) -> bool:
+    """Whether a motion repeats: as given, by default where its last value is its first one."""
+    apart = math.remainder(last - first, turn) if turning else last - first
+    closed = abs(apart) <= _SAME
+    if given and not closed:
+        further = ", or full turns further" if turning else ""
+        raise MechanismError(
+            "a motion that repeats ends elsewhere", allowed=f"its last value is its first one{further}"
+        )
+    return closed if given is None else given

@@ -1,0 +1,62 @@
+"""Names that one table of a mechanism file has for entries of another."""
+
+from collections.abc import Iterable
+
+from ilmek.errors import MechanismError, did_you_mean
+from ilmek.io.schema import Measured
+from ilmek.linkage.model import Input, Joint, Mechanism, Slide
+
+
+def parts_of(names: Iterable[str], mechanism: Mechanism) -> dict[str, tuple[Joint, ...]]:
+    """Joint of the file -> the joints of two bodies into which it was divided."""
+    own = set(names)
+    return {
+        name: tuple(
+            one for one in mechanism.joints if one.name == name or (is_part(one.name, name) and one.name not in own)
+        )
+        for name in own
+    }
+
+
+def is_part(joint: str, of: str) -> bool:
+    """Whether a joint is one of a pin of several bodies, by its name `PIN.BODY`."""
+    return joint.startswith(f"{of}.")
+
+
+def input_of(name: str | None, mechanism: Mechanism) -> Input:
+    """The input of a driven joint or body; None: the only input. Raises MechanismError for an unknown one."""
+    inputs = mechanism.inputs
+    if name is None:
+        if len(inputs) != 1:
+            names = ", ".join(entry.joint for entry in inputs) or "none"
+            raise MechanismError(
+                f"the input is not given, and the mechanism has {len(inputs)}", allowed=f"one of {names}"
+            )
+        return inputs[0]
+    found = next((entry for entry in inputs if name in (entry.name, entry.joint, driven_body(entry, mechanism))), None)
+    if found is None:
+        known = [each for entry in inputs for each in (entry.joint, driven_body(entry, mechanism))]
+        raise unknown("driven joint or body", name, known)
+    return found
+
+
+def driven_body(entry: Input, mechanism: Mechanism) -> str:
+    """The body that an input turns or shifts."""
+    joint = mechanism.joint(entry.joint)
+    return joint.body if isinstance(joint, Slide) else entry.name
+
+
+def unknown(kind: str, name: str, known: Iterable[str]) -> MechanismError:
+    """The error for a name that does not exist."""
+    names = tuple(known)
+    allowed = f"known: {', '.join(names) or 'none'}"
+    return MechanismError(f"there is no {kind} {name!r}", allowed=allowed, do=did_you_mean(name, names))
+
+
+def value_of(measured: Measured, unit: str, key: str) -> float:
+    """The value of a quantity that must be of one unit's dimension here. Raises MechanismError for another."""
+    if measured.unit not in ("", unit):
+        raise MechanismError(
+            f"{key} is a quantity in {measured.unit}", allowed=f"a quantity in {unit} is required here"
+        )
+    return measured.value

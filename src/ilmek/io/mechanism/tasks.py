@@ -1,0 +1,113 @@
+"""What is computed of a machine: a run under its motor, speeds to compare, a servo, paths, transmission angles."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from ilmek.dynamics.own_machine import ForwardTask, MotorDrive, SpeedStudy, StopEvent
+from ilmek.errors import MechanismError
+from ilmek.io.mechanism.names import input_of, unknown, value_of
+from ilmek.io.schema import SourceText
+from ilmek.linkage.model import Joint, Mechanism, Pin, Rotation
+
+MOST_SPEEDS_RATIO = 1e4
+"""Greatest ratio of the speeds of a study."""
+
+
+def forward_of(table: Mapping[str, Any] | None, mechanism: Mechanism, source: SourceText) -> ForwardTask | None:
+    """The forward run of a file. Raises MechanismError with the line."""
+    if table is None:
+        return None
+    with source.located("forward"):
+        unit = "rad" if isinstance(input_of(None, mechanism), Rotation) else "m"
+        if not table["duration"] > 0:
+            raise MechanismError(f"duration is {table['duration']:g} s", allowed="above 0")
+        events = []
+        for name, event in table.get("events", {}).items():
+            with source.located("forward", "events", name):
+                events.append(_event(name, event, unit))
+        with source.located("forward", "motor"):
+            drive = _motor(table.get("motor"), unit)
+        position = value_of(table["position"], unit, "position") if "position" in table else 0.0
+        speed = value_of(table["speed"], f"{unit}/s", "speed") if "speed" in table else 0.0
+        return ForwardTask(table["duration"], position, speed, drive, tuple(events))
+
+
+def _event(name: str, table: Mapping[str, Any], unit: str) -> StopEvent:
+    units = {"position": unit, "speed": f"{unit}/s", "time": "s"}
+    given = [key for key in units if key in table]
+    if len(given) != 1:
+        stated = " and ".join(given) or "none"
+        raise MechanismError(f"event {name!r} has {stated} of position, speed and time", allowed="one of them")
+    of = given[0]
+    value = table[of] if of == "time" else value_of(table[of], units[of], of)
+    direction = {"up": 1, "down": -1, "both": 0}[table.get("direction", "both")]
+    return StopEvent(name, of, value, table.get("stop", True), direction)
+
+
+def _motor(table: Mapping[str, Any] | None, unit: str) -> MotorDrive | None:
+    if table is None:
+        return None
+    effort, other = ("torque", "force") if unit == "rad" else ("force", "torque")
+    if effort not in table:
+        kind = "turning" if unit == "rad" else "sliding"
+        raise MechanismError(f"the motor of a {kind} input has a {other}", do=f"give its {effort}")
+    if "speed" in table and not abs(table["speed"]) > 0:
+        raise MechanismError("speed of the motor without load is 0", allowed="not 0")
+    if not table.get("slip", 1.0) > 0:
+        raise MechanismError(f"slip of the motor is {table['slip']:g}", allowed="above 0")
+    if not table.get("inertia", 0.0) >= 0:
+        raise MechanismError(f"inertia of the motor is {table['inertia']:g}", allowed="0 or more")
+    return MotorDrive(table[effort], table.get("speed"), table.get("slip", 0.05), table.get("inertia", 0.0))
+
+
+def study_of(table: Mapping[str, Any] | None, mechanism: Mechanism, source: SourceText) -> SpeedStudy | None:
+    """The speeds to compare, ascending. Raises MechanismError with the line."""
+    if table is None:
+        return None
+    with source.located("study"):
+        turning = any(isinstance(entry, Rotation) for entry in mechanism.inputs)
+        unit = "rad/s" if turning else "m/s"
+        if "speeds" in table:
+            speeds = [value_of(one, unit, "speeds") for one in table["speeds"]]
+        else:
+            ends = [value_of(table[key], unit, key) for key in ("from", "to")]
+            speeds = [float(one) for one in np.linspace(*ends, table.get("count", 5))]
+        if any(not one > 0 for one in speeds) or max(speeds) > MOST_SPEEDS_RATIO * min(speeds):
+            raise MechanismError(
+                "speeds of a study cannot be used", allowed=f"above 0, up to {MOST_SPEEDS_RATIO:g} to 1"
+            )
+        return SpeedStudy(tuple(sorted(set(speeds))))
+
+
+def servo_of(name: str | None, mechanism: Mechanism, source: SourceText) -> str | None:
+    """The turning input for which a servo motor is chosen."""
+    if name is None:
+        return None
+    with source.located("servo"):
+        entry = input_of(name, mechanism)
+        if not isinstance(entry, Rotation):
+            raise MechanismError(f"a servo motor is for a turning input, and {name!r} slides")
+        return entry.name
+
+
+def paths_of(spots: Sequence[Sequence[str]], mechanism: Mechanism, source: SourceText) -> tuple[tuple[str, str], ...]:
+    """The points whose paths are drawn. Raises MechanismError for an unknown body or point."""
+    found = []
+    for number, (body, point) in enumerate(spots):
+        with source.located("paths", number):
+            mechanism.point(body, point)
+        found.append((body, point))
+    return tuple(dict.fromkeys(found))
+
+
+def transmission_of(names: Sequence[str], parts: Mapping[str, Sequence[Joint]], source: SourceText) -> tuple[str, ...]:
+    """The pins at which the transmission angle is listed. Raises MechanismError for another name."""
+    for number, name in enumerate(names):
+        with source.located("transmission", number):
+            if name not in parts:
+                raise unknown("joint", name, parts)
+            if not isinstance(parts[name][0], Pin):
+                raise MechanismError(f"{name!r} is a slide", allowed="a pin has a transmission angle")
+    return tuple(dict.fromkeys(names))
