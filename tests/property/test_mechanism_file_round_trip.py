@@ -7,8 +7,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ilmek.dynamics.inertia import Inertia
-from ilmek.io.line_numbers import json_lines, tokens, toml_lines
 from ilmek.dynamics.own_machine import OwnMachine
+from ilmek.io.line_numbers import json_lines, tokens, toml_lines
 from ilmek.io.mechanism_file import mechanism_json, mechanism_toml, parse_mechanism
 from ilmek.io.toml_text import toml_text
 from ilmek.linkage.model import GROUND, Body, Coupling, Displacement, Mechanism, Pin, Rotation, Slide

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from mechanisms import two_motors
 
+from ilmek.dynamics.own_machine import OwnMachine
 from ilmek.errors import MechanismError
 from ilmek.io.json_file import json_text
-from ilmek.dynamics.own_machine import OwnMachine
 from ilmek.io.mechanism_file import MOST_ENTRIES, mechanism_toml, parse_mechanism
 from ilmek.io.table_csv import MOST_NUMBERS, csv_text
 from ilmek.jobs.mechanism.request import MotionRequest

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from ilmek.errors import MechanismError, OutputError
 from ilmek.dynamics.own_machine import OwnMachine
+from ilmek.errors import MechanismError, OutputError
 from ilmek.io.mechanism_file import parse_mechanism, read_mechanism, schema, write_mechanism
 from ilmek.linkage.fourbar import four_bar, slider_crank
 from ilmek.linkage.model import Coupling
@@ -69,8 +69,8 @@ def test_slides_angles_and_pose():
 MISTAKES = {
     "wrong type": (
         'A0 = [0, 0], B0 = ["300mm", 0]',
-        "A0 = 3, B0 = [1, 0]",
-        "line 4, bodies.ground.points.A0: 3 is not a list",
+        "A0 = 3, B0 = [0, 0]",
+        "line 4, bodies.ground.points.A0: 3 is not allowed here; position in the body's own frame",
     ),
     "wrong unit": (
         'B0 = ["300mm", 0]',
@@ -81,9 +81,13 @@ MISTAKES = {
     "not finite": ('"60mm"', "nan", "line 6, bodies.crank.points.A.0: nan is not a finite number"),
     "infinite": ('"60mm"', "-inf", "line 6, bodies.crank.points.A.0: -inf is not a finite number"),
     "one coordinate": ('["60mm", 0]', '["60mm"]', "line 6, bodies.crank.points.A: has 1 entries; 2: x and y"),
-    "negative mass": ('"200g"', "-1", "line 5, bodies.crank: mass of a body is -1"),
+    "negative mass": ('"200g"', '"-1kg"', "line 5, bodies.crank: mass of a body is -1"),
     "zero length": ('["20cm", 0]', "[0, 0]", "line 9, bodies.coupler: link 'coupler' has zero length"),
-    "unknown key": ("mass =", "weight =", "line 7, bodies.crank.weight: unknown key 'weight'; keys: points, mass"),
+    "unknown key": (
+        "mass =",
+        "weight =",
+        "line 7, bodies.crank.weight: unknown key 'weight'; keys: points, length, between",
+    ),
     "unknown table": ("[branches]", "[brnches]", "line 23, brnches: unknown key 'brnches'; keys: $schema"),
     "missing table": ("[inputs]", "[inputs2]", "line 1: has no 'inputs'"),
     "unknown body": ('["ground", "rocker"]', '["ground", "rockr"]', "line 18, joints.B0: four-bar has no body 'rockr'"),
@@ -101,13 +105,21 @@ MISTAKES = {
         '["crank", "crank"]',
         "line 16, joints.A: joint 'A' of four-bar joins",
     ),
-    "three bodies": ('["crank", "coupler"]', '["crank", "coupler", "rocker"]', "line 16, joints.A.pin: has 3 entries"),
+    "three bodies": (
+        '["crank", "coupler"]',
+        '["crank", "coupler", "rocker"]',
+        "line 16, joints.A: body 'rocker' of four-bar has no point 'A'",
+    ),
+    "one body": ('["crank", "coupler"]', '["crank"]', "line 16, joints.A.pin: has 1 entries; 2 to 10: the bodies"),
+    "no unit": ('"60mm"', "60", 'line 6, bodies.crank.points.A.0: 60 has no unit; write "60mm", or "60m"'),
+    "text without unit": ('"60mm"', '"60"', "line 6, bodies.crank.points.A.0: '60' has no unit; write \"60mm\""),
+    "metres for millimetres": ('"60mm"', '"60m"', "line 5, bodies.crank: A0-A of crank is 60000 mm and A-B of coupler"),
     "branch 2": ("B = 1\n", "B = 2\n", "line 24, branches.B: is 2; allowed: 1, -1"),
     "branch true": ("B = 1\n", "B = true\n", "line 24, branches.B: is true; allowed: 1, -1"),
     "body twice": ("[bodies.rocker]", "[bodies.crank]", "line 11, column 14: cannot declare"),
     "joint twice": ("A = { pin", "A0 = { pin", "line 16, column 36: cannot overwrite a value"),
     "not TOML": ('name = "four-bar"', "name = four", "line 1, column 8: invalid value"),
-    "number of many digits": ("0.23", "9" * 400, "line 12, bodies.rocker.points.B.0: 999"),
+    "number of many digits": ("0.23", "9" * 400, "line 12, bodies.rocker.points.B.0: '999"),
 }
 
 
@@ -125,7 +137,7 @@ PLANLESS = {
     "no input": ('A0 = "crank"', "", "line 5, bodies.crank: four-bar is under-constrained at crank, coupler, rocker"),
     "zero dyad link": (
         'B = ["20cm", 0]',
-        "B = [0, 0], C = [1, 0]",
+        "B = [0, 0], C = ['1m', 0]",
         "line 9, bodies.coupler: link 'coupler' has zero length",
     ),
 }
@@ -198,7 +210,7 @@ def look(part, at="#"):
 def test_the_schema_holds_only_words_that_its_reader_knows():
     words = {
         *("$schema", "$id", "$defs", "$ref", "title", "description", "type", "required", "additionalProperties"),
-        *("properties", "items", "minItems", "maxItems", "enum", "oneOf", "unit"),
+        *("properties", "items", "minItems", "maxItems", "minimum", "maximum", "enum", "oneOf", "unit", "units"),
     }
     places = dict(look(schema()))
     for at, part in places.items():
@@ -238,7 +250,7 @@ def test_couplings_are_read_with_their_units():
 def test_wheels_geared_in_a_circle_are_told_with_the_line_of_the_coupling_that_closes_it():
     text = """
     [bodies]
-    ground.points = { A = [0, 0], B = [1, 0], C = [0, 1] }
+    ground.points = { A = [0, 0], B = ["1m", 0], C = [0, "1m"] }
     a.points.A = [0, 0]
     b.points.B = [0, 0]
     c.points.C = [0, 0]

@@ -18,6 +18,7 @@ def mechanism_of(data: Mapping[str, Any], source: SourceText) -> Mechanism:
     with source.located("joints"):
         joints = joints_of(data["joints"], data["inputs"], data.get("couplings", {}))
     points = {body: points_of(body, table, members, joints, source) for body, table in data["bodies"].items()}
+    _check_points(points, members, name, source)
     with source.located():
         mechanism = Mechanism(
             bodies=tuple(Body(body, own) for body, own in points.items()),
@@ -47,6 +48,18 @@ def _check_bodies(data: Mapping[str, Any], name: str, source: SourceText) -> Non
         if len(set(bodies)) < len(bodies):
             twice = next(body for body in bodies if bodies.count(body) > 1)
             source.refuse(("joints", joint), MechanismError(f"joint {joint!r} of {name} joins {twice!r} to itself"))
+
+
+def _check_points(
+    points: Mapping[str, Mapping[str, complex]], members: Mapping[str, tuple[str, ...]], name: str, source: SourceText
+) -> None:
+    """Raise MechanismError for a body without a point at one of its joints."""
+    for joint, bodies in members.items():
+        for body in bodies:
+            if joint not in points[body]:
+                allowed = f"it has {', '.join(points[body]) or 'none'}"
+                error = MechanismError(f"body {body!r} of {name} has no point {joint!r}", allowed=allowed)
+                source.refuse(("joints", joint), error)
 
 
 def _input(joint: str, body: str, joints: tuple[Joint, ...], members: Mapping[str, tuple[str, ...]]) -> Input:
