@@ -160,11 +160,9 @@ def _masses(
     data: Mapping[str, Any], mechanism: Mechanism, source: SourceText
 ) -> tuple[dict[str, FlatMember], dict[str, Inertia]]:
     """Sections and inertias of the bodies."""
-    joints = {
-        name: [joint for joint in data["joints"] if name in members_of(data["joints"])[joint]]
-        for name in data["bodies"]
-    }
-    sections = sections_of(data["bodies"], data.get("links"), {name: len(own) for name, own in joints.items()})
+    bodies = members_of(data["joints"])
+    joints = {name: [joint for joint, own in bodies.items() if name in own] for name in data["bodies"]}
+    sections = sections_of(data["bodies"], data.get("links"), mechanism, joints)
     members, inertias = {}, {}
     for name, table in data["bodies"].items():
         with source.located(*(("links",) if "section" not in table and name in sections else ("bodies", name))):

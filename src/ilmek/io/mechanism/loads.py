@@ -1,6 +1,5 @@
 """Loads of a mechanism file: forces, torques, friction and drag of points, springs, dampers; friction of joints."""
 
-import cmath
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
@@ -13,7 +12,7 @@ from ilmek.dynamics.springs import Spring, TorsionSpring
 from ilmek.errors import MechanismError
 from ilmek.io.mechanism.masses import Tables
 from ilmek.io.mechanism.names import input_of, unknown, value_of
-from ilmek.io.mechanism.points import complex_of
+from ilmek.io.mechanism.points import complex_of, polar
 from ilmek.io.schema import SourceText
 from ilmek.linkage.model import Input, Joint, Mechanism, Rotation, Slide
 
@@ -38,7 +37,7 @@ def gravity_of(given: Any) -> complex:
     if given is None:
         return 0j
     if isinstance(given, dict):
-        return cmath.rect(given["value"], given["direction"])
+        return polar(given["value"], given["direction"])
     return complex_of(given) if isinstance(given, list) else complex(0.0, -given)
 
 
@@ -81,7 +80,7 @@ def _force(table: Mapping[str, Any], mechanism: Mechanism) -> PointForce | BodyF
                 raise MechanismError("force is 0: it has no direction", do="give its direction")
             force /= abs(force)
     elif "direction" in table:
-        force = cmath.rect(1.0 if tabulated else given, table["direction"])
+        force = polar(1.0 if tabulated else given, table["direction"])
     else:
         raise MechanismError("force has no direction", do='give one, like direction = "90deg", or [x, y] components')
     return (BodyForce if table.get("frame") == "body" else PointForce)(body, point, force)

@@ -14,23 +14,27 @@ from ilmek.errors import MechanismError
 from ilmek.io.mechanism.names import unknown
 from ilmek.io.mechanism.points import complex_of
 from ilmek.io.schema import SourceText
-from ilmek.linkage.model import Body, Joint, Pin, Slide
+from ilmek.linkage.model import GROUND, Body, Joint, Mechanism, Pin, Slide
 
 Tables = Mapping[str, Mapping[str, Any]]
 """Name -> table, checked by the schema."""
 
 
-def sections_of(bodies: Tables, links: Mapping[str, Any] | None, jointed: Mapping[str, int]) -> dict[str, Any]:
+def sections_of(
+    bodies: Tables, links: Mapping[str, Any] | None, mechanism: Mechanism, joints: Mapping[str, Sequence[str]]
+) -> dict[str, Any]:
     """Body -> section: its own, or that of `links` for a link without a mass, shapes or a section of its own.
 
-    jointed  body -> number of its joints; a link has two or more
+    joints  body -> names of its joints in the file; a link has two or more, apart from one another
     """
     found: dict[str, Any] = {}
     for name, table in bodies.items():
         if "section" in table:
             found[name] = table["section"]
-        elif links is not None and jointed.get(name, 0) > 1 and not table.keys() & {"mass", "shapes"}:
-            found[name] = links
+        elif links is not None and name != GROUND and not table.keys() & {"mass", "shapes"}:
+            points = mechanism.body(name).points
+            if len({points[joint] for joint in joints[name]}) > 1:
+                found[name] = links
     return found
 
 

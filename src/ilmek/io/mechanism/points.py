@@ -1,6 +1,5 @@
 """Points of the bodies of a mechanism file: coordinates, polar, by three sides; links given by their length."""
 
-import cmath
 import math
 from collections.abc import Iterable, Mapping
 from itertools import combinations
@@ -11,6 +10,8 @@ from ilmek.io.mechanism.joints import Members
 from ilmek.io.schema import SourceText
 from ilmek.linkage.model import GROUND, Joint
 
+_ROUNDING = 1e-15
+
 LARGEST_RATIO = 200.0
 """Greatest ratio of the longest to the shortest link length that needs no confirmation."""
 
@@ -19,6 +20,16 @@ def complex_of(pair: Iterable[float]) -> complex:
     """A pair of coordinates as a complex number."""
     x, y = pair
     return complex(x, y)
+
+
+def polar(radius: float, angle: float) -> complex:
+    """A vector by its length and direction [rad]; along an axis its other component is exactly 0.
+
+    >>> polar(2.0, math.pi / 2)
+    2j
+    """
+    cos, sin = math.cos(angle), math.sin(angle)
+    return complex(radius * (cos if abs(cos) > _ROUNDING else 0.0), radius * (sin if abs(sin) > _ROUNDING else 0.0))
 
 
 def points_of(
@@ -122,7 +133,7 @@ class _Points:
         start = self.found[entry["from"]] if "from" in entry else 0j
         if "offset" in entry:
             return start + complex_of(entry["offset"])
-        return start + cmath.rect(entry["radius"], entry["angle"])
+        return start + polar(entry["radius"], entry["angle"])
 
 
 def third_corner(start: complex, end: complex, first: float, second: float, *, left: bool) -> complex:
