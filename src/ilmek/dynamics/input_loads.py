@@ -16,8 +16,8 @@ from ilmek.units import turn
 
 
 @dataclass(frozen=True, slots=True)
-class BodyForce:
-    """A constant force [N] on a point of a body, fixed to the body: its components are in the body's frame."""
+class FollowerForce:
+    """A follower force [N] on a point of a body: constant in the body's frame, it turns with the body."""
 
     body: str
     point: str

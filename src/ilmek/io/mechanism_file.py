@@ -139,16 +139,17 @@ def _machine(data: Mapping[str, Any], source: SourceText) -> OwnMachine:
     parts = parts_of(data["joints"], mechanism)
     members, inertias = _masses(data, mechanism, source)
     pins = pin_members(data.get("pins", {}), parts, source)
+    loads = loads_of(data, mechanism, source)
     return OwnMachine(
         mechanism,
         inertias,
         gravity_of(data.get("gravity")),
-        loads_of(data, mechanism, source),
+        loads,
         frictions_of(data.get("friction", {}), parts, pins, source),
         members,
         pins,
         motions_of(data.get("motions", {}), mechanism, source),
-        forward_of(data.get("forward"), mechanism, source),
+        forward_of(data.get("forward"), mechanism, loads, source),
         study_of(data.get("study"), mechanism, source),
         servo_of(data.get("servo"), mechanism, source),
         paths_of(data.get("paths", ()), mechanism, source),

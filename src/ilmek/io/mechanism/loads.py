@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from ilmek.dynamics.friction import AngleRange, Friction, ValueRange, WindowedLoad
-from ilmek.dynamics.input_loads import BodyForce, Drag, TabulatedLoad
+from ilmek.dynamics.input_loads import Drag, FollowerForce, TabulatedLoad
 from ilmek.dynamics.joint_friction import JointFriction, PinFriction, SlideFriction
 from ilmek.dynamics.loads import Load, PointForce, Torque
 from ilmek.dynamics.own_machine import NamedLoad, PinMember
@@ -68,7 +68,7 @@ def _varying(table: Mapping[str, Any], mechanism: Mechanism) -> Load:
     return Friction(body, point, table["friction"], input_of(table.get("over"), mechanism).name)
 
 
-def _force(table: Mapping[str, Any], mechanism: Mechanism) -> PointForce | BodyForce:
+def _force(table: Mapping[str, Any], mechanism: Mechanism) -> PointForce | FollowerForce:
     body, point = _spot(table["on"], mechanism)
     given, tabulated = table["force"], "table" in table
     if isinstance(given, list):
@@ -83,7 +83,7 @@ def _force(table: Mapping[str, Any], mechanism: Mechanism) -> PointForce | BodyF
         force = polar(1.0 if tabulated else given, table["direction"])
     else:
         raise MechanismError("force has no direction", do='give one, like direction = "90deg", or [x, y] components')
-    return (BodyForce if table.get("frame") == "body" else PointForce)(body, point, force)
+    return (FollowerForce if table.get("frame") == "body" else PointForce)(body, point, force)
 
 
 def _tabulated(table: Mapping[str, Any], unit: str, load: Load, mechanism: Mechanism) -> Load:

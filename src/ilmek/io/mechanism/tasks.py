@@ -5,7 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from ilmek.dynamics.own_machine import ForwardTask, MotorDrive, SpeedStudy, StopEvent
+from ilmek.dynamics.friction import Friction
+from ilmek.dynamics.own_machine import ForwardTask, MotorDrive, NamedLoad, SpeedStudy, StopEvent
 from ilmek.errors import MechanismError
 from ilmek.io.mechanism.names import input_of, unknown, value_of
 from ilmek.io.schema import SourceText
@@ -15,7 +16,9 @@ MOST_SPEEDS_RATIO = 1e4
 """Greatest ratio of the speeds of a study."""
 
 
-def forward_of(table: Mapping[str, Any] | None, mechanism: Mechanism, source: SourceText) -> ForwardTask | None:
+def forward_of(
+    table: Mapping[str, Any] | None, mechanism: Mechanism, loads: Sequence[NamedLoad], source: SourceText
+) -> ForwardTask | None:
     """The forward run of a file. Raises MechanismError with the line."""
     if table is None:
         return None
@@ -31,6 +34,10 @@ def forward_of(table: Mapping[str, Any] | None, mechanism: Mechanism, source: So
             drive = _motor(table.get("motor"), unit)
         position = value_of(table["position"], unit, "position") if "position" in table else 0.0
         speed = value_of(table["speed"], f"{unit}/s", "speed") if "speed" in table else 0.0
+        against = next((one.name for one in loads if isinstance(one.load, Friction)), None)
+        if speed == 0 and against is not None:
+            given = f"the run starts at rest, where friction {against!r} has no direction"
+            raise MechanismError(given, do='give the speed at the start, like speed = "1rpm"')
         return ForwardTask(table["duration"], position, speed, drive, tuple(events))
 
 

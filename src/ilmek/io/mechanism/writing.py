@@ -6,7 +6,7 @@ from typing import Any
 
 from ilmek.dynamics.friction import AngleRange, Friction, ValueRange, WindowedLoad
 from ilmek.dynamics.inertia import Inertia
-from ilmek.dynamics.input_loads import BodyForce, Drag, TabulatedLoad
+from ilmek.dynamics.input_loads import Drag, FollowerForce, TabulatedLoad
 from ilmek.dynamics.joint_friction import JointFriction, PinFriction
 from ilmek.dynamics.loads import Load, PointForce, Torque
 from ilmek.dynamics.own_machine import (
@@ -137,9 +137,9 @@ class _Writer:
             at = "deg" if turning[load.input_name] else "mm"
             rows = [[self.quantity(x, at), self.quantity(y, unit)] for x, y in zip(load.at, load.factors, strict=True)]
             return {**inner, "over": load.input_name, "table": rows}
-        if isinstance(load, PointForce | BodyForce) and isinstance(load.point, str) and _is_number(load.force):
+        if isinstance(load, PointForce | FollowerForce) and isinstance(load.point, str) and _is_number(load.force):
             force = complex(load.force)  # type: ignore[arg-type]
-            frame = "body" if isinstance(load, BodyForce) else "ground"
+            frame = "body" if isinstance(load, FollowerForce) else "ground"
             return {"force": self.xy(force, "N"), "on": [load.body, load.point], "frame": frame}
         if isinstance(load, Torque) and _is_number(load.torque):
             return {"torque": self.quantity(float(load.torque), "N*m"), "on": load.body}  # type: ignore[arg-type]
