@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import pytest
 
 from ilmek.errors import ParameterError
+from ilmek.machines.cam import CamParams
 from ilmek.params import Overrides, Params, declared, kind, nested, overrides, param, reachable
 from ilmek.units import deg, mm
 
@@ -18,6 +19,14 @@ class Sample(Params):
     law: str = param("harmonic", choices=("harmonic", "cycloidal"), doc="law")
     both: bool = param(False, doc="both")
     crank: float | None = param(None, unit="mm", above=0.0, doc="crank")
+
+
+def test_a_bound_is_reached_in_every_unit() -> None:
+    """10 um is the bound of 0.01 mm, though 10 times 1e-6 is less than 1e-5 in floating point."""
+    lift = next(one for one in declared(CamParams) if one.name == "lift")
+    assert lift.read("10um") == lift.read("0.01mm") == lift.at_least
+    with pytest.raises(ParameterError, match="at least"):
+        lift.read("9.99um")
 
 
 def test_reads_units_and_keeps_defaults() -> None:

@@ -59,7 +59,7 @@ class Parameter:
                 return _TRUTH[text.lower()]
             if text.lower() == "none" and self.default is None:
                 return None
-            number = parse_quantity(text, self.unit)
+            number = self._snapped(parse_quantity(text, self.unit))
         except KeyError:
             raise ParameterError(f"{self.name}={setting!r} is neither true nor false", do="write yes or no") from None
         except UnitError as error:
@@ -120,6 +120,11 @@ class Parameter:
     def _out_of_bounds(self, value: float, do: str = "") -> ParameterError:
         shown = format_quantity(value, self.unit)
         return ParameterError(f"{self.name}={shown} is out of bounds", allowed=self.allowed(), do=do)
+
+    def _snapped(self, number: float) -> float:
+        """The bound that a number equals but for the rounding of its unit, else the number: 10um is 0.01 mm."""
+        bounds = (bound for bound in (self.at_least, self.at_most) if bound is not None)
+        return next((bound for bound in bounds if math.isclose(number, bound, rel_tol=1e-12)), number)
 
     def within(self, value: float) -> bool:
         """Whether a number lies within the declared bounds: `above`, `below` exclude, `at_least`, `at_most` include."""
