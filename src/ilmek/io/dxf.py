@@ -151,9 +151,11 @@ def _write_texts(space: Modelspace, plate: Plate, shape: PlateShape, low: comple
     """Title, material, thickness, number and area of the plate, below the drawing and its dimensions."""
     pieces = f"{plate.number} piece{'s' if plate.number > 1 else ''}"
     known = f"area {format_quantity(area(shape.outline) - shape.bored, 'cm^2', 6)}, without holes"
+    thick = f"{format_quantity(plate.thickness, 'mm')} thick"
+    size = thick if plate.solid is None else f"diameter {format_quantity(2 * plate.solid.outer, 'mm')}"
     lines = (
         f"{plate.title} ({plate.name})",
-        f"{plate.material}, {format_quantity(plate.thickness, 'mm')} thick, {pieces}",
+        f"{plate.material}, {size}, {pieces}",
         *plate.notes,
         f"mm, 1:1; {known}",
     )
