@@ -19,6 +19,9 @@ from ilmek.linkage.solve import solve
 from ilmek.records import computed, record
 from ilmek.report import Check, at_least, at_most
 
+SAMPLES = 1440
+"""Equal steps of time of the motor's duty."""
+
 CATALOGUE = "smallest servo of the catalogue, direct or with a planetary reducer"
 
 
@@ -69,7 +72,7 @@ class ServoChoice:
 def servo_choice(machine: OwnMachine, run: InverseRun) -> ServoChoice:
     """The smallest servo that is sufficient for the driving input over a run.
 
-    run  at equal steps of time; samples at which the mechanism does not close or locks are left out
+    Over samples at which the mechanism does not close or locks the effort is interpolated.
     Raises MechanismError where the servo's input slides, is not the driving one, or stands still.
     """
     name = machine.servo
@@ -78,16 +81,13 @@ def servo_choice(machine: OwnMachine, run: InverseRun) -> ServoChoice:
             f"a servo is required for input {name!r}, the driving input is {run.driving or 'none'}",
             allowed="the driving input, turning and moving",
         )
-    motion, effort = run.forces.motion, run.forces.effort(name)
-    values = np.asarray(motion.drives[name].value, dtype=float)
-    speed, rate = (
-        np.broadcast_to(one, values.shape) for one in (motion.drives[name].speed, motion.drives[name].acceleration)
-    )
-    good = np.isfinite(effort)
-    good[-1] &= not np.isclose(effort[-1], effort[0], rtol=1e-6) or len(effort) == 1  # the end of a whole turn
-    felt = felt_inertia(machine, run, name)
-    inertia = float(np.mean(felt[good])) if good.any() else 0.0
-    cycle = LoadCycle(speed[good], rate[good], effort[good] - inertia * rate[good], inertia)
+    motion, time = run.forces.motion, np.abs(run.time - run.time[0])
+    drive, good = motion.drives[name], np.isfinite(run.forces.effort(name))
+    even = (np.arange(SAMPLES) + 0.5) / SAMPLES * time[-1]
+    curves = (drive.speed, drive.acceleration, run.forces.effort(name), felt_inertia(machine, run, name))
+    speed, rate, effort, felt = (np.interp(even, time[good], np.broadcast_to(one, time.shape)[good]) for one in curves)
+    inertia = float(np.mean(felt))
+    cycle = LoadCycle(speed, rate, effort - inertia * rate, inertia)
     return ServoChoice(cycle, size_motor(cycle, kind=SERVO))
 
 

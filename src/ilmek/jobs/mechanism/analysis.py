@@ -94,7 +94,7 @@ def analysis(run: MechanismRun, progress: Progress = SILENT) -> Analysis:
     return Analysis(
         run,
         transmission_angles(run.motion, machine.transmission),
-        servo_choice(machine, forces) if machine.servo and forces is not None else None,
+        servo_choice(machine, forces) if machine.servo and forces is not None and not forces.locked.all() else None,
         forward,
         _study(run, progress.part(0.5, 1.0, "study")),
     )

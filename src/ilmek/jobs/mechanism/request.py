@@ -1,6 +1,6 @@
 """The motion that a call requires of a mechanism: values, speeds and accelerations of all inputs."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -14,6 +14,9 @@ from ilmek.units import parse_quantity, turn
 
 STEPS = 360
 """Default number of steps of a range."""
+
+BESIDE = 1e-7
+"""Distance of two further samples from a jump of a load [rad; m]."""
 
 
 @record
@@ -66,12 +69,37 @@ def driven_inputs(machine: OwnMachine, plan: Plan, request: MotionRequest) -> Dr
     if law is not None and law.speed is None and not (request.over or request.speed):
         return _over_time(running, law, laws, fixed, request.steps)
     start = 0.0 if law is None else float(law.law(np.zeros(1))[0][0])
-    values = _values(running, request, start)
+    values = _with_jumps(_values(running, request, start), jumps(machine, running.name), isinstance(running, Rotation))
     speed = _speed(running, request.speed, law)
     time = None if speed == 0 else (values - start) / speed
     rates = _rates(laws, np.zeros(len(values)) if time is None else time, fixed)
     rates[0][running.name], rates[1][running.name] = values, speed
     return DrivenInputs(running, values, speed, time, rates)
+
+
+def jumps(machine: OwnMachine, name: str) -> tuple[float, ...]:
+    """Values of an input at which a load of the machine jumps [rad; m], ascending."""
+    found: set[float] = set()
+    for one in machine.loads:
+        found |= set(one.breaks)
+        load: object = one.load
+        while load is not None:
+            window = getattr(load, "window", None)
+            if window is not None and getattr(load, "input_name", name) == name:
+                found |= {window.start, window.end}
+            load = getattr(load, "load", None)
+    return tuple(sorted(found))
+
+
+def _with_jumps(values: FloatArray, at: Sequence[float], turning: bool) -> FloatArray:
+    """The values with two more at each jump inside their range, just before and after it."""
+    least, most = min(values[0], values[-1]), max(values[0], values[-1])
+    if turning:
+        turns = np.arange(np.floor(least / turn) - 1, np.ceil(most / turn) + 1)
+        at = np.unique(np.add.outer(turns * turn, np.asarray(at) % turn)).tolist() if at else ()
+    more = [one + side for one in at for side in (-BESIDE, BESIDE) if least < one + side < most]
+    every = np.unique(np.concatenate((values, more)))
+    return every if values[-1] > values[0] else every[::-1]
 
 
 def _running(free: list[Input], laws: Mapping[str, GivenMotion]) -> Input:
