@@ -70,7 +70,7 @@ def test_a_report_without_its_figures() -> None:
 
 @pytest.mark.usefixtures("guarded")
 def test_a_page_names_the_figure_that_cannot_be_drawn(monkeypatch: pytest.MonkeyPatch) -> None:
-    def fail(_: object) -> str:
+    def fail(*_: object) -> str:
         raise ValueError("<b>")
 
     report = find_machine("function-four-bar").report_for({})

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 
 from ilmek.cli.terminal import say, show_checks, show_table
 from ilmek.cli.verdict import CHECKS, WEAVES, show_verdict
-from ilmek.report import Choice, Column, Report, Result, Table
+from ilmek.report import Check, Choice, Column, Report, Result, Table, rounded
 from ilmek.units import format_number, format_quantity, from_si, printed_unit
 
 
@@ -31,6 +31,16 @@ def show_report(report: Report) -> None:
         show_choices(report.all_choices)
     if report.all_checks:
         show_checks(report.all_checks)
+    if report.all_self_tests:
+        say(_tested(report.all_self_tests))
+
+
+def _tested(tests: Sequence[Check]) -> str:
+    """The tests of the computation in one line: how many pass, or those that do not."""
+    failed = [test.name for test in tests if not test.ok]
+    if failed:
+        return f"tests of the computation: {len(failed)} of {len(tests)} failed: {'; '.join(failed)}"
+    return f"tests of the computation: {'the only one passes' if len(tests) == 1 else f'all {len(tests)} pass'}"
 
 
 def show_choices(choices: Sequence[Choice]) -> None:
@@ -55,6 +65,8 @@ def _cell(cell: float | int | str, column: Column) -> str:
     """A cell without its unit, which is in the heading."""
     if isinstance(cell, str):
         return cell
+    if isinstance(cell, float):
+        cell = rounded(cell, column.unit)
     return format_number(from_si(cell, column.unit), column.digits) if math.isfinite(cell) else "–"
 
 
@@ -69,7 +81,7 @@ def _value(value: object, unit: str) -> str:  # noqa: PLR0911 - one line for eac
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, int | float):
-        return format_quantity(value, unit)
+        return format_quantity(rounded(value, unit), unit)
     if isinstance(value, list | tuple | dict) and not value:
         return "none"
     if isinstance(value, dict):

@@ -6,7 +6,7 @@ machine. Values are SI; the unit beside a value is the one to show it in.
 
 from ilmek.records import DeclaredResult, computed, declared_results, group, record, result
 from ilmek.report.bill import NOT_WEIGHED, Part, Work
-from ilmek.report.check import Check, at_least, at_most, in_words, must, snap_to_limit
+from ilmek.report.check import Check, at_least, at_most, in_words, must, snap_to_limit, value_beside
 from ilmek.report.choice import Alternative, Choice, choose, failing
 from ilmek.report.document import NEAREST, Report
 from ilmek.report.figure import (
@@ -31,6 +31,7 @@ from ilmek.report.figure import (
 )
 from ilmek.report.json import Json, plain
 from ilmek.report.results import Result, results_of
+from ilmek.report.rounding import rounded
 from ilmek.report.table import Column, Table, columns
 from ilmek.report.verdict import Reason, reasons, verdict_json
 from ilmek.report.workshop import CamTable, Contour, Hole, Plate, RoundSolid
@@ -88,6 +89,8 @@ __all__ = [
     "record",
     "result",
     "results_of",
+    "rounded",
     "snap_to_limit",
+    "value_beside",
     "verdict_json",
 ]

@@ -6,6 +6,7 @@ from typing import Any, Protocol, runtime_checkable
 
 from ilmek.records import value_record
 from ilmek.report.json import plain
+from ilmek.report.rounding import rounded
 from ilmek.units import format_quantity
 
 ROUNDING = 1e-9
@@ -64,14 +65,25 @@ def must(name: str, holds: bool, source: str, *, cure: str = "") -> Check:
 
 
 def in_words(check: Judged) -> tuple[str, str]:
-    """Value and limit in the check's unit; of a plain yes or no, these words.
+    """Value and limit in the check's unit, rounded (`rounding`); of a plain yes or no, these words.
 
     >>> in_words(at_most("sag", 0.003, 0.002, "mm", "given")), in_words(must("knot tied", False, "its path"))
     (('3 mm', '2 mm'), ('no', 'yes'))
     """
     if not check.unit and check.limit == 1 and check.value in (0, 1):
         return ("yes" if check.value else "no"), "yes"
-    return format_quantity(check.value, check.unit), format_quantity(check.limit, check.unit)
+    value = value_beside(check.value, check.limit, check.unit)
+    return format_quantity(value, check.unit), format_quantity(check.limit, check.unit)
+
+
+def value_beside(value: float, limit: float, unit: str) -> float:
+    """A value as shown beside its limit [SI]: rounded, unless that would hide on which side of the limit it is.
+
+    >>> value_beside(1e-19, 1e-9, "mm"), value_beside(0.0400004, 0.04, "mm")
+    (0.0, 0.0400004)
+    """
+    shown = rounded(value, unit, scale=limit)
+    return shown if (shown < limit) == (value < limit) and (shown > limit) == (value > limit) else value
 
 
 def snap_to_limit(value: float, limit: float) -> float:

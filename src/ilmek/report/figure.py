@@ -35,7 +35,7 @@ class Mark:
 
 @record
 class Plot:
-    """Curves over one axis."""
+    """Curves over one axis; plots, animations and cyclograms over a quantity of the same label share a cursor."""
 
     name: str
     title: str
@@ -84,7 +84,10 @@ class Drawing:
 
 @record
 class MovingStroke:
-    """A line that moves: its points [m] at every frame, (frames, points); roles as of `Stroke`, link or outline."""
+    """A line that moves: its points [m] at every frame, (frames, points).
+
+    role  outline (thick), link (thick, coloured), wheel (pitch circle with a radius that shows its turn, coloured)
+    """
 
     points: ComplexArray
     role: str
@@ -220,6 +223,7 @@ class Timing:
     """A cyclogram to draw: lanes over one turn of the master shaft, which takes `period` [s].
 
     laws    of the lanes' moves      links  between instants of the lanes
+    drive   the angle of a turn: figures over a drive of the same name share a cursor
     """
 
     name: str
@@ -229,6 +233,7 @@ class Timing:
     note: str = ""
     laws: tuple[LawCurve, ...] = ()
     links: tuple[Link, ...] = ()
+    drive: Axis = Axis("master angle", "deg")
 
 
 Figure: TypeAlias = Plot | Drawing | Animation | Timing

@@ -5,23 +5,23 @@ positions at every frame, listed in the figure's metadata. Without the script th
 """
 
 import dataclasses
-import json
-from collections.abc import Iterator
-from xml.sax.saxutils import escape
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
 from ilmek.arrays import ComplexArray
 from ilmek.report import Animation, Stroke
 from ilmek.units import parse_unit
-from ilmek.viz.drawing import FOOT, WIDTH, colours, dotted, draw_still, extent, names, obstacles, pen_for
+from ilmek.viz.cursor import decimals, drive, metadata
+from ilmek.viz.drawing import FOOT, WIDTH, dotted, draw_still, extent, look_numbers, names, obstacles, pen_for
 from ilmek.viz.font import text_width
 from ilmek.viz.labels import LabelRequest
+from ilmek.viz.looks import marker_shape
 from ilmek.viz.moving_names import named
-from ilmek.viz.moving_parts import PointTracks, block, dot, line, name
+from ilmek.viz.moving_parts import PointTracks, block, dot, is_rigid, line, marked, name, rigid
 from ilmek.viz.sheet import Sheet
 from ilmek.viz.strokes import Pen
-from ilmek.viz.style import INK, STRONG, TEXT, colour, shown_unit, tint
+from ilmek.viz.style import INK, PAPER, STRONG, TEXT, colour, shown_unit, tint
 
 SECONDS = 5.0
 """Duration of a run on the page [s]."""
@@ -31,12 +31,18 @@ _MOVING, _STILL = 0.4, 1e6
 
 _ROW, _LEFT = 13.0, 14.0
 
+_MARKER = 2.3
+"""Radius of the marker on a bar [pt]."""
 
-def draw_animation(animation: Animation) -> tuple[Sheet, str]:
+_PITCH = ' stroke-dasharray="7 2 1.5 2"'
+"""Chain line of a pitch circle."""
+
+
+def draw_animation(animation: Animation, looks: Mapping[str, int]) -> tuple[Sheet, str]:
     """The sheet with the fixed parts, and the SVG of the moving parts, which follows it in the same element."""
     still, start = animation.still, animation.start
     moving = tuple(Stroke(one.points[start], one.role, one.label, one.closed) for one in animation.strokes)
-    numbers = colours((*still.strokes, *moving))
+    numbers = look_numbers((*still.strokes, *moving), looks)
     rows = list(_rows(animation))
     foot = FOOT + _ROW * len(rows)
     points = [extent(still), *(one.points.ravel() for one in animation.strokes), *(one.at for one in animation.dots)]
@@ -52,22 +58,56 @@ def draw_animation(animation: Animation) -> tuple[Sheet, str]:
     parts = [*_lines(pen, animation, tracks), *_dots(pen, animation, tracks)]
     met = [np.concatenate([at, fixed, *(_filled(*box) for box in boxes)]) for at in bars]
     parts += _names(pen, animation, tracks, met, foot)
-    return pen.sheet, "\n".join((*parts, f"<metadata>{escape(_run(animation, tracks))}</metadata>"))
+    return pen.sheet, "\n".join((*parts, _run(animation, tracks)))
 
 
 def _lines(pen: Pen, animation: Animation, tracks: PointTracks) -> Iterator[str]:
-    """Bars as wide pale lines with edges in the full colour, others as plain lines."""
+    """Wheels below, then bars as wide pale lines with edges in the full colour, others as plain lines."""
     first = len(animation.still.strokes)
-    for number, one in enumerate(animation.strokes, first):
-        track = [pen(points) for points in one.points.T]
-        if one.role != "link":
-            yield line(tracks, track, INK, 1.6, closed=one.closed)
+    ordered = sorted(enumerate(animation.strokes, first), key=lambda entry: entry[1].role != "wheel")
+    seen: set[str] = set()
+    for index, one in ordered:
+        points = pen(one.points)
+        if one.role not in ("link", "wheel"):
+            yield from _moved(tracks, points, INK, 1.6, closed=one.closed)
             continue
-        shade = colour(pen.numbers[number])
+        number = pen.numbers[index]
+        shade = colour(number)
+        if one.role == "wheel":
+            yield from _moved(tracks, points, shade, 1.2, closed=True, fill=tint(shade, 0.1), more=_PITCH)
+            continue
         if one.closed:
-            yield line(tracks, track, "none", 0.0, closed=True, fill=tint(shade, 0.3))
-        yield line(tracks, track, shade, 7.0, closed=one.closed)
-        yield line(tracks, track, tint(shade, 0.45), 4.8, closed=one.closed)
+            yield from _moved(tracks, points, "none", 0.0, closed=True, fill=tint(shade, 0.3))
+        yield from _moved(tracks, points, shade, 7.0, closed=one.closed)
+        yield from _moved(tracks, points, tint(shade, 0.45), 4.8, closed=one.closed)
+        if one.label and one.label not in seen:
+            seen.add(one.label)
+            yield marked(tracks, _middle(points), marker_shape(number, _MARKER), shade)
+
+
+def _moved(
+    tracks: PointTracks,
+    points: ComplexArray,
+    stroke: str,
+    width: float,
+    *,
+    closed: bool,
+    fill: str = "none",
+    more: str = "",
+) -> Iterator[str]:
+    """A line; one that keeps its shape is moved as a whole, which needs two points of each frame and no more."""
+    if is_rigid(points):
+        look = f'fill="{fill}" stroke="{stroke}" stroke-width="{width:g}" stroke-linecap="round"{more}'
+        yield rigid(tracks, points, look, closed=closed)
+    else:
+        yield line(tracks, list(points.T), stroke, width, closed=closed, fill=fill)
+
+
+def _middle(points: ComplexArray) -> ComplexArray:
+    """The point of a bar that bears its marker: a third of the way along it, or the middle of an area."""
+    return np.asarray(
+        points[:, 0] + 0.35 * (points[:, 1] - points[:, 0]) if points.shape[1] == 2 else points.mean(axis=1)
+    )
 
 
 def _dots(pen: Pen, animation: Animation, tracks: PointTracks) -> Iterator[str]:
@@ -120,7 +160,7 @@ def _rows(animation: Animation) -> Iterator[list[tuple[float, int, str]]]:
     left, first, seen = _LEFT, len(animation.still.strokes), {""}
     for index, one in enumerate(animation.strokes, first):
         width = 20.0 + text_width(one.label, TEXT) + 12.0
-        if one.role != "link" or one.label in seen:
+        if one.role not in ("link", "wheel") or one.label in seen:
             continue
         seen.add(one.label)
         if row and left + width > WIDTH:
@@ -140,39 +180,33 @@ def _legend(pen: Pen, rows: list[list[tuple[float, int, str]]]) -> None:
             swatch = np.array([left, left + 14.0]) + 1j * height
             pen.sheet.line(swatch, color=shade, linewidth=6.0)
             pen.sheet.line(swatch, color=tint(shade, 0.45), linewidth=3.8)
+            corners = swatch.mean() + marker_shape(pen.numbers[index], _MARKER)
+            pen.sheet.area(corners, facecolor=shade, edgecolor=PAPER, linewidth=0.5, zorder=4)
             pen.sheet.text(complex(left + 21.0, height), label, fontsize=TEXT, color=INK, va="center_baseline")
 
 
 def _run(animation: Animation, tracks: PointTracks) -> str:
-    """The data of the script, as JSON."""
+    """The data of the script."""
     factor = parse_unit(animation.drive.unit).factor
     at = animation.at / factor
+    step = float(at[1] - at[0])
+    frames = len(at)
     readings = [
         {
             "values": [float(f"{value:.4g}") for value in one.values / parse_unit(one.unit).factor],
-            "digits": digits(float(np.max(np.abs(one.values))) / parse_unit(one.unit).factor),
-            "unit": shown_unit(one.unit),
+            "decimals": decimals(float(np.ptp(one.values)) / parse_unit(one.unit).factor),
+            "measure": shown_unit(one.unit),
         }
         for one in animation.readings
     ]
+    ends = float(at[0]), float(at[0]) + step * (frames if animation.closes else frames - 1)
     run = {
+        **drive(animation.drive.label, animation.drive.unit, ends),
         "positions": tracks.positions,
-        "closes": animation.closes,
+        "frames": frames,
+        "closes": int(animation.closes),
         "start": animation.start,
         "seconds": SECONDS,
-        "first": round(float(at[0]), 6),
-        "step": round(float(at[1] - at[0]), 9),
-        "digits": 0 if at[-1] - at[0] > 50 else 1,
-        "unit": shown_unit(animation.drive.unit),
         "readings": readings,
     }
-    return json.dumps(run, separators=(",", ":"), ensure_ascii=False)
-
-
-def digits(most: float) -> int:
-    """Decimals with which the greatest value has three digits.
-
-    >>> digits(123.4), digits(1.5), digits(0.02)
-    (0, 2, 4)
-    """
-    return int(np.clip(2 - np.floor(np.log10(most)), 0, 6)) if most > 0 else 1
+    return metadata(run)

@@ -102,8 +102,6 @@ def carpet_page(page: CarpetPage, left_out: list[str] | None = None, progress: P
         statistic_lines=_statistic_lines(page.statistics),
         files=page.files,
         loom=page.loom,
-        moves=False,
-        timed=False,
     )
 
 

@@ -13,6 +13,7 @@ from ilmek.arrays import ComplexArray
 from ilmek.report import Drawing, Stroke
 from ilmek.units import parse_unit
 from ilmek.viz.labels import LabelRequest, placed
+from ilmek.viz.looks import COLOURED, numbered
 from ilmek.viz.scale import tick_labels
 from ilmek.viz.sheet import Sheet
 from ilmek.viz.strokes import DOTS, STROKES, Pen
@@ -28,9 +29,9 @@ _LEAST, _MOST = 90.0, 330.0
 """Least and greatest height of the drawn part [pt]."""
 
 
-def draw_drawing(drawing: Drawing) -> Sheet:
+def draw_drawing(drawing: Drawing, looks: Mapping[str, int]) -> Sheet:
     """The drawing as large as the sheet allows, with equal scales in x and y and a scale bar below."""
-    pen = pen_for(extent(drawing), colours(drawing.strokes), drawing.unit)
+    pen = pen_for(extent(drawing), look_numbers(drawing.strokes, looks), drawing.unit)
     draw_still(pen, drawing)
     names(pen, drawing, obstacles(pen, drawing))
     return pen.sheet
@@ -45,7 +46,7 @@ def extent(drawing: Drawing) -> ComplexArray:
 def pen_for(points: ComplexArray, numbers: Mapping[int, int], unit: str, foot: float = FOOT) -> Pen:
     """A pen on a sheet that contains all points [m], with space below for the scale bar.
 
-    numbers  colour number of each stroke, by index
+    numbers  look of each stroke, by index
     unit     of the scale bar
     foot     height of the space below [pt]
     """
@@ -74,16 +75,10 @@ def _corners(points: ComplexArray) -> tuple[complex, complex]:
     )
 
 
-def colours(strokes: tuple[Stroke, ...]) -> dict[int, int]:
-    """Colour number of each coloured stroke, by index: links first, then paths; equal names share one."""
-    numbers: dict[int, int] = {}
-    names: dict[str, int] = {}
-    for role in ("link", "path"):
-        for index, stroke in enumerate(strokes):
-            if stroke.role == role:
-                fresh = len(set(numbers.values()))
-                numbers[index] = names.setdefault(stroke.label, fresh) if stroke.label else fresh
-    return numbers
+def look_numbers(strokes: tuple[Stroke, ...], looks: Mapping[str, int]) -> dict[int, int]:
+    """The look of each coloured stroke, by index; strokes without a label have looks of their own."""
+    order = [index for role in COLOURED for index, stroke in enumerate(strokes) if stroke.role == role]
+    return dict(zip(order, numbered([strokes[index].label for index in order], looks), strict=True))
 
 
 def _beside(points: ComplexArray, closed: bool) -> ComplexArray:

@@ -54,7 +54,5 @@ def loom_page(page: LoomPage, left_out: list[str] | None = None, progress: Progr
         choices=page.choices,
         warnings=[*page.warnings, *of_machines, *left_out],
         sections=sections,
-        moves=any(one.holds("moves") for one in sections),
-        timed=any(one.holds("wide timed") for one in sections),
         checks=failures_first(checks),
     )

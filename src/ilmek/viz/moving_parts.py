@@ -56,6 +56,44 @@ def line(
     return f'<path data-line="{",".join(map(str, points))}"{end} d="M{through}" {look}/>'
 
 
+def rigid(tracks: PointTracks, points: ComplexArray, look: str, *, closed: bool) -> str:
+    """A line that moves as a whole, by a position and a direction at every frame.
+
+    points  on the sheet [pt], (frames, points)
+    """
+    far = int(np.argmax(np.abs(points[0] - points[0, 0])))
+    along = points[:, far] - points[:, 0]
+    local = np.conj((points[0] - points[0, 0]) / (along[0] / abs(along[0])))
+    ahead = tracks.point(points[:, far])
+    turned = float(np.degrees(-np.angle(along[tracks.start])))
+    placed = _placed(tracks, points[:, 0], f" rotate({turned:.2f})")
+    return f'<path d="{_path(local)}{"Z" if closed else ""}" {look} data-ahead="{ahead}" {placed}/>'
+
+
+def _path(points: ComplexArray) -> str:
+    """The path through points of a figure, whose y axis points down."""
+    return "M" + "L".join(f"{round(at.real, 2):g} {round(at.imag, 2):g}" for at in points.tolist())
+
+
+def is_rigid(points: ComplexArray) -> bool:
+    """Whether a line of more than three points moves without changing its shape; points (frames, points)."""
+    if points.shape[1] <= 3 or not np.isfinite(points).all():
+        return False
+    off = points - points[:, :1]
+    far = int(np.argmax(np.abs(off[0])))
+    size = abs(off[0, far])
+    if size == 0 or np.any(off[:, far] == 0):
+        return False
+    turned = off[:, far] / off[0, far]
+    return bool(np.max(np.abs(off - turned[:, np.newaxis] * off[0])) < 1e-6 * size)
+
+
+def marked(tracks: PointTracks, at: ComplexArray, corners: ComplexArray, fill: str) -> str:
+    """A marker with its corners about a moving point [pt]."""
+    look = f'fill="{fill}" stroke="{PAPER}" stroke-width="0.5"'
+    return f'<path d="{_path(np.conj(corners))}Z" {look} {_placed(tracks, at)}/>'
+
+
 def dot(tracks: PointTracks, at: ComplexArray, role: str) -> str:
     """A pin (a circle) or a point (a small disc)."""
     size, look = (3.4, f'fill="{PAPER}" stroke="{INK}" stroke-width="1.1"') if role == "pin" else (2.2, f'fill="{INK}"')

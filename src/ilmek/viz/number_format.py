@@ -4,21 +4,25 @@ import math
 from dataclasses import dataclass
 from typing import TypeGuard
 
-from ilmek.report import Json, Table
+from ilmek.report import Check, Json, Reason, Table, in_words, rounded, value_beside
 from ilmek.units import POWERS, format_number, parse_unit
 from ilmek.viz.style import shown_unit
 
 _MINUS = str.maketrans("-", "−")
 _SIGNS = {"<=": "≤", ">=": "≥", "==": "="}
-_NOISE = 1e-12
+_NOISE = 1e-9
 NARROW_SPACE = "\u202f"
 
 
-def number(value: Json, unit: str = "", digits: int = 4) -> str:
+def number(value: Json, unit: str = "", digits: int = 4, scale: float | None = None) -> str:
     r"""An SI number in `unit`, without the unit. A text stays as it is, True and False become yes and no, None a dash.
+
+    scale  what the value is measured against [SI]; see `report.rounding`
 
     >>> number(0.0597375, "mm"), number(-2.0), number(135000), number(True), number(None), number(4.857e-5)
     ('59.74', '−2', '135\u202f000', 'yes', '–', '4.857·10⁻⁵')
+    >>> number(1.735e-17, "mm"), number(0.00512345, "mm"), number(0.0017453292, "deg")
+    ('0', '5.123', '0.1')
     """
     if value is None or isinstance(value, str | bool):
         return "–" if value is None else value if isinstance(value, str) else "yes" if value else "no"
@@ -26,7 +30,9 @@ def number(value: Json, unit: str = "", digits: int = 4) -> str:
         return str(value)
     if isinstance(value, int) and unit in ("", "1"):
         return count(value)
-    written = format_number(float(value) / parse_unit(unit).factor, digits)
+    if not math.isfinite(value):
+        return "–" if math.isnan(value) else "∞" if value > 0 else "−∞"
+    written = format_number(rounded(float(value), unit, scale) / parse_unit(unit).factor, digits)
     if "e" in written:
         mantissa, power = written.split("e")
         return f"{mantissa}·10{str(int(power)).translate(POWERS)}".replace("-", "−")
@@ -45,7 +51,7 @@ class Cell:
 
 
 def cells(table: Table) -> list[list[Cell]]:
-    """A table's rows as printed; numbers below 1e-12 of the largest in their column are printed as 0.
+    """A table's rows as printed; numbers below 1e-9 of the largest in their column are printed as 0.
 
     >>> from ilmek.report import Column
     >>> shown = cells(Table("t", "", (Column("x", "mm"),), ((0.1,), (1e-17,))))
@@ -66,6 +72,34 @@ def cells(table: Table) -> list[list[Cell]]:
 
 def _measured(value: float | int | str) -> TypeGuard[float]:
     return isinstance(value, float) and math.isfinite(value)
+
+
+def compared(check: Check | Reason) -> tuple[str, str]:
+    """Value and limit of a check in its unit, the limit with its relation; of a plain yes or no, these words.
+
+    >>> from ilmek.report import at_most
+    >>> compared(at_most("closure", 1.7e-19, 1e-12, "mm", ""))
+    ('0', '≤ 1·10⁻⁹')
+    """
+    value, limit = in_words(check)
+    if limit == "yes":
+        return value, limit
+    seen = value_beside(check.value, check.limit, check.unit)
+    scale = abs(check.limit)
+    return number(
+        seen, check.unit, scale=scale
+    ), f"{sign(check.relation)} {number(check.limit, check.unit, scale=scale)}"
+
+
+def beside(check: Check | Reason) -> str:
+    r"""The unit of a check as it follows its value; nothing after a yes or no.
+
+    >>> from ilmek.report import at_most
+    >>> beside(at_most("angle", 0.1, 0.2, "deg", "")), beside(at_most("sag", 0.1, 0.2, "mm", ""))
+    ('°', '\xa0mm')
+    """
+    printed = "" if in_words(check)[1] == "yes" else shown_unit(check.unit)
+    return printed if printed in ("", "°", "%") else f"\u00a0{printed}"
 
 
 def quantity(value: Json, unit: str = "") -> str:

@@ -12,11 +12,17 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 import ilmek
 from ilmek.errors import encodable
-from ilmek.report import Report, in_words
+from ilmek.report import Report
 from ilmek.viz.animation import SECONDS
-from ilmek.viz.number_format import amount, cells, count, fixed, number, quantity, sign, words
-from ilmek.viz.sections import PageVerdict, failures_first, judged, section
+from ilmek.viz.number_format import amount, beside, cells, compared, count, fixed, number, quantity, words
+from ilmek.viz.sections import PageVerdict, failures_first, judged, section, shown_first
 from ilmek.viz.style import shown_unit, with_unit
+
+TESTS = "Tests of the computation"
+"""Title of the self-tests of a report."""
+
+FIRST_CHECKS = 10
+"""Number of checks that are shown at once, and all that fail: the figures are not pushed away."""
 
 _TEMPLATES = Path(__file__).parent / "templates"
 
@@ -27,6 +33,10 @@ def machine_page(report: Report, left_out: list[str] | None = None) -> str:
     left_out  list to which a warning is appended for each figure that cannot be drawn
     """
     shown = section(1, report, [] if left_out is None else left_out)
+    checks = failures_first(judged(report.all_checks, ()))
+    ends = [("tests", TESTS)] if report.all_self_tests else []
+    starts = [("checks", "Checks")] if checks else []
+    starts += [("choices", "What was chosen")] if report.all_choices else []
     return render(
         "machine.html.j2",
         title=report.title,
@@ -34,9 +44,9 @@ def machine_page(report: Report, left_out: list[str] | None = None) -> str:
         verdict=_verdict(report),
         choices=report.all_choices,
         section=shown,
-        moves=shown.holds("moves"),
-        timed=shown.holds("wide timed"),
-        checks=failures_first(judged(report.all_checks, ())),
+        contents=[*starts, *shown.contents, *ends],
+        checks=checks,
+        tests=report.all_self_tests,
     )
 
 
@@ -69,12 +79,13 @@ def _environment() -> Environment:
         "fixed": fixed,
         "amount": amount,
         "words": words,
-        "sign": sign,
         "cells": cells,
-        "judged": in_words,
+        "compared": compared,
+        "beside": beside,
+        "first_checks": shown_first,
         "unit": shown_unit,
         "with_unit": with_unit,
     }
     environment.filters.update(filters)
-    environment.globals["seconds"] = SECONDS
+    environment.globals.update(seconds=SECONDS, first_checks=FIRST_CHECKS, tests_title=TESTS)
     return environment

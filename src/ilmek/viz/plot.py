@@ -1,24 +1,29 @@
 """Curves over one axis."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from ilmek.arrays import FloatArray
+from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.report import Mark, Plot, Series
 from ilmek.units import parse_unit
+from ilmek.viz.cursor import cursor
 from ilmek.viz.font import text_width
 from ilmek.viz.frame import Box, grid, left_axis, lower_axis, paper
+from ilmek.viz.looks import dashes, marker_shape, numbered
 from ilmek.viz.scale import span, tick_labels, ticks
 from ilmek.viz.sheet import Sheet
-from ilmek.viz.style import AXIS, DASHES, INK, MUTED, PALETTE, SMALL, TEXT, colour, in_unit, with_unit
+from ilmek.viz.style import AXIS, INK, MUTED, PAPER, SMALL, TEXT, colour, in_unit, with_unit
 from ilmek.viz.thinning import thinned_curve, thinned_line
 
 WIDTH, HEIGHT = 420.0, 168.0
 """Width of the sheet and height of the plotting area [pt]."""
 _RIGHT, _BOTTOM, _ROW, _TIER = 14.0, 29.0, 13.0, 10.0
 _KEY = 20.0
+_MARKER, _MARKERS = 2.9, 6
+"""Radius of a marker [pt], and their number on a curve."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,13 +36,16 @@ class _Entry:
     left: float
 
 
-def draw_plot(plot: Plot) -> Sheet:
-    """The curves with grid, axes with units, legend above the curves and labels of the marks between the two."""
+def draw_plot(plot: Plot, looks: Mapping[str, int]) -> tuple[Sheet, str]:
+    """The curves with grid, axes with units, legend above the curves and labels of the marks between the two; and the
+    SVG of the cursor, with the data of its script.
+    """
     x_span = span(_all([in_unit(one.x, plot.x.unit) for one in plot.series]))
     y_span = _padded(*span(_all([in_unit(one.y, plot.y.unit) for one in plot.series])))
     x_ticks, y_ticks = ticks(*x_span, plot.x.unit, 9), ticks(*y_span, plot.y.unit, 6)
     left = 26.0 + max((text_width(label, SMALL) for label in tick_labels(y_ticks)), default=0.0)
-    entries = _legend(plot, left)
+    numbers = numbered((one.label for one in plot.series), looks)
+    entries = _legend(plot, numbers, left)
     tiers = _tiers(plot.marks, x_span, plot.x.unit, WIDTH - left - _RIGHT)
     rows = 1 + max((entry.row for entry in entries), default=-1)
     top = 6.0 + _ROW * rows + _TIER * (1 + max(tiers, default=-1)) + (4.0 if tiers else 0.0)
@@ -51,12 +59,37 @@ def draw_plot(plot: Plot) -> Sheet:
     left_axis(sheet, box, at_y, y_ticks, with_unit(plot.y.label, plot.y.unit))
     if y_span[0] < 0 < y_span[1]:
         sheet.line(1j * scales.y(0.0) + np.array([box.left, box.right]), color=AXIS, linewidth=0.8, zorder=1.5)
-    for number, one in enumerate(plot.series):
-        x, y = thinned_curve(in_unit(one.x, plot.x.unit), in_unit(one.y, plot.y.unit))
-        sheet.line(thinned_line(scales.x(x) + 1j * scales.y(y)), zorder=3, **_line(one, number))
+    _draw_curves(sheet, scales, plot, numbers)
     _draw_marks(sheet, box, scales, plot, tiers)
     _draw_legend(sheet, entries)
-    return sheet
+    return sheet, cursor(plot, sheet, box, (x_span, y_span), numbers) if plot.series else ""
+
+
+def _draw_curves(sheet: Sheet, scales: "_Scales", plot: Plot, numbers: list[int]) -> None:
+    """The curves; where there are several, each full one with markers, staggered so that they stand apart."""
+    several = len(plot.series) > 1
+    for index, (one, number) in enumerate(zip(plot.series, numbers, strict=True)):
+        x, y = thinned_curve(in_unit(one.x, plot.x.unit), in_unit(one.y, plot.y.unit))
+        points = thinned_line(scales.x(x) + 1j * scales.y(y))
+        sheet.line(points, zorder=3, attribute=f'data-series="{index}"', **_line(one, number))
+        if several and not one.dashed:
+            for at in _spread(points, scales.box, (index + 0.5) / len(plot.series)):
+                _mark(sheet, at, number)
+
+
+def _mark(sheet: Sheet, at: complex, number: int) -> None:
+    corners = at + marker_shape(number, _MARKER)
+    sheet.area(corners, facecolor=colour(number), edgecolor=PAPER, linewidth=0.4, zorder=3.4)
+
+
+def _spread(points: ComplexArray, box: Box, share: float) -> ComplexArray:
+    """Points of a curve at even abscissae; none where it has no unique ordinate, or a gap."""
+    finite = points[np.isfinite(points)]
+    if len(finite) < len(points) or len(points) < 2 or np.any(np.diff(points.real) < 0):
+        return finite[:0]
+    x = box.left + box.width * (np.arange(_MARKERS) + share) / _MARKERS
+    x = x[(x >= points.real[0]) & (x <= points.real[-1])]
+    return np.asarray(x + 1j * np.interp(x, points.real, points.imag))
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,19 +122,17 @@ def _padded(low: float, high: float) -> tuple[float, float]:
 
 
 def _line(series: Series, number: int) -> dict[str, Any]:
-    """Style of a curve; beyond the palette lines are dashed."""
-    rounds = number // len(PALETTE)
-    dashes = DASHES[0] if series.dashed else DASHES[(rounds - 1) % len(DASHES)] if rounds else ()
-    return {"color": colour(number), "linewidth": 1.5, "dashes": dashes}
+    """Style of a curve."""
+    return {"color": colour(number), "linewidth": 1.5, "dashes": dashes(number, dashed=series.dashed)}
 
 
-def _legend(plot: Plot, left: float) -> list[_Entry]:
+def _legend(plot: Plot, numbers: list[int], left: float) -> list[_Entry]:
     """Entries in rows above the curves; none if the axis names the only curve."""
     if len(plot.series) == 1 and plot.series[0].label in ("", plot.y.label, plot.title):
         return []
     entries: list[_Entry] = []
     row, at = 0, left
-    for number, series in enumerate(plot.series):
+    for number, series in zip(numbers, plot.series, strict=True):
         width = _KEY + 4.0 + text_width(series.label, TEXT) + 12.0
         if at > left and at + width > WIDTH:
             row, at = row + 1, left
@@ -114,6 +145,8 @@ def _draw_legend(sheet: Sheet, entries: list[_Entry]) -> None:
     for entry in entries:
         at = complex(entry.left, sheet.height - 4.0 - _ROW * (entry.row + 0.5))
         sheet.line(np.array([at, at + _KEY]), **_line(entry.series, entry.number))
+        if len(entries) > 1 and not entry.series.dashed:
+            _mark(sheet, at + _KEY / 2, entry.number)
         sheet.text(at + _KEY + 4.0, entry.series.label, fontsize=TEXT, va="center_baseline")
 
 

@@ -1,12 +1,14 @@
 """The parts of a page that come from a machine's report: its figures as SVG, its checks, the verdict."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from markupsafe import Markup
 
-from ilmek.report import Animation, Check, Figure, Reason, Report, Timing
+from ilmek.report import Animation, Check, Figure, Plot, Reason, Report, Timing
 from ilmek.report.left_out import made_or_left_out
+from ilmek.viz.looks import looks_of, numbered
+from ilmek.viz.style import colour
 from ilmek.viz.svg import svg
 
 
@@ -28,24 +30,55 @@ class PageVerdict:
 
 @dataclass(frozen=True, slots=True)
 class Drawn:
-    """A figure and its SVG. Kinds: "", "wide" (whole width), "moves" (animated), "wide timed" (with a cursor)."""
+    """A figure and its SVG.
+
+    kind   "", "wide" (whole width), "moves" (animated), "read" (a plot with a cursor),
+           "wide timed" (a cyclogram with one)
+    looks  of the labels of the page
+    """
 
     figure: Figure
     svg: Markup
     kind: str
+    looks: Mapping[str, int]
+
+    @property
+    def curves(self) -> list[tuple[str, str]]:
+        """Name and colour of each curve of a plot."""
+        assert isinstance(self.figure, Plot)
+        numbers = numbered((one.label for one in self.figure.series), self.looks)
+        names = (one.label or self.figure.y.label for one in self.figure.series)
+        return [(name, colour(number)) for name, number in zip(names, numbers, strict=True)]
+
+
+@dataclass(frozen=True, slots=True)
+class Moving:
+    """A mechanism in motion, beside the charts over the same drive."""
+
+    stage: tuple[Drawn, ...]
+    charts: tuple[Drawn, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class PageSection:
-    """A machine's part of a page."""
+    """A machine's part of a page: mechanisms in motion with their charts, and the other figures."""
 
     id: str
     report: Report
+    moving: tuple[Moving, ...]
     figures: tuple[Drawn, ...]
 
-    def holds(self, kind: str) -> bool:
-        """Whether it has a figure of a kind."""
-        return any(drawn.kind == kind for drawn in self.figures)
+    @property
+    def contents(self) -> list[tuple[str, str]]:
+        """Anchor and title of each part that it has."""
+        parts = [
+            ("motion", "In motion", bool(self.moving)),
+            ("figures", "Figures", bool(self.figures)),
+            ("results", "Results", any(result.shown for result in self.report.results)),
+            *((f"table-{index}", table.title, True) for index, table in enumerate(self.report.tables, 1)),
+            ("parameters", "Parameters", bool(self.report.parameters)),
+        ]
+        return [(f"{self.id}-{name}", title) for name, title, there in parts if there]
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,20 +96,35 @@ class MachineCheck:
 
 def section(index: int, report: Report, left_out: list[str]) -> PageSection:
     """The part of a report; a warning is added to `left_out` for each figure that cannot be drawn."""
-    return PageSection(f"m{index}", report, tuple(drawn(figure, left_out) for figure in report.figures))
+    looks = looks_of(report.figures)
+    figures = [drawn(figure, left_out, looks) for figure in report.figures]
+    moving = []
+    for name in dict.fromkeys(one.figure.drive.label for one in figures if isinstance(one.figure, Animation)):
+        stage = tuple(one for one in figures if isinstance(one.figure, Animation) and one.figure.drive.label == name)
+        charts = tuple(one for one in figures if isinstance(one.figure, Plot) and one.figure.x.label == name)
+        if charts:
+            moving.append(Moving(stage, charts))
+            figures = [one for one in figures if one not in stage and one not in charts]
+    return PageSection(f"m{index}", report, tuple(moving), tuple(figures))
 
 
-def drawn(figure: Figure, left_out: list[str]) -> Drawn:
-    """A figure, or where it cannot be drawn the reason in its place."""
-    made = made_or_left_out(f"figure {figure.title!r}", lambda: svg(figure), left_out)
+def drawn(figure: Figure, left_out: list[str], looks: Mapping[str, int] | None = None) -> Drawn:
+    """A figure, or where it cannot be drawn the reason in its place.
+
+    looks  of the labels of the page; default: those of this figure alone
+    """
+    looks = looks_of((figure,)) if looks is None else looks
+    made = made_or_left_out(f"figure {figure.title!r}", lambda: svg(figure, looks), left_out)
     if made is None:
-        return Drawn(figure, Markup("<p>{}</p>").format(left_out[-1]), "")
-    return Drawn(figure, Markup(made), _kind(figure))
+        return Drawn(figure, Markup("<p>{}</p>").format(left_out[-1]), "", looks)
+    return Drawn(figure, Markup(made), _kind(figure), looks)
 
 
 def _kind(figure: Figure) -> str:
     if isinstance(figure, Timing):
         return "wide timed" if figure.laws else "wide"
+    if isinstance(figure, Plot):
+        return "read" if figure.series else ""
     return "moves" if isinstance(figure, Animation) else ""
 
 
@@ -89,3 +137,13 @@ def judged(own: Sequence[Check], reports: Iterable[Report]) -> list[MachineCheck
 def failures_first(checks: Sequence[MachineCheck]) -> list[MachineCheck]:
     """The checks that fail, then the others."""
     return sorted(checks, key=lambda one: one.check.ok)
+
+
+def shown_first(checks: Sequence[MachineCheck], first: int) -> int:
+    """Number of checks that are shown at once, of checks with the failed ones first: those, and up to `first`.
+
+    A rest of two is shown as well.
+    """
+    failed = sum(not one.check.ok for one in checks)
+    shown = max(failed, first)
+    return shown if len(checks) > shown + 2 else len(checks)

@@ -37,10 +37,12 @@ class Sheet:
         linewidth: float = 1.0,
         dashes: Sequence[float] = (),
         zorder: float = 2.0,
+        attribute: str = "",
     ) -> None:
         """Draw a line through points [pt]; NaN makes a gap.
 
-        dashes  lengths of dash, gap, dash ... in line widths; default: a full line
+        dashes     lengths of dash, gap, dash ... in line widths; default: a full line
+        attribute  of the element, for a script
         """
         through = self._through(points)
         if not through:
@@ -49,7 +51,8 @@ class Sheet:
         if dashes:
             lengths = " ".join(f"{linewidth * length:.4g}" for length in dashes)
             broken = f' stroke-dasharray="{lengths}" stroke-linecap="butt"'
-        self._put(zorder, f'<path d="{through}" stroke="{color}" stroke-width="{linewidth:g}"{broken}/>')
+        more = f" {attribute}" if attribute else ""
+        self._put(zorder, f'<path d="{through}" stroke="{color}" stroke-width="{linewidth:g}"{broken}{more}/>')
 
     def lines(self, starts: ComplexArray, ends: ComplexArray, *, color: str, linewidth: float, zorder: float) -> None:
         """Draw straight lines from each start to its end [pt] as one mark."""

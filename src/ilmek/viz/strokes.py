@@ -19,7 +19,7 @@ BLOCK = 10 + 6.5j
 
 @record
 class Pen:
-    """A sheet, the map from points of the machine [m] to the sheet [pt], and the colour numbers of strokes."""
+    """A sheet, the map from points of the machine [m] to the sheet [pt], and the looks of strokes."""
 
     sheet: Sheet
     scale: float

@@ -1,25 +1,33 @@
 """Figures of a report as inline SVG.
 
-`style` has the colours and fonts, `plot`, `drawing`, `animation` and `timing` the kinds of figure, `sheet` writes SVG.
+`style` has the colours and fonts, `looks` the colour and marker of each label, `sheet` writes SVG; `plot`, `drawing`,
+`animation` and `timing` are the kinds of figure.
 """
+
+from collections.abc import Mapping
 
 from ilmek.report import Animation, Drawing, Figure, Plot
 from ilmek.viz.animation import draw_animation
 from ilmek.viz.drawing import draw_drawing
+from ilmek.viz.looks import looks_of
 from ilmek.viz.plot import draw_plot
 from ilmek.viz.style import FONTS
 from ilmek.viz.timing import draw_timing
 
 
-def svg(figure: Figure) -> str:
-    """The figure as the text of an `<svg>` element without ids; the same figure gives the same text."""
+def svg(figure: Figure, looks: Mapping[str, int] | None = None) -> str:
+    """The figure as the text of an `<svg>` element without ids; the same figure gives the same text.
+
+    looks  of the report's labels; default: those of this figure alone
+    """
+    looks = looks_of((figure,)) if looks is None else looks
     over = ""
     if isinstance(figure, Plot):
-        sheet = draw_plot(figure)
+        sheet, over = draw_plot(figure, looks)
     elif isinstance(figure, Drawing):
-        sheet = draw_drawing(figure)
+        sheet = draw_drawing(figure, looks)
     elif isinstance(figure, Animation):
-        sheet, over = draw_animation(figure)
+        sheet, over = draw_animation(figure, looks)
     else:
-        sheet, over = draw_timing(figure)
+        sheet, over = draw_timing(figure, looks)
     return sheet.svg(figure.title, FONTS, over)

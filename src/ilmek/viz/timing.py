@@ -6,7 +6,7 @@ shaded; arrows show the required order of events. The lower axis is the angle, t
 the motions are known, a script of the page (`timing.js`) moves a cursor over their curves.
 """
 
-import json
+from collections.abc import Mapping
 from typing import Any
 from xml.sax.saxutils import escape
 
@@ -14,9 +14,11 @@ import numpy as np
 
 from ilmek.report import Lane, Move, Shade, Timing
 from ilmek.units import deg, format_number, format_quantity, parse_unit
+from ilmek.viz.cursor import drive, metadata
 from ilmek.viz.flags import Flag, flags
 from ilmek.viz.font import text_width
 from ilmek.viz.frame import Box, grid, lower_axis, paper, upper_axis
+from ilmek.viz.looks import numbered
 from ilmek.viz.scale import ticks
 from ilmek.viz.sheet import Sheet, circle
 from ilmek.viz.style import AXIS, INK, MUTED, SMALL, STRONG, colour, shown_unit, tint
@@ -32,7 +34,7 @@ _BAD, _SHADE = "#c0392b", "#8a94a0"
 _TURN = 360.0
 
 
-def draw_timing(timing: Timing) -> tuple[Sheet, str]:
+def draw_timing(timing: Timing, looks: Mapping[str, int]) -> tuple[Sheet, str]:
     """The sheet with the stacked tracks, the first on top, and the SVG of the curves that a script may change."""
     names = [text_width(lane.name, STRONG, bold=True) for lane in timing.lanes]
     actuators = [text_width(lane.actuator, SMALL) for lane in timing.lanes]
@@ -43,9 +45,10 @@ def draw_timing(timing: Timing) -> tuple[Sheet, str]:
     box = Box(left, _BOTTOM, WIDTH - left - _RIGHT, sum(heights) + 2.0)
     sheet = Sheet(WIDTH, box.top + _TOP)
     paper(sheet, box)
-    _axes(sheet, box, timing.period)
+    _axes(sheet, box, timing)
     ceiling, floors, over = box.top - 1.0, [], []
-    for number, (lane, lane_flags, height) in enumerate(zip(timing.lanes, flown, heights, strict=True)):
+    numbers = numbered((lane.name for lane in timing.lanes), looks)
+    for number, lane, lane_flags, height in zip(numbers, timing.lanes, flown, heights, strict=True):
         ceiling -= height
         floor = complex(left, ceiling + _GAP / 2 + (_LAW if lane.moves else 0.0))
         floors.append(floor)
@@ -54,7 +57,7 @@ def draw_timing(timing: Timing) -> tuple[Sheet, str]:
         over.append(_motion(sheet, lane, floor, box.width, colour(number)))
         _events(sheet, lane, lane_flags, floor)
         _name(sheet, lane, floor + 1j * _STROKE / 2)
-        if number + 1 < len(timing.lanes):
+        if lane is not timing.lanes[-1]:
             sheet.line(1j * ceiling + np.array([box.left, box.right]), color=AXIS, linewidth=0.4)
     _links(sheet, timing, floors, box.width)
     return sheet, "".join(over) + (_run(timing, sheet, box, floors) if timing.laws else "")
@@ -183,12 +186,13 @@ def _name(sheet: Sheet, lane: Lane, middle: complex) -> None:
         )
 
 
-def _axes(sheet: Sheet, box: Box, period: float) -> None:
-    """Draw the master angle below with the grid, the time above in seconds, or in milliseconds for a fast turn."""
+def _axes(sheet: Sheet, box: Box, timing: Timing) -> None:
+    """Draw the angle below with the grid, the time above in seconds, or in milliseconds for a fast turn."""
     angles = [30.0 * step for step in range(13)]
     at = [box.left + angle / _TURN * box.width for angle in angles]
     grid(sheet, box, at)
-    lower_axis(sheet, box, at, angles, "master angle [°]")
+    lower_axis(sheet, box, at, angles, f"{timing.drive.label} [°]")
+    period = timing.period
     factor, unit = (1.0, "s") if period >= 0.5 else (1e-3, "ms")
     times = ticks(0.0, period / factor, "", 8)
     upper_axis(sheet, box, [box.left + t * factor / period * box.width for t in times], times, f"time [{unit}]")
@@ -209,6 +213,7 @@ def _run(timing: Timing, sheet: Sheet, box: Box, floors: list[complex]) -> str:
         ]
         lanes.append({"floor": round(sheet.height - floor.imag, 2), "unit": shown_unit(lane.unit), "moves": moves})
     run = {
+        **drive(timing.drive.label, timing.drive.unit, (0.0, _TURN)),
         "left": round(box.left, 2),
         "width": round(box.width, 2),
         "stroke": _STROKE,
@@ -218,8 +223,7 @@ def _run(timing: Timing, sheet: Sheet, box: Box, floors: list[complex]) -> str:
     }
     low, high = sheet.height - box.top, sheet.height - box.low
     cursor = f'<path data-cursor="" d="M0 {low:.1f}V{high:.1f}" stroke="{INK}" stroke-width="1" visibility="hidden"/>'
-    data = json.dumps(run, separators=(",", ":"), ensure_ascii=False)
-    return f"{cursor}<metadata>{escape(data)}</metadata>"
+    return f"{cursor}{metadata(run)}"
 
 
 def _short(value: float) -> float:

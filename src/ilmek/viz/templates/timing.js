@@ -1,7 +1,7 @@
 for (const figure of document.querySelectorAll("figure.timed")) {
   const svg = figure.querySelector("svg");
   const run = JSON.parse(svg.querySelector("metadata").textContent);
-  const controls = figure.querySelector(".controls"), button = controls.querySelector("button");
+  const drive = driveOf(figure, run), controls = figure.querySelector(".controls"), button = controls.querySelector("button");
   const slider = controls.querySelector("input"), answer = controls.querySelector("output");
   const values = figure.querySelector(".timed-values"), rows = [...values.querySelectorAll("tbody tr")];
   const cursor = svg.querySelector("[data-cursor]"), orders = [...controls.querySelectorAll("[data-order]")];
@@ -26,7 +26,7 @@ for (const figure of document.querySelectorAll("figure.timed")) {
     return value * speed ** order;
   }
   const motion = (lane, angle) => lane.moves.findIndex(([start, end]) => angle >= start && angle < end);
-  const written = (value, unit) => (Math.abs(value) < 1e-9 ? "0" : Number(value.toPrecision(4)).toString().replace("-", "−")) +
+  const measured = (value, unit) => (Math.abs(value) < 1e-9 ? "0" : Number(value.toPrecision(4)).toString().replace("-", "−")) +
     (unit && unit !== "°" ? " " : "") + unit;
   const angles = (lane) => [...new Set([...Array(361).keys(), ...lane.moves.flatMap(([start, end]) =>
     [...Array(25).keys()].map((k) => start + (k / 24) * (end - start)))])]
@@ -44,7 +44,9 @@ for (const figure of document.querySelectorAll("figure.timed")) {
     orders.forEach((one, index) => one.setAttribute("aria-pressed", index === order));
   }
   let angle = 0, before = 0, request = 0;
-  function show() {
+  function show(value) {
+    angle = within(run, value);
+    if (angle === null) return;
     cursor.setAttribute("transform", `translate(${(run.left + (angle / 360) * run.width).toFixed(2)} 0)`);
     slider.value = angle;
     answer.textContent = `${angle.toFixed(1)}°`;
@@ -53,13 +55,14 @@ for (const figure of document.querySelectorAll("figure.timed")) {
       const lane = run.lanes[number], [named, ...cells] = row.querySelectorAll("td"), now = motion(lane, angle);
       named.textContent = now < 0 ? "dwell" : named.dataset.names.split("|")[now];
       cells.forEach((cell, order) => (cell.textContent = lane.moves.length
-        ? written(at(lane, angle, order), lane.unit + ["", "/s", "/s²"][order]) : ""));
+        ? measured(at(lane, angle, order), lane.unit + ["", "/s", "/s²"][order]) : ""));
     });
   }
+  const turn = (to) => drive.show(to * run.factor);
   function step(now) {
-    angle = (angle + (Math.min(now - before, 100) / 8000) * 360) % 360;
+    const from = drive.value === null ? 0 : drive.value / run.factor;
+    turn((from + (Math.min(Math.max(now - before, 0), 100) / 8000) * 360) % 360);
     before = now;
-    show();
     request = requestAnimationFrame(step);
   }
   function play(on) {
@@ -67,26 +70,29 @@ for (const figure of document.querySelectorAll("figure.timed")) {
     request = 0;
     button.textContent = on ? "Pause" : "Play";
     button.setAttribute("aria-pressed", on);
+    if (on && drive.player && drive.player !== halt) drive.player(false);
+    if (on) drive.player = halt;
     before = performance.now();
     if (on) request = requestAnimationFrame(step);
   }
+  const halt = () => play(false);
   function point(event) {
     const box = svg.getBoundingClientRect(), view = svg.viewBox.baseVal;
     const x = ((event.clientX - box.left) / box.width) * view.width;
-    angle = Math.min(Math.max(((x - run.left) / run.width) * 360, 0), 360);
-    play(false);
-    show();
+    drive.pause();
+    turn(Math.min(Math.max(((x - run.left) / run.width) * 360, 0), 360));
   }
   svg.addEventListener("pointerdown", point);
   svg.addEventListener("pointermove", (event) => event.buttons && point(event));
   svg.style.touchAction = "pan-y";
-  slider.addEventListener("input", () => { play(false); angle = Number(slider.value); show(); });
+  slider.addEventListener("input", () => { drive.pause(); turn(Number(slider.value)); });
   button.addEventListener("click", () => play(!request));
   orders.forEach((one, order) => one.addEventListener("click", () => draw(order)));
-  addEventListener("beforeprint", () => { play(false); draw(0); });
+  addEventListener("beforeprint", () => { halt(); draw(0); });
   cursor.setAttribute("visibility", "visible");
   controls.hidden = values.hidden = false;
   const hash = /^#at=([\d.]+)(?:,([012]))?$/.exec(location.hash);
-  if (hash) { angle = Math.min(Number(hash[1]), 360); draw(Number(hash[2] || 0)); }
-  show();
+  if (hash) { drive.still = true; turn(Math.min(Number(hash[1]), 360)); draw(Number(hash[2] || 0)); }
+  else if (drive.value === null) turn(0);
+  drive.figures.push(show);
 }

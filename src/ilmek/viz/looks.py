@@ -1,0 +1,161 @@
+"""Looks: a body or quantity has one colour and one marker in all figures of a report.
+
+A look is a number. It gives the colour (`style.PALETTE`), the marker, and beyond the palette the dashes of a line.
+Bodies come first, in the order in which they are drawn; other curves get the first look that no curve of their figures
+has, and where bodies leave enough colours, the colour of none.
+"""
+
+import itertools
+import re
+from collections.abc import Iterable, Iterator, Mapping
+
+import numpy as np
+
+from ilmek.arrays import ComplexArray
+from ilmek.errors import UnitError
+from ilmek.report import Animation, Drawing, Figure, Plot, Timing
+from ilmek.units import parse_unit
+from ilmek.viz.style import DASHES, PALETTE
+
+_ARM = np.array([3 - 1j, 3 + 1j, 1 + 1j]) / 3
+_CROSS = (_ARM * np.array([[1], [1j], [-1], [-1j]])).ravel()
+MARKERS: Mapping[str, ComplexArray] = {
+    "disc": 0.9 * np.exp(2j * np.pi * np.arange(12) / 12),
+    "square": 0.8 * np.array([1 + 1j, -1 + 1j, -1 - 1j, 1 - 1j]),
+    "triangle": 1.1 * np.exp(2j * np.pi * np.array([0.25, 0.25 + 1 / 3, 0.25 + 2 / 3])),
+    "diamond": 1.15 * np.array([1, 1j, -1, -1j]),
+    "triangle down": 1.1 * np.exp(-2j * np.pi * np.array([0.25, 0.25 + 1 / 3, 0.25 + 2 / 3])),
+    "bar": np.array([0.35 + 1.2j, -0.35 + 1.2j, -0.35 - 1.2j, 0.35 - 1.2j]),
+    "plus": 1.1 * _CROSS,
+    "cross": 1.1 * _CROSS * np.exp(0.25j * np.pi),
+}
+"""Shapes of markers, in the order of the palette, of a radius of about 1."""
+
+RESERVED = 5
+"""Largest number of bodies whose colours no other curve takes: of eight colours three are left."""
+
+_QUANTITY = re.compile(r"(.*\S)\s+[+−-]?\d[\d.,]*\s?(\S+)")
+
+
+def looks_of(figures: Iterable[Figure]) -> dict[str, int]:
+    """The look of each label of the figures; labels of the same subject share one.
+
+    >>> from ilmek.report import Stroke
+    >>> import numpy as np
+    >>> bars = tuple(Stroke(np.array([0j, 1]), "link", label) for label in ("crank 60 mm", "rocker 231.6 mm"))
+    >>> looks_of([Drawing("d", "", bars), Drawing("d", "", (Stroke(np.array([0j, 1]), "link", "rocker"),))])
+    {'crank 60 mm': 0, 'rocker 231.6 mm': 1, 'rocker': 1}
+    """
+    figures = tuple(figures)
+    bodies = list(dict.fromkeys(subject(label) for figure in figures for label in _bodies(figure)))
+    shown = [tuple(dict.fromkeys(label for label, _ in _labels(figure) if label)) for figure in figures]
+    subjects = _subjects(figures, bodies)
+    numbers = {body: number for number, body in enumerate(bodies)}
+    beside: dict[str, set[str]] = {}
+    for labels in shown:
+        together = {subjects[label] for label in labels}
+        for one in together:
+            beside.setdefault(one, set()).update(together)
+    reserved = range(len(bodies)) if len(bodies) <= RESERVED else range(0)
+    for one in dict.fromkeys(subjects[label] for labels in shown for label in labels):
+        used = {numbers[other] for other in beside[one] if other in numbers}
+        if one not in numbers:
+            numbers[one] = next(n for n in itertools.count() if n % len(PALETTE) not in reserved and n not in used)
+    return {label: numbers[of] for label, of in subjects.items()}
+
+
+def subject(label: str) -> str:
+    """The body or quantity that a label names: the label without a length or angle at its end.
+
+    >>> subject("crank 59.95 mm"), subject("rod from 258.2 deg"), subject("roller CF 5"), subject("0.8 mm")
+    ('crank', 'rod', 'roller CF 5', '0.8 mm')
+    """
+    matched = _QUANTITY.fullmatch(label)
+    if matched is None or not _is_unit(matched[2]):
+        return label
+    return matched[1].removesuffix(" from").rstrip(",")
+
+
+def _is_unit(text: str) -> bool:
+    try:
+        parse_unit(text)
+    except UnitError:
+        return False
+    return True
+
+
+def _subjects(figures: tuple[Figure, ...], bodies: list[str]) -> dict[str, str]:
+    """The subject of each label; what stands before a comma, where that is a body: `left arm, link 2`.
+
+    The whole label where the shorter one would give two curves of a figure the same look.
+    """
+    subjects: dict[str, str] = {}
+    whole: set[str] = set()
+    for figure in figures:
+        seen: dict[tuple[str, bool], str] = {}
+        for label, dashed in _labels(figure):
+            head = subject(label).partition(",")[0]
+            subjects[label] = head if head in bodies else subject(label)
+            other = seen.setdefault((subjects[label], dashed), label)
+            if isinstance(figure, Plot) and other != label:
+                whole |= {label, other}
+    return {label: label if label in whole and label not in bodies else of for label, of in subjects.items() if label}
+
+
+def _bodies(figure: Figure) -> Iterator[str]:
+    """Labels of bars and wheels."""
+    if isinstance(figure, Drawing | Animation):
+        yield from (one.label for one in figure.strokes if one.role in ("link", "wheel") and one.label)
+
+
+def _labels(figure: Figure) -> Iterator[tuple[str, bool]]:
+    """Labels of all that is drawn in colour, and whether it is dashed."""
+    if isinstance(figure, Plot):
+        yield from ((one.label, one.dashed) for one in figure.series)
+    elif isinstance(figure, Timing):
+        yield from ((one.name, False) for one in figure.lanes)
+    else:
+        strokes = (*figure.still.strokes, *figure.strokes) if isinstance(figure, Animation) else figure.strokes
+        yield from ((one.label, False) for role in COLOURED for one in strokes if one.role == role)
+
+
+COLOURED = ("link", "wheel", "path")
+"""Roles of strokes that have the colour of their body."""
+
+
+def numbered(labels: Iterable[str], looks: Mapping[str, int]) -> list[int]:
+    """The look of each label of one figure; one that has none, or is empty, gets the first that is free in the figure.
+
+    >>> numbered(["crank", "", "rocker", ""], {"crank": 1, "rocker": 0})
+    [1, 2, 0, 3]
+    """
+    labels = list(labels)
+    used = {looks[label] for label in labels if label in looks}
+    found = []
+    for label in labels:
+        free = next(number for number in itertools.count() if number not in used)
+        found.append(looks.get(label, free))
+        used.add(found[-1])
+    return found
+
+
+def marker(number: int) -> str:
+    """The marker of a look; looks of one colour have different ones.
+
+    >>> marker(0), marker(8), marker(9)
+    ('disc', 'square', 'triangle')
+    """
+    return tuple(MARKERS)[(number + number // len(PALETTE)) % len(MARKERS)]
+
+
+def marker_shape(number: int, radius: float) -> ComplexArray:
+    """The corners of the marker of a look about its middle [pt]."""
+    return radius * MARKERS[marker(number)]
+
+
+def dashes(number: int, *, dashed: bool = False) -> tuple[float, ...]:
+    """Dash, gap, dash ... of a line [line widths]: of a dashed curve, and of looks beyond the palette."""
+    rounds = number // len(PALETTE)
+    if dashed:
+        return DASHES[0]
+    return DASHES[1 + (rounds - 1) % (len(DASHES) - 1)] if rounds else ()
