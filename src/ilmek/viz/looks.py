@@ -115,8 +115,11 @@ def _labels(figure: Figure) -> Iterator[tuple[str, bool]]:
     elif isinstance(figure, Timing):
         yield from ((one.name, False) for one in figure.lanes)
     else:
-        strokes = (*figure.still.strokes, *figure.strokes) if isinstance(figure, Animation) else figure.strokes
-        yield from ((one.label, False) for role in COLOURED for one in strokes if one.role == role)
+        still = figure.still if isinstance(figure, Animation) else figure
+        roles = [(one.role, one.label) for one in still.strokes]
+        if isinstance(figure, Animation):
+            roles += [(one.role, one.label) for one in figure.strokes]
+        yield from ((label, False) for wanted in COLOURED for role, label in roles if role == wanted)
 
 
 COLOURED = ("link", "wheel", "path")

@@ -86,7 +86,7 @@ def _spread(points: ComplexArray, box: Box, share: float) -> ComplexArray:
     """Points of a curve at even abscissae; none where it has no unique ordinate, or a gap."""
     finite = points[np.isfinite(points)]
     if len(finite) < len(points) or len(points) < 2 or np.any(np.diff(points.real) < 0):
-        return finite[:0]
+        return np.empty(0, complex)
     x = box.left + box.width * (np.arange(_MARKERS) + share) / _MARKERS
     x = x[(x >= points.real[0]) & (x <= points.real[-1])]
     return np.asarray(x + 1j * np.interp(x, points.real, points.imag))

@@ -32,23 +32,15 @@ class PageVerdict:
 class Drawn:
     """A figure and its SVG.
 
-    kind   "", "wide" (whole width), "moves" (animated), "read" (a plot with a cursor),
-           "wide timed" (a cyclogram with one)
-    looks  of the labels of the page
+    kind    "", "wide" (whole width), "moves" (animated), "read" (a plot with a cursor),
+            "wide timed" (a cyclogram with one)
+    curves  name and colour of each curve of a plot
     """
 
     figure: Figure
     svg: Markup
     kind: str
-    looks: Mapping[str, int]
-
-    @property
-    def curves(self) -> list[tuple[str, str]]:
-        """Name and colour of each curve of a plot."""
-        assert isinstance(self.figure, Plot)
-        numbers = numbered((one.label for one in self.figure.series), self.looks)
-        names = (one.label or self.figure.y.label for one in self.figure.series)
-        return [(name, colour(number)) for name, number in zip(names, numbers, strict=True)]
+    curves: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,8 +108,16 @@ def drawn(figure: Figure, left_out: list[str], looks: Mapping[str, int] | None =
     looks = looks_of((figure,)) if looks is None else looks
     made = made_or_left_out(f"figure {figure.title!r}", lambda: svg(figure, looks), left_out)
     if made is None:
-        return Drawn(figure, Markup("<p>{}</p>").format(left_out[-1]), "", looks)
-    return Drawn(figure, Markup(made), _kind(figure), looks)
+        return Drawn(figure, Markup("<p>{}</p>").format(left_out[-1]), "")
+    return Drawn(figure, Markup(made), _kind(figure), _curves(figure, looks))
+
+
+def _curves(figure: Figure, looks: Mapping[str, int]) -> tuple[tuple[str, str], ...]:
+    if not isinstance(figure, Plot):
+        return ()
+    numbers = numbered((one.label for one in figure.series), looks)
+    names = (one.label or figure.y.label for one in figure.series)
+    return tuple((name, colour(number)) for name, number in zip(names, numbers, strict=True))
 
 
 def _kind(figure: Figure) -> str:
