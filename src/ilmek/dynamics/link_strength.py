@@ -53,8 +53,7 @@ def link_strength(found: LinkForces, section: FlatSection, material: Material) -
     """Strength of a link with a flat section over a cycle. A link without beams has no stress, and infinite safeties.
 
     found  of `link_forces.internal_forces`, over a whole cycle; samples with NaN are left out
-
-    Raises ParameterError for a material without a known fatigue limit.
+    Without a known fatigue limit of the material the safety against fatigue is infinite.
     """
     stress, position, fatigue, buckling = 0.0, ("", "", 0.0), math.inf, math.inf
     for beam in found.beams:
@@ -66,7 +65,8 @@ def link_strength(found: LinkForces, section: FlatSection, material: Material) -
         row = int(np.argmax(highest))
         if highest[row] > stress:
             stress, position = float(highest[row]), (beam.start, beam.end, float(beam.at[row]))
-        fatigue = min(fatigue, _fatigue(beam, section, material, weak, solved))
+        if material.fatigue is not None:
+            fatigue = min(fatigue, _fatigue(beam, section, material, weak, solved))
         buckling = min(buckling, _buckling(beam, found, section, material, solved))
     return LinkStrength(found.body, stress, position, fatigue, buckling, natural_frequency(found, section, material))
 

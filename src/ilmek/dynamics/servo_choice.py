@@ -22,8 +22,6 @@ from ilmek.report import Check, at_least, at_most
 SAMPLES = 1440
 """Equal steps of time of the motor's duty."""
 
-CATALOGUE = "smallest servo of the catalogue, direct or with a planetary reducer"
-
 
 @record
 class ServoChoice:
@@ -35,9 +33,21 @@ class ServoChoice:
     cycle: LoadCycle
     drive: ServoDrive | None
 
-    @computed("", "servo and reducer for the driving input, with their duty", absent="no servo is sufficient")
+    @computed(
+        "",
+        "smallest sufficient servo, direct or with a planetary reducer, and its duty",
+        absent="none of the catalogue is sufficient",
+        shown=False,
+    )
     def servo(self) -> dict[str, str | float] | None:
         return None if self.drive is None else self.drive.as_json()
+
+    servo_name = computed(
+        "",
+        "smallest sufficient servo of the catalogue, and the ratio of its reducer",
+        lambda it: f"{it.drive.motor.name}, ratio {it.drive.reducer.ratio:g}" if it.drive else None,
+        absent="none is sufficient",
+    )
 
     @property
     def judged(self) -> ServoDrive:
@@ -52,7 +62,7 @@ class ServoChoice:
         """Torque, speed and inertia of the drive against the motor's limits."""
         one = self.judged
         found: MotorDuty = one.duty
-        source = f"{one.motor.name}, ratio {one.reducer.ratio:g}: {CATALOGUE}"
+        source = f"{one.motor.name}, ratio {one.reducer.ratio:g}"
         cure = "lower the speed, balance the load, or drive through a reducer and a flywheel"
         return (
             at_most(

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 
 from ilmek.dynamics.inverse_run import InverseRun
 from ilmek.dynamics.machine_checks import locking
+from ilmek.dynamics.machine_strength import MachineStrength, machine_strength
 from ilmek.dynamics.servo_choice import ServoChoice, servo_choice
 from ilmek.dynamics.speed_study import StudyOfSpeeds, speed_study
 from ilmek.errors import MechanismError
@@ -30,12 +31,13 @@ class Analysis:
     """A mechanism in motion with all that its file requires.
 
     transmission  pin -> acute transmission angle [rad] by sample
-    servo, forward, study  None: not required
+    servo, strength, forward, study  None: not required
     """
 
     run: MechanismRun
     transmission: "dict[str, FloatArray]"
     servo: ServoChoice | None
+    strength: MachineStrength | None
     forward: "OwnForward | None"
     study: StudyOfSpeeds | None
 
@@ -44,7 +46,8 @@ class Analysis:
         """What the machine must do: keep moving under friction, carry its forces, have a sufficient servo."""
         forces, servo = self.run.forces, self.servo.checks if self.servo else ()
         locked = locking(forces) if forces is not None else ()
-        return (*locked, *servo, *(test for test in self.self_tests if not test.ok))
+        strength = self.strength.checks if self.strength else ()
+        return (*locked, *strength, *servo, *(test for test in self.self_tests if not test.ok))
 
     @property
     def self_tests(self) -> tuple[Check, ...]:
@@ -56,6 +59,9 @@ class Analysis:
             tests.append(
                 at_most("frame_residual", forces.balance, BALANCE, "1", "Newton and Euler for the whole, relative")
             )
+        if self.strength is not None and self.strength.links:
+            balance = self.strength.balance
+            tests.append(at_most("link_residual", balance, BALANCE, "1", "balance of each link, relative"))
         if self.forward is not None:
             energy = self.forward.forward_energy_residual
             tests.append(at_most("forward_energy_residual", energy, ENERGY, "1", "energy against work, relative"))
@@ -95,6 +101,7 @@ def analysis(run: MechanismRun, progress: Progress = SILENT) -> Analysis:
         run,
         transmission_angles(run.motion, machine.transmission),
         servo_choice(machine, forces) if machine.servo and forces is not None and not forces.locked.all() else None,
+        machine_strength(machine, forces) if forces is not None else None,
         forward,
         _study(run, progress.part(0.5, 1.0, "study")),
     )
@@ -112,6 +119,7 @@ def _study(run: MechanismRun, progress: Progress) -> StudyOfSpeeds | None:
     def at(speed: float) -> tuple[InverseRun, tuple[Check, ...]]:
         progress(0.0)
         found = run.at_speed(speed)
-        return found, locking(found)
+        strength = machine_strength(run.machine, found)
+        return found, (*locking(found), *(strength.checks if strength else ()))
 
     return speed_study(task.speeds, at)

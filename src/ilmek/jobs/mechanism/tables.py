@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ilmek.dynamics.inverse_run import greatest
+from ilmek.dynamics.machine_strength import MachineStrength
 from ilmek.dynamics.speed_study import StudyOfSpeeds
 from ilmek.jobs.mechanism.analysis import Analysis
 from ilmek.jobs.mechanism.run import MechanismRun
@@ -13,12 +14,13 @@ from ilmek.linkage.model import Pin, Slide
 from ilmek.linkage.motion import moving_points
 from ilmek.linkage.outputs import Travel, output_history
 from ilmek.report import Column, Table, columns
+from ilmek.units import turn
 
 if TYPE_CHECKING:
     from ilmek.dynamics.own_forward import OwnForward
 
 ROUNDING = 1e-12
-"""Component of a force, relative to its greatest magnitude, that counts as rounding."""
+"""Component of a force or position, relative to its greatest magnitude, that counts as rounding."""
 
 Row = tuple[float | int | str, ...]
 
@@ -33,6 +35,9 @@ def _tables(found: Analysis) -> Iterator[Table]:
     if run.forces is not None:
         yield _forces_table(run)
         yield _drives_table(run)
+    if found.strength is not None:
+        yield _links_table(found.strength)
+        yield _pins_table(found.strength)
     if found.study is not None:
         yield _study_table(found.study)
     yield _transmission_table(found)
@@ -41,6 +46,27 @@ def _tables(found: Analysis) -> Iterator[Table]:
     yield _bodies_table(run)
     if found.forward is not None:
         yield _events_table(found.forward)
+
+
+def _links_table(strength: MachineStrength) -> Table:
+    heads = columns("link", "stress up to [MPa]", "between", "at [mm]", "fatigue safety", "buckling safety")
+    rows = []
+    for name, one in strength.links.items():
+        start, end, at = one.position
+        values = (one.stress, f"{start} and {end}", at, one.fatigue, one.buckling, one.frequency / turn)
+        rows.append((name, *values))
+    return Table("links", "Strength of links", (*heads, *columns("natural frequency [Hz]")), tuple(rows), brief=True)
+
+
+def _pins_table(strength: MachineStrength) -> Table:
+    heads = columns(
+        "pin", "force up to [N]", "shear [MPa]", "bending [MPa]", "pressure [MPa]", "pressure x speed [MPa*m/s]"
+    )
+    rows = tuple(
+        (name, one.force, one.shear, one.bending, one.pressure, one.wear, strength.lives.get(name, ""))
+        for name, one in strength.pins.items()
+    )
+    return Table("pins", "Strength of pins", (*heads, *columns("bearing life [h]")), rows, brief=True)
 
 
 def _study_table(study: StudyOfSpeeds) -> Table:
@@ -146,7 +172,8 @@ def _points_table(run: MechanismRun) -> Table:
     rows = []
     for body, point in moving_points(run.plan.mechanism):
         moved = run.motion.point(body, point)
-        ends = [*_ends(np.real(moved.position)), *_ends(np.imag(moved.position))]
+        level = ROUNDING * greatest(moved.position)
+        ends = [*_ends(np.real(moved.position), level), *_ends(np.imag(moved.position), level)]
         rows.append((f"{point} of {body}", *ends, greatest(moved.velocity), greatest(moved.acceleration)))
     return Table("points", "Points that move", heads, tuple(rows), brief=True)
 
