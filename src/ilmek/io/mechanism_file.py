@@ -170,7 +170,7 @@ def _masses(
             if name in sections:
                 members[name] = flat_member(sections[name])
         with source.located("bodies", name):
-            inertia = inertia_of(table, mechanism.body(name), joints[name], members.get(name))
+            inertia = inertia_of(table, mechanism.body(name), members.get(name))
             if inertia is not None:
                 inertias[name] = inertia
     return members, inertias

@@ -176,13 +176,16 @@ class Motion:
 
 
 def moving_points(mechanism: Mechanism) -> tuple[tuple[str, str], ...]:
-    """The named points that move, each once: body and point; a joint's by the first body that carries it."""
+    """The named points that move, each once: body and point; a joint's by the first body that carries it.
+
+    Pins of several bodies at one point, `NAME` and `NAME.BODY`, count once.
+    """
     pins = {joint.name for joint in mechanism.joints if isinstance(joint, Pin)}
     seen = {joint.name for joint in mechanism.joints if isinstance(joint, Pin) and GROUND in joint.bodies}
     found = []
     for body in mechanism.moving:
         for point in mechanism.body(body).points:
-            if point not in seen:
+            if point not in seen and point.rpartition(".")[0] not in mechanism.body(body).points:
                 found.append((body, point))
                 seen |= {point} & pins
     return tuple(found)

@@ -47,12 +47,9 @@ def flat_member(section: Mapping[str, Any]) -> FlatMember:
     return FlatMember(**{**section, "material": material})
 
 
-def inertia_of(
-    table: Mapping[str, Any], body: Body, joints: Sequence[str], member: FlatMember | None
-) -> Inertia | None:
-    """The inertia of a body: given, of its shapes, else of bars of its section between its joints; None: massless.
+def inertia_of(table: Mapping[str, Any], body: Body, member: FlatMember | None) -> Inertia | None:
+    """The inertia of a body: given, of its shapes, else of bars of its section between its points; None: massless.
 
-    table   of the body            joints  names of its joints in the file
     Raises IlmekError for masses that are negative or given twice, and for shapes that cannot be.
     """
     stated = table.keys() & {"mass", "centre", "moment"}
@@ -61,7 +58,7 @@ def inertia_of(
             raise MechanismError(f"{', '.join(sorted(stated))} and shapes are both given", do="leave one of them")
         return combined(*(_shape(one, body) for one in table["shapes"]))
     if not stated:
-        return combined(*_bars(body, joints, member)) if member is not None else None
+        return combined(*_bars(body, member)) if member is not None else None
     mass = table.get("mass", 0.0)
     if "length" in table and not stated & {"centre", "moment"}:
         start, end = list(body.points.values())[:2]
@@ -69,11 +66,11 @@ def inertia_of(
     return Inertia(mass, _at(table.get("centre", [0.0, 0.0]), body), table.get("moment", 0.0))
 
 
-def _bars(body: Body, joints: Sequence[str], member: FlatMember) -> Iterator[Inertia]:
-    """Bars of a section from joint to joint in the file's order, closed for three joints or more."""
-    positions = list(dict.fromkeys(body.points[joint] for joint in joints if joint in body.points))
+def _bars(body: Body, member: FlatMember) -> Iterator[Inertia]:
+    """Bars of a section from point to point in the file's order, closed for three points or more."""
+    positions = list(dict.fromkeys(body.points.values()))
     if len(positions) < 2:
-        given = f"body {body.name!r} has a section, but no two joints apart"
+        given = f"body {body.name!r} has a section, but no two points apart"
         raise MechanismError(given, do="give its mass or its shapes")
     ends = [*pairwise(positions), *([(positions[-1], positions[0])] if len(positions) > 2 else [])]
     density = find_material(member.material).density
