@@ -147,4 +147,4 @@ def test_a_mistake_in_a_file_is_told_at_the_command_line(tmp_path: Path):
     )
     result = called(str(path))
     assert result.exit_code == 2
-    assert result.stderr.startswith(f"ilmek: {path}, line 20, joints.O: Peaucellier has no body 'arm_x'; it has")
+    assert result.stderr.startswith(f"ilmek: {path}, line 19, joints.O: Peaucellier has no body 'arm_x'; it has")
