@@ -7,7 +7,7 @@ import pytest
 
 from ilmek.errors import CarpetError, LoomError, ParameterError, YarnError
 from ilmek.jobs.chart import make_charted
-from ilmek.jobs.design import WorkshopOrder, design_machine
+from ilmek.jobs.design import design_machine
 from ilmek.jobs.inspect import inspect_programme
 from ilmek.jobs.loom import make_loomed, params_for, read_loom_order
 from ilmek.jobs.machines import machine_form, machine_list
@@ -16,6 +16,7 @@ from ilmek.jobs.output_folder import free_folder
 from ilmek.jobs.reproduce import reproduce_papers
 from ilmek.jobs.warm import warm
 from ilmek.jobs.weave import weave, weave_json
+from ilmek.jobs.workshop_order import WorkshopOrder
 from ilmek.machines.catalogue import MACHINES
 from ilmek.progress import Cancelled, Progress
 from ilmek.report import Report

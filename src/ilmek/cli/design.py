@@ -10,7 +10,8 @@ from ilmek.cli.report import headline_of, show_report
 from ilmek.cli.settings import read_settings, setting_files
 from ilmek.cli.terminal import note, say
 from ilmek.cli.verdict import exit_code, note_verdict
-from ilmek.jobs.design import WorkshopOrder, design_machine
+from ilmek.jobs.design import design_machine
+from ilmek.jobs.workshop_order import WorkshopOrder
 
 EXAMPLES = """\b
 Examples:

@@ -14,9 +14,10 @@ from ilmek.io.mechanism_file import mechanism_json, mechanism_toml, read_mechani
 from ilmek.io.table_csv import MOST_NUMBERS, csv_text
 from ilmek.jobs.mechanism.analysis import analysis
 from ilmek.jobs.mechanism.data import as_json, columns
-from ilmek.jobs.mechanism.report import report
+from ilmek.jobs.mechanism.report import report, with_parts
 from ilmek.jobs.mechanism.request import STEPS, MotionRequest
 from ilmek.jobs.mechanism.run import run
+from ilmek.jobs.workshop_order import WorkshopOrder, workshop_writer
 from ilmek.report import Column, Report
 from ilmek.units import format_number, format_quantity, from_si
 
@@ -26,6 +27,7 @@ Examples:
   ilmek mechanism examples/peaucellier.toml --over -40deg..40deg --report peaucellier.html
   ilmek mechanism examples/jansen_leg.toml --speed 60rpm --steps 360 --csv motion.csv
   ilmek mechanism examples/tufting_needle.toml --at 30deg --json -
+  ilmek mechanism mine.toml --workshop parts
   ilmek mechanism mine.toml --as json
 
 Limits: file 250 kB; 100 bodies, joints, couplings; 2,000,000 numbers in a table.
@@ -52,6 +54,14 @@ Limits: file 250 kB; 100 bodies, joints, couplings; 2,000,000 numbers in a table
     "--csv", "csv_to", metavar="-|FILE", help="Write the motion as CSV, SI and radians; - writes to standard output."
 )
 @click.option("--report", "page_to", type=click.Path(path_type=Path), metavar="FILE.html", help="Write a report page.")
+@click.option(
+    "--workshop",
+    "parts_to",
+    type=click.Path(path_type=Path),
+    metavar="DIR",
+    help="Write the links (DXF, STEP) and the inputs' laws as cam tables.",
+)
+@click.option("--tolerance", metavar="ERROR", help="Tolerance of cam tables: 1um, 0.01deg, or 0.01% of the stroke.")
 @click.option("--as", "kind", type=click.Choice(("toml", "json")), help="Convert the file to this format and exit.")
 @force_option
 @json_option
@@ -64,6 +74,8 @@ def command(
     steps: int,
     csv_to: str | None,
     page_to: Path | None,
+    parts_to: Path | None,
+    tolerance: str | None,
     kind: str | None,
     force: bool,
     json_to: str | None,
@@ -72,6 +84,8 @@ def command(
 
     Ends with 3 where a check fails.
     """
+    if parts_to is None and tolerance is not None:
+        raise click.UsageError("--tolerance needs --workshop DIR")
     if kind is not None:
         given = read_mechanism(file)
         write = mechanism_toml if kind == "toml" else mechanism_json
@@ -79,11 +93,16 @@ def command(
         return 0
     files = {"--json": json_to, "--csv": csv_to, "--report": page_to}
     with call_outputs(files, force=force, inputs={"FILE": file}) as call:
+        write_parts = workshop_writer(None if parts_to is None else WorkshopOrder(parts_to, tolerance), call.outputs)
         moved = run(read_mechanism(file), MotionRequest(_fixed(fixed), over, speed, steps), call.progress)
         found = analysis(moved, call.progress)
         found_report = report(found, drawn=page_to is not None)
+        if write_parts is not None:
+            found_report = with_parts(found_report, moved.machine)
+        workshop = None if write_parts is None else write_parts(found_report)
         call.give_page("--report", found_report)
-        call.give_json(lambda: as_json(found, found_report))
+        files_of = {} if workshop is None else {"files": workshop.files}
+        call.give_json(lambda: {**as_json(found, found_report), **files_of})
         call.give("--csv", lambda: csv_text(columns(found), call.progress.part(0.0, 1.0, "table")))
     if call.quiet:
         note_verdict(found_report.all_checks)
@@ -92,7 +111,9 @@ def command(
         for option, noun in (("--report", "report"), ("--csv", "table")):
             if option in call.files:
                 say(f"{noun}: {call.files[option]}")
-    for warning in found_report.warnings:
+        if workshop is not None:
+            say(f"workshop: {workshop.summary}")
+    for warning in (*found_report.warnings, *(workshop.notes if workshop else ())):
         note(warning)
     return exit_code(found_report.all_checks)
 

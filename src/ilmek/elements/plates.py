@@ -24,7 +24,7 @@ def link_plate(
     title: str,
     pins: Sequence[tuple[str, complex]],
     *,
-    hole_radius: float,
+    hole_radius: float | Mapping[str, float],
     width: float,
     thickness: float,
     material: str,
@@ -33,6 +33,7 @@ def link_plate(
     """A link's plate: a bored hole at each pin, with material around it according to `width`.
 
     pins   names and positions of the pins in the link's own frame [m], two or more
+    hole_radius  of all holes, or of each by its pin's name [m]
     width  of a straight link [m]: twice the radius of its ends
     Three or more pins give the hull of their ends. Raises ParameterError for coincident pins, or a width without
     material beside the holes.
@@ -42,19 +43,21 @@ def link_plate(
     >>> round(plate.area, 9) == round(0.06 * 0.024 + np.pi * 0.012**2, 9)
     True
     """
-    if width <= 2 * hole_radius:
+    radii = hole_radius if isinstance(hole_radius, Mapping) else dict.fromkeys((pin for pin, _ in pins), hole_radius)
+    largest = max(radii[pin] for pin, _ in pins)
+    if width <= 2 * largest:
         raise ParameterError(
-            f"a link {format_quantity(width, 'mm')} wide with holes of {format_quantity(2 * hole_radius, 'mm')}",
+            f"a link {format_quantity(width, 'mm')} wide with holes of {format_quantity(2 * largest, 'mm')}",
             allowed="wider than its holes",
         )
     centres = np.array([centre for _, centre in pins], dtype=complex)
     apart = np.abs(centres[:, None] - centres[None, :])[np.triu_indices(len(centres), 1)]
-    if len(centres) < 2 or apart.min() < 2 * hole_radius:
+    if len(centres) < 2 or apart.min() < 2 * largest:
         raise ParameterError(
-            f"the holes of {name} run into one another", allowed=f"{format_quantity(2 * hole_radius, 'mm')} apart"
+            f"the holes of {name} run into one another", allowed=f"{format_quantity(2 * largest, 'mm')} apart"
         )
     outline = rounded_hull(centres, width / 2)
-    holes = tuple(Hole(centre, hole_radius, pin) for pin, centre in pins)
+    holes = tuple(Hole(centre, radii[pin], pin) for pin, centre in pins)
     return Plate(name, title, outline, thickness, material, holes, area=area(outline), number=number)
 
 

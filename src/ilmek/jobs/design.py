@@ -1,12 +1,11 @@
 """Design one machine; write its workshop files."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import partial
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ilmek.io.output import Outputs, joined
+from ilmek.jobs.workshop_order import WorkshopOrder, workshop_writer
 from ilmek.machines.catalogue import find_machine
 from ilmek.params import Params, Setting
 from ilmek.progress import SILENT, Progress
@@ -18,17 +17,6 @@ if TYPE_CHECKING:
 
 LOOM = "automated-loom"
 """The machine whose report names the nearest carpets, where it cannot weave what is required."""
-
-
-@dataclass(frozen=True, slots=True)
-class WorkshopOrder:
-    """A folder for the workshop files of a design: plates (DXF, STEP) and cam tables.
-
-    tolerance  of the cam tables, like `1um` or `0.01%` of the stroke; default: see `jobs.workshop.SHARE`
-    """
-
-    folder: Path
-    tolerance: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +52,7 @@ def design_machine(
     before any work, where a file cannot be written; errors of the machine; Cancelled.
     """
     with joined(outputs, progress=progress) as made:
-        write = _workshop_writer(workshop, made)
+        write = workshop_writer(workshop, made)
         machine = find_machine(name)
         params = machine.params.read(settings)
         designed = machine.designed(params, progress.part(0.0, 0.6, "design"))
@@ -81,14 +69,3 @@ def _with_nearest(report: Report, params: Params, progress: Progress) -> Report:
     from ilmek.jobs.nearest import with_nearest
 
     return with_nearest(report, params, progress)
-
-
-def _workshop_writer(workshop: WorkshopOrder | None, outputs: Outputs) -> "Callable[[Report], Workshop] | None":
-    """Writes the workshop files of a report; None where none are ordered. Their libraries are imported only here."""
-    if workshop is None:
-        return None
-    outputs.expect_folder(workshop.folder, "--workshop")
-    from ilmek.jobs.workshop import Tolerance, read_tolerance, write_workshop
-
-    tolerance = Tolerance() if workshop.tolerance is None else read_tolerance(workshop.tolerance)
-    return partial(write_workshop, folder=workshop.folder, outputs=outputs, tolerance=tolerance)

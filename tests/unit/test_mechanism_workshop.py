@@ -1,0 +1,68 @@
+"""The links and laws of an own mechanism as files for the workshop and the controller."""
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from ilmek.cli.mechanism import command
+from ilmek.io.mechanism_file import parse_mechanism
+from ilmek.jobs.mechanism.parts import cam_tables, plates
+
+TEXT = """\
+name = "indexer"
+links = { width = "24mm", thickness = "8mm", material = "structural steel" }
+[bodies]
+ground.points = { O = [0, 0], C = ["120mm", 0] }
+crank.length = "40mm"
+rod.points = { A = [0, 0], B = ["100mm", 0], P = ["50mm", "60mm"] }
+rocker = { length = "90mm", mass = "1kg" }
+[joints]
+O.pin = ["ground", "crank"]
+A.pin = ["crank", "rod"]
+B.pin = ["rod", "rocker"]
+C.pin = ["ground", "rocker"]
+[inputs]
+O = "crank"
+[branches]
+B = 1
+[pins]
+B = { diameter = "12mm", length = "20mm" }
+"""
+
+
+def test_a_link_is_a_plate_with_its_pins_holes() -> None:
+    made, notes = plates(parse_mechanism(TEXT).machine)
+    assert [plate.name for plate in made] == ["crank", "rod"]
+    assert {hole.label: hole.radius for hole in made[1].holes} == pytest.approx({"A": 0.004, "B": 0.006, "P": 0.004})
+    assert abs(made[0].holes[1].at - made[0].holes[0].at) == pytest.approx(0.04)
+    assert made[0].area == pytest.approx(0.04 * 0.024 + math.pi * 0.012**2)
+    assert notes == ("no section, no plate: rocker; give width, thickness and material",)
+
+
+def test_a_link_too_slender_for_its_holes_is_left_out_with_the_reason() -> None:
+    made, notes = plates(parse_mechanism(TEXT.replace('"12mm"', '"30mm"')).machine)
+    assert [plate.name for plate in made] == ["crank"]
+    assert notes[0].startswith("rod has no plate: a link 24 mm wide with holes of 30 mm")
+
+
+def test_a_periodic_law_of_an_input_is_a_cam_table_and_a_constant_speed_is_none() -> None:
+    assert cam_tables(parse_mechanism(TEXT + '[motions]\nO = "60rpm"\n').machine) == ()
+    law = '[motions]\nO = { table = [["0s", "0deg"], ["0.5s", "90deg"], ["1s", "0deg"]] }\n'
+    (table,) = cam_tables(parse_mechanism(TEXT + law).machine)
+    assert (table.unit, table.period, table.revolves) == ("deg", 1.0, pytest.approx(0.0, abs=1e-12))
+    s, ds, _ = table.motion(np.array([0.0, math.pi, math.pi + 1e-4]))
+    assert s[1] == pytest.approx(math.pi / 2)
+    assert (s[2] - s[1]) / 1e-4 == pytest.approx(ds[1], abs=1e-3)
+
+
+def test_the_command_writes_the_links(tmp_path: Path) -> None:
+    file = tmp_path / "mine.toml"
+    file.write_text(TEXT, encoding="utf-8")
+    found = CliRunner().invoke(command, [str(file), "--workshop", str(tmp_path / "parts"), "--json", "-"])
+    assert found.exit_code == 0, found.output
+    assert any(path.endswith("rod.dxf") for path in json.loads(found.stdout)["files"])
+    assert (tmp_path / "parts" / "crank.dxf").exists()
