@@ -75,7 +75,7 @@ def animated(
     )
     points = (MovingDot(_track(motion, *one), named(one[1]), "point") for one in traces)
     first = 0 if start is None else int(np.argmin(np.abs(unit(at) - unit(start)) if closes else np.abs(at - start)))
-    bars = (*_wheels(motion), *_bars(motion, named, traces))
+    bars = (*_wheels(motion, named), *_bars(motion, named, traces))
     dots = (*_blocks(motion, named), *_pins(motion, named, pivots), *points)
     return Animation(still, drive, at, bars, dots, closes, first, period, readings)
 
@@ -155,7 +155,7 @@ def _bars(motion: Motion, named: Naming, traces: Sequence[tuple[str, str]]) -> I
             yield MovingStroke(points, role, named(body), closed=len(corners) > 2)
 
 
-def _wheels(motion: Motion) -> Iterator[MovingStroke]:
+def _wheels(motion: Motion, named: Naming) -> Iterator[MovingStroke]:
     """The pitch circles of gears and of a rack's pinion, each with a radius that shows its turning.
 
     Radii r_1 = |i / (i - 1)| d and r_2 = |1 / (i - 1)| d of gears with the ratio i and the distance d of their centres;
@@ -179,7 +179,7 @@ def _wheels(motion: Motion) -> Iterator[MovingStroke]:
                 drawn.add(key)
                 rim = np.concatenate(([0.0], radius * unit(np.linspace(0.0, turn, RIM + 1)))).astype(complex)
                 points = middle[:, None] + motion.direction(body)[:, None] * rim
-                yield MovingStroke(points, "outline")
+                yield MovingStroke(points, "wheel", named(body), closed=True)
 
 
 def _corners(points: ComplexArray) -> ComplexArray:

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from ilmek.report import Lane, LawCurve, Link, Mark, Move, Shade, Timing
+from ilmek.report import Axis, Lane, LawCurve, Link, Mark, Move, Shade, Timing
 from ilmek.timing.cyclogram import Cyclogram, Exclusion, Moment, Relation, check_all, moment_angle, present
 from ilmek.timing.relations import Presence, Zone
 from ilmek.timing.track import MotionLaw, Track, TrackSegment, joints, laid, sample
@@ -15,12 +15,18 @@ from ilmek.units import deg, format_number, turn
 _SHARES = np.linspace(0.0, 1.0, 65)
 
 
-def draw(cyclogram: Cyclogram, title: str, note: str = "", step: float = 1 * deg) -> Timing:
-    """The figure of a cyclogram: each track over its stroke, sampled every `step` [rad] and at every joint."""
+MASTER = Axis("master angle", "deg")
+
+
+def draw(cyclogram: Cyclogram, title: str, note: str = "", step: float = 1 * deg, drive: Axis = MASTER) -> Timing:
+    """The figure of a cyclogram: each track over its stroke, sampled every `step` [rad] and at every joint.
+
+    drive  name of the angle, shared with other figures over it
+    """
     lanes = tuple(_lane(cyclogram, track, step) for track in cyclogram.tracks)
     laws = {law_label(part.law): part.law for track in cyclogram.tracks for part in track.segments}
     curves = tuple(_curve(name, law) for name, law in laws.items())
-    return Timing(cyclogram.name, title, cyclogram.period, lanes, note, curves, tuple(_links(cyclogram)))
+    return Timing(cyclogram.name, title, cyclogram.period, lanes, note, curves, tuple(_links(cyclogram)), drive)
 
 
 def law_label(law: MotionLaw) -> str:

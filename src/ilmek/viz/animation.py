@@ -82,7 +82,7 @@ def _lines(pen: Pen, animation: Animation, tracks: PointTracks) -> Iterator[str]
         yield from _moved(tracks, points, tint(shade, 0.45), 4.8, closed=one.closed)
         if one.label and one.label not in seen:
             seen.add(one.label)
-            yield marked(tracks, _middle(points), marker_shape(number, _MARKER), shade)
+            yield marked(tracks, _middle(points, closed=one.closed), marker_shape(number, _MARKER), shade)
 
 
 def _moved(
@@ -103,11 +103,9 @@ def _moved(
         yield line(tracks, list(points.T), stroke, width, closed=closed, fill=fill)
 
 
-def _middle(points: ComplexArray) -> ComplexArray:
-    """The point of a bar that bears its marker: a third of the way along it, or the middle of an area."""
-    return np.asarray(
-        points[:, 0] + 0.35 * (points[:, 1] - points[:, 0]) if points.shape[1] == 2 else points.mean(axis=1)
-    )
+def _middle(points: ComplexArray, *, closed: bool) -> ComplexArray:
+    """The point of a bar that bears its marker: a third of the way along its first part, or the middle of an area."""
+    return np.asarray(points.mean(axis=1) if closed else points[:, 0] + 0.35 * (points[:, 1] - points[:, 0]))
 
 
 def _dots(pen: Pen, animation: Animation, tracks: PointTracks) -> Iterator[str]:

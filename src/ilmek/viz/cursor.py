@@ -51,6 +51,11 @@ def cursor(
     return f'<path data-cursor="" {line} visibility="hidden"/>{"".join(dots)}{metadata(data)}'
 
 
+def has_cursor(plot: Plot) -> bool:
+    """Whether a plot has a curve with one ordinate for an abscissa."""
+    return any(len(one.x) > 0 and bool(np.all(np.diff(one.x) >= 0)) for one in plot.series)
+
+
 def drive(label: str, unit: str, ends: tuple[float, float]) -> dict[str, object]:
     """What the script needs of the quantity that figures share: its name, its unit with the factor to SI, the ends of
     this figure in the unit, a full turn in the unit (0: it is no angle), and the decimals that are written.

@@ -9,7 +9,7 @@ import numpy as np
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.report import Mark, Plot, Series
 from ilmek.units import parse_unit
-from ilmek.viz.cursor import cursor
+from ilmek.viz.cursor import cursor, has_cursor
 from ilmek.viz.font import text_width
 from ilmek.viz.frame import Box, grid, left_axis, lower_axis, paper
 from ilmek.viz.looks import dashes, marker_shape, numbered
@@ -24,6 +24,8 @@ _RIGHT, _BOTTOM, _ROW, _TIER = 14.0, 29.0, 13.0, 10.0
 _KEY = 20.0
 _MARKER, _MARKERS = 2.9, 6
 """Radius of a marker [pt], and their number on a curve."""
+_LEVEL = 2
+"""Number of samples of a level, such as a limit."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,6 +44,8 @@ def draw_plot(plot: Plot, looks: Mapping[str, int]) -> tuple[Sheet, str]:
     """
     x_span = span(_all([in_unit(one.x, plot.x.unit) for one in plot.series]))
     y_span = _padded(*span(_all([in_unit(one.y, plot.y.unit) for one in plot.series])))
+    if plot.series and not has_cursor(plot) and plot.x.unit == plot.y.unit:
+        x_span, y_span = _equal_scales(x_span, y_span)
     x_ticks, y_ticks = ticks(*x_span, plot.x.unit, 9), ticks(*y_span, plot.y.unit, 6)
     left = 26.0 + max((text_width(label, SMALL) for label in tick_labels(y_ticks)), default=0.0)
     numbers = numbered((one.label for one in plot.series), looks)
@@ -62,17 +66,17 @@ def draw_plot(plot: Plot, looks: Mapping[str, int]) -> tuple[Sheet, str]:
     _draw_curves(sheet, scales, plot, numbers)
     _draw_marks(sheet, box, scales, plot, tiers)
     _draw_legend(sheet, entries)
-    return sheet, cursor(plot, sheet, box, (x_span, y_span), numbers) if plot.series else ""
+    return sheet, cursor(plot, sheet, box, (x_span, y_span), numbers) if has_cursor(plot) else ""
 
 
 def _draw_curves(sheet: Sheet, scales: "_Scales", plot: Plot, numbers: list[int]) -> None:
-    """The curves; where there are several, each full one with markers, staggered so that they stand apart."""
+    """The curves; where there are several, each but the levels with markers, staggered so that they stand apart."""
     several = len(plot.series) > 1
     for index, (one, number) in enumerate(zip(plot.series, numbers, strict=True)):
         x, y = thinned_curve(in_unit(one.x, plot.x.unit), in_unit(one.y, plot.y.unit))
         points = thinned_line(scales.x(x) + 1j * scales.y(y))
         sheet.line(points, zorder=3, attribute=f'data-series="{index}"', **_line(one, number))
-        if several and not one.dashed:
+        if several and len(one.x) > _LEVEL:
             for at in _spread(points, scales.box, (index + 0.5) / len(plot.series)):
                 _mark(sheet, at, number)
 
@@ -111,6 +115,14 @@ def _all(parts: list[FloatArray]) -> FloatArray:
     return np.concatenate([np.empty(0), *parts])
 
 
+def _equal_scales(x: tuple[float, float], y: tuple[float, float]) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Spans with equal scales in both directions, for a curve in a plane; the narrower one is widened."""
+    room = (WIDTH - 60.0) / HEIGHT
+    wide, high = x[1] - x[0], y[1] - y[0]
+    more_x, more_y = max(high * room - wide, 0.0) / 2, max(wide / room - high, 0.0) / 2
+    return (x[0] - more_x, x[1] + more_x), (y[0] - more_y, y[1] + more_y)
+
+
 def _padded(low: float, high: float) -> tuple[float, float]:
     """The span with 5 % margins; an end at or near zero is put on zero."""
     margin = 0.05 * (high - low)
@@ -145,7 +157,7 @@ def _draw_legend(sheet: Sheet, entries: list[_Entry]) -> None:
     for entry in entries:
         at = complex(entry.left, sheet.height - 4.0 - _ROW * (entry.row + 0.5))
         sheet.line(np.array([at, at + _KEY]), **_line(entry.series, entry.number))
-        if len(entries) > 1 and not entry.series.dashed:
+        if len(entries) > 1 and len(entry.series.x) > _LEVEL:
             _mark(sheet, at + _KEY / 2, entry.number)
         sheet.text(at + _KEY + 4.0, entry.series.label, fontsize=TEXT, va="center_baseline")
 

@@ -7,6 +7,7 @@ from markupsafe import Markup
 
 from ilmek.report import Animation, Check, Figure, Plot, Reason, Report, Timing
 from ilmek.report.left_out import made_or_left_out
+from ilmek.viz.cursor import has_cursor
 from ilmek.viz.looks import looks_of, numbered
 from ilmek.viz.style import colour
 from ilmek.viz.svg import svg
@@ -124,7 +125,7 @@ def _kind(figure: Figure) -> str:
     if isinstance(figure, Timing):
         return "wide timed" if figure.laws else "wide"
     if isinstance(figure, Plot):
-        return "read" if figure.series else ""
+        return "read" if has_cursor(figure) else ""
     return "moves" if isinstance(figure, Animation) else ""
 
 

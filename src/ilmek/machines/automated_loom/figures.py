@@ -44,7 +44,7 @@ def one_row(loom: LoomDesign) -> Timing:
     """The cyclogram of a row."""
     stand = "; the cams stand, the shed closed, for the beats" if loom.row_timing.turning < 1 else ""
     note = f"Four steps and the warps' harmonic motion: thesis, 3.3; weft, beat and take-up placed within them{stand}."
-    return draw(loom.row_cyclogram, "One row: two wefts, two beats", note)
+    return draw(loom.row_cyclogram, "One row: two wefts, two beats", note, drive=Axis("angle of the row", "deg"))
 
 
 def one_knot(loom: LoomDesign) -> Timing:

@@ -188,7 +188,7 @@ def timing(weaver: Weaver) -> Timing:
     """The head's cyclogram as a figure."""
     note = "Order of the motions: thesis, 2.2.3; the angles are assumed by this project, the thesis prints none."
     tied_by = "the arms, and the cams of the head" if weaver.params.with_arms else "the five cams of the head"
-    return draw(weaver.cyclogram, f"One knot: {tied_by}", note)
+    return draw(weaver.cyclogram, f"One knot: {tied_by}", note, drive=Axis("cam angle", "deg"))
 
 
 def _accelerations(weaver: Weaver) -> Plot:
