@@ -1,0 +1,103 @@
+"""Interval arithmetic with outward rounding, for arrays: every result contains the exact one.
+
+Each operation rounds correctly to within half a unit in the last place; the next number outward is a safe bound.
+[Moore, Kearfott and Cloud, Introduction to Interval Analysis, 2009]
+"""
+
+from typing import Any, Union
+
+import numpy as np
+
+from ilmek.arrays import FloatArray, RealField
+from ilmek.records import record
+
+
+@record
+class Intervals:
+    """Intervals from `low` to `high`, of one shape; a number is an interval without extent.
+
+    Operations on numbers of extended precision (`numpy.longdouble`) are rounded in extended precision.
+
+    >>> third = Intervals.of(1.0) * Intervals.of(0.1)
+    >>> bool(third.low < 0.1 < third.high), (third - third).contains_zero.item()
+    (True, True)
+    """
+
+    low: FloatArray
+    high: FloatArray
+
+    @classmethod
+    def of(cls, values: RealField, ulps: int = 0) -> "Intervals":
+        """The numbers themselves, or their surroundings of some units in the last place."""
+        low = high = np.asarray(values)
+        for _ in range(ulps):
+            low, high = np.nextafter(low, -np.inf), np.nextafter(high, np.inf)
+        return cls(low, high)
+
+    @classmethod
+    def around(cls, centre: FloatArray, radius: FloatArray) -> "Intervals":
+        """Intervals that contain centre - radius to centre + radius."""
+        return _outward(centre - radius, centre + radius)
+
+    def __add__(self, other: Union["Intervals", RealField]) -> "Intervals":
+        one = _intervals(other)
+        return _outward(self.low + one.low, self.high + one.high)
+
+    def __sub__(self, other: Union["Intervals", RealField]) -> "Intervals":
+        one = _intervals(other)
+        return _outward(self.low - one.high, self.high - one.low)
+
+    def __neg__(self) -> "Intervals":
+        return Intervals(-self.high, -self.low)
+
+    def __mul__(self, other: Union["Intervals", RealField]) -> "Intervals":
+        one = _intervals(other)
+        products = np.stack(
+            np.broadcast_arrays(self.low * one.low, self.low * one.high, self.high * one.low, self.high * one.high)
+        )
+        return _outward(products.min(axis=0), products.max(axis=0))
+
+    def rounded(self, kind: np.dtype[Any]) -> "Intervals":
+        """Intervals of numbers of another precision that contain these; themselves where it is the same."""
+        if self.low.dtype == kind:
+            return self
+        return _outward(self.low.astype(kind), self.high.astype(kind))
+
+    @property
+    def square(self) -> "Intervals":
+        """The squares of the numbers; at least 0."""
+        ends = np.stack([self.low * self.low, self.high * self.high])
+        least = np.where((self.low <= 0) & (self.high >= 0), 0.0, np.nextafter(ends.min(axis=0), -np.inf))
+        return Intervals(least, np.nextafter(ends.max(axis=0), np.inf))
+
+    @property
+    def middle(self) -> FloatArray:
+        """A number near the middle of each interval."""
+        return np.asarray(0.5 * (self.low + self.high))
+
+    @property
+    def radius(self) -> FloatArray:
+        """Distance from `middle` within which each interval lies."""
+        middle = self.middle
+        return np.asarray(np.nextafter(np.maximum(middle - self.low, self.high - middle), np.inf))
+
+    @property
+    def contains_zero(self) -> np.ndarray:
+        """Whether each interval contains 0."""
+        return np.asarray((self.low <= 0) & (self.high >= 0))
+
+    def __getitem__(self, index: Any) -> "Intervals":
+        return Intervals(self.low[index], self.high[index])
+
+
+def stacked(parts: list[Intervals], axis: int) -> Intervals:
+    """Intervals of one shape along a new axis."""
+    return Intervals(np.stack([one.low for one in parts], axis), np.stack([one.high for one in parts], axis))
+
+
+def _intervals(value: Intervals | RealField) -> Intervals:
+    return value if isinstance(value, Intervals) else Intervals.of(value)
+
+
+def _outward(low: FloatArray, high: FloatArray) -> Intervals:
+    return Intervals(np.nextafter(low, -np.inf), np.nextafter(high, np.inf))
