@@ -57,7 +57,7 @@ def test_criteria_over_the_range_with_both_start_angles_given(criterion: str) ->
     name = "error_rms" if criterion == "least-squares" else "error_max"
     assert found[name] < exact[name]
     assert np.mod([found["crank_start"], found["rocker_start"]], np.pi) == pytest.approx([40 * deg, 70 * deg], abs=1e-9)
-    assert said.checks[-1].ok
+    assert said.self_tests[-1].ok
     if criterion == "minimax":
         alternating = [extreme["error"] for extreme in found["extremes"]]
         assert np.abs(alternating) == pytest.approx(np.full(len(alternating), found["error_max"]), rel=1e-6)

@@ -130,7 +130,7 @@ def test_refuses_in_words(settings: dict[str, str], said: str) -> None:
     [
         ({"warp_diameter": "2.2mm"}, "gap between two warps"),
         ({"link_limit": "5mm"}, "longest link of the arm to build"),
-        ({"bend_limit": "89deg"}, "angle between its links, off straight, along the way"),
+        ({"bend_limit": "89deg"}, "angle between its links, off straight, along the path"),
         ({"pivot_room": "1m"}, "room of the motors between the pivots"),
         ({"opening": "0mm", "pair_opened": "2mm"}, "needle and pile yarn together, between the pair"),
         ({"opening": "0mm"}, "needle and pile yarn together, beside the pair"),

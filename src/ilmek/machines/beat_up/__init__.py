@@ -12,7 +12,7 @@ from ilmek.machines import SUMMARIES
 from ilmek.machines.beat_up.design import BeatUp, design, ground_for
 from ilmek.machines.beat_up.in_loom import fit, parts, planned_beat, work
 from ilmek.machines.beat_up.params import BeatUpParams
-from ilmek.machines.beat_up.report import BeatUpAnalysis, analyse, checks, figures, plates, tables, warnings
+from ilmek.machines.beat_up.report import BeatUpAnalysis, analyse, checks, figures, plates, self_tests, tables, warnings
 from ilmek.machines.beat_up.use import use_choices
 from ilmek.machines.component import Component
 
@@ -27,6 +27,7 @@ MACHINE = Component(
     analysis=analyse,
     reported=(BeatUpAnalysis,),
     checks=checks,
+    self_tests=self_tests,
     tables=tables,
     figures=figures,
     warnings=warnings,

@@ -13,11 +13,12 @@ from ilmek.machines.beat_up.crank_start import crank_start, start_parts
 from ilmek.machines.beat_up.design import BeatUp, design, ground_for
 from ilmek.machines.beat_up.params import BeatUpParams
 from ilmek.machines.beat_up.report import criteria
-from ilmek.machines.beat_up.strength import SECTIONS, strength_checks
+from ilmek.machines.beat_up.strength import beat_up_strength_checks
 from ilmek.machines.beat_up.travel import travel_parts
 from ilmek.machines.beat_up.use import BeatUpUse, in_use, use_checks
 from ilmek.machines.beat_up.use_params import TravelParams
 from ilmek.machines.fell_of_loom import loom_fabric
+from ilmek.machines.linkage_strength import FLAT_BARS
 from ilmek.machines.loom_task import LoomTask
 from ilmek.records import record
 from ilmek.report import Part, Work
@@ -127,10 +128,10 @@ class TravellingBeat:
 def planned_beat(task: LoomTask, _kind: str) -> TravellingBeat:
     """The travelling beater of a loom, its links as the paper's or stronger. Raises the errors of `beat_up.design`."""
     usual, fabric = fit(task), loom_fabric(task)
-    for width, thickness in SECTIONS:
+    for width, thickness in FLAT_BARS:
         made = design(task.parameters("beat-up", replace(usual, width=width, thickness=thickness)))
         found = in_use(made, fabric)
         given = (made.params.width, made.params.thickness) != (width, thickness)
-        if given or all(check.ok for check in strength_checks(found.strength)):
+        if given or all(check.ok for check in beat_up_strength_checks(found.strength)):
             break
     return TravellingBeat(made, found)

@@ -7,7 +7,7 @@ from typing import Any
 
 from ilmek.errors import ParameterError
 from ilmek.machines.beat_up.hand import HAND, hand_positions, hand_swing
-from ilmek.machines.beat_up.use_params import CrankStartParams, StrengthParams, TravelParams
+from ilmek.machines.beat_up.use_params import CastLinkParams, CrankStartParams, TravelParams
 from ilmek.params import Params, kind, nested
 from ilmek.units import deg, format_quantity, turn
 
@@ -162,7 +162,7 @@ class BeatUpParams(Params):
     interval: float | None = kind.time(
         None, above=0.0, at_most=1e6, doc="time from the start of a beat to that of the next; default: no rest between"
     )
-    strength: StrengthParams = nested(StrengthParams, doc="what links and pins bear")
+    strength: CastLinkParams = nested(CastLinkParams, doc="what links and pins bear")
     start: CrankStartParams = nested(CrankStartParams, doc="start and stop of the crank")
     travel: TravelParams = nested(TravelParams, doc="the slide along the carpet")
 

@@ -2,7 +2,7 @@
 
 from ilmek.machines.beat_up.crank_start import CrankDuty, CrankStart, crank_start, start_checks
 from ilmek.machines.beat_up.design import BeatUp
-from ilmek.machines.beat_up.strength import BeatUpStrength, link_strength, strength_checks
+from ilmek.machines.beat_up.strength import BeatUpStrength, beat_up_strength, beat_up_strength_checks
 from ilmek.machines.beat_up.travel import BeaterTravel, travel, travel_checks
 from ilmek.records import group, record
 from ilmek.report import Check, Choice
@@ -40,12 +40,12 @@ def in_use(design: BeatUp, fabric: Fabric | None = None) -> BeatUpUse:
         pause=across.pause,
         every=params.interval,
     )
-    return BeatUpUse(link_strength(design, params.strength), across, crank_start(duty, params.start))
+    return BeatUpUse(beat_up_strength(design, params.strength), across, crank_start(duty, params.start))
 
 
 def use_checks(found: BeatUpUse) -> tuple[Check, ...]:
     """Whether links, pins, motor and slide do their work."""
-    return (*strength_checks(found.strength), *travel_checks(found.travel), *start_checks(found.start))
+    return (*beat_up_strength_checks(found.strength), *travel_checks(found.travel), *start_checks(found.start))
 
 
 def use_choices(design: BeatUp) -> tuple[Choice, ...]:

@@ -2,37 +2,19 @@
 
 from dataclasses import dataclass
 
+from ilmek.machines.strength_params import LINK_MATERIALS, StrengthParams
 from ilmek.params import Params, kind
-from ilmek.units import GPa, MPa, mm
+from ilmek.units import mm
 
 STARTS = ("servo", "clutch")
 MODES = ("through", "start-stop")
 
 
 @dataclass(frozen=True, slots=True)
-class StrengthParams(Params):
-    """What links and pins bear; the defaults are for grey cast iron, in bushes of sintered bronze."""
+class CastLinkParams(StrengthParams):
+    """What links of grey cast iron bear, and their pins in bushes of sintered bronze."""
 
-    stress: float = kind.pressure(
-        50 * MPa,
-        at_least=0.1 * MPa,
-        at_most=1e10,
-        doc="allowed alternating stress of the links; fatigue limit of grey cast iron, 75 MPa, over a safety of 1.5",
-    )
-    modulus: float = kind.pressure(
-        110 * GPa, unit="GPa", at_least=1 * MPa, at_most=2e12, doc="Young's modulus of the links; grey cast iron"
-    )
-    buckling: float = kind.ratio(3.0, at_least=1.0, at_most=100.0, doc="required safety of the coupler in buckling")
-    pin_diameter: float | None = kind.length(
-        None, at_least=0.5 * mm, at_most=1.0, doc="diameter of the pins; default: the least of stock that is enough"
-    )
-    pin_shear: float = kind.pressure(60 * MPa, at_least=0.1 * MPa, at_most=1e10, doc="allowed shear stress of the pins")
-    pin_pressure: float = kind.pressure(
-        15 * MPa, at_least=0.01 * MPa, at_most=1e10, doc="allowed pressure of a pin on its bush"
-    )
-    pin_wear: float = kind.ratio(
-        1.0, at_least=1e-3, at_most=1e3, doc="allowed mean of pressure times sliding speed of a pin [MPa m/s]"
-    )
+    material: str = kind.choice("grey cast iron", LINK_MATERIALS, doc="material of the links, for their strength")
 
 
 @dataclass(frozen=True, slots=True)

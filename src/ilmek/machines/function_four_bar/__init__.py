@@ -8,9 +8,9 @@ from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
 from ilmek.machines.function_four_bar.design import FunctionFourBar, design
 from ilmek.machines.function_four_bar.params import FunctionFourBarParams
-from ilmek.machines.function_four_bar.report import checks, figures, tables
+from ilmek.machines.function_four_bar.report import figures, self_tests, tables
 from ilmek.synthesis.selection import FourBarSelection
-from ilmek.synthesis.selection_report import warnings
+from ilmek.synthesis.selection_report import checks, warnings
 
 __all__ = ["MACHINE", "FunctionFourBar", "FunctionFourBarParams", "design"]
 
@@ -23,6 +23,7 @@ MACHINE = Component(
     results=lambda made: (made, made.choice),
     reported=(FunctionFourBar, FourBarSelection),
     checks=checks,
+    self_tests=self_tests,
     tables=tables,
     figures=figures,
     warnings=warnings,

@@ -32,18 +32,15 @@ from ilmek.machines.beat_up.crank_start import (
 )
 from ilmek.machines.beat_up.in_loom import frame_force, links_parts
 from ilmek.machines.beat_up.strength import (
-    SECTIONS,
     BeatUpStrength,
-    LinkLoads,
-    LinkSection,
+    beat_up_strength,
+    beat_up_strength_checks,
     link_loads,
-    link_strength,
-    section_strength,
-    strength_checks,
 )
 from ilmek.machines.beat_up.travel import force_at_beat
 from ilmek.machines.hammer.comb import comb_mass, with_depth
 from ilmek.machines.hammer.params import MOST_BALLAST, MOST_BEATERS, HammerParams
+from ilmek.machines.linkage_strength import FLAT_BARS, LinkageLoads, linkage_strength, strength_checks
 from ilmek.records import computed, group, record, result
 from ilmek.report import Alternative, Check, Choice, Part, at_most, choose
 from ilmek.units import format_quantity, turn
@@ -93,7 +90,7 @@ def linkage_checks(found: CombLinkage) -> tuple[Check, ...]:
     cure = "set more beaters, or a deeper comb"
     return (
         at_most("stress of the comb by its inertia", found.inertia_stress, found.limit, "MPa", "strength", cure=cure),
-        *strength_checks(found.strength),
+        *beat_up_strength_checks(found.strength, name="links"),
         *start_checks(found.start),
     )
 
@@ -122,8 +119,7 @@ def chosen_linkage(
     index, choice = choose("crank-rockers", candidates)
     option, linkage = made[index]
     found = (choice,) if len(ranked) > 1 else ()
-    pins = (replace(one, name="links.pin_diameter") for one in linkage.strength.choices)
-    return option, linkage, (*found, *pins, *linkage.start.choices)
+    return option, linkage, (*found, *linkage.strength.choices, *linkage.start.choices)
 
 
 def _named(params: HammerParams) -> str:
@@ -151,7 +147,7 @@ def _with_links(params: HammerParams, share: float) -> tuple[HammerParams, bool]
     """
     speed = params.beat_speed or 1.0
     unit = _unit(params.ground)
-    offered, enough = SECTIONS, False
+    offered, enough = FLAT_BARS, False
     if params.link_width or params.link_thickness:
         widest = params.link_width or (params.link_thickness or 0.0) * 3
         offered = ((widest, params.link_thickness or widest / 3),)
@@ -161,7 +157,7 @@ def _with_links(params: HammerParams, share: float) -> tuple[HammerParams, bool]
         # The links' own inertia counts as that of their whole mass at the beater.
         own = links * (lengths["coupler"] + lengths["beater"])
         loads = _unit_loads(params.ground).scaled(share + own, speed, turn / speed / (params.turn_time / 2))
-        found = section_strength(LinkSection(width, thickness, links), loads, lengths, speed, params.links)
+        found = linkage_strength(loads, params.links, width, thickness)
         enough = all(check.ok for check in strength_checks(found))
         if enough:
             break
@@ -175,7 +171,7 @@ def _unit(ground: float) -> beat_up.BeatUp:
 
 
 @lru_cache(maxsize=32)
-def _unit_loads(ground: float) -> LinkLoads:
+def _unit_loads(ground: float) -> LinkageLoads:
     return link_loads(_unit(ground))
 
 
@@ -209,8 +205,8 @@ def linkage_for(params: HammerParams, fabric: Fabric, needed: float) -> CombLink
             beater_mass=mass / number,
             beat_force=0.0,
             density=params.density,
-            width=params.link_width or SECTIONS[0][0],
-            thickness=params.link_thickness or SECTIONS[0][1],
+            width=params.link_width or FLAT_BARS[0][0],
+            thickness=params.link_thickness or FLAT_BARS[0][1],
         )
     )
     force = number * force_at_beat(one)
@@ -228,6 +224,6 @@ def linkage_for(params: HammerParams, fabric: Fabric, needed: float) -> CombLink
         # Without weight every force grows with the square of the speed.
         speed_needed=speed * math.sqrt(needed * params.warps / force) if force else None,
         inertia_stress=6 * moment / (params.comb_thickness * params.depth**2),
-        strength=link_strength(one, params.links, params.turn_time / 2),
+        strength=beat_up_strength(one, params.links, params.turn_time / 2, name="links"),
         start=crank_start(duty, params.start),
     )

@@ -7,7 +7,8 @@ from ilmek.cams.laws import SMOOTH_LAWS
 from ilmek.elements.carpet_yarns import usual_warp
 from ilmek.elements.materials import MATERIALS
 from ilmek.errors import ParameterError
-from ilmek.machines.beat_up.use_params import CrankStartParams, StrengthParams
+from ilmek.machines.beat_up.use_params import CrankStartParams
+from ilmek.machines.strength_params import StrengthParams
 from ilmek.params import Params, kind, nested
 from ilmek.units import MPa, deg, format_quantity, hour, mm, rpm, turn
 from ilmek.weaving.fell import CLOTH_LENGTH, JAMMED, LAID, PACKING, Fabric
@@ -38,21 +39,6 @@ MOST_BALLAST = 1e5
 
 BEATER_WIDTH = 1.5
 """Width of the comb for each crank-rocker, and for each vertical axis beyond the first [m]."""
-
-
-@dataclass(frozen=True, slots=True)
-class CombLinkParams(StrengthParams):
-    """What the links of structural steel bear that carry a comb."""
-
-    stress: float = kind.pressure(
-        108 * MPa,
-        at_least=0.1 * MPa,
-        at_most=1e10,
-        doc="allowed alternating stress of the links; fatigue limit of S235, 162 MPa, over a safety of 1.5",
-    )
-    modulus: float = kind.pressure(
-        STEEL.modulus, unit="GPa", at_least=1 * MPa, at_most=2e12, doc="Young's modulus of the links; steel"
-    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -196,7 +182,7 @@ class HammerParams(Params):
     link_thickness: float | None = kind.length(
         None, at_least=1 * mm, at_most=1.0, doc="thickness of the links; default: of the stock section"
     )
-    links: CombLinkParams = nested(CombLinkParams, doc="what links and pins of the crank-rockers bear")
+    links: StrengthParams = nested(StrengthParams, doc="what links and pins of the crank-rockers bear")
     start: CrankStartParams = nested(CrankStartParams, doc="start and stop of the crank")
 
     def check_together(self) -> None:

@@ -10,7 +10,7 @@ from ilmek.machines.component import Component
 from ilmek.machines.knotting_dyad.design import KnottingDyad, design
 from ilmek.machines.knotting_dyad.in_loom import params_for, parts, work
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
-from ilmek.machines.knotting_dyad.report import DyadAnalysis, analyse, checks, figures, tables, warnings
+from ilmek.machines.knotting_dyad.report import DyadAnalysis, analyse, checks, figures, self_tests, tables, warnings
 
 __all__ = ["MACHINE", "KnottingDyad", "KnottingDyadParams", "design"]
 
@@ -23,6 +23,7 @@ MACHINE = Component(
     analysis=analyse,
     reported=(DyadAnalysis,),
     checks=checks,
+    self_tests=self_tests,
     tables=tables,
     figures=figures,
     warnings=warnings,

@@ -17,10 +17,11 @@ from ilmek.timing.path_speed.solve import TOLERANCE
 from ilmek.units import format_quantity
 
 CLOSURE, BALANCE, ROUNDING = 1e-9, 1e-9, 1e-9
+MOVE = "move a point or an angle"
 
 
 def dyad_checks(design: KnottingDyad, motion: HeadMotion | None) -> tuple[Check, ...]:
-    """Every arm closes, the one to build is within its limits; the knot, the clearances, the limits of the drives."""
+    """The arm to build is within its limits; the knot, the clearances, the limits of the drives."""
     params, head = design.params, design.head
     of_head = () if head is None else (*_knot_checks(params, head), *_needle_checks(params, head), *_gap_checks(head))
     return (
@@ -30,22 +31,30 @@ def dyad_checks(design: KnottingDyad, motion: HeadMotion | None) -> tuple[Check,
     )
 
 
-def _arm_checks(design: KnottingDyad) -> tuple[Check, ...]:
+def dyad_self_tests(design: KnottingDyad, motion: HeadMotion | None) -> tuple[Check, ...]:
+    """Every arm closes at its points, and the torques keep the power balance."""
     missed = max(design.residual(dyad) / design.size(dyad) for dyad in design.dyads)
-    links = sum(1 for dyad in design.dyads if dyad.first)
-    move = "move a point or an angle"
     closes = at_most(
-        "closure of every arm at the points, of its size", missed, CLOSURE, "1", "loop equation", cure=move
+        "closure of every arm at the points, of its size", missed, CLOSURE, "1", "loop equation", cure=MOVE
     )
-    real = at_least("real arms of two links", links, 1, "", "the task has three roots", cure=move)
+    if motion is None:
+        return (closes,)
+    masses = "set masses and speeds within their usual sizes"
+    return closes, at_most(
+        "power balance of the torques", motion.power_error, BALANCE, "1", "virtual power", cure=masses
+    )
+
+
+def _arm_checks(design: KnottingDyad) -> tuple[Check, ...]:
+    links = sum(1 for dyad in design.dyads if dyad.first)
+    real = at_least("real arms of two links", links, 1, "", "the task has three roots", cure=MOVE)
     if design.built is None:
-        return closes, real
-    where = "at the points" if design.head is None else "along the way"
+        return (real,)
+    where = "at the points" if design.head is None else "along the path"
     sine = float(design.bends[design.built]) if design.head is None else design.head.arm.bend
     off = float(np.arcsin(max(sine, 0.0)))
     longest, limits = longest_link(design.dyads[design.built]), design.params
     return (
-        closes,
         real,
         at_most(
             "longest link of the arm to build",
@@ -165,14 +174,6 @@ def _motion_checks(motion: HeadMotion) -> tuple[Check, ...]:
             all(joint.motor for joint in motion.joints),
             "servos of the table",
             cure="set a lower joint_acceleration, or a gear_ratio",
-        ),
-        at_most(
-            "power balance of the torques",
-            motion.power_error,
-            BALANCE,
-            "1",
-            "virtual power",
-            cure="set masses and speeds within their usual sizes",
         ),
     )
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ilmek.machines.knotting_dyad.checks import ROUNDING, dyad_checks, remedy
+from ilmek.machines.knotting_dyad.checks import ROUNDING, dyad_checks, dyad_self_tests, remedy
 from ilmek.machines.knotting_dyad.design import KnottingDyad
 from ilmek.machines.knotting_dyad.drives import HeadMotion, head_motion
 from ilmek.machines.knotting_dyad.figures import design_figures, head_figures, motion_figures
@@ -32,6 +32,11 @@ def analyse(design: KnottingDyad) -> DyadAnalysis:
 def checks(found: DyadAnalysis) -> tuple[Check, ...]:
     """The checks of a dyad."""
     return dyad_checks(found.design, found.motion)
+
+
+def self_tests(found: DyadAnalysis) -> tuple[Check, ...]:
+    """The tests of the computation of a dyad."""
+    return dyad_self_tests(found.design, found.motion)
 
 
 def warnings(found: DyadAnalysis) -> tuple[str, ...]:

@@ -13,7 +13,14 @@ from ilmek.machines.component import Component
 from ilmek.machines.knotting_four_bar.design import KnottingFourBar, design, parameters
 from ilmek.machines.knotting_four_bar.figures import figures
 from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams
-from ilmek.machines.knotting_four_bar.report import KnottingFourBarAnalysis, analyse, checks, tables, warnings
+from ilmek.machines.knotting_four_bar.report import (
+    KnottingFourBarAnalysis,
+    analyse,
+    checks,
+    self_tests,
+    tables,
+    warnings,
+)
 
 __all__ = ["MACHINE", "KnottingFourBar", "KnottingFourBarParams", "design"]
 
@@ -26,6 +33,7 @@ MACHINE = Component(
     analysis=analyse,
     reported=(KnottingFourBarAnalysis,),
     checks=checks,
+    self_tests=self_tests,
     tables=tables,
     figures=lambda found: figures(found.design),
     warnings=warnings,

@@ -8,8 +8,9 @@ from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
 from ilmek.machines.motion_four_bar.design import MotionFourBar, design
 from ilmek.machines.motion_four_bar.params import MotionFourBarParams
-from ilmek.machines.motion_four_bar.report import checks, figures, tables, warnings
+from ilmek.machines.motion_four_bar.report import figures, self_tests, tables, warnings
 from ilmek.synthesis.selection import FourBarSelection
+from ilmek.synthesis.selection_report import checks
 
 __all__ = ["MACHINE", "MotionFourBar", "MotionFourBarParams", "design"]
 
@@ -22,6 +23,7 @@ MACHINE = Component(
     results=lambda made: (made, made.choice),
     reported=(MotionFourBar, FourBarSelection),
     checks=checks,
+    self_tests=self_tests,
     tables=tables,
     figures=figures,
     warnings=warnings,

@@ -1,0 +1,295 @@
+"""Strength of a machine's links and pins over a cycle: what is loaded, stresses, and the checks of all machines alike.
+
+All links are flat bars of one section with pins of one diameter, in forks. A pin's bush is as long as the links are
+thick, and each cheek of its fork half as thick. See `ilmek.dynamics.link_strength` and `pin_strength` for the formulas.
+"""
+
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
+
+from ilmek.arrays import FloatArray
+from ilmek.dynamics.inertia import Inertia
+from ilmek.dynamics.inverse import Forces
+from ilmek.dynamics.link_forces import BeamForces, LinkForces, internal_forces
+from ilmek.dynamics.link_strength import LinkStrength, link_strength
+from ilmek.dynamics.loads import Load
+from ilmek.dynamics.pin_strength import PinDuty, PinStrength, pin_duty, pin_strength
+from ilmek.elements.flat_section import FlatSection
+from ilmek.elements.pin_joints import PIN_DIAMETERS
+from ilmek.machines.strength_params import StrengthParams
+from ilmek.records import computed, record
+from ilmek.report import Alternative, Check, Choice, Table, at_least, at_most, choose, columns
+from ilmek.units import MPa, format_quantity, mm, turn
+
+FLAT_BARS = tuple(
+    (width * mm, thickness * mm)
+    for width, thickness in (
+        (30, 10), (40, 12), (50, 15), (60, 20), (80, 25), (100, 30), (120, 40), (150, 50), (200, 60), (250, 80),
+    )
+)  # fmt: skip
+"""Width and thickness of links to choose from [m]: flat steel."""
+
+WIDEST_PIN = 0.6
+"""Largest diameter of a pin over the width of its links; assumed by this project."""
+
+
+@record
+class LinkageLoads:
+    """What links and pins of a machine bear over a cycle.
+
+    links  internal forces of each link      pins  load of each pin      speed  of the driving crank [rad/s]
+    share  of the time for which the machine moves
+    """
+
+    links: tuple[LinkForces, ...]
+    pins: tuple[PinDuty, ...]
+    speed: float
+    share: float = 1.0
+
+    def scaled(self, mass: float, speed: float, share: float = 1.0) -> "LinkageLoads":
+        """The loads with masses and speed of the crank multiplied, without gravity: forces go with m w²."""
+        force = mass * speed**2
+        return LinkageLoads(
+            tuple(_scaled(one, force, mass) for one in self.links),
+            tuple(replace(one, force=one.force * force, omega=one.omega * speed) for one in self.pins),
+            self.speed * speed,
+            share,
+        )
+
+
+def _scaled(link: LinkForces, force: float, mass: float) -> LinkForces:
+    beams = tuple(
+        BeamForces(one.start, one.end, one.length, one.at, one.axial * force, one.shear * force, one.moment * force)
+        for one in link.beams
+    )
+    masses = {name: mass * one for name, one in link.masses.items()}
+    return replace(link, beams=beams, masses=masses, line_mass=mass * link.line_mass)
+
+
+def linkage_loads(
+    forces: Forces,
+    inertias: Mapping[str, Inertia],
+    loads: Sequence[Load],
+    links: Mapping[str, Sequence[str]],
+    pins: Iterable[str],
+    *,
+    speed: float,
+    line_mass: float = 0.0,
+    share: float = 1.0,
+    times: FloatArray | None = None,
+) -> LinkageLoads:
+    """What links and pins bear over the motion of the forces, a whole cycle.
+
+    inertias, loads  as given to `inverse`      links  body -> names of its points beside its joints      pins  names
+    speed  of the driving crank [rad/s]         line_mass  of the links [kg/m]
+    share  of the time for which the machine moves      times  of the samples [s]; default: equal steps
+
+    Raises MechanismError for an unknown body, point or pin.
+    """
+    return LinkageLoads(
+        tuple(
+            internal_forces(forces, body, inertias, loads, line_mass=line_mass, points=tuple(points))
+            for body, points in links.items()
+        ),
+        tuple(pin_duty(forces, pin, times) for pin in pins),
+        speed,
+        share,
+    )
+
+
+@record
+class LinkageStrength:
+    """Stresses and safeties of links and pins; limits: those in force.
+
+    links, pins  by name      section  of the links      speed  of the driving crank [rad/s]
+    """
+
+    limits: StrengthParams
+    links: Mapping[str, LinkStrength]
+    pins: Mapping[str, PinStrength]
+    section: FlatSection
+    speed: float
+    choices: tuple[Choice, ...] = ()
+
+    link_width = computed("mm", "width of the links: as given, or chosen", lambda it: it.section.width)
+    link_thickness = computed("mm", "thickness of the links: as given, or chosen", lambda it: it.section.thickness)
+    pin_diameter = computed("mm", "diameter of the pins: as given, or chosen", lambda it: it.section.hole)
+    link_stress = computed(
+        "MPa", "greatest nominal stress of each link", lambda it: {name: one.stress for name, one in it.links.items()}
+    )
+    link_fatigue = computed(
+        "1",
+        "least safety of each loaded link against fatigue, with the notch of its holes",
+        lambda it: it.of_links("fatigue"),
+    )
+    link_buckling = computed(
+        "1", "least safety against buckling of each link that is pushed", lambda it: it.of_links("buckling")
+    )
+    link_frequency = computed(
+        "Hz",
+        "lowest natural frequency of each link with a mass in its plane, its joints held",
+        lambda it: {name: value / turn for name, value in it.of_links("frequency").items()},
+    )
+    pin_shear = computed("MPa", "greatest shear stress of a pin, in a fork", lambda it: it.worst_pin("shear"))
+    pin_bending = computed("MPa", "greatest bending stress of a pin, in a fork", lambda it: it.worst_pin("bending"))
+    pin_pressure = computed("MPa", "greatest pressure of a pin on its bush", lambda it: it.worst_pin("pressure"))
+    pin_wear = computed(
+        "1",
+        "greatest mean of pressure times sliding speed of a pin over the time, in MPa m/s",
+        lambda it: it.worst_pin("wear") / MPa,
+    )
+
+    def of_links(self, name: str) -> dict[str, float]:
+        """A safety or frequency of each link that has one."""
+        values = {link: float(getattr(one, name)) for link, one in self.links.items()}
+        return {link: value for link, value in values.items() if value < math.inf}
+
+    def worst_pin(self, name: str) -> float:
+        """Greatest value of a pin's stress, pressure or wear [SI]."""
+        return float(getattr(self.pin_with_most(name), name))
+
+    def pin_with_most(self, name: str) -> PinStrength:
+        """The pin with the greatest value of a quantity."""
+        return max(self.pins.values(), key=lambda one: float(getattr(one, name)))
+
+
+def linkage_strength(
+    loads: LinkageLoads, limits: StrengthParams, width: float, thickness: float, *, name: str = "strength"
+) -> LinkageStrength:
+    """Strength of links of a given section; of the stock pins the first that is enough, else the largest that fits.
+
+    width, thickness  [m]      name  of the parameters in the choice
+    """
+    widest = WIDEST_PIN * width
+    stock = [size for size in PIN_DIAMETERS if size <= widest] or [widest]
+    offered = [min(limits.pin_diameter, 0.99 * width)] if limits.pin_diameter else stock
+    tried = []
+    for size in offered:
+        pins = {one.name: pin_strength(one, size, thickness, share=loads.share) for one in loads.pins}
+        tried.append(LinkageStrength(limits, {}, pins, FlatSection(width, thickness, size), loads.speed))
+        if all(check.ok for check in pin_checks(tried[-1])):
+            break
+    found = tried[-1]
+    links = {one.body: link_strength(one, found.section, limits.of_links) for one in loads.links}
+    if len(tried) == 1:
+        return replace(found, links=links)
+    last = [Alternative(format_quantity(one.pin_diameter, "mm"), pin_checks(one)) for one in tried[-2:]]
+    return replace(found, links=links, choices=(choose(f"{name}.pin_diameter", last)[1],))
+
+
+def chosen_strength(
+    loads_of: Callable[[float], LinkageLoads],
+    limits: StrengthParams,
+    width: float | None,
+    thickness: float | None,
+    *,
+    name: str = "strength",
+) -> LinkageStrength:
+    """The same with the first flat bar of stock that is enough where width and thickness are open, else the largest.
+
+    loads_of  loads by the links' mass per length [kg/m]      width, thickness  [m]; one alone gives the other, 3 to 1
+    """
+    bars = FLAT_BARS
+    if width or thickness:
+        bars = ((width or 3 * (thickness or 0.0), thickness or (width or 0.0) / 3),)
+    tried = []
+    for wide, thick in bars:
+        line_mass = wide * thick * limits.of_links.density
+        tried.append(linkage_strength(loads_of(line_mass), limits, wide, thick, name=name))
+        if all(check.ok for check in strength_checks(tried[-1])):
+            break
+    if len(tried) == 1:
+        return tried[0]
+    last = [Alternative(_bar_name(one.section), strength_checks(one)) for one in tried[-2:]]
+    return replace(tried[-1], choices=(choose("flat bar of the links", last)[1], *tried[-1].choices))
+
+
+def _bar_name(section: FlatSection) -> str:
+    return f"{format_quantity(section.width / mm, '')} x {format_quantity(section.thickness, 'mm')}"
+
+
+def strength_checks(found: LinkageStrength, *, name: str = "strength", stronger: str = "") -> tuple[Check, ...]:
+    """Whether links and pins bear the cycle, and the links are stiff enough for the speed.
+
+    name  of the parameters in the sources      stronger  what makes links stronger; default: wider or thicker links
+    """
+    limits = found.limits
+    cure = stronger or "set wider or thicker links, or a lower speed"
+    return (
+        *(
+            at_most(
+                f"stress of the {link}", one.stress, limits.allowed_stress, "MPa", f"parameter {name}.stress", cure=cure
+            )
+            for link, one in found.links.items()
+        ),
+        *_link_checks(found, name, cure),
+        *pin_checks(found, name=name),
+    )
+
+
+def _link_checks(found: LinkageStrength, name: str, cure: str) -> tuple[Check, ...]:
+    limits = found.limits
+    rows = (
+        ("safety of the links against fatigue", "fatigue", 1.0, "Goodman, notch of the holes"),
+        ("safety of the links in buckling", "buckling", 1.0, "Euler, hinged; assumed by this project"),
+        (
+            "lowest natural frequency of the links, over the crank's",
+            "frequency",
+            found.speed,
+            "bending in the plane; assumed by this project",
+        ),
+    )
+    checks = []
+    for title, quantity, unit, source in rows:
+        values = found.of_links(quantity)
+        if values:
+            link, limit = min(values, key=values.__getitem__), "resonance" if quantity == "frequency" else quantity
+            given = f"{link}: {source}: parameter {name}.{limit}"
+            checks.append(at_least(title, values[link] / unit, getattr(limits, limit), "1", given, cure=cure))
+    return tuple(checks)
+
+
+def pin_checks(found: LinkageStrength, *, name: str = "strength") -> tuple[Check, ...]:
+    """Whether the pins bear the cycle."""
+    if not found.pins:
+        return ()
+    limits, cure = found.limits, "set wider and thicker links for larger pins, or a lower speed"
+    assumed = f"assumed by this project: parameter {name}."
+    shear, bent, pressed, worn = (found.pin_with_most(one) for one in ("shear", "bending", "pressure", "wear"))
+    rows = (
+        ("shear of the pins", shear.shear, limits.pin_shear, "MPa", shear, "pin_shear"),
+        ("bending of the pins", bent.bending, limits.pin_bending, "MPa", bent, "pin_bending"),
+        ("pressure of the pins", pressed.pressure, limits.pin_pressure, "MPa", pressed, "pin_pressure"),
+        ("wear of the pins, p v", worn.wear / MPa, limits.pin_wear, "1", worn, "pin_wear, in MPa m/s"),
+    )
+    return tuple(
+        at_most(title, value, limit, unit, f"pin {pin.name}; {assumed}{parameter}", cure=cure)
+        for title, value, limit, unit, pin, parameter in rows
+    )
+
+
+def strength_table(found: LinkageStrength, name: str) -> tuple[Table, ...]:
+    """Links with stress, safeties and natural frequency; pins with force, stresses and wear."""
+    links = tuple(
+        (body, one.stress, _where(one), *(_finite(v) for v in (one.fatigue, one.buckling, one.frequency / turn)))
+        for body, one in found.links.items()
+    )
+    pins = tuple(
+        (pin, one.force, one.shear, one.bending, one.pressure, one.wear / MPa) for pin, one in found.pins.items()
+    )
+    heads = columns("link", "stress [MPa]", "at", "safety, fatigue", "safety, buckling", "natural frequency [Hz]")
+    of_pins = columns("pin", "force [N]", "shear [MPa]", "bending [MPa]", "pressure [MPa]", "p v in MPa m/s")
+    return (
+        Table(f"{name}-link-strength", "Strength of the links", heads, links),
+        Table(f"{name}-pin-strength", "Strength of the pins", of_pins, pins),
+    )
+
+
+def _finite(value: float) -> float | str:
+    return value if math.isfinite(value) else "-"
+
+
+def _where(link: LinkStrength) -> str:
+    start, end, at = link.position
+    return f"{start} to {end}, {format_quantity(at, 'mm', 3)}" if start else ""
