@@ -30,7 +30,7 @@ ABOUT = 0j
 """Point about which the shaking moment is reported: the ground's origin."""
 
 ROUNDING = 1e-12
-"""Work of the drive, relative to the sum of its magnitudes, that counts as rounding."""
+"""Work or mean of the drive, relative to its magnitudes, that counts as rounding."""
 
 
 @record
@@ -79,9 +79,10 @@ class InverseRun:
         effort = self.effort
         if effort is None or self.turning is not turning:
             return None
-        return {"peak": greatest, "rms": lambda e: rms(e, self.time), "mean": lambda e: mean(e, self.time)}[kind](
-            effort
-        )
+        if kind == "peak":
+            return greatest(effort)
+        found = rms(effort, self.time) if kind == "rms" else mean(effort, self.time)
+        return 0.0 if abs(found) <= ROUNDING * greatest(effort) else found
 
     @computed("N", "greatest force of each pin", shown=False)
     def pin_forces_max(self) -> dict[str, float]:

@@ -14,7 +14,7 @@ from ilmek.dynamics.inverse_run import InverseRun
 from ilmek.records import computed, record
 from ilmek.report import Check
 
-BISECTIONS = 24
+BISECTIONS = 16
 """Halvings of the interval of speeds in which a check begins to fail."""
 
 AtSpeed: TypeAlias = Callable[[float], tuple[InverseRun, tuple[Check, ...]]]

@@ -82,6 +82,8 @@ class Analysis:
             yield run.left_out
         if not run.machine.has_forces:
             yield HINT
+        if run.assumed and run.forces is not None:
+            yield f"no speed is given: forces at {run.speed:g} {'rad/s' if run.unit == 'deg' else 'm/s'}; give --speed"
         if run.machine.frictions and run.forces is not None and not run.forces.forces.frictions:
             yield "the friction of joints is left out: the inputs stand still; give --speed"
         if run.machine.frictions and self.forward is not None:
@@ -89,22 +91,25 @@ class Analysis:
 
 
 def analysis(run: MechanismRun, progress: Progress = SILENT) -> Analysis:
-    """All that the file requires of a mechanism in motion. Raises MechanismError; Cancelled."""
+    """All that the file requires of a mechanism in motion; of a single pose forces and strength alone.
+
+    Raises MechanismError, as for a servo at an input that slides; Cancelled.
+    """
     machine, forces = run.machine, run.forces
+    strength = machine_strength(machine, forces) if forces is not None else None
+    angles = transmission_angles(run.motion, machine.transmission)
+    if run.running is None:
+        return Analysis(run, angles, None, strength, None, None)
     forward = None
     if machine.forward is not None:
         from ilmek.dynamics.own_forward import own_forward  # the integrator of scipy
 
         forward = own_forward(machine, run.plan, machine.forward)
     progress(0.5)
-    return Analysis(
-        run,
-        transmission_angles(run.motion, machine.transmission),
-        servo_choice(machine, forces) if machine.servo and forces is not None and not forces.locked.all() else None,
-        machine_strength(machine, forces) if forces is not None else None,
-        forward,
-        _study(run, progress.part(0.5, 1.0, "study")),
-    )
+    servo = None
+    if machine.servo and forces is not None and not forces.locked.all():
+        servo = servo_choice(machine, forces)
+    return Analysis(run, angles, servo, strength, forward, _study(run, progress.part(0.5, 1.0, "study")))
 
 
 def _study(run: MechanismRun, progress: Progress) -> StudyOfSpeeds | None:
@@ -112,7 +117,7 @@ def _study(run: MechanismRun, progress: Progress) -> StudyOfSpeeds | None:
     task = run.machine.study
     if task is None or run.forces is None:
         return None
-    if run.speed is None or run.running is None or not run.others_rest:
+    if run.speed is None or not run.others_rest:
         given = "a study of speeds is given for a machine without one driving input of constant speed"
         raise MechanismError(given, do="leave out the study, or fix the other inputs with --at")
 

@@ -43,6 +43,7 @@ class DrivenInputs:
     speed    its constant speed [rad/s; m/s]; None: it follows a law of time, or all inputs are fixed and at rest
     time     of the samples [s]; None: nothing moves
     rates    values, speeds and accelerations of all inputs by name, as for `solve`
+    assumed  whether the speed is given neither by the call nor by the file
     """
 
     running: Input | None
@@ -50,6 +51,7 @@ class DrivenInputs:
     speed: float | None
     time: FloatArray | None
     rates: tuple[dict[str, RealField], dict[str, RealField], dict[str, RealField]]
+    assumed: bool = False
 
 
 def driven_inputs(machine: OwnMachine, plan: Plan, request: MotionRequest) -> DrivenInputs:
@@ -74,7 +76,7 @@ def driven_inputs(machine: OwnMachine, plan: Plan, request: MotionRequest) -> Dr
     time = None if speed == 0 else (values - start) / speed
     rates = _rates(laws, np.zeros(len(values)) if time is None else time, fixed)
     rates[0][running.name], rates[1][running.name] = values, speed
-    return DrivenInputs(running, values, speed, time, rates)
+    return DrivenInputs(running, values, speed, time, rates, assumed=not request.speed and law is None)
 
 
 def jumps(machine: OwnMachine, name: str) -> tuple[float, ...]:
@@ -93,10 +95,12 @@ def jumps(machine: OwnMachine, name: str) -> tuple[float, ...]:
 
 def _with_jumps(values: FloatArray, at: Sequence[float], turning: bool) -> FloatArray:
     """The values with two more at each jump inside their range, just before and after it."""
+    if not at:
+        return values
     least, most = min(values[0], values[-1]), max(values[0], values[-1])
     if turning:
         turns = np.arange(np.floor(least / turn) - 1, np.ceil(most / turn) + 1)
-        at = np.unique(np.add.outer(turns * turn, np.asarray(at) % turn)).tolist() if at else ()
+        at = np.unique(np.add.outer(turns * turn, np.asarray(at) % turn)).tolist()
     more = [one + side for one in at for side in (-BESIDE, BESIDE) if least < one + side < most]
     every = np.unique(np.concatenate((values, more)))
     return every if values[-1] > values[0] else every[::-1]

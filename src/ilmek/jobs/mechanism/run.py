@@ -38,6 +38,7 @@ class MechanismRun:
     speed    constant speed of the driving input [rad/s or m/s]; None: it follows its motion of the file
     time     of the samples [s]; None: nothing moves
     forces   None: without masses, loads and friction, or as `left_out` states
+    assumed  whether the speed is neither that of the call nor of the file
     """
 
     machine: OwnMachine
@@ -49,6 +50,7 @@ class MechanismRun:
     time: FloatArray | None = None
     forces: InverseRun | None = None
     left_out: str = ""
+    assumed: bool = False
 
     @property
     def name(self) -> str:
@@ -139,7 +141,16 @@ def run(file: MechanismFile, request: MotionRequest, progress: Progress = SILENT
         raise _closes_elsewhere(plan, motion, driven)
     forces, left_out = _forces(machine, motion, driven)
     made = MechanismRun(
-        machine, plan, motion, driven.running, driven.values, driven.speed, driven.time, forces, left_out
+        machine,
+        plan,
+        motion,
+        driven.running,
+        driven.values,
+        driven.speed,
+        driven.time,
+        forces,
+        left_out,
+        driven.assumed,
     )
     _check_ranges(made)
     return made
