@@ -17,11 +17,12 @@ from ilmek.records import record
 class PinDuty:
     """Load of a pin over a cycle, one value per sample where the motion is solved.
 
-    name  of the joint      force  |F| [N]      omega  relative angular velocity [rad/s]
+    name  of the joint      bodies  that it joins      force  |F| [N]      omega  relative angular velocity [rad/s]
     weights  share of each sample in the time; sum 1
     """
 
     name: str
+    bodies: tuple[str, str]
     force: FloatArray
     omega: FloatArray
     weights: FloatArray
@@ -36,12 +37,14 @@ class PinDuty:
 class PinStrength:
     """Stresses of a pin over a cycle.
 
-    name  of the joint        force  greatest [N]            shear  greatest mean shear stress [Pa]
+    name  of the joint        diameter [m]                   force  greatest [N]
+    shear  greatest mean shear stress [Pa]
     bending  greatest bending stress in the fork [Pa]; 0 of an overhung pin
     pressure  greatest mean pressure on the bush [Pa]        wear  mean of pressure times sliding speed [Pa m/s]
     """
 
     name: str
+    diameter: float
     force: float
     shear: float
     bending: float
@@ -64,7 +67,9 @@ def pin_duty(forces: Forces, joint: str, times: FloatArray | None = None) -> Pin
     weights[1:] += steps / 2
     solved = np.isfinite(force) & np.isfinite(omega)
     total = float(weights[solved].sum())
-    return PinDuty(joint, force[solved], omega[solved], weights[solved] / total if total > 0 else weights[solved])
+    return PinDuty(
+        joint, (first, second), force[solved], omega[solved], weights[solved] / total if total > 0 else weights[solved]
+    )
 
 
 def pin_strength(
@@ -79,6 +84,7 @@ def pin_strength(
     top = duty.greatest
     return PinStrength(
         name=duty.name,
+        diameter=diameter,
         force=top,
         shear=pin_shear(top, diameter, fork=fork),
         bending=pin_bending(top, diameter, length, cheek) if fork else 0.0,

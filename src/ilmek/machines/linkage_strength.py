@@ -1,11 +1,12 @@
 """Strength of a machine's links and pins over a cycle: what is loaded, stresses, and the checks of all machines alike.
 
-All links are flat bars of one section with pins of one diameter, in forks. A pin's bush is as long as the links are
-thick, and each cheek of its fork half as thick. See `ilmek.dynamics.link_strength` and `pin_strength` for the formulas.
+Links are flat bars with pins in forks. A pin's bush is as long as the thinner of its links is thick, and each cheek of
+its fork half as thick; pins between links of the same size have one diameter. The formulas are those of
+`ilmek.dynamics.link_strength` and `pin_strength`.
 """
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from ilmek.arrays import FloatArray
@@ -102,19 +103,19 @@ def linkage_loads(
 class LinkageStrength:
     """Stresses and safeties of links and pins; limits: those in force.
 
-    links, pins  by name      section  of the links      speed  of the driving crank [rad/s]
+    links, pins  by name      sections  of the links      speed  of the driving crank [rad/s]
     """
 
     limits: StrengthParams
     links: Mapping[str, LinkStrength]
     pins: Mapping[str, PinStrength]
-    section: FlatSection
+    sections: Mapping[str, FlatSection]
     speed: float
     choices: tuple[Choice, ...] = ()
 
-    link_width = computed("mm", "width of the links: as given, or chosen", lambda it: it.section.width)
-    link_thickness = computed("mm", "thickness of the links: as given, or chosen", lambda it: it.section.thickness)
-    pin_diameter = computed("mm", "diameter of the pins: as given, or chosen", lambda it: it.section.hole)
+    pin_diameter = computed(
+        "mm", "diameter of the pins: as given, or chosen; the largest", lambda it: it.worst_pin("diameter"), least=0.0
+    )
     link_stress = computed(
         "MPa", "greatest nominal stress of each link", lambda it: {name: one.stress for name, one in it.links.items()}
     )
@@ -146,67 +147,72 @@ class LinkageStrength:
         return {link: value for link, value in values.items() if value < math.inf}
 
     def worst_pin(self, name: str) -> float:
-        """Greatest value of a pin's stress, pressure or wear [SI]."""
-        return float(getattr(self.pin_with_most(name), name))
+        """Greatest diameter, stress, pressure or wear of a pin [SI]; 0 without pins."""
+        return float(getattr(_most(self.pins, name), name)) if self.pins else 0.0
 
-    def pin_with_most(self, name: str) -> PinStrength:
-        """The pin with the greatest value of a quantity."""
-        return max(self.pins.values(), key=lambda one: float(getattr(one, name)))
+
+def _most(pins: Mapping[str, PinStrength], name: str) -> PinStrength:
+    return max(pins.values(), key=lambda one: float(getattr(one, name)))
 
 
 def linkage_strength(
-    loads: LinkageLoads, limits: StrengthParams, width: float, thickness: float, *, name: str = "strength"
-) -> LinkageStrength:
-    """Strength of links of a given section; of the stock pins the first that is enough, else the largest that fits.
-
-    width, thickness  [m]      name  of the parameters in the choice
-    """
-    widest = WIDEST_PIN * width
-    stock = [size for size in PIN_DIAMETERS if size <= widest] or [widest]
-    offered = [min(limits.pin_diameter, 0.99 * width)] if limits.pin_diameter else stock
-    tried = []
-    for size in offered:
-        pins = {one.name: pin_strength(one, size, thickness, share=loads.share) for one in loads.pins}
-        tried.append(LinkageStrength(limits, {}, pins, FlatSection(width, thickness, size), loads.speed))
-        if all(check.ok for check in pin_checks(tried[-1])):
-            break
-    found = tried[-1]
-    links = {one.body: link_strength(one, found.section, limits.of_links) for one in loads.links}
-    if len(tried) == 1:
-        return replace(found, links=links)
-    last = [Alternative(format_quantity(one.pin_diameter, "mm"), pin_checks(one)) for one in tried[-2:]]
-    return replace(found, links=links, choices=(choose(f"{name}.pin_diameter", last)[1],))
-
-
-def chosen_strength(
-    loads_of: Callable[[float], LinkageLoads],
+    loads: LinkageLoads,
     limits: StrengthParams,
-    width: float | None,
-    thickness: float | None,
+    sections: Mapping[str, tuple[float, float]],
     *,
     name: str = "strength",
 ) -> LinkageStrength:
-    """The same with the first flat bar of stock that is enough where width and thickness are open, else the largest.
+    """Strength of links of given sections; of the stock pins the first that is enough, else the largest that fits.
 
-    loads_of  loads by the links' mass per length [kg/m]      width, thickness  [m]; one alone gives the other, 3 to 1
+    sections  width and thickness of each link [m]      name  of the limits' parameters
     """
-    bars = FLAT_BARS
-    if width or thickness:
-        bars = ((width or 3 * (thickness or 0.0), thickness or (width or 0.0) / 3),)
-    tried = []
-    for wide, thick in bars:
-        line_mass = wide * thick * limits.of_links.density
-        tried.append(linkage_strength(loads_of(line_mass), limits, wide, thick, name=name))
-        if all(check.ok for check in strength_checks(tried[-1])):
+    seats: dict[tuple[float, float], list[PinDuty]] = {}
+    for pin in loads.pins:
+        joined = [sections[body] for body in pin.bodies if body in sections]
+        seat = min(width for width, _ in joined), min(thickness for _, thickness in joined)
+        seats.setdefault(seat, []).append(pin)
+    pins: dict[str, PinStrength] = {}
+    choices: list[Choice] = []
+    for (width, thickness), duties in seats.items():
+        chosen, choice = _pins_for(duties, limits, width, thickness, loads.share, name)
+        pins |= chosen
+        choices += choice
+    holes = {
+        body: max((pins[one.name].diameter for one in loads.pins if body in one.bodies), default=0.0)
+        for body in sections
+    }
+    made = {body: FlatSection(*size, min(holes[body], 0.99 * size[0])) for body, size in sections.items()}
+    links = {one.body: link_strength(one, made[one.body], limits.of_links) for one in loads.links}
+    return LinkageStrength(limits, links, pins, made, loads.speed, tuple(choices))
+
+
+def _pins_for(  # noqa: PLR0917
+    duties: Sequence[PinDuty], limits: StrengthParams, width: float, thickness: float, share: float, name: str
+) -> tuple[dict[str, PinStrength], list[Choice]]:
+    """The pins between links of one size, and the choice of their diameter where there is one."""
+    stock = [size for size in PIN_DIAMETERS if size <= WIDEST_PIN * width] or [WIDEST_PIN * width]
+    tried: list[dict[str, PinStrength]] = []
+    for size in [limits.pin_diameter] if limits.pin_diameter else stock:
+        tried.append({one.name: pin_strength(one, size, thickness, share=share) for one in duties})
+        if all(check.ok for check in pin_checks(tried[-1], limits)):
             break
     if len(tried) == 1:
-        return tried[0]
-    last = [Alternative(_bar_name(one.section), strength_checks(one)) for one in tried[-2:]]
-    return replace(tried[-1], choices=(choose("flat bar of the links", last)[1], *tried[-1].choices))
+        return tried[0], []
+    sizes = (format_quantity(next(iter(one.values())).diameter, "mm") for one in tried[-2:])
+    last = [Alternative(size, pin_checks(one, limits)) for size, one in zip(sizes, tried[-2:], strict=True)]
+    return tried[-1], [choose(f"{name}.pin_diameter", last)[1]]
 
 
-def _bar_name(section: FlatSection) -> str:
-    return f"{format_quantity(section.width / mm, '')} x {format_quantity(section.thickness, 'mm')}"
+def largest_bar(mass: float, length: float, density: float) -> tuple[float, float]:
+    """Width and thickness [m] of the largest flat bar of stock that is not heavier than a link of a mass [kg].
+
+    length  of the link [m]      density  [kg/m³]. The smallest of stock where even that is heavier.
+
+    >>> largest_bar(2.0, 0.14, 7850.0)
+    (0.06, 0.02)
+    """
+    light = [size for size in FLAT_BARS if size[0] * size[1] * length * density <= mass * (1 + 1e-9)]
+    return light[-1] if light else FLAT_BARS[0]
 
 
 def strength_checks(found: LinkageStrength, *, name: str = "strength", stronger: str = "") -> tuple[Check, ...]:
@@ -224,7 +230,7 @@ def strength_checks(found: LinkageStrength, *, name: str = "strength", stronger:
             for link, one in found.links.items()
         ),
         *_link_checks(found, name, cure),
-        *pin_checks(found, name=name),
+        *pin_checks(found.pins, limits, name=name),
     )
 
 
@@ -250,13 +256,13 @@ def _link_checks(found: LinkageStrength, name: str, cure: str) -> tuple[Check, .
     return tuple(checks)
 
 
-def pin_checks(found: LinkageStrength, *, name: str = "strength") -> tuple[Check, ...]:
+def pin_checks(pins: Mapping[str, PinStrength], limits: StrengthParams, *, name: str = "strength") -> tuple[Check, ...]:
     """Whether the pins bear the cycle."""
-    if not found.pins:
+    if not pins:
         return ()
-    limits, cure = found.limits, "set wider and thicker links for larger pins, or a lower speed"
+    cure = "set a lower speed, or wider and thicker links for larger pins; or fit rolling bearings there"
     assumed = f"assumed by this project: parameter {name}."
-    shear, bent, pressed, worn = (found.pin_with_most(one) for one in ("shear", "bending", "pressure", "wear"))
+    shear, bent, pressed, worn = (_most(pins, one) for one in ("shear", "bending", "pressure", "wear"))
     rows = (
         ("shear of the pins", shear.shear, limits.pin_shear, "MPa", shear, "pin_shear"),
         ("bending of the pins", bent.bending, limits.pin_bending, "MPa", bent, "pin_bending"),
@@ -272,18 +278,33 @@ def pin_checks(found: LinkageStrength, *, name: str = "strength") -> tuple[Check
 def strength_table(found: LinkageStrength, name: str) -> tuple[Table, ...]:
     """Links with stress, safeties and natural frequency; pins with force, stresses and wear."""
     links = tuple(
-        (body, one.stress, _where(one), *(_finite(v) for v in (one.fatigue, one.buckling, one.frequency / turn)))
+        (
+            body,
+            _size(found.sections[body]),
+            one.stress,
+            _where(one),
+            *(_finite(v) for v in (one.fatigue, one.buckling, one.frequency / turn)),
+        )
         for body, one in found.links.items()
     )
     pins = tuple(
-        (pin, one.force, one.shear, one.bending, one.pressure, one.wear / MPa) for pin, one in found.pins.items()
+        (pin, one.diameter, one.force, one.shear, one.bending, one.pressure, one.wear / MPa)
+        for pin, one in found.pins.items()
     )
-    heads = columns("link", "stress [MPa]", "at", "safety, fatigue", "safety, buckling", "natural frequency [Hz]")
-    of_pins = columns("pin", "force [N]", "shear [MPa]", "bending [MPa]", "pressure [MPa]", "p v in MPa m/s")
+    heads = columns(
+        "link", "section", "stress [MPa]", "at", "safety, fatigue", "safety, buckling", "natural frequency [Hz]"
+    )
+    of_pins = columns(
+        "pin", "diameter [mm]", "force [N]", "shear [MPa]", "bending [MPa]", "pressure [MPa]", "p v in MPa m/s"
+    )
     return (
         Table(f"{name}-link-strength", "Strength of the links", heads, links),
         Table(f"{name}-pin-strength", "Strength of the pins", of_pins, pins),
     )
+
+
+def _size(section: FlatSection) -> str:
+    return f"{format_quantity(section.width / mm, '')} x {format_quantity(section.thickness, 'mm')}"
 
 
 def _finite(value: float) -> float | str:

@@ -49,7 +49,9 @@ def beat_up_strength(
     every  time from one turn of the crank to the next [s]; default: it turns on      name  of the limits' parameters
     """
     params, loads = design.params, link_loads(design, every)
-    return BeatUpStrength(linkage_strength(loads, limits, params.width, params.thickness, name=name))
+    return BeatUpStrength(
+        linkage_strength(loads, limits, dict.fromkeys(POINTS, (params.width, params.thickness)), name=name)
+    )
 
 
 def beat_up_strength_checks(found: BeatUpStrength, *, name: str = "strength") -> tuple[Check, ...]:

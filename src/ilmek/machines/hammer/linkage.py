@@ -32,6 +32,7 @@ from ilmek.machines.beat_up.crank_start import (
 )
 from ilmek.machines.beat_up.in_loom import frame_force, links_parts
 from ilmek.machines.beat_up.strength import (
+    POINTS,
     BeatUpStrength,
     beat_up_strength,
     beat_up_strength_checks,
@@ -157,7 +158,7 @@ def _with_links(params: HammerParams, share: float) -> tuple[HammerParams, bool]
         # The links' own inertia counts as that of their whole mass at the beater.
         own = links * (lengths["coupler"] + lengths["beater"])
         loads = _unit_loads(params.ground).scaled(share + own, speed, turn / speed / (params.turn_time / 2))
-        found = linkage_strength(loads, params.links, width, thickness)
+        found = linkage_strength(loads, params.links, dict.fromkeys(POINTS, (width, thickness)))
         enough = all(check.ok for check in strength_checks(found))
         if enough:
             break

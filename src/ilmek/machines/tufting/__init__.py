@@ -12,7 +12,7 @@ from ilmek.machines.component import Component
 from ilmek.machines.tufting.design import Tufting, design
 from ilmek.machines.tufting.figures import figures
 from ilmek.machines.tufting.params import TuftingParams
-from ilmek.machines.tufting.report import checks, plates, self_tests, tables, warnings
+from ilmek.machines.tufting.report import TuftingAnalysis, analyse, checks, plates, self_tests, tables, warnings
 
 __all__ = ["MACHINE", "Tufting", "TuftingParams", "design"]
 
@@ -22,11 +22,12 @@ MACHINE = Component(
     summary=SUMMARIES["tufting"],
     params=TuftingParams,
     design=design,
-    reported=(Tufting,),
+    analysis=analyse,
+    reported=(TuftingAnalysis,),
     checks=checks,
     self_tests=self_tests,
     tables=tables,
-    figures=figures,
+    figures=lambda found: figures(found.design),
     warnings=warnings,
     plates=plates,
 )

@@ -3,7 +3,8 @@
 from dataclasses import dataclass
 from typing import Any
 
-from ilmek.params import Params, kind
+from ilmek.machines.tufting.strength_params import NeedleStrengthParams
+from ilmek.params import Params, kind, nested
 from ilmek.units import deg, mm, rpm, turn
 
 SMALL, LARGE = 1e-4, 5.0
@@ -78,12 +79,13 @@ class TuftingParams(Params):
     stroke: float = kind.length(32.5 * mm, above=0.0, at_most=LARGE, doc="required stroke; the paper: about 33 mm")
     bars: int = kind.count(1, at_least=1, at_most=64, doc="such mechanisms side by side on the main shaft")
     phase: float = kind.angle(0.0, at_least=-turn, at_most=turn, doc="lag of each crank behind the one before")
-    link_width: float = kind.length(
-        30 * mm, at_least=SMALL, at_most=LARGE, doc="width of the links' plates; masses do not follow"
+    link_width: float | None = kind.length(
+        None, at_least=SMALL, at_most=LARGE, doc="width of the links' plates; default: by their masses"
     )
-    link_thickness: float = kind.length(
-        10 * mm, at_least=SMALL, at_most=LARGE, doc="thickness of the links' plates; masses do not follow"
+    link_thickness: float | None = kind.length(
+        None, at_least=SMALL, at_most=LARGE, doc="thickness of the links' plates; default: by their masses"
     )
+    strength: NeedleStrengthParams = nested(NeedleStrengthParams, doc="what links, pins and shafts bear")
     crank_angle: float | None = kind.angle(
         None,
         at_least=-2 * turn,

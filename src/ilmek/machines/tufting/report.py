@@ -1,8 +1,11 @@
 """What is reported of a needle mechanism: checks, tables, warnings and plates."""
 
 from ilmek.elements.plates import link_plates
+from ilmek.machines.linkage_strength import FLAT_BARS, strength_table
 from ilmek.machines.tufting.design import JOINTS, LINKS, Tufting
 from ilmek.machines.tufting.model import inertias
+from ilmek.machines.tufting.strength import NeedleStrength, link_sections, needle_checks, needle_strength
+from ilmek.records import group, record
 from ilmek.report import Check, Plate, Table, at_least, at_most, columns
 from ilmek.units import deg, format_quantity, mm, turn
 
@@ -19,12 +22,31 @@ def plates(design: Tufting) -> tuple[Plate, ...]:
     """The five links; the needle bar is turned, not cut."""
     p = design.params
     pins = {"crank": "OA", "coupler": "AB", "rocker": "CB", "arm": "CD", "rod": "DE"}
-    links = {name: ((ends[0], 0j), (ends[1], complex(getattr(p, name)))) for name, ends in pins.items()}
-    return link_plates(links, width=p.link_width, thickness=p.link_thickness, material="steel", number=p.bars)
+    found = []
+    crank = p.link_width or FLAT_BARS[0][0], p.link_thickness or FLAT_BARS[0][1]
+    for name, (width, thickness) in {"crank": crank, **link_sections(p)}.items():
+        start, end = pins[name]
+        link = {name: ((start, 0j), (end, complex(getattr(p, name))))}
+        found += link_plates(link, width=width, thickness=thickness, material=p.strength.material, number=p.bars)
+    return tuple(found)
 
 
-def checks(design: Tufting) -> tuple[Check, ...]:
-    """Stroke, backing and angles."""
+@record
+class TuftingAnalysis:
+    """A needle mechanism, and the strength of its parts."""
+
+    design: Tufting = group()
+    strength: NeedleStrength = group()
+
+
+def analyse(design: Tufting) -> TuftingAnalysis:
+    """The strength of a design."""
+    return TuftingAnalysis(design, needle_strength(design))
+
+
+def checks(found: TuftingAnalysis) -> tuple[Check, ...]:
+    """Stroke, backing and angles; links, pins, shafts, bearings and motor."""
+    design = found.design
     params = design.params
     levels = abs(design.entry_height - design.exit_height)
     return (
@@ -32,11 +54,13 @@ def checks(design: Tufting) -> tuple[Check, ...]:
         at_most("needle's height at entry against exit", levels, LEVELS, "mm", "one backing: both at its level"),
         at_least("transmission angle of rocker", design.transmission, TRANSMISSION, "deg", "rule of thumb for rockers"),
         at_most("pressure angle of the rod", design.pressure_angle, PRESSURE, "deg", "rule of thumb for sliders"),
+        *needle_checks(found.strength),
     )
 
 
-def self_tests(design: Tufting) -> tuple[Check, ...]:
+def self_tests(found: TuftingAnalysis) -> tuple[Check, ...]:
     """The balances of work and power."""
+    design = found.design
     work = design.work
     scale = max(abs(work["drive"]), design.main_shaft_torque_max)
     unbalanced = abs(work["drive"] - work["friction"]) / scale if scale else 0.0
@@ -46,17 +70,19 @@ def self_tests(design: Tufting) -> tuple[Check, ...]:
     )
 
 
-def warnings(design: Tufting) -> tuple[str, ...]:
+def warnings(found: TuftingAnalysis) -> tuple[str, ...]:
     """A needle that is not in the backing where it is lowest."""
+    design = found.design
     if design.params.friction == "always" or design.lowest_within:
         return ()
     lowest = format_quantity(design.lowest, "deg")
     return (f"the needle is lowest at {lowest}, not between entry and exit: check entry, exit and the turning sense",)
 
 
-def tables(design: Tufting) -> tuple[Table, ...]:
-    """Links with the range of their angles, and the greatest values over a turn."""
-    return (_link_table(design), _peak_table(design))
+def tables(found: TuftingAnalysis) -> tuple[Table, ...]:
+    """Links with the range of their angles, the greatest values over a turn, strength of links and pins."""
+    strength = strength_table(found.strength.linkage, "tufting")
+    return (_link_table(found.design), _peak_table(found.design), *strength)
 
 
 def _link_table(design: Tufting) -> Table:
