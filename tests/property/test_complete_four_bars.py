@@ -7,12 +7,16 @@ from ilmek.errors import MechanismError
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
 from ilmek.progress import Cancelled, Progress
+from ilmek.synthesis.alt_burmester.defects import motion_defect
 from ilmek.synthesis.alt_burmester.four_bars import CompleteFourBars, complete_four_bars
 from ilmek.synthesis.alt_burmester.task import PosesAndPoints
 from ilmek.synthesis.burmester.links import GuideKind, arms_through_five_poses
+from ilmek.synthesis.candidate import judge
 from ilmek.synthesis.circuit_loops import circuit_loops
 from ilmek.synthesis.cognates import cognates
+from ilmek.synthesis.filters import defects
 from ilmek.synthesis.four_bar import TRACER, FourBar, LinkLengths, from_lengths
+from ilmek.synthesis.task import PrecisionTask
 
 
 def planted(seed: int, poses: int) -> tuple[FourBar, PosesAndPoints]:
@@ -79,6 +83,19 @@ def test_a_planted_four_bar_is_found_again(poses, seed):
         for cognate in cognates(drawn)[:3]:
             assert cognate is not None
             assert any(same(one, cognate, 1e-6 * task.size) for one in family)
+
+
+def test_defects_of_known_configurations_are_those_of_the_full_check():
+    seen = set()
+    for seed in range(4, 7):
+        _, task = planted(seed, 3)
+        for one in complete_four_bars(task).found:
+            full = defects(judge(one.four_bar, PrecisionTask(points=task.points, coupler=one.angles)))
+            named = [name for name in ("one_circuit", "one_branch", "in_order") if name in full]
+            quick = motion_defect(one.four_bar, one, task.points)
+            assert quick == (named[0] if named else None)
+            seen.add(quick)
+    assert seen >= {"one_circuit", "one_branch", "in_order"}
 
 
 def test_five_poses_give_the_pairs_of_burmester_s_links():
