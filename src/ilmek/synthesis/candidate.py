@@ -179,6 +179,36 @@ def judge(four_bar: FourBar, task: PrecisionTask) -> Candidate:
     )
 
 
+def working_cosines(one: Candidate) -> tuple[float, float] | None:
+    """Least and greatest cosine of the angle between crank and ground link, from the first to the last position.
+
+    None where a position is not reached. A crank that turns fully moves in the direction of the order; where the
+    positions are out of order it is the whole turn.
+    """
+    if not one.reached or not one.one_circuit:
+        return None
+    cranks = [met.crank_angle for met in one.positions]
+    loop = circuit_loops(one.four_bar)[one.positions[0].circuit - 1]
+    if not loop.branch:
+        return CircuitSegment(loop, min(cranks), max(cranks), one.positions[0].branch).cosines
+    low, high = task_rotation(cranks)
+    return CircuitSegment(loop, low, high, loop.branch).cosines
+
+
+def task_rotation(cranks: Sequence[float]) -> tuple[float, float]:
+    """Crank angles from the first to the last position of a crank that turns fully, low to high [rad].
+
+    The whole turn where no direction meets the positions in order.
+    """
+    onward = np.mod(np.subtract(cranks, cranks[0]), 2 * np.pi)
+    back = np.mod(-onward, 2 * np.pi)
+    if np.all(np.diff(onward) > 0):
+        return cranks[0], cranks[0] + float(onward[-1])
+    if np.all(np.diff(back) > 0):
+        return cranks[0] - float(back[-1]), cranks[0]
+    return cranks[0] - np.pi, cranks[0] + np.pi
+
+
 def _position_results(
     four_bar: FourBar, task: PrecisionTask, chosen: Sequence[PositionMatch | None]
 ) -> tuple[PositionResult, ...]:

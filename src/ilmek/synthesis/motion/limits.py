@@ -1,0 +1,80 @@
+"""Limits of a four-bar for a motion, in SI, and as the arrays of a search in the task's frame."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import field
+
+import numpy as np
+
+from ilmek.arrays import ComplexArray
+from ilmek.params.text_lists import Bounds
+from ilmek.records import record
+from ilmek.synthesis.burmester.constant_distance import TaskFrame
+from ilmek.synthesis.filters import Filters
+from ilmek.synthesis.motion import measures
+
+NOWHERE = np.zeros(0, dtype=complex)
+"""No polygon."""
+
+PLANE: tuple[Bounds, Bounds] = ((-math.inf, math.inf), (-math.inf, math.inf))
+"""Bounds on x and y that hold everywhere."""
+
+TURN: Bounds = (0.0, math.inf)
+
+
+@record
+class MotionLimits:
+    """What a four-bar must fulfil besides taking its poses.
+
+    filters       against defects, and limits of every four-bar
+    boxes         bounds on x and y of the pivots of crank and rocker [m]
+    crank_region, rocker_region   polygons of these pivots [m]; empty: anywhere
+    keep_out      polygon that crank, coupler and rocker must not touch during the motion [m]; empty: none
+    crank_swing   least and greatest rotation of the crank from the first to the last pose [rad]
+    rocker_swing  least and greatest swing of the rocker over the motion [rad]
+    task_only     whether the transmission angle is that from the first to the last pose, also of a crank that turns
+                  fully; else that of its whole turn
+    """
+
+    filters: Filters
+    boxes: tuple[tuple[Bounds, Bounds], tuple[Bounds, Bounds]] = (PLANE, PLANE)
+    crank_region: ComplexArray = field(default_factory=lambda: NOWHERE)
+    rocker_region: ComplexArray = field(default_factory=lambda: NOWHERE)
+    keep_out: ComplexArray = field(default_factory=lambda: NOWHERE)
+    crank_swing: Bounds = TURN
+    rocker_swing: Bounds = TURN
+    task_only: bool = False
+
+    @property
+    def same_regions(self) -> bool:
+        """Whether both pivots have one region, so that every link can be crank and rocker."""
+        same = self.crank_region is self.rocker_region or np.array_equal(self.crank_region, self.rocker_region)
+        return self.boxes[0] == self.boxes[1] and same
+
+    @property
+    def scale(self) -> float:
+        """Size of a task whose body only turns [m]: a third of the greatest size, else 0.1 m."""
+        return (self.filters.size_max or 0.3) / 3
+
+    def in_frame(self, frame: TaskFrame, extent: float) -> measures.SearchBounds:
+        """The arrays of a search; extent  of the poses in sizes of the frame [1]."""
+        filters, limits = self.filters, np.zeros(measures.LIMITS)
+        limits[measures.EVEN_RATIO] = filters.link_ratio_max or math.inf
+        limits[measures.ONE_BRANCH] = filters.one_branch
+        limits[measures.ONE_CIRCUIT] = filters.one_circuit
+        limits[measures.IN_ORDER] = filters.in_order
+        limits[measures.FULL_TURN] = filters.full_turn
+        limits[measures.LEAST_SINE] = math.sin(filters.transmission_min)
+        limits[measures.TASK_ONLY] = self.task_only
+        limits[measures.SIZE_MAX] = (filters.size_max or math.inf) / frame.size
+        limits[measures.EXTENT] = extent
+        limits[measures.CRANK_LOW], limits[measures.CRANK_HIGH] = self.crank_swing
+        limits[measures.ROCKER_LOW], limits[measures.ROCKER_HIGH] = self.rocker_swing
+        polygons = (frame.to_frame(one) for one in (self.crank_region, self.rocker_region, self.keep_out))
+        return measures.SearchBounds(limits, np.array([_box(one, frame) for one in self.boxes]), *polygons)
+
+
+def _box(box: tuple[Bounds, Bounds], frame: TaskFrame) -> Sequence[float]:
+    """Least and greatest x, then y, in the frame."""
+    origins = (frame.origin.real, frame.origin.imag)
+    return [(end - origin) / frame.size for bounds, origin in zip(box, origins, strict=True) for end in bounds]
