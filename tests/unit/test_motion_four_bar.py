@@ -1,6 +1,5 @@
 """The four-bar for a motion: what it answers for three, four and five poses, and what it refuses."""
 
-import itertools
 import json
 
 import numpy as np
@@ -12,14 +11,9 @@ from ilmek.linkage.structure import plan
 from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.motion_four_bar import MACHINE
 from ilmek.params.text_lists import read_poses
-from ilmek.plane.vectors import cross
 from ilmek.report import Animation, Report
-from ilmek.synthesis.burmester.curve import burmester_curve
 from ilmek.synthesis.burmester.links import Guide, GuideKind
-from ilmek.synthesis.candidate import judge
 from ilmek.synthesis.four_bar import FourBar
-from ilmek.synthesis.guide_pairs import promising
-from ilmek.synthesis.task import PrecisionTask
 
 THREE = "(0mm,0mm,10deg) (25mm,15mm,3deg) (30mm,1mm,-25deg)"
 FOUR = "(0mm,0mm,35deg) (40mm,22mm,12deg) (78mm,12mm,-22deg) (92mm,-28mm,-60deg)"
@@ -49,8 +43,9 @@ def test_every_solution_takes_the_poses_on_one_branch_when_it_is_moved(text: str
         assert np.abs(turned - turned[0]).max() < 1e-9
         assert set(found["branches"]) <= {drawn.branch, 0}
         assert max(found[name] for name in LINKS) <= 10 * min(found[name] for name in LINKS)
-    least = [found["transmission_min"] for found in results["solutions"]]
-    assert least == sorted(least, reverse=True)
+    worth = [found["merit"] for found in results["candidates"]]
+    assert worth == sorted(worth, reverse=True)
+    assert all(found["certified"] for found in results["candidates"])
     assert sum(isinstance(figure, Animation) for figure in said.figures) == 1
     assert not [check for check in said.failed if check.name != "transmission angle"]
     assert MACHINES["motion-four-bar"] is MACHINE
@@ -89,34 +84,11 @@ def test_pivots_stay_within_their_bounds() -> None:
         results = answer(poses=text, pivot_y="..-20mm", pivot_x="-60mm..90mm", samples="24").as_json()["results"]
         assert results["solutions"]
         for found in results["solutions"]:
-            assert max(found["a0"][1], found["b0"][1]) <= -0.02
-            assert -0.06 <= min(found["a0"][0], found["b0"][0]) <= max(found["a0"][0], found["b0"][0]) <= 0.09
+            assert max(found["a0"][1], found["b0"][1]) <= -0.02 + 1e-10
+            assert -0.06 - 1e-10 <= min(found["a0"][0], found["b0"][0]) <= max(found["a0"][0], found["b0"][0]) <= 0.09 + 1e-10
     said = answer(poses=FIVE, pivot_y="..-20mm")
     assert said.as_json()["results"]["chosen"] is None
     assert "links with a pivot outside pivot_x and pivot_y: 3" in said.warnings[-1]
-
-
-def test_promising_pairs_leave_out_none_that_judging_finds_without_defects() -> None:
-    points, angles = read_poses("poses", FOUR)
-    found = [one for one in burmester_curve(points, angles, 12).guides() if one.kind is GuideKind.CRANK]
-    task, good = PrecisionTask(points=points, coupler=angles), 0
-    for crank, rocker in itertools.product(found[::4], found[1::4]):
-        seen = judge(FourBar(crank.pivot, rocker.pivot, crank.pin, rocker.pin, complex(points[0])), task)
-        if seen.one_circuit and seen.one_branch and seen.in_order:
-            good += 1
-            assert (crank, rocker) in promising([crank, rocker], points, angles, most=2)
-    assert good > 1
-
-
-def test_promising_pairs_come_by_their_worst_angle_at_the_poses() -> None:
-    points, angles = read_poses("poses", FOUR)
-    sines = []
-    for crank, rocker in promising(burmester_curve(points, angles, 40).guides(), points, angles, most=30):
-        b, pivot = rocker.pins(points, angles), rocker.pivot
-        coupler, arm = b - crank.pins(points, angles), b - pivot
-        sines.append(float(np.min(np.abs(cross(coupler, arm)) / np.abs(coupler) / np.abs(arm))))
-    assert sines == sorted(sines, reverse=True)
-    assert len(sines) > 5
 
 
 @pytest.mark.parametrize(

@@ -20,6 +20,8 @@ _ITEM = re.compile(r"[^\s,;]+(?:\s+(?![+\-.\d])[^\s,;]+)?")
 _BARE = re.compile(r"[+-]?[\d.]+(?:[eE][+-]?\d+)?")
 POINTS, ANGLES = "points are written (12mm,4mm) (18.5mm,9.5mm)", "angles are written 20deg 65deg"
 POSES, PAIRS = "poses are written (0mm,0mm,10deg) (25mm,15mm,3deg)", "pairs are written (1,0) (2,0.301)"
+REGIONS = "a region is written (0,0) (40mm,20mm), or as the corners of a polygon"
+MOST_CORNERS = 60
 BOUNDS = "bounds are written 10mm..60mm, ..60mm, 10mm.. or 60mm alone"
 
 
@@ -82,6 +84,48 @@ def read_two_points(name: str, text: str) -> ComplexArray:
     if found[0] == found[1]:
         raise ParameterError(f"both {name} are one point", do="give two that differ")
     return found
+
+
+def read_region(name: str, text: str) -> ComplexArray:
+    """Corners of a polygon [m], counter-clockwise; of two points the rectangle between them.
+
+    Raises ParameterError where the text holds anything else, the polygon has no area, or two of its sides cross.
+
+    >>> read_region("region", "(0,0) (2cm,1cm)").tolist()
+    [0j, (0.02+0j), (0.02+0.01j), 0.01j]
+    """
+    corners = read_points(name, text)
+    if len(corners) == 2:
+        low, high = corners
+        corners = np.array([low, complex(high.real, low.imag), high, complex(low.real, high.imag)])
+    if not 3 <= len(corners) <= MOST_CORNERS:
+        raise ParameterError(
+            f"{name} holds {len(corners)} points",
+            allowed=f"two opposite corners of a rectangle, or 3 to {MOST_CORNERS} corners of a polygon",
+        )
+    area = 0.5 * float(np.sum(np.imag(np.conj(corners) * np.roll(corners, -1))))
+    if abs(area) <= 1e-12 * float(np.max(np.abs(corners - corners[0]))) ** 2:
+        raise ParameterError(f"{name} has no area", do=REGIONS)
+    if _sides_cross(corners):
+        raise ParameterError(f"two sides of {name} cross", do="give its corners in order")
+    return corners if area > 0 else corners[::-1].copy()
+
+
+def _sides_cross(corners: ComplexArray) -> bool:
+    """Whether two sides of a polygon that are no neighbours meet."""
+    count, ends = len(corners), np.roll(corners, -1)
+    for one in range(count):
+        for other in range(one + 2, count - (one == 0)):
+            sides = corners[[one, other]], ends[[one, other]]
+            if _apart(*sides) <= 0 and _apart(sides[0][::-1], sides[1][::-1]) <= 0:
+                return True
+    return False
+
+
+def _apart(starts: ComplexArray, ends: ComplexArray) -> float:
+    """Above 0 where both ends of the second side are on one side of the first."""
+    along = np.conj(ends[0] - starts[0])
+    return float(np.imag(along * (starts[1] - starts[0])) * np.imag(along * (ends[1] - starts[0])))
 
 
 def read_bounds(name: str, text: str, unit: str = "mm", *, least: float = -math.inf) -> Bounds:

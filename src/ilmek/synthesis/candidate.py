@@ -17,7 +17,7 @@ from ilmek.linkage.quality import Grashof
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
 from ilmek.records import value_record
-from ilmek.synthesis.circuit_loops import CircuitLoop, circuit_loops
+from ilmek.synthesis.circuit_loops import CircuitLoop, LoopConfigurations, circuit_loops
 from ilmek.synthesis.four_bar import TRACER, FourBar
 from ilmek.synthesis.precision import PositionMatch, order, position_matches
 from ilmek.synthesis.task import PrecisionTask
@@ -143,6 +143,32 @@ class Candidate:
         """Least transmission angle [rad]: minimum of mu and pi - mu over the motion."""
         return min(self.transmission[0], math.pi - self.transmission[1])
 
+    def motion(self, count: int) -> LoopConfigurations:
+        """`count` positions of the motion: the turn of a crank that turns fully, else from the first to the last pose.
+
+        Only of a candidate whose positions are all reached, on one circuit.
+        """
+        loop = circuit_loops(self.four_bar)[self.positions[0].circuit - 1]
+        if loop.branch:
+            return loop.at(np.linspace(-np.pi, np.pi, count))
+        cranks = [met.crank_angle for met in self.positions]
+        branch = next((met.branch for met in self.positions if met.branch), +1)
+        ends = [float(np.max(loop.parameters_at(end))) for end in (min(cranks), max(cranks))]
+        return loop.at(branch * np.linspace(ends[0], ends[1], count))
+
+    def transmission_over(self, *, task_only: bool) -> float:
+        """Least transmission angle over the motion [rad], or from the first to the last position alone.
+
+        NaN where the task alone is required and a position is not reached, or on another circuit.
+        """
+        if not task_only or not self.crank_turns:
+            return self.least_transmission
+        cosines = working_cosines(self)
+        if cosines is None:
+            return math.nan
+        low, high = _transmission_angles(self.four_bar, cosines)
+        return min(low, math.pi - high)
+
 
 def judge(four_bar: FourBar, task: PrecisionTask) -> Candidate:
     """Check a four-bar against a task.
@@ -267,9 +293,14 @@ def _transmission(four_bar: FourBar, segments: Sequence[CircuitSegment]) -> tupl
     """Least and greatest transmission angle [rad]; it grows with |A B0|, so with the angle from ground to crank."""
     if not segments:
         return math.nan, math.nan
-    ground, crank, coupler, rocker = four_bar.lengths
     cosines = [cosine for one in segments for cosine in one.cosines]
-    squares = [ground**2 + crank**2 - 2 * ground * crank * cosine for cosine in (max(cosines), min(cosines))]
+    return _transmission_angles(four_bar, (min(cosines), max(cosines)))
+
+
+def _transmission_angles(four_bar: FourBar, cosines: tuple[float, float]) -> tuple[float, float]:
+    """Least and greatest transmission angle [rad] between a least and a greatest cosine of the crank's angle."""
+    ground, crank, coupler, rocker = four_bar.lengths
+    squares = [ground**2 + crank**2 - 2 * ground * crank * cosine for cosine in reversed(cosines)]
     mu = [(coupler**2 + rocker**2 - square) / (2 * coupler * rocker) for square in squares]
     return math.acos(min(1.0, max(-1.0, mu[0]))), math.acos(min(1.0, max(-1.0, mu[1])))
 

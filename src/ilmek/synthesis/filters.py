@@ -21,6 +21,7 @@ import numpy as np
 
 from ilmek.params import Params, kind
 from ilmek.records import record
+from ilmek.report import snap_to_limit
 from ilmek.synthesis.candidate import Candidate
 from ilmek.units import deg, format_quantity
 
@@ -87,6 +88,11 @@ REASONS = {
     "transmission": "transmission angle too small",
     "link_ratio": "links too unequal",
     "size": "too large",
+    "crank_region": "crank's pivot outside its region",
+    "rocker_region": "rocker's pivot outside its region",
+    "crank_swing": "rotation of the crank out of range",
+    "rocker_swing": "swing of the rocker out of range",
+    "keep_out": "touches the region to keep clear",
 }
 """Short name of the defect of each filter."""
 
@@ -111,10 +117,14 @@ def filter_candidates(candidates: Iterable[Candidate], filters: Filters | None =
     return FilterResult(tuple(sorted(kept, key=lambda one: -one.least_transmission)), tuple(removed))
 
 
-def defects(one: Candidate, filters: Filters | None = None) -> dict[str, str]:
-    """Filters that a candidate fails -> reason as a sentence; filters default: `Filters()`."""
+def defects(one: Candidate, filters: Filters | None = None, *, task_only: bool = False) -> dict[str, str]:
+    """Filters that a candidate fails -> reason as a sentence; a limit that is met but for rounding is kept.
+
+    filters    default: `Filters()`
+    task_only  whether the transmission angle is that from the first to the last position, also of a crank that turns
+    """
     filters = filters or Filters()
-    found = _of_positions(one) | _of_motion(one, filters)
+    found = _of_positions(one) | _of_motion(one, filters, one.transmission_over(task_only=task_only))
     return {name: words for name, words in found.items() if getattr(filters, name, True)}
 
 
@@ -137,19 +147,23 @@ def _of_positions(one: Candidate) -> dict[str, str]:
     return found
 
 
-def _of_motion(one: Candidate, filters: Filters) -> dict[str, str]:
-    """Limits that are not met."""
+def _of_motion(one: Candidate, filters: Filters, transmission: float) -> dict[str, str]:
+    """Limits that are not met; transmission  least angle [rad]."""
     found = {}
     if not one.crank_turns:
         found["full_turn"] = f"the crank does not turn fully: {one.grashof.kind}"
-    if filters.transmission_min and not one.least_transmission >= filters.transmission_min:
-        least, limit = (format_quantity(angle, "deg") for angle in (one.least_transmission, filters.transmission_min))
+    required = filters.transmission_min
+    if required and not snap_to_limit(transmission, required) >= required:
+        least, limit = (format_quantity(angle, "deg") for angle in (transmission, required))
         found["transmission"] = f"transmission angle {least}, required at least {limit}"
-    if filters.link_ratio_max is not None and not one.link_ratio <= filters.link_ratio_max:
+    if (
+        filters.link_ratio_max is not None
+        and snap_to_limit(one.link_ratio, filters.link_ratio_max) > filters.link_ratio_max
+    ):
         found["link_ratio"] = (
             f"longest link {one.link_ratio:.4g} times the shortest, allowed at most {filters.link_ratio_max:g}"
         )
-    if filters.size_max is not None and not one.size <= filters.size_max:
+    if filters.size_max is not None and snap_to_limit(one.size, filters.size_max) > filters.size_max:
         size, limit = (format_quantity(length, "mm") for length in (one.size, filters.size_max))
         found["size"] = f"size {size}, allowed at most {limit}"
     return found

@@ -23,8 +23,8 @@ from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
 from ilmek.plane.vectors import cross
 from ilmek.records import record
-from ilmek.synthesis.candidate import Candidate, working_cosines
-from ilmek.synthesis.four_bar import TRACER
+from ilmek.synthesis.candidate import Candidate
+from ilmek.synthesis.four_bar import TRACER, FourBar
 from ilmek.units import deg
 
 TRANSMISSION = 40 * deg
@@ -59,6 +59,17 @@ class Merit:
     def value(self) -> float:
         """The merit M, 0 to 1."""
         return float(merit_value(math.sin(self.transmission), self.size, self.ratio, self.sensitivity))
+
+    def as_json(self) -> dict[str, float | dict[str, float] | None]:
+        """The merit, its terms and the errors, by the names of the JSON; SI."""
+        terms = {"transmission": self.transmission, "size": self.size, "ratio": self.ratio}
+        point = None if math.isnan(self.point_shift) else self.point_shift
+        return {
+            "merit": self.value,
+            "merit_terms": {**terms, "sensitivity": self.sensitivity},
+            "point_shift": point,
+            "angle_shift": self.angle_shift,
+        }
 
 
 def merit_value(sine: RealField, size: RealField, ratio: RealField, sensitivity: RealField) -> RealField:
@@ -113,9 +124,9 @@ def merit(one: Candidate, *, task_only: bool = False) -> Merit:
         if task.coupler is not None:
             shifts = shifts + (extent * turned) ** 2
         if task.rocker is not None:
-            shifts = shifts + (extent * _rocker_rates(a0, b0, a, b, turned, along)) ** 2
+            shifts = shifts + (extent * _rocker_rates(drawn, a, b, turned, along)) ** 2
     return Merit(
-        transmission=least_over_task(one) if task_only else one.least_transmission,
+        transmission=one.transmission_over(task_only=task_only),
         size=one.size / extent,
         ratio=one.link_ratio,
         sensitivity=_worst(np.sqrt(shifts)),
@@ -136,21 +147,11 @@ def extent_of_points(points: ComplexArray) -> float:
     return float(np.max(np.abs(points[:, None] - points)))
 
 
-def least_over_task(one: Candidate) -> float:
-    """Least transmission angle from the first to the last position of a task [rad]; NaN where one is not reached."""
-    cosines = working_cosines(one)
-    if cosines is None:
-        return math.nan
-    ground, crank, coupler, rocker = one.four_bar.lengths
-    squares = [ground**2 + crank**2 - 2 * ground * crank * cosine for cosine in cosines]
-    mu = [(coupler**2 + rocker**2 - square) / (2 * coupler * rocker) for square in squares]
-    return min(math.acos(min(1.0, abs(one))) for one in mu)
-
-
 def _rocker_rates(
-    a0: complex, b0: complex, a: ComplexArray, b: ComplexArray, turned: RealField, along: ComplexArray
+    drawn: FourBar, a: ComplexArray, b: ComplexArray, turned: RealField, along: ComplexArray
 ) -> RealField:
     """Derivatives of the rocker's angle by the four lengths [rad/m]."""
+    a0, b0 = drawn.a0, drawn.b0
     gamma, rho = b - a, b - b0
     moved = along + 1j * gamma * turned
     moved[2] += gamma / np.abs(gamma)

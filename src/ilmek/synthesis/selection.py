@@ -3,7 +3,7 @@
 import math
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from ilmek.errors import ParameterError
@@ -13,6 +13,7 @@ from ilmek.report import Json
 from ilmek.synthesis.candidate import Candidate
 from ilmek.synthesis.filters import REASONS, Filters, defects
 from ilmek.synthesis.four_bar import FourBar
+from ilmek.synthesis.merit import Merit, merit
 
 OF_POSITIONS = ("crank_angle", "circuit", "point_error", "coupler_error", "rocker_error")
 """Quantities of each position that a solution lists; None where the task has none, or it is not reached."""
@@ -46,16 +47,29 @@ class FourBarTaskParams(Filters):
         return Filters(**{one.name: getattr(self, one.name) for one in declared(Filters)})
 
 
+CANDIDATES = (
+    "the solutions with merit and proof: as in solutions, and merit, its terms (transmission, size over the extent of "
+    "the task, ratio, sensitivity), point_shift and angle_shift of links 0.1 mm off, apart: distance from the nearest "
+    "better one in extents of the task (null: not computed), certified: whether it is proven to do the task exactly"
+)
+
+
 @record
 class FourBarOption:
     """A four-bar with its check.
 
-    made     how it was found      details  results of its method, by the names of the JSON [SI]
+    made       how it was found      details  results of its method, by the names of the JSON [SI]
+    certified  whether it is proven that it does its task exactly (within 1e-9 of the task's size)
+    apart      distance from the nearest better answer, in extents of the task; NaN: not computed
+    merit      its merit; None: not computed
     """
 
     candidate: Candidate
     made: str
     details: Mapping[str, Json] = field(default_factory=dict)
+    certified: bool = False
+    apart: float = math.nan
+    merit: Merit | None = None
 
     def as_json(self) -> dict[str, Any]:
         """The solution, SI and radians: see NAMED."""
@@ -72,6 +86,15 @@ class FourBarOption:
             "size": one.size,
             "made": self.made,
             **self.details,
+        }
+
+    def with_merit(self) -> dict[str, Any]:
+        """The solution with its merit and proof: see CANDIDATES."""
+        return {
+            **self.as_json(),
+            **({} if self.merit is None else self.merit.as_json()),
+            "apart": self.apart if math.isfinite(self.apart) else None,
+            "certified": self.certified,
         }
 
     def removed_as_json(self, reasons: Mapping[str, str]) -> dict[str, Any]:
@@ -108,6 +131,15 @@ def solutions(extra: str = "") -> Any:
 
 
 @record
+class SearchedFamily:
+    """A family of four-bars that was searched: how many of it, how many keep all limits, how many miss each limit."""
+
+    searched: int
+    found: int
+    left_out: Mapping[str, int]
+
+
+@record
 class FourBarSelection:
     """The four-bars found for a task, filtered and ranked.
 
@@ -116,6 +148,8 @@ class FourBarSelection:
     removed  with the reason for each filter that they failed
     other    descriptions of degenerate solutions
     number   of the one that is drawn, from 1; None where none is kept
+    family   of a search of a family: what was searched; None where all four-bars were judged
+    cures    single limits that give a four-bar if they are loosened, as sentences; () where there is one
     """
 
     kept: tuple[FourBarOption, ...]
@@ -123,6 +157,8 @@ class FourBarSelection:
     removed: tuple[tuple[FourBarOption, Mapping[str, str]], ...]
     other: tuple[str, ...]
     number: int | None
+    family: SearchedFamily | None = None
+    cures: tuple[str, ...] = ()
 
     @property
     def best(self) -> FourBarOption | None:
@@ -131,6 +167,8 @@ class FourBarSelection:
 
     @computed("", "how many four-bars were found, kept and removed")
     def sieve(self) -> str:
+        if self.family is not None:
+            return f"{self.family.searched} four-bars searched: {self.family.found} within all limits"
         kept = len(self.kept) + self.more
         total = kept + len(self.removed)
         first = f"{total} four-bar{'' if total == 1 else 's'}: {kept} kept, {len(self.removed)} removed"
@@ -138,8 +176,29 @@ class FourBarSelection:
 
     @property
     def reasons(self) -> str:
-        """The filters that four-bars failed, with the number of each."""
-        return ", ".join(f"{REASONS[name]} {count}" for name, count in self.counts.items())
+        """The filters that four-bars failed, with the number of each, the greatest first."""
+        ordered = sorted(self.left_out.items(), key=lambda one: -one[1])
+        return ", ".join(f"{REASONS[name]} {count}" for name, count in ordered)
+
+    found = computed(
+        "",
+        "four-bars that do the task within all limits; of a family those among the pairs of links that were searched",
+        lambda it: len(it.kept) + it.more if it.family is None else it.family.found,
+    )
+    left_out = computed(
+        "",
+        "how many miss each limit; one may miss several",
+        lambda it: dict(it.counts) if it.family is None else dict(it.family.left_out),
+        shown=False,
+    )
+    candidates = computed("", CANDIDATES, lambda it: [one.with_merit() for one in it.kept], shown=False)
+    loosened = computed(
+        "",
+        "without a solution: single limits that give one if they are loosened, and how far",
+        lambda it: list(it.cures) or None,
+        shown=False,
+        optional=True,
+    )
 
     ground = of_best("mm", "of the solution that is drawn: A0 to B0", lambda one: one.four_bar.lengths.ground)
     crank = of_best("mm", "A0 to A, driven", lambda one: one.four_bar.lengths.crank)
@@ -184,21 +243,28 @@ def choose(
     params: FourBarTaskParams,
     *,
     filters: Filters | None = None,
-    rank: Callable[[FourBarOption], Any] = lambda one: -one.candidate.least_transmission,
+    breaches: Callable[[Candidate], Mapping[str, str]] | None = None,
+    task_only: bool = False,
+    rank: Callable[[FourBarOption], Any] | None = None,
 ) -> FourBarSelection:
     """The options filtered and ranked.
 
     options  four-bars found
     other    descriptions of degenerate solutions
     filters  default: those of the parameters
-    rank     sort key, ascending; default: the greatest of the least transmission angles first
+    breaches  a candidate's defects -> reasons; default: `filters.defects` by the filters
+    task_only  see `merit`
+    rank     sort key, ascending; default: the best merit first
 
     Raises ParameterError where there are solutions, but fewer than `params.chosen`.
     """
     required = filters or params.filters()
-    judged = [(one, defects(one.candidate, required)) for one in options]
-    kept = sorted((one for one, reasons in judged if not reasons), key=rank)
-    listed = tuple(kept[: params.count])
+    judged = [(one, breaches(one.candidate) if breaches else defects(one.candidate, required)) for one in options]
+    good = [one for one, reasons in judged if not reasons]
+    if rank is None:
+        good = [_with_merit(one, task_only=task_only) for one in good]
+    kept = sorted(good, key=rank or _best_first)
+    listed = tuple(_with_merit(one, task_only=task_only) for one in kept[: params.count])
     if listed and params.chosen > len(listed):
         raise ParameterError(
             f"chosen={params.chosen}, and there are {len(listed)} solutions",
@@ -208,6 +274,27 @@ def choose(
     removed = tuple((one, reasons) for one, reasons in judged if reasons)
     number = params.chosen if listed else None
     return FourBarSelection(listed, len(kept) - len(listed), removed, tuple(other), number)
+
+
+def single_cures(removed: Sequence[tuple[FourBarOption, Mapping[str, str]]]) -> tuple[str, ...]:
+    """For each limit that alone removed four-bars: how many, and how far the nearest of them is."""
+    alone: dict[str, list[str]] = {}
+    for _, reasons in removed:
+        if len(reasons) == 1:
+            ((name, words),) = reasons.items()
+            alone.setdefault(name, []).append(words)
+    return tuple(f"without the limit {name} there is one more: {'; '.join(words)}" for name, words in alone.items())
+
+
+def _with_merit(one: FourBarOption, *, task_only: bool) -> FourBarOption:
+    """An option with its merit."""
+    return one if one.merit is not None else replace(one, merit=merit(one.candidate, task_only=task_only))
+
+
+def _best_first(one: FourBarOption) -> float:
+    """Minus the merit; 0 where it has none."""
+    value = one.merit.value if one.merit is not None else math.nan
+    return 0.0 if math.isnan(value) else -value
 
 
 def finite(value: Json) -> float:

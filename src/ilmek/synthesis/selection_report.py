@@ -2,12 +2,12 @@
 
 import math
 
-from ilmek.report import Check, Table, at_least, columns
+from ilmek.report import Check, Table, at_least, columns, snap_to_limit
 from ilmek.synthesis.candidate import Candidate
-from ilmek.synthesis.selection import FourBarDesign, FourBarSelection
-from ilmek.units import deg, format_quantity
+from ilmek.synthesis.merit import TRANSMISSION
+from ilmek.synthesis.selection import FourBarDesign, FourBarOption, FourBarSelection
+from ilmek.units import format_quantity
 
-TRANSMISSION = 40 * deg
 RULE = "rule of thumb for rockers"
 
 LISTED, BRIEF = 20, 6
@@ -17,9 +17,10 @@ LINKS = ("ground [mm]", "crank [mm]", "coupler [mm]", "rocker [mm]")
 
 
 def tables(choice: FourBarSelection, name: str) -> tuple[Table, ...]:
-    """Solutions, positions of the one that is drawn, and removed four-bars; `name` of the machine."""
+    """Solutions, their merit, positions of the one that is drawn, and removed four-bars; `name` of the machine."""
     return (
         _solutions(choice, name),
+        *((_merits(choice, name),) if choice.kept else ()),
         *(() if choice.best is None else (_positions(choice.best.candidate, name),)),
         *((_removed(choice, name),) if choice.removed else ()),
     )
@@ -36,6 +37,29 @@ def _solutions(choice: FourBarSelection, name: str) -> Table:
     return Table(
         f"{name}-solutions", f"Solutions, the best first{more}; μ: transmission angle", heads, rows, brief=True
     )
+
+
+def _merits(choice: FourBarSelection, name: str) -> Table:
+    apart = any(math.isfinite(one.apart) for one in choice.kept)
+    proven = any(one.certified for one in choice.kept)
+    heads = columns(
+        *("solution", "merit", "μ [deg]", "size / extent", "link ratio", "sensitivity"),
+        *("point at 0.1 mm [mm]", "angle at 0.1 mm [deg]"),
+        *(("apart",) if apart else ()),
+        *(("proven exact",) if proven else ()),
+    )
+    rows = tuple(
+        (
+            *(at, one.value, one.transmission, one.size, one.ratio, one.sensitivity, one.point_shift, one.angle_shift),
+            *((option.apart if math.isfinite(option.apart) else math.nan,) if apart else ()),
+            *(("yes" if option.certified else "no",) if proven else ()),
+        )
+        for at, option in enumerate(choice.kept, 1)
+        for one in (option.merit,)
+        if one is not None
+    )
+    words = "errors where all links are 0.1 mm off" + ("; apart: from a better solution, in extents" if apart else "")
+    return Table(f"{name}-merit", f"Merit of the solutions; {words}", heads, rows)
 
 
 ERRORS = {
@@ -69,22 +93,36 @@ def _removed(choice: FourBarSelection, name: str) -> Table:
 def checks(design: FourBarDesign) -> tuple[Check, ...]:
     """Whether there is a solution, and its transmission angle."""
     choice = design.choice
-    found = at_least("four-bars without defects", len(choice.kept) + choice.more, 1, "1", "the task")
+    cure = "; ".join(choice.cures)
+    found = at_least("four-bars without defects", len(choice.kept) + choice.more, 1, "1", "the task", cure=cure)
     if choice.best is None:
         return (found,)
-    least = choice.best.candidate.least_transmission
-    return found, at_least("transmission angle", least, TRANSMISSION, "deg", RULE)
+    return found, at_least("transmission angle", _least(choice.best), TRANSMISSION, "deg", RULE)
 
 
 def warnings(design: FourBarDesign) -> tuple[str, ...]:
     """Reason why there is no solution, or a warning that coupler and rocker come too near to one line."""
     choice = design.choice
     if choice.best is None:
+        if choice.family is not None:
+            cures = (
+                "; ".join(choice.cures) or "no single limit, loosened alone, gives one: loosen two, or change the task"
+            )
+            return (f"no four-bar keeps all limits ({choice.reasons}): {cures}", *choice.other)
         if not choice.removed:
             return ("there is no four-bar: change the task", *choice.other)
-        return (f"no four-bar is left: {choice.sieve}; loosen a filter to see one, or change the task", *choice.other)
-    least = choice.best.candidate.least_transmission
-    if least >= TRANSMISSION:
+        cures = f"; {'; '.join(choice.cures)}" if choice.cures else ""
+        return (
+            f"no four-bar is left: {choice.sieve}; loosen a filter to see one, or change the task{cures}",
+            *choice.other,
+        )
+    least = _least(choice.best)
+    if snap_to_limit(least, TRANSMISSION) >= TRANSMISSION:
         return ()
     shown = format_quantity(least, "deg")
     return (f"coupler and rocker come within {shown} of one line: forces grow, play shows; set transmission_min",)
+
+
+def _least(best: FourBarOption) -> float:
+    """Least transmission angle over what is required [rad]."""
+    return best.candidate.least_transmission if best.merit is None else best.merit.transmission

@@ -60,7 +60,8 @@ def design(params: FunctionFourBarParams) -> FunctionFourBar:
         for one in answers.found
     ]
     choice = choose(options, answers.left_out, params, rank=options.index)
-    drawn = None if choice.best is None else answers.found[options.index(choice.best)]
+    candidates = [one.candidate for one in options]
+    drawn = None if choice.best is None else answers.found[candidates.index(choice.best.candidate)]
     return FunctionFourBar(choice=choice, params=params, function=function, approximation=drawn)
 
 

@@ -1,7 +1,7 @@
 """A four-bar for a motion: its coupler takes three, four or five poses exactly.
 
-Three poses leave both pivots (or both pins) free to be given, or to be chosen on a grid; four leave a curve of them,
-five a few links. All pairs are judged, and those without defects ranked.
+Three poses leave both pivots (or both pins) free, four leave a curve of them: the family of all pairs is searched
+within the limits, and the best that differ are reported. Five leave a few links: all their pairs are judged.
 """
 
 from ilmek.machines import SUMMARIES
@@ -20,6 +20,7 @@ MACHINE = Component(
     summary=SUMMARIES["motion-four-bar"],
     params=MotionFourBarParams,
     design=design,
+    long=True,
     results=lambda made: (made, made.choice),
     reported=(MotionFourBar, FourBarSelection),
     checks=checks,
@@ -27,4 +28,5 @@ MACHINE = Component(
     tables=tables,
     figures=figures,
     warnings=warnings,
+    headline=("found", "left_out", "candidates"),
 )

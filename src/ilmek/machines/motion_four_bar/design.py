@@ -1,35 +1,43 @@
 """A four-bar for a motion: the links that guide the body, and the four-bars of two of them, judged and filtered."""
 
 import cmath
-from collections import Counter
-from collections.abc import Iterator, Sequence
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
 from ilmek.arrays import ComplexArray
 from ilmek.machines.motion_four_bar.params import MotionFourBarParams
 from ilmek.params.text_lists import BodyPoses, Bounds
+from ilmek.progress import SILENT, Progress
 from ilmek.records import computed, record, result
 from ilmek.report import Json
 from ilmek.synthesis.burmester.curve import BurmesterCurve, CurveBranch, burmester_curve
 from ilmek.synthesis.burmester.links import (
     Guide,
-    GuideKind,
     arms_of_pins,
     arms_of_pivots,
     arms_through_five_poses,
     pair,
 )
-from ilmek.synthesis.candidate import judge
-from ilmek.synthesis.guide_pairs import promising
-from ilmek.synthesis.selection import FourBarDesign, FourBarOption, choose, of_best, solutions
+from ilmek.synthesis.candidate import Candidate, judge
+from ilmek.synthesis.four_bar import FourBar
+from ilmek.synthesis.motion.certificate import certified
+from ilmek.synthesis.motion.limits import MotionLimits, breaches
+from ilmek.synthesis.motion.loosen import cures
+from ilmek.synthesis.motion.search import MotionSpace, search_pairs
+from ilmek.synthesis.selection import (
+    FourBarDesign,
+    FourBarOption,
+    SearchedFamily,
+    choose,
+    of_best,
+    single_cures,
+    solutions,
+)
 from ilmek.synthesis.task import PrecisionTask
-
-JUDGED = 24
-"""Pairs of links that are judged where there are curves or a plane of them."""
-
-GRID, WIDE = 15, 1.5
-"""Pivots of a grid along x and along y, and how far it reaches beyond the poses, in their greatest extent."""
 
 
 @record
@@ -44,8 +52,8 @@ class MotionFourBar(FourBarDesign):
     poses: BodyPoses
     curve: BurmesterCurve | None
     guides: tuple[Guide, ...]
-    judged: int = result("", "pairs of links that were judged; where the links are a family the most promising")
-    judged_links: int = result("", "links that these pairs were chosen from")
+    judged: int = result("", "pairs of links that were judged, or searched where the links are a family")
+    judged_links: int = result("", "links of these pairs")
 
     point_error = of_best(
         "mm", "greatest distance from a pose's point, from the solution's motion", lambda one: one.point_error
@@ -89,77 +97,99 @@ def _branches(branches: Sequence[CurveBranch]) -> Json:
     return [{"closed": branch.closed, "places": branch.points} for branch in branches]
 
 
-def design(params: MotionFourBarParams) -> MotionFourBar:
-    """All four-bars of the poses, or the most promising ones where they are a family.
+def design(params: MotionFourBarParams, progress: Progress = SILENT) -> MotionFourBar:
+    """All four-bars of the poses, or the best that differ where they are a family.
 
-    Raises ParameterError where a whole family of links takes the poses.
+    Raises ParameterError where a whole family of links takes five poses, or a family of curves four; Cancelled.
     """
-    poses, ranges = params.task(), params.pivot_ranges()
-    curve, guides, few = _guides(params, poses)
-    inside = [one for one in guides if _inside(one.pivot, ranges)]
-    pairs = [(one, other) for one in inside for other in inside if one is not other]
-    if not few:
-        ratio = params.link_ratio_max or np.inf
-        pairs = list(promising(inside, *poses, most=JUDGED, link_ratio=ratio, full_turn=params.full_turn))
-    task = PrecisionTask(points=poses.points, coupler=poses.angles)
+    poses, limits = params.task(), params.limits()
+    guides = _guides(params, poses)
+    if guides is None:
+        return _searched(params, poses, limits, progress)
+    inside = [one for one in guides if _inside(one.pivot, limits.boxes[0])]
     options, other = [], []
-    for crank, rocker in pairs:
+    for crank, rocker in _pairs(params, inside):
         joined = pair(crank, rocker, complex(poses.points[0]))
         if joined.four_bar is None:
             other.append(joined.description)
         else:
-            made = _numbers(guides, crank, rocker) if few else "curve"
-            options.append(FourBarOption(judge(joined.four_bar, task), made))
-    other += _unused(guides, inside, few, bool(pairs))
+            options.append(_option(joined.four_bar, poses, _numbers(guides, crank, rocker)))
+    outside = len(guides) - len(inside)
+    other += [f"links with a pivot outside pivot_x and pivot_y: {outside}"] if outside else []
+    choice = choose(
+        options,
+        tuple(dict.fromkeys(other)),
+        params,
+        breaches=partial(breaches, limits=limits),
+        task_only=params.task_only,
+    )
+    cures = () if choice.kept else single_cures(choice.removed)
     return MotionFourBar(
-        choice=choose(options, tuple(dict.fromkeys(other)), params),
+        choice=replace(choice, cures=cures),
         params=params,
         poses=poses,
-        curve=curve,
-        guides=guides if few else (),
-        judged=len(pairs),
+        curve=None,
+        guides=guides,
+        judged=len(options) + len(other),
         judged_links=len(inside),
     )
 
 
-def _guides(params: MotionFourBarParams, poses: BodyPoses) -> tuple[BurmesterCurve | None, tuple[Guide, ...], bool]:
-    """The curve of four poses, the links, and whether they are few: then each has a number."""
+def _guides(params: MotionFourBarParams, poses: BodyPoses) -> tuple[Guide, ...] | None:
+    """The links where they are few: then each has a number. None where they are a family."""
     if len(poses.points) == 5:
-        return None, arms_through_five_poses(*poses), True
-    if len(poses.points) == 4:
-        return burmester_curve(*poses), burmester_curve(*poses, params.samples).guides(), False
+        return arms_through_five_poses(*poses)
     pivots, pins = params.both("pivots"), params.both("pins")
     if pivots is not None:
-        return None, arms_of_pivots(*poses, pivots), True
-    if pins is not None:
-        return None, arms_of_pins(*poses, pins), True
-    return None, arms_of_pivots(*poses, _grid(poses.points, params.pivot_ranges())), False
+        return arms_of_pivots(*poses, pivots)
+    return None if pins is None else arms_of_pins(*poses, pins)
 
 
-def _unused(guides: Sequence[Guide], inside: Sequence[Guide], few: bool, paired: bool) -> Iterator[str]:
-    """Why links are in no four-bar."""
-    outside = len(guides) - len(inside)
-    if outside and few:
-        yield f"links with a pivot outside pivot_x and pivot_y: {outside}"
-    if few or paired:
-        return
-    odd = Counter(one.kind for one in inside if one.kind is not GuideKind.CRANK)
-    for kind, count in odd.items():
-        yield f"{count} of {len(inside)} links are no cranks: {kind.words}"
-    cranks = len(inside) - odd.total()
-    if cranks:
-        yield f"of {cranks} cranks no two keep one branch, the order of the poses and link_ratio_max"
+def _pairs(params: MotionFourBarParams, inside: Sequence[Guide]) -> list[tuple[Guide, Guide]]:
+    """Pairs of links, the driven one first."""
+    pairs = [(one, other) for one in inside for other in inside if one is not other]
+    if params.driven == "either":
+        return pairs
+    return pairs[:1] if params.driven == "first" else pairs[1:]
 
 
-def _grid(points: ComplexArray, ranges: tuple[Bounds, Bounds]) -> ComplexArray:
-    """Pivots around the poses, within the given bounds."""
-    reach = WIDE * (float(np.ptp(points.real)) + float(np.ptp(points.imag)) or 1.0)
-    ends = (
-        np.clip([values.min() - reach, values.max() + reach], *bounds)
-        for values, bounds in zip((points.real, points.imag), ranges, strict=True)
+def _option(four_bar: FourBar, poses: BodyPoses, made: str, apart: float = math.nan) -> FourBarOption:
+    pins = np.array([four_bar.a0, four_bar.b0, four_bar.a, four_bar.b])
+    candidate = judge(four_bar, PrecisionTask(points=poses.points, coupler=poses.angles))
+    return FourBarOption(candidate, made, certified=certified(pins, poses), apart=apart)
+
+
+def _searched(params: MotionFourBarParams, poses: BodyPoses, limits: MotionLimits, progress: Progress) -> MotionFourBar:
+    """The best four-bars of three or four poses; where there is none, the nearest ones and what cures it."""
+    drawn = burmester_curve(*poses) if len(poses.points) == 4 else None
+    curve = None if drawn is None else burmester_curve(*poses, params.samples)
+    space = MotionSpace(poses, curve, limits)
+    found = search_pairs(space, params.count, progress.part(0.0, 0.5, "search"))
+    tracer = complex(poses.points[0])
+    options = [
+        _option(FourBar(*(complex(pin) for pin in one.pins), tracer), poses, "search", one.apart)
+        for one in (*found.pairs, *found.nearest)
+        if np.isfinite(one.pins).all()
+    ]
+    choice = choose(options, (), params, breaches=partial(breaches, limits=limits), task_only=params.task_only)
+    family = SearchedFamily(found.searched, found.found if choice.kept else 0, found.left_out)
+    cured: tuple[str, ...] = ()
+    if not choice.kept:
+
+        def judged(pins: ComplexArray) -> Candidate:
+            task = PrecisionTask(points=poses.points, coupler=poses.angles)
+            return judge(FourBar(*(complex(pin) for pin in pins), tracer), task)
+
+        cured = tuple(one.words for one in cures(space, judged, progress.part(0.5, 1.0, "loosen")))
+    return MotionFourBar(
+        choice=replace(choice, family=family, cures=cured),
+        params=params,
+        poses=poses,
+        curve=drawn,
+        guides=(),
+        judged=found.searched,
+        judged_links=space.link_count,
     )
-    sides = [np.linspace(start, stop, GRID) for start, stop in ends]
-    return np.unique(np.add.outer(sides[0], 1j * sides[1]))
 
 
 def _inside(pivot: complex, ranges: tuple[Bounds, Bounds]) -> bool:

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 from ilmek.arrays import ComplexArray
 from ilmek.errors import ParameterError
 from ilmek.params import kind
-from ilmek.params.text_lists import BodyPoses, Bounds, read_bounds, read_poses, read_two_points
+from ilmek.params.text_lists import BodyPoses, Bounds, read_bounds, read_poses, read_region, read_two_points
 from ilmek.synthesis.burmester.constant_distance import require_task
+from ilmek.synthesis.motion.limits import NOWHERE, MotionLimits
 from ilmek.synthesis.selection import FourBarTaskParams
 
 KNOTTING = "(0mm,0mm,10deg) (25mm,15mm,3deg) (30mm,1mm,-25deg)"
@@ -16,26 +17,46 @@ KNOTTING = "(0mm,0mm,10deg) (25mm,15mm,3deg) (30mm,1mm,-25deg)"
 TAKEN = (3, 4, 5)
 """Poses that are met exactly."""
 
+OVER, DRIVEN = ("motion", "task"), ("either", "first", "second")
+
 
 @dataclass(frozen=True, slots=True)
 class MotionFourBarParams(FourBarTaskParams):
-    """Task of a four-bar for a motion: poses, and bounds on its pivots."""
+    """Task of a four-bar for a motion: poses, and limits of the four-bar."""
 
     poses: str = kind.text(KNOTTING, doc="three to five poses of the body: x and y of one of its points, and its angle")
     pivots: str | None = kind.text(
-        None, doc="both pivots, for three poses: (0,0) (40mm,0); default: the best of a grid"
+        None, doc="both pivots, for three poses: (0,0) (40mm,0); default: the best of all in their regions"
     )
     pins: str | None = kind.text(
         None, doc="both pins of the body at the first pose, for three poses, instead of pivots"
     )
+    driven: str = kind.choice("either", DRIVEN, doc="which of the given pivots or pins is the crank's")
     pivot_x: str | None = kind.text(None, doc="bounds on x of both pivots, like -20mm..60mm, or ..0mm")
     pivot_y: str | None = kind.text(None, doc="bounds on y of both pivots")
+    pivot_region: str | None = kind.text(
+        None, doc="region of both pivots: two opposite corners of a rectangle, or the corners of a polygon"
+    )
+    crank_region: str | None = kind.text(None, doc="region of the crank's pivot; default: pivot_region")
+    rocker_region: str | None = kind.text(None, doc="region of the rocker's pivot; default: pivot_region")
+    keep_out: str | None = kind.text(
+        None, doc="region that crank, coupler and rocker keep clear of over the motion, written like pivot_region"
+    )
+    crank_swing: str | None = kind.text(
+        None, doc="bounds on the rotation of the crank from the first to the last pose, like ..120deg"
+    )
+    rocker_swing: str | None = kind.text(None, doc="bounds on the swing of the rocker over the motion")
+    transmission_over: str = kind.choice(
+        "motion",
+        OVER,
+        doc="transmission angle over the motion (the whole turn of a crank that turns fully), or over the task alone",
+    )
     samples: int = kind.count(
-        90, at_least=8, at_most=1000, doc="links tried on each closed part of the curves of four poses"
+        400, at_least=8, at_most=1000, doc="links tried on each closed part of the curves of four poses"
     )
 
     def check_together(self) -> None:
-        """Raise ParameterError where the poses cannot be read, or no method takes their number."""
+        """Raise ParameterError where the poses or regions cannot be read, or no method takes their number."""
         poses = self.task()
         given = [name for name in ("pivots", "pins") if getattr(self, name) is not None]
         if len(given) == 2:
@@ -48,7 +69,13 @@ class MotionFourBarParams(FourBarTaskParams):
                     do=f"leave {given[0]} out, or a pose",
                 )
             self.both(given[0])
-        self.pivot_ranges()
+        elif self.driven != "either":
+            raise ParameterError(
+                f"driven={self.driven}, and neither pivots nor pins are given",
+                allowed="the first or second of them",
+                do="give pivots, or crank_region to state where the driven link is",
+            )
+        self.limits()
 
     def task(self) -> BodyPoses:
         """The poses. Raises ParameterError where no method takes them."""
@@ -67,10 +94,30 @@ class MotionFourBarParams(FourBarTaskParams):
         text = getattr(self, name)
         return None if text is None else read_two_points(name, text)
 
-    def pivot_ranges(self) -> tuple[Bounds, Bounds]:
-        """Least and greatest x and y of the pivots [m]."""
-        return self._bounds("pivot_x"), self._bounds("pivot_y")
+    @property
+    def task_only(self) -> bool:
+        """Whether the transmission angle is that from the first to the last pose alone."""
+        return self.transmission_over == "task"
 
-    def _bounds(self, name: str) -> Bounds:
+    def limits(self) -> MotionLimits:
+        """All limits [SI]. Raises ParameterError where one cannot be read."""
+        box = self._bounds("pivot_x", "mm", -math.inf), self._bounds("pivot_y", "mm", -math.inf)
+        both = self._region("pivot_region")
+        return MotionLimits(
+            filters=self.filters(),
+            boxes=(box, box),
+            crank_region=both if self.crank_region is None else self._region("crank_region"),
+            rocker_region=both if self.rocker_region is None else self._region("rocker_region"),
+            keep_out=self._region("keep_out"),
+            crank_swing=self._bounds("crank_swing", "deg", 0.0),
+            rocker_swing=self._bounds("rocker_swing", "deg", 0.0),
+            task_only=self.task_only,
+        )
+
+    def _bounds(self, name: str, unit: str, least: float) -> Bounds:
         text = getattr(self, name)
-        return (-math.inf, math.inf) if text is None else read_bounds(name, text)
+        return (least, math.inf) if text is None else read_bounds(name, text, unit, least=least)
+
+    def _region(self, name: str) -> ComplexArray:
+        text = getattr(self, name)
+        return NOWHERE if text is None else read_region(name, text)

@@ -10,8 +10,10 @@ from ilmek.arrays import ComplexArray
 from ilmek.params.text_lists import Bounds
 from ilmek.records import record
 from ilmek.synthesis.burmester.constant_distance import TaskFrame
-from ilmek.synthesis.filters import Filters
+from ilmek.synthesis.candidate import Candidate, task_rotation
+from ilmek.synthesis.filters import Filters, defects
 from ilmek.synthesis.motion import measures
+from ilmek.units import format_quantity
 
 NOWHERE = np.zeros(0, dtype=complex)
 """No polygon."""
@@ -20,6 +22,16 @@ PLANE: tuple[Bounds, Bounds] = ((-math.inf, math.inf), (-math.inf, math.inf))
 """Bounds on x and y that hold everywhere."""
 
 TURN: Bounds = (0.0, math.inf)
+
+
+KEPT = 1e-9
+"""Distance outside a region, relative to the four-bar's size, that counts as rounding."""
+
+SWING = 1e-4
+"""Difference from a limit of a swing [rad] that counts as rounding of its samples."""
+
+FINE, MOST = 361, 12_000
+"""Positions at which the clearance from a region is computed first, and at most."""
 
 
 @record
@@ -52,6 +64,11 @@ class MotionLimits:
         return self.boxes[0] == self.boxes[1] and same
 
     @property
+    def regions(self) -> tuple[ComplexArray, ComplexArray]:
+        """Polygons of the pivots of crank and rocker [m]."""
+        return self.crank_region, self.rocker_region
+
+    @property
     def scale(self) -> float:
         """Size of a task whose body only turns [m]: a third of the greatest size, else 0.1 m."""
         return (self.filters.size_max or 0.3) / 3
@@ -78,3 +95,59 @@ def _box(box: tuple[Bounds, Bounds], frame: TaskFrame) -> Sequence[float]:
     """Least and greatest x, then y, in the frame."""
     origins = (frame.origin.real, frame.origin.imag)
     return [(end - origin) / frame.size for bounds, origin in zip(box, origins, strict=True) for end in bounds]
+
+
+def breaches(one: Candidate, limits: MotionLimits) -> dict[str, str]:
+    """Every limit and filter that a candidate does not keep -> reason as a sentence."""
+    found = defects(one, limits.filters, task_only=limits.task_only)
+    pivots = (one.four_bar.a0, one.four_bar.b0)
+    for name, pivot, box, corners in zip(
+        ("crank_region", "rocker_region"), pivots, limits.boxes, limits.regions, strict=True
+    ):
+        sides = np.array([end for bounds in box for end in bounds])
+        outside = -float(measures.region_margin(pivot, sides, corners))
+        if outside > KEPT * one.size:
+            found[name] = f"{name.split('_')[0]}'s pivot {format_quantity(outside, 'mm')} outside its region"
+    for name, bounds, swing in (
+        ("crank_swing", limits.crank_swing, crank_swing),
+        ("rocker_swing", limits.rocker_swing, rocker_swing),
+    ):
+        if bounds != TURN and one.reached and one.one_circuit:
+            angle = swing(one)
+            if not bounds[0] - SWING <= angle <= bounds[1] + SWING:
+                allowed = f"{format_quantity(bounds[0], 'deg')} to {format_quantity(bounds[1], 'deg')}"
+                found[name] = f"{name.replace('_', ' ')} {format_quantity(angle, 'deg')}, allowed {allowed}"
+    if len(limits.keep_out) and one.reached and one.one_circuit and not clear_of(one, limits.keep_out):
+        found["keep_out"] = "a link touches the region to keep clear"
+    return found
+
+
+def crank_swing(one: Candidate) -> float:
+    """Rotation of the crank from the first to the last position of a candidate that reaches all [rad]."""
+    cranks = [met.crank_angle for met in one.positions]
+    low, high = task_rotation(cranks) if one.crank_turns else (min(cranks), max(cranks))
+    return high - low
+
+
+def rocker_swing(one: Candidate) -> float:
+    """Swing of the rocker over the motion [rad]: over the turn of a crank that turns fully, else over the task."""
+    angles = np.unwrap(np.angle(one.motion(FINE).rocker))
+    return float(np.ptp(angles))
+
+
+def clear_of(one: Candidate, keep_out: ComplexArray) -> bool:
+    """Whether crank, coupler with its tracer, and rocker stay clear of a polygon [m] over the motion.
+
+    Between two positions no point of a link moves farther than its ends; positions are added until the clearance is
+    greater than half of that, or the links come nearer than half a step of `MOST` positions: then they touch.
+    """
+    pivots, count = np.array([one.four_bar.a0, one.four_bar.b0]), FINE
+    while True:
+        at = one.motion(count)
+        clear = float(measures.swept_clearance(pivots, at.a, at.b, at.tracer, keep_out))
+        step = max(float(np.max(np.abs(np.diff(joint)))) for joint in (at.a, at.b, at.tracer))
+        if clear <= 0 or clear > step:
+            return clear > 0
+        if count >= MOST:
+            return False
+        count *= 3

@@ -1,4 +1,4 @@
-# ruff: noqa: PLR0917 - compiled functions take their arguments by position
+# ruff: noqa: PLR0917, C901 - compiled functions take their arguments by position
 """Margins of a four-bar of two guides against every limit, as compiled kernels; a limit is kept at a margin >= 0.
 
 All lengths are in the task's frame, in which its size is 1. Every margin is continuous almost everywhere and about one
@@ -44,6 +44,9 @@ FULL = 2 * np.pi
 
 STEPS = 48
 """Positions of the motion at which size, swing and clearance are computed."""
+
+SAGITTA, SWING_ROUNDING = 2e-3, 1.002
+"""What the motion may come nearer, in sizes of the task, and the swing be greater, between two of these positions."""
 
 HEADINGS = np.exp(1j * PI * np.arange(24) / 24)
 WIDEST = 1 / np.cos(PI / 48)
@@ -291,8 +294,8 @@ def set_swept(
     size = widest * WIDEST
     margins[SIZE] = min(NONE, np.log(limits[SIZE_MAX] / size))
     swing = swing_high - swing_low
-    margins[ROCKER_SWING] = min(NONE, swing - limits[ROCKER_LOW], limits[ROCKER_HIGH] - swing)
-    margins[KEEP_OUT] = clear
+    margins[ROCKER_SWING] = min(NONE, swing - limits[ROCKER_LOW], limits[ROCKER_HIGH] - SWING_ROUNDING * swing)
+    margins[KEEP_OUT] = min(NONE, clear - SAGITTA) if len(bounds.keep_out) else NONE
     sizes = ground, crank, coupler, rocker
     gain = sensitivity(m1, pins1, m2, pins2, points, limits[EXTENT])
     return merit_value(motion[SINE], widest / limits[EXTENT], max(sizes) / min(sizes), gain)
@@ -315,6 +318,18 @@ def sensitivity(
             total += np.sqrt(abs(moved) ** 2 + (extent * rates[link]) ** 2)
         worst = max(worst, total)
     return worst
+
+
+@compiled
+def swept_clearance(
+    pivots: ComplexArray, a: ComplexArray, b: ComplexArray, p: ComplexArray, keep: ComplexArray
+) -> float:
+    """Least distance of crank, rocker and coupler from a polygon over the positions of A, B and P; negative inside."""
+    clear = np.inf
+    for at in range(len(a)):
+        for one, other in ((pivots[0], a[at]), (pivots[1], b[at]), (a[at], b[at]), (a[at], p[at]), (b[at], p[at])):
+            clear = min(clear, clearance(one, other, keep))
+    return clear
 
 
 @compiled
@@ -375,9 +390,7 @@ def search_rows(
     for i in range(start, stop):
         inside1 = region_margin(pivots1[i], bounds.boxes[0], bounds.crank)
         for j in range(len(pivots2)):
-            if not set_margins(
-                pivots1[i], pins1[i], angles1[i], pivots2[j], pins2[j], bounds.limits, margins, motion
-            ):
+            if not set_margins(pivots1[i], pins1[i], angles1[i], pivots2[j], pins2[j], bounds.limits, margins, motion):
                 continue
             margins[CRANK_REGION], margins[ROCKER_REGION] = inside1, inside2[j]
             score = violation(margins, SIZE, 0.0)

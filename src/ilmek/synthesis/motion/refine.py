@@ -1,8 +1,8 @@
-# ruff: noqa: PLR0917 - compiled functions take their arguments by position
+# ruff: noqa: PLR0917, C901, PLR0912 - compiled functions take their arguments by position
 """Local search in a family of pairs of guides: to the limits, and from there to the best merit; compiled kernels.
 
 A pair is given by its parameters x: of three poses the pivots of both links (x1, y1, x2, y2), of four poses the
-parameters of both links on their curves (t1, t2): a sample's index and the share of the way to the next.
+parameters of both links on their curves (t1, t2): a sample's index and the share of the step to the next.
 
 To the limits: Levenberg-Marquardt steps on the margins that are below zero, with numerical derivatives. A step of it
 intersects the family with the violated limits to first order, so that it ends on the intersection itself.
@@ -22,7 +22,6 @@ from ilmek.synthesis.motion.measures import (
     MOTION,
     NONE,
     ROCKER_REGION,
-    SIZE,
     SearchBounds,
     region_margin,
     set_cranks,
@@ -38,7 +37,7 @@ SLACK = 1e-3
 STEP = 1e-6
 """Difference of a parameter for numerical derivatives."""
 
-EDGE = 1e-9
+EDGE = 2e-10
 """Negative margin that counts as rounding."""
 
 
@@ -81,7 +80,9 @@ def meeting(one: FloatArray, other: FloatArray, point: FloatArray) -> None:
 
 
 @compiled
-def pivot_on_curve(family: GuideFamily, t: float, part: int, lines: FloatArray, pivot: FloatArray, work: FloatArray) -> None:
+def pivot_on_curve(
+    family: GuideFamily, t: float, part: int, lines: FloatArray, pivot: FloatArray, work: FloatArray
+) -> None:
     """Write the pivot of parameter t on the closed part that contains sample `part`, and its three lines."""
     first, stop = family.ends[part, 0], family.ends[part, 1]
     count = stop - first
@@ -143,7 +144,13 @@ def link_of(family: GuideFamily, x: FloatArray, at: int, part: int, work: FloatA
 
 @compiled
 def evaluate(
-    family: GuideFamily, bounds: SearchBounds, fit: OtherPairs, x: FloatArray, parts: IntArray, margins: FloatArray, work: FloatArray
+    family: GuideFamily,
+    bounds: SearchBounds,
+    fit: OtherPairs,
+    x: FloatArray,
+    parts: IntArray,
+    margins: FloatArray,
+    work: FloatArray,
 ) -> float:
     """Write the margins of the pair of parameters x; returns its merit, 0 where it has no motion.
 
@@ -214,7 +221,13 @@ def solve_damped(slopes: FloatArray, short: FloatArray, damping: float, move: Fl
 
 @compiled
 def to_limits(
-    family: GuideFamily, bounds: SearchBounds, fit: OtherPairs, x: FloatArray, parts: IntArray, steps: int, work: FloatArray
+    family: GuideFamily,
+    bounds: SearchBounds,
+    fit: OtherPairs,
+    x: FloatArray,
+    parts: IntArray,
+    steps: int,
+    work: FloatArray,
 ) -> float:
     """Move x to where all margins are above zero; returns the violation that is left, 0 where none is."""
     n = len(x)
@@ -284,24 +297,24 @@ def cost(
     parts: IntArray,
     margins: FloatArray,
     work: FloatArray,
-    freed: int,
+    loose: int,
 ) -> float:
-    """What `improve` makes least: minus the merit, or the violation of the margin `freed`; outside the others above 1.
+    """What `improve` makes least: minus the merit, or the violation of the margin `loose`; outside the others above 1.
 
-    freed  index of a margin; -1: none
+    loose  index of a margin; -1: none
     """
     clip(family, bounds, x)
     worth = evaluate(family, bounds, fit, x, parts, margins, work)
     broken = 0.0
-    if freed >= 0:
-        broken = -margins[freed]
-        margins[freed] = NONE
+    if loose >= 0:
+        broken = -margins[loose]
+        margins[loose] = NONE
         if not broken < BAD:
             return 1e3
     left = violation(margins, MARGINS, -EDGE)
     if left > 0:
         return 1e2 + left
-    if freed >= 0:
+    if loose >= 0:
         return broken
     return -worth
 
@@ -315,11 +328,11 @@ def improve(
     parts: IntArray,
     reach: float,
     evaluations: int,
-    freed: int,
+    loose: int,
 ) -> float:
     """Move x to the least `cost` near it by the simplex method; returns it.
 
-    reach  side of the first simplex      evaluations  after which it ends      freed  see `cost`
+    reach  side of the first simplex      evaluations  after which it ends      loose  see `cost`
     """
     n = len(x)
     work, margins = np.zeros((10, 3)), np.empty(MARGINS)
@@ -331,7 +344,7 @@ def improve(
             corners[at] = x
             if at > 0:
                 corners[at, at - 1] += reach * (0.1**begin) * (1.0 if begin % 2 == 0 else -1.0)
-            values[at] = cost(family, bounds, fit, corners[at], parts, margins, work, freed)
+            values[at] = cost(family, bounds, fit, corners[at], parts, margins, work, loose)
         used += n + 1
         while used < evaluations * (begin + 1) // 3:
             order = np.argsort(values)
@@ -341,11 +354,11 @@ def improve(
             for i in range(n):
                 middle[i] = (np.sum(corners[:, i]) - corners[worst, i]) / n
             tried[:] = middle + (middle - corners[worst])
-            value = cost(family, bounds, fit, tried, parts, margins, work, freed)
+            value = cost(family, bounds, fit, tried, parts, margins, work, loose)
             used += 1
             if value < values[best]:
                 other[:] = middle + 2 * (middle - corners[worst])
-                further = cost(family, bounds, fit, other, parts, margins, work, freed)
+                further = cost(family, bounds, fit, other, parts, margins, work, loose)
                 used += 1
                 if further < value:
                     tried[:], value = other, further
@@ -353,7 +366,7 @@ def improve(
                 if value < values[worst]:
                     corners[worst], values[worst] = tried, value
                 tried[:] = middle + 0.5 * (corners[worst] - middle)
-                value = cost(family, bounds, fit, tried, parts, margins, work, freed)
+                value = cost(family, bounds, fit, tried, parts, margins, work, loose)
                 used += 1
             if value < values[worst]:
                 corners[worst], values[worst] = tried, value
@@ -361,7 +374,7 @@ def improve(
                 for at in range(n + 1):
                     if at != best:
                         corners[at] = corners[best] + 0.5 * (corners[at] - corners[best])
-                        values[at] = cost(family, bounds, fit, corners[at], parts, margins, work, freed)
+                        values[at] = cost(family, bounds, fit, corners[at], parts, margins, work, loose)
                 used += n
         x[:] = corners[np.argmin(values)]
     return float(np.min(values))

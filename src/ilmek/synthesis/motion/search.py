@@ -8,7 +8,7 @@ of those that differ enough from all before it (`apart`). The same task always h
 """
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -20,7 +20,7 @@ from ilmek.records import record
 from ilmek.synthesis.burmester.constant_distance import TaskFrame, homogeneous, pose_forms
 from ilmek.synthesis.burmester.curve import BurmesterCurve
 from ilmek.synthesis.burmester.links import other_ends
-from ilmek.synthesis.merit import extent_of_points
+from ilmek.synthesis.merit import RULE_SINE, extent_of_points
 from ilmek.synthesis.motion import measures, refine
 from ilmek.synthesis.motion.limits import MotionLimits
 
@@ -42,6 +42,12 @@ ROUNDS = 4
 APART, CLOSEST = 0.5, 0.03
 """Distance of two answers in extents of the task: the greatest of their pins' distances; halved down to the least where
 there are too few."""
+
+RULED = 300
+"""Pairs, the best first, that are moved to where they keep the rule of thumb for transmission angles."""
+
+REACH = 0.05
+"""Side of the first simplex of a local search for three poses, in sizes of the task; of four: one sample."""
 
 NEAR, FAR = 0.03, 30.0
 """Least and greatest distance of a link's end from the poses that is tried, in sizes of the task."""
@@ -95,18 +101,20 @@ class PairSearch:
 
 
 @record
-class _Pool:
+class PairPool:
     """Pairs by their parameters: rows of x and parts, score (minus the merit, or the violation)."""
 
     xs: FloatArray
     parts: IntArray
     scores: FloatArray
 
-    def only(self, which: IntArray) -> "_Pool":
-        return _Pool(self.xs[which], self.parts[which], self.scores[which])
+    def only(self, which: IntArray) -> "PairPool":
+        """Some of the pairs, by their indices."""
+        return PairPool(self.xs[which], self.parts[which], self.scores[which])
 
-    def joined(self, other: "_Pool") -> "_Pool":
-        return _Pool(
+    def joined(self, other: "PairPool") -> "PairPool":
+        """These pairs and those of another pool."""
+        return PairPool(
             np.concatenate([self.xs, other.xs]),
             np.concatenate([self.parts, other.parts]),
             np.concatenate([self.scores, other.scores]),
@@ -120,7 +128,7 @@ class MotionSpace:
     """
 
     def __init__(self, poses: BodyPoses, curve: BurmesterCurve | None, limits: MotionLimits) -> None:
-        self.poses, self.limits = poses, limits
+        self.poses, self.curve, self.limits = poses, curve, limits
         forms, self.frame = pose_forms(*poses)
         self.extent = extent_of_points(poses.points)
         if not self.extent:
@@ -137,6 +145,7 @@ class MotionSpace:
         turned = np.asarray(unit(poses.angles - poses.angles[0]))
         self.family = refine.GuideFamily(np.ascontiguousarray(forms), points, turned, samples, ends)
         self.bounds = limits.in_frame(self.frame, (self.extent or self.frame.size) / self.frame.size)
+        self.link_count = 0
         self.mirror = _mirror(points, poses.angles)
 
     @property
@@ -195,12 +204,15 @@ class MotionSpace:
             found = found[[measures.polygon_margin(complex(one), corners) >= 0 for one in found]]
         return found
 
-    def sampled(self, bounds: measures.SearchBounds, seed: int, progress: Progress) -> tuple[_Pool, int, int, IntArray]:
+    def sampled(
+        self, bounds: measures.SearchBounds, seed: int, progress: Progress
+    ) -> tuple[PairPool, int, int, IntArray]:
         """The best pair of each link; how many fulfil the limits, of how many; failures by margin."""
         sides = [self.links(0, seed)]
         sides.append(sides[0] if self.limits.same_regions else self.links(1, seed))
         arrays = [self._arrays(side[2], side[3]) for side in sides]
         rows, columns = (len(side[2]) for side in sides)
+        self.link_count = rows if self.limits.same_regions else rows + columns
         best = [np.full(rows, np.inf), np.full(columns, np.inf)]
         partner = [np.zeros(rows, dtype=np.int64), np.zeros(columns, dtype=np.int64)]
         counts, found = np.zeros(measures.MARGINS, dtype=np.int64), 0
@@ -217,14 +229,14 @@ class MotionSpace:
         first = first[np.isfinite(scores[first])]
         xs = np.concatenate([sides[0][0][i], sides[1][0][j]], axis=1)
         parts = np.stack([sides[0][1][i], sides[1][1][j]], axis=1)
-        pool = _Pool(np.ascontiguousarray(xs[first]), np.ascontiguousarray(parts[first]), scores[first])
+        pool = PairPool(np.ascontiguousarray(xs[first]), np.ascontiguousarray(parts[first]), scores[first])
         return pool.only(np.argsort(pool.scores, kind="stable")), found, rows * columns, counts
 
     def _arrays(self, pivots: ComplexArray, pins: ComplexArray) -> tuple[ComplexArray, ComplexArray, FloatArray]:
         at = self.family.points + (pins[:, None] - self.family.points[0]) * self.family.turned
         return pivots, at, np.angle(at - pivots[:, None])
 
-    def repaired(self, pool: _Pool, bounds: measures.SearchBounds, steps: int, progress: Progress) -> _Pool:
+    def repaired(self, pool: PairPool, bounds: measures.SearchBounds, steps: int, progress: Progress) -> PairPool:
         """The pairs moved to the limits; scores as in the pool."""
         count = len(pool.scores)
         xs, left, worth = pool.xs.copy(), np.empty(count), np.empty(count)
@@ -233,7 +245,7 @@ class MotionSpace:
             refine.repair_rows(
                 self.family, bounds, ALONE, xs, pool.parts, start, min(start + ROWS, count), steps, left, worth
             )
-        return _Pool(xs, pool.parts, np.where(left > 0, left, -worth))
+        return PairPool(xs, pool.parts, np.where(left > 0, left, -worth))
 
     def pins(self, x: FloatArray, parts: IntArray) -> ComplexArray:
         """Pivots and pins m1, m2, w1, w2 of a pair in the frame."""
@@ -275,15 +287,15 @@ def _mirror(points: ComplexArray, angles: FloatArray) -> tuple[complex, complex]
 def search_pairs(space: MotionSpace, count: int, progress: Progress = SILENT) -> PairSearch:
     """At most `count` pairs within all limits that differ, the best merit first. Raises Cancelled."""
     pool, found, searched, counts = space.sampled(space.bounds, 0, progress.part(0.0, 0.2))
-    good = _feasible(pool)
+    good = feasible(pool)
     if len(good.scores) < ENOUGH:
-        good, others = _reached(space, pool, space.bounds, progress.part(0.2, 0.5))
+        good, others = reached(space, pool, space.bounds, progress.part(0.2, 0.5))
         for seed in range(1, ROUNDS if len(space.family.forms) == 2 else 1):
             if len(good.scores):
                 break
             more, more_found, more_searched, more_counts = space.sampled(space.bounds, seed, progress)
             found, searched, counts = found + more_found, searched + more_searched, counts + more_counts
-            good, again = _reached(space, more, space.bounds, progress)
+            good, again = reached(space, more, space.bounds, progress)
             others = others.joined(again)
         nearest = others.only(np.argsort(others.scores, kind="stable")[:count])
     else:
@@ -294,47 +306,67 @@ def search_pairs(space: MotionSpace, count: int, progress: Progress = SILENT) ->
         max(found, len(good.scores)),
         searched,
         {REASONS[at]: int(number) for at, number in enumerate(counts) if number},
-        () if pairs else tuple(_as_pair(space, one, at, math.inf) for one in [nearest] for at in range(len(one.scores))),
+        ()
+        if pairs
+        else tuple(_as_pair(space, one, at, math.inf) for one in [nearest] for at in range(len(one.scores))),
     )
 
 
-def _reached(
-    space: MotionSpace, pool: _Pool, bounds: measures.SearchBounds, progress: Progress
-) -> tuple[_Pool, _Pool]:
+def reached(
+    space: MotionSpace, pool: PairPool, bounds: measures.SearchBounds, progress: Progress
+) -> tuple[PairPool, PairPool]:
     """The feasible pairs of a pool and of those moved to the limits, and the others."""
-    good = _feasible(pool)
+    good = feasible(pool)
     rest = pool.only(np.flatnonzero(pool.scores > 0)[:STARTS])
     moved = space.repaired(rest, bounds, STEPS, progress) if len(rest.scores) else rest
-    return good.joined(_feasible(moved)), moved.only(np.flatnonzero(moved.scores > 0))
+    return good.joined(feasible(moved)), moved.only(np.flatnonzero(moved.scores > 0))
 
 
-def _feasible(pool: _Pool) -> _Pool:
+def feasible(pool: PairPool) -> PairPool:
+    """The pairs of a pool that keep all limits."""
     return pool.only(np.flatnonzero(pool.scores <= 0))
 
 
-def chosen_pairs(space: MotionSpace, pool: _Pool, count: int, progress: Progress) -> tuple[FoundPair, ...]:
-    """The best pairs of a pool that differ by `APART`, or less where there are too few, each improved."""
-    pool = pool.only(np.argsort(pool.scores, kind="stable"))
-    all_pins = np.array([space.pins(x, parts) for x, parts in zip(pool.xs, pool.parts, strict=True)])
+def chosen_pairs(space: MotionSpace, pool: PairPool, count: int, progress: Progress) -> tuple[FoundPair, ...]:
+    """The best pairs of a pool that differ, each improved, the best first.
+
+    Pairs that keep the rule of thumb for transmission angles come first; then all, and where these are too few, pairs
+    that differ less.
+    """
+    rule = space.bounds.limits.copy()
+    rule[measures.LEAST_SINE] = max(rule[measures.LEAST_SINE], RULE_SINE)
+    ruled = space.bounds._replace(limits=rule)
+    near = pool.only(np.argsort(pool.scores, kind="stable")[:RULED])
     chosen: list[FoundPair] = []
     taken = np.zeros((0, 4), dtype=complex)
-    apart, reach = APART, 0.05
-    while len(pool.scores) and len(chosen) < count and apart >= CLOSEST:
-        progress(len(chosen) / count)
-        gaps = _gaps(all_pins, taken)
-        free = np.flatnonzero(gaps > apart * space.unit)
-        if not len(free):
-            apart /= 2
-            continue
-        fit = refine.OtherPairs(taken, apart * space.unit)
-        x, parts = pool.xs[free[0]].copy(), pool.parts[free[0]]
-        side = reach if len(space.family.forms) == 2 else 1.0
-        worth = -refine.improve(space.family, space.bounds, fit, x, parts, side, EVALUATIONS, -1)
-        pins = space.pins(x, parts)
-        gap = float(_gaps(pins[None], taken)[0]) / space.unit
-        chosen.append(FoundPair(_to_world(space, pins), worth, gap))
-        taken = np.concatenate([taken, space.equivalents(pins)])
+    for bounds, some, least in (
+        (ruled, feasible(space.repaired(near, ruled, STEPS, progress)), APART),
+        (space.bounds, pool, CLOSEST),
+    ):
+        some = some.only(np.argsort(some.scores, kind="stable"))
+        all_pins = np.array([space.pins(x, parts) for x, parts in zip(some.xs, some.parts, strict=True)])
+        apart = APART
+        while len(some.scores) and len(chosen) < count and apart >= least:
+            progress(len(chosen) / count)
+            free = np.flatnonzero(_gaps(all_pins, taken) > apart * space.unit)
+            if not len(free):
+                apart /= 2
+                continue
+            others = refine.OtherPairs(taken, apart * space.unit)
+            pins, worth = _improved(space, bounds, others, some, int(free[0]))
+            chosen.append(FoundPair(space.frame.to_world(pins), worth, float(_gaps(pins[None], taken)[0]) / space.unit))
+            taken = np.concatenate([taken, space.equivalents(pins)])
     return tuple(sorted(chosen, key=lambda one: -one.worth))
+
+
+def _improved(
+    space: MotionSpace, bounds: measures.SearchBounds, others: refine.OtherPairs, pool: PairPool, at: int
+) -> tuple[ComplexArray, float]:
+    """Pivots and pins, and merit, of the best pair near one of a pool."""
+    x, parts = pool.xs[at].copy(), pool.parts[at]
+    side = REACH if len(space.family.forms) == 2 else 1.0
+    worth = -refine.improve(space.family, bounds, others, x, parts, side, EVALUATIONS, -1)
+    return space.pins(x, parts), float(worth)
 
 
 def _gaps(pins: ComplexArray, taken: ComplexArray) -> FloatArray:
@@ -343,14 +375,9 @@ def _gaps(pins: ComplexArray, taken: ComplexArray) -> FloatArray:
     return np.asarray(np.min(apart, axis=1, initial=math.inf))
 
 
-def _as_pair(space: MotionSpace, pool: _Pool, at: int, apart: float) -> FoundPair:
+def _as_pair(space: MotionSpace, pool: PairPool, at: int, apart: float) -> FoundPair:
     return FoundPair(_to_world(space, space.pins(pool.xs[at], pool.parts[at])), float(pool.scores[at]), apart)
 
 
 def _to_world(space: MotionSpace, pins: ComplexArray) -> ComplexArray:
     return space.frame.to_world(pins)
-
-
-def in_world(pairs: Sequence[FoundPair]) -> list[tuple[complex, complex, complex, complex]]:
-    """Pivots A0, B0 and pins A, B of pairs [m]."""
-    return [tuple(complex(one) for one in pair.pins) for pair in pairs]  # type: ignore[misc]
