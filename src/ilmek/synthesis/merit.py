@@ -107,12 +107,12 @@ def merit(one: Candidate, *, task_only: bool = False) -> Merit:
     extent = extent_of(one)
     branch = next((met.branch for met in one.positions if met.branch), drawn.branch)
     motion = solve(plan(drawn.mechanism(branch)), np.array([met.crank_angle for met in one.positions]))
-    a, b = (motion.point("coupler", name).position for name in ("A", "B"))
+    a, b = (np.asarray(motion.point("coupler", name).position) for name in ("A", "B"))
     a0, b0 = drawn.a0, drawn.b0
     ends = np.broadcast_to(a0, a.shape), np.broadcast_to(b0, a.shape)
     with np.errstate(divide="ignore", invalid="ignore"):
         turned = np.stack(coupler_rates(*ends, a, b))
-        along = np.zeros((4, len(a)), dtype=complex)
+        along = np.zeros((4, len(a)), dtype=np.complex128)
         along[1] = (a - a0) / lengths.crank
         shifts = np.zeros((4, len(a)))
         points = np.zeros((4, len(a)))

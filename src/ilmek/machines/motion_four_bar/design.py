@@ -159,6 +159,12 @@ def _option(four_bar: FourBar, poses: BodyPoses, made: str, apart: float = math.
     return FourBarOption(candidate, made, certified=certified(pins, poses), apart=apart)
 
 
+def _drawn(pins: ComplexArray, tracer: complex) -> FourBar:
+    """The four-bar of its pivots A0, B0 and pins A, B [m]."""
+    a0, b0, a, b = (complex(pin) for pin in pins)
+    return FourBar(a0, b0, a, b, tracer)
+
+
 def _searched(params: MotionFourBarParams, poses: BodyPoses, limits: MotionLimits, progress: Progress) -> MotionFourBar:
     """The best four-bars of three or four poses; where there is none, the nearest ones and what cures it."""
     drawn = burmester_curve(*poses) if len(poses.points) == 4 else None
@@ -167,7 +173,7 @@ def _searched(params: MotionFourBarParams, poses: BodyPoses, limits: MotionLimit
     found = search_pairs(space, params.count, progress.part(0.0, 0.5, "search"))
     tracer = complex(poses.points[0])
     options = [
-        _option(FourBar(*(complex(pin) for pin in one.pins), tracer), poses, "search", one.apart)
+        _option(_drawn(one.pins, tracer), poses, "search", one.apart)
         for one in (*found.pairs, *found.nearest)
         if np.isfinite(one.pins).all()
     ]
@@ -178,7 +184,7 @@ def _searched(params: MotionFourBarParams, poses: BodyPoses, limits: MotionLimit
 
         def judged(pins: ComplexArray) -> Candidate:
             task = PrecisionTask(points=poses.points, coupler=poses.angles)
-            return judge(FourBar(*(complex(pin) for pin in pins), tracer), task)
+            return judge(_drawn(pins, tracer), task)
 
         cured = tuple(one.words for one in cures(space, judged, progress.part(0.5, 1.0, "loosen")))
     return MotionFourBar(

@@ -12,7 +12,7 @@ from ilmek.records import record
 from ilmek.synthesis.burmester.constant_distance import TaskFrame
 from ilmek.synthesis.candidate import Candidate, task_rotation
 from ilmek.synthesis.filters import Filters, defects
-from ilmek.synthesis.motion import measures
+from ilmek.synthesis.motion import measures, regions
 from ilmek.units import format_quantity
 
 NOWHERE = np.zeros(0, dtype=complex)
@@ -64,7 +64,7 @@ class MotionLimits:
         return self.boxes[0] == self.boxes[1] and same
 
     @property
-    def regions(self) -> tuple[ComplexArray, ComplexArray]:
+    def polygons(self) -> tuple[ComplexArray, ComplexArray]:
         """Polygons of the pivots of crank and rocker [m]."""
         return self.crank_region, self.rocker_region
 
@@ -102,10 +102,10 @@ def breaches(one: Candidate, limits: MotionLimits) -> dict[str, str]:
     found = defects(one, limits.filters, task_only=limits.task_only)
     pivots = (one.four_bar.a0, one.four_bar.b0)
     for name, pivot, box, corners in zip(
-        ("crank_region", "rocker_region"), pivots, limits.boxes, limits.regions, strict=True
+        ("crank_region", "rocker_region"), pivots, limits.boxes, limits.polygons, strict=True
     ):
         sides = np.array([end for bounds in box for end in bounds])
-        outside = -float(measures.region_margin(pivot, sides, corners))
+        outside = -float(regions.region_margin(pivot, sides, corners))
         if outside > KEPT * one.size:
             found[name] = f"{name.split('_')[0]}'s pivot {format_quantity(outside, 'mm')} outside its region"
     for name, bounds, swing in (
@@ -144,7 +144,7 @@ def clear_of(one: Candidate, keep_out: ComplexArray) -> bool:
     pivots, count = np.array([one.four_bar.a0, one.four_bar.b0]), FINE
     while True:
         at = one.motion(count)
-        clear = float(measures.swept_clearance(pivots, at.a, at.b, at.tracer, keep_out))
+        clear = float(regions.swept_clearance(pivots, at.a, at.b, at.tracer, keep_out))
         step = max(float(np.max(np.abs(np.diff(joint)))) for joint in (at.a, at.b, at.tracer))
         if clear <= 0 or clear > step:
             return clear > 0

@@ -7,6 +7,7 @@ and t is bisected down to the least at which one is reached, beginning from the 
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -83,13 +84,13 @@ def loosened(limits: MotionLimits, name: str, share: float, size: float) -> Moti
     """The limits with one of them loosened by a share of its value; inf drops it. size  of the task [m]."""
     filters = limits.filters
     if name in FLAGS:
-        return replace(limits, filters=replace(filters, **{name: False}))
+        return _with_filter(limits, name, False)
     if name in ("size_max", "link_ratio_max"):
         value = None if math.isinf(share) else min(getattr(filters, name) * (1 + share), 1e3)
-        return replace(limits, filters=replace(filters, **{name: value}))
+        return _with_filter(limits, name, value)
     if name == "transmission_min":
         least = filters.transmission_min * max(0.0, 1 - share)
-        return replace(limits, filters=replace(filters, transmission_min=least))
+        return _with_filter(limits, name, least)
     return _more_room(limits, name, share, size)
 
 
@@ -101,12 +102,24 @@ def _more_room(limits: MotionLimits, name: str, share: float, size: float) -> Mo
         return replace(limits, boxes=(boxes[0], boxes[1]))
     if name in SWINGS:
         low, high = _wider(getattr(limits, name), share)
-        return replace(limits, **{name: (max(0.0, low), high)})
+        return _with(limits, name, (max(0.0, low), high))
     corners = getattr(limits, name)
     if math.isinf(share) or (name == "keep_out" and share >= 1):
-        return replace(limits, **{name: NOWHERE})
+        return _with(limits, name, NOWHERE)
     factor = 1 - share if name == "keep_out" else 1 + share
-    return replace(limits, **{name: np.mean(corners) + factor * (corners - np.mean(corners))})
+    return _with(limits, name, np.mean(corners) + factor * (corners - np.mean(corners)))
+
+
+def _with(limits: MotionLimits, name: str, value: object) -> MotionLimits:
+    """The limits with one of another value."""
+    changed: dict[str, Any] = {name: value}
+    return replace(limits, **changed)
+
+
+def _with_filter(limits: MotionLimits, name: str, value: object) -> MotionLimits:
+    """The limits with a filter of another value."""
+    changed: dict[str, Any] = {name: value}
+    return replace(limits, filters=replace(limits.filters, **changed))
 
 
 def _wider(bounds: Bounds, by: float) -> Bounds:
@@ -163,15 +176,15 @@ def in_words(given: MotionLimits, loose: MotionLimits, name: str, share: float) 
     if name == "size_max":
         value = _rounded_up(filters.size_max or 0.0, mm)
         setting, instead = f"{name}={value / mm:.4g}mm", format_quantity(before.size_max or 0.0, "mm")
-        after = replace(loose, filters=replace(filters, size_max=value))
+        after = _with_filter(loose, name, value)
     elif name == "link_ratio_max":
         value = _rounded_up(filters.link_ratio_max or 1.0, 1.0)
         setting, instead = f"{name}={value:.4g}", f"{before.link_ratio_max:g}"
-        after = replace(loose, filters=replace(filters, link_ratio_max=value))
+        after = _with_filter(loose, name, value)
     elif name == "transmission_min":
         value = math.floor(10 * filters.transmission_min / deg) / 10 * deg
         setting, instead = f"{name}={value / deg:.4g}deg", format_quantity(before.transmission_min, "deg")
-        after = replace(loose, filters=replace(filters, transmission_min=value))
+        after = _with_filter(loose, name, value)
     elif name in AXES:
         at = AXES.index(name)
         setting, instead = f"{name}={_span(loose.boxes[0][at], mm, 'mm')}", _span(given.boxes[0][at], mm, "mm")

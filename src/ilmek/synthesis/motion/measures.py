@@ -15,6 +15,7 @@ from ilmek.arrays import ComplexArray, FloatArray, IntArray
 from ilmek.num.compiled import compiled
 from ilmek.plane import vectors
 from ilmek.synthesis import merit as merit_terms
+from ilmek.synthesis.motion.regions import NONE, clearance, region_margin
 
 (RATIO, BRANCH, CIRCUIT, ORDER, TURN, TRANSMISSION, CRANK_REGION, ROCKER_REGION, CRANK_SWING) = range(9)
 SIZE, ROCKER_SWING, KEEP_OUT = range(9, 12)
@@ -35,9 +36,6 @@ crank turns fully, least sine of the transmission angle, angle of the ground lin
 
 BAD = 10.0
 """Violation of a four-bar that has no motion: of all its margins."""
-
-NONE = 1.0
-"""Margin of a limit that is not given."""
 
 PI = np.pi
 FULL = 2 * np.pi
@@ -69,64 +67,6 @@ class SearchBounds(NamedTuple):
     crank: ComplexArray
     rocker: ComplexArray
     keep_out: ComplexArray
-
-
-@compiled
-def box_margin(point: complex, box: FloatArray) -> float:
-    """Distance of a point inside a box from its nearest side, negative outside."""
-    return min(point.real - box[0], box[1] - point.real, point.imag - box[2], box[3] - point.imag)
-
-
-@compiled
-def polygon_margin(point: complex, corners: ComplexArray) -> float:
-    """Distance of a point inside a polygon from its nearest side, negative outside; `NONE` for an empty polygon."""
-    count = len(corners)
-    if count == 0:
-        return NONE
-    inside, nearest = False, np.inf
-    for at in range(count):
-        one, other = corners[at], corners[(at + 1) % count]
-        nearest = min(nearest, segment_distance(point, one, other))
-        if (one.imag > point.imag) != (other.imag > point.imag):
-            along = (point.imag - one.imag) / (other.imag - one.imag)
-            if point.real < one.real + along * (other.real - one.real):
-                inside = not inside
-    return nearest if inside else -nearest
-
-
-@compiled
-def segment_distance(point: complex, one: complex, other: complex) -> float:
-    """Distance of a point from a segment."""
-    side = other - one
-    square = side.real * side.real + side.imag * side.imag
-    along = dot(point - one, side) / square if square > 0 else 0.0
-    return abs(point - one - min(1.0, max(0.0, along)) * side)
-
-
-@compiled
-def region_margin(point: complex, box: FloatArray, corners: ComplexArray) -> float:
-    """Least margin of a point in a box and a polygon."""
-    return min(box_margin(point, box), polygon_margin(point, corners), NONE)
-
-
-@compiled
-def clearance(one: complex, other: complex, corners: ComplexArray) -> float:
-    """Distance of a segment from a polygon; where they touch, minus the depth at which it is found in the polygon."""
-    count = len(corners)
-    nearest, touches = np.inf, False
-    for at in range(count):
-        first, last = corners[at], corners[(at + 1) % count]
-        sides = cross(other - one, first - one) * cross(other - one, last - one)
-        ends = cross(last - first, one - first) * cross(last - first, other - first)
-        touches = touches or (sides <= 0 and ends < 0) or (sides < 0 and ends <= 0)
-        near = min(segment_distance(one, first, last), segment_distance(other, first, last))
-        nearest = min(nearest, near, segment_distance(first, one, other))
-    deep = polygon_margin(one, corners)
-    if not touches and deep < 0:
-        return nearest
-    for step in range(1, 9):
-        deep = max(deep, polygon_margin(one + 0.125 * step * (other - one), corners))
-    return -max(deep, 0.0) - 1e-6
 
 
 @compiled
@@ -278,7 +218,7 @@ def set_swept(
         if limits[ROCKER_HIGH] < 100 or limits[ROCKER_LOW] > 0:
             if step == 0:
                 before = b - m2
-            swung += np.arctan2(cross(before, b - m2), dot(before, b - m2))
+            swung += float(np.arctan2(cross(before, b - m2), dot(before, b - m2)))
             before = b - m2
             swing_low, swing_high = min(swing_low, swung), max(swing_high, swung)
         if len(bounds.keep_out):
@@ -298,7 +238,7 @@ def set_swept(
     margins[KEEP_OUT] = min(NONE, clear - SAGITTA) if len(bounds.keep_out) else NONE
     sizes = ground, crank, coupler, rocker
     gain = sensitivity(m1, pins1, m2, pins2, points, limits[EXTENT])
-    return merit_value(motion[SINE], widest / limits[EXTENT], max(sizes) / min(sizes), gain)
+    return float(merit_value(motion[SINE], widest / limits[EXTENT], max(sizes) / min(sizes), gain))
 
 
 @compiled
@@ -318,18 +258,6 @@ def sensitivity(
             total += np.sqrt(abs(moved) ** 2 + (extent * rates[link]) ** 2)
         worst = max(worst, total)
     return worst
-
-
-@compiled
-def swept_clearance(
-    pivots: ComplexArray, a: ComplexArray, b: ComplexArray, p: ComplexArray, keep: ComplexArray
-) -> float:
-    """Least distance of crank, rocker and coupler from a polygon over the positions of A, B and P; negative inside."""
-    clear = np.inf
-    for at in range(len(a)):
-        for one, other in ((pivots[0], a[at]), (pivots[1], b[at]), (a[at], b[at]), (a[at], p[at]), (b[at], p[at])):
-            clear = min(clear, clearance(one, other, keep))
-    return clear
 
 
 @compiled

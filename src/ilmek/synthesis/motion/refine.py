@@ -1,4 +1,4 @@
-# ruff: noqa: PLR0917, C901, PLR0912 - compiled functions take their arguments by position
+# ruff: noqa: PLR0917, C901 - compiled functions take their arguments by position
 """Local search in a family of pairs of guides: to the limits, and from there to the best merit; compiled kernels.
 
 A pair is given by its parameters x: of three poses the pivots of both links (x1, y1, x2, y2), of four poses the
@@ -20,16 +20,15 @@ from ilmek.synthesis.motion.measures import (
     CRANK_REGION,
     MARGINS,
     MOTION,
-    NONE,
     ROCKER_REGION,
     SearchBounds,
-    region_margin,
     set_cranks,
     set_margins,
     set_pins,
     set_swept,
     violation,
 )
+from ilmek.synthesis.motion.regions import region_margin
 
 SLACK = 1e-3
 """Margin at which the steps to the limits aim, so that they end inside."""
@@ -58,9 +57,9 @@ class GuideFamily(NamedTuple):
 
 
 class OtherPairs(NamedTuple):
-    """What is known of pairs near which a search looks: pins of pairs (n, 4) that it keeps `apart` from."""
+    """Pairs that a search keeps `apart` from: their pivots and pins, shape (n, 4)."""
 
-    others: ComplexArray
+    pins: ComplexArray
     apart: float
 
 
@@ -146,7 +145,7 @@ def link_of(family: GuideFamily, x: FloatArray, at: int, part: int, work: FloatA
 def evaluate(
     family: GuideFamily,
     bounds: SearchBounds,
-    fit: OtherPairs,
+    others: OtherPairs,
     x: FloatArray,
     parts: IntArray,
     margins: FloatArray,
@@ -154,7 +153,7 @@ def evaluate(
 ) -> float:
     """Write the margins of the pair of parameters x; returns its merit, 0 where it has no motion.
 
-    Where the pair is nearer to `fit.others` than `fit.apart`, the merit is negative by the difference.
+    Where the pair is nearer to `others.pins` than `others.apart`, the merit is negative by the difference.
     """
     margins[:] = -BAD
     n = len(family.points)
@@ -172,12 +171,12 @@ def evaluate(
     margins[CRANK_REGION] = region_margin(m1, bounds.boxes[0], bounds.crank)
     margins[ROCKER_REGION] = region_margin(m2, bounds.boxes[1], bounds.rocker)
     worth = set_swept(m1, pins1, m2, pins2, family.points, bounds, margins, motion)
-    for row in range(len(fit.others)):
+    for row in range(len(others.pins)):
         far = 0.0
         for at, one in enumerate((m1, m2, w1, w2)):
-            far = max(far, abs(one - fit.others[row, at]))
-        if far < fit.apart:
-            worth = min(worth, far - fit.apart)
+            far = max(far, abs(one - others.pins[row, at]))
+        if far < others.apart:
+            worth = min(worth, far - others.apart)
     return worth
 
 
@@ -223,7 +222,7 @@ def solve_damped(slopes: FloatArray, short: FloatArray, damping: float, move: Fl
 def to_limits(
     family: GuideFamily,
     bounds: SearchBounds,
-    fit: OtherPairs,
+    others: OtherPairs,
     x: FloatArray,
     parts: IntArray,
     steps: int,
@@ -234,7 +233,7 @@ def to_limits(
     margins, near = np.empty(MARGINS), np.empty(MARGINS)
     slopes, short, move, tried = np.zeros((MARGINS, n)), np.zeros(MARGINS), np.zeros(n), np.empty(n)
     clip(family, bounds, x)
-    evaluate(family, bounds, fit, x, parts, margins, work)
+    evaluate(family, bounds, others, x, parts, margins, work)
     value, damping = violation(margins, MARGINS, SLACK), 1e-3
     for _ in range(steps):
         if value == 0 or value >= 2 * BAD**2:
@@ -245,7 +244,7 @@ def to_limits(
             before = x[i]
             difference = STEP * max(1.0, abs(before)) if len(family.forms) == 2 else 100 * STEP
             x[i] = before + difference
-            evaluate(family, bounds, fit, x, parts, near, work)
+            evaluate(family, bounds, others, x, parts, near, work)
             x[i] = before
             for k in range(MARGINS):
                 slope = (near[k] - margins[k]) / difference
@@ -256,7 +255,7 @@ def to_limits(
             for i in range(n):
                 tried[i] = x[i] + move[i]
             clip(family, bounds, tried)
-            evaluate(family, bounds, fit, tried, parts, near, work)
+            evaluate(family, bounds, others, tried, parts, near, work)
             left = violation(near, MARGINS, SLACK)
             if left < value:
                 better = left < 0.999 * value
@@ -272,7 +271,7 @@ def to_limits(
 def repair_rows(
     family: GuideFamily,
     bounds: SearchBounds,
-    fit: OtherPairs,
+    others: OtherPairs,
     xs: FloatArray,
     parts: IntArray,
     start: int,
@@ -284,100 +283,92 @@ def repair_rows(
     """`to_limits` of the rows from start to stop of xs; writes the violations that are left and the merits."""
     work, margins = np.zeros((10, 3)), np.empty(MARGINS)
     for row in range(start, stop):
-        left[row] = to_limits(family, bounds, fit, xs[row], parts[row], steps, work)
-        worth[row] = evaluate(family, bounds, fit, xs[row], parts[row], margins, work)
+        left[row] = to_limits(family, bounds, others, xs[row], parts[row], steps, work)
+        worth[row] = evaluate(family, bounds, others, xs[row], parts[row], margins, work)
 
 
 @compiled
 def cost(
     family: GuideFamily,
     bounds: SearchBounds,
-    fit: OtherPairs,
+    others: OtherPairs,
     x: FloatArray,
     parts: IntArray,
     margins: FloatArray,
     work: FloatArray,
-    loose: int,
 ) -> float:
-    """What `improve` makes least: minus the merit, or the violation of the margin `loose`; outside the others above 1.
-
-    loose  index of a margin; -1: none
-    """
+    """What `improve` makes least: minus the merit within the limits, the violation above 100 elsewhere."""
     clip(family, bounds, x)
-    worth = evaluate(family, bounds, fit, x, parts, margins, work)
-    broken = 0.0
-    if loose >= 0:
-        broken = -margins[loose]
-        margins[loose] = NONE
-        if not broken < BAD:
-            return 1e3
+    worth = evaluate(family, bounds, others, x, parts, margins, work)
     left = violation(margins, MARGINS, -EDGE)
-    if left > 0:
-        return 1e2 + left
-    if loose >= 0:
-        return broken
-    return -worth
+    return 1e2 + left if left > 0 else -worth
 
 
 @compiled
 def improve(
     family: GuideFamily,
     bounds: SearchBounds,
-    fit: OtherPairs,
+    others: OtherPairs,
     x: FloatArray,
     parts: IntArray,
     reach: float,
     evaluations: int,
-    loose: int,
 ) -> float:
-    """Move x to the least `cost` near it by the simplex method; returns it.
+    """Move x to the least `cost` near it, by three runs of the simplex method; returns it.
 
-    reach  side of the first simplex      evaluations  after which it ends      loose  see `cost`
+    reach  side of the first simplex      evaluations  of the cost, nearly
     """
     n = len(x)
     work, margins = np.zeros((10, 3)), np.empty(MARGINS)
     corners, values = np.empty((n + 1, n)), np.empty(n + 1)
-    middle, tried, other = np.empty(n), np.empty(n), np.empty(n)
-    used = 0
     for begin in range(3):
         for at in range(n + 1):
             corners[at] = x
             if at > 0:
                 corners[at, at - 1] += reach * (0.1**begin) * (1.0 if begin % 2 == 0 else -1.0)
-            values[at] = cost(family, bounds, fit, corners[at], parts, margins, work, loose)
-        used += n + 1
-        while used < evaluations * (begin + 1) // 3:
-            order = np.argsort(values)
-            best, worst, second = order[0], order[n], order[n - 1]
-            if values[worst] - values[best] < 1e-10:
+            values[at] = cost(family, bounds, others, corners[at], parts, margins, work)
+        for _ in range(evaluations // 6):
+            if np.max(values) - np.min(values) < 1e-10:
                 break
-            for i in range(n):
-                middle[i] = (np.sum(corners[:, i]) - corners[worst, i]) / n
-            tried[:] = middle + (middle - corners[worst])
-            value = cost(family, bounds, fit, tried, parts, margins, work, loose)
-            used += 1
-            if value < values[best]:
-                other[:] = middle + 2 * (middle - corners[worst])
-                further = cost(family, bounds, fit, other, parts, margins, work, loose)
-                used += 1
-                if further < value:
-                    tried[:], value = other, further
-            elif value >= values[second]:
-                if value < values[worst]:
-                    corners[worst], values[worst] = tried, value
-                tried[:] = middle + 0.5 * (corners[worst] - middle)
-                value = cost(family, bounds, fit, tried, parts, margins, work, loose)
-                used += 1
-            if value < values[worst]:
-                corners[worst], values[worst] = tried, value
-            else:
-                for at in range(n + 1):
-                    if at != best:
-                        corners[at] = corners[best] + 0.5 * (corners[at] - corners[best])
-                        values[at] = cost(family, bounds, fit, corners[at], parts, margins, work, loose)
-                used += n
+            move_simplex(family, bounds, others, corners, values, parts, margins, work)
         x[:] = corners[np.argmin(values)]
     return float(np.min(values))
+
+
+@compiled
+def move_simplex(
+    family: GuideFamily,
+    bounds: SearchBounds,
+    others: OtherPairs,
+    corners: FloatArray,
+    values: FloatArray,
+    parts: IntArray,
+    margins: FloatArray,
+    work: FloatArray,
+) -> None:
+    """One step of the simplex method: reflection, expansion, contraction or shrinking.  [Nelder and Mead, 1965]"""
+    n = corners.shape[1]
+    order = np.argsort(values)
+    best, worst, second = order[0], order[n], order[n - 1]
+    middle = (np.sum(corners, axis=0) - corners[worst]) / n
+    tried = 2 * middle - corners[worst]
+    value = cost(family, bounds, others, tried, parts, margins, work)
+    if value < values[best]:
+        further = 3 * middle - 2 * corners[worst]
+        least = cost(family, bounds, others, further, parts, margins, work)
+        if least < value:
+            tried, value = further, least
+    elif value >= values[second]:
+        if value < values[worst]:
+            corners[worst], values[worst] = tried, value
+        tried = 0.5 * (middle + corners[worst])
+        value = cost(family, bounds, others, tried, parts, margins, work)
+    if value < values[worst]:
+        corners[worst], values[worst] = tried, value
+        return
+    for at in range(n + 1):
+        corners[at] = 0.5 * (corners[best] + corners[at])
+        values[at] = cost(family, bounds, others, corners[at], parts, margins, work)
 
 
 @compiled

@@ -21,7 +21,7 @@ from ilmek.synthesis.burmester.constant_distance import TaskFrame, homogeneous, 
 from ilmek.synthesis.burmester.curve import BurmesterCurve
 from ilmek.synthesis.burmester.links import other_ends
 from ilmek.synthesis.merit import RULE_SINE, extent_of_points
-from ilmek.synthesis.motion import measures, refine
+from ilmek.synthesis.motion import measures, refine, regions
 from ilmek.synthesis.motion.limits import MotionLimits
 
 LINKS = 1000
@@ -201,8 +201,8 @@ class MotionSpace:
         rows = (pivots.real >= box[0]) & (pivots.real <= box[1]) & (pivots.imag >= box[2]) & (pivots.imag <= box[3])
         found = pivots[rows]
         if len(corners):
-            found = found[[measures.polygon_margin(complex(one), corners) >= 0 for one in found]]
-        return found
+            found = found[np.array([regions.polygon_margin(complex(one), corners) >= 0 for one in found], dtype=bool)]
+        return np.asarray(found)
 
     def sampled(
         self, bounds: measures.SearchBounds, seed: int, progress: Progress
@@ -365,7 +365,7 @@ def _improved(
     """Pivots and pins, and merit, of the best pair near one of a pool."""
     x, parts = pool.xs[at].copy(), pool.parts[at]
     side = REACH if len(space.family.forms) == 2 else 1.0
-    worth = -refine.improve(space.family, bounds, others, x, parts, side, EVALUATIONS, -1)
+    worth = -refine.improve(space.family, bounds, others, x, parts, side, EVALUATIONS)
     return space.pins(x, parts), float(worth)
 
 
