@@ -396,3 +396,11 @@ def test_command_ends_with_2_and_no_traceback() -> None:
     ran = CliRunner().invoke(main, ["design", "cam", "lift=60mm", "rise=200deg", "fall=200deg"])
     assert ran.exit_code == 2
     assert "Traceback" not in ran.output
+
+
+@pytest.mark.parametrize("kind", ["plate", "grooved", "conjugate", "barrel", "face"])
+def test_both_flanks_of_a_steep_cam_fail_their_pressure_angle(kind: str) -> None:
+    given = dict(lift="60mm", rise="40deg", prime_radius="40mm", kind=kind)
+    failed = {check.name: check for check in MACHINE.report_for(given).failed}
+    assert {"pressure angle on the rise", "pressure angle on the fall"} <= set(failed)
+    assert "prime_radius" in failed["pressure angle on the rise"].cure

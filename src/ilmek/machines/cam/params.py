@@ -23,6 +23,9 @@ NO_DWELL = 1e-9
 LIMIT = 30 * deg
 """Usual limit of the pressure angle of a slide on the rise [Norton, Cam Design and Manufacturing, 7.2]."""
 
+FALL_LIMIT = 60 * deg
+"""Limit of the pressure angle on a fall that a spring drives; assumed by this project: textbooks allow up to 70 deg."""
+
 FOLLOWERS = ("roller", "knife", "flat", "spherical")
 """Followers by the part that touches the cam."""
 
@@ -63,7 +66,7 @@ class CamParams(Params):
         None,
         at_least=1 * deg,
         below=90 * deg,
-        doc="allowed pressure angle on the rise; default: 30 deg, if there is no prime radius",
+        doc="allowed pressure angle on the rise, and on the fall where the cam drives it; default: 30 deg",
         symbol="mu",
     )
     prime_radius: float | None = declare.length(
@@ -264,11 +267,14 @@ class CamParams(Params):
         return self.arm_length if self.motion == "oscillating" else 1.0
 
     @property
-    def limit(self) -> float | None:
-        """The pressure angle that must not be exceeded on the rise [rad]; None where the prime radius alone rules."""
-        if self.pressure_angle_limit is None and self.prime_radius is None:
-            return LIMIT
-        return self.pressure_angle_limit
+    def limit(self) -> float:
+        """The pressure angle that must not be exceeded on the rise [rad]."""
+        return self.pressure_angle_limit or LIMIT
+
+    @property
+    def fall_limit(self) -> float:
+        """That of the fall: the same where the cam drives the fall too; a spring's may be larger."""
+        return self.limit if self.led else max(self.limit, FALL_LIMIT)
 
 
 def read_law_parameters(text: str) -> Mapping[str, float | tuple[float, ...]]:

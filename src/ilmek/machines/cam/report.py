@@ -34,15 +34,17 @@ def checks(found: CamAnalysis) -> tuple[Check, ...]:
 
 
 def _pressure_angle_checks(found: CamAnalysis) -> tuple[Check, ...]:
-    params, limit, source = found.design.params, found.design.params.limit, f"{NORTON}, 7.2"
-    if limit is None:
+    """Both flanks; the stem of a flat face on a slide has no pressure angle."""
+    params, fall = found.design.params, found.pressure_angle_fall_max
+    if params.follower == "flat" and params.motion == "translating":
         return ()
-    fall, made = found.pressure_angle_fall_max, []
-    if params.follower != "flat" or params.motion != "translating":
-        made.append(at_most("pressure angle on the rise", found.pressure_angle_max, limit, "deg", source))
-    if params.led and not found.design.cam.flat and fall is not None:
-        made.append(at_most("pressure angle on the fall", fall, limit, "deg", source))
-    return tuple(made)
+    longer, norton = "set a larger prime_radius, or a longer", f"{NORTON}, 7.2"
+    greatest = found.pressure_angle_max
+    rise = at_most("pressure angle on the rise", greatest, params.limit, "deg", norton, cure=f"{longer} rise")
+    if fall is None:
+        return (rise,)
+    source = norton if params.led else "a spring drives the fall; assumed by this project"
+    return rise, at_most("pressure angle on the fall", fall, params.fall_limit, "deg", source, cure=f"{longer} fall")
 
 
 def _shape_checks(design: CamDesign) -> tuple[Check, ...]:
@@ -108,7 +110,7 @@ def warnings(found: CamAnalysis) -> tuple[str, ...]:
     design = found.design
     params, cam, made = design.params, design.cam, []
     smallest, limit = design.size.smallest.value, params.limit
-    if params.follower != "flat" and limit is not None and cam.prime_radius < smallest * (1 - 1e-9):
+    if params.follower != "flat" and params.pressure_angle_limit and cam.prime_radius < smallest * (1 - 1e-9):
         shown, least = (format_quantity(value, "mm") for value in (cam.prime_radius, smallest))
         angle = format_quantity(limit, "deg")
         made.append(f"prime_radius={shown} is too small for a pressure angle of {angle}: the smallest is {least}")

@@ -20,7 +20,7 @@ from ilmek.cams.strip import WedgeCam
 from ilmek.cams.trace import CamRole
 from ilmek.elements.cam_rollers import ROLLERS
 from ilmek.errors import ParameterError
-from ilmek.machines.cam.params import LIMIT, NO_DWELL, CamParams
+from ilmek.machines.cam.params import NO_DWELL, CamParams
 from ilmek.num.piecewise import Extremum
 from ilmek.units import format_quantity, mm
 
@@ -89,8 +89,7 @@ def limits_of(params: CamParams) -> CamLimits:
     """The limits that set the size: a cam that leads both ways also pushes on the fall."""
     if params.follower == "flat":
         return CamLimits(convex=params.curvature_least)
-    limit = params.limit or LIMIT
-    return CamLimits(rise=limit, fall=limit if params.led else None)
+    return CamLimits(rise=params.limit, fall=params.fall_limit)
 
 
 def cams_of(params: CamParams, programme: CamProgramme, size: CamSize, roller_radius: float) -> CamShape:
