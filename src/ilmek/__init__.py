@@ -39,6 +39,8 @@ PUBLIC = {
     "inverse_dynamics": "ilmek.api.mechanisms",
     "Forces": "ilmek.dynamics.inverse",
     "simulate": "ilmek.api.mechanisms",
+    "OwnMachine": "ilmek.dynamics.own_machine",
+    "run_machine": "ilmek.api.mechanisms",
     "ForwardRun": "ilmek.dynamics.forward_run",
     # cams
     "motion_law": "ilmek.api.cams",
@@ -104,6 +106,7 @@ if TYPE_CHECKING:
     from ilmek.api.mechanisms import four_bar as four_bar
     from ilmek.api.mechanisms import inverse_dynamics as inverse_dynamics
     from ilmek.api.mechanisms import read_mechanism as read_mechanism
+    from ilmek.api.mechanisms import run_machine as run_machine
     from ilmek.api.mechanisms import simulate as simulate
     from ilmek.api.mechanisms import slider_crank as slider_crank
     from ilmek.api.mechanisms import solve as solve
@@ -121,6 +124,7 @@ if TYPE_CHECKING:
     from ilmek.dynamics.loads import Gravity as Gravity
     from ilmek.dynamics.loads import PointForce as PointForce
     from ilmek.dynamics.loads import Torque as Torque
+    from ilmek.dynamics.own_machine import OwnMachine as OwnMachine
     from ilmek.dynamics.springs import Spring as Spring
     from ilmek.errors import IlmekError as IlmekError
     from ilmek.linkage.model import Body as Body

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from ilmek.api.slips import by_input, check_lengths, check_turning
-from ilmek.arrays import RealField
+from ilmek.arrays import FloatArray, RealField
 from ilmek.dynamics import forward, inverse
 from ilmek.dynamics.forward_run import Drive, ForwardRun, ForwardState
 from ilmek.dynamics.inertia import Inertia
@@ -18,11 +18,18 @@ from ilmek.dynamics.reduced import reduce
 from ilmek.errors import MechanismError
 from ilmek.io import mechanism_file
 from ilmek.io.mechanism_file import MechanismFile
+from ilmek.jobs.mechanism.analysis import Analysis, analysis
+from ilmek.jobs.mechanism.data import columns
+from ilmek.jobs.mechanism.report import report
+from ilmek.jobs.mechanism.request import STEPS, MotionRequest
+from ilmek.jobs.mechanism.run import run
 from ilmek.linkage import fourbar
 from ilmek.linkage import solve as linkage
 from ilmek.linkage.model import Mechanism, Rotation
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.structure import Plan, plan
+from ilmek.records import record
+from ilmek.report import Report
 
 Values = RealField | Sequence[float] | Mapping[str, RealField | Sequence[float]]
 """Values of the only input, or of several by name."""
@@ -164,6 +171,65 @@ def simulate(
         check_turning(planned.mechanism.inputs[0].name, position)
     reduced = reduce(planned, inertias, loads, flywheel=flywheel)
     return forward.forward(reduced, ForwardState(position, speed), duration, drive=drive, every=every)
+
+
+@record
+class MachineRun:
+    """An own machine in motion: what `ilmek mechanism` reports of it.
+
+    analysis  motion, forces, strength, servo, study and forward run, as far as the machine states them
+    report    results by name (`run.report["drive_torque_max"]`), checks, tables, figures
+    """
+
+    analysis: Analysis
+    report: Report
+
+    @property
+    def motion(self) -> Motion:
+        """The motion over the range."""
+        return self.analysis.run.motion
+
+    @property
+    def forces(self) -> Forces | None:
+        """Joint forces and drive efforts by sample; None without masses, loads and friction."""
+        found = self.analysis.run.forces
+        return None if found is None else found.forces
+
+    @property
+    def table(self) -> dict[str, FloatArray]:
+        """All columns of `--csv` by heading, SI and radians."""
+        return columns(self.analysis)
+
+
+def run_machine(
+    machine: OwnMachine | MechanismFile | Mechanism | str | Path,
+    *,
+    over: tuple[float, float] | str = "",
+    speed: float | str = "",
+    steps: int = STEPS,
+    fixed: Mapping[str, float | str] | None = None,
+) -> MachineRun:
+    """Motion, forces and strength of an own machine over a range of its driving input, as `ilmek mechanism` gives them.
+
+    machine  a file or its path, a machine, or a mechanism
+    over     range of the driving input [rad; m], or a text like "0deg..180deg"; default: a full turn
+    speed    of the driving input [rad/s; m/s], or a text like "150rpm"; default: that of the machine, else 1
+    steps    of the range
+    fixed    input -> value [rad; m] or text; with all inputs fixed one pose is computed; default: none
+
+    Raises MechanismError, as for a range in which the mechanism closes nowhere; UnitError for a text that is no
+    quantity.
+    """
+    if isinstance(machine, str | Path):
+        machine = read_mechanism(machine)
+    if isinstance(machine, Mechanism):
+        machine = OwnMachine(machine)
+    file = machine if isinstance(machine, MechanismFile) else MechanismFile(machine)
+    texts = {name: value if isinstance(value, str) else repr(float(value)) for name, value in (fixed or {}).items()}
+    reach = over if isinstance(over, str) else f"{float(over[0])!r}..{float(over[1])!r}"
+    pace = speed if isinstance(speed, str) else repr(float(speed))
+    found = analysis(run(file, MotionRequest(texts, reach, pace, steps)))
+    return MachineRun(found, report(found))
 
 
 def planned_of(mechanism: Solvable) -> Plan:

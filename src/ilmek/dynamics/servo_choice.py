@@ -86,7 +86,7 @@ def servo_choice(machine: OwnMachine, run: InverseRun) -> ServoChoice:
     Raises MechanismError where the servo's input slides, is not the driving one, or stands still.
     """
     name = machine.servo
-    if name != run.driving or not run.turning or run.time is None:
+    if name is None or name != run.driving or not run.turning or run.time is None:
         raise MechanismError(
             f"a servo is required for input {name!r}, the driving input is {run.driving or 'none'}",
             allowed="the driving input, turning and moving",

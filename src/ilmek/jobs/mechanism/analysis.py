@@ -78,6 +78,8 @@ class Analysis:
             run.motion.require()
         except MechanismError as error:
             yield str(error)
+        for value in run.closed.change_points if run.closed is not None else ():
+            yield f"two assemblies meet at {run.shown(value)}: the motion is uncertain there"
         if run.left_out:
             yield run.left_out
         if not run.machine.has_forces:

@@ -65,8 +65,18 @@ def _structure(run: MechanismRun) -> tuple[Result, ...]:
         ),
         Result("closes", closing, run.unit, ranges),
         Result("closing_ranges", closing, run.unit, f"{ranges}, from and to", shown=False),
+        *_dead_centres(run),
     )
     return results if run.running else tuple(one for one in results if one.name != "closes")
+
+
+def _dead_centres(run: MechanismRun) -> tuple[Result, ...]:
+    """Dead centres of the driving input, with the bodies in line there."""
+    if run.closed is None:
+        return ()
+    found = [{"at": at, "bodies": list(bodies)} for at, bodies in run.closed.dead_centres]
+    meaning = "ends of the ranges at which the driving input reverses [rad; m], and the bodies in line there"
+    return (Result("dead_centres", found, "", meaning, shown=False),)
 
 
 def _forces(found: Analysis) -> tuple[Result, ...]:

@@ -169,12 +169,13 @@ def _slides_table(run: MechanismRun) -> Table:
 def _points_table(run: MechanismRun) -> Table:
     heads = columns("point", "x from [mm]", "x to [mm]", "y from [mm]", "y to [mm]", "speed up to [m/s]")
     heads = (*heads, Column("acceleration up to", "m/s^2"))
-    rows = []
+    rows: list[Row] = []
     for body, point in moving_points(run.plan.mechanism):
         moved = run.motion.point(body, point)
-        level = ROUNDING * greatest(moved.position)
-        ends = [*_ends(np.real(moved.position), level), *_ends(np.imag(moved.position), level)]
-        rows.append((f"{point} of {body}", *ends, greatest(moved.velocity), greatest(moved.acceleration)))
+        at, velocity, acceleration = (np.asarray(one) for one in (moved.position, moved.velocity, moved.acceleration))
+        level = ROUNDING * greatest(at)
+        ends = (*_ends(at.real, level), *_ends(at.imag, level))
+        rows.append((f"{point} of {body}", *ends, greatest(velocity), greatest(acceleration)))
     return Table("points", "Points that move", heads, tuple(rows), brief=True)
 
 
