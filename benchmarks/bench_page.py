@@ -1,11 +1,9 @@
 """Pages and the picture of the carpet: time and size of carpet.png and report.html, beside an upscaled chart.
 
-Where a Chromium is installed, the height of the page at 1,400 px and the width that it needs at 500 px, too.
+Where a Chromium is installed, the height of the page at 1,400 px and the width that it needs at 390 px, too; and the
+pages of all machines: where their checks begin, what lies outside a phone's screen, errors in 500 loads.
 """
 
-import re
-import shutil
-import subprocess
 import tempfile
 import time
 from collections.abc import Callable
@@ -15,7 +13,9 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
+from benchmarks import machine_pages
 from benchmarks.bench_rows import chart_of_runs
+from benchmarks.browser import Browser, installed
 from ilmek.carpet.bill import yarn_bill
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.statistics import chart_statistics
@@ -24,14 +24,11 @@ from ilmek.jobs.carpet_report import page_of
 from ilmek.viz.carpet_page import carpet_page
 from ilmek.viz.carpet_picture import draw_carpet
 
-BROWSERS = ("chromium", "chromium-browser", "google-chrome")
-MEASURE = "<script>onload=()=>document.title=`${root.scrollHeight} ${root.scrollWidth}`</script>"
 KINDS = {"135,000 knots": (450, 300), "2.2 M knots": (1800, 1200), "20 M knots": (5440, 3680)}
 
 
 def run() -> None:
     """Print the table."""
-    browser = next(filter(None, map(shutil.which, BROWSERS)), None)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "carpet.png")
         draw_carpet(chart_of_runs(30, 20, 0.3))  # compiles the kernels
@@ -41,15 +38,15 @@ def run() -> None:
             seconds = timed(write_carpet, path, chart, 1600)
             peer = timed(upscaled, path.with_name("peer.png"), chart, 1600)
             print(f"{name:<18} {seconds:7.2f} {path.stat().st_size / 1e6:7.1f} {peer:28.2f}")
-        print(f"{'report.html':<18} {'s':>7} {'MB':>7} {'px high at 1,400':>17} {'px wide at 500':>15}")
+        print(f"{'report.html':<18} {'s':>7} {'MB':>7} {'px high at 1,400':>17} {'px wide at 390':>15}")
         for name, grid in KINDS.items():
             chart = chart_of_runs(*grid, 0.09)
             page = Path(folder, "report.html")
             seconds = timed(write_page, page, chart)
-            measured = (
-                "" if browser is None else f"{measure(browser, page, 1400)[0]:17} {measure(browser, page, 500)[1]:15}"
-            )
+            measured = f"{measure(page, 1400)[0]:17} {measure(page, 390)[1]:15}" if installed() else ""
             print(f"{name:<18} {seconds:7.2f} {page.stat().st_size / 1e6:7.1f} {measured}")
+        if installed():
+            machine_pages.measure(Path(folder))
 
 
 def write_carpet(path: Path, chart: Chart, width: int) -> None:
@@ -85,18 +82,13 @@ def write_page(path: Path, chart: Chart) -> None:
     )
 
 
-def measure(browser: str, page: Path, width: int) -> tuple[int, int]:
+def measure(page: Path, width: int) -> tuple[int, int]:
     """Height and width that a page needs in a window of a width [px]."""
-    marked = page.with_name("marked.html")
-    text = page.read_text(encoding="utf-8").replace("<html ", "<html id=root ", 1)
-    marked.write_text(text.replace("<head>", f"<head>{MEASURE}", 1), encoding="utf-8")
-    with tempfile.TemporaryDirectory() as profile:
-        options = ["--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", f"--user-data-dir={profile}"]
-        options += [f"--window-size={width},900", "--virtual-time-budget=3000", "--dump-dom", marked.as_uri()]
-        shown = subprocess.run([browser, *options], capture_output=True, text=True, check=True).stdout
-    found = re.search(r"<title>(\d+) (\d+)</title>", shown)
-    assert found, "the page did not load"
-    return int(found[1]), int(found[2])
+    with Browser() as browser:
+        root = browser.open(page, width, 900, phone=width < 500)
+        return root.evaluate("document.documentElement.scrollHeight"), root.evaluate(
+            "document.documentElement.scrollWidth"
+        )
 
 
 if __name__ == "__main__":

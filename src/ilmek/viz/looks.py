@@ -15,7 +15,7 @@ from ilmek.arrays import ComplexArray
 from ilmek.errors import UnitError
 from ilmek.report import Animation, Drawing, Figure, Plot, Timing
 from ilmek.units import parse_unit
-from ilmek.viz.style import DASHES, PALETTE
+from ilmek.viz.style import DASHED, DOTTED, PALETTE
 
 _ARM = np.array([3 - 1j, 3 + 1j, 1 + 1j]) / 3
 _CROSS = (_ARM * np.array([[1], [1j], [-1], [-1j]])).ravel()
@@ -160,5 +160,5 @@ def dashes(number: int, *, dashed: bool = False) -> tuple[float, ...]:
     """Dash, gap, dash ... of a line [line widths]: of a dashed curve, and of looks beyond the palette."""
     rounds = number // len(PALETTE)
     if dashed:
-        return DASHES[0]
-    return DASHES[1 + (rounds - 1) % (len(DASHES) - 1)] if rounds else ()
+        return DASHED[rounds % len(DASHED)]
+    return DOTTED[(rounds - 1) % len(DOTTED)] if rounds else ()

@@ -24,8 +24,6 @@ _RIGHT, _BOTTOM, _ROW, _TIER = 14.0, 29.0, 13.0, 10.0
 _KEY = 20.0
 _MARKER, _MARKERS = 2.9, 6
 """Radius of a marker [pt], and their number on a curve."""
-_LEVEL = 2
-"""Number of samples of a level, such as a limit."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,13 +68,13 @@ def draw_plot(plot: Plot, looks: Mapping[str, int]) -> tuple[Sheet, str]:
 
 
 def _draw_curves(sheet: Sheet, scales: "_Scales", plot: Plot, numbers: list[int]) -> None:
-    """The curves; where there are several, each but the levels with markers, staggered so that they stand apart."""
+    """The curves; where there are several, each has markers, staggered so that they stand apart."""
     several = len(plot.series) > 1
     for index, (one, number) in enumerate(zip(plot.series, numbers, strict=True)):
         x, y = thinned_curve(in_unit(one.x, plot.x.unit), in_unit(one.y, plot.y.unit))
         points = thinned_line(scales.x(x) + 1j * scales.y(y))
         sheet.line(points, zorder=3, attribute=f'data-series="{index}"', **_line(one, number))
-        if several and len(one.x) > _LEVEL:
+        if several:
             for at in _spread(points, scales.box, (index + 0.5) / len(plot.series)):
                 _mark(sheet, at, number)
 
@@ -157,7 +155,7 @@ def _draw_legend(sheet: Sheet, entries: list[_Entry]) -> None:
     for entry in entries:
         at = complex(entry.left, sheet.height - 4.0 - _ROW * (entry.row + 0.5))
         sheet.line(np.array([at, at + _KEY]), **_line(entry.series, entry.number))
-        if len(entries) > 1 and len(entry.series.x) > _LEVEL:
+        if len(entries) > 1:
             _mark(sheet, at + _KEY / 2, entry.number)
         sheet.text(at + _KEY + 4.0, entry.series.label, fontsize=TEXT, va="center_baseline")
 

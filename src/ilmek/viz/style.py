@@ -17,8 +17,10 @@ STEEL = "#7b8794"
 YARN = "#9b2d30"
 PAPER = "#ffffff"
 PALETTE = ("#0072b2", "#d55e00", "#009e73", "#b4558f", "#c98a00", "#3f9fd8", "#5b4b8a", "#4a4a4a")
-DASHES = ((4.5, 2.0), (1.2, 1.6), (6.0, 1.8, 1.2, 1.8))
-"""Dash, gap, dash ... in line widths: of a dashed curve, and of curves beyond the palette."""
+DASHED = ((4.5, 2.0), (2.4, 1.4), (7.5, 2.2))
+"""Dash and gap in line widths of a dashed curve; beyond the palette the next."""
+DOTTED = ((1.2, 1.6), (6.0, 1.8, 1.2, 1.8))
+"""Dash, gap, dash ... in line widths of curves beyond the palette."""
 
 SMALL, TEXT, STRONG = 7.8, 8.7, 9.2
 """Sizes of letters [pt]: ticks and marks, labels, names."""
