@@ -105,10 +105,9 @@ def watt_six_bar() -> Mechanism:
     )
 
 
-def triad() -> Mechanism:
+def triad(crank_pin: complex = 0.2 - 0.8j) -> Mechanism:
     """A plate on three links, two on the ground, one on the crank: class III, without a dyad. Drawn in place."""
     outer, corners = (1j, 3 + 0j, -1.2 - 1j), (0.6 + 1.2j, 2.2 + 0.8j, 1 + 0.1j)
-    crank_pin = 0.2 - 0.8j
     names = ("left", "right", "low")
     starts = (outer[0], outer[1], crank_pin)
     links = [Body(n, {f"{n}0": s, f"{n}1": c}) for n, s, c in zip(names, starts, corners, strict=True)]

@@ -32,6 +32,10 @@ from ilmek.units import deg, mm, turn
 LEAST_SAMPLES, SAMPLES = 64, 360
 """Samples of a range: at least, and for each turn of the fastest angle that follows from the inputs alone."""
 
+CLOSER = 0.5 ** np.arange(1, 13)
+"""Samples next to the ends of a range, relative to the distance of the next one, in the phase of Chebyshev's abscissae:
+the last at rounding."""
+
 MOST_SAMPLES = 200_000
 """Samples of a range at most."""
 
@@ -50,7 +54,7 @@ PAD = 0.02
 SHOWN = 4
 """Number of ranges listed in a message."""
 
-BESIDE = 1e-7
+BESIDE = 1e-10
 """Distance from a dead centre [rad, m] at which the bodies in line are determined."""
 
 
@@ -182,7 +186,8 @@ class _Search:
         def closeness(phases: FloatArray) -> FloatArray:
             return self._closeness(number, middle - half * np.cos(phases))
 
-        phases = np.pi * (np.arange(count) + 0.5) / count
+        inner = np.pi * (np.arange(count) + 0.5) / count
+        phases = np.concatenate([inner[0] * CLOSER[::-1], inner, np.pi - inner[0] * CLOSER])
         found = closeness(phases)
         if not np.isfinite(found).any():  # a step that cannot fail
             return [(low, high)], []
@@ -253,6 +258,7 @@ def _with_extremes(
     A sample, or an extreme, at 0 within rounding has the sign of its neighbour.
     """
     signs = np.where(found > TOUCHING, 1.0, np.where(found < -TOUCHING, -1.0, 0.0))
+    signs = np.where(np.isnan(found), 0.0, signs)
     (zero,) = np.nonzero(signs == 0)
     for k in zero:
         signs[k] = signs[k - 1] if k else next((sign for sign in signs if sign), 1.0)

@@ -18,7 +18,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from ilmek.arrays import BoolArray, Float, FloatArray
+from ilmek.arrays import BoolArray, Float, FloatArray, IntArray
 from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import BodyMotion, PointMotion
 from ilmek.linkage.configuration import Configurations, FreeInput, free_input
@@ -205,13 +205,15 @@ def _pose_branch(plan: Plan, name: str, locked: tuple[tuple[str, float], ...], t
     at, tangents, _ = curve.at(lengths)
     at.inputs[lengths < 0] -= curve.at_nodes.inputs[-1] - curve.at_nodes.inputs[0]
     full = curve.closed and not any(folded)
-    left = np.abs(at.inputs[[0, -1]] - seed.inputs) > furthest
+    left = np.abs(curve.at_nodes.inputs[[0, -1]] - seed.inputs) > furthest
     ends = (bool(folded[0] or not left[0]), bool(folded[1] or not left[1]))
     if full:
         at.inputs[-1] = at.inputs[0] + round(float(at.inputs[-1] - at.inputs[0]) / turn) * turn
         period = float(at.inputs[-1] - at.inputs[0])
     else:
         period = _period(free, seed) if all(ends) else np.inf
+    kept = _ascending(at.inputs)
+    at, tangents = at[kept], tangents[kept]
     crossings = tuple(_crossing(curve, value) for value in curve.crossings)
     branch = PoseBranch(free, at, tangents, ends, period, full, float(seed.inputs[0]), crossings)
     return _cut(plan, branch) if crossings else branch
@@ -273,6 +275,12 @@ def _nodes(curve: ConfigurationCurve) -> tuple[FloatArray, tuple[bool, bool]]:
     if len(above):
         points.append(high - (high - np.append(low, inner)[-1]) * CLOSER)
     return np.unique(np.concatenate(points)), (bool(len(below)), bool(len(above)))
+
+
+def _ascending(inputs: FloatArray) -> IntArray:
+    """The nodes with ascending inputs: next to a dead centre where curves cross as well, the correction may fail."""
+    before = np.maximum.accumulate(np.concatenate([[-np.inf], np.nan_to_num(inputs, nan=-np.inf)]))[:-1]
+    return np.flatnonzero(inputs > before)
 
 
 def _period(free: FreeInput, seed: Configurations) -> float:

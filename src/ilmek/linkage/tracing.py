@@ -24,7 +24,7 @@ ACROSS = 0.01
 STEPS = 2_000
 """Number of steps after which a curve counts as open: a closed one takes about 100."""
 
-DIP_STEPS = 30
+DIP_STEPS = 24
 """Steps of the search for the least component of a tangent between two nodes."""
 
 REACH = 100.0
@@ -69,13 +69,15 @@ class ConfigurationCurve:
         """Brackets of the folds, by path length, and the nodes before them.
 
         Two folds between neighbouring nodes are possible only where the tangent turns as far as to the reversal and
-        back; such intervals are divided at the least component along the input.
+        back, next to the least component along the input; such intervals are divided at it.
         """
         part = self.tangents[:, -1]
         (single,) = np.nonzero(np.sign(part[:-1]) * np.sign(part[1:]) < 0)
         low, high = self.lengths[:-1], self.lengths[1:]
         bends = np.arccos(np.clip(np.sum(self.tangents[:-1] * self.tangents[1:], axis=1), -1, 1))
-        dips = (part[:-1] * part[1:] > 0) & (np.abs(part[:-1]) + np.abs(part[1:]) < 2 * bends)
+        size = np.abs(part)
+        around = np.append(np.inf, size[:-2]) >= size[:-1], np.append(size[2:], np.inf) >= size[1:]
+        dips = (part[:-1] * part[1:] > 0) & (size[:-1] + size[1:] < 2 * bends) & around[0] & around[1]
         (double,) = np.nonzero(dips)
         if not len(double):
             return low[single], high[single], single

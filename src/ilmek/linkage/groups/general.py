@@ -22,13 +22,13 @@ from ilmek.linkage.groups.winding import LinearRelation, angles, first_angle
 from ilmek.linkage.model import Pin, Rotation, Slide
 from ilmek.num.linear import reciprocal_condition, solve_many
 from ilmek.num.newton import System, damped_newton, newton
-from ilmek.records import record
+from ilmek.records import value_record
 
 TOLERANCE = 1e-9
 """Last step of the iteration relative to the group's size; quadratic convergence leaves an error at rounding."""
 
 
-@record
+@value_record
 class GeneralGroup(Step):
     """A group of any class; all its loop equations are solved together.
 
@@ -38,7 +38,7 @@ class GeneralGroup(Step):
 
     group: Group
     scale: float
-    relations: Mapping[str, LinearRelation] = field(default_factory=dict)
+    relations: Mapping[str, LinearRelation] = field(default_factory=dict, compare=False)
 
     @property
     def bodies(self) -> tuple[str, ...]:
