@@ -6,6 +6,7 @@ import mechanisms
 import numpy as np
 import pytest
 
+from ilmek.dynamics.own_machine import OwnMachine
 from ilmek.errors import MechanismError
 from ilmek.io.mechanism_file import mechanism_toml, parse_mechanism
 from ilmek.jobs.mechanism.request import MotionRequest
@@ -29,7 +30,7 @@ def class_three():
 
 @pytest.fixture(scope="module")
 def file():
-    return parse_mechanism(mechanism_toml(class_three(), {}))
+    return parse_mechanism(mechanism_toml(OwnMachine(class_three())))
 
 
 def ends(file):

@@ -8,7 +8,6 @@ chapters 2 and 8].
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -44,7 +43,7 @@ class Configurations:
         return Configurations(self.origins[rows], self.directions[rows], self.inputs[rows])
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class FreeInput:
     """A mechanism with one free input; a step is a row of 3 numbers per body, then the input.
 

@@ -12,6 +12,7 @@ given signs. Where another curve crosses (a change point) the branch goes straig
 would change its sign.
 """
 
+import math
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import lru_cache
@@ -105,19 +106,19 @@ class PoseBranch:
         if not np.isfinite(self.period):
             parts = [(self.start, self.stop)]
         else:
-            below = np.arange(np.floor((start - self.stop) / self.period), 0)
-            above = np.arange(1, np.ceil((stop - self.start) / self.period) + 1)
+            below = range(math.floor((start - self.stop) / self.period), 0)
+            above = range(1, math.ceil((stop - self.start) / self.period) + 1)
             parts = [(self.start + k * self.period, min(self.stop + k * self.period, self._first(k))) for k in below]
             parts += [(self.start, self.stop)]
             parts += [(max(self.start + k * self.period, self._last(k)), self.stop + k * self.period) for k in above]
         cut = [(max(low, start), min(high, stop)) for low, high in parts]
         return [(float(low), float(high)) for low, high in cut if low < high]
 
-    def _first(self, turns: float) -> float:
+    def _first(self, turns: int) -> float:
         """Start of the part after the one that is so many periods below."""
         return self.start + (turns + 1) * self.period
 
-    def _last(self, turns: float) -> float:
+    def _last(self, turns: int) -> float:
         """End of the part before the one that is so many periods above."""
         return self.stop + (turns - 1) * self.period
 
@@ -157,7 +158,8 @@ class PoseBranch:
 
 def _hermite(chord: FloatArray, first: FloatArray, last: FloatArray, share: FloatArray) -> FloatArray:
     """The cubic from 0 to `chord` with derivatives `first` and `last`, at shares of 1."""
-    return share * (first + share * (3 * chord - 2 * first - last + share * (first + last - 2 * chord)))
+    found: FloatArray = share * (first + share * (3 * chord - 2 * first - last + share * (first + last - 2 * chord)))
+    return found
 
 
 def _share(chord: FloatArray, first: FloatArray, last: FloatArray, value: FloatArray) -> FloatArray:
