@@ -88,7 +88,7 @@ class FreeInput:
         """The step from the first to the second, with 0 for the input."""
         shift = second.origins - first.origins
         turn = np.angle(second.directions * np.conj(first.directions)) * self.size
-        step = np.stack([shift.real, shift.imag, turn], axis=-1).reshape(len(first), -1)
+        step = np.stack([shift.real, shift.imag, turn], axis=-1).reshape(len(first), 3 * first.origins.shape[1])
         return np.concatenate([step, np.zeros((len(first), 1))], axis=1)
 
     def chords(self, at: Configurations) -> FloatArray:

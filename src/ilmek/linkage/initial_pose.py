@@ -32,6 +32,9 @@ SHIFT = 0.02
 MOST_STEPS = 2000
 """Largest number of steps on a straight path from the pose: 27 turns."""
 
+NEARBY = 0.2
+"""Farthest a body moves from the pose where the mechanism does not close in it, relative to the mechanism's size."""
+
 SAME = 1e-6
 """Greatest distance of equal configurations, relative to the mechanism's size."""
 
@@ -109,7 +112,7 @@ def _moved_to_nearest(plan: Plan, free: FreeInput, rough: Configurations) -> Con
 
     x = damped_newton(system, np.zeros(3 * rough.origins.shape[1] + 1), tolerance=LAST * free.size)
     found = free.stepped(rough, x[None, :])
-    if not np.isfinite(x).all() or not upright(free.equations(found)):
+    if not np.max(np.abs(x)) <= NEARBY * free.size or not upright(free.equations(found)):
         return None
     return found if on_branches(plan, free, found)[0] else None
 

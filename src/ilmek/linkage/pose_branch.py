@@ -203,6 +203,8 @@ def _pose_branch(plan: Plan, name: str, locked: tuple[tuple[str, float], ...], t
         return None
     furthest = turns * turn if free.turns else np.inf
     curve = trace(free, seed, branch=True, furthest=furthest)
+    if len(curve.at_nodes) < 2:
+        return None
     lengths, folded = _nodes(curve)
     at, tangents, _ = curve.at(lengths)
     at.inputs[lengths < 0] -= curve.at_nodes.inputs[-1] - curve.at_nodes.inputs[0]
@@ -215,6 +217,8 @@ def _pose_branch(plan: Plan, name: str, locked: tuple[tuple[str, float], ...], t
     else:
         period = _period(free, seed) if all(ends) else np.inf
     kept = _ascending(at.inputs)
+    if len(kept) < 2:
+        return None
     at, tangents = at[kept], tangents[kept]
     crossings = tuple(_crossing(curve, value) for value in curve.crossings)
     branch = PoseBranch(free, at, tangents, ends, period, full, float(seed.inputs[0]), crossings)

@@ -47,6 +47,8 @@ def damped_newton(
 ) -> Float[np.ndarray, " n"]:
     """Root of f(x) = 0 near a rough start, m equations in n >= m unknowns; NaN where none is found.
 
+    tolerance  of the last step, and of f at the root
+
     Each step is the shortest one that solves the linearised equations, halved until |f| decreases. So a system with
     more unknowns than equations is moved to a root near the start.    [Nocedal and Wright, chapters 10 and 11]
 
@@ -69,5 +71,5 @@ def damped_newton(
             value, slope = system(found - share * step)
         found = found - share * step
         if small:
-            return found
+            return found if float(np.max(np.abs(value))) <= tolerance else np.full(found.shape, np.nan)
     return np.full(found.shape, np.nan)
