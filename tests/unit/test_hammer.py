@@ -229,7 +229,7 @@ def test_axes_are_as_many_as_their_checks_need() -> None:
     quick = made(stroke=0.3, step=0.9, stack_mass=0.0)
     assert quick.params.screw_lead > 10 * mm
     (choice,) = quick.choices
-    assert choice.decided_by in {"torque of the servo over what is asked", "speed value of the screws"}
+    assert choice.decided_by in {"torque of the servo over the required torque", "speed value of the screws"}
     heavy = made(warps=3000, stack_mass=60_000.0)
     assert heavy.params.axis_count > heavy.params.support_count
     assert answer(warps=3000, stack_mass=60_000.0).failed == ()

@@ -113,7 +113,7 @@ def test_wefts_that_cross_wrongly_let_the_outermost_warps_go() -> None:
     assert in_front(0, 1)
     assert not in_front(0, 0)
     assert failed(shuttle()[0]) == []
-    assert failed(shuttle(crossed=False)[0]) == ["outermost warps that a turn lets go"]
+    assert failed(shuttle(crossed=False)[0]) == ["outermost warps that a turn releases"]
 
 
 @pytest.mark.parametrize(

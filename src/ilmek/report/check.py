@@ -69,11 +69,23 @@ def in_words(check: Judged) -> tuple[str, str]:
 
     >>> in_words(at_most("sag", 0.003, 0.002, "mm", "given")), in_words(must("knot tied", False, "its path"))
     (('3 mm', '2 mm'), ('no', 'yes'))
+    >>> in_words(at_most("sag", 0.00200004, 0.002, "mm", "given"))
+    ('2.00004 mm', '2 mm')
     """
     if not check.unit and check.limit == 1 and check.value in (0, 1):
         return ("yes" if check.value else "no"), "yes"
     value = value_beside(check.value, check.limit, check.unit)
-    return format_quantity(value, check.unit), format_quantity(check.limit, check.unit)
+    digits = 4 if getattr(check, "ok", False) else digits_apart(value, check.limit, check.unit)
+    return format_quantity(value, check.unit, digits), format_quantity(check.limit, check.unit, digits)
+
+
+def digits_apart(value: float, limit: float, unit: str) -> int:
+    """Significant digits, 4 to 17, with which two different values [SI] are written differently in a unit."""
+
+    def apart(digits: int) -> bool:
+        return format_quantity(value, unit, digits) != format_quantity(limit, unit, digits)
+
+    return 4 if value == limit or math.isnan(value) else next(filter(apart, range(4, 17)), 17)
 
 
 def value_beside(value: float, limit: float, unit: str) -> float:

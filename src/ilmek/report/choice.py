@@ -4,10 +4,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ilmek.report.check import Check
+from ilmek.report.check import Check, in_words
 from ilmek.report.json import plain
 from ilmek.report.verdict import weight
-from ilmek.units import format_quantity
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,5 +67,5 @@ def choose(name: str, candidates: Sequence[Alternative], aim: str = "price") -> 
 
 def failing(check: Check) -> str:
     """Value and limit of a check as a text."""
-    value, limit = (format_quantity(one, check.unit, 4) for one in (check.value, check.limit))
+    value, limit = in_words(check)
     return f"{value}, limit {check.relation} {limit}"

@@ -93,7 +93,7 @@ def vibration_checks(made: CompliantFollower) -> tuple[Check, ...]:
     """Contact of the follower on its linkage; none of a cam that leads it both ways."""
     if made.params.led:
         return ()
-    return (at_least("force on the cam of the follower that gives", made.contact_springy_min, 0.0, "N", SOURCE),)
+    return (at_least("force of the compliant follower on the cam", made.contact_springy_min, 0.0, "N", SOURCE),)
 
 
 def vibration_table(made: CompliantFollower) -> Table:

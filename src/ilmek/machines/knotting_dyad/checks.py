@@ -82,7 +82,7 @@ def _knot_checks(params: KnottingDyadParams, head: Head) -> tuple[Check, ...]:
     pivots, tied = 2 * (section.middle - head.arm.pivot.real), 1.0 if head.knot_tied else 0.0
     return (
         at_least(
-            "the knot asked for is tied, proved: 1",
+            "the required knot is tied",
             tied,
             1.0,
             "",

@@ -101,7 +101,11 @@ def fewer_checks(params: TensionCompensatorParams, one: SprungLever) -> tuple[Ch
     strong = choose_spring(one.rate, one.preload, (one.force - one.preload) / one.rate, wire=params.wire)
     if strong is None:
         named = at_most("stress of a spring over that allowed", used, 1.0, "1", SPRING_SOURCE)
-        return (must("springs strong enough that do not buckle", False, SPRING_SOURCE),) if named.ok else (named,)
+        return (
+            (must("springs with the strength required that do not buckle", False, SPRING_SOURCE),)
+            if named.ok
+            else (named,)
+        )
     fatigue, length = strong.fatigue_safety(one.preload, one.force), strong.free_length - one.preload / one.rate
     found = (
         at_least("fatigue of a spring", fatigue, params.spring_fatigue, "1", "parameter spring_fatigue"),

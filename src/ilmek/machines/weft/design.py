@@ -224,7 +224,7 @@ def _edge_checks(params: WeftParams) -> tuple[Check, ...]:
         return ()
     why = "each weft turns in the same shed: the other holds its turn, where they cross so (weaving.selvedge)"
     cure = "set weft.crossed=yes: exchange the cells of the shuttles' boxes"
-    return (at_most("outermost warps that a turn lets go", let_go(params), 0, "1", why, cure=cure),)
+    return (at_most("outermost warps that a turn releases", let_go(params), 0, "1", why, cure=cure),)
 
 
 def let_go(params: WeftParams) -> int:
