@@ -9,7 +9,7 @@ from ilmek.cli.call_outputs import call_outputs
 from ilmek.cli.options import force_option, json_option
 from ilmek.cli.terminal import note, say, show_checks, show_table
 from ilmek.cli.verdict import exit_code, note_verdict, show_verdict
-from ilmek.errors import MechanismError
+from ilmek.errors import MechanismError, printable
 from ilmek.io.mechanism_file import mechanism_json, mechanism_toml, read_mechanism
 from ilmek.io.table_csv import MOST_NUMBERS, csv_text
 from ilmek.jobs.mechanism.analysis import analysis
@@ -131,12 +131,12 @@ def _fixed(texts: tuple[str, ...]) -> dict[str, str]:
 
 def show(shown: Report) -> None:
     """Print the verdict, the structure and greatest values, the tables, and the checks."""
-    say(shown.title)
+    click.echo(printable(shown.title))
     show_verdict(shown.all_checks)
     for result in shown.results:
         if result.shown:
             for value in result.value if isinstance(result.value, list) else [result.value]:
-                say(f"  {result.name}: {_shown(value, result.unit)}")
+                click.echo(printable(f"  {result.name}: {_shown(value, result.unit)}"))
     for table in shown.tables:
         if table.brief:
             headings = [f"{c.heading} [{c.unit}]" if c.unit else c.heading for c in table.columns]

@@ -29,8 +29,8 @@ from ilmek.records import computed, record, result
 ABOUT = 0j
 """Point about which the shaking moment is reported: the ground's origin."""
 
-ROUNDING = 1e-12
-"""Work or mean of the drive, relative to its magnitudes, that counts as rounding."""
+ROUNDING, NO_WORK = 1e-12, 1e-6
+"""Mean effort and work of the drive, relative to their magnitudes, that count as zero."""
 
 
 @record
@@ -123,7 +123,7 @@ class InverseRun:
         power = self.effort * drive.speed
         # Samples may run against time: over a descending range, or at a negative speed.
         work = float(np.sign(self.time[-1] - self.time[0]) * np.trapezoid(power, self.time))
-        return 0.0 if abs(work) < ROUNDING * float(np.trapezoid(np.abs(power), np.abs(self.time))) else work
+        return 0.0 if abs(work) < NO_WORK * abs(float(np.trapezoid(np.abs(power), self.time))) else work
 
     @computed("W", "greatest power of the drives", optional=True)
     def drive_power_max(self) -> float | None:

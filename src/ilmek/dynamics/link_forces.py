@@ -18,7 +18,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
 
-from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.arrays import ComplexArray, ComplexField, FloatArray, RealField
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.inverse import MASSLESS, Forces
 from ilmek.dynamics.link_frame import SAME, LinkFrame, frame_through, with_masses
@@ -89,7 +89,7 @@ class _Gravity:
     base: ComplexArray
     rate: ComplexArray
 
-    def at(self, point: complex) -> ComplexArray:
+    def at(self, point: ComplexField) -> ComplexArray:
         return np.asarray(self.base - self.rate * point)
 
 
@@ -208,8 +208,10 @@ def _travel(acting: _Acting, size: float) -> Iterator[tuple[str, complex]]:
     yield f"{acting.name} to", complex(at[np.argmax(along)])
 
 
-def _line(frame: LinkFrame, edge: int, here: _Gravity, at: float) -> tuple[ComplexArray, FloatArray]:
-    """Force of the line mass beyond a position on an edge [m], and its moment about the body's origin."""
+def _line(frame: LinkFrame, edge: int, here: _Gravity, at: RealField) -> tuple[ComplexArray, FloatArray]:
+    """Force of the line mass beyond a position on an edge [m], or positions in a column, and its moment about the
+    body's origin.
+    """
     start, end = frame.ends(edge)
     length = abs(end - start)
     direction, left = (end - start) / length, length - at
@@ -251,21 +253,18 @@ def _beam(
     start, end = frame.ends(edge)
     length = abs(end - start)
     direction = (end - start) / length
-    stations = np.linspace(0.0, length, STATIONS)
-    placed = [(one, *frame.nearest(one.at)) for one in acting]
-    force = np.zeros((STATIONS, here.base.size), complex)
-    moment = np.zeros(force.shape)
-    for row, at in enumerate(stations):
-        own = _line(frame, edge, here, float(at))
-        total, turning = own
-        for other in frame.beyond[edge]:
-            total, turning = total + lines[other][0], turning + lines[other][1]
-        for one, on, along in placed:
-            here_on = (on == edge) & (along > SAME * length) & (along >= at - SAME * length)
-            far = here_on | np.isin(on, list(frame.beyond[edge]))
-            total = total + np.where(far, one.force, 0)
-            turning = turning + np.where(far, one.torque + cross(one.at, one.force), 0.0)
-        force[row], moment[row] = total, turning - cross(start + direction * at, total)
+    stations, beyond = np.linspace(0.0, length, STATIONS), list(frame.beyond[edge])
+    at = stations[:, None]
+    force, turning = _line(frame, edge, here, at)
+    force = force + sum(lines[other][0] for other in beyond)
+    turning = turning + sum(lines[other][1] for other in beyond)
+    for one in acting:
+        on, along = frame.nearest(one.at)
+        past = np.isin(on, beyond)
+        far = past | ((on == edge) & (along > SAME * length) & (along >= at - SAME * length))
+        force = force + np.where(far, one.force, 0)
+        turning = turning + np.where(far, one.torque + cross(one.at, one.force), 0.0)
+    moment = np.asarray(turning - cross(start + direction * at, force))
     first, last = (frame.names[node] for node in frame.tree[edge])
     axial, shear = np.asarray(dot(direction, force)), np.asarray(cross(direction, force))
     return BeamForces(first, last, length, stations, axial, shear, moment)

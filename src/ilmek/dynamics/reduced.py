@@ -79,7 +79,10 @@ class ReducedMechanism:
         """
         if not self.live:
             return np.zeros(len(position))
-        return self._force(solve(self.plan, position, 1.0), solve(self.plan, position, speed), self.live)
+        motion = solve(self.plan, position, speed)
+        if np.all(speed):  # the power of the loads over the speed: one motion serves both
+            return self._force(motion, motion, self.live) / speed
+        return self._force(solve(self.plan, position, 1.0), motion, self.live)
 
     def potential(self, position: Samples) -> Samples:
         """Potential energy of gravity [J] at input values [rad; m], relative to the ground's origin."""

@@ -130,6 +130,8 @@ def _motion_plots(run: MechanismRun, x: Axis) -> Iterator[Figure]:
         ("slide-acceleration", "Acceleration of slides", Axis("acceleration", "m/s^2"), "second_rate"),
     ):
         yield from _groups(name, title, x, y, at, {slide: getattr(one, field) for slide, one in moved.items()})
+    points = {f"{point} of {body}": np.abs(motion.point(body, point).velocity) for body, point in traced_points(run)}
+    yield from _groups("point-speeds", "Speeds of points", x, Axis("speed", "m/s"), at, points)
     turning = [body for body in run.plan.mechanism.moving if np.nanmax(np.abs(motion.omega(body)), initial=0) > 0]
     for name, title, y, curve in (
         ("angles", "Angles of the bodies", Axis("angle", "deg"), motion.angle),

@@ -100,9 +100,10 @@ def _with_jumps(values: FloatArray, at: Sequence[float], turning: bool) -> Float
     least, most = min(values[0], values[-1]), max(values[0], values[-1])
     if turning:
         turns = np.arange(np.floor(least / turn) - 1, np.ceil(most / turn) + 1)
-        at = np.unique(np.add.outer(turns * turn, np.asarray(at) % turn)).tolist()
+        at = np.add.outer(turns * turn, np.asarray(at) % turn).ravel().tolist()
     more = [one + side for one in at for side in (-BESIDE, BESIDE) if least < one + side < most]
-    every = np.unique(np.concatenate((values, more)))
+    every = np.sort(np.concatenate((values, more)))
+    every = every[np.append(True, np.diff(every) > 0)]
     return every if values[-1] > values[0] else every[::-1]
 
 

@@ -135,7 +135,7 @@ def run(file: MechanismFile, request: MotionRequest, progress: Progress = SILENT
     machine, plan = file.machine, file.plan()
     _check_groups(plan)
     driven = driven_inputs(machine, plan, request)
-    check_size(len(driven.values), _columns(plan), "--steps", MechanismError)
+    check_size(len(driven.values), _columns(machine), "--steps", MechanismError)
     motion = solve(plan, *driven.rates, progress=progress.part(0.0, 1.0, "motion"))
     if (motion.status != Status.OK).all():
         raise _closes_elsewhere(plan, motion, driven)
@@ -193,10 +193,12 @@ def _check_groups(plan: Plan) -> None:
             )
 
 
-def _columns(plan: Plan) -> int:
-    """The number of columns of `Motion.table`."""
-    mechanism = plan.mechanism
-    return len(mechanism.inputs) + 3 * len(mechanism.moving) + 6 * len(moving_points(mechanism))
+def _columns(machine: OwnMachine) -> int:
+    """The number of columns of a table: those of `Motion.table`, slides and forces."""
+    mechanism = machine.mechanism
+    moved = len(mechanism.inputs) + 3 * len(mechanism.moving) + 6 * len(moving_points(mechanism))
+    pulls = 3 * (len(mechanism.joints) + len(mechanism.couplings)) + len(mechanism.inputs) + 6
+    return moved + 3 * len(mechanism.joints) + (pulls if machine.has_forces else 0)
 
 
 def _check_ranges(made: MechanismRun) -> None:
