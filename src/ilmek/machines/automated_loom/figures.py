@@ -1,4 +1,4 @@
-"""Figures of the automated loom: cyclogram of a row, weaving time against heads, and the front of the loom."""
+"""Figures of the automated loom: cyclogram of a row, weaving time against heads and pitch, the front of the loom."""
 
 import math
 from functools import partial
@@ -10,7 +10,7 @@ from ilmek.carpet.quality import COARSEST, FINEST
 from ilmek.loom.sharing import halves, heads_that_fit, share
 from ilmek.machines.arrangement.side_view import CamPosition, SideView
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.estimate import estimated_time, estimated_times_at
+from ilmek.machines.automated_loom.estimate import estimated_times_at
 from ilmek.machines.automated_loom.row_animation import one_row_from_the_side
 from ilmek.machines.automated_loom.side_figures import room, side, spread
 from ilmek.report import Axis, Drawing, Mark, Plot, Series, Stroke, Timing
@@ -34,7 +34,7 @@ _WIDTH = 0.05
 
 def figures(loom: LoomDesign) -> tuple[LazyFigure, ...]:
     """The loom's figures, the head's cyclogram among them."""
-    scaling = (time_of_one_head,) if loom.heads_max == 1 else (time_against_heads, time_against_pitch)
+    scaling = (time_of_one_head,) if loom.heads_max == 1 else (time_against_pitch,)
     return tuple(
         partial(make, loom) for make in (side, room, one_row_from_the_side, front, one_row, one_knot, *scaling)
     )
@@ -51,27 +51,6 @@ def one_knot(loom: LoomDesign) -> Timing:
     """The cyclogram of a knot."""
     order = "Order of the motions: thesis, 2.2.3; angles chosen, the thesis prints none. The head steps on at the end."
     return draw(loom.cyclograms[0], "One knot: the head's cams, and its step to the next knot", order)
-
-
-def time_against_heads(loom: LoomDesign) -> Plot:
-    """Estimated weaving time for every number of heads that fits."""
-    heads = np.arange(1, loom.heads_max + 1)
-    total = np.array([estimated_time(loom, int(number)) for number in heads])
-    wefts = np.full(len(heads), loom.rows * loom.times.weft)
-    series = (
-        Series("weaving time", heads.astype(float), total),
-        Series("wefts and beats alone", heads.astype(float), wefts, dashed=True),
-    )
-    note = f"at {loom.params.changes_per_knot:.2g} colour changes a knot; heads waiting for each other not counted"
-    return Plot(
-        "weaving-time",
-        "Weaving time and number of heads",
-        Axis("heads"),
-        Axis("time", "h"),
-        series,
-        (Mark(float(loom.heads), "this loom"),),
-        note,
-    )
 
 
 _FINER = (0.4, 0.5, 0.75, 1.0, 1.5, 2.0)

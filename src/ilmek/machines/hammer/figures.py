@@ -1,4 +1,4 @@
-"""The hammer's figures: force against rows, force and rows across the width, the stroke and its force, the fell."""
+"""The hammer's figures: force against rows, the stroke and its force, the fell."""
 
 from dataclasses import replace
 
@@ -20,7 +20,7 @@ def figures(design: Hammer) -> tuple[Figure, ...]:
     driven = axis_plots(design.axis) if design.axis else ()
     if design.linkage is not None:
         driven = start_plots(design.linkage.start, "hammer")
-    return (drawing(design), packing_plot(design), fell_plot(design), *across_plots(design), *driven)
+    return (drawing(design), packing_plot(design), fell_plot(design), *driven)
 
 
 def packing_plot(design: Hammer) -> Plot:
@@ -50,18 +50,6 @@ def fell_plot(design: Hammer) -> Plot:
     note = "the area between the curves is the work that packs the row, the rest is returned"
     axes = Axis("travel", "mm"), Axis("force of a warp", "N")
     return Plot("hammer-fell", "Force of a warp along the comb's travel in the fell", *axes, series, note=note)
-
-
-def across_plots(design: Hammer) -> tuple[Plot, Plot]:
-    """Force of a warp, and rows per length, across the width."""
-    x, across = design.comb.line.x, Axis("across", "mm")
-    ends, required = np.array([0.0, design.params.width]), 1 / design.params.required_pitch
-    force = (Series("comb", x, design.force_across()), Series("mean", ends, np.full(2, design.force), dashed=True))
-    rows = (Series("comb", x, 1 / design.spacing_across()), Series("required", ends, np.full(2, required), dashed=True))
-    return (
-        Plot("hammer-across", "Force of a warp across the width", across, Axis("force of a warp", "N"), force),
-        Plot("hammer-rows-across", "Rows along the carpet, across its width", across, Axis("rows", "1/dm"), rows),
-    )
 
 
 def axis_plots(axis: CombDrive) -> tuple[Plot, Plot]:
