@@ -60,10 +60,13 @@ def test_an_angle_beyond_the_branch_is_reduced_by_whole_turns(file):
 
 def test_where_it_does_not_close_the_message_names_the_range_in_which_it_does(file):
     low, high = (f"{end / deg:.3f}°" for end in ends(file))
-    with pytest.raises(MechanismError, match=f"it closes for crank {low}..{high}"):
+    with pytest.raises(MechanismError, match=f"branch of the mechanism's pose goes from {low} to {high}"):
         run(file, MotionRequest({"": "180deg"}))
     with pytest.raises(MechanismError, match=f"branch of the mechanism's pose goes from {low} to {high}"):
         solve(file.plan(), np.linspace(0, math.pi, 9)).require()
+    triple_rocker = parse_mechanism(mechanism_toml(OwnMachine(four_bar(0.300, 0.200, 0.200, 0.230, branch=1))))
+    with pytest.raises(MechanismError, match=r"it closes for crank -117\.226°\.\.117\.226°"):
+        run(triple_rocker, MotionRequest({"": "180deg"}))
 
 
 @pytest.mark.parametrize("sizes", [(10.0, 1.0, 4.5, 4.5 + 1e-7), (3.0, 1.0, 2.0, 2.0 - 1e-7)])

@@ -172,6 +172,8 @@ def _closes_elsewhere(plan: Plan, motion: Motion, driven: DrivenInputs) -> Mecha
     try:
         motion.require()
     except MechanismError as error:
+        if Status.NOT_CONVERGED in motion.status:  # the error names the branch of the pose
+            return error
         inputs = plan.mechanism.inputs
         entry = driven.running or inputs[0]
         others = {one.name: np.ravel(motion.drives[one.name].value) for one in inputs if one is not entry}
