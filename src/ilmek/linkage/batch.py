@@ -18,18 +18,19 @@ array([0.554, 0.528, 0.506])
 """
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ilmek.arrays import Complex, ComplexArray, Float, FloatArray, Int8, RealField
+from ilmek.arrays import Bool, Complex, ComplexArray, ComplexField, Float, FloatArray, Int8, RealField
 from ilmek.errors import MechanismError
+from ilmek.linkage import structure
 from ilmek.linkage.body_motion import PointMotion
-from ilmek.linkage.executor import run
+from ilmek.linkage.executor import DOUBTFUL, Statuses, run
 from ilmek.linkage.groups.group import Columns, InputMotion, Step
 from ilmek.linkage.groups.shift import DrivenSlider
 from ilmek.linkage.groups.turn import DrivenCrank
-from ilmek.linkage.model import GROUND
+from ilmek.linkage.model import GROUND, Body
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.solve import InputValues, drives_of, solve
 from ilmek.linkage.structure import Plan
@@ -77,6 +78,9 @@ def solve_batch(plan: Plan, angle: InputValues, speed: InputValues = 0.0, accele
     pairs, singles = ([row for rows in kept for row in rows[which]] for which in (0, 1))
     answer = _run(written, drives, (pairs, singles))
     columns = {body: _columns(written, step, body, drives, answer) for step in plan.steps for body in step.bodies}
+    doubtful = answer.status[0] == DOUBTFUL
+    if doubtful.any():
+        answer.status[0, doubtful] = _decided(plan, drives, doubtful)
     return Motion(plan, drives, columns, answer.status[0])
 
 
@@ -114,15 +118,50 @@ def sweep(
         written.carry(body, written.point(body, point), to)
         pairs += [to, to + 2, to + 4]
     answer = _run(written, drives, (pairs, singles), variants, judged=True)
+    for variant in np.flatnonzero((answer.status == DOUBTFUL).any(axis=1)):
+        doubtful = answer.status[variant] == DOUBTFUL
+        one = _variant(plan, dimensions, branches, int(variant))
+        answer.status[variant, doubtful] = _decided(one, drives, doubtful)
     turning = {
         body: BodyRotation(answer.pair(row + DIRECTION), answer.single(row + OMEGA), answer.single(row + ALPHA))
         for body, row in zip(bodies, rows, strict=True)
     }
     moved = {
-        one: PointMotion(*(answer.pair(pairs[len(rows) + 3 * k + order]) for order in range(3)))
+        one: _in_world(*(answer.pair(pairs[len(rows) + 3 * k + order]) for order in range(3)), written.at[GROUND])
         for k, one in enumerate(points)
     }
     return Sweep(turning, moved, answer.status, answer.margin)
+
+
+def _in_world(
+    position: ComplexArray, velocity: ComplexArray, acceleration: ComplexArray, origin: ComplexField
+) -> PointMotion:
+    """A point's motion from that about the ground's anchor, which is at `origin` [m], one or one per variant."""
+    return PointMotion(position + np.reshape(origin, (-1, 1)), velocity, acceleration)
+
+
+def _decided(plan: Plan, drives: Mapping[str, InputMotion], doubtful: Bool[np.ndarray, " samples"]) -> Statuses:
+    """Status of some samples, by `solve`."""
+    parts = {name: drive.part(doubtful) for name, drive in drives.items()}
+    values, speeds, accelerations = (
+        {name: getattr(part, order) for name, part in parts.items()} for order in ("value", "speed", "acceleration")
+    )
+    return solve(plan, values, speeds, accelerations).status
+
+
+def _variant(plan: Plan, dimensions: Dimensions, branches: Mapping[str, RealField], variant: int) -> Plan:
+    """The plan of one variant."""
+
+    def own(field: ComplexField) -> ComplexField:
+        return np.ravel(field)[variant if np.ndim(field) else 0]
+
+    mechanism = plan.mechanism
+    bodies = tuple(
+        Body(body.name, {name: complex(own(dimensions.get((body.name, name), at))) for name, at in body.points.items()})
+        for body in mechanism.bodies
+    )
+    signs = {pin: int(own(branches.get(pin, sign)).real) for pin, sign in mechanism.branches.items()}
+    return structure.plan(replace(mechanism, bodies=bodies, branches=signs))
 
 
 @dataclass(frozen=True, slots=True)
@@ -171,6 +210,7 @@ def _run(
     run(
         written.height,
         *written.stack(variants),
+        np.broadcast_to(written.span, variants).astype(float),
         values,
         rates,
         *lists,

@@ -50,9 +50,9 @@ class BodyJerk:
     anchor: ComplexField
     beta: RealField
 
-    def carry(self, local: complex) -> ComplexField:
-        """Jerk [m/s^3] of the point at `local` [m] in the body's frame."""
-        arm = local - self.motion.at
+    def carry(self, local: complex, further: complex = 0j) -> ComplexField:
+        """Jerk [m/s^3] of the point `further` from `local` [m] in the body's frame."""
+        arm = (local - self.motion.at) + further
         return self.anchor if arm == 0 else self.reach(self.motion.direction * arm)
 
     def reach(self, arm: ComplexField) -> ComplexField:

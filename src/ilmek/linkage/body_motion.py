@@ -53,9 +53,9 @@ class BodyMotion:
     omega: RealField
     alpha: RealField
 
-    def carry(self, local: complex) -> PointMotion:
-        """Motion of the point at `local` [m] in the body's frame."""
-        arm = local - self.at
+    def carry(self, local: complex, further: complex = 0j) -> PointMotion:
+        """Motion of the point `further` from `local` [m] in the body's frame."""
+        arm = (local - self.at) + further  # in this order: both may be small, and `local` large
         return self.anchor if arm == 0 else self.reach(self.direction * arm)
 
     def reach(self, arm: ComplexField) -> PointMotion:

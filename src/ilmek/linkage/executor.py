@@ -10,29 +10,33 @@ from ilmek.arrays import ComplexArray, FloatArray, Int8, IntArray
 from ilmek.linkage.groups import rpr as rpr_group
 from ilmek.linkage.groups import rrp as rrp_group
 from ilmek.linkage.groups import rrr as rrr_group
+from ilmek.linkage.judgement import CLEAR, DOUBT
 from ilmek.linkage.kernels import BLOCK, carry, pair, prp, rpp, rpr, rrp, rrr, slip, turn
-from ilmek.linkage.status import DEAD, TOUCHING, Status
+from ilmek.linkage.status import Status
 from ilmek.linkage.tape import BODY, CARRY, DIRECTION, DRIVE, MARGIN, PRP, RPP, RPR, RRP, RRR, SECOND, SLIP, TURN, ZERO
 from ilmek.num.compiled import compiled
 
 Statuses: TypeAlias = Int8[np.ndarray, "..."]
 
-OK, CANNOT_CLOSE, DEAD_CENTRE = int(Status.OK), int(Status.CANNOT_CLOSE), int(Status.DEAD_CENTRE)
+OK, CANNOT_CLOSE = int(Status.OK), int(Status.CANNOT_CLOSE)
+
+DOUBTFUL = -1
+"""Mark of a sample near a limit, whose status `judgement` decides."""
 
 misfit, too_short, too_near = compiled(rrr_group.misfit), compiled(rrp_group.shortness), compiled(rpr_group.shortness)
 
 
 @compiled
 def _best(code: int, numbers: ComplexArray) -> tuple[float, float]:
-    """Greatest possible margin and largest length of a dyad, equal to those of its step."""
+    """Greatest possible margin and shortest length of a dyad, equal to those of its step; 0 for none."""
     a, b = numbers[0].real, numbers[1].real
     if code == RRR:
-        return a * b, max(a, b)
+        return a * b, min(a, b)
     if code == RRP:
         return a, a
     if code == RPR:
         return numbers[4].real, numbers[4].real
-    return 1.0, 1.0
+    return 1.0, 0.0
 
 
 @compiled
@@ -49,26 +53,68 @@ def _gap(code: int, dyad: FloatArray, guide: FloatArray, numbers: ComplexArray, 
 
 
 @compiled
-def _doubtful(margin: FloatArray, count: int, least: float) -> int:
-    """Number of samples near a dead centre or open."""
-    found = 0
-    for i in range(count):
-        found += not abs(margin[i]) > least  # true of a NaN
-    return found
+def _growth(code: int, numbers: ComplexArray, margin: float, size: float) -> float:
+    """Factor by which a dyad increases rounding errors; see `judgement.growths`."""
+    best, shortest = _best(code, numbers)
+    part = margin / best
+    growth = (max(size / shortest, 1.0) if shortest > 0 else 1.0) / abs(part * part * part)
+    return 1.0 if growth < 1.0 else growth  # NaN where the margin is
 
 
 @compiled
-def _judge(code: int, dyad: FloatArray, guide: FloatArray, count: int, numbers: ComplexArray, status: Statuses) -> None:
-    """Set the status of a dyad's samples that are still OK, as `status.judge` does."""
-    best, size = _best(code, numbers)
-    if _doubtful(dyad[MARGIN * BLOCK :], count, DEAD * best) == 0:
-        return
+def _smallest(margin: FloatArray, count: int) -> float:
+    """Smallest magnitude; NaN if there is one."""
+    least, total = math.inf, 0.0
+    for i in range(min(count, BLOCK)):
+        least = min(least, abs(margin[i]))
+        total += 0.0 * margin[i]
+    return least + total
+
+
+@compiled
+def _judge(
+    code: IntArray,
+    rows: FloatArray,
+    count: int,
+    numbers: ComplexArray,
+    size: float,
+    growth: FloatArray,
+    status: Statuses,
+) -> None:
+    """Mark a dyad's samples that do not close, and those that `judgement` must decide.
+
+    growth  of the rounding errors in the samples through all dyads so far, written
+    """
+    kind, dyad, guide = code[0], rows[code[1] * BLOCK :], rows[code[2] * BLOCK :]
     for i in range(count):
-        margin = dyad[MARGIN * BLOCK + i]
-        if status[i] != OK or abs(margin) > DEAD * best:
+        if status[i] != OK:
             continue
-        open_chain = math.isnan(margin) and not abs(_gap(code, dyad, guide, numbers, i)) <= TOUCHING * size
-        status[i] = CANNOT_CLOSE if open_chain else DEAD_CENTRE
+        margin = dyad[MARGIN * BLOCK + i]
+        if not math.isnan(margin):
+            growth[i] *= _growth(kind, numbers, margin, size)
+            if not growth[i] <= DOUBT:
+                status[i] = DOUBTFUL
+        elif abs(_gap(kind, dyad, guide, numbers, i)) <= 4 * CLEAR * size * growth[i]:
+            status[i] = DOUBTFUL
+        else:
+            status[i] = CANNOT_CLOSE
+
+
+@compiled
+def _judge_all(
+    codes: IntArray, rows: FloatArray, count: int, numbers: ComplexArray, size: float, status: Statuses
+) -> None:
+    """Mark the samples of a block: first by the smallest margin of each dyad, then, if that does not do, one by one."""
+    growth = 1.0
+    for k in range(len(codes)):
+        if _can_fail(codes[k, 0]):
+            growth *= _growth(codes[k, 0], numbers[k], _smallest(rows[(codes[k, 1] + MARGIN) * BLOCK :], count), size)
+    if growth <= DOUBT:
+        return
+    growths = np.ones(BLOCK)
+    for k in range(len(codes)):
+        if _can_fail(codes[k, 0]):
+            _judge(codes[k], rows, count, numbers[k], size, growths, status)
 
 
 @compiled
@@ -80,7 +126,7 @@ def _least(margin: FloatArray, count: int, best: float, least: float) -> float:
 
 
 @compiled
-def _instruction(rows: FloatArray, code: IntArray, numbers: ComplexArray, count: int, status: Statuses) -> None:
+def _instruction(rows: FloatArray, code: IntArray, numbers: ComplexArray, count: int) -> None:
     """One instruction of the tape."""
     kind, to, of, also = code[0], rows[code[1] * BLOCK :], rows[code[2] * BLOCK :], rows[code[3] * BLOCK :]
     if kind == CARRY:
@@ -99,8 +145,6 @@ def _instruction(rows: FloatArray, code: IntArray, numbers: ComplexArray, count:
         prp(to, of, also, count, numbers[0], numbers[1])
     elif kind == RPP:
         rpp(to, of, count, numbers[0], numbers[1], numbers[2])
-    if _can_fail(kind):
-        _judge(kind, to, of, count, numbers, status)
 
 
 @compiled
@@ -153,6 +197,7 @@ def run(
     height: int,
     codes: IntArray,
     numbers: ComplexArray,
+    sizes: FloatArray,
     values: FloatArray,
     rates: FloatArray,
     pairs: IntArray,
@@ -168,7 +213,8 @@ def run(
     values   (inputs, samples)                          rates   (inputs, 2, samples or 1)
     pairs    rows requested as complex fields           points  (variants, pairs, samples), written
     singles  rows requested as real fields              reals   (variants, singles, samples), written
-    status   (variants, samples), written; zero before
+    sizes    (variants,), the mechanisms' sizes [m]
+    status   (variants, samples), written; zero before. DOUBTFUL: `judgement` must decide
     margin   (variants,), the least margin of all dyads, written; infinite before; empty if not requested
     """
     rows = np.zeros(height * BLOCK)
@@ -180,9 +226,10 @@ def run(
             end = min(start + BLOCK, samples)
             _drive(rows, values, rates, start, end - start)
             for k in range(len(codes)):
-                _instruction(rows, codes[k], numbers[v, k], end - start, status[v, start:end])
+                _instruction(rows, codes[k], numbers[v, k], end - start)
                 if len(margin) and _can_fail(codes[k, 0]):
                     best, _ = _best(codes[k, 0], numbers[v, k])
                     row = (codes[k, 1] + MARGIN) * BLOCK
                     margin[v] = _least(rows[row:], end - start, best, margin[v])
+            _judge_all(codes, rows, end - start, numbers[v], sizes[v], status[v, start:end])
             _copy_out(rows, pairs, singles, points[v], reals[v], start, end - start)

@@ -6,11 +6,12 @@ import numpy as np
 
 from ilmek.arrays import Bool, Float, Int8
 from ilmek.errors import MechanismError
-from ilmek.linkage.body_motion import STILL, BodyMotion
 from ilmek.linkage.groups.group import InputMotion, Known, Step
-from ilmek.linkage.model import GROUND, Input, Rotation
-from ilmek.linkage.newton_starts import acting_inputs, branch_over, starts
-from ilmek.linkage.status import Status, judge
+from ilmek.linkage.judgement import judge
+from ilmek.linkage.model import Input, Rotation
+from ilmek.linkage.newton_starts import acting_inputs, branch_over
+from ilmek.linkage.solution import local_starts, solved_steps
+from ilmek.linkage.status import Status
 from ilmek.linkage.structure import Plan
 from ilmek.units import deg, mm
 
@@ -24,19 +25,16 @@ def first_fault(plan: Plan, drives: Mapping[str, InputMotion], status: Int8[np.n
     whole = {name: np.atleast_1d(np.asarray(drive.value, dtype=float)) for name, drive in drives.items()}
     moving = _moving(plan, drives)
     drives = {name: drive.part(bad) for name, drive in drives.items()}
-    known: dict[str, BodyMotion] = {GROUND: STILL, **starts(plan, drives)}
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-        for step in plan.steps:
-            solved = step.solve(known, drives)
-            found = np.zeros(np.count_nonzero(bad), dtype=np.int8)
-            judge(step, known, solved, found)
-            if found.any():
-                nowhere = len(found) == len(bad) > 1 and found.all()
-                branch = _branch(plan, moving, whole) if found.max() == Status.NOT_CONVERGED else ""
-                where = _where(moving, drives, bad, found), "" if nowhere else " or ".join(one.name for one in moving)
-                return _error(plan, step, where, known, Status(found.max()), branch)
-            known.update(step.locate(known, solved.columns))
-    raise AssertionError("a sample that failed fails again")
+        start = local_starts(plan, drives)
+        known, solved = solved_steps(plan, drives, start)
+        found, steps = judge(plan, drives, start, known, solved)
+        first = min(steps[found != Status.OK])
+        found = np.where(steps == first, found, Status.OK)
+        nowhere = len(found) == len(bad) > 1 and found.all()
+        branch = _branch(plan, moving, whole) if found.max() == Status.NOT_CONVERGED else ""
+        where = _where(moving, drives, bad, found), "" if nowhere else " or ".join(one.name for one in moving)
+        return _error(plan, plan.steps[first], where, known, Status(found.max()), branch)
 
 
 def _moving(plan: Plan, drives: Mapping[str, InputMotion]) -> tuple[Input, ...]:

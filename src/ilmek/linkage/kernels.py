@@ -29,10 +29,10 @@ carried_acceleration = compiled(body_motion.carried_acceleration)
 slid_velocity = compiled(shift.slid_velocity)
 slid_acceleration = compiled(shift.slid_acceleration)
 sincos = compiled(trigonometry.sincos)
-rrr_position, rrr_turning = compiled(rrr_group.position), compiled(rrr_group.turning)
+first_link = compiled(rrr_group.first_link)
 rrr_acceleration = compiled(rrr_group.relative_acceleration)
 first_rate, second_rate = compiled(rrr_group.first_rate), compiled(rrr_group.second_rate)
-rrp_position, rrp_turning = compiled(rrp_group.position), compiled(rrp_group.turning)
+rrp_reach = compiled(rrp_group.reach)
 rrp_acceleration = compiled(rrp_group.relative_acceleration)
 link_rate, slider_rate = compiled(rrp_group.link_rate), compiled(rrp_group.slider_rate)
 sliding_distance, heading = compiled(rpr_group.sliding_distance), compiled(rpr_group.heading)
@@ -78,10 +78,9 @@ def turn(body: FloatArray, carrier: FloatArray, drive: FloatArray, count: int, s
 def rrr(dyad: FloatArray, count: int, a: float, b: float, branch: float, per_a: complex, per_b: complex) -> None:
     """Directions, rates and margin of two links, whose known pins are already written."""
     for i in range(min(count, BLOCK)):
-        A, B = pair(dyad, i), pair(dyad, 10 * BLOCK + i)
-        C = rrr_position(A, B, a, b, branch)
-        u, v = C - A, C - B
-        sine = rrr_turning(u, v)
+        d = pair(dyad, 10 * BLOCK + i) - pair(dyad, i)
+        u, sine = first_link(d, a, b, branch)
+        v = u - d
         r: ComplexField = pair(dyad, 12 * BLOCK + i) - pair(dyad, 2 * BLOCK + i)
         wa, wb = first_rate(v, r, sine), second_rate(u, r, sine)
         r = rrr_acceleration(pair(dyad, 4 * BLOCK + i), pair(dyad, 14 * BLOCK + i), u, v, wa, wb)
@@ -101,10 +100,7 @@ def rrp(
     """Direction and rates of the link, margin, travel and rates of the slider; pin and zero are already written."""
     for i in range(min(count, BLOCK)):
         e, w, alpha = pair(guide, 6 * BLOCK + i) * lead, guide[8 * BLOCK + i], guide[9 * BLOCK + i]
-        A, Q = pair(dyad, i), pair(dyad, 21 * BLOCK + i)
-        s = rrp_position(A, Q, e, a, branch)
-        u = Q + s * e - A
-        cosine = rrp_turning(u, e)
+        s, u, cosine = rrp_reach(pair(dyad, i) - pair(dyad, 21 * BLOCK + i), e, a, branch)
         r = pair(dyad, 23 * BLOCK + i) + slid_velocity(e, w, s, 0.0) - pair(dyad, 2 * BLOCK + i)
         wa, ds = link_rate(e, r, cosine), slider_rate(u, r, cosine)
         C2 = pair(dyad, 25 * BLOCK + i) + slid_acceleration(e, w, alpha, s, ds, 0.0)

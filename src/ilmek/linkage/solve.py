@@ -9,13 +9,13 @@ import numpy as np
 
 from ilmek.arrays import RealField
 from ilmek.errors import MechanismError
-from ilmek.linkage.body_motion import STILL, BodyMotion
+from ilmek.linkage.anchors import anchors
 from ilmek.linkage.groups.general import GeneralGroup
 from ilmek.linkage.groups.group import Columns, InputMotion
+from ilmek.linkage.judgement import judge
 from ilmek.linkage.model import GROUND
 from ilmek.linkage.motion import Motion
-from ilmek.linkage.newton_starts import starts
-from ilmek.linkage.status import judge
+from ilmek.linkage.solution import local_starts, solved_steps
 from ilmek.linkage.structure import Plan
 from ilmek.progress import SILENT, Progress
 
@@ -79,15 +79,13 @@ def _block_size(plan: Plan) -> int:
 
 def _block(plan: Plan, drives: Mapping[str, InputMotion], status: np.ndarray) -> dict[str, Columns]:
     """Every body's columns for one block of samples; writes into `status`."""
-    known: dict[str, BodyMotion] = {GROUND: STILL, **starts(plan, drives)}
+    start = local_starts(plan, drives)
+    known, solved = solved_steps(plan, drives, start)
+    status[:] = judge(plan, drives, start, known, solved)[0]
+    origin = anchors(plan.mechanism)[GROUND]
     columns: dict[str, Columns] = {}
-    last = plan.steps[-1]
-    for step in plan.steps:
-        solved = step.solve(known, drives)
-        columns.update(solved.columns)
-        judge(step, known, solved, status)
-        if step is not last:
-            known.update(step.locate(known, solved.columns))
+    for step, one in zip(plan.steps, solved, strict=True):
+        columns.update(step.in_world(one.columns, origin) if isinstance(step, GeneralGroup) else one.columns)
     return columns
 
 

@@ -1,42 +1,26 @@
-"""Status of a sample, and its evaluation from the margin of a step."""
+"""Status of a sample."""
 
 from enum import IntEnum
 
-import numpy as np
-
-from ilmek.arrays import Int8
-from ilmek.linkage.groups.group import GroupSolution, Known, Step
-
-DEAD = 2e-6
-"""Least margin (sine of the transmission angle) with usable rates: the error of the pose is the rounding error divided
-by the margin, and rates divide by it once more. Just above it the worst of 10^5 random mechanisms keep two digits."""
-
 TOUCHING = 1e-12
-"""Greatest gap, relative to the links, that is attributed to rounding: the links are in line and just reach."""
+"""Greatest gap, relative to the links, that a message attributes to rounding: the links are in line and just reach."""
 
 
 class Status(IntEnum):
     """Status of a sample.
 
-    OK             solved
+    OK             solved; every acceleration has two digits or more, see `judgement`
     CANNOT_CLOSE   the links do not reach: no position, NaN
-    DEAD_CENTRE    links in line: a position (NaN if in line to rounding), no reliable velocity or acceleration
+    DEAD_CENTRE    links in line, or so near that rounding leaves less than two digits of an acceleration: a position
+                   (NaN if in line to rounding), no reliable velocity or acceleration
     NOT_CONVERGED  Newton's method found no position: NaN
+
+    OK guarantees that the errors of all accelerations of a group are below a hundredth of its largest: of the
+    bodies' angular accelerations times their lengths [m/s^2], and of its sliders' accelerations. The judgement
+    depends on the links' lengths and is independent of the position in the plane and of the units.
     """
 
     OK = 0
     CANNOT_CLOSE = 1
     DEAD_CENTRE = 2
     NOT_CONVERGED = 3
-
-
-def judge(step: Step, known: Known, solved: GroupSolution, status: Int8[np.ndarray, " samples"]) -> None:
-    """Set `status` of the samples that are still OK from the margin of a step."""
-    margin, least = solved.margin, DEAD * solved.best
-    if margin is None or np.min(margin) > least or np.max(margin) < -least:  # never true with a NaN among them
-        return
-    lost = np.isnan(margin)
-    touching = lost & (np.abs(step.gap(known)) <= TOUCHING * step.size)
-    dead = touching | (np.abs(margin) <= least)
-    found = np.where(dead, Status.DEAD_CENTRE, np.where(lost, Status[step.failure], Status.OK))
-    np.copyto(status, found.astype(np.int8), where=status == Status.OK)

@@ -15,6 +15,7 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray, ComplexField, IntArray, RealField
 from ilmek.errors import MechanismError
+from ilmek.linkage.anchors import anchor_name
 from ilmek.linkage.groups import rpp, rpr
 from ilmek.linkage.groups.group import Step
 from ilmek.linkage.groups.prp import CrossedSliders
@@ -62,7 +63,7 @@ class Tape:
     codes: list[tuple[int, int, int, int]] = field(default_factory=list)
     numbers: list[tuple[ComplexField, ...]] = field(default_factory=list)
     rows: dict[str, int] = field(default_factory=lambda: {GROUND: 0})
-    at: dict[str, ComplexField] = field(default_factory=lambda: {GROUND: 0j})
+    at: dict[str, ComplexField] = field(default_factory=dict)
     travel: dict[str, int] = field(default_factory=dict)
 
     def point(self, body: str, point: str) -> ComplexField:
@@ -79,17 +80,24 @@ class Tape:
         self.height += rows
         return self.height - rows
 
-    def carry(self, body: str, local: ComplexField, to: int) -> None:
-        """Write the motion of the point `local` [m] of a body to six rows."""
-        self.add(CARRY, to, self.rows[body], numbers=(local - self.at[body],))
+    def carry(self, body: str, local: ComplexField, to: int, further: ComplexField = 0j) -> None:
+        """Write the motion of the point `further` from `local` [m] of a body to six rows."""
+        self.add(CARRY, to, self.rows[body], numbers=((local - self.at[body]) + further,))
+
+    def anchor(self, body: str) -> ComplexField:
+        """A body's anchor in its frame [m]; one per variant where it varies."""
+        name = anchor_name(self.mechanism, body)
+        return 0j if name is None else self.point(body, name)
 
     @property
-    def reach(self) -> RealField:
-        """Largest distance of a point from its body's origin [m]; one per variant where it varies; 1 if all are 0."""
+    def span(self) -> RealField:
+        """Largest distance of a point from its body's anchor [m]; one per variant where it varies; 1 if all are 0."""
         bodies = self.mechanism.bodies
-        lengths = [np.abs(self.point(body.name, point)) for body in bodies for point in body.points]
-        reach = functools.reduce(np.maximum, lengths)
-        return np.where(reach == 0, 1.0, reach)
+        lengths = [
+            np.abs(self.point(one.name, point) - self.anchor(one.name)) for one in bodies for point in one.points
+        ]
+        span = functools.reduce(np.maximum, lengths)
+        return np.where(span == 0, 1.0, span)
 
     def stack(self, variants: int) -> tuple[IntArray, ComplexArray]:
         """Instructions and numbers as arrays: (instructions, 4) and (variants, instructions, NUMBERS)."""
@@ -107,6 +115,7 @@ def tape(plan: Plan, dimensions: Dimensions, branches: Mapping[str, RealField]) 
     """
     inputs = [entry.name for entry in plan.mechanism.inputs]
     written = Tape(plan.mechanism, dimensions, branches, BODY + DRIVE * len(inputs))
+    written.at[GROUND] = written.anchor(GROUND)
     for step in plan.steps:
         write = WRITERS.get(type(step))
         if write is None:
@@ -170,7 +179,7 @@ def _sliding_dyad(tape: Tape, step: SlidingDyad, inputs: list[str]) -> None:  # 
     root, at = tape.point(guide, step.slide), tape.point(body, step.slide)
     off = rpr.offset(tape.at[guide], root, tape.at[body], at, step.track)
     branch = tape.branches.get(step.slide, step.branch)
-    tape.add(RPR, to, numbers=(off, branch, step.track.lead.conjugate(), step.track.twist, tape.reach))
+    tape.add(RPR, to, numbers=(off, branch, step.track.lead.conjugate(), step.track.twist, tape.span))
 
 
 def _crossed_sliders(tape: Tape, step: CrossedSliders, inputs: list[str]) -> None:  # noqa: ARG001 - all writers alike
@@ -192,9 +201,9 @@ def _cross_slide(tape: Tape, step: CrossSlide, inputs: list[str]) -> None:  # no
     at = tape.point(link, hinge)
     tape.carry(on, tape.point(on, hinge), to)
     tape.rows[link], tape.at[link] = to, at
-    outer = tape.point(guide, slide), tape.point(slider, slide)
     inner = tape.point(slider, between), tape.point(link, between)
-    tape.carry(guide, rpp.zero(outer, inner, at, (step.track.twist, step.twist)), to + ZERO)
+    arm = rpp.zero(tape.point(slider, slide), inner, at, (step.track.twist, step.twist))
+    tape.carry(guide, tape.point(guide, slide), to + ZERO, arm)
     turned = step.track.twist
     tape.add(RPP, to, tape.rows[guide], numbers=(step.track.lead, turned * step.lead, turned * step.twist))
     _slip(tape, (slider, guide, slide), step.track, to + SECOND, to + TRAVEL)
@@ -205,7 +214,7 @@ def _line(tape: Tape, names: tuple[str, str, str], track: SlideTrack, zero: int)
     slider, guide, pin = names
     slide = _between(tape.mechanism, slider, guide)
     reach = tape.point(slider, pin) - tape.point(slider, slide)
-    tape.carry(guide, tape.point(guide, slide) + track.twist * reach, zero)
+    tape.carry(guide, tape.point(guide, slide), zero, track.twist * reach)
     return slider, guide, slide
 
 

@@ -8,18 +8,19 @@ Computer-Aided Analysis of Mechanical Systems, chapter 3].
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import field
+from dataclasses import field, replace
 
 import numpy as np
 
 from ilmek.arrays import ComplexField, FloatArray, RealField
 from ilmek.linkage import equations
+from ilmek.linkage.anchors import anchors
 from ilmek.linkage.body_jerk import BodyJerk
 from ilmek.linkage.body_motion import BodyMotion, PointMotion
 from ilmek.linkage.equations import Equation
 from ilmek.linkage.groups.group import Columns, Group, GroupSolution, InputMotion, Known, KnownJerks, Step
 from ilmek.linkage.groups.winding import LinearRelation, angles, first_angle
-from ilmek.linkage.model import Pin, Rotation, Slide
+from ilmek.linkage.model import Body, Pin, Rotation, Slide
 from ilmek.num.linear import reciprocal_condition, solve_many
 from ilmek.num.newton import System, damped_newton, newton
 from ilmek.records import value_record
@@ -32,13 +33,16 @@ TOLERANCE = 1e-9
 class GeneralGroup(Step):
     """A group of any class; all its loop equations are solved together.
 
+    group      with every body's frame at its anchor, if it has one
     scale      its size [m]
     relations  of the angles determined by inputs and couplings alone, by body
+    anchors    body -> its anchor in its own frame [m]; default: the origin
     """
 
     group: Group
     scale: float
     relations: Mapping[str, LinearRelation] = field(default_factory=dict, compare=False)
+    anchors: Mapping[str, complex] = field(default_factory=dict, compare=False)
 
     @property
     def bodies(self) -> tuple[str, ...]:
@@ -61,18 +65,35 @@ class GeneralGroup(Step):
         """Name of the Status of a sample that it cannot solve."""
         return "NOT_CONVERGED"
 
+    @property
+    def lengths(self) -> tuple[float, ...]:
+        """The largest distance of a body's point from its anchor, for every body [m]."""
+        points = (self.group.mechanism.body(body).points.values() for body in self.bodies)
+        return tuple(max((abs(point) for point in one), default=0.0) for one in points)
+
     def gap(self, known: Known) -> RealField:  # noqa: ARG002 - common signature
         """NaN: the iteration has no measure of the gap."""
         return np.nan
 
     def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:
-        """Directions, rates and origins of all bodies, starting from their motions in `known`."""
+        """Directions, rates and anchors of all bodies, starting from their motions in `known`."""
+        posed, matrix = self._posed(known, drives)
+        return self._rates(known, posed, drives, matrix)
+
+    def disturbed(self, known: Known, drives: Mapping[str, InputMotion], noise: FloatArray) -> GroupSolution:
+        """The solution with residuals `noise` [m], one number per equation, left in the loop equations."""
+        posed, matrix = self._posed(known, drives)
+        step = solve_many(matrix, np.broadcast_to(noise, matrix.shape[:-1]))
+        posed = self._parents_at(known) | self._moved(posed, step)
+        return self._rates(known, posed, drives, self._matrix(self.equations(posed, drives), matrix.shape[:-2]))
+
+    def _posed(self, known: Known, drives: Mapping[str, InputMotion]) -> tuple[dict[str, BodyMotion], FloatArray]:
+        """The bodies at rest in their poses, with the parents, and the matrix there."""
         samples = np.broadcast_shapes(*(np.shape(drive.value) for drive in drives.values()))
         at, system = self._system(known, drives, samples)
         x = newton(system, np.zeros((*samples, 3 * len(self.bodies))), tolerance=TOLERANCE * self.scale)
         posed = at(x)
-        matrix = self._matrix(self.equations(posed, drives), samples)
-        return self._rates(known, posed, drives, matrix)
+        return posed, self._matrix(self.equations(posed, drives), samples)
 
     def settled(self, known: Known, drives: Mapping[str, InputMotion]) -> dict[str, BodyMotion]:
         """The bodies at rest, assembled from a rough start in `known` at one sample; NaN where that fails."""
@@ -81,14 +102,17 @@ class GeneralGroup(Step):
         posed = at(x)
         if not upright(self.equations(posed, drives)):
             posed = at(np.full_like(x, np.nan))
-        return {body: posed[body] for body in self.bodies}
+        return {body: replace(posed[body], at=self._anchor(body)) for body in self.bodies}
+
+    def _parents_at(self, known: Known) -> dict[str, BodyMotion]:
+        return {body: self._still(known, body) for body in self.parents}
 
     def _system(
         self, known: Known, drives: Mapping[str, InputMotion], samples: tuple[int, ...]
     ) -> tuple[Callable[[FloatArray], dict[str, BodyMotion]], System]:
         """Displacements of the bodies from their start -> the bodies; -> values and derivatives of the equations."""
-        start = {body: _still(known[body]) for body in self.bodies}
-        fixed = {body: _still(known[body]) for body in self.parents}
+        start = {body: self._still(known, body) for body in self.bodies}
+        fixed = self._parents_at(known)
 
         def at(x: FloatArray) -> dict[str, BodyMotion]:
             return fixed | self._moved(start, x)
@@ -100,8 +124,16 @@ class GeneralGroup(Step):
         return at, system
 
     def locate(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:  # noqa: ARG002
-        """The bodies, anchored at their origins."""
-        return {body: BodyMotion(PointMotion(*columns[body][3:]), 0j, *columns[body][:3]) for body in self.bodies}
+        """The bodies at their anchors."""
+        return {
+            body: BodyMotion(PointMotion(*columns[body][3:]), self._anchor(body), *columns[body][:3])
+            for body in self.bodies
+        }
+
+    @staticmethod
+    def in_world(columns: Mapping[str, Columns], origin: complex) -> dict[str, Columns]:
+        """The columns of a solution about the ground's anchor, in the ground's frame, where that is at `origin` [m]."""
+        return {body: (*fields[:3], fields[3] + origin, *fields[4:]) for body, fields in columns.items()}
 
     def equations(self, bodies: Known, drives: Mapping[str, InputMotion]) -> list[Equation]:
         """The group's loop equations in the poses and at the velocities of `bodies`, anchored at their origins."""
@@ -127,7 +159,7 @@ class GeneralGroup(Step):
     ) -> GroupSolution:
         """Velocities, then accelerations: the same matrix twice."""
         samples = matrix.shape[:-2]
-        moving = dict(posed) | {body: _at_origin(known[body]) for body in self.parents}
+        moving = dict(posed) | {body: self._anchored(known[body], body) for body in self.parents}
         loop_equations = self.equations(moving, drives)
         speeds = {body: (moving[body].anchor.velocity, moving[body].omega) for body in self.parents}
         demand = [(one.rate - _share(one, speeds)) * self._unit(one) for one in loop_equations]
@@ -148,12 +180,12 @@ class GeneralGroup(Step):
         drives: Mapping[str, InputMotion],
     ) -> Mapping[str, BodyJerk]:
         """Jerks of the bodies: the matrix of `solve` with the right side of the third rates."""
-        moving = dict(located) | {body: _at_origin(known[body].motion) for body in self.parents}
+        moving = dict(located) | {body: self._anchored(known[body].motion, body) for body in self.parents}
         shapes = (np.shape(field) for body in moving.values() for field in (body.direction, body.alpha))
         samples = np.broadcast_shapes(*shapes)
         loop_equations = self.equations(moving, drives)
         biases = equations.third_biases(self.group, moving)
-        jerks = {body: (known[body].carry(0j), known[body].beta) for body in self.parents}
+        jerks = {body: (known[body].carry(self._anchor(body)), known[body].beta) for body in self.parents}
         demand = [
             (one.third_rate - bias - _share(one, jerks)) * self._unit(one)
             for one, bias in zip(loop_equations, biases, strict=True)
@@ -163,6 +195,18 @@ class GeneralGroup(Step):
             body: BodyJerk(located[body], x[..., 3 * k] + 1j * x[..., 3 * k + 1], x[..., 3 * k + 2] / self.scale)
             for k, body in enumerate(self.bodies)
         }
+
+    def _anchor(self, body: str) -> complex:
+        return self.anchors.get(body, 0j)
+
+    def _anchored(self, motion: BodyMotion, body: str) -> BodyMotion:
+        """The same motion in the frame at the body's anchor."""
+        return BodyMotion(motion.carry(self._anchor(body)), 0j, motion.direction, motion.omega, motion.alpha)
+
+    def _still(self, known: Known, body: str) -> BodyMotion:
+        """The pose alone, in the frame at the body's anchor."""
+        position, direction = known[body].carry(self._anchor(body)).position, known[body].direction
+        return BodyMotion(PointMotion(position, 0j, 0j), 0j, direction, 0.0, 0.0)
 
     def _unit(self, equation: Equation) -> float:
         return 1.0 if equation.length else self.scale
@@ -199,10 +243,15 @@ class GeneralGroup(Step):
 
 
 def from_group(group: Group) -> GeneralGroup:
-    """The group as a step for Newton's method."""
-    points = [abs(point) for body in group.bodies for point in group.mechanism.body(body).points.values()]
-    reach = max([*points, *(abs(p) for p in group.mechanism.body("ground").points.values())])
-    return GeneralGroup(group, reach or 1.0, angles(group.mechanism) if group.couplings else {})
+    """The group as a step for Newton's method, with every body's frame at its anchor."""
+    at = anchors(group.mechanism)
+    bodies = (
+        Body(body.name, {name: point - at[body.name] for name, point in body.points.items()})
+        for body in group.mechanism.bodies
+    )
+    known = angles(group.mechanism) if group.couplings else {}
+    local = replace(group, mechanism=replace(group.mechanism, bodies=tuple(bodies)))
+    return GeneralGroup(local, group.span, known, at)
 
 
 def upright(loop_equations: list[Equation]) -> bool:
@@ -218,16 +267,6 @@ def _share(one: Equation, rates: Mapping[str, tuple[ComplexField, RealField]]) -
             dx, dy, dtheta = one.row[body]
             share = share + dx * move.real + dy * move.imag + dtheta * turn
     return share
-
-
-def _at_origin(body: BodyMotion) -> BodyMotion:
-    """The same motion, anchored at the origin of the body's frame."""
-    return BodyMotion(body.carry(0j), 0j, body.direction, body.omega, body.alpha)
-
-
-def _still(body: BodyMotion) -> BodyMotion:
-    """The pose alone."""
-    return BodyMotion(PointMotion(body.carry(0j).position, 0j, 0j), 0j, body.direction, 0.0, 0.0)
 
 
 def _stack(values: list[RealField], samples: tuple[int, ...]) -> FloatArray:

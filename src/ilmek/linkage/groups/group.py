@@ -12,6 +12,7 @@ import numpy as np
 
 from ilmek.arrays import RealField
 from ilmek.errors import MechanismError
+from ilmek.linkage.anchors import span
 from ilmek.linkage.body_jerk import BodyJerk
 from ilmek.linkage.body_motion import BodyMotion
 from ilmek.linkage.model import Coupling, Input, Joint, Mechanism, Slide
@@ -105,6 +106,16 @@ class Step(ABC):
         return 0.0
 
     @property
+    def shortest(self) -> float:
+        """The length [m] against which an error of its known points counts: that of its shortest link."""
+        return self.size
+
+    @property
+    def lengths(self) -> tuple[float, ...]:
+        """Lengths [m] by which angular accelerations of its bodies are compared; empty for steps that cannot fail."""
+        return ()
+
+    @property
     def failure(self) -> str:
         """Name of the Status of a sample without a solution."""
         return "CANNOT_CLOSE"
@@ -154,6 +165,11 @@ class Group:
         """Whether it is two undriven bodies with a joint between them and one joint each to known bodies."""
         attached = {body for joint in self.outer for body in joint.bodies} & set(self.bodies)
         return len(self.bodies) == len(attached) == len(self.outer) == 2 and len(self.inner) == 1 and not self.inputs
+
+    @property
+    def span(self) -> float:
+        """Largest distance of a body's point from the body's anchor [m]; see `anchors`."""
+        return span(self.mechanism)
 
     @property
     def reach(self) -> float:

@@ -53,7 +53,7 @@ class CrossedSliders(Step):
     def line(self, known: Known, which: int) -> tuple[BodyMotion, PointMotion, ComplexField]:
         """A guide, the motion of the pin's point on it at zero travel, and the line's direction."""
         guide, line = known[self.on[which]], self.tracks[which]
-        return guide, guide.carry(line.root + line.twist * self.reach[which]), guide.direction * line.lead
+        return guide, guide.carry(line.root, line.twist * self.reach[which]), guide.direction * line.lead
 
     def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:  # noqa: ARG002 - needs no input
         """Travel, speed and acceleration of both sliders."""
@@ -89,7 +89,7 @@ class CrossedSliders(Step):
             e = turns.direction * line.lead
             lines.append(e)
             slid = slid_jerk(e, turns.omega, turns.alpha, guide.beta, s, ds, dds, 0.0)
-            ends.append(guide.carry(line.root + line.twist * reach) + slid)
+            ends.append(guide.carry(line.root, line.twist * reach) + slid)
         r = ends[1] - ends[0]
         thirds = oblique(r, lines[0], lines[1]), -oblique(r, lines[1], lines[0])
         return {
@@ -99,8 +99,18 @@ class CrossedSliders(Step):
 
     @property
     def size(self) -> float:
+        """The larger distance of the pin from a slider's point [m]."""
+        return max(abs(reach) for reach in self.reach)
+
+    @property
+    def shortest(self) -> float:
         """The scale of its lengths [m]."""
         return self.scale
+
+    @property
+    def lengths(self) -> tuple[float, ...]:
+        """Zero: the sliders do not turn on their guides."""
+        return 0.0, 0.0
 
     def gap(self, known: Known) -> RealField:
         """0: lines that are not parallel cross; NaN where a guide is NaN."""
@@ -130,5 +140,5 @@ def recognise(group: Group) -> CrossedSliders | None:
             mechanism.point(second, pin.name) - mechanism.point(second, slides[1].name),
         ),
         tracks=tracks,
-        scale=group.reach,
+        scale=group.span,
     )

@@ -32,20 +32,19 @@ def gain(r: ComplexField, sliding: ComplexField, w: RealField) -> ComplexField:
 
 
 def zero(
-    outer: tuple[ComplexField, ComplexField],
+    outer: ComplexField,
     inner: tuple[ComplexField, ComplexField],
     at: ComplexField,
     twists: tuple[complex, complex],
 ) -> ComplexField:
-    """Position of the known pin at s = z = 0 in the guide's frame [m].
+    """From the slide's point on the guide to the known pin at s = z = 0, in the guide's frame [m].
 
-    outer, inner  a slide's points in the frames of the body nearer the guide and of the other [m]: guide and slider,
-                  slider and link           at  the pin in the link's frame [m]        twists  of slider, and link on it
-    >>> zero((5, 1), (3, 1j), 2 + 1j, (1j, 1))
-    (5+4j)
+    outer   the guide's slide's point in the slider's frame [m]     inner  the other slide's points on both [m]
+    at      the pin in the link's frame [m]                         twists  of slider, and link on it
+    >>> zero(1, (3, 1j), 2 + 1j, (1j, 1))
+    4j
     """
-    from_slider = inner[0] - outer[1] + twists[1] * (at - inner[1])
-    return outer[0] + twists[0] * from_slider
+    return twists[0] * (inner[0] - outer + twists[1] * (at - inner[1]))
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +52,7 @@ class CrossSlide(SliderPair):
     """A body on a known pin and the slider between it and a guide.
 
     lead  direction f in the slider's frame      twist  link against slider
-    zero  A at s = z = 0 in the guide's frame [m]
+    zero  from the slide's point to A at s = z = 0, in the guide's frame [m]
     """
 
     lead: complex
@@ -68,7 +67,7 @@ class CrossSlide(SliderPair):
     def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:  # noqa: ARG002 - needs no input
         """Direction and rates of the link; travel, speed and acceleration of the slider."""
         A, guide = known[self.on[0]].carry(self.hinge), known[self.on[1]]
-        Q, w, alpha = guide.carry(self.zero), guide.omega, guide.alpha
+        Q, w, alpha = guide.carry(self.track.root, self.zero), guide.omega, guide.alpha
         e = guide.direction * self.track.lead
         f = guide.direction * (self.track.twist * self.lead)
         d = A.position - Q.position
@@ -90,11 +89,11 @@ class CrossSlide(SliderPair):
         """Jerks: the slider's third rate along e balances those of pin and guide; the link turns with the guide."""
         guide, A = known[self.on[1]], known[self.on[0]].carry(self.hinge)
         turns, link = guide.motion, located[self.link]
-        Q, w = turns.carry(self.zero), turns.omega
+        Q, w = turns.carry(self.track.root, self.zero), turns.omega
         d = link.anchor.position - Q.position
         ds = link.anchor.velocity - carried_velocity(Q.velocity, d, w)
         dds = gain(link.anchor.acceleration - carried_acceleration(Q.acceleration, d, w, turns.alpha), ds, w)
-        r = A - guide.carry(self.zero) - slid_jerk(1 + 0j, w, turns.alpha, guide.beta, d, ds, dds, 0.0)
+        r = A - guide.carry(self.track.root, self.zero) - slid_jerk(1 + 0j, w, turns.alpha, guide.beta, d, ds, dds, 0.0)
         e = turns.direction * self.track.lead
         third = oblique(r, e, turns.direction * (self.track.twist * self.lead))
         return {
@@ -125,5 +124,5 @@ def recognise(group: Group) -> CrossSlide | None:
         track=outer,
         lead=inner.lead,
         twist=inner.twist,
-        zero=complex(zero((outer.root, outer.at), (inner.root, inner.at), at, (outer.twist, inner.twist))),
+        zero=complex(zero(outer.at, (inner.root, inner.at), at, (outer.twist, inner.twist))),
     )

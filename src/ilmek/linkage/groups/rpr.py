@@ -148,8 +148,18 @@ class SlidingDyad(PinnedPair):
 
     @property
     def size(self) -> float:
+        """The larger distance of the slide's point from the known pin on either body [m]."""
+        return max(abs(self.track.root - self.at[0]), abs(self.at[1] - self.track.at))
+
+    @property
+    def shortest(self) -> float:
         """The scale of its lengths [m]."""
         return self.scale
+
+    @property
+    def lengths(self) -> tuple[float, ...]:
+        """The scale of its lengths [m], for the one angle of both bodies."""
+        return self.scale, self.scale
 
     def gap(self, known: Known) -> RealField:
         """Missing distance [m] of the known pins."""
@@ -188,5 +198,5 @@ def recognise(group: Group) -> SlidingDyad | None:
         at=(at[0], at[1]),
         track=line,
         offset=float(offset(at[0], line.root, at[1], line.at, line)),
-        scale=group.reach,
+        scale=group.span,
     )

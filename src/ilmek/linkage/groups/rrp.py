@@ -32,10 +32,22 @@ def position(A: ComplexField, Q: ComplexField, e: ComplexField, a: RealField, br
     >>> float(position(0j, 1 + 3j, 1 + 0j, 5.0, branch=+1))
     3.0
     """
-    d = A - Q
-    foot = e.real * d.real + e.imag * d.imag
+    return reach(A - Q, e, a, branch)[0]
+
+
+def reach(
+    d: ComplexField, e: ComplexField, a: RealField, branch: RealField
+) -> tuple[RealField, ComplexField, RealField]:
+    """Travel s [m], link u = C - A [m] and its projection u . e [m], from d = A - Q; NaN as `position`.
+
+        u = (c - i h) e,    c = +-sqrt((a - h) (a + h)),    h = e x d
+
+    >>> [complex(one) for one in reach(-1 - 3j, 1 + 0j, 5.0, +1)]
+    [(3+0j), (4+3j), (4+0j)]
+    """
     height = e.real * d.imag - e.imag * d.real
-    return foot + branch * np.sqrt(a * a - height * height)
+    cosine = branch * np.sqrt((a - height) * (a + height))
+    return e.real * d.real + e.imag * d.imag + cosine, (cosine - 1j * height) * e, cosine
 
 
 def turning(u: ComplexField, e: ComplexField) -> RealField:
@@ -102,16 +114,14 @@ class SliderDyad(SliderPair):
     def known_line(self, known: Known) -> tuple[PointMotion, PointMotion, ComplexField]:
         """Motions of the known pin and of the free pin's point on the line at zero travel, and the line's direction."""
         guide = known[self.on[1]]
-        zero = guide.carry(self.track.root + self.track.twist * self.reach)
+        zero = guide.carry(self.track.root, self.track.twist * self.reach)
         return known[self.on[0]].carry(self.hinge), zero, guide.direction * self.track.lead
 
     def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:  # noqa: ARG002 - needs no input
         """Direction and rates of the link; travel, speed and acceleration of the slider."""
         A, Q, e = self.known_line(known)
         w, alpha = known[self.on[1]].omega, known[self.on[1]].alpha
-        s = position(A.position, Q.position, e, self.a, self.branch)
-        u = Q.position + s * e - A.position
-        cosine = turning(u, e)
+        s, u, cosine = reach(A.position - Q.position, e, self.a, self.branch)
         r = Q.velocity + slid_velocity(e, w, s, 0.0) - A.velocity
         wa, ds = link_rate(e, r, cosine), slider_rate(u, r, cosine)
         r = relative_acceleration(A.acceleration, Q.acceleration + slid_acceleration(e, w, alpha, s, ds, 0.0), u, wa)
@@ -133,7 +143,7 @@ class SliderDyad(SliderPair):
         turns, A = guide.motion, known[self.on[0]].carry(self.hinge)
         e, u = turns.direction * self.track.lead, link.direction * self.arm
         s, ds, dds = columns[self.slider]
-        Q = guide.carry(self.track.root + self.track.twist * self.reach)
+        Q = guide.carry(self.track.root, self.track.twist * self.reach)
         r = Q + slid_jerk(e, turns.omega, turns.alpha, guide.beta, s, ds, dds, 0.0)
         r = r - carried_jerk(A, u, link.omega, link.alpha, 0.0)
         cosine = turning(u, e)
@@ -145,8 +155,18 @@ class SliderDyad(SliderPair):
 
     @property
     def size(self) -> float:
+        """The larger of the link's length and the distance of the pin from the slider's point [m]."""
+        return max(self.a, abs(self.reach))
+
+    @property
+    def shortest(self) -> float:
         """Length of the link [m]."""
         return self.a
+
+    @property
+    def lengths(self) -> tuple[float, ...]:
+        """Length of the link [m]; the slider does not turn on its guide."""
+        return self.a, 0.0
 
     def gap(self, known: Known) -> RealField:
         """Missing length [m] of the link to the line."""

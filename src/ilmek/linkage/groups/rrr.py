@@ -28,11 +28,24 @@ def position(A: ComplexField, B: ComplexField, a: RealField, b: RealField, branc
     >>> complex(position(0j, 4 + 0j, 3.0, 5.0, branch=+1))
     3j
     """
-    d = B - A
+    return A + first_link(B - A, a, b, branch)[0]
+
+
+def first_link(d: ComplexField, a: RealField, b: RealField, branch: RealField) -> tuple[ComplexField, RealField]:
+    """Link u = C - A [m] and the cross product u x v [m^2] with v = u - d, from d = B - A; NaN as `position`.
+
+        u = (along + i across) d,    u x v = across |d|^2 = +-1/2 sqrt(((a + b)^2 - |d|^2) (|d|^2 - (a - b)^2))
+
+    Heron's product keeps the digits near a dead centre that sqrt(a^2/|d|^2 - along^2) loses: the error is that of d
+    alone [Kahan, Miscalculating Area and Angles of a Needle-like Triangle].
+    >>> [complex(one) for one in first_link(4 + 0j, 3.0, 5.0, +1)]
+    [3j, (12+0j)]
+    """
+    total, apart = a + b, a - b
     dd = d.real * d.real + d.imag * d.imag
-    along = 0.5 + (0.5 * (a * a - b * b)) / dd  # C = A + (along + i across) d
-    across = branch * np.sqrt(a * a / dd - along * along)
-    return A + (along + 1j * across) * d
+    per_dd = 1 / dd
+    sine = (0.5 * branch) * np.sqrt((total * total - dd) * (dd - apart * apart))
+    return (0.5 + (0.5 * total * apart) * per_dd + 1j * (sine * per_dd)) * d, sine
 
 
 def turning(u: ComplexField, v: ComplexField) -> RealField:
@@ -105,9 +118,9 @@ class RRRDyad(PinnedPair):
     def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:  # noqa: ARG002 - needs no input
         """Directions, angular velocities and accelerations of the links."""
         A, B = self.pins(known)
-        C = position(A.position, B.position, self.a, self.b, self.branch)
-        u, v = C - A.position, C - B.position
-        sine = turning(u, v)
+        d = B.position - A.position
+        u, sine = first_link(d, self.a, self.b, self.branch)
+        v = u - d
         r = B.velocity - A.velocity
         wa, wb = first_rate(v, r, sine), second_rate(u, r, sine)
         r = relative_acceleration(A.acceleration, B.acceleration, u, v, wa, wb)
@@ -139,6 +152,16 @@ class RRRDyad(PinnedPair):
     def size(self) -> float:
         """Length of the longer link [m]."""
         return max(self.a, self.b)
+
+    @property
+    def shortest(self) -> float:
+        """Length of the shorter link [m]."""
+        return min(self.a, self.b)
+
+    @property
+    def lengths(self) -> tuple[float, ...]:
+        """Lengths of the links [m]."""
+        return self.a, self.b
 
     def gap(self, known: Known) -> RealField:
         """Gap [m]: known pins too far apart (above 0) or too near (below 0)."""

@@ -1,0 +1,149 @@
+"""The status of samples from the solutions of a plan's steps.
+
+An error e of the known points of a group is an error e / mu of its position, mu the sine of the transmission angle, and
+changes mu itself by e / (mu l), l the shorter link. All rates contain powers of 1/mu: their relative error is
+
+    growth(group) = max growth(parents) * (size / l) / mu^3        of the rounding of a double, times a small number
+
+From step to step this is a bound in one number, and nearly all samples are far below it. The few others, `doubtful`,
+are solved again with disturbed numbers (`disturbance`), and the spread decides.
+"""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from ilmek.arrays import Bool, Int8, IntArray, RealField
+from ilmek.linkage.anchors import span
+from ilmek.linkage.body_motion import BodyMotion, PointMotion
+from ilmek.linkage.disturbance import ROUNDING, RUNS, disturbed_solutions
+from ilmek.linkage.groups.group import Columns, GroupSolution, InputMotion, Known, Step
+from ilmek.linkage.model import GROUND
+from ilmek.linkage.status import Status
+from ilmek.linkage.structure import Plan
+
+DOUBT = 1e-6 / ROUNDING
+"""Growth of rounding errors above which a sample is solved again: a millionth of an acceleration."""
+
+DIGITS = 1e-2
+"""Largest error of an acceleration, relative to the largest of its group, of a sample that is OK."""
+
+CLEAR = 1e4 * ROUNDING
+"""Least gap, relative to the size and to the growth of the known bodies' errors, that is not rounding."""
+
+
+def growths(plan: Plan, margins: Sequence[RealField | None], size: float) -> list[RealField]:
+    """Growth of rounding errors up to each step, from the margins relative to their best."""
+    bodies: dict[str, RealField] = {GROUND: 1.0}
+    found = []
+    for step, margin in zip(plan.steps, margins, strict=True):
+        growth: RealField = 1.0
+        for parent in step.parents:
+            growth = np.maximum(growth, bodies[parent])
+        if margin is not None:
+            growth = growth * (max(size / step.shortest, 1.0) if step.shortest else 1.0) / (margin * margin * margin)
+        bodies |= dict.fromkeys(step.bodies, growth)
+        found.append(growth)
+    return found
+
+
+def judge(
+    plan: Plan,
+    drives: Mapping[str, InputMotion],
+    start: Mapping[str, BodyMotion],
+    known: Known,
+    solved: Sequence[GroupSolution],
+) -> tuple[Int8[np.ndarray, " samples"], IntArray]:
+    """Status of each sample, and the index of the step that fails first; -1 where none does.
+
+    start  start of Newton's method, of the bodies that need one      known, solved  what the steps need and give
+    """
+    samples = np.shape(next(iter(drives.values())).value)
+    status, at = np.zeros(samples, dtype=np.int8), np.full(samples, -1)
+    margins = [None if one.margin is None else np.abs(one.margin) / one.best for one in solved]
+    size = span(plan.mechanism)
+    least = [None if one is None else np.min(one) for one in margins]  # NaN if any is
+    if all(growth <= DOUBT for growth in growths(plan, least, size)):
+        return status, at
+    doubtful = np.zeros(samples, dtype=bool)
+    before: RealField = 1.0
+    for k, growth in enumerate(growths(plan, margins, size)):
+        step, alive = plan.steps[k], (status == Status.OK) & ~doubtful
+        if margins[k] is not None and alive.any():
+            lost = alive & np.isnan(margins[k])
+            if lost.any():
+                gap = np.abs(step.gap(known)) <= CLEAR * max(size, step.size) * _finite(before)
+                _set(status, at, lost & ~gap, Status[step.failure], k)
+                doubtful |= lost & gap
+            doubtful |= alive & (growth > DOUBT)
+        before = np.fmax(before, growth)
+    if doubtful.any():
+        parts = [_part_of(one, doubtful) for one in solved]
+        begun = {body: _body_part(motion, doubtful) for body, motion in start.items()}
+        inputs = {name: drive.part(doubtful) for name, drive in drives.items()}
+        status[doubtful], at[doubtful] = examine(plan, inputs, begun, parts)
+    return status, at
+
+
+def examine(
+    plan: Plan, drives: Mapping[str, InputMotion], start: Mapping[str, BodyMotion], solved: Sequence[GroupSolution]
+) -> tuple[Int8[np.ndarray, " samples"], IntArray]:
+    """As `judge`, every sample from the spread of the disturbed solutions."""
+    samples = np.shape(next(iter(drives.values())).value)
+    status, at = np.zeros(samples, dtype=np.int8), np.full(samples, -1)
+    runs = [disturbed_solutions(plan, drives, start, run) for run in range(RUNS)]
+    for k, step in enumerate(plan.steps):
+        margin = solved[k].margin
+        if margin is None:
+            continue
+        lost = np.broadcast_to(np.isnan(margin), samples)
+        met = np.any([np.broadcast_to(np.isfinite(run[k].margin), samples) for run in runs], axis=0)
+        good = np.ones(samples, dtype=bool)
+        disturbed = [_accelerations(step, run[k].columns) for run in runs]
+        for which, (exact, scale) in enumerate(_accelerations(step, solved[k].columns)):
+            for one in disturbed:
+                for ours, theirs in zip(exact, one[which][0], strict=True):
+                    good &= np.abs(ours - theirs) <= DIGITS * scale  # False with a NaN
+        alive = status == Status.OK
+        _set(status, at, alive & lost & ~met, Status[step.failure], k)
+        _set(status, at, alive & ((lost & met) | (~lost & ~good)), Status.DEAD_CENTRE, k)
+    return status, at
+
+
+def _accelerations(step: Step, columns: Mapping[str, Columns]) -> list[tuple[list[RealField], RealField]]:
+    """Accelerations [m/s^2] of a step's bodies and the largest: of turning and sliding, then of anchors, if any."""
+    moved: list[RealField] = []
+    anchors: list[RealField] = []
+    scale: RealField = 0.0
+    for body, length in zip(step.bodies, step.lengths, strict=True):
+        first, rate, second, *anchor = columns[body]
+        turns = np.iscomplexobj(first)
+        moved.append(second * length if turns else second)
+        scale = np.maximum(scale, (np.abs(second) + rate * rate) * length if turns else np.abs(second))
+        anchors += [np.real(anchor[2]), np.imag(anchor[2])] if anchor else []
+    largest: RealField = 0.0
+    for one in anchors:
+        largest = np.maximum(largest, np.abs(one))
+    return [(moved, scale), (anchors, largest)]
+
+
+def _set(status: np.ndarray, at: np.ndarray, which: Bool[np.ndarray, " samples"], new: Status, step: int) -> None:
+    status[which], at[which] = new, step
+
+
+def _finite(growth: RealField) -> RealField:
+    return np.where(np.isfinite(growth), growth, 0.0)
+
+
+def _part_of(solved: GroupSolution, which: Bool[np.ndarray, " samples"]) -> GroupSolution:
+    columns = {body: tuple(_part(field, which) for field in fields) for body, fields in solved.columns.items()}
+    return GroupSolution(columns, None if solved.margin is None else _part(solved.margin, which), solved.best)
+
+
+def _body_part(body: BodyMotion, which: Bool[np.ndarray, " samples"]) -> BodyMotion:
+    anchor = PointMotion(*(_part(getattr(body.anchor, one), which) for one in ("position", "velocity", "acceleration")))
+    return BodyMotion(anchor, body.at, *(_part(getattr(body, one), which) for one in ("direction", "omega", "alpha")))
+
+
+def _part(field: RealField, which: Bool[np.ndarray, " samples"]) -> RealField:
+    return field[which] if isinstance(field, np.ndarray) and field.ndim else field
