@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from benchmarks.campaign.accuracy import accuracy
 from benchmarks.campaign.branches import crank_rockers
-from benchmarks.campaign.near_dead import near_dead
+from benchmarks.campaign.near_limits import near_limits
 from benchmarks.campaign.random_linkages import KINDS
 
 
@@ -18,12 +18,16 @@ def test_loops_close_newton_agrees_and_rates_are_derivatives(kind):
     assert found.acceleration <= 1e-9
 
 
-@pytest.mark.parametrize("kind", KINDS[:4])
-def test_nothing_is_silently_wrong_beside_a_dead_centre(kind):
-    found = near_dead(kind, 150, np.random.default_rng(2))
-    assert found.mechanisms == 150
-    assert 0 < found.solved < found.samples
-    assert found.silent == found.misjudged == 0
+@pytest.mark.parametrize(
+    ("kind", "count", "dyads", "closed_forms"),
+    [*((kind, 40, 1, True) for kind in KINDS), ("RRR", 15, 2, True), ("RRP", 15, 3, True), ("RPR", 4, 1, False)],
+)
+def test_beside_a_limit_ok_means_two_digits_of_every_acceleration_of_forty(kind, count, dyads, closed_forms):
+    found = near_limits(kind, count, np.random.default_rng(2), dyads=dyads, closed_forms=closed_forms)
+    assert found.ok > 0
+    assert found.worst <= 0.01
+    assert found.silent == 0
+    assert found.refused <= 0.15 * found.good
 
 
 def test_crank_rockers_stay_on_their_branch_however_few_the_steps():

@@ -207,11 +207,7 @@ def test_statuses_agree_across_and_beside_dead_centres(near):
     places = [0.0, np.pi / 2, np.pi, 2.0, limit, np.arcsin(0.2 / 0.3)]
     angle = np.concatenate([places, *(place + sign * NEAR for place in places for sign in (-1, 1))])
     theirs, ours = solve(plan(near), angle, 1.0), solve_batch(plan(near), angle, 1.0)
-    # Where a root is taken of a difference that is all rounding, one executor may find it below zero.
-    same = ours.status == theirs.status
-    assert (same | (ours.status * theirs.status == Status.CANNOT_CLOSE * Status.DEAD_CENTRE)).all()
-    assert same[np.min([np.abs(angle - place) for place in places], axis=0) >= 1e-13].all()
-    assert (np.isnan(ours.origin(near.moving[-1])) == np.isnan(theirs.origin(near.moving[-1])))[same].all()
+    assert (ours.status == theirs.status).all()
     assert len(set(theirs.status)) > 1
 
 

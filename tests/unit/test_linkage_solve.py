@@ -1,5 +1,6 @@
 """The edges of solving: batches, inputs, failures as values, failures in words."""
 
+import dataclasses
 import pickle
 
 import numpy as np
@@ -84,6 +85,26 @@ def test_links_in_line_are_a_dead_centre_not_a_number():
     assert list(motion.status) == [Status.DEAD_CENTRE, Status.OK, Status.DEAD_CENTRE]
     with pytest.raises(MechanismError, match=r"dead centre for crank 0\.0°, 180\.0°; coupler and rocker are in line"):
         motion.require()
+
+
+@pytest.mark.parametrize("away", [0j, 10 + 3j, 100j])
+def test_accelerations_beside_a_limit_do_not_depend_on_the_origin(away):
+    near = four_bar(0.1, 0.07, 0.001, 0.03, branch=1)
+    bodies = tuple(
+        Body(body.name, {name: at + away for name, at in body.points.items()}) if body.name == GROUND else body
+        for body in near.bodies
+    )
+    limit = np.arccos((0.1**2 + 0.07**2 - 0.031**2) / (2 * 0.1 * 0.07))
+    angle = limit - np.array([1e-3, 1e-4, 1e-5])
+    here, there = (solve(plan(one), angle, 1.0) for one in (near, dataclasses.replace(near, bodies=bodies)))
+    assert here.ok
+    assert there.ok
+    np.testing.assert_allclose(there.alpha("rocker"), here.alpha("rocker"), rtol=1e-3)
+
+
+def test_a_small_link_beside_its_limit_is_not_ok_where_rounding_leaves_no_digits():
+    motion = solve(plan(four_bar(1, 0.7, 0.001, 0.3, branch=1)), 0.029302437856667495, 1.0)
+    assert motion.status[0] == Status.DEAD_CENTRE
 
 
 def test_near_a_dead_centre_rates_are_large_but_right():

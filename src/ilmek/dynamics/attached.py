@@ -27,7 +27,8 @@ def attached(motion: Motion, body: str, local: complex) -> AttachedPoint:
     motion  with one value per sample      body  its name
     Returns arrays over the samples [m, m/s, m/s²]; NaN where the mechanism does not close.
     """
-    moved = motion.body(body).carry(local)
+    with np.errstate(invalid="ignore", over="ignore"):  # at a dead centre rates are infinite; `status` says so
+        moved = motion.body(body).carry(local)
     return AttachedPoint(
         _over(moved.position, motion), _over(moved.velocity, motion), _over(moved.acceleration, motion)
     )

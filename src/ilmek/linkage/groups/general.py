@@ -180,7 +180,8 @@ class GeneralGroup(Step):
         drives: Mapping[str, InputMotion],
     ) -> Mapping[str, BodyJerk]:
         """Jerks of the bodies: the matrix of `solve` with the right side of the third rates."""
-        moving = dict(located) | {body: self._anchored(known[body].motion, body) for body in self.parents}
+        motions = dict(located) | {body: known[body].motion for body in self.parents}
+        moving = {body: self._anchored(motion, body) for body, motion in motions.items()}
         shapes = (np.shape(field) for body in moving.values() for field in (body.direction, body.alpha))
         samples = np.broadcast_shapes(*shapes)
         loop_equations = self.equations(moving, drives)
