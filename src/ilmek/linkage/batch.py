@@ -127,16 +127,15 @@ def sweep(
         for body, row in zip(bodies, rows, strict=True)
     }
     moved = {
-        one: _in_world(*(answer.pair(pairs[len(rows) + 3 * k + order]) for order in range(3)), written.at[GROUND])
+        one: _in_world([answer.pair(row) for row in pairs[len(rows) + 3 * k :][:3]], written.at[GROUND])
         for k, one in enumerate(points)
     }
     return Sweep(turning, moved, answer.status, answer.margin)
 
 
-def _in_world(
-    position: ComplexArray, velocity: ComplexArray, acceleration: ComplexArray, origin: ComplexField
-) -> PointMotion:
+def _in_world(moved: list[ComplexArray], origin: ComplexField) -> PointMotion:
     """A point's motion from that about the ground's anchor, which is at `origin` [m], one or one per variant."""
+    position, velocity, acceleration = moved
     return PointMotion(position + np.reshape(origin, (-1, 1)), velocity, acceleration)
 
 
@@ -152,12 +151,12 @@ def _decided(plan: Plan, drives: Mapping[str, InputMotion], doubtful: Bool[np.nd
 def _variant(plan: Plan, dimensions: Dimensions, branches: Mapping[str, RealField], variant: int) -> Plan:
     """The plan of one variant."""
 
-    def own(field: ComplexField) -> ComplexField:
-        return np.ravel(field)[variant if np.ndim(field) else 0]
+    def own(field: ComplexField) -> complex:
+        return complex(np.ravel(field)[variant if np.ndim(field) else 0])
 
     mechanism = plan.mechanism
     bodies = tuple(
-        Body(body.name, {name: complex(own(dimensions.get((body.name, name), at))) for name, at in body.points.items()})
+        Body(body.name, {name: own(dimensions.get((body.name, name), at)) for name, at in body.points.items()})
         for body in mechanism.bodies
     )
     signs = {pin: int(own(branches.get(pin, sign)).real) for pin, sign in mechanism.branches.items()}

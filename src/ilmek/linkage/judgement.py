@@ -69,8 +69,9 @@ def judge(
     before: RealField = 1.0
     for k, growth in enumerate(growths(plan, margins, size)):
         step, alive = plan.steps[k], (status == Status.OK) & ~doubtful
-        if margins[k] is not None and alive.any():
-            lost = alive & np.isnan(margins[k])
+        margin = margins[k]
+        if margin is not None and alive.any():
+            lost = alive & np.isnan(margin)
             if lost.any():
                 gap = np.abs(step.gap(known)) <= CLEAR * max(size, step.size) * _finite(before)
                 _set(status, at, lost & ~gap, Status[step.failure], k)
@@ -97,7 +98,9 @@ def examine(
         if margin is None:
             continue
         lost = np.broadcast_to(np.isnan(margin), samples)
-        met = np.any([np.broadcast_to(np.isfinite(run[k].margin), samples) for run in runs], axis=0)
+        met = np.any(
+            [np.broadcast_to(np.isfinite(np.asarray(run[k].margin, dtype=float)), samples) for run in runs], axis=0
+        )
         good = np.ones(samples, dtype=bool)
         disturbed = [_accelerations(step, run[k].columns) for run in runs]
         for which, (exact, scale) in enumerate(_accelerations(step, solved[k].columns)):
