@@ -50,7 +50,7 @@ _PRESSURE: Dimension = (-1, 1, -2, 0)
 _ENERGY: Dimension = (2, 1, -2, 0)
 _POWER: Dimension = (2, 1, -3, 0)
 
-_UNITS: dict[str, tuple[float, Dimension]] = {
+UNITS: dict[str, tuple[float, Dimension]] = {
     "1": (1.0, _NONE),
     "%": (0.01, _NONE),
     **{name: (factor, _LENGTH) for name, factor in dict(m=m, dm=dm, cm=cm, mm=mm, um=um, km=km, ft=foot).items()},
@@ -67,6 +67,7 @@ _UNITS: dict[str, tuple[float, Dimension]] = {
     **{name: (factor, _ENERGY) for name, factor in dict(J=1.0, kJ=1e3, Nm=1.0, kWh=3.6e6).items()},
     **{name: (factor, _POWER) for name, factor in dict(W=1.0, kW=1e3).items()},
 }
+"""Symbol -> factor to SI, and dimension."""
 
 LONGEST = 100
 """Largest number of characters of a quantity or a unit; a double and its unit need less than 50."""
@@ -100,7 +101,7 @@ def parse_unit(text: str) -> Unit:
             sign = 1 if part == "*" else -1
             continue
         matched = _FACTOR.fullmatch(part.strip())
-        known = _UNITS.get(matched[1]) if matched else None
+        known = UNITS.get(matched[1]) if matched else None
         if matched is None or known is None:
             raise UnitError(f"unknown unit {text!r}", allowed=_allowed_units(part))
         power = sign * int(matched[2] or 1)
@@ -233,6 +234,6 @@ def _example(unit: str) -> str:
 
 
 def _allowed_units(part: str) -> str:
-    nearest = difflib.get_close_matches(part, _UNITS, n=1, cutoff=0.5)
+    nearest = difflib.get_close_matches(part, UNITS, n=1, cutoff=0.5)
     hint = f"did you mean {nearest[0]!r}? " if nearest else ""
-    return f"{hint}known units: {' '.join(name for name in _UNITS if name != '1')}"
+    return f"{hint}known units: {' '.join(name for name in UNITS if name != '1')}"

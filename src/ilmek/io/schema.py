@@ -87,9 +87,10 @@ class Reader:
             return self._whole(value, schema, path)
         if not isinstance(value, _TYPES[kind]):
             self._refuse(path, f"{shown(value)} is not {_NAMES[kind]}", schema.get("description", ""))
+        given: Any = value
         if kind == "object":
-            return self._table(value, schema, path)
-        return self._list(value, schema, path) if kind == "array" else value
+            return self._table(given, schema, path)
+        return self._list(given, schema, path) if kind == "array" else given
 
     def _resolved(self, value: Any, schema: Schema, path: Path) -> Schema:
         """The schema itself, for a reference or a choice."""

@@ -5,18 +5,18 @@
 A number directly before a unit, a name or a parenthesis multiplies it: `10mm`, `4 r`. Dimensions are checked in every
 step. Nothing of the text is executed: a parser of its own evaluates it, bounded in length and depth.
 
->>> evaluate("2*r + 10mm", {"r": Amount(0.04, (1, 0, 0, 0))}.get)
+>>> evaluate("2*r + 10mm", {"r": Amount(0.04, (1, 0, 0, 0))})
 Amount(value=0.09, dimension=(1, 0, 0, 0))
 """
 
 import math
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
-from ilmek.errors import UnitError, shortened
-from ilmek.units import GREATEST, HIGHEST_POWER, Dimension, in_bounds, parse_unit
+from ilmek.errors import UnitError, did_you_mean, shortened
+from ilmek.units import GREATEST, HIGHEST_POWER, UNITS, Dimension, in_bounds, parse_unit
 
 LONGEST_EXPRESSION = 200
 """Largest number of characters of an expression."""
@@ -44,15 +44,18 @@ class Amount(NamedTuple):
     dimension: Dimension
 
 
-Lookup: TypeAlias = Callable[[str], Amount | None]
-"""A name -> its amount; None for an unknown name."""
-
-
-def evaluate(text: str, lookup: Lookup) -> Amount:
-    """The amount of an expression. Raises UnitError, with the text, for any error in it."""
+def evaluate(text: str, values: Mapping[str, Amount]) -> Amount:
+    """The amount of an expression of named values. Raises UnitError, with the text, for any error in it."""
     if len(text) > LONGEST_EXPRESSION:
         raise UnitError(f"{text[:20]!r}... is too long", allowed=f"at most {LONGEST_EXPRESSION} characters")
-    parser = _Parser(text, _tokens(text), lookup)
+    parser = _Parser(text, _tokens(text), values)
+    if (
+        len(parser.tokens) == 1
+        and parser.kind == "name"
+        and parser.token not in {*values, "pi"}
+        and is_unit(parser.token)
+    ):
+        raise parser.error("is a unit without a number", allowed=f"write it like 60{parser.token}")
     found = parser.sum(0)
     if parser.at < len(parser.tokens):
         raise parser.unexpected()
@@ -102,7 +105,7 @@ class _Parser:
 
     text: str
     tokens: list[tuple[str, str]]
-    lookup: Lookup
+    values: Mapping[str, Amount]
     at: int = 0
 
     def sum(self, depth: int) -> Amount:
@@ -168,13 +171,15 @@ class _Parser:
             return self.checked(float(token), NUMBER)
         if self.token == "(" and token in FUNCTIONS:
             return self.call(token, depth)
-        found = Amount(math.pi, NUMBER) if token == "pi" else self.lookup(token)
+        found = Amount(math.pi, NUMBER) if token == "pi" else self.values.get(token)
         if found is not None:
             return found
         if is_unit(token):
             unit = parse_unit(token)
             return Amount(unit.factor, unit.dimension)
-        raise self.error(f"has an unknown name {token!r}", allowed="a value of [values], a unit, pi or a function")
+        allowed = "a value of [values], a unit, pi or a function"
+        near = did_you_mean(token, [*self.values, *UNITS, *FUNCTIONS])
+        raise UnitError(f"{shortened(repr(self.text))} has an unknown name {token!r}", allowed=allowed, do=near)
 
     def call(self, name: str, depth: int) -> Amount:
         self.take("(")
@@ -227,7 +232,7 @@ class _Parser:
 
     @property
     def is_unit_next(self) -> bool:
-        return self.kind == "name" and self.lookup(self.token) is None and is_unit(self.token)
+        return self.kind == "name" and self.token not in self.values and is_unit(self.token)
 
     def take(self, *signs: str) -> str:
         token = self.token

@@ -135,7 +135,7 @@ def pin_members(tables: Tables, parts: Mapping[str, Sequence[Joint]], source: So
 
     parts  joint of the file -> the joints into which it was divided
     """
-    found = {}
+    found: dict[str, PinMember] = {}
     for name, table in tables.items():
         with source.located("pins", name):
             if name not in parts or isinstance(parts[name][0], Slide):

@@ -79,8 +79,8 @@ def study_of(table: Mapping[str, Any] | None, mechanism: Mechanism, source: Sour
         if "speeds" in table:
             speeds = [value_of(one, unit, "speeds") for one in table["speeds"]]
         else:
-            ends = [value_of(table[key], unit, key) for key in ("from", "to")]
-            speeds = [float(one) for one in np.linspace(*ends, table.get("count", 5))]
+            first, last = (value_of(table[key], unit, key) for key in ("from", "to"))
+            speeds = [float(one) for one in np.linspace(first, last, table.get("count", 5))]
         if any(not one > 0 for one in speeds) or max(speeds) > MOST_SPEEDS_RATIO * min(speeds):
             raise MechanismError(
                 "speeds of a study cannot be used", allowed=f"above 0, up to {MOST_SPEEDS_RATIO:g} to 1"

@@ -49,7 +49,7 @@ class NamedValues:
             if plain or self.si or number == 0:
                 return Measured(number, plain[0] if plain else units[0] if len(units) == 1 else "")
             raise _no_unit(value, units[0])
-        found = evaluate(value, self.known.get)
+        found = evaluate(value, self.known)
         for unit in units:
             if parse_unit(unit).dimension == found.dimension:
                 return Measured(found.value, unit)
@@ -97,7 +97,7 @@ def _add(first: str, texts: Mapping[str, Any], source: SourceText, known: dict[s
 
 def _evaluated(value: Any, known: Mapping[str, Amount]) -> Amount:
     if isinstance(value, str):
-        return evaluate(value, known.get)
+        return evaluate(value, known)
     return Amount(read_quantity(value, "1"), NUMBER)
 
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeGuard
 
 from ilmek.dynamics.friction import AngleRange, Friction, ValueRange, WindowedLoad
 from ilmek.dynamics.inertia import Inertia
@@ -126,7 +126,7 @@ class _Writer:
         return {one.kind: [list(one.first), list(one.second)], "carrier": one.carrier, **numbers}
 
     def load(self, name: str, load: Load, turning: Mapping[str, bool]) -> dict[str, Any]:
-        if isinstance(load, WindowedLoad) and load.side == 1.0:
+        if isinstance(load, WindowedLoad) and _is_default(load.side):
             return {
                 **self.load(name, load.load, turning),
                 "while": self.window(load.window, load.input_name, turning),
@@ -137,22 +137,21 @@ class _Writer:
             at = "deg" if turning[load.input_name] else "mm"
             rows = [[self.quantity(x, at), self.quantity(y, unit)] for x, y in zip(load.at, load.factors, strict=True)]
             return {**inner, "over": load.input_name, "table": rows}
-        if isinstance(load, PointForce | FollowerForce) and isinstance(load.point, str) and _is_number(load.force):
-            force = complex(load.force)  # type: ignore[arg-type]
+        if isinstance(load, PointForce | FollowerForce) and isinstance(load.point, str) and _is_complex(load.force):
             frame = "body" if isinstance(load, FollowerForce) else "ground"
-            return {"force": self.xy(force, "N"), "on": [load.body, load.point], "frame": frame}
-        if isinstance(load, Torque) and _is_number(load.torque):
-            return {"torque": self.quantity(float(load.torque), "N*m"), "on": load.body}  # type: ignore[arg-type]
+            return {"force": self.xy(complex(load.force), "N"), "on": [load.body, load.point], "frame": frame}
+        if isinstance(load, Torque) and _is_real(load.torque):
+            return {"torque": self.quantity(float(load.torque), "N*m"), "on": load.body}
         if isinstance(load, Drag):
             return {"drag": self.quantity(load.coefficient, "N*s/m"), "on": [load.body, load.point]}
         if (
             isinstance(load, Friction)
             and isinstance(load.point, str)
-            and _is_number(load.magnitude)
-            and load.side == 1.0
+            and _is_real(load.magnitude)
+            and _is_default(load.side)
         ):
             window = {} if load.window is None else {"while": self.window(load.window, load.input_name, turning)}
-            force = self.quantity(float(load.magnitude), "N")  # type: ignore[arg-type]
+            force = self.quantity(float(load.magnitude), "N")
             return {"friction": force, "on": [load.body, load.point], "over": load.input_name, **window}
         raise MechanismError(f"load {name!r} is a function that no file expresses", do="write the others to the file")
 
@@ -232,8 +231,16 @@ class _Writer:
         return {event.of: self.quantity(event.value, unit), "direction": direction, "stop": event.terminal}
 
 
-def _is_number(value: object) -> bool:
+def _is_real(value: object) -> TypeGuard[float]:
+    return isinstance(value, int | float)
+
+
+def _is_complex(value: object) -> TypeGuard[complex]:
     return isinstance(value, int | float | complex)
+
+
+def _is_default(side: object) -> bool:
+    return isinstance(side, float) and side == 1.0
 
 
 def _is_spring(load: Load) -> bool:
