@@ -86,7 +86,8 @@ class Reader:
         if kind == "integer":
             return self._whole(value, schema, path)
         if not isinstance(value, _TYPES[kind]):
-            self._refuse(path, f"{shown(value)} is not {_NAMES[kind]}", schema.get("description", ""))
+            description = schema.get("description", "") if path else ""
+            self._refuse(path, f"{shown(value)} is not {_NAMES[kind]}", description)
         given: Any = value
         if kind == "object":
             return self._table(given, schema, path)

@@ -178,11 +178,14 @@ class SlidingDyad(PinnedPair):
 
 
 def recognise(group: Group) -> SlidingDyad | None:
-    """The group as an RPR dyad, or None; None too for a slide without a branch, which needs a pose."""
+    """The group as an RPR dyad, or None; None too for a slide without a branch whose bodies have a pose.
+
+    Raises MechanismError for a slide with neither.
+    """
     slide, mechanism = group.inner[0] if group.is_dyad else None, group.mechanism
     if not isinstance(slide, Slide) or not all(isinstance(joint, Pin) for joint in group.outer):
         return None
-    if slide.name not in mechanism.branches:
+    if slide.name not in mechanism.branches and mechanism.pose.keys() & set(group.bodies):
         return None
     guide, body = slide.guide, slide.body
     hinges = [group.outer_of(link)[0] for link in (guide, body)]
