@@ -2,15 +2,34 @@
 
 import json
 import math
+from dataclasses import fields
 
-from hypothesis import given, settings
+from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 
+from ilmek.cams.laws import LAWS
+from ilmek.dynamics.friction import AngleRange, Friction, WindowedLoad
 from ilmek.dynamics.inertia import Inertia
-from ilmek.dynamics.own_machine import OwnMachine
+from ilmek.dynamics.input_loads import Drag, FollowerForce, TabulatedLoad
+from ilmek.dynamics.joint_friction import PinFriction
+from ilmek.dynamics.loads import PointForce, Torque
+from ilmek.dynamics.own_machine import (
+    FlatMember,
+    ForwardTask,
+    GivenMotion,
+    MotorDrive,
+    NamedLoad,
+    OwnMachine,
+    PinMember,
+    SpeedStudy,
+    StopEvent,
+)
+from ilmek.dynamics.springs import Spring, TorsionSpring
 from ilmek.io.line_numbers import json_lines, tokens, toml_lines
+from ilmek.io.mechanism.motions import ConstantSpeed, MotionSequence, MotionStep, TableMotion
 from ilmek.io.mechanism_file import mechanism_json, mechanism_toml, parse_mechanism
 from ilmek.io.toml_text import toml_text
+from ilmek.linkage.fourbar import four_bar
 from ilmek.linkage.model import GROUND, Body, Coupling, Displacement, Mechanism, Pin, Rotation, Slide
 
 REAL = st.floats(-1e30, 1e30)
@@ -138,3 +157,99 @@ def test_smallest_and_greatest_numbers_survive():
         for n, x in enumerate(numbers):
             assert points[str(n)] == complex(x, -x)
             assert math.copysign(1, points[str(n)].real) == math.copysign(1, x)
+
+
+AMOUNT = st.floats(-1e6, 1e6)
+LEAST = st.floats(0, 1e6)
+RISING = st.lists(st.floats(0, 6.28), min_size=2, max_size=5, unique=True).map(sorted).map(tuple)
+
+
+@st.composite
+def loads(draw):
+    """A load of any kind on a four-bar."""
+    spot = draw(st.sampled_from([("crank", "A"), ("coupler", "B"), ("rocker", "B")]))
+    force = complex(draw(AMOUNT), draw(AMOUNT))
+    at = draw(RISING)
+    plain = (
+        PointForce(*spot, force),
+        FollowerForce(*spot, force),
+        Torque(spot[0], draw(AMOUNT)),
+        Drag(*spot, draw(LEAST)),
+        TabulatedLoad(PointForce(*spot, 1j), "crank", at, tuple(draw(AMOUNT) for _ in at)),
+    )
+    window = AngleRange(draw(AMOUNT), draw(AMOUNT))
+    springs = (
+        Spring("ground", "B0", *spot, draw(LEAST), draw(LEAST), draw(LEAST)),
+        TorsionSpring("ground", spot[0], draw(LEAST), draw(AMOUNT), draw(LEAST)),
+        Friction(*spot, draw(LEAST), "crank", draw(st.sampled_from([None, window]))),
+    )
+    one = draw(st.sampled_from([*plain, *springs]))
+    return WindowedLoad(one, "crank", window) if one in plain and draw(st.booleans()) else one
+
+
+@st.composite
+def motions(draw):
+    """A constant speed, motion laws in sequence, or a table of values."""
+    steps = tuple(
+        MotionStep(
+            draw(AMOUNT), draw(st.floats(1e-6, 1e6)), LAWS[draw(st.sampled_from(["3-4-5", "modified-sine", "scca"]))]
+        )
+        for _ in range(draw(st.integers(1, 3)))
+    )
+    times = (0.0, *draw(RISING.filter(lambda times: times[0] > 0)))
+    law = draw(
+        st.sampled_from(
+            [
+                ConstantSpeed(draw(AMOUNT), draw(st.floats(1e-3, 1e3))),
+                MotionSequence(draw(st.just(1e7)), steps, repeats=False),
+                TableMotion(times, tuple(draw(AMOUNT) for _ in times), repeats=False),
+            ]
+        )
+    )
+    return GivenMotion(law, None, (), law.speed if isinstance(law, ConstantSpeed) else None)
+
+
+@settings(max_examples=25, phases=[Phase.generate])
+@given(st.dictionaries(NAME, loads(), max_size=4), motions(), PLACE, st.floats(1e-6, 1e3))
+def test_a_machine_with_its_loads_is_read_again(named, motion, gravity, size):
+    machine = OwnMachine(
+        four_bar(0.3, 0.06, 0.2, 0.23, branch=1),
+        {"rocker": Inertia(size, size * 1j, size)},
+        gravity=gravity,
+        loads=tuple(NamedLoad(name, load) for name, load in named.items()),
+        frictions=(PinFriction("A", size, size, size),),
+        members={"rocker": FlatMember(size, size, "structural steel", draw_stress(size), size)},
+        pins={"A": PinMember(size, size, size > 1, size, size, size, "6204", size)},
+        motions={"crank": motion},
+        forward=ForwardTask(
+            size, size, size, MotorDrive(size, -size, size, size), (StopEvent("x", "speed", -size, terminal=False),)
+        ),
+        study=SpeedStudy((size, 2 * size)),
+        servo="crank",
+        paths=(("rocker", "B"),),
+        transmission=("B",),
+    )
+    for write, toml in ((mechanism_toml, True), (mechanism_json, False)):
+        text = write(machine)
+        found = parse_mechanism(text, toml=toml).machine
+        springs = {one.name: one.load for one in found.loads}
+        assert springs.keys() == named.keys()
+        assert all(same(springs[name], load) for name, load in named.items())
+        assert (found.gravity, found.frictions, found.members) == (gravity, machine.frictions, machine.members)
+        assert (found.pins, found.motions["crank"].law) == (machine.pins, motion.law)
+        assert write(found) == text
+
+
+def same(first, second) -> bool:
+    """Whether two loads have equal fields; records do not compare by value."""
+    if type(first) is not type(second):
+        return False
+    if isinstance(first, WindowedLoad | TabulatedLoad) and not same(first.load, second.load):
+        return False
+    keys = [one.name for one in fields(first) if one.name != "load"]
+    return all(getattr(first, key) == getattr(second, key) for key in keys)
+
+
+def draw_stress(size: float) -> float | None:
+    """An allowed stress for every second machine."""
+    return size if size > 1 else None

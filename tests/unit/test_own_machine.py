@@ -266,6 +266,4 @@ def test_a_mechanism_without_masses_says_what_to_add() -> None:
     found = analysed(dataclasses.replace(machine(), inertias={}))
     made = report(found)
     assert made["pin_forces_max"] is None
-    assert made.warnings == (
-        "motion only: for forces give bodies a mass (mass, centre, moment), or the machine loads",
-    )
+    assert made.warnings == ("motion only: for forces give bodies a mass (mass, centre, moment), or the machine loads",)

@@ -9,7 +9,7 @@ from ilmek.linkage.model import Input, Joint, Mechanism, Slide
 
 def parts_of(names: Iterable[str], mechanism: Mechanism) -> dict[str, tuple[Joint, ...]]:
     """Joint of the file -> the joints of two bodies into which it was divided."""
-    own = set(names)
+    own = tuple(names)
     return {
         name: tuple(
             one for one in mechanism.joints if one.name == name or (is_part(one.name, name) and one.name not in own)

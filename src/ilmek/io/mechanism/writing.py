@@ -111,6 +111,7 @@ class _Writer:
             given = {key: getattr(member, key) for key in units if getattr(member, key) is not None}
             data["section"] = {key: self.quantity(value, units[key]) for key, value in given.items()}
             data["section"]["material"] = member.material
+            data.setdefault("mass", 0)  # else the section would give the body a mass
         return data
 
     def joint(self, joint: Joint) -> dict[str, Any]:
