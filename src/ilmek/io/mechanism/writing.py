@@ -26,6 +26,10 @@ from ilmek.io.toml_text import written_quantity
 from ilmek.linkage.model import Body, Coupling, Joint, Mechanism, Pin, Rotation, Slide
 
 
+_SI_UNITS = {"mm": "m", "deg": "rad", "mm/rad": "m/rad", "MPa": "Pa", "MPa*m/s": "Pa*m/s", "h": "s"}
+"""Unit in which a quantity is written -> the SI unit that is exact for any number."""
+
+
 def machine_data(machine: OwnMachine, *, si: bool) -> dict[str, Any]:
     """The data of a machine that satisfy the schema; with `si` plain numbers, else texts with units.
 
@@ -47,8 +51,7 @@ class _Writer:
         found = written_quantity(value, unit)
         if isinstance(found, str):
             return found
-        base = {"mm": "m", "deg": "rad", "mm/rad": "m/rad"}.get(unit, unit)
-        return f"{value!r}{base}"
+        return f"{value!r}{_SI_UNITS.get(unit, unit)}"
 
     def xy(self, point: complex, unit: str = "mm") -> list[float | str]:
         return [self.quantity(float(point.real), unit), self.quantity(float(point.imag), unit)]
