@@ -25,7 +25,6 @@ from ilmek.io.mechanism.points import LARGEST_RATIO, extreme_lengths
 from ilmek.io.toml_text import written_quantity
 from ilmek.linkage.model import Body, Coupling, Joint, Mechanism, Pin, Rotation, Slide
 
-
 _SI_UNITS = {"mm": "m", "deg": "rad", "mm/rad": "m/rad", "MPa": "Pa", "MPa*m/s": "Pa*m/s", "h": "s"}
 """Unit in which a quantity is written -> the SI unit that is exact for any number."""
 
