@@ -1,12 +1,12 @@
 """`ilmek mechanism`: analyse a mechanism from a file, tabulate and draw its motion."""
 
-import math
 from pathlib import Path
 
 import click
 
 from ilmek.cli.call_outputs import call_outputs
 from ilmek.cli.options import force_option, json_option
+from ilmek.cli.report import cell_text, show_self_tests
 from ilmek.cli.terminal import note, say, show_checks, show_table
 from ilmek.cli.verdict import exit_code, note_verdict, show_verdict
 from ilmek.errors import MechanismError, printable
@@ -18,8 +18,8 @@ from ilmek.jobs.mechanism.report import report, with_parts
 from ilmek.jobs.mechanism.request import STEPS, MotionRequest
 from ilmek.jobs.mechanism.run import run
 from ilmek.jobs.workshop_order import WorkshopOrder, workshop_writer
-from ilmek.report import Column, Report
-from ilmek.units import format_number, format_quantity, from_si
+from ilmek.report import Report, rounded
+from ilmek.units import format_quantity
 
 EXAMPLES = """\b
 Examples:
@@ -140,16 +140,11 @@ def show(shown: Report) -> None:
     for table in shown.tables:
         if table.brief:
             headings = [f"{c.heading} [{c.unit}]" if c.unit else c.heading for c in table.columns]
-            rows = [[_cell(cell, c) for cell, c in zip(row, table.columns, strict=True)] for row in table.rows]
+            rows = [[cell_text(cell, c) for cell, c in zip(row, table.columns, strict=True)] for row in table.rows]
             show_table(headings, rows, right=range(1, len(headings)))
     if shown.all_checks:
         show_checks(shown.all_checks)
-
-
-def _cell(cell: float | int | str, column: Column) -> str:
-    if isinstance(cell, str):
-        return cell
-    return format_number(from_si(cell, column.unit), column.digits) if math.isfinite(cell) else "–"
+    show_self_tests(shown.all_self_tests)
 
 
 def _shown(value: object, unit: str) -> str:
@@ -159,4 +154,4 @@ def _shown(value: object, unit: str) -> str:
         return ", ".join(f"{name} {_shown(one, unit)}" for name, one in value.items())
     if isinstance(value, list | tuple):
         return " .. ".join(_shown(one, unit) for one in value)
-    return format_quantity(value, unit) if isinstance(value, float) else str(value)
+    return format_quantity(rounded(value, unit), unit) if isinstance(value, float) else str(value)

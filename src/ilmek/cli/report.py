@@ -31,16 +31,16 @@ def show_report(report: Report) -> None:
         show_choices(report.all_choices)
     if report.all_checks:
         show_checks(report.all_checks)
-    if report.all_self_tests:
-        say(_tested(report.all_self_tests))
+    show_self_tests(report.all_self_tests)
 
 
-def _tested(tests: Sequence[Check]) -> str:
-    """The tests of the computation in one line: how many pass, or those that do not."""
+def show_self_tests(tests: Sequence[Check]) -> None:
+    """Print the tests of the computation in one line: how many pass, or those that do not; nothing without tests."""
     failed = [test.name for test in tests if not test.ok]
-    if failed:
-        return f"tests of the computation: {len(failed)} of {len(tests)} failed: {'; '.join(failed)}"
-    return f"tests of the computation: {'the only one passes' if len(tests) == 1 else f'all {len(tests)} pass'}"
+    passed = "the only one passes" if len(tests) == 1 else f"all {len(tests)} pass"
+    if tests:
+        how = f"{len(failed)} of {len(tests)} failed: {'; '.join(failed)}" if failed else passed
+        say(f"tests of the computation: {how}")
 
 
 def show_choices(choices: Sequence[Choice]) -> None:
@@ -57,12 +57,12 @@ def _show(table: Table) -> None:
         f"{column.heading} ({unit})" if unit else column.heading
         for column, unit in zip(table.columns, units, strict=True)
     ]
-    rows = [[_cell(cell, column) for cell, column in zip(row, table.columns, strict=True)] for row in table.rows]
+    rows = [[cell_text(cell, column) for cell, column in zip(row, table.columns, strict=True)] for row in table.rows]
     show_table(headings, rows)
 
 
-def _cell(cell: float | int | str, column: Column) -> str:
-    """A cell without its unit, which is in the heading."""
+def cell_text(cell: float | int | str, column: Column) -> str:
+    """A cell without its unit, which is in the heading; rounding noise is 0."""
     if isinstance(cell, str):
         return cell
     if isinstance(cell, float):
