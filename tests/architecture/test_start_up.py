@@ -11,6 +11,7 @@ ROOT = Path(__file__).parents[2]
 FIGURES = ("matplotlib", "PIL", "reportlab", "jinja2", "ezdxf", "OCP", "ilmek.viz")
 HEAVY = ("numpy", "scipy", "numba", "jaxtyping", *FIGURES)
 NO_TABLES = ("scipy", "numba", "jaxtyping", "rich", *FIGURES)
+PLOTS = ("jaxtyping", "rich", "ilmek.dynamics.forward", *FIGURES)
 COMMANDS = {
     "--help": HEAVY,
     "machines": (*HEAVY, "ilmek.report", "ilmek.machines.catalogue"),
@@ -19,6 +20,7 @@ COMMANDS = {
     "design cam --json -": NO_TABLES,
     "design weaver --json -": ("scipy.optimize", "scipy.interpolate", "numba", "jaxtyping", "rich", *FIGURES),
     "design warp-tension": ("scipy", "numba", "jaxtyping", *FIGURES),
+    "mechanism examples/quick_return.toml --json -": (*PLOTS, "scipy.integrate", "scipy.interpolate", "numba"),
     "knot examples/gripper_path.csv --json -": (*NO_TABLES, "ilmek.machines.catalogue", "ilmek.linkage"),
 }
 """Commands, and what they must not import."""

@@ -134,7 +134,7 @@ def show(shown: Report) -> None:
     click.echo(printable(shown.title))
     show_verdict(shown.all_checks)
     for result in shown.results:
-        if result.shown:
+        if result.shown and result.value is not None:
             for value in result.value if isinstance(result.value, list) else [result.value]:
                 click.echo(printable(f"  {result.name}: {_shown(value, result.unit)}"))
     for table in shown.tables:

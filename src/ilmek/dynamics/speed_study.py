@@ -114,13 +114,15 @@ def _bisect(slow: SpeedPoint, fast: SpeedPoint, at: AtSpeed) -> tuple[float, str
 
 
 def margin(check: Check) -> float:
-    """Margin of a check [1]: how many times the value could grow, or shrink, to its limit; inf for a plain yes.
+    """Margin of a check [1]: how many times the value could grow, or shrink, to its limit.
+
+    Infinite for a plain yes, 0 for a plain no and for NaN.
 
     >>> from ilmek.report import at_least, at_most
     >>> margin(at_most("stress", 50e6, 100e6, "MPa", "")), margin(at_least("life", 3.0, 2.0, "h", ""))
     (2.0, 1.5)
     """
-    if not check.unit and check.limit == 1:
+    if (not check.unit and check.limit == 1) or math.isnan(check.value):
         return math.inf if check.ok else 0.0
     top, bottom = (check.value, check.limit) if check.relation == ">=" else (check.limit, check.value)
     return top / bottom if bottom > 0 else math.inf

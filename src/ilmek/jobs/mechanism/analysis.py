@@ -109,7 +109,7 @@ def analysis(run: MechanismRun, progress: Progress = SILENT) -> Analysis:
         forward = own_forward(machine, run.plan, machine.forward)
     progress(0.5)
     servo = None
-    if machine.servo and forces is not None and not forces.locked.all():
+    if machine.servo and forces is not None and forces.time is not None and not forces.locked.all():
         servo = servo_choice(machine, forces)
     return Analysis(run, angles, servo, strength, forward, _study(run, progress.part(0.5, 1.0, "study")))
 
