@@ -42,7 +42,10 @@ def test_answers_by_the_names_that_are_promised() -> None:
 
 def test_the_quoted_pose_fails_and_the_report_says_what_to_use_instead() -> None:
     said = answer()
-    assert [check.name for check in said.failed] == ["crank's distance from its dead point", "transmission angle"]
+    failed = [check.name for check in said.failed]
+    assert failed[:2] == ["crank's distance from its dead point", "transmission angle"]
+    # Beside its dead point the crank takes a torque under which links of acetal break.
+    assert {"stress of the crank", "safety of the links against fatigue"} <= set(failed)
     assert "0.01068° from its dead point" in said.warnings[0].replace(" deg", "°")
     assert "r0 22.03 mm, r1 17.17 mm, r2 14.3 mm, r3 37.53 mm" in said.warnings[0]
 

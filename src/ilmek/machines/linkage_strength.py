@@ -215,41 +215,46 @@ def largest_bar(mass: float, length: float, density: float) -> tuple[float, floa
     return light[-1] if light else FLAT_BARS[0]
 
 
-def strength_checks(found: LinkageStrength, *, name: str = "strength", stronger: str = "") -> tuple[Check, ...]:
+def strength_checks(
+    found: LinkageStrength, *, name: str = "strength", stronger: str = "", drive: str = "the crank's"
+) -> tuple[Check, ...]:
     """Whether links and pins bear the cycle, and the links are stiff enough for the speed.
 
     name  of the parameters in the sources      stronger  what makes links stronger; default: wider or thicker links
+    drive  whose frequency is `found.speed`
     """
     limits = found.limits
     cure = stronger or "set wider or thicker links, or a lower speed"
     return (
         *(
-            at_most(
-                f"stress of the {link}", one.stress, limits.allowed_stress, "MPa", f"parameter {name}.stress", cure=cure
-            )
+            at_most(_stress_of(link), one.stress, limits.allowed_stress, "MPa", f"parameter {name}.stress", cure=cure)
             for link, one in found.links.items()
         ),
-        *_link_checks(found, name, cure),
+        *_link_checks(found, name, cure, drive),
         *pin_checks(found.pins, limits, name=name),
     )
 
 
-def _link_checks(found: LinkageStrength, name: str, cure: str) -> tuple[Check, ...]:
+def _stress_of(link: str) -> str:
+    return f"stress of {link}" if link[-1].isdigit() else f"stress of the {link}"
+
+
+def _link_checks(found: LinkageStrength, name: str, cure: str, drive: str) -> tuple[Check, ...]:
     limits = found.limits
     rows = (
         ("safety of the links against fatigue", "fatigue", 1.0, "Goodman, notch of the holes"),
         ("safety of the links in buckling", "buckling", 1.0, "Euler, hinged; assumed by this project"),
         (
-            "lowest natural frequency of the links, over the crank's",
+            f"lowest natural frequency of the links, over {drive}",
             "frequency",
-            found.speed,
+            abs(found.speed),
             "bending in the plane; assumed by this project",
         ),
     )
     checks = []
     for title, quantity, unit, source in rows:
         values = found.of_links(quantity)
-        if values:
+        if values and unit > 0:
             link, limit = min(values, key=values.__getitem__), "resonance" if quantity == "frequency" else quantity
             given = f"{link}: {source}: parameter {name}.{limit}"
             checks.append(at_least(title, values[link] / unit, getattr(limits, limit), "1", given, cure=cure))

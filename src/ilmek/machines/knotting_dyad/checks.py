@@ -10,6 +10,7 @@ from ilmek.machines.knotting_dyad.drives import HeadMotion
 from ilmek.machines.knotting_dyad.head import Head
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.machines.knotting_dyad.section import GREATEST_DEPTH, WarpSection
+from ilmek.machines.knotting_dyad.strength import arm_strength_checks
 from ilmek.machines.knotting_dyad.yarn import MISSED
 from ilmek.num.brackets import bracketed_roots
 from ilmek.report import Check, at_least, at_most, must
@@ -175,6 +176,7 @@ def _motion_checks(motion: HeadMotion) -> tuple[Check, ...]:
             "servos of the table",
             cure="set a lower joint_acceleration, or a gear_ratio",
         ),
+        *arm_strength_checks(motion.strength),
     )
 
 

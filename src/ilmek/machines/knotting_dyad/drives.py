@@ -27,7 +27,9 @@ from ilmek.linkage.structure import plan
 from ilmek.machines.knotting_dyad.head import Head
 from ilmek.machines.knotting_dyad.motion import ArmMotion, KnotCycle, cycle_of, drive_angles
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
-from ilmek.records import computed, record, result
+from ilmek.machines.knotting_dyad.strength import LoadedArm, arm_strength
+from ilmek.machines.linkage_strength import LinkageStrength
+from ilmek.records import computed, group, record, result
 from ilmek.report import Json, results_of
 
 JOINTS = ("first link", "second link")
@@ -35,10 +37,15 @@ JOINTS = ("first link", "second link")
 
 @record
 class ArmForces:
-    """An arm's torques over the cycle: of its two drives [N m], and the forces they come from."""
+    """An arm's torques over the cycle: of its two drives [N m], and the forces they come from, with their loads."""
 
     torque: Float[np.ndarray, "samples 2"]
-    forces: Forces
+    loaded: LoadedArm
+
+    @property
+    def forces(self) -> Forces:
+        """The forces in its joints."""
+        return self.loaded.forces
 
 
 @record
@@ -61,11 +68,12 @@ class JointDrive:
 
 @record
 class HeadMotion:
-    """The cycle of a head in time, torques of both arms, by name, and the drive of each joint."""
+    """The cycle of a head in time, torques of both arms, by name, the drive of each joint, and the links' strength."""
 
     cycle: KnotCycle
     arms: Mapping[str, ArmForces]
     joints: tuple[JointDrive, JointDrive]
+    strength: LinkageStrength = group()
 
     cycle_time = computed(
         "ms", "of a knot, every motion as quick as the limits of the drives allow", lambda it: it.cycle.period
@@ -102,7 +110,10 @@ class HeadMotion:
 def head_motion(params: KnottingDyadParams, head: Head) -> HeadMotion:
     """The cycle of a head, and the drives that it needs."""
     cycle = cycle_of(params, head)
-    return HeadMotion(cycle, *drives_of(params, head, cycle))
+    arms, joints = drives_of(params, head, cycle)
+    section, rate = (params.link_width, params.link_thickness), params.joint_jerk / params.joint_acceleration
+    loaded = [one.loaded for one in arms.values()]
+    return HeadMotion(cycle, arms, joints, arm_strength(loaded, cycle.time, params.strength, section, rate))
 
 
 def arm_mechanism(first: float, second: float) -> Mechanism:
@@ -164,10 +175,11 @@ def _arm_forces(params: KnottingDyadParams, links: tuple[float, float], arm: Arm
     )
     motion = solve(plan(arm_mechanism(*links)), angle, speed, acceleration).require()
     loads = (Gravity(-1j * params.gravity), PointForce("link 2", "P", _pull(params, motion, arm)))
-    forces = inverse(motion, inertias(params, *links), loads)
+    bodies = inertias(params, *links)
+    forces = inverse(motion, bodies, loads)
     at_pivot, in_elbow = forces.effort("link 1"), forces.effort("link 2")
     base = at_pivot - in_elbow if params.elbow_drive == "belt" else at_pivot
-    return ArmForces(np.stack([base, in_elbow], axis=1), forces)
+    return ArmForces(np.stack([base, in_elbow], axis=1), LoadedArm(forces, bodies, loads))
 
 
 def _pull(params: KnottingDyadParams, motion: Motion, arm: ArmMotion) -> np.ndarray:

@@ -6,7 +6,8 @@ from typing import Any
 from ilmek.elements.carpet_yarns import PILE_DENSITY, usual_warp
 from ilmek.elements.yarns import WOOL, pressed_thickness
 from ilmek.errors import ParameterError
-from ilmek.params import Params, kind
+from ilmek.machines.knotting_dyad.strength import ArmStrengthParams
+from ilmek.params import Params, kind, nested
 from ilmek.params.text_lists import read_angles, read_points
 from ilmek.synthesis.burmester.constant_distance import require_task
 from ilmek.units import deg, format_quantity, g, mm, ms
@@ -81,6 +82,7 @@ class KnottingDyadParams(Params):
         0.0, unit="g", at_least=0.0, at_most=100.0, doc="mass in the elbow, such as a servo's"
     )
     link_thickness: float = _size(3 * mm, "thickness of the links, across their plane")
+    strength: ArmStrengthParams = nested(ArmStrengthParams, doc="what the links and joints of the arms bear")
     density: float = kind.density(2700.0, above=0.0, at_most=1e5, doc="density of the links; aluminium")
     gripper_mass: float = kind.mass(2 * g, unit="g", at_least=0.0, at_most=10.0, doc="mass of an arm's gripper")
     tail: float = kind.length(2 * mm, at_least=0.0, at_most=0.05, doc="yarn held in a gripper, each end")

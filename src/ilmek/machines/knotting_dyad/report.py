@@ -8,6 +8,7 @@ from ilmek.machines.knotting_dyad.drives import HeadMotion, head_motion
 from ilmek.machines.knotting_dyad.figures import design_figures, head_figures, motion_figures
 from ilmek.machines.knotting_dyad.head import Head
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
+from ilmek.machines.linkage_strength import strength_table
 from ilmek.records import group, record
 from ilmek.report import Check, Figure, Table, columns
 from ilmek.synthesis.dyad import RootKind
@@ -87,6 +88,7 @@ def tables(found: DyadAnalysis) -> tuple[Table, ...]:
     return (
         *(() if found.head is None else _head_tables(found.head)),
         *(() if found.motion is None else _motion_tables(found.motion)),
+        *(() if found.motion is None else strength_table(found.motion.strength, "knotting-dyad")),
         *_arm_tables(found.design),
     )
 

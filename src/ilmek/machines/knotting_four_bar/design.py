@@ -203,8 +203,8 @@ def parameters(design: KnottingFourBar) -> KnottingFourBarParams:
     if design.posed is None:
         return design.params
     found = design.posed.synthesis
-    values: dict[str, Any] = {**design.params.as_dict(), "poses": found.poses.text, "ground_angle": found.ground_angle}
-    return PosedParams(**values)
+    own: dict[str, Any] = {one.name: getattr(design.params, one.name) for one in dataclasses.fields(design.params)}
+    return PosedParams(**{**own, "poses": found.poses.text, "ground_angle": found.ground_angle})
 
 
 def _working(posed: PosedFourBar, angle: float) -> tuple[float, float]:

@@ -14,7 +14,7 @@ import numpy as np
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.dynamics.inertia import Inertia, bar, bar_mass, combined
 from ilmek.dynamics.inverse import Forces, inverse
-from ilmek.dynamics.loads import Gravity, PointForce
+from ilmek.dynamics.loads import Gravity, Load, PointForce
 from ilmek.elements.motors import Motor, Reducer, geared_motor
 from ilmek.elements.reducers import RATIOS
 from ilmek.errors import ParameterError
@@ -176,13 +176,18 @@ def inertias(params: KnottingFourBarParams) -> dict[str, Inertia]:
     return {"crank": made["crank"], "coupler": hand, "rocker": made["rocker"]}
 
 
+def loads_of(params: KnottingFourBarParams) -> tuple[Load, ...]:
+    """Weight, and the yarn's force on the gripping point."""
+    pull = PointForce("coupler", "H", params.grip_force * unit(params.grip_angle))
+    return Gravity(-1j * params.gravity), pull
+
+
 def evaluate(
     params: KnottingFourBarParams, planned: Plan, angle: FloatArray, speed: float, acceleration: float = 0.0
 ) -> KnottingState:
     """Motion and forces at the given crank angles [rad], speed [rad/s] and acceleration [rad/s²] of the crank."""
     motion = solve(planned, angle, speed, acceleration).require()
-    pull = PointForce("coupler", "H", params.grip_force * unit(params.grip_angle))
-    forces = inverse(motion, inertias(params), (Gravity(-1j * params.gravity), pull))
+    forces = inverse(motion, inertias(params), loads_of(params))
     return KnottingState(
         angle=angle,
         motion=motion,

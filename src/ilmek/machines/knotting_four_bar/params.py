@@ -8,7 +8,8 @@ from functools import partial
 import numpy as np
 
 from ilmek.errors import ParameterError
-from ilmek.params import Params, Setting, declared, kind
+from ilmek.machines.strength_params import LINK_MATERIALS, StrengthParams
+from ilmek.params import Params, Setting, declared, kind, nested
 from ilmek.params.text_lists import read_poses
 from ilmek.synthesis.burmester.constant_distance import require_task
 from ilmek.synthesis.three_poses import ThreePoses, ThreePoseSynthesis
@@ -30,6 +31,13 @@ SYNTHESISED = ("ground", "crank", "coupler", "rocker", "branch", "hand")
 
 _length = partial(kind.length, at_least=SMALL, at_most=LARGE)
 _direction = partial(kind.angle, at_least=-turn, at_most=turn)
+
+
+@dataclass(frozen=True, slots=True)
+class AcetalStrengthParams(StrengthParams):
+    """What links of acetal and their steel pins bear."""
+
+    material: str = kind.choice("POM", LINK_MATERIALS, doc="material of the links, for their strength")
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,6 +95,7 @@ class KnottingFourBarParams(Params):
     holder_width: float = _length(8 * mm, doc="holder, across the coupler")
     gripper_length: float = _length(5 * mm, doc="gripper beyond the holder, along the coupler")
     gripper_width: float = _length(4 * mm, doc="both jaws of the gripper, across the coupler")
+    strength: AcetalStrengthParams = nested(AcetalStrengthParams, doc="what links and pins bear")
     gravity: float = kind.acceleration(9.81, at_least=0.0, at_most=1e3, doc="gravity, towards -y", symbol="g")
     gear_ratio: float | None = kind.ratio(
         None,

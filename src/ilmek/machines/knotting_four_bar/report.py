@@ -5,6 +5,8 @@ import numpy as np
 from ilmek.machines.knotting_four_bar.design import KnottingFourBar
 from ilmek.machines.knotting_four_bar.posed import PosedFourBar
 from ilmek.machines.knotting_four_bar.sides import SidesAnalysis, analyse_sides
+from ilmek.machines.knotting_four_bar.strength import four_bar_strength
+from ilmek.machines.linkage_strength import LinkageStrength, strength_checks, strength_table
 from ilmek.records import group, record
 from ilmek.report import Check, Table, at_least, at_most, columns
 from ilmek.units import deg, format_quantity, turn
@@ -19,16 +21,17 @@ MET = 1e-9
 
 @record
 class KnottingFourBarAnalysis:
-    """A design with clearances and knot of both sides; `sides` is None where there is one."""
+    """A design, the strength of its links, clearances and knot of both sides; `sides` is None where there is one."""
 
     design: KnottingFourBar = group()
+    strength: LinkageStrength = group()
     sides: SidesAnalysis | None = group()
 
 
 def analyse(design: KnottingFourBar) -> KnottingFourBarAnalysis:
     """The design with the analysis of both sides."""
     sides = None if design.sides is None else analyse_sides(design.params, design.sides, design.onward)
-    return KnottingFourBarAnalysis(design, sides)
+    return KnottingFourBarAnalysis(design, four_bar_strength(design), sides)
 
 
 def checks(found: KnottingFourBarAnalysis) -> tuple[Check, ...]:
@@ -39,6 +42,7 @@ def checks(found: KnottingFourBarAnalysis) -> tuple[Check, ...]:
     return (
         *((dead_point,) if design.range else ()),
         at_least("transmission angle", design.transmission_angle, TRANSMISSION, "deg", RULE),
+        *strength_checks(found.strength, stronger="set a larger width or thickness, or a smaller grip_force"),
         *(() if found.sides is None else _side_checks(design, found.sides)),
     )
 
@@ -125,6 +129,7 @@ def tables(found: KnottingFourBarAnalysis) -> tuple[Table, ...]:
         *(() if design.posed is None else _pose_tables(design.posed)),
         *(() if found.sides is None else (_gear_table(found.sides),)),
         _force_table(design),
+        *strength_table(found.strength, "knotting-four-bar"),
         _part_table(design),
         *(() if design.instead is None else (_instead_table(design.instead),)),
     )
