@@ -106,6 +106,11 @@ def test_a_mechanism_that_closes_only_partly_says_its_ranges_to_the_end():
     assert last == pytest.approx([2 * math.pi - end, 2 * math.pi], abs=1e-10)
 
 
+def test_a_toml_file_as_toml_keeps_its_text_and_comments():
+    path = EXAMPLES / "jansen_leg.toml"
+    assert run(str(path), "--as", "toml") == path.read_text(encoding="utf-8")
+
+
 def test_the_same_file_in_the_other_form(tmp_path: Path):
     text = run(example("peaucellier"), "--as", "json")
     assert parse_mechanism(text, toml=False).mechanism == read_mechanism(EXAMPLES / "peaucellier.toml").mechanism

@@ -7,7 +7,14 @@ import pytest
 
 from ilmek.dynamics.own_machine import OwnMachine
 from ilmek.errors import MechanismError, OutputError
-from ilmek.io.mechanism_file import parse_mechanism, read_mechanism, schema, write_mechanism
+from ilmek.io.mechanism_file import (
+    mechanism_json,
+    mechanism_toml,
+    parse_mechanism,
+    read_mechanism,
+    schema,
+    write_mechanism,
+)
 from ilmek.linkage.fourbar import four_bar, slider_crank
 from ilmek.linkage.model import Coupling
 
@@ -269,3 +276,25 @@ def test_wheels_geared_in_a_circle_are_told_with_the_line_of_the_coupling_that_c
     with pytest.raises(MechanismError) as caught:
         parse_mechanism(text, name="ring.toml").plan()
     assert str(caught.value).startswith(said)
+
+
+def test_an_unusual_ratio_of_lengths_is_confirmed_in_the_file():
+    unusual = FOUR_BAR.replace('"60mm"', '"0.5mm"')
+    with pytest.raises(MechanismError, match="A0-B0 of ground is 300 mm and A0-A of crank 0.5 mm: 600 to 1"):
+        parse_mechanism(unusual)
+    confirmed = parse_mechanism(f'confirm = ["lengths"]\n{unusual}')
+    assert parse_mechanism(mechanism_toml(confirmed.machine)).mechanism == confirmed.mechanism
+
+
+def test_plain_numbers_are_si_where_the_file_says_so():
+    plain = FOUR_BAR.replace('"60mm"', "0.06")
+    assert parse_mechanism(f'units = "SI"\n{plain}').mechanism == parse_mechanism(FOUR_BAR).mechanism
+    with pytest.raises(MechanismError, match='0.06 has no unit; write "0.06mm", or "0.06m"'):
+        parse_mechanism(plain)
+    data = json.loads(mechanism_json(parse_mechanism(FOUR_BAR).machine))
+    assert (data["units"], data["bodies"]["crank"]["points"]["A"]) == ("SI", [0.06, 0.0])
+
+
+def test_toml_keeps_its_comments():
+    text = f"# a comment\n{FOUR_BAR}"
+    assert parse_mechanism(text).text == text

@@ -218,6 +218,12 @@ MISTAKES = {
         'links = { width = "30mm", thickness = "10mm", material = "structral',
         "line 6, links: no material 'structral steel'",
     ),
+    "no width": (
+        'links = { width = "30mm"',
+        'links = { width = "-30mm"',
+        "line 6, links: width of a section is -0.03 in SI; 1e-09 to",
+    ),
+    "no diameter": ('diameter = "16mm"', "diameter = 0", "pins.A: diameter of a pin is 0 in SI; 1e-09 to 1e+15"),
     "mass and shapes": (
         'length = "r", shapes',
         'length = "r", mass = "1kg", shapes',
@@ -271,6 +277,12 @@ def test_a_mistake_is_reported_with_its_line_and_key(name: str) -> None:
         parse_mechanism(PRESS.replace(before, after, 1), name="press.toml").plan()
     assert str(caught.value).startswith("press.toml, line ")
     assert said in str(caught.value)
+
+
+def test_a_link_with_a_section_has_a_length() -> None:
+    tiny = ('rod.length = "3.5 r"', 'rod.length = "1e-12m"')
+    with pytest.raises(MechanismError, match="A and B of 'rod' are 1e-12 m apart; 0, or 1e-09 m or more for a link"):
+        press(('name = "press"', 'name = "press"\nconfirm = ["lengths"]'), tiny)
 
 
 def test_a_missing_branch_of_a_slide_names_the_slide() -> None:

@@ -42,7 +42,7 @@ from ilmek.errors import MechanismError
 from ilmek.io.data_text import DataText, parse_data, read_data
 from ilmek.io.mechanism.joints import members_of
 from ilmek.io.mechanism.loads import frictions_of, gravity_of, loads_of
-from ilmek.io.mechanism.masses import flat_member, inertia_of, pin_members, sections_of
+from ilmek.io.mechanism.masses import check_link, flat_member, inertia_of, pin_members, sections_of
 from ilmek.io.mechanism.mechanism import mechanism_of
 from ilmek.io.mechanism.motions import motions_of
 from ilmek.io.mechanism.names import parts_of
@@ -169,6 +169,7 @@ def _masses(
         with source.located(*(("links",) if "section" not in table and name in sections else ("bodies", name))):
             if name in sections:
                 members[name] = flat_member(sections[name])
+                check_link(mechanism.body(name), joints[name])
         with source.located("bodies", name):
             inertia = inertia_of(table, mechanism.body(name), members.get(name))
             if inertia is not None:

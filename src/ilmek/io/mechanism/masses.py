@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from itertools import pairwise
+from itertools import combinations, pairwise
 from typing import Any
 
 from ilmek.dynamics import shapes
@@ -15,6 +15,9 @@ from ilmek.io.mechanism.names import unknown
 from ilmek.io.mechanism.points import complex_of
 from ilmek.io.schema import SourceText
 from ilmek.linkage.model import GROUND, Body, Joint, Mechanism, Pin, Slide
+
+LEAST_SIZE, GREATEST_SIZE = 1e-9, 1e15
+"""Bounds of sizes and allowed stresses of sections and pins [SI]."""
 
 Tables = Mapping[str, Mapping[str, Any]]
 """Name -> table, checked by the schema."""
@@ -42,9 +45,18 @@ def flat_member(section: Mapping[str, Any]) -> FlatMember:
     """The section of a link. Raises IlmekError for a material that is not in the table."""
     material = find_material(section["material"]).name
     for key in ("width", "thickness", "stress", "safety"):
-        if key in section and not section[key] > 0:
-            raise MechanismError(f"{key} of a section is {section[key]:g}", allowed="above 0")
+        if key in section:
+            _check_size(f"{key} of a section", section[key])
     return FlatMember(**{**section, "material": material})
+
+
+def check_link(body: Body, joints: Sequence[str]) -> None:
+    """Raise MechanismError for a link with a section whose joints are almost at one point: it has no strength."""
+    for first, second in combinations(joints, 2):
+        apart = abs(body.points[first] - body.points[second])
+        if 0 < apart < LEAST_SIZE:
+            given = f"{first} and {second} of {body.name!r} are {apart:g} m apart"
+            raise MechanismError(given, allowed=f"0, or {LEAST_SIZE:g} m or more for a link with a section")
 
 
 def inertia_of(table: Mapping[str, Any], body: Body, member: FlatMember | None) -> Inertia | None:
@@ -130,6 +142,13 @@ def _positive(table: Mapping[str, Any], key: str) -> float:
     return float(table[key])
 
 
+def _check_size(what: str, value: float) -> None:
+    """Raise MechanismError for a value [SI] that is not above 0, or with which powers over- or underflow."""
+    if not LEAST_SIZE <= value <= GREATEST_SIZE:
+        given = f"{what} is {value:g} in SI"
+        raise MechanismError(given, allowed=f"{LEAST_SIZE:g} to {GREATEST_SIZE:g}", do="check its unit")
+
+
 def pin_members(tables: Tables, parts: Mapping[str, Sequence[Joint]], source: SourceText) -> dict[str, PinMember]:
     """Joint -> its pin; a pin of several bodies is one pin with several pairs of bodies.
 
@@ -141,8 +160,10 @@ def pin_members(tables: Tables, parts: Mapping[str, Sequence[Joint]], source: So
             if name not in parts or isinstance(parts[name][0], Slide):
                 raise unknown("pin", name, [joint for joint, own in parts.items() if isinstance(own[0], Pin)])
             for key, value in table.items():
-                if key not in ("fork", "bearing", "life") and not value > 0:
-                    raise MechanismError(f"{key} of a pin is {value:g}", allowed="above 0")
+                if key not in ("fork", "bearing", "life"):
+                    _check_size(f"{key} of a pin", value)
+            if not table.get("life", 0.0) >= 0:
+                raise MechanismError(f"life of a bearing is {table['life']:g} s", allowed="0 or more")
             bearing = find_bearing(table["bearing"]).name if "bearing" in table else None
             member = PinMember(**{**table, "bearing": bearing})
             found |= {joint.name: member for joint in parts[name]}
