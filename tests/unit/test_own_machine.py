@@ -13,11 +13,19 @@ from click.testing import CliRunner, Result
 from tests.support.mechanisms import pushed_slider_crank, two_motors
 
 from ilmek.cli import main
-from ilmek.dynamics.inertia import bar, point_mass
+from ilmek.dynamics.inertia import Inertia, bar, point_mass
 from ilmek.dynamics.inverse_run import inverse_run
 from ilmek.dynamics.joint_friction import SlideFriction
 from ilmek.dynamics.loads import PointForce
-from ilmek.dynamics.own_machine import GivenMotion, NamedLoad, OwnMachine, SpeedStudy
+from ilmek.dynamics.own_machine import (
+    ForwardTask,
+    GivenMotion,
+    MotorDrive,
+    NamedLoad,
+    OwnMachine,
+    SpeedStudy,
+    StopEvent,
+)
 from ilmek.errors import MechanismError
 from ilmek.io.mechanism_file import MechanismFile
 from ilmek.jobs.mechanism.analysis import analysis
@@ -25,7 +33,7 @@ from ilmek.jobs.mechanism.report import report
 from ilmek.jobs.mechanism.request import MotionRequest
 from ilmek.jobs.mechanism.run import run
 from ilmek.linkage.fourbar import slider_crank
-from ilmek.linkage.model import Displacement, Rotation
+from ilmek.linkage.model import Body, Displacement, Mechanism, Pin, Rotation
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
 
@@ -250,6 +258,24 @@ def test_a_study_needs_a_drive_of_constant_speed() -> None:
     law = GivenMotion(lambda t: (np.sin(t), np.cos(t), -np.sin(t)), 2 * np.pi)
     with pytest.raises(MechanismError, match="without one driving input of constant speed"):
         analysed(machine(motions={"crank": law}, study=SpeedStudy((1.0, 2.0))))
+
+
+def test_a_forward_run_of_one_body_is_that_of_the_formula() -> None:
+    """q = T t² / 2 J: the time and angle at a speed, and a stop at an angle after it."""
+    crank = Mechanism(
+        (Body("ground", {"O": 0}), Body("crank", {"O": 0})), (Pin("O", "ground", "crank"),), (Rotation("crank", "O"),)
+    )
+    torque, inertia, wheel = 3.0, 0.2, 0.1
+    events = (StopEvent("fast", "speed", 4.0, terminal=False), StopEvent("there", "position", 5.0))
+    task = ForwardTask(10.0, drive=MotorDrive(torque, inertia=wheel), events=events)
+    found = analysed(OwnMachine(crank, {"crank": Inertia(1.0, 0j, inertia)}, forward=task)).forward
+    assert found is not None
+    rate = torque / (inertia + wheel)
+    fast, there = found.forward_events
+    assert (fast["time"], fast["position"]) == (pytest.approx(4 / rate), pytest.approx(8 / rate))
+    assert (found.forward_end, there["time"]) == ("there", pytest.approx(math.sqrt(10 / rate)))
+    assert found.forward_energy_residual < 1e-8
+    assert found.forward_pin_forces_max["O"] == pytest.approx(0, abs=1e-9)
 
 
 def test_doubling_the_speed_without_loads_multiplies_all_forces_by_four() -> None:

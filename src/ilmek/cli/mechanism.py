@@ -43,15 +43,23 @@ Limits: file 250 kB; 100 bodies, joints, couplings; 2,000,000 numbers in a table
     metavar="[NAME=]VALUE",
     help="Fix an input at a value; with all inputs fixed, compute one pose.",
 )
-@click.option("--over", default="", metavar="FROM..TO", help="Range of the driving input; default: a full turn.")
 @click.option(
-    "--speed", default="", metavar="SPEED", help="Speed of the driving input, like 60rpm; default: 1 rad/s or 1 m/s."
+    "--over", default="", metavar="FROM..TO", help="Range of the driving input; default: a full turn, or its motion."
+)
+@click.option(
+    "--speed",
+    default="",
+    metavar="SPEED",
+    help="Its speed, like 60rpm; default: that of the file, else 1 rad/s or 1 m/s.",
 )
 @click.option(
     "--steps", type=click.IntRange(1, MOST_NUMBERS), default=STEPS, show_default=True, help="Steps of the range."
 )
 @click.option(
-    "--csv", "csv_to", metavar="-|FILE", help="Write the motion as CSV, SI and radians; - writes to standard output."
+    "--csv",
+    "csv_to",
+    metavar="-|FILE",
+    help="Write motion and forces as CSV, SI and radians; - writes to standard output.",
 )
 @click.option("--report", "page_to", type=click.Path(path_type=Path), metavar="FILE.html", help="Write a report page.")
 @click.option(

@@ -79,8 +79,8 @@ class MachineStrength:
         if self.speed and math.isfinite(found.frequency):
             source = f"{RESONANCE:g} times the driving frequency"
             cure = f"make {name} wider or shorter, or run slower"
-            limit = RESONANCE * self.speed / turn
-            yield at_least(f"{name}: natural frequency", found.frequency / turn, limit, "Hz", source, cure=cure)
+            lowest, driving = found.frequency / turn, RESONANCE * self.speed / turn
+            yield at_least(f"{name}: natural frequency", lowest, driving, "Hz", source, cure=cure)
 
     def _of_pin(self, name: str, found: PinStrength) -> Iterator[Check]:
         pin = self.machine.pins[name]

@@ -81,7 +81,7 @@ class ReducedMechanism:
             return np.zeros(len(position))
         motion = solve(self.plan, position, speed)
         if np.all(speed):  # the power of the loads over the speed: one motion serves both
-            return self._force(motion, motion, self.live) / speed
+            return np.asarray(self._force(motion, motion, self.live) / speed)
         return self._force(solve(self.plan, position, 1.0), motion, self.live)
 
     def potential(self, position: Samples) -> Samples:

@@ -103,7 +103,7 @@ def _with_jumps(values: FloatArray, at: Sequence[float], turning: bool) -> Float
         at = np.add.outer(turns * turn, np.asarray(at) % turn).ravel().tolist()
     more = [one + side for one in at for side in (-BESIDE, BESIDE) if least < one + side < most]
     every = np.sort(np.concatenate((values, more)))
-    every = every[np.append(True, np.diff(every) > 0)]
+    every = np.asarray(every[np.append(True, np.diff(every) > 0)])
     return every if values[-1] > values[0] else every[::-1]
 
 
