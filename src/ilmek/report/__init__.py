@@ -6,7 +6,7 @@ machine. Values are SI; the unit beside a value is the one to show it in.
 
 from ilmek.records import DeclaredResult, computed, declared_results, group, record, result
 from ilmek.report.bill import NOT_WEIGHED, Part, Work
-from ilmek.report.check import Check, at_least, at_most, in_words, must, snap_to_limit, value_beside
+from ilmek.report.check import Check, at_least, at_most, in_words, must, shown_value, snap_to_limit
 from ilmek.report.choice import Alternative, Choice, choose, failing
 from ilmek.report.document import NEAREST, Report
 from ilmek.report.figure import (
@@ -90,7 +90,7 @@ __all__ = [
     "result",
     "results_of",
     "rounded",
+    "shown_value",
     "snap_to_limit",
-    "value_beside",
     "verdict_json",
 ]

@@ -6,7 +6,7 @@ from typing import Any, Protocol, runtime_checkable
 
 from ilmek.records import value_record
 from ilmek.report.json import plain
-from ilmek.report.rounding import rounded
+from ilmek.report.rounding import without_noise
 from ilmek.units import format_quantity
 
 ROUNDING = 1e-9
@@ -65,7 +65,7 @@ def must(name: str, holds: bool, source: str, *, cure: str = "") -> Check:
 
 
 def in_words(check: Judged) -> tuple[str, str]:
-    """Value and limit in the check's unit, rounded (`rounding`); of a plain yes or no, these words.
+    """Value and limit in the check's unit; of a plain yes or no, these words.
 
     >>> in_words(at_most("sag", 0.003, 0.002, "mm", "given")), in_words(must("knot tied", False, "its path"))
     (('3 mm', '2 mm'), ('no', 'yes'))
@@ -74,9 +74,14 @@ def in_words(check: Judged) -> tuple[str, str]:
     """
     if not check.unit and check.limit == 1 and check.value in (0, 1):
         return ("yes" if check.value else "no"), "yes"
-    value = value_beside(check.value, check.limit, check.unit)
-    digits = 4 if getattr(check, "ok", False) else digits_apart(value, check.limit, check.unit)
+    value, digits = shown_value(check)
     return format_quantity(value, check.unit, digits), format_quantity(check.limit, check.unit, digits)
+
+
+def shown_value(check: Judged) -> tuple[float, int]:
+    """The value of a check as it is shown [SI], without rounding noise, and the digits of value and limit."""
+    value = without_noise(check.value, check.limit, check.unit)
+    return value, 4 if getattr(check, "ok", False) else digits_apart(value, check.limit, check.unit)
 
 
 def digits_apart(value: float, limit: float, unit: str) -> int:
@@ -86,16 +91,6 @@ def digits_apart(value: float, limit: float, unit: str) -> int:
         return format_quantity(value, unit, digits) != format_quantity(limit, unit, digits)
 
     return 4 if value == limit or math.isnan(value) else next(filter(apart, range(4, 17)), 17)
-
-
-def value_beside(value: float, limit: float, unit: str) -> float:
-    """A value as shown beside its limit [SI]: rounded, unless that would hide on which side of the limit it is.
-
-    >>> value_beside(1e-19, 1e-9, "mm"), value_beside(0.0400004, 0.04, "mm")
-    (0.0, 0.0400004)
-    """
-    shown = rounded(value, unit, scale=limit)
-    return shown if (shown < limit) == (value < limit) and (shown > limit) == (value > limit) else value
 
 
 def snap_to_limit(value: float, limit: float) -> float:

@@ -33,34 +33,38 @@ _COARSE = 1e4
 """A value of more resolutions is shown more coarsely than the resolution."""
 
 _OF_SCALE = 1e-6
-"""A value below this share of the scale that it is measured against is rounding noise."""
+"""A value below this share of its limit is rounding noise."""
 
 
-def rounded(value: float, unit: str, scale: float | None = None) -> float:
+def rounded(value: float, unit: str) -> float:
     """An SI value as it is shown in `unit` [SI]: a multiple of the unit's resolution; below ten of these, two digits.
 
     A value of more than 10⁴ resolutions is returned as it is: four digits are shown of it anyway.
 
-    scale  what the value is measured against, such as its limit [SI]; values far below it are 0. Default: the unit's
-           resolution decides
-
     >>> rounded(1.735e-17, "mm"), rounded(0.0597375, "mm"), round(rounded(0.00000456, "mm") * 1e3, 9)
     (0.0, 0.0597375, 0.0046)
-    >>> rounded(3e-19, "mm", scale=1e-12), rounded(5e-13, "m", scale=1e-12)
-    (0.0, 5e-13)
     """
     if not math.isfinite(value) or value == 0:
         return value
     factor = parse_unit(unit).factor
     resolution = RESOLUTIONS.get(unit, 0.0)
     shown = abs(value) / factor
-    if scale is not None and math.isfinite(scale) and scale != 0:
-        noise = min(_OF_SCALE * abs(scale) / factor, resolution * NOISE or math.inf)
-    else:
-        noise = resolution * NOISE or _OTHER_NOISE
-    if shown < noise:
+    if shown < (resolution * NOISE or _OTHER_NOISE):
         return 0.0
     if shown >= _COARSE * resolution:
         return value
     step = resolution if shown >= 10 * resolution else 10.0 ** (math.floor(math.log10(shown)) - 1)
     return math.copysign(round(shown / step) * step * factor, value)
+
+
+def without_noise(value: float, limit: float, unit: str) -> float:
+    """A value as it is shown beside its limit [SI]: 0 where it is far below both the limit and the unit's resolution.
+
+    Beside a limit of 0 it stays: it would hide on which side of the limit the value is.
+
+    >>> without_noise(1e-19, 1e-12, "mm"), without_noise(5e-13, 1e-12, "mm"), without_noise(1e-17, 0.0, "mm")
+    (0.0, 5e-13, 1e-17)
+    """
+    resolution = RESOLUTIONS.get(unit, 0.0) * parse_unit(unit).factor
+    noise = min(_OF_SCALE * abs(limit), resolution * NOISE or math.inf)
+    return 0.0 if abs(value) < noise else value

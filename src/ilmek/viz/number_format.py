@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 from typing import TypeGuard
 
-from ilmek.report import Check, Json, Reason, Table, in_words, rounded, value_beside
+from ilmek.report import Check, Json, Reason, Table, in_words, rounded, shown_value
 from ilmek.units import POWERS, format_number, parse_unit
 from ilmek.viz.style import shown_unit
 
@@ -14,10 +14,10 @@ _NOISE = 1e-9
 NARROW_SPACE = "\u202f"
 
 
-def number(value: Json, unit: str = "", digits: int = 4, scale: float | None = None) -> str:
+def number(value: Json, unit: str = "", digits: int = 4) -> str:
     r"""An SI number in `unit`, without the unit. A text stays as it is, True and False become yes and no, None a dash.
 
-    scale  what the value is measured against [SI]; see `report.rounding`
+    Numbers are rounded to the resolution of their unit (`report.rounding`).
 
     >>> number(0.0597375, "mm"), number(-2.0), number(135000), number(True), number(None), number(4.857e-5)
     ('59.74', '−2', '135\u202f000', 'yes', '–', '4.857·10⁻⁵')
@@ -32,7 +32,12 @@ def number(value: Json, unit: str = "", digits: int = 4, scale: float | None = N
         return count(value)
     if not math.isfinite(value):
         return "–" if math.isnan(value) else "∞" if value > 0 else "−∞"
-    written = format_number(rounded(float(value), unit, scale) / parse_unit(unit).factor, digits)
+    return _printed(rounded(float(value), unit) / parse_unit(unit).factor, digits)
+
+
+def _printed(value: float, digits: int) -> str:
+    """A finite number with a power of ten, true minus signs and its thousands separated."""
+    written = format_number(value, digits)
     if "e" in written:
         mantissa, power = written.split("e")
         return f"{mantissa}·10{str(int(power)).translate(POWERS)}".replace("-", "−")
@@ -84,11 +89,12 @@ def compared(check: Check | Reason) -> tuple[str, str]:
     value, limit = in_words(check)
     if limit == "yes":
         return value, limit
-    seen = value_beside(check.value, check.limit, check.unit)
-    scale = abs(check.limit)
-    return number(
-        seen, check.unit, scale=scale
-    ), f"{sign(check.relation)} {number(check.limit, check.unit, scale=scale)}"
+    shown, digits = shown_value(check)
+    printed = [
+        _printed(one / parse_unit(check.unit).factor, digits) if math.isfinite(one) else number(one)
+        for one in (shown, check.limit)
+    ]
+    return printed[0], f"{sign(check.relation)} {printed[1]}"
 
 
 def beside(check: Check | Reason) -> str:
