@@ -5,7 +5,7 @@ import pytest
 
 from ilmek.errors import ParameterError
 from ilmek.synthesis.alt_burmester import start_sets
-from ilmek.synthesis.alt_burmester.equations import linearised, pins
+from ilmek.synthesis.alt_burmester.equations import linearised, products
 from ilmek.synthesis.alt_burmester.homotopy import random_task, repeated, solution_keys, track
 from ilmek.synthesis.alt_burmester.monodromy import all_solutions, task_with_solution
 from ilmek.synthesis.alt_burmester.start_sets import CLASSES, pose_mask, start_set
@@ -55,10 +55,10 @@ def test_the_matrix_of_newton_s_method_is_the_derivative(poses):
     rng, pose = np.random.default_rng(3), pose_mask(poses)
     task, count = random_task(rng, pose), len(pose)
     u, T = rng.normal(size=8) + 1j * rng.normal(size=8), task[2]
-    q, r = np.empty((2, count, 2), complex), np.empty((2, 2), complex)
+    p, e = np.empty((2, count, 2), complex), np.empty((2, count, 2), complex)
     matrix, weights = np.empty((8, 8), complex), np.empty((count, 2), complex)
-    pins(u, T, task[0], task[1], q, r)
-    linearised(u, T, pose, q, r, matrix, weights)
+    products(u, T, task[0], task[1], p, e)
+    linearised(u, T, pose, task[0], task[1], p, e, matrix, weights)
 
     def rate(du: np.ndarray, turn: np.ndarray, h: float = 1e-6) -> np.ndarray:
         ahead = residuals((u + h * du)[None], T * np.exp(h * turn), task)[0]

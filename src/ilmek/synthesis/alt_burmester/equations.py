@@ -1,12 +1,15 @@
 # ruff: noqa: PLR0917 - compiled functions take their arguments by position
 """Equations of a four-bar at positions of its coupler: poses, and points at which the coupler's angle is free.
 
-    q_j q'_j - r r' = 0,     q_j = d_j - A + T_j x,    q'_j = d'_j - A' + x' / T_j,    r = x - A,    r' = x' - A'
+    (d_j + T_j x - A) (d'_j + x' / T_j - A') = (x - A) (x' - A')
 
 for each of the two links and each position j but the first, the reference. A is the ground pivot and x the moving pin
 at the reference, relative to the tracer there; d_j is the tracer's displacement and T_j = exp(i theta_j) the coupler's
-rotation. The link's vector r has its length at every position. Primed quantities are the complex conjugates for a real
-four-bar; the equations treat them as independent numbers, so that they are polynomials (isotropic coordinates).
+rotation: the link has its length at every position. Primed quantities are the complex conjugates for a real four-bar;
+the equations treat them as independent numbers, so that they are polynomials (isotropic coordinates). Without products
+of large numbers that cancel where a pivot or a pin is far away:
+
+    p e' + p' e + d (x' - A') + d' (x - A) + d d' = 0,    p = (T - 1) x,  p' = (1/T - 1) x',  e = d - A,  e' = d' - A'
 
 A pose gives T_j: two equations. At a point T_j is unknown: the two equations are joined to one. Eight equations
 determine the eight unknowns u = A, A', x, x' of both links.
@@ -31,26 +34,33 @@ Poses: TypeAlias = Bool[np.ndarray, " positions"]
 
 LinkValues: TypeAlias = Complex[np.ndarray, "positions 2"]
 PinVectors: TypeAlias = Complex[np.ndarray, "2 positions 2"]
-LinkVectors: TypeAlias = Complex[np.ndarray, "2 2"]
 Square: TypeAlias = Complex[np.ndarray, "8 8"]
 Order: TypeAlias = Int[np.ndarray, "8"]
 
 
 @compiled
-def pins(u: Unknowns, T: Positions, d: Positions, primed: Positions, q: PinVectors, r: LinkVectors) -> None:
-    """Vectors of both links: at each position q[0] and q[1] = q', at the reference r[0] and r[1] = r'."""
+def products(u: Unknowns, T: Positions, d: Positions, primed: Positions, p: PinVectors, e: PinVectors) -> None:
+    """Vectors p[0], p[1] = p' and e[0], e[1] = e' of both links at each position."""
     for link in range(2):
         at = 4 * link
-        r[0, link] = u[at + 2] - u[at]
-        r[1, link] = u[at + 3] - u[at + 1]
         for j in range(T.size):
-            q[0, j, link] = d[j] - u[at] + T[j] * u[at + 2]
-            q[1, j, link] = primed[j] - u[at + 1] + u[at + 3] / T[j]
+            p[0, j, link] = (T[j] - 1.0) * u[at + 2]
+            p[1, j, link] = (1.0 / T[j] - 1.0) * u[at + 3]
+            e[0, j, link] = d[j] - u[at]
+            e[1, j, link] = primed[j] - u[at + 1]
 
 
 @compiled
 def linearised(
-    u: Unknowns, T: Positions, pose: Poses, q: PinVectors, r: LinkVectors, matrix: Square, weights: LinkValues
+    u: Unknowns,
+    T: Positions,
+    pose: Poses,
+    d: Positions,
+    primed: Positions,
+    p: PinVectors,
+    e: PinVectors,
+    matrix: Square,
+    weights: LinkValues,
 ) -> None:
     """Matrix of the eight equations for changes of u, and weights: the derivatives of both links' equations by log T.
 
@@ -61,7 +71,7 @@ def linearised(
         inverse = 1.0 / T[j]
         for link in range(2):
             at = 4 * link
-            weights[j, link] = T[j] * u[at + 2] * q[1, j, link] - inverse * u[at + 3] * q[0, j, link]
+            weights[j, link] = T[j] * u[at + 2] * e[1, j, link] - inverse * u[at + 3] * e[0, j, link]
         for link in range(2):
             at = 4 * link
             to = row + link if pose[j] else row
@@ -71,10 +81,10 @@ def linearised(
             else:
                 for column in range(UNKNOWNS):
                     matrix[to, column] = 0.0
-            matrix[to, at] = factor * (r[1, link] - q[1, j, link])
-            matrix[to, at + 1] = factor * (r[0, link] - q[0, j, link])
-            matrix[to, at + 2] = factor * (T[j] * q[1, j, link] - r[1, link])
-            matrix[to, at + 3] = factor * (inverse * q[0, j, link] - r[0, link])
+            matrix[to, at] = factor * (-p[1, j, link] - primed[j])
+            matrix[to, at + 1] = factor * (-p[0, j, link] - d[j])
+            matrix[to, at + 2] = factor * ((T[j] - 1.0) * e[1, j, link] + primed[j])
+            matrix[to, at + 3] = factor * ((inverse - 1.0) * e[0, j, link] + d[j])
         row += 2 if pose[j] else 1
 
 
@@ -94,7 +104,15 @@ def joined(pose: Poses, values: LinkValues, weights: LinkValues, right: Unknowns
 
 @compiled
 def rotation_step(
-    change: Unknowns, T: Positions, q: PinVectors, r: LinkVectors, values: LinkValues, weights: LinkValues, j: int
+    change: Unknowns,
+    T: Positions,
+    d: Positions,
+    primed: Positions,
+    p: PinVectors,
+    e: PinVectors,
+    values: LinkValues,
+    weights: LinkValues,
+    j: int,
 ) -> complex:
     """Change of log T of a point from the changes of u, by the equation with the greater weight."""
     link = 0
@@ -102,9 +120,9 @@ def rotation_step(
         link = 1
     at = 4 * link
     total = values[j, link]
-    total += (r[1, link] - q[1, j, link]) * change[at] + (r[0, link] - q[0, j, link]) * change[at + 1]
-    total += (T[j] * q[1, j, link] - r[1, link]) * change[at + 2]
-    total += (q[0, j, link] / T[j] - r[0, link]) * change[at + 3]
+    total -= (p[1, j, link] + primed[j]) * change[at] + (p[0, j, link] + d[j]) * change[at + 1]
+    total += ((T[j] - 1.0) * e[1, j, link] + primed[j]) * change[at + 2]
+    total += ((1.0 / T[j] - 1.0) * e[0, j, link] + d[j]) * change[at + 3]
     change_of_log: complex = -total / weights[j, link]
     return change_of_log
 

@@ -13,8 +13,11 @@ from ilmek.synthesis.alt_burmester.tracking import ENDED, track_all
 SLICE = 24
 """Paths that are tracked without a pause: some 40 ms."""
 
-DETOURS = 3
-"""Attempts to track a path that breaks off by way of another random task."""
+BESIDE = (0.01, 0.05, 0.2, 0.3)
+"""Distances from the straight line, in sizes of the task, of the tasks that paths are tracked through again."""
+
+ALONE = 2
+"""Number of them through which only the paths that lack are tracked; then all are."""
 
 POLISHED = 1e-6
 """Last Newton step, relative to the unknowns, up to which an end is a solution that stands alone."""
@@ -71,6 +74,17 @@ class Tracked:
         """Whether a path ended at a solution that stands alone."""
         return np.asarray((self.ends == ENDED) & (self.moved <= POLISHED))
 
+    @property
+    def lacking(self) -> Int[np.ndarray, " some"]:
+        """Indices of paths without an end of their own: broken off, at a singular end, or where another one ended."""
+        keys = np.where(self.good, self.solved.keys(), 1e9 * np.arange(1, len(self.ends) + 1))
+        return np.flatnonzero(~self.good | repeated(keys))
+
+    @property
+    def columns(self) -> tuple[Int[np.ndarray, " paths"], Int[np.ndarray, " paths"], Float[np.ndarray, " paths"]]:
+        """Ends, steps and last changes."""
+        return self.ends, self.steps, self.moved
+
 
 def solution_keys(u: Complex[np.ndarray, "solutions 8"], nine_points: bool) -> Complex[np.ndarray, " solutions"]:
     """A number for each solution: a fixed combination of the sums of the ground pivots and of their conjugates.
@@ -116,22 +130,24 @@ def track(begin: SolvedTask, task: Complex[np.ndarray, "3 positions"], progress:
 
 
 def complete(begin: SolvedTask, task: Complex[np.ndarray, "3 positions"], progress: Progress = SILENT) -> Tracked:
-    """As `track`; paths that break off, or meet, are tracked again by way of random tasks.
+    """As `track`; paths that break off, or meet, are tracked again through tasks beside the straight line.
 
-    The random tasks are the same in every run. Raises Cancelled.
+    A path that passes near infinity breaks off for rounding alone; beside the line it leads to the same end. If that
+    does not help, all paths are followed on another line, where others pass near infinity, for the ends that lack.
+    The lines are the same in every run. Raises Cancelled.
     """
     found = track(begin, task, progress)
-    for seed in range(DETOURS):
-        good = found.good
-        keys = np.where(good, found.solved.keys(), np.arange(len(good)) * 1e9)
-        open_paths = np.flatnonzero(~good | repeated(keys))
-        if not len(open_paths):
-            break
-        between = random_task(np.random.default_rng(seed), begin.pose)
-        first = track(begin.only(open_paths), between, progress.part(1.0, 1.0))
+    for seed, distance in enumerate(BESIDE):
+        lacking = found.lacking
+        if not len(lacking):
+            return found
+        which = lacking if seed < ALONE else np.arange(len(begin.unknowns))
+        between = 0.5 * (begin.task + task) + distance * random_task(np.random.default_rng(seed), begin.pose)
+        first = track(begin.only(which), between, progress.part(1.0, 1.0))
         second = track(first.solved, task, progress.part(1.0, 1.0))
         ends = np.where(first.good, second.ends, first.ends)
-        found = _replaced(found, open_paths, second, ends)
+        again = Tracked(second.solved, ends, first.steps + second.steps, second.moved)
+        found = _filled(found, lacking, again)
     return found
 
 
@@ -171,10 +187,14 @@ def _factor(of: Complex[np.ndarray, " positions"], towards: Complex[np.ndarray, 
     return size * along / abs(along) if along else complex(size)
 
 
-def _replaced(found: Tracked, which: Int[np.ndarray, " some"], by: Tracked, ends: Int[np.ndarray, " some"]) -> Tracked:
-    unknowns, rotations = found.solved.unknowns.copy(), found.solved.rotations.copy()
-    unknowns[which], rotations[which] = by.solved.unknowns, by.solved.rotations
-    columns = [found.ends.copy(), found.steps.copy(), found.moved.copy()]
-    for column, new in zip(columns, (ends, found.steps[which] + by.steps, by.moved), strict=True):
-        column[which] = new
-    return Tracked(SolvedTask(found.solved.pose, found.solved.task, unknowns, rotations), *columns)
+def _filled(found: Tracked, lacking: Int[np.ndarray, " some"], again: Tracked) -> Tracked:
+    """The lacking ends replaced by those of another run that are new; the first of two that met remains."""
+    known = np.setdiff1d(np.arange(len(found.ends)), lacking)
+    keys = np.concatenate([found.solved.keys()[known], again.solved.keys()])
+    new = np.flatnonzero(again.good & ~repeated(keys)[len(known) :])[: len(lacking)]
+    where = lacking[: len(new)]
+    arrays = [array.copy() for array in (found.solved.unknowns, found.solved.rotations, *found.columns)]
+    others = (again.solved.unknowns, again.solved.rotations, *again.columns)
+    for array, other in zip(arrays, others, strict=True):
+        array[where] = other[new]
+    return Tracked(SolvedTask(found.solved.pose, found.solved.task, arrays[0], arrays[1]), *arrays[2:])

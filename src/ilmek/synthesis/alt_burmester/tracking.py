@@ -26,7 +26,7 @@ from ilmek.synthesis.alt_burmester.equations import (
     factorise,
     joined,
     linearised,
-    pins,
+    products,
     rotation_step,
     substitute,
 )
@@ -56,14 +56,14 @@ ENDED, BROKEN, LONG = 1, 2, 3
 class Workspace(NamedTuple):
     """Arrays of one thread; coefficients of the orders along the first axis.
 
-    U, T, S = 1/T  of unknowns and rotations      Q, R  of the vectors of the links, see `equations.pins`
+    U, T, S = 1/T  of unknowns and rotations      P, E  of the vectors p and e, see `equations`
     """
 
     U: Complex[np.ndarray, "orders 8"]
     T: Complex[np.ndarray, "orders positions"]
     S: Complex[np.ndarray, "orders positions"]
-    Q: Complex[np.ndarray, "orders 2 positions 2"]
-    R: Complex[np.ndarray, "orders 2 2"]
+    P: Complex[np.ndarray, "orders 2 positions 2"]
+    E: Complex[np.ndarray, "orders 2 positions 2"]
     matrix: Square
     weights: LinkValues
     values: LinkValues
@@ -86,12 +86,15 @@ def newton_step(work: Workspace, u: Unknowns, T: Positions, pose: Poses) -> floa
 
     Its greatest relative change; NaN where the matrix is singular. The factors remain in the workspace.
     """
-    q, r = work.Q[0], work.R[0]
-    pins(u, T, work.d, work.primed, q, r)
-    linearised(u, T, pose, q, r, work.matrix, work.weights)
-    for j in range(T.size):
-        for link in range(2):
-            work.values[j, link] = q[0, j, link] * q[1, j, link] - r[0, link] * r[1, link]
+    p, e, d, primed = work.P[0], work.E[0], work.d, work.primed
+    products(u, T, d, primed, p, e)
+    linearised(u, T, pose, d, primed, p, e, work.matrix, work.weights)
+    for link in range(2):
+        at = 4 * link
+        r, r1 = u[at + 2] - u[at], u[at + 3] - u[at + 1]
+        for j in range(T.size):
+            turned = p[0, j, link] * e[1, j, link] + p[1, j, link] * e[0, j, link]
+            work.values[j, link] = turned + d[j] * (r1 + primed[j]) + primed[j] * r
     joined(pose, work.values, work.weights, work.right)
     if not factorise(work.matrix, work.order, work.scale):
         return np.nan
@@ -99,7 +102,7 @@ def newton_step(work: Workspace, u: Unknowns, T: Positions, pose: Poses) -> floa
     moved, size, step = 0.0, 1.0, 0.0
     for j in range(T.size):
         if not pose[j]:
-            change = rotation_step(work.right, T, q, r, work.values, work.weights, j)
+            change = rotation_step(work.right, T, d, primed, p, e, work.values, work.weights, j)
             T[j] *= 1.0 + change
             moved = max(moved, abs2(change))
     for i in range(UNKNOWNS):
@@ -113,7 +116,7 @@ def newton_step(work: Workspace, u: Unknowns, T: Positions, pose: Poses) -> floa
 @compiled
 def known_terms(work: Workspace, pose: Poses, change: Task, k: int) -> None:
     """Terms of order k in both links' equations that lower orders and the task determine, in `work.values`."""
-    U, T, S, Q, R = work.U, work.T, work.S, work.Q, work.R
+    U, T, S, P, E = work.U, work.T, work.S, work.P, work.E
     for j in range(pose.size):
         T[k, j] = change[2, j] if pose[j] and k == 1 else 0.0
         total = 0.0j
@@ -122,29 +125,33 @@ def known_terms(work: Workspace, pose: Poses, change: Task, k: int) -> None:
         S[k, j] = -total * S[0, j]
     for link in range(2):
         at = 4 * link
-        square = 0.0j
-        for i in range(1, k):
-            square += R[i, 0, link] * R[k - i, 1, link]
+        before, before1 = U[k - 1, at + 2] - U[k - 1, at], U[k - 1, at + 3] - U[k - 1, at + 1]
         for j in range(pose.size):
             a = T[k, j] * U[0, at + 2]
             b = S[k, j] * U[0, at + 3]
-            if k == 1:
-                a += change[0, j]
-                b += change[1, j]
-            value = -square
+            value = change[0, j] * before1 + change[1, j] * before
             for i in range(1, k):
                 a += T[i, j] * U[k - i, at + 2]
                 b += S[i, j] * U[k - i, at + 3]
-                value += Q[i, 0, j, link] * Q[k - i, 1, j, link]
-            Q[k, 0, j, link] = a
-            Q[k, 1, j, link] = b
-            work.values[j, link] = value + Q[0, 1, j, link] * a + Q[0, 0, j, link] * b
+                value += P[i, 0, j, link] * E[k - i, 1, j, link] + P[i, 1, j, link] * E[k - i, 0, j, link]
+            P[k, 0, j, link] = a
+            P[k, 1, j, link] = b
+            E[k, 0, j, link] = change[0, j] if k == 1 else 0.0
+            E[k, 1, j, link] = change[1, j] if k == 1 else 0.0
+            value += a * E[0, 1, j, link] + b * E[0, 0, j, link]
+            if k == 1:
+                value += (P[0, 0, j, link] + work.d[j]) * change[1, j] + (P[0, 1, j, link] + work.primed[j]) * change[
+                    0, j
+                ]
+            if k == 2:
+                value += change[0, j] * change[1, j]
+            work.values[j, link] = value
 
 
 @compiled
 def series(work: Workspace, pose: Poses, change: Task) -> None:
     """Taylor coefficients of orders 1 to ORDER; order 0 and the factors of the matrix are in the workspace."""
-    U, T, S, Q, R, right = work.U, work.T, work.S, work.Q, work.R, work.right
+    U, T, S, P, E, right = work.U, work.T, work.S, work.P, work.E, work.right
     for k in range(1, ORDER + 1):
         known_terms(work, pose, change, k)
         joined(pose, work.values, work.weights, right)
@@ -154,16 +161,15 @@ def series(work: Workspace, pose: Poses, change: Task) -> None:
         for j in range(pose.size):
             turned = 0.0j
             if not pose[j]:
-                turned = rotation_step(right, T[0], Q[0], R[0], work.values, work.weights, j)
+                turned = rotation_step(right, T[0], work.d, work.primed, P[0], E[0], work.values, work.weights, j)
                 T[k, j] = turned * T[0, j]
                 S[k, j] -= turned * S[0, j]
             for link in range(2):
                 at = 4 * link
-                Q[k, 0, j, link] += T[0, j] * (turned * U[0, at + 2] + right[at + 2]) - right[at]
-                Q[k, 1, j, link] += S[0, j] * (right[at + 3] - turned * U[0, at + 3]) - right[at + 1]
-        for link in range(2):
-            R[k, 0, link] = right[4 * link + 2] - right[4 * link]
-            R[k, 1, link] = right[4 * link + 3] - right[4 * link + 1]
+                P[k, 0, j, link] += T[0, j] * turned * U[0, at + 2] + (T[0, j] - 1.0) * right[at + 2]
+                P[k, 1, j, link] += (S[0, j] - 1.0) * right[at + 3] - S[0, j] * turned * U[0, at + 3]
+                E[k, 0, j, link] -= right[at]
+                E[k, 1, j, link] -= right[at + 1]
 
 
 @compiled
@@ -225,7 +231,7 @@ def advance(work: Workspace, pose: Poses, task: Task, change: Task, t: float) ->
         h *= 0.5
     work.U[0, :] = work.u
     work.T[0, :] = work.turn
-    pins(work.u, work.turn, work.d, work.primed, work.Q[0], work.R[0])
+    products(work.u, work.turn, work.d, work.primed, work.P[0], work.E[0])
     return 1.0 if h == 1.0 - t else t + h
 
 
@@ -238,7 +244,7 @@ def workspace(positions: int) -> Workspace:
         np.zeros((orders, positions), most),
         np.zeros((orders, positions), most),
         np.zeros((orders, 2, positions, 2), most),
-        np.zeros((orders, 2, 2), most),
+        np.zeros((orders, 2, positions, 2), most),
         np.zeros((UNKNOWNS, UNKNOWNS), most),
         np.zeros((positions, 2), most),
         np.zeros((positions, 2), most),
@@ -278,7 +284,7 @@ def track_all(
             if pose[j]:
                 work.T[0, j] = task[2, j]
         newton_step(work, work.U[0], work.T[0], pose)
-        pins(work.U[0], work.T[0], work.d, work.primed, work.Q[0], work.R[0])
+        products(work.U[0], work.T[0], work.d, work.primed, work.P[0], work.E[0])
         t, ends[path], steps[path], moved[path] = 0.0, ENDED, 0, np.nan
         while t < 1.0:
             to = advance(work, pose, task, change, t)
