@@ -22,6 +22,8 @@ POINTS, ANGLES = "points are written (12mm,4mm) (18.5mm,9.5mm)", "angles are wri
 POSES, PAIRS = "poses are written (0mm,0mm,10deg) (25mm,15mm,3deg)", "pairs are written (1,0) (2,0.301)"
 REGIONS = "a region is written (0,0) (40mm,20mm), or as the corners of a polygon"
 MOST_CORNERS = 60
+FREE = "free"
+ANGLES_OR_FREE = f"angles are written 20deg {FREE} 65deg"
 BOUNDS = "bounds are written 10mm..60mm, ..60mm, 10mm.. or 60mm alone"
 
 
@@ -74,6 +76,18 @@ def read_angles(name: str, text: str) -> FloatArray:
     if not found:
         raise ParameterError(f"{name}={text!r} is no list of angles", do=ANGLES)
     return np.array([_quantity(name, one, "deg") for one in found])
+
+
+def read_angles_or_free(name: str, text: str) -> FloatArray:
+    """The angles of a text [rad], NaN for the word `free`. Raises ParameterError where it holds anything else.
+
+    >>> read_angles_or_free("coupler_angles", "0 free 1rad").tolist()
+    [0.0, nan, 1.0]
+    """
+    found = _ITEM.findall(text)
+    if not found:
+        raise ParameterError(f"{name}={text!r} is no list of angles", do=ANGLES_OR_FREE)
+    return np.array([math.nan if one == FREE else _quantity(name, one, "deg") for one in found])
 
 
 def read_two_points(name: str, text: str) -> ComplexArray:

@@ -1,7 +1,7 @@
 """A four-bar for a path: its tracer passes given points, as near as possible, or exactly at given crank angles.
 
-Any 4 to 200 points are searched for the nearest four-bars within limits; 3 to 5 points at given crank angles are also
-met exactly, by all four-bars that do.
+Any 4 to 200 points are searched for the nearest four-bars within limits; 3 to 5 points at given crank angles, nine
+points, and poses and points together are also met exactly, by all four-bars that do.
 """
 
 from ilmek.machines import SUMMARIES

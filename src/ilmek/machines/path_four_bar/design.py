@@ -2,10 +2,13 @@
 
 import dataclasses
 import math
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
 from ilmek.arrays import ComplexArray
+from ilmek.machines.path_four_bar.complete import CompleteSearch, search
 from ilmek.machines.path_four_bar.params import PathFourBarParams
 from ilmek.progress import SILENT, Progress
 from ilmek.records import computed, record
@@ -26,16 +29,23 @@ MET, ROUNDING = 1e-9, 1e-6
 """Shares of a four-bar's size: an error that counts as none, and the part of an error that may be rounding."""
 
 
+def of_complete(doc: str, value: Callable[[CompleteSearch], Json]) -> Any:
+    """Declare a result of complete synthesis; left out elsewhere."""
+    return computed("", doc, lambda it: None if it.complete is None else value(it.complete), optional=True)
+
+
 @record
 class PathFourBar(FourBarDesign):
     """Four-bars for a path.
 
     points    [m]      cognates  of the one that is drawn, judged, by their names; () where they are not required
+    complete  where nine points, or poses and points, are met exactly; None otherwise
     """
 
     params: PathFourBarParams
     points: ComplexArray
     cognates: tuple[tuple[str, Candidate], ...]
+    complete: CompleteSearch | None = None
 
     error_max = detail_of_best("mm", "greatest distance from a point, of the solution that is drawn", "error_max")
     error_rms = detail_of_best("mm", "root mean square of the distances", "error_rms")
@@ -45,7 +55,20 @@ class PathFourBar(FourBarDesign):
     starts = detail_of_best("", "starts of the search", "starts")
     solutions = solutions(
         "error_max, error_rms and error_squares (sum of squares) of the points; of a search active, starts_agreed, "
-        "starts"
+        "starts; of nine points certified (its existence is proven), within (distance of its exact pins), curve (its "
+        "number: cognates have one)"
+    )
+    paths = of_complete(
+        "solutions of the complex task that were followed; of nine points each counts for three cognates",
+        lambda one: one.answer.paths,
+    )
+    real = of_complete("four-bars that meet the points exactly, defects included", lambda one: len(one.answer.found))
+    certified = of_complete(
+        "of these, four-bars whose existence is proven", lambda one: sum(each.certified for each in one.answer.found)
+    )
+    every_path_ended = of_complete(
+        "whether every path ended at a solution that stands alone: then no four-bar is missing",
+        lambda one: one.answer.complete,
     )
 
     @computed(
@@ -62,6 +85,22 @@ class PathFourBar(FourBarDesign):
         ] or None
 
 
+def _proven(params: PathFourBarParams, complete: CompleteSearch) -> tuple[FourBarOption, ...]:
+    """The four-bars of complete synthesis that are judged."""
+    found = []
+    for one, candidate in complete.judged:
+        if params.error_max is not None:
+            task = dataclasses.replace(candidate.task, point_tolerance=params.error_max)
+            candidate = judge(candidate.four_bar, task)
+        proof: dict[str, Json] = {
+            "certified": one.certified,
+            "within": one.distance if math.isfinite(one.distance) else None,
+            "curve": one.family,
+        }
+        found.append(FourBarOption(candidate, "complete", errors(candidate) | proof))
+    return tuple(found)
+
+
 def design(params: PathFourBarParams, progress: Progress = SILENT) -> PathFourBar:
     """All four-bars for the path.
 
@@ -69,14 +108,18 @@ def design(params: PathFourBarParams, progress: Progress = SILENT) -> PathFourBa
     Cancelled.
     """
     points = params.positions()
-    if params.exact:
+    complete = None
+    if params.exact and params.timing is None:
+        complete = search(params.poses_and_points(), params.filters(), progress)
+        choice = choose(_proven(params, complete), complete.words, params)
+    elif params.exact:
         choice = choose(*_exact(params, points), params)
     else:
         # The search keeps both limits, and ends at them: a filter would find them exceeded by rounding.
         filters = dataclasses.replace(params.filters(), transmission_min=0.0, full_turn=False)
         choice = choose(_searched(params, progress), (), params, filters=filters, rank=_nearest)
     siblings = _siblings(choice.best.candidate) if choice.best is not None and params.cognates else ()
-    return PathFourBar(choice=choice, params=params, points=points, cognates=siblings)
+    return PathFourBar(choice=choice, params=params, points=points, cognates=siblings, complete=complete)
 
 
 def _nearest(one: FourBarOption) -> tuple[float, float]:

@@ -4,10 +4,13 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.errors import ParameterError
 from ilmek.params.kind import choice, count, flag, length, text
-from ilmek.params.text_lists import Bounds, read_angles, read_bounds, read_points, read_two_points
+from ilmek.params.text_lists import Bounds, read_angles, read_angles_or_free, read_bounds, read_points, read_two_points
+from ilmek.synthesis.alt_burmester.task import PosesAndPoints
 from ilmek.synthesis.path.task import FEWEST, KINDS, MOST, PathTask
 from ilmek.synthesis.selection import FourBarTaskParams, ratio_limit
 
@@ -31,6 +34,9 @@ NAMED = {
 EXACT = (3, 4, 5)
 """Timed points that are met exactly."""
 
+NINE = 9
+"""Points that are met exactly without timing."""
+
 
 def _bounds(of: str, how: str = "like 10mm..60mm, ..60mm, or 60mm alone") -> Any:
     return text(None, doc=f"bounds on {of}, {how}")
@@ -46,7 +52,10 @@ class PathFourBarParams(FourBarTaskParams):
     )
     closed: bool = flag(False, doc="the path goes on from the last point to the first, once a turn of the crank")
     ordered: bool = flag(True, doc="the crank meets the points in their order, within one turn")
-    exact: bool = flag(False, doc="all four-bars that meet 3 to 5 timed points exactly, instead of the nearest")
+    exact: bool = flag(False, doc="all four-bars that meet 3 to 5 timed points, or nine points without timing, exactly")
+    coupler_angles: str | None = text(
+        None, doc="coupler's angle at each point where exact, or free: 0deg free 20deg …; 5, or 4 of 6, 3 of 7, 2 of 8"
+    )
     pivots: str | None = text(
         None, doc="pivots of crank and rocker where 3 timed points are met exactly: (0,0) (9mm,0)"
     )
@@ -71,6 +80,11 @@ class PathFourBarParams(FourBarTaskParams):
 
     def check_together(self) -> None:
         """Raise ParameterError where the task cannot be read, or its method does not take it."""
+        if self.coupler_angles is not None and (self.timing is not None or not self.exact):
+            raise ParameterError(
+                "coupler_angles are for points that are met exactly without timing",
+                do="set exact=yes, leave timing out",
+            )
         if self.exact:
             _check_exact(self)
         else:
@@ -79,6 +93,13 @@ class PathFourBarParams(FourBarTaskParams):
     def positions(self) -> ComplexArray:
         """The points [m]."""
         return read_points("points", self.points)
+
+    def poses_and_points(self) -> PosesAndPoints:
+        """The task of complete synthesis. Raises ParameterError where it does not determine four-bars."""
+        points = self.positions()
+        if self.coupler_angles is None:
+            return PosesAndPoints(points, np.full(len(points), np.nan))
+        return PosesAndPoints(points, read_angles_or_free("coupler_angles", self.coupler_angles))
 
     def angles(self) -> FloatArray | None:
         """The timing [rad]."""
@@ -132,8 +153,10 @@ def _instead(count: int) -> str:
 def _check_exact(params: PathFourBarParams) -> None:
     """Raise ParameterError where the exact methods do not take the task."""
     points, timing = params.positions(), params.angles()
+    _check_search_alone(params)
     if timing is None:
-        raise ParameterError("exact=yes without a timing", do="set timing: a crank angle for each point, 30deg 45deg …")
+        _check_complete(params)
+        return
     if len(points) not in EXACT:
         more = f"{FEWEST} to {MOST} points are searched for the nearest four-bar: leave exact out"
         raise ParameterError(
@@ -147,6 +170,24 @@ def _check_exact(params: PathFourBarParams) -> None:
         what = "need both pivots" if len(points) == 3 else "leave no pivot free to give"
         do = "set pivots=(0,0) (9mm,0)" if len(points) == 3 else "leave pivots out"
         raise ParameterError(f"{len(points)} timed points {what}", do=do)
+
+
+def _check_complete(params: PathFourBarParams) -> None:
+    """Raise ParameterError where points without timing do not determine four-bars."""
+    if params.pivots is not None:
+        raise ParameterError("pivots are for 3 timed points with exact=yes", do="leave pivots out, or set timing")
+    count = len(params.positions())
+    if params.coupler_angles is None and count != NINE:
+        raise ParameterError(
+            f"exact=yes without a timing, with {count} points",
+            allowed="nine points, fewer with coupler_angles, or 3 to 5 points with a timing",
+            do="give nine points; or set coupler_angles, 0deg free 20deg …; or timing, 30deg 45deg …",
+        )
+    params.poses_and_points()
+
+
+def _check_search_alone(params: PathFourBarParams) -> None:
+    """Raise ParameterError where bounds of the search are given."""
     searched = [name for name in NAMED if getattr(params, name) is not None]
     if searched:
         given = f"{searched[0]} and exact=yes: bounds are for the search, exact four-bars leave nothing free"

@@ -20,6 +20,7 @@ def tables(design: PathFourBar) -> tuple[Table, ...]:
     searched = not design.params.exact and design.best is not None
     return (
         *((_search_table(design),) if searched else ()),
+        *((_proof_table(design),) if design.complete is not None and design.best is not None else ()),
         *shared_tables(design.choice, "path-four-bar"),
         *((_cognate_table(design),) if design.cognates else ()),
     )
@@ -41,6 +42,21 @@ def _search_row(one: FourBarOption) -> tuple[float | int | str, ...]:
         agreed if isinstance(agreed, int) else 0,
         "; ".join(str(limit) for limit in active) if isinstance(active, list) else "",
     )
+
+
+def _proof_table(design: PathFourBar) -> Table:
+    heads = columns("solution", "curve", "proven", "exact pins within [mm]", "greatest error [mm]")
+    rows = tuple(
+        (
+            at,
+            str(one.details["curve"]),
+            "yes" if one.details["certified"] else "no",
+            finite(one.details["within"]),
+            finite(one.details["error_max"]),
+        )
+        for at, one in enumerate(design.choice.kept, 1)
+    )
+    return Table("path-four-bar-proof", "Proof of the solutions; cognates have one curve", heads, rows, brief=True)
 
 
 def _cognate_table(design: PathFourBar) -> Table:
