@@ -163,3 +163,70 @@ def test_a_long_search_reports_its_progress_and_is_cancelled() -> None:
     assert len(set(shares)) > 3
     with pytest.raises(Cancelled):
         MACHINE.designed(params, Progress(cancelled=lambda: len(shares) > 0))
+
+
+NINE = "(18mm,66mm) (30mm,88mm) (21mm,94mm) (6mm,90mm) (-9mm,78mm) (-21mm,59mm) (-24mm,42mm) (-18mm,34mm) (-4mm,41mm)"
+SEVEN = "(18mm,66mm) (30mm,86mm) (23mm,94mm) (6mm,90mm) (-11mm,75mm) (-22mm,57mm) (-24mm,41mm)"
+THREE_ANGLES = "0deg free free -28deg free free -3deg"
+
+
+def test_nine_points_are_met_exactly_by_every_four_bar_that_does_and_each_is_proven() -> None:
+    said = answer(points=NINE, exact="yes", count="10")
+    results = json.loads(json.dumps(said.as_json()))["results"]
+    assert (results["paths"], results["every_path_ended"]) == (1442, True)
+    assert results["real"] == results["certified"] == results["found"] + sum(results["left_out"].values()) == 300
+    assert results["found"] == len(results["candidates"]) == 4
+    points = (
+        np.array([18 + 66j, 30 + 88j, 21 + 94j, 6 + 90j, -9 + 78j, -21 + 59j, -24 + 42j, -18 + 34j, -4 + 41j]) * 1e-3
+    )
+    for found in results["candidates"]:
+        seen = judge(four_bar(found), PrecisionTask(points=points))
+        assert (seen.one_branch, seen.in_order, seen.point_error < 1e-11) == (True, True, True)
+        assert found["certified"]
+        assert found["within"] < 1e-12
+    curves = [found["curve"] for found in results["candidates"]]
+    assert sorted(curves.count(curve) for curve in set(curves)) == [2, 2]
+    best = results["candidates"][0]
+    assert [round(1e3 * best[name], 1) for name in LINKS] == [89.2, 30.1, 75.3, 69.2]
+    assert any(table.name == "path-four-bar-proof" for table in said.tables)
+
+
+def test_poses_and_points_together_are_met_exactly() -> None:
+    results = answer(points=SEVEN, exact="yes", coupler_angles=THREE_ANGLES).as_json()["results"]
+    assert (results["paths"], results["every_path_ended"], results["found"]) == (201, True, 5)
+    for found in results["candidates"]:
+        drawn = four_bar(found)
+        seen = judge(drawn, PrecisionTask(points=np.array([18 + 66j, 6 + 90j, -24 + 41j]) * 1e-3, coupler=FREE_ANGLES))
+        assert seen.met
+        assert max(found["point_errors"]) < 1e-11
+
+
+FREE_ANGLES = np.radians([0, -28, -3])
+
+
+def test_without_a_four_bar_the_limit_to_loosen_is_named() -> None:
+    said = answer(points=SEVEN, exact="yes", coupler_angles=THREE_ANGLES, transmission_min="60deg")
+    results = said.as_json()["results"]
+    assert results["found"] == 0
+    assert "one_branch=no gives 10" in " ".join(results["loosened"])
+    assert results["left_out"]["transmission"] == 5
+
+
+@pytest.mark.parametrize(
+    ("settings", "words"),
+    [
+        ({"points": SEVEN, "exact": "yes"}, "nine points"),
+        ({"points": SEVEN, "exact": "yes", "coupler_angles": "0deg free 20deg"}, "7 points and 3 angles"),
+        ({"points": SEVEN, "coupler_angles": THREE_ANGLES}, "set exact=yes"),
+        ({"points": SEVEN, "exact": "yes", "coupler_angles": "0deg free free free free free 3deg"}, "2 and 6"),
+        (
+            {"points": SEVEN, "exact": "yes", "coupler_angles": THREE_ANGLES, "crank": "..30mm"},
+            "bounds are for the search",
+        ),
+        ({"points": NINE, "exact": "yes", "pivots": "(0,0) (1mm,0)"}, "leave pivots out"),
+        ({"points": SEVEN, "exact": "yes", "coupler_angles": "0deg loose"}, "coupler_angles"),
+    ],
+)
+def test_exact_tasks_that_leave_something_free_are_refused(settings: dict[str, str], words: str) -> None:
+    with pytest.raises(ParameterError, match=words):
+        answer(**settings)

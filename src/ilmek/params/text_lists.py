@@ -23,6 +23,7 @@ POSES, PAIRS = "poses are written (0mm,0mm,10deg) (25mm,15mm,3deg)", "pairs are 
 REGIONS = "a region is written (0,0) (40mm,20mm), or as the corners of a polygon"
 MOST_CORNERS = 60
 FREE = "free"
+_ITEM_OR_FREE = re.compile(rf"{FREE}|[^\s,;]+(?:\s+(?!{FREE}|[+\-.\d])[^\s,;]+)?")
 ANGLES_OR_FREE = f"angles are written 20deg {FREE} 65deg"
 BOUNDS = "bounds are written 10mm..60mm, ..60mm, 10mm.. or 60mm alone"
 
@@ -81,10 +82,10 @@ def read_angles(name: str, text: str) -> FloatArray:
 def read_angles_or_free(name: str, text: str) -> FloatArray:
     """The angles of a text [rad], NaN for the word `free`. Raises ParameterError where it holds anything else.
 
-    >>> read_angles_or_free("coupler_angles", "0 free 1rad").tolist()
-    [0.0, nan, 1.0]
+    >>> read_angles_or_free("coupler_angles", "0 free free 1rad 0.5 rad free").tolist()
+    [0.0, nan, nan, 1.0, 0.5, nan]
     """
-    found = _ITEM.findall(text)
+    found = _ITEM_OR_FREE.findall(text)
     if not found:
         raise ParameterError(f"{name}={text!r} is no list of angles", do=ANGLES_OR_FREE)
     return np.array([math.nan if one == FREE else _quantity(name, one, "deg") for one in found])

@@ -1,6 +1,9 @@
 """All four-bars for nine points, or for poses and points together: known defects removed, the others judged."""
 
 from collections import Counter
+from dataclasses import replace
+
+import numpy as np
 
 from ilmek.progress import Progress
 from ilmek.records import record
@@ -10,6 +13,7 @@ from ilmek.synthesis.alt_burmester.task import PosesAndPoints
 from ilmek.synthesis.candidate import Candidate, judge
 from ilmek.synthesis.filters import REASONS, Filters
 from ilmek.synthesis.four_bar import FourBar
+from ilmek.synthesis.selection import FourBarSelection, SearchedFamily, single_cures
 from ilmek.synthesis.task import PrecisionTask
 
 
@@ -26,12 +30,25 @@ class CompleteSearch:
     judged: tuple[tuple[CompleteFourBar, Candidate], ...]
     removed: Counter[str]
 
+    def family(self, choice: FourBarSelection) -> SearchedFamily:
+        """How many four-bars there are, how many are within all limits, and how many miss each."""
+        return SearchedFamily(
+            len(self.answer.found), len(choice.kept) + choice.more, self.removed + Counter(choice.counts)
+        )
+
+    def cures(self, choice: FourBarSelection) -> tuple[str, ...]:
+        """Single limits without which there is a four-bar."""
+        defects = sorted(self.removed.items())
+        return (
+            *(f"{name}=no gives {count} with the defect: {REASONS[name]}" for name, count in defects),
+            *single_cures(choice.removed),
+        )
+
     @property
     def words(self) -> tuple[str, ...]:
-        """What was found and is not listed, as phrases."""
+        """What was found and is no four-bar, as phrases."""
         answer = self.answer
         parts = [f"{count} of {answer.paths} solutions: {reason}" for reason, count in answer.left_out.items()]
-        parts += [f"four-bars with {REASONS[name]}: {count}" for name, count in sorted(self.removed.items())]
         if not answer.complete:
             parts.append("some paths did not end at a solution that stands alone: there may be more four-bars")
         return tuple(parts)
@@ -52,4 +69,6 @@ def search(task: PosesAndPoints, filters: Filters, progress: Progress) -> Comple
 
 def _checked(four_bar: FourBar, one: CompleteFourBar, task: PosesAndPoints) -> Candidate:
     """The four-bar judged at its known configurations."""
-    return judge(four_bar, PrecisionTask(points=task.points, coupler=one.angles))
+    seen = judge(four_bar, PrecisionTask(points=task.points, coupler=one.angles))
+    # All angles are known, which singles the configurations out; at nine points none of them is required.
+    return replace(seen, task=PrecisionTask(points=task.points)) if np.isnan(task.angles).all() else seen

@@ -55,8 +55,7 @@ class PathFourBar(FourBarDesign):
     starts = detail_of_best("", "starts of the search", "starts")
     solutions = solutions(
         "error_max, error_rms and error_squares (sum of squares) of the points; of a search active, starts_agreed, "
-        "starts; of nine points certified (its existence is proven), within (distance of its exact pins), curve (its "
-        "number: cognates have one)"
+        "starts; of nine points within (distance of its exact pins) and curve (its number: cognates have one)"
     )
     paths = of_complete(
         "solutions of the complex task that were followed; of nine points each counts for three cognates",
@@ -85,19 +84,16 @@ class PathFourBar(FourBarDesign):
         ] or None
 
 
-def _proven(params: PathFourBarParams, complete: CompleteSearch) -> tuple[FourBarOption, ...]:
+def _proven(complete: CompleteSearch) -> tuple[FourBarOption, ...]:
     """The four-bars of complete synthesis that are judged."""
     found = []
     for one, candidate in complete.judged:
-        if params.error_max is not None:
-            task = dataclasses.replace(candidate.task, point_tolerance=params.error_max)
-            candidate = judge(candidate.four_bar, task)
         proof: dict[str, Json] = {
-            "certified": one.certified,
             "within": one.distance if math.isfinite(one.distance) else None,
             "curve": one.family,
         }
-        found.append(FourBarOption(candidate, "complete", errors(candidate) | proof))
+        details = errors(candidate) | proof
+        found.append(FourBarOption(candidate, "complete", details, certified=one.certified))
     return tuple(found)
 
 
@@ -111,7 +107,9 @@ def design(params: PathFourBarParams, progress: Progress = SILENT) -> PathFourBa
     complete = None
     if params.exact and params.timing is None:
         complete = search(params.poses_and_points(), params.filters(), progress)
-        choice = choose(_proven(params, complete), complete.words, params)
+        choice = choose(_proven(complete), complete.words, params)
+        cures = () if choice.kept else complete.cures(choice)
+        choice = dataclasses.replace(choice, family=complete.family(choice), cures=cures)
     elif params.exact:
         choice = choose(*_exact(params, points), params)
     else:

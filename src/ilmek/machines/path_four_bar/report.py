@@ -50,7 +50,7 @@ def _proof_table(design: PathFourBar) -> Table:
         (
             at,
             str(one.details["curve"]),
-            "yes" if one.details["certified"] else "no",
+            "yes" if one.certified else "no",
             finite(one.details["within"]),
             finite(one.details["error_max"]),
         )

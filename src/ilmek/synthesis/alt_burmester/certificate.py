@@ -20,16 +20,23 @@ from ilmek.synthesis.alt_burmester.task import PosesAndPoints
 ANGLE_ULPS = 4
 """Units in the last place by which a cosine or sine may be wrong."""
 
-PIN_UNKNOWNS = 8
+PINS = "AxBy"
+"""Complex unknowns that are not rotations."""
 
 
 @record
 class Certificate:
-    """Whether each four-bar is proven; improved pins; the distance [m] of the exact ones, NaN if not proven."""
+    """Proof of four-bars, with improved numbers: see `certify`.
+
+    certified  whether each is proven      pins, turns  improved
+    pin_error, turn_error  distances of the exact pins [unit_length] and turns [1] from them; NaN if not proven
+    """
 
     certified: Bool[np.ndarray, " four_bars"]
     pins: Complex[np.ndarray, "four_bars 4"]
-    distance: Float[np.ndarray, " four_bars"]
+    turns: Complex[np.ndarray, "four_bars others"]
+    pin_error: Float[np.ndarray, " four_bars"]
+    turn_error: Float[np.ndarray, " four_bars"]
 
 
 def certify(
@@ -43,14 +50,17 @@ def certify(
     turns  T of the other positions, in the order of `task.others`
     """
     if not len(pins):
-        return Certificate(np.zeros(0, dtype=bool), pins, np.zeros(0))
+        return Certificate(np.zeros(0, dtype=bool), pins, turns, np.zeros(0), np.zeros(0))
     free = np.flatnonzero(~task.pose)
     numbers = np.concatenate([pins, turns[:, free]], axis=1)
     near = np.stack([numbers.real, numbers.imag], -1).reshape(len(pins), -1)
     found = certified_roots(_System(task), near)
-    distance = np.hypot(found.radius[:, 0:PIN_UNKNOWNS:2], found.radius[:, 1:PIN_UNKNOWNS:2]).max(axis=1)
-    improved = found.roots[:, 0:PIN_UNKNOWNS:2] + 1j * found.roots[:, 1:PIN_UNKNOWNS:2]
-    return Certificate(found.certified, improved, distance * unit_length(task))
+    improved = found.roots[:, ::2] + 1j * found.roots[:, 1::2]
+    errors = np.hypot(found.radius[:, ::2], found.radius[:, 1::2])
+    turned = turns.copy()
+    turned[:, free] = improved[:, len(PINS) :]
+    pin_error, turn_error = errors[:, : len(PINS)].max(axis=1), errors[:, len(PINS) :].max(axis=1, initial=0.0)
+    return Certificate(found.certified, improved[:, : len(PINS)], turned, pin_error, turn_error)
 
 
 def unit_length(task: PosesAndPoints) -> float:
@@ -71,7 +81,7 @@ class _System:
         self.pose = task.pose
 
     def __call__(self, X: Intervals) -> tuple[Intervals, Intervals]:
-        values, rows, at = [], [], PIN_UNKNOWNS
+        values, rows, at = [], [], 2 * len(PINS)
         for j, pose in enumerate(self.pose):
             if pose:
                 c, s = (_enclosed(function, self.turns[j]).rounded(X.low.dtype) for function in (np.cos, np.sin))

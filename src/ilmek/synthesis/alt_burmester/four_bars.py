@@ -14,7 +14,7 @@ from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 from ilmek.synthesis.alt_burmester.certificate import Certificate, certify, unit_length
 from ilmek.synthesis.alt_burmester.homotopy import complete
-from ilmek.synthesis.alt_burmester.real_solutions import DEGENERATE, RealSolutions, real_solutions
+from ilmek.synthesis.alt_burmester.real_solutions import DEGENERATE, real_solutions
 from ilmek.synthesis.alt_burmester.start_sets import start_set
 from ilmek.synthesis.alt_burmester.task import PosesAndPoints
 from ilmek.synthesis.four_bar import FourBar
@@ -67,7 +67,7 @@ def complete_four_bars(task: PosesAndPoints, progress: Progress = SILENT) -> Com
     solutions = real_solutions(task, found)
     proof = certify(task, solutions.pins, solutions.turns)
     progress(1.0)
-    drawn = [_drawn(task, solutions, proof, k) for k in np.argsort(solutions.family, kind="stable")]
+    drawn = [_drawn(task, int(solutions.family[k]) + 1, proof, k) for k in np.argsort(solutions.family, kind="stable")]
     left_out = dict(solutions.left_out)
     if None in drawn:
         left_out[DEGENERATE] = left_out.get(DEGENERATE, 0) + drawn.count(None)
@@ -75,10 +75,10 @@ def complete_four_bars(task: PosesAndPoints, progress: Progress = SILENT) -> Com
     return CompleteFourBars(tuple(one for one in drawn if one), len(found.ends), left_out, good)
 
 
-def _drawn(task: PosesAndPoints, solutions: RealSolutions, proof: Certificate, k: int) -> CompleteFourBar | None:
+def _drawn(task: PosesAndPoints, family: int, proof: Certificate, k: int) -> CompleteFourBar | None:
     """A solution as a four-bar in metres at the first position; None where a link has no length."""
     turns: ComplexArray = np.ones(len(task.points), dtype=complex)
-    turns[task.others] = solutions.turns[k]
+    turns[task.others] = proof.turns[k]
     A, x, B, y = proof.pins[k] * unit_length(task)
     origin, first = task.points[task.reference], task.points[0]
     try:
@@ -90,7 +90,15 @@ def _drawn(task: PosesAndPoints, solutions: RealSolutions, proof: Certificate, k
     return CompleteFourBar(
         found,
         np.asarray(np.angle(turns / turns[0])),
-        int(solutions.family[k]) + 1,
+        family,
         bool(proof.certified[k]),
-        float(proof.distance[k]),
+        _distance(task, proof, k),
     )
+
+
+def _distance(task: PosesAndPoints, proof: Certificate, k: int) -> float:
+    """Distance of the exact pins at the first position from the drawn ones [m], rounding included."""
+    size = float(np.abs(proof.pins[k]).max())
+    found = proof.pin_error[k] + (0.0 if task.reference == 0 else size * proof.turn_error[k])
+    rounding = 8 * float(np.finfo(float).eps) * (size * unit_length(task) + float(np.abs(task.points).max()))
+    return float(found) * unit_length(task) + rounding
