@@ -1,10 +1,12 @@
 """Forces of own machines against calculations that share no code with the engine's force equations.
 
 Slider-crank: closed-form kinematics and the 8 equations of Newton and Euler as one matrix [Norton, Design of Machinery,
-section 11.4]. Jansen's leg: drive torque by virtual power, rates by Fourier series of the positions. Class III: all
-equations of all bodies as one matrix in world coordinates.
+section 11.4]. Jansen's leg: drive torque by virtual power, rates by Fourier series of the positions. Class III and
+every example: all equations of all bodies as one matrix in world coordinates.
 """
 
+import dataclasses
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +14,7 @@ import pytest
 from tests.support.mechanisms import triad
 
 from ilmek.dynamics.inertia import Inertia, bar
-from ilmek.dynamics.inverse_run import InverseRun, inverse_run
+from ilmek.dynamics.inverse_run import InverseRun, all_loads, inverse_run
 from ilmek.dynamics.loads import PointForce, Torque
 from ilmek.dynamics.own_machine import NamedLoad, OwnMachine
 from ilmek.io.mechanism_file import read_mechanism
@@ -111,54 +113,115 @@ def test_jansens_leg_needs_the_torque_of_virtual_power() -> None:
     assert run.balance < 1e-12
 
 
+Place = tuple[complex, complex]
+"""Origin and direction of a body."""
+
+
+def transmitted(
+    mechanism: Mechanism, place: Mapping[str, Place]
+) -> Iterator[tuple[str, str, str, complex, complex, float]]:
+    """Name, body, other body, position, unit force and unit couple of all that joints, teeth and the drive transmit."""
+
+    def at(body: str, point: str) -> complex:
+        return complex(place[body][0] + place[body][1] * mechanism.point(body, point))
+
+    for joint in mechanism.joints:
+        if isinstance(joint, Pin):
+            on, by = joint.second, joint.first
+            units, drive = [(1 + 0j, 0.0), (1j, 0.0)], (0j, 1.0)
+        else:
+            on, by = joint.body, joint.guide
+            line = complex(place[by][1] * np.exp(1j * joint.along))
+            units, drive = [(1j * line, 0.0), (0j, 1.0)], (line, 0.0)
+        yield from ((joint.name, on, by, at(on, joint.name), *unit) for unit in units)
+        if any(entry.joint == joint.name for entry in mechanism.inputs):
+            yield "drive", on, by, at(on, joint.name), *drive
+    for gears in mechanism.couplings:
+        start, end = at(*gears.first), at(*gears.second)
+        pole = start + gears.ratio / (gears.ratio - 1) * (end - start)  # where both rims have the same velocity
+        yield gears.name, gears.second[0], gears.first[0], pole, 1j * (end - start) / abs(end - start), 0.0
+
+
+def all_at_once(machine: OwnMachine, run: InverseRun, k: int) -> dict[str, tuple[complex, float]]:
+    """Force and couple of each joint and coupling, and the drive's effort, of one sample: three equations of each body
+    in world coordinates, solved as one system. Pins have two unknowns, slides a cross force and a couple, gears one.
+    """
+    mechanism, motion = machine.mechanism, run.forces.motion
+    bodies, load = mechanism.moving, {body: np.zeros(3) for body in mechanism.moving}
+    place = {body: (motion.origin(body)[k], motion.direction(body)[k]) for body in bodies}
+    place["ground"] = (0j, 1 + 0j)
+    inertia = {body: machine.inertias.get(body, Inertia(0.0, 0j, 0.0)) for body in bodies}
+    centre = {body: place[body][0] + place[body][1] * inertia[body].centre for body in bodies}
+
+    def acting(body: str, at: complex, force: complex, torque: float = 0.0) -> np.ndarray:
+        return np.array([force.real, force.imag, cross(at - centre[body], force) + torque])
+
+    for one in all_loads(machine):
+        for wrench in one.wrenches(motion, inertia):
+            if wrench.body != "ground":
+                force, torque = (np.broadcast_to(each, len(motion))[k] for each in (wrench.force, wrench.torque))
+                at = place[wrench.body][0] + place[wrench.body][1] * wrench.at
+                load[wrench.body] += acting(wrench.body, at, force, torque)
+    units = list(transmitted(mechanism, place))
+    m, y = np.zeros((3 * len(bodies), len(units))), np.zeros(3 * len(bodies))
+    for row, body in enumerate(bodies):
+        rates = 1j * motion.alpha(body)[k] - motion.omega(body)[k] ** 2
+        arm = centre[body] - place[body][0]
+        change = inertia[body].mass * (motion.acceleration_of_origin(body)[k] + rates * arm)
+        rows = slice(3 * row, 3 * row + 3)
+        y[rows] = np.array([change.real, change.imag, inertia[body].moment * motion.alpha(body)[k]]) - load[body]
+        for column, (_, on, by, at, force, couple) in enumerate(units):
+            if body in (on, by):
+                m[rows, column] = (1.0 if body == on else -1.0) * acting(body, at, force, couple)
+    assert m.shape[0] == m.shape[1]
+    scale = np.tile([1.0, 1.0, 10.0], len(bodies))
+    sizes = np.linalg.solve(m * scale[:, None], y * scale)
+    found: dict[str, tuple[complex, float]] = {}
+    for size, (name, _, _, _, force, couple) in zip(sizes, units, strict=True):
+        before = found.get(name, (0j, 0.0))
+        found[name] = before[0] + size * force, before[1] + size * couple
+    return found
+
+
+def compare(machine: OwnMachine, values: np.ndarray, speed: float) -> None:
+    run = moved(machine, values, speed)
+    forces, driven = run.forces, machine.mechanism.inputs[0]
+    assert forces.motion.ok
+    for k in range(len(values)):
+        found = all_at_once(machine, run, k)
+        size = max(abs(force) for force, _ in found.values())
+        for name, force in forces.reactions.items():
+            assert force[k] == pytest.approx(found[name][0], abs=1e-9 * size), name
+        for name, couple in forces.couples.items():
+            assert couple[k] == pytest.approx(found[name][1], abs=1e-9 * size), name
+        joint = machine.mechanism.joint(driven.joint)
+        sign = (
+            1.0 if driven.name in ((joint.second if isinstance(joint, Pin) else joint.name), joint.bodies[-1]) else -1.0
+        )
+        assert forces.effort(driven.name)[k] * sign == pytest.approx(sum(found["drive"]).real, abs=1e-9 * size)
+    assert run.power_residual < 1e-11
+    assert run.balance < 1e-11
+
+
 def test_a_class_three_mechanism_has_the_forces_of_all_equations_at_once() -> None:
-    """Three equations of each body in world coordinates, two unknowns of each pin and the torque: one square system."""
     mechanism = triad()
     inertias = {
         body: Inertia(1.0 + k, complex(np.mean(list(mechanism.body(body).points.values()))) + 0.1j, 0.2 + 0.1 * k)
         for k, body in enumerate(mechanism.moving)
     }
-    loads = (
-        NamedLoad("work", PointForce("plate", "P", 50 - 20j)),
-        NamedLoad("brake", Torque("left", -3.0)),
-    )
-    machine = OwnMachine(mechanism, inertias, gravity=GRAVITY, loads=loads)
-    run = moved(machine, np.linspace(-0.2, 0.25, 13), 3.0)
-    assert run.forces.motion.ok
-    for k in range(13):
-        found = dict(zip([one.name for one in mechanism.joints], _all_at_once(machine, run, k), strict=False))
-        size = max(abs(force) for force in found.values())
-        for joint in mechanism.joints:
-            assert run.forces.reactions[joint.name][k] == pytest.approx(found[joint.name], abs=1e-10 * size)
-    assert run.power_residual < 1e-12
+    loads = (NamedLoad("work", PointForce("plate", "P", 50 - 20j)), NamedLoad("brake", Torque("left", -3.0)))
+    compare(OwnMachine(mechanism, inertias, gravity=GRAVITY, loads=loads), np.linspace(-0.2, 0.25, 13), 3.0)
 
 
-def _all_at_once(machine: OwnMachine, run: InverseRun, k: int) -> list[complex]:
-    """Pin forces on the second body of each pin at one sample."""
-    mechanism: Mechanism = machine.mechanism
-    motion, bodies = run.forces.motion, machine.mechanism.moving
-    pins = [joint for joint in mechanism.joints if isinstance(joint, Pin)]
-    m, y = np.zeros((3 * len(bodies), 2 * len(pins) + 1)), np.zeros(3 * len(bodies))
-    at = {body: (motion.origin(body)[k], motion.direction(body)[k]) for body in bodies}
-    for row, body in enumerate(bodies):
-        inertia, (origin, direction) = machine.inertias[body], at[body]
-        arm = direction * inertia.centre
-        rates = 1j * motion.alpha(body)[k] - motion.omega(body)[k] ** 2
-        change = inertia.mass * (motion.acceleration_of_origin(body)[k] + rates * arm - GRAVITY)
-        y[3 * row : 3 * row + 3] = change.real, change.imag, inertia.moment * motion.alpha(body)[k]
-        for column, pin in enumerate(pins):
-            if body in pin.bodies:
-                sign = 1.0 if body == pin.second else -1.0
-                lever = origin + direction * mechanism.point(body, pin.name) - (origin + arm)
-                m[3 * row, 2 * column], m[3 * row + 1, 2 * column + 1] = sign, sign
-                m[3 * row + 2, 2 * column : 2 * column + 2] = -sign * lever.imag, sign * lever.real
-    plate, left, crank = (3 * bodies.index(name) for name in ("plate", "left", "crank"))
-    origin, direction = at["plate"]
-    lever = direction * (mechanism.point("plate", "P") - machine.inertias["plate"].centre)
-    y[plate] -= 50
-    y[plate + 1] += 20
-    y[plate + 2] -= cross(lever, 50 - 20j)
-    y[left + 2] += 3.0
-    m[crank + 2, -1] = 1.0
-    found = np.linalg.solve(m, y)
-    return [complex(*found[2 * column : 2 * column + 2]) for column in range(len(pins))]
+MACHINES = [
+    path
+    for path in sorted(EXAMPLES.glob("*.toml"))
+    if "[joints]" in path.read_text(encoding="utf-8") and read_mechanism(path).machine.has_forces
+]
+
+
+@pytest.mark.parametrize("path", MACHINES, ids=lambda path: path.stem)
+def test_every_example_has_the_forces_of_all_equations_at_once(path: Path) -> None:
+    """Without the friction of joints: six-bars, quick return, Klann's and Jansen's legs, gears, class III, springs."""
+    machine = dataclasses.replace(read_mechanism(path).machine, frictions=())
+    compare(machine, np.linspace(0.1, 6.2, 9), 5.0)
