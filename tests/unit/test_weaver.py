@@ -12,6 +12,7 @@ from ilmek.machines.weaver import MACHINE, WeaverParams, design, mass_of
 from ilmek.machines.weaver.cyclogram import DRAW_TURN
 from ilmek.machines.weaver.design import shaft_torque
 from ilmek.machines.weaver.motions import HANDLER, SLEY
+from ilmek.machines.weaver.rods import rod_frequency
 from ilmek.timing.s_curve import AxisLimits, move_time, s_curve, travel_time
 from ilmek.timing.track import sample
 from ilmek.units import deg
@@ -210,3 +211,19 @@ def test_work_of_the_moves_is_their_greatest_kinetic_energy() -> None:
         time = np.linspace(0.0, move_time(travel, limits), 20001)
         speed = np.gradient(s_curve(travel, limits).at(time)[0], time)
         assert work[name].energy == pytest.approx(mass * speed.max() ** 2 / 2, rel=1e-3)
+
+
+def test_a_gripper_s_rod_vibrates_as_a_cantilever_with_a_mass_at_its_end() -> None:
+    """Rao, 1.5 and table of equivalent masses: f = sqrt(3 E I / (l³ (M + 0.236 m))) / 2π, M the arm."""
+    weaver = design(WeaverParams())
+    params, by = weaver.params, weaver.grippers
+    length, area = params.opening + by.crossing, math.pi * params.finger**2 / 4
+    mass, inertia = 7850 * area, math.pi * params.finger**4 / 64
+        math.pi * params.finger**2 / 4,
+        math.pi * params.finger**4 / 64,
+    )
+    mass = 7850 * area
+    expected = math.sqrt(3 * 210e9 * inertia / (length**3 * mass * (by.arm + 0.236 * length)))
+    assert rod_frequency(params, by) == pytest.approx(expected, rel=0.01)
+    thin = {check.name for check in MACHINE.report_for({"finger": "0.5mm"}).failed}
+    assert "stress of a side gripper's rod" in thin

@@ -11,7 +11,7 @@ from ilmek.machines.weaver.forces import cutting_energy
 from ilmek.machines.weaver.grippers import YARN_TOLERANCE
 from ilmek.machines.weaver.limits import HeadLimits
 from ilmek.machines.weaver.opener import LEAST_ROOM
-from ilmek.machines.weaver.rods import rod_bend
+from ilmek.machines.weaver.rods import ROD_STRESS, ROD_TIME, rod_bend, rod_stress, rod_time_ratio
 from ilmek.report import Check, at_least, at_most, must
 from ilmek.timing.cyclogram import check_all
 
@@ -99,6 +99,22 @@ def _knot_checks(weaver: Weaver) -> tuple[Check, ...]:
             "mm",
             "parameter clearance; pull of the yarn assumed by this project: parameter forces.yarn_pull",
             cure="set a thicker weaver.finger",
+        ),
+        at_most(
+            "stress of a side gripper's rod",
+            rod_stress(params, by),
+            ROD_STRESS,
+            "MPa",
+            "C45 +QT, fatigue limit over 1.5; pull of the yarn assumed by this project: parameter forces.yarn_pull",
+            cure="set a thicker weaver.finger",
+        ),
+        at_least(
+            "time of the side grippers' motion, over their rods' natural period",
+            rod_time_ratio(params, by, weaver.cyclogram),
+            ROD_TIME,
+            "1",
+            "residual vibration of about 1 %; assumed by this project",
+            cure="set a thicker weaver.finger, or a longer cycle",
         ),
     )
 
