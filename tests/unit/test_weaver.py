@@ -219,10 +219,6 @@ def test_a_gripper_s_rod_vibrates_as_a_cantilever_with_a_mass_at_its_end() -> No
     params, by = weaver.params, weaver.grippers
     length, area = params.opening + by.crossing, math.pi * params.finger**2 / 4
     mass, inertia = 7850 * area, math.pi * params.finger**4 / 64
-        math.pi * params.finger**2 / 4,
-        math.pi * params.finger**4 / 64,
-    )
-    mass = 7850 * area
     expected = math.sqrt(3 * 210e9 * inertia / (length**3 * mass * (by.arm + 0.236 * length)))
     assert rod_frequency(params, by) == pytest.approx(expected, rel=0.01)
     thin = {check.name for check in MACHINE.report_for({"finger": "0.5mm"}).failed}

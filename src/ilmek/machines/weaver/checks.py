@@ -59,11 +59,41 @@ def _order_checks(weaver: Weaver) -> tuple[Check, ...]:
     return tuple(replace(check, cure=cure) for check in checked)
 
 
+def _rod_checks(weaver: Weaver) -> tuple[Check, ...]:
+    """The side grippers' rods bear the yarn's pull, and their motion leaves little vibration."""
+    by, params = weaver.grippers, weaver.params
+    return (
+        at_most(
+            "bend of a side gripper by the yarn",
+            rod_bend(params, by),
+            params.clearance,
+            "mm",
+            "parameter clearance; pull of the yarn assumed by this project: parameter forces.yarn_pull",
+            cure="set a thicker weaver.finger",
+        ),
+        at_most(
+            "stress of a side gripper's rod",
+            rod_stress(params, by),
+            ROD_STRESS,
+            "MPa",
+            "C45 +QT, fatigue limit over 1.5; pull of the yarn assumed by this project: parameter forces.yarn_pull",
+            cure="set a thicker weaver.finger",
+        ),
+        at_least(
+            "time of the side grippers' motion, over their rods' natural period",
+            rod_time_ratio(params, by, weaver.cyclogram),
+            ROD_TIME,
+            "1",
+            "residual vibration of about 1 %; assumed by this project",
+            cure="set a thicker weaver.finger, or a longer cycle",
+        ),
+    )
+
+
 def _knot_checks(weaver: Weaver) -> tuple[Check, ...]:
     """The required knot is tied; the yarn is long enough, for the knot and between the grippers; they have room."""
     by, params, yarn = weaver.grippers, weaver.params, YARN_TOLERANCE
     tied = float(weaver.knot_tied == params.knot)
-    bend = rod_bend(params, by)
     asymmetric = "set knotting=arms: arms tie it; or knot=symmetric"
     cure = asymmetric if params.knot == "asymmetric" else "leave the grippers' dimensions to the design"
     return (
@@ -92,30 +122,7 @@ def _knot_checks(weaver: Weaver) -> tuple[Check, ...]:
             "parameter clearance",
             cure="leave crossing_turn to the design, or set thinner fingers",
         ),
-        at_most(
-            "bend of a side gripper by the yarn",
-            bend,
-            params.clearance,
-            "mm",
-            "parameter clearance; pull of the yarn assumed by this project: parameter forces.yarn_pull",
-            cure="set a thicker weaver.finger",
-        ),
-        at_most(
-            "stress of a side gripper's rod",
-            rod_stress(params, by),
-            ROD_STRESS,
-            "MPa",
-            "C45 +QT, fatigue limit over 1.5; pull of the yarn assumed by this project: parameter forces.yarn_pull",
-            cure="set a thicker weaver.finger",
-        ),
-        at_least(
-            "time of the side grippers' motion, over their rods' natural period",
-            rod_time_ratio(params, by, weaver.cyclogram),
-            ROD_TIME,
-            "1",
-            "residual vibration of about 1 %; assumed by this project",
-            cure="set a thicker weaver.finger, or a longer cycle",
-        ),
+        *_rod_checks(weaver),
     )
 
 
