@@ -31,6 +31,9 @@ FLAT_BARS = tuple(
 )  # fmt: skip
 """Width and thickness of links to choose from [m]: flat steel."""
 
+EQUILIBRIUM = 1e-9
+"""Greatest remainder of a link's loads over their magnitudes."""
+
 WIDEST_PIN = 0.6
 """Largest diameter of a pin over the width of its links; assumed by this project."""
 
@@ -104,6 +107,7 @@ class LinkageStrength:
     """Stresses and safeties of links and pins; limits: those in force.
 
     links, pins  by name      sections  of the links      speed  of the driving crank [rad/s]
+    equilibrium  greatest remainder of the loads of a link, over their magnitudes [1]
     """
 
     limits: StrengthParams
@@ -111,6 +115,7 @@ class LinkageStrength:
     pins: Mapping[str, PinStrength]
     sections: Mapping[str, FlatSection]
     speed: float
+    equilibrium: float
     choices: tuple[Choice, ...] = ()
 
     pin_diameter = computed(
@@ -183,7 +188,8 @@ def linkage_strength(
     }
     made = {body: FlatSection(*size, min(holes[body], 0.99 * size[0])) for body, size in sections.items()}
     links = {one.body: link_strength(one, made[one.body], limits.of_links) for one in loads.links}
-    return LinkageStrength(limits, links, pins, made, loads.speed, tuple(choices))
+    balance = max((one.equilibrium_error for one in loads.links), default=0.0)
+    return LinkageStrength(limits, links, pins, made, loads.speed, balance, tuple(choices))
 
 
 def _pins_for(  # noqa: PLR0917
@@ -213,6 +219,11 @@ def largest_bar(mass: float, length: float, density: float) -> tuple[float, floa
     """
     light = [size for size in FLAT_BARS if size[0] * size[1] * length * density <= mass * (1 + 1e-9)]
     return light[-1] if light else FLAT_BARS[0]
+
+
+def equilibrium_test(found: LinkageStrength) -> Check:
+    """The test that all that acts on each link is in equilibrium."""
+    return at_most("equilibrium of the links' loads", found.equilibrium, EQUILIBRIUM, "1", "d'Alembert")
 
 
 def strength_checks(

@@ -12,7 +12,7 @@ from ilmek.machines.beat_up.figures import figures_of
 from ilmek.machines.beat_up.params import BeatUpParams
 from ilmek.machines.beat_up.use import BeatUpUse, in_use, use_checks
 from ilmek.machines.beat_up.use_figures import start_plots, stroke_plot
-from ilmek.machines.linkage_strength import strength_table
+from ilmek.machines.linkage_strength import equilibrium_test, strength_table
 from ilmek.records import record
 from ilmek.report import Check, Column, Figure, Plate, Table, at_least, at_most, columns, group
 from ilmek.synthesis.crank_rocker.dead_centres import grashof_margin
@@ -74,12 +74,13 @@ def checks(found: BeatUpAnalysis) -> tuple[Check, ...]:
 
 
 def self_tests(found: BeatUpAnalysis) -> tuple[Check, ...]:
-    """The power balance of the forces, and the energy balance of the runs by the motor."""
+    """The power balance of the forces, and the energy balance of the runs, the equilibrium of the links."""
     forces, runs = found.design.state.forces, found.running.runs if found.running.start else ()
     energy = max((run.energy_error for run in runs), default=0.0)
     return (
         at_most("power balance of the forces", forces.power_error, POWER_LIMIT, "1", "virtual power", cure=_LINKS),
         at_most("energy balance of the runs", energy, ENERGY_LIMIT, "1", "work of motor and weight", cure=_LINKS),
+        equilibrium_test(found.use.strength.found),
     )
 
 

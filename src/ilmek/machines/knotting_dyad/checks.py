@@ -12,6 +12,7 @@ from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.machines.knotting_dyad.section import GREATEST_DEPTH, WarpSection
 from ilmek.machines.knotting_dyad.strength import arm_strength_checks
 from ilmek.machines.knotting_dyad.yarn import MISSED
+from ilmek.machines.linkage_strength import equilibrium_test
 from ilmek.num.brackets import bracketed_roots
 from ilmek.report import Check, at_least, at_most, must
 from ilmek.timing.path_speed.solve import TOLERANCE
@@ -41,9 +42,8 @@ def dyad_self_tests(design: KnottingDyad, motion: HeadMotion | None) -> tuple[Ch
     if motion is None:
         return (closes,)
     masses = "set masses and speeds within their usual sizes"
-    return closes, at_most(
-        "power balance of the torques", motion.power_error, BALANCE, "1", "virtual power", cure=masses
-    )
+    balance = at_most("power balance of the torques", motion.power_error, BALANCE, "1", "virtual power", cure=masses)
+    return closes, balance, equilibrium_test(motion.strength)
 
 
 def _arm_checks(design: KnottingDyad) -> tuple[Check, ...]:

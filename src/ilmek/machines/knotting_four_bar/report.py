@@ -6,7 +6,7 @@ from ilmek.machines.knotting_four_bar.design import KnottingFourBar
 from ilmek.machines.knotting_four_bar.posed import PosedFourBar
 from ilmek.machines.knotting_four_bar.sides import SidesAnalysis, analyse_sides
 from ilmek.machines.knotting_four_bar.strength import four_bar_strength
-from ilmek.machines.linkage_strength import LinkageStrength, strength_checks, strength_table
+from ilmek.machines.linkage_strength import LinkageStrength, equilibrium_test, strength_checks, strength_table
 from ilmek.records import group, record
 from ilmek.report import Check, Table, at_least, at_most, columns
 from ilmek.units import deg, format_quantity, turn
@@ -52,7 +52,7 @@ def self_tests(found: KnottingFourBarAnalysis) -> tuple[Check, ...]:
     design, sides = found.design, found.sides
     one = at_most("power balance of the forces", design.at.forces.power_error, BALANCE, "1", "virtual power")
     posed = () if design.posed is None else _pose_tests(design.posed)
-    return (one, *posed, *(() if sides is None else _side_tests(sides)))
+    return (one, equilibrium_test(found.strength), *posed, *(() if sides is None else _side_tests(sides)))
 
 
 def _pose_tests(posed: PosedFourBar) -> tuple[Check, ...]:

@@ -11,6 +11,7 @@ from typing import TypeVar
 
 from ilmek.elements.beam import uniform
 from ilmek.elements.columns import SECTIONS, HollowSquare
+from ilmek.elements.pin_joints import mean_pressure, pin_shear
 from ilmek.elements.tubes import TUBES, Tube, find_tube
 from ilmek.machines.tension_compensator.params import STEEL, TensionCompensatorParams
 from ilmek.records import record
@@ -103,11 +104,11 @@ def lever_checks(params: TensionCompensatorParams, height: float, loads: Loads) 
 
 def pin_checks(params: TensionCompensatorParams, pin: float, loads: Loads) -> tuple[Check, ...]:
     """Shear of a pin of a diameter [m] in two sections, and its pressure in the bush."""
-    shear = loads.pivot / (2 * 0.785398 * pin**2)
+    shear, pressure = pin_shear(loads.pivot, pin), mean_pressure(loads.pivot, pin, 2 * pin)
     cure, source = "set a longer spring_arm", "bronze, assumed by this project"
     return (
         at_most("shear of a pivot pin", shear, SHEAR * params.strength / params.safety, "MPa", "yield", cure=cure),
-        at_most("pressure of a pivot pin", loads.pivot / (2 * pin**2), PRESSURE, "MPa", source, cure=cure),
+        at_most("pressure of a pivot pin", pressure, PRESSURE, "MPa", source, cure=cure),
     )
 
 

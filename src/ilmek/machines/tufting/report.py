@@ -1,7 +1,7 @@
 """What is reported of a needle mechanism: checks, tables, warnings and plates."""
 
 from ilmek.elements.plates import link_plates
-from ilmek.machines.linkage_strength import FLAT_BARS, strength_table
+from ilmek.machines.linkage_strength import FLAT_BARS, equilibrium_test, strength_table
 from ilmek.machines.tufting.design import JOINTS, LINKS, Tufting
 from ilmek.machines.tufting.model import inertias
 from ilmek.machines.tufting.strength import NeedleStrength, link_sections, needle_checks, needle_strength
@@ -67,6 +67,7 @@ def self_tests(found: TuftingAnalysis) -> tuple[Check, ...]:
     return (
         at_most("work of drive against friction, over a turn", unbalanced, BALANCE, "1", "energy balance"),
         at_most("power balance of the forces", design.state.forces.power_error, BALANCE, "1", "virtual power"),
+        equilibrium_test(found.strength.linkage),
     )
 
 
