@@ -65,7 +65,8 @@ def animated(
     start    value of the drive that is shown first            period  of a run of the real machine [s]
     closes   the first frame follows the last; default: where the frames are a whole turn
     """
-    named: Naming = lambda name: (names or {}).get(name, name)  # noqa: E731
+    labels = {**_hidden(motion), **(names or {})}
+    named: Naming = lambda name: labels.get(name, name)  # noqa: E731
     if closes is None:
         closes = bool(abs(at[-1] + at[1] - 2 * at[0] - turn) < SAME)
     pivots = _pivots(motion, named)
@@ -78,6 +79,12 @@ def animated(
     bars = (*_wheels(motion, named), *_bars(motion, named, traces))
     dots = (*_blocks(motion, named), *_pins(motion, named, pivots), *points)
     return Animation(still, drive, at, bars, dots, closes, first, period, readings)
+
+
+def _hidden(motion: Motion) -> dict[str, str]:
+    """No label for the further pins `NAME.BODY` of several bodies at the point `NAME`."""
+    joints = {joint.name for joint in motion.plan.mechanism.joints}
+    return {name: "" for name in joints if name.rpartition(".")[0] in joints}
 
 
 def _track(motion: Motion, body: str, point: str) -> ComplexArray:

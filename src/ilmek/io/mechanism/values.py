@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from typing import Any
 
 from ilmek.errors import IlmekError, ParameterError, UnitError
@@ -17,13 +16,14 @@ from ilmek.io.mechanism.expressions import (
     printed_dimension,
 )
 from ilmek.io.schema import Measured, SourceText, read_quantity, shown
+from ilmek.records import record
 from ilmek.units import has_unit, parse_quantity, parse_unit, read_number, similar_units
 
 MOST_VALUES = 200
 """Largest number of named values of a file."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class NamedValues:
     """Named values, and quantities that use them.
 
