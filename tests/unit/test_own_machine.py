@@ -275,6 +275,7 @@ def test_a_forward_run_of_one_body_is_that_of_the_formula() -> None:
     assert (fast["time"], fast["position"]) == (pytest.approx(4 / rate), pytest.approx(8 / rate))
     assert (found.forward_end, there["time"]) == ("there", pytest.approx(math.sqrt(10 / rate)))
     assert found.forward_energy_residual < 1e-8
+    assert found.effort_error < 1e-8
     assert found.forward_pin_forces_max["O"] == pytest.approx(0, abs=1e-9)
 
 

@@ -61,6 +61,12 @@ class MachineStrength:
         pins = (check for name, one in self.pins.items() for check in self._of_pin(name, one))
         return (*links, *pins)
 
+    @property
+    def transient_checks(self) -> tuple[Check, ...]:
+        """The checks of greatest stresses and pressures alone: those that a single start may break."""
+        lasting = ("fatigue", "frequency", "speed", "life")
+        return tuple(check for check in self.checks if not check.name.endswith(lasting))
+
     def _of_link(self, name: str, found: LinkStrength) -> Iterator[Check]:
         member = self.machine.members[name]
         material = find_material(member.material)

@@ -6,13 +6,14 @@ The friction of joints is not part of a forward run: it depends on the accelerat
 """
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
 from ilmek.dynamics.forward import RunEvent, forward
 from ilmek.dynamics.forward_run import Drive, ForwardRun, ForwardState
-from ilmek.dynamics.inverse import Forces, inverse
-from ilmek.dynamics.inverse_run import all_loads, greatest
+from ilmek.dynamics.inverse import Forces
+from ilmek.dynamics.inverse_run import InverseRun, all_loads, greatest, inverse_run
 from ilmek.dynamics.own_machine import ForwardTask, MotorDrive, OwnMachine, StopEvent
 from ilmek.dynamics.reduced import reduce
 from ilmek.errors import MechanismError
@@ -29,10 +30,23 @@ RTOL, MOST_STEPS = 1e-8, 20_000
 
 @record
 class OwnForward:
-    """A forward run and the joint forces over it."""
+    """A forward run and the forces over it; `wheel` is the inertia of rotor and flywheel on the input [kg m²; kg]."""
 
     run: ForwardRun
-    forces: Forces
+    inverse: InverseRun
+    wheel: float
+
+    @property
+    def forces(self) -> Forces:
+        """Joint forces over the run, without the friction of joints."""
+        return self.inverse.forces
+
+    @property
+    def effort_error(self) -> float:
+        """Greatest difference of the drive's effort and that which the accelerations require, relative [1]."""
+        required = self.forces.effort(str(self.inverse.driving)) + self.wheel * self.run.acceleration
+        size = greatest(required)
+        return greatest(required - self.run.effort) / size if size > 0 else 0.0
 
     forward_end = computed("", "why the forward run ended", lambda it: it.run.end.reason)
     forward_time = computed("s", "time at its end", lambda it: float(it.run.end.state.time))
@@ -83,7 +97,8 @@ def own_forward(machine: OwnMachine, plan: Plan, task: ForwardTask) -> OwnForwar
         rtol=RTOL,
         most_steps=MOST_STEPS,
     )
-    return OwnForward(run, inverse(run.motion(), machine.inertias, all_loads(machine)))
+    frictionless = replace(machine, frictions=())
+    return OwnForward(run, inverse_run(frictionless, run.motion(), plan.mechanism.inputs[0].name, run.time), wheel)
 
 
 def _drive(motor: MotorDrive) -> Drive:

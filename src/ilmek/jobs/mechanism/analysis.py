@@ -1,6 +1,7 @@
 """What is computed of a mechanism in motion beyond its forces: servo, strength, forward run, study of speeds."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from ilmek.dynamics.inverse_run import InverseRun
@@ -32,6 +33,7 @@ class Analysis:
 
     transmission  pin -> acute transmission angle [rad] by sample
     servo, strength, forward, study  None: not required
+    start_strength  strength over the forward run; None: not required
     """
 
     run: MechanismRun
@@ -40,6 +42,7 @@ class Analysis:
     strength: MachineStrength | None
     forward: "OwnForward | None"
     study: StudyOfSpeeds | None
+    start_strength: MachineStrength | None = None
 
     @property
     def checks(self) -> tuple[Check, ...]:
@@ -47,7 +50,9 @@ class Analysis:
         forces, servo = self.run.forces, self.servo.checks if self.servo else ()
         locked = locking(forces) if forces is not None else ()
         strength = self.strength.checks if self.strength else ()
-        return (*locked, *strength, *servo, *(test for test in self.self_tests if not test.ok))
+        started = self.start_strength.transient_checks if self.start_strength else ()
+        started = tuple(replace(check, name=f"forward run: {check.name}") for check in started)
+        return (*locked, *strength, *started, *servo, *(test for test in self.self_tests if not test.ok))
 
     @property
     def self_tests(self) -> tuple[Check, ...]:
@@ -65,6 +70,10 @@ class Analysis:
         if self.forward is not None:
             energy = self.forward.forward_energy_residual
             tests.append(at_most("forward_energy_residual", energy, ENERGY, "1", "energy against work, relative"))
+            effort = self.forward.effort_error
+            tests.append(
+                at_most("forward_effort_residual", effort, ENERGY, "1", "drive against inverse dynamics")
+            )
         return tuple(tests)
 
     @property
@@ -102,16 +111,17 @@ def analysis(run: MechanismRun, progress: Progress = SILENT) -> Analysis:
     angles = transmission_angles(run.motion, machine.transmission)
     if run.running is None:
         return Analysis(run, angles, None, strength, None, None)
-    forward = None
+    forward, started = None, None
     if machine.forward is not None:
         from ilmek.dynamics.own_forward import own_forward  # the integrator of scipy
 
         forward = own_forward(machine, run.plan, machine.forward)
+        started = machine_strength(machine, forward.inverse)
     progress(0.5)
     servo = None
     if machine.servo and forces is not None and forces.time is not None and not forces.locked.all():
         servo = servo_choice(machine, forces)
-    return Analysis(run, angles, servo, strength, forward, _study(run, progress.part(0.5, 1.0, "study")))
+    return Analysis(run, angles, servo, strength, forward, _study(run, progress.part(0.5, 1.0, "study")), started)
 
 
 def _study(run: MechanismRun, progress: Progress) -> StudyOfSpeeds | None:
