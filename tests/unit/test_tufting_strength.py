@@ -49,3 +49,8 @@ def test_a_bearing_lives_as_long_as_its_cubed_load_says() -> None:
     thrice = strength(**{"strength.bearing_life": "900000h"})
     assert thrice.main.bearing.dynamic >= one.main.bearing.dynamic
     assert one.linkage.speed == pytest.approx(160 * rpm)
+
+
+def test_pins_and_shafts_that_do_not_fit_fail() -> None:
+    assert "diameter of the pins, over the width of their links" in failed(**{"strength.pin_diameter": "500mm"})
+    assert "life of the main shaft's bearings" in failed(**{"strength.shaft_diameter": "400mm"})

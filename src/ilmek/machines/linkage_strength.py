@@ -242,6 +242,7 @@ def strength_checks(
             for link, one in found.links.items()
         ),
         *_link_checks(found, name, cure, drive),
+        *_hole_check(found),
         *pin_checks(found.pins, limits, name=name),
     )
 
@@ -270,6 +271,16 @@ def _link_checks(found: LinkageStrength, name: str, cure: str, drive: str) -> tu
             given = f"{link}: {source}: parameter {name}.{limit}"
             checks.append(at_least(title, values[link] / unit, getattr(limits, limit), "1", given, cure=cure))
     return tuple(checks)
+
+
+def _hole_check(found: LinkageStrength) -> tuple[Check, ...]:
+    """Whether the pins leave enough of their links."""
+    if not found.sections:
+        return ()
+    widest = max(one.hole / one.width for one in found.sections.values())
+    cure = "set wider links, or leave the pins' diameter open"
+    source = "assumed by this project"
+    return (at_most("diameter of the pins, over the width of their links", widest, WIDEST_PIN, "1", source, cure=cure),)
 
 
 def pin_checks(pins: Mapping[str, PinStrength], limits: StrengthParams, *, name: str = "strength") -> tuple[Check, ...]:

@@ -13,7 +13,7 @@ from ilmek.machines.hammer.figures import figures
 from ilmek.machines.hammer.in_loom import fit, parts, planned_beat, work
 from ilmek.machines.hammer.linkage import CombLinkage
 from ilmek.machines.hammer.params import HammerParams
-from ilmek.machines.hammer.report import cam_tables, checks, tables, warnings
+from ilmek.machines.hammer.report import cam_tables, checks, self_tests, tables, warnings
 
 __all__ = ["MACHINE", "Hammer", "HammerParams", "design"]
 
@@ -26,6 +26,7 @@ MACHINE = Component(
     results=lambda hammer: (hammer, hammer.comb, hammer.axis, hammer.linkage),
     reported=(Hammer, Comb, CombDrive, CombLinkage),
     checks=checks,
+    self_tests=self_tests,
     tables=tables,
     figures=figures,
     warnings=warnings,

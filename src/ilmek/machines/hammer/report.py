@@ -5,9 +5,11 @@ import math
 import numpy as np
 
 from ilmek.arrays import FloatArray
+from ilmek.machines.beat_up.report import POWER_LIMIT
 from ilmek.machines.hammer.axis import axis_checks
 from ilmek.machines.hammer.design import Hammer
 from ilmek.machines.hammer.linkage import linkage_checks
+from ilmek.machines.linkage_strength import equilibrium_test, strength_table
 from ilmek.report import CamTable, Check, Table, at_least, at_most, columns
 from ilmek.units import dm, format_quantity
 
@@ -43,9 +45,19 @@ def _drive_checks(design: Hammer) -> tuple[Check, ...]:
     return (force, *linkage_checks(design.linkage))
 
 
+def self_tests(design: Hammer) -> tuple[Check, ...]:
+    """Power balance of the crank-rockers' forces, and the equilibrium of their links."""
+    if design.linkage is None:
+        return ()
+    error = design.linkage.one.state.forces.power_error
+    power = at_most("power balance of the forces", error, POWER_LIMIT, "1", "virtual power")
+    return power, equilibrium_test(design.linkage.strength.found)
+
+
 def tables(design: Hammer) -> tuple[Table, ...]:
-    """Rows by force, the same row struck, and rows across the width."""
-    return (_row_table(design), _blow_table(design), _across_table(design))
+    """Rows by force, the same row struck, rows across the width; strength of crank-rockers."""
+    strength = () if design.linkage is None else strength_table(design.linkage.strength.found, "hammer")
+    return (_row_table(design), _blow_table(design), _across_table(design), *strength)
 
 
 def _row_table(design: Hammer) -> Table:

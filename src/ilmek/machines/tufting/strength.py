@@ -145,13 +145,11 @@ def _shaft(duty: PinDuty, torque: tuple[float, float], limits: NeedleStrengthPar
     fitting = [
         one for one in ROLLING_BEARINGS.values() if one.kind == DEEP_GROOVE and one.bore >= diameter * (1 - 1e-9)
     ]
-    lives = sorted(((one.mass, bearing_life(half, one), one) for one in fitting or _largest()), key=lambda one: one[:2])
+    if not fitting:  # The largest bearing does not fit on the shaft: no life.
+        return ShaftStrength(diameter, safety, max(ROLLING_BEARINGS.values(), key=lambda one: one.bore), 0.0)
+    lives = sorted(((one.mass, bearing_life(half, one), one) for one in fitting), key=lambda one: one[:2])
     _, life, bearing = next((one for one in lives if one[1] >= limits.bearing_life), lives[-1])
     return ShaftStrength(diameter, safety, bearing, life)
-
-
-def _largest() -> list[RollingBearing]:
-    return [max(ROLLING_BEARINGS.values(), key=lambda one: (one.kind == DEEP_GROOVE, one.bore))]
 
 
 def _shaft_safety(loading: Loading, diameter: float) -> float:
