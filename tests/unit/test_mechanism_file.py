@@ -298,3 +298,9 @@ def test_plain_numbers_are_si_where_the_file_says_so():
 def test_toml_keeps_its_comments():
     text = f"# a comment\n{FOUR_BAR}"
     assert parse_mechanism(text).text == text
+
+
+@pytest.mark.parametrize("page", ["reference/mechanism-files.md", "how-to/your-own-machine.md"])
+def test_the_first_file_of_the_manual_can_be_solved(page: str):
+    text = (Path(__file__).parents[2] / "docs" / page).read_text(encoding="utf-8")
+    assert parse_mechanism(text.partition("```toml\n")[2].partition("```")[0]).plan().steps
