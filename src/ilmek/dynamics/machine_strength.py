@@ -93,6 +93,10 @@ class MachineStrength:
         thick = format_quantity(pin.diameter * math.sqrt(max(found.shear / pin.shear, 1.0)), "mm", 3)
         cure = f"a pin of {thick}" + ("" if pin.fork else ", or a fork")
         yield at_most(f"pin {name}: shear stress", found.shear, pin.shear, "MPa", "allowed by the file", cure=cure)
+        if pin.fork:
+            thick = format_quantity(pin.diameter * max(found.bending / pin.bending, 1.0) ** (1 / 3), "mm", 3)
+            cure = f"a pin of {thick}, or a shorter fork"
+            yield at_most(f"pin {name}: bending", found.bending, pin.bending, "MPa", "allowed by the file", cure=cure)
         if pin.bearing is not None:
             cure = "a larger bearing, or a lower speed"
             source = f"required life of {pin.bearing}"

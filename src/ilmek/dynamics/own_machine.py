@@ -55,6 +55,7 @@ class PinMember:
     diameter   [m]      length  bearing length in the bush [m]
     fork       True: sheared in two sections; False: in one
     shear      allowed shear stress [Pa]      pressure  allowed mean pressure F / (d l) [Pa]
+    bending    allowed bending stress in a fork [Pa]; default: 0.15 of the strength of C45 +QT
     wear       allowed mean of pressure times sliding speed [Pa m/s]
     bearing    rolling bearing of the catalogue instead of a bush; None: a bush
     life       required life of the bearing [s of running]
@@ -68,6 +69,7 @@ class PinMember:
     wear: float = 1e6
     bearing: str | None = None
     life: float = 0.0
+    bending: float = 105e6
 
 
 @record

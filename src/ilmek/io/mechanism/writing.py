@@ -181,7 +181,8 @@ class _Writer:
         }
 
     def pin(self, pin: PinMember) -> dict[str, Any]:
-        units = {"diameter": "mm", "length": "mm", "shear": "MPa", "pressure": "MPa", "wear": "MPa*m/s", "life": "h"}
+        units = {"diameter": "mm", "length": "mm", "life": "h", "wear": "MPa*m/s"}
+        units |= dict.fromkeys(("shear", "bending", "pressure"), "MPa")
         data: dict[str, Any] = {key: self.quantity(getattr(pin, key), unit) for key, unit in units.items()}
         data["fork"] = pin.fork
         return data if pin.bearing is None else {**data, "bearing": pin.bearing}
