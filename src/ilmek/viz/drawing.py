@@ -17,7 +17,7 @@ from ilmek.viz.looks import COLOURED, numbered
 from ilmek.viz.scale import tick_labels
 from ilmek.viz.sheet import Sheet
 from ilmek.viz.strokes import DOTS, STROKES, Pen
-from ilmek.viz.style import INK, MUTED, SMALL, STRONG, TEXT, YARN, colour, shown_unit
+from ilmek.viz.style import INK, MUTED, SMALL, STRONG, TEXT, YARN, colour, letters, shown_unit
 from ilmek.viz.thinning import thinned_line
 
 WIDTH = 420.0
@@ -121,7 +121,7 @@ def names(pen: Pen, drawing: Drawing, covered: ComplexArray, foot: float = FOOT)
 
 def _shade(pen: Pen, stroke: Stroke, number: int) -> str:
     if number in pen.numbers:
-        return colour(pen.numbers[number])
+        return letters(colour(pen.numbers[number]))
     return {"yarn": YARN, "outline": INK}.get(stroke.role, MUTED)
 
 

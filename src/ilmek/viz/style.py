@@ -22,6 +22,9 @@ DASHED = ((4.5, 2.0), (2.4, 1.4), (7.5, 2.2))
 DOTTED = ((1.2, 1.6), (6.0, 1.8, 1.2, 1.8))
 """Dash, gap, dash ... in line widths of curves beyond the palette."""
 
+_READ = 4.5
+"""Least contrast of letters with the paper."""
+
 SMALL, TEXT, STRONG = 7.8, 8.7, 9.2
 """Sizes of letters [pt]: ticks and marks, labels, names."""
 
@@ -59,6 +62,32 @@ def in_unit(values: FloatArray, unit: str) -> FloatArray:
 def colour(number: int) -> str:
     """The colour of the curve with this number, from 0."""
     return PALETTE[number % len(PALETTE)]
+
+
+def letters(colour_text: str) -> str:
+    """The colour for letters on white: darkened until their contrast is 4.5 to 1 [WCAG 2.2, 1.4.3].
+
+    >>> letters("#0072b2"), letters("#c98a00")
+    ('#0072b2', '#9d6c00')
+    """
+    share = next(share for share in np.arange(1.0, 0.0, -0.02) if contrast(darker(colour_text, float(share))) >= _READ)
+    return darker(colour_text, float(share))
+
+
+def contrast(colour_text: str) -> float:
+    """Contrast of a colour with white [WCAG 2.2, relative luminance].
+
+    >>> contrast("#ffffff"), round(contrast("#000000"), 9)
+    (1.0, 21.0)
+    """
+    channels = np.array([int(colour_text[at : at + 2], 16) / 255 for at in (1, 3, 5)])
+    linear = np.where(channels <= 0.04045, channels / 12.92, ((channels + 0.055) / 1.055) ** 2.4)
+    return float(1.05 / (linear @ np.array([0.2126, 0.7152, 0.0722]) + 0.05))
+
+
+def darker(colour_text: str, share: float) -> str:
+    """The colour mixed with black: share 1 leaves it, 0 is black."""
+    return "#" + "".join(f"{round(share * int(colour_text[at : at + 2], 16)):02x}" for at in (1, 3, 5))
 
 
 def tint(colour_text: str, share: float) -> str:
