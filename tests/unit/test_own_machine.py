@@ -155,6 +155,14 @@ def test_a_check_that_fails_ends_with_3_and_is_named_first(press: Path, tmp_path
     assert found.stdout.splitlines()[2].startswith("  pin B: pressure: 61.54 MPa, must be at most 15 MPa; a bush")
 
 
+def test_a_pin_too_large_for_its_link_is_a_failed_check(tmp_path: Path) -> None:
+    wide = tmp_path / "wide.toml"
+    wide.write_text(PRESS.replace('B = { diameter = "24mm"', 'B = { diameter = "45mm"'), encoding="utf-8")
+    found = called(str(wide))
+    assert found.exit_code == 3
+    assert "rod: hole of its pins: 45 mm, must be at most 30 mm; make rod wider than 60 mm" in found.stdout
+
+
 def test_the_study_gives_the_greatest_admissible_speed(pressed: dict, press: Path) -> None:
     study = pressed["results"]["study"]
     assert [round(row["speed"] * 30 / math.pi) for row in study] == [100, 400, 700, 1000]

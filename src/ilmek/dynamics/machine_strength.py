@@ -22,6 +22,9 @@ from ilmek.records import computed, record
 from ilmek.report import Check, at_least, at_most
 from ilmek.units import format_quantity, turn
 
+WIDEST = 0.75
+"""Greatest hole of a pin over the width of its link: the range of the notch factor."""
+
 BUCKLING = 3.0
 """Least safety against buckling of a link [usual practice]."""
 
@@ -64,7 +67,7 @@ class MachineStrength:
     @property
     def transient_checks(self) -> tuple[Check, ...]:
         """The checks of greatest stresses and pressures alone: those that a single start may break."""
-        lasting = ("fatigue", "frequency", "speed", "life")
+        lasting = ("fatigue", "frequency", "speed", "life", "hole of its pins")
         return tuple(check for check in self.checks if not check.name.endswith(lasting))
 
     def _of_link(self, name: str, found: LinkStrength) -> Iterator[Check]:
@@ -73,6 +76,11 @@ class MachineStrength:
         given = member.stress is not None
         limit = member.stress if member.stress is not None else material.strength / member.safety
         source = "given" if given else f"yield strength of {material.name} over {member.safety:g}"
+        hole = _hole(self.machine, name)
+        if hole >= WIDEST * member.width:
+            cure = f"make {name} wider than {format_quantity(hole / WIDEST, 'mm')}, or its pins thinner"
+            widest = WIDEST * member.width
+            yield at_most(f"{name}: hole of its pins", hole, widest, "mm", f"{WIDEST:g} of its width", cure=cure)
         width = format_quantity(member.width * math.sqrt(max(found.stress / limit, 1.0)), "mm", 3)
         cure = f"make {name} about {width} wide, or thicker"
         yield at_most(f"{name}: stress", found.stress, limit, "MPa", source, cure=cure)
@@ -140,11 +148,15 @@ def machine_strength(machine: OwnMachine, run: InverseRun) -> MachineStrength | 
     return MachineStrength(machine, links, pins, lives, _speed(run), balance)
 
 
-def _section(machine: OwnMachine, body: str, member: FlatMember) -> FlatSection:
-    """The section of a link, with the hole of its greatest pin."""
+def _hole(machine: OwnMachine, body: str) -> float:
+    """Diameter of the greatest pin of a link [m]; 0 without."""
     joints = (one for one in machine.mechanism.joints if body in one.bodies and not isinstance(one, Slide))
-    holes = (machine.pins[one.name].diameter for one in joints if one.name in machine.pins)
-    return FlatSection(member.width, member.thickness, max(holes, default=0.0))
+    return max((machine.pins[one.name].diameter for one in joints if one.name in machine.pins), default=0.0)
+
+
+def _section(machine: OwnMachine, body: str, member: FlatMember) -> FlatSection:
+    """The section of a link, with the hole of its greatest pin; one too large leaves a hundredth of the width."""
+    return FlatSection(member.width, member.thickness, min(_hole(machine, body), 0.99 * member.width))
 
 
 def _pin(pin: PinMember, duty: PinDuty) -> PinStrength:
