@@ -1,11 +1,15 @@
 """The four-bar for a motion: what it answers for three, four and five poses, and what it refuses."""
 
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 
+from ilmek.cli import main
 from ilmek.errors import ParameterError
+from ilmek.io.mechanism_file import read_mechanism
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
 from ilmek.machines.catalogue import MACHINES
@@ -111,6 +115,10 @@ def test_pivots_stay_within_their_bounds() -> None:
         ({"pivots": "(0,0)"}, "pivots holds 1 points; two, one for each link"),
         ({"pins": "(0,0) (0,0)"}, "both pins are one point"),
         ({"pivot_x": "50mm..0mm"}, "did you mean 0mm..50mm"),
+        ({"keep_out": "(0,0) (1mm,0) (2mm,0)"}, "keep_out has no area"),
+        ({"pivot_region": "(0,0) (9mm,9mm) (9mm,0) (0,9mm)"}, "two sides of pivot_region cross"),
+        ({"crank_region": "(0,0)"}, "crank_region holds 1 points"),
+        ({"driven": "first"}, "neither pivots nor pins are given"),
         ({"transmission_min": "40"}, "did you mean 40deg"),
         ({"poses": FIVE, "chosen": "9"}, "chosen=9, and there are 5 solutions; 1 to 5"),
     ],
@@ -119,3 +127,27 @@ def test_refuses_in_words(settings: dict[str, str], said: str) -> None:
     with pytest.raises(ParameterError) as refused:
         answer(**settings)
     assert said in str(refused.value)
+
+
+def test_the_answer_is_written_as_a_mechanism_file_that_is_read_again(tmp_path: Path) -> None:
+    file = tmp_path / "gripper.toml"
+    run = CliRunner().invoke(main, ["design", "motion-four-bar", "--to", str(file)])
+    assert run.exit_code == 0, run.output
+    machine = read_mechanism(file).machine
+    assert machine.paths == (("coupler", "P"),)
+    results = answer().as_json()["results"]
+    motion = solve(plan(machine.mechanism), np.array(results["candidates"][0]["crank_angles"]))
+    assert np.abs(motion.point("coupler", "P").position - read_poses("poses", THREE).points).max() < 1e-12
+
+
+@pytest.mark.parametrize(
+    ("args", "refused"),
+    [
+        (["cam", "--to", "cam.toml"], "cam has no linkage that --to could write"),
+        (["motion-four-bar", "--to", "gripper.txt"], "gripper.txt ends in '.txt'; .toml or .json"),
+    ],
+)
+def test_a_mechanism_file_that_cannot_be_written_is_refused(args: list[str], refused: str) -> None:
+    run = CliRunner().invoke(main, ["design", *args])
+    assert run.exit_code == 2
+    assert refused in run.output

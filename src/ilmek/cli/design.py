@@ -10,7 +10,7 @@ from ilmek.cli.report import headline_of, show_report
 from ilmek.cli.settings import read_settings, setting_files
 from ilmek.cli.terminal import note, say
 from ilmek.cli.verdict import exit_code, note_verdict
-from ilmek.jobs.design import design_machine
+from ilmek.jobs.design import design_machine, mechanism_text, require_mechanism
 from ilmek.jobs.workshop_order import WorkshopOrder
 
 EXAMPLES = """\b
@@ -19,6 +19,7 @@ Examples:
   ilmek design beat-up --set swing=30deg --set crank_rotation=180deg --json -
   ilmek design shedding --set lift=60mm --set pressure_angle_limit=30deg --report shedding.html
   ilmek design weaver --workshop parts --tolerance 2um
+  ilmek design motion-four-bar --to gripper.toml
 
 The parameters of a machine, and their limits: ilmek machines MACHINE
 """
@@ -46,6 +47,13 @@ The parameters of a machine, and their limits: ilmek machines MACHINE
     metavar="DIR",
     help="Write plates (DXF, STEP) and cam tables for controllers.",
 )
+@click.option(
+    "--to",
+    "mechanism_to",
+    type=click.Path(path_type=Path),
+    metavar="FILE.toml",
+    help="Write the linkage as a mechanism file (.toml, .json) for ilmek mechanism.",
+)
 @click.option("--tolerance", metavar="ERROR", help="Tolerance of cam tables: 1um, 0.01deg, or 0.01% of the stroke.")
 @force_option
 def command(  # noqa: PLR0917 - click calls it by name
@@ -56,6 +64,7 @@ def command(  # noqa: PLR0917 - click calls it by name
     json_to: str | None,
     page_to: Path | None,
     parts_to: Path | None,
+    mechanism_to: Path | None,
     tolerance: str | None,
     force: bool,
 ) -> int:
@@ -63,20 +72,29 @@ def command(  # noqa: PLR0917 - click calls it by name
     if parts_to is None and tolerance is not None:
         raise click.UsageError("--tolerance needs --workshop DIR")
     given = (*settings, *more, *(() if aim is None else (f"aim={aim}",)))
-    files = {"--json": json_to, "--report": page_to}
+    if mechanism_to is not None:
+        require_mechanism(name, mechanism_to)
+    files = {"--json": json_to, "--report": page_to, "--to": mechanism_to}
     workshop = None if parts_to is None else WorkshopOrder(parts_to, tolerance)
     with call_outputs(files, force=force, inputs=setting_files(given)) as call:
         made = design_machine(name, read_settings(given), workshop, outputs=call.outputs, progress=call.progress)
         call.give_page("--report", made.report)
+        if mechanism_to is not None and made.mechanism is not None:
+            text = mechanism_text(made.mechanism, mechanism_to)
+            call.give("--to", lambda: text)
         call.give_json(made.as_json)
     if not call.quiet:
         show_report(made.report)
         if "--report" in call.files:
             say(f"report: {page_to}")
+        if mechanism_to is not None and made.mechanism is not None:
+            say(f"mechanism: {mechanism_to}")
         if made.workshop is not None:
             say(f"workshop: {made.workshop.summary}")
     else:
         note_verdict(made.report.all_checks, headline_of(made.report))
+    if mechanism_to is not None and made.mechanism is None:
+        note(f"{mechanism_to} was not written: there is no linkage")
     for warning in made.warnings:
         note(warning)
     return exit_code(made.report.all_checks)

@@ -2,18 +2,25 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from importlib import import_module
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ilmek.errors import ParameterError
 from ilmek.io.output import Outputs, joined
 from ilmek.jobs.workshop_order import WorkshopOrder, workshop_writer
-from ilmek.machines.catalogue import find_machine
+from ilmek.machines.catalogue import MACHINES, find_machine
 from ilmek.params import Params, Setting
 from ilmek.progress import SILENT, Progress
 from ilmek.report import Report
 
 if TYPE_CHECKING:
+    from ilmek.dynamics.own_machine import OwnMachine
     from ilmek.jobs.workshop import Workshop
 
+
+WRITERS = {".toml": "mechanism_toml", ".json": "mechanism_json"}
+"""Functions of `io.mechanism_file` that write a mechanism, by the suffix of the file."""
 
 LOOM = "automated-loom"
 """The machine whose report names the nearest carpets, where it cannot weave what is required."""
@@ -21,10 +28,11 @@ LOOM = "automated-loom"
 
 @dataclass(frozen=True, slots=True)
 class DesignResult:
-    """The report of a design, and the workshop files that were written, if any."""
+    """The report of a design, the workshop files that were written, if any, and its linkage where it has one."""
 
     report: Report
     workshop: "Workshop | None" = None
+    mechanism: "OwnMachine | None" = None
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -34,6 +42,22 @@ class DesignResult:
     def as_json(self) -> dict[str, Any]:
         """The report as plain data, SI; with workshop files also their paths."""
         return {**self.report.as_json(), **({"files": self.workshop.files} if self.workshop else {})}
+
+
+def require_mechanism(name: str, file: Path) -> None:
+    """Raise ParameterError where a machine has no linkage to write, or a file does not end in .toml or .json."""
+    if find_machine(name).mechanism is None:
+        able = ", ".join(other for other, machine in MACHINES.items() if machine.mechanism is not None)
+        raise ParameterError(f"{name} has no linkage that --to could write", allowed=able)
+    if file.suffix.lower() not in WRITERS:
+        raise ParameterError(f"mechanism file {file} ends in {file.suffix!r}", allowed=" or ".join(WRITERS))
+
+
+def mechanism_text(machine: "OwnMachine", file: Path) -> str:
+    """The text of a mechanism file, TOML or JSON by its suffix."""
+    mechanism_file = import_module("ilmek.io.mechanism_file")
+    text: str = getattr(mechanism_file, WRITERS[file.suffix.lower()])(machine)
+    return text
 
 
 def design_machine(
@@ -61,7 +85,8 @@ def design_machine(
         if report.machine == LOOM:
             report = _with_nearest(report, params, progress.part(0.7, 0.8))
         progress.part(0.8, 1.0, "files")
-        return DesignResult(report, write(report) if write is not None else None)
+        linkage = None if machine.mechanism is None else machine.mechanism(designed)
+        return DesignResult(report, write(report) if write is not None else None, linkage)
 
 
 def _with_nearest(report: Report, params: Params, progress: Progress) -> Report:

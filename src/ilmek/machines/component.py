@@ -12,6 +12,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+from ilmek.dynamics.own_machine import OwnMachine
 from ilmek.machines.beat import PlannedBeat
 from ilmek.machines.invariants import broken
 from ilmek.machines.loom_task import LoomTask
@@ -46,6 +47,7 @@ class Component:
     self_tests  analysis -> tests of the computation itself, such as a power balance; listed apart, a failed one is a
                 failed check too, so that such a design is never reported as sound
     plates, cam_tables, cyclograms      design -> what is made of it, what its axes follow, its timing
+    mechanism   design -> its linkage as an own mechanism, for a file; None where the design has none
     parts       design -> lines of the parts list                work     design -> work of its acts
     tracks      design -> its tracks on the loom's cyclogram of a row
     choices     design -> what it chose of what was left open, and which check decided
@@ -74,6 +76,7 @@ class Component:
     plates: Callable[[Any], tuple[Plate, ...]] = _nothing
     cam_tables: Callable[[Any], tuple[CamTable, ...]] = _nothing
     cyclograms: Callable[[Any], tuple[Cyclogram, ...]] | None = None
+    mechanism: Callable[[Any], OwnMachine | None] | None = None
     parts: Callable[[Any], tuple[Part, ...]] = _nothing
     work: Callable[[Any], tuple[Work, ...]] = _nothing
     tracks: Callable[[Any], tuple[Track, ...]] = _nothing

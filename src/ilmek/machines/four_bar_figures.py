@@ -1,4 +1,4 @@
-"""A four-bar that does a task, drawn and in motion."""
+"""A four-bar that does a task: drawn, in motion, and as an own mechanism."""
 
 from dataclasses import replace
 
@@ -6,12 +6,14 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray
 from ilmek.dynamics.animation import animated, frames
+from ilmek.dynamics.own_machine import OwnMachine
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
 from ilmek.report import Animation, Dot, Drawing, Figure, Stroke
 from ilmek.synthesis.candidate import Candidate
 from ilmek.synthesis.circuit_loops import circuit_loops
 from ilmek.synthesis.four_bar import TRACER, FourBar
+from ilmek.synthesis.selection import FourBarDesign
 from ilmek.units import format_quantity, turn
 
 FINE = 361
@@ -19,6 +21,15 @@ FINE = 361
 
 STILL = 1e-6
 """Turn of a crank between its positions [rad] below which it shows nothing."""
+
+
+def own_machine(design: FourBarDesign) -> OwnMachine | None:
+    """The four-bar that is drawn as an own mechanism, at its first position; None where there is none."""
+    if design.best is None:
+        return None
+    four_bar = design.best.candidate.four_bar
+    traced = () if four_bar.tracer is None else (("coupler", TRACER),)
+    return OwnMachine(four_bar.mechanism(), paths=traced)
 
 
 def links(four_bar: FourBar) -> tuple[Stroke, ...]:

@@ -6,6 +6,7 @@ with the alternation that proves it.
 
 from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
+from ilmek.machines.four_bar_figures import own_machine
 from ilmek.machines.function_four_bar.design import FunctionFourBar, design
 from ilmek.machines.function_four_bar.params import FunctionFourBarParams
 from ilmek.machines.function_four_bar.report import figures, self_tests, tables
@@ -27,4 +28,5 @@ MACHINE = Component(
     tables=tables,
     figures=figures,
     warnings=warnings,
+    mechanism=own_machine,
 )

@@ -6,6 +6,7 @@ within the limits, and the best that differ are reported. Five leave a few links
 
 from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
+from ilmek.machines.four_bar_figures import own_machine
 from ilmek.machines.motion_four_bar.design import MotionFourBar, design
 from ilmek.machines.motion_four_bar.params import MotionFourBarParams
 from ilmek.machines.motion_four_bar.report import figures, self_tests, tables, warnings
@@ -28,5 +29,6 @@ MACHINE = Component(
     tables=tables,
     figures=figures,
     warnings=warnings,
+    mechanism=own_machine,
     headline=("found", "left_out", "candidates"),
 )

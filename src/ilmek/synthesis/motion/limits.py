@@ -30,8 +30,8 @@ KEPT = 1e-9
 SWING = 1e-4
 """Difference from a limit of a swing [rad] that counts as rounding of its samples."""
 
-FINE, MOST = 361, 12_000
-"""Positions at which the clearance from a region is computed first, and at most."""
+FINE = 1081
+"""Positions at which swing and clearance are computed."""
 
 
 @record
@@ -138,16 +138,10 @@ def rocker_swing(one: Candidate) -> float:
 def clear_of(one: Candidate, keep_out: ComplexArray) -> bool:
     """Whether crank, coupler with its tracer, and rocker stay clear of a polygon [m] over the motion.
 
-    Between two positions no point of a link moves farther than its ends; positions are added until the clearance is
-    greater than half of that, or the links come nearer than half a step of `MOST` positions: then they touch.
+    Between two positions the distance of a link from a corner changes smoothly, so that it is less than at both by a
+    part of the second order of a joint's step: `measures.SAGITTA` of the step is required at `FINE` positions.
     """
-    pivots, count = np.array([one.four_bar.a0, one.four_bar.b0]), FINE
-    while True:
-        at = one.motion(count)
-        clear = float(regions.swept_clearance(pivots, at.a, at.b, at.tracer, keep_out))
-        step = max(float(np.max(np.abs(np.diff(joint)))) for joint in (at.a, at.b, at.tracer))
-        if clear <= 0 or clear > step:
-            return clear > 0
-        if count >= MOST:
-            return False
-        count *= 3
+    at, pivots = one.motion(FINE), np.array([one.four_bar.a0, one.four_bar.b0])
+    step = max(float(np.max(np.abs(np.diff(joint)))) for joint in (at.a, at.b, at.tracer))
+    clear = float(regions.swept_clearance(pivots, at.a, at.b, at.tracer, keep_out))
+    return clear > measures.SAGITTA * step

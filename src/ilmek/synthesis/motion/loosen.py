@@ -17,11 +17,14 @@ from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 from ilmek.synthesis.candidate import Candidate
 from ilmek.synthesis.motion.limits import NOWHERE, PLANE, TURN, MotionLimits, breaches
-from ilmek.synthesis.motion.search import ENOUGH, MotionSpace, PairSearch, feasible, reached, search_pairs
+from ilmek.synthesis.motion.search import MotionSpace, PairSearch, feasible, reached, search_pairs
 from ilmek.units import deg, format_quantity, mm
 
 HALVINGS = 12
 """Steps of the bisection of t."""
+
+BASINS = 400
+"""Four-bars without the limit from which the bisection begins."""
 
 GREATEST = 64.0
 """Greatest share by which a limit is loosened without being dropped."""
@@ -137,15 +140,17 @@ def _cure(space: MotionSpace, judged: Callable[[ComplexArray], Candidate], name:
     if name in FLAGS:
         found = search_pairs(without, 1, progress.part(0.5, 1.0))
         return [Cure(name, f"{name}=no", "yes", found.found, 1.0)] if found.pairs else []
-    near = near.only(np.arange(min(len(near.scores), ENOUGH)))
+    # Those that miss the given limit least come first.
+    missed = space.repaired(near, space.bounds, 0, progress)
+    near = near.only(np.argsort(missed.scores, kind="stable")[:BASINS])
     low, high, kept = 0.0, math.inf, near
     share = 0.02
     for step in range(4 * HALVINGS):
         progress(0.5 + 0.3 * step / (4 * HALVINGS))
         trial = MotionSpace(space.poses, space.curve, loosened(space.limits, name, share, size))
-        good = feasible(trial.repaired(kept, trial.bounds, 25, progress)) if kept is not None else near
+        good = feasible(trial.repaired(kept, trial.bounds, 25, progress))
         if len(good.scores):
-            high, kept = share, good.only(np.arange(min(len(good.scores), ENOUGH)))
+            high, kept = share, good
         else:
             low = share
         if math.isinf(high):

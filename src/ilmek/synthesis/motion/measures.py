@@ -15,7 +15,7 @@ from ilmek.arrays import ComplexArray, FloatArray, IntArray
 from ilmek.num.compiled import compiled
 from ilmek.plane import vectors
 from ilmek.synthesis import merit as merit_terms
-from ilmek.synthesis.motion.regions import NONE, clearance, region_margin
+from ilmek.synthesis.motion.regions import NONE, circle_about, clearance, region_margin
 
 (RATIO, BRANCH, CIRCUIT, ORDER, TURN, TRANSMISSION, CRANK_REGION, ROCKER_REGION, CRANK_SWING) = range(9)
 SIZE, ROCKER_SWING, KEEP_OUT = range(9, 12)
@@ -43,8 +43,9 @@ FULL = 2 * np.pi
 STEPS = 48
 """Positions of the motion at which size, swing and clearance are computed."""
 
-SAGITTA, SWING_ROUNDING = 2e-3, 1.002
-"""What the motion may come nearer, in sizes of the task, and the swing be greater, between two of these positions."""
+SAGITTA, SWING_ROUNDING = 0.04, 1.002
+"""How much nearer the motion may come between two of these positions, in the distance that a joint moves from one to
+the next; and how much greater the swing may be than between them."""
 
 HEADINGS = np.exp(1j * PI * np.arange(24) / 24)
 WIDEST = 1 / np.cos(PI / 48)
@@ -186,10 +187,12 @@ def set_swept(
     bounds: SearchBounds,
     margins: FloatArray,
     motion: FloatArray,
+    thorough: bool,
 ) -> float:
     """Write the margins that need the whole motion; returns the merit (`synthesis.merit`).
 
     points  of the body at the poses      motion  as `set_margins` wrote it
+    thorough  False: the clearance ends at the first position that touches the region
     """
     limits = bounds.limits
     ground, crank = abs(m2 - m1), abs(pins1[0] - m1)
@@ -200,7 +203,8 @@ def set_swept(
         low, high = -PI, PI
     least, most = np.full(len(HEADINGS), np.inf), np.full(len(HEADINGS), -np.inf)
     clear, swung, swing_low, swing_high = NONE, 0.0, 0.0, 0.0
-    before = pins2[0] - m2
+    before, circle, stride = pins2[0] - m2, circle_about(bounds.keep_out), 0.0
+    last_a, last_b, last_p = m1, m1, m1
     for step in range(STEPS + 1):
         angle = low + (high - low) * step / STEPS + motion[GROUND]
         a = m1 + crank * complex(np.cos(angle), np.sin(angle))
@@ -221,9 +225,11 @@ def set_swept(
             swung += float(np.arctan2(cross(before, b - m2), dot(before, b - m2)))
             before = b - m2
             swing_low, swing_high = min(swing_low, swung), max(swing_high, swung)
-        if len(bounds.keep_out):
+        if len(bounds.keep_out) and (thorough or clear > 0):
+            stride = max(stride, abs(a - last_a), abs(b - last_b), abs(p - last_p)) if step > 0 else 0.0
+            last_a, last_b, last_p = a, b, p
             for one, other in ((m1, a), (m2, b), (a, b), (a, p), (b, p)):
-                clear = min(clear, clearance(one, other, bounds.keep_out))
+                clear = min(clear, clearance(one, other, bounds.keep_out, circle))
     widest = abs(m2 - m1)
     for at in range(len(HEADINGS)):
         h = HEADINGS[at]
@@ -235,7 +241,7 @@ def set_swept(
     margins[SIZE] = min(NONE, np.log(limits[SIZE_MAX] / size))
     swing = swing_high - swing_low
     margins[ROCKER_SWING] = min(NONE, swing - limits[ROCKER_LOW], limits[ROCKER_HIGH] - SWING_ROUNDING * swing)
-    margins[KEEP_OUT] = min(NONE, clear - SAGITTA) if len(bounds.keep_out) else NONE
+    margins[KEEP_OUT] = min(NONE, clear - SAGITTA * stride) if len(bounds.keep_out) else NONE
     sizes = ground, crank, coupler, rocker
     gain = sensitivity(m1, pins1, m2, pins2, points, limits[EXTENT])
     return float(merit_value(motion[SINE], widest / limits[EXTENT], max(sizes) / min(sizes), gain))
@@ -324,7 +330,7 @@ def search_rows(
             score = violation(margins, SIZE, 0.0)
             count = SIZE
             if score == 0:
-                worth = set_swept(pivots1[i], pins1[i], pivots2[j], pins2[j], points, bounds, margins, motion)
+                worth = set_swept(pivots1[i], pins1[i], pivots2[j], pins2[j], points, bounds, margins, motion, False)
                 score, count = violation(margins, MARGINS, 0.0), MARGINS
                 if score == 0:
                     found += 1

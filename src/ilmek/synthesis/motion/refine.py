@@ -170,7 +170,7 @@ def evaluate(
         return 0.0
     margins[CRANK_REGION] = region_margin(m1, bounds.boxes[0], bounds.crank)
     margins[ROCKER_REGION] = region_margin(m2, bounds.boxes[1], bounds.rocker)
-    worth = set_swept(m1, pins1, m2, pins2, family.points, bounds, margins, motion)
+    worth = set_swept(m1, pins1, m2, pins2, family.points, bounds, margins, motion, True)
     for row in range(len(others.pins)):
         far = 0.0
         for at, one in enumerate((m1, m2, w1, w2)):

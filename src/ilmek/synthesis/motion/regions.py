@@ -9,7 +9,7 @@ from ilmek.plane import vectors
 NONE = 1.0
 """Margin of a limit that is not given."""
 
-cross, dot = compiled(vectors.cross), compiled(vectors.dot)
+cross = compiled(vectors.cross)
 
 
 @compiled
@@ -27,21 +27,24 @@ def polygon_margin(point: complex, corners: ComplexArray) -> float:
     inside, nearest = False, np.inf
     for at in range(count):
         one, other = corners[at], corners[(at + 1) % count]
-        nearest = min(nearest, segment_distance(point, one, other))
+        nearest = min(nearest, segment_square(point, one, other))
         if (one.imag > point.imag) != (other.imag > point.imag):
             along = (point.imag - one.imag) / (other.imag - one.imag)
             if point.real < one.real + along * (other.real - one.real):
                 inside = not inside
-    return nearest if inside else -nearest
+    return float(np.sqrt(nearest) if inside else -np.sqrt(nearest))
 
 
 @compiled
-def segment_distance(point: complex, one: complex, other: complex) -> float:
-    """Distance of a point from a segment."""
-    side = other - one
-    square = side.real * side.real + side.imag * side.imag
-    along = dot(point - one, side) / square if square > 0 else 0.0
-    return abs(point - one - min(1.0, max(0.0, float(along))) * side)
+def segment_square(point: complex, one: complex, other: complex) -> float:
+    """Squared distance of a point from a segment."""
+    x, y = other.real - one.real, other.imag - one.imag
+    u, v = point.real - one.real, point.imag - one.imag
+    square, along = x * x + y * y, u * x + v * y
+    if along > 0:
+        share = min(along, square) / square
+        u, v = u - share * x, v - share * y
+    return u * u + v * v
 
 
 @compiled
@@ -51,20 +54,37 @@ def region_margin(point: complex, box: FloatArray, corners: ComplexArray) -> flo
 
 
 @compiled
-def clearance(one: complex, other: complex, corners: ComplexArray) -> float:
-    """Distance of a segment from a polygon; where they touch, minus the depth at which it is found in the polygon."""
+def circle_about(corners: ComplexArray) -> tuple[complex, float]:
+    """Middle and radius of a circle about a polygon."""
+    middle, radius = 0j, 0.0
+    for one in corners:
+        middle += one / len(corners)
+    for one in corners:
+        radius = max(radius, abs(one - middle))
+    return middle, radius
+
+
+@compiled
+def clearance(one: complex, other: complex, corners: ComplexArray, circle: tuple[complex, float]) -> float:
+    """Distance of a segment from a polygon; where they touch, minus the depth at which it is found in the polygon.
+
+    circle  about the polygon: outside it the result is the distance from the circle, which is less
+    """
     count = len(corners)
+    around = segment_square(circle[0], one, other)
+    if around > circle[1] * circle[1]:
+        return float(np.sqrt(around)) - circle[1]
     nearest, touches = np.inf, False
     for at in range(count):
         first, last = corners[at], corners[(at + 1) % count]
         sides = float(cross(other - one, first - one) * cross(other - one, last - one))
         ends = float(cross(last - first, one - first) * cross(last - first, other - first))
         touches = touches or (sides <= 0 and ends < 0) or (sides < 0 and ends <= 0)
-        near = min(segment_distance(one, first, last), segment_distance(other, first, last))
-        nearest = min(nearest, near, segment_distance(first, one, other))
+        near = min(segment_square(one, first, last), segment_square(other, first, last))
+        nearest = min(nearest, near, segment_square(first, one, other))
     deep = polygon_margin(one, corners)
     if not touches and deep < 0:
-        return nearest
+        return float(np.sqrt(nearest))
     for step in range(1, 9):
         deep = max(deep, polygon_margin(one + 0.125 * step * (other - one), corners))
     return -max(deep, 0.0) - 1e-6
@@ -75,8 +95,8 @@ def swept_clearance(
     pivots: ComplexArray, a: ComplexArray, b: ComplexArray, p: ComplexArray, keep: ComplexArray
 ) -> float:
     """Least distance of crank, rocker and coupler from a polygon over the positions of A, B and P; negative inside."""
-    clear = np.inf
+    clear, circle = np.inf, circle_about(keep)
     for at in range(len(a)):
         for one, other in ((pivots[0], a[at]), (pivots[1], b[at]), (a[at], b[at]), (a[at], p[at]), (b[at], p[at])):
-            clear = min(clear, clearance(one, other, keep))
+            clear = min(clear, clearance(one, other, keep, circle))
     return clear

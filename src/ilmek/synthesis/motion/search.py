@@ -36,7 +36,7 @@ STARTS, STEPS = 600, 15
 ENOUGH = 60
 """Pairs of different links within the limits with which no further ones are sought."""
 
-ROUNDS = 4
+ROUNDS = 3
 """Sets of links of three poses that are tried before a task counts as without answer."""
 
 APART, CLOSEST = 0.5, 0.03
