@@ -116,7 +116,7 @@ def test_pivots_stay_within_their_bounds() -> None:
         ({"pins": "(0,0) (0,0)"}, "both pins are one point"),
         ({"pivot_x": "50mm..0mm"}, "did you mean 0mm..50mm"),
         ({"keep_out": "(0,0) (1mm,0) (2mm,0)"}, "keep_out has no area"),
-        ({"pivot_region": "(0,0) (9mm,9mm) (9mm,0) (0,9mm)"}, "two sides of pivot_region cross"),
+        ({"pivot_region": "(0,0) (9mm,9mm) (9mm,0) (0,8mm)"}, "two sides of pivot_region cross"),
         ({"crank_region": "(0,0)"}, "crank_region holds 1 points"),
         ({"driven": "first"}, "neither pivots nor pins are given"),
         ({"transmission_min": "40"}, "did you mean 40deg"),

@@ -1,7 +1,7 @@
 """Where no four-bar keeps all limits: which single limit, loosened how far, gives one.
 
 One limit is dropped first. Where the family then has four-bars, the limit is loosened by a share t of its value only,
-and t is bisected down to the least at which one is reached, beginning from the four-bars found before.
+and t falls in small steps, each beginning from the four-bars of the step before, down to the least that is reached.
 """
 
 import math
@@ -17,14 +17,17 @@ from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 from ilmek.synthesis.candidate import Candidate
 from ilmek.synthesis.motion.limits import NOWHERE, PLANE, TURN, MotionLimits, breaches
-from ilmek.synthesis.motion.search import MotionSpace, PairSearch, feasible, reached, search_pairs
+from ilmek.synthesis.motion.search import MotionSpace, PairPool, PairSearch, feasible, reached, search_pairs
 from ilmek.units import deg, format_quantity, mm
 
-HALVINGS = 12
-"""Steps of the bisection of t."""
+FIRST, COARSEST, FINEST = 0.02, 1.1, 1.003
+"""First share t that is tried, doubled until it gives four-bars; greatest and least factor by which it then falls."""
 
-BASINS = 400
-"""Four-bars without the limit from which the bisection begins."""
+SETS = 3
+"""Sets of links of three poses among which four-bars without the limit are sought."""
+
+BASINS = 1200
+"""Four-bars without the limit from which the steps begin."""
 
 GREATEST = 64.0
 """Greatest share by which a limit is loosened without being dropped."""
@@ -133,7 +136,11 @@ def _cure(space: MotionSpace, judged: Callable[[ComplexArray], Candidate], name:
     """The cure by one limit; [] where none is found."""
     size = space.extent or space.frame.size
     without = MotionSpace(space.poses, space.curve, loosened(space.limits, name, math.inf, size))
+    seeds = SETS if len(space.family.forms) == 2 and name not in FLAGS else 1
     pool, _, _, _ = without.sampled(without.bounds, 0, progress.part(0.0, 0.3))
+    for seed in range(1, seeds):
+        pool = pool.joined(without.sampled(without.bounds, seed, progress)[0])
+    pool = pool.only(np.argsort(pool.scores, kind="stable"))
     near, _ = reached(without, pool, without.bounds, progress.part(0.3, 0.5))
     if not len(near.scores):
         return []
@@ -143,25 +150,30 @@ def _cure(space: MotionSpace, judged: Callable[[ComplexArray], Candidate], name:
     # Those that miss the given limit least come first.
     missed = space.repaired(near, space.bounds, 0, progress)
     near = near.only(np.argsort(missed.scores, kind="stable")[:BASINS])
-    low, high, kept = 0.0, math.inf, near
-    share = 0.02
-    for step in range(4 * HALVINGS):
-        progress(0.5 + 0.3 * step / (4 * HALVINGS))
-        trial = MotionSpace(space.poses, space.curve, loosened(space.limits, name, share, size))
-        good = feasible(trial.repaired(kept, trial.bounds, 25, progress))
+    least = _least_share(space, near, name, progress)
+    return [] if least is None else _stated(space, judged, name, least)
+
+
+def _least_share(space: MotionSpace, near: PairPool, name: str, progress: Progress) -> float | None:
+    """The least share by which a limit must be loosened, followed down from the pairs found without it."""
+    share, factor, reached_at = FIRST, 2.0, math.inf
+    while factor > FINEST and share <= GREATEST:
+        progress(0.6)
+        limits = loosened(space.limits, name, share, space.extent or space.frame.size)
+        trial = MotionSpace(space.poses, space.curve, limits)
+        good = feasible(trial.repaired(near, trial.bounds, 25, progress))
         if len(good.scores):
-            high, kept = share, good
+            reached_at, near = share, good
+            factor = min(factor, COARSEST)
+            share = reached_at / factor
+        elif math.isinf(reached_at):
+            share *= factor
         else:
-            low = share
-        if math.isinf(high):
-            if share >= GREATEST:
-                return []
-            share *= 2
-        elif high - low < 1e-3 * high:
+            factor = math.sqrt(factor)
+            share = reached_at / factor
+        if reached_at < 1e-3 * FIRST:
             break
-        else:
-            share = (low + high) / 2
-    return _stated(space, judged, name, high)
+    return None if math.isinf(reached_at) else reached_at
 
 
 def _stated(space: MotionSpace, judged: Callable[[ComplexArray], Candidate], name: str, share: float) -> list[Cure]:

@@ -178,6 +178,14 @@ def set_margins(
 
 
 @compiled
+def widen(point: complex, least: FloatArray, most: FloatArray) -> None:
+    """Let the least and greatest positions along `HEADINGS` take in a point."""
+    for at in range(len(HEADINGS)):
+        reach = HEADINGS[at].real * point.real + HEADINGS[at].imag * point.imag
+        least[at], most[at] = min(least[at], reach), max(most[at], reach)
+
+
+@compiled
 def set_swept(
     m1: complex,
     pins1: ComplexArray,
@@ -214,11 +222,8 @@ def set_swept(
         across = np.sqrt(max(coupler * coupler / square - along * along, 0.0))
         b = a + complex(along, motion[SIGN] * across) * d
         p = a + tracer * (b - a)
-        for at in range(len(HEADINGS)):
-            h = HEADINGS[at]
-            for one in (a, b, p):
-                reach = h.real * one.real + h.imag * one.imag
-                least[at], most[at] = min(least[at], reach), max(most[at], reach)
+        for one in (a, b, p):
+            widen(one, least, most)
         if limits[ROCKER_HIGH] < 100 or limits[ROCKER_LOW] > 0:
             if step == 0:
                 before = b - m2
@@ -230,19 +235,14 @@ def set_swept(
             last_a, last_b, last_p = a, b, p
             for one, other in ((m1, a), (m2, b), (a, b), (a, p), (b, p)):
                 clear = min(clear, clearance(one, other, bounds.keep_out, circle))
-    widest = abs(m2 - m1)
-    for at in range(len(HEADINGS)):
-        h = HEADINGS[at]
-        for one in (m1, m2):
-            reach = h.real * one.real + h.imag * one.imag
-            least[at], most[at] = min(least[at], reach), max(most[at], reach)
-        widest = max(widest, most[at] - least[at])
-    size = widest * WIDEST
-    margins[SIZE] = min(NONE, np.log(limits[SIZE_MAX] / size))
+    widen(m1, least, most)
+    widen(m2, least, most)
+    widest = np.max(most - least)
+    margins[SIZE] = min(NONE, np.log(limits[SIZE_MAX] / (widest * WIDEST)))
     swing = swing_high - swing_low
     margins[ROCKER_SWING] = min(NONE, swing - limits[ROCKER_LOW], limits[ROCKER_HIGH] - SWING_ROUNDING * swing)
     margins[KEEP_OUT] = min(NONE, clear - SAGITTA * stride) if len(bounds.keep_out) else NONE
-    sizes = ground, crank, coupler, rocker
+    sizes = (ground, crank, coupler, rocker)
     gain = sensitivity(m1, pins1, m2, pins2, points, limits[EXTENT])
     return float(merit_value(motion[SINE], widest / limits[EXTENT], max(sizes) / min(sizes), gain))
 
