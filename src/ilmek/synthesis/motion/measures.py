@@ -206,13 +206,10 @@ def set_swept(
     ground, crank = abs(m2 - m1), abs(pins1[0] - m1)
     coupler, rocker = abs(pins2[0] - pins1[0]), abs(pins2[0] - m2)
     tracer = (points[0] - pins1[0]) / (pins2[0] - pins1[0])
-    low, high = motion[LOW], motion[HIGH]
-    if motion[TURNS] > 0:
-        low, high = -PI, PI
+    low, high = (-PI, PI) if motion[TURNS] > 0 else (motion[LOW], motion[HIGH])
     least, most = np.full(len(HEADINGS), np.inf), np.full(len(HEADINGS), -np.inf)
     clear, swung, swing_low, swing_high = NONE, 0.0, 0.0, 0.0
-    before, circle, stride = pins2[0] - m2, circle_about(bounds.keep_out), 0.0
-    last_a, last_b, last_p = m1, m1, m1
+    before, circle, stride, last_a, last_b, last_p = pins2[0] - m2, circle_about(bounds.keep_out), 0.0, m1, m1, m1
     for step in range(STEPS + 1):
         angle = low + (high - low) * step / STEPS + motion[GROUND]
         a = m1 + crank * complex(np.cos(angle), np.sin(angle))
@@ -225,8 +222,6 @@ def set_swept(
         for one in (a, b, p):
             widen(one, least, most)
         if limits[ROCKER_HIGH] < 100 or limits[ROCKER_LOW] > 0:
-            if step == 0:
-                before = b - m2
             swung += float(np.arctan2(cross(before, b - m2), dot(before, b - m2)))
             before = b - m2
             swing_low, swing_high = min(swing_low, swung), max(swing_high, swung)
@@ -239,12 +234,12 @@ def set_swept(
     widen(m2, least, most)
     widest = np.max(most - least)
     margins[SIZE] = min(NONE, np.log(limits[SIZE_MAX] / (widest * WIDEST)))
-    swing = swing_high - swing_low
-    margins[ROCKER_SWING] = min(NONE, swing - limits[ROCKER_LOW], limits[ROCKER_HIGH] - SWING_ROUNDING * swing)
+    swung = swing_high - swing_low
+    margins[ROCKER_SWING] = min(NONE, swung - limits[ROCKER_LOW], limits[ROCKER_HIGH] - SWING_ROUNDING * swung)
     margins[KEEP_OUT] = min(NONE, clear - SAGITTA * stride) if len(bounds.keep_out) else NONE
-    sizes = (ground, crank, coupler, rocker)
-    gain = sensitivity(m1, pins1, m2, pins2, points, limits[EXTENT])
-    return float(merit_value(motion[SINE], widest / limits[EXTENT], max(sizes) / min(sizes), gain))
+    ratio = max(ground, crank, coupler, rocker) / min(ground, crank, coupler, rocker)
+    size, gain = widest / limits[EXTENT], sensitivity(m1, pins1, m2, pins2, points, limits[EXTENT])
+    return float(merit_value(motion[SINE], size, ratio, gain))
 
 
 @compiled
