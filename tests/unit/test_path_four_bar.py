@@ -4,6 +4,8 @@ import json
 
 import numpy as np
 import pytest
+from examples.draw_nine_points import POINTS as POINTS_OF_FIGURE
+from examples.draw_nine_points import figure
 
 from ilmek.errors import ParameterError
 from ilmek.machines.catalogue import MACHINES
@@ -189,6 +191,10 @@ def test_nine_points_are_met_exactly_by_every_four_bar_that_does_and_each_is_pro
     best = results["candidates"][0]
     assert [round(1e3 * best[name], 1) for name in LINKS] == [89.2, 30.1, 75.3, 69.2]
     assert any(table.name == "path-four-bar-proof" for table in said.tables)
+    drawn = figure(four_bar(best), four_bar(results["candidates"][1]))
+    assert np.array_equal(POINTS_OF_FIGURE, points)
+    path = next(stroke.points for stroke in drawn.strokes if stroke.role == "path")
+    assert np.abs(path[:, None] - points).min(axis=0).max() < 1e-3
 
 
 def test_poses_and_points_together_are_met_exactly() -> None:

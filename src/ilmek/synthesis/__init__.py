@@ -10,6 +10,8 @@ from ilmek.lazy import lazy_names
 
 PUBLIC = {
     "function_approximations": "ilmek.synthesis.approximation.function_generator",
+    "complete_four_bars": "ilmek.synthesis.alt_burmester.four_bars",
+    "PosesAndPoints": "ilmek.synthesis.alt_burmester.task",
     "burmester_curve": "ilmek.synthesis.burmester.curve",
     "arms_through_five_poses": "ilmek.synthesis.burmester.links",
     "Candidate": "ilmek.synthesis.candidate",
@@ -30,6 +32,8 @@ __all__ = list(PUBLIC)
 __getattr__, __dir__ = lazy_names(__name__, PUBLIC)
 
 if TYPE_CHECKING:
+    from ilmek.synthesis.alt_burmester.four_bars import complete_four_bars as complete_four_bars
+    from ilmek.synthesis.alt_burmester.task import PosesAndPoints as PosesAndPoints
     from ilmek.synthesis.approximation.function_generator import function_approximations as function_approximations
     from ilmek.synthesis.burmester.curve import burmester_curve as burmester_curve
     from ilmek.synthesis.burmester.links import arms_through_five_poses as arms_through_five_poses
