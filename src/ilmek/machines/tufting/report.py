@@ -22,10 +22,10 @@ def plates(design: Tufting) -> tuple[Plate, ...]:
     """The five links; the needle bar is turned, not cut."""
     p = design.params
     pins = {"crank": "OA", "coupler": "AB", "rocker": "CB", "arm": "CD", "rod": "DE"}
-    found = []
+    found: list[Plate] = []
     crank = p.link_width or FLAT_BARS[0][0], p.link_thickness or FLAT_BARS[0][1]
     for name, (width, thickness) in {"crank": crank, **link_sections(p)}.items():
-        start, end = pins[name]
+        start, end = tuple(pins[name])
         link = {name: ((start, 0j), (end, complex(getattr(p, name))))}
         found += link_plates(link, width=width, thickness=thickness, material=p.strength.material, number=p.bars)
     return tuple(found)
