@@ -44,8 +44,8 @@ def _merits(choice: FourBarSelection, name: str) -> Table:
     proven = any(one.certified for one in choice.kept)
     heads = columns(
         *("solution", "merit", "μ [deg]", "size / extent", "link ratio", "sensitivity"),
-        *("point at 0.1 mm [mm]", "angle at 0.1 mm [deg]"),
-        *(("apart",) if apart else ()),
+        *("point, links 0.1 mm off [mm]", "angle, links 0.1 mm off [deg]"),
+        *(("apart, in extents",) if apart else ()),
         *(("proven exact",) if proven else ()),
     )
     rows = tuple(
@@ -58,8 +58,7 @@ def _merits(choice: FourBarSelection, name: str) -> Table:
         for one in (option.merit,)
         if one is not None
     )
-    words = "errors where all links are 0.1 mm off" + ("; apart: from a better solution, in extents" if apart else "")
-    return Table(f"{name}-merit", f"Merit of the solutions; {words}", heads, rows)
+    return Table(f"{name}-merit", "Merit of the solutions", heads, rows)
 
 
 ERRORS = {
