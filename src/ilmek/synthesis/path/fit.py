@@ -11,6 +11,7 @@ import numpy as np
 from ilmek.arrays import Complex, Float, Int
 from ilmek.records import record
 from ilmek.synthesis.candidate import Candidate, judge
+from ilmek.synthesis.cognates import cognates
 from ilmek.synthesis.four_bar import FourBar
 from ilmek.synthesis.path.limits import excess
 from ilmek.synthesis.path.model import NAMES, SIZE, TURN, coupler_point
@@ -28,15 +29,21 @@ class Search:
     """Record of a search; the same seed and starts give the same result.
 
     seed          of the random starts
-    starts        total number of starts
+    starts        number of random starts
     evaluations   number of evaluations at all points, or for long paths at a part of them
-    agreed        number of starts that ended at this squared error
+    runs          number of independent runs that the starts are divided into
+    missed        estimated probability that a better optimum exists (`path.confidence`)
+    agreed        number of random starts that ended at this squared error
+    runs_agreed   number of runs that ended at it, by random starts or by variations of others
     """
 
     seed: int
     starts: int
     evaluations: int
-    agreed: int
+    runs: int
+    missed: float
+    agreed: int = 0
+    runs_agreed: int = 0
 
 
 @record
@@ -152,3 +159,36 @@ def _active(task: PathTask, design: Float[np.ndarray, "10"], blocks: Int[np.ndar
             for k in np.flatnonzero(blocks[1:] == blocks[:-1])
         ]
     return tuple(active)
+
+
+def cognate_fit(task: PathTask, fit: PathFit) -> PathFit | None:
+    """The cognate that rotates with the same crank (`synthesis.cognates`), with the same errors.
+
+    None where it is degenerate, or not within the limits of the task.
+    """
+    other = cognates(fit.four_bar).timed
+    if other is None:
+        return None
+    lengths, tracer = other.lengths, other.tracer_on_coupler
+    assert tracer is not None
+    turned = cmath.phase(other.b0 - other.a0) - cmath.phase(fit.four_bar.b0 - fit.four_bar.a0)
+    turn = fit.design["turn"] + turned
+    numbers = (*lengths, tracer.real, tracer.imag, other.a0.real, other.a0.imag, turn, fit.design["start"])
+    design, (low, high) = np.array(numbers), task.limits()
+    lowest, highest = low[TURN], high[TURN]
+    if math.isfinite(lowest):
+        design[TURN] = lowest + (turn - lowest) % FULL_TURN if highest - lowest > 0 else turn
+    near = ACTIVE * task.size
+    inside = ((low - near <= design) & (design <= high + near)).all()
+    if not inside or excess(design, task.sign, task.kappa) > near:
+        return None
+    design[TURN] = cmath.phase(cmath.exp(1j * turn))
+    return PathFit(
+        four_bar=other,
+        design={name: float(value) for name, value in zip(NAMES, design, strict=True)},
+        crank_angles=fit.crank_angles + turned,
+        errors=fit.errors,
+        active=_active(task, design, np.arange(len(task.points))),
+        least_transmission=least_transmission(design),
+        search=fit.search,
+    )

@@ -60,6 +60,31 @@ def start_all(
 
 
 @compiled
+def refit_all(
+    angles: Float[np.ndarray, "starts points"],
+    branches: Int[np.ndarray, " starts"],
+    points: Complex[np.ndarray, " points"],
+    low: Design,
+    high: Design,
+    kind: int,
+    kappa: float,
+    designs: Float[np.ndarray, "starts 10"],
+    errors: Float[np.ndarray, " starts"],
+) -> None:
+    """Size, position, orientation and tracer fitted to given link ratios and crank angles, written to `designs`.
+
+    designs  their link lengths [m] and `start` are used; errors  as in `start_all`
+    """
+    for k in range(branches.size):
+        ground = designs[k, 0]
+        for i in range(4):
+            designs[k, i] /= ground
+        errors[k] = math.inf
+        if excess(designs[k], kind, kappa) <= TOLERANCE:
+            errors[k] = _fit_rest(designs[k], angles[k], points, branches[k], low, high, kind, kappa)
+
+
+@compiled
 def _guess_angles(
     random: Float[np.ndarray, "8"],
     along: Angles,

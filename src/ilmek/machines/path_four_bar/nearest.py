@@ -1,0 +1,184 @@
+"""The nearest four-bars for a path: searched, judged, alike ones grouped, ranked by error and merit."""
+
+import dataclasses
+import math
+from collections import Counter
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from ilmek.arrays import FloatArray
+from ilmek.machines.path_four_bar.params import PathFourBarParams
+from ilmek.progress import Progress
+from ilmek.records import record
+from ilmek.report import Json
+from ilmek.synthesis.candidate import Candidate, judge
+from ilmek.synthesis.filters import defects
+from ilmek.synthesis.merit import extent_of_points, merit
+from ilmek.synthesis.path.fit import PathFit, Search, cognate_fit, judged
+from ilmek.synthesis.path.search import path_four_bars
+from ilmek.synthesis.path.task import PathTask
+from ilmek.synthesis.selection import FourBarOption, FourBarSelection, SearchedFamily, choose, single_cures
+from ilmek.units import format_quantity
+
+POOL = 30
+"""Different four-bars of each class that are judged, each with its cognate."""
+
+EXACT = 1e-6
+"""Root mean square error that counts as none, in extents of the points."""
+
+NEAR_EQUAL = 1.02
+"""Ratio of root mean square errors up to which the merit decides."""
+
+ALIKE = 1e-3
+"""Difference of link ratios below which four-bars are alike: mirror images, cognates, repeats."""
+
+APART = (0.5, 0.25, 0.125, 0.0625, 0.03)
+"""Least distance of an exact four-bar from all better ones, in extents of the points: the first that gives enough."""
+
+
+@record
+class Nearest:
+    """The nearest four-bars, and the records of the searches, one for each class."""
+
+    choice: FourBarSelection
+    searches: tuple[Search, ...]
+
+
+def nearest(params: PathFourBarParams, progress: Progress) -> Nearest:
+    """The nearest four-bars, ranked. Raises ParameterError where no start can be brought within the limits; Cancelled.
+
+    Four-bars that are alike are one answer: the best by merit. Exact ones, those within `error_max` where it is given,
+    and those whose root mean square errors differ by at most 2 % are ranked by merit; others by this error.
+    """
+    found, searches = _searched(params, progress)
+    # The search keeps both limits, and ends at them: a filter would find them exceeded by rounding.
+    filters = dataclasses.replace(params.filters(), transmission_min=0.0, full_turn=False)
+    missed = [(one, defects(one.candidate, filters)) for one in found]
+    good = [_with_merit(one) for one, reasons in missed if not reasons]
+    removed = [(one, reasons) for one, reasons in missed if reasons]
+    ranked = _unlike(sorted(good, key=_value))
+    ranked = _ranked(params, ranked)
+    listed = _apart(params, ranked)
+    order = {id(one): at for at, one in enumerate(listed)}
+    choice = choose(listed, (), params, filters=filters, rank=lambda one: order[id(one)])
+    counts = Counter(name for _, reasons in removed for name in reasons)
+    family = SearchedFamily(len(found), len(ranked), counts)
+    cures = () if listed else _cures(params, removed)
+    choice = dataclasses.replace(
+        choice, family=family, cures=cures, removed=tuple(removed), more=len(ranked) - len(choice.kept)
+    )
+    return Nearest(choice, searches)
+
+
+def _searched(params: PathFourBarParams, progress: Progress) -> tuple[list[FourBarOption], tuple[Search, ...]]:
+    """The nearest four-bars of each class with their cognates within the bounds, judged; and the searches."""
+    tasks, found, searches = params.tasks(), list[FourBarOption](), list[Search]()
+    for number, task in enumerate(tasks):
+        part = progress.part(number / len(tasks), (number + 1) / len(tasks))
+        fits = path_four_bars(
+            task, count=max(POOL, params.count), seed=params.seed, starts=params.starts, progress=part
+        )
+        searches.append(fits[0].search)
+        for fit in fits:
+            other = cognate_fit(task, fit)
+            found += [_option(params, task, one) for one in (fit, other) if one is not None]
+    return found, tuple(searches)
+
+
+def _option(params: PathFourBarParams, task: PathTask, fit: PathFit) -> FourBarOption:
+    candidate = judged(task, fit)
+    if params.error_max is not None:
+        candidate = judge(fit.four_bar, dataclasses.replace(candidate.task, point_tolerance=params.error_max))
+    search: dict[str, Json] = {
+        "active": list(fit.active),
+        "starts_agreed": fit.search.agreed,
+        "runs_agreed": fit.search.runs_agreed,
+        "starts": fit.search.starts,
+    }
+    return FourBarOption(candidate, "search", errors(candidate) | search)
+
+
+def errors(candidate: Candidate) -> dict[str, Json]:
+    """Greatest, root mean square and sum of squares of the distances from the points [m, m, m²]."""
+    gaps = np.array([met.point_error for met in candidate.positions])
+    if not np.isfinite(gaps).all():
+        return {"error_max": None, "error_rms": None, "error_squares": None}
+    squares = float(np.sum(gaps**2))
+    return {"error_max": float(np.max(gaps)), "error_rms": math.sqrt(squares / len(gaps)), "error_squares": squares}
+
+
+def _with_merit(one: FourBarOption) -> FourBarOption:
+    return dataclasses.replace(one, merit=merit(one.candidate))
+
+
+def _value(one: FourBarOption) -> float:
+    """Minus the merit; 0 where it has none."""
+    value = math.nan if one.merit is None else one.merit.value
+    return 0.0 if math.isnan(value) else -value
+
+
+def _error(one: FourBarOption) -> float:
+    """Root mean square error [m]."""
+    error = one.details["error_rms"]
+    return error if isinstance(error, float) else math.inf
+
+
+def _ratios(one: FourBarOption) -> FloatArray:
+    """Crank, and the shorter and the longer of coupler and rocker, over the ground link: equal for alike four-bars."""
+    ground, crank, coupler, rocker = one.candidate.four_bar.lengths
+    return np.array([crank, min(coupler, rocker), max(coupler, rocker)]) / ground
+
+
+def _unlike(options: Sequence[FourBarOption]) -> list[FourBarOption]:
+    """The options without those that are alike one before."""
+    kept, seen = list[FourBarOption](), np.zeros((0, 3))
+    for one in options:
+        ratios = _ratios(one)
+        if not (np.abs(np.log(seen / ratios)).max(axis=1, initial=0.0) < ALIKE).any():
+            kept.append(one)
+            seen = np.vstack([seen, ratios])
+    return kept
+
+
+def _ranked(params: PathFourBarParams, options: Sequence[FourBarOption]) -> list[FourBarOption]:
+    """The options sorted by error; those that count as equally near, by merit."""
+    if params.error_max is not None:
+        return sorted(options, key=_value)
+    exact = EXACT * extent_of_points(params.positions())
+    groups: list[list[FourBarOption]] = []
+    for one in sorted(options, key=_error):
+        if groups and _error(one) <= max(exact, NEAR_EQUAL * _error(groups[-1][0])):
+            groups[-1].append(one)
+        else:
+            groups.append([one])
+    return [one for group in groups for one in sorted(group, key=_value)]
+
+
+def _apart(params: PathFourBarParams, ranked: Sequence[FourBarOption]) -> list[FourBarOption]:
+    """The first that differ, with their distances from the nearest one before, in extents of the points."""
+    extent = extent_of_points(params.positions())
+    pins = [np.array([of.a0, of.b0, of.a, of.b]) for one in ranked for of in (one.candidate.four_bar,)]
+    exact = [_error(one) <= EXACT * extent for one in ranked]
+    for least in APART if all(exact[: params.count]) else APART[-1:]:
+        chosen: list[int] = []
+        gaps: list[float] = []
+        for at, own in enumerate(pins):
+            gap = min((float(np.max(np.abs(own - pins[k]))) / extent for k in chosen), default=math.inf)
+            if gap >= least:
+                chosen.append(at)
+                gaps.append(gap)
+        if len(chosen) >= params.count:
+            break
+    return [dataclasses.replace(ranked[k], apart=gap) for k, gap in zip(chosen, gaps, strict=True)]
+
+
+def _cures(
+    params: PathFourBarParams, removed: Sequence[tuple[FourBarOption, Mapping[str, str]]]
+) -> tuple[str, ...]:
+    """Single limits that give a four-bar if they are loosened."""
+    near = [one for one, reasons in removed if set(reasons) == {"met"}]
+    if params.error_max is None or not near:
+        return single_cures(removed)
+    greatest = min(one.candidate.point_error for one in near)
+    return (f"error_max={format_quantity(greatest, 'mm')} gives one",)

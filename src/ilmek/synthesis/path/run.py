@@ -1,0 +1,82 @@
+"""One run of the path search: random starts, then variations of the best ends until the best stays the same.
+
+The runs of a search are independent: how often they end at the same best is the evidence that no better one is missed.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ilmek.arrays import Float
+from ilmek.synthesis.path.ends import ScaledTask, SearchEnds, joined, optimised
+from ilmek.synthesis.path.links import random_links
+from ilmek.synthesis.path.model import SIZE
+from ilmek.synthesis.path.starts import RANDOM_NUMBERS, start_all
+from ilmek.synthesis.path.variation import different, varied
+
+RUN = 192
+"""Random starts of a run."""
+
+POOL, VARIATIONS = 16, 64
+"""Different ends that are varied in a round, and their variations."""
+
+QUIET, ROUNDS = 3, 15
+"""Successive rounds without a better end after which a run ends, and greatest number of rounds."""
+
+BETTER = 1e-4
+"""Relative reduction of the error that counts as better."""
+
+
+class RunEnds(NamedTuple):
+    """Ends of a run, without those of equal error, the best first.
+
+    starts       squared errors of the ends of its random starts
+    evaluations  number of evaluations
+    """
+
+    found: SearchEnds
+    starts: Float[np.ndarray, " some"]
+    evaluations: int
+
+
+def run(scaled: ScaledTask, seed: int, number: int, starts: int) -> RunEnds:
+    """One run of at most `RUN` random starts; its random numbers depend on the seed and its number alone."""
+    rng = np.random.default_rng([seed, number])
+    found, evaluations = optimised(scaled, random_starts(scaled, rng, starts))
+    errors = found.errors
+    pool, more = varied_until_quiet(scaled, found, rng, QUIET, ROUNDS)
+    return RunEnds(pool, errors, evaluations + more)
+
+
+def varied_until_quiet(
+    scaled: ScaledTask, found: SearchEnds, rng: np.random.Generator, quiet: int, rounds: int
+) -> tuple[SearchEnds, int]:
+    """The different ends after rounds of variations, until `quiet` rounds bring no better one; and evaluations."""
+    pool, evaluations, same = different(scaled, found, 2 * POOL), 0, 0
+    for _ in range(rounds):
+        if same == quiet or not len(pool.errors) or pool.errors[0] <= scaled.exact:
+            break
+        best = float(pool.errors[0])
+        made = varied(scaled, pool.only(slice(POOL)), VARIATIONS, rng)
+        if len(made.errors):
+            made, more = optimised(scaled, made)
+            evaluations += more
+            pool = different(scaled, joined([pool, made]), 2 * POOL)
+        same = 0 if pool.errors[0] < best * (1 - BETTER) else same + 1
+    return pool, evaluations
+
+
+def random_starts(scaled: ScaledTask, rng: np.random.Generator, count: int) -> SearchEnds:
+    """Random starts; those within the limits."""
+    task = scaled.task
+    links = random_links(rng, count, (scaled.low[:4], scaled.high[:4]), kind=task.sign, kappa=task.kappa)
+    count, points = len(links), scaled.points
+    designs, angles = np.empty((count, SIZE)), np.empty((count, len(points)))
+    branches, states = np.empty(count, dtype=np.int64), np.zeros((count, 5))
+    states[:, 1:3] = 1e-2, 2.0
+    errors = np.empty(count)
+    limits = (scaled.low, scaled.high, task.sign, task.kappa)
+    random = rng.random((count, RANDOM_NUMBERS))
+    start_all(random, links, scaled.along, scaled.timed, task.closed, points, *limits, designs, angles, branches, errors)
+    states[:, 0] = errors
+    return SearchEnds(designs, angles, branches, scaled.blocks(count), states).only(np.isfinite(errors))
