@@ -5,33 +5,34 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-import numpy as np
-
 from ilmek.arrays import ComplexArray
 from ilmek.machines.path_four_bar.complete import CompleteSearch, search
+from ilmek.machines.path_four_bar.nearest import SearchRecord, errors, nearest
 from ilmek.machines.path_four_bar.params import PathFourBarParams
 from ilmek.progress import SILENT, Progress
 from ilmek.records import computed, record
 from ilmek.report import Json
 from ilmek.synthesis.candidate import Candidate, judge
 from ilmek.synthesis.cognates import cognates
-from ilmek.synthesis.path.fit import PathFit, judged
 from ilmek.synthesis.path.points import timed_four_bars
-from ilmek.synthesis.path.search import path_four_bars
-from ilmek.synthesis.path.task import PathTask
 from ilmek.synthesis.selection import FourBarDesign, FourBarOption, choose, detail_of_best, dimensions, solutions
 from ilmek.synthesis.task import PrecisionTask
 
 CURVES = 12
 """Second links that are tried on each closed part of the curves of four timed points."""
 
-MET, ROUNDING = 1e-9, 1e-6
-"""Shares of a four-bar's size: an error that counts as none, and the part of an error that may be rounding."""
+ROUNDING = 1e-6
+"""Share of an error, and of a four-bar's size, that may be rounding."""
 
 
 def of_complete(doc: str, value: Callable[[CompleteSearch], Json]) -> Any:
     """Declare a result of complete synthesis; left out elsewhere."""
     return computed("", doc, lambda it: None if it.complete is None else value(it.complete), optional=True)
+
+
+def of_search(doc: str, value: Callable[[SearchRecord], Json], unit: str = "") -> Any:
+    """Declare a result of a search; left out elsewhere."""
+    return computed(unit, doc, lambda it: None if it.searched is None else value(it.searched), optional=True)
 
 
 @record
@@ -40,22 +41,39 @@ class PathFourBar(FourBarDesign):
 
     points    [m]      cognates  of the one that is drawn, judged, by their names; () where they are not required
     complete  where nine points, or poses and points, are met exactly; None otherwise
+    searched  where the nearest four-bars are searched; None otherwise
     """
 
     params: PathFourBarParams
     points: ComplexArray
     cognates: tuple[tuple[str, Candidate], ...]
     complete: CompleteSearch | None = None
+    searched: SearchRecord | None = None
 
     error_max = detail_of_best("mm", "greatest distance from a point, of the solution that is drawn", "error_max")
     error_rms = detail_of_best("mm", "root mean square of the distances", "error_rms")
     error_squares = detail_of_best("mm^2", "sum of the squared distances", "error_squares")
     active = detail_of_best("", "active limits: without them it would come nearer", "active")
-    starts_agreed = detail_of_best("", "starts of the search that ended at this error", "starts_agreed")
-    starts = detail_of_best("", "starts of the search", "starts")
+    starts_agreed = detail_of_best("", "random starts that ended at this error", "starts_agreed")
+    runs_agreed = detail_of_best("", "runs of the search that met this error", "runs_agreed")
+    starts = detail_of_best("", "random starts of the search of its class", "starts")
+    starts_used = of_search("random starts of all classes that were searched", lambda one: one.starts)
+    runs = of_search("independent runs that these are divided into", lambda one: one.runs)
+    optima = of_search("different errors up to twice the least that were met", lambda one: one.optima)
+    probability_missed = of_search(
+        "estimated probability that a nearer four-bar exists within the limits (docs: path synthesis)",
+        lambda one: one.missed,
+        unit="1",
+    )
+    share_excluded = of_search(
+        "a nearer four-bar that at least this share of the runs lead to would have been found with 95 %",
+        lambda one: one.share_excluded,
+        unit="1",
+    )
     solutions = solutions(
         "error_max, error_rms and error_squares (sum of squares) of the points; of a search active, starts_agreed, "
-        "starts; of nine points within (distance of its exact pins) and curve (its number: cognates have one)"
+        "runs_agreed, starts; of nine points within (distance of its exact pins) and curve (its number: cognates "
+        "have one)"
     )
     paths = of_complete(
         "solutions of the complex task that were followed; of nine points each counts for three cognates",
@@ -104,7 +122,7 @@ def design(params: PathFourBarParams, progress: Progress = SILENT) -> PathFourBa
     Cancelled.
     """
     points = params.positions()
-    complete = None
+    complete = searched = None
     if params.exact and params.timing is None:
         complete = search(params.poses_and_points(), params.filters(), progress)
         choice = choose(_proven(complete), complete.words, params)
@@ -113,39 +131,12 @@ def design(params: PathFourBarParams, progress: Progress = SILENT) -> PathFourBa
     elif params.exact:
         choice = choose(*_exact(params, points), params)
     else:
-        # The search keeps both limits, and ends at them: a filter would find them exceeded by rounding.
-        filters = dataclasses.replace(params.filters(), transmission_min=0.0, full_turn=False)
-        choice = choose(_searched(params, progress), (), params, filters=filters, rank=_nearest)
+        found = nearest(params, progress)
+        choice, searched = found.choice, found.searched
     siblings = _siblings(choice.best.candidate) if choice.best is not None and params.cognates else ()
-    return PathFourBar(choice=choice, params=params, points=points, cognates=siblings, complete=complete)
-
-
-def _nearest(one: FourBarOption) -> tuple[float, float]:
-    """The nearest first; among those that meet every point, the best transmission angle."""
-    greatest = one.candidate.point_error
-    return (0.0 if greatest <= MET * one.candidate.size else greatest), -one.candidate.least_transmission
-
-
-def _searched(params: PathFourBarParams, progress: Progress) -> tuple[FourBarOption, ...]:
-    """The nearest four-bars of each class that is searched."""
-    tasks, found = params.tasks(), list[FourBarOption]()
-    for number, task in enumerate(tasks):
-        part = progress.part(number / len(tasks), (number + 1) / len(tasks))
-        fits = path_four_bars(task, count=params.count, seed=params.seed, starts=params.starts, progress=part)
-        found += [_option(params, task, fit) for fit in fits]
-    return tuple(found)
-
-
-def _option(params: PathFourBarParams, task: PathTask, fit: PathFit) -> FourBarOption:
-    candidate = judged(task, fit)
-    if params.error_max is not None:
-        candidate = judge(fit.four_bar, dataclasses.replace(candidate.task, point_tolerance=params.error_max))
-    search: dict[str, Json] = {
-        "active": list(fit.active),
-        "starts_agreed": fit.search.agreed,
-        "starts": fit.search.starts,
-    }
-    return FourBarOption(candidate, "search", errors(candidate) | search)
+    return PathFourBar(
+        choice=choice, params=params, points=points, cognates=siblings, complete=complete, searched=searched
+    )
 
 
 def _exact(params: PathFourBarParams, points: ComplexArray) -> tuple[tuple[FourBarOption, ...], tuple[str, ...]]:
@@ -168,12 +159,3 @@ def _siblings(original: Candidate) -> tuple[tuple[str, Candidate], ...]:
         ("other", found.other, PrecisionTask(points=points, point_tolerance=near)),
     )
     return tuple((name, judge(four_bar, task)) for name, four_bar, task in tasks if four_bar is not None)
-
-
-def errors(candidate: Candidate) -> dict[str, Json]:
-    """Greatest, root mean square and sum of squares of the distances from the points [m, m, m²]."""
-    gaps = np.array([met.point_error for met in candidate.positions])
-    if not np.isfinite(gaps).all():
-        return {"error_max": None, "error_rms": None, "error_squares": None}
-    squares = float(np.sum(gaps**2))
-    return {"error_max": float(np.max(gaps)), "error_rms": math.sqrt(squares / len(gaps)), "error_squares": squares}

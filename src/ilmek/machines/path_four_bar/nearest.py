@@ -4,6 +4,7 @@ import dataclasses
 import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from ilmek.report import Json
 from ilmek.synthesis.candidate import Candidate, judge
 from ilmek.synthesis.filters import defects
 from ilmek.synthesis.merit import extent_of_points, merit
+from ilmek.synthesis.path.confidence import share_excluded
 from ilmek.synthesis.path.fit import PathFit, Search, cognate_fit, judged
 from ilmek.synthesis.path.search import path_four_bars
 from ilmek.synthesis.path.task import PathTask
@@ -24,7 +26,7 @@ from ilmek.units import format_quantity
 POOL = 30
 """Different four-bars of each class that are judged, each with its cognate."""
 
-EXACT = 1e-6
+EXACT = 1e-8
 """Root mean square error that counts as none, in extents of the points."""
 
 NEAR_EQUAL = 1.02
@@ -34,15 +36,30 @@ ALIKE = 1e-3
 """Difference of link ratios below which four-bars are alike: mirror images, cognates, repeats."""
 
 APART = (0.5, 0.25, 0.125, 0.0625, 0.03)
-"""Least distance of an exact four-bar from all better ones, in extents of the points: the first that gives enough."""
+"""Least distance of a four-bar from all better ones, in extents of the points: the first that gives enough."""
 
 
 @record
-class Nearest:
-    """The nearest four-bars, and the records of the searches, one for each class."""
+class SearchRecord:
+    """What the searches of all classes rest on: see `Search`.
+
+    optima          different errors up to twice the least
+    missed          probability that one of the searches missed a better optimum than its best [1]
+    share_excluded  greatest share of the runs that an optimum which all missed has with 95 % confidence [1]
+    """
+
+    starts: int
+    runs: int
+    optima: int
+    missed: float
+    share_excluded: float
+
+
+class Nearest(NamedTuple):
+    """The nearest four-bars, and the record of their search."""
 
     choice: FourBarSelection
-    searches: tuple[Search, ...]
+    searched: SearchRecord
 
 
 def nearest(params: PathFourBarParams, progress: Progress) -> Nearest:
@@ -57,18 +74,28 @@ def nearest(params: PathFourBarParams, progress: Progress) -> Nearest:
     missed = [(one, defects(one.candidate, filters)) for one in found]
     good = [_with_merit(one) for one, reasons in missed if not reasons]
     removed = [(one, reasons) for one, reasons in missed if reasons]
-    ranked = _unlike(sorted(good, key=_value))
-    ranked = _ranked(params, ranked)
+    ranked = _ranked(params, _unlike(sorted(good, key=_value)))
     listed = _apart(params, ranked)
     order = {id(one): at for at, one in enumerate(listed)}
     choice = choose(listed, (), params, filters=filters, rank=lambda one: order[id(one)])
     counts = Counter(name for _, reasons in removed for name in reasons)
-    family = SearchedFamily(len(found), len(ranked), counts)
+    family = SearchedFamily(len(ranked) + len(removed), len(ranked), counts)
     cures = () if listed else _cures(params, removed)
     choice = dataclasses.replace(
         choice, family=family, cures=cures, removed=tuple(removed), more=len(ranked) - len(choice.kept)
     )
-    return Nearest(choice, searches)
+    return Nearest(choice, _record(searches))
+
+
+def _record(searches: Sequence[Search]) -> SearchRecord:
+    """The record of the searches of all classes."""
+    return SearchRecord(
+        starts=sum(one.starts for one in searches),
+        runs=sum(one.runs for one in searches),
+        optima=sum(one.optima for one in searches),
+        missed=1.0 - math.prod(1.0 - one.missed for one in searches),
+        share_excluded=max(share_excluded(one.runs) for one in searches),
+    )
 
 
 def _searched(params: PathFourBarParams, progress: Progress) -> tuple[list[FourBarOption], tuple[Search, ...]]:
@@ -156,26 +183,37 @@ def _ranked(params: PathFourBarParams, options: Sequence[FourBarOption]) -> list
 
 
 def _apart(params: PathFourBarParams, ranked: Sequence[FourBarOption]) -> list[FourBarOption]:
-    """The first that differ, with their distances from the nearest one before, in extents of the points."""
+    """The first that differ, with their distances from the nearest one before, in extents of the points.
+
+    Those as near as the best must differ most; the others follow where these are too few.
+    """
+    if not ranked:
+        return []
     extent = extent_of_points(params.positions())
-    pins = [np.array([of.a0, of.b0, of.a, of.b]) for one in ranked for of in (one.candidate.four_bar,)]
-    exact = [_error(one) <= EXACT * extent for one in ranked]
-    for least in APART if all(exact[: params.count]) else APART[-1:]:
-        chosen: list[int] = []
-        gaps: list[float] = []
-        for at, own in enumerate(pins):
-            gap = min((float(np.max(np.abs(own - pins[k]))) / extent for k in chosen), default=math.inf)
-            if gap >= least:
-                chosen.append(at)
-                gaps.append(gap)
+    most = max(EXACT * extent, NEAR_EQUAL * min(map(_error, ranked)))
+    best = [one for one in ranked if params.error_max is not None or _error(one) <= most]
+    for least in APART:
+        chosen = _spaced(best if least > APART[-1] else ranked, least * extent)
         if len(chosen) >= params.count:
             break
-    return [dataclasses.replace(ranked[k], apart=gap) for k, gap in zip(chosen, gaps, strict=True)]
+    return [dataclasses.replace(one, apart=gap / extent) for one, gap in chosen]
 
 
-def _cures(
-    params: PathFourBarParams, removed: Sequence[tuple[FourBarOption, Mapping[str, str]]]
-) -> tuple[str, ...]:
+def _spaced(options: Sequence[FourBarOption], least: float) -> list[tuple[FourBarOption, float]]:
+    """The options whose pins are `least` from those of all before [m], and these distances."""
+    chosen: list[tuple[FourBarOption, float]] = []
+    taken = np.zeros((0, 4), dtype=complex)
+    for one in options:
+        drawn = one.candidate.four_bar
+        pins = np.array([drawn.a0, drawn.b0, drawn.a, drawn.b])
+        gap = float(np.min(np.abs(taken - pins).max(axis=1), initial=math.inf))
+        if gap >= least:
+            chosen.append((one, gap))
+            taken = np.vstack([taken, pins])
+    return chosen
+
+
+def _cures(params: PathFourBarParams, removed: Sequence[tuple[FourBarOption, Mapping[str, str]]]) -> tuple[str, ...]:
     """Single limits that give a four-bar if they are loosened."""
     near = [one for one, reasons in removed if set(reasons) == {"met"}]
     if params.error_max is None or not near:

@@ -75,7 +75,12 @@ class PathFourBarParams(FourBarTaskParams):
     error_max: float | None = length(None, above=0.0, at_most=1e3, doc="greatest distance from a point")
     link_ratio_max: float | None = ratio_limit(None)
     cognates: bool = flag(False, doc="also the two other four-bars that trace the same curve as the chosen one")
-    starts: int = count(960, at_least=1, at_most=10000, doc="random starts after which the search ends at the latest")
+    starts: int | None = count(
+        None,
+        at_least=1,
+        at_most=10000,
+        doc="random starts, exactly so many; default: 768 to 3072, until a nearer four-bar was missed with at most 5 %",
+    )
     seed: int = count(0, at_least=0, at_most=10**9, doc="seed of the random starts: the same seed, the same answers")
 
     def check_together(self) -> None:

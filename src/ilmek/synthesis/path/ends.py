@@ -94,9 +94,7 @@ class ScaledTask:
 
     def thinned(self, part: Int[np.ndarray, " part"]) -> "ScaledTask":
         """The task with a part of its points."""
-        return ScaledTask(
-            self.task, self.middle, self.size, self.points[part], self.along[part], self.low, self.high
-        )
+        return ScaledTask(self.task, self.middle, self.size, self.points[part], self.along[part], self.low, self.high)
 
     def blocks(self, count: int) -> Int[np.ndarray, "count points"]:
         """The blocks of descents in which every point has its own angle, or the timing."""

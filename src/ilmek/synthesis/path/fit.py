@@ -32,6 +32,7 @@ class Search:
     starts        number of random starts
     evaluations   number of evaluations at all points, or for long paths at a part of them
     runs          number of independent runs that the starts are divided into
+    optima        number of different errors up to twice the least (root mean square) that were met
     missed        estimated probability that a better optimum exists (`path.confidence`)
     agreed        number of random starts that ended at this squared error
     runs_agreed   number of runs that ended at it, by random starts or by variations of others
@@ -41,6 +42,7 @@ class Search:
     starts: int
     evaluations: int
     runs: int
+    optima: int
     missed: float
     agreed: int = 0
     runs_agreed: int = 0

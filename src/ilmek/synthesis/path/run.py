@@ -76,7 +76,7 @@ def random_starts(scaled: ScaledTask, rng: np.random.Generator, count: int) -> S
     states[:, 1:3] = 1e-2, 2.0
     errors = np.empty(count)
     limits = (scaled.low, scaled.high, task.sign, task.kappa)
-    random = rng.random((count, RANDOM_NUMBERS))
-    start_all(random, links, scaled.along, scaled.timed, task.closed, points, *limits, designs, angles, branches, errors)
+    given = (rng.random((count, RANDOM_NUMBERS)), links, scaled.along, scaled.timed, task.closed, points)
+    start_all(*given, *limits, designs, angles, branches, errors)
     states[:, 0] = errors
     return SearchEnds(designs, angles, branches, scaled.blocks(count), states).only(np.isfinite(errors))

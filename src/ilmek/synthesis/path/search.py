@@ -23,7 +23,7 @@ from ilmek.progress import SILENT, Progress
 from ilmek.synthesis.path.confidence import SOUGHT, probability_missed
 from ilmek.synthesis.path.ends import ScaledTask, SearchEnds, joined, refined, scaled_task
 from ilmek.synthesis.path.fit import PathFit, Search, SearchEnd, least_transmission, path_fit
-from ilmek.synthesis.path.model import SIZE
+from ilmek.synthesis.path.model import SIZE, Design
 from ilmek.synthesis.path.run import RUN, RunEnds, run, varied_until_quiet
 from ilmek.synthesis.path.task import PathTask
 
@@ -75,32 +75,41 @@ def path_four_bars(
         raise ParameterError(f"time_limit {time_limit:g} s", allowed="above 0 s")
     full = scaled_task(task)
     scaled = full.thinned(full.coarse)
-    runs, pool, evaluations = _runs(scaled, seed, starts, threads, time.monotonic() + time_limit, progress)
+    runs, pool, evaluations = _runs(
+        scaled, seed, starts, threads=threads, until=time.monotonic() + time_limit, progress=progress
+    )
     if not len(pool.errors):
         raise ParameterError(
             "no start of the search can be brought within the limits",
             do="widen the bounds of the links, of the pivot or of the turn of the ground link",
         )
-    missed = _missed(scaled, runs, pool)
-    searched = pool.errors
+    found = pool
     if len(scaled.points) < len(full.points):
-        pool, more = refined(full, pool)
+        found, more = refined(full, pool)
         evaluations += more
-    evaluations += sum(one.evaluations for one in runs)
-    used = RUN * len(runs) if starts is None else min(starts, RUN * len(runs))
-    search = Search(seed, used, evaluations, len(runs), missed)
-    return _solutions(full, pool, count, _Evidence(scaled, search, runs))
+    search = Search(
+        seed=seed,
+        starts=RUN * len(runs) if starts is None else min(starts, RUN * len(runs)),
+        evaluations=evaluations + sum(one.evaluations for one in runs),
+        runs=len(runs),
+        optima=_optima(scaled, pool),
+        missed=_missed(scaled, runs, pool),
+    )
+    return _solutions(full, found, count, _Evidence(scaled, search, runs, pool))
 
 
 class _Evidence(NamedTuple):
-    """What a search rests on: the task that was searched, the record, and the runs."""
+    """What a search rests on: the task that was searched, the record, the runs and the best ends of all."""
 
     scaled: ScaledTask
     search: Search
     runs: Sequence[RunEnds]
+    pool: SearchEnds
 
-    def of(self, error: float) -> Search:
-        """The record of a result: how many starts and runs ended at its squared error."""
+    def of(self, design: Design) -> Search:
+        """The record of a result: how many starts and runs ended at the error of the nearest end."""
+        gaps = np.abs(self.pool.designs[:, :8] - design[:8]).max(axis=1)
+        error = float(self.pool.errors[np.argmin(gaps)])
         agree = self.scaled.agreeing
         starts = sum(int(agree(one.starts, error).sum()) for one in self.runs)
         return dataclasses.replace(self.search, agreed=starts, runs_agreed=_runs_agreed(self.scaled, self.runs, error))
@@ -109,6 +118,12 @@ class _Evidence(NamedTuple):
 def _runs_agreed(scaled: ScaledTask, runs: Sequence[RunEnds], error: float) -> int:
     """Number of runs that met a squared error."""
     return sum(bool(scaled.agreeing(one.found.errors, error).any()) for one in runs)
+
+
+def _optima(scaled: ScaledTask, pool: SearchEnds) -> int:
+    """Number of different errors up to twice the least of a pool; exact ones count as one."""
+    errors = np.maximum(pool.errors, scaled.exact)
+    return len(np.unique(errors[errors <= 4 * errors.min()]))
 
 
 def _missed(scaled: ScaledTask, runs: Sequence[RunEnds], pool: SearchEnds) -> float:
@@ -120,7 +135,7 @@ def _missed(scaled: ScaledTask, runs: Sequence[RunEnds], pool: SearchEnds) -> fl
 
 
 def _runs(
-    scaled: ScaledTask, seed: int, starts: int | None, threads: int, until: float, progress: Progress
+    scaled: ScaledTask, seed: int, starts: int | None, *, threads: int, until: float, progress: Progress
 ) -> tuple[list[RunEnds], SearchEnds, int]:
     """The runs, the best ends after the variation of all, and the number of evaluations of the latter."""
     most = MOST_RUNS if starts is None else math.ceil(starts / RUN)
@@ -165,7 +180,7 @@ def _solutions(full: ScaledTask, found: SearchEnds, count: int, evidence: _Evide
         path_fit(
             full.task,
             SearchEnd(found.designs[k] * scale + shift, found.angles[k], int(found.branches[k]), found.blocks[k]),
-            evidence.of(float(found.errors[k])),
+            evidence.of(found.designs[k]),
         )
         for k in chosen
     )

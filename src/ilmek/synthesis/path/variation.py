@@ -8,7 +8,7 @@ Each variation takes one of the best different ends and changes it by one of:
     cognate    coupler and rocker exchanged, the other branch, refitted: the cognate that rotates with the same crank
                has the same error, but other neighbours and other active bounds; then as `refit`
     crossover  its link ratios with the crank angles of another end, refitted
-                                                                         [Wales and Doye 1997; the changes: this project]
+                                                                        [Wales and Doye 1997; changes: this project]
 """
 
 import math
