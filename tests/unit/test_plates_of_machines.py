@@ -43,3 +43,11 @@ def test_pins_without_room_are_left_out() -> None:
         material="steel",
     )
     assert [(plate.name, [hole.label for hole in plate.holes]) for plate in made] == [("rod", ["A", "B"])]
+
+
+@pytest.mark.parametrize("machine", ["beat-up", "tufting"])
+def test_plates_are_bored_for_the_pins_that_were_checked(machine: str) -> None:
+    report = MACHINES[machine].report_for({})
+    largest = next(one.value for one in report.results if one.name == "pin_diameter")
+    holes = [hole.radius for plate in report.plates if plate.name != "crank" for hole in plate.holes]
+    assert max(holes) == pytest.approx(largest / 2)

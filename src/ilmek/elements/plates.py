@@ -68,14 +68,16 @@ def link_plates(
     thickness: float,
     material: str,
     number: int = 1,
+    pin: float | None = None,
 ) -> tuple[Plate, ...]:
-    """The plates of a linkage's links, bored for pins of a third of their width.
+    """The plates of a linkage's links, bored for their pins.
 
     links  link -> names and positions of its pins in its own frame [m]
+    pin    diameter of the pins [m]; default: a third of the width
     A pin without a bridge between its hole and that of an earlier pin is left out; a link with fewer than two remaining
     pins has no plate.
     """
-    hole = PIN_SHARE * width / 2
+    hole = (PIN_SHARE * width if pin is None else pin) / 2
     bored = {name: _apart(pins, 3 * hole) for name, pins in links.items()}
     return tuple(
         link_plate(

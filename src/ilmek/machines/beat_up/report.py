@@ -10,6 +10,7 @@ from ilmek.machines.beat_up.family import QUANTITIES, FamilyResult, limits
 from ilmek.machines.beat_up.family_figures import family_figures
 from ilmek.machines.beat_up.figures import figures_of
 from ilmek.machines.beat_up.params import BeatUpParams
+from ilmek.machines.beat_up.strength import beat_up_strength
 from ilmek.machines.beat_up.use import BeatUpUse, in_use, use_checks
 from ilmek.machines.beat_up.use_figures import start_plots, stroke_plot
 from ilmek.machines.linkage_strength import equilibrium_test, strength_table
@@ -107,7 +108,8 @@ def plates(design: BeatUp) -> tuple[Plate, ...]:
         "rocker": (("A", 0j), ("B", lengths["rocker"]), ("E", lengths["beater"])),
     }
     material = f"of density {format_quantity(params.density, 'kg/m^3')}"
-    return link_plates(links, width=params.width, thickness=params.thickness, material=material)
+    pin = beat_up_strength(design, params.strength).found.pin_diameter
+    return link_plates(links, width=params.width, thickness=params.thickness, material=material, pin=pin)
 
 
 def criteria(design: BeatUp) -> tuple[Check, ...]:

@@ -24,10 +24,13 @@ def plates(design: Tufting) -> tuple[Plate, ...]:
     pins = {"crank": "OA", "coupler": "AB", "rocker": "CB", "arm": "CD", "rod": "DE"}
     found: list[Plate] = []
     crank = p.link_width or FLAT_BARS[0][0], p.link_thickness or FLAT_BARS[0][1]
+    bored = needle_strength(design).linkage.sections
     for name, (width, thickness) in {"crank": crank, **link_sections(p)}.items():
         start, end = tuple(pins[name])
         link = {name: ((start, 0j), (end, complex(getattr(p, name))))}
-        found += link_plates(link, width=width, thickness=thickness, material=p.strength.material, number=p.bars)
+        pin = bored[name].hole if name in bored else None
+        material, number = p.strength.material, p.bars
+        found += link_plates(link, width=width, thickness=thickness, material=material, number=number, pin=pin)
     return tuple(found)
 
 
