@@ -76,7 +76,7 @@ def bar(start: complex, end: complex, *, mass: float, width: float = 0.0) -> Ine
     mass        [kg]
     width       in the plane of motion [m]; default: 0, a slender rod
     """
-    return Inertia(mass, (start + end) / 2, float(bar_moment(mass, abs(end - start), width)))
+    return Inertia(mass, complex(start + end) / 2, float(bar_moment(mass, abs(end - start), width)))
 
 
 def point_mass(mass: float, at: complex) -> Inertia:

@@ -238,7 +238,7 @@ def _of_masses(
     turning = cross(moment, here.base) - inertia.about(0j) * here.rate.imag
     force = force - sum((one.force for one in masses), none) - sum((line[0] for line in lines), none)
     turning = turning - sum((cross(one.at, one.force) for one in masses), none) - sum((line[1] for line in lines), none)
-    centre = np.full(here.base.shape, inertia.centre)
+    centre = np.full(here.base.shape, complex(inertia.centre))
     return [*masses, _Acting("", centre, force, np.asarray(turning - cross(centre, force)))]
 
 

@@ -6,7 +6,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.arrays import ComplexArray, FloatArray, IntArray
 from ilmek.dynamics.inertia import Inertia
 from ilmek.plane.vectors import dot
 from ilmek.records import record
@@ -39,7 +39,7 @@ class LinkFrame:
         start, end = self.tree[edge]
         return self.nodes[start], self.nodes[end]
 
-    def nearest(self, at: ComplexArray) -> tuple[FloatArray, FloatArray]:
+    def nearest(self, at: ComplexArray) -> tuple[IntArray, FloatArray]:
         """Edge nearest to each position [m], and the position along it [m]."""
         away, along = [], []
         for edge in range(len(self.tree)):
