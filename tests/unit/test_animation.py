@@ -1,5 +1,6 @@
 """Machines in motion: bars keep their lengths, the run closes, and the page's figure says what the script needs."""
 
+import functools
 import itertools
 import json
 import math
@@ -25,6 +26,7 @@ NOTHING = Drawing("run", "A machine in motion", ())
 MOVING = ("beat-up", "tufting", "knotting-four-bar", "motion-four-bar", "function-four-bar")
 
 
+@functools.cache
 def designed(name: str) -> Report:
     machine = MACHINES[name]
     return machine.report(machine.design(machine.params.read({})))
@@ -73,6 +75,38 @@ def test_a_closed_run_goes_on_without_a_jump(report: Report) -> None:
         step = max(float(np.abs(np.diff(dot.at)).max()) for dot in figure.dots)
         over = max(abs(complex(dot.at[0] - dot.at[-1])) for dot in figure.dots)
         assert not figure.closes or over <= step
+
+
+@pytest.mark.parametrize("name", [name for name in MACHINES if name != "automated-loom"])
+def test_every_machine_that_moves_is_shown_moving(name: str) -> None:
+    """The row of a loom, which is long to design, is shown by `test_arrangement`."""
+    found = motions(designed(name))
+    assert found, "no figure moves"
+    for figure in found:
+        assert figure.readings
+        assert all(np.isfinite(one.points).all() for one in figure.strokes)
+        assert all(np.isfinite(one.at).all() for one in figure.dots)
+        assert all(np.isfinite(one.values).all() and len(one.values) == len(figure.at) for one in figure.readings)
+        assert {len(one.points) for one in figure.strokes} == {len(figure.at)}
+        moved = np.array([np.abs(np.diff(one.points, axis=0)).max(axis=1) for one in figure.strokes]).max(axis=0)
+        assert np.count_nonzero(moved) > 0.25 * len(figure.at)
+
+
+def test_moving_machines_follow_the_motion_of_their_reports() -> None:
+    """Lift of the warps, travel of the bar, stroke of the comb and carrier: distances in the figures, read off."""
+    shedding, compensator, hammer, weft = (
+        motions(designed(name))[0] for name in ("shedding", "tension-compensator", "hammer", "weft")
+    )
+    even = [one.points for one in shedding.strokes if one.label == "even"][1]
+    assert even[:, 1].real == pytest.approx(shedding.readings[0].values, abs=1e-12)
+    bar = compensator.dots[0].at
+    assert np.abs(bar - bar[0]) == pytest.approx(compensator.readings[2].values, abs=1e-6)
+    comb = hammer.strokes[0].points[:, 0]
+    assert np.ptp(comb.imag) == pytest.approx(np.ptp(hammer.readings[0].values), rel=1e-9)
+    beat = int(np.argmax(hammer.readings[1].values))
+    assert hammer.strokes[1].points[beat, 0].imag == pytest.approx(hammer.strokes[0].points[beat].imag.min(), abs=1e-6)
+    middle = weft.strokes[1].points.mean(axis=1).real
+    assert np.ptp(middle) == pytest.approx(np.ptp(weft.readings[0].values), rel=1e-9)
 
 
 def test_what_is_shown_first_is_where_it_matters() -> None:

@@ -144,7 +144,7 @@ def test_mean_of_the_shares_is_one() -> None:
 def test_the_report_is_whole(drive) -> None:
     report = answer(drive=drive)
     names = [figure.name for figure in report.figures]
-    assert len(set(names)) == len(names) == 5
+    assert len(set(names)) == len(names) == 6
     assert [type(figure) for figure in report.figures].count(Drawing) == 1
     for figure in report.figures:
         for series in figure.series if isinstance(figure, Plot) else ():

@@ -216,7 +216,7 @@ def test_a_motor_that_no_one_makes_is_judged_against_the_largest() -> None:
 def test_report_is_whole() -> None:
     report = answer(law="parabolic", dwell="10deg", rise="80deg")
     names = [figure.name for figure in report.figures]
-    assert len(set(names)) == len(names) == 10
+    assert len(set(names)) == len(names) == 11
     assert [type(figure) for figure in report.figures].count(Drawing) == 2
     for figure in report.figures:
         for series in figure.series if isinstance(figure, Plot) else ():

@@ -152,6 +152,7 @@ def test_report_is_whole() -> None:
     report = answer()
     assert [figure.name for figure in report.figures] == [
         "warp-tension-side",
+        "warp-tension-moving",
         "warp-tension-deflection",
         "warp-tension-section",
         "warp-tension-rows",

@@ -9,7 +9,8 @@ from ilmek.dynamics.animation import animated, frames
 from ilmek.dynamics.own_machine import OwnMachine
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
-from ilmek.report import Animation, Dot, Drawing, Figure, Stroke
+from ilmek.linkage.transmission import transmission_angles
+from ilmek.report import Animation, Dot, Drawing, Figure, Reading, Stroke
 from ilmek.synthesis.candidate import Candidate
 from ilmek.synthesis.circuit_loops import circuit_loops
 from ilmek.synthesis.four_bar import TRACER, FourBar
@@ -92,4 +93,5 @@ def _moving(one: Candidate, drawing: Drawing) -> Animation | None:
         first, at = home[0], frames(min(home), max(home))
     motion = solve(plan(four_bar.mechanism()), at).require()
     traces = () if four_bar.tracer is None else (("coupler", TRACER),)
-    return animated(motion, at, drawing, traces=traces, start=first)
+    readings = tuple(Reading("transmission angle", one, "deg") for one in transmission_angles(motion).values())
+    return animated(motion, at, drawing, traces=traces, start=first, readings=readings)

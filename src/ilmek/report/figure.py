@@ -86,7 +86,8 @@ class Drawing:
 class MovingStroke:
     """A line that moves: its points [m] at every frame, (frames, points).
 
-    role  outline (thick), link (thick, coloured), wheel (pitch circle with a radius that shows its turn, coloured)
+    role  outline (thick), link (thick, coloured), wheel (pitch circle with a radius that shows its turn, coloured),
+          path (thin, coloured), yarn
     """
 
     points: ComplexArray

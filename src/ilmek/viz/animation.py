@@ -21,7 +21,7 @@ from ilmek.viz.moving_names import named
 from ilmek.viz.moving_parts import PointTracks, block, dot, is_rigid, line, marked, name, rigid
 from ilmek.viz.sheet import Sheet
 from ilmek.viz.strokes import Pen
-from ilmek.viz.style import INK, PAPER, STRONG, TEXT, colour, shown_unit, tint
+from ilmek.viz.style import INK, PAPER, STRONG, TEXT, YARN, colour, shown_unit, tint
 
 SECONDS = 5.0
 """Duration of a run on the page [s]."""
@@ -36,6 +36,10 @@ _MARKER = 2.3
 
 _PITCH = ' stroke-dasharray="7 2 1.5 2"'
 """Chain line of a pitch circle."""
+
+
+PLAIN = {"outline": (INK, 1.6), "yarn": (YARN, 2.0)}
+"""Colour and width [pt] of moving lines that have the same colour in every figure."""
 
 
 def draw_animation(animation: Animation, looks: Mapping[str, int]) -> tuple[Sheet, str]:
@@ -68,11 +72,14 @@ def _lines(pen: Pen, animation: Animation, tracks: PointTracks) -> Iterator[str]
     seen: set[str] = set()
     for index, one in ordered:
         points = pen(one.points)
-        if one.role not in ("link", "wheel"):
-            yield from _moved(tracks, points, INK, 1.6, closed=one.closed)
+        if one.role in PLAIN:
+            yield from _moved(tracks, points, *PLAIN[one.role], closed=one.closed)
             continue
         number = pen.numbers[index]
         shade = colour(number)
+        if one.role == "path":
+            yield from _moved(tracks, points, shade, 1.6, closed=one.closed)
+            continue
         if one.role == "wheel":
             yield from _moved(tracks, points, shade, 1.2, closed=True, fill=tint(shade, 0.1), more=_PITCH)
             continue
@@ -158,7 +165,7 @@ def _rows(animation: Animation) -> Iterator[list[tuple[float, int, str]]]:
     left, first, seen = _LEFT, len(animation.still.strokes), {""}
     for index, one in enumerate(animation.strokes, first):
         width = 20.0 + text_width(one.label, TEXT) + 12.0
-        if one.role not in ("link", "wheel") or one.label in seen:
+        if one.role in PLAIN or one.label in seen:
             continue
         seen.add(one.label)
         if row and left + width > WIDTH:

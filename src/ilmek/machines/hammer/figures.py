@@ -4,23 +4,35 @@ from dataclasses import replace
 
 import numpy as np
 
-from ilmek.arrays import ComplexArray
+from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.machines.beat_up.figures import moving as moving_beater
 from ilmek.machines.beat_up.use_figures import start_plots
 from ilmek.machines.hammer.axis import CombDrive
 from ilmek.machines.hammer.design import Hammer
-from ilmek.report import Axis, Drawing, Figure, Mark, Plot, Series, Stroke
-from ilmek.units import dm, format_quantity
+from ilmek.machines.hammer.params import HammerParams
+from ilmek.report import Animation, Axis, Drawing, Figure, Mark, MovingStroke, Plot, Reading, Series, Stroke
+from ilmek.units import dm, format_quantity, turn
 
 SHOWN, ROWS = 7, 5
 """Warps and rows drawn."""
 
+MOST_SHOWN = 24
+"""Most warps drawn in motion."""
+
+FRAMES = 120
+"""Frames of a turn of the cams."""
+
 
 def figures(design: Hammer) -> tuple[Figure, ...]:
     """All figures, in the order of the report."""
-    driven = axis_plots(design.axis) if design.axis else ()
-    if design.linkage is not None:
-        driven = start_plots(design.linkage.start, "hammer")
-    return (drawing(design), packing_plot(design), fell_plot(design), *driven)
+    driven: tuple[Figure, ...] = ()
+    if design.axis is not None:
+        driven = (moving(design, design.axis), *axis_plots(design.axis))
+    elif design.linkage is not None:
+        crank_rocker = moving_beater(design.linkage.one)
+        still = replace(crank_rocker.still, name="hammer-moving", title="A crank-rocker of the comb in motion")
+        driven = (replace(crank_rocker, still=still), *start_plots(design.linkage.start, "hammer"))
+    return (drawing(design), *driven[:1], packing_plot(design), fell_plot(design), *driven[1:])
 
 
 def packing_plot(design: Hammer) -> Plot:
@@ -68,6 +80,39 @@ def axis_plots(axis: CombDrive) -> tuple[Plot, Plot]:
     )
 
 
+def moving(design: Hammer, axis: CombDrive) -> Animation:
+    """The comb over a turn of the cams, with two beats: it presses the new row, and the fell gives way and returns.
+
+    The force F of a warp moves the fell by its elastic displacement; the new row follows the comb while it is pressed.
+    """
+    params, fabric = design.params, design.fabric
+    at = np.arange(FRAMES) * (turn / FRAMES)
+    travel, press = (np.interp(at, axis.angle, one, period=turn) for one in (axis.travel, axis.press))
+    tip = params.stroke - travel
+    fell = np.asarray(fabric.fell(design.force) - fabric.fell(press / params.warps))
+    beaten = np.maximum.accumulate(press.reshape(2, -1) > 0, axis=1).ravel()
+    going = ~beaten | (press > 0)
+    row = np.where(beaten, np.where(going, np.minimum(tip, design.comb_travel), fell), design.comb_travel)
+    low = -(ROWS + 0.5) * design.spacing
+    high = 1.4 * params.leaf_height + params.stroke
+    number = int(np.clip((high - low) / params.warp_pitch / 2, SHOWN, MOST_SHOWN))
+    wide = (number / 2 + 1) * params.warp_pitch
+    strokes = [MovingStroke(1j * tip[:, None] + _comb(params, number), "outline", "comb", closed=True)]
+    for one in range(ROWS + 1):
+        height = fell - one * design.spacing if one else row
+        ends = np.array([-wide, wide]) + 1j * height[:, None]
+        strokes.append(MovingStroke(ends, "path", "rows" if one else "new row"))
+    warps = tuple(Stroke(np.array([x + 1j * low, x + 1j * high]), "yarn") for x in _middles(params, number))
+    still = Drawing("hammer-moving", "The comb beats the rows", warps, note="Front view.")
+    readings = (
+        Reading("stroke", travel, "mm"),
+        Reading("force of a warp", press / params.warps, "N"),
+        Reading("force of the axes", np.interp(at, axis.angle, axis.force, period=turn), "kN"),
+    )
+    drive, period = Axis("cam angle", "deg"), turn / params.shed_speed
+    return Animation(still, drive, at, tuple(strokes), (), period=period, readings=readings)
+
+
 def drawing(design: Hammer) -> Drawing:
     """The comb at the beat, between some warps: its leaves over the last row, the rows below; to scale."""
     params = design.params
@@ -75,7 +120,7 @@ def drawing(design: Hammer) -> Drawing:
     gaps = np.arange(SHOWN + 1) * pitch - half
     leaves = tuple(Stroke(_box(x - params.leaf / 2, 0.0, params.leaf, top), "outline", "", True, True) for x in gaps)
     low = -(ROWS + 0.5) * design.spacing
-    warps = tuple(Stroke(np.array([x + 1j * low, x + 1.4j * top]), "yarn") for x in gaps[:-1] + pitch / 2)
+    warps = tuple(Stroke(np.array([x + 1j * low, x + 1.4j * top]), "yarn") for x in _middles(params, SHOWN))
     rows = tuple(
         Stroke(np.array([-half - pitch, half + pitch]) - 1j * n * design.spacing, "path", "" if n else "last row")
         for n in range(ROWS + 1)
@@ -86,6 +131,21 @@ def drawing(design: Hammer) -> Drawing:
         f"Front view at the beat: rows {format_quantity(design.spacing, 'mm')} apart, {design.rows_along * dm:.4g}/dm."
     )
     return Drawing("hammer-comb", "Comb between the warps", (*warps, *rows, *leaves, bar, distance), note=note)
+
+
+def _middles(params: HammerParams, number: int) -> FloatArray:
+    """Positions of some warps across the width [m]."""
+    return np.asarray((np.arange(number) - (number - 1) / 2) * params.warp_pitch)
+
+
+def _comb(params: HammerParams, number: int) -> ComplexArray:
+    """Outline of the comb over some warps, cut off above, the tips of its leaves at y = 0."""
+    pitch, top, wide = params.warp_pitch, params.leaf_height, (number / 2 + 1) * params.warp_pitch
+    gaps = (np.arange(number + 1) - number / 2) * pitch
+    tooth = params.leaf / 2 * np.array([-1, -1, 1, 1]) + 1j * top * np.array([1, 0, 0, 1])
+    corners = (gaps[:, None] + tooth).ravel()
+    ends = np.array([wide + 1j * top, wide + 1.3j * top, -wide + 1.3j * top, -wide + 1j * top])
+    return np.concatenate([corners, ends])
 
 
 def _box(x: float, y: float, width: float, height: float) -> ComplexArray:

@@ -7,9 +7,10 @@ from ilmek.cams.limits import convex_radius_min
 from ilmek.elements.beam import uniform
 from ilmek.elements.figures import deflection_plot
 from ilmek.machines.shedding.analysis import SheddingAnalysis
+from ilmek.machines.shedding.animation import moving
 from ilmek.machines.shedding.design import SheddingDesign
 from ilmek.machines.shedding.shed_figures import side_view, stack_section
-from ilmek.report import Axis, Drawing, Figure, Mark, Plot, Series
+from ilmek.report import Animation, Axis, Drawing, Figure, Mark, Plot, Series
 from ilmek.units import format_quantity
 
 ANGLE, TORQUE = Axis("cam angle", "deg"), Axis("torque", "Nm")
@@ -21,9 +22,10 @@ def figures(found: SheddingAnalysis) -> tuple[Figure, ...]:
     cam, shaft, params = design.cam, design.shaft, design.params
     programmes = {"even": design.even, "odd": design.odd}
     inertia = float(uniform.square_inertia(shaft.bar))
-    drawn: tuple[Drawing | Plot, ...] = (
+    drawn: tuple[Animation | Drawing | Plot, ...] = (
         cam_figures.cam_drawing(cam, shaft.bar, design.stack.guide_radius),
         *side_view(design),
+        moving(design),
         stack_section(design),
         *cam_figures.motion_plots(
             programmes, params.speed, _shuttle_marks(design), cam_figures.jump_note(design.even, "even warps: ")
@@ -35,7 +37,9 @@ def figures(found: SheddingAnalysis) -> tuple[Figure, ...]:
         *_tension_plots(found),
         deflection_plot(shaft.load, shaft.span, params.modulus, inertia, params.deflection_limit),
     )
-    return tuple(replace(figure, name=f"shedding-{figure.name}") for figure in drawn)
+    return tuple(
+        figure if isinstance(figure, Animation) else replace(figure, name=f"shedding-{figure.name}") for figure in drawn
+    )
 
 
 def _torque_plot(design: SheddingDesign) -> Plot:

@@ -2,19 +2,17 @@
 
 import numpy as np
 
-from ilmek.arrays import ComplexArray
 from ilmek.machines.tension_compensator.analysis import CompensatorAnalysis
+from ilmek.machines.tension_compensator.animation import moving
 from ilmek.machines.tension_compensator.design import TensionCompensator
-from ilmek.machines.tension_compensator.geometry import Lever
+from ilmek.machines.tension_compensator.side import RING, mirrored, moved, parity
 from ilmek.report import Axis, Dot, Drawing, Figure, Plot, Series, Stroke
 from ilmek.units import turn
-
-RING = np.exp(1j * np.linspace(0, turn, 73))
 
 
 def figures(found: CompensatorAnalysis) -> tuple[Figure, ...]:
     """All figures, in the order of the report."""
-    return side_view(found.design), tension_plot(found), travel_plot(found), force_plot(found)
+    return side_view(found.design), moving(found), tension_plot(found), travel_plot(found), force_plot(found)
 
 
 def tension_plot(found: CompensatorAnalysis) -> Plot:
@@ -49,59 +47,11 @@ def force_plot(found: CompensatorAnalysis) -> Plot:
 
 def side_view(design: TensionCompensator) -> Drawing:
     """Both parities from the side, to scale: even warps in the open shed on the right, odd ones at rest on the left."""
-    half = design.half_depth
-    right = _parity(design, design.one.angle, dashed=True)
-    left = _parity(design, 0.0, dashed=False)
-    strokes = [_moved(stroke, half) for stroke in right]
-    strokes += [_mirrored(stroke, half) for stroke in left] if design.bars > 1 else []
-    lever = design.one.lever
-    dots = [Dot(lever.pivot + half, "pivot", "pivot"), Dot(complex(lever.anchor) + half, "anchor", "pivot")]
+    half, lever = design.half_depth, design.one.lever
+    at_rest = Stroke(lever.rest + design.radius * RING, "construction", closed=True)
+    right = (*parity(design, design.one.angle, named=True).strokes, at_rest)
+    left = parity(design, 0.0).strokes if design.bars > 1 else ()
+    strokes = (*(moved(one, half) for one in right), *(mirrored(one, half) for one in left))
+    dots = (Dot(lever.pivot + half, "pivot", "pivot"), Dot(complex(lever.anchor) + half, "anchor", "pivot"))
     note = "right: a bar in the open shed, dashed at rest; left: the other parity at rest"
-    return Drawing("tension-compensator-side", "Compensator from the side", tuple(strokes), tuple(dots), note=note)
-
-
-def _parity(design: TensionCompensator, angle: float, *, dashed: bool) -> list[Stroke]:
-    """Rods, bar, warps, lever and springs of a parity, its sheet on x = 0."""
-    lever, radius = design.one.lever, design.radius
-    path, bar = lever.path, complex(lever.bar(angle))
-    strokes = [Stroke(_warp(lever, bar), "yarn", "warps" if dashed else "")]
-    rods = (complex(-radius, path.half), complex(-radius, -path.half))
-    strokes += [Stroke(rod + radius * RING, "outline", closed=True, filled=True) for rod in rods]
-    strokes.append(Stroke(bar + radius * RING, "outline", "bar" if dashed else "", closed=True, filled=True))
-    end = lever.pivot + lever.reach * np.exp(-1j * angle)
-    strokes.append(Stroke(np.array([bar, lever.pivot, end]), "link", "lever" if dashed else ""))
-    strokes.append(Stroke(_coil(complex(lever.anchor), complex(end)), "path"))
-    if dashed:
-        strokes.append(Stroke(lever.rest + radius * RING, "construction", closed=True))
-    return strokes
-
-
-def _warp(lever: Lever, bar: complex) -> ComplexArray:
-    """The warp from above the upper rod to below the lower one."""
-    path, r = lever.path, lever.path.radius
-    upper, lower = (float(angle) for angle in path.strands(np.asarray(bar)))
-    top, low = complex(-r, path.half), complex(-r, -path.half)
-    around = [
-        np.array([top + r + 1.5j * path.half * 0.5]),
-        top + r * np.exp(-1j * np.linspace(0, upper, 9)),
-        bar - r * np.exp(1j * np.linspace(-upper, lower, 17)),
-        low + r * np.exp(1j * np.linspace(lower, 0, 9)),
-        np.array([low + r - 1.5j * path.half * 0.5]),
-    ]
-    return np.concatenate(around)
-
-
-def _coil(start: complex, end: complex) -> ComplexArray:
-    """A spring from end to end, as a zigzag."""
-    along, across = end - start, 1j * (end - start) / abs(end - start) * 0.012
-    shares = np.linspace(0.15, 0.85, 15)
-    zigzag = start + along * shares + across * (-1.0) ** np.arange(15)
-    return np.concatenate([[start, start + 0.12 * along], zigzag, [start + 0.88 * along, end]])
-
-
-def _moved(stroke: Stroke, by: float) -> Stroke:
-    return Stroke(stroke.points + by, stroke.role, stroke.label, stroke.closed, stroke.filled)
-
-
-def _mirrored(stroke: Stroke, by: float) -> Stroke:
-    return Stroke(-np.conj(stroke.points + by), stroke.role, stroke.label, stroke.closed, stroke.filled)
+    return Drawing("tension-compensator-side", "Compensator from the side", strokes, dots, note=note)

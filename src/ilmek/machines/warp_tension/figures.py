@@ -1,16 +1,19 @@
 """The warp tension's figures: the cylinders from the side, deflection and section of one, tension over the rows."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.dynamics.animation import frames
 from ilmek.elements.beam import uniform
 from ilmek.elements.figures import deflection_plot, tube_drawing
 from ilmek.machines.warp_tension.analysis import WarpTensionAnalysis, history
-from ilmek.report import Axis, Drawing, Figure, Plot, Series, Stroke
+from ilmek.report import Animation, Axis, Drawing, Figure, MovingDot, MovingStroke, Plot, Reading, Series, Stroke
 from ilmek.units import turn
 
 SHOWN_ROWS = 4
+_RING = np.exp(1j * np.linspace(0, turn, 73))
 
 
 def figures(found: WarpTensionAnalysis) -> tuple[Figure, ...]:
@@ -21,28 +24,89 @@ def figures(found: WarpTensionAnalysis) -> tuple[Figure, ...]:
     line = deflection_plot(load, params.width, params.modulus, inertia, params.deflection_limit)
     section = tube_drawing(design.outer_radius, design.inner_radius, design.outer_radius_min)
     of_one = (replace(figure, name=f"warp-tension-{figure.name}") for figure in (line, section))
-    return (side_view(found), *of_one, _tension_plot(found))
+    return (side_view(found), moving(found), *of_one, _tension_plot(found))
 
 
-def side_view(found: WarpTensionAnalysis) -> Drawing:
-    """The three cylinders from the side, to scale, with the path of the warps and the loads."""
+@dataclass(frozen=True, slots=True)
+class _Side:
+    """The cylinders from the side: their middles by name, and the path of the warps [m], from the lower one on."""
+
+    middle: dict[str, complex]
+    path: ComplexArray
+
+
+def _side(found: WarpTensionAnalysis) -> _Side:
     params, (upper, lower, spacer) = found.design.params, found.cylinders
-    height, back, ring = params.free_length, 4 * found.design.outer_radius, np.exp(1j * np.linspace(0, turn, 73))
+    height, back = params.free_length, 4 * found.design.outer_radius
     arc = np.exp(1j * np.linspace(0.0, params.spacer_wrap, 25))
     middle = {"spacer": -spacer.outer + 1j * height, "lower": -lower.outer + 0j}
     leaves = middle["spacer"] + spacer.outer * arc[-1]
     along = 1j * np.exp(1j * params.spacer_wrap)
     middle["upper"] = leaves + back * along + 1j * along * upper.outer
     path = np.concatenate([[0j], middle["spacer"] + spacer.outer * arc, [leaves + back * along]])
+    return _Side(middle, path)
+
+
+def side_view(found: WarpTensionAnalysis) -> Drawing:
+    """The three cylinders from the side, to scale, with the path of the warps and the loads."""
+    side, height = _side(found), found.design.params.free_length
     longest = max(abs(one.load) for one in found.cylinders)
-    strokes = [Stroke(path, "yarn", "warps")]
+    strokes = [Stroke(side.path, "yarn", "warps")]
     for one in found.cylinders:
-        at = middle[one.name]
+        at = side.middle[one.name]
         load = at + np.array([0.0, one.load / longest * height / 3])
-        strokes += [Stroke(at + one.outer * ring, "outline", one.name, closed=True, filled=True)]
-        strokes += [Stroke(at + one.inner * ring, "outline", closed=True), Stroke(load, "dimension")]
+        strokes += [Stroke(at + one.outer * _RING, "outline", one.name, closed=True, filled=True)]
+        strokes += [Stroke(at + one.inner * _RING, "outline", closed=True), Stroke(load, "dimension")]
     note = "the warps come off the upper cylinder and slip over the spacer, the carpet goes to the lower; arrows: loads"
     return Drawing("warp-tension-side", "The three cylinders from the side", tuple(strokes), unit="m", note=note)
+
+
+def moving(found: WarpTensionAnalysis) -> Animation:
+    """A turn of the lower cylinder, take-ups joined to a steady motion: warps, and how far both cylinders turn.
+
+    The lower cylinder winds the length w of carpet, the upper one releases w (1 + crimp); the spacer stands still.
+    """
+    at, side, params = frames(), _side(found), found.design.params
+    upper, lower, _ = found.cylinders
+    woven = lower.outer * at
+    released = woven * (1 + params.crimp)
+    turned = {"lower": at, "upper": released / upper.outer}
+    fixed = (
+        Stroke(side.path, "yarn", "warps"),
+        *(
+            Stroke(side.middle[one.name] + one.outer * _RING, "outline", one.name, closed=True, filled=True)
+            for one in found.cylinders
+        ),
+    )
+    spokes = tuple(
+        MovingStroke(
+            side.middle[one.name] + one.outer * np.exp(1j * turned[one.name])[:, None] * np.array([-1.0, 1.0]),
+            "path",
+            f"{one.name} cylinder",
+        )
+        for one in found.cylinders
+        if one.name in turned
+    )
+    marks = MovingDot(_along(side.path, released), "", "point")
+    rows = woven / params.row_pitch
+    readings = (
+        Reading("carpet taken up", woven, "mm"),
+        Reading("rows", rows),
+        Reading("warp released", released, "mm"),
+    )
+    note = "the take-ups of all rows joined; the dot is a point of a warp"
+    still = Drawing("warp-tension-moving", "The cylinders take up the carpet", fixed, unit="m", note=note)
+    drive, period = (
+        Axis("angle of the lower cylinder", "deg"),
+        float(turn * lower.outer / params.row_pitch * params.row_time),
+    )
+    return Animation(still, drive, at, spokes, (marks,), period=period, readings=readings)
+
+
+def _along(path: ComplexArray, released: FloatArray) -> ComplexArray:
+    """The point of the warp that has run so far from the upper cylinder [m]; it ends at the fell."""
+    run = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(path[::-1])))])
+    return np.asarray(np.interp(released, run, path[::-1].real) + 1j * np.interp(released, run, path[::-1].imag))
 
 
 def _tension_plot(found: WarpTensionAnalysis) -> Plot:

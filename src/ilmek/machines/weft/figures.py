@@ -2,11 +2,12 @@
 
 import numpy as np
 
+from ilmek.machines.weft.animation import moving
 from ilmek.machines.weft.bobbin import Winding
 from ilmek.machines.weft.design import Weft
 from ilmek.machines.weft.rapier import DRIVE
 from ilmek.machines.weft.shuttle import BOX_END, Shuttle
-from ilmek.report import Axis, Drawing, Figure, Plot, Series, Stroke
+from ilmek.report import Animation, Axis, Drawing, Figure, Plot, Series, Stroke
 from ilmek.units import format_quantity
 
 MOST_ROWS = 400
@@ -16,7 +17,7 @@ MOST_ROWS = 400
 def figures(made: Weft) -> tuple[Figure, ...]:
     """All figures, in the order of the report."""
     wound = (bobbin_plot(made),) if made.bobbins else ()
-    return (shed_drawing(made), plan_drawing(made), *motion_plots(made), *wound)
+    return (shed_drawing(made), plan_drawing(made), moving_plan(made), *motion_plots(made), *wound)
 
 
 def shed_drawing(made: Weft) -> Drawing:
@@ -57,21 +58,15 @@ def _wound(made: Weft, middle: complex) -> tuple[Stroke, ...]:
 
 def plan_drawing(made: Weft) -> Drawing:
     """Cloth, carriers at rest and their room, seen along the warps; depth drawn larger."""
-    params, carried = made.params, made.carried
-    cloth, edge = params.cloth_width, params.edge
-    deep = 0.06 * cloth
-    strokes = [
-        _box((0.0, cloth, -deep, 0.0), "yarn", "cloth"),
-        Stroke(np.array([0, cloth]) - 2j * deep, "dimension", format_quantity(cloth, "m")),
-    ]
+    cloth, edge, deep = made.params.cloth_width, made.params.edge, _depth(made)
+    carried = made.carried
+    strokes = [*_standing(made), Stroke(np.array([0, cloth]) - 2j * deep, "dimension", format_quantity(cloth, "m"))]
     if isinstance(carried, Shuttle):
-        length, bay = carried.length, carried.length + BOX_END
+        length = carried.length
         left = -edge - length
         strokes += [
             _box((left, left + length, 0.1 * deep, 0.9 * deep), "outline", "straight weft"),
             _box((cloth + edge, cloth + edge + length, 1.1 * deep, 1.9 * deep), "outline", "sinuous weft"),
-            _box((-edge - bay, -edge, 0.0, 2 * deep), "construction", ""),
-            _box((cloth + edge, cloth + edge + bay, 0.0, 2 * deep), "construction", "box"),
             Stroke(np.array([left, 0]) + 3j * deep, "dimension", format_quantity(edge + length, "mm", 3)),
         ]
         note = "each box has two cells: one shuttle arrives, the other leaves"
@@ -79,13 +74,44 @@ def plan_drawing(made: Weft) -> Drawing:
         length = carried.length
         strokes += [
             _box((-edge - length, -edge, 0.2 * deep, 0.8 * deep), "outline", "rapier"),
-            _box((-edge - length - DRIVE, -edge - length, 0.0, deep), "outline", "drive"),
-            _box((cloth + edge, cloth + edge + 2 * deep, 0.0, 2 * deep), "outline", "packages"),
             Stroke(np.array([-edge - length, 0]) + 3j * deep, "dimension", format_quantity(edge + length, "m", 3)),
         ]
         note = "the rapier takes the weft at the packages' edge and draws it back"
     strokes.append(Stroke(np.array([-edge, cloth + edge]) + 0.5j * deep, "path"))
     return Drawing("weft-plan", "The weft side in plan", tuple(strokes), unit="m", note=f"{note}; true along the width")
+
+
+def moving_plan(made: Weft) -> Animation:
+    """The plan in motion."""
+    shuttles = isinstance(made.carried, Shuttle)
+    note = "two rows, without the time between the passages" if shuttles else "one passage"
+    note = f"{note}; true along the width"
+    still = Drawing("weft-moving", "The weft side in motion", tuple(_standing(made)), unit="m", note=note)
+    return moving(made, still, (0.5 * _depth(made), 1.5 * _depth(made)))
+
+
+def _depth(made: Weft) -> float:
+    """Depth of a cell in plan, drawn larger [m]."""
+    return 0.06 * made.params.cloth_width
+
+
+def _standing(made: Weft) -> list[Stroke]:
+    """What stands still in plan: cloth, and the boxes of shuttles or the drive and the packages of a rapier."""
+    cloth, edge, deep = made.params.cloth_width, made.params.edge, _depth(made)
+    length = made.carried.length
+    strokes = [_box((0.0, cloth, -deep, 0.0), "yarn", "cloth")]
+    if isinstance(made.carried, Shuttle):
+        bay = length + BOX_END
+        return [
+            *strokes,
+            _box((-edge - bay, -edge, 0.0, 2 * deep), "construction", ""),
+            _box((cloth + edge, cloth + edge + bay, 0.0, 2 * deep), "construction", "box"),
+        ]
+    return [
+        *strokes,
+        _box((-edge - length - DRIVE, -edge - length, 0.0, deep), "outline", "drive"),
+        _box((cloth + edge, cloth + edge + 2 * deep, 0.0, 2 * deep), "outline", "packages"),
+    ]
 
 
 def _box(bounds: tuple[float, float, float, float], role: str, label: str) -> Stroke:
