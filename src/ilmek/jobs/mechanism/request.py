@@ -16,7 +16,10 @@ STEPS = 360
 """Default number of steps of a range."""
 
 BESIDE = 1e-7
-"""Distance of two further samples from a jump of a load [rad; m]."""
+"""Distance of two further samples from a jump of a load [rad; m], or in time over the duration of the run."""
+
+HALVINGS = 50
+"""Halvings of a step of time in which a law passes a jump of a load."""
 
 
 @record
@@ -54,6 +57,14 @@ class DrivenInputs:
     assumed: bool = False
 
 
+@record
+class TimeGrid:
+    """Steps of a run over time, and values of the driving input at which loads jump [rad; m]."""
+
+    steps: int
+    jumps: tuple[float, ...]
+
+
 def driven_inputs(machine: OwnMachine, plan: Plan, request: MotionRequest) -> DrivenInputs:
     """The motions of all inputs: fixed by the request, by a motion of the file, or over the request's range.
 
@@ -69,7 +80,8 @@ def driven_inputs(machine: OwnMachine, plan: Plan, request: MotionRequest) -> Dr
     running = _running(free, laws)
     law = laws.pop(running.name, None)
     if law is not None and law.speed is None and not (request.over or request.speed):
-        return _over_time(running, law, laws, fixed, request.steps)
+        grid = TimeGrid(request.steps, jumps(machine, running.name))
+        return _over_time(running, law, laws, fixed, grid)
     start = 0.0 if law is None else float(law.law(np.zeros(1))[0][0])
     values = _with_jumps(_values(running, request, start), jumps(machine, running.name), isinstance(running, Rotation))
     speed = _speed(running, request.speed, law)
@@ -95,16 +107,41 @@ def jumps(machine: OwnMachine, name: str) -> tuple[float, ...]:
 
 def _with_jumps(values: FloatArray, at: Sequence[float], turning: bool) -> FloatArray:
     """The values with two more at each jump inside their range, just before and after it."""
-    if not at:
-        return values
-    least, most = min(values[0], values[-1]), max(values[0], values[-1])
-    if turning:
-        turns = np.arange(np.floor(least / turn) - 1, np.ceil(most / turn) + 1)
-        at = np.add.outer(turns * turn, np.asarray(at) % turn).ravel().tolist()
-    more = [one + side for one in at for side in (-BESIDE, BESIDE) if least < one + side < most]
-    every = np.sort(np.concatenate((values, more)))
-    every = np.asarray(every[np.append(True, np.diff(every) > 0)])
+    every = _beside(np.sort(values), _in_every_turn(values, at, turning), BESIDE)
     return every if values[-1] > values[0] else every[::-1]
+
+
+def _in_every_turn(values: FloatArray, at: Sequence[float], turning: bool) -> list[float]:
+    """Values of a turning input in every turn of its range; others as they are."""
+    if not (turning and at):
+        return list(at)
+    least, most = float(values.min()), float(values.max())
+    turns = np.arange(np.floor(least / turn) - 1, np.ceil(most / turn) + 1)
+    return [float(one) for one in np.add.outer(turns * turn, np.asarray(at) % turn).ravel()]
+
+
+def _beside(values: FloatArray, at: Sequence[float], distance: float) -> FloatArray:
+    """Ascending values with two more at each position inside them."""
+    more = [one + side for one in at for side in (-distance, distance) if values[0] < one + side < values[-1]]
+    if not more:
+        return values
+    every = np.sort(np.concatenate((values, more)))
+    return np.asarray(every[np.append(True, np.diff(every) > 0)])
+
+
+def _times(law: GivenMotion, at: Sequence[float], turning: bool, time: FloatArray) -> FloatArray:
+    """Times with two more beside each at which the law passes a jump of a load, or its acceleration jumps [s]."""
+    values = law.law(time)[0]
+    found = [one for one in law.breaks if time[0] < one < time[-1]]
+    for jump in _in_every_turn(values, at, turning):
+        before = np.flatnonzero((values[:-1] - jump) * (values[1:] - jump) < 0)
+        low, high = time[before], time[before + 1]
+        for _ in range(HALVINGS if before.size else 0):
+            middle = (low + high) / 2
+            same = (law.law(middle)[0] - jump) * (values[before] - jump) > 0
+            low, high = np.where(same, middle, low), np.where(same, high, middle)
+        found += low.tolist()
+    return _beside(time, found, BESIDE * float(time[-1] - time[0]))
 
 
 def _running(free: list[Input], laws: Mapping[str, GivenMotion]) -> Input:
@@ -127,13 +164,13 @@ def _pose(inputs: Mapping[str, Input], fixed: dict[str, RealField], request: Mot
 
 
 def _over_time(
-    running: Input, law: GivenMotion, others: Mapping[str, GivenMotion], fixed: dict[str, RealField], steps: int
+    running: Input, law: GivenMotion, others: Mapping[str, GivenMotion], fixed: dict[str, RealField], times: TimeGrid
 ) -> DrivenInputs:
     """All inputs over the period of the driving input's law, or to its end."""
     end = law.period if law.period is not None else (law.breaks[-1] if law.breaks else None)
     if end is None:
         raise MechanismError(f"the motion of {running.name!r} has neither a period nor an end", do="give it a period")
-    time = np.linspace(0.0, end, steps + 1)
+    time = _times(law, times.jumps, isinstance(running, Rotation), np.linspace(0.0, end, times.steps + 1))
     rates = _rates({**others, running.name: law}, time, fixed)
     return DrivenInputs(running, np.asarray(rates[0][running.name]), None, time, rates)
 
