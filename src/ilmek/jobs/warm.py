@@ -1,8 +1,8 @@
 """Compile the kernels once after installing: `python -m ilmek.jobs.warm`.
 
 A kernel is compiled at its first call and kept in the user's cache folder (`ilmek.num.machine_code`). This job weaves a
-carpet of a few knots into a temporary folder and searches a four-bar for a path, so that the first real job does not
-wait.
+carpet of a few knots into a temporary folder and searches a four-bar for a path and one for a motion, so that the first
+real job does not wait.
 """
 
 import tempfile
@@ -17,12 +17,16 @@ from ilmek.io.programme_meta import Label
 from ilmek.jobs.loom import read_loom_order
 from ilmek.jobs.order import read_order
 from ilmek.jobs.weave import weave
-from ilmek.machines.path_four_bar import PathFourBarParams, design
+from ilmek.machines.motion_four_bar import MotionFourBarParams
+from ilmek.machines.motion_four_bar import design as motion_four_bar
+from ilmek.machines.path_four_bar import PathFourBarParams
+from ilmek.machines.path_four_bar import design as path_four_bar
 
 
 def warm() -> float:
-    """Search a four-bar for one path and weave 16 x 16 knots of noise. Returns the weaving time [s]."""
-    design(PathFourBarParams(starts=1))
+    """Search a four-bar for one path and one motion, and weave 16 x 16 knots of noise. Returns the weaving time [s]."""
+    path_four_bar(PathFourBarParams(starts=1))
+    motion_four_bar(MotionFourBarParams(keep_out="(200mm,200mm) (300mm,300mm)"))
     noise = np.random.default_rng(1).integers(0, 256, (24, 24, 3), dtype=np.uint8)
     with tempfile.TemporaryDirectory() as folder:
         picture, out = Path(folder) / "noise.png", Path(folder) / "out"
