@@ -20,6 +20,7 @@ from ilmek.records import record
 from ilmek.synthesis.burmester.constant_distance import TaskFrame, homogeneous, pose_forms
 from ilmek.synthesis.burmester.curve import BurmesterCurve
 from ilmek.synthesis.burmester.links import other_ends
+from ilmek.synthesis.distinct import APART, CLOSEST, SWAPPED
 from ilmek.synthesis.merit import RULE_SINE, extent_of_points
 from ilmek.synthesis.motion import measures, refine, regions
 from ilmek.synthesis.motion.limits import MotionLimits
@@ -38,10 +39,6 @@ ENOUGH = 60
 
 ROUNDS = 3
 """Sets of links of three poses that are tried before a task counts as without answer."""
-
-APART, CLOSEST = 0.5, 0.03
-"""Distance of two answers in extents of the task: the greatest of their pins' distances; halved down to the least where
-there are too few."""
 
 RULED = 300
 """Pairs, the best first, that are moved to where they keep the rule of thumb for transmission angles."""
@@ -253,12 +250,12 @@ class MotionSpace:
 
     def equivalents(self, pins: ComplexArray) -> ComplexArray:
         """The same pair, driven at either side, and its mirror image where the poses have one."""
-        same = [pins, pins[[1, 0, 3, 2]]]
+        same = [pins, pins[SWAPPED]]
         if self.mirror is not None:
             centre, factor = self.mirror
             last = self.family.points[-1] + (pins[2:] - self.family.points[0]) * self.family.turned[-1]
             image = np.array([centre + factor * np.conj(one - centre) for one in (*pins[:2], *last)])
-            same += [image, image[[1, 0, 3, 2]]]
+            same += [image, image[SWAPPED]]
         return np.array(same)
 
 
