@@ -11,6 +11,7 @@ from click.testing import CliRunner
 from ilmek.cli.mechanism import command
 from ilmek.io.mechanism_file import parse_mechanism
 from ilmek.jobs.mechanism.parts import cam_tables, plates
+from ilmek.machines.catalogue import MACHINES
 
 TEXT = """\
 name = "indexer"
@@ -66,3 +67,16 @@ def test_the_command_writes_the_links(tmp_path: Path) -> None:
     assert found.exit_code == 0, found.output
     assert any(path.endswith("rod.dxf") for path in json.loads(found.stdout)["files"])
     assert (tmp_path / "parts" / "crank.dxf").exists()
+
+
+@pytest.mark.parametrize("name", ["motion-four-bar", "function-four-bar"])
+def test_a_synthesised_four_bar_gives_its_links(name: str) -> None:
+    machine = MACHINES[name]
+    made = machine.design(machine.params(link_width=0.012))
+    links = {plate.name: plate for plate in machine.plates(made)}
+    assert list(links) == ["crank", "coupler", "rocker"]
+    lengths = made.best.candidate.four_bar.lengths
+    for link, plate in links.items():
+        first, second = plate.holes[:2]
+        assert abs(second.at - first.at) == pytest.approx(getattr(lengths, link))
+        assert plate.thickness == pytest.approx(0.004)

@@ -41,6 +41,10 @@ class FourBarTaskParams(Filters):
     chosen: int = kind.count(
         1, at_least=1, at_most=1000, doc="number of the solution that is drawn and moved, from 1, the best"
     )
+    link_width: float | None = kind.length(
+        None, above=0.0, doc="width of the links' plates; default: a fifth of the shortest link, 4 to 40 mm"
+    )
+    link_thickness: float | None = kind.length(None, above=0.0, doc="their thickness; default: a third of the width")
 
     def filters(self) -> Filters:
         """The filters alone."""
@@ -230,6 +234,7 @@ class FourBarDesign:
     """Base of the designs of machines that synthesise four-bars."""
 
     choice: FourBarSelection
+    params: FourBarTaskParams
 
     @property
     def best(self) -> FourBarOption | None:

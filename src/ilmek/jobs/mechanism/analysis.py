@@ -71,9 +71,7 @@ class Analysis:
             energy = self.forward.forward_energy_residual
             tests.append(at_most("forward_energy_residual", energy, ENERGY, "1", "energy against work, relative"))
             effort = self.forward.effort_error
-            tests.append(
-                at_most("forward_effort_residual", effort, ENERGY, "1", "drive against inverse dynamics")
-            )
+            tests.append(at_most("forward_effort_residual", effort, ENERGY, "1", "drive against inverse dynamics"))
         return tuple(tests)
 
     @property

@@ -1,6 +1,7 @@
 """Figures of the automated loom: cyclogram of a row, weaving time against heads and pitch, the front of the loom."""
 
 import math
+from collections.abc import Callable
 from functools import partial
 
 import numpy as np
@@ -13,7 +14,7 @@ from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.estimate import estimated_times_at
 from ilmek.machines.automated_loom.row_animation import one_row_from_the_side
 from ilmek.machines.automated_loom.side_figures import room, side, spread
-from ilmek.report import Axis, Drawing, Mark, Plot, Series, Stroke, Timing
+from ilmek.report import Axis, Drawing, Figure, Mark, Plot, Series, Stroke, Timing
 from ilmek.report.left_out import LazyFigure
 from ilmek.timing.figures import draw
 from ilmek.units import format_quantity
@@ -34,10 +35,17 @@ _WIDTH = 0.05
 
 def figures(loom: LoomDesign) -> tuple[LazyFigure, ...]:
     """The loom's figures, the head's cyclogram among them."""
-    scaling = (time_of_one_head,) if loom.heads_max == 1 else (time_against_pitch,)
-    return tuple(
-        partial(make, loom) for make in (side, room, one_row_from_the_side, front, one_row, one_knot, *scaling)
+    scaling = time_of_one_head if loom.heads_max == 1 else time_against_pitch
+    made: tuple[Callable[[LoomDesign], Figure], ...] = (
+        side,
+        room,
+        one_row_from_the_side,
+        front,
+        one_row,
+        one_knot,
+        scaling,
     )
+    return tuple(partial(make, loom) for make in made)
 
 
 def one_row(loom: LoomDesign) -> Timing:

@@ -7,6 +7,7 @@ with the alternation that proves it.
 from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
 from ilmek.machines.four_bar_figures import own_machine
+from ilmek.machines.four_bar_parts import plates
 from ilmek.machines.function_four_bar.design import FunctionFourBar, design
 from ilmek.machines.function_four_bar.params import FunctionFourBarParams
 from ilmek.machines.function_four_bar.report import figures, self_tests, tables
@@ -27,6 +28,7 @@ MACHINE = Component(
     self_tests=self_tests,
     tables=tables,
     figures=figures,
+    plates=plates,
     warnings=warnings,
     mechanism=own_machine,
 )

@@ -7,6 +7,7 @@ within the limits, and the best that differ are reported. Five leave a few links
 from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
 from ilmek.machines.four_bar_figures import own_machine
+from ilmek.machines.four_bar_parts import plates
 from ilmek.machines.motion_four_bar.design import MotionFourBar, design
 from ilmek.machines.motion_four_bar.params import MotionFourBarParams
 from ilmek.machines.motion_four_bar.report import figures, self_tests, tables, warnings
@@ -28,6 +29,7 @@ MACHINE = Component(
     self_tests=self_tests,
     tables=tables,
     figures=figures,
+    plates=plates,
     warnings=warnings,
     mechanism=own_machine,
     headline=("found", "left_out", "candidates"),

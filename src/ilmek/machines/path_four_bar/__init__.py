@@ -7,6 +7,7 @@ points, and poses and points together are also met exactly, by all four-bars tha
 from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
 from ilmek.machines.four_bar_figures import own_machine
+from ilmek.machines.four_bar_parts import plates
 from ilmek.machines.path_four_bar.design import PathFourBar, design
 from ilmek.machines.path_four_bar.params import PathFourBarParams
 from ilmek.machines.path_four_bar.report import figures, tables
@@ -27,6 +28,7 @@ MACHINE = Component(
     checks=checks,
     tables=tables,
     figures=figures,
+    plates=plates,
     warnings=warnings,
     mechanism=own_machine,
 )
