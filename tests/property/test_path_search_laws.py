@@ -9,6 +9,8 @@ from hypothesis import strategies as st
 
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
+from ilmek.synthesis.path.confidence import probability_missed
+from ilmek.synthesis.path.extent import extent
 from ilmek.synthesis.path.fit import judged
 from ilmek.synthesis.path.limits import LIMITS, excess, limit_rows
 from ilmek.synthesis.path.links import random_links
@@ -73,7 +75,7 @@ def test_limits_of_a_step_are_the_tangents_of_the_limits_of_the_links(seed, kind
     links = random_links(rng, 1, (np.full(4, 1e-3), np.full(4, 10.0)), kind=kind, kappa=kappa)[0]
     design, low, high = np.r_[links, rng.normal(size=6)], np.full(SIZE, -20.0), np.full(SIZE, 30.0)
     rows, slack, step = np.empty((LIMITS, SIZE)), np.empty(LIMITS), 1e-5 * rng.normal(size=SIZE)
-    limit_rows(design, low, high, kind, kappa, rows, slack)
+    limit_rows(design, low, high, kind, kappa, math.inf, rows, slack)
     left = slack - rows @ step
     moved = design + step
     assert left[: 2 * SIZE : 2] == pytest.approx(high - moved)
@@ -90,10 +92,45 @@ def test_without_a_transmission_angle_the_limits_of_a_step_are_those_of_grashof(
     links = random_links(rng, 1, (np.full(4, 1e-3), np.full(4, 10.0)), kind=kind, kappa=1.0)[0]
     design, low, high = np.r_[links, rng.normal(size=6)], np.full(SIZE, -20.0), np.full(SIZE, 30.0)
     rows, slack, step = np.empty((LIMITS, SIZE)), np.empty(LIMITS), 1e-5 * rng.normal(size=SIZE)
-    limit_rows(design, low, high, kind, 1.0, rows, slack)
+    limit_rows(design, low, high, kind, 1.0, math.inf, rows, slack)
     ground, crank, coupler, rocker = (design + step)[:4]
     near = [kind * (ground - crank) - sign * (coupler - rocker) for sign in (+1, -1)]
     assert (slack - rows @ step)[-3:] == pytest.approx([*near, coupler + rocker - ground - crank], abs=1e-9)
+
+
+@given(st.integers(0, 2**32 - 1), st.sampled_from([+1, -1]))
+@settings(max_examples=30, deadline=None)
+def test_slopes_of_the_size_are_differences(seed, branch):
+    rng, by = np.random.default_rng(seed), 1e-7
+    bounds = np.full(4, 1e-3), np.full(4, 10.0)
+    design = np.r_[random_links(rng, 1, bounds, kind=+1, kappa=math.cos(0.3))[0], rng.normal(size=6)]
+    slopes, unused = np.empty(SIZE), np.empty(SIZE)
+    size = extent(design, branch, slopes)
+    step = by * rng.normal(size=SIZE)
+    ahead, behind = (extent(design + sign * step, branch, unused) for sign in (+1, -1))
+    if abs(ahead + behind - 2 * size) < 1e-11:  # else another pair of points is the farthest
+        assert (ahead - behind) / 2 == pytest.approx(float(slopes @ step), abs=1e-12)
+
+
+def test_the_ratio_of_links_and_the_size_are_kept_by_the_search():
+    free = PathTask(oval(10), closed=True)
+    task = PathTask(oval(10), closed=True, link_ratio=3.0, size_max=0.85)
+    seen = [judged(task, fit) for fit in path_four_bars(task, starts=192)]
+    assert all(one.link_ratio <= 3.0 + 1e-9 for one in seen)
+    assert all(one.size <= 0.85 for one in seen)
+    wide = judged(free, path_four_bars(free, starts=192)[0])
+    assert wide.size > 0.85
+    assert wide.link_ratio > 3.0
+
+
+def test_starts_are_made_exactly_so_many_and_runs_agree():
+    fits = path_four_bars(PathTask(oval(9), closed=True), starts=500)
+    search = fits[0].search
+    assert (search.starts, search.runs) == (500, 3)
+    assert 1 <= search.runs_agreed <= 3
+    assert search.missed == probability_missed(3, search.runs_agreed)
+    exact = path_four_bars(PathTask(drawn(PLANTED, 6, 0.5)), starts=200)[0].search
+    assert (exact.starts, exact.missed) == (200, 0.0)
 
 
 @pytest.mark.parametrize(("count", "part"), [(7, 0.5), (12, 1.0), (60, 1.0)])

@@ -10,9 +10,9 @@ from ilmek.machines.four_bar_figures import own_machine
 from ilmek.machines.four_bar_parts import plates
 from ilmek.machines.path_four_bar.design import PathFourBar, design
 from ilmek.machines.path_four_bar.params import PathFourBarParams
-from ilmek.machines.path_four_bar.report import figures, tables
+from ilmek.machines.path_four_bar.report import figures, tables, warnings
 from ilmek.synthesis.selection import FourBarSelection
-from ilmek.synthesis.selection_report import checks, warnings
+from ilmek.synthesis.selection_report import checks
 
 __all__ = ["MACHINE", "PathFourBar", "PathFourBarParams", "design"]
 

@@ -29,8 +29,8 @@ POOL = 30
 EXACT = 1e-8
 """Root mean square error that counts as none, in extents of the points."""
 
-NEAR_EQUAL = 1.02
-"""Ratio of root mean square errors up to which the merit decides."""
+NEAR_EQUAL = 1.0005
+"""Ratio of root mean square errors up to which the merit decides: 0.1 % of their squares."""
 
 ALIKE = 1e-3
 """Difference of link ratios below which four-bars are alike: mirror images, cognates, repeats."""
@@ -66,7 +66,7 @@ def nearest(params: PathFourBarParams, progress: Progress) -> Nearest:
     """The nearest four-bars, ranked. Raises ParameterError where no start can be brought within the limits; Cancelled.
 
     Four-bars that are alike are one answer: the best by merit. Exact ones, those within `error_max` where it is given,
-    and those whose root mean square errors differ by at most 2 % are ranked by merit; others by this error.
+    and those whose sums of squared errors differ by at most 0.1 % are ranked by merit; others by this error.
     """
     found, searches = _searched(params, progress)
     # The search keeps both limits, and ends at them: a filter would find them exceeded by rounding.

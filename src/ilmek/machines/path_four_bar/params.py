@@ -133,7 +133,18 @@ class PathFourBarParams(FourBarTaskParams):
             raise ParameterError("start is given without a timing", do="set timing, or leave start out")
         kinds = tuple(KINDS) if self.kind == EITHER else (self.kind,)
         return tuple(
-            PathTask(points, timing, self.closed, self.ordered, limits, kind, self.transmission_min) for kind in kinds
+            PathTask(
+                points,
+                timing,
+                self.closed,
+                self.ordered,
+                limits,
+                kind,
+                self.transmission_min,
+                math.inf if self.link_ratio_max is None else self.link_ratio_max,
+                math.inf if self.size_max is None else self.size_max,
+            )
+            for kind in kinds
         )
 
     def limits(self) -> dict[str, Bounds]:

@@ -1,15 +1,22 @@
 """Tables and figures of a four-bar for a path."""
 
+import math
+
 from ilmek.machines.four_bar_figures import curve, drawn_and_moving, links, numbered, pins
 from ilmek.machines.path_four_bar.design import PathFourBar
 from ilmek.report import Dot, Drawing, Figure, Stroke, Table, columns
+from ilmek.synthesis.path.confidence import SOUGHT
 from ilmek.synthesis.selection import FourBarOption, finite
 from ilmek.synthesis.selection_report import LINKS
 from ilmek.synthesis.selection_report import tables as shared_tables
+from ilmek.synthesis.selection_report import warnings as shared_warnings
 from ilmek.units import format_quantity
 
 NUMBERED = 12
 """Points that are shown with their numbers; of more, the first alone."""
+
+MERITS = 1.5
+"""Ratio of merits from which a farther solution is named."""
 
 CRANKS = {"timed": "turns with the crank of the solution", "other": "turns with the coupler of the solution"}
 """The crank of each cognate."""
@@ -29,14 +36,14 @@ def tables(design: PathFourBar) -> tuple[Table, ...]:
 def _search_table(design: PathFourBar) -> Table:
     heads = columns(
         *("solution", "greatest error [mm]", "root mean square [mm]", "sum of squares [mm^2]"),
-        *("starts that agree", "active limits"),
+        *("runs that agree", "active limits"),
     )
     rows = tuple((at, *_search_row(one)) for at, one in enumerate(design.choice.kept, 1))
     return Table("path-four-bar-search", "Errors of the solutions", heads, rows, brief=True)
 
 
 def _search_row(one: FourBarOption) -> tuple[float | int | str, ...]:
-    agreed, active = one.details["starts_agreed"], one.details["active"]
+    agreed, active = one.details["runs_agreed"], one.details["active"]
     return (
         *(finite(one.details[name]) for name in ("error_max", "error_rms", "error_squares")),
         agreed if isinstance(agreed, int) else 0,
@@ -65,6 +72,37 @@ def _cognate_table(design: PathFourBar) -> Table:
         (CRANKS[name], *one.four_bar.lengths, one.grashof.kind, one.point_error) for name, one in design.cognates
     )
     return Table("path-four-bar-cognates", "The cognates: the same curve", heads, rows, brief=True)
+
+
+def warnings(design: PathFourBar) -> tuple[str, ...]:
+    """Those of all four-bars, a better four-bar that is not much farther, and whether the search is likely complete."""
+    return (*shared_warnings(design), *_better_built(design), *_unsure(design))
+
+
+def _better_built(design: PathFourBar) -> tuple[str, ...]:
+    """The first solution with a much better merit, where the one that is drawn is the first."""
+    kept = design.choice.kept
+    if design.searched is None or not kept or kept[0].merit is None or design.choice.number != 1:
+        return ()
+    for at, one in enumerate(kept[1:], 2):
+        error = finite(one.details["error_rms"])
+        if one.merit is not None and one.merit.value > MERITS * kept[0].merit.value and math.isfinite(error):
+            first = finite(kept[0].details["error_rms"])
+            errors = f"{format_quantity(error, 'mm')} from the points, solution 1 {format_quantity(first, 'mm')}"
+            merits = f"{one.merit.value:.2f} and {kept[0].merit.value:.2f}"
+            return (f"solution {at} comes within {errors} (root mean square); their merits are {merits}",)
+    return ()
+
+
+def _unsure(design: PathFourBar) -> tuple[str, ...]:
+    """A warning where a nearer four-bar was probably missed."""
+    searched = design.searched
+    if searched is None or searched.missed <= SOUGHT:
+        return ()
+    return (
+        f"{searched.starts} starts in {searched.runs} runs do not agree on the best: with a probability of about "
+        f"{searched.missed:.0%} there is a nearer four-bar; set starts higher",
+    )
 
 
 def figures(design: PathFourBar) -> tuple[Figure, ...]:

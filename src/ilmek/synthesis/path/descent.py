@@ -12,13 +12,16 @@ complement of an arrow matrix). The remaining system is ten by ten; its step is 
 H' and d_k include the damping, lambda times the diagonal. [Marquardt 1963; Nielsen 1999 for the update of lambda]
 """
 
+import math
+
 import numpy as np
 
 from ilmek.arrays import Complex, Float, Int
 from ilmek.num.compiled import compiled
 from ilmek.num.quadratic import limited_step
-from ilmek.synthesis.path.limits import LIMITS, TOLERANCE, Rows, Slack, excess, limit_rows
-from ilmek.synthesis.path.model import SIZE, START, Angles, Design, Points, normal_equations, squared_error
+from ilmek.synthesis.path.extent import add_penalty, penalised
+from ilmek.synthesis.path.limits import LIMITS, TOLERANCE, Rows, Slack, excess, limit_rows, ratio_excess
+from ilmek.synthesis.path.model import SIZE, START, Angles, Design, Points, normal_equations
 
 EXACT = 1e-29
 """Squared error per point, in squared sizes of the path, at the level of rounding; the descent ends there."""
@@ -41,13 +44,16 @@ def descend(
     high: Design,
     kind: int,
     kappa: float,
+    ratio: float,
+    size_max: float,
     state: Float[np.ndarray, "5"],
     rounds: int,
 ) -> None:
     """Descent from `design` and `angles`, in place, for at most `rounds` evaluations.
 
     design, angles  ten numbers [m, rad] and crank angles [rad] of the points [m], changed in place
-    low, high       bounds of the numbers; kind, kappa: see `path.limits`
+    low, high       bounds of the numbers; kind, kappa, ratio: see `path.limits`
+    size_max        greatest overall size [m], kept by a penalty in the squared error (`path.extent`); inf: none
     state  squared error [m²], damping, its next growth factor, number of successive small steps (8 or more: ended), and
            number of evaluations; kept between calls
     """
@@ -64,9 +70,11 @@ def descend(
             return
         if fresh:
             normal_equations(design, angles, points, blocks, branch, H, g, mixed_hessian, angle_hessian, angle_gradient)
-            limit_rows(design, low, high, kind, kappa, rows, slack)
+            if math.isfinite(size_max):
+                add_penalty(design, branch, size_max, points.size, H, g)
+            limit_rows(design, low, high, kind, kappa, ratio, rows, slack)
         gain = _reduced(H, g, mixed_hessian, angle_hessian, angle_gradient, low, high, state[1], A, b)
-        if not _step_within(A, b, rows, slack, design, low, high, kind, kappa, step, trial):
+        if not _step_within(A, b, rows, slack, design, low, high, kind, kappa, ratio, step, trial):
             state[1] *= 10.0
             fresh = False
             continue
@@ -74,7 +82,7 @@ def descend(
         for k in range(points.size):
             ahead[k] = angles[k] + (turn[blocks[k]] if blocks[k] >= 0 else step[START])
         gain -= _quadratic_model(A, b, step)
-        error = squared_error(trial, ahead, points, branch)
+        error = penalised(trial, ahead, points, branch, size_max)
         state[4] += 1.0
         fresh = error < state[0]
         _update_damping(state, error, gain)
@@ -179,6 +187,7 @@ def _step_within(
     high: Design,
     kind: int,
     kappa: float,
+    ratio: float,
     step: Design,
     trial: Design,
 ) -> bool:
@@ -192,7 +201,7 @@ def _step_within(
         shortest = 1 if kind > 0 else 0
         trial[shortest] = max(trial[shortest] - violation, low[shortest])
         violation = excess(trial, kind, kappa)
-    return violation <= TOLERANCE
+    return violation <= TOLERANCE and ratio_excess(trial, kind, ratio) <= TOLERANCE
 
 
 @compiled
@@ -207,8 +216,11 @@ def descend_all(
     high: Design,
     kind: int,
     kappa: float,
+    ratio: float,
+    size_max: float,
     rounds: int,
 ) -> None:
     """`descend` from many starts, in place."""
     for k in range(branches.size):
-        descend(designs[k], angles[k], points, blocks[k], branches[k], low, high, kind, kappa, states[k], rounds)
+        of = (designs[k], angles[k], points, blocks[k], branches[k])
+        descend(*of, low, high, kind, kappa, ratio, size_max, states[k], rounds)

@@ -8,7 +8,8 @@ import numpy as np
 from ilmek.arrays import Bool, Complex, Float, Int
 from ilmek.records import record
 from ilmek.synthesis.path.descent import EXACT, descend_all
-from ilmek.synthesis.path.model import SIZE, squared_error
+from ilmek.synthesis.path.extent import penalised
+from ilmek.synthesis.path.model import SIZE
 from ilmek.synthesis.path.order import in_order, pooled
 from ilmek.synthesis.path.task import PathTask
 
@@ -66,6 +67,7 @@ def joined(parts: list[SearchEnds]) -> SearchEnds:
 class ScaledTask:
     """A task in sizes of its path relative to its middle.
 
+    size    of the path [m]
     along   the timing [rad], or without one the position of each point along the path, 0 to 1
     """
 
@@ -81,6 +83,11 @@ class ScaledTask:
     def timed(self) -> bool:
         """Whether the crank angles are given."""
         return self.task.timing is not None
+
+    @property
+    def size_max(self) -> float:
+        """Greatest overall size of the four-bar, in sizes of the path."""
+        return self.task.size_max / self.size
 
     @property
     def exact(self) -> float:
@@ -105,7 +112,8 @@ class ScaledTask:
         """Continue each descent in place; returns the number of evaluations."""
         before, task = found.states[:, 4].sum(), self.task
         arrays = (found.designs, found.angles, found.branches, found.states, found.blocks)
-        descend_all(*arrays, self.points, self.low, self.high, task.sign, task.kappa, rounds)
+        limits = (self.low, self.high, task.sign, task.kappa, task.link_ratio, self.size_max)
+        descend_all(*arrays, self.points, *limits, rounds)
         return int(found.states[:, 4].sum() - before)
 
     def agreeing(self, errors: Float[np.ndarray, " some"], best: float) -> Bool[np.ndarray, " some"]:
@@ -159,8 +167,8 @@ def _in_order(scaled: ScaledTask, found: SearchEnds, evaluations: int) -> tuple[
 def restarted(scaled: ScaledTask, found: SearchEnds) -> SearchEnds:
     """The ends as new starts: squared errors recomputed, damping reset; without those that do not close."""
     rows = zip(found.designs, found.angles, found.branches, strict=True)
-    states = np.zeros((len(found.branches), 5))
-    states[:, 0] = [squared_error(design, angles, scaled.points, int(branch)) for design, angles, branch in rows]
+    states, size_max = np.zeros((len(found.branches), 5)), scaled.size_max
+    states[:, 0] = [penalised(*row[:2], scaled.points, int(row[2]), size_max) for row in rows]
     states[:, 1:3] = 1e-2, 2.0
     return found._replace(states=states).only(np.isfinite(states[:, 0]))
 

@@ -13,7 +13,8 @@ from ilmek.records import record
 from ilmek.synthesis.candidate import Candidate, judge
 from ilmek.synthesis.cognates import cognates
 from ilmek.synthesis.four_bar import FourBar
-from ilmek.synthesis.path.limits import excess
+from ilmek.synthesis.path.extent import RESERVE, extent
+from ilmek.synthesis.path.limits import MARGIN, excess
 from ilmek.synthesis.path.model import NAMES, SIZE, TURN, coupler_point
 from ilmek.synthesis.path.task import PathTask
 from ilmek.synthesis.task import PrecisionTask
@@ -107,7 +108,7 @@ def path_fit(task: PathTask, pose: SearchEnd, search: Search) -> PathFit:
         design=named,
         crank_angles=angles - angles[0] + drawn.crank_angle,
         errors=reached - task.points,
-        active=_active(task, design, blocks),
+        active=_active(task, design, branch, blocks),
         least_transmission=least_transmission(design),
         search=search,
     )
@@ -140,7 +141,9 @@ def _drawn(design: Float[np.ndarray, "10"], angle: float, branch: int) -> FourBa
     return FourBar(a0, a0 + complex(design[0] * turn), a, b, tracer)
 
 
-def _active(task: PathTask, design: Float[np.ndarray, "10"], blocks: Int[np.ndarray, " points"]) -> tuple[str, ...]:
+def _active(
+    task: PathTask, design: Float[np.ndarray, "10"], branch: int, blocks: Int[np.ndarray, " points"]
+) -> tuple[str, ...]:
     """Active limits of a design, as sentences."""
     low, high = task.limits()
     near, active = ACTIVE * task.size, []
@@ -155,6 +158,10 @@ def _active(task: PathTask, design: Float[np.ndarray, "10"], blocks: Int[np.ndar
     if excess(design, task.sign, task.kappa) >= -near:
         least = f"transmission angle at its limit {math.degrees(task.transmission):.4g} deg"
         active.append(least if task.transmission else "full rotation of the crank at its limit (Grashof)")
+    if max(design[:4]) >= (1 - 2 * MARGIN) * task.link_ratio * min(design[:4]):
+        active.append(f"ratio of links at its limit {task.link_ratio:.4g}")
+    if math.isfinite(task.size_max) and extent(design, branch, np.empty(SIZE)) >= (RESERVE - MARGIN) * task.size_max:
+        active.append(f"size at its limit {task.size_max:.4g} m, less 1 %")
     if task.timing is None:
         active += [
             f"order: points {k + 1} and {k + 2} met at one crank angle"
@@ -190,7 +197,7 @@ def cognate_fit(task: PathTask, fit: PathFit) -> PathFit | None:
         design={name: float(value) for name, value in zip(NAMES, design, strict=True)},
         crank_angles=fit.crank_angles + turned,
         errors=fit.errors,
-        active=_active(task, design, np.arange(len(task.points))),
+        active=_active(task, design, other.branch, np.arange(len(task.points))),
         least_transmission=least_transmission(design),
         search=fit.search,
     )

@@ -6,10 +6,12 @@ with D and E of `path.limits`. Random ratios are used if some size brings them w
 are completed by random lengths within the bounds that meet the crank's limits. [derived from the limits of Grashof]
 """
 
+import math
+
 import numpy as np
 
 from ilmek.arrays import Float
-from ilmek.synthesis.path.limits import spans
+from ilmek.synthesis.path.limits import MARGIN, spans
 
 Four = Float[np.ndarray, "4"]
 Links = Float[np.ndarray, "some 4"]
@@ -21,17 +23,31 @@ SMALL, LARGE = 1e-2, 1e2
 """Range of random lengths within bounds, in sizes of the path, where the bounds allow it."""
 
 
-def random_links(rng: np.random.Generator, count: int, bounds: tuple[Four, Four], *, kind: int, kappa: float) -> Links:
+def random_links(
+    rng: np.random.Generator,
+    count: int,
+    bounds: tuple[Four, Four],
+    *,
+    kind: int,
+    kappa: float,
+    ratio: float = math.inf,
+) -> Links:
     """`count` sets of ground, crank, coupler, rocker, shape (count, 4); none where there is no such set.
 
-    bounds  lower and upper bounds of the four links [m]      kind, kappa  see `path.limits`
+    bounds  lower and upper bounds of the four links [m]      kind, kappa, ratio  see `path.limits`
     """
     low, high = bounds
-    ratios = _by_ratio(rng.random((4 * count, 3)), kind, kappa)
+    ratios = _even(_by_ratio(rng.random((4 * count, 3)), kind, kappa), ratio)
     found = ratios[np.max(low / ratios, axis=1) <= np.min(high / ratios, axis=1)]
     if len(found) < count:
-        found = np.concatenate([found, _within_bounds(rng, low, high, kind, kappa)])
+        found = np.concatenate([found, _even(_within_bounds(rng, low, high, kind, kappa), ratio)])
     return found[np.arange(count) % len(found)] if len(found) else np.zeros((0, 4))
+
+
+def _even(links: Links, ratio: float) -> Links:
+    """Those whose longest link is at most `ratio` times the shortest, with the margin of a step."""
+    kept: Links = links[links.max(axis=1) <= ratio * (1 - MARGIN) * links.min(axis=1)]
+    return kept
 
 
 def _by_ratio(random: Float[np.ndarray, "some 3"], kind: int, kappa: float) -> Links:

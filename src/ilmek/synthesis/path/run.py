@@ -3,12 +3,13 @@
 The runs of a search are independent: how often they end at the same best is the evidence that no better one is missed.
 """
 
+import math
 from typing import NamedTuple
 
 import numpy as np
 
 from ilmek.arrays import Float
-from ilmek.synthesis.path.ends import ScaledTask, SearchEnds, joined, optimised
+from ilmek.synthesis.path.ends import ScaledTask, SearchEnds, joined, optimised, restarted
 from ilmek.synthesis.path.links import random_links
 from ilmek.synthesis.path.model import SIZE
 from ilmek.synthesis.path.starts import RANDOM_NUMBERS, start_all
@@ -69,7 +70,8 @@ def varied_until_quiet(
 def random_starts(scaled: ScaledTask, rng: np.random.Generator, count: int) -> SearchEnds:
     """Random starts; those within the limits."""
     task = scaled.task
-    links = random_links(rng, count, (scaled.low[:4], scaled.high[:4]), kind=task.sign, kappa=task.kappa)
+    bounds = scaled.low[:4], scaled.high[:4]
+    links = random_links(rng, count, bounds, kind=task.sign, kappa=task.kappa, ratio=task.link_ratio)
     count, points = len(links), scaled.points
     designs, angles = np.empty((count, SIZE)), np.empty((count, len(points)))
     branches, states = np.empty(count, dtype=np.int64), np.zeros((count, 5))
@@ -79,4 +81,5 @@ def random_starts(scaled: ScaledTask, rng: np.random.Generator, count: int) -> S
     given = (rng.random((count, RANDOM_NUMBERS)), links, scaled.along, scaled.timed, task.closed, points)
     start_all(*given, *limits, designs, angles, branches, errors)
     states[:, 0] = errors
-    return SearchEnds(designs, angles, branches, scaled.blocks(count), states).only(np.isfinite(errors))
+    made = SearchEnds(designs, angles, branches, scaled.blocks(count), states).only(np.isfinite(errors))
+    return made if math.isinf(task.size_max) else restarted(scaled, made)

@@ -42,6 +42,9 @@ class PathTask:
                   turn and start free
     kind          crank-rocker (crank shortest) or double-crank (ground shortest); the crank rotates fully in both
     transmission  least angle between coupler and rocker, or its supplement, over the whole turn [rad]
+    link_ratio    greatest ratio of the longest to the shortest link [1]; default: none
+    size_max      greatest distance of two positions of pins and tracer over the whole turn [m]; default: none. The
+                  search keeps 1 % free of it
 
     Raises ParameterError for another number of points, points that are not finite or coincide, a timing that is not
     monotonic or longer than a turn, and for bounds or limits that are unknown or exclude each other.
@@ -54,6 +57,8 @@ class PathTask:
     bounds: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     kind: str = "crank-rocker"
     transmission: float = 0.0
+    link_ratio: float = math.inf
+    size_max: float = math.inf
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "points", np.asarray(self.points, dtype=complex))
@@ -69,6 +74,11 @@ class PathTask:
                 allowed="0 to below pi/2 (90 deg), in radians",
                 do=_degrees(self.transmission),
             )
+        if not self.link_ratio >= 1:
+            raise ParameterError(f"greatest ratio of links {self.link_ratio:g}", allowed="1 or more")
+        if not self.size_max >= self.size:
+            given = f"greatest size of the four-bar {self.size_max:g} m"
+            raise ParameterError(given, allowed=f"the path alone extends over {self.size:g} m", do="set it higher")
         _check_bounds(self.bounds)
         _check_crank(self)
 
@@ -151,22 +161,31 @@ def _check_bounds(bounds: Mapping[str, tuple[float, float]]) -> None:
 def _check_crank(task: PathTask) -> None:
     """Raise ParameterError where no lengths within the bounds meet the crank's limits; names those that clash."""
     low, high = (ends[:4] / task.size for ends in task.limits())
-    if _possible(low, high, task.sign, task.kappa):
+    if _possible(low, high, task):
         return
     clash = []
     for index, name in enumerate(NAMES[:4]):
         free_low, free_high = low.copy(), high.copy()
         free_low[index], free_high[index] = MIN_LINK, np.inf
-        if _possible(free_low, free_high, task.sign, task.kappa):
+        if _possible(free_low, free_high, task):
             clash.append(f"{name} {low[index] * task.size:.6g} m to {high[index] * task.size:.6g} m")
-    if task.kappa < 1 and _possible(low, high, task.sign, 1.0):
+    if task.kappa < 1 and _possible(low, high, task, kappa=1.0):
         clash.append(f"a transmission angle of {math.degrees(task.transmission):.4g} deg")
+    if task.link_ratio < math.inf and _possible(low, high, task, ratio=math.inf):
+        clash.append(f"a ratio of links of {task.link_ratio:.4g}")
     named = " and ".join(clash) or "several bounds of its links"
     raise ParameterError(f"no {task.kind} is within the limits: {named} clash", do="widen one of them")
 
 
-def _possible(low: FloatArray, high: FloatArray, kind: int, kappa: float) -> bool:
-    return len(random_links(np.random.default_rng(0), 64, (low, high), kind=kind, kappa=kappa)) > 0
+def _possible(
+    low: FloatArray, high: FloatArray, task: PathTask, *, kappa: float | None = None, ratio: float | None = None
+) -> bool:
+    """Whether there are lengths within the bounds for the limits of a task, or for another kappa or ratio."""
+    limits = {
+        "kappa": task.kappa if kappa is None else kappa,
+        "ratio": task.link_ratio if ratio is None else ratio,
+    }
+    return len(random_links(np.random.default_rng(0), 64, (low, high), kind=task.sign, **limits)) > 0
 
 
 def _degrees(angle: RealField) -> str:

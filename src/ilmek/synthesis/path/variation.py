@@ -17,10 +17,11 @@ import numpy as np
 
 from ilmek.arrays import Float, Int
 from ilmek.synthesis.path.ends import ScaledTask, SearchEnds, restarted
-from ilmek.synthesis.path.limits import TOLERANCE, excess
-from ilmek.synthesis.path.model import START
+from ilmek.synthesis.path.limits import MARGIN, TOLERANCE, excess, ratio_excess
+from ilmek.synthesis.path.model import START, Design
 from ilmek.synthesis.path.order import in_order
 from ilmek.synthesis.path.starts import refit_all
+from ilmek.synthesis.path.task import PathTask
 
 SHARES = (0.45, 0.25, 0.08, 0.12, 0.10)
 """Share of each kind of variation, in the order above."""
@@ -93,10 +94,18 @@ def _within(scaled: ScaledTask, made: SearchEnds, kind: Int[np.ndarray, " some"]
     """The variations within the limits, as new starts: refitted, except where only the numbers are changed."""
     task = scaled.task
     limits = (scaled.low, scaled.high, task.sign, task.kappa)
+    shortest = made.designs[:, 1 if task.sign > 0 else 0, None]
+    made.designs[:, :4] = np.minimum(made.designs[:, :4], task.link_ratio * (1 - MARGIN) * shortest)
     plain = np.clip(made.designs, scaled.low, scaled.high)
     errors = np.empty(len(kind))
     refit_all(made.angles, made.branches, scaled.points, *limits, made.designs, errors)
     fitted = np.isfinite(errors) & (kind != NUMBERS)
     designs = np.where(fitted[:, None], made.designs, plain)
-    good = np.array([excess(design, task.sign, task.kappa) <= TOLERANCE for design in designs], dtype=bool)
+    good = np.array([_allowed(task, design) for design in designs], dtype=bool)
     return restarted(scaled, made._replace(designs=designs).only(good))
+
+
+def _allowed(task: PathTask, design: Design) -> bool:
+    """Whether a design keeps the limits of its links."""
+    over = max(excess(design, task.sign, task.kappa), ratio_excess(design, task.sign, task.link_ratio))
+    return over <= TOLERANCE
