@@ -154,13 +154,13 @@ POINTS = [0, 1 + 0.2j, 2 + 0.1j, 2.2 + 0.8j, 1.5 + 1.6j, 0.4 + 1.1j, 0.1 + 1.9j,
 
 def test_path_search_ends_at_its_time_limit() -> None:
     (found,) = ilmek.path_four_bars(POINTS, time_limit=1e-9, count=1)
-    assert found.search.starts == 192
+    assert found.search.starts == 384
 
 
 def test_path_search_reports_and_is_cancelled() -> None:
     shares: list[float] = []
     ilmek.path_four_bars(POINTS, progress=ilmek.Progress(lambda _, share: shares.append(share)), time_limit=1e-9)
-    assert shares == [0.0, 0.2]
+    assert shares == [0.0, 0.125]
     with pytest.raises(ilmek.Cancelled):
         ilmek.path_four_bars(POINTS, progress=ilmek.Progress(cancelled=lambda: True))
 

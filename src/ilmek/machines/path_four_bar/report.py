@@ -99,10 +99,11 @@ def _unsure(design: PathFourBar) -> tuple[str, ...]:
     searched = design.searched
     if searched is None or searched.missed <= SOUGHT:
         return ()
-    return (
+    words = (
         f"{searched.starts} starts in {searched.runs} runs do not agree on the best: with a probability of about "
-        f"{searched.missed:.0%} there is a nearer four-bar; set starts higher",
+        f"{searched.missed:.0%} there is a nearer four-bar; set starts higher"
     )
+    return (words,)
 
 
 def figures(design: PathFourBar) -> tuple[Figure, ...]:

@@ -112,8 +112,8 @@ class ScaledTask:
         """Continue each descent in place; returns the number of evaluations."""
         before, task = found.states[:, 4].sum(), self.task
         arrays = (found.designs, found.angles, found.branches, found.states, found.blocks)
-        limits = (self.low, self.high, task.sign, task.kappa, task.link_ratio, self.size_max)
-        descend_all(*arrays, self.points, *limits, rounds)
+        numbers = (task.sign, task.kappa, task.link_ratio, self.size_max, rounds)
+        descend_all(*arrays, self.points, self.low, self.high, *numbers)
         return int(found.states[:, 4].sum() - before)
 
     def agreeing(self, errors: Float[np.ndarray, " some"], best: float) -> Bool[np.ndarray, " some"]:
