@@ -151,3 +151,17 @@ def test_a_mechanism_file_that_cannot_be_written_is_refused(args: list[str], ref
     run = CliRunner().invoke(main, ["design", *args])
     assert run.exit_code == 2
     assert refused in run.output
+
+
+def test_a_line_of_pivots_is_intersected_with_the_curve() -> None:
+    results = answer(poses=FOUR, pivot_y="-20mm").as_json()["results"]
+    assert results["candidates"]
+    for found in results["candidates"]:
+        assert abs(found["a0"][1] + 0.02) < 1e-10
+        assert abs(found["b0"][1] + 0.02) < 1e-10
+
+
+def test_a_region_that_no_four_bar_of_the_size_reaches_has_no_answer() -> None:
+    report = answer(crank_region="(500mm,500mm) (501mm,501mm)", size_max="400mm", in_order="no")
+    assert report.as_json()["found"] == 0
+    assert report.failed

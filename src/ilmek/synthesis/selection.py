@@ -282,13 +282,15 @@ def choose(
 
 
 def single_cures(removed: Sequence[tuple[FourBarOption, Mapping[str, str]]]) -> tuple[str, ...]:
-    """For each limit that alone removed four-bars: how many, and how far the nearest of them is."""
-    alone: dict[str, list[str]] = {}
-    for _, reasons in removed:
+    """For each limit that alone removed four-bars: how many, and why the nearest of them."""
+    alone: dict[str, list[tuple[float, str]]] = {}
+    for at, (option, reasons) in enumerate(removed):
         if len(reasons) == 1:
             ((name, words),) = reasons.items()
-            alone.setdefault(name, []).append(words)
-    return tuple(f"without the limit {name} there is one more: {'; '.join(words)}" for name, words in alone.items())
+            one = option.candidate
+            order = {"size": one.size, "link_ratio": one.link_ratio, "transmission": -one.least_transmission}
+            alone.setdefault(name, []).append((order.get(name, float(at)), words))
+    return tuple(f"{name} alone removed {len(those)}, the nearest: {min(those)[1]}" for name, those in alone.items())
 
 
 def _with_merit(one: FourBarOption, *, task_only: bool) -> FourBarOption:

@@ -103,7 +103,7 @@ def warnings(design: FourBarDesign) -> tuple[str, ...]:
     """Reason why there is no solution, or a warning that coupler and rocker come too near to one line."""
     choice = design.choice
     if choice.best is None:
-        if choice.family is not None:
+        if choice.family is not None and choice.left_out:
             cures = (
                 "; ".join(choice.cures) or "no single limit, loosened alone, gives one: loosen two, or change the task"
             )

@@ -263,10 +263,13 @@ def sensitivity(
 
 @compiled
 def violation(margins: FloatArray, count: int, slack: float) -> float:
-    """Sum of the squares of the first `count` margins as far as they are below `slack`; at most that of BAD."""
+    """Sum of the squares of the first `count` margins as far as they are below `slack`; at most that of BAD.
+
+    A region may be a line or a point: its margins are compared with 0 at most.
+    """
     total = 0.0
     for at in range(count):
-        short = slack - margins[at]
+        short = (min(slack, 0.0) if at in (CRANK_REGION, ROCKER_REGION) else slack) - margins[at]
         if short > 0:
             total += min(short, BAD) ** 2
         elif not short <= 0:

@@ -239,7 +239,8 @@ def to_limits(
         if value == 0 or value >= 2 * BAD**2:
             break
         for k in range(MARGINS):
-            short[k] = min(max(SLACK - margins[k], 0.0), BAD)
+            slack = 0.0 if k in (CRANK_REGION, ROCKER_REGION) else SLACK
+            short[k] = min(max(slack - margins[k], 0.0), BAD)
         for i in range(n):
             before = x[i]
             difference = STEP * max(1.0, abs(before)) if len(family.forms) == 2 else 100 * STEP

@@ -185,6 +185,8 @@ class MotionSpace:
         if len(corners):
             low = np.maximum(low, [corners.real.min(), corners.imag.min()])
             high = np.minimum(high, [corners.real.max(), corners.imag.max()])
+        if np.any(low > high):  # the region is farther than any four-bar of the greatest size reaches
+            return np.zeros(0, dtype=complex)
         even = low + (high - low) * share
         evenly = even[:, 0] + 1j * even[:, 1]
         ends = other_ends(homogeneous(around), np.swapaxes(self.family.forms, -1, -2))
@@ -219,6 +221,9 @@ class MotionSpace:
                 start, min(start + ROWS, rows), arrays[0], arrays[1], self.family.points, bounds,
                 best[0], partner[0], best[1], partner[1], counts,
             )  # fmt: skip
+        if not rows or not columns:
+            none = PairPool(np.zeros((0, 2 * sides[0][0].shape[1])), np.zeros((0, 2), dtype=np.int64), np.zeros(0))
+            return none, 0, 0, counts
         i = np.concatenate([np.arange(rows), partner[1]])
         j = np.concatenate([partner[0], np.arange(columns)])
         scores = np.concatenate(best)
