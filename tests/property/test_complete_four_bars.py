@@ -127,6 +127,14 @@ def test_positions_of_a_circle_have_a_family_of_four_bars_and_are_reported_as_in
     assert answer.left_out["path not finished"] > 0
 
 
+def test_points_nearly_on_a_circle_end_in_an_answer():
+    angles = np.r_[0.0, 0.3, 0.7, np.full(4, np.nan)]
+    circle = np.exp(1j * np.array([0, 0.3, 0.7, 1.1, 1.6, 2.2, 2.9]))
+    for shift in (1e-6, 1e-12):
+        answer = complete_four_bars(PosesAndPoints(circle + shift * np.arange(7), angles))
+        assert answer.paths == 201
+
+
 def test_a_search_can_be_cancelled():
     _, task = planted(0, 3)
     with pytest.raises(Cancelled):

@@ -39,13 +39,26 @@ Order: TypeAlias = Int[np.ndarray, "8"]
 
 
 @compiled
+def abs2(z: complex) -> float:
+    """Squared magnitude."""
+    return z.real * z.real + z.imag * z.imag
+
+
+@compiled
+def reciprocal(z: complex) -> complex:
+    """1/z; not finite for 0, where the division of complex numbers would raise."""
+    scale = 1.0 / abs2(z)
+    return complex(z.real * scale, -z.imag * scale)
+
+
+@compiled
 def products(u: Unknowns, T: Positions, d: Positions, primed: Positions, p: PinVectors, e: PinVectors) -> None:
     """Vectors p[0], p[1] = p' and e[0], e[1] = e' of both links at each position."""
     for link in range(2):
         at = 4 * link
         for j in range(T.size):
             p[0, j, link] = (T[j] - 1.0) * u[at + 2]
-            p[1, j, link] = (1.0 / T[j] - 1.0) * u[at + 3]
+            p[1, j, link] = (reciprocal(T[j]) - 1.0) * u[at + 3]
             e[0, j, link] = d[j] - u[at]
             e[1, j, link] = primed[j] - u[at + 1]
 
@@ -68,7 +81,7 @@ def linearised(
     """
     row = 0
     for j in range(T.size):
-        inverse = 1.0 / T[j]
+        inverse = reciprocal(T[j])
         for link in range(2):
             at = 4 * link
             weights[j, link] = T[j] * u[at + 2] * e[1, j, link] - inverse * u[at + 3] * e[0, j, link]
@@ -122,15 +135,9 @@ def rotation_step(
     total = values[j, link]
     total -= (p[1, j, link] + primed[j]) * change[at] + (p[0, j, link] + d[j]) * change[at + 1]
     total += ((T[j] - 1.0) * e[1, j, link] + primed[j]) * change[at + 2]
-    total += ((1.0 / T[j] - 1.0) * e[0, j, link] + d[j]) * change[at + 3]
-    change_of_log: complex = -total / weights[j, link]
+    total += ((reciprocal(T[j]) - 1.0) * e[0, j, link] + d[j]) * change[at + 3]
+    change_of_log: complex = -total * reciprocal(weights[j, link])
     return change_of_log
-
-
-@compiled
-def abs2(z: complex) -> float:
-    """Squared magnitude."""
-    return z.real * z.real + z.imag * z.imag
 
 
 @compiled
@@ -164,7 +171,7 @@ def factorise(matrix: Square, order: Order, scale: Float[np.ndarray, "8"]) -> bo
         scale[pivot] = scale[k]
         for column in range(size):
             matrix[k, column], matrix[pivot, column] = matrix[pivot, column], matrix[k, column]
-        matrix[k, k] = 1.0 / matrix[k, k]
+        matrix[k, k] = reciprocal(matrix[k, k])
         for i in range(k + 1, size):
             factor = matrix[i, k] * matrix[k, k]
             matrix[i, k] = factor

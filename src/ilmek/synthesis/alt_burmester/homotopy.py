@@ -13,11 +13,14 @@ from ilmek.synthesis.alt_burmester.tracking import ENDED, track_all
 SLICE = 24
 """Paths that are tracked without a pause: some 40 ms."""
 
-BESIDE = (0.01, 0.05, 0.2, 0.3)
-"""Distances from the straight line, in sizes of the task, of the tasks that paths are tracked through again."""
+SHARES, DISTANCES = (0.004, 0.02, 0.1, 0.5), (0.003, 0.01, 0.03)
+"""Tasks near the straight line: share of the first task in them, and distances from the line relative to it."""
 
-ALONE = 2
-"""Number of them through which only the paths that lack are tracked; then all are."""
+OTHER_LINES = (0.2, 0.3, 0.4)
+"""Distances from the straight line, in sizes of the task, of tasks in its middle that at last all paths pass."""
+
+FEW, SHARE = 4, 0.02
+"""Number of lacking paths, and share of all, above which the task is special and none is tracked again."""
 
 POLISHED = 1e-6
 """Last Newton step, relative to the unknowns, up to which an end is a solution that stands alone."""
@@ -75,15 +78,13 @@ class Tracked:
         return np.asarray((self.ends == ENDED) & (self.moved <= POLISHED))
 
     @property
-    def lacking(self) -> Int[np.ndarray, " some"]:
-        """Indices of paths without an end of their own: broken off, at a singular end, or where another one ended."""
-        keys = np.where(self.good, self.solved.keys(), 1e9 * np.arange(1, len(self.ends) + 1))
-        return np.flatnonzero(~self.good | repeated(keys))
+    def distinct_keys(self) -> Complex[np.ndarray, " paths"]:
+        """The keys of the ends; numbers that no other has for paths without an end."""
+        return np.where(self.good, self.solved.keys(), 1e9 * np.arange(1, len(self.ends) + 1))
 
-    @property
-    def columns(self) -> tuple[Int[np.ndarray, " paths"], Int[np.ndarray, " paths"], Float[np.ndarray, " paths"]]:
-        """Ends, steps and last changes."""
-        return self.ends, self.steps, self.moved
+    def only(self, which: Int[np.ndarray, " some"]) -> "Tracked":
+        """The selected paths."""
+        return Tracked(self.solved.only(which), self.ends[which], self.steps[which], self.moved[which])
 
 
 def solution_keys(u: Complex[np.ndarray, "solutions 8"], nine_points: bool) -> Complex[np.ndarray, " solutions"]:
@@ -130,25 +131,59 @@ def track(begin: SolvedTask, task: Complex[np.ndarray, "3 positions"], progress:
 
 
 def complete(begin: SolvedTask, task: Complex[np.ndarray, "3 positions"], progress: Progress = SILENT) -> Tracked:
-    """As `track`; paths that break off, or meet, are tracked again through tasks beside the straight line.
+    """As `track`; for paths that break off, or meet, other lines lead to the ends that lack.
 
-    A path that passes near infinity breaks off for rounding alone; beside the line it leads to the same end. If that
-    does not help, all paths are followed on another line, where others pass near infinity, for the ends that lack.
-    The lines are the same in every run. Raises Cancelled.
+    A path that passes near infinity breaks off for rounding alone. It is tracked again through tasks beside the line,
+    some near its end. If ends still lack, all paths are followed on other lines, where others pass near infinity.
+    A special task, where solutions merge or form families, lacks many ends: none is tracked again. The lines are the
+    same in every run. Raises Cancelled.
     """
     found = track(begin, task, progress)
-    for seed, distance in enumerate(BESIDE):
-        lacking = found.lacking
-        if not len(lacking):
-            return found
-        which = lacking if seed < ALONE else np.arange(len(begin.unknowns))
-        between = 0.5 * (begin.task + task) + distance * random_task(np.random.default_rng(seed), begin.pose)
+    collected = Collected(found)
+    followed = collected.slots.copy()
+    if not 0 < len(followed) <= max(FEW, SHARE * len(begin.unknowns)):
+        return found
+    collected.add(found.only(np.flatnonzero(repeated(found.distinct_keys))))
+    tries = [(share, share * distance, followed) for distance in DISTANCES for share in SHARES]
+    tries += [(0.5, distance, np.arange(len(begin.unknowns))) for distance in OTHER_LINES]
+    for seed, (share, distance, which) in enumerate(tries):
+        if not len(collected.slots):
+            break
+        between = share * begin.task + (1 - share) * task
+        between += distance * random_task(np.random.default_rng(seed), begin.pose)
         first = track(begin.only(which), between, progress.part(1.0, 1.0))
-        second = track(first.solved, task, progress.part(1.0, 1.0))
-        ends = np.where(first.good, second.ends, first.ends)
-        again = Tracked(second.solved, ends, first.steps + second.steps, second.moved)
-        found = _filled(found, lacking, again)
-    return found
+        collected.add(track(first.solved.only(np.flatnonzero(first.good)), task, progress.part(1.0, 1.0)))
+    return collected.result
+
+
+class Collected:
+    """Ends of paths, each once: those of a first run, and ends of further runs in the slots of those that lack."""
+
+    def __init__(self, found: Tracked) -> None:
+        lacking = ~found.good | repeated(found.distinct_keys)
+        self.slots = np.flatnonzero(lacking)
+        self.solved = found.solved
+        self.columns = [found.solved.unknowns.copy(), found.solved.rotations.copy(), found.ends.copy()]
+        self.columns += [found.steps.copy(), found.moved.copy()]
+        self.columns[4][self.slots] = np.nan
+        self.keys = found.solved.keys()[~lacking]
+
+    def add(self, again: Tracked) -> None:
+        """Fill slots with the ends that are new."""
+        for k in np.flatnonzero(again.good):
+            key = again.solved.keys()[k]
+            if not len(self.slots) or np.min(np.abs(self.keys - key), initial=np.inf) <= SAME_SOLUTION * (1 + abs(key)):
+                continue
+            values = (again.solved.unknowns, again.solved.rotations, again.ends, again.steps, again.moved)
+            for column, value in zip(self.columns, values, strict=True):
+                column[self.slots[0]] = value[k]
+            self.slots, self.keys = self.slots[1:], np.append(self.keys, key)
+
+    @property
+    def result(self) -> Tracked:
+        """The ends; `moved` is NaN where one lacks."""
+        unknowns, rotations, ends, steps, moved = self.columns
+        return Tracked(SolvedTask(self.solved.pose, self.solved.task, unknowns, rotations), ends, steps, moved)
 
 
 def random_task(rng: np.random.Generator, pose: Bool[np.ndarray, " positions"]) -> Complex[np.ndarray, "3 positions"]:
@@ -185,16 +220,3 @@ def _factor(of: Complex[np.ndarray, " positions"], towards: Complex[np.ndarray, 
     along = complex(np.vdot(of, towards))
     size = float(np.linalg.norm(towards) / np.linalg.norm(of))
     return size * along / abs(along) if along else complex(size)
-
-
-def _filled(found: Tracked, lacking: Int[np.ndarray, " some"], again: Tracked) -> Tracked:
-    """The lacking ends replaced by those of another run that are new; the first of two that met remains."""
-    known = np.setdiff1d(np.arange(len(found.ends)), lacking)
-    keys = np.concatenate([found.solved.keys()[known], again.solved.keys()])
-    new = np.flatnonzero(again.good & ~repeated(keys)[len(known) :])[: len(lacking)]
-    where = lacking[: len(new)]
-    arrays = [array.copy() for array in (found.solved.unknowns, found.solved.rotations, *found.columns)]
-    others = (again.solved.unknowns, again.solved.rotations, *again.columns)
-    for array, other in zip(arrays, others, strict=True):
-        array[where] = other[new]
-    return Tracked(SolvedTask(found.solved.pose, found.solved.task, arrays[0], arrays[1]), *arrays[2:])

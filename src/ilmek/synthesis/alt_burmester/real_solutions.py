@@ -41,8 +41,7 @@ class RealSolutions:
 def real_solutions(task: PosesAndPoints, found: Tracked) -> RealSolutions:
     """The real four-bars of the ends of all paths, of nine points with their cognates."""
     left_out: Counter[str] = Counter()
-    keys = np.where(found.good, found.solved.keys(), 1e9 * np.arange(1, len(found.ends) + 1))
-    alone = found.good & ~repeated(keys)
+    alone = found.good & ~repeated(found.distinct_keys)
     left_out[UNFINISHED] = int(np.sum(~alone))
     u = found.solved.unknowns
     apart = np.abs(u[:, 1::2] - u[:, ::2].conj()).max(axis=1, initial=0.0)

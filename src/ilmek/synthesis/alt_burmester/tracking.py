@@ -27,6 +27,7 @@ from ilmek.synthesis.alt_burmester.equations import (
     joined,
     linearised,
     products,
+    reciprocal,
     rotation_step,
     substitute,
 )
@@ -43,7 +44,7 @@ CORRECTION = 1e-2
 CORRECTED = 1e-5
 """Correction after which the end of a step is accepted: by quadratic convergence the error is far below it."""
 
-SHORTEST, MOST_STEPS = 1e-9, 3000
+SHORTEST, MOST_STEPS = 1e-9, 1000
 """Step at which a path counts as broken off, and greatest number of steps."""
 
 CORRECTIONS, POLISHING = 4, 3
@@ -212,7 +213,7 @@ def predict(work: Workspace, pose: Poses, task: Task, change: Task, t: float, h:
 def advance(work: Workspace, pose: Poses, task: Task, change: Task, t: float) -> float:
     """Step from the state of order 0 at t; the new t, or t itself where no step succeeds."""
     for j in range(pose.size):
-        work.S[0, j] = 1.0 / work.T[0, j]
+        work.S[0, j] = reciprocal(work.T[0, j])
     series(work, pose, change)
     h = longest_step(work, pose)
     while True:
