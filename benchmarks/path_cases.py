@@ -97,3 +97,25 @@ NEAR = 1 + 1e-3
 def met(case: PathCase, squared_error: float) -> bool:
     """Whether a run has reached the best value."""
     return math.isfinite(squared_error) and squared_error <= case.best * NEAR
+
+
+def random_path(seed: int) -> PathTask:
+    """A random task: a curve of six Fourier terms, open or closed, in part timed or within limits, or a hand's outline.
+
+    seed  of the random numbers; seed modulo 6 is the kind: 0 to 2 without, 3 with timing, 4 within limits, 5 an outline
+    """
+    rng, kind = np.random.default_rng(88_000 + seed), seed % 6
+    count, closed = int(rng.integers(7, 25)), bool(rng.integers(2))
+    along = np.linspace(0, 2 * math.pi if closed else rng.uniform(2, 5), count, endpoint=not closed)
+    terms = (-3, -2, -1, 1, 2, 3)
+    points = sum((rng.normal() + 1j * rng.normal()) / k**2 * np.exp(1j * k * along) for k in terms) * 0.05
+    if kind == 3:
+        return PathTask(points, closed=closed, timing=along)
+    if kind == 4:
+        size = PathTask(points).size
+        links = dict.fromkeys(("ground", "crank", "coupler", "rocker"), (0.05 * size, 2.5 * size))
+        return PathTask(points, closed=closed, transmission=math.radians(35), bounds=links)
+    if kind == 5:
+        corners = rng.uniform(0.4, 1, 6) * np.exp(1j * np.sort(rng.uniform(0, 2 * math.pi, 6))) * 0.05
+        return PathTask(np.interp(np.arange(18) / 3, np.arange(7), np.append(corners, corners[0])), closed=True)
+    return PathTask(points, closed=closed)

@@ -18,6 +18,9 @@ from ilmek.synthesis.merit import Merit, merit
 OF_POSITIONS = ("crank_angle", "circuit", "point_error", "coupler_error", "rocker_error")
 """Quantities of each position that a solution lists; None where the task has none, or it is not reached."""
 
+NEAR_EQUAL = 1.0005
+"""Ratio of errors up to which the merit decides: 0.1 % of their squares."""
+
 PINS = ("a0", "b0", "a", "b", "tracer")
 
 NAMED = (
@@ -267,9 +270,9 @@ def choose(
     judged = [(one, breaches(one.candidate) if breaches else defects(one.candidate, required)) for one in options]
     good = [one for one, reasons in judged if not reasons]
     if rank is None:
-        good = [_with_merit(one, task_only=task_only) for one in good]
-    kept = sorted(good, key=rank or _best_first)
-    listed = tuple(_with_merit(one, task_only=task_only) for one in kept[: params.count])
+        good = [with_merit(one, task_only=task_only) for one in good]
+    kept = sorted(good, key=rank or best_first)
+    listed = tuple(with_merit(one, task_only=task_only) for one in kept[: params.count])
     if listed and params.chosen > len(listed):
         raise ParameterError(
             f"chosen={params.chosen}, and there are {len(listed)} solutions",
@@ -279,6 +282,29 @@ def choose(
     removed = tuple((one, reasons) for one, reasons in judged if reasons)
     number = params.chosen if listed else None
     return FourBarSelection(listed, len(kept) - len(listed), removed, tuple(other), number)
+
+
+def ranked_by_error(
+    options: Sequence[FourBarOption],
+    error: Callable[[FourBarOption], float],
+    *,
+    zero: float = 0.0,
+    tolerated: bool = False,
+) -> list[FourBarOption]:
+    """Options with their merit, the least error first; equal errors by merit.
+
+    zero       error that counts as none: those up to it are equal
+    tolerated  whether all errors are equal, since each is within a limit that is given
+
+    Errors within `NEAR_EQUAL` of the least of a group are equal.
+    """
+    groups: list[list[FourBarOption]] = []
+    for one in sorted((with_merit(one) if one.candidate.reached else one for one in options), key=error):
+        if groups and (tolerated or error(one) <= max(zero, NEAR_EQUAL * error(groups[-1][0]))):
+            groups[-1].append(one)
+        else:
+            groups.append([one])
+    return [one for group in groups for one in sorted(group, key=best_first)]
 
 
 def single_cures(removed: Sequence[tuple[FourBarOption, Mapping[str, str]]]) -> tuple[str, ...]:
@@ -293,12 +319,12 @@ def single_cures(removed: Sequence[tuple[FourBarOption, Mapping[str, str]]]) -> 
     return tuple(f"{name} alone removed {len(those)}, the nearest: {min(those)[1]}" for name, those in alone.items())
 
 
-def _with_merit(one: FourBarOption, *, task_only: bool) -> FourBarOption:
+def with_merit(one: FourBarOption, *, task_only: bool = False) -> FourBarOption:
     """An option with its merit."""
     return one if one.merit is not None else replace(one, merit=merit(one.candidate, task_only=task_only))
 
 
-def _best_first(one: FourBarOption) -> float:
+def best_first(one: FourBarOption) -> float:
     """Minus the merit; 0 where it has none."""
     value = one.merit.value if one.merit is not None else math.nan
     return 0.0 if math.isnan(value) else -value

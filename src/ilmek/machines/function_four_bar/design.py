@@ -10,7 +10,15 @@ from ilmek.report import Json
 from ilmek.synthesis.approximation.function_generator import FunctionApproximation, function_approximations
 from ilmek.synthesis.candidate import Candidate, judge
 from ilmek.synthesis.function import Function
-from ilmek.synthesis.selection import FourBarDesign, FourBarOption, choose, detail_of_best, solutions
+from ilmek.synthesis.selection import (
+    FourBarDesign,
+    FourBarOption,
+    choose,
+    detail_of_best,
+    finite,
+    ranked_by_error,
+    solutions,
+)
 from ilmek.synthesis.task import TOLERANCE, PrecisionTask
 
 SAME = 1e-9
@@ -43,7 +51,7 @@ class FunctionFourBar(FourBarDesign):
 
 
 def design(params: FunctionFourBarParams) -> FunctionFourBar:
-    """All four-bars that were found for the function.
+    """All four-bars that were found for the function, the least error first; by merit within `error_max`.
 
     Raises ParameterError where there is no such function, and where a whole family of four-bars generates it.
     """
@@ -59,7 +67,10 @@ def design(params: FunctionFourBarParams) -> FunctionFourBar:
         FourBarOption(_judged(params, function, one), params.criterion, _details(function, one))
         for one in answers.found
     ]
-    choice = choose(options, answers.left_out, params, rank=options.index)
+    error = "error_rms" if params.criterion == "least-squares" else "error_max"
+    tolerated = params.error_max is not None
+    ranked = ranked_by_error(options, lambda one: finite(one.details[error]), tolerated=tolerated)
+    choice = choose(ranked, answers.left_out, params, rank=ranked.index)
     candidates = [one.candidate for one in options]
     drawn = None if choice.best is None else answers.found[candidates.index(choice.best.candidate)]
     return FunctionFourBar(choice=choice, params=params, function=function, approximation=drawn)

@@ -15,12 +15,22 @@ from ilmek.records import record
 from ilmek.report import Json
 from ilmek.synthesis.candidate import Candidate, judge
 from ilmek.synthesis.filters import defects
-from ilmek.synthesis.merit import extent_of_points, merit
+from ilmek.synthesis.merit import extent_of_points
 from ilmek.synthesis.path.confidence import share_excluded
 from ilmek.synthesis.path.fit import PathFit, Search, cognate_fit, judged
 from ilmek.synthesis.path.search import path_four_bars
 from ilmek.synthesis.path.task import PathTask
-from ilmek.synthesis.selection import FourBarOption, FourBarSelection, SearchedFamily, choose, single_cures
+from ilmek.synthesis.selection import (
+    NEAR_EQUAL,
+    FourBarOption,
+    FourBarSelection,
+    SearchedFamily,
+    best_first,
+    choose,
+    ranked_by_error,
+    single_cures,
+    with_merit,
+)
 from ilmek.units import format_quantity
 
 POOL = 30
@@ -28,9 +38,6 @@ POOL = 30
 
 EXACT = 1e-8
 """Root mean square error that counts as none, in extents of the points."""
-
-NEAR_EQUAL = 1.0005
-"""Ratio of root mean square errors up to which the merit decides: 0.1 % of their squares."""
 
 ALIKE = 1e-3
 """Difference of link ratios below which four-bars are alike: mirror images, cognates, repeats."""
@@ -72,9 +79,10 @@ def nearest(params: PathFourBarParams, progress: Progress) -> Nearest:
     # The search keeps both limits, and ends at them: a filter would find them exceeded by rounding.
     filters = dataclasses.replace(params.filters(), transmission_min=0.0, full_turn=False)
     missed = [(one, defects(one.candidate, filters)) for one in found]
-    good = [_with_merit(one) for one, reasons in missed if not reasons]
+    good = [with_merit(one) for one, reasons in missed if not reasons]
     removed = [(one, reasons) for one, reasons in missed if reasons]
-    ranked = _ranked(params, _unlike(sorted(good, key=_value)))
+    zero, tolerated = EXACT * extent_of_points(params.positions()), params.error_max is not None
+    ranked = ranked_by_error(_unlike(sorted(good, key=best_first)), _error, zero=zero, tolerated=tolerated)
     listed = _apart(params, ranked)
     order = {id(one): at for at, one in enumerate(listed)}
     choice = choose(listed, (), params, filters=filters, rank=lambda one: order[id(one)])
@@ -135,16 +143,6 @@ def errors(candidate: Candidate) -> dict[str, Json]:
     return {"error_max": float(np.max(gaps)), "error_rms": math.sqrt(squares / len(gaps)), "error_squares": squares}
 
 
-def _with_merit(one: FourBarOption) -> FourBarOption:
-    return dataclasses.replace(one, merit=merit(one.candidate))
-
-
-def _value(one: FourBarOption) -> float:
-    """Minus the merit; 0 where it has none."""
-    value = math.nan if one.merit is None else one.merit.value
-    return 0.0 if math.isnan(value) else -value
-
-
 def _error(one: FourBarOption) -> float:
     """Root mean square error [m]."""
     error = one.details["error_rms"]
@@ -166,20 +164,6 @@ def _unlike(options: Sequence[FourBarOption]) -> list[FourBarOption]:
             kept.append(one)
             seen = np.vstack([seen, ratios])
     return kept
-
-
-def _ranked(params: PathFourBarParams, options: Sequence[FourBarOption]) -> list[FourBarOption]:
-    """The options sorted by error; those that count as equally near, by merit."""
-    if params.error_max is not None:
-        return sorted(options, key=_value)
-    exact = EXACT * extent_of_points(params.positions())
-    groups: list[list[FourBarOption]] = []
-    for one in sorted(options, key=_error):
-        if groups and _error(one) <= max(exact, NEAR_EQUAL * _error(groups[-1][0])):
-            groups[-1].append(one)
-        else:
-            groups.append([one])
-    return [one for group in groups for one in sorted(group, key=_value)]
 
 
 def _apart(params: PathFourBarParams, ranked: Sequence[FourBarOption]) -> list[FourBarOption]:
