@@ -4,12 +4,14 @@ Each operation rounds correctly to within half a unit in the last place; the nex
 [Moore, Kearfott and Cloud, Introduction to Interval Analysis, 2009]
 """
 
-from typing import Any, Union
+from typing import Any, TypeAlias, Union
 
 import numpy as np
 
-from ilmek.arrays import FloatArray, RealField
 from ilmek.records import record
+
+Numbers: TypeAlias = np.ndarray | np.floating
+"""Real numbers of double or extended precision, of any shape."""
 
 
 @record
@@ -23,11 +25,11 @@ class Intervals:
     (True, True)
     """
 
-    low: FloatArray
-    high: FloatArray
+    low: Numbers
+    high: Numbers
 
     @classmethod
-    def of(cls, values: RealField, ulps: int = 0) -> "Intervals":
+    def of(cls, values: Numbers | float, ulps: int = 0) -> "Intervals":
         """The numbers themselves, or their surroundings of some units in the last place."""
         low = high = np.asarray(values)
         for _ in range(ulps):
@@ -35,22 +37,22 @@ class Intervals:
         return cls(low, high)
 
     @classmethod
-    def around(cls, centre: FloatArray, radius: FloatArray) -> "Intervals":
+    def around(cls, centre: Numbers, radius: Numbers) -> "Intervals":
         """Intervals that contain centre - radius to centre + radius."""
         return _outward(centre - radius, centre + radius)
 
-    def __add__(self, other: Union["Intervals", RealField]) -> "Intervals":
+    def __add__(self, other: Union["Intervals", Numbers, float]) -> "Intervals":
         one = _intervals(other)
         return _outward(self.low + one.low, self.high + one.high)
 
-    def __sub__(self, other: Union["Intervals", RealField]) -> "Intervals":
+    def __sub__(self, other: Union["Intervals", Numbers, float]) -> "Intervals":
         one = _intervals(other)
         return _outward(self.low - one.high, self.high - one.low)
 
     def __neg__(self) -> "Intervals":
         return Intervals(-self.high, -self.low)
 
-    def __mul__(self, other: Union["Intervals", RealField]) -> "Intervals":
+    def __mul__(self, other: Union["Intervals", Numbers, float]) -> "Intervals":
         one = _intervals(other)
         products = np.stack(
             np.broadcast_arrays(self.low * one.low, self.low * one.high, self.high * one.low, self.high * one.high)
@@ -71,12 +73,12 @@ class Intervals:
         return Intervals(least, np.nextafter(ends.max(axis=0), np.inf))
 
     @property
-    def middle(self) -> FloatArray:
+    def middle(self) -> np.ndarray:
         """A number near the middle of each interval."""
         return np.asarray(0.5 * (self.low + self.high))
 
     @property
-    def radius(self) -> FloatArray:
+    def radius(self) -> np.ndarray:
         """Distance from `middle` within which each interval lies."""
         middle = self.middle
         return np.asarray(np.nextafter(np.maximum(middle - self.low, self.high - middle), np.inf))
@@ -87,7 +89,7 @@ class Intervals:
         return np.asarray((self.low <= 0) & (self.high >= 0))
 
     def __getitem__(self, index: Any) -> "Intervals":
-        return Intervals(self.low[index], self.high[index])
+        return Intervals(np.asarray(self.low)[index], np.asarray(self.high)[index])
 
 
 def stacked(parts: list[Intervals], axis: int) -> Intervals:
@@ -95,9 +97,9 @@ def stacked(parts: list[Intervals], axis: int) -> Intervals:
     return Intervals(np.stack([one.low for one in parts], axis), np.stack([one.high for one in parts], axis))
 
 
-def _intervals(value: Intervals | RealField) -> Intervals:
+def _intervals(value: Intervals | Numbers | float) -> Intervals:
     return value if isinstance(value, Intervals) else Intervals.of(value)
 
 
-def _outward(low: FloatArray, high: FloatArray) -> Intervals:
+def _outward(low: Numbers, high: Numbers) -> Intervals:
     return Intervals(np.nextafter(low, -np.inf), np.nextafter(high, np.inf))

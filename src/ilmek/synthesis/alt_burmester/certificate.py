@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ilmek.arrays import Bool, Complex, Float, FloatArray
+from ilmek.arrays import Bool, Complex, Float
 from ilmek.num.intervals import Intervals, stacked
 from ilmek.num.krawczyk import certified_roots
 from ilmek.records import record
@@ -129,7 +129,7 @@ def _row(X: Intervals, slopes: dict[int, Intervals]) -> Intervals:
     return stacked([slopes.get(column, zero) for column in range(X.low.shape[1])], -1)
 
 
-def _enclosed(function: Callable[[FloatArray], FloatArray], angle: Intervals) -> Intervals:
+def _enclosed(function: Callable[[np.ndarray], np.ndarray], angle: Intervals) -> Intervals:
     """Cosine or sine of an angle that lies in an interval: its slope is at most 1."""
     spread = angle.radius + ANGLE_ULPS * np.finfo(angle.low.dtype).eps
     return Intervals.around(function(angle.middle), spread)

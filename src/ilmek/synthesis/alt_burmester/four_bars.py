@@ -67,7 +67,9 @@ def complete_four_bars(task: PosesAndPoints, progress: Progress = SILENT) -> Com
     solutions = real_solutions(task, found)
     proof = certify(task, solutions.pins, solutions.turns)
     progress(1.0)
-    drawn = [_drawn(task, int(solutions.family[k]) + 1, proof, k) for k in np.argsort(solutions.family, kind="stable")]
+    drawn = [
+        _drawn(task, int(solutions.family[k]) + 1, proof, int(k)) for k in np.argsort(solutions.family, kind="stable")
+    ]
     left_out = dict(solutions.left_out)
     if None in drawn:
         left_out[DEGENERATE] = left_out.get(DEGENERATE, 0) + drawn.count(None)
