@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ilmek.cli.terminal import note, progress_bar
+from ilmek.cli.terminal import note, progress_bar, say
 from ilmek.errors import ParameterError
 from ilmek.io.output import Outputs
 from ilmek.progress import Progress
@@ -68,10 +68,23 @@ class CallOutputs:
             else:
                 self.give(option, lambda: page)
 
+    def give_animation(self, option: str, report: "Report") -> None:
+        """Stage the motion that a report shows. Raises ParameterError where nothing moves."""
+        if option in self._to:
+            from ilmek.jobs.animation import write_animation
+
+            write_animation(report, Path(self._to[option]), self.outputs, self.progress.part(0.0, 1.0, "animation"))
+
     @property
     def files(self) -> dict[str, str]:
         """The files that are written, by option."""
         return {option: path for option, path in self._to.items() if path != STANDARD}
+
+    def show_files(self, nouns: Mapping[str, str]) -> None:
+        """Print the paths of the files of some options, each with what it is."""
+        for option, noun in nouns.items():
+            if option in self.files:
+                say(f"{noun}: {self.files[option]}")
 
     @property
     def quiet(self) -> bool:

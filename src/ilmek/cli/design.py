@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from ilmek.cli.call_outputs import call_outputs
-from ilmek.cli.options import force_option, json_option
+from ilmek.cli.options import animation_option, force_option, json_option
 from ilmek.cli.report import headline_of, show_report
 from ilmek.cli.settings import read_settings, setting_files
 from ilmek.cli.terminal import note, say
@@ -19,6 +19,7 @@ Examples:
   ilmek design beat-up --set swing=30deg --set crank_rotation=180deg --json -
   ilmek design shedding --set lift=60mm --set pressure_angle_limit=30deg --report shedding.html
   ilmek design weaver --workshop parts --tolerance 2um
+  ilmek design hammer --animation hammer.gif
   ilmek design motion-four-bar --to gripper.toml
 
 The parameters of a machine, and their limits: ilmek machines MACHINE
@@ -40,6 +41,7 @@ The parameters of a machine, and their limits: ilmek machines MACHINE
 )
 @json_option
 @click.option("--report", "page_to", type=click.Path(path_type=Path), metavar="FILE.html", help="Write a report page.")
+@animation_option
 @click.option(
     "--workshop",
     "parts_to",
@@ -63,6 +65,7 @@ def command(  # noqa: PLR0917 - click calls it by name
     aim: str | None,
     json_to: str | None,
     page_to: Path | None,
+    animation_to: Path | None,
     parts_to: Path | None,
     mechanism_to: Path | None,
     tolerance: str | None,
@@ -74,19 +77,19 @@ def command(  # noqa: PLR0917 - click calls it by name
     given = (*settings, *more, *(() if aim is None else (f"aim={aim}",)))
     if mechanism_to is not None:
         require_mechanism(name, mechanism_to)
-    files = {"--json": json_to, "--report": page_to, "--to": mechanism_to}
+    files = {"--json": json_to, "--report": page_to, "--animation": animation_to, "--to": mechanism_to}
     workshop = None if parts_to is None else WorkshopOrder(parts_to, tolerance)
     with call_outputs(files, force=force, inputs=setting_files(given)) as call:
         made = design_machine(name, read_settings(given), workshop, outputs=call.outputs, progress=call.progress)
         call.give_page("--report", made.report)
+        call.give_animation("--animation", made.report)
         if mechanism_to is not None and made.mechanism is not None:
             text = mechanism_text(made.mechanism, mechanism_to)
             call.give("--to", lambda: text)
         call.give_json(made.as_json)
     if not call.quiet:
         show_report(made.report)
-        if "--report" in call.files:
-            say(f"report: {page_to}")
+        call.show_files({"--report": "report", "--animation": "animation"})
         if mechanism_to is not None and made.mechanism is not None:
             say(f"mechanism: {mechanism_to}")
         if made.workshop is not None:

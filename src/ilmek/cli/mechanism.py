@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from ilmek.cli.call_outputs import call_outputs
-from ilmek.cli.options import force_option, json_option
+from ilmek.cli.options import animation_option, force_option, json_option
 from ilmek.cli.report import cell_text, show_self_tests
 from ilmek.cli.terminal import note, say, show_checks, show_table
 from ilmek.cli.verdict import exit_code, note_verdict, show_verdict
@@ -27,6 +27,7 @@ Examples:
   ilmek mechanism examples/peaucellier.toml --over -40deg..40deg --report peaucellier.html
   ilmek mechanism examples/jansen_leg.toml --speed 60rpm --steps 360 --csv motion.csv
   ilmek mechanism examples/tufting_needle.toml --at 30deg --json -
+  ilmek mechanism examples/klann_leg.toml --animation klann.gif
   ilmek mechanism mine.toml --workshop parts
   ilmek mechanism mine.toml --as json
 
@@ -62,6 +63,7 @@ Limits: file 250 kB; 100 bodies, joints, couplings; 2,000,000 numbers in a table
     help="Write motion and forces as CSV, SI and radians; - writes to standard output.",
 )
 @click.option("--report", "page_to", type=click.Path(path_type=Path), metavar="FILE.html", help="Write a report page.")
+@animation_option
 @click.option(
     "--workshop",
     "parts_to",
@@ -82,6 +84,7 @@ def command(
     steps: int,
     csv_to: str | None,
     page_to: Path | None,
+    animation_to: Path | None,
     parts_to: Path | None,
     tolerance: str | None,
     kind: str | None,
@@ -99,16 +102,17 @@ def command(
         write = mechanism_toml if kind == "toml" else mechanism_json
         click.echo(given.text if kind == "toml" and given.text else write(given.machine), nl=False)
         return 0
-    files = {"--json": json_to, "--csv": csv_to, "--report": page_to}
+    files = {"--json": json_to, "--csv": csv_to, "--report": page_to, "--animation": animation_to}
     with call_outputs(files, force=force, inputs={"FILE": file}) as call:
         write_parts = workshop_writer(None if parts_to is None else WorkshopOrder(parts_to, tolerance), call.outputs)
         moved = run(read_mechanism(file), MotionRequest(_fixed(fixed), over, speed, steps), call.progress)
         found = analysis(moved, call.progress)
-        found_report = report(found, drawn=page_to is not None)
+        found_report = report(found, drawn=not (page_to is None and animation_to is None))
         if write_parts is not None:
             found_report = with_parts(found_report, moved.machine)
         workshop = None if write_parts is None else write_parts(found_report)
         call.give_page("--report", found_report)
+        call.give_animation("--animation", found_report)
         files_of = {} if workshop is None else {"files": workshop.files}
         call.give_json(lambda: {**as_json(found, found_report), **files_of})
         call.give("--csv", lambda: csv_text(columns(found), call.progress.part(0.0, 1.0, "table")))
@@ -116,9 +120,7 @@ def command(
         note_verdict(found_report.all_checks)
     else:
         show(found_report)
-        for option, noun in (("--report", "report"), ("--csv", "table")):
-            if option in call.files:
-                say(f"{noun}: {call.files[option]}")
+        call.show_files({"--report": "report", "--animation": "animation", "--csv": "table"})
         if workshop is not None:
             say(f"workshop: {workshop.summary}")
     for warning in (*found_report.warnings, *(workshop.notes if workshop else ())):

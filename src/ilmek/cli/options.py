@@ -1,11 +1,23 @@
 """Options that several commands share."""
 
+from pathlib import Path
+
 import click
+
+from ilmek.jobs.animation_order import checked_animation
 
 json_option = click.option(
     "--json",
     "json_to",
     metavar="-|FILE",
     help="Write all results as JSON, SI and radians; - writes to standard output.",
+)
+animation_option = click.option(
+    "--animation",
+    "animation_to",
+    type=click.Path(path_type=Path),
+    metavar="FILE.gif|FILE.mp4",
+    callback=lambda _context, _option, path: checked_animation(path),
+    help="Write the machine in motion; MP4 needs the extra video.",
 )
 force_option = click.option("--force", is_flag=True, help="Replace a folder that ilmek wrote, and any file.")

@@ -10,6 +10,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from ilmek.arrays import ComplexArray
+from ilmek.records import record
 from ilmek.report import Animation, Stroke
 from ilmek.units import parse_unit
 from ilmek.viz.cursor import decimals, drive, metadata
@@ -18,7 +19,17 @@ from ilmek.viz.font import text_width
 from ilmek.viz.labels import LabelRequest
 from ilmek.viz.looks import marker_shape
 from ilmek.viz.moving_names import named
-from ilmek.viz.moving_parts import PointTracks, block, dot, is_rigid, line, marked, name, rigid
+from ilmek.viz.moving_parts import (
+    PITCH,
+    MovingBlock,
+    MovingCircle,
+    MovingLine,
+    MovingMarker,
+    MovingName,
+    MovingPart,
+    PointTracks,
+    part_svg,
+)
 from ilmek.viz.sheet import Sheet
 from ilmek.viz.strokes import Pen
 from ilmek.viz.style import INK, PAPER, STRONG, TEXT, YARN, colour, shown_unit, tint
@@ -34,38 +45,49 @@ _ROW, _LEFT = 13.0, 14.0
 _MARKER = 2.3
 """Radius of the marker on a bar [pt]."""
 
-_PITCH = ' stroke-dasharray="7 2 1.5 2"'
-"""Chain line of a pitch circle."""
-
 
 PLAIN = {"outline": (INK, 1.6), "yarn": (YARN, 2.0)}
 """Colour and width [pt] of moving lines that have the same colour in every figure."""
 
 
-def draw_animation(animation: Animation, looks: Mapping[str, int]) -> tuple[Sheet, str]:
-    """The sheet with the fixed parts, and the SVG of the moving parts, which follows it in the same element."""
+@record
+class LaidOut:
+    """A figure laid out: the sheet with the fixed parts, and the moving parts over them, the lowest first."""
+
+    sheet: Sheet
+    parts: tuple[MovingPart, ...]
+
+
+def laid_out(animation: Animation, looks: Mapping[str, int], sheet: type[Sheet] = Sheet) -> LaidOut:
+    """The layout of the figure; sheet: the kind of sheet on which the fixed parts are drawn."""
     still, start = animation.still, animation.start
     moving = tuple(Stroke(one.points[start], one.role, one.label, one.closed) for one in animation.strokes)
     numbers = look_numbers((*still.strokes, *moving), looks)
     rows = list(_rows(animation))
     foot = FOOT + _ROW * len(rows)
     points = [extent(still), *(one.points.ravel() for one in animation.strokes), *(one.at for one in animation.dots)]
-    pen = pen_for(np.concatenate(points), numbers, still.unit, foot)
+    pen = pen_for(np.concatenate(points), numbers, still.unit, foot, sheet)
     draw_still(pen, still)
-    _legend(pen, rows)
+    _legend(pen, rows, {at for at, one in enumerate(moving, len(still.strokes)) if one.role == "path"})
     bars = _bars(pen, animation)
     unnamed = tuple(dataclasses.replace(one, label="") if one.role == "path" else one for one in still.strokes)
     quiet = dataclasses.replace(still, strokes=unnamed, dots=())
     fixed = obstacles(pen, still)
     boxes = names(pen, quiet, np.concatenate([fixed, *bars]), foot)
-    tracks = PointTracks(pen.sheet.height, start)
-    parts = [*_lines(pen, animation, tracks), *_dots(pen, animation, tracks)]
     met = [np.concatenate([at, fixed, *(_filled(*box) for box in boxes)]) for at in bars]
-    parts += _names(pen, animation, tracks, met, foot)
-    return pen.sheet, "\n".join((*parts, _run(animation, tracks)))
+    parts = (*_lines(pen, animation), *_dots(pen, animation), *_names(pen, animation, met, foot))
+    return LaidOut(pen.sheet, parts)
 
 
-def _lines(pen: Pen, animation: Animation, tracks: PointTracks) -> Iterator[str]:
+def draw_animation(animation: Animation, looks: Mapping[str, int]) -> tuple[Sheet, str]:
+    """The sheet with the fixed parts, and the SVG of the moving parts, which follows it in the same element."""
+    layout = laid_out(animation, looks)
+    tracks = PointTracks(layout.sheet.height, animation.start)
+    parts = [part_svg(tracks, part) for part in layout.parts]
+    return layout.sheet, "\n".join((*parts, _run(animation, tracks)))
+
+
+def _lines(pen: Pen, animation: Animation) -> Iterator[MovingPart]:
     """Wheels below, then bars as wide pale lines with edges in the full colour, others as plain lines."""
     first = len(animation.still.strokes)
     ordered = sorted(enumerate(animation.strokes, first), key=lambda entry: entry[1].role != "wheel")
@@ -73,41 +95,23 @@ def _lines(pen: Pen, animation: Animation, tracks: PointTracks) -> Iterator[str]
     for index, one in ordered:
         points = pen(one.points)
         if one.role in PLAIN:
-            yield from _moved(tracks, points, *PLAIN[one.role], closed=one.closed)
+            yield MovingLine(points, *PLAIN[one.role], one.closed)
             continue
         number = pen.numbers[index]
         shade = colour(number)
         if one.role == "path":
-            yield from _moved(tracks, points, shade, 1.6, closed=one.closed)
+            yield MovingLine(points, shade, 1.6, one.closed)
             continue
         if one.role == "wheel":
-            yield from _moved(tracks, points, shade, 1.2, closed=True, fill=tint(shade, 0.1), more=_PITCH)
+            yield MovingLine(points, shade, 1.2, True, tint(shade, 0.1), PITCH)
             continue
         if one.closed:
-            yield from _moved(tracks, points, "none", 0.0, closed=True, fill=tint(shade, 0.3))
-        yield from _moved(tracks, points, shade, 7.0, closed=one.closed)
-        yield from _moved(tracks, points, tint(shade, 0.45), 4.8, closed=one.closed)
+            yield MovingLine(points, "none", 0.0, True, tint(shade, 0.3))
+        yield MovingLine(points, shade, 7.0, one.closed)
+        yield MovingLine(points, tint(shade, 0.45), 4.8, one.closed)
         if one.label and one.label not in seen:
             seen.add(one.label)
-            yield marked(tracks, _middle(points, closed=one.closed), marker_shape(number, _MARKER), shade)
-
-
-def _moved(
-    tracks: PointTracks,
-    points: ComplexArray,
-    stroke: str,
-    width: float,
-    *,
-    closed: bool,
-    fill: str = "none",
-    more: str = "",
-) -> Iterator[str]:
-    """A line; one that keeps its shape is moved as a whole, which needs two points of each frame and no more."""
-    if is_rigid(points):
-        look = f'fill="{fill}" stroke="{stroke}" stroke-width="{width:g}" stroke-linecap="round"{more}'
-        yield rigid(tracks, points, look, closed=closed)
-    else:
-        yield line(tracks, list(points.T), stroke, width, closed=closed, fill=fill)
+            yield MovingMarker(_middle(points, closed=one.closed), marker_shape(number, _MARKER), shade)
 
 
 def _middle(points: ComplexArray, *, closed: bool) -> ComplexArray:
@@ -115,18 +119,18 @@ def _middle(points: ComplexArray, *, closed: bool) -> ComplexArray:
     return np.asarray(points.mean(axis=1) if closed else points[:, 0] + 0.35 * (points[:, 1] - points[:, 0]))
 
 
-def _dots(pen: Pen, animation: Animation, tracks: PointTracks) -> Iterator[str]:
+def _dots(pen: Pen, animation: Animation) -> Iterator[MovingPart]:
     """Blocks below the pins; pins of the pivots again, because bars pass over them."""
     for one in animation.dots:
         if one.role == "block" and one.along is not None:
-            yield block(tracks, pen(one.at), one.along)
+            yield MovingBlock(pen(one.at), one.along)
     frames = len(animation.at)
     for pivot in animation.still.dots:
         if pivot.role == "pivot":
-            yield dot(tracks, np.full(frames, pen(np.array([pivot.at]))[0]), "pin")
+            yield MovingCircle(np.full(frames, pen(np.array([pivot.at]))[0]), "pin")
     for one in animation.dots:
         if one.role != "block":
-            yield dot(tracks, pen(one.at), one.role)
+            yield MovingCircle(pen(one.at), one.role)
 
 
 def _bars(pen: Pen, animation: Animation) -> list[ComplexArray]:
@@ -144,7 +148,7 @@ def _filled(centre: complex, half: complex) -> ComplexArray:
     return np.asarray((centre + across[:, np.newaxis] + 1j * up).ravel())
 
 
-def _names(pen: Pen, animation: Animation, tracks: PointTracks, met: list[ComplexArray], foot: float) -> Iterator[str]:
+def _names(pen: Pen, animation: Animation, met: list[ComplexArray], foot: float) -> Iterator[MovingName]:
     """Names of all dots; those of fixed dots do not move."""
     frames = len(animation.at)
     fixed = [(np.full(frames, one.at), one.label, _STILL) for one in animation.still.dots]
@@ -156,7 +160,7 @@ def _names(pen: Pen, animation: Animation, tracks: PointTracks, met: list[Comple
     corner = complex(pen.sheet.width, pen.sheet.height) - (2 + 2j)
     middles = named(requests, met, complex(2, foot), corner, closes=animation.closes)
     for one, middle in zip(requests, middles, strict=True):
-        yield name(tracks, middle, one.text)
+        yield MovingName(middle, one.text)
 
 
 def _rows(animation: Animation) -> Iterator[list[tuple[float, int, str]]]:
@@ -177,16 +181,18 @@ def _rows(animation: Animation) -> Iterator[list[tuple[float, int, str]]]:
         yield row
 
 
-def _legend(pen: Pen, rows: list[list[tuple[float, int, str]]]) -> None:
+def _legend(pen: Pen, rows: list[list[tuple[float, int, str]]], thin: set[int]) -> None:
+    """Names beside bars with their markers; beside plain lines for the strokes `thin`."""
     for at, row in enumerate(rows):
         height = FOOT + _ROW * (len(rows) - 1 - at) - 1.0
         for left, index, label in row:
             shade = colour(pen.numbers[index])
             swatch = np.array([left, left + 14.0]) + 1j * height
-            pen.sheet.line(swatch, color=shade, linewidth=6.0)
-            pen.sheet.line(swatch, color=tint(shade, 0.45), linewidth=3.8)
-            corners = swatch.mean() + marker_shape(pen.numbers[index], _MARKER)
-            pen.sheet.area(corners, facecolor=shade, edgecolor=PAPER, linewidth=0.5, zorder=4)
+            pen.sheet.line(swatch, color=shade, linewidth=1.6 if index in thin else 6.0)
+            if index not in thin:
+                pen.sheet.line(swatch, color=tint(shade, 0.45), linewidth=3.8)
+                corners = swatch.mean() + marker_shape(pen.numbers[index], _MARKER)
+                pen.sheet.area(corners, facecolor=shade, edgecolor=PAPER, linewidth=0.5, zorder=4)
             pen.sheet.text(complex(left + 21.0, height), label, fontsize=TEXT, color=INK, va="center_baseline")
 
 

@@ -16,7 +16,7 @@ from ilmek.viz.style import INK, PAPER, TEXT
 
 _CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]")  # not allowed in XML
 _ANCHORS = {"left": "", "center": ' text-anchor="middle"', "right": ' text-anchor="end"'}
-_DROPS = {"baseline": 0.0, "center_baseline": ASCENT / 2, "top": ASCENT, "bottom": -DESCENT}
+BASELINES = {"baseline": 0.0, "center_baseline": ASCENT / 2, "top": ASCENT, "bottom": -DESCENT}
 """Distance of the baseline below the anchor of a text, as a share of its size."""
 _PAD = 1.0
 """Margin around a text on a line [pt]."""
@@ -98,7 +98,7 @@ class Sheet:
         """
         x, y = at.real, self.height - at.imag
         turn = f' transform="rotate({-rotation:.4g} {x:.6g} {y:.6g})"' if abs(rotation) > 1e-6 else ""
-        base = y + _DROPS[va] * fontsize
+        base = y + BASELINES[va] * fontsize
         if clear:
             width, top = text_width(words, fontsize, bold) + 2 * _PAD, base - ASCENT * fontsize - _PAD
             size = f'width="{width:.4g}" height="{(ASCENT + DESCENT) * fontsize + 2 * _PAD:.4g}"'

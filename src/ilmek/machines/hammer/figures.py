@@ -16,8 +16,8 @@ from ilmek.units import dm, format_quantity, turn
 SHOWN, ROWS = 7, 5
 """Warps and rows drawn."""
 
-MOST_SHOWN = 24
-"""Most warps drawn in motion."""
+SLIMMEST = 0.6
+"""Width over height of the comb in motion: less would be too narrow."""
 
 FRAMES = 120
 """Frames of a turn of the cams."""
@@ -95,15 +95,16 @@ def moving(design: Hammer, axis: CombDrive) -> Animation:
     row = np.where(beaten, np.where(going, np.minimum(tip, design.comb_travel), fell), design.comb_travel)
     low = -(ROWS + 0.5) * design.spacing
     high = 1.4 * params.leaf_height + params.stroke
-    number = int(np.clip((high - low) / params.warp_pitch / 2, SHOWN, MOST_SHOWN))
-    wide = (number / 2 + 1) * params.warp_pitch
-    strokes = [MovingStroke(1j * tip[:, None] + _comb(params, number), "outline", "comb", closed=True)]
+    wide, wider = (SHOWN / 2 + 1) * params.warp_pitch, _wider(params, high - low)
+    comb = _widened(_comb(params), wider)
+    strokes = [MovingStroke(1j * tip[:, None] + comb, "outline", "comb", closed=True)]
     for one in range(ROWS + 1):
         height = fell - one * design.spacing if one else row
-        ends = np.array([-wide, wide]) + 1j * height[:, None]
+        ends = wider * np.array([-wide, wide]) + 1j * height[:, None]
         strokes.append(MovingStroke(ends, "path", "rows" if one else "new row"))
-    warps = tuple(Stroke(np.array([x + 1j * low, x + 1j * high]), "yarn") for x in _middles(params, number))
-    still = Drawing("hammer-moving", "The comb beats the rows", warps, note="Front view.")
+    warps = tuple(Stroke(wider * x + 1j * np.array([low, high]), "yarn") for x in _middles(params))
+    note = "Front view" + (f", drawn {wider} times as wide." if wider > 1 else ".")
+    still = Drawing("hammer-moving", "The comb beats the rows", warps, note=note)
     readings = (
         Reading("stroke", travel, "mm"),
         Reading("force of a warp", press / params.warps, "N"),
@@ -120,7 +121,7 @@ def drawing(design: Hammer) -> Drawing:
     gaps = np.arange(SHOWN + 1) * pitch - half
     leaves = tuple(Stroke(_box(x - params.leaf / 2, 0.0, params.leaf, top), "outline", "", True, True) for x in gaps)
     low = -(ROWS + 0.5) * design.spacing
-    warps = tuple(Stroke(np.array([x + 1j * low, x + 1.4j * top]), "yarn") for x in _middles(params, SHOWN))
+    warps = tuple(Stroke(np.array([x + 1j * low, x + 1.4j * top]), "yarn") for x in _middles(params))
     rows = tuple(
         Stroke(np.array([-half - pitch, half + pitch]) - 1j * n * design.spacing, "path", "" if n else "last row")
         for n in range(ROWS + 1)
@@ -133,19 +134,28 @@ def drawing(design: Hammer) -> Drawing:
     return Drawing("hammer-comb", "Comb between the warps", (*warps, *rows, *leaves, bar, distance), note=note)
 
 
-def _middles(params: HammerParams, number: int) -> FloatArray:
-    """Positions of some warps across the width [m]."""
-    return np.asarray((np.arange(number) - (number - 1) / 2) * params.warp_pitch)
+def _middles(params: HammerParams) -> FloatArray:
+    """Positions of the warps across the width [m]."""
+    return np.asarray((np.arange(SHOWN) - (SHOWN - 1) / 2) * params.warp_pitch)
 
 
-def _comb(params: HammerParams, number: int) -> ComplexArray:
-    """Outline of the comb over some warps, cut off above, the tips of its leaves at y = 0."""
-    pitch, top, wide = params.warp_pitch, params.leaf_height, (number / 2 + 1) * params.warp_pitch
-    gaps = (np.arange(number + 1) - number / 2) * pitch
+def _comb(params: HammerParams) -> ComplexArray:
+    """Outline of the comb, cut off above, the tips of its leaves at y = 0."""
+    pitch, top, wide = params.warp_pitch, params.leaf_height, (SHOWN / 2 + 1) * params.warp_pitch
+    gaps = (np.arange(SHOWN + 1) - SHOWN / 2) * pitch
     tooth = params.leaf / 2 * np.array([-1, -1, 1, 1]) + 1j * top * np.array([1, 0, 0, 1])
     corners = (gaps[:, None] + tooth).ravel()
     ends = np.array([wide + 1j * top, wide + 1.3j * top, -wide + 1.3j * top, -wide + 1j * top])
     return np.concatenate([corners, ends])
+
+
+def _wider(params: HammerParams, height: float) -> int:
+    """The factor of the width at which the warps are as far apart as they can be seen, 1 or more."""
+    return max(1, round(SLIMMEST * height / (SHOWN + 2) / params.warp_pitch))
+
+
+def _widened(points: ComplexArray, wider: float) -> ComplexArray:
+    return np.asarray(wider * points.real + 1j * points.imag)
 
 
 def _box(x: float, y: float, width: float, height: float) -> ComplexArray:
