@@ -17,7 +17,7 @@ from ilmek.io.picture import read_picture
 from ilmek.io.yarn_file import default_yarns
 from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, design
 from ilmek.report import Figure
-from ilmek.viz.carpet_picture import carpet_picture
+from ilmek.viz.carpet_picture import draw_carpet
 from ilmek.viz.svg import svg
 
 EXAMPLES = Path(__file__).parent
@@ -91,7 +91,7 @@ def draw() -> str:
         picture(290, 75, wide, tall, embedded(jpeg(chart_pixels(chart), 448, 672))),
         arrow(505, 225),
         caption(550, 40, "the carpet", "as it will look"),
-        picture(545, 68, 216, 320, embedded(carpet_picture(chart, 700))),
+        picture(545, 68, 216, 320, embedded(draw_carpet(chart, longest=700).jpeg)),
         arrow(775, 225),
         caption(830, 40, "and the loom that weaves it", f"{design(params).warps} warps at 2 mm, four knotting heads"),
         figure(figures["loom-side"], 815, 68, 400, 330),
