@@ -23,6 +23,9 @@ OK, CANNOT_CLOSE = int(Status.OK), int(Status.CANNOT_CLOSE)
 DOUBTFUL = -1
 """Mark of a sample near a limit, whose status `judgement` decides."""
 
+MAGNITUDE, INFINITE = np.int64(0x7FFFFFFFFFFFFFFF), np.int64(0x7FF0000000000000)
+"""Bits of a double without its sign, and those of infinity."""
+
 misfit, too_short, too_near = compiled(rrr_group.misfit), compiled(rrp_group.shortness), compiled(rpr_group.shortness)
 
 
@@ -63,12 +66,18 @@ def _growth(code: int, numbers: ComplexArray, margin: float, size: float) -> flo
 
 @compiled
 def _smallest(margin: FloatArray, count: int) -> float:
-    """Smallest magnitude; NaN if there is one."""
-    least, total = math.inf, 0.0
+    """Smallest magnitude; NaN if there is one.
+
+    By the bits without the sign, whose order as integers is that of the numbers, NaN above infinity: a minimum of
+    integers is computed for several samples at once, one of numbers in order is not.
+    """
+    bits = margin.view(np.int64)
+    least, most = MAGNITUDE, np.int64(0)
     for i in range(min(count, BLOCK)):
-        least = min(least, abs(margin[i]))
-        total += 0.0 * margin[i]
-    return least + total
+        magnitude = bits[i] & MAGNITUDE
+        least, most = min(least, magnitude), max(most, magnitude)
+    found = np.int64(least)
+    return math.nan if most > INFINITE else found.view(np.float64)
 
 
 @compiled
@@ -155,20 +164,14 @@ def _can_fail(kind: int) -> bool:
 
 @compiled
 def _drive(rows: FloatArray, values: FloatArray, rates: FloatArray, start: int, count: int) -> None:
-    """The inputs' rows for the samples from `start` on; rates of one sample apply to all."""
+    """The inputs' rows for the samples from `start` on; rates of one sample are already written."""
     for k in range(len(values)):
-        to, value = rows[(BODY + DRIVE * k) * BLOCK :], values[k, start : start + count]
-        for i in range(min(count, BLOCK)):
-            to[i] = value[i]
-        for order in range(2):
-            to = to[BLOCK:]
-            if rates.shape[2] == 1:
-                for i in range(min(count, BLOCK)):
-                    to[i] = rates[k, order, 0]
-            else:
-                rate = rates[k, order, start : start + count]
-                for i in range(min(count, BLOCK)):
-                    to[i] = rate[i]
+        row = (BODY + DRIVE * k) * BLOCK
+        rows[row : row + count] = values[k, start : start + count]
+        if rates.shape[2] > 1:
+            for order in range(2):
+                row += BLOCK
+                rows[row : row + count] = rates[k, order, start : start + count]
 
 
 @compiled
@@ -195,6 +198,7 @@ def _copy_out(
 @compiled
 def run(
     height: int,
+    still: int,
     codes: IntArray,
     numbers: ComplexArray,
     sizes: FloatArray,
@@ -209,7 +213,7 @@ def run(
 ) -> None:
     """Every variant and sample through the tape.
 
-    height   rows in all                                codes, numbers  the tape, see `tape.Tape.stack`
+    height   rows in all                                still, codes, numbers  the tape, see `tape.Tape.stack`
     values   (inputs, samples)                          rates   (inputs, 2, samples or 1)
     pairs    rows requested as complex fields           points  (variants, pairs, samples), written
     singles  rows requested as real fields              reals   (variants, singles, samples), written
@@ -218,14 +222,20 @@ def run(
     margin   (variants,), the least margin of all dyads, written; infinite before; empty if not requested
     """
     rows = np.zeros(height * BLOCK)
-    for i in range(BLOCK):
-        rows[DIRECTION * BLOCK + i] = 1.0  # the ground's
+    rows[DIRECTION * BLOCK : (DIRECTION + 1) * BLOCK] = 1.0  # the ground's
+    if rates.shape[2] == 1:
+        for k in range(len(rates)):
+            for order in range(2):
+                row = (BODY + DRIVE * k + order + 1) * BLOCK
+                rows[row : row + BLOCK] = rates[k, order, 0]
     variants, samples = status.shape
     for v in range(variants):
+        for k in range(still):
+            _instruction(rows, codes[k], numbers[v, k], BLOCK)
         for start in range(0, samples, BLOCK):
             end = min(start + BLOCK, samples)
             _drive(rows, values, rates, start, end - start)
-            for k in range(len(codes)):
+            for k in range(still, len(codes)):
                 _instruction(rows, codes[k], numbers[v, k], end - start)
                 if len(margin) and _can_fail(codes[k, 0]):
                     best, _ = _best(codes[k, 0], numbers[v, k])

@@ -99,13 +99,19 @@ class Tape:
         span = functools.reduce(np.maximum, lengths)
         return np.where(span == 0, 1.0, span)
 
-    def stack(self, variants: int) -> tuple[IntArray, ComplexArray]:
-        """Instructions and numbers as arrays: (instructions, 4) and (variants, instructions, NUMBERS)."""
-        table = np.zeros((variants, len(self.codes), NUMBERS), dtype=complex)
-        for k, numbers in enumerate(self.numbers):
-            for j, number in enumerate(numbers):
+    def stack(self, variants: int) -> tuple[int, IntArray, ComplexArray]:
+        """Instructions and numbers as arrays: (instructions, 4) and (variants, instructions, NUMBERS).
+
+        Those that write the ground's points, the same in all samples, come first; with their number.
+        """
+        slipped = {to for code, to, *_ in self.codes if code == SLIP}
+        still = [code == CARRY and of == self.rows[GROUND] and to not in slipped for code, to, of, _ in self.codes]
+        order = sorted(range(len(self.codes)), key=lambda k: not still[k])
+        table = np.zeros((variants, len(order), NUMBERS), dtype=complex)
+        for k, instruction in enumerate(order):
+            for j, number in enumerate(self.numbers[instruction]):
                 table[:, k, j] = number
-        return np.array(self.codes, dtype=np.int64).reshape(-1, 4), table
+        return sum(still), np.array([self.codes[k] for k in order], dtype=np.int64).reshape(-1, 4), table
 
 
 def tape(plan: Plan, dimensions: Dimensions, branches: Mapping[str, RealField]) -> Tape:

@@ -58,19 +58,19 @@ def turning(u: ComplexField, v: ComplexField) -> RealField:
     return u.real * v.imag - u.imag * v.real
 
 
-def first_rate(v: ComplexField, r: ComplexField, sine: RealField) -> RealField:
-    """Angular velocity wa [rad/s] of the link on A, from i wa u - i wb v = r with sine = u x v.
+def first_rate(v: ComplexField, r: ComplexField, per_sine: RealField) -> RealField:
+    """Angular velocity wa [rad/s] of the link on A, from i wa u - i wb v = r with per_sine = 1 / (u x v).
 
     For velocities r = B' - A' [m/s]; with r of `relative_acceleration` the result is alpha_a [rad/s^2].
-    >>> float(first_rate(-4 + 3j, -2 + 0j, 12.0)), float(second_rate(3j, -2 + 0j, 12.0))
-    (0.6666666666666666, 0.0)
+    >>> float(first_rate(-4 + 3j, -2 + 0j, 1 / 16)), float(second_rate(3j, -2 + 0j, 1 / 16))
+    (0.5, 0.0)
     """
-    return (v.real * r.real + v.imag * r.imag) / sine
+    return (v.real * r.real + v.imag * r.imag) * per_sine
 
 
-def second_rate(u: ComplexField, r: ComplexField, sine: RealField) -> RealField:
-    """Angular velocity wb [rad/s] of the link on B, from i wa u - i wb v = r with sine = u x v; see `first_rate`."""
-    return (u.real * r.real + u.imag * r.imag) / sine
+def second_rate(u: ComplexField, r: ComplexField, per_sine: RealField) -> RealField:
+    """Angular velocity wb [rad/s] of the link on B, from i wa u - i wb v = r; see `first_rate`."""
+    return (u.real * r.real + u.imag * r.imag) * per_sine
 
 
 def relative_acceleration(  # noqa: PLR0917 - arguments in the order of the equation
@@ -120,13 +120,13 @@ class RRRDyad(PinnedPair):
         A, B = self.pins(known)
         d = B.position - A.position
         u, sine = first_link(d, self.a, self.b, self.branch)
-        v = u - d
+        v, per_sine = u - d, 1 / sine
         r = B.velocity - A.velocity
-        wa, wb = first_rate(v, r, sine), second_rate(u, r, sine)
+        wa, wb = first_rate(v, r, per_sine), second_rate(u, r, per_sine)
         r = relative_acceleration(A.acceleration, B.acceleration, u, v, wa, wb)
         columns = {
-            self.links[0]: (u * (1 / self.arms[0]), wa, first_rate(v, r, sine)),
-            self.links[1]: (v * (1 / self.arms[1]), wb, second_rate(u, r, sine)),
+            self.links[0]: (u * (1 / self.arms[0]), wa, first_rate(v, r, per_sine)),
+            self.links[1]: (v * (1 / self.arms[1]), wb, second_rate(u, r, per_sine)),
         }
         return GroupSolution(columns, sine, self.a * self.b)
 
@@ -142,10 +142,10 @@ class RRRDyad(PinnedPair):
         u, v = one.direction * self.arms[0], two.direction * self.arms[1]
         A, B = p.carry(self.hinges[0]), q.carry(self.hinges[1])
         r = carried_jerk(B, v, two.omega, two.alpha, 0.0) - carried_jerk(A, u, one.omega, one.alpha, 0.0)
-        sine = turning(u, v)
+        per_sine = 1 / turning(u, v)
         return {
-            self.links[0]: BodyJerk(one, A, first_rate(v, r, sine)),
-            self.links[1]: BodyJerk(two, B, second_rate(u, r, sine)),
+            self.links[0]: BodyJerk(one, A, first_rate(v, r, per_sine)),
+            self.links[1]: BodyJerk(two, B, second_rate(u, r, per_sine)),
         }
 
     @property

@@ -58,10 +58,12 @@ def moved(links: LinkRatios, angle: RealField) -> CrankRockerMotion:
     joint = rrr.position(pin, PIVOT, coupler, rocker, 1)
     u, v = joint - pin, joint - PIVOT
     lean = rrr.turning(u, v)
+    per_lean = 1 / lean
     slip = -1j * pin
-    omega = rrr.first_rate(v, slip, lean), rrr.second_rate(u, slip, lean)
+    omega = rrr.first_rate(v, slip, per_lean), rrr.second_rate(u, slip, per_lean)
     pull = rrr.relative_acceleration(-pin, 0j, u, v, *omega)
-    return CrankRockerMotion(pin, u, v, lean, omega, (rrr.first_rate(v, pull, lean), rrr.second_rate(u, pull, lean)))
+    alpha = rrr.first_rate(v, pull, per_lean), rrr.second_rate(u, pull, per_lean)
+    return CrankRockerMotion(pin, u, v, lean, omega, alpha)
 
 
 def sharp_angles(links: LinkRatios) -> FloatArray:
