@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from ilmek.errors import MechanismError
-from ilmek.linkage.batch import solve_batch, sweep
+from ilmek.linkage.batch import batch_arrays, solve_batch, sweep
 from ilmek.linkage.fourbar import four_bar, slider_crank
 from ilmek.linkage.kernels import BLOCK
 from ilmek.linkage.model import GROUND, Body, Displacement, Mechanism, Pin, Rotation, Slide
@@ -146,6 +146,19 @@ def test_both_executors_agree(moved, steady):
 def test_any_number_of_samples(samples):
     angle = np.linspace(0.0, 3.0, samples)
     assert apart(solve_batch(BEAT_UP, angle, 1.0), solve(BEAT_UP, angle, 1.0)) <= 1e-13
+
+
+def test_arrays_can_be_used_again():
+    short = plan(four_bar(0.300, 0.200, 0.200, 0.230, branch=+1))
+    arrays = batch_arrays(BEAT_UP, SAMPLES)
+    for planned, speed in ((short, 2.0), (BEAT_UP, 1.0)):
+        ours, theirs = solve_batch(planned, TIME, speed, into=arrays), solve(planned, TIME, speed)
+        np.testing.assert_array_equal(ours.status, theirs.status)
+        good = ours.status == Status.OK
+        np.testing.assert_allclose(ours.alpha("rocker")[good], theirs.alpha("rocker")[good], rtol=1e-9, atol=1e-12)
+        assert np.shares_memory(ours.omega("rocker"), arrays.reals)
+    with pytest.raises(MechanismError, match="arrays belong to another plan or number of samples"):
+        solve_batch(BEAT_UP, TIME[1:], into=arrays)
 
 
 def swinging_block(pivot: float, offset: float) -> Mechanism:
