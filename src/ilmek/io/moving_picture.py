@@ -3,11 +3,11 @@
 import importlib
 import io
 import itertools
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
-from PIL import Image
+from PIL import Image, ImageColor
 
 COLOURS = 64
 """Colours of a GIF, the same for all its pictures."""
@@ -19,13 +19,15 @@ _QUALITY = "20"
 """Constant rate factor of H.264: 18 to 23 is the usual range, 0 is without loss."""
 
 
-def gif(pictures: Iterator[Image.Image], rate: int) -> bytes:
-    """A GIF that repeats without end, in the colours of its first picture; the same pictures give the same bytes.
+def gif(pictures: Iterator[Image.Image], rate: int, colours: Sequence[str] = ()) -> bytes:
+    """A GIF that repeats without end, in given colours and those of its first picture.
 
-    rate  pictures per second, a divisor of 100
+    The same pictures give the same bytes.
+    rate     pictures per second, a divisor of 100
+    colours  that are kept exactly, like #1f2933, fewer than `COLOURS`
     """
     first = next(pictures)
-    palette = _palette(first)
+    palette = _palette(first, colours)
     flat = (one.quantize(palette=palette, dither=Image.Dither.NONE) for one in itertools.chain((first,), pictures))
     file = io.BytesIO()
     next(flat).save(
@@ -41,12 +43,13 @@ def gif(pictures: Iterator[Image.Image], rate: int) -> bytes:
     return file.getvalue()
 
 
-def _palette(picture: Image.Image) -> Image.Image:
-    """A picture with the colours of another; the lightest are white, the colour of paper."""
-    shared = picture.quantize(colors=COLOURS, method=Image.Quantize.MEDIANCUT)
-    colours = np.array(shared.getpalette(), np.uint8).reshape(-1, 3)
-    colours[colours.min(axis=1) >= _PAPER] = 255
-    shared.putpalette(colours.ravel().tolist())
+def _palette(picture: Image.Image, kept: Sequence[str]) -> Image.Image:
+    """A picture with the colours kept and those of another; the lightest are white, the colour of paper."""
+    shared = picture.quantize(colors=COLOURS - len(kept), method=Image.Quantize.MEDIANCUT)
+    found = np.array(shared.getpalette(), np.uint8).reshape(-1, 3)
+    found[found.min(axis=1) >= _PAPER] = 255
+    exact = np.array([ImageColor.getrgb(colour) for colour in kept], np.uint8).reshape(-1, 3)
+    shared.putpalette(np.concatenate([exact, found]).ravel().tolist())
     return shared
 
 

@@ -11,7 +11,7 @@ from ilmek.io.output import Outputs
 from ilmek.jobs.animation_order import GIF
 from ilmek.progress import Progress
 from ilmek.report import Animation, Report
-from ilmek.viz.animation_frames import PICTURES, RATE, pictures
+from ilmek.viz.animation_frames import COLOURS, PICTURES, RATE, pictures
 from ilmek.viz.looks import looks_of
 
 
@@ -26,7 +26,7 @@ def write_animation(report: Report, path: Path, outputs: Outputs, progress: Prog
     owner, animation = found
     frames = _counted(pictures(animation, looks_of(owner.figures)), progress)
     if path.suffix.lower() == GIF:
-        outputs.write(path, gif(frames, RATE))
+        outputs.write(path, gif(frames, RATE, COLOURS))
         return
     with outputs.file(path) as staged:
         write_mp4(staged, frames, RATE)

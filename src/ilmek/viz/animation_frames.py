@@ -18,7 +18,7 @@ from ilmek.viz.moving_parts import DOT_RADII, MovingBlock, MovingCircle, MovingL
 from ilmek.viz.number_format import NARROW_SPACE
 from ilmek.viz.sheet import circle
 from ilmek.viz.strokes import BLOCK
-from ilmek.viz.style import INK, MUTED, PAPER, STEEL, STRONG, TEXT, shown_unit
+from ilmek.viz.style import INK, MUTED, PALETTE, PAPER, STEEL, STRONG, TEXT, YARN, shown_unit, tint
 
 PIXELS = 960
 """Width of the pictures."""
@@ -28,6 +28,9 @@ RATE = 25
 
 PICTURES = round(SECONDS * RATE)
 """Pictures of a run."""
+
+COLOURS = (*PALETTE, *(tint(shade, 0.45) for shade in PALETTE), INK, MUTED, STEEL, YARN)
+"""Colours of lines and bars."""
 
 _HEAD, _ROW, _LEFT, _GAP, _FOOT = 24.0, 15.0, 14.0, 18.0, 8.0
 """Height of the title and of a row of readings, left margin, gap between readings, and lower margin [pt]."""

@@ -13,7 +13,7 @@ from ilmek.timing.track import sample
 from ilmek.units import turn
 
 FRAMES = 120
-_AROUND = np.exp(1j * turn * np.arange(36) / 36)
+_AROUND = np.exp(1j * turn * np.arange(72) / 72)
 
 
 def one_row_from_the_side(loom: LoomDesign) -> Animation:
@@ -30,14 +30,14 @@ def one_row_from_the_side(loom: LoomDesign) -> Animation:
     for first, last in bodies[CARRIER].windows:
         inside |= (angle >= first) & (angle <= last)
     carrier = np.where(inside[:, None], carrier, carrier.mean(axis=1, keepdims=True))
-    beating = [MovingStroke(at(LEAVES), "outline", "comb", closed=True)]
-    beating += [MovingStroke(at(BAR, part), "outline", "comb", closed=True) for part in range(len(bodies[BAR].parts))]
+    beating = [MovingStroke(at(LEAVES), "path", "comb", closed=True)]
+    beating += [MovingStroke(at(BAR, part), "path", "comb", closed=True) for part in range(len(bodies[BAR].parts))]
     strokes = (
-        *(MovingStroke(_sheet(at(name), at(name, 1)), "outline") for name in (EVEN, ODD)),
-        MovingStroke(at(GUIDE_CAMS) + loom.side.cams[0].guide_radius * _AROUND, "outline", "guide cams", closed=True),
+        *(MovingStroke(_sheet(at(name), at(name, 1)), "path", name) for name in (EVEN, ODD)),
+        MovingStroke(at(GUIDE_CAMS) + loom.side.cams[0].guide_radius * _AROUND, "path", "guide cams", closed=True),
         *beating,
-        MovingStroke(carrier, "outline", "carrier", closed=True),
-        MovingStroke(at(HEAD), "outline", "head", closed=True),
+        MovingStroke(carrier, "path", "carrier", closed=True),
+        MovingStroke(at(HEAD), "path", "head", closed=True),
     )
     carpet = at(CARPET)[0]
     low = 1j * max(carpet.imag.min(), loom.side.head.body.imag)
@@ -49,8 +49,8 @@ def one_row_from_the_side(loom: LoomDesign) -> Animation:
         note="over the angle of the row's cyclogram; the carrier is drawn while it is in the shed",
     )
     readings = (
-        _reading("even warps", row, EVEN, angle),
-        _reading("odd warps", row, ODD, angle),
+        _reading(EVEN, row, EVEN, angle),
+        _reading(ODD, row, ODD, angle),
         _reading("heads' retreat", row, HEADS, angle),
     )
     return Animation(still, Axis("angle of the row", "deg"), angle, strokes, (), period=row.period, readings=readings)
