@@ -1,7 +1,7 @@
 """Path search: how often a search with its defaults meets the best value known, and how often it states so rightly.
 
 Random tasks of six kinds, several seeds each. The best value known of a task is the best of all these searches and of
-one with five times as many starts at least. A search whose best is within 0.1 % of it (squares) has met it; the others
+one with 4608 starts. A search whose best is within 0.1 % of it (squares) has met it; the others
 have missed a better optimum, and the share that did is compared with the mean of the probabilities that they stated.
 """
 
@@ -15,8 +15,8 @@ import numpy as np
 from benchmarks.path_cases import NEAR, random_path
 from ilmek.synthesis.path.search import path_four_bars
 
-TASKS, SEEDS = 36, 5
-STARTS = 3840
+TASKS, SEEDS = 36, 3
+STARTS = 4608
 """Random starts of the longer search."""
 
 CLASSES = (0.0, 0.0125, 0.05, 0.2, 0.5, 1.01)
@@ -26,10 +26,10 @@ ZERO = 1e-14
 """Squared error of each point, in squared sizes of the path, that counts as none."""
 
 
-def run(tasks: int = TASKS, seeds: int = SEEDS) -> None:
+def run(tasks: int = TASKS, seeds: int = SEEDS, first: int = 0) -> None:
     path_four_bars(random_path(0), starts=1)
     stated, missed, seconds, reached = [], [], [], []
-    for number in range(tasks):
+    for number in range(first, first + tasks):
         task = random_path(number)
         found = []
         for seed in range(seeds):

@@ -113,35 +113,33 @@ def test_slopes_of_the_size_are_differences(seed, branch):
 
 
 def test_the_ratio_of_links_and_the_size_are_kept_by_the_search():
-    free = PathTask(oval(10), closed=True)
-    task = PathTask(oval(10), closed=True, link_ratio=3.0, size_max=0.85)
-    seen = [judged(task, fit) for fit in path_four_bars(task, starts=192)]
+    task = PathTask(oval(8), closed=True, link_ratio=3.0, size_max=0.85)
+    fits = path_four_bars(task, starts=24)
+    seen = [judged(task, fit) for fit in fits]
     assert all(one.link_ratio <= 3.0 + 1e-9 for one in seen)
     assert all(one.size <= 0.85 for one in seen)
-    wide = judged(free, path_four_bars(free, starts=192)[0])
-    assert wide.size > 0.85
-    assert wide.link_ratio > 3.0
+    assert any("size at its limit" in limit for fit in fits for limit in fit.active)
 
 
 def test_starts_are_made_exactly_so_many_and_runs_agree():
-    fits = path_four_bars(PathTask(oval(9), closed=True), starts=500)
+    fits = path_four_bars(PathTask(oval(9), timing=TURN * np.arange(9) / 9, closed=True), starts=200)
     search = fits[0].search
-    assert (search.starts, search.runs) == (500, 3)
-    assert 1 <= search.runs_agreed <= 3
-    assert search.missed == probability_missed(3, search.runs_agreed)
+    assert (search.starts, search.runs) == (200, 2)
+    assert 0 <= search.runs_agreed <= 2
+    assert search.missed == probability_missed(2, search.runs_agreed)
     exact = path_four_bars(PathTask(drawn(PLANTED, 6, 0.5)), starts=200)[0].search
     assert (exact.starts, exact.missed) == (200, 0.0)
 
 
 @pytest.mark.parametrize(("count", "part"), [(7, 0.5), (12, 1.0), (60, 1.0)])
 def test_a_planted_four_bar_is_found_again(count, part):
-    fit = path_four_bars(PathTask(drawn(PLANTED, count, part), closed=part == 1.0), starts=192)[0]
+    fit = path_four_bars(PathTask(drawn(PLANTED, count, part), closed=part == 1.0), starts=96)[0]
     assert fit.greatest_error < 1e-6
 
 
 def test_what_is_found_is_what_the_linkage_does_and_candidate_finds_no_defect():
     task = PathTask(oval(16), closed=True, transmission=math.radians(45))
-    for fit in path_four_bars(task, starts=192):
+    for fit in path_four_bars(task, starts=96):
         motion = solve(plan(fit.four_bar.mechanism()), fit.crank_angles)
         np.testing.assert_allclose(motion.point("coupler", "P").position - task.points, fit.errors, atol=1e-12)
         seen = judged(task, fit)
@@ -156,9 +154,9 @@ def test_what_is_found_is_what_the_linkage_does_and_candidate_finds_no_defect():
 
 
 def test_a_limit_that_holds_is_named_and_kept():
-    free = path_four_bars(PathTask(oval(12), closed=True), starts=192)[0]
+    free = path_four_bars(PathTask(oval(12), closed=True), starts=96)[0]
     least = free.least_transmission + math.radians(8)
-    held = path_four_bars(PathTask(oval(12), closed=True, transmission=least), starts=192)[0]
+    held = path_four_bars(PathTask(oval(12), closed=True, transmission=least), starts=96)[0]
     assert held.least_transmission == pytest.approx(least, abs=1e-6)
     assert any("transmission angle at its limit" in word for word in held.active)
     assert held.squared_error > free.squared_error
@@ -166,7 +164,7 @@ def test_a_limit_that_holds_is_named_and_kept():
 
 def test_bounds_hold_and_fixed_numbers_stay():
     bounds = {"ground": (0.5, 0.5), "x": (-0.5, -0.5), "y": (0.1, 0.1), "along": (-0.2, 0.3), "rocker": (0.1, 0.4)}
-    fit = path_four_bars(PathTask(oval(10), closed=True, bounds=bounds), starts=192)[0]
+    fit = path_four_bars(PathTask(oval(10), closed=True, bounds=bounds), starts=96)[0]
     for name, (low, high) in bounds.items():
         assert low - 1e-9 <= fit.design[name] <= high + 1e-9
     assert fit.four_bar.a0 == pytest.approx(-0.5 + 0.1j)
@@ -175,7 +173,7 @@ def test_bounds_hold_and_fixed_numbers_stay():
 def test_points_against_the_order_share_an_angle():
     points = drawn(PLANTED, 10, 0.6)
     points[[4, 5]] = points[[5, 4]]
-    ordered, free = (path_four_bars(PathTask(points, ordered=ordered), starts=192)[0] for ordered in (True, False))
+    ordered, free = (path_four_bars(PathTask(points, ordered=ordered), starts=96)[0] for ordered in (True, False))
     steps = np.diff(ordered.crank_angles)
     assert (steps >= -1e-6).all() or (steps <= 1e-6).all()
     assert ordered.squared_error > free.squared_error
@@ -183,23 +181,23 @@ def test_points_against_the_order_share_an_angle():
 
 
 def test_the_seed_decides_and_the_threads_do_not():
-    task = PathTask(oval(9), closed=True)
-    one, same = (path_four_bars(task, seed=3, starts=192, threads=threads) for threads in (1, 2))
+    task = PathTask(oval(9), timing=TURN * np.arange(9) / 9, closed=True)
+    one, same = (path_four_bars(task, seed=3, starts=200, threads=threads) for threads in (1, 2))
     assert [fit.design for fit in one] == [fit.design for fit in same]
     assert one[0].search == same[0].search
-    assert path_four_bars(task, seed=4, starts=192)[0].design != one[0].design
+    assert path_four_bars(task, seed=4, starts=96)[0].design != one[0].design
 
 
 def test_a_task_moved_turned_and_scaled_has_the_same_answers():
     timing = TURN * np.arange(9) / 9
     task = PathTask(oval(9), timing=timing, closed=True)
     moved = PathTask(40j * task.points + 300, timing=timing, closed=True)
-    errors = [path_four_bars(one, starts=192)[0].squared_error for one in (task, moved)]
+    errors = [path_four_bars(one, starts=96)[0].squared_error for one in (task, moved)]
     assert errors[1] == pytest.approx(1600 * errors[0], rel=1e-6)
 
 
 def test_double_cranks_have_the_shortest_ground():
-    fit = path_four_bars(PathTask(oval(12), closed=True, kind="double-crank", transmission=0.2), starts=192)[0]
+    fit = path_four_bars(PathTask(oval(12), closed=True, kind="double-crank", transmission=0.2), starts=96)[0]
     assert fit.four_bar.lengths.ground == min(fit.four_bar.lengths)
     assert fit.four_bar.grashof.kind == "double-crank"
 
@@ -208,5 +206,5 @@ def test_double_cranks_have_the_shortest_ground():
 def test_any_number_of_points_has_an_answer(count):
     rng = np.random.default_rng(count)
     points = np.linspace(0, 1, count) + 0.003 * (rng.normal(size=count) + 1j * rng.normal(size=count))
-    fit = path_four_bars(PathTask(points), starts=192)[0]
+    fit = path_four_bars(PathTask(points), starts=96)[0]
     assert fit.squared_error <= 3 * count * 0.003**2

@@ -107,7 +107,7 @@ def test_an_error_that_is_too_great_is_a_reason_to_go() -> None:
 def test_a_search_that_ends_at_the_transmission_angle_is_kept_and_says_what_holds_it() -> None:
     bow = "(60mm,0mm) (52mm,12mm) (30mm,18mm) (8mm,12mm) (0mm,0mm) (15mm,0mm) (30mm,0mm) (45mm,0mm)"
     limits = dict.fromkeys(LINKS, "10mm..120mm") | {"transmission_min": "40deg"}
-    results = answer(points=bow, closed="yes", starts="192", **limits).as_json()["results"]
+    results = answer(points=bow, closed="yes", starts="96", **limits).as_json()["results"]
     assert results["removed"] == []
     held = [found for found in results["solutions"] if "transmission angle at its limit 40 deg" in found["active"]]
     assert held
@@ -159,7 +159,7 @@ def test_refuses_in_words(settings: dict[str, str], said: str) -> None:
 
 def test_a_long_search_reports_its_progress_and_is_cancelled() -> None:
     shares = list[float]()
-    params = MACHINE.params.read({"starts": "576", "kind": "either"})
+    params = MACHINE.params.read({"starts": "400", "kind": "either"})
     MACHINE.designed(params, Progress(lambda _, share: shares.append(share)))
     assert shares == sorted(shares)
     assert len(set(shares)) > 3

@@ -18,11 +18,21 @@ from ilmek.synthesis.path.variation import different, varied
 RUN = 192
 """Random starts of a run."""
 
-POOL, VARIATIONS = 16, 64
-"""Different ends that are varied in a round, and their variations."""
 
-QUIET, ROUNDS = 3, 15
-"""Successive rounds without a better end after which a run ends, and greatest number of rounds."""
+class Rounds(NamedTuple):
+    """Rounds of variations: the different ends that are varied in a round, and their variations.
+
+    quiet  successive rounds without a better end after which they end      most  greatest number of rounds
+    """
+
+    pool: int
+    variations: int
+    quiet: int
+    most: int
+
+
+OF_RUN, OF_ALL = Rounds(pool=24, variations=64, quiet=6, most=40), Rounds(pool=32, variations=128, quiet=12, most=60)
+"""Rounds of one run, and of the best ends of all runs."""
 
 BETTER = 1e-4
 """Relative reduction of the error that counts as better."""
@@ -45,24 +55,25 @@ def run(scaled: ScaledTask, seed: int, number: int, starts: int) -> RunEnds:
     rng = np.random.default_rng([seed, number])
     found, evaluations = optimised(scaled, random_starts(scaled, rng, starts))
     errors = found.errors
-    pool, more = varied_until_quiet(scaled, found, rng, QUIET, ROUNDS)
+    pool, more = varied_until_quiet(scaled, found, rng, OF_RUN)
     return RunEnds(pool, errors, evaluations + more)
 
 
 def varied_until_quiet(
-    scaled: ScaledTask, found: SearchEnds, rng: np.random.Generator, quiet: int, rounds: int
+    scaled: ScaledTask, found: SearchEnds, rng: np.random.Generator, rounds: Rounds
 ) -> tuple[SearchEnds, int]:
-    """The different ends after rounds of variations, until `quiet` rounds bring no better one; and evaluations."""
-    pool, evaluations, same = different(scaled, found, 2 * POOL), 0, 0
-    for _ in range(rounds):
-        if same == quiet or not len(pool.errors) or pool.errors[0] <= scaled.exact:
+    """The different ends after rounds of variations, until some bring no better one; and the number of evaluations."""
+    kept, evaluations, same = 2 * rounds.pool, 0, 0
+    pool = different(scaled, found, kept)
+    for _ in range(rounds.most):
+        if same == rounds.quiet or not len(pool.errors) or pool.errors[0] <= scaled.exact:
             break
         best = float(pool.errors[0])
-        made = varied(scaled, pool.only(slice(POOL)), VARIATIONS, rng)
+        made = varied(scaled, pool.only(slice(rounds.pool)), rounds.variations, rng)
         if len(made.errors):
             made, more = optimised(scaled, made)
             evaluations += more
-            pool = different(scaled, joined([pool, made]), 2 * POOL)
+            pool = different(scaled, joined([pool, made]), kept)
         same = 0 if pool.errors[0] < best * (1 - BETTER) else same + 1
     return pool, evaluations
 

@@ -24,7 +24,7 @@ from ilmek.synthesis.path.confidence import SOUGHT, probability_missed
 from ilmek.synthesis.path.ends import ScaledTask, SearchEnds, joined, refined, scaled_task
 from ilmek.synthesis.path.fit import PathFit, Search, SearchEnd, least_transmission, path_fit
 from ilmek.synthesis.path.model import SIZE, Design
-from ilmek.synthesis.path.run import RUN, RunEnds, run, varied_until_quiet
+from ilmek.synthesis.path.run import OF_ALL, RUN, RunEnds, run, varied_until_quiet
 from ilmek.synthesis.path.task import PathTask
 
 FEWEST_RUNS, MOST_RUNS = 4, 16
@@ -32,9 +32,6 @@ FEWEST_RUNS, MOST_RUNS = 4, 16
 
 WAVE = 2
 """Number of runs after which the end of the search is checked."""
-
-QUIET, ROUNDS = 4, 30
-"""Rounds of variations of the best ends of all runs: see `path.run`."""
 
 JOINT = 2**31
 """Number that seeds the variations of all runs together."""
@@ -154,7 +151,7 @@ def _runs(
             checked *= 2
             rng = np.random.default_rng([seed, JOINT, len(made)])
             ends = joined([*(one.found for one in made), *pool])
-            best, more = varied_until_quiet(scaled, ends, rng, QUIET, ROUNDS)
+            best, more = (ends, 0) if len(made) == 1 else varied_until_quiet(scaled, ends, rng, OF_ALL)
             pool, evaluations = [best], evaluations + more
             if late or _missed(scaled, made, best) <= SOUGHT:
                 break

@@ -2,8 +2,8 @@
 
 Each variation takes one of the best different ends and changes it by one of:
 
-    numbers    its ten numbers, by 2 to 50 %
-    refit      link ratios and crank angles by 2 to 50 %, the other numbers by linear least squares (`path.starts`)
+    numbers    its ten numbers, by 2 to 70 %
+    refit      link ratios and crank angles by 2 to 70 %, the other numbers by linear least squares (`path.starts`)
     mirror     the other branch, refitted
     cognate    coupler and rocker exchanged, the other branch, refitted: the cognate that rotates with the same crank
                has the same error, but other neighbours and other active bounds; then as `refit`
@@ -28,7 +28,7 @@ SHARES = (0.45, 0.25, 0.08, 0.12, 0.10)
 
 NUMBERS, REFIT, MIRROR, COGNATE, CROSSOVER = range(5)
 
-SMALLEST, GREATEST = 0.02, 0.5
+SMALLEST, GREATEST = 0.02, 0.7
 """Range of the relative changes."""
 
 TURNED = 0.5
