@@ -34,7 +34,7 @@ def moving(design: SheddingDesign) -> Animation:
         strokes.append(MovingStroke(axis + _bore(one) * np.exp(1j * at)[:, None], "outline", closed=True))
     if spans:
         dots += [Dot(0j, "fell", "point"), Dot(top, "back hold", "point")]
-    note = "an even and an odd cam of each shaft; each lifts its warp in line with the axis, as a knife edge; dashed: guides"
+    note = "two cams of each shaft; each lifts its warp in line with the axis, as a knife edge; dashed: guides"
     drawing = Drawing("shedding-moving", "Cams and warps in motion", tuple(still), tuple(dots), note=note)
     readings = (
         Reading("even warps", design.even.at(at).s, "mm"),
