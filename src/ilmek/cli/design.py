@@ -98,6 +98,8 @@ def command(  # noqa: PLR0917 - click calls it by name
         note_verdict(made.report.all_checks, headline_of(made.report))
     if mechanism_to is not None and made.mechanism is None:
         note(f"{mechanism_to} was not written: there is no linkage")
+    if workshop is not None and made.workshop is None:
+        note(f"{parts_to} was not written: there are no links")
     for warning in made.warnings:
         note(warning)
     return exit_code(made.report.all_checks)

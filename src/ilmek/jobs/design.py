@@ -72,6 +72,7 @@ def design_machine(
 
     settings  values of parameters by name: texts with units, or numbers in SI
     outputs   of the caller, who commits them; default: committed here
+    Of a synthesis without a solution no workshop files are written.
     Raises ParameterError for an unknown machine, parameter or tolerance and for a value out of bounds; OutputError,
     before any work, where a file cannot be written; errors of the machine; Cancelled.
     """
@@ -86,7 +87,8 @@ def design_machine(
             report = _with_nearest(report, params, progress.part(0.7, 0.8))
         progress.part(0.8, 1.0, "files")
         linkage = None if machine.mechanism is None else machine.mechanism(designed)
-        return DesignResult(report, write(report) if write is not None else None, linkage)
+        made_of_links = machine.mechanism is None or linkage is not None  # without a solution there is nothing to make
+        return DesignResult(report, write(report) if write is not None and made_of_links else None, linkage)
 
 
 def _with_nearest(report: Report, params: Params, progress: Progress) -> Report:

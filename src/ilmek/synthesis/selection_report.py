@@ -19,7 +19,7 @@ LINKS = ("ground [mm]", "crank [mm]", "coupler [mm]", "rocker [mm]")
 def tables(choice: FourBarSelection, name: str) -> tuple[Table, ...]:
     """Solutions, their merit, positions of the one that is drawn, and removed four-bars; `name` of the machine."""
     return (
-        _solutions(choice, name),
+        *((_solutions(choice, name),) if choice.kept else ()),
         *((_merits(choice, name),) if choice.kept else ()),
         *(() if choice.best is None else (_positions(choice.best.candidate, name),)),
         *((_removed(choice, name),) if choice.removed else ()),
@@ -84,19 +84,31 @@ def _removed(choice: FourBarSelection, name: str) -> Table:
         for one, reasons in choice.removed[:LISTED]
     )
     left = len(choice.removed) - len(rows)
-    title = f"Removed: {choice.reasons}" + (f" ({left} more are in the JSON)" if left else "")
+    some = choice.family is not None and choice.family.searched > len(choice.removed)
+    title = "Nearest to the limits" if some and not choice.kept else f"Removed: {choice.reasons}"
+    title += f" ({left} more are in the JSON)" if left else ""
     heads = columns("found by", *LINKS, "reason")
     return Table(f"{name}-removed", title, heads, rows, brief=len(rows) <= BRIEF)
 
 
 def checks(design: FourBarDesign) -> tuple[Check, ...]:
-    """Whether there is a solution, and its transmission angle."""
+    """Whether there is a solution, and its transmission angle: at least `transmission_min`, or the rule of thumb."""
     choice = design.choice
     cure = "; ".join(choice.cures)
     found = at_least("four-bars without defects", len(choice.kept) + choice.more, 1, "1", "the task", cure=cure)
     if choice.best is None:
         return (found,)
-    return found, at_least("transmission angle", _least(choice.best), TRANSMISSION, "deg", RULE)
+    required = design.params.transmission_min
+    cure = f"set transmission_min={format_quantity(TRANSMISSION, 'deg')}, or change the task"
+    angle = at_least(
+        "transmission angle",
+        _least(choice.best),
+        required or TRANSMISSION,
+        "deg",
+        "transmission_min" if required else RULE,
+        cure="" if required else cure,
+    )
+    return found, angle
 
 
 def warnings(design: FourBarDesign) -> tuple[str, ...]:
@@ -119,7 +131,8 @@ def warnings(design: FourBarDesign) -> tuple[str, ...]:
     if snap_to_limit(least, TRANSMISSION) >= TRANSMISSION:
         return ()
     shown = format_quantity(least, "deg")
-    return (f"coupler and rocker come within {shown} of one line: forces grow, play shows; set transmission_min",)
+    rule = f"the {RULE} is {format_quantity(TRANSMISSION, 'deg')}"
+    return (f"coupler and rocker come within {shown} of one line: forces grow, play shows; {rule}",)
 
 
 def _least(best: FourBarOption) -> float:

@@ -7,7 +7,7 @@ for its angle, so that the proof holds for the task as given in floating-point n
 """
 
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -84,39 +84,20 @@ class _System:
         values, rows, at = [], [], 2 * len(PINS)
         for j, pose in enumerate(self.pose):
             if pose:
-                c, s = (_enclosed(function, self.turns[j]).rounded(X.low.dtype) for function in (np.cos, np.sin))
-                turn = _Turn(c, s, None)
+                turn = known_turn(self.turns[j], X.low.dtype)
             else:
-                turn = _Turn(X[:, at], X[:, at + 1], at)
+                turn = Turn(X[:, at], X[:, at + 1], at)
                 values.append(turn.c.square + turn.s.square - 1.0)
                 rows.append(_row(X, {at: turn.c * 2.0, at + 1: turn.s * 2.0}))
                 at += 2
             for link in range(2):
-                value, row = self._link(X, j, link, turn)
+                value, row = link_equation(X, 4 * link, (self.x[j], self.y[j]), turn)
                 values.append(value)
                 rows.append(row)
         return stacked(values, -1), stacked(rows, -2)
 
-    def _link(self, X: Intervals, j: int, link: int, turn: "_Turn") -> tuple[Intervals, Intervals]:
-        """|q|² - |r|² and its derivatives."""
-        c, s, column = turn
-        ax, ay, px, py = (X[:, 4 * link + k] for k in range(4))
-        kind = X.low.dtype
-        turned_x, turned_y = c * px - s * py, s * px + c * py
-        qx, qy = turned_x + self.x[j].rounded(kind) - ax, turned_y + self.y[j].rounded(kind) - ay
-        rx, ry = px - ax, py - ay
-        slopes = {
-            4 * link: (rx - qx) * 2.0,
-            4 * link + 1: (ry - qy) * 2.0,
-            4 * link + 2: (c * qx + s * qy - rx) * 2.0,
-            4 * link + 3: (c * qy - s * qx - ry) * 2.0,
-        }
-        if column is not None:
-            slopes |= {column: (qx * px + qy * py) * 2.0, column + 1: (qy * px - qx * py) * 2.0}
-        return qx.square + qy.square - rx.square - ry.square, _row(X, slopes)
 
-
-class _Turn(NamedTuple):
+class Turn(NamedTuple):
     """Cosine and sine of the coupler's rotation, and the column of the cosine where they are unknown."""
 
     c: Intervals
@@ -124,9 +105,38 @@ class _Turn(NamedTuple):
     column: int | None
 
 
+def link_equation(X: Intervals, at: int, shift: tuple[Intervals, Intervals], turn: Turn) -> tuple[Intervals, Intervals]:
+    """|d + T x - A|² - |x - A|² of a link at a position, and its derivatives.
+
+    X      unknowns (..., n); those of the link are A and x, four real numbers from column `at`
+    shift  displacement d of the body's point, x and y      turn  T
+    """
+    c, s, column = turn
+    ax, ay, px, py = (X[:, at + k] for k in range(4))
+    kind = X.low.dtype
+    turned_x, turned_y = c * px - s * py, s * px + c * py
+    qx, qy = turned_x + shift[0].rounded(kind) - ax, turned_y + shift[1].rounded(kind) - ay
+    rx, ry = px - ax, py - ay
+    slopes = {
+        at: (rx - qx) * 2.0,
+        at + 1: (ry - qy) * 2.0,
+        at + 2: (c * qx + s * qy - rx) * 2.0,
+        at + 3: (c * qy - s * qx - ry) * 2.0,
+    }
+    if column is not None:
+        slopes |= {column: (qx * px + qy * py) * 2.0, column + 1: (qy * px - qx * py) * 2.0}
+    return qx.square + qy.square - rx.square - ry.square, _row(X, slopes)
+
+
 def _row(X: Intervals, slopes: dict[int, Intervals]) -> Intervals:
     zero = Intervals.of(np.zeros(X.low.shape[0], X.low.dtype))
     return stacked([slopes.get(column, zero) for column in range(X.low.shape[1])], -1)
+
+
+def known_turn(angle: Intervals, kind: np.dtype[Any]) -> Turn:
+    """Cosine and sine of an angle that lies in an interval [rad], in numbers of a kind."""
+    c, s = (_enclosed(function, angle).rounded(kind) for function in (np.cos, np.sin))
+    return Turn(c, s, None)
 
 
 def _enclosed(function: Callable[[np.ndarray], np.ndarray], angle: Intervals) -> Intervals:

@@ -1,28 +1,20 @@
 """Proof that a four-bar takes its poses: beside the computed pivot and pin of each link there is an exact one.
 
-A link takes poses 2 to n where f_k(z) = |w_k - m|² - |w_1 - m|² = 0, with z = (m, w) four real numbers. The rows of the
-Jacobian are completed by an orthonormal basis of its null space to a square matrix J, A is its inverse nearly, and on
-the box z + [-r, r]⁴ the operator of Krawczyk
-
-    K = z - A F(z) + (1 - A J(box)) [-r, r]⁴
-
-lies inside the box if |A F(z)| + |1 - A J(box)| r < r in the maximum norm: then the box contains a solution. F is
-quadratic, so every number of J(box) is within 16 r of J(z); rounding errors are bounded by the magnitudes of the terms.
-[Krawczyk 1969; Neumaier, Interval Methods for Systems of Equations, 5.1; the bounds of rounding: Higham, chapter 3]
+A link takes poses 2 to n where |d_k + T_k x - A|² = |x - A|²: n - 1 equations in the four real numbers of its pivot A
+and its pin x. Completed by the directions in which it is free, the null space of their Jacobian, they are four, and
+Krawczyk's operator proves a solution of them (`num.krawczyk`).
 """
 
 import numpy as np
 
-from ilmek.arrays import Complex, ComplexArray, FloatArray
+from ilmek.arrays import Complex, FloatArray
+from ilmek.num.intervals import Intervals, stacked
+from ilmek.num.krawczyk import certified_roots
 from ilmek.params.text_lists import BodyPoses
-from ilmek.plane.vectors import unit
-from ilmek.report.check import ROUNDING
+from ilmek.synthesis.alt_burmester.certificate import known_turn, link_equation
 
 RADIUS = 1e-9
 """Greatest distance of the exact link from the computed one, in sizes of the task."""
-
-ROUNDED = 128 * np.finfo(float).eps
-"""Bound on the relative rounding error of a sum of products of at most twenty factors, sine and cosine included."""
 
 
 def certified(pins: Complex[np.ndarray, "4"], poses: BodyPoses) -> bool:
@@ -34,40 +26,39 @@ def certified(pins: Complex[np.ndarray, "4"], poses: BodyPoses) -> bool:
     >>> certified(np.array([0j, 2 + 0j, 1j, 2 + 1j]), poses), certified(np.array([0j, 2 + 0j, 1.1j, 2 + 1j]), poses)
     (True, False)
     """
-    points, angles = poses
+    points, _ = poses
     size = float(np.max(np.abs(points - points[0]))) or float(np.max(np.abs(pins - pins[0])))
-    turned = np.asarray(unit(angles - angles[0]))
-    shifts = (points - points[0]) / size
-    far = 1 + float(np.max(np.abs(points))) / size
-    ends = (pins - points[0]) / size
-    return all(_proven(complex(ends[at]), complex(ends[at + 2]), shifts, turned, far) for at in range(2))
+    unit = float(2.0 ** np.round(np.log2(size)))  # division by it is exact
+    ends = (pins - points[0]).reshape(2, 2).T / unit
+    near = np.stack([ends.real, ends.imag], axis=-1).reshape(2, 4)
+    found = certified_roots(_Links(poses, unit, near), near)
+    away = np.abs(found.roots - near) + found.radius
+    return bool(found.certified.all() and np.max(away) * unit <= RADIUS * size)
 
 
-def _proven(m: complex, w: complex, shifts: ComplexArray, turned: ComplexArray, far: float) -> bool:
-    """Whether an exact link is within `RADIUS` of pivot m and pin w; far  magnitude of the given positions."""
-    away = shifts + w * turned - m
-    values = np.abs(away[1:]) ** 2 - abs(away[0]) ** 2
-    to_pivot = -2 * (away[1:] - away[0])
-    to_pin = 2 * (away[1:] * np.conj(turned[1:]) - away[0])
-    slopes = np.stack([to_pivot.real, to_pivot.imag, to_pin.real, to_pin.imag], axis=-1)
-    matrix = _completed(slopes)
-    inverse = np.linalg.pinv(matrix)
-    reach = far + abs(m) + abs(w)
-    errors = np.zeros(4)
-    errors[: len(values)] = ROUNDED * reach**2
-    residual = np.zeros(4)
-    residual[: len(values)] = values
-    size = np.abs(inverse)
-    newton = float(np.max(np.abs(inverse @ residual) + size @ errors))
-    # Over the box a slope changes by 2 |1 - turned| r and less than 16 r altogether; its rounding adds to it.
-    spread = np.zeros((4, 4))
-    spread[: len(values)] = 16 * RADIUS + ROUNDED * reach
-    apart = np.abs(np.eye(4) - inverse @ matrix) + size @ (spread + ROUNDED * np.abs(matrix))
-    shrink = float(np.max(np.sum(apart, axis=1)))
-    return (newton + shrink * RADIUS) * (1 + ROUNDING) < RADIUS
+class _Links:
+    """The equations of both links in intervals, completed by their free directions at `near`."""
 
+    def __init__(self, poses: BodyPoses, unit: float, near: FloatArray) -> None:
+        points = (poses.points / unit).astype(np.clongdouble)
+        self.x = Intervals.of(points.real[1:]) - points.real[0]
+        self.y = Intervals.of(points.imag[1:]) - points.imag[0]
+        self.turns = Intervals.of(poses.angles[1:].astype(np.longdouble)) - poses.angles[0]
+        self.near = near
+        _, slopes = self._constraints(Intervals.of(near))
+        self.free = np.linalg.svd(slopes.middle)[2][:, len(points) - 1 :]
 
-def _completed(slopes: FloatArray) -> FloatArray:
-    """The Jacobian with an orthonormal basis of its null space as further rows: a square matrix."""
-    _, _, basis = np.linalg.svd(slopes)
-    return np.concatenate([slopes, basis[len(slopes) :]])
+    def __call__(self, X: Intervals) -> tuple[Intervals, Intervals]:
+        values, slopes = self._constraints(X)
+        moved = X - self.near
+        rows = [Intervals.of(self.free[:, k].astype(X.low.dtype)) for k in range(self.free.shape[1])]
+        products = [moved * row for row in rows]
+        along = [sum((each[:, k] for k in range(1, 4)), each[:, 0]) for each in products]
+        return stacked([*(values[:, k] for k in range(values.low.shape[1])), *along], -1), stacked(
+            [*(slopes[:, k] for k in range(values.low.shape[1])), *rows], -2
+        )
+
+    def _constraints(self, X: Intervals) -> tuple[Intervals, Intervals]:
+        turns = (known_turn(self.turns[k], X.low.dtype) for k in range(len(self.x.low)))
+        parts = [link_equation(X, 0, (self.x[k], self.y[k]), turn) for k, turn in enumerate(turns)]
+        return stacked([value for value, _ in parts], -1), stacked([row for _, row in parts], -2)
