@@ -87,7 +87,7 @@ MISTAKES = {
     "no number": ('"60mm"', "true", "line 6, bodies.crank.points.A.0: true is not a quantity"),
     "not finite": ('"60mm"', "nan", "line 6, bodies.crank.points.A.0: nan is not a finite number"),
     "infinite": ('"60mm"', "-inf", "line 6, bodies.crank.points.A.0: -inf is not a finite number"),
-    "one coordinate": ('["60mm", 0]', '["60mm"]', "line 6, bodies.crank.points.A: has 1 entries; 2: x and y"),
+    "one coordinate": ('["60mm", 0]', '["60mm"]', "line 6, bodies.crank.points.A: has 1 entry; 2: x and y"),
     "negative mass": ('"200g"', '"-1kg"', "line 5, bodies.crank: mass of a body is -1"),
     "zero length": ('["20cm", 0]', "[0, 0]", "line 9, bodies.coupler: link 'coupler' has zero length"),
     "unknown key": (
@@ -117,7 +117,7 @@ MISTAKES = {
         '["crank", "coupler", "rocker"]',
         "line 16, joints.A: body 'rocker' of four-bar has no point 'A'",
     ),
-    "one body": ('["crank", "coupler"]', '["crank"]', "line 16, joints.A.pin: has 1 entries; 2 to 10: the bodies"),
+    "one body": ('["crank", "coupler"]', '["crank"]', "line 16, joints.A.pin: has 1 entry; 2 to 10: the bodies"),
     "no unit": ('"60mm"', "60", 'line 6, bodies.crank.points.A.0: 60 has no unit; write "60mm", or "60m"'),
     "text without unit": ('"60mm"', '"60"', "line 6, bodies.crank.points.A.0: '60' has no unit; write \"60mm\""),
     "metres for millimetres": ('"60mm"', '"60m"', "line 5, bodies.crank: A0-A of crank is 60000 mm and A-B of coupler"),

@@ -183,7 +183,8 @@ def _frame(mechanism: Mechanism, body: str, acting: Iterable[_Acting], points: I
     named = [(name, mechanism.point(body, name)) for name in (*fixed, *wheels, *points)]
     for name, position in (*named, *(end for one in acting if one.name not in fixed for end in _travel(one, size))):
         if all(abs(position - other) > SAME * size for other in nodes.values()):
-            nodes[name] = position
+            point = next((known for known, at in own.items() if abs(at - position) <= SAME * size), name)
+            nodes[point] = position
     joined = [own[name] for name in fixed]
     at_joints = (name for name, at in nodes.items() if any(abs(at - other) <= SAME * size for other in joined))
     return frame_through(nodes, frozenset(at_joints))
@@ -204,8 +205,8 @@ def _travel(acting: _Acting, size: float) -> Iterator[tuple[str, complex]]:
         yield acting.name, complex(at[0])
         return
     along = dot(reach / abs(reach), at - at[0])
-    yield f"{acting.name} from", complex(at[np.argmin(along)])
-    yield f"{acting.name} to", complex(at[np.argmax(along)])
+    yield f"{acting.name} (start)", complex(at[np.argmin(along)])
+    yield f"{acting.name} (end)", complex(at[np.argmax(along)])
 
 
 def _line(frame: LinkFrame, edge: int, here: _Gravity, at: RealField) -> tuple[ComplexArray, FloatArray]:

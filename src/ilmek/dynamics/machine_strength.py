@@ -100,11 +100,11 @@ class MachineStrength:
         pin = self.machine.pins[name]
         thick = format_quantity(pin.diameter * math.sqrt(max(found.shear / pin.shear, 1.0)), "mm", 3)
         cure = f"a pin of {thick}" + ("" if pin.fork else ", or a fork")
-        yield at_most(f"pin {name}: shear stress", found.shear, pin.shear, "MPa", "allowed by the file", cure=cure)
+        yield at_most(f"pin {name}: shear stress", found.shear, pin.shear, "MPa", "allowed of the pin", cure=cure)
         if pin.fork:
             thick = format_quantity(pin.diameter * max(found.bending / pin.bending, 1.0) ** (1 / 3), "mm", 3)
             cure = f"a pin of {thick}, or a shorter fork"
-            yield at_most(f"pin {name}: bending", found.bending, pin.bending, "MPa", "allowed by the file", cure=cure)
+            yield at_most(f"pin {name}: bending", found.bending, pin.bending, "MPa", "allowed of the pin", cure=cure)
         if pin.bearing is not None:
             cure = "a larger bearing, or a lower speed"
             source = f"required life of {pin.bearing}"
@@ -113,10 +113,10 @@ class MachineStrength:
             return
         long = format_quantity(pin.length * max(found.pressure / pin.pressure, 1.0), "mm", 3)
         cure = f"a bush of {long}, or a thicker pin"
-        yield at_most(f"pin {name}: pressure", found.pressure, pin.pressure, "MPa", "allowed by the file", cure=cure)
+        yield at_most(f"pin {name}: pressure", found.pressure, pin.pressure, "MPa", "allowed of the pin", cure=cure)
         cure = "a longer bush, a rolling bearing, or a lower speed"
         yield at_most(
-            f"pin {name}: pressure x speed", found.wear, pin.wear, "MPa*m/s", "allowed by the file", cure=cure
+            f"pin {name}: pressure x speed", found.wear, pin.wear, "MPa*m/s", "allowed of the pin", cure=cure
         )
 
 

@@ -134,7 +134,8 @@ class Reader:
         least, most = schema["minItems"], schema["maxItems"]
         if not least <= len(entries) <= most:
             count = str(least) if least == most else f"{least} to {most}"
-            self._refuse(path, f"has {len(entries)} entries", f"{count}: {schema['description']}")
+            noun = "entry" if len(entries) == 1 else "entries"
+            self._refuse(path, f"has {len(entries)} {noun}", f"{count}: {schema['description']}")
         return [self._value(entry, schema["items"], (*path, index)) for index, entry in enumerate(entries)]
 
     def _one_of(self, value: Any, choices: Sequence[Any], path: Path) -> Any:

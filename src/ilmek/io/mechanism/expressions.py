@@ -152,6 +152,8 @@ class _Parser:
             raise self.error("has a power that is not allowed", allowed=f"whole numbers up to {HIGHEST_POWER}")
         power = sign * int(self.token)
         self.at += 1
+        if self.take("^", "**"):
+            raise self.error("has a power of a power", allowed="one power, or parentheses: (a^2)^3")
         if base.value == 0 and power < 0:
             raise self.error("divides by 0")
         try:

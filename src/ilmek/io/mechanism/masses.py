@@ -164,7 +164,19 @@ def pin_members(tables: Tables, parts: Mapping[str, Sequence[Joint]], source: So
                     _check_size(f"{key} of a pin", value)
             if not table.get("life", 0.0) >= 0:
                 raise MechanismError(f"life of a bearing is {table['life']:g} s", allowed="0 or more")
-            bearing = find_bearing(table["bearing"]).name if "bearing" in table else None
-            member = PinMember(**{**table, "bearing": bearing})
+            member = PinMember(**_pin_of(table))
             found |= {joint.name: member for joint in parts[name]}
     return found
+
+
+def _pin_of(table: Mapping[str, Any]) -> dict[str, Any]:
+    """A pin's table with the bore and width of its bearing where it has no sizes of its own."""
+    made: dict[str, Any] = {"bearing": None}
+    if "bearing" in table:
+        found = find_bearing(table["bearing"])
+        made = {"diameter": found.bore, "length": found.width}
+        table = {**table, "bearing": found.name}
+    for key in ("diameter", "length"):
+        if key not in table and key not in made:
+            raise MechanismError(f"has no {key!r}", allowed="it needs diameter and length, or a bearing")
+    return {**made, **table}

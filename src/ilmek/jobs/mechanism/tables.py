@@ -125,7 +125,7 @@ def _force_rows(run: MechanismRun) -> Iterator[Row]:
 def _where(run: MechanismRun, values: np.ndarray) -> tuple[float | str]:
     """Value of the abscissa at the greatest magnitude."""
     size = np.abs(values)
-    if not np.isfinite(size).any():
+    if run.running is None or not np.isfinite(size).any():
         return ("",)
     return (float(run.abscissa[int(np.nanargmax(size))]),)
 
@@ -151,8 +151,8 @@ def _transmission_table(found: Analysis) -> Table:
     rows = []
     for pin, angle in found.transmission.items():
         least, most = _ends(angle)
-        at = found.run.abscissa[int(np.nanargmin(angle))] if np.isfinite(angle).any() else ""
-        rows.append((pin, least, at if isinstance(at, str) else float(at), most))
+        moves = found.run.running is not None and np.isfinite(angle).any()
+        rows.append((pin, least, float(found.run.abscissa[int(np.nanargmin(angle))]) if moves else "", most))
     return Table("transmission", "Transmission angles", heads, tuple(rows), brief=True)
 
 

@@ -204,7 +204,7 @@ class Group:
             raise MechanismError(
                 f"{self.mechanism.name} has no branch for the {kind} {joint!r} of {' and '.join(self.bodies)}",
                 allowed="+1 or -1",
-                do=f"give branches={{{joint!r}: +1}}",
+                do=f"give one, in a file: branches = {{ {joint} = 1 }}",
                 about=("joints", joint),
             )
         return branches[joint]
