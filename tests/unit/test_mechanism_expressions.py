@@ -67,6 +67,7 @@ BAD = {
     "r*0^-1": "divides by 0",
     "r^1.5": "has a power that is not allowed; whole numbers up to 12",
     "r^13": "has a power that is not allowed",
+    "2^2^2": "has a power of a power",
     "(r^12)^2": "too high a power of a unit; at most 12",
     "10^12*10^12*10^12*r": "has no finite value; at most 1e+30 in every step",
     "(10^12)^12*r": "has no finite value",

@@ -1,5 +1,6 @@
 """`ilmek mechanism`: analyse a mechanism from a file, tabulate and draw its motion."""
 
+from math import isfinite
 from pathlib import Path
 
 import click
@@ -164,4 +165,6 @@ def _shown(value: object, unit: str) -> str:
         return ", ".join(f"{name} {_shown(one, unit)}" for name, one in value.items())
     if isinstance(value, list | tuple):
         return " .. ".join(_shown(one, unit) for one in value)
-    return format_quantity(rounded(value, unit), unit) if isinstance(value, float) else str(value)
+    if isinstance(value, float):
+        return format_quantity(rounded(value, unit), unit) if isfinite(value) else "–"
+    return str(value)
