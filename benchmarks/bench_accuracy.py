@@ -26,13 +26,14 @@ def run() -> None:
         one = accuracy(kind, count, np.random.default_rng(seed))
         print(f"{kind:6s}{one.closure:10.1e}{one.newton:10.1e}{one.velocity:10.1e}{one.acceleration:14.1e}", flush=True)
     print("\n1e-14 to 1e-3 rad beside limits, links of 1e-4 to 1, up to 1,000 from the origin, against forty digits")
-    heads = f"{'':14s}{'close':>8s}{'OK':>8s}{'worst':>10s}{'silently wrong':>16s}"
+    heads = f"{'':14s}{'close':>8s}{'OK':>8s}{'worst':>10s}{'silently wrong':>16s}{'wrongly open':>14s}"
     print(f"{heads}{'four digits':>13s}{'of these not OK':>17s}")
     for kind, dyads, closed_forms in CHAINS:
         each = min(count, 10_000) // SAMPLES // (1 if closed_forms else 4)
         beside = near_limits(kind, each, np.random.default_rng(dyads), dyads=dyads, closed_forms=closed_forms)
         name = f"{kind} {'x ' + str(dyads) if closed_forms else 'by Newton'}"
-        row = f"{name:14s}{beside.samples:8d}{beside.ok:8d}{beside.worst:10.1e}{beside.silent:16d}{beside.good:13d}"
+        row = f"{name:14s}{beside.samples:8d}{beside.ok:8d}{beside.worst:10.1e}{beside.silent:16d}"
+        row += f"{beside.misjudged:14d}{beside.good:13d}"
         print(f"{row}{beside.refused / max(1, beside.good):17.1%}", flush=True)
     found = crank_rockers(count, np.random.default_rng(9))
     steps = ", ".join(str(step) for step in STEPS)

@@ -21,6 +21,9 @@ KINDS = ("RRR", "RRP", "RPR", "PRP", "RPP")
 SAMPLES = 8
 """Angles for each mechanism."""
 
+CLEAR = 1e-9
+"""Distance from a limit [rad] from which on a sample that closes may not be given as one that does not."""
+
 
 @dataclass
 class NearLimits:
@@ -29,6 +32,7 @@ class NearLimits:
     samples   angles looked at, of which the exact mechanism closes     ok   of these with status OK
     worst     worst error of an acceleration of these, relative to the largest of its group
     silent    of these with an error above a hundredth, or that do not close
+    misjudged  samples that close with the status CANNOT_CLOSE, 1e-9 rad or more from the limit
     good      samples that close with four digits or more               refused  of these without status OK
     """
 
@@ -36,6 +40,7 @@ class NearLimits:
     ok: int = 0
     worst: float = 0.0
     silent: int = 0
+    misjudged: int = 0
     good: int = 0
     refused: int = 0
     cases: list[tuple[Mechanism, float, float]] = field(default_factory=list)
@@ -170,7 +175,17 @@ def near_limits(
             moved = solve(steps, part, speed, gain)
             for k in range(len(part)):
                 _compare(found, exact, moved, k, (float(part[k]), speed, gain), either=not closed_forms)
+                if moved.status[k] == Status.CANNOT_CLOSE and abs(part[k] - angle) >= CLEAR:
+                    found.misjudged += _closes(exact, (float(part[k]), speed, gain))
     return found
+
+
+def _closes(exact: Plan, drive: tuple[float, float, float]) -> bool:
+    try:
+        motion(exact, drive)
+    except DoesNotClose:
+        return False
+    return True
 
 
 def _followed(exact: Plan, angle: float) -> Plan | None:

@@ -27,6 +27,7 @@ def test_beside_a_limit_ok_means_two_digits_of_every_acceleration_of_forty(kind,
     assert found.ok > 0
     assert found.worst <= 0.01
     assert found.silent == 0
+    assert found.misjudged == 0
     assert found.refused <= 0.15 * found.good
 
 

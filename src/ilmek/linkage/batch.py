@@ -82,7 +82,8 @@ def batch_arrays(plan: Plan, samples: int) -> BatchArrays:
 
     Raises MechanismError for a plan with a group that is not compiled.
     """
-    return _arrays(1, *(len(rows) for rows in _requested(plan, tape(plan, {}, {}))), samples)
+    pairs, singles = _requested(plan, tape(plan, {}, {}))
+    return _arrays(1, len(pairs), len(singles), samples)
 
 
 def solve_batch(

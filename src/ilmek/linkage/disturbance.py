@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from ilmek.arrays import ComplexField, FloatArray
+from ilmek.arrays import ComplexArray, ComplexField, FloatArray
 from ilmek.linkage.anchors import local_ground
 from ilmek.linkage.body_motion import BodyMotion, PointMotion
 from ilmek.linkage.groups.general import GeneralGroup
@@ -18,8 +18,8 @@ from ilmek.linkage.model import GROUND
 from ilmek.linkage.structure import Plan
 from ilmek.records import record
 
-RUNS = 8
-"""Number of disturbed solutions, two by two with opposite disturbances."""
+RUNS = 24
+"""Number of disturbed solutions, two by two with opposite disturbances; all are computed at once."""
 
 UNITS = 2.0
 """Disturbance of a number in units of 2^-52, the spacing of doubles at 1: about what a formula of a group loses."""
@@ -29,18 +29,25 @@ ROUNDING = float(np.finfo(float).eps)
 
 @record
 class Noise:
-    """Disturbances in the order in which they are required, the same for all samples."""
+    """Disturbances in the order in which they are required, the same for all samples of a run.
+
+    Fields have RUNS times `samples` values, run by run.
+    """
 
     draw: np.random.Generator
-    size: float
+    samples: int
 
-    def factor(self) -> float:
+    def factor(self) -> FloatArray:
         """1 and a disturbance."""
-        return 1.0 + self.size * float(self.draw.choice((-1.0, 1.0)))
+        return np.asarray(1.0 + self._spread(self.draw.choice((-1.0, 1.0), RUNS // 2)))
 
-    def vector(self) -> complex:
+    def vector(self) -> ComplexArray:
         """A disturbance of a vector of length 1."""
-        return self.size * complex(np.exp(1j * self.draw.uniform(-np.pi, np.pi)))
+        return np.asarray(self._spread(np.exp(1j * self.draw.uniform(-np.pi, np.pi, RUNS // 2))))
+
+    def _spread(self, drawn: ComplexField) -> ComplexField:
+        """One number for two runs, which have it with opposite signs."""
+        return np.repeat(UNITS * ROUNDING * np.concatenate((drawn, -drawn)), self.samples)
 
 
 @record
@@ -68,10 +75,13 @@ class DisturbedBody(BodyMotion):
 
 
 def disturbed_solutions(
-    plan: Plan, drives: Mapping[str, InputMotion], start: Mapping[str, BodyMotion], run: int
+    plan: Plan, drives: Mapping[str, InputMotion], start: Mapping[str, BodyMotion], samples: int
 ) -> list[GroupSolution]:
-    """The solutions of the plan's steps in one of the disturbed runs; start: as for `solve`."""
-    noise = Noise(np.random.default_rng(run // 2), UNITS * ROUNDING * (-1) ** run)
+    """The solutions of the plan's steps in all disturbed runs.
+
+    drives, start  as for `solve`, RUNS times the same samples, one run after the other
+    """
+    noise = Noise(np.random.default_rng(0), samples)
     known: dict[str, BodyMotion] = {GROUND: local_ground(plan.mechanism), **start}
     found = []
     for step in plan.steps:
@@ -96,5 +106,4 @@ def _residuals(step: GeneralGroup, known: Mapping[str, BodyMotion], noise: Noise
     """A disturbance of each loop equation [m], by the distances of the bodies."""
     away = sum(np.abs(known[body].carry(step.anchors[body]).position) for body in step.parents)
     signs = [noise.factor() - 1 for _ in range(3 * len(step.bodies))]
-    residuals: FloatArray = np.multiply.outer(step.scale + away, signs)
-    return residuals
+    return np.stack([(step.scale + away) * sign for sign in signs], axis=-1)

@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from ilmek.arrays import Bool, Int8, IntArray, RealField
+from ilmek.arrays import Bool, FloatArray, Int8, IntArray, RealField
 from ilmek.linkage.anchors import span
 from ilmek.linkage.body_motion import BodyMotion, PointMotion
 from ilmek.linkage.disturbance import ROUNDING, RUNS, disturbed_solutions
@@ -25,8 +25,14 @@ from ilmek.linkage.structure import Plan
 DOUBT = 1e-6 / ROUNDING
 """Growth of rounding errors above which a sample is solved again: a millionth of an acceleration."""
 
-DIGITS = 1e-2
-"""Largest error of an acceleration, relative to the largest of its group, of a sample that is OK."""
+SPREAD = 8e-3
+"""Largest difference of a disturbed acceleration, relative to the largest of its group, of a sample that is OK.
+
+Its error is to be below 1e-2, and may be somewhat greater than the spread of a few runs shows.
+"""
+
+PART = 1024
+"""Samples examined at once, which take RUNS times their memory."""
 
 CLEAR = 1e4 * ROUNDING
 """Least gap, relative to the size and to the growth of the known bodies' errors, that is not rounding."""
@@ -78,35 +84,34 @@ def judge(
                 doubtful |= lost & gap
             doubtful |= alive & (growth > DOUBT)
         before = np.fmax(before, growth)
-    if doubtful.any():
-        parts = [_part_of(one, doubtful) for one in solved]
-        begun = {body: _body_part(motion, doubtful) for body, motion in start.items()}
-        inputs = {name: drive.part(doubtful) for name, drive in drives.items()}
-        status[doubtful], at[doubtful] = examine(plan, inputs, begun, parts)
+    places = np.flatnonzero(doubtful)
+    for first in range(0, len(places), PART):
+        part = places[first : first + PART]
+        parts = [_part_of(one, part) for one in solved]
+        repeated = np.tile(part, RUNS)
+        begun = {body: _body_part(motion, repeated) for body, motion in start.items()}
+        inputs = {name: drive.part(repeated) for name, drive in drives.items()}
+        status[part], at[part] = _examined(plan, parts, disturbed_solutions(plan, inputs, begun, len(part)), len(part))
     return status, at
 
 
-def examine(
-    plan: Plan, drives: Mapping[str, InputMotion], start: Mapping[str, BodyMotion], solved: Sequence[GroupSolution]
+def _examined(
+    plan: Plan, solved: Sequence[GroupSolution], disturbed: Sequence[GroupSolution], samples: int
 ) -> tuple[Int8[np.ndarray, " samples"], IntArray]:
     """As `judge`, every sample from the spread of the disturbed solutions."""
-    samples = np.shape(next(iter(drives.values())).value)
     status, at = np.zeros(samples, dtype=np.int8), np.full(samples, -1)
-    runs = [disturbed_solutions(plan, drives, start, run) for run in range(RUNS)]
+    runs = RUNS, samples
     for k, step in enumerate(plan.steps):
         margin = solved[k].margin
         if margin is None:
             continue
         lost = np.broadcast_to(np.isnan(margin), samples)
-        met = np.any(
-            [np.broadcast_to(np.isfinite(np.asarray(run[k].margin, dtype=float)), samples) for run in runs], axis=0
-        )
+        met = np.isfinite(_by_run(np.asarray(disturbed[k].margin, dtype=float), runs)).any(axis=0)
         good = np.ones(samples, dtype=bool)
-        disturbed = [_accelerations(step, run[k].columns) for run in runs]
-        for which, (exact, scale) in enumerate(_accelerations(step, solved[k].columns)):
-            for one in disturbed:
-                for ours, theirs in zip(exact, one[which][0], strict=True):
-                    good &= np.abs(ours - theirs) <= DIGITS * scale  # False with a NaN
+        pairs = zip(_accelerations(step, solved[k].columns), _accelerations(step, disturbed[k].columns), strict=True)
+        for (exact, scale), (shaken, _) in pairs:
+            for ours, theirs in zip(exact, shaken, strict=True):
+                good &= (np.abs(ours - _by_run(theirs, runs)) <= SPREAD * scale).all(axis=0)  # False with a NaN
         alive = status == Status.OK
         _set(status, at, alive & lost & ~met, Status[step.failure], k)
         _set(status, at, alive & ((lost & met) | (~lost & ~good)), Status.DEAD_CENTRE, k)
@@ -130,6 +135,11 @@ def _accelerations(step: Step, columns: Mapping[str, Columns]) -> list[tuple[lis
     return [(moved, scale), (anchors, largest)]
 
 
+def _by_run(field: RealField, runs: tuple[int, int]) -> FloatArray:
+    """A disturbed field as an array of runs and samples."""
+    return np.broadcast_to(field, runs[0] * runs[1]).reshape(runs)
+
+
 def _set(status: np.ndarray, at: np.ndarray, which: Bool[np.ndarray, " samples"], new: Status, step: int) -> None:
     status[which], at[which] = new, step
 
@@ -138,15 +148,15 @@ def _finite(growth: RealField) -> RealField:
     return np.where(np.isfinite(growth), growth, 0.0)
 
 
-def _part_of(solved: GroupSolution, which: Bool[np.ndarray, " samples"]) -> GroupSolution:
+def _part_of(solved: GroupSolution, which: IntArray) -> GroupSolution:
     columns = {body: tuple(_part(field, which) for field in fields) for body, fields in solved.columns.items()}
     return GroupSolution(columns, None if solved.margin is None else _part(solved.margin, which), solved.best)
 
 
-def _body_part(body: BodyMotion, which: Bool[np.ndarray, " samples"]) -> BodyMotion:
+def _body_part(body: BodyMotion, which: IntArray) -> BodyMotion:
     anchor = PointMotion(*(_part(getattr(body.anchor, one), which) for one in ("position", "velocity", "acceleration")))
     return BodyMotion(anchor, body.at, *(_part(getattr(body, one), which) for one in ("direction", "omega", "alpha")))
 
 
-def _part(field: RealField, which: Bool[np.ndarray, " samples"]) -> RealField:
+def _part(field: RealField, which: IntArray) -> RealField:
     return field[which] if isinstance(field, np.ndarray) and field.ndim else field

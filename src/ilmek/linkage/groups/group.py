@@ -38,7 +38,7 @@ class InputMotion:
     jerk: RealField = 0.0
 
     def part(self, chosen: Any) -> "InputMotion":
-        """The samples of a slice or mask."""
+        """The samples of a slice, a mask or an array of indices."""
         fields = (self.value, self.speed, self.acceleration, self.jerk)
         return InputMotion(*(field[chosen] if isinstance(field, np.ndarray) else field for field in fields))
 
