@@ -24,4 +24,4 @@ def test_the_best_value_known_is_reached(case: PathCase):
 
 def test_the_semicircle_is_held_by_the_rocker_and_by_grashof():
     active = path_four_bars(SEMICIRCLE.task, seed=1)[0].active
-    assert active == ("rocker at its upper bound 50 m", "full rotation of the crank at its limit (Grashof)")
+    assert active == ("rocker at its upper bound 50000 mm", "full rotation of the crank at its limit (Grashof)")

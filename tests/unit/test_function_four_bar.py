@@ -47,6 +47,21 @@ def test_the_default_generates_log10_and_is_exact_at_five_places() -> None:
     assert MACHINES["function-four-bar"] is MACHINE
 
 
+def test_the_transmission_angle_is_that_of_the_whole_range() -> None:
+    settings = {"rocker_swing": "60deg", "crank_start": "45deg", "rocker_start": "60deg"}
+    said = answer(**settings)
+    (found,) = said.as_json()["results"]["solutions"]
+    drawn = FourBar(*(complex(*found[name]) for name in ("a0", "b0", "a", "b")))
+    motion = solve(plan(drawn.mechanism()), found["crank_start"] + np.linspace(0, 60 * deg, 200))
+    least = np.abs(np.sin(np.angle(motion.direction("rocker") / motion.direction("coupler")))).min()
+    assert found["transmission_min"] == pytest.approx(np.arcsin(least), abs=1e-9)
+    assert [(check.name, check.source) for check in said.failed] == [
+        ("transmission angle", "rule of thumb for rockers")
+    ]
+    required = answer(**settings, transmission_min="20deg").checks[-1]
+    assert (required.ok, required.limit, required.source) == (True, pytest.approx(20 * deg), "transmission_min")
+
+
 @pytest.mark.parametrize("criterion", ["least-squares", "minimax"])
 def test_criteria_over_the_range_with_both_start_angles_given(criterion: str) -> None:
     exact = answer(**POWER, **STARTS).as_json()["results"]["solutions"][0]

@@ -22,6 +22,9 @@ from ilmek.synthesis.four_bar import FourBar
 THREE = "(0mm,0mm,10deg) (25mm,15mm,3deg) (30mm,1mm,-25deg)"
 FOUR = "(0mm,0mm,35deg) (40mm,22mm,12deg) (78mm,12mm,-22deg) (92mm,-28mm,-60deg)"
 FIVE = "(0mm,0mm,0deg) (15mm,6mm,10deg) (28mm,8mm,24deg) (40mm,5mm,40deg) (50mm,-3mm,55deg)"
+FAR = "(40mm,22mm,35deg) (52mm,60mm,30deg) (43mm,86mm,26deg) (21mm,98mm,23deg) (1mm,94mm,22deg)"
+"""Five poses whose only four-bar without defects has a pivot a metre away."""
+
 LINKS = ("ground", "crank", "coupler", "rocker")
 
 
@@ -138,6 +141,22 @@ def test_the_answer_is_written_as_a_mechanism_file_that_is_read_again(tmp_path: 
     results = answer().as_json()["results"]
     motion = solve(plan(machine.mechanism), np.array(results["candidates"][0]["crank_angles"]))
     assert np.abs(motion.point("coupler", "P").position - read_poses("poses", THREE).points).max() < 1e-12
+
+
+def test_without_a_solution_no_file_is_written_and_the_rest_is_reported(tmp_path: Path) -> None:
+    files = ["--to", str(tmp_path / "none.toml"), "--workshop", str(tmp_path / "parts")]
+    run = CliRunner().invoke(main, ["design", "motion-four-bar", f"poses={FAR}", "size_max=900mm", *files])
+    assert run.exit_code == 3, run.output
+    assert "size alone removed 1, the nearest: size 1288 mm, allowed at most 900 mm" in run.output
+    assert "none.toml was not written: there is no linkage" in run.output
+    assert "parts was not written: there are no links" in run.output
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_links_far_from_their_poses_are_proven() -> None:
+    (found,) = answer(poses=FAR).as_json()["results"]["candidates"]
+    assert abs(complex(*found["a0"])) > 1
+    assert found["certified"]
 
 
 @pytest.mark.parametrize(

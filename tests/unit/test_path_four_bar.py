@@ -114,6 +114,24 @@ def test_a_search_that_ends_at_the_transmission_angle_is_kept_and_says_what_hold
     assert all(found["transmission_min"] == pytest.approx(40 * deg, abs=1e-6) for found in held)
 
 
+def test_hoeken_s_linkage_is_found_from_its_straight_line() -> None:
+    """Ground, crank, coupler and rocker are 2 : 1 : 2.5 : 2.5 and the tracer is at twice the coupler (Norton)."""
+    turns = np.linspace(0, np.pi, 9)
+    drawn = FourBar(0j, 40 + 0j, 20j, 20j + 50 * np.exp(1j * np.arctan2(-20, 40) + 1j * np.arccos(np.sqrt(2000) / 100)))
+    rods = 20 * np.exp(1j * (np.pi / 2 + turns))
+    joined = rods + (40 - rods) / 2 + 1j * (40 - rods) * np.sqrt(2500 / np.abs(40 - rods) ** 2 - 0.25)
+    line = 2 * joined - rods
+    assert joined[0] == pytest.approx(drawn.b)
+    assert np.ptp(line.imag) < 0.0025 * np.ptp(line.real)
+    points = " ".join(f"({point.real}mm,{point.imag}mm)" for point in line)
+    results = answer(points=points, timing=" ".join(f"{turn}rad" for turn in turns), starts="96").as_json()["results"]
+    found = four_bar(results["candidates"][0])
+    lengths = np.array(
+        [abs(found.b0 - found.a0), abs(found.a - found.a0), abs(found.b - found.a), abs(found.b - found.b0)]
+    )
+    assert lengths == pytest.approx([0.04, 0.02, 0.05, 0.05], rel=1e-6)
+
+
 NARROW = dict.fromkeys(("ground", "coupler", "rocker"), "20mm..21mm") | {"crank": "12mm..13mm"}
 
 

@@ -115,9 +115,7 @@ class MachineStrength:
         cure = f"a bush of {long}, or a thicker pin"
         yield at_most(f"pin {name}: pressure", found.pressure, pin.pressure, "MPa", "allowed of the pin", cure=cure)
         cure = "a longer bush, a rolling bearing, or a lower speed"
-        yield at_most(
-            f"pin {name}: pressure x speed", found.wear, pin.wear, "MPa*m/s", "allowed of the pin", cure=cure
-        )
+        yield at_most(f"pin {name}: pressure x speed", found.wear, pin.wear, "MPa*m/s", "allowed of the pin", cure=cure)
 
 
 def machine_strength(machine: OwnMachine, run: InverseRun) -> MachineStrength | None:

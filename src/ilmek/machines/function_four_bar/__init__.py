@@ -24,6 +24,7 @@ MACHINE = Component(
     design=design,
     results=lambda made: (made, made.choice),
     reported=(FunctionFourBar, FourBarSelection),
+    headline=("found", "left_out", "candidates"),
     checks=checks,
     self_tests=self_tests,
     tables=tables,

@@ -1,6 +1,7 @@
 """A four-bar for a function: found by the criterion, judged over the whole range, filtered."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -77,15 +78,22 @@ def design(params: FunctionFourBarParams) -> FunctionFourBar:
 
 
 def _judged(params: FunctionFourBarParams, function: Function, found: FunctionApproximation) -> Candidate:
-    """The four-bar judged where it is exact, or at the extremes of its error, within the greatest."""
+    """The four-bar judged where it is exact, or at the extremes of its error, within the greatest.
+
+    Transmission angle and size are those over the range, also where it goes beyond the first and last exact position.
+    """
     exact = params.criterion == "interpolation" and params.error_max is None
     nodes = function.nodes(params.free_points) if exact else found.at
     apart = np.abs(nodes - found.drawn_at) > SAME * abs(function.stop - function.start)
     x = np.concatenate([[found.drawn_at], nodes[apart]])
     near = params.error_max or (TOLERANCE if exact else found.greatest * (1 + ROUNDING) + TOLERANCE)
-    return judge(
+    judged = judge(
         found.four_bar, PrecisionTask(crank=function.crank(x), rocker=function.rocker(x), angle_tolerance=near)
     )
+    ends = np.array([found.drawn_at, function.start, function.stop])
+    task = PrecisionTask(crank=function.crank(ends), rocker=function.rocker(ends), angle_tolerance=np.pi)
+    over = judge(found.four_bar, task)
+    return replace(judged, transmission=over.transmission, size=over.size)
 
 
 def _details(function: Function, found: FunctionApproximation) -> dict[str, Json]:

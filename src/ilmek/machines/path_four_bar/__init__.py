@@ -25,6 +25,7 @@ MACHINE = Component(
     long=True,
     results=lambda made: (made, made.choice),
     reported=(PathFourBar, FourBarSelection),
+    headline=("found", "left_out", "candidates"),
     checks=checks,
     tables=tables,
     figures=figures,

@@ -4,7 +4,7 @@ import math
 
 from ilmek.machines.four_bar_figures import curve, drawn_and_moving, links, numbered, pins
 from ilmek.machines.path_four_bar.design import PathFourBar
-from ilmek.report import Dot, Drawing, Figure, Stroke, Table, columns
+from ilmek.report import Dot, Drawing, Figure, Stroke, Table, columns, rounded
 from ilmek.synthesis.path.confidence import SOUGHT
 from ilmek.synthesis.selection import FourBarOption, finite
 from ilmek.synthesis.selection_report import LINKS
@@ -114,7 +114,7 @@ def figures(design: PathFourBar) -> tuple[Figure, ...]:
     if best is None:
         return (Drawing("path-four-bar", "The points of the path", (), points),)
     title = f"Solution {design.choice.number} at its first point"
-    note = f"Its greatest error is {format_quantity(best.candidate.point_error, 'mm')}."
+    note = f"Its greatest error is {format_quantity(rounded(best.candidate.point_error, 'mm'), 'mm')}."
     still = Drawing("path-four-bar", title, (), points, note=note)
     return (*drawn_and_moving(best.candidate, still, "The same in motion"), *_cognates(design))
 

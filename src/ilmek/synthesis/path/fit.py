@@ -18,6 +18,7 @@ from ilmek.synthesis.path.limits import MARGIN, excess
 from ilmek.synthesis.path.model import NAMES, SIZE, TURN, coupler_point
 from ilmek.synthesis.path.task import PathTask
 from ilmek.synthesis.task import PrecisionTask
+from ilmek.units import format_quantity
 
 FULL_TURN = 2 * math.pi
 
@@ -148,20 +149,20 @@ def _active(
     low, high = task.limits()
     near, active = ACTIVE * task.size, []
     for index in range(SIZE):
-        name, unit = NAMES[index], "rad" if index >= TURN else "m"
+        name, unit = NAMES[index], "deg" if index >= TURN else "mm"
         if low[index] == high[index]:
             continue
         if design[index] - low[index] <= near:
-            active.append(f"{name} at its lower bound {low[index]:.6g} {unit}")
+            active.append(f"{name} at its lower bound {format_quantity(low[index], unit)}")
         if high[index] - design[index] <= near:
-            active.append(f"{name} at its upper bound {high[index]:.6g} {unit}")
+            active.append(f"{name} at its upper bound {format_quantity(high[index], unit)}")
     if excess(design, task.sign, task.kappa) >= -near:
         least = f"transmission angle at its limit {math.degrees(task.transmission):.4g} deg"
         active.append(least if task.transmission else "full rotation of the crank at its limit (Grashof)")
     if max(design[:4]) >= (1 - 2 * MARGIN) * task.link_ratio * min(design[:4]):
         active.append(f"ratio of links at its limit {task.link_ratio:.4g}")
     if math.isfinite(task.size_max) and extent(design, branch, np.empty(SIZE)) >= (RESERVE - MARGIN) * task.size_max:
-        active.append(f"size at its limit {task.size_max:.4g} m, less 1 %")
+        active.append(f"size at its limit {format_quantity(task.size_max, 'mm')}, less 1 %")
     if task.timing is None:
         active += [
             f"order: points {k + 1} and {k + 2} met at one crank angle"
