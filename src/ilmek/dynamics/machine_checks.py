@@ -1,7 +1,6 @@
-"""Checks of an own machine over an inverse run: that its drive keeps it moving, and the strength of links and pins."""
+"""Check of an own machine over an inverse run: its drive keeps it moving."""
 
 from ilmek.dynamics.inverse_run import InverseRun
-from ilmek.linkage.model import Rotation
 from ilmek.report import Check, must
 from ilmek.units import format_quantity
 
@@ -13,9 +12,10 @@ def locking(run: InverseRun) -> tuple[Check, ...]:
         return ()
     where = ""
     if run.locked.any() and run.driving is not None:
-        turning = any(isinstance(one, Rotation) for one in forces.mechanism.inputs if one.name == run.driving)
         values = forces.motion.drives[run.driving].value[run.locked]  # type: ignore[index]
-        first, last = (format_quantity(float(one), "deg" if turning else "mm") for one in (values.min(), values.max()))
+        first, last = (
+            format_quantity(float(one), "deg" if run.turning else "mm") for one in (values.min(), values.max())
+        )
         where = f"; it locks at {run.driving} from {first} to {last}"
     source = f"the drive keeps it moving against the friction of its joints{where}"
     cure = "lower the friction, lengthen the guides, or improve the transmission angle there"

@@ -17,7 +17,7 @@ from ilmek.dynamics.inverse_run import InverseRun, all_loads, greatest, inverse_
 from ilmek.dynamics.own_machine import ForwardTask, MotorDrive, OwnMachine, StopEvent
 from ilmek.dynamics.reduced import reduce
 from ilmek.errors import MechanismError
-from ilmek.linkage.model import Pin, Rotation
+from ilmek.linkage.model import Rotation
 from ilmek.linkage.structure import Plan
 from ilmek.records import computed, record
 
@@ -43,7 +43,7 @@ class OwnForward:
 
     @property
     def effort_error(self) -> float:
-        """Greatest difference of the drive's effort and that which the accelerations require, relative [1]."""
+        """Greatest difference between the drive's effort and the effort for the accelerations, relative [1]."""
         required = self.forces.effort(str(self.inverse.driving)) + self.wheel * self.run.acceleration
         size = greatest(required)
         return greatest(required - self.run.effort) / size if size > 0 else 0.0
@@ -74,8 +74,7 @@ class OwnForward:
 
     @computed("N", "greatest force of each pin in the forward run", shown=False)
     def forward_pin_forces_max(self) -> dict[str, float]:
-        pins = (one.name for one in self.forces.mechanism.joints if isinstance(one, Pin))
-        return {name: greatest(self.forces.reactions[name]) for name in pins}
+        return self.inverse.pin_forces_max
 
 
 def own_forward(machine: OwnMachine, plan: Plan, task: ForwardTask) -> OwnForward:

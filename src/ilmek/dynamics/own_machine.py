@@ -37,8 +37,8 @@ class FlatMember:
 
     width      in the plane of motion [m]      thickness  across it [m]
     material   name in `ilmek.elements.materials`
-    stress     allowed stress [Pa]; None: the material's fatigue limit, or its strength, over `safety`
-    safety     [1]
+    stress     allowed stress [Pa]; None: the material's strength over `safety`, and fatigue is checked
+    safety     against the material's strength, and against fatigue [1]
     """
 
     width: float

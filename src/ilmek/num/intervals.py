@@ -21,20 +21,17 @@ class Intervals:
     Operations on numbers of extended precision (`numpy.longdouble`) are rounded in extended precision.
 
     >>> third = Intervals.of(1.0) * Intervals.of(0.1)
-    >>> bool(third.low < 0.1 < third.high), (third - third).contains_zero.item()
-    (True, True)
+    >>> bool(third.low < 0.1 < third.high)
+    True
     """
 
     low: Numbers
     high: Numbers
 
     @classmethod
-    def of(cls, values: Numbers | float, ulps: int = 0) -> "Intervals":
-        """The numbers themselves, or their surroundings of some units in the last place."""
-        low = high = np.asarray(values)
-        for _ in range(ulps):
-            low, high = np.nextafter(low, -np.inf), np.nextafter(high, np.inf)
-        return cls(low, high)
+    def of(cls, values: Numbers | float) -> "Intervals":
+        """The numbers themselves."""
+        return cls(np.asarray(values), np.asarray(values))
 
     @classmethod
     def around(cls, centre: Numbers, radius: Numbers) -> "Intervals":
@@ -82,11 +79,6 @@ class Intervals:
         """Distance from `middle` within which each interval lies."""
         middle = self.middle
         return np.asarray(np.nextafter(np.maximum(middle - self.low, self.high - middle), np.inf))
-
-    @property
-    def contains_zero(self) -> np.ndarray:
-        """Whether each interval contains 0."""
-        return np.asarray((self.low <= 0) & (self.high >= 0))
 
     def __getitem__(self, index: Any) -> "Intervals":
         return Intervals(np.asarray(self.low)[index], np.asarray(self.high)[index])

@@ -1,26 +1,15 @@
-"""Selection of candidates: without defects and within given limits.
+"""Filters of candidates: against defects, and by given limits.
 
-Each filter against a defect is active by default; a limit is active where it is given. Removed candidates are kept with
-all reasons, and counted.
-
->>> from ilmek.synthesis.candidate import judge
->>> from ilmek.synthesis.four_bar import FourBar
->>> from ilmek.synthesis.task import PrecisionTask
->>> drawn = FourBar(0j, 4 + 0j, 1j, 3 + 3j, tracer=2 + 3j)
->>> print(filter_candidates([judge(drawn, PrecisionTask(points=np.array([2 + 3j, 0j])))]).words)
-1 four-bar: 0 kept, 1 removed
-misses a position: 1
+Each filter against a defect is active by default; a limit is active where it is given.
 """
 
-from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 
 from ilmek.params import Params, kind
-from ilmek.records import record
 from ilmek.report import snap_to_limit
 from ilmek.synthesis.candidate import Candidate
 from ilmek.units import deg, format_quantity
@@ -50,34 +39,6 @@ class Filters(Params):
     )
 
 
-@record
-class RemovedCandidate:
-    """A removed candidate and its reasons: name of a filter -> sentence."""
-
-    candidate: Candidate
-    reasons: Mapping[str, str]
-
-
-@dataclass(frozen=True, slots=True)
-class FilterResult:
-    """Candidates kept, the best transmission angle first, and candidates removed."""
-
-    kept: tuple[Candidate, ...]
-    removed: tuple[RemovedCandidate, ...]
-
-    @property
-    def counts(self) -> Mapping[str, int]:
-        """Number of candidates that failed each filter; a candidate may fail several."""
-        return Counter(reason for one in self.removed for reason in one.reasons)
-
-    @property
-    def words(self) -> str:
-        """Numbers of candidates kept and removed, and of the reasons, one per line."""
-        total = len(self.kept) + len(self.removed)
-        first = f"{total} four-bar{'' if total == 1 else 's'}: {len(self.kept)} kept, {len(self.removed)} removed"
-        return "\n".join([first, *(f"{REASONS[name]}: {count}" for name, count in self.counts.items())])
-
-
 REASONS = {
     "closes": "does not close at a position",
     "met": "misses a position",
@@ -101,27 +62,18 @@ LISTED_POSITIONS = 12
 """Greatest number of positions whose order is reported completely."""
 
 
-def filter_candidates(candidates: Iterable[Candidate], filters: Filters | None = None) -> FilterResult:
-    """Divide candidates into those that pass all filters, the best transmission angle first, and the removed ones.
-
-    filters  default: `Filters()`
-    """
-    filters = filters or Filters()
-    kept, removed = [], []
-    for one in candidates:
-        reasons = defects(one, filters)
-        if reasons:
-            removed.append(RemovedCandidate(one, reasons))
-        else:
-            kept.append(one)
-    return FilterResult(tuple(sorted(kept, key=lambda one: -one.least_transmission)), tuple(removed))
-
-
 def defects(one: Candidate, filters: Filters | None = None, *, task_only: bool = False) -> dict[str, str]:
     """Filters that a candidate fails -> reason as a sentence; a limit that is met but for rounding is kept.
 
     filters    default: `Filters()`
     task_only  whether the transmission angle is that from the first to the last position, also of a crank that turns
+
+    >>> from ilmek.synthesis.candidate import judge
+    >>> from ilmek.synthesis.four_bar import FourBar
+    >>> from ilmek.synthesis.task import PrecisionTask
+    >>> drawn = FourBar(0j, 4 + 0j, 1j, 3 + 3j, tracer=2 + 3j)
+    >>> list(defects(judge(drawn, PrecisionTask(points=np.array([2 + 3j, 0j])))))
+    ['met']
     """
     filters = filters or Filters()
     found = _of_positions(one) | _of_motion(one, filters, one.transmission_over(task_only=task_only))

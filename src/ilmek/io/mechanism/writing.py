@@ -21,9 +21,10 @@ from ilmek.dynamics.own_machine import (
 from ilmek.dynamics.springs import Spring, TorsionSpring
 from ilmek.errors import MechanismError
 from ilmek.io.mechanism.motions import ConstantSpeed, MotionSequence, MotionStep, TableMotion
+from ilmek.io.mechanism.names import driven_body
 from ilmek.io.mechanism.points import LARGEST_RATIO, extreme_lengths
 from ilmek.io.toml_text import written_quantity
-from ilmek.linkage.model import Body, Coupling, Joint, Mechanism, Pin, Rotation, Slide
+from ilmek.linkage.model import Body, Coupling, Joint, Mechanism, Pin, Rotation
 
 _SI_UNITS = {"mm": "m", "deg": "rad", "mm/rad": "m/rad", "MPa": "Pa", "MPa*m/s": "Pa*m/s", "h": "s"}
 """Unit in which a quantity is written -> the SI unit that is exact for any number."""
@@ -78,7 +79,7 @@ class _Writer:
         data["joints"] = {joint.name: self.joint(joint) for joint in mechanism.joints}
         tables: dict[str, Any] = {
             "couplings": {coupling.name: self.coupling(coupling) for coupling in mechanism.couplings},
-            "inputs": {entry.joint: _driven(mechanism, entry.joint, entry.name) for entry in mechanism.inputs},
+            "inputs": {entry.joint: driven_body(entry, mechanism) for entry in mechanism.inputs},
             "branches": dict(mechanism.branches),
             "pose": {
                 body: {"origin": self.xy(at), "angle": self.quantity(float(angle), "deg")}
@@ -249,11 +250,6 @@ def _is_default(side: object) -> bool:
 
 def _is_spring(load: Load) -> bool:
     return isinstance(load, Spring | TorsionSpring)
-
-
-def _driven(mechanism: Mechanism, joint: str, name: str) -> str:
-    found = mechanism.joint(joint)
-    return found.body if isinstance(found, Slide) else name
 
 
 def _needs_confirmation(mechanism: Mechanism) -> bool:

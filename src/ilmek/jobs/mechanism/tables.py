@@ -10,7 +10,7 @@ from ilmek.dynamics.machine_strength import MachineStrength
 from ilmek.dynamics.speed_study import StudyOfSpeeds
 from ilmek.jobs.mechanism.analysis import Analysis
 from ilmek.jobs.mechanism.run import MechanismRun
-from ilmek.linkage.model import Pin, Slide
+from ilmek.linkage.model import Pin, Rotation, Slide
 from ilmek.linkage.motion import moving_points
 from ilmek.linkage.outputs import Travel, output_history
 from ilmek.report import Column, Table, columns
@@ -135,9 +135,7 @@ def _drives_table(run: MechanismRun) -> Table:
     assert run.forces is not None
     heads = columns("input", "effort from", "effort to", "unit")
     efforts = run.forces.forces.efforts
-    units = {
-        entry.name: "N*m" if entry.name in run.plan.mechanism.moving else "N" for entry in run.plan.mechanism.inputs
-    }
+    units = {entry.name: "N*m" if isinstance(entry, Rotation) else "N" for entry in run.plan.mechanism.inputs}
     rows = tuple((name, *_ends(effort), units[name]) for name, effort in efforts.items()) if len(efforts) > 1 else ()
     return Table("drives", "Efforts of the inputs", heads, rows, brief=True)
 

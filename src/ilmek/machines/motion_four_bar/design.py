@@ -23,7 +23,9 @@ from ilmek.synthesis.burmester.links import (
     pair,
 )
 from ilmek.synthesis.candidate import Candidate, judge
+from ilmek.synthesis.distinct import pins_of
 from ilmek.synthesis.four_bar import FourBar
+from ilmek.synthesis.merit import extent_of_points
 from ilmek.synthesis.motion.certificate import certified
 from ilmek.synthesis.motion.limits import MotionLimits, breaches
 from ilmek.synthesis.motion.loosen import cures
@@ -82,9 +84,7 @@ class MotionFourBar(FourBarDesign):
     @property
     def extent(self) -> float:
         """Greatest distance of two poses' points [m]; of a body that only turns, the size of the four-bar."""
-        points = self.poses.points
-        most = float(np.max(np.abs(points[:, None] - points)))
-        return most or (self.best.candidate.size if self.best else 0.0) or 1.0
+        return extent_of_points(self.poses.points) or (self.best.candidate.size if self.best else 0.0) or 1.0
 
 
 def _link(one: Guide) -> Json:
@@ -154,9 +154,8 @@ def _pairs(params: MotionFourBarParams, inside: Sequence[Guide]) -> list[tuple[G
 
 
 def _option(four_bar: FourBar, poses: BodyPoses, made: str, apart: float = math.nan) -> FourBarOption:
-    pins = np.array([four_bar.a0, four_bar.b0, four_bar.a, four_bar.b])
     candidate = judge(four_bar, PrecisionTask(points=poses.points, coupler=poses.angles))
-    return FourBarOption(candidate, made, certified=certified(pins, poses), apart=apart)
+    return FourBarOption(candidate, made, certified=certified(pins_of(four_bar), poses), apart=apart)
 
 
 def _drawn(pins: ComplexArray, tracer: complex) -> FourBar:

@@ -14,6 +14,7 @@ from ilmek.progress import Progress
 from ilmek.records import record
 from ilmek.report import Json
 from ilmek.synthesis.candidate import Candidate, judge
+from ilmek.synthesis.distinct import pins_of
 from ilmek.synthesis.filters import defects
 from ilmek.synthesis.merit import extent_of_points
 from ilmek.synthesis.path.confidence import share_excluded
@@ -84,8 +85,7 @@ def nearest(params: PathFourBarParams, progress: Progress) -> Nearest:
     zero, tolerated = EXACT * extent_of_points(params.positions()), params.error_max is not None
     ranked = ranked_by_error(_unlike(sorted(good, key=best_first)), _error, zero=zero, tolerated=tolerated)
     listed = _apart(params, ranked)
-    order = {id(one): at for at, one in enumerate(listed)}
-    choice = choose(listed, (), params, filters=filters, rank=lambda one: order[id(one)])
+    choice = choose(listed, (), params, filters=filters, rank=lambda _: 0)  # as listed: sorting is stable
     counts = Counter(name for _, reasons in removed for name in reasons)
     family = SearchedFamily(len(ranked) + len(removed), len(ranked), counts)
     cures = () if listed else _cures(params, removed)
@@ -188,8 +188,7 @@ def _spaced(options: Sequence[FourBarOption], least: float) -> list[tuple[FourBa
     chosen: list[tuple[FourBarOption, float]] = []
     taken = np.zeros((0, 4), dtype=complex)
     for one in options:
-        drawn = one.candidate.four_bar
-        pins = np.array([drawn.a0, drawn.b0, drawn.a, drawn.b])
+        pins = pins_of(one.candidate.four_bar)
         gap = float(np.min(np.abs(taken - pins).max(axis=1), initial=math.inf))
         if gap >= least:
             chosen.append((one, gap))

@@ -9,7 +9,7 @@ driven shaft. Each mechanism has two bearings on either shaft, one beside each f
 
 import numpy as np
 
-from ilmek.arrays import FloatArray
+from ilmek.dynamics.inverse_run import rms
 from ilmek.dynamics.loads import Gravity
 from ilmek.dynamics.pin_strength import PinDuty, bearing_life, pin_duty
 from ilmek.elements.bearing_table import DEEP_GROOVE, ROLLING_BEARINGS, RollingBearing
@@ -110,8 +110,8 @@ def needle_strength(design: Tufting) -> NeedleStrength:
         line_mass=line,
         times=times,
     )
-    torque = design.shaft_torque()[1]
-    required = max(MARGIN * _rms(design), float(np.max(np.abs(torque))) / SERVO_PEAK)
+    angles, torque = design.shaft_torque()
+    required = max(MARGIN * rms(torque, angles), float(np.max(np.abs(torque))) / SERVO_PEAK)
     driven = design.ranges["driven_torque"]
     return NeedleStrength(
         limits=limits,
@@ -121,14 +121,6 @@ def needle_strength(design: Tufting) -> NeedleStrength:
         motor_torque=required,
         linkage=linkage_strength(found, limits, sections),
     )
-
-
-def _rms(design: Tufting) -> float:
-    """Root mean square of the torque of all bars on the main shaft [N m]."""
-    angle, torque = design.shaft_torque()
-    steps = np.diff(angle)
-    squares: FloatArray = (torque[1:] ** 2 + torque[:-1] ** 2) / 2
-    return float(np.sqrt(np.sum(squares * steps) / np.sum(steps)))
 
 
 def _shaft(duty: PinDuty, torque: tuple[float, float], limits: NeedleStrengthParams) -> ShaftStrength:
