@@ -99,7 +99,7 @@ def checks(design: FourBarDesign) -> tuple[Check, ...]:
     if choice.best is None:
         return (found,)
     required = design.params.transmission_min
-    cure = f"set transmission_min={format_quantity(TRANSMISSION, 'deg')}, or change the task"
+    cure = f"set transmission_min={math.degrees(TRANSMISSION):.4g}deg, or change the task"
     angle = at_least(
         "transmission angle",
         _least(choice.best),
