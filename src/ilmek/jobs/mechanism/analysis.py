@@ -14,7 +14,7 @@ from ilmek.jobs.mechanism.run import MechanismRun
 from ilmek.linkage.transmission import transmission_angles
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
-from ilmek.report import Check, at_most
+from ilmek.report import Check, at_least, at_most
 
 if TYPE_CHECKING:
     from ilmek.arrays import FloatArray
@@ -46,13 +46,21 @@ class Analysis:
 
     @property
     def checks(self) -> tuple[Check, ...]:
-        """What the machine must do: keep moving under friction, carry its forces, have a sufficient servo."""
+        """What the machine must do: close, keep moving under friction, carry its forces, have a sufficient servo."""
         forces, servo = self.run.forces, self.servo.checks if self.servo else ()
         locked = locking(forces) if forces is not None else ()
         strength = self.strength.checks if self.strength else ()
         started = self.start_strength.transient_checks if self.start_strength else ()
         started = tuple(replace(check, name=f"forward run: {check.name}") for check in started)
-        return (*locked, *strength, *started, *servo, *(test for test in self.self_tests if not test.ok))
+        return (*self._closes, *locked, *strength, *started, *servo, *(test for test in self.self_tests if not test.ok))
+
+    @property
+    def _closes(self) -> tuple[Check, ...]:
+        """Whether it closes over all of its range, where that is required."""
+        if not self.run.required or self.run.running is None:
+            return ()
+        cure = "change a link's length, or the range: --over FROM..TO"
+        return (at_least("closes over its range", self.run.closed_share, 1.0, "%", "range of the drive", cure=cure),)
 
     @property
     def self_tests(self) -> tuple[Check, ...]:

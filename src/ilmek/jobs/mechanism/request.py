@@ -10,7 +10,7 @@ from ilmek.errors import MechanismError
 from ilmek.linkage.model import Input, Rotation
 from ilmek.linkage.structure import Plan
 from ilmek.records import record
-from ilmek.units import parse_quantity, turn
+from ilmek.units import has_unit, parse_quantity, turn
 
 STEPS = 360
 """Default number of steps of a range."""
@@ -196,8 +196,17 @@ def _fixed(plan: Plan, inputs: Mapping[str, Input], texts: Mapping[str, str]) ->
             raise MechanismError(
                 f"{plan.mechanism.name} has no input {name!r}", allowed=f"it has {', '.join(inputs) or 'none'}"
             )
-        fixed[entry.name] = parse_quantity(text, "rad" if isinstance(entry, Rotation) else "m")
+        fixed[entry.name] = _quantity(text, "rad" if isinstance(entry, Rotation) else "m")
     return fixed
+
+
+def _quantity(text: str, unit: str) -> float:
+    """A quantity with its unit [SI]. Raises MechanismError for a number other than 0 without one, UnitError."""
+    value = parse_quantity(text, unit)
+    if value and not has_unit(text):
+        likely = {"rad": "deg", "m": "mm", "rad/s": "rpm", "m/s": "m/s"}[unit]
+        raise MechanismError(f"{text.strip()} has no unit", do=f"write {text.strip()}{likely}")
+    return value
 
 
 def _values(running: Input, request: MotionRequest, start: float) -> FloatArray:
@@ -215,7 +224,7 @@ def _values(running: Input, request: MotionRequest, start: float) -> FloatArray:
             f"the range {request.over!r} in {request.steps} steps cannot be read",
             do="write FROM..TO, like 0deg..360deg",
         )
-    first, last = (parse_quantity(end, "rad" if turning else "m") for end in (begin, end))
+    first, last = (_quantity(end, "rad" if turning else "m") for end in (begin, end))
     if first == last:
         raise MechanismError(f"the range {request.over} has no length", do="give one pose with --at instead")
     return np.linspace(first, last, request.steps + 1)
@@ -224,5 +233,10 @@ def _values(running: Input, request: MotionRequest, start: float) -> FloatArray:
 def _speed(running: Input, text: str, law: GivenMotion | None) -> float:
     """Speed of the driving input [rad/s; m/s]: that of the request, of the file, or 1."""
     if text:
-        return parse_quantity(text, "rad/s" if isinstance(running, Rotation) else "m/s")
+        speed = _quantity(text, "rad/s" if isinstance(running, Rotation) else "m/s")
+        if not speed:
+            raise MechanismError(
+                f"speed {text.strip()} of {running.name!r}", allowed="not 0", do="give a pose with --at"
+            )
+        return speed
     return 1.0 if law is None or law.speed is None else law.speed

@@ -39,6 +39,7 @@ class MechanismRun:
     time     of the samples [s]; None: nothing moves
     forces   None: without masses, loads and friction, or as `left_out` states
     assumed  whether the speed is neither that of the call nor of the file
+    required  whether the range is: given by the call, or that of a speed or motion of call or file
     """
 
     machine: OwnMachine
@@ -51,6 +52,7 @@ class MechanismRun:
     forces: InverseRun | None = None
     left_out: str = ""
     assumed: bool = False
+    required: bool = False
 
     @property
     def name(self) -> str:
@@ -117,6 +119,16 @@ class MechanismRun:
         return found.ranges if forwards else tuple((stop, start) for start, stop in reversed(found.ranges))
 
     @property
+    def closed_share(self) -> float:
+        """Share of the range of the driving input in which the mechanism closes [1]; of a pose 1."""
+        whole = float(np.ptp(self.values))
+        if self.running is None or not whole:
+            return 1.0
+        if self.closed is None:
+            return float(np.mean(self.motion.status == Status.OK))
+        return min(sum(abs(stop - start) for start, stop in self.closing) / whole, 1.0)
+
+    @property
     def samples_that_close(self) -> list[tuple[int, int]]:
         """First and last sample of each run of samples that close."""
         good = np.flatnonzero(self.motion.status == Status.OK)
@@ -151,6 +163,7 @@ def run(file: MechanismFile, request: MotionRequest, progress: Progress = SILENT
         forces,
         left_out,
         driven.assumed,
+        required=bool(request.over) or not driven.assumed,
     )
     _check_ranges(made)
     return made

@@ -13,6 +13,7 @@ from ilmek.jobs.mechanism.run import MechanismRun
 from ilmek.linkage.model import Pin, Rotation, Slide
 from ilmek.linkage.motion import moving_points
 from ilmek.linkage.outputs import Travel, output_history
+from ilmek.linkage.status import Status
 from ilmek.report import Column, Table, columns
 from ilmek.units import turn
 
@@ -147,7 +148,9 @@ def _transmission_table(found: Analysis) -> Table:
         Column("greatest", "deg"),
     )
     rows = []
-    for pin, angle in found.transmission.items():
+    open_samples = found.run.motion.status != Status.OK
+    for pin, every in found.transmission.items():
+        angle = np.where(open_samples, np.nan, every)
         least, most = _ends(angle)
         moves = found.run.running is not None and np.isfinite(angle).any()
         rows.append((pin, least, float(found.run.abscissa[int(np.nanargmin(angle))]) if moves else "", most))
@@ -168,9 +171,11 @@ def _points_table(run: MechanismRun) -> Table:
     heads = columns("point", "x from [mm]", "x to [mm]", "y from [mm]", "y to [mm]", "speed up to [m/s]")
     heads = (*heads, Column("acceleration up to", "m/s^2"))
     rows: list[Row] = []
+    open_samples = run.motion.status != Status.OK
     for body, point in moving_points(run.plan.mechanism):
         moved = run.motion.point(body, point)
-        at, velocity, acceleration = (np.asarray(one) for one in (moved.position, moved.velocity, moved.acceleration))
+        fields = (moved.position, moved.velocity, moved.acceleration)
+        at, velocity, acceleration = (np.where(open_samples, np.nan, one) for one in fields)
         level = ROUNDING * greatest(at)
         ends = (*_ends(at.real, level), *_ends(at.imag, level))
         rows.append((f"{point} of {body}", *ends, greatest(velocity), greatest(acceleration)))
@@ -180,12 +185,13 @@ def _points_table(run: MechanismRun) -> Table:
 def _bodies_table(run: MechanismRun) -> Table:
     heads = columns("body", "angle from [deg]", "angle to [deg]", "speed up to [rad/s]")
     heads = (*heads, Column("acceleration up to", "rad/s^2"))
-    motion = run.motion
-    rows = tuple(
-        (body, *_ends(motion.angle(body)), greatest(motion.omega(body)), greatest(motion.alpha(body)))
-        for body in run.plan.mechanism.moving
-    )
-    return Table("bodies", "Bodies", heads, rows, brief=True)
+    motion, open_samples = run.motion, run.motion.status != Status.OK
+    rows = []
+    for body in run.plan.mechanism.moving:
+        fields = (motion.angle(body), motion.omega(body), motion.alpha(body))
+        angle, omega, alpha = (np.where(open_samples, np.nan, one) for one in fields)
+        rows.append((body, *_ends(angle), greatest(omega), greatest(alpha)))
+    return Table("bodies", "Bodies", heads, tuple(rows), brief=True)
 
 
 def _ends(values: np.ndarray, rounding: float = 0.0) -> tuple[float, float]:
