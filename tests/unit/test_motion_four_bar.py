@@ -178,9 +178,3 @@ def test_a_line_of_pivots_is_intersected_with_the_curve() -> None:
     for found in results["candidates"]:
         assert abs(found["a0"][1] + 0.02) < 1e-10
         assert abs(found["b0"][1] + 0.02) < 1e-10
-
-
-def test_a_region_that_no_four_bar_of_the_size_reaches_has_no_answer() -> None:
-    report = answer(crank_region="(500mm,500mm) (501mm,501mm)", size_max="400mm", in_order="no")
-    assert report.as_json()["found"] == 0
-    assert report.failed
