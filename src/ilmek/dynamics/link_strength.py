@@ -36,7 +36,7 @@ class LinkStrength:
     """Strength of a link.
 
     body       its name
-    stress     greatest stress σv [Pa], nominal          position  of it: start and end of the beam, from the start [m]
+    stress     greatest stress σv [Pa], nominal          position  beam (start, end), from its start [m]
     fatigue    least safety against fatigue              buckling  least safety against buckling
     frequency  lowest natural frequency [rad/s]; inf without mass or beam
     """

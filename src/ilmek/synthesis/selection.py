@@ -139,7 +139,7 @@ def solutions(extra: str = "") -> Any:
 
 @record
 class SearchedFamily:
-    """A family of four-bars that was searched: how many of it, how many keep all limits, how many miss each limit."""
+    """A family of four-bars: how many were searched, how many keep all limits, how many miss each limit."""
 
     searched: int
     found: int

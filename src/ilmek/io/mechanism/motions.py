@@ -14,7 +14,6 @@ from ilmek.cams.laws import law_of
 from ilmek.cams.laws.law import Law
 from ilmek.dynamics.own_machine import GivenMotion
 from ilmek.errors import MechanismError
-from ilmek.io.mechanism.masses import Tables
 from ilmek.io.mechanism.names import input_of, value_of
 from ilmek.io.schema import Measured, SourceText
 from ilmek.linkage.model import Mechanism, Rotation
@@ -115,7 +114,9 @@ def _wrapped(time: FloatArray, period: float | None, rise: float) -> tuple[Float
     return times - count * period, count * rise
 
 
-def motions_of(tables: Tables, mechanism: Mechanism, source: SourceText) -> dict[str, GivenMotion]:
+def motions_of(
+    tables: Mapping[str, Mapping[str, Any] | Measured], mechanism: Mechanism, source: SourceText
+) -> dict[str, GivenMotion]:
     """Input -> the motion that it follows. Raises MechanismError with the line."""
     found: dict[str, GivenMotion] = {}
     for name, table in tables.items():
