@@ -83,7 +83,8 @@ class Browser:
         self._last += 1
         message = {"id": self._last, "method": method, "params": dict(params or {})}
         os.write(self._out, json.dumps(message | ({"sessionId": session} if session else {})).encode() + b"\0")
-        return self.until(lambda one: one.get("id") == self._last).get("result", {})
+        result: dict[str, Any] = self.until(lambda one: one.get("id") == self._last).get("result", {})
+        return result
 
     def until(self, wanted: Any) -> dict[str, Any]:
         """The first message that is wanted; those before it are noted."""

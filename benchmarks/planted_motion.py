@@ -61,7 +61,10 @@ def _task(random: np.random.Generator, drawn: FourBar, poses: np.ndarray) -> dic
     good = one.least_transmission > math.radians(15) and one.link_ratio < 8 and extent > 0.15 * one.size
     if not good or defects(one) or np.ptp(angles) < 0.05:
         return {}
-    slack = lambda: random.uniform(0.05, 0.10)  # noqa: E731
+
+    def slack() -> float:
+        return float(random.uniform(0.05, 0.10))
+
     settings = {
         "poses": " ".join(
             f"({point.real / mm:.10f}mm,{point.imag / mm:.10f}mm,{math.degrees(angle):.10f}deg)"

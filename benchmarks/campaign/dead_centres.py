@@ -145,7 +145,8 @@ def distances(mechanism: Mechanism) -> Distances:
     fixed = {name: at for name, at in mechanism.body(GROUND).points.items() if name in pins}
     pivot = fixed[entry.joint]
     arms = {name: at - pivot for name, at in crank.items() if name in pins and name != entry.joint}
-    free, pairs, lines = [], [], []
+    free: list[str] = []
+    pairs, lines = [], []
     for body in mechanism.bodies:
         points = {name: at for name, at in body.points.items() if name in pins}
         free += [name for name in points if name not in {*fixed, *arms, *free}]

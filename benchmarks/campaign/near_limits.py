@@ -237,7 +237,8 @@ def _error(mechanism: Mechanism, step: Step, moved: Motion, k: int, bodies: dict
         points = mechanism.body(body).points
         for point, local in points.items():
             at = bodies[body].carry(local)
-            joints.append(_apart(complex(moved.point(body, point).acceleration[k]), at.x.a, at.y.a))
+            ours = complex(np.asarray(moved.point(body, point).acceleration)[k])
+            joints.append(_apart(ours, at.x.a, at.y.a))
         arm = max(abs(one - other) for one in points.values() for other in points.values())
         omega, alpha = bodies[body].rates
         ours = complex(-(moved.omega(body)[k] ** 2), moved.alpha(body)[k])

@@ -8,6 +8,7 @@ import numpy as np
 from benchmarks.campaign.dead_centres import distances
 from ilmek.linkage.closing import closing
 from ilmek.linkage.model import GROUND, Body, Joint, Mechanism, Pin, Rotation, Slide
+from ilmek.linkage.motion import Motion
 from ilmek.linkage.one_input import one_input
 from ilmek.linkage.pose_branch import pose_branch
 from ilmek.linkage.solve import solve
@@ -51,11 +52,11 @@ def check(mechanism: Mechanism, samples: int = 2001) -> Checked:
     return Checked(max(errors), len(found.dead_centres), _missed(planned, found.ranges, samples))
 
 
-def _pins(motion: object, names: tuple[str, ...]) -> list[complex]:
+def _pins(motion: Motion, names: tuple[str, ...]) -> list[complex]:
     """Positions of pins at the first sample."""
     mechanism = motion.plan.mechanism
     owner = {point: body.name for body in mechanism.bodies for point in body.points if body.name != GROUND}
-    return [complex(motion.point(owner[name], name).position[0]) for name in names]
+    return [complex(np.ravel(motion.point(owner[name], name).position)[0]) for name in names]
 
 
 def _missed(planned: Plan, ranges: tuple[tuple[float, float], ...], samples: int) -> int:
@@ -183,6 +184,7 @@ def _branches(drawn: Mechanism, names: tuple[str, ...]) -> dict[str, int]:
                 drawn.bodies, drawn.joints, drawn.inputs, branches={**dict.fromkeys(names, 1), **signs}, name="random"
             )
             body = next(pin for pin in tried.joints if pin.name == name).bodies[0]
-            if abs(solve(plan(tried), 0.0).point(body, name).position[0] - tried.point(body, name)) < 1e-9:
+            at = complex(np.ravel(solve(plan(tried), 0.0).point(body, name).position)[0])
+            if abs(at - tried.point(body, name)) < 1e-9:
                 break
     return signs
