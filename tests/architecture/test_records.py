@@ -3,6 +3,7 @@
 import ast
 import re
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 SOURCES = sorted((Path(__file__).parents[2] / "src" / "ilmek").rglob("*.py"))
@@ -10,8 +11,13 @@ ARRAYS = re.compile(r"ndarray|Array\b|Float\[|Complex\[|Num\[|Int\[|Int8|Bool\[|
 MAPPINGS = re.compile(r"Mapping|dict\[|list\[|set\[")
 
 
-def compared_by_value() -> Iterator[tuple[str, ast.ClassDef]]:
+@cache
+def compared_by_value() -> tuple[tuple[str, ast.ClassDef], ...]:
     """The public dataclasses that compare by value."""
+    return tuple(_compared_by_value())
+
+
+def _compared_by_value() -> Iterator[tuple[str, ast.ClassDef]]:
     for path in SOURCES:
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):

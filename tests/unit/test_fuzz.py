@@ -15,7 +15,7 @@ CASES = Path(__file__).parents[1] / "fuzz_cases"
 LIMITS = Limits(hang=300.0, timing=False)
 """No test of time: the machine may be busy, and kernels may have to be compiled."""
 
-SECONDS = 15.0
+SECONDS = 8.0
 FIRST, MOST = 1_000_000, 3000
 """The first input of the share, not those of `make fuzz`; and how many a fast machine runs."""
 
