@@ -131,12 +131,13 @@ def _assembled(nodes: FloatArray, rigidity: float, linear_density: float) -> tup
     """Stiffness and mass by deflection and slope of each node."""
     size = 2 * len(nodes)
     stiffness, inertia = np.zeros((size, size)), np.zeros((size, size))
-    for number, h in enumerate(np.diff(nodes)):
-        scale = np.array([1.0, h, 1.0, h])
-        across = np.outer(scale, scale)
-        part = slice(2 * number, 2 * number + 4)
-        stiffness[part, part] += rigidity / h**3 * _STIFFNESS * across
-        inertia[part, part] += linear_density * h / 420 * _INERTIA * across
+    h = np.diff(nodes)[:, None, None]
+    scale = np.where(np.arange(4) % 2 == 1, h[:, 0], 1.0)
+    across = scale[:, :, None] * scale[:, None, :]
+    part = 2 * np.arange(len(h))[:, None] + np.arange(4)
+    at = part[:, :, None], part[:, None, :]
+    np.add.at(stiffness, at, rigidity / h**3 * _STIFFNESS * across)
+    np.add.at(inertia, at, linear_density * h / 420 * _INERTIA * across)
     return stiffness, inertia
 
 

@@ -30,7 +30,7 @@ def first_fault(plan: Plan, drives: Mapping[str, InputMotion], status: Int8[np.n
         known, solved = solved_steps(plan, drives, start)
         found, steps = judge(plan, drives, start, known, solved)
         first = min(steps[found != Status.OK])
-        found = np.where(steps == first, found, Status.OK)
+        found = np.where(steps == first, found, np.int8(Status.OK))
         nowhere = len(found) == len(bad) > 1 and found.all()
         branch = _branch(plan, moving, whole) if found.max() == Status.NOT_CONVERGED else ""
         where = _where(moving, drives, bad, found), "" if nowhere else " or ".join(one.name for one in moving)

@@ -10,6 +10,7 @@ are solved again with disturbed numbers (`disturbance`), and the spread decides.
 """
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -158,5 +159,6 @@ def _body_part(body: BodyMotion, which: IntArray) -> BodyMotion:
     return BodyMotion(anchor, body.at, *(_part(getattr(body, one), which) for one in ("direction", "omega", "alpha")))
 
 
-def _part(field: RealField, which: IntArray) -> RealField:
+def _part(field: Any, which: IntArray) -> Any:
+    """Samples of a real or complex field; a constant is the same in all."""
     return field[which] if isinstance(field, np.ndarray) and field.ndim else field

@@ -171,14 +171,9 @@ def linkage_strength(
 
     sections  width and thickness of each link [m]      name  of the limits' parameters
     """
-    seats: dict[tuple[float, float], list[PinDuty]] = {}
-    for pin in loads.pins:
-        joined = [sections[body] for body in pin.bodies if body in sections]
-        seat = min(width for width, _ in joined), min(thickness for _, thickness in joined)
-        seats.setdefault(seat, []).append(pin)
     pins: dict[str, PinStrength] = {}
     choices: list[Choice] = []
-    for (width, thickness), duties in seats.items():
+    for (width, thickness), duties in _seats(loads, sections).items():
         chosen, choice = _pins_for(duties, limits, width, thickness, loads.share, name)
         pins |= chosen
         choices += choice
@@ -192,16 +187,46 @@ def linkage_strength(
     return LinkageStrength(limits, links, pins, made, loads.speed, balance, tuple(choices))
 
 
-def _pins_for(  # noqa: PLR0917
-    duties: Sequence[PinDuty], limits: StrengthParams, width: float, thickness: float, share: float, name: str
-) -> tuple[dict[str, PinStrength], list[Choice]]:
-    """The pins between links of one size, and the choice of their diameter where there is one."""
+def pins_bear(loads: LinkageLoads, limits: StrengthParams, sections: Mapping[str, tuple[float, float]]) -> bool:
+    """Whether pins of stock between links of given sections are strong enough: quicker than all of `linkage_strength`.
+
+    Arguments as of `linkage_strength`.
+    """
+    seats = _seats(loads, sections).items()
+    tried = (_pins_tried(duties, limits, *seat, loads.share)[-1] for seat, duties in seats)
+    return all(check.ok for pins in tried for check in pin_checks(pins, limits))
+
+
+def _seats(
+    loads: LinkageLoads, sections: Mapping[str, tuple[float, float]]
+) -> dict[tuple[float, float], list[PinDuty]]:
+    """The pins by the least width and thickness of the links that they join [m]."""
+    seats: dict[tuple[float, float], list[PinDuty]] = {}
+    for pin in loads.pins:
+        joined = [sections[body] for body in pin.bodies if body in sections]
+        seat = min(width for width, _ in joined), min(thickness for _, thickness in joined)
+        seats.setdefault(seat, []).append(pin)
+    return seats
+
+
+def _pins_tried(
+    duties: Sequence[PinDuty], limits: StrengthParams, width: float, thickness: float, share: float
+) -> list[dict[str, PinStrength]]:
+    """The pins with each diameter of stock, ascending, up to the first that is enough."""
     stock = [size for size in PIN_DIAMETERS if size <= WIDEST_PIN * width] or [WIDEST_PIN * width]
     tried: list[dict[str, PinStrength]] = []
     for size in [limits.pin_diameter] if limits.pin_diameter else stock:
         tried.append({one.name: pin_strength(one, size, thickness, share=share) for one in duties})
         if all(check.ok for check in pin_checks(tried[-1], limits)):
             break
+    return tried
+
+
+def _pins_for(  # noqa: PLR0917
+    duties: Sequence[PinDuty], limits: StrengthParams, width: float, thickness: float, share: float, name: str
+) -> tuple[dict[str, PinStrength], list[Choice]]:
+    """The pins between links of one size, and the choice of their diameter where there is one."""
+    tried = _pins_tried(duties, limits, width, thickness, share)
     if len(tried) == 1:
         return tried[0], []
     sizes = (format_quantity(next(iter(one.values())).diameter, "mm") for one in tried[-2:])

@@ -41,7 +41,7 @@ from ilmek.machines.beat_up.strength import (
 from ilmek.machines.beat_up.travel import force_at_beat
 from ilmek.machines.hammer.comb import comb_mass, with_depth
 from ilmek.machines.hammer.params import MOST_BALLAST, MOST_BEATERS, HammerParams
-from ilmek.machines.linkage_strength import FLAT_BARS, LinkageLoads, linkage_strength, strength_checks
+from ilmek.machines.linkage_strength import FLAT_BARS, LinkageLoads, linkage_strength, pins_bear, strength_checks
 from ilmek.records import computed, group, record, result
 from ilmek.report import Alternative, Check, Choice, Part, at_most, choose
 from ilmek.units import format_quantity, turn
@@ -158,8 +158,10 @@ def _with_links(params: HammerParams, share: float) -> tuple[HammerParams, bool]
         # The links' own inertia counts as that of their whole mass at the beater.
         own = links * (lengths["coupler"] + lengths["beater"])
         loads = _unit_loads(params.ground).scaled(share + own, speed, turn / speed / (params.turn_time / 2))
-        found = linkage_strength(loads, params.links, dict.fromkeys(POINTS, (width, thickness)))
-        enough = all(check.ok for check in strength_checks(found))
+        sections = dict.fromkeys(POINTS, (width, thickness))
+        if not pins_bear(loads, params.links, sections):
+            continue
+        enough = all(check.ok for check in strength_checks(linkage_strength(loads, params.links, sections)))
         if enough:
             break
     return replace(params, link_width=width, link_thickness=thickness), enough

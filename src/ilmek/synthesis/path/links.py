@@ -44,10 +44,9 @@ def random_links(
     return found[np.arange(count) % len(found)] if len(found) else np.zeros((0, 4))
 
 
-def _even(links: Links, ratio: float) -> Links:
+def _even(links: Links, ratio: float) -> Float[np.ndarray, "kept 4"]:
     """Those whose longest link is at most `ratio` times the shortest, with the margin of a step."""
-    kept: Links = links[links.max(axis=1) <= ratio * (1 - MARGIN) * links.min(axis=1)]
-    return kept
+    return np.asarray(links[links.max(axis=1) <= ratio * (1 - MARGIN) * links.min(axis=1)])
 
 
 def _by_ratio(random: Float[np.ndarray, "some 3"], kind: int, kappa: float) -> Links:
