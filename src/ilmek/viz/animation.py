@@ -115,7 +115,7 @@ def _lines(pen: Pen, animation: Animation) -> Iterator[MovingPart]:
 
 
 def _middle(points: ComplexArray, *, closed: bool) -> ComplexArray:
-    """The point of a bar that bears its marker: a third of the way along its first part, or the middle of an area."""
+    """The point of a bar that bears its marker: at a third of its first part, or the middle of an area."""
     return np.asarray(points.mean(axis=1) if closed else points[:, 0] + 0.35 * (points[:, 1] - points[:, 0]))
 
 

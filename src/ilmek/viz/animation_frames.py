@@ -118,7 +118,7 @@ def _run(animation: Animation) -> FloatArray:
 
 
 def _between(value: float, frames: int) -> Callable[[ComplexArray], ComplexArray]:
-    """Values at a frame with a part of the way to the next."""
+    """Values between a frame and the next."""
     frame = int(value)
     share = value - frame
 

@@ -81,7 +81,7 @@ def axis_plots(axis: CombDrive) -> tuple[Plot, Plot]:
 
 
 def moving(design: Hammer, axis: CombDrive) -> Animation:
-    """The comb over a turn of the cams, with two beats: it presses the new row, and the fell gives way and returns.
+    """The comb over a turn of the cams, with two beats: it presses the new row, and the fell yields and returns.
 
     The force F of a warp moves the fell by its elastic displacement; the new row follows the comb while it is pressed.
     """
