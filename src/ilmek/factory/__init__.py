@@ -1,0 +1,1 @@
+"""The factory: several carpets on looms that exist, planned together."""

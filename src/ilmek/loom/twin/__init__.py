@@ -1,0 +1,1 @@
+"""The loom's digital twin: it executes a programme in time, knot by knot."""
