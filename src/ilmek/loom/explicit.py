@@ -74,4 +74,4 @@ def _setup_texts(setup: LoomSetup) -> Iterable[str]:
     for name in names:
         value = getattr(setup, name)
         many = value if isinstance(value, tuple) else (value,)
-        yield f"{name}={[astuple(one) if is_dataclass(one) else one for one in many]!r}"
+        yield f"{name}={[astuple(one) if is_dataclass(one) and not isinstance(one, type) else one for one in many]!r}"
