@@ -9,7 +9,7 @@ import pytest
 
 from ilmek.dynamics.friction import AngleRange, Friction, ValueRange, WindowedLoad
 from ilmek.dynamics.inertia import combined, point_mass
-from ilmek.dynamics.input_loads import Drag, FollowerForce, TabulatedLoad
+from ilmek.dynamics.input_loads import Drag, FollowerForce, TabulatedLoad, jumps
 from ilmek.dynamics.inverse import inverse
 from ilmek.dynamics.joint_friction import PinFriction, SlideFriction
 from ilmek.dynamics.loads import Load, PointForce, Torque
@@ -101,7 +101,8 @@ def test_every_table_is_read() -> None:
     assert isinstance(pressing, WindowedLoad)
     assert isinstance(pressing.window, AngleRange)
     assert (pressing.input_name, pressing.window.end) == ("crank", pytest.approx(turn * 0.75))
-    assert machine.loads[0].breaks == pytest.approx((7 * turn / 12, turn * 0.75))
+    assert sorted(jumps(pressing, "crank")) == pytest.approx((7 * turn / 12, turn * 0.75))
+    assert jumps(pressing, "another") == set()
     table = load(machine, "table")
     assert isinstance(table, TabulatedLoad)
     assert table.factor(np.radians([0, 45, 135, 270, 405])) == pytest.approx([0, 50, 50, 0, 50])

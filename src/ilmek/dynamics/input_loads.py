@@ -7,6 +7,7 @@ import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.dynamics.attached import attached
+from ilmek.dynamics.friction import AngleRange, Friction, WindowedLoad
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.loads import Load, Wrench
 from ilmek.errors import MechanismError
@@ -91,3 +92,15 @@ class TabulatedLoad:
         factor = self.factor(motion.drives[self.input_name].value)
         for wrench in self.load.wrenches(motion, inertias):
             yield Wrench(wrench.body, wrench.force * factor, wrench.at, wrench.torque * factor)
+
+
+def jumps(load: Load, input_name: str) -> set[float]:
+    """Values of an input [rad; m] at which a load jumps: the ends of its window, and of the windows of what it wraps.
+
+    A window of a whole turn has no ends. Windows over another input are left out.
+    """
+    inner = jumps(load.load, input_name) if isinstance(load, WindowedLoad | TabulatedLoad) else set[float]()
+    if not isinstance(load, WindowedLoad | Friction) or load.window is None or load.input_name != input_name:
+        return inner
+    whole = isinstance(load.window, AngleRange) and abs(load.window.end - load.window.start) >= turn
+    return inner if whole else inner | {load.window.start, load.window.end}

@@ -21,14 +21,10 @@ InputLaw: TypeAlias = Callable[[FloatArray], tuple[FloatArray, FloatArray, Float
 
 @record
 class NamedLoad:
-    """A load of the file, with the name by which forces, power and messages refer to it.
-
-    breaks  values of the driving input at which the load jumps [rad, of one turn; m], ascending
-    """
+    """A load of the file, with the name by which forces, power and messages refer to it."""
 
     name: str
     load: Load
-    breaks: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

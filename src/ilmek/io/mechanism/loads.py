@@ -15,7 +15,6 @@ from ilmek.io.mechanism.names import input_of, unknown, value_of
 from ilmek.io.mechanism.points import complex_of, polar
 from ilmek.io.schema import SourceText
 from ilmek.linkage.model import Input, Joint, Mechanism, Rotation, Slide
-from ilmek.units import turn
 
 
 def loads_of(data: Mapping[str, Any], mechanism: Mechanism, source: SourceText) -> tuple[NamedLoad, ...]:
@@ -30,17 +29,7 @@ def loads_of(data: Mapping[str, Any], mechanism: Mechanism, source: SourceText) 
                         f"the name {name!r} is used twice", do="give each load and spring its own name"
                     )
                 found[name] = made(table, mechanism)
-    return tuple(NamedLoad(name, load, _breaks(load)) for name, load in found.items())
-
-
-def _breaks(load: Load) -> tuple[float, ...]:
-    """Values of the input at which a load with a window jumps, ascending; angles within a turn."""
-    if not isinstance(load, WindowedLoad | Friction) or load.window is None:
-        return ()
-    window = load.window
-    if isinstance(window, ValueRange):
-        return window.start, window.end
-    return () if abs(window.end - window.start) >= turn else tuple(sorted({window.start % turn, window.end % turn}))
+    return tuple(NamedLoad(name, load) for name, load in found.items())
 
 
 def gravity_of(given: Any) -> complex:

@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from ilmek.arrays import FloatArray, RealField
+from ilmek.dynamics.input_loads import jumps
 from ilmek.dynamics.own_machine import GivenMotion, OwnMachine
 from ilmek.errors import MechanismError
 from ilmek.linkage.model import Input, Rotation
@@ -80,10 +81,10 @@ def driven_inputs(machine: OwnMachine, plan: Plan, request: MotionRequest) -> Dr
     running = _running(free, laws)
     law = laws.pop(running.name, None)
     if law is not None and law.speed is None and not (request.over or request.speed):
-        grid = TimeGrid(request.steps, jumps(machine, running.name))
+        grid = TimeGrid(request.steps, _jumps(machine, running.name))
         return _over_time(running, law, laws, fixed, grid)
     start = 0.0 if law is None else float(law.law(np.zeros(1))[0][0])
-    values = _with_jumps(_values(running, request, start), jumps(machine, running.name), isinstance(running, Rotation))
+    values = _with_jumps(_values(running, request, start), _jumps(machine, running.name), isinstance(running, Rotation))
     speed = _speed(running, request.speed, law)
     time = None if speed == 0 else (values - start) / speed
     rates = _rates(laws, np.zeros(len(values)) if time is None else time, fixed)
@@ -91,18 +92,9 @@ def driven_inputs(machine: OwnMachine, plan: Plan, request: MotionRequest) -> Dr
     return DrivenInputs(running, values, speed, time, rates, assumed=not request.speed and law is None)
 
 
-def jumps(machine: OwnMachine, name: str) -> tuple[float, ...]:
+def _jumps(machine: OwnMachine, name: str) -> tuple[float, ...]:
     """Values of an input at which a load of the machine jumps [rad; m], ascending."""
-    found: set[float] = set()
-    for one in machine.loads:
-        found |= set(one.breaks)
-        load: object = one.load
-        while load is not None:
-            window = getattr(load, "window", None)
-            if window is not None and getattr(load, "input_name", name) == name:
-                found |= {window.start, window.end}
-            load = getattr(load, "load", None)
-    return tuple(sorted(found))
+    return tuple(sorted(set[float]().union(*(jumps(one.load, name) for one in machine.loads))))
 
 
 def _with_jumps(values: FloatArray, at: Sequence[float], turning: bool) -> FloatArray:
