@@ -111,7 +111,12 @@ PortReport: TypeAlias = Done | Failed | SensorsChanged
 
 
 class LoomPort(Protocol):
-    """A loom, real or simulated."""
+    """A loom, real or simulated.
+
+    Reports come in the order of their times. The sensors are reported first, and whenever they change: what an
+    operation changes and changes back is reported before its `Done`. Of the knots alone this is not required; of a beat
+    it is `beater_back`, of a weft `shed_closed`, else the controller takes the sensor for stuck.
+    """
 
     def send(self, orders: Sequence[Order]) -> None:
         """Begin operations. A head, and the loom for an EndRow, must be idle."""
@@ -120,7 +125,13 @@ class LoomPort(Protocol):
         """What has happened since the last call, in order; waits for at most `timeout` [s] of the caller's clock."""
 
     def halt(self) -> None:
-        """Bring every motion to a stop at once, the operations in progress unfinished."""
+        """Bring every motion to a stop at once, the operations in progress unfinished; all axes are idle afterwards.
+
+        What had ended before is still reported; what was cut off never is, and may or may not be in the carpet.
+        """
+
+    def set_speed(self, factor: float) -> None:
+        """Speed of the operations that begin from now on, as a fraction of the programme's: > 0, 1 at first."""
 
     def knotted(self, row: int, column: int) -> bool | None:
         """Whether the sensor finds a knot on a warp pair of the row in work; None: it cannot tell."""
