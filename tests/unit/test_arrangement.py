@@ -20,10 +20,10 @@ from ilmek.machines.arrangement.spans import ShedRoom, shed_spans, spans_at
 from ilmek.machines.automated_loom import LoomDesign, design
 from ilmek.machines.automated_loom.bodies import CARRIER, GUIDE_CAMS, LEAVES, knot_bodies, row_bodies
 from ilmek.machines.automated_loom.figures import front
+from ilmek.machines.automated_loom.motion.row_side import one_row_from_the_side
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.automated_loom.parts import parts_of_loom
 from ilmek.machines.automated_loom.room import TOUCHING, clearances, room_checks, room_tables
-from ilmek.machines.automated_loom.row_animation import one_row_from_the_side
 from ilmek.machines.automated_loom.side_figures import room, side
 from ilmek.units import deg, mm, turn
 

@@ -68,12 +68,13 @@ class CallOutputs:
             else:
                 self.give(option, lambda: page)
 
-    def give_animation(self, option: str, report: "Report") -> None:
-        """Stage the motion that a report shows. Raises ParameterError where nothing moves."""
+    def give_animation(self, option: str, report: "Report", motion: str | None = None) -> None:
+        """Stage a motion that a report shows, the first or one by name. Raises ParameterError where there is none."""
         if option in self._to:
             from ilmek.jobs.animation import write_animation
 
-            write_animation(report, Path(self._to[option]), self.outputs, self.progress.part(0.0, 1.0, "animation"))
+            part = self.progress.part(0.0, 1.0, "animation")
+            write_animation(report, Path(self._to[option]), self.outputs, part, motion=motion)
 
     @property
     def files(self) -> dict[str, str]:

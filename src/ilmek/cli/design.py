@@ -1,11 +1,12 @@
 """`ilmek design`: design one machine from its parameters and report it."""
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import click
 
 from ilmek.cli.call_outputs import call_outputs
-from ilmek.cli.options import animation_option, force_option, json_option
+from ilmek.cli.options import animation_option, force_option, json_option, motion_option
 from ilmek.cli.report import headline_of, show_report
 from ilmek.cli.settings import read_settings, setting_files
 from ilmek.cli.terminal import note, say
@@ -20,6 +21,7 @@ Examples:
   ilmek design shedding --set lift=60mm --set pressure_angle_limit=30deg --report shedding.html
   ilmek design weaver --workshop parts --tolerance 2um
   ilmek design hammer --animation hammer.gif
+  ilmek design automated-loom --animation knot.gif --motion loom-knot-front
   ilmek design motion-four-bar --to gripper.toml
 
 The parameters of a machine, and their limits: ilmek machines MACHINE
@@ -42,6 +44,7 @@ The parameters of a machine, and their limits: ilmek machines MACHINE
 @json_option
 @click.option("--report", "page_to", type=click.Path(path_type=Path), metavar="FILE.html", help="Write a report page.")
 @animation_option
+@motion_option
 @click.option(
     "--workshop",
     "parts_to",
@@ -66,14 +69,16 @@ def command(  # noqa: PLR0917 - click calls it by name
     json_to: str | None,
     page_to: Path | None,
     animation_to: Path | None,
+    motion: str | None,
     parts_to: Path | None,
     mechanism_to: Path | None,
     tolerance: str | None,
     force: bool,
 ) -> int:
     """Design MACHINE and report it: results, checks against limits, warnings. Ends with 3 where a check fails."""
-    if parts_to is None and tolerance is not None:
-        raise click.UsageError("--tolerance needs --workshop DIR")
+    _require(
+        {"--tolerance": tolerance, "--motion": motion}, {"--workshop DIR": parts_to, "--animation FILE": animation_to}
+    )
     given = (*settings, *more, *(() if aim is None else (f"aim={aim}",)))
     if mechanism_to is not None:
         require_mechanism(name, mechanism_to)
@@ -82,7 +87,7 @@ def command(  # noqa: PLR0917 - click calls it by name
     with call_outputs(files, force=force, inputs=setting_files(given)) as call:
         made = design_machine(name, read_settings(given), workshop, outputs=call.outputs, progress=call.progress)
         call.give_page("--report", made.report)
-        call.give_animation("--animation", made.report)
+        call.give_animation("--animation", made.report, motion)
         if mechanism_to is not None and made.mechanism is not None:
             text = mechanism_text(made.mechanism, mechanism_to)
             call.give("--to", lambda: text)
@@ -103,3 +108,10 @@ def command(  # noqa: PLR0917 - click calls it by name
     for warning in made.warnings:
         note(warning)
     return exit_code(made.report.all_checks)
+
+
+def _require(options: Mapping[str, str | None], files: Mapping[str, Path | None]) -> None:
+    """Raise UsageError for an option without the output, in the same order, that it belongs to."""
+    for (option, given), (needed, path) in zip(options.items(), files.items(), strict=True):
+        if given is not None and path is None:
+            raise click.UsageError(f"{option} needs {needed}")

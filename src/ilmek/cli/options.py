@@ -20,4 +20,9 @@ animation_option = click.option(
     callback=lambda _context, _option, path: checked_animation(path),
     help="Write the machine in motion; MP4 needs the extra video.",
 )
+motion_option = click.option(
+    "--motion",
+    metavar="NAME",
+    help="The motion that --animation writes, by its name in the report; default: the first.",
+)
 force_option = click.option("--force", is_flag=True, help="Replace a folder that ilmek wrote, and any file.")

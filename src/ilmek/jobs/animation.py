@@ -15,15 +15,21 @@ from ilmek.viz.animation_frames import COLOURS, PICTURES, RATE, pictures
 from ilmek.viz.looks import looks_of
 
 
-def write_animation(report: Report, path: Path, outputs: Outputs, progress: Progress) -> None:
-    """Stage the first motion that a report shows, that of the machine itself before those of the machines in it.
+def write_animation(
+    report: Report, path: Path, outputs: Outputs, progress: Progress, *, motion: str | None = None
+) -> None:
+    """Stage a motion that a report shows.
 
-    Raises ParameterError where nothing moves; OutputError; Cancelled.
+    motion  name of the figure; default: the first one of the machine itself, else of the machines in it
+    Raises ParameterError where nothing moves, and for an unknown motion; OutputError; Cancelled.
     """
-    found = _first(report)
-    if found is None:
+    found = {animation.name: (owner, animation) for owner, animation in reversed(list(_moving(report)))}
+    if not found:
         raise ParameterError(f"--animation {path}: {report.title} shows no motion", do="leave --animation out")
-    owner, animation = found
+    name = motion or list(found)[-1]
+    if name not in found:
+        raise ParameterError(f"--motion {name}", allowed=f"one of {', '.join(reversed(found))}")
+    owner, animation = found[name]
     frames = _counted(pictures(animation, looks_of(owner.figures)), progress)
     if path.suffix.lower() == GIF:
         outputs.write(path, gif(frames, RATE, COLOURS))
@@ -32,12 +38,11 @@ def write_animation(report: Report, path: Path, outputs: Outputs, progress: Prog
         write_mp4(staged, frames, RATE)
 
 
-def _first(report: Report) -> tuple[Report, Animation] | None:
-    """The first figure that moves, and the report that shows it."""
-    for figure in report.figures:
-        if isinstance(figure, Animation):
-            return report, figure
-    return next((found for child in report.children if (found := _first(child))), None)
+def _moving(report: Report) -> Iterator[tuple[Report, Animation]]:
+    """The figures that move, each with the report that shows it; those of the machine itself first."""
+    yield from ((report, figure) for figure in report.figures if isinstance(figure, Animation))
+    for child in report.children:
+        yield from _moving(child)
 
 
 def _counted(frames: Iterator[Image.Image], progress: Progress) -> Iterator[Image.Image]:

@@ -12,7 +12,11 @@ from ilmek.loom.sharing import halves, heads_that_fit, share
 from ilmek.machines.arrangement.side_view import CamPosition, SideView
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.estimate import estimated_times_at
-from ilmek.machines.automated_loom.row_animation import one_row_from_the_side
+from ilmek.machines.automated_loom.motion.actuators import knot_forces, knot_speeds, row_forces, row_speeds
+from ilmek.machines.automated_loom.motion.knot_views import knot_from_the_front, knot_from_the_side, ties_by_grippers
+from ilmek.machines.automated_loom.motion.row_side import one_row_from_the_side
+from ilmek.machines.automated_loom.motion.row_views import row_from_above, row_from_the_front
+from ilmek.machines.automated_loom.motion.yarn_to_knot import yarn_to_knot
 from ilmek.machines.automated_loom.side_figures import room, side, spread
 from ilmek.report import Axis, Drawing, Figure, Mark, Plot, Series, Stroke, Timing
 from ilmek.report.left_out import LazyFigure
@@ -34,15 +38,24 @@ _WIDTH = 0.05
 
 
 def figures(loom: LoomDesign) -> tuple[LazyFigure, ...]:
-    """The loom's figures, the head's cyclogram among them."""
+    """The loom's figures: views, a row and a knot in motion with their actuators, the scaling of the weaving time."""
     scaling = time_of_one_head if loom.heads_max == 1 else time_against_pitch
+    by_grippers: tuple[Callable[[LoomDesign], Figure], ...] = (knot_from_the_front, yarn_to_knot)
     made: tuple[Callable[[LoomDesign], Figure], ...] = (
         side,
         room,
         one_row_from_the_side,
+        row_from_the_front,
+        row_from_above,
         front,
         one_row,
+        row_speeds,
+        row_forces,
+        knot_from_the_side,
+        *(by_grippers if ties_by_grippers(loom) else ()),
         one_knot,
+        knot_speeds,
+        knot_forces,
         scaling,
     )
     return tuple(partial(make, loom) for make in made)

@@ -1,0 +1,1 @@
+"""A loom's knot and row in motion: views from the side, from the front and from above; actuators over the angle."""
