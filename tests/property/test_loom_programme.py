@@ -35,7 +35,7 @@ def account(programme: Programme) -> tuple[float, list[int], list[int]]:
         spent = np.zeros((parts, programme.heads))
         for head, ties in enumerate(row.ties()):
             edges = row.edges[head * parts : (head + 1) * parts + 1]
-            place = edges[0] if row.forward else edges[-1] - 1
+            place = int(ties.pairs[0])  # a head begins a row at its first knot
             for pair, colour in zip(ties.pairs.tolist(), ties.colours.tolist(), strict=True):
                 part = int(np.searchsorted(edges, pair, side="right")) - 1
                 half = part if row.forward else parts - 1 - part

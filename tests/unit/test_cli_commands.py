@@ -73,9 +73,13 @@ def test_programme_ties_the_chart(woven: tuple[Path, Any]) -> None:
     with Image.open(folder / "chart.png") as image:
         chart = np.asarray(image)
     with open_programme(folder / "programme.ilmek") as programme:
-        tied = np.array([programme.row(number).colours for number in range(programme.rows)])
-        assert programme.totals.duration == found["weaving_time"]
-        assert programme.heads == 2
+        setup, tied = programme.setup, np.full(chart.shape, 255, np.uint8)
+        for number in range(setup.rows):
+            row = programme.operations(number)
+            of_head = np.repeat(np.arange(setup.heads), np.diff(row.starts))
+            tied[number, row.columns] = setup.loading[of_head, row.tubes]
+        assert programme.totals.duration == pytest.approx(found["weaving_time"], rel=1e-12)
+        assert setup.heads == 2
     assert np.array_equal(tied[::-1], chart)
 
 

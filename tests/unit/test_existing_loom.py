@@ -236,7 +236,7 @@ def test_weave_writes_a_programme_for_the_loom_of_a_folder(
     result = run("weave", str(picture), "--size", "40x50cm", *carpet, "--loom", loom, "--out", str(second))
     assert result.exit_code == 0, result.stdout + result.stderr
     with open_programme(second / "programme.ilmek") as programme:
-        assert (programme.rows, programme.columns) == (75, 60)
+        assert (programme.setup.rows, programme.setup.columns) == (75, 60)
     machines = [json.loads((folder / "machine.json").read_text())["results"] for folder in (first, second)]
     assert machines[0].pop("nearest") == []
     assert differences(*machines) == []

@@ -1,6 +1,5 @@
 """`ilmek inspect`: show a loom programme."""
 
-from collections.abc import Sequence
 from pathlib import Path
 
 import click
@@ -8,9 +7,8 @@ import click
 from ilmek.cli.call_outputs import call_outputs
 from ilmek.cli.options import force_option, json_option
 from ilmek.cli.terminal import say, show_pairs, show_table
-from ilmek.io.programme_file import ProgrammeFile
 from ilmek.jobs.inspect import InspectionResult, inspect_programme, runs
-from ilmek.loom.bobbins import ChangeStop
+from ilmek.loom.account import stop_duration
 from ilmek.units import format_quantity
 
 MOST_RUNS = 4000
@@ -49,32 +47,35 @@ def command(file: Path, number: int | None, force: bool, json_to: str | None) ->
         found = inspect_programme(file, number, progress=call.progress)
         call.give_json(found.as_json)
     if not call.quiet:
-        show_programme(found.programme)
+        show_programme(found)
         show_row(found)
 
 
-def show_programme(programme: ProgrammeFile) -> None:
+def show_programme(found: InspectionResult) -> None:
     """Print size, weaving time, yarns and heads of the whole carpet."""
-    label, totals, work = programme.label, programme.totals, programme.work
+    setup, totals, work = found.programme.setup, found.programme.totals, found.programme.work
     show_pairs(
         [
-            ("carpet", f"{label.size}, {label.quality}, {label.knot} knot"),
-            ("rows", f"{programme.rows:,} of {programme.columns:,} knots, {totals.knots:,} in all"),
-            ("loom", f"{programme.heads} heads, warp pitch {format_quantity(label.warp_pitch, 'mm')}"),
+            ("carpet", f"{setup.size}, {setup.quality}, {setup.knot} knot"),
+            ("rows", f"{setup.rows:,} of {setup.columns:,} knots, {totals.knots:,} in all"),
+            (
+                "loom",
+                f"{setup.heads} heads of {setup.tubes} tubes, warp pitch {format_quantity(setup.warp_pitch, 'mm')}",
+            ),
             ("weaving time", f"{format_quantity(totals.duration, 'h')}"),
             ("colour changes", f"{totals.changes:,}, {totals.changes_per_knot:.3f} per knot"),
-            ("stops", stops_in_words(programme.stops)),
+            ("stops", stops_in_words(found)),
         ]
     )
     bobbins = [
-        (one.yarn, f"{one.rows:,}", f"{one.changes(programme.rows):,}", format_quantity(one.time, "s"))
-        for one in programme.bobbins
+        (one.yarn, f"{one.rows:,}", f"{one.changes(setup.rows):,}", format_quantity(one.time, "s"))
+        for one in setup.wefts
     ]
     if bobbins:
         show_table(("bobbin", "rows", "changes", "time of one"), bobbins, right=(1, 2, 3))
     counted = [
         (yarn.name, yarn.hex, f"{count:,}", f"{count / totals.knots:.1%}")
-        for yarn, count in zip(label.yarns, totals.counts, strict=True)
+        for yarn, count in zip(setup.yarns, totals.counts, strict=True)
         if count
     ]
     show_table(("yarn", "colour", "knots", "share"), counted, right=(2, 3))
@@ -85,25 +86,30 @@ def show_programme(programme: ProgrammeFile) -> None:
     show_table(("head", "knots", "colour changes", "busy"), heads, right=(0, 1, 2, 3))
 
 
-def stops_in_words(stops: Sequence[ChangeStop]) -> str:
-    """The rows before which the loom stops, from 1 at the bottom, up to MOST_STOPS."""
+def stops_in_words(found: InspectionResult) -> str:
+    """What is changed in stops of the loom, and the rows before or in which, from 1 at the bottom, up to MOST_STOPS."""
+    stops, setup = found.stops, found.programme.setup
     if not stops:
-        return "none: no bobbin of weft is changed"
-    rows = ", ".join(str(one.row + 1) for one in stops[:MOST_STOPS])
+        return "none: no bobbin of weft and no package of pile yarn is changed"
+    rows = ", ".join(str(row + 1) for row in dict.fromkeys(one.row for one in stops[:MOST_STOPS]))
     more = f", … {len(stops) - MOST_STOPS:,} more: see --json" if len(stops) > MOST_STOPS else ""
-    time = format_quantity(sum(one.time for one in stops), "min", 3)
-    return f"{len(stops):,}, {time} in all, to change bobbins before row {rows}{more}"
+    spent = sum(stop_duration(one, setup.wefts, setup.times.tube_change) for one in stops)
+    wefts, tubes = sum(len(one.wefts) for one in stops), sum(len(one.tubes) for one in stops)
+    named = ((wefts, "bobbin", "of weft"), (tubes, "package", "of pile yarn"))
+    changed = " and ".join(f"{many:,} {one}{'' if many == 1 else 's'} {of}" for many, one, of in named if many)
+    return f"{len(stops):,}, {format_quantity(spent, 'min', 3)} in all, to change {changed}; rows {rows}{more}"
 
 
 def show_row(found: InspectionResult) -> None:
     """Print one row: for each head its runs of knots in the order of tying, up to MOST_RUNS of all heads."""
-    row, names = found.row, [yarn.name for yarn in found.programme.label.yarns]
+    setup = found.programme.setup
+    names = [yarn.name for yarn in setup.yarns]
     say(
-        f"row {row.number + 1} of {found.programme.rows}, from the bottom: {format_quantity(found.time, 's')}, "
-        f"woven to the {'right' if row.forward else 'left'}; knots from the left, in the order of tying"
+        f"row {found.row.number + 1} of {setup.rows}, from the bottom: {format_quantity(found.time, 's')}, "
+        f"woven to the {'right' if found.forward else 'left'}; knots from the left, in the order of tying"
     )
-    lines, most = [], max(1, MOST_RUNS // row.heads)
-    for head, ties in enumerate(row.ties(), 1):
+    lines, most = [], max(1, MOST_RUNS // setup.heads)
+    for head, ties in enumerate(found.ties, 1):
         tied = runs(ties)
         shown = [f"{a}–{b} {names[y]}" if a != b else f"{a} {names[y]}" for a, b, y in tied[:most]]
         if len(tied) > most:

@@ -1,64 +1,84 @@
 """The loom's programme as one file, `.ilmek`: an SQLite database with a compressed blob for each row.
 
-    meta   key, value    carpet, loom, totals, and both cyclograms with their laws by name; as JSON
-    row    number, time, data    loom row (0 at the carpet's bottom edge), its time [s], and zlib of
-                                 colours (a byte per knot, by column) + keys (three bytes per part, see `loom.schedule`)
+    meta    key, value                loom, carpet, yarns, times, cyclograms, digest; as JSON (`io.programme_meta`)
+    chart   number, data              loom row (0 at the carpet's bottom edge), zlib of a byte per knot: its yarn
+    row     number, phases, ends, data    its explicit operations (`io.programme_rows`)
+    change  row, phase, number, weft, head, tube, yarn, length    changes of packages in the stops
 
-The file is written into the staging folder of an output (`ilmek.io.output`), which makes it complete or nothing.
+A file that can be opened is whole and well-formed, and has its digest; whether its operations weave the chart is proved
+elsewhere. It is written into the staging folder of an output (`ilmek.io.output`), which makes it complete or nothing.
 """
 
 import contextlib
 import sqlite3
-import zlib
 from collections.abc import Iterator
-from dataclasses import fields
+from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
 
 import numpy as np
 
-from ilmek.arrays import FloatArray, IntArray, UInt8
+from ilmek.arrays import FloatArray, UInt8
 from ilmek.errors import IlmekError, LoomError
-from ilmek.io.programme_meta import Label, ProgrammeMeta, Totals, meta_texts, read_meta
+from ilmek.io.programme_meta import meta_texts, read_meta
+from ilmek.io.programme_rows import change_records, packed, packed_row, read_stops, unpacked, unpacked_row
 from ilmek.io.sqlite_readonly import DamagedDatabase, ReadOnlyDatabase, SqliteHeader
-from ilmek.loom.bobbins import Bobbin, ChangeStop, change_stops, stop_time
-from ilmek.loom.programme import HeadWork, Programme, Times, least_time
-from ilmek.loom.row import KnotRow, invalid_rows
-from ilmek.loom.schedule import PASSES
-from ilmek.loom.sharing import halves
+from ilmek.loom.account import HeadWork, ProgrammeAccount, stop_duration
+from ilmek.loom.explicit import programme_digest
+from ilmek.loom.operations import LoomProgramme, LoomSetup, RowOperations, Stop
 from ilmek.progress import SILENT, Progress
 
-APPLICATION, VERSION = 0x696C6D6B, 2
+APPLICATION, VERSION = 0x696C6D6B, 3
 """Application id (the letters `ilmk`) and version of the format, in the file's header."""
 
-_LEVEL = 6
 _PAGE = 8192
 _AGAIN = "write the programme again with `ilmek weave`"
 TABLES = {
     "meta": "CREATE TABLE meta (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID",
-    "row": "CREATE TABLE row (number INTEGER PRIMARY KEY, time REAL NOT NULL, data BLOB NOT NULL)",
+    "chart": "CREATE TABLE chart (number INTEGER PRIMARY KEY, data BLOB NOT NULL)",
+    "row": "CREATE TABLE row (number INTEGER PRIMARY KEY, phases INTEGER NOT NULL, ends BLOB NOT NULL, "
+    "data BLOB NOT NULL)",
+    "change": "CREATE TABLE change (row INTEGER, phase INTEGER, number INTEGER, weft INTEGER, head INTEGER, "
+    "tube INTEGER, yarn INTEGER, length REAL, PRIMARY KEY (row, phase, number)) WITHOUT ROWID",
 }
 """The tables of the file; a file with others is refused."""
 
 LARGEST_FILE = 1_000_000_000
-"""Largest size of a file [bytes]: MOST_KNOTS knots with keys take 200 to 800 MB where they cannot be compressed."""
+"""Largest size of a file [bytes]: MOST_KNOTS knots take up to 800 MB where they cannot be compressed."""
 
-_ROUNDING = 1e-9
-"""Relative difference of sums that are taken in another order."""
+MOST_CHANGES = 1_000_000
+"""Largest number of packages that are changed: years of an operator."""
 
-_BLOCK = 1 << 21
-"""Bytes of rows that are checked at once: they stay in the processor's cache."""
+_CHANGES = "SELECT phase, weft, head, tube, yarn, length FROM change WHERE row = ? ORDER BY phase, number"
 
 
-def write_programme(path: Path, programme: Programme, label: Label, *, progress: Progress = SILENT) -> None:
+@dataclass(frozen=True, slots=True)
+class Totals:
+    """Totals of the carpet, from the operations and the chart.
+
+    duration  weaving time with its stops [s]      changes  of the tube      travel  pitches moved by all heads
+    counts    knots of each yarn in the chart
+    """
+
+    duration: float
+    knots: int
+    changes: int
+    travel: int
+    counts: tuple[int, ...]
+
+    @property
+    def changes_per_knot(self) -> float:
+        """Colour changes per knot."""
+        return self.changes / max(self.knots, 1)
+
+
+def write_programme(path: Path, programme: LoomProgramme, *, progress: Progress = SILENT) -> None:
     """Write a programme to a new file.
 
-    Raises OSError or sqlite3.Error if it cannot be written, LoomError if the label's yarns are not the programme's, and
-    the error of a label that could not be read again.
+    Raises OSError or sqlite3.Error if it cannot be written, and the error of a setup that could not be read again.
     """
-    if len(label.yarns) != programme.yarns:
-        raise LoomError(f"{len(label.yarns)} yarns for a programme of {programme.yarns}")
-    texts = meta_texts(programme, label)
+    setup = programme.setup
+    texts = meta_texts(setup, "0" * 64)
     with contextlib.closing(sqlite3.connect(path, isolation_level=None)) as connection:
         # Nobody reads the file before the rename: no journal is needed.
         for pragma in (f"page_size={_PAGE}", "journal_mode=OFF", "synchronous=OFF", f"application_id={APPLICATION}"):
@@ -67,17 +87,40 @@ def write_programme(path: Path, programme: Programme, label: Label, *, progress:
         connection.execute("BEGIN")
         for statement in TABLES.values():
             connection.execute(statement)
+        writer = _Writer(connection, programme)
+        texts["digest"] = f'"{programme_digest(writer, progress)}"'
         connection.executemany("INSERT INTO meta VALUES (?, ?)", texts.items())
-        connection.executemany("INSERT INTO row VALUES (?, ?, ?)", _blobs(programme, progress))
         connection.execute("COMMIT")
+
+
+class _Writer:
+    """Writes each row of a programme when its digest is computed, so that a row is made once."""
+
+    def __init__(self, connection: sqlite3.Connection, programme: LoomProgramme) -> None:
+        self._connection, self._programme, self.setup = connection, programme, programme.setup
+        self.digest = ""
+
+    def operations(self, number: int) -> RowOperations:
+        """The operations of a row, written."""
+        row = self._programme.operations(number)
+        stored = (number, row.phases, bytes(map(int, row.ends)), packed_row(row))
+        self._connection.execute("INSERT INTO row VALUES (?, ?, ?, ?)", stored)
+        self._connection.executemany("INSERT INTO change VALUES (?, ?, ?, ?, ?, ?, ?, ?)", change_records(row.stops))
+        return row
+
+    def chart_row(self, number: int) -> UInt8[np.ndarray, " columns"]:
+        """A row of the chart, written."""
+        line = self._programme.chart_row(number)
+        self._connection.execute("INSERT INTO chart VALUES (?, ?)", (number, packed(line.tobytes())))
+        return line
 
 
 def open_programme(path: Path, *, progress: Progress = SILENT) -> "ProgrammeFile":
     """Open a programme for reading; close it, or use it as a context manager.
 
     The file may come from anybody: it is checked whole, every row included, before this returns.
-    Raises LoomError if the file is missing, no programme, of a newer format, too large, truncated or damaged, and where
-    its numbers do not agree with each other.
+    Raises LoomError if the file is missing, no programme, of another format, too large, truncated or damaged, and where
+    its rows have another digest.
     """
     _check_header(path)
     with _as_loom_error(path):
@@ -85,88 +128,72 @@ def open_programme(path: Path, *, progress: Progress = SILENT) -> "ProgrammeFile
     try:
         with _as_loom_error(path):
             stored = database.select("SELECT key, value FROM meta LIMIT 99")
-            file = ProgrammeFile(path, database, read_meta({_text(key): _text(value) for key, value in stored}))
-            _check_rows(file, progress)
-            return file
+            setup, digest = read_meta({_text(key): _text(value) for key, value in stored})
+            return ProgrammeFile(path, database, setup, digest, progress)
     except BaseException:
         database.close()
         raise
 
 
 class ProgrammeFile:
-    """An open programme: its label, its totals, and its rows one by one.
+    """An open programme, `loom.operations.LoomProgramme`, with its totals and the work of each head.
 
-    label, times, heads, edges, rows, columns    as in `Label` and `loom.programme.Programme`
-    bobbins                                      of weft: when each is changed
-    totals, work                                 totals of the carpet, and the work of each head
+    row_times  of each loom row with its end, without stops [s]     stopped  the rows with stops before their phases
     """
 
-    __slots__ = (
-        "_database", "bobbins", "columns", "edges", "heads", "label", "path", "rows", "times", "totals", "work",
-    )  # fmt: skip
+    def __init__(
+        self, path: Path, database: ReadOnlyDatabase, setup: LoomSetup, digest: str, progress: Progress
+    ) -> None:
+        self.path, self.setup, self.digest, self._database = path, setup, digest, database
+        self.stopped = self._stopped()
+        reading = _Reading(self)
+        if programme_digest(reading, progress) != digest:
+            raise self._damaged("its digest is not that of its rows")
+        self.row_times: FloatArray = np.array(reading.times)
+        self.work: HeadWork = reading.account.work
+        work, stops = self.work, reading.stop_time
+        self.totals = Totals(
+            float(self.row_times.sum()) + stops,
+            int(work.knots.sum()),
+            int(work.changes.sum()),
+            int(work.travel.sum()),
+            tuple(reading.counts.tolist()),
+        )
 
-    label: Label
-    rows: int
-    columns: int
-    heads: int
-    edges: IntArray
-    times: Times
-    bobbins: tuple[Bobbin, ...]
-    totals: Totals
-    work: HeadWork
-
-    def __init__(self, path: Path, database: ReadOnlyDatabase, meta: ProgrammeMeta) -> None:
-        self.path, self._database = path, database
-        for one in fields(meta):
-            setattr(self, one.name, getattr(meta, one.name))
-
-    @property
-    def stops(self) -> tuple[ChangeStop, ...]:
-        """The stops in which bobbins of weft are changed."""
-        return change_stops(self.bobbins, self.rows)
-
-    def row(self, number: int) -> KnotRow:
-        """Loom row `number`, 0 at the carpet's bottom edge. Raises LoomError beyond the carpet or if it is damaged."""
-        plain = np.frombuffer(self.unpacked(number, self._stored(number)[1]), np.uint8)
-        colours, keys = plain[: self.columns], plain[self.columns :].reshape(-1, 3)
+    def operations(self, number: int) -> RowOperations:
+        """The operations of a loom row. Raises LoomError beyond the carpet, or if it is damaged."""
+        self._require(number)
         with _as_loom_error(self.path):
-            return KnotRow(number, colours, keys, self.edges, self.heads)
+            changes = self._database.select(_CHANGES, int(number)) if number in self.stopped else iter(())
+            stops = read_stops(self.setup, number, changes)
+            stored = next(
+                self._database.select("SELECT phases, ends, data FROM row WHERE number = ?", int(number)), None
+            )
+        if stored is None:
+            raise self._damaged(f"row {number} is missing")
+        phases, ends, data = stored
+        row = unpacked_row(self.setup, number, (phases, ends, data), stops)
+        if row is None:
+            raise self._damaged(f"row {number} is damaged")
+        return row
 
-    def row_time(self, number: int) -> float:
-        """Time of a loom row with its wefts [s]. Raises LoomError as `row`."""
-        time = self._stored(number)[0]
-        if not isinstance(time, float):
-            raise self.damaged(f"row {number} is damaged")
-        return time
-
-    def stored_rows(self) -> Iterator[tuple[int, object, object]]:
-        """Number, time [s] and data of every row as stored, in order."""
-        yield from self._database.select("SELECT number, time, data FROM row ORDER BY number")
-
-    def unpacked(self, number: int, data: object) -> bytes:
-        """Colours and keys of a row. Raises LoomError if their length is not that of a row."""
-        expected = self.columns + 3 * (len(self.edges) - 1)
-        inflate = zlib.decompressobj()
-        try:
-            raw = inflate.decompress(data, expected + 1) if isinstance(data, bytes) else b""
-        except zlib.error:
-            raw = b""
-        if len(raw) != expected or not inflate.eof or inflate.unused_data:
-            raise self.damaged(f"row {number} is damaged")
-        return raw
-
-    def damaged(self, reason: str) -> LoomError:
-        """The error of a file that is damaged."""
-        return LoomError(f"{self.path}: {reason}", allowed="a whole programme", do=_AGAIN)
-
-    def _stored(self, number: int) -> tuple[object, object]:
-        if not 0 <= number < self.rows:
-            raise LoomError(f"row {number}", allowed=f"rows 0 to {self.rows - 1}")
+    def chart_row(self, number: int) -> UInt8[np.ndarray, " columns"]:
+        """Yarn of each knot of a loom row. Raises LoomError as `operations`."""
+        self._require(number)
         with _as_loom_error(self.path):
-            found = next(self._database.select("SELECT time, data FROM row WHERE number = ?", int(number)), None)
-        if found is None:
-            raise self.damaged(f"row {number} is missing")
-        return found[0], found[1]
+            stored = next(self._database.select("SELECT data FROM chart WHERE number = ?", int(number)), None)
+        if stored is None:
+            raise self._damaged(f"row {number} of the chart is missing")
+        raw = unpacked(stored[0], self.setup.columns)
+        line: UInt8[np.ndarray, " columns"] = np.frombuffer(raw or b"", np.uint8)
+        if len(line) != self.setup.columns or line.max() >= len(self.setup.yarns):
+            raise self._damaged(f"row {number} of the chart is damaged")
+        return line
+
+    def stops(self) -> Iterator[Stop]:
+        """All stops, in order."""
+        for number in self.stopped:
+            yield from self.operations(number).stops
 
     def close(self) -> None:
         """Close the file; rows that were read stay usable."""
@@ -180,15 +207,50 @@ class ProgrammeFile:
     ) -> None:
         self.close()
 
+    def _stopped(self) -> dict[int, None]:
+        """The rows with stops, in order. Raises LoomError for rows, and changes of packages, beyond the carpet."""
+        rows = self.setup.rows
+        for table, key in (("row", "number"), ("chart", "number"), ("change", "row")):
+            query = f"SELECT {key} FROM {table} WHERE {key} < 0 OR {key} >= ? LIMIT 1"
+            if next(self._database.select(query, rows), None) is not None:
+                raise self._damaged("it has more rows than the carpet")
+        found = {}
+        for count, (row,) in enumerate(self._database.select("SELECT row FROM change ORDER BY row")):
+            if count == MOST_CHANGES or type(row) is not int:
+                raise self._damaged("it has too many changes of packages, or one before no row")
+            found[row] = None
+        return found
 
-def _blobs(programme: Programme, progress: Progress) -> Iterator[tuple[int, float, bytes]]:
-    times = programme.row_times.tolist()
-    for number in range(programme.rows):
-        colours, keys = programme.knots[programme.rows - 1 - number], programme.keys[number]
-        yield number, times[number], zlib.compress(colours.tobytes() + keys.tobytes(), _LEVEL)
-        if number % 64 == 63:
-            progress((number + 1) / programme.rows)
-    progress(1.0)
+    def _require(self, number: int) -> None:
+        if not 0 <= number < self.setup.rows:
+            raise LoomError(f"row {number}", allowed=f"rows 0 to {self.setup.rows - 1}")
+
+    def _damaged(self, reason: str) -> LoomError:
+        return LoomError(f"{self.path}: {reason}", allowed="a whole programme", do=_AGAIN)
+
+
+class _Reading:
+    """Sums up each row of a file when its digest is computed, so that a row is read once."""
+
+    def __init__(self, file: ProgrammeFile) -> None:
+        self._file, self.setup, self.digest = file, file.setup, file.digest
+        self.account = ProgrammeAccount(file.setup.heads, file.setup.times)
+        self.times: list[float] = []
+        self.stop_time = 0.0
+        self.counts = np.zeros(len(file.setup.yarns), np.int64)
+
+    def operations(self, number: int) -> RowOperations:
+        """The operations of a row, summed up."""
+        row, setup = self._file.operations(number), self.setup
+        self.times.append(self.account.add(row))
+        self.stop_time += sum(stop_duration(one, setup.wefts, setup.times.tube_change) for one in row.stops)
+        return row
+
+    def chart_row(self, number: int) -> UInt8[np.ndarray, " columns"]:
+        """A row of the chart, counted."""
+        line = self._file.chart_row(number)
+        self.counts += np.bincount(line, minlength=len(self.counts))
+        return line
 
 
 def _check_header(path: Path) -> None:
@@ -221,55 +283,6 @@ def _text(stored: object) -> str:
         return stored.decode() if isinstance(stored, bytes) else ""
     except UnicodeDecodeError as error:
         raise DamagedDatabase("a text is not UTF-8") from error
-
-
-def _check_rows(file: ProgrammeFile, progress: Progress) -> None:
-    """Raise LoomError unless the file has exactly its rows, each can be replayed, and the totals are theirs."""
-    times = np.empty(file.rows)
-    counts = np.zeros(len(file.label.yarns), np.int64)
-    passes = np.zeros(len(file.edges) - 1, np.int64)
-    block: list[bytes] = []
-    size = max(1, _BLOCK // (file.columns + 3 * len(passes)))
-    number = -1
-    for number, (stored, time, data) in enumerate(file.stored_rows()):
-        if number == file.rows or stored != number:
-            raise file.damaged(f"row {number} is missing" if number < file.rows else "it has more rows than the carpet")
-        if not isinstance(time, float):
-            raise file.damaged(f"row {number} is damaged")
-        times[number] = time
-        block.append(file.unpacked(number, data))
-        if len(block) == size or number + 1 == file.rows:
-            _check_block(file, number + 1 - len(block), block, counts, passes)
-            block.clear()
-            progress((number + 1) / file.rows)
-    if number + 1 < file.rows:
-        raise file.damaged(f"row {number + 1} is missing")
-    _check_times(file, times)
-    by_head = passes.reshape(file.heads, halves(file.heads)).sum(axis=1)
-    if file.totals.counts != tuple(counts.tolist()) or np.any(file.work.passes != by_head):
-        raise file.damaged("the knots of its yarns, or the passes of its heads, are not those of its rows")
-
-
-def _check_block(file: ProgrammeFile, first: int, block: list[bytes], counts: IntArray, passes: IntArray) -> None:
-    """Check successive rows, and add their knots by yarn and their parts in passes."""
-    plain: UInt8[np.ndarray, "rows bytes"] = np.frombuffer(b"".join(block), np.uint8).reshape(len(block), -1)
-    colours, keys = plain[:, : file.columns], plain[:, file.columns :].reshape(len(block), -1, 3)
-    invalid = invalid_rows(first, colours, keys, file.edges, len(counts))
-    if invalid.any():
-        raise file.damaged(f"row {first + int(invalid.argmax())} is damaged")
-    counts += np.bincount(colours.ravel(), minlength=len(counts))
-    passes += np.count_nonzero(keys[:, :, 0] == PASSES, axis=0)
-
-
-def _check_times(file: ProgrammeFile, times: FloatArray) -> None:
-    """Raise LoomError unless each row takes at least the time of its knots and wefts, and their sum is the duration."""
-    least = least_time(1, file.columns, file.heads, file.times) * (1 - _ROUNDING)
-    invalid = ~((times >= least) & (times <= file.totals.duration * (1 + _ROUNDING)))
-    if invalid.any():
-        raise file.damaged(f"row {int(invalid.argmax())} has an impossible time")
-    woven = times.sum() + stop_time(file.bobbins, file.rows)
-    if abs(woven - file.totals.duration) > _ROUNDING * file.totals.duration:
-        raise file.damaged("the weaving time is not the sum of its rows and stops")
 
 
 @contextlib.contextmanager

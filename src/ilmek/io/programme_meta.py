@@ -1,37 +1,35 @@
 """The description of a loom programme in its file: one JSON text for each key of the table `meta`.
 
-    size, quality, knot, yarns, warp_pitch, cyclograms    of the carpet and the loom (`Label`)
-    rows, columns, heads, edges, times                    as in `loom.programme.Programme`
-    bobbins                                               of weft: yarn, rows that each lasts, time of its change
-    totals, work                                          of the carpet (`Totals`), and of each head (`HeadWork`)
+    digest                  of the programme (`loom.operations.LoomProgramme`)
+    all other keys          as in `loom.operations.LoomSetup`; `loading` and `packages` by head
 
-What is read is checked whole: every key, type, range and length, and that the numbers agree with each other. What is
-written is read again first, so that no file is written which cannot be read.
+What is read is checked whole: every key, type, range and length. What is written is read again first, so that no file
+is written which cannot be read.
 """
 
 import json
+import re
 import sys
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, fields
 from typing import Any
 
 import numpy as np
 
-from ilmek.arrays import IntArray
+from ilmek.arrays import FloatArray, UInt8
 from ilmek.cams.laws import law_of
 from ilmek.carpet.design import MOST_KNOTS
-from ilmek.carpet.quality import Quality
-from ilmek.carpet.sizes import CarpetSize
-from ilmek.carpet.yarn import MOST_YARNS, Yarn
+from ilmek.carpet.yarn import MOST_YARNS
 from ilmek.elements.knot_kinds import WRAPS
 from ilmek.errors import LoomError, shortened
 from ilmek.io.carpet_facts import quality_entry, size_entry, yarn_entries
 from ilmek.io.meta_entry import MetaEntry
+from ilmek.io.programme_rows import LONGEST_PACKAGE
 from ilmek.io.sqlite_readonly import LARGEST_VALUE
-from ilmek.loom.bobbins import Bobbin, stop_time
-from ilmek.loom.programme import LONGEST_TIME, MOST_PER_SIDE, HeadWork, Programme, Times
-from ilmek.loom.sharing import MOST_HEADS, halves, share
-from ilmek.records import record
+from ilmek.loom.bobbins import Bobbin
+from ilmek.loom.operations import EMPTY, ROW_ENDS, LoomSetup, OperationTimes
+from ilmek.loom.programme import LONGEST_TIME, MOST_PER_SIDE
+from ilmek.loom.sharing import MOST_HEADS
 from ilmek.timing.cyclogram import Cyclogram, Track, TrackEvent, TrackSegment
 from ilmek.units import parse_unit, turn
 
@@ -44,131 +42,65 @@ MOST_LAW_NUMBERS = 500
 MOST_BOBBINS = 4
 """Largest number of yarns of weft."""
 
-MOST_TRAVEL = 4 * MOST_YARNS * MOST_KNOTS
-"""Bound of the pitches moved by all heads: each pass of a part moves a head over less than four parts."""
+LONGEST_KNOT = 10.0
+"""Bound of the pile yarn of a knot [m]."""
 
 _SAME = 1e-9
-"""Relative difference of sums that are taken in another order."""
+"""Least share of a turn by which an actuator revolves."""
 
-_BLOCK = 1 << 21
-"""Knots that are counted at once."""
-
-_KEYS = (
-    "size", "quality", "knot", "yarns", "warp_pitch", "rows", "columns", "heads", "edges", "times", "bobbins", "totals",
-    "work", "cyclograms",
-)  # fmt: skip
+_DIGEST = re.compile(r"[0-9a-f]{64}")
+_KEYS = ("digest", *(field.name for field in fields(LoomSetup)))
 _SEGMENT = ("name", "start", "end", "begin", "finish")
 
 
-@dataclass(frozen=True, slots=True)
-class Label:
-    """Description of a programme: the carpet, its yarns in the order of the chart, the loom's warp pitch [m], and the
-    cyclograms of a knot and of a row.
-    """
-
-    size: CarpetSize
-    quality: Quality
-    knot: str
-    yarns: tuple[Yarn, ...]
-    warp_pitch: float
-    cyclograms: tuple[Cyclogram, ...] = ()
-
-
-@dataclass(frozen=True, slots=True)
-class Totals:
-    """Totals of the carpet.
-
-    duration  weaving time [s]
-    travel    pitches moved by all heads
-    counts    knots of each yarn
-    """
-
-    duration: float
-    knots: int
-    changes: int
-    travel: int
-    counts: tuple[int, ...]
-
-    @property
-    def changes_per_knot(self) -> float:
-        """Colour changes per knot."""
-        return self.changes / self.knots
-
-
-@record
-class ProgrammeMeta:
-    """The description of a programme."""
-
-    label: Label
-    rows: int
-    columns: int
-    heads: int
-    edges: IntArray
-    times: Times
-    bobbins: tuple[Bobbin, ...]
-    totals: Totals
-    work: HeadWork
-
-
-def meta_texts(programme: Programme, label: Label) -> dict[str, str]:
-    """The description as JSON texts by key. Raises an IlmekError for a label that would be refused when it is read."""
-    counts = np.zeros(programme.yarns, np.int64)
-    step = max(1, _BLOCK // programme.columns)
-    for first in range(0, programme.rows, step):
-        counts += np.bincount(programme.knots[first : first + step].ravel(), minlength=programme.yarns)
-    data = {
-        "size": asdict(label.size),
-        "quality": asdict(label.quality),
-        "knot": label.knot,
-        "yarns": [asdict(yarn) for yarn in label.yarns],
-        "warp_pitch": label.warp_pitch,
-        "rows": programme.rows,
-        "columns": programme.columns,
-        "heads": programme.heads,
-        "edges": programme.edges.tolist(),
-        "times": asdict(programme.times),
-        "bobbins": [asdict(bobbin) for bobbin in programme.bobbins],
-        "totals": {
-            "duration": programme.duration,
-            "knots": int(counts.sum()),
-            "changes": int(programme.work.changes.sum()),
-            "travel": int(programme.work.travel.sum()),
-            "counts": counts.tolist(),
-        },
-        "work": {one.name: getattr(programme.work, one.name).tolist() for one in fields(HeadWork)},
-        "cyclograms": [_cyclogram_record(cyclogram) for cyclogram in label.cyclograms],
-    }
+def meta_texts(setup: LoomSetup, digest: str) -> dict[str, str]:
+    """The description as JSON texts by key. Raises an IlmekError for a setup that would be refused when it is read."""
+    data = {field.name: _plain(getattr(setup, field.name)) for field in fields(setup)}
+    data |= {"digest": digest, "cyclograms": [_cyclogram_record(cyclogram) for cyclogram in setup.cyclograms]}
     texts = {key: json.dumps(value) for key, value in data.items()}
     read_meta(texts)
     return texts
 
 
-def read_meta(texts: Mapping[str, str]) -> ProgrammeMeta:
-    """The description from JSON texts by key, checked. Raises an IlmekError for the first fault, naming its key."""
+def _plain(value: Any) -> Any:
+    """A value of a setup as plain data."""
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    if isinstance(value, tuple):
+        return [_plain(one) for one in value]
+    return value if isinstance(value, str | int | float) else asdict(value)
+
+
+def read_meta(texts: Mapping[str, str]) -> tuple[LoomSetup, str]:
+    """Setup and digest from JSON texts by key, checked. Raises an IlmekError for the first fault, naming its key."""
     if set(texts) != set(_KEYS):
         raise LoomError("the description has other keys", allowed=", ".join(_KEYS))
     entries = {key: MetaEntry(key, _parsed(key, texts[key])) for key in _KEYS}
     rows, columns = (entries[key].whole(1, MOST_PER_SIDE) for key in ("rows", "columns"))
     if rows * columns > MOST_KNOTS:
         raise LoomError(f"{columns} x {rows} knots", allowed=f"at most {MOST_KNOTS // 1_000_000} million")
-    heads = entries["heads"].whole(1, MOST_HEADS)
-    edges = share(columns, heads)
-    if entries["edges"].wholes(len(edges), columns).tolist() != edges.tolist():
-        raise LoomError("the edges are not those of the heads", allowed="as `loom.sharing.share` gives them")
-    given_times = entries["times"].table(*Times.__slots__)
-    times = Times(**{key: one.number(0.0, LONGEST_TIME) for key, one in given_times.items()})
-    label = Label(
-        size_entry(entries["size"]),
-        quality_entry(entries["quality"]),
-        entries["knot"].one_of(*WRAPS),
-        yarn_entries(entries["yarns"]),
-        entries["warp_pitch"].number(1e-6, 1.0),
-        _CyclogramReader().cyclograms(entries["cyclograms"]),
+    heads, tubes = entries["heads"].whole(1, MOST_HEADS), entries["tubes"].whole(1, MOST_YARNS)
+    yarns = yarn_entries(entries["yarns"])
+    setup = LoomSetup(
+        loom=_digest(entries["loom"]),
+        size=size_entry(entries["size"]),
+        quality=quality_entry(entries["quality"]),
+        knot=entries["knot"].one_of(*WRAPS),
+        yarns=yarns,
+        warp_pitch=entries["warp_pitch"].number(1e-6, 1.0),
+        rows=rows,
+        columns=columns,
+        heads=heads,
+        tubes=tubes,
+        spacing=entries["spacing"].whole(1, MOST_PER_SIDE),
+        times=_times(entries["times"]),
+        loading=_loading(entries["loading"], heads, tubes, len(yarns)),
+        packages=_packages(entries["packages"], heads, tubes),
+        knot_yarn=tuple(one.number(0.0, LONGEST_KNOT) for one in entries["knot_yarn"].rows(len(yarns), len(yarns))),
+        wefts=_bobbins(entries["wefts"]),
+        cyclograms=_CyclogramReader().cyclograms(entries["cyclograms"]),
     )
-    bobbins, totals = _bobbins(entries["bobbins"]), _totals(entries["totals"], len(label.yarns))
-    meta = ProgrammeMeta(label, rows, columns, heads, edges, times, bobbins, totals, _work(entries["work"], heads))
-    _require_agreement(meta)
-    return meta
+    return setup, _digest(entries["digest"])
 
 
 def _parsed(key: str, text: str) -> Any:
@@ -178,6 +110,37 @@ def _parsed(key: str, text: str) -> Any:
         return json.loads(text)
     except (ValueError, RecursionError) as error:  # no JSON, a number of thousands of digits, deeply nested brackets
         raise LoomError(f"{key} is not JSON ({shortened(str(error), 100)})") from None
+
+
+def _digest(entry: MetaEntry) -> str:
+    text = entry.text()
+    if _DIGEST.fullmatch(text) is None:
+        entry.refuse("64 hexadecimal digits")
+    return text
+
+
+def _times(entry: MetaEntry) -> OperationTimes:
+    """The times of the operations: of a knot above 0, the ends of a row in their order."""
+    given = entry.table(*(field.name for field in fields(OperationTimes)))
+    ends = tuple(one.number(0.0, LONGEST_TIME) for one in given.pop("row_ends").rows(len(ROW_ENDS), len(ROW_ENDS)))
+    if list(ends) != sorted(ends):
+        raise LoomError("times.row_ends are not in order", allowed="ascending times")
+    times = OperationTimes(**{key: one.number(0.0, LONGEST_TIME) for key, one in given.items()}, row_ends=ends)
+    if times.knot == 0:
+        raise LoomError("time of knot 0 s", allowed="above 0 s")
+    return times
+
+
+def _loading(entry: MetaEntry, heads: int, tubes: int, yarns: int) -> UInt8[np.ndarray, "heads tubes"]:
+    loading = np.array([one.wholes(tubes, EMPTY) for one in entry.rows(heads, heads)])
+    if np.any((loading >= yarns) & (loading != EMPTY)):
+        raise LoomError("loading has an unknown yarn", allowed=f"0 to {yarns - 1}, and {EMPTY} for an empty tube")
+    return loading.astype(np.uint8)
+
+
+def _packages(entry: MetaEntry, heads: int, tubes: int) -> FloatArray:
+    found = [[one.number(0.0, LONGEST_PACKAGE) for one in row.rows(tubes, tubes)] for row in entry.rows(heads, heads)]
+    return np.array(found)
 
 
 def _bobbins(entry: MetaEntry) -> tuple[Bobbin, ...]:
@@ -190,46 +153,6 @@ def _bobbins(entry: MetaEntry) -> tuple[Bobbin, ...]:
     if len({bobbin.yarn for bobbin in found}) < len(found):
         raise LoomError("a yarn of weft has two bobbins", allowed="one for each")
     return tuple(found)
-
-
-def _totals(entry: MetaEntry, yarns: int) -> Totals:
-    given = entry.table(*(field.name for field in fields(Totals)))
-    return Totals(
-        given["duration"].number(0.0, sys.float_info.max),
-        given["knots"].whole(1, MOST_KNOTS),
-        given["changes"].whole(0, MOST_KNOTS),
-        given["travel"].whole(0, MOST_TRAVEL),
-        tuple(given["counts"].wholes(yarns, MOST_KNOTS).tolist()),
-    )
-
-
-def _work(entry: MetaEntry, heads: int) -> HeadWork:
-    given = entry.table(*(field.name for field in fields(HeadWork)))
-    busy = np.array([one.number(0.0, sys.float_info.max) for one in given.pop("busy").rows(heads, heads)])
-    return HeadWork(**{key: one.wholes(heads, MOST_TRAVEL) for key, one in given.items()}, busy=busy)
-
-
-def _require_agreement(meta: ProgrammeMeta) -> None:
-    """Raise LoomError unless totals, work and times agree: knots and sums exactly, times within their bounds.
-
-    A head is busy for knots t_knot + changes t_change, and for at most t_travel longer per pitch. The weaving time is
-    at least wefts, stops and the busiest head, at most wefts, stops and all heads one after the other.
-    """
-    work, totals, times = meta.work, meta.totals, meta.times
-    blocks = np.diff(meta.edges[:: halves(meta.heads)])
-    sums = (totals.knots, totals.knots, totals.changes, totals.travel)
-    if sums != (meta.rows * meta.columns, sum(totals.counts), int(work.changes.sum()), int(work.travel.sum())):
-        raise LoomError("the totals are not those of the yarns and heads")
-    if np.any(work.knots != meta.rows * blocks) or np.any(work.changes > work.knots):
-        raise LoomError("the work of the heads is not that of their knots")
-    least = work.knots * times.knot + work.changes * times.colour_change
-    most = least + work.travel * times.travel
-    if not np.all((least <= work.busy * (1 + _SAME)) & (work.busy <= most * (1 + _SAME))):
-        raise LoomError("the working times of the heads are not those of their work")
-    tying = totals.duration - meta.rows * times.weft - stop_time(meta.bobbins, meta.rows)
-    rounding = _SAME * totals.duration
-    if not work.busy.max() - rounding <= tying <= work.busy.sum() + rounding:
-        raise LoomError("the weaving time is not that of the heads and wefts")
 
 
 def _cyclogram_record(cyclogram: Cyclogram) -> dict[str, Any]:

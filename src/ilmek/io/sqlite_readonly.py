@@ -13,8 +13,8 @@ from typing import Any
 from ilmek.errors import LoomError, shortened
 from ilmek.io.regular_file import open_regular
 
-LARGEST_VALUE = 1_000_000
-"""Largest text, blob or row of a table [bytes]: four times a row of the widest carpet in the finest quality."""
+LARGEST_VALUE = 2_000_000
+"""Largest text, blob or row of a table [bytes]: more than a row of the widest carpet in the finest quality."""
 
 MOST_STEPS = 20_000_000
 """Largest number of instructions of SQLite's virtual machine for one query: ten times those for all rows of the largest

@@ -14,6 +14,7 @@ from ilmek.carpet.chart import Chart
 from ilmek.elements.carpet_yarns import CarpetYarnParams, CarpetYarns, carpet_yarns
 from ilmek.errors import IlmekError, LoomError, ParameterError
 from ilmek.io.loom_file import LoomFile, read_loom_file
+from ilmek.jobs.loom_setup import WISHES
 from ilmek.loom.sharing import heads_that_fit
 from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, LoomDesign, design
 from ilmek.machines.automated_loom.cyclogram import cyclogram
@@ -29,9 +30,6 @@ SAME_PITCH = 5e-3
 
 OF_THE_YARNS = "yarns."
 """Parameters of the loom that belong to the carpet, and can be set beside a loom's file."""
-
-WISHES = ("deadline", "price_limit")
-"""Parameters that limit what was chosen for the first carpet; they do not change the loom."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,55 +8,96 @@ from typing import Any
 
 import numpy as np
 
+from ilmek.arrays import Int32, UInt8
 from ilmek.errors import LoomError
 from ilmek.io.programme_file import ProgrammeFile, open_programme
-from ilmek.loom.row import HeadTies, KnotRow
+from ilmek.loom.account import stop_duration
+from ilmek.loom.operations import RowOperations, Stop
 from ilmek.progress import SILENT, Progress
 
 
 @dataclass(frozen=True, slots=True)
+class HeadTies:
+    """The knots of a head in a row, in order: warp pair (column of the chart) and yarn of each, as the chart has it."""
+
+    pairs: Int32[np.ndarray, " knots"]
+    yarns: UInt8[np.ndarray, " knots"]
+
+
+@dataclass(frozen=True, slots=True)
 class InspectionResult:
-    """A programme (its file is closed), one of its rows, and the time of that row with its wefts [s]."""
+    """A programme (its file is closed), its stops, one of its rows, and the time of that row with its wefts [s]."""
 
     programme: ProgrammeFile
-    row: KnotRow
+    stops: tuple[Stop, ...]
+    row: RowOperations
+    ties: tuple[HeadTies, ...]
     time: float
+
+    @property
+    def forward(self) -> bool:
+        """Whether the row is woven to the right: its last knot of the first head is right of the first one."""
+        first = self.ties[0].pairs
+        return len(first) == 0 or bool(first[0] <= first[-1])
 
     def as_json(self) -> dict[str, Any]:
         """The programme's statistics and the row, SI.
 
         Rows count from 1 at the bottom and pairs of warps (one knot each) from 1 at the left, as on the printed chart.
-        A stop is before its row.
-        Yarns are indices of the list `yarn`, from 0.
+        Heads, tubes and phases count from 1. A stop is before a phase of its row. Yarns are indices of the list `yarn`,
+        from 0.
         """
-        programme, row = self.programme, self.row
-        label, totals, work = programme.label, programme.totals, programme.work
+        programme, row, setup = self.programme, self.row, self.programme.setup
+        totals, work, times = programme.totals, programme.work, setup.times
         return {
-            "rows": programme.rows,
-            "columns": programme.columns,
+            "rows": setup.rows,
+            "columns": setup.columns,
             "knots": totals.knots,
-            "heads": programme.heads,
+            "heads": setup.heads,
+            "tubes": setup.tubes,
+            "loom": setup.loom,
+            "digest": programme.digest,
             "weaving_time": totals.duration,
             "colour_changes": totals.changes,
             "changes_per_knot": totals.changes_per_knot,
-            "size": {"width": label.size.width, "length": label.size.length, "name": label.size.name},
-            "quality": {"across": label.quality.across, "along": label.quality.along},
-            "knot": label.knot,
-            "warp_pitch": label.warp_pitch,
-            "times": {name: getattr(programme.times, name) for name in programme.times.__slots__},
+            "size": {"width": setup.size.width, "length": setup.size.length, "name": setup.size.name},
+            "quality": {"across": setup.quality.across, "along": setup.quality.along},
+            "knot": setup.knot,
+            "warp_pitch": setup.warp_pitch,
+            "times": {
+                "knot": times.knot,
+                "colour_change": times.colour_change,
+                "travel": times.travel,
+                "weft": times.row_ends[-1],
+                "row_ends": list(times.row_ends),
+                "tube_change": times.tube_change,
+            },
             "bobbins": [
-                {"yarn": one.yarn, "rows": one.rows, "changes": one.changes(programme.rows), "time": one.time}
-                for one in programme.bobbins
+                {"yarn": one.yarn, "rows": one.rows, "changes": one.changes(setup.rows), "time": one.time}
+                for one in setup.wefts
             ],
-            "stops": [{"row": one.row + 1, "yarns": list(one.yarns), "time": one.time} for one in programme.stops],
-            "yarn": [{"name": y.name, "knots": n} for y, n in zip(label.yarns, totals.counts, strict=True)],
+            "stops": [self._stop_json(stop) for stop in self.stops],
+            "yarn": [{"name": y.name, "knots": n} for y, n in zip(setup.yarns, totals.counts, strict=True)],
             "work": {one.name: getattr(work, one.name) for one in fields(work)},
             "row": {
                 "number": row.number + 1,
                 "time": self.time,
-                "forward": row.forward,
-                "heads": [{"pairs": ties.pairs.astype(np.int64) + 1, "yarns": ties.colours} for ties in row.ties()],
+                "forward": self.forward,
+                "heads": [{"pairs": ties.pairs.astype(np.int64) + 1, "yarns": ties.yarns} for ties in self.ties],
             },
+        }
+
+    def _stop_json(self, stop: Stop) -> dict[str, Any]:
+        setup = self.programme.setup
+        return {
+            "row": stop.row + 1,
+            "phase": stop.phase + 1,
+            "yarns": [setup.wefts[index].yarn for index in stop.wefts],
+            "tubes": [
+                {"head": one.head + 1, "tube": one.tube + 1, "yarn": one.yarn, "length": one.length}
+                for one in stop.tubes
+            ],
+            "time": stop_duration(stop, setup.wefts, setup.times.tube_change),
         }
 
 
@@ -67,8 +108,12 @@ def inspect_programme(file: Path, number: int | None = None, *, progress: Progre
     Raises LoomError for a row beyond the carpet, and as `open_programme`.
     """
     with open_programme(file, progress=progress.part(0.0, 1.0, "programme")) as programme:
-        index = random.randrange(programme.rows) if number is None else _index(number, programme.rows)
-        return InspectionResult(programme, programme.row(index), programme.row_time(index))
+        rows = programme.setup.rows
+        index = random.randrange(rows) if number is None else _index(number, rows)
+        row, colours, stops = programme.operations(index), programme.chart_row(index), tuple(programme.stops())
+        heads = itertools.pairwise(row.starts.tolist())
+        ties = tuple(HeadTies(row.columns[low:high], colours[row.columns[low:high]]) for low, high in heads)
+        return InspectionResult(programme, stops, row, ties, float(programme.row_times[index]))
 
 
 def _index(number: int, rows: int) -> int:
@@ -83,7 +128,9 @@ def runs(ties: HeadTies) -> list[tuple[int, int, int]]:
 
     Knots count from 1 at the left, yarns from 0.
     """
-    pairs, colours = ties.pairs.astype(np.int64) + 1, ties.colours
-    breaks = (np.abs(np.diff(pairs)) != 1) | (np.diff(colours.astype(np.int64)) != 0)
+    pairs, yarns = ties.pairs.astype(np.int64) + 1, ties.yarns
+    if not len(pairs):
+        return []
+    breaks = (np.abs(np.diff(pairs)) != 1) | (np.diff(yarns.astype(np.int64)) != 0)
     edges = np.concatenate(([0], np.flatnonzero(breaks) + 1, [len(pairs)])).tolist()
-    return [(int(pairs[begin]), int(pairs[end - 1]), int(colours[begin])) for begin, end in itertools.pairwise(edges)]
+    return [(int(pairs[begin]), int(pairs[end - 1]), int(yarns[begin])) for begin, end in itertools.pairwise(edges)]

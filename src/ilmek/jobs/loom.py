@@ -21,9 +21,11 @@ from ilmek.jobs.existing_loom import (
     row_pitch_left,
     yarns_on,
 )
+from ilmek.jobs.loom_setup import loom_setup
 from ilmek.jobs.nearest import with_nearest
 from ilmek.jobs.order import CarpetOrder
 from ilmek.jobs.wishes import Wishes, heads_for_wishes, require_price
+from ilmek.loom.operations import LoomSetup
 from ilmek.loom.programme import Programme, make_programme
 from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, LoomDesign, design
 from ilmek.params import Setting
@@ -74,6 +76,7 @@ class LoomResult:
     checks   of the loom for this chart: its deadline; of a loom that exists, what the carpet needs of it
     design, programme  None where the loom cannot be designed; no programme either where it exists and the carpet does
              not fit it
+    setup    of the programme
     row_pitch_left     distance of the rows that the beat leaves [m]; None without a design
     notes    on the use of a loom that exists
     """
@@ -82,6 +85,7 @@ class LoomResult:
     checks: tuple[Check, ...]
     design: LoomDesign | None = None
     programme: Programme | None = None
+    setup: LoomSetup | None = None
     row_pitch_left: float | None = None
     notes: tuple[str, ...] = ()
 
@@ -219,7 +223,8 @@ def make_loomed(loom_order: LoomOrder, charted: ChartResult, progress: Progress 
     report = with_nearest(report, params, progress.part(0.9, 1.0))
     require_price(loom_order.wishes, made, report, programme.duration)
     left = made.beat.row_pitch_left
-    return LoomResult(report, deadline_checks(loom_order.deadline, programme), made, programme, left)
+    setup = loom_setup(made, chart, programme.heads, knot_yarns(charted), programme.bobbins)
+    return LoomResult(report, deadline_checks(loom_order.deadline, programme), made, programme, setup, left)
 
 
 def _on_existing(loom_order: LoomOrder, existing: ExistingLoom, charted: ChartResult, progress: Progress) -> LoomResult:
@@ -229,14 +234,15 @@ def _on_existing(loom_order: LoomOrder, existing: ExistingLoom, charted: ChartRe
     row_pitch = 1 / chart.quality.along
     made, left = for_rows(existing, row_pitch), row_pitch_left(existing, row_pitch)
     if not all(check.ok for check in checks):
-        return LoomResult(existing.report, checks, made, None, left)
+        return LoomResult(existing.report, checks, made, row_pitch_left=left)
     heads = min(heads_used(existing, chart), loom_order.wishes.heads or made.heads)
     notes = (f"{heads} of the loom's {made.heads} heads are used; the others are parked",) if heads < made.heads else ()
     part = progress.part(0.0, 1.0, "programme")
     bobbins = made.weft.bobbins_for(2 * chart.columns + made.params.selvedge_warps, yarns)
     programme = make_programme(chart.knots, len(chart.yarns), heads, made.times, bobbins=bobbins, progress=part)
     checks = (*checks, *deadline_checks(loom_order.deadline, programme))
-    return LoomResult(existing.report, checks, made, programme, left, notes)
+    setup = loom_setup(made, chart, heads, knot_yarns(charted), bobbins)
+    return LoomResult(existing.report, checks, made, programme, setup, left, notes)
 
 
 def params_for(loom_order: LoomOrder, charted: ChartResult) -> AutomatedLoomParams:
@@ -258,10 +264,15 @@ def params_for(loom_order: LoomOrder, charted: ChartResult) -> AutomatedLoomPara
     )
 
 
+def knot_yarns(charted: ChartResult) -> tuple[float, ...]:
+    """The pile yarn of a knot of each yarn of a chart [m]."""
+    chart, pile = charted.chart, charted.pile
+    return tuple(knot_length(chart.knot, chart.quality, yarn.linear_density, pile) for yarn in chart.yarns)
+
+
 def yarn_of_a_knot(charted: ChartResult) -> float:
     """The longest pile yarn of a knot of a chart [m]."""
-    chart, pile = charted.chart, charted.pile
-    return max(knot_length(chart.knot, chart.quality, yarn.linear_density, pile) for yarn in chart.yarns)
+    return max(knot_yarns(charted))
 
 
 def deadline_checks(deadline: float | None, programme: Programme) -> tuple[Check, ...]:

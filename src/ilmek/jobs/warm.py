@@ -13,10 +13,10 @@ from PIL import Image
 
 from ilmek.io.picture import read_picture
 from ilmek.io.programme_file import open_programme, write_programme
-from ilmek.io.programme_meta import Label
 from ilmek.jobs.loom import read_loom_order
 from ilmek.jobs.order import read_order
 from ilmek.jobs.weave import weave
+from ilmek.loom.explicit import CompiledProgramme
 from ilmek.machines.motion_four_bar import MotionFourBarParams
 from ilmek.machines.motion_four_bar import design as motion_four_bar
 from ilmek.machines.path_four_bar import PathFourBarParams
@@ -35,12 +35,12 @@ def warm() -> float:
         read_picture(Path(folder) / "noise.jpg")
         order = read_order(picture, size="16x16cm", quality="10x10/dm", colours=8)
         woven = weave(order, read_loom_order(order, deadline="100h"), out)
-        chart, made = woven.charted.chart, woven.loomed.programme
+        made, setup = woven.loomed.programme, woven.loomed.setup
         assert made is not None
-        label = Label(chart.size, chart.quality, chart.knot, chart.yarns, 0.5 / chart.quality.across, ())
-        write_programme(out / "again.ilmek", made, label)  # the loom's own is written only where it weaves
+        assert setup is not None
+        # The loom's own is written only where it weaves.
+        write_programme(out / "again.ilmek", CompiledProgramme(setup, made))
         with open_programme(out / "again.ilmek") as programme:
-            programme.row(0).ties()
             return programme.totals.duration
 
 

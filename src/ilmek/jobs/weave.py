@@ -9,13 +9,13 @@ from ilmek.carpet.chart import Chart
 from ilmek.io.json_file import write_json
 from ilmek.io.output import Outputs, joined
 from ilmek.io.programme_file import write_programme
-from ilmek.io.programme_meta import Label
 from ilmek.jobs.carpet_files import file_notes
 from ilmek.jobs.carpet_report import page_of
 from ilmek.jobs.chart import ChartResult, chart_results, job_json, make_charted, write_chart
 from ilmek.jobs.loom import LoomOrder, LoomResult, make_loomed, params_for
 from ilmek.jobs.order import CarpetOrder
 from ilmek.jobs.yarn_warnings import currency_warning
+from ilmek.loom.explicit import CompiledProgramme
 from ilmek.progress import SILENT, Progress
 from ilmek.report import NEAREST, Check, Report, must, verdict_json
 from ilmek.report.left_out import made_or_left_out
@@ -144,11 +144,10 @@ def overlay_checks(chart: Chart) -> tuple[Check, ...]:
 
 def _write_programme(woven: WeaveResult, folder: Path, progress: Progress) -> tuple[str, ...]:
     """Write the programme if the loom weaves the carpet; returns the names of the written files."""
-    chart, made, programme = woven.charted.chart, woven.loomed.design, woven.loomed.programme
-    if not woven.weaves or made is None or programme is None:
+    setup, programme = woven.loomed.setup, woven.loomed.programme
+    if not woven.weaves or setup is None or programme is None:
         return ()
-    label = Label(chart.size, chart.quality, chart.knot, chart.yarns, made.params.pitch, made.cyclograms)
-    write_programme(folder / "programme.ilmek", programme, label, progress=progress)
+    write_programme(folder / "programme.ilmek", CompiledProgramme(setup, programme), progress=progress)
     return ("programme.ilmek",)
 
 

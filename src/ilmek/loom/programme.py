@@ -19,6 +19,7 @@ from ilmek.carpet.quality import FINEST
 from ilmek.carpet.sizes import LARGEST
 from ilmek.carpet.yarn import MOST_YARNS
 from ilmek.errors import LoomError
+from ilmek.loom.account import HeadWork
 from ilmek.loom.bobbins import Bobbin, ChangeStop, change_stops, stop_time
 from ilmek.loom.row import KnotRow
 from ilmek.loom.schedule import NONE, ByteTable, Layout, RowSpan, ScheduleResult, schedule
@@ -67,21 +68,6 @@ class Times:
     def as_tuple(self) -> tuple[float, float, float, float]:
         """(knot, colour change, travel, weft) [s], for the compiled functions."""
         return float(self.knot), float(self.colour_change), float(self.travel), float(self.weft)
-
-
-@record
-class HeadWork:
-    """Work of each head over the whole carpet, arrays (heads,).
-
-    knots  knots tied    changes  colour changes    travel  knot pitches travelled
-    passes  parts tied colour by colour             busy  working time [s]
-    """
-
-    knots: IntArray
-    changes: IntArray
-    travel: IntArray
-    passes: IntArray
-    busy: FloatArray
 
 
 @record

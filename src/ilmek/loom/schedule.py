@@ -104,7 +104,7 @@ def schedule(knots: Indices, layout: Layout, times: FourTimes, span: RowSpan, ou
                     column[head] = _begins(low, high, forward)
                 aim = _next_colour(knots, layout, head, row, half)
                 order, first, last, end, changes, idle, travel = _choose(
-                    line, (low, high, forward), (handler[head], column[head], aim), times, by_colour
+                    line, (low, high, forward), (handler[head], column[head], aim, half == 0), times, by_colour
                 )
                 spent = (high - low) * times[0] + changes * times[1] + idle * times[2]
                 slowest = max(slowest, spent)
@@ -174,15 +174,16 @@ def _next_colour(knots: Indices, layout: Layout, head: int, row: int, half: int)
 
 @compiled
 def _choose(
-    line: Line, bounds: tuple[int, int, bool], state: tuple[int, int, int], times: FourTimes, by_colour: IntArray
+    line: Line, bounds: tuple[int, int, bool], state: tuple[int, int, int, bool], times: FourTimes, by_colour: IntArray
 ) -> tuple[int, int, int, int, int, int, int]:
     """The faster order of a part: (order, first colour, last colour, last column, changes, idle pitches, pitches).
 
     bounds first column, column after the last, forward
-    state  colour in the handler, column of the head, first colour of its next part
+    state  colour in the handler, column of the head, first colour of its next part, whether it begins a row: then it
+           stands at its first knot
     """
     low, high, forward = bounds
-    handler, column, aim = state
+    handler, column, aim, begins = state
     runs = _scan(line, low, high, by_colour)
     start = _begins(low, high, forward)
     end = low + high - 1 - start
@@ -192,7 +193,7 @@ def _choose(
     passes = _sequence(ready, aim, by_colour)
     fewer = passes - _ready(handler, ready)
     if fewer < changes:
-        more_idle, travel, final = _walk(passes, by_colour, column)
+        more_idle, travel, final = _walk(passes, by_colour, column, begins)
         if fewer * times[1] + more_idle * times[2] < changes * times[1] + idle * times[2]:
             return PASSES, ready, by_colour[_SEQUENCE, passes - 1], final, fewer, more_idle, travel
     return SWEEP, first, last, end, changes, idle, abs(start - column) + high - low - 1
@@ -243,12 +244,13 @@ def _sequence(first: int, last: int, by_colour: IntArray) -> int:
 
 
 @compiled
-def _walk(passes: int, by_colour: IntArray, column: int) -> tuple[int, int, int]:
-    """Idle pitches, pitches and last column of the passes, begun at `column`."""
+def _walk(passes: int, by_colour: IntArray, column: int, begins: bool) -> tuple[int, int, int]:
+    """Idle pitches, pitches and last column of the passes, begun at `column`, or at their first knot."""
     idle = travel = 0
     for k in range(passes):
         colour = by_colour[_SEQUENCE, k]
         near, far, _ = _ends(colour, by_colour, column)
+        column = near if begins and k == 0 else column
         idle += _idle(near - column) + abs(far - near) - (by_colour[_COUNT, colour] - 1)
         travel += abs(near - column) + abs(far - near)
         column = far

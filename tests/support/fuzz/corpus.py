@@ -22,11 +22,12 @@ from fuzz.case import MINE, OLD
 from fuzz.mutations import changed_bytes, changed_text, changed_tree, scalar
 from ilmek.io.cyclogram_file import cyclogram_toml
 from ilmek.io.programme_file import write_programme
-from ilmek.io.programme_meta import Label
 from ilmek.jobs.cyclogram import find
-from ilmek.jobs.loom import read_loom_order
+from ilmek.jobs.loom import knot_yarns, read_loom_order
+from ilmek.jobs.loom_setup import loom_setup
 from ilmek.jobs.order import read_order
 from ilmek.jobs.weave import weave
+from ilmek.loom.explicit import CompiledProgramme
 from ilmek.loom.programme import make_programme
 
 ROOT = Path(__file__).parents[3]
@@ -123,10 +124,8 @@ def make_corpus() -> Corpus:
         chart, made = woven.charted.chart, woven.loomed
         assert made.design is not None
         by_two = make_programme(chart.knots, len(chart.yarns), 2, made.design.times, bobbins=made.design.bobbins)
-        label = Label(
-            chart.size, chart.quality, chart.knot, chart.yarns, made.design.params.pitch, made.design.cyclograms
-        )
-        write_programme(Path(folder) / "programme.ilmek", by_two, label)
+        setup = loom_setup(made.design, chart, 2, knot_yarns(woven.charted), by_two.bobbins)
+        write_programme(Path(folder) / "programme.ilmek", CompiledProgramme(setup, by_two))
         programme = (Path(folder) / "programme.ilmek").read_bytes()
         loom = json.loads((out / "machine.json").read_text(encoding="utf-8"))
     examples = {path.name: path.read_bytes() for path in sorted((ROOT / "examples").glob("*.toml"))}

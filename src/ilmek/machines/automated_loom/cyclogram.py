@@ -40,7 +40,18 @@ from ilmek.machines.weaver.motions import (
 from ilmek.machines.weft import WeftPassage
 from ilmek.records import value_record
 from ilmek.report import CamTable
-from ilmek.timing.cyclogram import Cyclogram, Exclusion, Moment, Relation, Track, TrackEvent, TrackSegment, Zone, riding
+from ilmek.timing.cyclogram import (
+    Cyclogram,
+    Exclusion,
+    Moment,
+    Relation,
+    Track,
+    TrackEvent,
+    TrackSegment,
+    Zone,
+    moment_angle,
+    riding,
+)
 from ilmek.timing.s_curve import s_curve
 from ilmek.timing.track import MotionLaw, shortest_period
 from ilmek.units import deg, turn
@@ -301,6 +312,21 @@ def _heads(timing: RowTiming) -> Track:
 def shortest_retreat(timing: RowTiming, speed_limit: float, acceleration_limit: float) -> float:
     """The shortest turn of the cams [s] in which the heads' rail keeps its limits."""
     return shortest_period(_heads(timing), speed_limit, acceleration_limit)
+
+
+def row_ends(row: Cyclogram) -> tuple[float, ...]:
+    """Times [s] at which straight weft, first beat, sinuous weft, second beat and take-up of a row end.
+
+    A weft ends where it is laid, a beat where the beater is back, the take-up with the turn.
+    """
+    carrier = next(track.name for track in row.tracks if track.name in WEFT_CARRIERS)
+    moments = (
+        Moment(carrier, "straight weft laid", "event"),
+        Moment(BEATER, "back 1", "end"),
+        Moment(carrier, "sinuous weft laid", "event"),
+        Moment(BEATER, "back 2", "end"),
+    )
+    return (*(moment_angle(row, moment) / turn * row.period for moment in moments), row.period)
 
 
 def take_up_time(timing: RowTiming, period: float) -> float:

@@ -59,7 +59,19 @@ class AutomatedLoomParams(Params):
     head_width: float | None = kind.length(
         None, at_least=0.01, at_most=1.0, doc="width of a head, least distance of two; default: what its contents need"
     )
-    colours: int = param(16, at_least=1, at_most=255, doc="yarns, a tube for each in every head")
+    colours: int = param(16, at_least=1, at_most=255, doc="yarns of the carpet")
+    tubes: int | None = param(
+        None, at_least=1, at_most=255, doc="yarn tubes of a head; default: one for each of the colours"
+    )
+    package_mass: float = kind.mass(
+        1.0, at_least=1e-3, at_most=100.0, doc="pile yarn of a full package, one for each tube: a cone of the trade"
+    )
+    tube_change: float = kind.time(
+        60.0,
+        at_least=0.0,
+        at_most=3600.0,
+        doc="time in which an operator changes a package and ties its yarn to the old one; assumed by this project",
+    )
     knotting: str = param(
         AUTO,
         choices=(AUTO, "cams", "arms"),
@@ -181,6 +193,11 @@ class AutomatedLoomParams(Params):
         """The pile: its height as given, or the usual one of the quality."""
         height = usual_pile_height(self.quality) if self.pile_height is None else self.pile_height
         return PileParams(pile_height=height)
+
+    @property
+    def head_tubes(self) -> int:
+        """Tubes of a head: as given, or one for each colour."""
+        return self.tubes or self.colours
 
     @property
     def carpet_yarns(self) -> CarpetYarns:

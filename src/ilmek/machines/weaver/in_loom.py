@@ -36,7 +36,7 @@ def params_for(task: LoomTask) -> WeaverParams:
         knot_pitch=task.knot_pitch,
         row_pitch=task.row_pitch,
         carriage_speed=loom.carriage_speed,
-        tubes=loom.colours,
+        tubes=loom.head_tubes,
         tube_mass=loom.tube_mass,
         opener=opener_for(task),
         forces=ToolForces(friction=max(task.yarns.warp.friction, LEAST_FRICTION)),
