@@ -102,9 +102,9 @@ _FAULTS = (
 )  # fmt: skip
 _JOURNAL = (
     AlarmKind(301, JournalFault.DISC_FULL, 900, "the disc of the journal has no room",
-              "make room, then start the controller again with the same journal", Reaction.ABORT),
+              "make room; the controller goes on by itself", Reaction.ABORT),
     AlarmKind(302, JournalFault.WRITE_FAILED, 900, "the journal could not be written or synchronised",
-              "check the disc, then start the controller again with the same journal", Reaction.ABORT),
+              "check the disc; the controller goes on when it can be written again", Reaction.ABORT),
     AlarmKind(303, JournalFault.READ_ONLY, 900, "the journal may not be written",
               "give the controller the right to write it, or choose another folder", Reaction.ABORT),
     AlarmKind(304, JournalFault.DAMAGED, 900, "a record that was durable is damaged",

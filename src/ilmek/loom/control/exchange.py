@@ -160,7 +160,8 @@ class ControllerStatus:
     """The controller as views and other systems show it.
 
     row, phase   in work; row: number of rows when the carpet is woven      knots  in the carpet
-    rows_ended   complete rows               retries  knots that were tried again
+    uncertain    operations in progress, and those that sensor or operator are asked for
+    retries      knots that were tried again at once       faults   operations that the loom reported as failed
     speed        as a fraction of the programme's                          time   of the loom [ns]
     operation    the row's end or the change in progress; None: knots are tied, or nothing is
     """
@@ -171,7 +172,9 @@ class ControllerStatus:
     row: int
     phase: int
     knots: int
+    uncertain: int
     retries: int
+    faults: int
     speed: float
     time: int
     heads: tuple[HeadStatus, ...]

@@ -50,25 +50,34 @@ _WEFT = frozenset((LoomAxis.SHED, LoomAxis.SHUTTLE))
 _KNOT = frozenset((LoomAxis.CARRIAGE, LoomAxis.HEADS, LoomAxis.GRIPPERS))
 ROW_END_AXES: Mapping[RowEnd, frozenset[LoomAxis]] = MappingProxyType(
     {
-        RowEnd.STRAIGHT_WEFT: _WEFT,
+        RowEnd.STRAIGHT_WEFT: _WEFT | {LoomAxis.HEADS},
         RowEnd.FIRST_BEAT: frozenset((LoomAxis.BEATER,)),
         RowEnd.SINUOUS_WEFT: _WEFT,
         RowEnd.SECOND_BEAT: frozenset((LoomAxis.BEATER,)),
         RowEnd.TAKE_UP: frozenset((LoomAxis.TAKE_UP,)),
     }
 )
-"""The axes that move in each operation after the knots."""
+"""The axes that move in each operation after the knots. The heads retreat in the first."""
+
+
+def jog_axis(name: str) -> LoomAxis | None:
+    """The axis that a jog names; None: there is none. Of the grippers one may be named by its head: `gripper 3`."""
+    if name in set(LoomAxis):
+        return LoomAxis(name)
+    kind, _, head = name.partition(" ")
+    return LoomAxis.GRIPPERS if kind == "gripper" and head.isascii() and head.isdigit() else None
 
 
 def axes_of(order: Order) -> frozenset[LoomAxis]:
-    """The axes that an order moves. Raises ValueError for a jog of an axis that does not exist."""
+    """The axes that an order moves."""
     if isinstance(order, Tie):
         return _KNOT
     if isinstance(order, EndRow):
         return ROW_END_AXES[order.operation]
     if isinstance(order, ChangePackages):
         return frozenset()
-    return frozenset((LoomAxis(order.axis),))
+    axis = jog_axis(order.axis)
+    return frozenset() if axis is None else frozenset((axis,))
 
 
 class SensorRelation(StrEnum):
@@ -108,6 +117,7 @@ class Interlock:
     sensor    field of `Sensors`; of `grippers_open` that of the head that begins, or all for other operations
     value     compared with; "least", "most": of `TensionLimits`
     guards    it also ends a motion in progress       reaction   of the machine where it stops weaving
+    unless    an operation that moves this axis too is not blocked: it brings the sensor to its value itself
     """
 
     name: str
@@ -118,6 +128,7 @@ class Interlock:
     why: str
     reaction: Reaction
     guards: bool = False
+    unless: LoomAxis | None = None
 
 
 _A = LoomAxis
@@ -137,13 +148,14 @@ INTERLOCKS: tuple[Interlock, ...] = (
               "warps would break under a beat or in the shed", Reaction.SUSPEND, guards=True),
     Interlock("gripper closed on warps", "grippers_open", SensorRelation.IS, True, frozenset((_A.CARRIAGE,)),
               "a carriage that moves would tear the warps in its gripper", Reaction.HOLD),
-    Interlock("gripper in the shed", "grippers_open", SensorRelation.IS, True, frozenset((_A.SHED, _A.BEATER, _A.TAKE_UP)),
+    Interlock("gripper in the shed", "grippers_open", SensorRelation.IS, True,
+              frozenset((_A.SHED, _A.BEATER, _A.TAKE_UP)),
               "warps in a gripper cannot follow the shed, the comb or the take-up", Reaction.HOLD),
     Interlock("head in the comb's path", "heads_clear", SensorRelation.IS, True, frozenset((_A.BEATER,)),
               "the comb would strike the head", Reaction.HOLD),
     Interlock("head between the warps", "heads_clear", SensorRelation.IS, True,
               frozenset((_A.SHED, _A.SHUTTLE, _A.TAKE_UP)),
-              "warps and shuttle would strike the head", Reaction.HOLD),
+              "warps and shuttle would strike the head", Reaction.HOLD, unless=_A.HEADS),
     Interlock("beater not back", "beater_back", SensorRelation.IS, True, _KNOT | _WEFT | {_A.TAKE_UP},
               "the comb between the warps is in the path of heads, shed and shuttle", Reaction.HOLD),
     Interlock("shed open", "shed_closed", SensorRelation.IS, True, _KNOT | {_A.BEATER, _A.TAKE_UP},
@@ -166,16 +178,23 @@ def holds(rule: Interlock, sensors: Sensors, limits: TensionLimits, head: int | 
     return bool(value is rule.value)
 
 
+def applies(rule: Interlock, axes: frozenset[LoomAxis]) -> bool:
+    """Whether an interlock is about an operation that moves these axes."""
+    return not rule.blocks.isdisjoint(axes) and rule.unless not in axes
+
+
 def violated(
     axes: frozenset[LoomAxis], sensors: Sensors, limits: TensionLimits, head: int | None = None
 ) -> tuple[Interlock, ...]:
     """The interlocks that forbid these axes to begin, in the table's order."""
-    return tuple(rule for rule in INTERLOCKS if rule.blocks & axes and not holds(rule, sensors, limits, head))
+    return tuple(rule for rule in INTERLOCKS if applies(rule, axes) and not holds(rule, sensors, limits, head))
 
 
 def broken_guards(axes: frozenset[LoomAxis], sensors: Sensors, limits: TensionLimits) -> tuple[Interlock, ...]:
     """The interlocks that end a motion of these axes that is in progress, in the table's order."""
-    return tuple(rule for rule in INTERLOCKS if rule.guards and rule.blocks & axes and not holds(rule, sensors, limits))
+    return tuple(
+        rule for rule in INTERLOCKS if rule.guards and applies(rule, axes) and not holds(rule, sensors, limits)
+    )
 
 
 @value_record

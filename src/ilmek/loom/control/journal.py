@@ -6,18 +6,21 @@ A file of fixed records behind a header, to which the controller only appends (l
             digest of the programme, CRC-32 of all that
     record   32 bytes: sequence number, lag, kind, code, row, head, flag, number, time [ns], CRC-32
 
-The CRC of a record begins with that of the header, which holds a nonce: records of an older journal that lie in
-recycled blocks of a disc are not valid in this one. `lag` counts the records before this one that were not yet durable
-when it was written; so a damaged record that a later one knows as durable is told from the torn end of the file.
+The CRC of a record goes on from that of the record before it, the first from that of the header, which holds a nonce;
+every opening of the journal appends a START. So records of an older journal, or of a tail that was cut off, are not
+valid in this one even where a disc returns them from recycled blocks. `lag` counts the records before this one that
+were not yet durable when it was written: it tells damage of what was durable from the torn end of the file.
 """
 
 import struct
 from enum import IntEnum
-from typing import NamedTuple, Protocol
+from typing import NamedTuple, Protocol, TypeAlias
 from zlib import crc32
 
+import numpy as np
+
 from ilmek.errors import LoomError
-from ilmek.records import value_record
+from ilmek.records import record, value_record
 
 MAGIC = b"ILMEKJNL"
 JOURNAL_VERSION = 1
@@ -45,6 +48,7 @@ class RecordKind(IntEnum):
     ALARM    number: of the alarm; code: `AlarmAction`; row, head where it happened
     ANSWER   of the operator to a request: code: 1 yes, 0 no; row, head, number of the operation
     SPEED    number: speed [1/1000 of the programme's]
+    START    the journal was opened: number: how often before
     """
 
     KNOT = 1
@@ -54,6 +58,7 @@ class RecordKind(IntEnum):
     ALARM = 5
     ANSWER = 6
     SPEED = 7
+    START = 8
 
 
 class Origin(IntEnum):
@@ -110,11 +115,6 @@ class JournalHeader:
         ).ljust(HEADER_BYTES - _CRC.size, b"\0")  # fmt: skip
         return body + _CRC.pack(crc32(body))
 
-    @property
-    def seed(self) -> int:
-        """The value that the CRC of every record begins with."""
-        return crc32(self.encode())
-
 
 class JournalStore(Protocol):
     """Where a journal is kept. Errors of the system are OSErrors; after one nothing more is appended."""
@@ -129,10 +129,103 @@ class JournalStore(Protocol):
         """Make everything durable that was appended."""
 
     def truncate(self, size: int) -> None:
-        """Cut off what is behind a number of bytes; durable after the next `sync`."""
+        """Cut off what is behind a number of bytes, durably, before anything is appended."""
 
 
-def encode_record(seed: int, record: tuple[int, int, int, int, int, int, int, int, int]) -> bytes:
-    """The bytes of a record: the fields of `JournalRecord` in order."""
+RECORD_FIELDS = np.dtype(
+    [("sequence", "<u4"), ("lag", "<u2"), ("kind", "u1"), ("code", "u1"), ("row", "<u4"), ("head", "<u2"),
+     ("flag", "<u2"), ("number", "<u4"), ("time", "<i8"), ("crc", "<u4")]
+)  # fmt: skip
+"""A record as an element of an array."""
+
+RecordArray: TypeAlias = "np.ndarray[tuple[int], np.dtype[np.void]]"
+
+
+@record
+class JournalContent:
+    """A journal as it was read.
+
+    records  an array of RECORD_FIELDS: the longest valid beginning      size  its bytes, with the header
+    crc      of the last record, else of the header                      cut   bytes behind it, which are not valid
+    """
+
+    header: JournalHeader
+    records: RecordArray
+    size: int
+    crc: int
+    cut: int
+
+
+def encode_record(crc: int, record: tuple[int, int, int, int, int, int, int, int, int]) -> tuple[bytes, int]:
+    """The bytes of a record, the fields of `JournalRecord` in order, and its CRC; crc: of the record before."""
     body = _BODY.pack(*record)
-    return body + _CRC.pack(crc32(body, seed))
+    crc = crc32(body, crc)
+    return body + _CRC.pack(crc), crc
+
+
+def decode_header(content: bytes) -> JournalHeader | None:
+    """The header of a journal; None: it is not whole. Raises JournalError for another version."""
+    data = content[:HEADER_BYTES]
+    if len(data) < HEADER_BYTES or _CRC.unpack(data[-4:])[0] != crc32(data[:-4]) or not data.startswith(MAGIC):
+        return None
+    _, version, size, group, rows, columns, heads, tubes, nonce, digest = _HEADER.unpack_from(data)
+    if (version, size) != (JOURNAL_VERSION, RECORD_BYTES):
+        raise JournalError(f"a journal of version {version}", allowed=f"version {JOURNAL_VERSION}")
+    return JournalHeader(digest.hex(), rows, columns, heads, tubes, group, nonce)
+
+
+def read_journal(content: bytes) -> JournalContent | None:
+    """The valid beginning of a journal; None: nothing of it was ever durable, so it is a new one.
+
+    Raises JournalError for a file that is no journal, and where a record is damaged that was durable: it names the
+    record. What follows the last valid record and was not durable is the torn end.
+    """
+    header = decode_header(content)
+    number = max(0, len(content) - HEADER_BYTES) // RECORD_BYTES
+    records = np.frombuffer(content, RECORD_FIELDS, number, HEADER_BYTES) if number else np.empty(0, RECORD_FIELDS)
+    if header is None:
+        if number > MOST_UNSYNCED_FIRST or _known_as_durable(content, records, 0):
+            raise JournalError(
+                "the header of the journal is damaged, or the file is no journal",
+                do="restore the file from a copy, or choose another folder",
+            )
+        return None
+    crc, valid = _valid(content, records, crc32(content[: HEADER_BYTES - 4]))
+    later = _known_as_durable(content, records, valid)
+    if later is not None:
+        offset = HEADER_BYTES + valid * RECORD_BYTES
+        raise JournalError(
+            f"record {valid} of the journal (byte {offset}) is damaged",
+            allowed=f"it was durable when record {later} was written, so it is not a torn end",
+            do="restore the journal from a copy",
+        )
+    size = HEADER_BYTES + valid * RECORD_BYTES
+    return JournalContent(header, records[:valid], size, crc, len(content) - size)
+
+
+MOST_UNSYNCED_FIRST = 8
+"""Records that may follow a header before both are durable for the first time."""
+
+
+def _valid(content: bytes, records: RecordArray, crc: int) -> tuple[int, int]:
+    """CRC and number of the records of the longest valid beginning; crc: of the header."""
+    view, offset = memoryview(content), HEADER_BYTES
+    in_order = records["sequence"] == np.arange(len(records))
+    for number, (given, right) in enumerate(zip(records["crc"].tolist(), in_order.tolist(), strict=True)):
+        found = crc32(view[offset : offset + RECORD_BYTES - 4], crc)
+        if found != given or not right:
+            return crc, number
+        crc = found
+        offset += RECORD_BYTES
+    return crc, len(records)
+
+
+def _known_as_durable(content: bytes, records: RecordArray, damaged: int) -> int | None:
+    """A later record, valid behind the one before it, that was written when the damaged one was durable."""
+    later = np.arange(len(records)) > damaged
+    knows = records["sequence"].astype(np.int64) - records["lag"] > damaged
+    for number in np.flatnonzero(later & knows & (records["sequence"] == np.arange(len(records)))).tolist():
+        begin = HEADER_BYTES + number * RECORD_BYTES
+        if crc32(content[begin : begin + RECORD_BYTES - 4], int(records["crc"][number - 1])) == records["crc"][number]:
+            return int(number)
+    return None

@@ -113,9 +113,9 @@ PortReport: TypeAlias = Done | Failed | SensorsChanged
 class LoomPort(Protocol):
     """A loom, real or simulated.
 
-    Reports come in the order of their times. The sensors are reported first, and whenever they change: what an
-    operation changes and changes back is reported before its `Done`. Of the knots alone this is not required; of a beat
-    it is `beater_back`, of a weft `shed_closed`, else the controller takes the sensor for stuck.
+    Reports come in the order of their times. Changes of the sensors are reported: what an operation changes and changes
+    back before its `Done`. Of knots this is not required; of a beat it is `beater_back`, of a weft `shed_closed`, else
+    the controller takes the sensor for stuck.
     """
 
     def send(self, orders: Sequence[Order]) -> None:
@@ -132,6 +132,9 @@ class LoomPort(Protocol):
 
     def set_speed(self, factor: float) -> None:
         """Speed of the operations that begin from now on, as a fraction of the programme's: > 0, 1 at first."""
+
+    def sensors(self) -> Sensors:
+        """The sensors now: the controller is given them first."""
 
     def knotted(self, row: int, column: int) -> bool | None:
         """Whether the sensor finds a knot on a warp pair of the row in work; None: it cannot tell."""
