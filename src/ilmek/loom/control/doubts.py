@@ -40,11 +40,11 @@ def ask_all(state: ControllerState, draft: Draft) -> None:
 
 def ask_operator(state: ControllerState, key: int, draft: Draft) -> None:
     """Ask the operator for an uncertain operation."""
-    state.asked += 1
+    state.questions += 1
     doubt = state.doubts[key]
-    request = OperatorRequest(state.asked, doubt.operation, question(doubt.operation))
-    state.requests[state.asked] = request
-    state.doubts[key] = replace(doubt, sensor=False, request=state.asked)
+    request = OperatorRequest(state.questions, doubt.operation, question(doubt.operation))
+    state.requests[state.questions] = request
+    state.doubts[key] = replace(doubt, sensor=False, request=state.questions)
     draft.requests.append(request)
 
 

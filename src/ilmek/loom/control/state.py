@@ -78,7 +78,7 @@ class ControllerState:
     retried: set[int] = field(default_factory=set)
     alarms: dict[tuple[str, int | None], ActiveAlarm] = field(default_factory=dict)
     requests: dict[int, OperatorRequest] = field(default_factory=dict)
-    asked: int = 0
+    questions: int = 0
     sensors: Sensors | None = None
     watch: set[str] = field(default_factory=set)
     halted: bool = False
