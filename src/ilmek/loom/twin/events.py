@@ -1,0 +1,47 @@
+"""The chain of a plant's reports: digest = SHA-256(digest before + report), the same on every machine."""
+
+import hashlib
+import struct
+
+from ilmek.loom.control.ports import ChangePackages, Done, EndRow, Failed, Order, PortReport, SensorsChanged, Tie
+
+_KNOT = struct.Struct("<cqiiiii")
+_sha256 = hashlib.sha256
+
+
+def chained(digest: bytes, report: PortReport) -> bytes:
+    """The digest behind one more report."""
+    if type(report) is Done and type(report.order) is Tie:
+        one = report.order
+        return _sha256(
+            digest + _KNOT.pack(b"K", report.time, one.head, one.row, one.number, one.column, one.tube)
+        ).digest()
+    return _sha256(digest + _line(report).encode()).digest()
+
+
+def order_words(order: Order) -> str:
+    """An order as words and whole numbers.
+
+    >>> order_words(Tie(0, 3, 1, 17, 2))
+    'tie 0 3 1 17 2'
+    """
+    if isinstance(order, Tie):
+        return f"tie {order.head} {order.row} {order.number} {order.column} {order.tube}"
+    if isinstance(order, EndRow):
+        return f"end {order.row} {int(order.operation)}"
+    if isinstance(order, ChangePackages):
+        stop = order.stop
+        tubes = " ".join(f"{one.head} {one.tube} {one.yarn} {round(1e9 * one.length)}" for one in stop.tubes)
+        return f"change {stop.row} {stop.phase} {' '.join(map(str, stop.wefts))} / {tubes}".strip()
+    return f"jog {order.axis} {round(1e9 * order.distance)}"
+
+
+def _line(report: PortReport) -> str:
+    if isinstance(report, SensorsChanged):
+        one = report.sensors
+        tension = "-" if one.warp_tension is None else round(1000 * one.warp_tension)
+        levels = (one.door_closed, one.emergency_stop, one.heads_clear, one.beater_back, one.shed_closed)
+        return f"sensors {report.time} {tension} {(*map(int, levels), *map(int, one.grippers_open))}"
+    if isinstance(report, Failed):
+        return f"failed {report.time} {report.fault} {order_words(report.order)}"
+    return f"done {report.time} {order_words(report.order)}"

@@ -1,0 +1,220 @@
+"""The loom as a plant: what its orders, an operator and faults make of it in a time.
+
+    step(plant, state, inputs, dt) -> (state, reports)
+
+The inputs act at the state's time, in their order; then the loom runs for dt nanoseconds. Whole numbers alone, and no
+clock: the same inputs give the same state, reports and digest everywhere, and step(a) then step(b) is step(a + b).
+
+    knot            knot + (another tube ? colour_change : 0) + travel * max(|columns apart| - 1, 0)
+    after a row     operation i ends row_ends[i] after the last knot, if each begins when the one before has ended
+    failure         an operation that fails lasts its whole time, and nothing of it is in the carpet
+
+A head stands at its first knot of a row when the row begins. An operation that does not end is reported after WATCHDOG
+times its duration.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from ilmek.errors import LoomError
+from ilmek.loom.control.ports import ChangePackages, Done, EndRow, Failed, Fault, Jog, PortReport, SensorsChanged, Tie
+from ilmek.loom.twin.acts import acted, changed_packages, halted
+from ilmek.loom.twin.events import chained
+from ilmek.loom.twin.fates import after_weft, end_fate, knot_fate, used
+from ilmek.loom.twin.model import JOG, WATCHDOG, Mark, PlantModel
+from ilmek.loom.twin.state import (
+    NOWHERE,
+    Halt,
+    LoomCondition,
+    LoomWork,
+    PlantHead,
+    PlantInput,
+    PlantState,
+    PowerOn,
+    gripping,
+    sensors_of,
+)
+
+
+def step(
+    plant: PlantModel, state: PlantState, inputs: Sequence[PlantInput], dt: int
+) -> tuple[PlantState, tuple[PortReport, ...]]:
+    """The state after dt [ns] with inputs at its begin, and what was reported, in order.
+
+    Raises LoomError for a negative dt, for what no loom can do (an axis that is busy, a knot beyond the carpet), and
+    for what would damage it.
+    """
+    if dt < 0:
+        raise LoomError(f"a step of {dt} ns", allowed="0 ns or more: a loom's clock does not go back")
+    run = _Run(plant, state)
+    for one in inputs:
+        run.take(one)
+    run.advance(state.time + dt)
+    return run.state(), tuple(run.reports)
+
+
+class _Run:
+    """A state that changes, within a step."""
+
+    __slots__ = ("condition", "digest", "heads", "plant", "reports", "shown", "time")
+
+    def __init__(self, plant: PlantModel, state: PlantState) -> None:
+        self.plant, self.time, self.condition = plant, state.time, state.condition
+        self.heads, self.shown, self.digest = list(state.heads), state.shown, state.digest
+        self.reports: list[PortReport] = []
+
+    def state(self) -> PlantState:
+        return PlantState(self.time, tuple(self.heads), self.condition, self.shown, self.digest)
+
+    def take(self, one: PlantInput) -> None:
+        if type(one) is Tie:
+            self.begin_knot(one)
+        elif isinstance(one, EndRow | ChangePackages | Jog):
+            self.begin_work(one)
+        elif isinstance(one, PowerOn):
+            self.report_sensors()
+        else:
+            self.act(one)
+
+    def begin_knot(self, order: Tie) -> None:
+        plant, condition = self.plant, self.condition
+        _require_knot(plant, order)
+        head = self.heads[order.head]
+        if head.order is not None or condition.work is not None:
+            raise _busy(f"head {order.head}")
+        apart = 0 if order.number == 0 or head.column < 0 else abs(order.column - head.column) - 1
+        if head.condition.closed and apart > 0:
+            raise LoomError(f"head {order.head} moves with its gripper closed on warps", do="open the gripper first")
+        first = plant.travel * apart if apart > 0 else 0
+        if head.tube not in (order.tube, NOWHERE):
+            first += plant.colour_change
+        fault = knot_fate(plant, condition, head, order)
+        if fault is not None:
+            condition = self.condition = used(condition, fault, order.row, order.column)
+        whole = first + plant.knot
+        if condition.permille != 1000:
+            first, whole = first * 1000 // condition.permille, whole * 1000 // condition.permille
+        end = self.time + (whole if fault is not Fault.TIMEOUT else WATCHDOG * whole)
+        self.heads[order.head] = PlantHead(
+            head.column, head.tube, head.left, head.condition, order, self.time + first, end, fault
+        )
+
+    def end_knot(self, index: int, head: PlantHead, order: Tie) -> None:
+        condition, left, fault = head.condition, head.left, head.fault
+        if fault is None:
+            remaining = list(left)
+            remaining[order.tube] -= self.plant.knot_yarn[condition.yarns[order.tube]]
+            left = tuple(remaining)
+            if condition.attempts or condition.closed:
+                condition = replace(condition, attempts=0, closed=False)
+            self.report(Done(order, self.time))
+        else:
+            broken = condition.broken | (1 << order.tube if fault is Fault.PILE_BREAK else 0)
+            condition = replace(condition, attempts=condition.attempts + 1, broken=broken, closed=False)
+            if fault is Fault.WARP_BREAK and order.column not in self.condition.broken_warps:
+                self.condition = replace(self.condition, broken_warps=(*self.condition.broken_warps, order.column))
+            self.report(Failed(order, fault, self.time))
+        self.heads[index] = PlantHead(order.column, order.tube, left, condition)
+        if self.shown:
+            self.report_sensors()
+
+    def begin_work(self, order: EndRow | ChangePackages | Jog) -> None:
+        plant, condition = self.plant, self.condition
+        marks: tuple[Mark, ...] = ()
+        fault: Fault | None = None
+        if condition.work is not None or any(head.order is not None for head in self.heads):
+            raise _busy("the loom")
+        if isinstance(order, EndRow):
+            _require_end(plant, condition, order)
+            duration = plant.row_ends[order.operation]
+            marks, fault = plant.marks[order.operation], end_fate(plant, condition, order)
+            if fault is not None:
+                condition = used(condition, fault, order.row, int(order.operation))
+        else:
+            duration = plant.change_time(order.stop) if isinstance(order, ChangePackages) else JOG
+        if isinstance(order, EndRow) and condition.permille != 1000:
+            duration = duration * 1000 // condition.permille
+            marks = tuple((time * 1000 // condition.permille, name, value) for time, name, value in marks)
+        end = self.time + (duration if fault is not Fault.TIMEOUT else WATCHDOG * duration)
+        coming = tuple((self.time + time, name, value) for time, name, value in marks)
+        self.condition = replace(condition, work=LoomWork(order, end, fault, coming))
+
+    def end_work(self, work: LoomWork) -> None:
+        condition, order, fault = replace(self.condition, work=None), work.order, work.fault
+        if fault is not None:
+            condition = replace(condition, attempts=condition.attempts + 1)
+            if fault is Fault.WEFT_BREAK:
+                condition = replace(condition, weft_broken=True)
+        elif isinstance(order, EndRow):
+            condition = replace(condition, attempts=0, wefts=after_weft(condition.wefts, order.operation))
+        elif isinstance(order, ChangePackages):
+            condition, heads = changed_packages(self.plant, condition, self.heads, order.stop)
+            self.heads = list(heads)
+        self.condition = condition
+        if isinstance(order, Jog):
+            self.act(order)
+        self.report(Done(order, self.time) if fault is None else Failed(order, fault, self.time))
+
+    def pass_mark(self, work: LoomWork) -> None:
+        (_, sensor, value), *rest = work.marks
+        beater = value if sensor == "beater_back" else self.condition.beater_back
+        shed = value if sensor == "shed_closed" else self.condition.shed_closed
+        coming = replace(work, marks=tuple(rest))
+        self.condition = replace(self.condition, work=coming, beater_back=beater, shed_closed=shed)
+        self.report_sensors()
+
+    def act(self, one: PlantInput) -> None:
+        before = sensors_of(self.plant, self.state())
+        self.condition, heads = acted(self.plant, self.condition, self.heads, one)
+        self.heads = list(heads)
+        if isinstance(one, Halt) or self.condition.emergency_stop:
+            self.condition, heads = halted(self.condition, self.heads, self.time)
+            self.heads = list(heads)
+        if self.shown or sensors_of(self.plant, self.state()) != before:
+            self.report_sensors()
+
+    def advance(self, until: int) -> None:
+        while True:
+            work, soonest, at = self.condition.work, until, NOWHERE
+            for index, head in enumerate(self.heads):
+                if head.order is not None and (head.end < soonest or (at < 0 and head.end == soonest)):
+                    soonest, at = head.end, index
+            if at >= 0:
+                self.time, head = soonest, self.heads[at]
+                if head.order is not None:
+                    self.end_knot(at, head, head.order)
+            elif work is not None and (work.marks[0][0] if work.marks else work.end) <= until:
+                self.time = work.marks[0][0] if work.marks else work.end
+                (self.pass_mark if work.marks else self.end_work)(work)
+            else:
+                self.time = until
+                return
+
+    def report(self, one: PortReport) -> None:
+        self.digest = chained(self.digest, one)
+        self.reports.append(one)
+
+    def report_sensors(self) -> None:
+        self.shown = any(gripping(head, self.time) for head in self.heads)
+        self.report(SensorsChanged(sensors_of(self.plant, self.state()), self.time))
+
+
+def _require_knot(plant: PlantModel, order: Tie) -> None:
+    setup = plant.setup
+    inside = 0 <= order.row < setup.rows and 0 <= order.column < setup.columns
+    if not inside or not 0 <= order.head < setup.heads or not 0 <= order.tube < setup.tubes:
+        raise LoomError(
+            f"a knot of row {order.row}, column {order.column}, head {order.head}, tube {order.tube}",
+            allowed=f"{setup.rows} rows, {setup.columns} columns, {setup.heads} heads, {setup.tubes} tubes, from 0",
+        )
+
+
+def _require_end(plant: PlantModel, condition: LoomCondition, order: EndRow) -> None:
+    if not 0 <= order.row < plant.setup.rows:
+        raise LoomError(f"the end of row {order.row}", allowed=f"rows 0 to {plant.setup.rows - 1}")
+    if condition.between:
+        raise LoomError("a head is between the warps", do="bring the heads to their rest first")
+
+
+def _busy(axis: str) -> LoomError:
+    return LoomError(f"{axis} is given an order while the one before is in progress", do="wait for its report")
