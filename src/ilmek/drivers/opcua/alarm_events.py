@@ -1,0 +1,86 @@
+"""Events of the server: alarms as conditions (OPC 10000-9), and changes of job orders (OPC 10031-4)."""
+
+from datetime import UTC, datetime
+from typing import Any
+
+from asyncua import ua
+
+from ilmek.drivers.opcua.job_orders import Job
+from ilmek.drivers.opcua.methods import job_order, job_response, job_state
+from ilmek.drivers.opcua.model import ALARM_TYPE, LOOM
+from ilmek.drivers.opcua.space import AddressSpace
+from ilmek.loom.control.view import AlarmView
+
+SEVERITY_STOP, SEVERITY_NOTE = 800, 300
+"""Severity of an alarm for which the loom stands, and of any other (1 to 1000)."""
+
+
+class LoomEvents:
+    """Sends the events, from the server's object and from the loom's.
+
+    An alarm is active from when it is raised until it is cleared, and is retained meanwhile, so that ConditionRefresh
+    repeats it. It needs no acknowledgement: what is to be done is done at the loom.
+    """
+
+    def __init__(self, space: AddressSpace) -> None:
+        self._space = space
+        self._active: dict[str, AlarmView] = {}
+        self._alarm: list[Any] = []
+        self._job: list[Any] = []
+
+    async def prepare(self) -> None:
+        """Make the generators of events."""
+        source = self._space.node_id(LOOM)
+        job_type = self._space.type_id("ISA95:ISA95JobOrderStatusEventType")
+        for emitter in (ua.NodeId(ua.ObjectIds.Server), source):
+            server = self._space.server
+            for kind, found in ((self._space.type_id(f"Loom:{ALARM_TYPE}"), self._alarm), (job_type, self._job)):
+                generator = await server.get_event_generator(kind, emitter)
+                generator.event.SourceNode, generator.event.SourceName = source, LOOM
+                found.append(generator)
+
+    async def alarms(self, alarms: tuple[AlarmView, ...]) -> None:
+        """Send what has changed: alarms that were raised and those that were cleared."""
+        now = {alarm.name: alarm for alarm in alarms}
+        for name, alarm in now.items():
+            if name not in self._active:
+                await self._send(alarm, active=True)
+        for name, alarm in self._active.items():
+            if name not in now:
+                await self._send(alarm, active=False)
+        self._active = now
+
+    async def job(self, job: Job) -> None:
+        """Send the new state of a job order."""
+        for generator in self._job:
+            generator.event.JobState = job_state(self._space, job)
+            generator.event.JobOrder = job_order(job)
+            generator.event.JobResponse = job_response(self._space, job)
+            generator.event.Severity = SEVERITY_NOTE
+            await generator.trigger(message=f"Job order {job.order}: {job.state.value}")
+
+    async def _send(self, alarm: AlarmView, *, active: bool) -> None:
+        stops = SEVERITY_STOP if alarm.stops else SEVERITY_NOTE
+        fields = {
+            "NodeId": self._space.node_id(f"{LOOM}.Alarms.{alarm.name}"),
+            "ConditionName": alarm.name,
+            "ConditionClassId": ua.NodeId(ua.ObjectIds.ProcessConditionClassType),
+            "ConditionClassName": ua.LocalizedText("ProcessConditionClass"),
+            "BranchId": ua.NodeId(),
+            "Retain": active,
+            "EnabledState": ua.LocalizedText("Enabled"),
+            "EnabledState/Id": True,
+            "ActiveState": ua.LocalizedText("Active" if active else "Inactive"),
+            "ActiveState/Id": active,
+            "ActiveState/TransitionTime": datetime.now(UTC),
+            "AckedState": ua.LocalizedText("Acknowledged"),
+            "AckedState/Id": True,
+            "Severity": stops,
+            "Cause": alarm.cause,
+            "Remedy": alarm.remedy,
+            "StopsLoom": alarm.stops,
+        }
+        for generator in self._alarm:
+            for name, value in fields.items():
+                setattr(generator.event, name, value)
+            await generator.trigger(message=f"{alarm.cause}: {alarm.remedy}" if active else f"{alarm.cause}: cleared")

@@ -1,0 +1,321 @@
+"""The OPC UA server of a loom, by asyncua's client: security, what is shown, commands, job orders, alarms."""
+
+import asyncio
+import socket
+from collections.abc import Awaitable, Callable, Iterator
+from typing import Any
+
+import pytest
+from asyncua import Client, ua
+from asyncua.crypto.security_policies import SecurityPolicyBasic256Sha256
+from cryptography.hazmat.primitives.serialization import Encoding, NoEncryption, PrivateFormat
+from opcua_loom import PROGRAMME, SteppingLoom
+
+from ilmek.drivers.opcua.certificate import make_credentials
+from ilmek.drivers.opcua.gate import LARGEST_CHUNK, LEAST_INTERVAL, MOST_OF_SESSION
+from ilmek.drivers.opcua.job_orders import ReturnStatus
+from ilmek.drivers.opcua.model import LoomNameplate
+from ilmek.drivers.opcua.server import LoomServer
+from ilmek.drivers.opcua.users import LoomUser, UserList, UserRight, hashed
+from ilmek.errors import LoomError
+from ilmek.loom.control.packml import PackState
+from ilmek.loom.control.view import AlarmView
+
+PLATE = LoomNameplate(
+    "ilmek", "automated loom", "0123456789ab", "0.1.0", PROGRAMME, "carpet", 6, 24, 2, 3, ("red", "ivory", "blue"),
+    ("straight weft",),
+)  # fmt: skip
+CONTROL = "Loom.MachineryBuildingBlocks.JobManagement.JobOrderControl"
+RESULTS = "Loom.MachineryBuildingBlocks.JobManagement.JobOrderResults"
+EXECUTE = "Loom.PackML.BaseStateMachine.MachineState.ExecuteState"
+Pair = tuple[bytes, bytes]
+
+
+@pytest.fixture(scope="module")
+def running() -> Iterator[tuple[LoomServer, SteppingLoom]]:
+    stored = {name: LoomUser(name, UserRight(name), hashed(f"{name}-password")) for name in ("operator", "viewer")}
+    loom = SteppingLoom()
+    credentials = make_credentials(PLATE.uri, "loom", ("127.0.0.1",))
+    with LoomServer(loom, PLATE, UserList(stored), credentials, port=0, interval=0.02) as server:
+        yield server, loom
+
+
+@pytest.fixture
+def server(running: tuple[LoomServer, SteppingLoom]) -> LoomServer:
+    return running[0]
+
+
+@pytest.fixture
+def loom(running: tuple[LoomServer, SteppingLoom]) -> SteppingLoom:
+    running[1].reset()
+    return running[1]
+
+
+@pytest.fixture(scope="module")
+def pair() -> Pair:
+    made = make_credentials("urn:test:client", "client", ("localhost",))
+    key = made.key.private_bytes(Encoding.DER, PrivateFormat.PKCS8, NoEncryption())
+    return made.certificate.public_bytes(Encoding.DER), key
+
+
+class Calls:
+    """A client that is connected, and the loom's namespace."""
+
+    def __init__(self, client: Client, index: int) -> None:
+        self.client, self.index = client, index
+
+    def node(self, path: str) -> Any:
+        return self.client.get_node(ua.NodeId(path, self.index))
+
+    async def read(self, path: str) -> Any:
+        value = await self.node(path).read_value()
+        return value.Text if isinstance(value, ua.LocalizedText) else value
+
+    async def call(self, path: str, *arguments: Any) -> ua.CallMethodResult:
+        request = ua.CallMethodRequest(
+            ObjectId=ua.NodeId(path.rpartition(".")[0], self.index),
+            MethodId=ua.NodeId(path, self.index),
+            InputArguments=[one if isinstance(one, ua.Variant) else ua.Variant(one) for one in arguments],
+        )
+        (result,) = await self.client.uaclient.call([request])
+        return result
+
+    async def status(self, path: str, *arguments: Any) -> str:
+        return str((await self.call(path, *arguments)).StatusCode.name)
+
+    async def returned(self, name: str, *arguments: Any) -> int:
+        """The return status of a method of job control."""
+        return int((await self.call(f"{CONTROL}.{name}", *arguments)).OutputArguments[-1].Value)
+
+    async def job_states(self) -> dict[str, str]:
+        listed = await self.read(f"{CONTROL}.JobOrderList")
+        return {one.JobOrder.JobOrderID: one.State[0].StateText.Text for one in listed}
+
+    async def until(self, check: Callable[[], Awaitable[bool]]) -> None:
+        async with asyncio.timeout(20):
+            while not await check():
+                await asyncio.sleep(0.02)
+
+
+def connected(
+    server: LoomServer,
+    pair: Pair | None,
+    act: Callable[[Calls], Awaitable[None]],
+    user: str | None = "operator",
+    password: str | None = None,
+) -> None:
+    async def run() -> None:
+        client = Client(server.url, timeout=20)
+        client.application_uri = "urn:test:client"
+        if pair is not None:
+            await client.set_security(SecurityPolicyBasic256Sha256, *pair)
+        if user is not None:
+            client.set_user(user)
+            client.set_password(f"{user}-password" if password is None else password)
+        async with client:
+            await client.load_data_type_definitions()
+            await act(Calls(client, await client.get_namespace_index("urn:ilmek:loom")))
+
+    asyncio.run(run())
+
+
+def order(identifier: str, programme: str = PROGRAMME, priority: int = 0) -> Any:
+    master = [ua.ISA95WorkMasterDataType(ID=programme)] if programme else []
+    return ua.ISA95JobOrderDataType(JobOrderID=identifier, WorkMasterID=master, Priority=priority)
+
+
+def test_shows_the_loom(server: LoomServer, loom: SteppingLoom, pair: Pair) -> None:
+    async def act(calls: Calls) -> None:
+        machines = await calls.client.nodes.objects.get_child(
+            f"{await calls.client.get_namespace_index('http://opcfoundation.org/UA/Machinery/')}:Machines"
+        )
+        assert [(await node.read_browse_name()).Name for node in await machines.get_children()] == ["Loom"]
+        assert await calls.read("Loom.Identification.ProductInstanceUri") == PLATE.uri
+        assert await calls.read("Loom.MachineryBuildingBlocks.MachineryItemState.CurrentState") == "NotExecuting"
+        assert await calls.read("Loom.MachineryBuildingBlocks.MachineryOperationMode.CurrentState") == "Processing"
+        assert await calls.read("Loom.PackML.BaseStateMachine.MachineState.CurrentState") == "Stopped"
+        with pytest.raises(ua.uaerrors.BadStateNotActive):
+            await calls.read(f"{EXECUTE}.CurrentState")
+        assert await calls.read("Loom.PackML.Status.UnitModeCurrent") == 1
+        assert await calls.read("Loom.Heads.Head0.Yarn") == "ivory"
+        with pytest.raises(ua.uaerrors.BadNoData):
+            await calls.read("Loom.Heads.Head1.Yarn")
+        assert await calls.read("Loom.Heads.Head1.Tube2.Left") == 12.0
+        assert await calls.read("Loom.Status.Commands") == ["reset", "abort"]
+
+    connected(server, pair, act)
+
+
+def test_weaves_a_job_from_order_to_end(server: LoomServer, loom: SteppingLoom, pair: Pair) -> None:
+    async def act(calls: Calls) -> None:
+        assert await calls.returned("StoreAndStart", order("first")) == ReturnStatus.NO_ERROR
+        assert await calls.returned("StoreAndStart", order("first")) == ReturnStatus.INVALID_REQUEST
+        assert await calls.returned("Store", order("second", priority=3)) == ReturnStatus.NO_ERROR
+        assert await calls.returned("Store", order("third", "ff" * 32)) == ReturnStatus.UNABLE_TO_ACCEPT
+        assert await calls.returned("Stop", "second") == ReturnStatus.INVALID_STATUS
+        assert await calls.returned("Stop", "nobody") == ReturnStatus.UNKNOWN_JOB_ORDER
+        await calls.until(lambda: state_is(calls, "first", "Running"))
+        if await calls.returned("Pause", "first") == ReturnStatus.NO_ERROR:
+            await calls.until(lambda: state_is(calls, "first", "Interrupted"))
+            await calls.until(lambda: permitted(calls, "unhold"))
+            assert await calls.returned("Resume", "first") == ReturnStatus.NO_ERROR
+        await calls.until(lambda: state_is(calls, "first", "Ended"))
+        assert await calls.read("Loom.Carpet.Knots") == loom.total
+        answer = await calls.call(f"{RESULTS}.RequestJobResponseByJobOrderID", "first")
+        response, status = (one.Value for one in answer.OutputArguments)
+        assert status == ReturnStatus.NO_ERROR
+        assert {one.ID: one.Value.Value for one in response.JobResponseData} == {
+            "KnotsTied": loom.total,
+            "CarpetComplete": True,
+        }
+        assert await calls.returned("Store", order("fourth")) == ReturnStatus.UNABLE_TO_ACCEPT
+        assert await calls.returned("Cancel", "second") == ReturnStatus.NO_ERROR
+        assert await calls.returned("Clear", "first") == ReturnStatus.NO_ERROR
+        assert await calls.job_states() == {}
+
+    async def state_is(calls: Calls, name: str, state: str) -> bool:
+        return (await calls.job_states()).get(name) == state
+
+    async def permitted(calls: Calls, command: str) -> bool:
+        return command in await calls.read("Loom.Status.Commands")
+
+    connected(server, pair, act)
+
+
+def test_a_command_that_the_state_forbids_is_refused(server: LoomServer, loom: SteppingLoom, pair: Pair) -> None:
+    async def act(calls: Calls) -> None:
+        assert await calls.status(f"{EXECUTE}.Start") == "BadInvalidState"
+        assert await calls.read("Loom.Status.LastRefusal") == "start: Start in state Stopped; allowed are Reset, Abort"
+        assert await calls.status(f"{EXECUTE}.Hold", 1) == "BadTooManyArguments"
+        assert await calls.status("Loom.PackML.SetMachSpeed", 1.0) == "BadNotSupported"
+        assert await calls.status("Loom.PackML.SetUnitMode", "manual") == "BadInvalidArgument"
+        assert await calls.status(f"{CONTROL}.Start") == "BadArgumentsMissing"
+        assert await calls.status(f"{CONTROL}.StoreAndStart", "first") == "BadTypeMismatch"
+        assert await calls.status(f"{CONTROL}.Store", order("x" * 5000)) == "BadInvalidArgument"
+        assert await calls.returned("Store", order("")) == ReturnStatus.INVALID_REQUEST
+        assert loom.given == ["start"]
+        assert await calls.status("Loom.PackML.BaseStateMachine.MachineState.Reset") == "Good"
+        assert loom.given == ["start", "reset"]
+
+    connected(server, pair, act)
+
+
+@pytest.mark.parametrize("user", ["operator", "viewer"])
+def test_nobody_writes_and_a_viewer_does_not_command(
+    server: LoomServer, loom: SteppingLoom, pair: Pair, user: str
+) -> None:
+    async def act(calls: Calls) -> None:
+        for path, value in (("Loom.Carpet.Knots", 7), ("Loom.Identification.SerialNumber", "x")):
+            with pytest.raises(ua.uaerrors.BadUserAccessDenied):
+                await calls.node(path).write_value(value)
+        with pytest.raises(ua.uaerrors.BadServiceUnsupported):
+            await calls.client.nodes.objects.add_folder(calls.index, "mine")
+        if user == "viewer":
+            assert await calls.status(f"{EXECUTE}.Start") == "BadUserAccessDenied"
+            assert await calls.status(f"{CONTROL}.Abort", "first") == "BadUserAccessDenied"
+            assert await calls.status("Loom.PackML.SetUnitMode", 1) == "BadUserAccessDenied"
+            assert await calls.status(f"{RESULTS}.RequestJobResponseByJobOrderID", "first") == "Uncertain"
+            assert loom.given == []
+
+    connected(server, pair, act, user)
+
+
+def test_strangers_are_refused(server: LoomServer, loom: SteppingLoom, pair: Pair) -> None:
+    async def act(_: Calls) -> None:
+        pytest.fail("connected")
+
+    with pytest.raises(ua.uaerrors.BadUserAccessDenied):
+        connected(server, pair, act, "operator", "wrong-password")
+    with pytest.raises(ua.uaerrors.BadUserAccessDenied):
+        connected(server, pair, act, "nobody")
+    with pytest.raises((ua.uaerrors.BadIdentityTokenRejected, ua.UaError)):
+        connected(server, pair, act, None)
+    with pytest.raises(ua.uaerrors.BadSecurityModeInsufficient):
+        connected(server, None, act)
+
+
+def test_alarms_are_conditions(server: LoomServer, loom: SteppingLoom, pair: Pair) -> None:
+    class Events:
+        def __init__(self) -> None:
+            self.seen: list[Any] = []
+
+        def event_notification(self, event: Any) -> None:
+            self.seen.append(event)
+
+    async def act(calls: Calls) -> None:
+        events = Events()
+        subscription = await calls.client.create_subscription(50, events)
+        await subscription.subscribe_alarms_and_conditions(
+            calls.client.nodes.server, calls.node("LoomAlarmType")
+        )
+        loom.alarms = (AlarmView("weft-break", "the weft broke", "thread it", True, 5),)
+        await calls.until(lambda: count_is(calls, 1))
+        assert await calls.read("Loom.Alarms.Remedies") == ["thread it"]
+        loom.alarms = ()
+        await calls.until(lambda: count_is(calls, 0))
+        await calls.until(lambda: seen(events, 2))
+        raised, cleared = (event for event in events.seen if event.ConditionName)
+        assert (raised.Cause, raised.Remedy, raised.Severity, raised.Retain) == ("the weft broke", "thread it", 800, True)
+        assert (getattr(raised, "ActiveState/Id"), getattr(cleared, "ActiveState/Id")) == (True, False)
+
+    async def count_is(calls: Calls, count: int) -> bool:
+        return bool(await calls.read("Loom.Alarms.Count") == count)
+
+    async def seen(events: Events, count: int) -> bool:
+        return sum(bool(event.ConditionName) for event in events.seen) == count
+
+    connected(server, pair, act, "viewer")
+
+
+def test_clients_stay_within_bounds(server: LoomServer, loom: SteppingLoom, pair: Pair) -> None:
+    async def act(calls: Calls) -> None:
+        class Silent:
+            def datachange_notification(self, *_: Any) -> None:
+                pass
+
+        made = [await calls.client.create_subscription(1, Silent()) for _ in range(MOST_OF_SESSION)]
+        assert made[0].parameters.RequestedPublishingInterval <= LEAST_INTERVAL
+        with pytest.raises(ua.uaerrors.BadTooManySubscriptions):
+            await calls.client.create_subscription(1, Silent())
+        with pytest.raises(ua.uaerrors.BadTooManyOperations):
+            await calls.client.uaclient.read_attributes([calls.node("Loom.Carpet.Knots").nodeid] * 1001, 13)
+        with pytest.raises(ua.uaerrors.BadSubscriptionIdInvalid):
+            await calls.client.uaclient.delete_subscriptions([78, 1])
+
+    connected(server, pair, act, "viewer")
+
+
+def test_messages_of_any_size_are_cut_off(server: LoomServer) -> None:
+    host, port = server.url.removeprefix("opc.tcp://").partition("/")[0].split(":")
+    for begin in (b"HELF\xff\xff\xff\x7f", b"GET / HTTP/1.1\r\n\r\n"):
+        with socket.create_connection((host, int(port)), timeout=10) as raw:
+            raw.sendall(begin)
+            with pytest.raises(OSError):  # noqa: PT011
+                while True:
+                    raw.sendall(bytes(LARGEST_CHUNK))
+                    if not raw.recv(1):
+                        raise ConnectionResetError
+
+
+def test_a_port_in_use_is_an_error(server: LoomServer, loom: SteppingLoom) -> None:
+    port = int(server.url.removeprefix("opc.tcp://127.0.0.1:").partition("/")[0])
+    credentials = make_credentials(PLATE.uri, "loom", ("127.0.0.1",))
+    other = LoomServer(loom, PLATE, UserList({}), credentials, port=port)
+    with pytest.raises(LoomError, match=f"127.0.0.1:{port} cannot be listened at"):
+        other.start()
+    other.stop()
+
+
+def test_states_of_the_loom(loom: SteppingLoom, server: LoomServer, pair: Pair) -> None:
+    async def act(calls: Calls) -> None:
+        loom.state = PackState.ABORTED
+        await calls.until(lambda: is_state(calls, "Aborted"))
+        assert await calls.read("Loom.MachineryBuildingBlocks.MachineryItemState.CurrentState") == "OutOfService"
+        assert await calls.read("Loom.PackML.BaseStateMachine.CurrentState") == "Aborted"
+        assert await calls.status("Loom.PackML.BaseStateMachine.Clear") == "Good"
+        await calls.until(lambda: is_state(calls, "Stopped"))
+
+    async def is_state(calls: Calls, state: str) -> bool:
+        return bool(await calls.read("Loom.Status.State") == state)
+
+    connected(server, pair, act)
