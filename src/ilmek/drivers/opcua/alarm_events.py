@@ -36,7 +36,14 @@ class LoomEvents:
             server = self._space.server
             for kind, found in ((self._space.type_id(f"Loom:{ALARM_TYPE}"), self._alarm), (job_type, self._job)):
                 generator = await server.get_event_generator(kind, emitter)
-                generator.event.SourceNode, generator.event.SourceName = source, LOOM
+                event = generator.event
+                event.SourceNode, event.SourceName = source, LOOM
+                if kind == job_type:
+                    for name in ("JobState", "JobOrder", "JobResponse"):
+                        event.add_property(name, None, ua.VariantType.ExtensionObject)
+                for name, data in event.data_types.items():  # asyncua encodes by built-in types alone
+                    if isinstance(data, ua.NodeId):
+                        event.data_types[name] = self._space.encoding(data)
                 found.append(generator)
 
     async def alarms(self, alarms: tuple[AlarmView, ...]) -> None:

@@ -148,10 +148,13 @@ class LoomServer:
         assert self._ended is not None
         following = time.monotonic()
         while not self._ended.is_set():
-            await shown.update(self._view.snapshot())
-            changed, self._changed[:] = list(self._changed), []
-            for job in changed:
-                await shown.events.job(job)
+            try:
+                await shown.update(self._view.snapshot())
+                changed, self._changed[:] = list(self._changed), []
+                for job in changed:
+                    await shown.events.job(job)
+            except Exception as failed:  # noqa: BLE001  one look that fails must not end the server
+                self._log(f"the OPC UA server could not show the loom: {failed!r}")
             following = max(following + self._interval, time.monotonic())
             with contextlib.suppress(TimeoutError):
                 await asyncio.wait_for(self._ended.wait(), following - time.monotonic())

@@ -156,6 +156,7 @@ class AddressSpace:
                 DisplayName=ua.LocalizedText(field.name),
                 Description=ua.LocalizedText(field.meaning),
                 DataType=self._types[field.data],
+                Value=self._default(field),
                 ValueRank=1 if field.array else -1,
                 ArrayDimensions=[0] if field.array else None,
                 AccessLevel=ua.AccessLevel.CurrentRead.mask,
@@ -164,6 +165,10 @@ class AddressSpace:
             child = self.node_id(f"{name}.{field.name}")
             await self._add(identifier, reference, child, self._own_name(field.name), variable, ua.NodeId(kind))
             await self._refer(child, _I.HasModellingRule, ua.NodeId(_I.ModellingRule_Mandatory))
+
+    def _default(self, field: TypeField) -> ua.Variant:
+        encoding = self.encoding(self._types[field.data])
+        return ua.Variant([] if field.array else ua.get_default_value(encoding), encoding, is_array=field.array)
 
     async def _loom(self) -> None:
         machines = self._child(ua.NodeId(_I.ObjectsFolder), "Machines")
@@ -214,7 +219,9 @@ class AddressSpace:
         kind: ua.NodeId | None = child.TypeDefinition
         if child.NodeClass == ua.NodeClass.Variable:
             attributes = self._variable_attributes(node)
-            self._note_variant(path, attributes)
+            encoding = self.encoding(attributes.DataType)
+            if encoding is not None:
+                self._variant[path] = encoding, attributes.ValueRank >= 1
         elif child.NodeClass == ua.NodeClass.Method:
             attributes, kind = ua.MethodAttributes(Executable=True, UserExecutable=True), None
             self._methods[path] = identifier, children[-1].NodeId
@@ -241,15 +248,14 @@ class AddressSpace:
             UserAccessLevel=ua.AccessLevel.CurrentRead.mask,
         )
 
-    def _note_variant(self, path: str, attributes: ua.VariableAttributes) -> None:
-        """Remember how values of a variable are encoded: by the built-in type that its data type is derived from."""
-        for identifier in self._with_supertypes(attributes.DataType):
+    def encoding(self, data_type: ua.NodeId) -> ua.VariantType | None:
+        """The built-in type by which values of a data type are encoded: the one that it is derived from."""
+        for identifier in self._with_supertypes(data_type):
             if identifier.NamespaceIndex == 0 and identifier.Identifier == _I.Enumeration:
-                self._variant[path] = ua.VariantType.Int32, attributes.ValueRank >= 1
-                return
-            if identifier.NamespaceIndex == 0 and 1 <= identifier.Identifier <= 22:
-                self._variant[path] = ua.VariantType(identifier.Identifier), attributes.ValueRank >= 1
-                return
+                return ua.VariantType.Int32
+            if identifier.NamespaceIndex == 0 and 1 <= identifier.Identifier <= _I.Structure:
+                return ua.VariantType(identifier.Identifier)
+        return None
 
     async def _object(
         self, parent: ua.NodeId, reference: ua.NodeId, path: str, name: ua.QualifiedName, kind: ua.NodeId
