@@ -1,4 +1,4 @@
-"""A loom without a controller, for tests of the OPC UA server: PackML's states, a knot at each look, alarms on order."""
+"""A loom without a controller, for tests of the OPC UA server: PackML's states, knots at each look."""
 
 import threading
 

@@ -1,6 +1,6 @@
 """The server's certificate and key: read from files, or made by itself and kept for the next start."""
 
-import datetime
+import datetime as dt
 import ipaddress
 import os
 from dataclasses import dataclass
@@ -43,7 +43,7 @@ def make_credentials(uri: str, name: str, hosts: tuple[str, ...]) -> Credentials
     """A certificate signed by its own key: OPC 10000-6, 6.2.2, application instance certificate."""
     key = rsa.generate_private_key(public_exponent=65537, key_size=KEY_BITS)
     subject = x509.Name([x509.NameAttribute(NameOID.COMMON_NAME, name)])
-    now = datetime.datetime.now(datetime.UTC)
+    now = dt.datetime.now(dt.UTC)
     usage = x509.KeyUsage(
         digital_signature=True, content_commitment=True, key_encipherment=True, data_encipherment=True,
         key_agreement=False, key_cert_sign=True, crl_sign=False, encipher_only=False, decipher_only=False,
@@ -57,8 +57,8 @@ def make_credentials(uri: str, name: str, hosts: tuple[str, ...]) -> Credentials
         .issuer_name(subject)
         .public_key(key.public_key())
         .serial_number(x509.random_serial_number())
-        .not_valid_before(now - datetime.timedelta(minutes=5))
-        .not_valid_after(now + datetime.timedelta(days=VALID_DAYS))
+        .not_valid_before(now - dt.timedelta(minutes=5))
+        .not_valid_after(now + dt.timedelta(days=VALID_DAYS))
         .add_extension(x509.SubjectAlternativeName(alternative), critical=False)
         .add_extension(x509.BasicConstraints(ca=False, path_length=None), critical=True)
         .add_extension(usage, critical=True)
@@ -100,7 +100,7 @@ def read_credentials(certificate: Path, key: Path, uri: str) -> Credentials:
     found, private = read_certificate(certificate), _read_key(key)
     if found.public_key() != private.public_key():
         raise LoomError(f"the certificate {certificate} is not that of the key {key}", do="give files of one pair")
-    now = datetime.datetime.now(datetime.UTC)
+    now = dt.datetime.now(dt.UTC)
     if not found.not_valid_before_utc <= now <= found.not_valid_after_utc:
         dates = f"{found.not_valid_before_utc:%Y-%m-%d} to {found.not_valid_after_utc:%Y-%m-%d}"
         raise LoomError(f"the certificate {certificate} is valid from {dates}", do="renew it")

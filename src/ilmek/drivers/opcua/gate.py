@@ -93,6 +93,8 @@ class GatedProcessor(UaProcessor):
 class GatedProtocol(OPCUAProtocol):
     """A connection whose messages are bounded."""
 
+    processor: UaProcessor | None
+
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         super().connection_made(transport)
         if self.processor is not None:
@@ -236,7 +238,7 @@ class GatedInternalServer(InternalServer):
 
     def create_session(self, name: Any, user: Any = None, external: bool = False) -> InternalSession:
         if not external:
-            return super().create_session(name)
+            return super().create_session(name) if user is None else super().create_session(name, user)
         return GatedSession(self, self.aspace, self.subscription_service, name, external=True)
 
     def lookup_external_session(self, auth_token: Any) -> None:

@@ -124,9 +124,7 @@ class LoomMethods:
 
         return called
 
-    def _on_order(
-        self, act: Callable[[str], Awaitable[ReturnStatus]]
-    ) -> Callable[..., Awaitable[ua.CallMethodResult]]:
+    def _on_order(self, act: Callable[[str], Awaitable[ReturnStatus]]) -> Callable[..., Awaitable[ua.CallMethodResult]]:
         async def called(_: ua.NodeId, *arguments: ua.Variant) -> ua.CallMethodResult:
             wrong = _wrong(arguments, str)
             if wrong is not None:

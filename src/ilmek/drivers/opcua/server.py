@@ -109,7 +109,7 @@ class LoomServer:
                 f"{self._host}:{self._port} cannot be listened at ({failed.strerror or failed})",
                 do="free the port, or give another with --port",
             )
-        except BaseException as failed:  # noqa: BLE001
+        except BaseException as failed:
             self._failure = failed
         finally:
             self._ready.set()
@@ -153,7 +153,7 @@ class LoomServer:
                 changed, self._changed[:] = list(self._changed), []
                 for job in changed:
                     await shown.events.job(job)
-            except Exception as failed:  # noqa: BLE001  one look that fails must not end the server
+            except Exception as failed:  # one look that fails must not end the server
                 self._log(f"the OPC UA server could not show the loom: {failed!r}")
             following = max(following + self._interval, time.monotonic())
             with contextlib.suppress(TimeoutError):
@@ -220,4 +220,3 @@ class _Speed:
             del self._marks[0]
         time_passed, tied = mark[0] - self._marks[0][0], mark[1] - self._marks[0][1]
         return tied * _MINUTE / time_passed if time_passed > 0 else 0.0
-

@@ -150,7 +150,9 @@ class AddressSpace:
     ) -> None:
         identifier = self._types[f"Loom:{name}"] = self.node_id(name)
         attributes = ua.ObjectTypeAttributes(DisplayName=ua.LocalizedText(name), IsAbstract=False)
-        await self._add(base, ua.NodeId(_I.HasSubtype), identifier, self._own_name(name), attributes, None)
+        await self._add(
+            base, ua.NodeId(_I.HasSubtype), identifier, self._own_name(name), attributes=attributes, kind=None
+        )
         for field in fields:
             variable = ua.VariableAttributes(
                 DisplayName=ua.LocalizedText(field.name),
@@ -163,7 +165,9 @@ class AddressSpace:
                 UserAccessLevel=ua.AccessLevel.CurrentRead.mask,
             )
             child = self.node_id(f"{name}.{field.name}")
-            await self._add(identifier, reference, child, self._own_name(field.name), variable, ua.NodeId(kind))
+            await self._add(
+                identifier, reference, child, self._own_name(field.name), attributes=variable, kind=ua.NodeId(kind)
+            )
             await self._refer(child, _I.HasModellingRule, ua.NodeId(_I.ModellingRule_Mandatory))
 
     def _default(self, field: TypeField) -> ua.Variant:
@@ -229,7 +233,9 @@ class AddressSpace:
             attributes = ua.ObjectAttributes()
         attributes.DisplayName = ua.LocalizedText(child.BrowseName.Name)
         attributes.Description = self._attribute(child.NodeId, _A.Description) or ua.LocalizedText()
-        await self._add(self.node_id(parent), child.ReferenceTypeId, identifier, child.BrowseName, attributes, kind)
+        await self._add(
+            self.node_id(parent), child.ReferenceTypeId, identifier, child.BrowseName, attributes=attributes, kind=kind
+        )
         below = [one.NodeId for one in children]
         if kind is not None and not kind.is_null():
             below.append(kind)
@@ -261,7 +267,7 @@ class AddressSpace:
         self, parent: ua.NodeId, reference: ua.NodeId, path: str, name: ua.QualifiedName, kind: ua.NodeId
     ) -> None:
         attributes = ua.ObjectAttributes(DisplayName=ua.LocalizedText(name.Name))
-        await self._add(parent, reference, self.node_id(path), name, attributes, kind)
+        await self._add(parent, reference, self.node_id(path), name, attributes=attributes, kind=kind)
 
     async def _add(
         self,
@@ -269,6 +275,7 @@ class AddressSpace:
         reference: ua.NodeId,
         identifier: ua.NodeId,
         name: ua.QualifiedName,
+        *,
         attributes: Any,
         kind: ua.NodeId | None,
     ) -> None:
@@ -342,4 +349,3 @@ class AddressSpace:
     def _name(self, name: str) -> ua.QualifiedName:
         space, _, name = name.partition(":")
         return ua.QualifiedName(name, self.spaces[space])
-

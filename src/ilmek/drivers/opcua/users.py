@@ -44,12 +44,12 @@ class LoomUser:
 def hashed(password: str, salt: bytes | None = None) -> str:
     """The salted hash of a password: scrypt$cost$block$parallel$salt$hash. Raises ParameterError for its length."""
     if not SHORTEST <= len(password) <= LONGEST:
-        raise ParameterError(
-            f"a password of {len(password)} characters", allowed=f"{SHORTEST} to {LONGEST} characters"
-        )
+        raise ParameterError(f"a password of {len(password)} characters", allowed=f"{SHORTEST} to {LONGEST} characters")
     salt = secrets.token_bytes(_SALT) if salt is None else salt
     found = _scrypt(password, salt, COST, BLOCK, PARALLEL)
-    return "$".join(["scrypt", f"{COST}", f"{BLOCK}", f"{PARALLEL}", b64encode(salt).decode(), b64encode(found).decode()])
+    return "$".join(
+        ["scrypt", f"{COST}", f"{BLOCK}", f"{PARALLEL}", b64encode(salt).decode(), b64encode(found).decode()]
+    )
 
 
 def matches(password: str, stored: str) -> bool:
