@@ -40,6 +40,7 @@ main = LazyGroup(
         "cyclogram": ("ilmek.cli.cyclogram", "Check, optimise, tabulate and draw a cyclogram."),
         "knot": ("ilmek.cli.knot", "Prove which knot the motion of a gripper ties."),
         "reproduce": ("ilmek.cli.reproduce", "Recompute four published papers and compare, number by number."),
+        "plan": ("ilmek.cli.plan", "Plan several carpets on looms that exist: which loom weaves what when."),
         "inspect": ("ilmek.cli.inspect", "Show a loom programme: rows, colours, statistics."),
     },
 )

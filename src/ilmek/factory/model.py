@@ -1,0 +1,234 @@
+"""What is planned: carpets to weave, looms that exist, yarn in stock; and the plan.
+
+Times are whole minutes from the midnight at which the plan begins (`calendar`); masses whole grams; money whole
+ten-thousandths of the currency, so that every sum is exact.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+from ilmek.factory.calendar import Calendar
+
+MONEY = 10_000
+"""Units of money in one unit of the currency."""
+
+HOUR = 60
+"""Minutes of an hour."""
+
+
+@dataclass(frozen=True, slots=True)
+class Loom:
+    """A loom that exists.
+
+    weaving       when it weaves                       attended   when carpets are dressed and doffed, part of `weaving`
+    cost          of an hour of its work               available  from when on [min]
+    dressing      time to dress it for a carpet [min]; `dressing_same`: after a carpet of the same setup
+    doffing       time to take a carpet off [min]
+    """
+
+    name: str
+    weaving: Calendar
+    attended: Calendar
+    cost: int
+    dressing: int
+    dressing_same: int
+    doffing: int
+    available: int = 0
+
+    def dressing_time(self, *, same: bool) -> int:
+        """The time to dress it [min]; `same`: after a carpet of the same setup."""
+        return min(self.dressing, self.dressing_same) if same else self.dressing
+
+    def cost_of(self, minutes: int) -> int:
+        """The cost of so many minutes of work, rounded half up."""
+        return (2 * self.cost * minutes + HOUR) // (2 * HOUR)
+
+
+@dataclass(frozen=True, slots=True)
+class Job:
+    """One carpet to weave.
+
+    order     index of its order            setup     carpets of one setup have the same width and yarns
+    weaving   minutes on each loom that can weave it, by the index of the loom
+    earliest  start [min]                   due       [min]
+    late      cost of a started hour after the due date
+    yarns     grams by the index of the yarn
+    """
+
+    order: int
+    setup: int
+    weaving: Mapping[int, int]
+    earliest: int
+    due: int
+    late: int
+    yarns: Mapping[int, int] = field(default_factory=dict)
+
+    def late_cost(self, end: int) -> int:
+        """The cost of its delay where it ends at an instant."""
+        return self.late * late_hours(end, self.due)
+
+
+@dataclass(frozen=True, slots=True)
+class StoredYarn:
+    """A yarn: grams in stock, and when a purchase arrives [min]."""
+
+    name: str
+    stock: int
+    arrives: int
+
+
+@dataclass(frozen=True, slots=True)
+class PlannedCarpet:
+    """A carpet on a loom, by the indices of job and loom.
+
+    start    of dressing      dressed  end of dressing      woven  end of weaving      end  of doffing [min]
+    same     whether the carpet before has the same setup
+    """
+
+    job: int
+    loom: int
+    start: int
+    dressed: int
+    woven: int
+    end: int
+    same: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Factory:
+    """The problem: jobs, looms, yarns by index."""
+
+    looms: tuple[Loom, ...]
+    jobs: tuple[Job, ...]
+    yarns: tuple[StoredYarn, ...] = ()
+
+    def loom_cost(self, job: int, loom: int, *, same: bool) -> int:
+        """The cost of a job on a loom, without its delay; `same`: after a carpet of the same setup."""
+        on = self.looms[loom]
+        return on.cost_of(on.dressing_time(same=same) + self.jobs[job].weaving[loom] + on.doffing)
+
+    def with_loom(self, index: int, loom: Loom) -> "Factory":
+        """The factory with another loom of that index."""
+        return replace(self, looms=(*self.looms[:index], loom, *self.looms[index + 1 :]))
+
+    def with_copy(self, index: int, name: str) -> "Factory":
+        """The factory with one more loom like the one of an index, after all others."""
+        new = len(self.looms)
+        jobs = tuple(
+            replace(job, weaving={**job.weaving, new: job.weaving[index]}) if index in job.weaving else job
+            for job in self.jobs
+        )
+        return replace(self, looms=(*self.looms, replace(self.looms[index], name=name)), jobs=jobs)
+
+
+@dataclass(frozen=True, slots=True)
+class FactoryPlan:
+    """All carpets of a factory on its looms, in the order of jobs."""
+
+    factory: Factory
+    carpets: tuple[PlannedCarpet, ...]
+
+    @property
+    def loom_costs(self) -> int:
+        """The cost of all looms' work."""
+        return sum(self.factory.loom_cost(one.job, one.loom, same=one.same) for one in self.carpets)
+
+    @property
+    def late_costs(self) -> int:
+        """The cost of all delays."""
+        return sum(self.factory.jobs[one.job].late_cost(one.end) for one in self.carpets)
+
+    @property
+    def cost(self) -> int:
+        """The cost of looms and delays."""
+        return self.loom_costs + self.late_costs
+
+    @property
+    def late(self) -> frozenset[int]:
+        """Jobs that end after their due date."""
+        return frozenset(one.job for one in self.carpets if one.end > self.factory.jobs[one.job].due)
+
+    @property
+    def end(self) -> int:
+        """The end of the last carpet [min]; 0 without carpets."""
+        return max((one.end for one in self.carpets), default=0)
+
+    @property
+    def merit(self) -> tuple[int, int]:
+        """What is minimised: the cost, and among plans of one cost the sum of the carpets' ends."""
+        return self.cost, sum(one.end for one in self.carpets)
+
+    def on_loom(self, loom: int) -> list[PlannedCarpet]:
+        """The carpets of a loom in the order of time."""
+        return sorted((one for one in self.carpets if one.loom == loom), key=lambda one: (one.start, one.end))
+
+
+def late_hours(end: int, due: int) -> int:
+    """Started hours between the due date and a later end [min].
+
+    >>> late_hours(600, 600), late_hours(601, 600), late_hours(660, 600)
+    (0, 1, 1)
+    """
+    return -(-max(end - due, 0) // HOUR)
+
+
+def carpet_on(factory: Factory, job: int, loom: int, time: int, *, same: bool = False) -> PlannedCarpet:
+    """The earliest carpet on a loom that is free from an instant on [min]; release and the loom's begin are kept."""
+    on, what = factory.looms[loom], factory.jobs[job]
+    start = on.attended.begin(max(time, what.earliest, on.available))
+    dressed = on.attended.finish(start, on.dressing_time(same=same))
+    woven = on.weaving.finish(dressed, what.weaving[loom])
+    return PlannedCarpet(job, loom, start, dressed, woven, on.attended.finish(woven, on.doffing), same)
+
+
+def left_shifted(factory: Factory, sequences: Sequence[Sequence[int]], floors: Mapping[int, int]) -> FactoryPlan:
+    """The plan in which every carpet of the looms' sequences of jobs begins as early as it can.
+
+    sequences  jobs of each loom, in order      floors  further least starts of jobs, as by their yarn [min]
+    """
+    carpets: dict[int, PlannedCarpet] = {}
+    for loom, sequence in enumerate(sequences):
+        free, before = 0, -1
+        for job in sequence:
+            same = before >= 0 and factory.jobs[before].setup == factory.jobs[job].setup
+            carpets[job] = carpet_on(factory, job, loom, max(free, floors.get(job, 0)), same=same)
+            free, before = carpets[job].end, job
+    return FactoryPlan(factory, tuple(carpets[job] for job in sorted(carpets)))
+
+
+def sequences_of(plan: FactoryPlan) -> list[list[int]]:
+    """The jobs of each loom in the order of time."""
+    return [[one.job for one in plan.on_loom(loom)] for loom in range(len(plan.factory.looms))]
+
+
+def in_turn(plan: FactoryPlan) -> FactoryPlan:
+    """The plan in which, of jobs that are alike, the one with the lower index begins first."""
+    alike: dict[object, list[PlannedCarpet]] = {}
+    for one in plan.carpets:
+        job = plan.factory.jobs[one.job]
+        alike.setdefault(likeness(job), []).append(one)
+    carpets: list[PlannedCarpet] = []
+    for members in alike.values():
+        numbers = sorted(one.job for one in members)
+        ordered = sorted(members, key=lambda one: (one.start, one.end, one.loom))
+        carpets += [replace(one, job=number) for number, one in zip(numbers, ordered, strict=True)]
+    return FactoryPlan(plan.factory, tuple(sorted(carpets, key=lambda one: one.job)))
+
+
+def likeness(job: Job) -> tuple[object, ...]:
+    """What two jobs have in common that can be exchanged."""
+    return job.order, job.setup, job.earliest, job.due, job.late, tuple(sorted(job.weaving.items()))
+
+
+def lone_cost(factory: Factory, job: int) -> int:
+    """A bound of the cost of a job: on its best loom, alone, and dressed in the shorter time where there is a like one.
+
+    No plan costs less than the sum over all jobs.
+    """
+    what = factory.jobs[job]
+    like = any(index != job and other.setup == what.setup for index, other in enumerate(factory.jobs))
+    costs = (
+        factory.loom_cost(job, loom, same=like) + what.late_cost(carpet_on(factory, job, loom, 0, same=like).end)
+        for loom in what.weaving
+    )
+    return min(costs)

@@ -1,0 +1,177 @@
+"""Orders of a factory as TOML.
+
+    start = 2026-12-01T06:00:00                 # begin of the plan, local time
+    currency = "EUR"
+    late = "40 EUR/d"                           # of an order that sets none; by the started hour
+
+    [[order]]
+    name = "Kazak, first"
+    picture = "recipes/kazak.toml"              # picture, chart or recipe, with the keys of `ilmek weave`
+    quantity = 2
+    due = 2026-12-18T16:00:00                   # a date alone: its end
+    earliest = 2026-12-03
+    late = "80 EUR/d"
+    priority = 2                                # how many times its delay counts
+
+    [[order]]
+    name = "Runner"
+    programme = "runner/programme.ilmek"        # for the loom that it was compiled for
+
+Files are named relative to the folder of the orders and lie in it.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from datetime import datetime
+from pathlib import Path
+
+from ilmek.carpet.yarn_plan import EURO
+from ilmek.errors import IlmekError, ParameterError
+from ilmek.io.data_text import read_data
+from ilmek.io.factory_entry import FactoryEntry, file_beside
+from ilmek.io.schema import SourceText, shown
+from ilmek.params import Parameter, Setting
+
+MOST_ORDERS = 500
+"""Largest number of orders of a file, and of carpets in all of them."""
+
+MOST_PRIORITY = 100
+
+ORDER_KEYS = ("name", "picture", "programme", "quantity", "due", "earliest", "late", "priority")
+CARPET_KEYS = ("size", "quality", "knot", "yarns")
+
+
+@dataclass(frozen=True, slots=True)
+class FactoryOrder:
+    """An order of one or more equal carpets.
+
+    picture, programme  its file: one of them
+    carpet    size, quality, knot as texts, and settings of a carpet by name      yarns  yarn list
+    late      cost of a day of delay of one carpet, times the priority [currency/s]
+    where     file and line, for messages
+    """
+
+    name: str
+    picture: Path | None
+    programme: Path | None
+    quantity: int
+    earliest: datetime
+    due: datetime
+    late: float
+    priority: int
+    carpet: Mapping[str, Setting] = field(default_factory=dict)
+    yarns: Path | None = None
+    where: str = ""
+
+    def __hash__(self) -> int:
+        return hash((self.name, self.where))
+
+
+@dataclass(frozen=True, slots=True)
+class FactoryOrders:
+    """The orders of a file: begin of the plan, currency, orders."""
+
+    path: Path
+    start: datetime
+    currency: str
+    orders: tuple[FactoryOrder, ...]
+
+
+def read_orders(path: Path, parameters: Mapping[str, Parameter]) -> FactoryOrders:
+    """The orders of a .toml file; the pictures are not opened.
+
+    parameters  of a carpet, each under every name that a key may have
+    Raises ParameterError with the file, the line and the key for any error in the file.
+    """
+    text = read_data(path, "orders", ParameterError)
+    try:
+        return _orders(FactoryEntry(text.data, (), SourceText(str(path), text.lines)), path, parameters)
+    except IlmekError as error:
+        raise ParameterError(error.given, allowed=error.allowed, do=error.do) from None
+
+
+def _orders(root: FactoryEntry, path: Path, parameters: Mapping[str, Parameter]) -> FactoryOrders:
+    root.keys("start", "currency", "late", "order", needs=("start", "order"))
+    currency, start = root.currency(EURO), root.instant("start")
+    late = root.money("late", currency, "d")
+    rows = root.rows("order")
+    if not 1 <= len(rows) <= MOST_ORDERS:
+        root.refuse(ParameterError(f"has {len(rows)} orders", allowed=f"1 to {MOST_ORDERS}"), "order")
+    read = _OrderReader(path, start, currency, late, parameters)
+    orders = tuple(read.order(row) for row in rows)
+    names: dict[str, int] = {}
+    for index, order in enumerate(orders):
+        if names.setdefault(order.name, index) != index:
+            rows[index].refuse(
+                ParameterError(f"two orders are named {order.name!r}", do="give each its own name"), "name"
+            )
+    carpets = sum(order.quantity for order in orders)
+    if carpets > MOST_ORDERS:
+        root.refuse(ParameterError(f"has {carpets:,} carpets", allowed=f"at most {MOST_ORDERS}"), "order")
+    return FactoryOrders(path, start, currency, orders)
+
+
+@dataclass(frozen=True, slots=True)
+class _OrderReader:
+    """Reads an order; `late`: cost of delay of one that sets none [currency/s]."""
+
+    path: Path
+    start: datetime
+    money: str
+    late: float | None
+    parameters: Mapping[str, Parameter]
+
+    def order(self, row: FactoryEntry) -> FactoryOrder:
+        row.keys(*ORDER_KEYS, *CARPET_KEYS, *self.parameters, needs=("name", "due"))
+        if row.has("picture") == row.has("programme"):
+            row.refuse(ParameterError("has both or neither of picture and programme", allowed="one of them"))
+        programme = self._file(row, "programme")
+        for key in (*CARPET_KEYS, *self.parameters):
+            if programme is not None and row.has(key):
+                row.refuse(ParameterError(f"{key} of a programme cannot be set", do=f"leave {key} out"), key)
+        return FactoryOrder(
+            row.label("name"),
+            self._file(row, "picture"),
+            programme,
+            row.count("quantity", 1, 1, MOST_ORDERS),
+            max(row.instant("earliest", self.start), self.start),
+            row.instant("due", late=True),
+            self._late(row),
+            row.count("priority", 1, 1, MOST_PRIORITY),
+            {} if programme is not None else _settings(row, self.parameters),
+            self._file(row, "yarns"),
+            f"{self.path}, line {row.source.lines.get(row.path, 1)}",
+        )
+
+    def _late(self, row: FactoryEntry) -> float:
+        own = row.money("late", self.money, "d")
+        cost = self.late if own is None else own
+        if cost is None:
+            do = f'write late = "40 {self.money}/d", here or for all orders'
+            row.refuse(ParameterError("has no cost of delay", do=do))
+        return cost
+
+    def _file(self, row: FactoryEntry, key: str) -> Path | None:
+        if not row.has(key):
+            return None
+        try:
+            return file_beside(self.path.parent, row.text(key), "orders")
+        except ParameterError as error:
+            row.refuse(error, key)
+
+
+def _settings(row: FactoryEntry, parameters: Mapping[str, Parameter]) -> dict[str, Setting]:
+    """Size, quality, knot and the parameters of a carpet that are given, by name."""
+    found: dict[str, Setting] = {key: row.text(key) for key in ("size", "quality", "knot") if row.has(key)}
+    for key, parameter in parameters.items():
+        if not row.has(key):
+            continue
+        value = row.data[key]
+        try:
+            if not isinstance(value, str | int | float) or parameter.name in found:
+                raise ParameterError(f"{shown(value)} is not a value, or given twice", do='write it like "8mm" or 8')
+            parameter.check(parameter.read(value))
+        except IlmekError as error:
+            row.refuse(error, key)
+        found[parameter.name] = value
+    return found

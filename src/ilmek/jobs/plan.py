@@ -1,0 +1,334 @@
+"""Plan a factory: several carpets on looms that exist, which loom weaves what when, and at what cost."""
+
+import time
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from ilmek.errors import LoomError, ParameterError
+from ilmek.factory.heuristic import first_plan
+from ilmek.factory.model import HOUR, MONEY, FactoryPlan, PlannedCarpet
+from ilmek.factory.rescue import Rescue, rescues
+from ilmek.factory.solver import SolvedPlan, SolveLimits, import_solver, solve
+from ilmek.factory.verification import plan_faults
+from ilmek.factory.yarn_stock import Purchase, purchases
+from ilmek.io.looms_file import read_looms
+from ilmek.io.orders_file import read_orders
+from ilmek.jobs.chart import job_json
+from ilmek.jobs.order import recipe_parameters
+from ilmek.jobs.plan_inputs import FactoryInputs, PlannedOrder, read_inputs
+from ilmek.progress import SILENT, Progress
+from ilmek.records import record
+from ilmek.report import Check, at_most
+from ilmek.units import g, minute, parse_quantity
+
+LEAST_LIMIT, MOST_LIMIT = 1.0, 3600.0
+"""Bounds of --time-limit [s]."""
+
+MOST_RESCUED = 5
+"""Largest number of late orders for which measures are searched: those whose delay costs most."""
+
+SOLVER_SHARE = 0.7
+"""Share of the time for the solver; the rest is for the first plan and the measures."""
+
+PACE = 0.2
+"""Deterministic time of the solver in a second of the time limit: a slow computer gets through it too."""
+
+
+@record
+class LateOrder:
+    """A late order, by its index, and the measures that save it."""
+
+    order: int
+    rescues: tuple[Rescue, ...]
+
+
+@record
+class PlanResult:
+    """Results of the job.
+
+    solved     the plan with its bound; None where no order can be woven
+    late       the late orders, those whose delay costs most first; measures for at most MOST_RESCUED of them
+    purchases  yarn to buy
+    """
+
+    inputs: FactoryInputs
+    solved: SolvedPlan | None
+    late: tuple[LateOrder, ...]
+    purchases: tuple[Purchase, ...]
+    time_limit: float
+
+    @property
+    def plan(self) -> FactoryPlan:
+        """The plan; without carpets where no order can be woven."""
+        return FactoryPlan(self.inputs.factory, ()) if self.solved is None else self.solved.plan
+
+    @property
+    def gap(self) -> float:
+        """Share of the cost above the bound: no plan costs less than 1 - gap times this one [-]."""
+        cost = self.plan.cost
+        return 0.0 if self.solved is None or cost == 0 else (cost - self.solved.bound) / cost
+
+    def carpets(self, order: int) -> list[PlannedCarpet]:
+        """The carpets of an order in the order of time."""
+        jobs = self.inputs.jobs[order]
+        return sorted((one for one in self.plan.carpets if one.job in jobs), key=lambda one: (one.start, one.end))
+
+    def cost(self, carpet: PlannedCarpet) -> int:
+        """The cost of a carpet: of its loom and its delay."""
+        factory = self.inputs.factory
+        looms = factory.loom_cost(carpet.job, carpet.loom, same=carpet.same)
+        return looms + factory.jobs[carpet.job].late_cost(carpet.end)
+
+    def overdue(self, order: int) -> int:
+        """The delay of an order's last carpet [min]."""
+        jobs = self.inputs.factory.jobs
+        return max((max(one.end - jobs[one.job].due, 0) for one in self.carpets(order)), default=0)
+
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """Of every order: it is in time; or the checks that fail on the loom that comes nearest to weaving it."""
+        found: list[Check] = []
+        for index, order in enumerate(self.inputs.orders):
+            name = order.entry.name
+            if order.possible:
+                cure = next(
+                    (rescue_text(self, one.rescues[0]) for one in self.late if one.order == index and one.rescues), ""
+                )
+                late = minute * self.overdue(index)
+                found.append(at_most(f"{name}: delay", late, 0.0, "h", "the due date", cure=cure))
+            else:
+                found += _not_woven(self.inputs, order)
+        return tuple(found)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What limits the plan's claims."""
+        found = []
+        if self.solved is not None and not self.solved.repeatable:
+            found.append(
+                "the time limit ended the search: another computer may find another plan; give a longer --time-limit"
+            )
+        measured = sum(bool(one.rescues) for one in self.late)
+        if measured < len(self.late):
+            found.append(f"measures are searched for {measured} of {len(self.late)} late orders")
+        return tuple(found)
+
+
+def read_time_limit(text: str) -> float:
+    """A time limit with its unit [s]. Raises ParameterError, UnitError."""
+    seconds = parse_quantity(text, "s")
+    if not LEAST_LIMIT <= seconds <= MOST_LIMIT or text.strip().replace(".", "").isdigit():
+        raise ParameterError(f"--time-limit {text!r}", allowed="1 s to 1 h, with its unit", do="write it like 60s")
+    return seconds
+
+
+def default_limit(carpets: int) -> float:
+    """The time limit by the number of carpets [s]: 10 s for ten, 60 s for a hundred and more."""
+    return min(60.0, max(10.0, 0.6 * carpets))
+
+
+def plan_factory(
+    orders: Path, looms: Path, *, time_limit: float | None = None, progress: Progress = SILENT
+) -> PlanResult:
+    """Plan the orders of a file on the looms of another.
+
+    time_limit  [s]; default: `default_limit` of the carpets
+    Raises an IlmekError for files that cannot be read, LoomError for a plan that fails its verification.
+    """
+    import_solver()
+    inputs = read_inputs(read_orders(orders, recipe_parameters()), read_looms(looms), progress.part(0.0, 0.3))
+    limit = default_limit(len(inputs.factory.jobs)) if time_limit is None else time_limit
+    if not inputs.factory.jobs:
+        return PlanResult(inputs, None, (), (), limit)
+    begun = time.monotonic()
+    first = first_plan(inputs.factory, progress.part(0.3, 0.4, "first plan"))
+    left = limit - (time.monotonic() - begun)
+    share = SOLVER_SHARE if first.late else 1.0
+    progress.part(0.4, 0.8, "plan")
+    solved = solve(inputs.factory, first, SolveLimits(PACE * share * limit, max(0.5, share * left)))
+    faults = plan_faults(solved.plan, solved.plan.cost)
+    if faults:
+        raise LoomError(f"the plan does not hold: {faults[0]}", do="report this with both files")
+    done = PlanResult(inputs, solved, (), purchases(solved.plan), limit)
+    return replace(done, late=_late_orders(done, progress.part(0.8, 1.0, "late orders")))
+
+
+def _late_orders(done: PlanResult, progress: Progress) -> tuple[LateOrder, ...]:
+    plan, jobs = done.plan, done.inputs.factory.jobs
+    costs = {
+        index: sum(jobs[one.job].late_cost(one.end) for one in done.carpets(index))
+        for index in range(len(done.inputs.orders))
+        if done.overdue(index)
+    }
+    found = []
+    for number, order in enumerate(sorted(costs, key=lambda index: (-costs[index], index))):
+        late = frozenset(done.inputs.jobs[order]) & plan.late
+        found.append(LateOrder(order, rescues(plan, late) if number < MOST_RESCUED else ()))
+        progress(min(1.0, (number + 1) / MOST_RESCUED))
+    return tuple(found)
+
+
+def _not_woven(inputs: FactoryInputs, order: PlannedOrder) -> list[Check]:
+    """The failed checks of an order on the loom with the fewest of them."""
+    fits = zip(inputs.looms_file.looms, order.fits, strict=True)
+    loom, fit = min(fits, key=lambda pair: len(pair[1].failed))
+    return [replace(check, name=f"{order.entry.name} on {loom.name}: {check.name}") for check in fit.failed]
+
+
+def rescue_text(done: PlanResult, rescue: Rescue) -> str:
+    """A measure in words."""
+    factory = rescue.plan.factory
+    loom = done.inputs.looms_file.looms[rescue.loom].name if rescue.loom >= 0 else ""
+    until = f"until {done.inputs.time(rescue.until):%Y-%m-%d}"
+    hours = f"{rescue.hours} h"
+    texts = {
+        "put first": "put it before orders that are late anyway",
+        "overtime": f"{hours} overtime a day on loom {loom} {until}",
+        "free days": f"loom {loom} works on its free days {until}",
+        "another loom": f"one more loom like {loom}, {len(factory.looms)} in all",
+        "earlier start": f"start it {hours} earlier",
+        "yarn at once": "get its yarn without lead time",
+        "later due date": f"agree a due date {hours} later",
+    }
+    return texts[rescue.kind]
+
+
+def plan_results(done: PlanResult) -> dict[str, Any]:
+    """The results by their JSON names, SI; money in the currency, times as local dates."""
+    solved, plan = done.solved, done.plan
+    return {
+        "orders": [_order_json(done, index) for index in range(len(done.inputs.orders))],
+        "bound": None if solved is None else solved.bound / MONEY,
+        "cost": plan.cost / MONEY,
+        "loom_cost": plan.loom_costs / MONEY,
+        "late_cost": plan.late_costs / MONEY,
+        "gap": done.gap,
+        "currency": done.inputs.orders_file.currency,
+        "status": "none" if solved is None else solved.status,
+        "repeatable": solved is None or solved.repeatable,
+        "horizon": None if solved is None else _iso(done, solved.horizon),
+        "looms": [_loom_json(done, index) for index in range(len(done.inputs.factory.looms))],
+        "late_orders": [
+            {
+                "name": done.inputs.orders[one.order].entry.name,
+                "measures": [_rescue_json(done, rescue) for rescue in one.rescues],
+            }
+            for one in done.late
+        ],
+        "yarn": [purchase_json(done, one) for one in done.purchases],
+        "yarn_price": _yarn_price(done),
+    }
+
+
+def _iso(done: PlanResult, minutes: int) -> str:
+    return done.inputs.time(minutes).isoformat(timespec="minutes")
+
+
+def _order_json(done: PlanResult, index: int) -> dict[str, Any]:
+    entry, carpets = done.inputs.orders[index].entry, done.carpets(index)
+    looms = done.inputs.factory.looms
+    return {
+        "name": entry.name,
+        "loom": ", ".join(dict.fromkeys(looms[one.loom].name for one in carpets)) or None,
+        "start": _iso(done, carpets[0].start) if carpets else None,
+        "end": _iso(done, max(one.end for one in carpets)) if carpets else None,
+        "cost": sum(map(done.cost, carpets)) / MONEY if carpets else None,
+        "late": minute * done.overdue(index) if carpets else None,
+        "due": entry.due.isoformat(timespec="minutes"),
+        "woven": bool(carpets),
+        "quantity": entry.quantity,
+        "carpets": [_carpet_json(done, one) for one in carpets],
+    }
+
+
+def _carpet_json(done: PlanResult, one: PlannedCarpet) -> dict[str, Any]:
+    factory = done.inputs.factory
+    return {
+        "loom": factory.looms[one.loom].name,
+        "start": _iso(done, one.start),
+        "dressed": _iso(done, one.dressed),
+        "woven": _iso(done, one.woven),
+        "end": _iso(done, one.end),
+        "weaving_time": minute * factory.jobs[one.job].weaving[one.loom],
+        "same_setup": one.same,
+        "cost": done.cost(one) / MONEY,
+        "late": minute * max(one.end - factory.jobs[one.job].due, 0),
+    }
+
+
+def _loom_json(done: PlanResult, index: int) -> dict[str, Any]:
+    factory, carpets = done.inputs.factory, done.plan.on_loom(index)
+    loom = factory.looms[index]
+    busy = sum(
+        loom.dressing_time(same=one.same) + factory.jobs[one.job].weaving[index] + loom.doffing for one in carpets
+    )
+    open_time = loom.weaving.work(done.plan.end) - loom.weaving.work(loom.available)
+    return {
+        "name": loom.name,
+        "carpets": len(carpets),
+        "busy": minute * busy,
+        "utilisation": busy / open_time if open_time > 0 else 0.0,
+        "end": _iso(done, carpets[-1].end) if carpets else None,
+    }
+
+
+def _rescue_json(done: PlanResult, rescue: Rescue) -> dict[str, Any]:
+    return {
+        "measure": rescue.kind,
+        "loom": done.inputs.looms_file.looms[rescue.loom].name if rescue.loom >= 0 else None,
+        "time": minute * HOUR * rescue.hours or None,
+        "text": rescue_text(done, rescue),
+        "cost": rescue.plan.cost / MONEY,
+    }
+
+
+def purchase_json(done: PlanResult, one: Purchase) -> dict[str, Any]:
+    """A yarn to buy: masses [kg], price, when it is needed, and when to order it."""
+    factory = done.inputs.factory
+    yarn = factory.yarns[one.yarn]
+    begin = done.inputs.orders_file.start
+    needed = max(done.inputs.time(one.by), begin)
+    lead = next((stock.lead for stock in done.inputs.looms_file.yarns if stock.name == yarn.name), 0.0)
+    order = max(done.inputs.time(one.by - round(lead / minute)), begin)
+    rate = _rate(done, yarn.name)
+    return {
+        "name": yarn.name,
+        "needed": g * one.needed,
+        "stock": g * yarn.stock,
+        "to_buy": g * one.grams,
+        "price": None if rate is None else rate * g * one.grams,
+        "needed_by": needed.isoformat(timespec="minutes"),
+        "order_by": order.isoformat(timespec="minutes"),
+    }
+
+
+def _rate(done: PlanResult, name: str) -> float | None:
+    """Price of a yarn per kilogram: of the stock, else of the first bill that has one in the plan's currency."""
+    for stock in done.inputs.looms_file.yarns:
+        if stock.name == name and stock.price is not None:
+            return stock.price
+    for order in done.inputs.orders:
+        for need in order.bill.needs if order.bill.currency == done.inputs.orders_file.currency else ():
+            if need.name == name and need.price is not None and need.to_buy > 0:
+                return need.price / need.to_buy
+    return None
+
+
+def _yarn_price(done: PlanResult) -> float | None:
+    prices: Sequence[float | None] = [purchase_json(done, one)["price"] for one in done.purchases]
+    known = [price for price in prices if price is not None]
+    return sum(known) if len(known) == len(prices) else None
+
+
+def plan_json(done: PlanResult, files: Sequence[str] = ()) -> dict[str, Any]:
+    """The JSON of the job."""
+    parameters = {
+        "orders": str(done.inputs.orders_file.path),
+        "looms": str(done.inputs.looms_file.path),
+        "start": done.inputs.orders_file.start.isoformat(timespec="minutes"),
+        "time_limit": done.time_limit,
+    }
+    results = plan_results(done)
+    return job_json("plan", parameters, results, checks=done.checks, warnings=list(done.warnings), files=list(files))

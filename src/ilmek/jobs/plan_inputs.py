@@ -1,0 +1,261 @@
+"""From the files of a factory to its model: looms that are ready, charts of the orders, who can weave what."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from datetime import datetime, timedelta
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ilmek.carpet.bill import YarnBill, yarn_bill
+from ilmek.carpet.chart import Chart
+from ilmek.carpet.pile import knot_length
+from ilmek.carpet.recipe.edits import located
+from ilmek.carpet.yarn_plan import YarnPlanParams
+from ilmek.errors import IlmekError, ParameterError
+from ilmek.factory.calendar import Calendar, Shift, calendar
+from ilmek.factory.model import HOUR, MONEY, Factory, Job, Loom, StoredYarn
+from ilmek.io.looms_file import FactoryLooms, LoomEntry
+from ilmek.io.orders_file import FactoryOrder, FactoryOrders
+from ilmek.io.programme_file import ProgrammeFile, open_programme
+from ilmek.jobs.chart import ChartResult, make_charted
+from ilmek.jobs.existing_loom import ExistingLoom, carpet_checks, read_existing_loom
+from ilmek.jobs.loom import LoomOrder, make_loomed
+from ilmek.jobs.order import read_order
+from ilmek.jobs.weave import overlay_checks
+from ilmek.jobs.wishes import Wishes
+from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, design
+from ilmek.progress import SILENT, Progress
+from ilmek.records import record
+from ilmek.report import Check, must
+from ilmek.units import g, hour, minute
+
+SAME_TIME = 1e-9
+"""Relative difference of times that are the same."""
+
+
+@record
+class LoomFit:
+    """Whether a loom weaves a carpet: its weaving time without stops [s], None where it does not; checks that fail."""
+
+    time: float | None
+    failed: tuple[Check, ...] = ()
+
+
+@record
+class PlannedOrder:
+    """An order of the file with its bill, its setup, and its fit to each loom."""
+
+    entry: FactoryOrder
+    bill: YarnBill
+    setup: tuple[Any, ...]
+    fits: tuple[LoomFit, ...]
+
+    @property
+    def possible(self) -> bool:
+        """Whether a loom weaves it."""
+        return any(fit.time is not None for fit in self.fits)
+
+
+@record
+class FactoryInputs:
+    """The files, and the model that is made of them.
+
+    orders   all orders; `jobs`: the indices of the jobs of each order, none for an order that no loom weaves
+    origin   the midnight from which minutes count
+    """
+
+    orders_file: FactoryOrders
+    looms_file: FactoryLooms
+    orders: tuple[PlannedOrder, ...]
+    jobs: tuple[tuple[int, ...], ...]
+    factory: Factory
+    origin: datetime
+
+    def time(self, minutes: int) -> datetime:
+        """The instant of a minute of the plan."""
+        return self.origin + timedelta(minutes=minutes)
+
+
+def read_inputs(orders: FactoryOrders, looms: FactoryLooms, progress: Progress = SILENT) -> FactoryInputs:
+    """The model of a factory. Raises an IlmekError, with file and line, for what cannot be read or designed."""
+    if orders.currency != looms.currency:
+        given = f"{orders.path} is in {orders.currency}, {looms.path} in {looms.currency}"
+        raise ParameterError(given, allowed="one currency", do="set currency in both files")
+    ready = _ready_looms(looms, progress.part(0.0, 0.4, "looms"))
+    planned = _planned_orders(orders, ready, progress.part(0.4, 1.0, "carpets"))
+    origin = orders.start.replace(hour=0, minute=0)
+    names = _yarn_names(planned)
+    found: list[Job] = []
+    indices: list[tuple[int, ...]] = []
+    setups: dict[tuple[Any, ...], int] = {}
+    for number, order in enumerate(planned):
+        setup = setups.setdefault(order.setup, len(setups))
+        job = replace(_job(order, looms, origin, names), order=number, setup=setup)
+        count = order.entry.quantity if order.possible else 0
+        indices.append(tuple(range(len(found), len(found) + count)))
+        found += [job] * count
+    begin = _minutes(orders.start, origin)
+    stock = {yarn.name: yarn for yarn in looms.yarns}
+    yarns = tuple(
+        StoredYarn(
+            name,
+            math.floor(stock[name].stock / g + 1e-6) if name in stock else 0,
+            begin + round(stock[name].lead / minute) if name in stock and stock[name].lead else 0,
+        )
+        for name in names
+    )
+    factory = Factory(_looms(looms, orders.start, origin), tuple(found), yarns)
+    return FactoryInputs(orders, looms, planned, tuple(indices), factory, origin)
+
+
+def _minutes(time: datetime, origin: datetime) -> int:
+    return (time - origin) // timedelta(minutes=1)
+
+
+def _ready_looms(looms: FactoryLooms, progress: Progress) -> list[ExistingLoom]:
+    """The looms of the file; equal ones are designed once."""
+    made: dict[tuple[Any, ...], ExistingLoom] = {}
+    found = []
+    for index, entry in enumerate(looms.looms):
+        key = entry.file, tuple(sorted(entry.design.items()))
+        if key not in made:
+            with located(entry.where):
+                made[key] = _existing(entry)
+        found.append(made[key])
+        progress((index + 1) / len(looms.looms))
+    return found
+
+
+def _existing(entry: LoomEntry) -> ExistingLoom:
+    if entry.file is not None:
+        return read_existing_loom(entry.file)
+    made = design(AutomatedLoomParams.read(dict(entry.design)))
+    return ExistingLoom(Path(entry.name), made, MACHINE.report(made))
+
+
+def _planned_orders(
+    orders: FactoryOrders, looms: Sequence[ExistingLoom], progress: Progress
+) -> tuple[PlannedOrder, ...]:
+    """The orders; carpets of the same file and settings are charted once."""
+    made: dict[tuple[Any, ...], PlannedOrder] = {}
+    found = []
+    for index, entry in enumerate(orders.orders):
+        key = entry.picture, entry.programme, entry.yarns, tuple(sorted(entry.carpet.items()))
+        if key not in made:
+            with located(entry.where):
+                made[key] = _of_programme(entry, looms) if entry.programme else _of_picture(entry, looms)
+        found.append(replace(made[key], entry=entry))
+        progress((index + 1) / len(orders.orders))
+    return tuple(found)
+
+
+def _of_picture(entry: FactoryOrder, looms: Sequence[ExistingLoom]) -> PlannedOrder:
+    assert entry.picture is not None
+    settings: dict[str, Any] = dict(entry.carpet)
+    order = read_order(entry.picture, yarn_file=entry.yarns, **settings)
+    charted = make_charted(order)
+    fits: dict[int, LoomFit] = {}
+    for loom in looms:
+        if id(loom) not in fits:
+            fits[id(loom)] = _fit(charted, loom)
+    return PlannedOrder(entry, charted.bill, setup_of(charted.chart), tuple(fits[id(loom)] for loom in looms))
+
+
+def _fit(charted: ChartResult, loom: ExistingLoom) -> LoomFit:
+    """Whether a loom weaves a chart, as `ilmek weave --loom FILE` judges it."""
+    try:
+        loomed = make_loomed(LoomOrder(loom.design.params, Wishes(), existing=loom), charted)
+    except IlmekError as error:
+        return LoomFit(None, (must("carpet: programme", False, error.given, cure=error.do or error.allowed),))
+    checks = (*charted.checks, *overlay_checks(charted.chart), *loomed.checks, *loom.report.all_checks)
+    failed = tuple(check for check in checks if not check.ok)
+    if failed or loomed.programme is None:
+        return LoomFit(None, failed)
+    return LoomFit(loomed.programme.duration)
+
+
+def _of_programme(entry: FactoryOrder, looms: Sequence[ExistingLoom]) -> PlannedOrder:
+    """A carpet whose programme is compiled: it is woven by the loom that has its heads, times and warp pitch."""
+    assert entry.programme is not None
+    with open_programme(entry.programme) as programme:
+        chart = _chart_of(programme)
+        fits = tuple(_programme_fit(programme, chart, loom) for loom in looms)
+    return PlannedOrder(entry, yarn_bill(chart), setup_of(chart), fits)
+
+
+def _chart_of(programme: ProgrammeFile) -> Chart:
+    knots = np.empty((programme.rows, programme.columns), np.uint8)
+    for number in range(programme.rows):
+        knots[programme.rows - 1 - number] = programme.row(number).colours
+    label = programme.label
+    return Chart(knots, label.yarns, label.size, label.quality, label.knot)
+
+
+def _programme_fit(programme: ProgrammeFile, chart: Chart, loom: ExistingLoom) -> LoomFit:
+    made, own = loom.design, programme.times.as_tuple()
+    same = all(math.isclose(a, b, rel_tol=SAME_TIME) for a, b in zip(own, made.times.as_tuple(), strict=True))
+    pitch = math.isclose(programme.label.warp_pitch, made.params.pitch, rel_tol=SAME_TIME)
+    pile = YarnPlanParams().pile(chart.quality)
+    knot_yarn = max(knot_length(chart.knot, chart.quality, yarn.linear_density, pile) for yarn in chart.yarns)
+    heaviest = max(yarn.linear_density for yarn in chart.yarns)
+    checks = (
+        must(
+            "programme: compiled for this loom",
+            same and pitch and programme.heads <= made.heads,
+            "times, warp pitch and heads of the programme against those of the loom",
+            cure="weave the picture on this loom: ilmek weave PICTURE --loom FILE",
+        ),
+        *carpet_checks(loom, chart, replace(made.params.yarns, pile_density=heaviest), knot_yarn),
+        *loom.report.all_checks,
+    )
+    failed = tuple(check for check in checks if not check.ok)
+    return LoomFit(None if failed else programme.totals.duration, failed)
+
+
+def setup_of(chart: Chart) -> tuple[Any, ...]:
+    """What two carpets have in common that need no new warp and no new tubes: warps, quality, knot, yarns."""
+    return chart.columns, chart.quality, chart.knot, frozenset(chart.yarns[index].name for index in chart.used)
+
+
+def _yarn_names(orders: Sequence[PlannedOrder]) -> list[str]:
+    """The yarns of all orders that are woven, in the order of their first use."""
+    return list(dict.fromkeys(need.name for order in orders if order.possible for need in order.bill.needs))
+
+
+def _job(order: PlannedOrder, looms: FactoryLooms, origin: datetime, names: Sequence[str]) -> Job:
+    """A carpet of an order; the indices of order and setup are 0."""
+    entry, index = order.entry, {name: at for at, name in enumerate(names)}
+    weaving = {
+        at: math.ceil(fit.time / (1 - loom.stops) / minute - 1e-9)
+        for at, (fit, loom) in enumerate(zip(order.fits, looms.looms, strict=True))
+        if fit.time is not None
+    }
+    yarns: dict[int, int] = {}
+    for need in order.bill.needs if order.possible else ():
+        yarns[index[need.name]] = yarns.get(index[need.name], 0) + math.ceil(need.to_buy / g - 1e-6)
+    late = round(MONEY * entry.late * hour) * entry.priority
+    earliest = _minutes(entry.earliest, origin)
+    return Job(0, 0, weaving, earliest, _minutes(entry.due, origin), late, yarns)
+
+
+def _looms(looms: FactoryLooms, start: datetime, origin: datetime) -> tuple[Loom, ...]:
+    """The looms with their calendars; equal calendars are made once."""
+    shifts = {one.name: Shift(one.name, one.days, one.start, one.end, one.breaks, one.attended) for one in looms.shifts}
+    holidays = frozenset((day - origin.date()).days for day in looms.holidays)
+    made: dict[tuple[str, ...], tuple[Calendar, Calendar]] = {}
+    found = []
+    for entry in looms.looms:
+        if entry.shifts not in made:
+            own = [shifts[name] for name in entry.shifts]
+            calendars = (calendar(own, origin.weekday(), holidays, attended=only) for only in (False, True))
+            weaving, attended = calendars
+            made[entry.shifts] = weaving, attended
+        available = max(_minutes(entry.available, origin) if entry.available else 0, _minutes(start, origin))
+        minutes = (round(time / minute) for time in (entry.dressing, entry.dressing_same, entry.doffing))
+        dressing, same, doffing = minutes
+        cost = round(MONEY * entry.cost * 60 * HOUR)
+        found.append(Loom(entry.name, *made[entry.shifts], cost, dressing, same, doffing, available))
+    return tuple(found)
