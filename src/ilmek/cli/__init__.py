@@ -22,7 +22,7 @@ main = LazyGroup(
         "Exit codes:\n"
         "  0  done, and every check holds\n"
         "  2  bad input, or an output that cannot be written: nothing is written\n"
-        "  3  done, but a check fails: weave, chart, design, cyclogram\n"
+        "  3  done, but a check fails: weave, chart, design, cyclogram, check\n"
         "\n"
         "Each command has its own help: ilmek COMMAND --help"
     ),
@@ -42,6 +42,8 @@ main = LazyGroup(
         "reproduce": ("ilmek.cli.reproduce", "Recompute four published papers and compare, number by number."),
         "plan": ("ilmek.cli.plan", "Plan several carpets on looms that exist: which loom weaves what when."),
         "inspect": ("ilmek.cli.inspect", "Show a loom programme: rows, colours, statistics."),
+        "check": ("ilmek.cli.check", "Prove a loom programme: each knot once, no heads meet, yarn enough."),
+        "convert": ("ilmek.cli.convert", "Turn a loom programme into text, one operation a line, and back."),
     },
 )
 click.version_option(__version__, "-V", "--version", prog_name="ilmek", message="%(prog)s %(version)s")(main)

@@ -49,7 +49,7 @@ _SAME = 1e-9
 """Least share of a turn by which an actuator revolves."""
 
 _DIGEST = re.compile(r"[0-9a-f]{64}")
-_KEYS = ("digest", *(field.name for field in fields(LoomSetup)))
+KEYS = ("digest", *(field.name for field in fields(LoomSetup)))
 _SEGMENT = ("name", "start", "end", "begin", "finish")
 
 
@@ -73,9 +73,9 @@ def _plain(value: Any) -> Any:
 
 def read_meta(texts: Mapping[str, str]) -> tuple[LoomSetup, str]:
     """Setup and digest from JSON texts by key, checked. Raises an IlmekError for the first fault, naming its key."""
-    if set(texts) != set(_KEYS):
-        raise LoomError("the description has other keys", allowed=", ".join(_KEYS))
-    entries = {key: MetaEntry(key, _parsed(key, texts[key])) for key in _KEYS}
+    if set(texts) != set(KEYS):
+        raise LoomError("the description has other keys", allowed=", ".join(KEYS))
+    entries = {key: MetaEntry(key, _parsed(key, texts[key])) for key in KEYS}
     rows, columns = (entries[key].whole(1, MOST_PER_SIDE) for key in ("rows", "columns"))
     if rows * columns > MOST_KNOTS:
         raise LoomError(f"{columns} x {rows} knots", allowed=f"at most {MOST_KNOTS // 1_000_000} million")

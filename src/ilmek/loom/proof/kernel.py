@@ -1,0 +1,201 @@
+"""The rules of the knots of a row, in a compiled loop over every knot.
+
+each knot of the chart once      its yarn in the tube      yarn enough      heads apart      time of the phases
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ilmek.arrays import Int32, Int64, IntArray, UInt8
+from ilmek.num.compiled import compiled
+
+OUTSIDE, TWICE, NO_TUBE, EMPTY_TUBE, OTHER_YARN, YARN_ENDS, TOO_FAR, MEETING = range(8)
+"""Kinds of faults: the first number of a row of `ProofFindings.faults`."""
+
+NO_KNOT = -1
+"""Index of a knot, column or tube that there is not."""
+
+_EMPTY = 255
+
+CHANGES, IDLE, MOVED = range(3)
+"""Rows of `ProofState.sums`."""
+
+
+class ProofTable(NamedTuple):
+    """The knots of a row, head by head, and its chart.
+
+    offsets  index of each head's first knot of each phase, and the index behind its last: (heads, phases + 1)
+    """
+
+    row: int
+    columns: Int32[np.ndarray, " knots"]
+    tubes: UInt8[np.ndarray, " knots"]
+    offsets: Int64[np.ndarray, "heads bounds"]
+    chart: UInt8[np.ndarray, " columns"]
+
+
+class ProofState(NamedTuple):
+    """State of the heads, changed by each phase.
+
+    column  of the last knot, NO_KNOT before the first              tube  of it
+    loading yarn in each tube      left  knots that its package still gives, both (heads, tubes)
+    tied    row in which each column was last tied, -1: none        sums  see CHANGES: (3, heads)
+    """
+
+    column: Int64[np.ndarray, " heads"]
+    tube: Int64[np.ndarray, " heads"]
+    loading: UInt8[np.ndarray, "heads tubes"]
+    left: Int64[np.ndarray, "heads tubes"]
+    tied: Int32[np.ndarray, " columns"]
+    sums: Int64[np.ndarray, "3 heads"]
+
+
+class ProofRules(NamedTuple):
+    """Least distance of two neighbouring heads [knots], times [ns], and the time of a row's end [ns]."""
+
+    spacing: int
+    knot: int
+    colour_change: int
+    travel: int
+    row_end: int
+
+
+class ProofFindings(NamedTuple):
+    """Faults found: (kind, head, first and last knot, two numbers of the kind), and how many there are."""
+
+    faults: Int64[np.ndarray, "most 6"]
+    count: Int64[np.ndarray, "1"]
+
+
+@compiled
+def begin_row(table: ProofTable, state: ProofState, rules: ProofRules, found: ProofFindings) -> None:
+    """Move every head that ties in the row to its first knot, within the time of the row's end."""
+    offsets = table.offsets
+    for head in range(offsets.shape[0]):
+        first = offsets[head, 0]
+        if first == offsets[head, offsets.shape[1] - 1]:
+            continue
+        column = np.int64(table.columns[first])
+        before = state.column[head]
+        if before >= 0:
+            idle = max(abs(column - before) - 1, 0)
+            if idle * rules.travel > rules.row_end:
+                _note(found, (TOO_FAR, head, first, first, before, column))
+        state.column[head] = column
+
+
+@compiled
+def prove_phases(
+    table: ProofTable, phases: tuple[int, int], state: ProofState, rules: ProofRules, found: ProofFindings
+) -> int:
+    """Prove the knots of successive phases, and return their time [ns].
+
+    phases  the first, and the one behind the last
+    """
+    heads = table.offsets.shape[0]
+    spans = np.empty((4, heads), np.int64)
+    total = 0
+    for phase in range(phases[0], phases[1]):
+        slowest = 0
+        for head in range(heads):
+            slowest = max(slowest, _tie(table, (head, phase), (state, rules, found), spans))
+        _compare(spans, rules.spacing, found)
+        total += slowest
+    return total
+
+
+@compiled
+def _tie(
+    table: ProofTable, part: tuple[int, int], proof: tuple[ProofState, ProofRules, ProofFindings], spans: IntArray
+) -> int:
+    """Tie the knots of a head in a phase; returns their time [ns] and writes its span of columns."""
+    (head, phase), (state, rules, found) = part, proof
+    spans[0, head] = spans[1, head] = state.column[head]
+    spans[2, head] = spans[3, head] = NO_KNOT
+    spent, latest = np.int64(0), np.full(3, -1, np.int64)
+    begun = False
+    for k in range(table.offsets[head, phase], table.offsets[head, phase + 1]):
+        column, tube = np.int64(table.columns[k]), np.int64(table.tubes[k])
+        spent += rules.knot
+        if state.tube[head] >= 0 and tube != state.tube[head]:
+            spent += rules.colour_change
+            state.sums[CHANGES, head] += 1
+        state.tube[head] = tube
+        distance = abs(column - state.column[head])
+        idle = max(distance - 1, 0)
+        spent += idle * rules.travel
+        state.sums[IDLE, head] += idle
+        state.sums[MOVED, head] += distance
+        state.column[head] = column
+        if not begun or column < spans[0, head]:
+            spans[0, head], spans[2, head] = column, k
+        if not begun or column > spans[1, head]:
+            spans[1, head], spans[3, head] = column, k
+        begun = True
+        _check_knot(table, (head, k, column, tube), state, found, latest)
+    return spent
+
+
+@compiled
+def _check_knot(
+    table: ProofTable, knot: tuple[int, int, int, int], state: ProofState, found: ProofFindings, latest: IntArray
+) -> None:
+    """Prove a knot. latest: index of the last fault of a column, and of a yarn, that the next knot may extend."""
+    head, k, column, tube = knot
+    inside = 0 <= column < table.chart.shape[0]
+    if k > 0 and abs(column - table.columns[k - 1]) != 1:
+        latest[:] = -1
+    if not inside:
+        _extend(found, (OUTSIDE, head, k, k, 0, 0), latest, 0)
+    elif state.tied[column] == table.row:
+        _extend(found, (TWICE, head, k, k, 0, 0), latest, 0)
+    else:
+        state.tied[column] = table.row
+    if tube >= state.loading.shape[1]:
+        _extend(found, (NO_TUBE, head, k, k, tube, 0), latest, 1)
+        return
+    yarn = np.int64(state.loading[head, tube])
+    if yarn == _EMPTY:
+        _extend(found, (EMPTY_TUBE, head, k, k, tube, 0), latest, 1)
+        return
+    if inside and yarn != table.chart[column]:
+        _extend(found, (OTHER_YARN, head, k, k, tube * 256 + yarn, np.int64(table.chart[column])), latest, 1)
+    state.left[head, tube] -= 1
+    if state.left[head, tube] == -1:
+        _note(found, (YARN_ENDS, head, k, k, tube, yarn))
+
+
+@compiled
+def _compare(spans: IntArray, spacing: int, found: ProofFindings) -> None:
+    """Prove that the spans of all heads with a position are apart."""
+    before = -1
+    for head in range(spans.shape[1]):
+        if spans[0, head] < 0:
+            continue
+        if before >= 0 and spans[0, head] - spans[1, before] < (head - before) * spacing:
+            distance = spans[0, head] - spans[1, before]
+            _note(found, (MEETING, before, spans[3, before], spans[2, head], head, distance))
+        before = head
+
+
+@compiled
+def _extend(found: ProofFindings, fault: tuple[int, int, int, int, int, int], latest: IntArray, which: int) -> None:
+    """Note a fault of a knot, or extend the same fault of the knot before."""
+    at = latest[which]
+    if 0 <= at < found.faults.shape[0]:
+        old = found.faults[at]
+        if old[0] == fault[0] and old[3] + 1 == fault[2] and old[4] == fault[4] and old[5] == fault[5]:
+            old[3] = fault[3]
+            return
+    latest[which] = found.count[0]
+    _note(found, fault)
+
+
+@compiled
+def _note(found: ProofFindings, fault: tuple[int, int, int, int, int, int]) -> None:
+    at = found.count[0]
+    if at < found.faults.shape[0]:
+        for index in range(6):
+            found.faults[at, index] = fault[index]
+    found.count[0] += 1
