@@ -112,7 +112,7 @@ def _number(text: UInt8[np.ndarray, " bytes"], at: int, end: int) -> tuple[int, 
     """A whole number from 1 and its digits; (0, 0) where there is none."""
     value = digits = 0
     while at + digits < end and _ZERO <= text[at + digits] <= _ZERO + 9 and digits <= _MOST_DIGITS:
-        value = 10 * value + np.int64(text[at + digits]) - _ZERO
+        value = 10 * value + int(np.int64(text[at + digits])) - _ZERO
         digits += 1
     if digits == 0 or digits > _MOST_DIGITS or text[at] == _ZERO:
         return 0, 0

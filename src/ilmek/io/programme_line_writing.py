@@ -33,7 +33,7 @@ def write_chart(chart: UInt8[np.ndarray, " columns"], out: UInt8[np.ndarray, " b
             at += 1
         at = _put_number(out, at, column - begin)
         out[at] = _STAR
-        at = _put_number(out, at + 1, np.int64(chart[begin]) + 1)
+        at = _put_number(out, at + 1, int(np.int64(chart[begin])) + 1)
         runs += 1
         begin = column
         if runs % RUNS_IN_A_LINE == 0 or column == chart.shape[0]:
@@ -63,16 +63,16 @@ def write_phase(
         if k < end:
             at = _put_line(out, at, _LETTERS_HEAD, head + 1)
         while k < end:
-            first, tube = np.int64(columns[k]), np.int64(tubes[k])
+            first, tube = int(np.int64(columns[k])), int(np.int64(tubes[k]))
             if 0 <= aligned[head] != tube:
                 at = _put_line(out, at, _LETTERS_TUBE, tube + 1)
             if column[head] >= 0 and abs(first - column[head]) > 1:
                 at = _put(out, at, _LETTERS_MOVE)
-                at = _put_range(out, at, column[head] + 1, first + 1)
+                at = _put_range(out, at, int(column[head]) + 1, first + 1)
                 out[at] = _NEWLINE
                 at += 1
             k = _run_end(columns, tubes, k, end)
-            last = np.int64(columns[k - 1])
+            last = int(np.int64(columns[k - 1]))
             at = _put(out, at, _LETTERS_TIE)
             at = _put_number(out, at, first + 1) if first == last else _put_range(out, at, first + 1, last + 1)
             at = _put_line(out, at, _LETTERS_OF_TUBE, tube + 1)

@@ -89,8 +89,8 @@ class RowReader:
         table = found.table
         matched = int(reading.match_lines(text, *self._patterns, table))
         if matched < len(table):
-            given = data.split(b"\n", matched + 1)[matched]
-            raise _refused(line + matched, f"{_quoted(given)} is no line of a row", _ALLOWED)
+            wrong = data.split(b"\n", matched + 1)[matched]
+            raise _refused(line + matched, f"{_quoted(wrong)} is no line of a row", _ALLOWED)
         if table[0, 0] != reading.ROW or table[0, 1] != number + 1:
             raise _refused(line, _quoted(found.text(0)), f"`row {number + 1}`: rows are in order, from the bottom edge")
         chart = np.empty(self._setup.columns, np.uint8)

@@ -13,7 +13,7 @@ from ilmek.io.programme_file import ProgrammeFile
 from ilmek.io.programme_text import ProgrammeText, header_lines
 from ilmek.io.programme_text_rows import RowText
 from ilmek.loom.operations import LoomSetup
-from ilmek.loom.proof import MOST_FAULTS, Fault, FaultyPart, Proof, ProvedTotals, prove
+from ilmek.loom.proof import MOST_FAULTS, RuleFault, FaultyPart, Proof, ProvedTotals, prove
 from ilmek.progress import SILENT, Progress
 
 _SAME = 1e-9
@@ -123,7 +123,7 @@ def _header_line(setup: LoomSetup, key: str) -> int:
     return next(number for number, line in enumerate(header_lines(setup), 1) if line.startswith(f"{key} "))
 
 
-def _of_the_rows(programme: OpenProgramme, faults: Sequence[Fault]) -> list[ProgrammeError]:
+def _of_the_rows(programme: OpenProgramme, faults: Sequence[RuleFault]) -> list[ProgrammeError]:
     """Faults with the lines of their parts."""
     by_row = {number: list(ones) for number, ones in groupby(faults, key=lambda fault: fault.row)}
     texts = row_texts(programme, by_row)
@@ -134,7 +134,7 @@ def _of_the_rows(programme: OpenProgramme, faults: Sequence[Fault]) -> list[Prog
     ]
 
 
-def _line(text: RowText, fault: Fault) -> int:
+def _line(text: RowText, fault: RuleFault) -> int:
     if fault.part is FaultyPart.KNOT:
         return int(text.ties[np.searchsorted(text.ties[:, 0], fault.index, side="right") - 1, 1])
     if fault.part is FaultyPart.CHANGE and fault.index < len(text.changes):

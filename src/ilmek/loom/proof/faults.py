@@ -21,7 +21,7 @@ class FaultyPart(Enum):
 
 
 @value_record
-class Fault:
+class RuleFault:
     """A rule that an operation breaks.
 
     row    of the loom, from 0     part, index  of the row: knots in the row's order, changes in the order of its stops
@@ -34,7 +34,7 @@ class Fault:
     what: str
 
 
-def knot_faults(setup: LoomSetup, row: RowOperations, faults: Int64[np.ndarray, "n 6"]) -> Iterator[Fault]:
+def knot_faults(setup: LoomSetup, row: RowOperations, faults: Int64[np.ndarray, "n 6"]) -> Iterator[RuleFault]:
     """The faults of the knots of a row, from the rows that the kernel wrote."""
     for kind, head, first, last, one, other in faults.tolist():
         if kind == kernel.TWICE:
@@ -42,7 +42,7 @@ def knot_faults(setup: LoomSetup, row: RowOperations, faults: Int64[np.ndarray, 
         elif kind == kernel.MEETING:
             yield from _meeting(setup, row, (head, first), (one, last), other)
         else:
-            yield Fault(
+            yield RuleFault(
                 row.number, FaultyPart.KNOT, first, _sentence(setup, row, (kind, head, first, last, one, other))
             )
 
@@ -67,19 +67,19 @@ def _sentence(setup: LoomSetup, row: RowOperations, fault: tuple[int, int, int, 
     )
 
 
-def _twice(row: RowOperations, first: int, last: int) -> Iterator[Fault]:
+def _twice(row: RowOperations, first: int, last: int) -> Iterator[RuleFault]:
     """Each line that ties one of the knots."""
     for column in np.unique(row.columns[first : last + 1]).tolist():
         where = np.flatnonzero(row.columns == column).tolist()
         heads = " and ".join(str(head_of(row, index) + 1) for index in where)
         for index in where:
             what = f"knot {column + 1} is tied {len(where)} times in the row, by heads {heads}"
-            yield Fault(row.number, FaultyPart.KNOT, index, what)
+            yield RuleFault(row.number, FaultyPart.KNOT, index, what)
 
 
 def _meeting(
     setup: LoomSetup, row: RowOperations, left: tuple[int, int], right: tuple[int, int], distance: int
-) -> Iterator[Fault]:
+) -> Iterator[RuleFault]:
     """The knots of both heads; a head that stands has none."""
     needed = (right[0] - left[0]) * setup.spacing
     what = (
@@ -88,17 +88,17 @@ def _meeting(
     )
     knots = [index for _, index in (left, right) if index != kernel.NO_KNOT]
     for index in knots:
-        yield Fault(row.number, FaultyPart.KNOT, index, f"knot {int(row.columns[index]) + 1}: {what}")
+        yield RuleFault(row.number, FaultyPart.KNOT, index, f"knot {int(row.columns[index]) + 1}: {what}")
     if not knots:
-        yield Fault(row.number, FaultyPart.ROW, 0, what)
+        yield RuleFault(row.number, FaultyPart.ROW, 0, what)
 
 
-def missing_knots(number: int, tied: IntArray) -> Iterator[Fault]:
+def missing_knots(number: int, tied: IntArray) -> Iterator[RuleFault]:
     """The knots of a row that no head ties. tied: of each column, the row in which it was last tied."""
     missing = np.flatnonzero(tied != number)
     for run in np.split(missing, np.flatnonzero(np.diff(missing) != 1) + 1):
         if len(run):
-            yield Fault(number, FaultyPart.ROW, 0, f"{_knots(run)} of the chart: no head ties {_them(run)}")
+            yield RuleFault(number, FaultyPart.ROW, 0, f"{_knots(run)} of the chart: no head ties {_them(run)}")
 
 
 def head_of(row: RowOperations, index: int) -> int:

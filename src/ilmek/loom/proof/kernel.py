@@ -65,7 +65,7 @@ class ProofFindings(NamedTuple):
     """Faults found: (kind, head, first and last knot, two numbers of the kind), and how many there are."""
 
     faults: Int64[np.ndarray, "most 6"]
-    count: Int64[np.ndarray, "1"]
+    total: Int64[np.ndarray, "1"]
 
 
 @compiled
@@ -76,7 +76,7 @@ def begin_row(table: ProofTable, state: ProofState, rules: ProofRules, found: Pr
         first = offsets[head, 0]
         if first == offsets[head, offsets.shape[1] - 1]:
             continue
-        column = np.int64(table.columns[first])
+        column = int(np.int64(table.columns[first]))
         before = state.column[head]
         if before >= 0:
             idle = max(abs(column - before) - 1, 0)
@@ -113,10 +113,10 @@ def _tie(
     (head, phase), (state, rules, found) = part, proof
     spans[0, head] = spans[1, head] = state.column[head]
     spans[2, head] = spans[3, head] = NO_KNOT
-    spent, latest = np.int64(0), np.full(3, -1, np.int64)
+    spent, latest = 0, np.full(3, -1, np.int64)
     begun = False
     for k in range(table.offsets[head, phase], table.offsets[head, phase + 1]):
-        column, tube = np.int64(table.columns[k]), np.int64(table.tubes[k])
+        column, tube = int(np.int64(table.columns[k])), int(np.int64(table.tubes[k]))
         spent += rules.knot
         if state.tube[head] >= 0 and tube != state.tube[head]:
             spent += rules.colour_change
@@ -155,12 +155,12 @@ def _check_knot(
     if tube >= state.loading.shape[1]:
         _extend(found, (NO_TUBE, head, k, k, tube, 0), latest, 1)
         return
-    yarn = np.int64(state.loading[head, tube])
+    yarn = int(np.int64(state.loading[head, tube]))
     if yarn == _EMPTY:
         _extend(found, (EMPTY_TUBE, head, k, k, tube, 0), latest, 1)
         return
     if inside and yarn != table.chart[column]:
-        _extend(found, (OTHER_YARN, head, k, k, tube * 256 + yarn, np.int64(table.chart[column])), latest, 1)
+        _extend(found, (OTHER_YARN, head, k, k, tube * 256 + yarn, int(np.int64(table.chart[column]))), latest, 1)
     state.left[head, tube] -= 1
     if state.left[head, tube] == -1:
         _note(found, (YARN_ENDS, head, k, k, tube, yarn))
@@ -188,14 +188,14 @@ def _extend(found: ProofFindings, fault: tuple[int, int, int, int, int, int], la
         if old[0] == fault[0] and old[3] + 1 == fault[2] and old[4] == fault[4] and old[5] == fault[5]:
             old[3] = fault[3]
             return
-    latest[which] = found.count[0]
+    latest[which] = found.total[0]
     _note(found, fault)
 
 
 @compiled
 def _note(found: ProofFindings, fault: tuple[int, int, int, int, int, int]) -> None:
-    at = found.count[0]
+    at = found.total[0]
     if at < found.faults.shape[0]:
         for index in range(6):
             found.faults[at, index] = fault[index]
-    found.count[0] += 1
+    found.total[0] += 1

@@ -11,7 +11,7 @@ import numpy as np
 from ilmek.arrays import IntArray
 from ilmek.errors import LoomError
 from ilmek.loom.operations import EMPTY, ROW_ENDS, LoomProgramme, LoomSetup, OperationTimes, RowEnd, RowOperations, Stop
-from ilmek.loom.proof.faults import Fault, FaultyPart, knot_faults, missing_knots
+from ilmek.loom.proof.faults import FaultyPart, RuleFault, knot_faults, missing_knots
 from ilmek.loom.proof.kernel import (
     CHANGES,
     IDLE,
@@ -72,7 +72,7 @@ class ProvedTotals:
 class Proof:
     """The outcome of a proof: the first MOST_FAULTS faults in the order of rows, the number of all, and the totals."""
 
-    faults: tuple[Fault, ...]
+    faults: tuple[RuleFault, ...]
     count: int
     totals: ProvedTotals
 
@@ -103,7 +103,7 @@ class _Prover:
     def __init__(self, setup: LoomSetup) -> None:
         times, shape = setup.times, (setup.heads, setup.tubes)
         self.setup = setup
-        self.faults: list[Fault] = []
+        self.faults: list[RuleFault] = []
         self.count = self.time = self.knots = self.stops = self.wefts = self.packages = 0
         self._rules = ProofRules(
             int(setup.spacing),
@@ -148,7 +148,7 @@ class _Prover:
         elif int(chart.max()) >= len(setup.yarns):
             what = f"has yarn {int(chart.max()) + 1} in its chart, the list has yarns 1 to {len(setup.yarns)}"
         if what:
-            self._note(Fault(number, FaultyPart.ROW, 0, f"the row {what}"))
+            self._note(RuleFault(number, FaultyPart.ROW, 0, f"the row {what}"))
         return not what
 
     def _prove_knots(self, row: RowOperations, chart: IntArray) -> None:
@@ -164,7 +164,7 @@ class _Prover:
             self.time += int(prove_phases(table, (begun, phase), self._state, self._rules, self._found))
             if stop.row != row.number or stop.phase != phase:
                 what = f"a stop before phase {stop.phase + 1} of row {stop.row + 1} is not in the order of the row"
-                self._note(Fault(row.number, FaultyPart.CHANGE, change, what))
+                self._note(RuleFault(row.number, FaultyPart.CHANGE, change, what))
             self._stop(row.number, stop, change)
             begun, change = phase, change + len(stop.wefts) + len(stop.tubes)
         self.time += int(prove_phases(table, (begun, row.phases), self._state, self._rules, self._found))
@@ -175,9 +175,9 @@ class _Prover:
                 self._note(fault)
 
     def _take_faults(self, row: RowOperations) -> None:
-        count = int(self._found.count[0])
+        count = int(self._found.total[0])
         if count:
-            self._found.count[0] = 0
+            self._found.total[0] = 0
             listed = self._found.faults[: min(count, MOST_FAULTS)]
             self.count += count - len(listed)
             if len(self.faults) >= MOST_FAULTS:
@@ -194,7 +194,7 @@ class _Prover:
             if weft in stop.wefts[: position - index]:
                 what = f"bobbin {weft + 1} is changed twice in a stop"
             if what:
-                self._note(Fault(number, FaultyPart.CHANGE, position, what))
+                self._note(RuleFault(number, FaultyPart.CHANGE, position, what))
                 continue
             self._rows_on[weft] = 0
             self.time += nanoseconds(setup.wefts[weft].time)
@@ -202,7 +202,7 @@ class _Prover:
             self.time += nanoseconds(times.tube_change)
             what = self._refusal(change.head, change.tube, change.yarn, change.length)
             if what:
-                self._note(Fault(number, FaultyPart.CHANGE, position, what))
+                self._note(RuleFault(number, FaultyPart.CHANGE, position, what))
             else:
                 self._load(change.head, change.tube, change.yarn, change.length)
         self.stops += 1
@@ -233,7 +233,7 @@ class _Prover:
             needed = _END_NAMES[ROW_ENDS[index]] if index < len(ROW_ENDS) else "nothing more"
             part = (FaultyPart.END, index) if index < len(row.ends) else (FaultyPart.ROW, 0)
             given = _END_NAMES[RowEnd(row.ends[index])] if index < len(row.ends) else "nothing"
-            self._note(Fault(row.number, *part, f"{given} at the end of the row, must be {needed}"))
+            self._note(RuleFault(row.number, *part, f"{given} at the end of the row, must be {needed}"))
         for index, end in enumerate(row.ends):
             if _WEFTS.get(end, len(self._rows_on)) < len(self._rows_on):
                 self._weave_weft(row.number, index, _WEFTS[end])
@@ -244,9 +244,9 @@ class _Prover:
         bobbin = self.setup.wefts[weft]
         if self._rows_on[weft] == bobbin.rows + 1:
             what = f"the bobbin of {bobbin.yarn} has ended: it lasts {bobbin.rows} rows, and is not changed after them"
-            self._note(Fault(number, FaultyPart.END, index, what))
+            self._note(RuleFault(number, FaultyPart.END, index, what))
 
-    def _note(self, fault: Fault) -> None:
+    def _note(self, fault: RuleFault) -> None:
         self.count += 1
         if len(self.faults) < MOST_FAULTS:
             self.faults.append(fault)
