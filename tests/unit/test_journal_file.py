@@ -21,7 +21,7 @@ def test_what_is_appended_is_read(tmp_path: Path) -> None:
         folder.journal.sync()
     with JournalFolder(tmp_path / "j") as folder:
         assert folder.journal.read() == b"onetwo"
-        folder.journal.cut(4)
+        folder.journal.truncate(4)
         folder.journal.append(b"!")
     assert journal_bytes(tmp_path / "j") == b"onet!"
     assert {one.name for one in (tmp_path / "j").iterdir()} == {"journal", "lock"}

@@ -11,7 +11,7 @@ import click
 from ilmek.cli.terminal import note, progress_bar, say
 from ilmek.errors import ParameterError
 from ilmek.io.output import Outputs
-from ilmek.progress import Progress
+from ilmek.progress import SILENT, Progress
 
 if TYPE_CHECKING:
     from ilmek.report import Report
@@ -106,15 +106,18 @@ def call_outputs(
     *,
     force: bool = False,
     inputs: Mapping[str, Path | None] = MappingProxyType({}),
+    bar: bool = True,
 ) -> Iterator[CallOutputs]:
     """The outputs of a command, committed at the end of the block; only then is anything printed.
 
     to      option -> file or "-"
     inputs  option -> file that is read
+    bar     show a progress bar on a terminal
     Raises OutputError, before any work, where a file cannot be written; ParameterError for two outputs of "-".
     """
     given = {label: path for label, path in inputs.items() if path is not None}
-    with progress_bar() as progress, Outputs(force=force, inputs=given, progress=progress) as outputs:
+    shown = progress_bar() if bar else contextlib.nullcontext(SILENT)
+    with shown as progress, Outputs(force=force, inputs=given, progress=progress) as outputs:
         call = CallOutputs(outputs, progress, to)
         yield call
     call.print()

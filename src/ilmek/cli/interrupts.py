@@ -31,8 +31,8 @@ _LONGEST = 2000
 _ERRORS: list[int] = []
 """A handle of the error stream of its own: from the usual one, messages of a library that decodes are caught."""
 
-_RESTORES: list[tuple[Callable[[], object], str]] = []
-"""What is done before a signal ends the process, to set back a terminal; and what the line then states."""
+_RESTORES: list[Callable[[], str]] = []
+"""What is done before a signal ends the process, to stop a loom or set back a terminal; it returns what is kept."""
 
 _POLL = 0.1
 """Interval in which the main thread looks for signals that another thread has received [s]."""
@@ -60,9 +60,12 @@ def handle(numbers: Iterable[int]) -> None:
 
 
 @contextlib.contextmanager
-def before_end(restore: Callable[[], object], account: str) -> Iterator[None]:
-    """Call `restore` where a signal ends the process inside of the block, and state `account`: what is kept."""
-    _RESTORES.append((restore, account))
+def before_end(restore: Callable[[], str]) -> Iterator[None]:
+    """Call `restore` where a signal ends the process inside of the block, and state what it returns: what is kept.
+
+    It is called in the main thread while the command goes on in its own.
+    """
+    _RESTORES.append(restore)
     try:
         yield
     finally:
@@ -130,9 +133,9 @@ def _end(number: int, _frame: FrameType | None) -> NoReturn:
         for other in SIGNALS:
             signal.signal(other, signal.SIG_IGN)  # one is enough
         account = _output("abandon")
-        for restore, account in _RESTORES:  # noqa: B007 - the last one is stated
+        for restore in _RESTORES:
             with contextlib.suppress(Exception):
-                restore()
+                account = restore()  # the last one is stated
         line = _line(f"interrupted; {account}")
         for errors in _ERRORS:
             if os.isatty(errors):

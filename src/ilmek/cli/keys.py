@@ -80,14 +80,15 @@ def _each_key_at_once(number: int) -> Iterator[Any]:
     mode[3] &= ~(termios.ECHO | termios.ICANON)
     mode[6][termios.VMIN], mode[6][termios.VTIME] = 1, 0
 
-    def restore() -> None:
+    def restore() -> str:
         termios.tcsetattr(number, termios.TCSANOW, before)
+        return "the last step is kept"
 
     def again() -> None:
         if termios.tcgetattr(number)[3] != mode[3]:
             termios.tcsetattr(number, termios.TCSANOW, mode)
 
-    with before_end(restore, "the last step is kept"):
+    with before_end(restore):
         termios.tcsetattr(number, termios.TCSANOW, mode)
         try:
             yield again

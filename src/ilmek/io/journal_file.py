@@ -1,8 +1,8 @@
 """A journal on a disc: an append-only file of which a known part is durable.
 
-    append   behind the end; of a write that fails nothing counts, and its part is cut off again
-    sync     everything that was appended is durable (fdatasync)
-    cut      what a power cut left behind the last whole record is removed, durably
+    append    behind the end; of a write that fails nothing counts, and its part is cut off again
+    sync      everything that was appended is durable (fdatasync)
+    truncate  what a power cut left behind the last whole record is cut off, durably
 
 After a failed sync a system may count pages as written that are not [P. Rebello et al., Can applications recover from
 fsync failures?, USENIX ATC 2020]. What is not certainly durable is therefore kept, and written again before the next
@@ -127,11 +127,11 @@ class JournalFile:
         self.durable = self.length
         self._unsynced.clear()
 
-    def cut(self, length: int) -> None:
-        """Remove what follows the first `length` bytes, durably, before anything is appended. Raises OSError."""
-        self._file.truncate(length)
+    def truncate(self, size: int) -> None:
+        """Cut off what is behind a number of bytes, durably. Raises OSError."""
+        self._file.truncate(size)
         self._file.sync()
-        self.length = self.durable = length
+        self.length = self.durable = size
         self._unsynced.clear()
 
     def close(self) -> None:

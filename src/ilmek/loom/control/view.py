@@ -51,6 +51,14 @@ class YarnView:
 
 
 @value_record
+class WeftView:
+    """A bobbin of weft: its name, and the rows that it lasts."""
+
+    name: str
+    left: int
+
+
+@value_record
 class Snapshot:
     """State of a controller at an instant.
 
@@ -58,7 +66,8 @@ class Snapshot:
     row, rows    in work, from 0, and all               commands      that the state permits, by name
     knots, total certain knots, and all of the carpet   uncertain     knots of which the journal has no end
     time, left   of the loom's clock [ns]: until now, and until the end by the programme, without faults
-    faults       operations that the loom reported as failed
+    speed        knots a second of the loom's clock, lately
+    faults       knots that had to be tried again
     stop         what the operator changes in the stop that the loom waits in; "": none
     """
 
@@ -73,11 +82,13 @@ class Snapshot:
     uncertain: int
     time: int
     left: int
+    speed: float
     faults: int
     stop: str
     heads: tuple[HeadView, ...]
     alarms: tuple[AlarmView, ...]
     yarns: tuple[YarnView, ...]
+    wefts: tuple[WeftView, ...]
 
 
 @value_record
@@ -95,4 +106,8 @@ class ControllerView(Protocol):
         """Its state after the last event; takes less than a millisecond."""
 
     def command(self, name: str) -> Answer:
-        """Give a command by its name, for example "hold"; returns when the controller has accepted or refused it."""
+        """Give a command by its name; returns when the controller has accepted or refused it.
+
+        Commands are those of PackML, for example "hold"; "production", "maintenance" and "manual", which choose the
+        mode; and "resume", which goes on with the carpet from any state.
+        """

@@ -1,0 +1,127 @@
+"""`ilmek run`: weave a programme on the simulated loom."""
+
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import click
+
+from ilmek.cli.call_outputs import call_outputs
+from ilmek.cli.interrupts import before_end
+from ilmek.cli.options import json_option
+from ilmek.cli.terminal import note, show_pairs
+from ilmek.cli.verdict import CHECK_FAILS
+from ilmek.jobs.run.loom_run import LoomRun
+from ilmek.jobs.run.order import RunOrder, read_run_order
+from ilmek.jobs.run.result import RunResult
+from ilmek.loom.control.view import Snapshot
+
+STOP_TIME = 5.0
+"""Time that Ctrl-C gives the loom to stop [s]; then the process ends as by `kill -9`, and nothing is lost either."""
+
+EXAMPLES = """\b
+Examples:
+  ilmek run carpet/programme.ilmek --speed 1000x
+  ilmek run carpet/programme.ilmek --speed max --journal journal --json -
+  ilmek run carpet/programme.ilmek --speed max --faults 7
+  ilmek run carpet/programme.ilmek --new
+
+Limits: file 1,000 MB; journal 4,000 MB; 10,000 knots of a group commit.
+"""
+
+
+@click.command(epilog=EXAMPLES)
+@click.argument("programme", type=click.Path(path_type=Path), metavar="PROGRAMME.ilmek")
+@click.option(
+    "--speed",
+    default="1x",
+    metavar="N|max",
+    help="Speed of the simulated loom's clock: 1x, 1000x, max as fast as possible; default: 1x.",
+)
+@click.option(
+    "--journal",
+    type=click.Path(path_type=Path),
+    metavar="DIR",
+    help="Folder of the journal and the woven carpet; default: NAME.journal beside PROGRAMME.",
+)
+@click.option("--new", is_flag=True, help="Begin another carpet; the one in the journal is removed.")
+@click.option(
+    "--commit",
+    type=int,
+    metavar="N",
+    help="Make the journal durable once for N knots; 1: each knot before the next begins. After a power cut the "
+    "sensor finds the knots since; default: 1 up to a speed of 100x, 64 above it.",
+)
+@click.option(
+    "--faults", metavar="SEED", help="Simulate breaks of yarn and weft and missed grips, at usual rates; default: none."
+)
+@click.option(
+    "--operator",
+    default="auto",
+    metavar="auto|ask",
+    help="auto: what fails is repaired at once. ask: the loom waits for `ilmek resume`; default: auto.",
+)
+@json_option
+def command(
+    *,
+    programme: Path,
+    speed: str,
+    journal: Path | None,
+    new: bool,
+    commit: int | None,
+    faults: str | None,
+    operator: str,
+    json_to: str | None,
+) -> int:
+    """Weave PROGRAMME on the simulated loom, knot by knot, under the controller with its journal.
+
+    Ctrl-C stops the loom, and the same command goes on at the knot where it stopped; so it does after `kill -9` or a
+    power cut. From another terminal: `ilmek status`, `hold`, `resume` and `stop`. At the end the carpet is compared
+    with its chart.
+
+    Exit code 0: the carpet is complete and equal to the chart; 3: a knot is wrong, or the run ended before.
+    """
+    order = read_run_order(programme, speed, journal, new=new, commit=commit, faults=faults, operator=operator)
+    with call_outputs({"--json": json_to}, inputs={"PROGRAMME": programme}, bar=False) as call:
+        result = _woven(order)
+        call.give_json(result.as_json)
+    if not call.quiet:
+        show_pairs(result.in_words())
+    return 0 if result.ok else CHECK_FAILS
+
+
+def _woven(order: RunOrder) -> RunResult:
+    with LoomRun(order) as run:
+        if run.complete:
+            note(f"the carpet of {order.folder} is complete; --new begins another one")
+            return run.result()
+        if run.begun:
+            note(f"goes on in row {run.snapshot().row + 1:,} after {run.begun:,} certain knots")
+
+        def stopped() -> str:
+            run.stop()
+            run.wait(STOP_TIME)
+            now = run.snapshot()
+            return f"{now.knots:,} of {now.total:,} knots are tied; the same command goes on in row {now.row + 1:,}"
+
+        hint = f"Ctrl-C stops, the same command goes on; ilmek hold|resume|stop --journal {order.folder}"
+        with before_end(stopped), _screen(run, hint) as show:
+            run.work(show)
+        return run.result()
+
+
+@contextmanager
+def _screen(run: LoomRun, hint: str) -> Iterator[Callable[[Snapshot], object]]:
+    """What shows the snapshots of a run: a screen on a terminal, nothing in a pipe."""
+    if not sys.stderr.isatty():
+        yield lambda _: None
+        return
+    from rich.console import Console
+
+    from ilmek.cli.run_screen import RunScreen
+
+    console = Console(stderr=True, markup=False, highlight=False)
+    with RunScreen(console, run.programme.setup.yarns, hint) as screen:
+        yield lambda snapshot: screen.show(snapshot, time.monotonic())

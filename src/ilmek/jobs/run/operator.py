@@ -1,0 +1,83 @@
+"""The operator of a run: leads the controller on, and beside a simulated loom repairs, answers and unholds."""
+
+from ilmek.drivers.twin_port import TwinPort
+from ilmek.jobs.run.commands import lead_on
+from ilmek.jobs.run.session import ControlSession
+from ilmek.loom.control.exchange import Answered, ControllerStatus, Operation
+from ilmek.loom.control.packml import PackState
+from ilmek.loom.control.ports import EndRow, Tie
+from ilmek.loom.operations import Stop
+from ilmek.loom.twin.model import nanometres
+from ilmek.loom.twin.state import Door, EmergencyStop, Repaired
+from ilmek.loom.twin.woven import Woven
+
+MOST_TRIES = 20
+"""Attempts to go on after an alarm without a new knot or operation, before the operator gives up."""
+
+_FAULTY = (PackState.HELD, PackState.SUSPENDED, PackState.ABORTED)
+
+
+class Operator:
+    """Beside a loom.
+
+    automatic  repairs what is broken, answers what the controller asks, and goes on; else a person does
+    weaving    lead the controller on to Execute       waiting  a command has stopped the loom: nothing is done
+    """
+
+    def __init__(self, port: TwinPort, woven: Woven, *, automatic: bool, weaving: bool) -> None:
+        self._port, self._woven = port, woven
+        self.automatic, self.weaving, self.waiting = automatic, weaving, False
+        self._tries, self._knots = 0, (-1, -1)
+
+    def commanded(self, name: str) -> None:
+        """A command was carried out that another has given."""
+        self.waiting = name in ("hold", "suspend", "stop", "abort")
+        if name in ("stop", "abort"):
+            self.weaving = False
+
+    def see_to(self, session: ControlSession) -> bool:
+        """Do what a machine that waits needs. False where nothing helps."""
+        status = session.status()
+        if self.automatic:
+            for request in status.requests:
+                session.react((Answered(request.number, self._in_carpet(request.operation)),))
+        if self.waiting:
+            return True
+        if session.state not in _FAULTY:
+            if self.weaving:
+                lead_on(session)
+            return True
+        if not self.automatic:
+            return True
+        if not self._tries_again(status):
+            return False
+        for act in (Door(True), EmergencyStop(False), Repaired()):
+            self._port.act(act)
+        session.receive(0.0)  # what the sensors then show
+        lead_on(session)
+        return True
+
+    def _tries_again(self, status: ControllerStatus) -> bool:
+        done = (status.knots, status.row)
+        self._tries = self._tries + 1 if done == self._knots else 0
+        self._knots = done
+        return self._tries < MOST_TRIES
+
+    def _in_carpet(self, operation: Operation) -> bool:
+        """What the operator sees on the loom."""
+        if isinstance(operation, Tie):
+            return self._woven.times_tied(operation.row, operation.column) > 0
+        if isinstance(operation, EndRow):
+            return self._woven.times_ended(operation.row, operation.operation) > 0
+        return self._changed(operation.stop)
+
+    def _changed(self, stop: Stop) -> bool:
+        """Whether the packages of a stop are on the loom: a bobbin or a package that is not full was not changed."""
+        state, plant = self._port.state, self._port.plant
+        wefts = all(state.condition.wefts[index] == plant.setup.wefts[index].rows for index in stop.wefts)
+        tubes = (
+            state.heads[one.head].condition.yarns[one.tube] == one.yarn
+            and state.heads[one.head].left[one.tube] == nanometres(one.length)
+            for one in stop.tubes
+        )
+        return wefts and all(tubes)

@@ -1,0 +1,93 @@
+"""What a run is to weave, and how; read from the options of a command."""
+
+from dataclasses import replace
+from pathlib import Path
+
+from ilmek.errors import ParameterError, shortened
+from ilmek.loom.control.opening import LARGEST_GROUP
+from ilmek.loom.twin.model import NO_FAULTS, FaultRates
+from ilmek.records import value_record
+
+FASTEST = 1e6
+"""Largest speed of the simulated loom's clock; beyond it, it is as fast as possible."""
+
+USUAL_RATES = FaultRates(0, pile_break=2e-4, missed_grip=1e-3, warp_break=2e-5, weft_break=5e-4)
+"""Probability of faults of a knot and of a weft. Assumed by this project."""
+
+OPERATORS = ("auto", "ask")
+
+FAST, FAST_COMMIT = 100.0, 64
+"""Above this speed a group commit has so many knots where none is given, at most this speed one knot."""
+
+_SEEDS = 2**64
+
+
+@value_record
+class RunOrder:
+    """A run.
+
+    programme  the file                       journal  folder; default: beside the programme, NAME.journal
+    new        begin another carpet           speed    of the simulated loom's clock; None: as fast as possible
+    commit     knots of a group commit        rates    of simulated faults
+    operator   faults and changes are seen to without anybody
+    start      weave at once, and end with the carpet; else wait for commands
+    """
+
+    programme: Path
+    journal: Path | None = None
+    new: bool = False
+    speed: float | None = 1.0
+    commit: int = 1
+    rates: FaultRates = NO_FAULTS
+    operator: bool = True
+    start: bool = True
+
+    @property
+    def folder(self) -> Path:
+        """The journal's folder."""
+        return self.journal or self.programme.with_suffix(".journal")
+
+
+def read_run_order(
+    programme: Path,
+    speed: str,
+    journal: Path | None,
+    *,
+    new: bool = False,
+    commit: int | None = None,
+    faults: str | None = None,
+    operator: str = "auto",
+) -> RunOrder:
+    """A run from the options of a command, as texts. Raises ParameterError."""
+    factor = _speed(speed)
+    if commit is None:
+        commit = FAST_COMMIT if factor is None or factor > FAST else 1
+    if not 1 <= commit <= LARGEST_GROUP:
+        raise ParameterError(f"--commit {commit}", allowed=f"1 to {LARGEST_GROUP:,} knots")
+    if operator not in OPERATORS:
+        raise ParameterError(f"--operator {shortened(operator)!r}", allowed=", ".join(OPERATORS))
+    rates = NO_FAULTS if faults is None else replace(USUAL_RATES, seed=_seed(faults))
+    return RunOrder(programme, journal, new, factor, commit, rates, operator == "auto")
+
+
+def _speed(text: str) -> float | None:
+    """A factor like 1000x; None for max.
+
+    >>> _speed("1000x"), _speed("0.5"), _speed("max")
+    (1000.0, 0.5, None)
+    """
+    if text == "max":
+        return None
+    try:
+        found = float(text.removesuffix("x"))
+    except ValueError:
+        found = 0.0
+    if not 0 < found <= FASTEST:
+        raise ParameterError(f"--speed {shortened(text)!r}", allowed="a factor above 0 like 1000x, up to 1000000x; max")
+    return found
+
+
+def _seed(text: str) -> int:
+    if not (text.isascii() and text.isdigit() and len(text) <= len(str(_SEEDS)) and int(text) < _SEEDS):
+        raise ParameterError(f"--faults {shortened(text)!r}", allowed="a seed: a whole number from 0 to 2^64 - 1")
+    return int(text)
