@@ -232,6 +232,8 @@ class Controller(ControlCore):
         if refused is not None:
             draft.refusals.append(refused)
             return
+        if (given.mode, given.step) == (self.state.mode, self.state.step):
+            return
         self.state.mode, self.state.step = given.mode, given.step
         self.record_state(draft)
         draft.events.append(StateChanged(self.state.state, given.mode, self.state.time))
@@ -271,6 +273,8 @@ class Controller(ControlCore):
             draft.refusals.append(Refusal(f"a speed of {given.factor:g}", allowed))
             return
         state = self.state
+        if given.factor == state.speed:
+            return
         state.speed = draft.speed = given.factor
         draft.record(state, RecordKind.SPEED, 0, state.sequence.row, 0, 0, round(1000 * given.factor))
 

@@ -6,10 +6,10 @@ A file of fixed records behind a header, to which the controller only appends (l
             digest of the programme, CRC-32 of all that
     record   32 bytes: sequence number, lag, kind, code, row, head, flag, number, time [ns], CRC-32
 
-The CRC of a record goes on from that of the record before it, the first from that of the header, which holds a nonce;
-every opening of the journal appends a START. So records of an older journal, or of a tail that was cut off, are not
-valid in this one even where a disc returns them from recycled blocks. `lag` counts the records before this one that
-were not yet durable when it was written: it tells damage of what was durable from the torn end of the file.
+The CRC of a record begins with that of the header, which holds a nonce, and that of the record before it (exclusive or;
+0 before the first); every opening of the journal appends a START. So records of an older journal, or of a tail that was
+cut off, are not valid in this one even where a disc returns them from recycled blocks. `lag` counts the records before
+this one that were not yet durable when it was written: it tells damage of what was durable from the torn end.
 """
 
 import struct
@@ -146,7 +146,8 @@ class JournalContent:
     """A journal as it was read.
 
     records  an array of RECORD_FIELDS: the longest valid beginning      size  its bytes, with the header
-    crc      of the last record, else of the header                      cut   bytes behind it, which are not valid
+    crc      of the last record, 0: there is none                        cut   bytes behind it, which are not valid
+    seed     CRC of the header
     """
 
     header: JournalHeader
@@ -154,12 +155,18 @@ class JournalContent:
     size: int
     crc: int
     cut: int
+    seed: int
 
 
-def encode_record(crc: int, record: tuple[int, int, int, int, int, int, int, int, int]) -> tuple[bytes, int]:
-    """The bytes of a record, the fields of `JournalRecord` in order, and its CRC; crc: of the record before."""
+def encode_record(
+    seed: int, before: int, record: tuple[int, int, int, int, int, int, int, int, int]
+) -> tuple[bytes, int]:
+    """The bytes of a record, the fields of `JournalRecord` in order, and its CRC.
+
+    seed  CRC of the header       before  CRC of the record before it, 0: it is the first
+    """
     body = _BODY.pack(*record)
-    crc = crc32(body, crc)
+    crc = crc32(body, seed ^ before)
     return body + _CRC.pack(crc), crc
 
 
@@ -184,14 +191,16 @@ def read_journal(content: bytes) -> JournalContent | None:
     number = max(0, len(content) - HEADER_BYTES) // RECORD_BYTES
     records = np.frombuffer(content, RECORD_FIELDS, number, HEADER_BYTES) if number else np.empty(0, RECORD_FIELDS)
     if header is None:
-        if number > MOST_UNSYNCED_FIRST or _known_as_durable(content, records, 0):
+        seed = int.from_bytes(content[HEADER_BYTES - 4 : HEADER_BYTES], "little")
+        if number > MOST_UNSYNCED_FIRST or _known_as_durable(content, records, 0, seed) is not None:
             raise JournalError(
                 "the header of the journal is damaged, or the file is no journal",
                 do="restore the file from a copy, or choose another folder",
             )
         return None
-    crc, valid = _valid(content, records, crc32(content[: HEADER_BYTES - 4]))
-    later = _known_as_durable(content, records, valid)
+    seed = crc32(content[: HEADER_BYTES - 4])
+    crc, valid = _valid(content, records, seed)
+    later = _known_as_durable(content, records, valid, seed)
     if later is not None:
         offset = HEADER_BYTES + valid * RECORD_BYTES
         raise JournalError(
@@ -200,19 +209,19 @@ def read_journal(content: bytes) -> JournalContent | None:
             do="restore the journal from a copy",
         )
     size = HEADER_BYTES + valid * RECORD_BYTES
-    return JournalContent(header, records[:valid], size, crc, len(content) - size)
+    return JournalContent(header, records[:valid], size, crc, len(content) - size, seed)
 
 
 MOST_UNSYNCED_FIRST = 8
 """Records that may follow a header before both are durable for the first time."""
 
 
-def _valid(content: bytes, records: RecordArray, crc: int) -> tuple[int, int]:
-    """CRC and number of the records of the longest valid beginning; crc: of the header."""
-    view, offset = memoryview(content), HEADER_BYTES
+def _valid(content: bytes, records: RecordArray, seed: int) -> tuple[int, int]:
+    """CRC of the last record of the longest valid beginning, and how many there are."""
+    view, offset, crc = memoryview(content), HEADER_BYTES, 0
     in_order = records["sequence"] == np.arange(len(records))
     for number, (given, right) in enumerate(zip(records["crc"].tolist(), in_order.tolist(), strict=True)):
-        found = crc32(view[offset : offset + RECORD_BYTES - 4], crc)
+        found = crc32(view[offset : offset + RECORD_BYTES - 4], seed ^ crc)
         if found != given or not right:
             return crc, number
         crc = found
@@ -220,12 +229,13 @@ def _valid(content: bytes, records: RecordArray, crc: int) -> tuple[int, int]:
     return crc, len(records)
 
 
-def _known_as_durable(content: bytes, records: RecordArray, damaged: int) -> int | None:
+def _known_as_durable(content: bytes, records: RecordArray, damaged: int, seed: int) -> int | None:
     """A later record, valid behind the one before it, that was written when the damaged one was durable."""
     later = np.arange(len(records)) > damaged
     knows = records["sequence"].astype(np.int64) - records["lag"] > damaged
     for number in np.flatnonzero(later & knows & (records["sequence"] == np.arange(len(records)))).tolist():
         begin = HEADER_BYTES + number * RECORD_BYTES
-        if crc32(content[begin : begin + RECORD_BYTES - 4], int(records["crc"][number - 1])) == records["crc"][number]:
+        before = int(records["crc"][number - 1])
+        if crc32(content[begin : begin + RECORD_BYTES - 4], seed ^ before) == records["crc"][number]:
             return int(number)
     return None

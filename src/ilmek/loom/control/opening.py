@@ -33,7 +33,8 @@ class OpenedJournal:
 
     size      valid bytes: what is behind them is cut off before anything is appended; 0: a new journal
     begin     bytes that a new journal begins with       cut        bytes that are not valid, behind `size`
-    records   how many there are                         crc        of the last, else of the header
+    records   how many there are                         crc        of the last, 0: none
+    seed      CRC of the header
     sequence  what is in the carpet                      uncertain  operations may have been in progress
     openings  how often it was opened before             alarms     numbers of those that were active
     speed     as a fraction of the programme's           time       of the last record [ns]
@@ -45,6 +46,7 @@ class OpenedJournal:
     cut: int
     records: int
     crc: int
+    seed: int
     sequence: Sequence
     uncertain: bool
     openings: int
@@ -68,8 +70,8 @@ def open_journal(content: bytes, programme: LoomProgramme, *, group: int = 1, no
             programme.digest, setup.rows, setup.columns, setup.heads, setup.tubes, group, nonce % 2**64
         )
         begin = header.encode()
-        crc = int.from_bytes(begin[-4:], "little")
-        return OpenedJournal(group, 0, begin, len(content), 0, crc, Sequence(programme), False, 0, (), 1.0, 0)
+        seed = int.from_bytes(begin[-4:], "little")
+        return OpenedJournal(group, 0, begin, len(content), 0, 0, seed, Sequence(programme), False, 0, (), 1.0, 0)
     header = found.header
     sizes = (header.rows, header.columns, header.heads, header.tubes)
     if header.programme != programme.digest or sizes != (setup.rows, setup.columns, setup.heads, setup.tubes):
@@ -93,6 +95,7 @@ def _continued(found: JournalContent, programme: LoomProgramme, group: int) -> O
         cut=found.cut,
         records=len(records),
         crc=found.crc,
+        seed=found.seed,
         sequence=_position(records, programme),
         uncertain=bool(len(states) and states["flag"][-1]),
         openings=int(np.count_nonzero(kinds == RecordKind.START)),

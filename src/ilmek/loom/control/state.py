@@ -64,6 +64,7 @@ class ControllerState:
     """
 
     sequence: Sequence
+    seed: int
     crc: int
     records: int
     speed: float
@@ -93,7 +94,7 @@ class ControllerState:
 
     def copy(self) -> "ControllerState":
         """The same state, to go on by itself."""
-        made = ControllerState(self.sequence.copy(), self.crc, self.records, self.speed, self.time)
+        made = ControllerState(self.sequence.copy(), self.seed, self.crc, self.records, self.speed, self.time)
         for name in ControllerState.__slots__:
             value = getattr(self, name)
             if name != "sequence":
@@ -103,7 +104,9 @@ class ControllerState:
 
 def state_of(journal: OpenedJournal) -> ControllerState:
     """The state in which a controller begins with a journal."""
-    state = ControllerState(journal.sequence.copy(), journal.crc, journal.records, journal.speed, journal.time)
+    state = ControllerState(
+        journal.sequence.copy(), journal.seed, journal.crc, journal.records, journal.speed, journal.time
+    )
     state.lag = journal.records  # whether the last of them are durable is not known before the next synchronisation
     return state
 
@@ -130,7 +133,7 @@ class Draft:
         if state.store_failed:
             return
         fields = (state.records, min(state.lag, MOST_LAG), kind, code, row, head, flag, number, state.time)
-        data, state.crc = encode_record(state.crc, fields)
+        data, state.crc = encode_record(state.seed, state.crc, fields)
         self.append.append(data)
         state.records += 1
         state.lag += 1

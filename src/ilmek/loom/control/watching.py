@@ -56,6 +56,8 @@ def acknowledge(state: ControllerState, number: int | None, draft: Draft) -> Non
         numbers = ", ".join(str(one.kind.number) for one in state.alarms.values()) or "none"
         draft.refusals.append(Refusal(f"acknowledging alarm {number}", f"active alarms are: {numbers}"))
     for key in found:
+        if state.alarms[key].acknowledged:
+            continue
         alarm = replace(state.alarms[key], acknowledged=True)
         state.alarms[key] = alarm
         _changed(state, alarm, AlarmAction.ACKNOWLEDGED, draft)
