@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.arrays import ComplexArray, FloatArray, IntArray
 from ilmek.records import record
 
 
@@ -237,4 +237,42 @@ class Timing:
     drive: Axis = Axis("master angle", "deg")
 
 
-Figure: TypeAlias = Plot | Drawing | Animation | Timing
+@record
+class GanttLane:
+    """A lane of a Gantt chart: spans of time, in order of their begin, each of a kind (a number, see `Gantt`)."""
+
+    name: str
+    starts: FloatArray
+    ends: FloatArray
+    kinds: IntArray
+
+
+@record
+class Gantt:
+    """What lanes are busy with over time, in spans.
+
+    kinds  names of the kinds of spans; those that no lane has are left out of the legend
+    """
+
+    name: str
+    title: str
+    x: Axis
+    lanes: tuple[GanttLane, ...]
+    kinds: tuple[str, ...]
+    note: str = ""
+
+
+@record
+class StackedBars:
+    """Horizontal bars, each of parts side by side, one for each kind; SI values, (bars, kinds)."""
+
+    name: str
+    title: str
+    x: Axis
+    bars: tuple[str, ...]
+    kinds: tuple[str, ...]
+    values: FloatArray
+    note: str = ""
+
+
+Figure: TypeAlias = Plot | Drawing | Animation | Timing | Gantt | StackedBars

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 from markupsafe import Markup
 
-from ilmek.report import Animation, Check, Figure, Plot, Reason, Report, Timing
+from ilmek.report import Animation, Check, Figure, Gantt, Plot, Reason, Report, StackedBars, Timing
 from ilmek.report.left_out import made_or_left_out
 from ilmek.viz.cursor import has_cursor
 from ilmek.viz.looks import looks_of, numbered
@@ -124,6 +124,8 @@ def _curves(figure: Figure, looks: Mapping[str, int]) -> tuple[tuple[str, str], 
 def _kind(figure: Figure) -> str:
     if isinstance(figure, Timing):
         return "wide timed" if figure.laws else "wide"
+    if isinstance(figure, Gantt | StackedBars):
+        return "wide"
     if isinstance(figure, Plot):
         return "read" if has_cursor(figure) else ""
     return "moves" if isinstance(figure, Animation) else ""

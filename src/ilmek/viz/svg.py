@@ -1,14 +1,15 @@
 """Figures of a report as inline SVG.
 
 `style` has the colours and fonts, `looks` the colour and marker of each label, `sheet` writes SVG; `plot`, `drawing`,
-`animation` and `timing` are the kinds of figure.
+`animation`, `timing` and `lanes` are the kinds of figure.
 """
 
 from collections.abc import Mapping
 
-from ilmek.report import Animation, Drawing, Figure, Plot
+from ilmek.report import Animation, Drawing, Figure, Gantt, Plot, StackedBars
 from ilmek.viz.animation import draw_animation
 from ilmek.viz.drawing import draw_drawing
+from ilmek.viz.lanes import draw_gantt, draw_stacked
 from ilmek.viz.looks import looks_of
 from ilmek.viz.plot import draw_plot
 from ilmek.viz.style import FONTS
@@ -28,6 +29,10 @@ def svg(figure: Figure, looks: Mapping[str, int] | None = None) -> str:
         sheet = draw_drawing(figure, looks)
     elif isinstance(figure, Animation):
         sheet, over = draw_animation(figure, looks)
+    elif isinstance(figure, Gantt):
+        sheet = draw_gantt(figure, looks)
+    elif isinstance(figure, StackedBars):
+        sheet = draw_stacked(figure, looks)
     else:
         sheet, over = draw_timing(figure, looks)
     return sheet.svg(figure.title, FONTS, over)
