@@ -41,6 +41,7 @@ main = LazyGroup(
         "knot": ("ilmek.cli.knot", "Prove which knot the motion of a gripper ties."),
         "reproduce": ("ilmek.cli.reproduce", "Recompute four published papers and compare, number by number."),
         "plan": ("ilmek.cli.plan", "Plan several carpets on looms that exist: which loom weaves what when."),
+        "simulate": ("ilmek.cli.simulate", "Weave a programme in time: stops, utilisation, when it is done."),
         "run": ("ilmek.cli.run", "Weave a loom programme on the simulated loom, with a journal."),
         "status": ("ilmek.cli.status", "Show the state of a run, from another terminal."),
         "hold": ("ilmek.cli.hold", "Hold a run, from another terminal."),

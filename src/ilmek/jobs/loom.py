@@ -129,7 +129,7 @@ def read_loom_order(
     for name in keys.loom:
         if name in OF_THE_CARPET:
             raise ParameterError(f"{name} of the loom follows from the carpet", do=f"set it by {OF_THE_CARPET[name]}")
-    limit = None if keys.deadline is None else _deadline(keys.deadline)
+    limit = None if keys.deadline is None else read_deadline(keys.deadline)
     wishes = Wishes(keys.heads, limit)
     if keys.loom_file is not None:
         fixed = {"--aim": keys.aim, "--warp-pitch": keys.warp_pitch}
@@ -186,7 +186,8 @@ def _order_on(
     return LoomOrder(params, wishes, tuple(loom), existing)
 
 
-def _deadline(text: str) -> float:
+def read_deadline(text: str) -> float:
+    """A deadline [s], like 72h. Raises UnitError without a unit, ParameterError for one that is not above 0."""
     if re.fullmatch(r"\s*[\d.]+\s*", text):
         raise UnitError(f"deadline {text!r} has no unit", allowed="h, min or d", do=f"did you mean {text.strip()}h?")
     seconds = parse_quantity(text, "h")

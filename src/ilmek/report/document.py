@@ -29,7 +29,7 @@ class Report:
     `results`, `checks`, `warnings`, `plates` and `cam_tables` are its own; those of the whole tree carry the name of
     their machine: `all_checks`, `all_warnings`, `all_plates`, `all_cam_tables`. `headline` names results that stand at
     the top level of the JSON too. `self_tests` are tests of the computation, not of the machine: power balances,
-    closure; one that fails is among `checks` too.
+    closure; one that fails is among `checks` too. `lead` is a sentence that stands below the title of its page.
     """
 
     machine: str
@@ -47,6 +47,7 @@ class Report:
     choices: tuple[Choice, ...] = ()
     headline: tuple[str, ...] = ()
     self_tests: tuple[Check, ...] = ()
+    lead: str = ""
 
     @property
     def key(self) -> str:

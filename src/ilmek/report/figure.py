@@ -252,6 +252,7 @@ class Gantt:
     """What lanes are busy with over time, in spans.
 
     kinds  names of the kinds of spans; those that no lane has are left out of the legend
+    pale   number of kinds, the first ones, that are drawn pale: what is usual
     """
 
     name: str
@@ -260,6 +261,7 @@ class Gantt:
     lanes: tuple[GanttLane, ...]
     kinds: tuple[str, ...]
     note: str = ""
+    pale: int = 0
 
 
 @record

@@ -12,11 +12,14 @@ from ilmek.viz.frame import Box, grid, lower_axis, paper
 from ilmek.viz.looks import numbered
 from ilmek.viz.scale import ticks
 from ilmek.viz.sheet import Sheet
-from ilmek.viz.style import AXIS, STRONG, TEXT, colour, in_unit, with_unit
+from ilmek.viz.style import AXIS, STRONG, TEXT, colour, in_unit, tint, with_unit
 
 WIDTH = 600.0
 _RIGHT, _BOTTOM, _BAR, _GAP, _ROW, _KEY = 16.0, 30.0, 15.0, 8.0, 13.0, 10.0
 """Right margin, room for the axis, height of a bar, gap of two, height of a row of the legend, side of a key [pt]."""
+
+_PALE = 0.35
+"""Share of the colour in what is drawn pale."""
 
 _LEAST = 0.7
 """Least width of a span [pt]: a short stop of a long carpet is still seen."""
@@ -25,11 +28,13 @@ _LEAST = 0.7
 def draw_gantt(gantt: Gantt, looks: Mapping[str, int]) -> Sheet:
     """The sheet of a Gantt chart, the first lane on top; short spans lie over long ones."""
     used = sorted({int(kind) for lane in gantt.lanes for kind in np.unique(lane.kinds)})
-    most = max([1e-9, *(float(lane.ends[-1]) for lane in gantt.lanes if len(lane.ends))])
+    most = max([1e-9, *(float(lane.ends.max()) for lane in gantt.lanes if len(lane.ends))])
     frame = _Frame(gantt.x, [lane.name for lane in gantt.lanes], gantt.kinds, used, most, looks)
+    frame.make_pale(gantt.pale)
     for index, lane in enumerate(gantt.lanes):
         for kind, low, high in _merged(lane, frame):
             frame.bar(index, kind, low, high)
+    frame.legend()
     return frame.sheet
 
 
@@ -66,6 +71,7 @@ def draw_stacked(bars: StackedBars, looks: Mapping[str, int]) -> Sheet:
         for kind in used:
             if row[kind] > 0:
                 frame.bar(index, kind, ends[kind], ends[kind + 1])
+    frame.legend()
     return frame.sheet
 
 
@@ -93,8 +99,18 @@ class _Frame:
             middle = complex(left - 8.0, self._low(index) + _BAR / 2)
             self.sheet.text(middle, name, fontsize=STRONG, bold=True, ha="right", va="center_baseline")
         self.sheet.line(left + 1j * np.array([self._box.low, self._box.top]), color=AXIS, linewidth=0.7)
-        for kind, row, across in keys:
-            self._key(kinds[kind], self._colours[kind], complex(across, self.sheet.height - 4.0 - _ROW * (row + 0.5)))
+        self._keys, self._kinds = keys, kinds
+
+    def make_pale(self, kinds: int) -> None:
+        """Draw the first kinds pale."""
+        self._colours |= {kind: tint(self._colours[kind], _PALE) for kind in range(kinds)}
+
+    def legend(self) -> None:
+        """Draw the legend."""
+        for kind, row, across in self._keys:
+            self._key(
+                self._kinds[kind], self._colours[kind], complex(across, self.sheet.height - 4.0 - _ROW * (row + 0.5))
+            )
 
     def x(self, values: FloatArray) -> FloatArray:
         """Abscissae on the sheet [pt] of SI values."""

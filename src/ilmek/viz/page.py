@@ -40,7 +40,7 @@ def machine_page(report: Report, left_out: list[str] | None = None) -> str:
     return render(
         "machine.html.j2",
         title=report.title,
-        lead="",
+        lead=report.lead,
         verdict=_verdict(report),
         choices=report.all_choices,
         section=shown,

@@ -6,8 +6,8 @@
     quality      = knots / attempts
 
 The ideal time of an attempt is that of a carpet of knots alone, shared evenly by the heads, and of the wefts and beats,
-over its knots. S. Nakajima, Introduction to TPM, 1988; ISO 22400-2:2014 has the same product, with the planned busy time
-as what is divided by. A missed knot is tied again, so that quality is that of the first attempts.
+over its knots. S. Nakajima, Introduction to TPM, 1988; ISO 22400-2:2014 has the same product, divided by the planned
+busy time. A missed knot is tied again, so that quality is that of the first attempts.
 """
 
 import math

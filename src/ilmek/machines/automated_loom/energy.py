@@ -35,7 +35,7 @@ class Energy:
 def energy_of(loom: LoomDesign, axes: int) -> Energy:
     """The energy of weaving the loom's carpet at the estimated weaving time, with a number of driven axes."""
     params, knots = loom.params, loom.rows * loom.columns
-    times = {
+    acts = {
         "knot": knots,
         "colour change": knots * params.changes_per_knot,
         "row": loom.rows,
@@ -43,10 +43,19 @@ def energy_of(loom: LoomDesign, axes: int) -> Energy:
         "beat": 2 * loom.rows,
         "carpet": 1,
     }
+    return energy_of_acts(loom, axes, acts, estimated_time(loom), params.width * params.length)
+
+
+def energy_of_acts(loom: LoomDesign, axes: int, acts: Mapping[str, float], time: float, area: float) -> Energy:
+    """The energy of weaving a carpet.
+
+    axes  number of driven axes      acts  number of each act: knot, colour change, row, pass, beat, carpet
+    time  of weaving [s]             area  of the carpet [m^2]
+    """
+    params = loom.params
     shares: dict[str, float] = {}
     works = (work for child in loom.machines.values() for work in child.work)
     for work in (*works, *loom.beat.work):
-        shares[work.name] = shares.get(work.name, 0.0) + work.energy * times[work.per] / params.drive_efficiency
-    time = estimated_time(loom)
+        shares[work.name] = shares.get(work.name, 0.0) + work.energy * acts[work.per] / params.drive_efficiency
     shares["standing by"] = params.standby_power * axes * time
-    return Energy(shares, time, params.width * params.length)
+    return Energy(shares, time, area)
