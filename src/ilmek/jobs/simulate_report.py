@@ -28,7 +28,7 @@ from ilmek.report import (
     columns,
     results_of,
 )  # fmt: skip
-from ilmek.units import hour
+from ilmek.units import format_quantity, hour
 
 SAME = 1e-6
 """Relative difference of the time without faults from the programme's, which is a sum of rounded numbers."""
@@ -181,8 +181,8 @@ def _carpet(found: CarpetStatistics) -> Gantt:
         order = np.argsort(starts, kind="stable")
         lanes.append(GanttLane(f"head {head + 1}", starts[order] / BILLION, ends[order] / BILLION, kinds[order]))
     note = "Short stops are drawn wider than they are. Planned stops are drawn at the begin of their row."
-    kinds = ("weaving", "waiting for the operator", "planned stop")
-    return Gantt("carpet", "The heads over the carpet", Axis("time", "h"), tuple(lanes), kinds, note, pale=1)
+    names = ("weaving", "waiting for the operator", "planned stop")
+    return Gantt("carpet", "The heads over the carpet", Axis("time", "h"), tuple(lanes), names, note, pale=1)
 
 
 def _row(found: CarpetStatistics) -> Gantt:

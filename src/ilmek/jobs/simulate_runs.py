@@ -2,8 +2,8 @@
 
 import multiprocessing
 import os
-from collections.abc import Iterator
-from concurrent.futures import Future, ProcessPoolExecutor, as_completed
+from collections.abc import Iterable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -65,7 +65,8 @@ def _parts(first: int, count: int, workers: int) -> Iterator[tuple[int, int]]:
     yield from ((low, high - low) for low, high in pairwise(edges) if high > low)
 
 
-def _gathered(futures: "list[Future[IntArray]]", completed: Any, progress: Progress) -> IntArray:
+def _gathered(futures: Sequence[Any], completed: Iterable[Any], progress: Progress) -> IntArray:
+    """The results of futures in their order; completed: the same as they end."""
     for number, _ in enumerate(completed, 1):
         progress(number / len(futures))
     return np.concatenate([future.result() for future in futures])
@@ -76,16 +77,16 @@ def _on_cluster(  # noqa: PLR0917
 ) -> IntArray:
     """The same on a Dask cluster, in a few parts for each of its workers."""
     try:
-        from distributed import Client
-        from distributed import as_completed as dask_completed
+        import distributed
     except ImportError:
         raise ParameterError("--cluster needs the extra cluster", do="pip install 'ilmek[cluster]'") from None
     try:
-        client = Client(address, timeout=10)
+        dask: Any = distributed
+        client = dask.Client(address, timeout=10)
     except (OSError, ValueError, TimeoutError) as error:
         raise ParameterError(f"--cluster {address}: no scheduler answers ({error})", do="check the address") from None
     with client:
         known = max(1, len(client.scheduler_info()["workers"]))
         parts = list(_parts(first, count, 4 * known))
         futures = [client.submit(run_part, str(path.resolve()), params, *part, pure=False) for part in parts]
-        return _gathered(futures, dask_completed(futures), progress)
+        return _gathered(futures, dask.as_completed(futures), progress)

@@ -41,7 +41,8 @@ def draw_gantt(gantt: Gantt, looks: Mapping[str, int]) -> Sheet:
 def _merged(lane: GanttLane, frame: "_Frame") -> list[tuple[int, float, float]]:
     """Spans on the sheet [pt], neighbours of one kind joined; those wider than `_LEAST` first."""
     starts, ends = frame.x(lane.starts), frame.x(lane.ends)
-    wide, narrow = [], []
+    wide: list[tuple[int, float, float]] = []
+    narrow: list[tuple[int, float, float]] = []
     open_spans: dict[int, list[float]] = {}
 
     def put(kind: int, low: float, high: float) -> None:
