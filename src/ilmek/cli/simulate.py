@@ -41,7 +41,7 @@ def _show_parameters(context: click.Context, _option: click.Parameter, value: bo
 
 
 @click.command(epilog=EXAMPLES)
-@click.argument("file", type=click.Path(path_type=Path), metavar="FILE.ilmek")
+@click.argument("file", type=click.Path(path_type=Path), metavar="FILE")
 @click.option("--seed", type=int, default=0, show_default=True, metavar="N", help="Seed of the run that is shown.")
 @click.option(
     "--seeds", type=int, default=SEEDS, show_default=True, metavar="K", help="Runs for the band; 0: only the one run."
@@ -86,9 +86,9 @@ def command(
     force: bool,
     json_to: str | None,
 ) -> int:
-    """Weave a programme in time, every knot as an event, with faults, the operator and planned stops.
+    """Weave a programme, FILE.ilmek or its text, in time, with faults, the operator and planned stops.
 
-    One run of --seed is shown; --seeds more give the band of the weaving time. Faults happen at stated rates; the same
+    Every knot is an event. One run of --seed is shown; --seeds more give the band of the weaving time. Faults happen at stated rates; the same
     seed gives the same run on every machine. Ends with 3 where a check fails.
     """
     if shown and out is None:

@@ -13,7 +13,7 @@ from ilmek.io.programme_file import ProgrammeFile
 from ilmek.io.programme_text import ProgrammeText, header_lines
 from ilmek.io.programme_text_rows import RowText
 from ilmek.loom.operations import LoomSetup
-from ilmek.loom.proof import MOST_FAULTS, RuleFault, FaultyPart, Proof, ProvedTotals, prove
+from ilmek.loom.proof import MOST_FAULTS, FaultyPart, Proof, ProvedTotals, RuleFault, prove
 from ilmek.progress import SILENT, Progress
 
 _SAME = 1e-9

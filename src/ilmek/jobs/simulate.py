@@ -7,8 +7,9 @@ from types import MappingProxyType
 from typing import Any
 
 from ilmek.errors import LoomError, ParameterError
+from ilmek.io.any_programme import OpenProgramme, open_any_programme
 from ilmek.io.output import Outputs, joined
-from ilmek.io.programme_file import ProgrammeFile, open_programme
+from ilmek.io.programme_file import ProgrammeFile
 from ilmek.io.stops_file import read_stops_file
 from ilmek.io.table_csv import csv_text
 from ilmek.jobs.existing_loom import read_existing_loom
@@ -117,12 +118,12 @@ def simulate(
     with joined(outputs, force=force, progress=progress) as made:
         if folder is not None:
             made.expect_folder(folder, "--out")
-        with open_programme(order.file, progress=progress.part(0.0, 0.3, "programme")) as programme:
+        with open_any_programme(order.file, progress=progress.part(0.0, 0.3, "programme")) as programme:
             result = _simulated(order, programme, progress)
         return result if folder is None else _written(result, folder, rows, made)
 
 
-def _simulated(order: SimulationOrder, programme: ProgrammeFile, progress: Progress) -> SimulationResult:
+def _simulated(order: SimulationOrder, programme: OpenProgramme, progress: Progress) -> SimulationResult:
     params, setup = order.params, programme.setup
     table = fault_table(params, setup)
     run = run_carpet(programme, table, order.seed, waste=params.waste, progress=progress.part(0.3, 0.6, "knots"))
@@ -132,7 +133,8 @@ def _simulated(order: SimulationOrder, programme: ProgrammeFile, progress: Progr
         sums = runs_of(programme, order.file, params, order.seed, order.seeds, order.workers, order.cluster, part)
     found = CarpetStatistics(run, setup, params, sums)
     energy = None if order.loom is None else _energy(order.loom, found)
-    report = simulation_report(order.file.name, found, programme.totals.duration, order.deadline, energy)
+    stated = programme.totals.duration if isinstance(programme, ProgrammeFile) else None
+    report = simulation_report(order.file.name, found, stated, order.deadline, energy)
     return SimulationResult(run, found, report)
 
 

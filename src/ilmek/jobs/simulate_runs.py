@@ -12,7 +12,7 @@ import numpy as np
 
 from ilmek.arrays import IntArray
 from ilmek.errors import ParameterError
-from ilmek.io.programme_file import open_programme
+from ilmek.io.any_programme import open_any_programme
 from ilmek.loom.operations import LoomProgramme
 from ilmek.loom.twin.faults import StopParams, fault_table
 from ilmek.loom.twin.seed_runs import run_seeds
@@ -55,7 +55,7 @@ def runs_of(  # noqa: PLR0917
 
 def run_part(path: str, params: StopParams, first: int, count: int) -> IntArray:
     """The sums of some seeds of a programme's file, for a process of its own."""
-    with open_programme(Path(path)) as programme:
+    with open_any_programme(Path(path)) as programme:
         return run_seeds(programme, fault_table(params, programme.setup), range(first, first + count))
 
 
