@@ -88,8 +88,8 @@ def command(
 ) -> int:
     """Weave a programme, FILE.ilmek or its text, in time, with faults, the operator and planned stops.
 
-    Every knot is an event. One run of --seed is shown; --seeds more give the band of the weaving time. Faults happen at stated rates; the same
-    seed gives the same run on every machine. Ends with 3 where a check fails.
+    Every knot is an event. One run of --seed is shown; --seeds more give the band of the weaving time. Faults happen
+    at stated rates; the same seed gives the same run on every machine. Ends with 3 where a check fails.
     """
     if shown and out is None:
         raise ParameterError(f"--shown {shown} is given without --out", do="give a folder: --out DIR")
