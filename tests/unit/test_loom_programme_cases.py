@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from small_programme import head_knots, rows_of, small_programme
 
 from ilmek.arrays import Indices
 from ilmek.errors import LoomError
@@ -15,59 +16,53 @@ def chart(*rows: str) -> Indices:
     return np.array([[int(knot) for knot in row] for row in rows], np.uint8)
 
 
-def test_the_bottom_row_is_woven_first_and_the_next_one_back() -> None:
+def test_the_bottom_row_is_woven_first() -> None:
     programme = make_programme(chart("0011", "2222"), 3, 1, TIMES)
-    first, second = programme.row(0), programme.row(1)
-    assert first.ties_of(0).colours.tolist() == [2, 2, 2, 2]
-    assert first.ties_of(0).pairs.tolist() == [0, 1, 2, 3]
-    assert second.ties_of(0).pairs.tolist() == [3, 2, 1, 0]
-    # 4 knots; then a change to 1, one to 0, 4 knots.
+    first, second = (head_knots(row, 0) for row in rows_of(programme))
+    assert first[1] == [2, 2, 2, 2]
+    assert sorted(second[0]) == [0, 1, 2, 3]
+    # 4 knots; then a change to 1 or 0, one to the other, 4 knots.
     assert programme.row_times.tolist() == [18.0, 20.0]
     assert programme.work.changes.tolist() == [2]
 
 
 def test_passes_where_they_are_quicker() -> None:
     # Sweep: 7 changes = 7 s. Passes: 0 at 0 2 4 6 (3 idle), then 1 at 7 5 3 1 (3 idle): 1 change + 0.6 s.
-    row = make_programme(chart("01010101"), 2, 1, TIMES).row(0)
-    assert row.passes(0) == (True,)
-    assert row.ties_of(0).pairs.tolist() == [0, 2, 4, 6, 7, 5, 3, 1]
+    programme = make_programme(chart("01010101"), 2, 1, TIMES)
+    assert programme.work.passes.tolist() == [1]
+    assert programme.duration == pytest.approx(10 + 8 * 2 + 1 + 0.6)
+    assert programme.naive.time == 10 + 8 * 2 + 7
 
 
-def test_passes_begin_with_the_colour_in_the_handler_and_end_with_the_next() -> None:
-    # Row 1 is swept back and begins with yarn 1 at the right: so row 0 ends with yarn 1.
+def test_passes_begin_with_the_tube_in_line_and_end_with_one_of_the_next_row() -> None:
     programme = make_programme(chart("22221111", "02010201"), 3, 1, TIMES)
-    colours = programme.row(0).ties_of(0).colours.tolist()
-    assert colours == [0, 0, 0, 0, 2, 2, 1, 1]
+    tubes = [head_knots(row, 0)[1] for row in rows_of(programme)]
+    assert tubes[0][-1] == tubes[1][0]
     assert programme.work.changes.tolist() == [3]
 
 
 def test_sweep_where_moving_costs_more_than_changing() -> None:
     slow = Times(knot=2.0, colour_change=0.01, travel=1.0, weft=10.0)
-    assert make_programme(chart("01010101"), 2, 1, slow).row(0).passes(0) == (False,)
+    assert make_programme(chart("01010101"), 2, 1, slow).work.passes.tolist() == [0]
 
 
 def test_two_heads_wait_for_each_other_at_the_halves() -> None:
     # Halves of two knots. First halves: head 0 takes 4 s, head 1 takes 5 s; second halves: 5 s and 4 s.
     programme = make_programme(chart("00010100"), 2, 2, TIMES)
     assert programme.duration == 10 + 5 + 5
-    # Each head was threaded with its first colour.
-    assert programme.work.busy.tolist() == [9.0, 10.0]
+    # Each head begins with the tube of its first knot; head 1 ends its first half with the other tube.
+    assert programme.work.changes.tolist() == [1, 1]
 
 
 def test_one_knot() -> None:
     programme = make_programme(chart("0"), 1, 1, TIMES)
-    assert (programme.duration, programme.row(0).ties_of(0).pairs.tolist()) == (12.0, [0])
+    assert (programme.duration, rows_of(programme)[0].columns.tolist()) == (12.0, [0])
 
 
-@pytest.mark.parametrize("number", [-1, 2, 99])
+@pytest.mark.parametrize("number", [-1, 6, 99])
 def test_rows_beyond_the_carpet(number: int) -> None:
-    with pytest.raises(LoomError, match="rows 0 to 1"):
-        make_programme(chart("01", "01"), 2, 1, TIMES).row(number)
-
-
-def test_heads_beyond_the_loom() -> None:
-    with pytest.raises(LoomError, match="heads 0 to 0"):
-        make_programme(chart("01"), 2, 1, TIMES).row(0).ties_of(1)
+    with pytest.raises(LoomError, match="rows 0 to 5"):
+        small_programme().operations(number)
 
 
 @pytest.mark.parametrize(

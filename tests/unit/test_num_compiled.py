@@ -177,6 +177,6 @@ def test_with_bounds_check_an_index_outside_is_an_error():
 
 
 def test_modules_with_kernels_load_no_compiler():
-    script = "import sys, ilmek.linkage.batch, ilmek.loom.schedule; print('numba' in sys.modules)"
+    script = "import sys, ilmek.linkage.batch, ilmek.loom.order; print('numba' in sys.modules)"
     shown = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     assert shown.stdout == "False\n"

@@ -123,11 +123,14 @@ def test_the_move_to_the_next_row_takes_no_longer_than_its_end() -> None:
     programme = small_programme(3, 24, 1)
     times = replace(programme.setup.times, travel=4.0)
 
-    def backward(row: RowOperations) -> RowOperations:
-        return replace(row, columns=row.columns[::-1], tubes=row.tubes[::-1])
+    end = int(programme.operations(0).columns[-1])
 
-    faults = prove(edited(programme, 1, backward, times=times)).faults
-    assert "head 1 goes from knot 24 to knot 1 before the row" in faults[0].what
+    def from_the_other_edge(row: RowOperations) -> RowOperations:
+        order = np.argsort(row.columns if end > 12 else -row.columns)
+        return replace(row, columns=row.columns[order], tubes=row.tubes[order])
+
+    faults = prove(edited(programme, 1, from_the_other_edge, times=times)).faults
+    assert f"head 1 goes from knot {end + 1} to knot {1 if end > 12 else 24} before the row" in faults[0].what
 
 
 def test_the_time_is_that_of_the_rules() -> None:

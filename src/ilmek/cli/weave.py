@@ -17,7 +17,7 @@ from ilmek.jobs.loom import read_loom_order
 from ilmek.jobs.order import read_order
 from ilmek.jobs.output_folder import free_folder
 from ilmek.jobs.recipe import saved_recipe
-from ilmek.jobs.weave import WeaveResult, time_in_words, weave, weave_json
+from ilmek.jobs.weave import WeaveResult, order_in_words, time_in_words, weave, weave_json
 from ilmek.machines.automated_loom.params import AIMS
 
 EXAMPLES = """\b
@@ -128,7 +128,7 @@ def _loom_pairs(woven: WeaveResult) -> list[tuple[str, str]]:
     within = "" if deadline is None else f", the deadline is {time_in_words(deadline)}"
     chosen = [f"{choice.name} {choice.chosen}" for choice in woven.loom.choices]
     return [
-        ("weaving time", f"{time_in_words(programme.duration)}{within}"),
+        ("weaving time", f"{time_in_words(programme.duration)}{within}; {order_in_words(programme)}"),
         ("heads", f"{programme.heads} (of {made.heads_max} that fit)"),
         *([("chosen", "; ".join(chosen))] if chosen else []),
     ]

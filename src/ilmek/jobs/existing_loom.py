@@ -16,6 +16,7 @@ from ilmek.errors import IlmekError, LoomError, ParameterError
 from ilmek.io.loom_file import LoomFile, read_loom_file
 from ilmek.jobs.loom_setup import WISHES
 from ilmek.loom.sharing import heads_that_fit
+from ilmek.loom.tube_plan import most_colours
 from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, LoomDesign, design
 from ilmek.machines.automated_loom.cyclogram import cyclogram
 from ilmek.params import Setting
@@ -119,9 +120,12 @@ def row_pitch_left(existing: ExistingLoom, row_pitch: float) -> float:
     return float(scaled.spacing(beat.beat_force_warp))
 
 
-def carpet_checks(existing: ExistingLoom, chart: Chart, yarns: CarpetYarnParams, knot_yarn: float) -> tuple[Check, ...]:
+def carpet_checks(
+    existing: ExistingLoom, chart: Chart, heads: int, yarns: CarpetYarnParams, knot_yarn: float
+) -> tuple[Check, ...]:
     """What a carpet needs, against what the loom has.
 
+    heads  that are used
     yarns  of the carpet, the pile as of the chart       knot_yarn  the longest pile yarn of a knot [m]
     """
     made, params = existing.design, existing.design.params
@@ -135,15 +139,20 @@ def carpet_checks(existing: ExistingLoom, chart: Chart, yarns: CarpetYarnParams,
         ),
         *_fit_checks(made, chart),
         *_row_checks(existing, chart),
-        at_most(
-            "carpet: colours",
-            chart.colours,
-            params.colours,
-            "1",
-            "tubes of a head of the loom",
-            cure=f"set --colours {params.colours}",
-        ),
+        colours_check(chart, heads, params),
         *_yarn_checks(made, carpet_yarns(yarns, params.pitch), knot_yarn),
+    )
+
+
+def colours_check(chart: Chart, heads: int, params: AutomatedLoomParams) -> Check:
+    """The most colours of a part of a row, against the tubes of a head."""
+    return at_most(
+        "carpet: colours",
+        most_colours(chart.knots, len(chart.yarns), heads),
+        params.head_tubes,
+        "1",
+        "tubes of a head, against the colours of a part of a row; packages are changed between the parts",
+        cure=f"set --colours {params.head_tubes}, more heads, or a loom with more tubes",
     )
 
 

@@ -15,16 +15,18 @@ from ilmek.jobs.chart import ChartResult
 from ilmek.jobs.existing_loom import (
     ExistingLoom,
     carpet_checks,
+    colours_check,
     for_rows,
     heads_used,
     read_existing_loom,
     row_pitch_left,
     yarns_on,
 )
-from ilmek.jobs.loom_setup import loom_setup
+from ilmek.jobs.loom_setup import CarpetPile, loom_setup
 from ilmek.jobs.nearest import with_nearest
 from ilmek.jobs.order import CarpetOrder
 from ilmek.jobs.wishes import Wishes, heads_for_wishes, require_price
+from ilmek.loom.bobbins import Bobbin
 from ilmek.loom.operations import LoomSetup
 from ilmek.loom.programme import Programme, make_programme
 from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, LoomDesign, design
@@ -206,15 +208,13 @@ def make_loomed(loom_order: LoomOrder, charted: ChartResult, progress: Progress 
     if loom_order.existing is not None:
         return _on_existing(loom_order, loom_order.existing, charted, progress)
     try:
-        made, choices = heads_for_wishes(params, loom_order.wishes, chart, progress.part(0.0, 0.7))
-        programme = make_programme(
-            chart.knots,
-            len(chart.yarns),
-            made.heads,
-            made.times,
-            bobbins=made.bobbins,
-            progress=progress.part(0.7, 0.9, "programme"),
-        )
+        carpet = CarpetPile(chart, knot_yarns(charted))
+        made, choices = heads_for_wishes(params, loom_order.wishes, carpet, progress.part(0.0, 0.7))
+        colours = () if made.params.tubes is None else (colours_check(chart, made.heads, made.params),)
+        if any(not check.ok for check in colours):
+            report = with_nearest(MACHINE.report(made), params, progress.part(0.7, 1.0))
+            return LoomResult(report, colours, made, row_pitch_left=made.beat.row_pitch_left)
+        programme = _programme(made, carpet, made.heads, made.bobbins, progress.part(0.7, 0.9, "programme"))
     except IlmekError as error:
         if loom_order.settings and _can_be_designed(_without_settings(params)):
             raise
@@ -224,26 +224,42 @@ def make_loomed(loom_order: LoomOrder, charted: ChartResult, progress: Progress 
     report = with_nearest(report, params, progress.part(0.9, 1.0))
     require_price(loom_order.wishes, made, report, programme.duration)
     left = made.beat.row_pitch_left
-    setup = loom_setup(made, chart, programme.heads, knot_yarns(charted), programme.bobbins)
-    return LoomResult(report, deadline_checks(loom_order.deadline, programme), made, programme, setup, left)
+    checks = (*colours, *deadline_checks(loom_order.deadline, programme))
+    return LoomResult(report, checks, made, programme, loom_setup(made, carpet, programme), left)
 
 
 def _on_existing(loom_order: LoomOrder, existing: ExistingLoom, charted: ChartResult, progress: Progress) -> LoomResult:
     """The loom that exists, with what the chart needs of it as checks; a programme where it fits."""
     chart, yarns = charted.chart, params_for(loom_order, charted).yarns
-    checks = carpet_checks(existing, chart, yarns, yarn_of_a_knot(charted))
+    heads = min(heads_used(existing, chart), loom_order.wishes.heads or existing.design.heads)
+    checks = carpet_checks(existing, chart, heads, yarns, yarn_of_a_knot(charted))
     row_pitch = 1 / chart.quality.along
     made, left = for_rows(existing, row_pitch), row_pitch_left(existing, row_pitch)
     if not all(check.ok for check in checks):
         return LoomResult(existing.report, checks, made, row_pitch_left=left)
-    heads = min(heads_used(existing, chart), loom_order.wishes.heads or made.heads)
     notes = (f"{heads} of the loom's {made.heads} heads are used; the others are parked",) if heads < made.heads else ()
-    part = progress.part(0.0, 1.0, "programme")
+    carpet = CarpetPile(chart, knot_yarns(charted))
     bobbins = made.weft.bobbins_for(2 * chart.columns + made.params.selvedge_warps, yarns)
-    programme = make_programme(chart.knots, len(chart.yarns), heads, made.times, bobbins=bobbins, progress=part)
+    programme = _programme(made, carpet, heads, bobbins, progress.part(0.0, 1.0, "programme"))
     checks = (*checks, *deadline_checks(loom_order.deadline, programme))
-    setup = loom_setup(made, chart, heads, knot_yarns(charted), bobbins)
+    setup = loom_setup(made, carpet, programme)
     return LoomResult(existing.report, checks, made, programme, setup, left, notes)
+
+
+def _programme(
+    made: LoomDesign, carpet: CarpetPile, heads: int, bobbins: tuple[Bobbin, ...], progress: Progress
+) -> Programme:
+    chart, params = carpet.chart, made.params
+    return make_programme(
+        chart.knots,
+        len(chart.yarns),
+        heads,
+        made.times,
+        bobbins=bobbins,
+        supply=carpet.supply(params),
+        tube_change=params.tube_change,
+        progress=progress,
+    )
 
 
 def params_for(loom_order: LoomOrder, charted: ChartResult) -> AutomatedLoomParams:

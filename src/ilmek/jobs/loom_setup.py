@@ -3,15 +3,14 @@
 import hashlib
 import json
 import math
-from collections.abc import Sequence
-
-import numpy as np
 
 from ilmek.carpet.chart import Chart
-from ilmek.loom.bobbins import Bobbin
-from ilmek.loom.operations import EMPTY, LoomSetup, OperationTimes
+from ilmek.loom.operations import LoomSetup, OperationTimes
+from ilmek.loom.programme import Programme
+from ilmek.loom.tube_plan import YarnSupply
 from ilmek.machines.automated_loom import AutomatedLoomParams, LoomDesign
 from ilmek.machines.automated_loom.cyclogram import row_ends
+from ilmek.records import record
 
 WISHES = ("deadline", "price_limit")
 """Parameters that limit what was chosen for the first carpet; they do not change the loom."""
@@ -23,20 +22,22 @@ def loom_digest(params: AutomatedLoomParams) -> str:
     return hashlib.sha256(json.dumps(values, sort_keys=True, default=str).encode()).hexdigest()
 
 
-def loom_setup(
-    made: LoomDesign, chart: Chart, heads: int, knot_yarns: Sequence[float], wefts: tuple[Bobbin, ...]
-) -> LoomSetup:
-    """The setup of a chart's programme on a loom.
+@record
+class CarpetPile:
+    """A chart, and the pile yarn of a knot of each of its yarns [m]."""
 
-    heads  that are used      knot_yarns  pile yarn of a knot of each yarn [m]      wefts  bobbins of weft
-    """
-    params, times = made.params, made.times
-    tubes = max(params.head_tubes, len(chart.yarns))
-    loading = np.full((heads, tubes), EMPTY, np.uint8)
-    loading[:, : len(chart.yarns)] = np.arange(len(chart.yarns))
-    lengths = [params.package_mass / yarn.linear_density for yarn in chart.yarns]
-    packages = np.zeros((heads, tubes))
-    packages[:, : len(lengths)] = lengths
+    chart: Chart
+    knot_yarns: tuple[float, ...]
+
+    def supply(self, params: AutomatedLoomParams) -> YarnSupply:
+        """Tubes of a loom's heads, and the packages of this carpet's yarns."""
+        packages = tuple(params.package_mass / yarn.linear_density for yarn in self.chart.yarns)
+        return YarnSupply(params.head_tubes, packages, self.knot_yarns)
+
+
+def loom_setup(made: LoomDesign, carpet: CarpetPile, programme: Programme) -> LoomSetup:
+    """The setup of a carpet's programme on a loom."""
+    params, times, chart = made.params, made.times, carpet.chart
     return LoomSetup(
         loom=loom_digest(params),
         size=chart.size,
@@ -46,15 +47,15 @@ def loom_setup(
         warp_pitch=params.pitch,
         rows=chart.rows,
         columns=chart.columns,
-        heads=heads,
-        tubes=tubes,
+        heads=programme.heads,
+        tubes=params.head_tubes,
         spacing=max(1, math.ceil(made.head_width / made.knot_pitch - 1e-9)),
         times=OperationTimes(
             times.knot, times.colour_change, times.travel, row_ends(made.row_cyclogram), params.tube_change
         ),
-        loading=loading,
-        packages=packages,
-        knot_yarn=tuple(knot_yarns),
-        wefts=wefts,
+        loading=programme.tubes.loading,
+        packages=programme.tubes.packages,
+        knot_yarn=carpet.knot_yarns,
+        wefts=programme.bobbins,
         cyclograms=made.cyclograms,
     )

@@ -5,8 +5,8 @@ named together, each with what it would need.
 import math
 from dataclasses import dataclass, replace
 
-from ilmek.carpet.chart import Chart
 from ilmek.errors import LoomError, ParameterError
+from ilmek.jobs.loom_setup import CarpetPile
 from ilmek.loom.bobbins import stop_time
 from ilmek.loom.programme import least_heads, weaving_time
 from ilmek.loom.sharing import MOST_HEADS
@@ -30,7 +30,7 @@ class Wishes:
 
 
 def heads_for_wishes(
-    params: AutomatedLoomParams, wishes: Wishes, chart: Chart, progress: Progress = SILENT
+    params: AutomatedLoomParams, wishes: Wishes, carpet: CarpetPile, progress: Progress = SILENT
 ) -> tuple[LoomDesign, tuple[Choice, ...]]:
     """The loom with the heads that are wished, or that its choice or the deadline needs; what was chosen for these.
 
@@ -44,21 +44,21 @@ def heads_for_wishes(
         if (wishes.heads or 1) <= made.heads_max:
             raise
     if (wishes.heads or 1) > made.heads_max:
-        raise _contradiction(wishes, made, chart)
-    if wishes.deadline is None or _time(made, chart, made.heads, wishes.deadline) <= wishes.deadline:
+        raise _contradiction(wishes, made, carpet)
+    if wishes.deadline is None or _time(made, carpet, made.heads, wishes.deadline) <= wishes.deadline:
         return made, ()
     for aim in dict.fromkeys((params.aim, TIME)):
         if aim != params.aim:
             made = design(replace(params, aim=aim))
         if wishes.heads is not None:
-            if _time(made, chart, wishes.heads, wishes.deadline) <= wishes.deadline:
+            if _time(made, carpet, wishes.heads, wishes.deadline) <= wishes.deadline:
                 return made, _of_aim(aim, params)
             continue
-        needed = _needed(wishes.deadline, made, chart, made.heads_max, progress)
+        needed = _needed(wishes.deadline, made, carpet, made.heads_max, progress)
         if needed is not None:
             made = design(replace(params, aim=aim, heads=needed))
-            return made, (*_of_aim(aim, params), _of_heads(made, chart))
-    raise _contradiction(wishes, made, chart)
+            return made, (*_of_aim(aim, params), _of_heads(made, carpet))
+    raise _contradiction(wishes, made, carpet)
 
 
 def _of_aim(aim: str, params: AutomatedLoomParams) -> tuple[Choice, ...]:
@@ -66,10 +66,10 @@ def _of_aim(aim: str, params: AutomatedLoomParams) -> tuple[Choice, ...]:
     return () if aim == params.aim else (Choice("aim", aim, "the deadline", params.aim, "the deadline"),)
 
 
-def _of_heads(made: LoomDesign, chart: Chart) -> Choice:
+def _of_heads(made: LoomDesign, carpet: CarpetPile) -> Choice:
     """The choice of the fewest heads that keep the deadline."""
     fewer = made.heads - 1
-    failed = f"weaving time {_hours(_time(made, chart, fewer))}" if fewer else ""
+    failed = f"weaving time {_hours(_time(made, carpet, fewer))}" if fewer else ""
     return Choice("heads", str(made.heads), "the deadline", str(fewer) if fewer else "", failed)
 
 
@@ -86,25 +86,26 @@ def require_price(wishes: Wishes, made: LoomDesign, report: Report, duration: fl
     raise _error([costs, takes, *deadline], "give a higher price_limit, more time, fewer heads, or a narrower carpet")
 
 
-def _contradiction(wishes: Wishes, made: LoomDesign, chart: Chart) -> ParameterError:
+def _contradiction(wishes: Wishes, made: LoomDesign, carpet: CarpetPile) -> ParameterError:
     """The error that names each wish of heads, deadline and width with what it needs."""
     fit, parts = made.heads_max, []
     if wishes.heads is not None:
-        shown = _hours(_time(made, chart, wishes.heads)) if wishes.heads <= chart.columns // 2 else ""
+        shown = _hours(_time(made, carpet, wishes.heads)) if wishes.heads <= carpet.chart.columns // 2 else ""
         parts.append(f"{_heads(wishes.heads)} weave it in {shown}" if shown else _heads(wishes.heads))
     if wishes.deadline is not None:
-        parts.append(_deadline_needs(wishes.deadline, made, chart))
+        parts.append(_deadline_needs(wishes.deadline, made, carpet))
     width = format_quantity(made.params.width, "m"), format_quantity(made.head_width, "mm")
-    reached = _hours(_time(made, chart, fit))
+    reached = _hours(_time(made, carpet, fit))
     parts.append(f"at most {_heads(fit)} of {width[1]} fit {width[0]}, weaving it in {reached}")
     if wishes.price is not None:
         parts.append(f"the price is to be at most {format_number(wishes.price)}")
     return _error(parts, "give more time, other heads, a wider carpet, a coarser quality or narrower heads")
 
 
-def _deadline_needs(deadline: float, made: LoomDesign, chart: Chart) -> str:
+def _deadline_needs(deadline: float, made: LoomDesign, carpet: CarpetPile) -> str:
     """How many heads a deadline [s] needs, whether they fit or not."""
-    needed = _needed(deadline, made, chart, min(MOST_HEADS, max(1, chart.columns // 2)), SILENT)
+    chart = carpet.chart
+    needed = _needed(deadline, made, carpet, min(MOST_HEADS, max(1, chart.columns // 2)), SILENT)
     if needed is not None:
         return f"the deadline of {_hours(deadline)} needs {_heads(needed)}"
     wefts = chart.rows * made.times.weft + stop_time(made.bobbins, chart.rows)
@@ -116,13 +117,32 @@ def _error(parts: list[str], do: str) -> ParameterError:
     return ParameterError(f"the wishes contradict each other: {'; '.join(parts)}", do=do)
 
 
-def _time(made: LoomDesign, chart: Chart, heads: int, deadline: float = math.inf) -> float:
-    return weaving_time(chart.knots, len(chart.yarns), heads, made.times, deadline, bobbins=made.bobbins)
+def _time(made: LoomDesign, carpet: CarpetPile, heads: int, deadline: float = math.inf) -> float:
+    chart = carpet.chart
+    return weaving_time(
+        chart.knots,
+        len(chart.yarns),
+        heads,
+        made.times,
+        deadline,
+        bobbins=made.bobbins,
+        supply=carpet.supply(made.params),
+        tube_change=made.params.tube_change,
+    )
 
 
-def _needed(deadline: float, made: LoomDesign, chart: Chart, most: int, progress: Progress) -> int | None:
+def _needed(deadline: float, made: LoomDesign, carpet: CarpetPile, most: int, progress: Progress) -> int | None:
+    chart = carpet.chart
     return least_heads(
-        chart.knots, len(chart.yarns), deadline, made.times, most, bobbins=made.bobbins, progress=progress
+        chart.knots,
+        len(chart.yarns),
+        deadline,
+        made.times,
+        most,
+        bobbins=made.bobbins,
+        supply=carpet.supply(made.params),
+        tube_change=made.params.tube_change,
+        progress=progress,
     )
 
 

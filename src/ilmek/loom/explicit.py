@@ -9,20 +9,21 @@ import numpy as np
 
 from ilmek.arrays import UInt8
 from ilmek.errors import LoomError
-from ilmek.loom.bobbins import change_stops
 from ilmek.loom.operations import LoomProgramme, LoomSetup, RowOperations, Stop
-from ilmek.loom.programme import Programme
-from ilmek.loom.sharing import halves
+from ilmek.loom.programme import Programme, row_counts
+from ilmek.loom.replay import Layout, expand
 from ilmek.progress import SILENT, Progress
 
 
 class CompiledProgramme:
-    """A programme in memory. Its tubes are its yarns: every head has a tube for each."""
+    """A programme in memory; its rows are made from the compiler's keys when they are read, quickest in their order."""
 
     def __init__(self, setup: LoomSetup, programme: Programme) -> None:
         self.setup, self._programme = setup, programme
-        self._stops = {stop.row: stop for stop in change_stops(programme.bobbins, programme.rows)}
-        self._wefts = {bobbin.yarn: index for index, bobbin in enumerate(setup.wefts)}
+        self._stops: dict[int, tuple[Stop, ...]] = {}
+        for stop in programme.stops:
+            self._stops[stop.row] = (*self._stops.get(stop.row, ()), stop)
+        self._next, self._loaded = 0, programme.tubes.loading.copy()
 
     @cached_property
     def digest(self) -> str:
@@ -31,24 +32,25 @@ class CompiledProgramme:
 
     def operations(self, number: int) -> RowOperations:
         """The operations of a loom row. Raises LoomError beyond the carpet."""
-        row, programme = self._programme.row(number), self._programme
-        ties, parts = row.ties(), halves(programme.heads)
-        widths = np.diff(programme.edges).reshape(programme.heads, parts)
-        counts = np.ascontiguousarray(widths if row.forward else widths[:, ::-1], np.int64)
-        columns = np.concatenate([one.pairs for one in ties]).astype(np.int32)
-        tubes = np.concatenate([one.colours for one in ties])
-        return RowOperations(number, columns, tubes, counts, stops=self._stops_of(number))
+        self._require(number)
+        made, tubes = self._programme, self._programme.tubes
+        loaded = self._loaded if number == self._next else tubes.loaded(number * tubes.phases - 1)
+        line = tubes.lines(made.knots, number, number + 1, loaded)[0]
+        self._next, self._loaded = number + 1, loaded
+        columns = np.empty(made.columns, np.int32)
+        expand(line, Layout(made.heads, made.edges), number % 2 == 0, made.keys[number], columns)
+        counts = row_counts(made.edges, made.heads)[number % 2]
+        return RowOperations(number, columns, line[columns], counts, stops=self._stops.get(number, ()))
 
     def chart_row(self, number: int) -> UInt8[np.ndarray, " columns"]:
         """Yarn of each knot of a loom row. Raises LoomError beyond the carpet."""
-        if not 0 <= number < self.setup.rows:
-            raise LoomError(f"row {number}", allowed=f"rows 0 to {self.setup.rows - 1}")
+        self._require(number)
         line: UInt8[np.ndarray, " columns"] = self._programme.knots[self.setup.rows - 1 - number]
         return line
 
-    def _stops_of(self, number: int) -> tuple[Stop, ...]:
-        stop = self._stops.get(number)
-        return () if stop is None else (Stop(number, 0, wefts=tuple(self._wefts[name] for name in stop.yarns)),)
+    def _require(self, number: int) -> None:
+        if not 0 <= number < self.setup.rows:
+            raise LoomError(f"row {number}", allowed=f"rows 0 to {self.setup.rows - 1}")
 
 
 def programme_digest(programme: LoomProgramme, progress: Progress = SILENT) -> str:

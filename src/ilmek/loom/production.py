@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass
 
-from ilmek.loom.bobbins import stop_time
 from ilmek.loom.programme import Programme
 
 HAND_KNOT = 2.4
@@ -14,7 +13,7 @@ class Production:
     """Breakdown of the weaving time of a carpet [s].
 
     total        weaving time                       wefts      share of wefts and beats
-    stops        share of the stops in which bobbins of weft are changed
+    stops        share of the stops in which bobbins and packages are changed
     tying, changing, travelling, waiting            shares of the heads, their mean; their sum is the rest of the total
     knots        number of knots                    by_hand    time of the best hand weaver for the knots alone
     """
@@ -47,7 +46,7 @@ def production_time(programme: Programme) -> Production:
     knots = int(work.knots.sum())
     tying, changing = knots * times.knot / heads, int(work.changes.sum()) * times.colour_change / heads
     busy = float(work.busy.sum()) / heads
-    total, stops = programme.duration, stop_time(programme.bobbins, programme.rows)
+    total, stops = programme.duration, programme.stop_time
     waiting = max(0.0, total - wefts - stops - busy)
     # The remaining working time of a head is travel.
     travelling = max(0.0, busy - tying - changing)

@@ -24,7 +24,7 @@ from ilmek.io.cyclogram_file import cyclogram_toml
 from ilmek.io.programme_file import write_programme
 from ilmek.jobs.cyclogram import find
 from ilmek.jobs.loom import knot_yarns, read_loom_order
-from ilmek.jobs.loom_setup import loom_setup
+from ilmek.jobs.loom_setup import CarpetPile, loom_setup
 from ilmek.jobs.order import read_order
 from ilmek.jobs.weave import weave
 from ilmek.loom.explicit import CompiledProgramme
@@ -123,8 +123,16 @@ def make_corpus() -> Corpus:
         woven = weave(order, read_loom_order(order), out)
         chart, made = woven.charted.chart, woven.loomed
         assert made.design is not None
-        by_two = make_programme(chart.knots, len(chart.yarns), 2, made.design.times, bobbins=made.design.bobbins)
-        setup = loom_setup(made.design, chart, 2, knot_yarns(woven.charted), by_two.bobbins)
+        carpet = CarpetPile(chart, knot_yarns(woven.charted))
+        by_two = make_programme(
+            chart.knots,
+            len(chart.yarns),
+            2,
+            made.design.times,
+            bobbins=made.design.bobbins,
+            supply=carpet.supply(made.design.params),
+        )
+        setup = loom_setup(made.design, carpet, by_two)
         write_programme(Path(folder) / "programme.ilmek", CompiledProgramme(setup, by_two))
         programme = (Path(folder) / "programme.ilmek").read_bytes()
         loom = json.loads((out / "machine.json").read_text(encoding="utf-8"))
