@@ -70,9 +70,11 @@ def match_lines(
         while text[end] != _NEWLINE:
             end += 1
         kind = 0
-        while kind < bounds.shape[0] - 1 and not _matches(
-            text, (at, end), patterns[bounds[kind] : bounds[kind + 1]], lines[count]
-        ):
+        while kind < bounds.shape[0] - 1:
+            begin = bounds[kind]
+            near = text[at] == patterns[begin] and text[at + 1] == patterns[begin + 1]
+            if near and _matches(text, (at, end), patterns[begin : bounds[kind + 1]], lines[count]):
+                break
             kind += 1
         if kind == bounds.shape[0] - 1 or end - at > LONGEST_LINE:
             return count

@@ -16,8 +16,8 @@ is in `docs/reference/programme-text.md`. A text is read row by row, and never w
 """
 
 import json
+import re
 from collections.abc import Iterator
-from functools import cached_property
 from pathlib import Path
 from types import TracebackType
 from typing import Any, BinaryIO
@@ -49,6 +49,7 @@ MOST_REMARKS = 1000
 _FIRST = b"ilmek programme "
 _LISTS = ("yarns", "loading", "packages", "wefts", "cyclograms")
 _KEYS = tuple(key for key in KEYS if key != "digest")
+_ENTRY = re.compile(r"(\w+)(?:\[(\d+)\])?")
 _NO_DIGEST = json.dumps("0" * 64)
 _KNOT_BYTES = 120
 _MORE_BYTES = 1_000_000
@@ -110,6 +111,7 @@ def open_programme_text(path: Path, *, lenient: bool = False, progress: Progress
 class ProgrammeText:
     """An open text of a programme, `loom.operations.LoomProgramme`.
 
+    digest   SHA-256 of all operations and the chart
     lines    line of each key of the description; of a list, of its first entry
     remarks  on lines that do not agree with the operations around them, up to MOST_REMARKS
     """
@@ -119,18 +121,15 @@ class ProgrammeText:
         self.remarks: list[LineRemark] = []
         try:
             texts, self.lines, line = _read_header(file)
-            self.setup: LoomSetup = read_meta(texts)[0]
+            self.setup: LoomSetup = _setup(texts, self.lines)
             self._reader = RowReader(self.setup)
             self._index = np.zeros((self.setup.rows + 1, 2), np.int64)
-            self._read_rows(line, size, progress)
+            opening = _Opening(self.setup, self._read_rows(line, size))
+            self.digest = programme_digest(opening, progress)
+            next(opening.rows, None)
         except IlmekError as error:
             raise self.error(error) from None
         self._latest: RowText | None = None
-
-    @cached_property
-    def digest(self) -> str:
-        """SHA-256 of all operations and the chart."""
-        return programme_digest(self)
 
     def operations(self, number: int) -> RowOperations:
         """The operations of a loom row. Raises LoomError beyond the carpet, or if the file has changed."""
@@ -160,8 +159,8 @@ class ProgrammeText:
         """An error of a line as one of the file."""
         return LoomError(f"{self.path}, {error.given}", allowed=error.allowed, do=error.do)
 
-    def _read_rows(self, line: int, size: int, progress: Progress) -> None:
-        """Check every row, and keep where each begins."""
+    def _read_rows(self, line: int, size: int) -> Iterator[RowText]:
+        """Every row, checked, and behind the last one the end of the text; keeps where each row begins."""
         most = _KNOT_BYTES * self.setup.columns + _MORE_BYTES
         begin, number = self._file.tell(), 0
         for data in _row_texts(self._file, most, line):
@@ -173,7 +172,7 @@ class ProgrammeText:
             found = self._reader.read(number, data, line)
             self.remarks += found.remarks[: MOST_REMARKS - len(self.remarks)]
             begin, line, number = begin + len(data), line + data.count(b"\n"), number + 1
-            progress(begin / size)
+            yield found
         else:
             raise LoomError(f"line {line}: the text ends without `end`", allowed="a whole text", do="write it again")
         if number < self.setup.rows or begin + len(b"end\n") < size:
@@ -191,6 +190,24 @@ class ProgrammeText:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.close()
+
+
+class _Opening:
+    """The rows of a text as they are read for the first time, one after the other, for its digest."""
+
+    digest = ""
+
+    def __init__(self, setup: LoomSetup, rows: Iterator[RowText]) -> None:
+        self.setup, self.rows = setup, rows
+
+    def operations(self, number: int) -> RowOperations:
+        """The next row, which is row `number`."""
+        self._latest = {number: next(self.rows)}
+        return self._latest[number].row
+
+    def chart_row(self, number: int) -> UInt8[np.ndarray, " columns"]:
+        """The chart of the row that was read last."""
+        return self._latest[number].chart
 
 
 def _read_header(file: BinaryIO) -> tuple[dict[str, str], dict[str, int], int]:
@@ -231,7 +248,7 @@ def _entry(data: bytes, line: int) -> tuple[str, str]:
         text = data.decode()
         key, blank, value = text.removesuffix("\n").partition(" ")
         if not text.endswith("\n") or not blank or key not in _KEYS:
-            given = shortened(ascii(text[:200]).strip("'"))
+            given = shortened(text[:200].strip().encode("ascii", "backslashreplace").decode())
             raise LoomError(f"line {line}: `{given}` is no line of the description", allowed=", ".join((*_KEYS, "row")))
         found = json.loads(value)
         return key, json.dumps(_from_zero(found, line)) if key == "loading" else value
@@ -244,6 +261,17 @@ def _from_zero(loaded: Any, line: int) -> list[int]:
     if not isinstance(loaded, list) or not all(type(yarn) is int and 0 <= yarn <= EMPTY for yarn in loaded):
         raise LoomError(f"line {line}: loading", allowed="the yarn of each tube of a head, 0 for none: [1, 2, 0]")
     return [(yarn - 1) % (EMPTY + 1) for yarn in loaded]
+
+
+def _setup(texts: dict[str, str], lines: dict[str, int]) -> LoomSetup:
+    """The description. Raises LoomError with the line of the entry that cannot be used."""
+    try:
+        return read_meta(texts)[0]
+    except IlmekError as error:
+        found = _ENTRY.match(error.given)
+        key, index = found.groups() if found else ("", None)
+        line = lines.get(key, 1) + (int(index) if index and key in _LISTS else 0)
+        raise LoomError(f"line {line}: {error.given}", allowed=error.allowed, do=error.do) from None
 
 
 def _row_texts(file: BinaryIO, most: int, line: int) -> Iterator[bytes]:
@@ -276,5 +304,6 @@ def _row_texts(file: BinaryIO, most: int, line: int) -> Iterator[bytes]:
 
 def _cut(kept: bytearray, start: int) -> int:
     """Index of the next row, or of `end`, behind the first line; -1 where there is none yet."""
-    found = [at + 1 for mark in (b"\nrow ", b"\nend") if (at := kept.find(mark, start)) >= 0]
-    return min(found, default=-1)
+    at = kept.find(b"\nrow ", start)
+    at = kept.find(b"\nend", start) if at < 0 else at
+    return at + 1 if at >= 0 else -1

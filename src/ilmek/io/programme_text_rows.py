@@ -98,7 +98,9 @@ class RowReader:
         phases, faulty, fault = reading.measure(text, table, self._sizes, chart, counts)
         if faulty >= 0:
             at = min(int(faulty), len(table) - 1)
-            given = _quoted(found.text(at)) if faulty < len(table) else f"row {number + 1} ends here"
+            given = (
+                f"{_quoted(found.text(at))} cannot be here" if faulty < len(table) else f"row {number + 1} ends here"
+            )
             raise _refused(line + at, given, self._needed(fault))
         return self._filled(number, found, np.ascontiguousarray(counts[:, :phases]), chart)
 

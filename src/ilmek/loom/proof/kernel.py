@@ -111,37 +111,44 @@ def _tie(
 ) -> int:
     """Tie the knots of a head in a phase; returns their time [ns] and writes its span of columns."""
     (head, phase), (state, rules, found) = part, proof
-    spans[0, head] = spans[1, head] = state.column[head]
-    spans[2, head] = spans[3, head] = NO_KNOT
-    spent, latest = 0, np.full(3, -1, np.int64)
-    begun = False
-    for k in range(table.offsets[head, phase], table.offsets[head, phase + 1]):
-        column, tube = int(np.int64(table.columns[k])), int(np.int64(table.tubes[k]))
-        spent += rules.knot
-        if state.tube[head] >= 0 and tube != state.tube[head]:
-            spent += rules.colour_change
-            state.sums[CHANGES, head] += 1
-        state.tube[head] = tube
-        distance = abs(column - state.column[head])
-        idle = max(distance - 1, 0)
-        spent += idle * rules.travel
-        state.sums[IDLE, head] += idle
-        state.sums[MOVED, head] += distance
-        state.column[head] = column
-        if not begun or column < spans[0, head]:
-            spans[0, head], spans[2, head] = column, k
-        if not begun or column > spans[1, head]:
-            spans[1, head], spans[3, head] = column, k
-        begun = True
-        _check_knot(table, (head, k, column, tube), state, found, latest)
-    return spent
+    columns, tubes, chart, tied = table.columns, table.tubes, table.chart, state.tied
+    loading, left = state.loading[head], state.left[head]
+    low = high = column = int(state.column[head])
+    low_knot = high_knot = NO_KNOT
+    aligned, latest = int(state.tube[head]), np.full(2, -1, np.int64)
+    changes, idle, moved = 0, 0, 0
+    first, last = table.offsets[head, phase], table.offsets[head, phase + 1]
+    for k in range(first, last):
+        before, column, tube = column, int(np.int64(columns[k])), int(np.int64(tubes[k]))
+        changes += aligned >= 0 and tube != aligned
+        aligned = tube
+        distance = abs(column - before)
+        moved += distance
+        idle += max(distance - 1, 0)
+        if k == first or column < low:
+            low, low_knot = column, k
+        if k == first or column > high:
+            high, high_knot = column, k
+        # An empty tube agrees with no yarn of the chart.
+        inside = 0 <= column < chart.shape[0] and tube < loading.shape[0]
+        if inside and tied[column] != table.row and loading[tube] == chart[column] and left[tube] > 0:
+            tied[column] = table.row
+            left[tube] -= 1
+        else:
+            _note_knot(table, (head, k, column, tube), state, found, latest)
+    spans[0, head], spans[1, head], spans[2, head], spans[3, head] = low, high, low_knot, high_knot
+    state.column[head], state.tube[head] = column, aligned
+    state.sums[CHANGES, head] += changes
+    state.sums[IDLE, head] += idle
+    state.sums[MOVED, head] += moved
+    return int((last - first) * rules.knot + changes * rules.colour_change + idle * rules.travel)
 
 
 @compiled
-def _check_knot(
+def _note_knot(
     table: ProofTable, knot: tuple[int, int, int, int], state: ProofState, found: ProofFindings, latest: IntArray
 ) -> None:
-    """Prove a knot. latest: index of the last fault of a column, and of a yarn, that the next knot may extend."""
+    """Note the faults of a knot. latest: of a column and of a yarn the last fault, which the next knot may extend."""
     head, k, column, tube = knot
     inside = 0 <= column < table.chart.shape[0]
     if k > 0 and abs(column - table.columns[k - 1]) != 1:
