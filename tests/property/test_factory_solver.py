@@ -23,7 +23,7 @@ def test_no_plan_costs_less_than_the_solvers(seed: int) -> None:
     assert plan_faults(solved.plan, solved.plan.cost) == ()
 
 
-@pytest.mark.parametrize("seed", (20, 23))
+@pytest.mark.parametrize("seed", [20, 23])
 def test_a_solved_plan_is_valid_repeatable_and_not_below_its_bound(seed: int) -> None:
     factory = small_factory(6, 2, seed=seed)
     first = first_plan(factory)

@@ -76,7 +76,7 @@ def test_the_axes_map_attended_time_to_weaving_time() -> None:
     own = calendars(DAY_SHIFT, LATE_SHIFT)
     (axes,) = work_axes([Loom("L", *own, cost=0, dressing=0, dressing_same=0, doffing=0)], 3 * DAY)
     attended, weaving = own[1], own[0]
-    for minute in range(0, axes.attended_total):
+    for minute in range(axes.attended_total):
         time = attended.time_of(minute, begins=True)
         passed = sum(gap for start, gap in zip(axes.starts, axes.gaps, strict=True) if minute >= start)
         assert minute + axes.offset + passed == weaving.work(time)

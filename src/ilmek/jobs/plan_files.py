@@ -8,9 +8,9 @@ from ilmek.io.json_file import write_json
 from ilmek.io.output import Outputs
 from ilmek.jobs.plan import PlanResult, plan_json, plan_results
 from ilmek.jobs.plan_tables import day_text, loom_table, measure_table, order_table, yarn_table
-from ilmek.viz.gantt import GanttBar, GanttChart, GanttLane
 from ilmek.viz.page_parts import Fact, FileNote
-from ilmek.viz.plan_page import PlanPage, gantt_svg, plan_page
+from ilmek.viz.plan_page import PlanPage, plan_page, plan_svg
+from ilmek.viz.plan_picture import PlanBar, PlanChart, PlanLane
 
 PLAN_COLUMNS = ("order", "loom", "start", "dressed", "woven", "end", "cost", "late [h]")
 PURCHASE_COLUMNS = ("yarn", "needed [kg]", "stock [kg]", "to buy [kg]", "price", "needed by", "order by")
@@ -27,12 +27,12 @@ NOTES = (
 
 def write_plan(done: PlanResult, folder: Path, outputs: Outputs) -> list[str]:
     """Write the files of a plan into a folder; returns their paths, the page first."""
-    chart = gantt_chart(done)
+    chart = plan_chart(done)
     notes = tuple(note for note in NOTES if chart is not None or note.name != "plan.svg")
     files = [str(folder / note.name) for note in notes]
     with outputs.folder(folder) as work:
         if chart is not None:
-            (work / "plan.svg").write_text(gantt_svg(chart), encoding="utf-8")
+            (work / "plan.svg").write_text(plan_svg(chart), encoding="utf-8")
         (work / "plan.csv").write_text(plan_csv(done), encoding="utf-8")
         (work / "purchase.csv").write_text(purchase_csv(done), encoding="utf-8")
         (work / "plan.html").write_text(plan_page(_page(done, chart, notes)), encoding="utf-8")
@@ -40,7 +40,7 @@ def write_plan(done: PlanResult, folder: Path, outputs: Outputs) -> list[str]:
     return files
 
 
-def gantt_chart(done: PlanResult) -> GanttChart | None:
+def plan_chart(done: PlanResult) -> PlanChart | None:
     """The picture of a plan; None without carpets. Each order has a colour."""
     plan, factory, inputs = done.plan, done.inputs.factory, done.inputs
     if not plan.carpets:
@@ -49,7 +49,7 @@ def gantt_chart(done: PlanResult) -> GanttChart | None:
     lanes = []
     for index, loom in enumerate(factory.looms):
         bars = tuple(
-            GanttBar(
+            PlanBar(
                 inputs.orders[factory.jobs[one.job].order].entry.name,
                 factory.jobs[one.job].order,
                 (one.start, one.dressed, one.woven, one.end),
@@ -57,16 +57,16 @@ def gantt_chart(done: PlanResult) -> GanttChart | None:
             )
             for one in plan.on_loom(index)
         )
-        lanes.append(GanttLane(loom.name, loom.weaving.windows, bars))
+        lanes.append(PlanLane(loom.name, loom.weaving.windows, bars))
     begin = min(one.start for one in plan.carpets)
     dues = [factory.jobs[one.job].due for one in plan.carpets]
     length = plan.end - begin
     # A due date far behind the last carpet would make the bars short.
     end = max(plan.end, *(due for due in dues if due <= plan.end + length // 4), begin + 1)
-    return GanttChart("Plan of the factory", origin, begin // DAY * DAY, -(-(end + 1) // DAY) * DAY, tuple(lanes))
+    return PlanChart("Plan of the factory", origin, begin // DAY * DAY, -(-(end + 1) // DAY) * DAY, tuple(lanes))
 
 
-def _page(done: PlanResult, chart: GanttChart | None, notes: tuple[FileNote, ...]) -> PlanPage:
+def _page(done: PlanResult, chart: PlanChart | None, notes: tuple[FileNote, ...]) -> PlanPage:
     found = plan_results(done)
     late = sum(bool(order["late"]) for order in found["orders"])
     lost = sum(not order["woven"] for order in found["orders"])

@@ -6,9 +6,9 @@ from dataclasses import dataclass, field
 from markupsafe import Markup
 
 from ilmek.report import Check, reasons
-from ilmek.viz.gantt import GanttChart, draw_gantt
 from ilmek.viz.page import render
 from ilmek.viz.page_parts import Fact, FileNote
+from ilmek.viz.plan_picture import PlanChart, draw_plan
 from ilmek.viz.sections import PageVerdict
 from ilmek.viz.style import FONTS
 
@@ -36,16 +36,16 @@ class PlanPage:
 
     lead: str
     facts: tuple[Fact, ...]
-    chart: GanttChart | None
+    chart: PlanChart | None
     checks: tuple[Check, ...]
     tables: tuple[PlanTable, ...] = ()
     warnings: tuple[str, ...] = ()
     files: Sequence[FileNote] = field(default=())
 
 
-def gantt_svg(chart: GanttChart) -> str:
+def plan_svg(chart: PlanChart) -> str:
     """The picture of a plan as the text of an `<svg>` element."""
-    return draw_gantt(chart).svg(chart.title, FONTS)
+    return draw_plan(chart).svg(chart.title, FONTS)
 
 
 def plan_page(page: PlanPage) -> str:
@@ -55,6 +55,6 @@ def plan_page(page: PlanPage) -> str:
         title="Plan of the factory",
         lead=page.lead,
         page=page,
-        picture=None if page.chart is None else Markup(gantt_svg(page.chart)),
+        picture=None if page.chart is None else Markup(plan_svg(page.chart)),
         verdict=PageVerdict(GOOD, BAD, len(page.checks), reasons(page.checks)),
     )

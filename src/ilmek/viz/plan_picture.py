@@ -1,6 +1,6 @@
-"""Gantt pictures: what each machine does when, over dates.
+"""The picture of a plan: what each loom weaves when, over dates (a Gantt chart).
 
-A lane for each machine, white while it works and shaded while it is closed; a bar for each piece of work, with its
+A lane for each loom, white while it works and shaded while it is closed; a bar for each piece of work, with its
 phases; a flag at each due date, red where it is missed. The upper axis has the dates.
 """
 
@@ -17,8 +17,8 @@ from ilmek.viz.style import AXIS, GRID, INK, MUTED, PAPER, SMALL, STRONG, TEXT, 
 
 WIDTH = 960.0
 _RIGHT, _TOP, _BOTTOM = 14.0, 34.0, 22.0
-_LANE, _BAR, _FLAGS = 40.0, 20.0, 13.0
-"""Height of a lane, of its bars, and of the names of the due dates above them [pt]."""
+_LANE, _BAR = 40.0, 20.0
+"""Height of a lane, and of its bars [pt]."""
 _BAD, _CLOSED = "#c0392b", "#eceff2"
 _DAY = 1440
 _LEAST_DAY = 5.0
@@ -30,7 +30,7 @@ _STEPS = (1, 2, 7, 14, 28, 56, 112, 224, 448)
 
 
 @dataclass(frozen=True, slots=True)
-class GanttBar:
+class PlanBar:
     """A piece of work on a lane.
 
     label   its name                    look    number of its colour
@@ -50,26 +50,26 @@ class GanttBar:
 
 
 @dataclass(frozen=True, slots=True)
-class GanttLane:
-    """A machine: its name, its working windows [min], and its bars in order."""
+class PlanLane:
+    """A loom: its name, its working windows [min], and its bars in order."""
 
     name: str
     windows: tuple[tuple[int, int], ...]
-    bars: tuple[GanttBar, ...]
+    bars: tuple[PlanBar, ...]
 
 
 @dataclass(frozen=True, slots=True)
-class GanttChart:
+class PlanChart:
     """Lanes from the top on, and the midnight from which minutes count."""
 
     title: str
     origin: datetime
     begin: int
     end: int
-    lanes: tuple[GanttLane, ...]
+    lanes: tuple[PlanLane, ...]
 
 
-def draw_gantt(chart: GanttChart) -> Sheet:
+def draw_plan(chart: PlanChart) -> Sheet:
     """The sheet of a chart."""
     left = 16.0 + max([30.0, *(text_width(lane.name, STRONG, bold=True) for lane in chart.lanes)])
     sheet = Sheet(WIDTH, _TOP + _LANE * len(chart.lanes) + _BOTTOM)
@@ -86,7 +86,7 @@ class _Pen:
     """A sheet with the scale of the time axis: left edge [pt], and points per minute."""
 
     sheet: Sheet
-    chart: GanttChart
+    chart: PlanChart
     left: float
     scale: float
 
@@ -106,7 +106,7 @@ class _Pen:
         return range(self.chart.begin // _DAY, -(-self.chart.end // _DAY))
 
 
-def _lane(pen: _Pen, lane: GanttLane, low: float) -> None:
+def _lane(pen: _Pen, lane: PlanLane, low: float) -> None:
     chart, sheet = pen.chart, pen.sheet
     sheet.area(pen.box(chart.begin, chart.end, low, _LANE), facecolor=_CLOSED, zorder=0.5)
     for start, end in _open(pen, lane.windows):
@@ -138,7 +138,7 @@ def _open(pen: _Pen, windows: Sequence[tuple[int, int]]) -> Iterator[tuple[int, 
     yield from ((day * _DAY, (day + 1) * _DAY) for day in sorted(worked))
 
 
-def _bar(pen: _Pen, bar: GanttBar, low: float) -> None:
+def _bar(pen: _Pen, bar: PlanBar, low: float) -> None:
     """Dressing and doffing pale, weaving full; a red edge where it is late; its name where it fits."""
     shade, phases = colour(bar.look), bar.phases
     pen.sheet.area(pen.box(phases[0], phases[3], low, _BAR), facecolor=tint(shade, 0.30), zorder=1.2)
@@ -164,7 +164,7 @@ def fitting(text: str, size: float, room: float) -> str:
     return ""
 
 
-def _due(pen: _Pen, bar: GanttBar, low: float, taken: list[tuple[float, float]]) -> None:
+def _due(pen: _Pen, bar: PlanBar, low: float, taken: list[tuple[float, float]]) -> None:
     """A flag at the due date, with the name where no other flag of the lane is."""
     chart = pen.chart
     if not chart.begin <= bar.due <= chart.end:
