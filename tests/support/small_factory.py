@@ -5,7 +5,7 @@ import random
 from collections.abc import Iterator
 
 from ilmek.factory.calendar import Calendar, Shift, calendar
-from ilmek.factory.model import MONEY, Factory, FactoryPlan, Job, Loom, StoredYarn, left_shifted
+from ilmek.factory.model import MONEY, CarpetJob, Factory, FactoryPlan, Loom, StoredYarn, left_shifted
 
 DAY_SHIFT = Shift("day", frozenset(range(5)), 6 * 60, 14 * 60, ((600, 630),))
 LATE_SHIFT = Shift("late", frozenset(range(4)), 14 * 60, 22 * 60, (), attended=False)
@@ -42,7 +42,9 @@ def small_factory(jobs: int, looms: int, *, seed: int, tight: float = 0.5, same:
         able = {loom: int(work * rng.uniform(0.8, 1.5)) for loom in range(looms) if rng.random() < 0.8} or {0: work}
         due = int(rng.uniform(2, 3 + 4 * tight * jobs / looms)) * 1440 + 960
         late, early = rng.randint(1, 6) * MONEY, rng.choice((0, 0, 3 * 1440))
-        found.append(Job(index, rng.randint(0, 1 + jobs // 4), able, early, due, late, {0: rng.randint(500, 3000)}))
+        found.append(
+            CarpetJob(index, rng.randint(0, 1 + jobs // 4), able, early, due, late, {0: rng.randint(500, 3000)})
+        )
     stock = sum(job.yarns[0] for job in found) // 2
     return Factory(made, tuple(found), (StoredYarn("ivory", stock, 4 * 1440),))
 

@@ -9,9 +9,9 @@ from ilmek.factory.calendar import DAY
 from ilmek.factory.heuristic import first_plan
 from ilmek.factory.model import (
     MONEY,
+    CarpetJob,
     Factory,
     FactoryPlan,
-    Job,
     Loom,
     PlannedCarpet,
     StoredYarn,
@@ -27,8 +27,8 @@ def loom(*, doffing: int = 60, available: int = 0) -> Loom:
     return Loom("A", *calendars(DAY_SHIFT, LATE_SHIFT), 12 * MONEY, 480, 120, doffing, available)
 
 
-def job(order: int, *, weaving: int = 600, due: int = 2 * DAY, setup: int = 0, grams: int = 0) -> Job:
-    return Job(order, setup, {0: weaving}, 0, due, MONEY, {0: grams} if grams else {})
+def job(order: int, *, weaving: int = 600, due: int = 2 * DAY, setup: int = 0, grams: int = 0) -> CarpetJob:
+    return CarpetJob(order, setup, {0: weaving}, 0, due, MONEY, {0: grams} if grams else {})
 
 
 def test_dressing_is_by_day_and_weaving_goes_on_after_it() -> None:

@@ -14,7 +14,7 @@ from ilmek.carpet.chart import Chart
 from ilmek.carpet.recipe.edits import located
 from ilmek.errors import IlmekError, ParameterError
 from ilmek.factory.calendar import Calendar, Shift, calendar
-from ilmek.factory.model import HOUR, MONEY, Factory, Job, Loom, StoredYarn
+from ilmek.factory.model import HOUR, MONEY, CarpetJob, Factory, Loom, StoredYarn
 from ilmek.io.looms_file import FactoryLooms, LoomEntry
 from ilmek.io.orders_file import FactoryOrder, FactoryOrders
 from ilmek.io.programme_file import ProgrammeFile, open_programme
@@ -84,7 +84,7 @@ def read_inputs(orders: FactoryOrders, looms: FactoryLooms, progress: Progress =
     planned = _planned_orders(orders, ready, progress.part(0.4, 1.0, "carpets"))
     origin = orders.start.replace(hour=0, minute=0)
     names = _yarn_names(planned)
-    found: list[Job] = []
+    found: list[CarpetJob] = []
     indices: list[tuple[int, ...]] = []
     setups: dict[tuple[Any, ...], int] = {}
     for number, order in enumerate(planned):
@@ -209,7 +209,7 @@ def _yarn_names(orders: Sequence[PlannedOrder]) -> list[str]:
     return list(dict.fromkeys(need.name for order in orders if order.possible for need in order.bill.needs))
 
 
-def _job(order: PlannedOrder, looms: FactoryLooms, origin: datetime, names: Sequence[str]) -> Job:
+def _job(order: PlannedOrder, looms: FactoryLooms, origin: datetime, names: Sequence[str]) -> CarpetJob:
     """A carpet of an order; the indices of order and setup are 0."""
     entry, index = order.entry, {name: at for at, name in enumerate(names)}
     weaving = {
@@ -222,7 +222,7 @@ def _job(order: PlannedOrder, looms: FactoryLooms, origin: datetime, names: Sequ
         yarns[index[need.name]] = yarns.get(index[need.name], 0) + math.ceil(need.to_buy / g - 1e-6)
     late = round(MONEY * entry.late * hour) * entry.priority
     earliest = _minutes(entry.earliest, origin)
-    return Job(0, 0, weaving, earliest, _minutes(entry.due, origin), late, yarns)
+    return CarpetJob(0, 0, weaving, earliest, _minutes(entry.due, origin), late, yarns)
 
 
 def _looms(looms: FactoryLooms, start: datetime, origin: datetime) -> tuple[Loom, ...]:
