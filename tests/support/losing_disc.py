@@ -82,8 +82,9 @@ class LosingDisc:
                 if len(content) < offset + begin:
                     content += _unwritten(offset + begin - len(content), chance)
                 content[offset + begin : offset + end] = data[begin:end]
-        if chance.random() < 0.3:  # the length reached the disc, the data did not
-            content += _unwritten(chance.randrange(1, 2 * SECTOR), chance)
+        longest = max([len(self.now)] + [one if isinstance(one, int) else one[0] + len(one[1]) for one in self.pending])
+        if len(content) < longest and chance.random() < 0.3:  # the length reached the disc, the data did not
+            content += _unwritten(chance.randint(1, longest - len(content)), chance)
         return bytes(content)
 
     def _cut(self) -> None:

@@ -9,16 +9,19 @@ import threading
 import time
 from collections.abc import Callable
 from contextlib import ExitStack
+from pathlib import Path
 from types import TracebackType
 from typing import Any
 
 from ilmek.drivers.twin_port import TwinPort
+from ilmek.errors import LoomError
+from ilmek.io.any_programme import open_any_programme
 from ilmek.io.command_channel import CommandServer
 from ilmek.io.journal_folder import CHANNEL, JournalFolder
-from ilmek.io.programme_file import open_programme
+from ilmek.io.programme_file import ProgrammeFile
 from ilmek.io.woven_file import open_woven
-from ilmek.jobs.run.commands import RESUME, give_command, lead_on, waits
-from ilmek.jobs.run.comparison import compared
+from ilmek.jobs.check import check_programme
+from ilmek.jobs.run.commands import RESUME, give_command, lead_on
 from ilmek.jobs.run.operator import Operator
 from ilmek.jobs.run.order import RunOrder
 from ilmek.jobs.run.result import COMPLETE, RunResult, snapshot_json
@@ -26,6 +29,7 @@ from ilmek.jobs.run.session import ControlSession
 from ilmek.jobs.run.snapshots import SnapshotMaker
 from ilmek.loom.control.packml import PackState
 from ilmek.loom.control.view import Answer, Snapshot
+from ilmek.loom.twin.comparison import compare
 from ilmek.progress import SILENT, Progress
 
 INTERVAL = 0.05
@@ -57,16 +61,24 @@ class LoomRun:
         self._due = self._retry = 0.0
         self._ending = False
         with ExitStack() as stack:
-            self.programme = stack.enter_context(open_programme(order.programme, progress=progress))
+            self.programme = stack.enter_context(open_any_programme(order.programme, progress=progress))
             self.folder = stack.enter_context(JournalFolder(order.folder, new=order.new))
+            if not self.folder.journal.length:
+                _require_proved(order.programme, progress)
+            elif not self.folder.woven.exists():
+                raise LoomError(
+                    f"{self.folder.path} has a journal but no carpet",
+                    do="restore the file woven, or begin with --new",
+                )
             self.woven = stack.enter_context(open_woven(self.folder.woven, self.programme))
             self.port = TwinPort(self.programme.setup, self.woven, speed=order.speed, rates=order.rates)
             self._session = self._opened()
             self._channel = CommandServer(self.folder.path / CHANNEL)
             stack.callback(self._channel.close)
             self._stack = stack.pop_all()
-        self._operator = Operator(self.port, self.woven, automatic=order.operator, weaving=order.start)
-        self._maker = SnapshotMaker(self.programme, self.programme.row_times)
+        self._operator = Operator(self.programme, self.port, self.woven, automatic=order.operator, weaving=order.start)
+        row_times = self.programme.row_times if isinstance(self.programme, ProgrammeFile) else None
+        self._maker = SnapshotMaker(self.programme, row_times)
         self._snapshot = self._maker.make(self._session)
         self.begun, self.complete = self._snapshot.knots, self._session.status().complete
 
@@ -114,7 +126,7 @@ class LoomRun:
         """The carpet compared with its chart, and the state of the controller."""
         now = self._snapshot
         state = COMPLETE if self._session.status().complete else now.state
-        found = compared(self.programme, self.woven, now.knots, progress)
+        found = compare(self.woven, self.programme, progress)
         return RunResult(now, state, self.begun, found, str(self.folder.path))
 
     def _opened(self) -> ControlSession:
@@ -136,7 +148,7 @@ class LoomRun:
             give_command(self._session, "stop")
         elif self._session.failure is not None:
             self._restore()
-        elif waits(self._session) and not self._operator.see_to(self._session):
+        elif self._session.state is not PackState.EXECUTE and not self._operator.see_to(self._session):
             self.stop()
 
     def _restore(self) -> None:
@@ -188,3 +200,12 @@ class LoomRun:
     ) -> None:
         self._done.set()
         self._stack.close()
+
+
+def _require_proved(file: Path, progress: Progress) -> None:
+    """Raise LoomError for a programme that breaks a rule, with the line of its text form."""
+    found = check_programme(file, progress=progress)
+    if not found.ok:
+        first = found.errors[0]
+        more = f"`ilmek check {file}` lists all {found.count:,} errors"
+        raise LoomError(f"{file}, line {first.line} of its text: {first.what}", do=more)

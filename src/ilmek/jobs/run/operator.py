@@ -1,12 +1,12 @@
 """The operator of a run: leads the controller on, and beside a simulated loom repairs, answers and unholds."""
 
 from ilmek.drivers.twin_port import TwinPort
-from ilmek.jobs.run.commands import lead_on
+from ilmek.jobs.run.commands import lead_on, waits
 from ilmek.jobs.run.session import ControlSession
 from ilmek.loom.control.exchange import Answered, ControllerStatus, Operation
 from ilmek.loom.control.packml import PackState
 from ilmek.loom.control.ports import EndRow, Tie
-from ilmek.loom.operations import Stop
+from ilmek.loom.operations import LoomProgramme, Stop
 from ilmek.loom.twin.model import nanometres
 from ilmek.loom.twin.state import Door, EmergencyStop, Repaired
 from ilmek.loom.twin.woven import Woven
@@ -24,8 +24,10 @@ class Operator:
     weaving    lead the controller on to Execute       waiting  a command has stopped the loom: nothing is done
     """
 
-    def __init__(self, port: TwinPort, woven: Woven, *, automatic: bool, weaving: bool) -> None:
-        self._port, self._woven = port, woven
+    def __init__(
+        self, programme: LoomProgramme, port: TwinPort, woven: Woven, *, automatic: bool, weaving: bool
+    ) -> None:
+        self._programme, self._port, self._woven = programme, port, woven
         self.automatic, self.weaving, self.waiting = automatic, weaving, False
         self._tries, self._knots = 0, (-1, -1)
 
@@ -44,7 +46,7 @@ class Operator:
         if self.waiting:
             return True
         if session.state not in _FAULTY:
-            if self.weaving:
+            if self.weaving and waits(session):
                 lead_on(session)
             return True
         if not self.automatic:
@@ -72,9 +74,13 @@ class Operator:
         return self._changed(operation.stop)
 
     def _changed(self, stop: Stop) -> bool:
-        """Whether the packages of a stop are on the loom: a bobbin or a package that is not full was not changed."""
-        state, plant = self._port.state, self._port.plant
-        wefts = all(state.condition.wefts[index] == plant.setup.wefts[index].rows for index in stop.wefts)
+        """Whether the packages of a stop are on the loom: something is woven behind it, or they are still full."""
+        before = int(self._programme.operations(stop.row).counts[:, : stop.phase].sum())
+        later = range(stop.row + 1, min(stop.row + 2, self._woven.rows))
+        if int(self._woven.counts(stop.row).sum()) > before or any(self._woven.counts(row).any() for row in later):
+            return True
+        state, setup = self._port.state, self._programme.setup
+        wefts = all(state.condition.wefts[index] == setup.wefts[index].rows for index in stop.wefts)
         tubes = (
             state.heads[one.head].condition.yarns[one.tube] == one.yarn
             and state.heads[one.head].left[one.tube] == nanometres(one.length)

@@ -3,9 +3,9 @@
 from dataclasses import asdict
 from typing import Any
 
-from ilmek.jobs.run.comparison import Comparison
 from ilmek.loom.control.view import Snapshot
 from ilmek.loom.operations import LoomSetup
+from ilmek.loom.twin.comparison import WovenResult
 from ilmek.records import record
 from ilmek.units import format_quantity
 
@@ -18,20 +18,26 @@ COMPLETE = "Complete"
 class RunResult:
     """A run at its end.
 
-    state     of the controller: "Complete" when all is woven        begun  certain knots when the run began
-    woven     the carpet beside its chart                            journal  its folder
+    snapshot  of the controller                                state    "Complete" when all is woven
+    begun     certain knots when the run began                 journal  its folder
+    woven     the carpet beside its chart
     """
 
     snapshot: Snapshot
     state: str
     begun: int
-    woven: Comparison
+    woven: WovenResult
     journal: str
 
     @property
     def ok(self) -> bool:
-        """Whether the carpet is complete and every knot is that of the chart."""
-        return self.state == COMPLETE and self.woven.faults == 0
+        """Whether the carpet is complete and every knot is that of the chart, once."""
+        return self.state == COMPLETE and self.woven.complete
+
+    @property
+    def faults(self) -> int:
+        """Knots that are missing, double or in a wrong yarn."""
+        return self.woven.missing + self.woven.double + self.woven.wrong
 
     def as_json(self) -> dict[str, Any]:
         """The result, SI; rows and warp pairs count from 1, rows from the bottom edge."""
@@ -41,11 +47,12 @@ class RunResult:
             "knots": now.knots,
             "total": now.total,
             "digest": found.digest,
-            "faults": found.faults,
+            "faults": self.faults,
             "missing": found.missing,
             "double": found.double,
             "wrong": found.wrong,
-            "faulty": [{"row": row + 1, "column": column + 1, "fault": fault} for row, column, fault in found.listed],
+            "row_end_faults": found.ends,
+            "faulty": [{"row": one.row + 1, "column": one.column + 1, "fault": one.kind} for one in found.faults],
             "time": now.time / BILLION,
             "repairs": now.faults,
             "begun": self.begun,
@@ -58,8 +65,9 @@ class RunResult:
         """The result as names and values."""
         now, found = self.snapshot, self.woven
         equal = "equal to the chart"
-        if found.faults:
-            equal = f"{found.missing:,} missing, {found.double:,} tied twice, {found.wrong:,} in a wrong yarn"
+        if self.faults or found.ends:
+            equal = f"{found.missing:,} missing, {found.double:,} tied twice, {found.wrong:,} in a wrong yarn, "
+            equal += f"{found.ends:,} wefts, beats or take-ups missing or double"
         return [
             ("state", self.state),
             ("knots", f"{now.knots:,} of {now.total:,}, {equal}"),

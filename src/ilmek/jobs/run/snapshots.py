@@ -20,9 +20,9 @@ _LATELY = 40
 
 
 class SnapshotMaker:
-    """Makes the snapshots of a carpet, one after the other; row_times: of each row [s]."""
+    """Makes the snapshots of a carpet, one after the other; row_times: of each row [s], if known."""
 
-    def __init__(self, programme: LoomProgramme, row_times: FloatArray) -> None:
+    def __init__(self, programme: LoomProgramme, row_times: FloatArray | None = None) -> None:
         self._row_times = row_times
         self._programme = programme
         self._meter = YarnMeter(programme)
@@ -79,6 +79,8 @@ class SnapshotMaker:
         """Time until the carpet's end without faults and stops [ns]: of the rows, and of the part of this one."""
         if status.complete:
             return 0
+        if self._row_times is None:
+            return (self._programme.setup.knots - status.knots) * status.time // max(1, status.knots)
         rest = 1.0 - sum(tied) / max(1, sum(knots))
         return round(1e9 * (float(self._row_times[status.row + 1 :].sum()) + rest * float(self._row_times[status.row])))
 

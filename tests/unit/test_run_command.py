@@ -1,0 +1,203 @@
+"""`ilmek run`, `status`, `hold`, `resume`, `stop`: what a user sees, and what goes wrong."""
+
+import errno
+import json
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import CliRunner, Result
+from small_programme import small_programme
+
+from ilmek.cli import main
+from ilmek.io.journal_file import SystemFile
+from ilmek.io.programme_file import write_programme
+from ilmek.jobs.run.loom_run import LoomRun
+from ilmek.jobs.run.order import USUAL_RATES, RunOrder
+from ilmek.loom.control.view import Snapshot
+
+
+@pytest.fixture(scope="session")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    made = tmp_path_factory.mktemp("programmes")
+    write_programme(made / "carpet.ilmek", small_programme(6, 24, 2, 3))
+    write_programme(made / "other.ilmek", small_programme(6, 24, 2, 3, seed=2))
+    return made
+
+
+@pytest.fixture
+def carpet(folder: Path) -> Path:
+    return folder / "carpet.ilmek"
+
+
+def call(*line: object) -> Result:
+    return CliRunner().invoke(main, [str(one) for one in line])
+
+
+def as_json(*line: object, code: int = 0) -> dict[str, Any]:
+    result = call(*line, "--json", "-")
+    assert result.exit_code == code, result.output
+    found: dict[str, Any] = json.loads(result.stdout)
+    return found
+
+
+def error(*line: object) -> str:
+    result = call(*line)
+    assert result.exit_code == 2, result.output
+    assert result.stdout == ""
+    assert result.stderr.count("\n") == 1
+    return result.stderr
+
+
+def test_a_carpet_is_woven_and_compared(carpet: Path, tmp_path: Path) -> None:
+    found = as_json("run", carpet, "--journal", tmp_path / "j", "--speed", "max")
+    assert (found["state"], found["knots"], found["faults"], found["begun"]) == ("Complete", 144, 0, 0)
+    assert len(found["digest"]) == 64
+    again = call("run", carpet, "--journal", tmp_path / "j", "--speed", "max")
+    assert "is complete; --new begins another one" in again.stderr
+    assert "144 of 144, equal to the chart" in again.stdout
+    assert found["digest"] in again.stdout
+    status = as_json("status", "--journal", tmp_path / "j")
+    assert (status["state"], status["knots"], status["running"]) == ("Complete", 144, False)
+    anew = as_json("run", carpet, "--journal", tmp_path / "j", "--speed", "max", "--new")
+    assert (anew["begun"], anew["digest"], anew["time"]) == (0, found["digest"], found["time"])
+
+
+def test_the_journal_is_beside_the_programme_by_default(carpet: Path) -> None:
+    assert RunOrder(carpet).folder == carpet.with_name("carpet.journal")
+
+
+def test_faults_are_repaired(carpet: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("ilmek.jobs.run.order.USUAL_RATES", type(USUAL_RATES)(0, 0.02, 0.05, 0.01, 0.05))
+    found = as_json("run", carpet, "--journal", tmp_path / "j", "--speed", "max", "--faults", "7")
+    assert found["repairs"] > 3
+    assert (found["state"], found["faults"]) == ("Complete", 0)
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        (("--speed", "0x"), "--speed '0x'; a factor above 0 like 1000x"),
+        (("--speed", "fast"), "--speed 'fast'"),
+        (("--commit", "0"), "--commit 0; 1 to 10,000 knots"),
+        (("--faults", "-1"), "a seed: a whole number"),
+        (("--operator", "me"), "--operator 'me'; auto, ask"),
+    ],
+)
+def test_bad_options_are_refused(carpet: Path, line: tuple[str, str], message: str) -> None:
+    assert message in error("run", carpet, *line)
+    assert not carpet.with_name("carpet.journal").exists()
+
+
+def test_journals_that_do_not_fit_are_refused(carpet: Path, tmp_path: Path) -> None:
+    as_json("run", carpet, "--journal", tmp_path / "j", "--speed", "max")
+    journal = tmp_path / "j" / "journal"
+    content = journal.read_bytes()
+    other = carpet.with_name("other.ilmek")
+    assert "programme" in error("run", other, "--journal", tmp_path / "j")
+    for offset in (3, 60, 500, len(content) // 2):
+        damaged = bytearray(content)
+        damaged[offset] ^= 4
+        journal.write_bytes(damaged)
+        assert "damaged" in error("run", carpet, "--journal", tmp_path / "j", "--speed", "max")
+        assert journal.read_bytes() == damaged
+    journal.write_bytes(content)
+    (tmp_path / "j" / "woven").unlink()
+    assert "journal but no carpet" in error("run", carpet, "--journal", tmp_path / "j", "--speed", "max")
+
+
+def test_a_journal_cut_short_is_behind_its_carpet_and_nothing_is_tied_twice(carpet: Path, tmp_path: Path) -> None:
+    first = as_json("run", carpet, "--journal", tmp_path / "j", "--speed", "max")
+    journal = tmp_path / "j" / "journal"
+    journal.write_bytes(journal.read_bytes()[:3000])
+    found = as_json("run", carpet, "--journal", tmp_path / "j", "--speed", "max")
+    assert (found["state"], found["faults"], found["digest"]) == ("Complete", 0, first["digest"])
+
+
+def test_commands_without_a_controller(carpet: Path, tmp_path: Path) -> None:
+    assert "has no journal" in error("status", "--journal", tmp_path)
+    assert "has no journal" in error("hold", "--journal", tmp_path)
+    as_json("run", carpet, "--journal", tmp_path / "j", "--speed", "max")
+    for name in ("hold", "resume", "stop"):
+        assert f"{name}: no controller runs" in error(name, "--journal", tmp_path / "j")
+
+
+def test_commands_to_a_run(carpet: Path, tmp_path: Path) -> None:
+    journal = tmp_path / "j"
+    with LoomRun(RunOrder(carpet, journal, speed=50.0)) as run:
+        seen: list[Snapshot] = []
+        thread = threading.Thread(target=run.work, args=(seen.append,))
+        thread.start()
+        assert f"process {os.getpid()} weaves" in error("run", carpet, "--journal", journal)
+        _until(run, "Execute")
+        assert run.command("hold").ok
+        _until(run, "Held")
+        status = as_json("status", "--journal", journal)
+        assert (status["running"], status["state"], status["process"]) == (True, "Held", os.getpid())
+        assert status["yarns"][0]["left"] > 0
+        assert "hold is refused: Hold in state Held" in error("hold", "--journal", journal)
+        assert "no command 'fly'" in run.command("fly").reason
+        assert as_json("resume", "--journal", journal)["state"] in ("Execute", "Held", "Unholding")
+        _until(run, "Execute")
+        assert call("stop", "--journal", journal).exit_code == 0
+        thread.join(10)
+        assert not thread.is_alive()
+        assert not run.result().ok
+    assert as_json("status", "--journal", journal)["state"] == "Stopped"
+    assert as_json("run", carpet, "--journal", journal, "--speed", "max")["faults"] == 0
+
+
+def _until(run: LoomRun, state: str) -> None:
+    end = time.monotonic() + 10
+    while run.snapshot().state != state:
+        assert time.monotonic() < end, run.snapshot().state
+        time.sleep(0.005)
+
+
+def test_a_run_waits_for_room_on_the_disc(carpet: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("ilmek.jobs.run.loom_run._RETRY", 0.0)
+    write, calls, alarms = SystemFile.write, [0], set()
+
+    def full(self: SystemFile, data: bytes, offset: int) -> int:
+        calls[0] += 1
+        if calls[0] == 30:
+            return write(self, data[:10], offset)
+        if 30 < calls[0] < 40:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        return write(self, data, offset)
+
+    def show(snapshot: Snapshot) -> None:
+        alarms.update(one.name for one in snapshot.alarms)
+
+    monkeypatch.setattr(SystemFile, "write", full)
+    monkeypatch.setattr("ilmek.jobs.run.loom_run.INTERVAL", 0.0)
+    with LoomRun(RunOrder(carpet, tmp_path / "j", speed=None)) as run:
+        run.work(show)
+        found = run.result()
+    assert calls[0] > 40
+    assert "disc full" in alarms
+    assert (found.state, found.faults, found.snapshot.knots) == ("Complete", 0, 144)
+
+
+def test_a_run_that_is_killed_goes_on(carpet: Path, tmp_path: Path) -> None:
+    line = ["run", str(carpet), "--speed", "100x", "--journal", str(tmp_path / "j")]
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
+    with subprocess.Popen([sys.executable, "-m", "ilmek", *line], env=environment) as process:
+        journal, end = tmp_path / "j" / "journal", time.monotonic() + 60
+        while not journal.exists() or journal.stat().st_size < 1000:
+            assert process.poll() is None
+            assert time.monotonic() < end
+            time.sleep(0.01)
+        process.send_signal(signal.SIGKILL)
+    begun = as_json("status", "--journal", tmp_path / "j")
+    assert begun["state"] == "Stopped"
+    assert begun["uncertain"] >= 2
+    found = as_json("run", carpet, "--journal", tmp_path / "j", "--speed", "max")
+    assert found["begun"] >= begun["knots"] > 0
+    assert (found["state"], found["faults"]) == ("Complete", 0)
