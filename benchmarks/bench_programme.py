@@ -52,7 +52,7 @@ def _measure(name: str, knots: Indices) -> None:
         start = time.perf_counter()
         programme = make_programme(knots, YARNS, HEADS, TIMES)
         ordered = time.perf_counter()
-        write_programme(path, CompiledProgramme(_setup(), programme))
+        write_programme(path, CompiledProgramme(twenty_million(), programme))
         written = time.perf_counter()
         heads = least_heads(knots, YARNS, 1.3 * programme.duration, TIMES, 13)
         searched = time.perf_counter()
@@ -66,22 +66,23 @@ def _measure(name: str, knots: Indices) -> None:
     print(f"    random row {row * 1e6:.0f} us")
 
 
-def _setup() -> LoomSetup:
+def twenty_million(rows: int = ROWS, columns: int = COLUMNS, heads: int = HEADS) -> LoomSetup:
+    """The loom and the carpet, or one of other numbers."""
     return LoomSetup(
         loom="0" * 64,
-        size=CarpetSize(COLUMNS / 1800, ROWS / 1800),
+        size=CarpetSize(columns / 1800, rows / 1800),
         quality=Quality(1800.0, 1800.0),
         knot="symmetric",
         yarns=tuple(Yarn(f"yarn {k}", (k, k, k), (0.0, 0.0, 0.0), 2.5, 2) for k in range(YARNS)),
         warp_pitch=0.5 / 1800,
-        rows=ROWS,
-        columns=COLUMNS,
-        heads=HEADS,
+        rows=rows,
+        columns=columns,
+        heads=heads,
         tubes=YARNS,
         spacing=100,
         times=OperationTimes(TIMES.knot, TIMES.colour_change, TIMES.travel, (3.0, 5.0, 8.0, 10.0, TIMES.weft), 60.0),
-        loading=np.tile(np.arange(YARNS, dtype=np.uint8), (HEADS, 1)),
-        packages=np.full((HEADS, YARNS), 1e5),
+        loading=np.tile(np.arange(YARNS, dtype=np.uint8), (heads, 1)),
+        packages=np.full((heads, YARNS), 1e5),
         knot_yarn=(0.03,) * YARNS,
     )
 

@@ -70,3 +70,21 @@ def part_of(row: RowOperations, index: int) -> tuple[int, int]:
     where = np.searchsorted(np.cumsum(row.counts.ravel()), index, side="right")
     head, phase = np.unravel_index(where, row.counts.shape)
     return int(head), int(phase)
+
+
+def swept(programme: LoomProgramme) -> EditedProgramme:
+    """The programme of two heads with rows that do not depend on a compiler: each half is swept, to and fro; in the
+    second row the second head begins its last half in the middle.
+    """
+    columns, rows = programme.setup.columns, {}
+    for number in range(programme.setup.rows):
+        line = np.arange(columns, dtype=np.int32).reshape(4, -1)
+        order = line.ravel() if number % 2 == 0 else np.concatenate([line[half, ::-1] for half in (1, 0, 3, 2)])
+        if number == 1:
+            last = order[-(columns // 4) :]
+            order[-(columns // 4) :] = np.concatenate([last[len(last) // 2 :], last[: len(last) // 2][::-1]])
+        counts = np.full((2, 2), columns // 4)
+        rows[number] = replace(
+            programme.operations(number), columns=order, tubes=programme.chart_row(number)[order], counts=counts
+        )
+    return EditedProgramme(programme, rows)

@@ -19,7 +19,7 @@ from ilmek.loom.control.ports import (
 )
 from ilmek.loom.operations import LoomProgramme, RowEnd
 
-READY = Sensors(True, False, 6.0, (True,) * 16, True, True, True)
+READY = Sensors(True, False, 15.0, (True,) * 16, True, True, True)
 AWAY = {
     RowEnd.STRAIGHT_WEFT: "shed_closed",
     RowEnd.FIRST_BEAT: "beater_back",

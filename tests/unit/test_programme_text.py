@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from edited_programme import EditedProgramme, edited, with_knot
+from edited_programme import EditedProgramme, edited, swept, with_knot
 from small_programme import small_programme
 
 from ilmek.errors import LoomError
@@ -22,7 +22,7 @@ def text_of(programme: EditedProgramme) -> str:
 
 def with_everything() -> EditedProgramme:
     """Stops between phases, packages, an empty tube, knots in any order, other ends, a row with a phase more."""
-    programme = small_programme(5, 24, 2, 3)
+    programme = swept(small_programme(5, 24, 2, 3))
     loading, packages = programme.setup.loading.copy(), programme.setup.packages.copy()
     loading[1, 2], packages[1, 2] = EMPTY, 0.1 + 0.2
 
@@ -54,7 +54,7 @@ def test_text_and_programme_are_the_same_both_ways(tmp_path: Path, make: Callabl
 
 
 def test_the_text_is_as_in_the_grammar() -> None:
-    lines = text_of(edited(small_programme())).splitlines()
+    lines = text_of(swept(small_programme())).splitlines()
     assert lines[0] == "ilmek programme 1"
     assert lines[lines.index("row 2") :][:14] == [
         "row 2", "chart 6*1 9*3 3*2 3*3 3*1", "phase 1", "head 1", "tie 12..7 tube 3", "head 2", "tie 24..22 tube 1",
@@ -141,7 +141,7 @@ EDITS: dict[str, tuple[str, str, str]] = {
 @pytest.mark.parametrize("name", EDITS)
 def test_a_wrong_text_is_refused_with_its_line(tmp_path: Path, name: str) -> None:
     old, new, message = EDITS[name]
-    text, file = text_of(edited(small_programme())), tmp_path / "p.txt"
+    text, file = text_of(swept(small_programme())), tmp_path / "p.txt"
     assert old in text
     file.write_bytes(text.replace(old, new, 1).encode())
     with pytest.raises(LoomError) as caught:
@@ -151,7 +151,7 @@ def test_a_wrong_text_is_refused_with_its_line(tmp_path: Path, name: str) -> Non
 
 
 def test_each_cut_text_is_refused(tmp_path: Path) -> None:
-    text, file = text_of(edited(small_programme(3, 12, 2, 2))).encode(), tmp_path / "p.txt"
+    text, file = text_of(swept(small_programme(3, 12, 2, 2))).encode(), tmp_path / "p.txt"
     for length in [0, 1, 17, 18, 400, *range(len(text) - 300, len(text), 7)]:
         file.write_bytes(text[:length])
         with pytest.raises(LoomError, match=r"line \d+|the description"):
@@ -160,7 +160,7 @@ def test_each_cut_text_is_refused(tmp_path: Path) -> None:
 
 def test_a_row_of_another_file_is_not_read(tmp_path: Path) -> None:
     file = tmp_path / "p.txt"
-    file.write_text(text_of(edited(small_programme())))
+    file.write_text(text_of(swept(small_programme())))
     with open_programme_text(file) as text:
         file.write_text("short")
         with pytest.raises(LoomError, match="has changed while it was read"):
@@ -175,7 +175,7 @@ def test_missing_and_large_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     with pytest.raises(LoomError, match="Is a directory"):
         open_programme_text(tmp_path)
     file = tmp_path / "p.txt"
-    file.write_text(text_of(edited(small_programme())))
+    file.write_text(text_of(swept(small_programme())))
     monkeypatch.setattr("ilmek.io.programme_text.LARGEST_FILE", 100)
     with pytest.raises(LoomError, match="at most"):
         open_programme_text(file)
@@ -183,7 +183,7 @@ def test_missing_and_large_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 
 def test_a_row_without_end_is_refused_before_it_is_read_whole(tmp_path: Path) -> None:
     file = tmp_path / "p.txt"
-    text = text_of(edited(small_programme()))
+    text = text_of(swept(small_programme()))
     at = text.index("row 2\n")
     file.write_text(text[:at] + "row 2\n" + "tie 1 tube 1\n" * 400_000)
     with pytest.raises(LoomError, match=rf"line {text[:at].count(chr(10)) + 1}: the row has more than"):
@@ -200,12 +200,12 @@ def test_stops_out_of_order_have_no_text() -> None:
         return replace(row, stops=(Stop(0, 1), Stop(0, 0)))
 
     with pytest.raises(LoomError, match="not in the order of its phases"):
-        text_of(edited(small_programme(), 0, twisted))
+        text_of(edited(swept(small_programme()), 0, twisted))
 
 
 def test_a_lenient_reader_keeps_remarks(tmp_path: Path) -> None:
     file = tmp_path / "p.txt"
-    programme = edited(small_programme(), 1, lambda row: with_knot(row, 2, tube=1))
+    programme = edited(swept(small_programme()), 1, lambda row: with_knot(row, 2, tube=1))
     file.write_text(text_of(programme).replace("tube 2\n", "", 1))
     with open_programme_text(file, lenient=True) as text:
         assert [remark.line for remark in text.remarks] == [30]

@@ -1,7 +1,7 @@
 """`ilmek plan`: several carpets on looms that exist."""
 
-from datetime import datetime
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
@@ -9,6 +9,9 @@ from ilmek.cli.call_outputs import call_outputs
 from ilmek.cli.options import force_option, json_option
 from ilmek.cli.terminal import note, say, show_pairs, show_table
 from ilmek.cli.verdict import exit_code, note_verdict, show_verdict
+
+if TYPE_CHECKING:
+    from ilmek.jobs.plan import PlanResult
 
 EXAMPLES = """\b
 Examples:
@@ -65,54 +68,21 @@ def command(
         note_verdict(done.checks)
     else:
         show_verdict(done.checks)
-        _show(plan_json(done, files))
+        _show(done)
+        if files:
+            say(f"report: {files[0]}")
     for warning in done.warnings:
         note(warning)
     return exit_code(done.checks)
 
 
-def _show(found: dict) -> None:  # type: ignore[type-arg]
+def _show(done: "PlanResult") -> None:
     """Print the orders, what would save late ones, the yarn to buy, and the cost beside its bound."""
-    currency = found["currency"]
-    rows = [
-        (order["name"], one["loom"], _day(one["start"]), _day(one["end"]), f"{one['cost']:,.2f}", _hours(one["late"]))
-        for order in found["orders"]
-        for one in order["carpets"]
-    ]
-    rows += [(order["name"], "none", "", "", "", "not woven") for order in found["orders"] if not order["woven"]]
-    show_table(("order", "loom", "start", "end", f"cost [{currency}]", "late"), rows, right=(4, 5), wide=(2, 3))
-    for late in found["late_orders"]:
-        if late["measures"]:
-            say(f"{late['name']} is late; any of these saves it, with the cost of the plan then:")
-            for one in late["measures"]:
-                say(f"  {one['text']}: {one['cost']:,.2f} {currency}")
-    if found["yarn"]:
-        bought = [
-            (
-                one["name"],
-                f"{one['needed']:.2f}",
-                f"{one['stock']:.2f}",
-                f"{one['to_buy']:.2f}",
-                "" if one["price"] is None else f"{one['price']:,.2f}",
-                _day(one["needed_by"]),
-                _day(one["order_by"]),
-            )
-            for one in found["yarn"]
-        ]
-        headings = ("yarn", "needed [kg]", "stock [kg]", "to buy [kg]", f"price [{currency}]", "needed by", "order by")
-        show_table(headings, bought, right=(1, 2, 3, 4), wide=(5, 6))
-    pairs = [
-        ("cost", f"{found['cost']:,.2f} {currency}: looms {found['loom_cost']:,.2f}, delays {found['late_cost']:,.2f}")
-    ]
-    if found["bound"] is not None:
-        pairs.append(("bound", f"no plan costs less than {found['bound']:,.2f} {currency} (gap {found['gap']:.1%})"))
-    pairs += [("report", found["files"][0])] if found["files"] else []
-    show_pairs(pairs)
+    from ilmek.jobs.plan import plan_results
+    from ilmek.jobs.plan_tables import cost_lines, measure_table, order_table, yarn_table
 
-
-def _day(text: str) -> str:
-    return f"{datetime.fromisoformat(text):%a %Y-%m-%d %H:%M}"
-
-
-def _hours(seconds: float) -> str:
-    return f"{seconds / 3600:.1f} h" if seconds else "–"
+    found = plan_results(done)
+    for table in (order_table(found), measure_table(found), yarn_table(found)):
+        if table.rows:
+            show_table(table.headings, table.rows, right=table.numbers)
+    show_pairs(cost_lines(done))

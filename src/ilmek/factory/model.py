@@ -45,7 +45,7 @@ class Loom:
 
 
 @dataclass(frozen=True, slots=True)
-class Job:
+class CarpetJob:
     """One carpet to weave.
 
     order     index of its order            setup     carpets of one setup have the same width and yarns
@@ -99,7 +99,7 @@ class Factory:
     """The problem: jobs, looms, yarns by index."""
 
     looms: tuple[Loom, ...]
-    jobs: tuple[Job, ...]
+    jobs: tuple[CarpetJob, ...]
     yarns: tuple[StoredYarn, ...] = ()
 
     def loom_cost(self, job: int, loom: int, *, same: bool) -> int:
@@ -215,7 +215,7 @@ def in_turn(plan: FactoryPlan) -> FactoryPlan:
     return FactoryPlan(plan.factory, tuple(sorted(carpets, key=lambda one: one.job)))
 
 
-def likeness(job: Job) -> tuple[object, ...]:
+def likeness(job: CarpetJob) -> tuple[object, ...]:
     """What two jobs have in common that can be exchanged."""
     return job.order, job.setup, job.earliest, job.due, job.late, tuple(sorted(job.weaving.items()))
 

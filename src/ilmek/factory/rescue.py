@@ -58,12 +58,15 @@ def rescues(plan: FactoryPlan, jobs: frozenset[int]) -> tuple[Rescue, ...]:
         found.append(Rescue("put first", -1, 0, until, first))
     for attempts in _attempts(factory, plan, jobs, until):
         for kind, loom, hours, changed in attempts:
-            proof = _saved(changed, plan, jobs)
-            if proof is not None and (first is None or proof.cost < first.cost):
-                found.append(Rescue(kind, loom, _moved(kind, hours, plan, proof, jobs), until, proof))
+            made = _saved(changed, plan, jobs)
+            if made is not None and (first is None or made.cost < first.cost):
+                found.append(Rescue(kind, loom, _moved(kind, hours, plan, made, jobs), until, made))
                 break
     overdue = max(one.end - factory.jobs[one.job].due for one in plan.carpets if one.job in jobs)
-    found.append(Rescue("later due date", -1, -(-overdue // HOUR), until, plan))
+    hours = -(-overdue // HOUR)
+    later = tuple(replace(job, due=job.due + HOUR * hours) if k in jobs else job for k, job in enumerate(factory.jobs))
+    proof = FactoryPlan(replace(factory, jobs=later), plan.carpets)
+    found.append(Rescue("later due date", -1, hours, until, proof))
     return tuple(found)
 
 

@@ -7,7 +7,7 @@ which the carpets of a loom do not overlap:
 
 The maps between the axes are sums of gaps with a Boolean each, exact at every optimum: a carpet that is later than it
 must be never costs less. Minimised is the cost; then, among plans of the least cost found, the sum of the ends. The
-bound is that of the first.
+bound is that of the first, or that of the looms' capacity (`bound`).
 """
 
 import importlib
@@ -18,6 +18,7 @@ from typing import Any
 
 from ilmek.errors import ParameterError
 from ilmek.factory.axes import WorkAxes, work_axes
+from ilmek.factory.bound import capacity_bound
 from ilmek.factory.calendar import DAY, MOST_DAYS, WEEK
 from ilmek.factory.model import (
     HOUR,
@@ -95,7 +96,8 @@ def solve(
     model.hint(given)
     model.minimise_cost()
     first = model.run(SolveLimits(FIRST_SHARE * limits.deterministic, FIRST_SHARE * limits.seconds))
-    floor = sum(lone_cost(factory, job) for job in range(len(factory.jobs)))
+    lone = sum(lone_cost(factory, job) for job in range(len(factory.jobs)))
+    floor = lone if in_time else max(lone, capacity_bound(factory, horizon))
     if first.sequences is None:
         return SolvedPlan(given, floor, horizon, "none", first.repeatable)
     best = left_shifted(factory, first.sequences, first.floors)

@@ -56,6 +56,10 @@ def _carpet_faults(factory: Factory, one: PlannedCarpet) -> Iterator[str]:
         worked = _worked(windows, start, end)
         if worked != minutes:
             yield f"carpet {one.job}: {name} has {worked} working minutes, it takes {minutes}"
+        elif minutes and not _worked(windows, end - 1, end):
+            yield f"carpet {one.job}: {name} ends at {end}, outside the shifts"
+    if not _worked(loom.attended.windows, one.start, one.start + 1):
+        yield f"carpet {one.job}: it starts at {one.start}, outside the attended shifts"
 
 
 def _loom_faults(factory: Factory, carpets: Sequence[PlannedCarpet]) -> Iterator[str]:

@@ -1,6 +1,5 @@
 """The loom of an order: its parameters, its design for a chart, and its programme."""
 
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -9,9 +8,10 @@ from typing import Any
 
 from ilmek.carpet.pile import knot_length
 from ilmek.carpet.recipe.edits import located
-from ilmek.errors import IlmekError, ParameterError, UnitError
+from ilmek.errors import IlmekError, ParameterError
 from ilmek.io.recipe_file import LoomKeys
 from ilmek.jobs.chart import ChartResult
+from ilmek.jobs.deadline import read_deadline
 from ilmek.jobs.existing_loom import (
     ExistingLoom,
     carpet_checks,
@@ -33,7 +33,6 @@ from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, LoomDesi
 from ilmek.params import Setting
 from ilmek.progress import SILENT, Progress
 from ilmek.report import Check, Report, Result, at_most, must
-from ilmek.units import format_quantity, parse_quantity
 
 
 @dataclass(frozen=True, slots=True)
@@ -186,16 +185,6 @@ def _order_on(
         raise ParameterError(f"{wishes.heads} heads", allowed=f"{existing.path} has {most}", do="give fewer")
     params = replace(existing.design.params, yarns=yarns_on(existing, loom))
     return LoomOrder(params, wishes, tuple(loom), existing)
-
-
-def read_deadline(text: str) -> float:
-    """A deadline [s], like 72h. Raises UnitError without a unit, ParameterError for one that is not above 0."""
-    if re.fullmatch(r"\s*[\d.]+\s*", text):
-        raise UnitError(f"deadline {text!r} has no unit", allowed="h, min or d", do=f"did you mean {text.strip()}h?")
-    seconds = parse_quantity(text, "h")
-    if seconds <= 0:
-        raise ParameterError(f"a deadline of {format_quantity(seconds, 'h')}", allowed="above 0 h", do="like 72h")
-    return seconds
 
 
 def make_loomed(loom_order: LoomOrder, charted: ChartResult, progress: Progress = SILENT) -> LoomResult:

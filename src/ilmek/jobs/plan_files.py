@@ -1,25 +1,102 @@
-"""The files of a plan: page, plan.csv, purchase.csv, plan.json."""
+"""The files of a plan: page, picture, plan.csv, purchase.csv, plan.json."""
 
 from pathlib import Path
 
+from ilmek.factory.calendar import DAY
 from ilmek.io.csv_cells import csv_rows
 from ilmek.io.json_file import write_json
 from ilmek.io.output import Outputs
 from ilmek.jobs.plan import PlanResult, plan_json, plan_results
+from ilmek.jobs.plan_tables import day_text, loom_table, measure_table, order_table, yarn_table
+from ilmek.viz.page_parts import Fact, FileNote
+from ilmek.viz.plan_page import PlanPage, plan_page, plan_svg
+from ilmek.viz.plan_picture import PlanBar, PlanChart, PlanLane
 
 PLAN_COLUMNS = ("order", "loom", "start", "dressed", "woven", "end", "cost", "late [h]")
 PURCHASE_COLUMNS = ("yarn", "needed [kg]", "stock [kg]", "to buy [kg]", "price", "needed by", "order by")
 
 
+NOTES = (
+    FileNote("plan.html", "this page"),
+    FileNote("plan.svg", "the picture of the plan"),
+    FileNote("plan.csv", "carpets: loom, times and cost, one a line"),
+    FileNote("purchase.csv", "yarn to buy, one a line"),
+    FileNote("plan.json", "all results"),
+)
+
+
 def write_plan(done: PlanResult, folder: Path, outputs: Outputs) -> list[str]:
-    """Write the files of a plan into a folder; returns their paths."""
+    """Write the files of a plan into a folder; returns their paths, the page first."""
+    chart = plan_chart(done)
+    notes = tuple(note for note in NOTES if chart is not None or note.name != "plan.svg")
+    files = [str(folder / note.name) for note in notes]
     with outputs.folder(folder) as work:
-        names = ["plan.csv", "purchase.csv", "plan.json"]
+        if chart is not None:
+            (work / "plan.svg").write_text(plan_svg(chart), encoding="utf-8")
         (work / "plan.csv").write_text(plan_csv(done), encoding="utf-8")
         (work / "purchase.csv").write_text(purchase_csv(done), encoding="utf-8")
-        files = [str(folder / name) for name in names]
+        (work / "plan.html").write_text(plan_page(_page(done, chart, notes)), encoding="utf-8")
         write_json(work / "plan.json", plan_json(done, files))
     return files
+
+
+def plan_chart(done: PlanResult) -> PlanChart | None:
+    """The picture of a plan; None without carpets. Each order has a colour."""
+    plan, factory, inputs = done.plan, done.inputs.factory, done.inputs
+    if not plan.carpets:
+        return None
+    origin = inputs.origin
+    lanes = []
+    for index, loom in enumerate(factory.looms):
+        bars = tuple(
+            PlanBar(
+                inputs.orders[factory.jobs[one.job].order].entry.name,
+                factory.jobs[one.job].order,
+                (one.start, one.dressed, one.woven, one.end),
+                factory.jobs[one.job].due,
+            )
+            for one in plan.on_loom(index)
+        )
+        lanes.append(PlanLane(loom.name, loom.weaving.windows, bars))
+    begin = min(one.start for one in plan.carpets)
+    dues = [factory.jobs[one.job].due for one in plan.carpets]
+    length = plan.end - begin
+    # A due date far behind the last carpet would make the bars short.
+    end = max(plan.end, *(due for due in dues if due <= plan.end + length // 4), begin + 1)
+    return PlanChart("Plan of the factory", origin, begin // DAY * DAY, -(-(end + 1) // DAY) * DAY, tuple(lanes))
+
+
+def _page(done: PlanResult, chart: PlanChart | None, notes: tuple[FileNote, ...]) -> PlanPage:
+    found = plan_results(done)
+    late = sum(bool(order["late"]) for order in found["orders"])
+    lost = sum(not order["woven"] for order in found["orders"])
+    money = found["currency"]
+    bound = "" if found["bound"] is None else f"bound {found['bound']:,.2f} {money}, gap {found['gap']:.1%}"
+    facts = (
+        Fact("Cost", f"{found['cost']:,.2f} {money}", bound),
+        Fact("Cost of delays", f"{found['late_cost']:,.2f} {money}", "", "bad" if found["late_cost"] else "good"),
+        Fact("Late orders", str(late), f"of {len(found['orders'])}", "bad" if late else "good"),
+        *((Fact("Not woven", str(lost), "no loom can weave them", "bad"),) if lost else ()),
+        Fact(
+            "Yarn to buy", _price(found["yarn_price"], money), f"{sum(one['to_buy'] for one in found['yarn']):.2f} kg"
+        ),
+        Fact("End", day_text(done.inputs.time(done.plan.end).isoformat()) if done.plan.carpets else "–"),
+    )
+    tables = (order_table(found), measure_table(found), loom_table(found), yarn_table(found))
+    files = done.inputs.orders_file.path.name, done.inputs.looms_file.path.name
+    return PlanPage(
+        f"{files[0]} on {files[1]}, from {day_text(done.inputs.orders_file.start.isoformat())}",
+        facts,
+        chart,
+        done.checks,
+        tuple(table for table in tables if table.rows),
+        done.warnings,
+        notes,
+    )
+
+
+def _price(price: float | None, money: str) -> str:
+    return "no price given" if price is None else f"{price:,.2f} {money}"
 
 
 def plan_csv(done: PlanResult) -> str:

@@ -11,18 +11,17 @@ import numpy as np
 
 from ilmek.carpet.bill import YarnBill, yarn_bill
 from ilmek.carpet.chart import Chart
-from ilmek.carpet.pile import knot_length
 from ilmek.carpet.recipe.edits import located
-from ilmek.carpet.yarn_plan import YarnPlanParams
 from ilmek.errors import IlmekError, ParameterError
 from ilmek.factory.calendar import Calendar, Shift, calendar
-from ilmek.factory.model import HOUR, MONEY, Factory, Job, Loom, StoredYarn
+from ilmek.factory.model import HOUR, MONEY, CarpetJob, Factory, Loom, StoredYarn
 from ilmek.io.looms_file import FactoryLooms, LoomEntry
 from ilmek.io.orders_file import FactoryOrder, FactoryOrders
 from ilmek.io.programme_file import ProgrammeFile, open_programme
 from ilmek.jobs.chart import ChartResult, make_charted
-from ilmek.jobs.existing_loom import ExistingLoom, carpet_checks, read_existing_loom
+from ilmek.jobs.existing_loom import ExistingLoom, read_existing_loom
 from ilmek.jobs.loom import LoomOrder, make_loomed
+from ilmek.jobs.loom_setup import loom_digest
 from ilmek.jobs.order import read_order
 from ilmek.jobs.weave import overlay_checks
 from ilmek.jobs.wishes import Wishes
@@ -31,9 +30,6 @@ from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 from ilmek.report import Check, must
 from ilmek.units import g, hour, minute
-
-SAME_TIME = 1e-9
-"""Relative difference of times that are the same."""
 
 
 @record
@@ -88,7 +84,7 @@ def read_inputs(orders: FactoryOrders, looms: FactoryLooms, progress: Progress =
     planned = _planned_orders(orders, ready, progress.part(0.4, 1.0, "carpets"))
     origin = orders.start.replace(hour=0, minute=0)
     names = _yarn_names(planned)
-    found: list[Job] = []
+    found: list[CarpetJob] = []
     indices: list[tuple[int, ...]] = []
     setups: dict[tuple[Any, ...], int] = {}
     for number, order in enumerate(planned):
@@ -178,41 +174,29 @@ def _fit(charted: ChartResult, loom: ExistingLoom) -> LoomFit:
 
 
 def _of_programme(entry: FactoryOrder, looms: Sequence[ExistingLoom]) -> PlannedOrder:
-    """A carpet whose programme is compiled: it is woven by the loom that has its heads, times and warp pitch."""
+    """A carpet whose programme is compiled: only the loom that it was compiled for weaves it."""
     assert entry.programme is not None
     with open_programme(entry.programme) as programme:
-        chart = _chart_of(programme)
-        fits = tuple(_programme_fit(programme, chart, loom) for loom in looms)
+        chart, setup, time = _chart_of(programme), programme.setup, programme.totals.duration
+    fits = tuple(_programme_fit(setup.loom, time, loom) for loom in looms)
     return PlannedOrder(entry, yarn_bill(chart), setup_of(chart), fits)
 
 
 def _chart_of(programme: ProgrammeFile) -> Chart:
-    knots = np.empty((programme.rows, programme.columns), np.uint8)
-    for number in range(programme.rows):
-        knots[programme.rows - 1 - number] = programme.row(number).colours
-    label = programme.label
-    return Chart(knots, label.yarns, label.size, label.quality, label.knot)
+    setup = programme.setup
+    rows = [programme.chart_row(number) for number in range(setup.rows)]
+    return Chart(np.array(rows[::-1], np.uint8), setup.yarns, setup.size, setup.quality, setup.knot)
 
 
-def _programme_fit(programme: ProgrammeFile, chart: Chart, loom: ExistingLoom) -> LoomFit:
-    made, own = loom.design, programme.times.as_tuple()
-    same = all(math.isclose(a, b, rel_tol=SAME_TIME) for a, b in zip(own, made.times.as_tuple(), strict=True))
-    pitch = math.isclose(programme.label.warp_pitch, made.params.pitch, rel_tol=SAME_TIME)
-    pile = YarnPlanParams().pile(chart.quality)
-    knot_yarn = max(knot_length(chart.knot, chart.quality, yarn.linear_density, pile) for yarn in chart.yarns)
-    heaviest = max(yarn.linear_density for yarn in chart.yarns)
-    checks = (
-        must(
-            "programme: compiled for this loom",
-            same and pitch and programme.heads <= made.heads,
-            "times, warp pitch and heads of the programme against those of the loom",
-            cure="weave the picture on this loom: ilmek weave PICTURE --loom FILE",
-        ),
-        *carpet_checks(loom, chart, replace(made.params.yarns, pile_density=heaviest), knot_yarn),
-        *loom.report.all_checks,
+def _programme_fit(digest: str, time: float, loom: ExistingLoom) -> LoomFit:
+    compiled = must(
+        "programme: compiled for this loom",
+        loom_digest(loom.design.params) == digest,
+        "digest of the loom's parameters",
+        cure="weave the picture on this loom: ilmek weave PICTURE --loom FILE",
     )
-    failed = tuple(check for check in checks if not check.ok)
-    return LoomFit(None if failed else programme.totals.duration, failed)
+    failed = tuple(check for check in (compiled, *loom.report.all_checks) if not check.ok)
+    return LoomFit(None if failed else time, failed)
 
 
 def setup_of(chart: Chart) -> tuple[Any, ...]:
@@ -225,7 +209,7 @@ def _yarn_names(orders: Sequence[PlannedOrder]) -> list[str]:
     return list(dict.fromkeys(need.name for order in orders if order.possible for need in order.bill.needs))
 
 
-def _job(order: PlannedOrder, looms: FactoryLooms, origin: datetime, names: Sequence[str]) -> Job:
+def _job(order: PlannedOrder, looms: FactoryLooms, origin: datetime, names: Sequence[str]) -> CarpetJob:
     """A carpet of an order; the indices of order and setup are 0."""
     entry, index = order.entry, {name: at for at, name in enumerate(names)}
     weaving = {
@@ -238,7 +222,7 @@ def _job(order: PlannedOrder, looms: FactoryLooms, origin: datetime, names: Sequ
         yarns[index[need.name]] = yarns.get(index[need.name], 0) + math.ceil(need.to_buy / g - 1e-6)
     late = round(MONEY * entry.late * hour) * entry.priority
     earliest = _minutes(entry.earliest, origin)
-    return Job(0, 0, weaving, earliest, _minutes(entry.due, origin), late, yarns)
+    return CarpetJob(0, 0, weaving, earliest, _minutes(entry.due, origin), late, yarns)
 
 
 def _looms(looms: FactoryLooms, start: datetime, origin: datetime) -> tuple[Loom, ...]:

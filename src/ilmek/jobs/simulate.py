@@ -6,25 +6,20 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from ilmek.errors import LoomError, ParameterError
+from ilmek.errors import ParameterError
 from ilmek.io.any_programme import OpenProgramme, open_any_programme
 from ilmek.io.output import Outputs, joined
 from ilmek.io.programme_file import ProgrammeFile
 from ilmek.io.stops_file import read_stops_file
 from ilmek.io.table_csv import csv_text
-from ilmek.jobs.existing_loom import read_existing_loom
-from ilmek.jobs.loom import read_deadline
-from ilmek.jobs.loom_setup import loom_digest
+from ilmek.jobs.deadline import read_deadline
 from ilmek.jobs.page import page_text
 from ilmek.jobs.simulate_report import fault_columns, row_columns, simulation_report
 from ilmek.jobs.simulate_runs import MOST_WORKERS, runs_of
 from ilmek.loom.twin.carpet_run import CarpetRun, run_carpet
 from ilmek.loom.twin.faults import StopParams, fault_table
-from ilmek.loom.twin.kernel import FAILED
 from ilmek.loom.twin.seed_runs import MOST_SEEDS
 from ilmek.loom.twin.statistics import CarpetStatistics
-from ilmek.machines.automated_loom.energy import Energy, energy_of_acts
-from ilmek.machines.automated_loom.report import analyse
 from ilmek.params import Setting
 from ilmek.progress import SILENT, Progress
 from ilmek.report import Report
@@ -132,29 +127,14 @@ def _simulated(order: SimulationOrder, programme: OpenProgramme, progress: Progr
     if order.seeds:
         sums = runs_of(programme, order.file, params, order.seed, order.seeds, order.workers, order.cluster, part)
     found = CarpetStatistics(run, setup, params, sums)
-    energy = None if order.loom is None else _energy(order.loom, found)
+    energy = None
+    if order.loom is not None:
+        from ilmek.jobs.simulate_energy import energy_of_run  # brings all machines
+
+        energy = energy_of_run(order.loom, found)
     stated = programme.totals.duration if isinstance(programme, ProgrammeFile) else None
     report = simulation_report(order.file.name, found, stated, order.deadline, energy)
     return SimulationResult(run, found, report)
-
-
-def _energy(file: Path, found: CarpetStatistics) -> Energy:
-    """The energy of the run's acts on the loom of a file. Raises LoomError for another loom than the programme's."""
-    loom, setup = read_existing_loom(file).design, found.setup
-    if loom_digest(loom.params) != setup.loom:
-        raise LoomError(
-            f"{file} is not the loom of the programme", do="give the machine.json of the same `ilmek weave`"
-        )
-    again = found.run.faults[:, 4]
-    acts = {
-        "knot": found.knots + int(found.run.sums[FAILED]),
-        "colour change": int(found.run.changes.sum()),
-        "row": setup.rows,
-        "pass": 2 * setup.rows + int(((again == 3) | (again == 4)).sum()),
-        "beat": 2 * setup.rows + int((again == 5).sum()),
-        "carpet": 1,
-    }
-    return energy_of_acts(loom, analyse(loom).listed.axes, acts, found.time, setup.size.width * setup.size.length)
 
 
 def _written(result: SimulationResult, folder: Path, rows: bool, outputs: Outputs) -> SimulationResult:

@@ -1,6 +1,7 @@
 """The report of a simulated carpet: results, checks, tables, figures."""
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -9,7 +10,6 @@ from ilmek.loom.twin.carpet_run import FAULT_FIELDS
 from ilmek.loom.twin.durations import BILLION, durations_of
 from ilmek.loom.twin.kernel import CHANGED, DONE, NO_HEAD
 from ilmek.loom.twin.statistics import CURES, HIGH, LOW, WORDS, CarpetStatistics, seconds
-from ilmek.machines.automated_loom.energy import Energy
 from ilmek.report import (
     Axis,
     Check,
@@ -30,6 +30,9 @@ from ilmek.report import (
 )  # fmt: skip
 from ilmek.units import format_quantity, hour
 
+if TYPE_CHECKING:
+    from ilmek.machines.automated_loom.energy import Energy
+
 SAME = 1e-6
 """Relative difference of the time without faults from the programme's, which is a sum of rounded numbers."""
 
@@ -45,7 +48,7 @@ _BEFORE = -1
 
 
 def simulation_report(
-    name: str, found: CarpetStatistics, planned: float | None, deadline: float | None, energy: Energy | None
+    name: str, found: CarpetStatistics, planned: float | None, deadline: float | None, energy: "Energy | None"
 ) -> Report:
     """The report of a run and its band.
 
@@ -111,7 +114,7 @@ def _self_tests(found: CarpetStatistics, planned: float | None) -> tuple[Check, 
     return tuple(tests)
 
 
-def _warnings(found: CarpetStatistics, energy: Energy | None) -> tuple[str, ...]:
+def _warnings(found: CarpetStatistics, energy: "Energy | None") -> tuple[str, ...]:
     texts = []
     if energy is None:
         texts.append("no energy: give the loom's machine.json with --loom")
@@ -120,7 +123,7 @@ def _warnings(found: CarpetStatistics, energy: Energy | None) -> tuple[str, ...]
     return tuple(texts)
 
 
-def _tables(found: CarpetStatistics, energy: Energy | None) -> tuple[Table, ...]:
+def _tables(found: CarpetStatistics, energy: "Energy | None") -> tuple[Table, ...]:
     losses = tuple((WORDS[one["use"]], one["time"], one["share"], CURES[one["use"]]) for one in found.losses)
     heads = tuple((str(one["head"]), *(one[use] for use in WORDS), one["changes"], one["last"]) for one in found.heads)
     stops = tuple(

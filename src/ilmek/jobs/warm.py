@@ -1,7 +1,7 @@
 """Compile the kernels once after installing: `python -m ilmek.jobs.warm`.
 
 A kernel is compiled at its first call and kept in the user's cache folder (`ilmek.num.machine_code`). This job weaves a
-carpet of a few knots into a temporary folder and searches a four-bar for a path and one for a motion, so that the first
+carpet of a few knots into a temporary folder, simulates it and searches a four-bar for a path and one for a motion, so that the first
 real job does not wait.
 """
 
@@ -15,8 +15,10 @@ from ilmek.io.picture import read_picture
 from ilmek.io.programme_file import open_programme, write_programme
 from ilmek.jobs.loom import read_loom_order
 from ilmek.jobs.order import read_order
+from ilmek.jobs.simulate import SimulationOrder, simulate
 from ilmek.jobs.weave import weave
 from ilmek.loom.explicit import CompiledProgramme
+from ilmek.loom.twin.faults import StopParams
 from ilmek.machines.motion_four_bar import MotionFourBarParams
 from ilmek.machines.motion_four_bar import design as motion_four_bar
 from ilmek.machines.path_four_bar import PathFourBarParams
@@ -40,6 +42,7 @@ def warm() -> float:
         assert setup is not None
         # The loom's own is written only where it weaves.
         write_programme(out / "again.ilmek", CompiledProgramme(setup, made))
+        simulate(SimulationOrder(out / "again.ilmek", StopParams(gripper_miss=0.1, weft_break=0.1), seeds=5))
         with open_programme(out / "again.ilmek") as programme:
             return programme.totals.duration
 

@@ -93,7 +93,8 @@ class Controller(ControlCore):
         if halted and state.state is PackState.ABORTING:
             self.stopped_moving(draft)
         self.advance(draft)
-        if state.state is PackState.EXECUTE and self._dispatch(draft):
+        weaves = state.state is PackState.EXECUTE and state.mode is not PackMode.MANUAL
+        if weaves and self._dispatch(draft):
             self.advance(draft)
         if state.store_failed:
             draft.append.clear()
@@ -149,7 +150,7 @@ class Controller(ControlCore):
         if state.sensors is None:
             self.raise_alarm(ControlFault.NO_SENSORS, draft)
             return False
-        broken = violated(axes_of(order), state.sensors, self.settings.tension, head)
+        broken = violated(axes_of(order), state.sensors, self.tension, head)
         for rule in broken:
             self.raise_alarm(rule.name, draft, head=head)
         return not broken
@@ -208,7 +209,7 @@ class Controller(ControlCore):
     def _sensors_changed(self, report: SensorsChanged, draft: Draft) -> None:
         self._at(report.time, draft)
         state = self.state
-        for name, note in watching.compared(state, report.sensors, self.settings.tension, draft):
+        for name, note in watching.compared(state, report.sensors, self.tension, draft):
             self.raise_alarm(name, draft, note=note)
         if state.state is PackState.SUSPENDED and state.suspended_by_alarm and not watching.suspending(state):
             self.enter(PackState.UNSUSPENDING, draft)
@@ -263,7 +264,7 @@ class Controller(ControlCore):
             return Refusal(name, "one axis moves at a time", "wait until the jog has ended")
         if state.sensors is None:
             return Refusal(name, "the sensors must be known", "check the connection to the loom")
-        broken = violated(frozenset((axis,)), state.sensors, self.settings.tension)
+        broken = violated(frozenset((axis,)), state.sensors, self.tension)
         return Refusal(name, f"{broken[0].name}: {broken[0].why}") if broken else None
 
     def _speed_chosen(self, given: SpeedChosen, draft: Draft) -> None:
@@ -340,13 +341,13 @@ class Controller(ControlCore):
             row=sequence.row,
             phase=sequence.phase,
             knots=sequence.knots,
-            uncertain=len(state.doubts) + sum(key != JOG for key in state.progress),
+            uncertain=sum(not one.trusted for one in state.doubts.values()),
             retries=state.retries,
             faults=state.faults,
             speed=state.speed,
             time=state.time,
             heads=tuple(
-                HeadStatus(sequence.upcoming_of(head, SHOWN_KNOTS), head in state.progress)
+                HeadStatus(sequence.upcoming_of(head, SHOWN_KNOTS), sequence.upcoming[head], head in state.progress)
                 for head in range(len(sequence.upcoming))
             ),
             operation=whole if isinstance(whole, EndRow | ChangePackages) else None,

@@ -4,7 +4,7 @@ from typing import Any
 
 from ilmek.loom.control import doubts, watching
 from ilmek.loom.control.exchange import Operation, StateChanged, WeavingStep
-from ilmek.loom.control.interlocks import Reaction
+from ilmek.loom.control.interlocks import Reaction, usual_limits
 from ilmek.loom.control.journal import Origin, RecordKind
 from ilmek.loom.control.opening import OpenedJournal
 from ilmek.loom.control.packml import COMPLETED, PackCommand, PackMode, PackState, commanded
@@ -23,12 +23,12 @@ ENDING = frozenset((PackState.HOLDING, PackState.SUSPENDING, PackState.STOPPING,
 
 _REACTIONS: dict[Reaction, tuple[PackCommand, ...]] = {
     Reaction.NONE: (),
-    Reaction.SUSPEND: (PackCommand.SUSPEND, PackCommand.HOLD, PackCommand.STOP),
-    Reaction.HOLD: (PackCommand.HOLD, PackCommand.STOP),
+    Reaction.SUSPEND: (PackCommand.SUSPEND, PackCommand.HOLD),
+    Reaction.HOLD: (PackCommand.HOLD,),
     Reaction.STOP: (PackCommand.STOP,),
     Reaction.ABORT: (PackCommand.ABORT,),
 }
-"""The command of a reaction; where state or mode lack it, the next. Stop instead of another: in manual mode alone."""
+"""The command of a reaction; where state or mode lack it, the next. Manual mode goes on: it serves to free the loom."""
 
 
 class ControlCore:
@@ -36,6 +36,7 @@ class ControlCore:
 
     def __init__(self, programme: LoomProgramme, journal: OpenedJournal, settings: ControllerSettings) -> None:
         self.programme, self.settings, self.group = programme, settings, journal.group
+        self.tension = settings.tension or usual_limits(programme.setup.warp_pitch)
         self.state = state_of(journal)
         self._opening: bytes | None = journal.begin
         self._openings = journal.openings
@@ -121,8 +122,6 @@ class ControlCore:
         for command in _REACTIONS[reaction]:
             following = commanded(state.mode, state.state, command)
             if isinstance(following, PackState):
-                if command is PackCommand.STOP and reaction is not Reaction.STOP and state.mode is not PackMode.MANUAL:
-                    return
                 self.enter(following, draft)
                 state.suspended_by_alarm = command is PackCommand.SUSPEND
                 return

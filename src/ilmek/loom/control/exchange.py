@@ -149,9 +149,10 @@ class ControlOutputs:
 
 @value_record
 class HeadStatus:
-    """A head: its next knots in this row as (column, tube), and whether it ties one now."""
+    """A head: its next knots in this row as (column, tube), how many of the row are tied, whether it ties one now."""
 
     upcoming: tuple[tuple[int, int], ...]
+    tied: int
     tying: bool
 
 
@@ -160,7 +161,7 @@ class ControllerStatus:
     """The controller as views and other systems show it.
 
     row, phase   in work; row: number of rows when the carpet is woven      knots  in the carpet
-    uncertain    operations in progress, and those that sensor or operator are asked for
+    uncertain    operations that may be in the carpet without a record, none of them in progress
     retries      knots that were tried again at once       faults   operations that the loom reported as failed
     speed        as a fraction of the programme's                          time   of the loom [ns]
     operation    the row's end or the change in progress; None: knots are tied, or nothing is

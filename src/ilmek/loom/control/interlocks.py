@@ -11,6 +11,7 @@ from types import MappingProxyType
 from ilmek.loom.control.ports import ChangePackages, EndRow, Order, Sensors, Tie
 from ilmek.loom.operations import RowEnd
 from ilmek.records import value_record
+from ilmek.weaving.tension import TENSION_LEAST, TENSION_MOST, usual_tension
 
 
 class LoomAxis(StrEnum):
@@ -101,13 +102,19 @@ class Reaction(StrEnum):
 
 @value_record
 class TensionLimits:
-    """Least and greatest mean tension of a warp at which the loom may weave [N].
+    """Least and greatest mean tension of a warp at which the loom may weave [N]."""
 
-    The defaults are assumed by this project: a cotton warp of 4 to 12 N.
+    least: float
+    most: float
+
+
+def usual_limits(pitch: float) -> TensionLimits:
+    """Limits of the tension of a usual warp: the shares of the tension at rest that the back rest keeps.
+
+    pitch  of the warps [m]
     """
-
-    least: float = 2.0
-    most: float = 20.0
+    rest = usual_tension(pitch)
+    return TensionLimits(TENSION_LEAST * rest, TENSION_MOST * rest)
 
 
 @value_record

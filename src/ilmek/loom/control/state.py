@@ -20,12 +20,12 @@ MOST_UNSYNCED = 60_000
 class ControllerSettings:
     """What an operator may set.
 
-    tension      limits of the warp tension
+    tension      limits of the warp tension; default: those of a usual warp
     watched      sensors that must change while their axis moves, of `interlocks.WATCHED`
     least_speed, most_speed    limits of the speed, as a fraction of the programme's
     """
 
-    tension: TensionLimits = TensionLimits()
+    tension: TensionLimits | None = None
     watched: tuple[str, ...] = ("beater_back", "shed_closed")
     least_speed: float = 0.05
     most_speed: float = 1.0

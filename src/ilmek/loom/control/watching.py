@@ -17,7 +17,7 @@ from ilmek.loom.control.interlocks import (
     violated,
 )
 from ilmek.loom.control.journal import AlarmAction, RecordKind
-from ilmek.loom.control.packml import PackCommand, Refusal
+from ilmek.loom.control.packml import PackCommand, PackMode, Refusal
 from ilmek.loom.control.ports import Sensors
 from ilmek.loom.control.state import ControllerState, Draft
 
@@ -66,13 +66,13 @@ def acknowledge(state: ControllerState, number: int | None, draft: Draft) -> Non
 
 
 def refused(state: ControllerState, command: PackCommand) -> Refusal | None:
-    """Why active alarms forbid a command; None: they do not."""
+    """Why active alarms forbid a command; None: they do not. In manual mode an operator removes their causes."""
     if command is PackCommand.CLEAR:
         if state.store_failed:
             return Refusal("Clear while the journal cannot be written", "the journal must be opened again")
         grave = [one for one in state.alarms.values() if one.kind.reaction is Reaction.ABORT and one.present]
         return Refusal(f"Clear with {grave[0].kind.name}", grave[0].kind.remedy) if grave else None
-    if command in _GOING_ON:
+    if command in _GOING_ON and state.mode is not PackMode.MANUAL:
         stopping = [one for one in state.alarms.values() if one.kind.reaction is not Reaction.NONE]
         if stopping:
             one = stopping[0]

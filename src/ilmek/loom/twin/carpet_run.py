@@ -20,6 +20,7 @@ from ilmek.loom.twin.kernel import (
     TIME,
     TRIED,
     WORK,
+    LoomEnd,
     end_faults,
     find_faults,
     tie_events,
@@ -237,8 +238,7 @@ class _Weaving:
         for operation in row.ends:
             end = self.walk.end(operation)
             where, what = (row.number << 32) + int(operation), NO_HEAD << 16
-            found = end_faults(end, self.walk.passed, self.positions, self.ordinals, self.table, self.seed)
-            for cause, responds, repairs in found.tolist():
+            for cause, responds, repairs in self._faults_of(end):
                 events.append((self.now, self.now + end.lasts, where, what + 1 + cause))
                 wait = responds + repairs
                 self.faults.append((row.number, -1, -1, -1, cause, 1, self.now + end.lasts, wait))
@@ -255,6 +255,14 @@ class _Weaving:
             self._advance(end.lasts)
             self.base += end.lasts
         return np.array(events, np.int64).reshape(-1, 4)
+
+    def _faults_of(self, end: LoomEnd) -> list[list[int]]:
+        """Cause, response and repair of the faults of an operation after the knots."""
+        causes = range(end.first, end.last)
+        if all(self.positions[cause, 0] >= self.walk.passed[cause, 0] for cause in causes):
+            return []
+        found = end_faults(end, self.walk.passed, self.positions, self.ordinals, self.table, self.seed)
+        return [[int(number) for number in fault] for fault in found]
 
     def _advance(self, time: int) -> None:
         self.now += time

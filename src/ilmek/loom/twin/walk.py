@@ -71,7 +71,8 @@ class Walk:
     def end(self, operation: RowEnd) -> LoomEnd:
         """An operation after the knots; its exposures are added."""
         end = self._ends[operation]
-        self.passed[end.first : end.last, 0] += UNIT
+        for cause in range(end.first, end.last):
+            self.passed[cause, 0] += UNIT
         return end
 
     def change(self, stop: Stop) -> None:

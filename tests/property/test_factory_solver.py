@@ -1,0 +1,54 @@
+"""The planner against every plan of small factories, and against its own bounds."""
+
+import pytest
+from small_factory import every_plan, small_factory
+
+from ilmek.factory.bound import capacity_bound
+from ilmek.factory.heuristic import first_plan
+from ilmek.factory.model import in_turn, left_shifted, lone_cost, sequences_of
+from ilmek.factory.solver import SolveLimits, horizon_of, solve
+from ilmek.factory.verification import plan_faults
+from ilmek.factory.yarn_stock import waiting_in
+
+LIMITS = SolveLimits(3.0, 60.0)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_no_plan_costs_less_than_the_solvers(seed: int) -> None:
+    factory = small_factory(2 + seed % 2, 2, seed=seed, tight=0.2)
+    least = min(plan.merit for plan in every_plan(factory))
+    solved = solve(factory, first_plan(factory), LIMITS)
+    assert solved.status == "optimal"
+    assert solved.plan.cost == solved.bound == least[0]
+    assert plan_faults(solved.plan, solved.plan.cost) == ()
+
+
+@pytest.mark.parametrize("seed", [20, 23])
+def test_a_solved_plan_is_valid_repeatable_and_not_below_its_bound(seed: int) -> None:
+    factory = small_factory(6, 2, seed=seed)
+    first = first_plan(factory)
+    runs = [solve(factory, first, SolveLimits(0.05, 60.0)) for _ in range(2)]
+    assert runs[0].plan == runs[1].plan
+    assert runs[0].bound == runs[1].bound
+    solved = runs[0]
+    assert plan_faults(first, first.cost) == plan_faults(solved.plan, solved.plan.cost) == ()
+    assert solved.bound <= solved.plan.cost <= first.cost
+
+
+@pytest.mark.parametrize("seed", range(40, 46))
+def test_bounds_are_below_every_plan(seed: int) -> None:
+    factory = small_factory(3, 2, seed=seed, tight=0.1)
+    plans = list(every_plan(factory))
+    best = min(plans, key=lambda plan: plan.cost)
+    horizon = horizon_of(max(plans, key=lambda plan: plan.end))
+    assert sum(lone_cost(factory, job) for job in range(3)) <= best.cost
+    assert 0 < capacity_bound(factory, horizon) <= best.cost
+
+
+@pytest.mark.parametrize("seed", range(60, 66))
+def test_a_plan_is_made_again_from_its_sequences(seed: int) -> None:
+    plan = first_plan(small_factory(20, 3, seed=seed))
+    assert left_shifted(plan.factory, sequences_of(plan), waiting_in(plan)).merit <= plan.merit
+    turned = in_turn(plan)
+    assert turned.merit == plan.merit
+    assert plan_faults(turned, plan.cost) == ()

@@ -1,0 +1,175 @@
+"""`ilmek plan`: the shipped example to its numbers, its files, and bad input."""
+
+import csv
+import json
+import shutil
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import CliRunner, Result
+
+from ilmek.cli import main
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+NAMES = {
+    "orders", "bound", "cost", "loom_cost", "late_cost", "gap", "currency", "status", "repeatable", "horizon", "looms",
+    "late_orders", "yarn", "yarn_price",
+}  # fmt: skip
+ORDER_NAMES = {"name", "loom", "start", "end", "cost", "late", "due", "woven", "quantity", "carpets"}
+
+
+def plan(folder: Path, *more: str) -> Result:
+    return CliRunner().invoke(main, ["plan", str(folder / "orders.toml"), "--looms", str(folder / "looms.toml"), *more])
+
+
+@pytest.fixture(scope="module")
+def example(tmp_path_factory: pytest.TempPathFactory) -> tuple[dict[str, Any], Path]:
+    out = tmp_path_factory.mktemp("plan") / "out"
+    done = plan(EXAMPLES, "--out", str(out), "--json", "-")
+    assert done.exit_code == 3, done.output
+    return json.loads(done.stdout), out
+
+
+def test_the_example_is_planned_to_its_numbers(example: tuple[dict[str, Any], Path]) -> None:
+    found, _ = example
+    assert found["job"] == "plan"
+    assert found["results"].keys() == NAMES
+    assert all(order.keys() == ORDER_NAMES for order in found["orders"])
+    assert found["cost"] == pytest.approx(3118.22, abs=0.01)
+    assert found["bound"] == found["cost"]
+    assert found["status"] == "optimal"
+    assert {order["name"]: order["loom"] for order in found["orders"]} == {
+        "Kazak": "A", "Prayer rug": "A", "Tabriz": "B", "Tekke": "B",
+    }  # fmt: skip
+    assert [order["name"] for order in found["orders"] if order["late"]] == ["Kazak"]
+    assert found["orders"][0]["late"] == 3600 * 68.5
+    assert found["orders"][2]["end"] == "2026-12-23T13:13"
+    bought = {one["name"]: one for one in found["yarn"]}
+    assert bought["madder red"]["needed"] - bought["madder red"]["to_buy"] == pytest.approx(6.0)
+    assert bought["ivory"]["order_by"] == "2026-12-02T06:00"
+
+
+def test_measures_of_the_example_save_its_late_order(example: tuple[dict[str, Any], Path]) -> None:
+    (late,) = example[0]["late_orders"]
+    assert late["name"] == "Kazak"
+    measures = {one["measure"]: one for one in late["measures"]}
+    assert measures["overtime"]["time"] == 3600
+    assert measures["overtime"]["cost"] == pytest.approx(3003.22, abs=0.01)
+    assert measures["later due date"]["time"] == 69 * 3600
+    assert "yarn at once" in measures
+
+
+def test_the_files_of_a_plan_agree(example: tuple[dict[str, Any], Path]) -> None:
+    found, out = example
+    assert sorted(path.name for path in out.iterdir() if not path.name.startswith(".")) == [
+        "plan.csv", "plan.html", "plan.json", "plan.svg", "purchase.csv",
+    ]  # fmt: skip
+    rows = list(csv.DictReader((out / "plan.csv").read_text(encoding="utf-8").splitlines()))
+    assert len(rows) == 5
+    assert sum(float(row["cost [EUR]"]) for row in rows) == pytest.approx(found["cost"], abs=0.03)
+    yarn = list(csv.DictReader((out / "purchase.csv").read_text(encoding="utf-8").splitlines()))
+    assert [row["yarn"] for row in yarn] == [one["name"] for one in found["yarn"]]
+    page = (out / "plan.html").read_text(encoding="utf-8")
+    assert all(order["name"] in page for order in found["orders"])
+    assert "due Kazak" in (out / "plan.svg").read_text(encoding="utf-8")
+
+
+ORDERS = """start = 2026-12-01T06:00:00
+late = "40 EUR/d"
+[[order]]
+name = "one"
+picture = "medallion.png"
+size = "60x90cm"
+colours = 6
+due = 2026-12-18
+"""
+LOOMS = """[[shift]]
+name = "day"
+days = "Mon-Fri"
+hours = "06:00-14:00"
+[[loom]]
+name = "A"
+design = { width = "1.2m", colours = 8 }
+cost = "14 EUR/h"
+dressing = "12h"
+doffing = "90min"
+"""
+
+BAD_ORDERS = {
+    "no unit": (('"40 EUR/d"', "40"), "line 2, late: 40 is not money"),
+    "other currency": (('"40 EUR/d"', '"40 USD/d"'), "line 2, late: '40 USD/d' is in another currency"),
+    "per mass": (('"40 EUR/d"', '"40 EUR/kg"'), "line 2, late: '40 EUR/kg' has the wrong unit"),
+    "no due date": (("due = 2026-12-18\n", ""), "line 3, order.0: has no 'due'"),
+    "no date": (("2026-12-18", '"soon"'), "line 8, order.0.due: 'soon' is no date"),
+    "an offset": (("2026-12-18", "2026-12-18T10:00:00Z"), "has an offset; local time"),
+    "unknown key": (("colours", "colour"), "unknown key 'colour'"),
+    "no quality": (("colours = 6", 'quality = "many"'), "line 3"),
+    "outside": (("medallion.png", "../medallion.png"), "reaches outside the folder of the orders"),
+    "missing": (("medallion.png", "none.png"), "is not there"),
+    "both": (('picture = "medallion.png"', 'picture = "medallion.png"\nprogramme = "p.ilmek"'), "both or neither"),
+    "too many": (("due", "quantity = 501\ndue"), "a whole number, 1 to 500"),
+    "year": (("2026-12-18", "9026-12-18"), "the year 9026; 1900 to 2200"),
+    "far away": (("due", "earliest = 2199-01-01\ndue"), "the plan does not end within 1830 days"),
+}
+BAD_LOOMS = {
+    "no unit": (('"12h"', "12"), 'line 9, loom.0.dressing: 12 has no unit; text in h; write it like "2h"'),
+    "no money": (('"14 EUR/h"', "14"), "line 8, loom.0.cost: 14 is not money"),
+    "hours": (("06:00-14:00", "6-14"), "line 4, shift.0.hours: '6-14' are no hours"),
+    "day": (("Mon-Fri", "Mon-Fry"), "line 3, shift.0.days: 'Mon-Fry' are no days of the week"),
+    "shift": (('name = "A"', 'name = "A"\nshifts = ["nigt"]'), "unknown shift"),
+    "nobody": (
+        ('hours = "06:00-14:00"', 'hours = "06:00-14:00"\nattended = false'),
+        "no shift of the loom is attended",
+    ),
+    "design": (("colours = 8", "colors = 8"), "line 5: unknown parameter 'colors'"),
+    "neither": (('design = { width = "1.2m", colours = 8 }\n', ""), "both or neither of file and design"),
+    "stops": (("doffing", 'stops = "95%"\ndoffing'), "is out of bounds; 0 to 90 %"),
+    "currency": (("[[shift]]", 'currency = "TRY"\n[[shift]]'), "another currency"),
+}
+
+
+def written(folder: Path, orders: str = ORDERS, looms: str = LOOMS) -> Path:
+    (folder / "orders.toml").write_text(orders, encoding="utf-8")
+    (folder / "looms.toml").write_text(looms, encoding="utf-8")
+    shutil.copy(EXAMPLES / "medallion.png", folder)
+    return folder
+
+
+@pytest.mark.parametrize("name", BAD_ORDERS)
+def test_bad_orders_are_one_clear_error(tmp_path: Path, name: str) -> None:
+    (old, new), message = BAD_ORDERS[name]
+    done = plan(written(tmp_path, orders=ORDERS.replace(old, new, 1)))
+    assert done.exit_code == 2
+    assert message in " ".join(done.stderr.split())
+
+
+@pytest.mark.parametrize("name", BAD_LOOMS)
+def test_bad_looms_are_one_clear_error(tmp_path: Path, name: str) -> None:
+    (old, new), message = BAD_LOOMS[name]
+    done = plan(written(tmp_path, looms=LOOMS.replace(old, new, 1)))
+    assert done.exit_code == 2
+    assert message in " ".join(done.stderr.split())
+
+
+def test_a_carpet_that_no_loom_weaves_is_named_with_its_cure(tmp_path: Path) -> None:
+    found = plan(written(tmp_path, orders=ORDERS.replace("60x90cm", "200x90cm")), "--json", "-")
+    assert found.exit_code == 3
+    data = json.loads(found.stdout)
+    (order,) = data["orders"]
+    assert (order["loom"], order["start"], order["late"], order["woven"]) == (None, None, None, False)
+    assert data["bound"] is None
+    warps = next(one for one in data["reasons"] if one["name"] == "one on A: carpet: warps")
+    assert "width" in warps["cure"]
+
+
+def test_without_the_solver_the_extra_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(__import__("sys").modules, "ortools.sat.python.cp_model", None)
+    done = plan(written(tmp_path))
+    assert done.exit_code == 2
+    assert "pip install 'ilmek[planning]'" in done.stderr
+
+
+@pytest.mark.parametrize("text", ["60", "0s", "2h", "fast"])
+def test_a_time_limit_has_its_unit_and_bounds(tmp_path: Path, text: str) -> None:
+    assert plan(written(tmp_path), "--time-limit", text).exit_code == 2
