@@ -1,8 +1,8 @@
 """Compile the kernels once after installing: `python -m ilmek.jobs.warm`.
 
 A kernel is compiled at its first call and kept in the user's cache folder (`ilmek.num.machine_code`). This job weaves a
-carpet of a few knots into a temporary folder, simulates it and searches a four-bar for a path and one for a motion, so that the first
-real job does not wait.
+carpet of a few knots into a temporary folder, simulates it, and searches a four-bar for a path and one for a motion, so
+that the first real job does not wait.
 """
 
 import tempfile
