@@ -146,13 +146,14 @@ def carpet_checks(
 
 def colours_check(chart: Chart, heads: int, params: AutomatedLoomParams) -> Check:
     """The most colours of a part of a row, against the tubes of a head."""
+    needed = most_colours(chart.knots, len(chart.yarns), heads)
     return at_most(
         "carpet: colours",
-        most_colours(chart.knots, len(chart.yarns), heads),
+        needed,
         params.head_tubes,
         "1",
         "tubes of a head, against the colours of a part of a row; packages are changed between the parts",
-        cure=f"set --colours {params.head_tubes}, more heads, or a loom with more tubes",
+        cure=f"set --colours {params.head_tubes} or more heads, or take a loom with {needed} tubes",
     )
 
 

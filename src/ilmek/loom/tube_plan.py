@@ -108,12 +108,6 @@ def most_colours(knots: Indices, yarns: int, heads: int) -> int:
     return int(_most_colours(np.ascontiguousarray(knots), share(knots.shape[1], heads), yarns))
 
 
-def longest_part(knots: Indices, heads: int, supply: YarnSupply) -> float:
-    """The largest share of a full package that a part of a row takes of a yarn; at most, by the knots of a part."""
-    widest = int(np.diff(share(knots.shape[1], heads)).max())
-    return max(widest * one / full for one, full in zip(supply.knot_yarn, supply.packages, strict=True))
-
-
 def plan_tubes(knots: Indices, heads: int, supply: YarnSupply, wefts: Sequence[Bobbin] = ()) -> TubePlan:
     """The plan for a chart, uint8 (rows, columns), row 0 = top.
 
@@ -147,7 +141,7 @@ def plan_tubes(knots: Indices, heads: int, supply: YarnSupply, wefts: Sequence[B
     packages = np.where(loading == EMPTY, 0.0, np.append(full, np.zeros(TUBES - yarns))[loading])
     windows = np.concatenate(found) if found else np.zeros((0, 5), np.int64)
     points = np.unique([row * phases for one in wefts for row in range(one.rows, knots.shape[0], one.rows)])
-    return TubePlan(loading, packages, _joined(windows, points.astype(np.int64)), supply.packages, phases)
+    return TubePlan(loading, packages, join_changes(windows, points.astype(np.int64)), supply.packages, phases)
 
 
 def _require_tubes(needed: int, tubes: int) -> None:
@@ -188,8 +182,15 @@ def _changes_of(
         most = number
 
 
-def _joined(windows: IntArray, fixed: IntArray) -> Int64[np.ndarray, "changes 4"]:
-    """The point of every change, in order: a fixed one where it can, else as few others as possible."""
+def join_changes(windows: IntArray, fixed: IntArray) -> Int64[np.ndarray, "changes 4"]:
+    """Changes (point, head, tube, yarn) in order, at as few points beside the fixed ones as possible.
+
+    windows  (changes, 5): earliest point, latest point, head, tube, yarn       fixed  points, in order
+
+    >>> windows = np.array([[0, 4, 0, 1, 2], [3, 6, 1, 0, 2], [5, 9, 0, 0, 1]])
+    >>> join_changes(windows, np.array([8])).tolist()
+    [[4, 0, 1, 2], [4, 1, 0, 2], [8, 0, 0, 1]]
+    """
     windows = windows[np.argsort(windows[:, 1], kind="stable")]
     index = np.searchsorted(fixed, windows[:, 1], side="right") - 1
     point = np.where(index >= 0, np.append(fixed, -1)[index], -1)
