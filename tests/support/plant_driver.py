@@ -1,19 +1,22 @@
 """Drives a port through a programme as the rules of time have it: all heads begin a phase together."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 from ilmek.loom.control.ports import ChangePackages, Done, EndRow, Failed, LoomPort, Order, PortReport, Tie
 from ilmek.loom.operations import LoomProgramme, RowOperations
 
+Cure = Callable[[Failed], None]
 
-def carry_out(port: LoomPort, orders: Sequence[Order]) -> list[PortReport]:
-    """Send orders for different axes and wait for their reports; those that fail are sent again."""
+
+def carry_out(port: LoomPort, orders: Sequence[Order], cure: Cure) -> list[PortReport]:
+    """Send orders for different axes and wait for their reports; those that fail are cured and sent again."""
     port.send(orders)
     waiting, found = len(orders), list[PortReport]()
     while waiting:
         for report in port.receive(0.1):
             found.append(report)
             if isinstance(report, Failed):
+                cure(report)
                 port.send([report.order])
             waiting -= isinstance(report, Done)
     return found
@@ -39,20 +42,22 @@ def knots_of(row: RowOperations) -> list[list[list[Tie]]]:
     return found
 
 
-def weave(port: LoomPort, programme: LoomProgramme, rows: range | None = None) -> Iterator[PortReport]:
-    """Weave rows, default: all, and give the reports."""
+def weave(
+    port: LoomPort, programme: LoomProgramme, rows: range | None = None, cure: Cure = lambda _: None
+) -> Iterator[PortReport]:
+    """Weave rows, default: all, and give the reports. cure: removes the cause of a failure, before the next attempt."""
     for number in range(programme.setup.rows) if rows is None else rows:
         row = programme.operations(number)
         for phase, heads in enumerate(knots_of(row)):
             for stop in row.stops:
                 if stop.phase == phase:
-                    yield from carry_out(port, [ChangePackages(stop)])
-            yield from _weave_phase(port, heads)
+                    yield from carry_out(port, [ChangePackages(stop)], cure)
+            yield from _weave_phase(port, heads, cure)
         for operation in row.ends:
-            yield from carry_out(port, [EndRow(number, operation)])
+            yield from carry_out(port, [EndRow(number, operation)], cure)
 
 
-def _weave_phase(port: LoomPort, heads: list[list[Tie]]) -> Iterator[PortReport]:
+def _weave_phase(port: LoomPort, heads: list[list[Tie]], cure: Cure) -> Iterator[PortReport]:
     left = [iter(knots) for knots in heads]
     orders = [order for one in left if (order := next(one, None)) is not None]
     busy = len(orders)
@@ -61,6 +66,7 @@ def _weave_phase(port: LoomPort, heads: list[list[Tie]]) -> Iterator[PortReport]
         for report in port.receive(0.1):
             yield report
             if isinstance(report, Failed):
+                cure(report)
                 port.send([report.order])
             elif isinstance(report, Done) and isinstance(report.order, Tie):
                 following = next(left[report.order.head], None)

@@ -12,7 +12,8 @@ from ilmek.errors import LoomError
 from ilmek.io.woven_file import open_woven
 from ilmek.loom.control.ports import Done, Failed, Fault, SensorsChanged
 from ilmek.loom.operations import LoomProgramme
-from ilmek.loom.twin.model import nanoseconds, plant_model
+from ilmek.loom.twin.durations import ns
+from ilmek.loom.twin.model import plant_model
 from ilmek.loom.twin.state import Injected, first_state
 from ilmek.loom.twin.woven import Woven, woven_size
 
@@ -31,7 +32,7 @@ def time_by_the_rules(programme: LoomProgramme) -> int:
     tubes: dict[int, int] = {}
     for number in range(setup.rows):
         row = programme.operations(number)
-        total += sum(nanoseconds(setup.wefts[index].time) for stop in row.stops for index in stop.wefts)
+        total += sum(ns(setup.wefts[index].time) for stop in row.stops for index in stop.wefts)
         columns: dict[int, int] = {}
         for heads in knots_of(row):
             longest = 0
@@ -39,12 +40,12 @@ def time_by_the_rules(programme: LoomProgramme) -> int:
                 busy = 0
                 for one in knots:
                     apart = abs(one.column - columns.get(one.head, one.column)) - 1
-                    busy += nanoseconds(times.knot) + nanoseconds(times.travel) * max(apart, 0)
-                    busy += nanoseconds(times.colour_change) * (tubes.get(one.head, one.tube) != one.tube)
+                    busy += ns(times.knot) + ns(times.travel) * max(apart, 0)
+                    busy += ns(times.colour_change) * (tubes.get(one.head, one.tube) != one.tube)
                     columns[one.head], tubes[one.head] = one.column, one.tube
                 longest = max(longest, busy)
             total += longest
-        total += nanoseconds(times.row_ends[-1])
+        total += ns(times.row_ends[-1])
     return total
 
 
@@ -70,10 +71,10 @@ def test_a_failed_knot_leaves_nothing_in_the_carpet_and_lasts_its_whole_time() -
     port.act(Injected(Fault.MISSED_GRIP, 0, first.column))
     port.send([first])
     assert isinstance(port.receive(0.0)[0], SensorsChanged)
-    assert port.receive(0.0) == (Failed(first, Fault.MISSED_GRIP, nanoseconds(2.0)),)
+    assert port.receive(0.0) == (Failed(first, Fault.MISSED_GRIP, ns(2.0)),)
     assert port.knotted(0, first.column) is False
     port.send([first])
-    assert port.receive(0.0) == (Done(first, nanoseconds(4.0)),)
+    assert port.receive(0.0) == (Done(first, ns(4.0)),)
     assert port.knotted(0, first.column) is True
     assert port.knotted(0, second.column) is False
 

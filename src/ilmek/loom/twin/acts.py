@@ -118,8 +118,13 @@ _SENSORS = ("door_closed", "emergency_stop", "warp_tension", "heads_clear", "bea
 def _jogged(loom: LoomCondition, heads: Heads, jog: Jog) -> tuple[LoomCondition, Heads]:
     """Forward: grippers open, heads retreat, beater and shed leave their rest; backward: the opposite."""
     forward = jog.distance > 0
-    if jog.axis == "grippers":
-        return loom, [replace(head, condition=replace(head.condition, closed=not forward)) for head in heads]
+    if jog.axis in ("grippers", *(f"gripper {index}" for index in range(len(heads)))):
+        return loom, [
+            replace(head, condition=replace(head.condition, closed=not forward))
+            if jog.axis in ("grippers", f"gripper {index}")
+            else head
+            for index, head in enumerate(heads)
+        ]
     if jog.axis == "heads":
         return replace(loom, between=not forward), heads
     if jog.axis == "beater":

@@ -4,6 +4,7 @@ import hashlib
 import struct
 
 from ilmek.loom.control.ports import ChangePackages, Done, EndRow, Failed, Order, PortReport, SensorsChanged, Tie
+from ilmek.loom.operations import Stop
 
 _KNOT = struct.Struct("<cqiiiii")
 _sha256 = hashlib.sha256
@@ -30,10 +31,18 @@ def order_words(order: Order) -> str:
     if isinstance(order, EndRow):
         return f"end {order.row} {int(order.operation)}"
     if isinstance(order, ChangePackages):
-        stop = order.stop
-        tubes = " ".join(f"{one.head} {one.tube} {one.yarn} {round(1e9 * one.length)}" for one in stop.tubes)
-        return f"change {stop.row} {stop.phase} {' '.join(map(str, stop.wefts))} / {tubes}".strip()
-    return f"jog {order.axis} {round(1e9 * order.distance)}"
+        return f"change {stop_words(order.stop)}"
+    return f"jog {order.axis.replace(' ', '+')} {round(1e9 * order.distance)}"
+
+
+def stop_words(stop: Stop) -> str:
+    """A stop as words: row, phase, bobbins / head, tube, yarn and length [nm] of each package.
+
+    >>> stop_words(Stop(3, 0, (1,), (TubeChange(0, 2, 4, 0.5),)))
+    '3 0 1 / 0 2 4 500000000'
+    """
+    tubes = (f"{one.head} {one.tube} {one.yarn} {round(1e9 * one.length)}" for one in stop.tubes)
+    return " ".join([str(stop.row), str(stop.phase), *map(str, stop.wefts), "/", *tubes])
 
 
 def _line(report: PortReport) -> str:

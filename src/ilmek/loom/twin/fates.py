@@ -8,9 +8,12 @@ from ilmek.loom.twin.model import PlantModel
 from ilmek.loom.twin.state import NOWHERE, LoomCondition, PlantHead
 
 _KNOT_FAULTS = frozenset((Fault.PILE_END, Fault.PILE_BREAK, Fault.MISSED_GRIP, Fault.WARP_BREAK, Fault.TIMEOUT))
-_END_FAULTS = frozenset((Fault.WEFT_BREAK, Fault.WEFT_END, Fault.TIMEOUT))
+_WEFT_FAULTS = frozenset((Fault.WEFT_BREAK, Fault.WEFT_END, Fault.TIMEOUT))
+_BEAT_FAULTS = frozenset((Fault.WARP_BREAK, Fault.TIMEOUT))
 _WEFTS = {RowEnd.STRAIGHT_WEFT: 0, RowEnd.SINUOUS_WEFT: 1}
 """The bobbin of each insertion of weft."""
+
+_BEATS = (RowEnd.FIRST_BEAT, RowEnd.SECOND_BEAT)
 
 
 def knot_fate(plant: PlantModel, loom: LoomCondition, head: PlantHead, order: Tie) -> Fault | None:
@@ -41,7 +44,10 @@ def end_fate(plant: PlantModel, loom: LoomCondition, order: EndRow) -> Fault | N
         return Fault.WEFT_BREAK
     if bobbin is not None and bobbin < len(loom.wefts) and loom.wefts[bobbin] < 1:
         return Fault.WEFT_END
-    allowed = _END_FAULTS if bobbin is not None else frozenset((Fault.TIMEOUT,))
+    beat = order.operation in _BEATS
+    if beat and NOWHERE in loom.broken_warps:
+        return Fault.WARP_BREAK
+    allowed = _WEFT_FAULTS if bobbin is not None else _BEAT_FAULTS if beat else frozenset((Fault.TIMEOUT,))
     found = _injected(loom, order.row, int(order.operation), allowed)
     return found if found is not None else plant.end_fault(order.row, order.operation, loom.attempts)
 
@@ -58,6 +64,24 @@ def after_weft(wefts: tuple[int, ...], operation: RowEnd) -> tuple[int, ...]:
     """Rows that the bobbins still last after an operation."""
     bobbin = _WEFTS.get(operation)
     return tuple(rows - (index == bobbin) for index, rows in enumerate(wefts))
+
+
+def after_end_fault(loom: LoomCondition, operation: RowEnd, fault: Fault) -> LoomCondition:
+    """The condition after an operation that failed: what is broken or empty stays so until it is cured."""
+    attempts, bobbin = loom.attempts + 1, _WEFTS.get(operation)
+    if fault is Fault.WEFT_BREAK:
+        return replace(loom, attempts=attempts, weft_broken=True)
+    if fault is Fault.WEFT_END:
+        left = tuple(0 if index == bobbin else rows for index, rows in enumerate(loom.wefts))
+        return replace(loom, attempts=attempts, wefts=left)
+    if fault is Fault.WARP_BREAK:
+        return with_broken_warp(replace(loom, attempts=attempts), NOWHERE)
+    return replace(loom, attempts=attempts)
+
+
+def with_broken_warp(loom: LoomCondition, column: int) -> LoomCondition:
+    """The condition with a broken warp of a column; NOWHERE: one that the beat has broken."""
+    return loom if column in loom.broken_warps else replace(loom, broken_warps=(*loom.broken_warps, column))
 
 
 def _injected(loom: LoomCondition, row: int, at: int, kinds: frozenset[Fault]) -> Fault | None:

@@ -3,10 +3,15 @@
 Times are nanoseconds, lengths nanometres, tensions millinewtons, rates counts in 2^63.
 """
 
+import math
+from typing import TypeAlias
+
 from ilmek.errors import LoomError
 from ilmek.loom.control.ports import Fault
 from ilmek.loom.operations import ROW_ENDS, LoomSetup, RowEnd, Stop
 from ilmek.loom.twin.draws import bound, draw
+from ilmek.loom.twin.durations import BILLION, Durations, durations_of, stop_duration
+from ilmek.loom.twin.faults import StopParams
 from ilmek.records import record, value_record
 from ilmek.weaving.tension import usual_tension
 
@@ -18,33 +23,50 @@ OPEN_SHED, SLACK = (16, 15), (1, 5)
 
 Assumed by this project."""
 
-JOG = 1_000_000_000
+JOG = BILLION
 """Time of a jog [ns]. Assumed by this project."""
 
-Mark = tuple[int, str, bool]
+Limits: TypeAlias = tuple[tuple[int, Fault], ...]
+Mark: TypeAlias = tuple[int, str, bool]
 """Time after the begin of an operation [ns], a sensor, its new value."""
 
 
 @value_record
 class FaultRates:
-    """Probability of each fault: of a knot, and of an insertion of weft. A fault is drawn anew when it is repeated.
+    """Probability of each fault: of a knot, of an insertion of weft, of a beat. It is drawn anew for every attempt.
 
     seed  of the draws; the same seed gives the same faults, whatever the time at which a knot is tied
     Raises LoomError for a probability that is not from 0 to 1, for a sum above 1, and for a seed below 0.
     """
 
     seed: int = 0
+    pile_end: float = 0.0
     pile_break: float = 0.0
     missed_grip: float = 0.0
-    warp_break: float = 0.0
     weft_break: float = 0.0
+    weft_end: float = 0.0
+    warp_break: float = 0.0
 
     def __post_init__(self) -> None:
-        rates = (self.pile_break, self.missed_grip, self.warp_break, self.weft_break)
-        if not all(0 <= rate <= 1 for rate in rates) or sum(rates[:3]) > 1:
-            raise LoomError(f"rates of faults {rates}", allowed="probabilities from 0 to 1, those of a knot at most 1")
-        if not 0 <= self.seed < 1 << 64:
-            raise LoomError(f"seed {self.seed}", allowed="0 to 2^64 - 1")
+        of_knot = self.pile_end, self.pile_break, self.missed_grip
+        rates = (*of_knot, self.weft_break, self.weft_end, self.warp_break)
+        if not all(0 <= rate <= 1 for rate in rates) or sum(of_knot) > 1 or self.weft_break + self.weft_end > 1:
+            raise LoomError(f"rates of faults {rates}", allowed="probabilities from 0 to 1, and their sums too")
+        if not 0 <= self.seed < 1 << 63:
+            raise LoomError(f"seed {self.seed}", allowed="0 to 2^63 - 1")
+
+
+def fault_rates(params: StopParams, setup: LoomSetup, seed: int) -> FaultRates:
+    """The probabilities of a loom's stops: of a Poisson process along a knot's yarn, a pass, a beat over all warps."""
+    yarn = max(setup.knot_yarn, default=0.0)
+    of_knot = (params.pile_end * yarn, params.pile_break * yarn, params.gripper_miss)
+    return FaultRates(
+        seed,
+        *(-math.expm1(-rate) for rate in of_knot),
+        -math.expm1(-params.weft_break),
+        -math.expm1(-params.weft_end),
+        -math.expm1(-params.warp_break * 2 * setup.columns),
+    )
 
 
 NO_FAULTS = FaultRates()
@@ -54,25 +76,20 @@ NO_FAULTS = FaultRates()
 class PlantModel:
     """What of a loom does not change while it weaves.
 
-    row_ends   duration of each operation after the knots of a row      weft_changes  of a bobbin
-    knot_yarn  pile yarn of a knot of each yarn                         tension       of a warp at rest
+    times      durations of its operations
+    knot_yarn  pile yarn of a knot of each yarn      tension  of a warp at rest
     marks      changes of sensors during each of `ROW_ENDS`
-    limits     a draw below the first limit is its fault, else below the second, ...; of a knot and of a weft
+    limits     a draw below the first limit is its fault, else below the second, ...; of a knot, of each of `ROW_ENDS`
     """
 
     setup: LoomSetup
-    knot: int
-    colour_change: int
-    travel: int
-    row_ends: tuple[int, ...]
-    weft_changes: tuple[int, ...]
-    tube_change: int
+    times: Durations
     knot_yarn: tuple[int, ...]
     tension: int
     marks: tuple[tuple[Mark, ...], ...]
     rates: FaultRates
-    knot_limits: tuple[tuple[int, Fault], ...]
-    weft_limits: tuple[tuple[int, Fault], ...]
+    knot_limits: Limits
+    end_limits: tuple[Limits, ...]
 
     def change_time(self, stop: Stop) -> int:
         """Duration of a stop: its changes one after the other [ns]. Raises LoomError for one that does not exist."""
@@ -86,7 +103,7 @@ class PlantModel:
                 )
         if any(not 0 <= index < len(setup.wefts) for index in stop.wefts):
             raise LoomError(f"bobbins of weft {stop.wefts}", allowed=f"{len(setup.wefts)} bobbins, from 0")
-        return sum(self.weft_changes[index] for index in stop.wefts) + len(stop.tubes) * self.tube_change
+        return stop_duration(stop, setup)
 
     def knot_fault(self, row: int, column: int, attempt: int) -> Fault | None:
         """What goes wrong with an attempt at a knot, by the rates of faults."""
@@ -96,10 +113,11 @@ class PlantModel:
 
     def end_fault(self, row: int, operation: RowEnd, attempt: int) -> Fault | None:
         """What goes wrong with an attempt at an operation after the knots of a row, by the rates of faults."""
-        if not self.weft_limits or operation not in _WEFTS:
+        limits = self.end_limits[operation]
+        if not limits:
             return None
         index = self.setup.knots + len(ROW_ENDS) * row + operation
-        return _drawn(self.weft_limits, draw(self.rates.seed, index, attempt))
+        return _drawn(limits, draw(self.rates.seed, index, attempt))
 
 
 LONGEST_PACKAGE = 1e6
@@ -110,38 +128,26 @@ _WEFTS = (RowEnd.STRAIGHT_WEFT, RowEnd.SINUOUS_WEFT)
 
 def plant_model(setup: LoomSetup, rates: FaultRates = NO_FAULTS) -> PlantModel:
     """The plant of a programme's loom."""
-    times = setup.times
-    ends = [nanoseconds(time) for time in times.row_ends]
-    durations = tuple(end - begin for begin, end in zip([0, *ends], ends, strict=False))
+    times = durations_of(setup.times)
     return PlantModel(
         setup=setup,
-        knot=nanoseconds(times.knot),
-        colour_change=nanoseconds(times.colour_change),
-        travel=nanoseconds(times.travel),
-        row_ends=durations,
-        weft_changes=tuple(nanoseconds(one.time) for one in setup.wefts),
-        tube_change=nanoseconds(times.tube_change),
+        times=times,
         knot_yarn=tuple(nanometres(length) for length in setup.knot_yarn),
         tension=round(1000 * usual_tension(setup.warp_pitch)),
-        marks=tuple(_marks(operation, durations[operation]) for operation in ROW_ENDS),
+        marks=tuple(_marks(operation, times.of_end(operation)) for operation in ROW_ENDS),
         rates=rates,
         knot_limits=_limits(
+            (rates.pile_end, Fault.PILE_END),
             (rates.pile_break, Fault.PILE_BREAK),
             (rates.missed_grip, Fault.MISSED_GRIP),
-            (rates.warp_break, Fault.WARP_BREAK),
         ),
-        weft_limits=_limits((rates.weft_break, Fault.WEFT_BREAK)),
+        end_limits=tuple(_end_limits(operation, rates) for operation in ROW_ENDS),
     )
-
-
-def nanoseconds(time: float) -> int:
-    """A time [s] in whole nanoseconds."""
-    return round(1e9 * time)
 
 
 def nanometres(length: float) -> int:
     """A length [m] in whole nanometres."""
-    return round(1e9 * length)
+    return round(BILLION * length)
 
 
 def _marks(operation: RowEnd, duration: int) -> tuple[Mark, ...]:
@@ -152,7 +158,13 @@ def _marks(operation: RowEnd, duration: int) -> tuple[Mark, ...]:
     return (duration // 4, sensor, False), (duration - duration // 4, sensor, True)
 
 
-def _limits(*rates: tuple[float, Fault]) -> tuple[tuple[int, Fault], ...]:
+def _end_limits(operation: RowEnd, rates: FaultRates) -> Limits:
+    if operation in _WEFTS:
+        return _limits((rates.weft_break, Fault.WEFT_BREAK), (rates.weft_end, Fault.WEFT_END))
+    return () if operation == RowEnd.TAKE_UP else _limits((rates.warp_break, Fault.WARP_BREAK))
+
+
+def _limits(*rates: tuple[float, Fault]) -> Limits:
     """Sums of the rates that are not 0, as counts in 2^63."""
     found, total = [], 0
     for rate, fault in rates:
@@ -162,7 +174,7 @@ def _limits(*rates: tuple[float, Fault]) -> tuple[tuple[int, Fault], ...]:
     return tuple(found)
 
 
-def _drawn(limits: tuple[tuple[int, Fault], ...], drawn: int) -> Fault | None:
+def _drawn(limits: Limits, drawn: int) -> Fault | None:
     for limit, fault in limits:
         if drawn < limit:
             return fault

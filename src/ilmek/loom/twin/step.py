@@ -20,7 +20,7 @@ from ilmek.errors import LoomError
 from ilmek.loom.control.ports import ChangePackages, Done, EndRow, Failed, Fault, Jog, PortReport, SensorsChanged, Tie
 from ilmek.loom.twin.acts import acted, changed_packages, halted
 from ilmek.loom.twin.events import chained
-from ilmek.loom.twin.fates import after_weft, end_fate, knot_fate, used
+from ilmek.loom.twin.fates import after_end_fault, after_weft, end_fate, knot_fate, used, with_broken_warp
 from ilmek.loom.twin.model import JOG, WATCHDOG, Mark, PlantModel
 from ilmek.loom.twin.state import (
     NOWHERE,
@@ -85,19 +85,21 @@ class _Run:
         apart = 0 if order.number == 0 or head.column < 0 else abs(order.column - head.column) - 1
         if head.condition.closed and apart > 0:
             raise LoomError(f"head {order.head} moves with its gripper closed on warps", do="open the gripper first")
-        first = plant.travel * apart if apart > 0 else 0
+        first = plant.times.travel * apart if apart > 0 else 0
         if head.tube not in (order.tube, NOWHERE):
-            first += plant.colour_change
+            first += plant.times.colour_change
         fault = knot_fate(plant, condition, head, order)
         if fault is not None:
             condition = self.condition = used(condition, fault, order.row, order.column)
-        whole = first + plant.knot
+        whole = first + plant.times.knot
         if condition.permille != 1000:
             first, whole = first * 1000 // condition.permille, whole * 1000 // condition.permille
         end = self.time + (whole if fault is not Fault.TIMEOUT else WATCHDOG * whole)
         self.heads[order.head] = PlantHead(
             head.column, head.tube, head.left, head.condition, order, self.time + first, end, fault
         )
+        if end == self.time:
+            self.advance(end)
 
     def end_knot(self, index: int, head: PlantHead, order: Tie) -> None:
         condition, left, fault = head.condition, head.left, head.fault
@@ -107,16 +109,19 @@ class _Run:
             left = tuple(remaining)
             if condition.attempts or condition.closed:
                 condition = replace(condition, attempts=0, closed=False)
-            self.report(Done(order, self.time))
+            report: PortReport = Done(order, self.time)
         else:
             broken = condition.broken | (1 << order.tube if fault is Fault.PILE_BREAK else 0)
             condition = replace(condition, attempts=condition.attempts + 1, broken=broken, closed=False)
-            if fault is Fault.WARP_BREAK and order.column not in self.condition.broken_warps:
-                self.condition = replace(self.condition, broken_warps=(*self.condition.broken_warps, order.column))
-            self.report(Failed(order, fault, self.time))
+            if fault is Fault.WARP_BREAK:
+                self.condition = with_broken_warp(self.condition, order.column)
+            if fault is Fault.PILE_END:
+                left = tuple(0 if tube == order.tube else length for tube, length in enumerate(left))
+            report = Failed(order, fault, self.time)
         self.heads[index] = PlantHead(order.column, order.tube, left, condition)
         if self.shown:
             self.report_sensors()
+        self.report(report)
 
     def begin_work(self, order: EndRow | ChangePackages | Jog) -> None:
         plant, condition = self.plant, self.condition
@@ -126,7 +131,7 @@ class _Run:
             raise _busy("the loom")
         if isinstance(order, EndRow):
             _require_end(plant, condition, order)
-            duration = plant.row_ends[order.operation]
+            duration = plant.times.of_end(order.operation)
             marks, fault = plant.marks[order.operation], end_fate(plant, condition, order)
             if fault is not None:
                 condition = used(condition, fault, order.row, int(order.operation))
@@ -138,13 +143,13 @@ class _Run:
         end = self.time + (duration if fault is not Fault.TIMEOUT else WATCHDOG * duration)
         coming = tuple((self.time + time, name, value) for time, name, value in marks)
         self.condition = replace(condition, work=LoomWork(order, end, fault, coming))
+        self.advance(self.time)  # what lasts no time ends before the next input
 
     def end_work(self, work: LoomWork) -> None:
         condition, order, fault = replace(self.condition, work=None), work.order, work.fault
         if fault is not None:
-            condition = replace(condition, attempts=condition.attempts + 1)
-            if fault is Fault.WEFT_BREAK:
-                condition = replace(condition, weft_broken=True)
+            if isinstance(order, EndRow):
+                condition = after_end_fault(condition, order.operation, fault)
         elif isinstance(order, EndRow):
             condition = replace(condition, attempts=0, wefts=after_weft(condition.wefts, order.operation))
         elif isinstance(order, ChangePackages):
@@ -167,10 +172,11 @@ class _Run:
         before = sensors_of(self.plant, self.state())
         self.condition, heads = acted(self.plant, self.condition, self.heads, one)
         self.heads = list(heads)
+        left_closed = False
         if isinstance(one, Halt) or self.condition.emergency_stop:
             self.condition, heads = halted(self.condition, self.heads, self.time)
-            self.heads = list(heads)
-        if self.shown or sensors_of(self.plant, self.state()) != before:
+            self.heads, left_closed = list(heads), self.condition.between
+        if self.shown or left_closed or sensors_of(self.plant, self.state()) != before:
             self.report_sensors()
 
     def advance(self, until: int) -> None:

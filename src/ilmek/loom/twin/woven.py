@@ -13,6 +13,8 @@ holds what a loom does not lose when its control fails: its clock, the positions
 A knot is one store of two bytes: a process that is killed leaves it as it was or as it is.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from ilmek.arrays import UInt8
@@ -34,7 +36,7 @@ class Woven:
         if len(memory) != woven_size(setup):
             raise LoomError(f"a woven carpet of {len(memory)} bytes", allowed=f"{woven_size(setup)} bytes")
         self.rows, self.columns = setup.rows, setup.columns
-        self._heads, self._tubes = setup.heads, setup.tubes
+        self._tubes = setup.tubes
         view, words, knots = memoryview(memory), 8 * _words(setup), 2 * setup.knots
         self._words = view[:words].cast("q")
         self._knots = view[words : words + knots].cast("H")
@@ -83,26 +85,12 @@ class Woven:
 
     def keep(self, state: PlantState) -> None:
         """Keep the state of the loom."""
-        found = [state.time, *(*state.condition.wefts, 0, 0)[:_BOBBINS]]
-        for head in state.heads:
-            found += [head.column, head.tube, *head.left, *head.condition.yarns]
-        for index, value in enumerate(found):
+        for index, value in enumerate(state_words(state)):
             self._words[index] = value
 
     def restored(self, plant: PlantModel) -> PlantState:
         """The loom as it was kept, with all axes at rest. Raises LoomError for a state that no loom can be in."""
-        setup, words, tubes = plant.setup, self._words.tolist(), self._tubes
-        bobbins = min(len(setup.wefts), _BOBBINS)
-        heads = []
-        for index in range(self._heads):
-            at = 1 + _BOBBINS + index * (2 + 2 * tubes)
-            left, yarns = tuple(words[at + 2 : at + 2 + tubes]), tuple(words[at + 2 + tubes : at + 2 + 2 * tubes])
-            _require_head(setup, words[at], words[at + 1], left, yarns)
-            heads.append(PlantHead(words[at], words[at + 1], left, HeadCondition(yarns)))
-        wefts = tuple(words[1 : 1 + bobbins])
-        if words[0] < 0 or any(not 0 <= rows <= one.rows for rows, one in zip(wefts, setup.wefts, strict=False)):
-            raise LoomError(f"a loom at time {words[0]} with weft for {wefts} rows", allowed="a state of this loom")
-        return PlantState(words[0], tuple(heads), LoomCondition(wefts))
+        return state_of_words(plant, self._words.tolist())
 
     def release(self) -> None:
         """Release the memory; nothing can be read or written afterwards."""
@@ -113,6 +101,31 @@ class Woven:
 def woven_size(setup: LoomSetup) -> int:
     """Bytes of the memory of a woven carpet."""
     return 8 * _words(setup) + 2 * setup.knots + len(ROW_ENDS) * setup.rows
+
+
+def state_words(state: PlantState) -> tuple[int, ...]:
+    """What a loom keeps without its control, as whole numbers: see the module."""
+    found = [state.time, *(*state.condition.wefts, 0, 0)[:_BOBBINS]]
+    for head in state.heads:
+        found += [head.column, head.tube, *head.left, *head.condition.yarns]
+    return tuple(found)
+
+
+def state_of_words(plant: PlantModel, words: Sequence[int]) -> PlantState:
+    """The loom of `state_words`, with all axes at rest. Raises LoomError for a state that no loom can be in."""
+    setup, tubes = plant.setup, plant.setup.tubes
+    if len(words) != _words(setup):
+        raise LoomError(f"a state of {len(words)} numbers", allowed=f"{_words(setup)} numbers")
+    heads = []
+    for index in range(setup.heads):
+        at = 1 + _BOBBINS + index * (2 + 2 * tubes)
+        left, yarns = tuple(words[at + 2 : at + 2 + tubes]), tuple(words[at + 2 + tubes : at + 2 + 2 * tubes])
+        _require_head(setup, words[at], words[at + 1], left, yarns)
+        heads.append(PlantHead(words[at], words[at + 1], left, HeadCondition(yarns)))
+    wefts = tuple(words[1 : 1 + min(len(setup.wefts), _BOBBINS)])
+    if words[0] < 0 or any(not 0 <= rows <= one.rows for rows, one in zip(wefts, setup.wefts, strict=False)):
+        raise LoomError(f"a loom at time {words[0]} with weft for {wefts} rows", allowed="a state of this loom")
+    return PlantState(words[0], tuple(heads), LoomCondition(wefts))
 
 
 def _words(setup: LoomSetup) -> int:
