@@ -26,7 +26,10 @@ def test_a_limit_is_that_of_the_program(limit: str, constant: str) -> None:
     assert getattr(import_module(module), name) == float(number) * UNITS[unit]
 
 
-@pytest.mark.parametrize("name", ["weave", "chart", "mechanism", "cyclogram", "knot", "inspect", "simulate", "call"])
+COMMANDS = ["weave", "chart", "mechanism", "cyclogram", "knot", "inspect", "simulate", "call", "check", "convert"]
+
+
+@pytest.mark.parametrize("name", COMMANDS)
 def test_the_help_of_a_command_states_its_limits(name: str) -> None:
     shown = " ".join(CliRunner().invoke(main, [name, "--help"]).stdout.partition("Limits:")[2].split())
     stated = re.findall(r"\d[\d,]*(?: [kM]B)?", shown)

@@ -315,6 +315,15 @@ OTHER = {
     "no programme": ("inspect notes.ilmek", "is no loom programme"),
     "empty programme": ("inspect void.ilmek", "is no loom programme"),
     "other database": ("inspect programme.ilmek", "is no loom programme"),
+    "check of nothing": ("check gone.ilmek", "cannot be read"),
+    "check of no text": ("check gone.txt", "gone.txt cannot be read: No such file"),
+    "check of a pipe": ("check pipe.ilmek", "Is a pipe"),
+    "check of a folder": ("check taken", "Is a directory"),
+    "check of no programme": ("check notes.ilmek", "is no loom programme"),
+    "check for no loom": ("check notes.ilmek --loom gone.json", "loom file gone.json does not exist"),
+    "conversion to another form": ("convert notes.ilmek notes.csv", r"ends in '.csv'; .ilmek or .txt"),
+    "conversion of no programme": ("convert notes.ilmek notes.txt", "is no loom programme"),
+    "conversion onto itself": ("convert notes.ilmek notes.ilmek", "would replace the input"),
 }
 
 WEAVE = {

@@ -220,6 +220,20 @@ def test_inspect_counts_as_the_printed_chart(woven: tuple[Path, Any], number: in
     assert tied == dict(enumerate(line, start=1))
 
 
+def test_check_proves_a_woven_programme_for_its_loom(woven: tuple[Path, Any], tmp_path: Path) -> None:
+    file, loom = woven[0] / "programme.ilmek", str(woven[0] / "machine.json")
+    found = data("check", str(file), "--loom", loom)
+    assert (found["ok"], found["knots"], found["errors"]) == (True, 60 * 90, [])
+    assert found["totals"]["time"] == pytest.approx(woven[1]["weaving_time"], rel=1e-9)
+    assert found["totals"]["colour_changes"] == woven[1]["colour_changes"]
+    text = tmp_path / "p.txt"
+    run("convert", str(file), str(text))
+    text.write_text(re.sub(r"^loom .*$", f'loom "{"0" * 64}"', text.read_text(), flags=re.MULTILINE))
+    other = data("check", str(text), "--loom", loom)
+    assert [error["line"] for error in other["errors"]] == [2]
+    assert "the programme is for the loom 000000000000" in other["errors"][0]["what"]
+
+
 def test_damaged_programme_is_one_line(woven: tuple[Path, Any], tmp_path: Path) -> None:
     whole = (woven[0] / "programme.ilmek").read_bytes()
     (tmp_path / "cut.ilmek").write_bytes(whole[: len(whole) // 2])

@@ -61,7 +61,7 @@ def show_check(found: CheckResult) -> None:
             ("rows", f"{setup.rows:,} of {setup.columns:,} knots, by {setup.heads} heads"),
             ("weaving time", format_quantity(totals.time / 1e9, "h")),
             ("changes of tube", f"{totals.changes:,}"),
-            ("stops", f"{totals.stops:,}: {totals.wefts:,} bobbins, {totals.packages:,} packages changed"),
+            ("stops", f"{totals.stops:,}; bobbins changed: {totals.wefts:,}, packages: {totals.packages:,}"),
         ]
     )
     for error in found.errors[:MOST_SHOWN]:
@@ -72,4 +72,5 @@ def show_check(found: CheckResult) -> None:
 
 def _verdict(found: CheckResult) -> str:
     knots = f"{found.totals.knots:,} knots"
-    return f"proved: {knots}" if found.ok else f"NOT proved: {found.count:,} errors in {knots}"
+    errors = "1 error" if found.count == 1 else f"{found.count:,} errors"
+    return f"proved: {knots}" if found.ok else f"NOT proved: {errors} in {knots}"

@@ -1,8 +1,8 @@
 """Compile the kernels once after installing: `python -m ilmek.jobs.warm`.
 
 A kernel is compiled at its first call and kept in the user's cache folder (`ilmek.num.machine_code`). This job weaves a
-carpet of a few knots into a temporary folder, simulates it, and searches a four-bar for a path and one for a motion, so
-that the first real job does not wait.
+carpet of a few knots into a temporary folder, simulates it, converts and checks it, and searches a four-bar for a path
+and one for a motion, so that the first real job does not wait.
 """
 
 import tempfile
@@ -11,8 +11,11 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
+from ilmek.io.output import Outputs
 from ilmek.io.picture import read_picture
 from ilmek.io.programme_file import open_programme, write_programme
+from ilmek.jobs.check import check_programme
+from ilmek.jobs.convert import convert_programme
 from ilmek.jobs.loom import read_loom_order
 from ilmek.jobs.order import read_order
 from ilmek.jobs.simulate import SimulationOrder, simulate
@@ -43,6 +46,9 @@ def warm() -> float:
         # The loom's own is written only where it weaves.
         write_programme(out / "again.ilmek", CompiledProgramme(setup, made))
         simulate(SimulationOrder(out / "again.ilmek", StopParams(gripper_miss=0.1, weft_break=0.1), seeds=5))
+        with Outputs() as outputs:
+            convert_programme(out / "again.ilmek", out / "again.txt", outputs=outputs)
+        check_programme(out / "again.txt")
         with open_programme(out / "again.ilmek") as programme:
             return programme.totals.duration
 
