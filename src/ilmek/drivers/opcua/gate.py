@@ -181,7 +181,7 @@ class GatedSession(InternalSession):
         return await super().set_publishing_mode(params)
 
     async def delete_subscriptions(self, ids: Any) -> Any:
-        for number in _bounded(ids):
+        for number in ids:
             if number in self._subscriptions:
                 self._own(number)
         return await super().delete_subscriptions(ids)

@@ -1,0 +1,175 @@
+"""`ilmek serve`: weave a programme on the simulated loom, seen and commanded over OPC UA."""
+
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+
+import click
+
+from ilmek.cli.call_outputs import call_outputs
+from ilmek.cli.interrupts import before_end
+from ilmek.cli.options import force_option
+from ilmek.cli.terminal import note
+from ilmek.errors import ParameterError
+from ilmek.io.users_file import check_user_name
+from ilmek.jobs.run.loom_run import LoomRun
+from ilmek.jobs.run.order import RunOrder, read_run_order
+from ilmek.jobs.serve import (
+    PORT,
+    RIGHTS,
+    ServeOrder,
+    add_user,
+    checked_order,
+    loom_server,
+    nodeset_text,
+    require_extra,
+)
+
+STOP_TIME = 5.0
+"""Time that Ctrl-C gives the loom to stop [s]; then the process ends as by `kill -9`, and nothing is lost either."""
+
+EXAMPLES = """\b
+Examples:
+  ilmek serve --add-user anna
+  ilmek serve --add-user office --right viewer
+  ilmek serve carpet/programme.ilmek --speed 100x
+  ilmek serve carpet/programme.ilmek --port 4841 --start
+  ilmek serve carpet/programme.ilmek --host 192.0.2.7 --certificate loom.pem --key loom-key.pem
+  ilmek serve carpet/programme.ilmek --nodeset loom.xml
+
+Limits: file 1,000 MB; users file, certificate and key 100 kB; 200 users; 32 job orders; 512 clients.
+"""
+
+
+@click.command(epilog=EXAMPLES)
+@click.argument("programme", type=click.Path(path_type=Path), metavar="[PROGRAMME.ilmek]", required=False)
+@click.option("--host", default="127.0.0.1", help="Address to listen at; default: 127.0.0.1, this computer alone.")
+@click.option("--port", type=int, default=PORT, metavar="N", help=f"Port to listen at; default: {PORT}.")
+@click.option(
+    "--users",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="File of the users; default: opcua/users.toml in the folder of ilmek's settings.",
+)
+@click.option(
+    "--certificate",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="The server's certificate, PEM or DER; default: one made by itself and kept.",
+)
+@click.option("--key", type=click.Path(path_type=Path), metavar="FILE", help="The key of --certificate.")
+@click.option("--anonymous-read", is_flag=True, help="Clients without a name may read; default: nobody without one.")
+@click.option("--start", is_flag=True, help="Weave at once; default: wait for a job order or a command.")
+@click.option(
+    "--speed",
+    default="1x",
+    metavar="N|max",
+    help="Speed of the simulated loom's clock: 1x, 1000x, max as fast as possible; default: 1x.",
+)
+@click.option(
+    "--journal",
+    type=click.Path(path_type=Path),
+    metavar="DIR",
+    help="Folder of the journal and the woven carpet; default: NAME.journal beside PROGRAMME.",
+)
+@click.option("--new", is_flag=True, help="Begin another carpet; the one in the journal is removed.")
+@click.option("--commit", type=int, default=1, metavar="N", help="As of ilmek run; default: 1.")
+@click.option("--faults", metavar="SEED", help="As of ilmek run; default: none.")
+@click.option("--operator", default="auto", metavar="auto|ask", help="As of ilmek run; default: auto.")
+@click.option("--add-user", "add_user_name", metavar="NAME", help="Write a user to the users file, and end; asks for the password.")
+@click.option(
+    "--right", default="operator", type=click.Choice(RIGHTS), help="Of --add-user: command, or only read; operator."
+)
+@click.option(
+    "--nodeset",
+    type=click.Path(path_type=Path),
+    metavar="FILE.xml",
+    help="Write the loom's address space as a NodeSet, and end.",
+)
+@force_option
+def command(
+    *,
+    programme: Path | None,
+    host: str,
+    port: int,
+    users: Path | None,
+    certificate: Path | None,
+    key: Path | None,
+    anonymous_read: bool,
+    start: bool,
+    speed: str,
+    journal: Path | None,
+    new: bool,
+    commit: int,
+    faults: str | None,
+    operator: str,
+    add_user_name: str | None,
+    right: str,
+    nodeset: Path | None,
+    force: bool,
+) -> int:
+    """Weave PROGRAMME on the simulated loom as `ilmek run` does, with an OPC UA server beside it.
+
+    Clients see the loom along OPC 40001-1 Machinery, give job orders by OPC 40001-3, and command it by the methods of
+    OPC 30050 PackML. The channel is signed and encrypted, and a client gives a user's name and password. The loom waits
+    for a job order; the server goes on after the carpet, until Ctrl-C.
+    """
+    order = ServeOrder(host, port, users, certificate, key, anonymous_read)
+    if add_user_name is not None:
+        _add_user(order, add_user_name, right)
+        return 0
+    if programme is None:
+        raise ParameterError("no PROGRAMME.ilmek", do="give the file of a programme, or --add-user NAME")
+    require_extra()
+    if nodeset is not None:
+        with call_outputs({"--nodeset": nodeset}, force=force, inputs={"PROGRAMME": programme}) as call:
+            call.give("--nodeset", lambda: nodeset_text(programme))
+        return 0
+    run_order = read_run_order(programme, speed, journal, new=new, commit=commit, faults=faults, operator=operator)
+    _serve(replace(run_order, start=start), checked_order(order))
+    return 0
+
+
+def _serve(run_order: RunOrder, order: ServeOrder) -> None:
+    with LoomRun(run_order) as run:
+        with loom_server(run, run.programme, run_order.programme.name, order, note) as server:
+            note(f"{server.url} serves {run_order.programme}; Ctrl-C ends it")
+
+            def stopped() -> str:
+                run.stop()
+                run.wait(STOP_TIME)
+                now = run.snapshot()
+                return f"{now.knots:,} of {now.total:,} knots are tied; the same command goes on in row {now.row + 1:,}"
+
+            with before_end(stopped):
+                run.work()
+
+
+def _add_user(order: ServeOrder, name: str, right: str) -> None:
+    check_user_name(name)
+    there = add_user(order.users_file, name, right, _password())
+    note(f"{order.users_file} has {'a new password of' if there else 'the user'} {name}, {right}")
+
+
+def _password() -> str:
+    """A password from the terminal, which does not show it; from a pipe its first line."""
+    if not sys.stdin.isatty():
+        return sys.stdin.readline().rstrip("\r\n")
+    with _echo_restored():
+        return str(click.prompt("Password", hide_input=True, confirmation_prompt=True, err=True))
+
+
+@contextmanager
+def _echo_restored() -> Iterator[None]:
+    """Have Ctrl-C leave the terminal as it is now."""
+    try:
+        import termios
+    except ImportError:  # Windows
+        yield
+        return
+    number = sys.stdin.fileno()
+    state = termios.tcgetattr(number)
+    with before_end(lambda: termios.tcsetattr(number, termios.TCSANOW, state), "no user was written"):
+        yield
