@@ -17,13 +17,17 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
+from asyncua import Client
+from asyncua.crypto.security_policies import SecurityPolicyBasic256Sha256
+from cryptography.hazmat.primitives.serialization import Encoding, NoEncryption, PrivateFormat
+
 from ilmek.drivers.opcua.certificate import credentials_pem, make_credentials
 from ilmek.drivers.opcua.model import LoomNameplate
 from ilmek.drivers.opcua.server import LoomServer
 from ilmek.drivers.opcua.users import LoomUser, UserList, UserRight, hashed
 
 sys.path.append(str(Path(__file__).parents[1] / "tests" / "support"))
-from opcua_loom import PROGRAMME, SteppingLoom  # noqa: E402
+from opcua_loom import PROGRAMME, SteppingLoom
 
 SUBSCRIBERS = int(os.environ.get("SUBSCRIBERS", "200"))
 SECONDS = 20.0
@@ -52,9 +56,6 @@ class Subscriber:
 
 
 async def _client(url: str, pair: tuple[bytes, bytes]) -> Any:
-    from asyncua import Client
-    from asyncua.crypto.security_policies import SecurityPolicyBasic256Sha256
-
     client = Client(url, timeout=60)
     client.application_uri = "urn:bench:client"
     await client.set_security(SecurityPolicyBasic256Sha256, *pair)
@@ -126,8 +127,6 @@ def _speed(seconds: float) -> float:
 
 def run() -> None:
     """Print the figures."""
-    from cryptography.hazmat.primitives.serialization import Encoding, NoEncryption, PrivateFormat
-
     made = make_credentials("urn:bench:client", "client", ("localhost",))
     key = made.key.private_bytes(Encoding.DER, PrivateFormat.PKCS8, NoEncryption())
     pair = made.certificate.public_bytes(Encoding.DER), key
@@ -159,6 +158,8 @@ def run() -> None:
         process.start()
         time.sleep(2.0)
         flooded = _speed(4.0)
-        print(f"flood: {out.get() / 5.0:.0f} requests/s answered; the loom's thread at {flooded / alone:.0%} of its speed")
+        print(
+            f"flood: {out.get() / 5.0:.0f} requests/s answered; the loom's thread at {flooded / alone:.0%} of its speed"
+        )
         process.join()
     print(f"memory {resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024:.0f} MB")

@@ -150,6 +150,8 @@ def test_shows_the_loom(server: LoomServer, loom: SteppingLoom, pair: Pair) -> N
         with pytest.raises(ua.uaerrors.BadNoData):
             await calls.read("Loom.Heads.Head1.Yarn")
         assert await calls.read("Loom.Heads.Head1.Tube2.Left") == 12.0
+        assert await calls.read("Loom.Bobbins.Bobbin0.RowsLeft") == 3
+        assert await calls.read("Loom.PackML.Status.CurMachSpeed") == 150.0
         assert await calls.read("Loom.Status.Commands") == ["reset", "abort"]
 
     connected(server, pair, act)

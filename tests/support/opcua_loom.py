@@ -12,7 +12,7 @@ from ilmek.loom.control.packml import (
     commanded,
     state_name,
 )
-from ilmek.loom.control.view import AlarmView, Answer, HeadView, Snapshot, YarnView
+from ilmek.loom.control.view import AlarmView, Answer, HeadView, Snapshot, WeftView, YarnView
 
 PROGRAMME = "ab" * 32
 
@@ -49,11 +49,13 @@ class SteppingLoom:
                 uncertain=0,
                 time=self.time,
                 left=(self.total - self.knots) * 10**9,
+                speed=2.5,
                 faults=0,
                 stop="",
                 heads=(HeadView(3, 1, 1, 4, 12, 2), HeadView(None, None, None, 0, 12, None)),
                 alarms=self.alarms,
                 yarns=(YarnView(0, 0, 0, 999.5), YarnView(1, 2, 2, 12.0)),
+                wefts=(WeftView("straight weft", 3),),
             )
 
     def command(self, name: str) -> Answer:

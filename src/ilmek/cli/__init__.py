@@ -43,6 +43,7 @@ main = LazyGroup(
         "plan": ("ilmek.cli.plan", "Plan several carpets on looms that exist: which loom weaves what when."),
         "simulate": ("ilmek.cli.simulate", "Weave a programme in time: stops, utilisation, when it is done."),
         "run": ("ilmek.cli.run", "Weave a loom programme on the simulated loom, with a journal."),
+        "serve": ("ilmek.cli.serve", "Weave a loom programme as `run` does, with an OPC UA server beside it."),
         "status": ("ilmek.cli.status", "Show the state of a run, from another terminal."),
         "hold": ("ilmek.cli.hold", "Hold a run, from another terminal."),
         "resume": ("ilmek.cli.resume", "Have a run go on, from another terminal."),

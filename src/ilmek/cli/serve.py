@@ -2,7 +2,7 @@
 
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import replace
 from pathlib import Path
 
@@ -75,10 +75,15 @@ Limits: file 1,000 MB; users file, certificate and key 100 kB; 200 users; 32 job
     help="Folder of the journal and the woven carpet; default: NAME.journal beside PROGRAMME.",
 )
 @click.option("--new", is_flag=True, help="Begin another carpet; the one in the journal is removed.")
-@click.option("--commit", type=int, default=1, metavar="N", help="As of ilmek run; default: 1.")
+@click.option("--commit", type=int, metavar="N", help="As of ilmek run; default: 1.")
 @click.option("--faults", metavar="SEED", help="As of ilmek run; default: none.")
 @click.option("--operator", default="auto", metavar="auto|ask", help="As of ilmek run; default: auto.")
-@click.option("--add-user", "add_user_name", metavar="NAME", help="Write a user to the users file, and end; asks for the password.")
+@click.option(
+    "--add-user",
+    "add_user_name",
+    metavar="NAME",
+    help="Write a user to the users file, and end; asks for the password.",
+)
 @click.option(
     "--right", default="operator", type=click.Choice(RIGHTS), help="Of --add-user: command, or only read; operator."
 )
@@ -102,7 +107,7 @@ def command(
     speed: str,
     journal: Path | None,
     new: bool,
-    commit: int,
+    commit: int | None,
     faults: str | None,
     operator: str,
     add_user_name: str | None,
@@ -133,18 +138,20 @@ def command(
 
 
 def _serve(run_order: RunOrder, order: ServeOrder) -> None:
-    with LoomRun(run_order) as run:
-        with loom_server(run, run.programme, run_order.programme.name, order, note) as server:
-            note(f"{server.url} serves {run_order.programme}; Ctrl-C ends it")
+    with ExitStack() as stack:
+        run = stack.enter_context(LoomRun(run_order))
+        server = loom_server(run, run.programme, run_order.programme.name, order, note)
+        stack.enter_context(server)
+        note(f"{server.url} serves {run_order.programme}; Ctrl-C ends it")
 
-            def stopped() -> str:
-                run.stop()
-                run.wait(STOP_TIME)
-                now = run.snapshot()
-                return f"{now.knots:,} of {now.total:,} knots are tied; the same command goes on in row {now.row + 1:,}"
+        def stopped() -> str:
+            run.stop()
+            run.wait(STOP_TIME)
+            now = run.snapshot()
+            return f"{now.knots:,} of {now.total:,} knots are tied; the same command goes on in row {now.row + 1:,}"
 
-            with before_end(stopped):
-                run.work()
+        with before_end(stopped):
+            run.work()
 
 
 def _add_user(order: ServeOrder, name: str, right: str) -> None:

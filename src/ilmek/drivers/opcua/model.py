@@ -64,7 +64,7 @@ TYPES: Mapping[str, tuple[TypeField, ...]] = MappingProxyType(
             TypeField("Knots", "UInt32", "certain knots: durable in the journal"),
             TypeField("KnotsTotal", "UInt32", "knots of the carpet"),
             TypeField("KnotsUncertain", "UInt32", "knots that were begun and whose end is not known"),
-            TypeField("Faults", "UInt32", "operations that the loom reported as failed"),
+            TypeField("Faults", "UInt32", "knots that had to be tried again"),
             TypeField("LoomTime", "Duration", "the loom's clock [ms]"),
             TypeField("TimeLeft", "Duration", "until the end by the programme, without faults [ms]"),
             TypeField("OperatorTask", "String", "what the operator changes in the stop that the loom waits in"),
@@ -80,6 +80,10 @@ TYPES: Mapping[str, tuple[TypeField, ...]] = MappingProxyType(
         "YarnPackageType": (
             TypeField("Yarn", "String", "yarn of the package; Bad_NoData: the tube is empty"),
             TypeField("Left", "Double", "length left [m]"),
+        ),
+        "WeftBobbinType": (
+            TypeField("Weft", "String", "name of the weft"),
+            TypeField("RowsLeft", "UInt32", "rows that the bobbin lasts"),
         ),
         "AlarmListType": (
             TypeField("Count", "UInt32", "number of active alarms"),
@@ -119,4 +123,4 @@ def own_objects(plate: LoomNameplate) -> dict[str, str]:
     for head in range(plate.heads):
         found[f"{LOOM}.Heads.Head{head}"] = "HeadType"
         found |= {f"{LOOM}.Heads.Head{head}.Tube{tube}": "YarnPackageType" for tube in range(plate.tubes)}
-    return found | {f"{LOOM}.Bobbins.Bobbin{index}": "YarnPackageType" for index, _ in enumerate(plate.bobbins)}
+    return found | {f"{LOOM}.Bobbins.Bobbin{index}": "WeftBobbinType" for index, _ in enumerate(plate.bobbins)}

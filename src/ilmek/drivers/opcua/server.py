@@ -33,7 +33,6 @@ INTERVAL = 0.1
 ANSWER_TIME = 5.0
 """Time within which the controller must answer a command [s]."""
 
-_MINUTE = 60e9
 _START_TIME = 60.0
 
 
@@ -170,7 +169,6 @@ class _Shown:
 
     def __init__(self, space: AddressSpace, desk: JobDesk, events: LoomEvents, snapshot: Snapshot) -> None:
         self.space, self.desk, self.events, self.snapshot = space, desk, events, snapshot
-        self._speed = _Speed()
 
     async def prepare(self) -> None:
         plate = self.space.plate
@@ -196,7 +194,7 @@ class _Shown:
             await self.desk.advance(snapshot)
         except TimeoutError:
             await self.refused("the controller did not answer in time")
-        values = snapshot_values(self.space.plate, snapshot, self._speed.of(snapshot))
+        values = snapshot_values(self.space.plate, snapshot)
         current = next((job for job in self.desk.jobs if job.in_work), None)
         values[f"{CONTROL}.CurrentState"] = None if current is None else CurrentState(RECEIVER, current.state)
         await self.space.write({**values, **job_values(self.space, self.desk.jobs)})
@@ -204,19 +202,3 @@ class _Shown:
 
     async def refused(self, reason: str) -> None:
         await self.space.write({f"{LOOM}.Status.LastRefusal": reason})
-
-
-class _Speed:
-    """Knots a minute of the loom's clock, over about the last minute of it."""
-
-    def __init__(self) -> None:
-        self._marks: list[tuple[int, int]] = []
-
-    def of(self, snapshot: Snapshot) -> float:
-        mark = (snapshot.time, snapshot.knots)
-        if not self._marks or mark != self._marks[-1]:
-            self._marks.append(mark)
-        while len(self._marks) > 2 and (mark[0] - self._marks[1][0] > _MINUTE or len(self._marks) > 1000):
-            del self._marks[0]
-        time_passed, tied = mark[0] - self._marks[0][0], mark[1] - self._marks[0][1]
-        return tied * _MINUTE / time_passed if time_passed > 0 else 0.0

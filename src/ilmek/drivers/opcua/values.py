@@ -13,6 +13,8 @@ MILLISECONDS = 1e-6
 BLOCKS = f"{LOOM}.MachineryBuildingBlocks"
 PACKML = f"{LOOM}.PackML"
 
+_BOBBIN = {"Weft": "name", "RowsLeft": "left"}
+
 
 @value_record
 class CurrentState:
@@ -41,8 +43,8 @@ def fixed_values(plate: LoomNameplate) -> dict[str, Any]:
     }
 
 
-def snapshot_values(plate: LoomNameplate, snapshot: Snapshot, speed: float = 0.0) -> dict[str, Any]:
-    """The values that a snapshot gives. speed: reached lately [knots a minute of the loom's clock]."""
+def snapshot_values(plate: LoomNameplate, snapshot: Snapshot) -> dict[str, Any]:
+    """The values that a snapshot gives."""
     yarn_empty = any("yarn" in alarm.name or "weft" in alarm.name for alarm in snapshot.alarms if alarm.stops)
     return {
         **_states(snapshot),
@@ -50,8 +52,8 @@ def snapshot_values(plate: LoomNameplate, snapshot: Snapshot, speed: float = 0.0
         **_heads(plate, snapshot),
         **_yarn(plate, snapshot),
         **_alarms(snapshot),
-        f"{PACKML}.Status.CurMachSpeed": speed,
-        f"{PACKML}.Status.MachSpeed": speed,
+        f"{PACKML}.Status.CurMachSpeed": 60.0 * snapshot.speed,
+        f"{PACKML}.Status.MachSpeed": 60.0 * snapshot.speed,
         f"{PACKML}.Status.UnitModeCurrent": MODE_NUMBERS.get(snapshot.mode, 0),
         f"{PACKML}.Status.EquipmentStarved": yarn_empty or bool(snapshot.stop),
     }
@@ -119,6 +121,8 @@ def _yarn(plate: LoomNameplate, snapshot: Snapshot) -> dict[str, Any]:
     for package in snapshot.yarns:
         path = f"{LOOM}.Heads.Head{package.head}.Tube{package.tube}"
         found |= {f"{path}.Yarn": _name(plate, package.yarn), f"{path}.Left": package.left}
+    for index, bobbin in enumerate(snapshot.wefts):
+        found |= {f"{LOOM}.Bobbins.Bobbin{index}.{name}": getattr(bobbin, field) for name, field in _BOBBIN.items()}
     return found
 
 
