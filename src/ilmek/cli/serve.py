@@ -36,7 +36,7 @@ Examples:
   ilmek serve --add-user office --right viewer
   ilmek serve carpet/programme.ilmek --speed 100x
   ilmek serve carpet/programme.ilmek --port 4841 --start
-  ilmek serve carpet/programme.ilmek --host 192.0.2.7 --certificate loom.pem --key loom-key.pem
+  ilmek serve carpet/programme.ilmek --host 0.0.0.0 --certificate loom.pem --key loom-key.pem
   ilmek serve carpet/programme.ilmek --nodeset loom.xml
 
 Limits: file 1,000 MB; users file, certificate and key 100 kB; 200 users; 32 job orders; 512 clients.
