@@ -70,7 +70,7 @@ INPUTS: st.SearchStrategy[PlantInput] = st.one_of(
     st.builds(Door, st.booleans()),
     st.builds(EmergencyStop, st.booleans()),
     st.builds(Tension, st.booleans()),
-    st.builds(Injected, st.sampled_from(Fault), _ROWS, st.integers(-1, 11)),
+    st.builds(Injected, st.sampled_from(Fault), _ROWS, st.integers(-1, 11), st.none() | _ENDS),
     st.builds(SensorFault, _SENSORS, st.one_of(st.none(), st.booleans())),
     st.builds(SetSpeed, st.integers(1, 1000)),
     st.sampled_from([Repaired(), PowerOn(), Halt()]),

@@ -44,7 +44,7 @@ def test_the_file_is_lines_of_words(path: Path) -> None:
         ("0 power", "0 sensor heads_clear nan", "line 5: 'nan'"),
         ("0 power", "0 jog a/b 3", "line 5: 'a/b'"),
         ("0 power", "0 change 1 0 1 0 0 0", "line 5: a change of packages"),
-        ("0 power", "0 inject flood 0 0", "line 5: fault 'flood'"),
+        ("0 power", "0 inject flood 0 0 -", "line 5: fault 'flood'"),
         ("tie 1 0 0 6 0", "tie 1 0 0 6", "line 6"),
         ("tie 1 0 0 6 0", f"tie 1 0 0 6 {10**30}", "line 6"),
         ("rates 0", "rates -1", "line 3"),

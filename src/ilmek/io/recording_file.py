@@ -13,7 +13,7 @@ Times are nanoseconds. Inputs:
     tie HEAD ROW NUMBER COLUMN TUBE      end ROW OPERATION           jog AXIS NANOMETRES
     change ROW PHASE WEFT... / HEAD TUBE YARN NANOMETRES ...         packages, as change
     door CLOSED    emergency PRESSED     tension LOW    repaired     speed PERMILLE    power    halt
-    inject FAULT ROW AT                  sensor NAME VALUE (- true false or a number)
+    inject FAULT ROW COLUMN OPERATION    sensor NAME VALUE (- true false or a number)
 
 Blanks in the names of axes, faults and sensors are written as `+`.
 """
@@ -107,8 +107,8 @@ def _words(one: PlantInput) -> str:
             return f"{_NAMES[type(one)]} {int(value)}"
         case PackageChanged(stop):
             return f"packages {stop_words(stop)}"
-        case Injected(fault, row, at):
-            return f"inject {_joined(fault)} {row} {at}"
+        case Injected(fault, row, column, operation):
+            return f"inject {_joined(fault)} {row} {column} {'-' if operation is None else int(operation)}"
         case SensorFault(sensor, value):
             return f"sensor {_joined(sensor)} {'-' if value is None else str(value).lower()}"
     return _NAMES[type(one)]
@@ -136,7 +136,7 @@ def _input(words: list[str]) -> PlantInput:
 
 _PARSERS: dict[str, tuple[int | None, Callable[[list[str]], PlantInput]]] = {
     "tie": (5, lambda rest: Tie(*(_whole(word, 0) for word in rest))),
-    "end": (2, lambda rest: EndRow(_whole(rest[0], 0), RowEnd(_whole(rest[1], 0, len(RowEnd) - 1)))),
+    "end": (2, lambda rest: EndRow(_whole(rest[0], 0), _row_end(rest[1]))),
     "jog": (2, lambda rest: Jog(_name(rest[0]), _whole(rest[1]) / 1e9)),
     "speed": (1, lambda rest: SetSpeed(_whole(rest[0], 1, 1000))),
     "change": (None, lambda rest: ChangePackages(_stop(rest))),
@@ -144,7 +144,7 @@ _PARSERS: dict[str, tuple[int | None, Callable[[list[str]], PlantInput]]] = {
     "door": (1, lambda rest: Door(_flag(rest[0]))),
     "emergency": (1, lambda rest: EmergencyStop(_flag(rest[0]))),
     "tension": (1, lambda rest: Tension(_flag(rest[0]))),
-    "inject": (3, lambda rest: Injected(_fault(rest[0]), _whole(rest[1], 0), _whole(rest[2], NOWHERE))),
+    "inject": (4, lambda rest: Injected(_fault(rest[0]), _whole(rest[1], 0), _whole(rest[2], NOWHERE), _end(rest[3]))),
     "sensor": (2, lambda rest: SensorFault(_name(rest[0]), _value(rest[1]))),
     "repaired": (0, lambda _: Repaired()),
     "power": (0, lambda _: PowerOn()),
@@ -181,6 +181,14 @@ def _whole(word: str, least: int = -(10**18), most: int = 10**18) -> int:
     if _WHOLE.fullmatch(word) is None or not least <= int(word) <= most:
         raise LoomError(f"{shortened(word)!r}", allowed=f"a whole number from {least} to {most}")
     return int(word)
+
+
+def _row_end(word: str) -> RowEnd:
+    return RowEnd(_whole(word, 0, len(RowEnd) - 1))
+
+
+def _end(word: str) -> RowEnd | None:
+    return None if word == "-" else _row_end(word)
 
 
 def _flag(word: str) -> bool:

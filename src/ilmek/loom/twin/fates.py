@@ -16,48 +16,52 @@ _WEFTS = {RowEnd.STRAIGHT_WEFT: 0, RowEnd.SINUOUS_WEFT: 1}
 _BEATS = (RowEnd.FIRST_BEAT, RowEnd.SECOND_BEAT)
 
 
-def knot_fate(plant: PlantModel, loom: LoomCondition, head: PlantHead, order: Tie) -> Fault | None:
-    """The fault of a knot that begins; None: it will be tied."""
-    own = head.condition
-    if loom.emergency_stop:
-        return Fault.TIMEOUT
-    if own.broken >> order.tube & 1:
-        return Fault.PILE_BREAK
-    if order.column in loom.broken_warps:
-        return Fault.WARP_BREAK
+def knot_fate(
+    plant: PlantModel, loom: LoomCondition, head: PlantHead, order: Tie
+) -> tuple[Fault | None, LoomCondition]:
+    """The fault of a knot that begins, None: it will be tied; and the loom without the injected fault that acts."""
+    own, fault = head.condition, None
     yarn = own.yarns[order.tube]
-    if yarn == EMPTY or head.left[order.tube] < plant.knot_yarn[yarn]:
-        return Fault.PILE_END
-    if loom.injected:
-        found = _injected(loom, order.row, order.column, _KNOT_FAULTS)
-        if found is not None:
-            return found
-    return plant.knot_fault(order.row, order.column, own.attempts) if plant.knot_limits else None
+    if loom.emergency_stop:
+        fault = Fault.TIMEOUT
+    elif own.broken >> order.tube & 1:
+        fault = Fault.PILE_BREAK
+    elif order.column in loom.broken_warps:
+        fault = Fault.WARP_BREAK
+    elif yarn == EMPTY or head.left[order.tube] < plant.knot_yarn[yarn]:
+        fault = Fault.PILE_END
+    elif loom.injected:
+        for index, one in enumerate(loom.injected):
+            of_knot = one.operation is None and one.column in (order.column, NOWHERE)
+            if of_knot and one.row == order.row and one.fault in _KNOT_FAULTS:
+                return one.fault, _without(loom, index)
+    if fault is None and plant.knot_limits:
+        fault = plant.knot_fault(order.row, order.column, own.attempts)
+    return fault, loom
 
 
-def end_fate(plant: PlantModel, loom: LoomCondition, order: EndRow) -> Fault | None:
-    """The fault of an operation after the knots of a row that begins; None: it will be carried out."""
+def end_fate(plant: PlantModel, loom: LoomCondition, order: EndRow) -> tuple[Fault | None, LoomCondition]:
+    """The fault of an operation after the knots of a row, None: it will be carried out; and the loom as above."""
     bobbin = _WEFTS.get(order.operation)
     if loom.emergency_stop:
-        return Fault.TIMEOUT
+        return Fault.TIMEOUT, loom
     if bobbin is not None and loom.weft_broken:
-        return Fault.WEFT_BREAK
+        return Fault.WEFT_BREAK, loom
     if bobbin is not None and bobbin < len(loom.wefts) and loom.wefts[bobbin] < 1:
-        return Fault.WEFT_END
+        return Fault.WEFT_END, loom
     beat = order.operation in _BEATS
     if beat and NOWHERE in loom.broken_warps:
-        return Fault.WARP_BREAK
+        return Fault.WARP_BREAK, loom
     allowed = _WEFT_FAULTS if bobbin is not None else _BEAT_FAULTS if beat else frozenset((Fault.TIMEOUT,))
-    found = _injected(loom, order.row, int(order.operation), allowed)
-    return found if found is not None else plant.end_fault(order.row, order.operation, loom.attempts)
-
-
-def used(loom: LoomCondition, fault: Fault, row: int, at: int) -> LoomCondition:
-    """The condition without the injected fault that has just acted."""
     for index, one in enumerate(loom.injected):
-        if one.fault is fault and one.row == row and one.at in (at, NOWHERE):
-            return replace(loom, injected=(*loom.injected[:index], *loom.injected[index + 1 :]))
-    return loom
+        here = one.operation is order.operation or (one.operation is None and one.column == NOWHERE)
+        if here and one.row == order.row and one.fault in allowed:
+            return one.fault, _without(loom, index)
+    return plant.end_fault(order.row, order.operation, loom.attempts), loom
+
+
+def _without(loom: LoomCondition, index: int) -> LoomCondition:
+    return replace(loom, injected=(*loom.injected[:index], *loom.injected[index + 1 :]))
 
 
 def after_weft(wefts: tuple[int, ...], operation: RowEnd) -> tuple[int, ...]:
@@ -82,10 +86,3 @@ def after_end_fault(loom: LoomCondition, operation: RowEnd, fault: Fault) -> Loo
 def with_broken_warp(loom: LoomCondition, column: int) -> LoomCondition:
     """The condition with a broken warp of a column; NOWHERE: one that the beat has broken."""
     return loom if column in loom.broken_warps else replace(loom, broken_warps=(*loom.broken_warps, column))
-
-
-def _injected(loom: LoomCondition, row: int, at: int, kinds: frozenset[Fault]) -> Fault | None:
-    for one in loom.injected:
-        if one.row == row and one.at in (at, NOWHERE) and one.fault in kinds:
-            return one.fault
-    return None

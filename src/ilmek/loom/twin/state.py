@@ -3,7 +3,7 @@
 from typing import TypeAlias
 
 from ilmek.loom.control.ports import ChangePackages, EndRow, Fault, Jog, Order, Sensors, Tie
-from ilmek.loom.operations import EMPTY, Stop
+from ilmek.loom.operations import EMPTY, RowEnd, Stop
 from ilmek.loom.twin.model import OPEN_SHED, SLACK, PlantModel, nanometres
 from ilmek.records import value_record
 
@@ -46,14 +46,16 @@ class Tension:
 
 @value_record
 class Injected:
-    """The next attempt at an operation fails: at the knot of column `at` or, of weft faults, at the row end `at`.
+    """The next attempt at an operation of a row fails: the knot of a column, or an operation after the knots.
 
-    at  NOWHERE: the next operation of the kind in that row
+    column     NOWHERE, without an operation: the next operation of the row that the fault can strike
+    operation  after the knots; None: a knot
     """
 
     fault: Fault
     row: int
-    at: int = NOWHERE
+    column: int = NOWHERE
+    operation: RowEnd | None = None
 
 
 @value_record

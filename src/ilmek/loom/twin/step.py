@@ -20,7 +20,7 @@ from ilmek.errors import LoomError
 from ilmek.loom.control.ports import ChangePackages, Done, EndRow, Failed, Fault, Jog, PortReport, SensorsChanged, Tie
 from ilmek.loom.twin.acts import acted, changed_packages, halted
 from ilmek.loom.twin.events import chained
-from ilmek.loom.twin.fates import after_end_fault, after_weft, end_fate, knot_fate, used, with_broken_warp
+from ilmek.loom.twin.fates import after_end_fault, after_weft, end_fate, knot_fate, with_broken_warp
 from ilmek.loom.twin.model import JOG, WATCHDOG, Mark, PlantModel
 from ilmek.loom.twin.state import (
     NOWHERE,
@@ -88,9 +88,8 @@ class _Run:
         first = plant.times.travel * apart if apart > 0 else 0
         if head.tube not in (order.tube, NOWHERE):
             first += plant.times.colour_change
-        fault = knot_fate(plant, condition, head, order)
-        if fault is not None:
-            condition = self.condition = used(condition, fault, order.row, order.column)
+        fault, condition = knot_fate(plant, condition, head, order)
+        self.condition = condition
         whole = first + plant.times.knot
         if condition.permille != 1000:
             first, whole = first * 1000 // condition.permille, whole * 1000 // condition.permille
@@ -132,9 +131,8 @@ class _Run:
         if isinstance(order, EndRow):
             _require_end(plant, condition, order)
             duration = plant.times.of_end(order.operation)
-            marks, fault = plant.marks[order.operation], end_fate(plant, condition, order)
-            if fault is not None:
-                condition = used(condition, fault, order.row, int(order.operation))
+            marks = plant.marks[order.operation]
+            fault, condition = end_fate(plant, condition, order)
         else:
             duration = plant.change_time(order.stop) if isinstance(order, ChangePackages) else JOG
         if isinstance(order, EndRow) and condition.permille != 1000:
