@@ -9,6 +9,7 @@ from ilmek.cli.options import force_option, json_option
 from ilmek.cli.terminal import say, show_pairs, show_table
 from ilmek.jobs.inspect import InspectionResult, inspect_programme, runs
 from ilmek.loom.account import stop_duration
+from ilmek.loom.operations import LoomSetup, Stop
 from ilmek.units import format_quantity
 
 MOST_RUNS = 4000
@@ -108,6 +109,8 @@ def show_row(found: InspectionResult) -> None:
         f"row {found.row.number + 1} of {setup.rows}, from the bottom: {format_quantity(found.time, 's')}, "
         f"woven to the {'right' if found.forward else 'left'}; knots from the left, in the order of tying"
     )
+    for stop in found.row.stops:
+        say(f"before its phase {stop.phase + 1} of {found.row.phases}: {_changed(stop, setup)}")
     lines, most = [], max(1, MOST_RUNS // setup.heads)
     for head, ties in enumerate(found.ties, 1):
         tied = runs(ties)
@@ -116,3 +119,12 @@ def show_row(found: InspectionResult) -> None:
             shown.append(f"… {len(tied) - most:,} more: see --json")
         lines.append((str(head), "  ".join(shown)))
     show_table(("head", "ties"), lines, right=(0,))
+
+
+def _changed(stop: Stop, setup: LoomSetup) -> str:
+    """The changes of a stop, up to MOST_STOPS."""
+    wefts = [f"a new bobbin of {setup.wefts[index].yarn}" for index in stop.wefts]
+    tubes = [f"{setup.yarns[one.yarn].name} on tube {one.tube + 1} of head {one.head + 1}" for one in stop.tubes]
+    changes = [*wefts, *tubes]
+    more = [f"… {len(changes) - MOST_STOPS:,} more: see --json"] if len(changes) > MOST_STOPS else []
+    return ", ".join([*changes[:MOST_STOPS], *more])

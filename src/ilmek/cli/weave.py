@@ -27,6 +27,7 @@ Examples:
   ilmek weave photo.jpg --size 120x180cm --quality 40x40/dm --yarns wool.toml --knot symmetric --deadline 72h
   ilmek weave photo.jpg --size kelle --colours 8 --heads 6 --out carpet --force
   ilmek weave photo.jpg --loom beat=comb --loom shedding.law=modified-sine --loom prices=@prices.txt
+  ilmek weave photo.jpg --colours 24 --heads 4 --loom tubes=12 --loom package_mass=1kg
   ilmek weave carpet.toml --deadline 72h
   ilmek weave other.jpg --size 80x120cm --loom carpet/machine.json
 

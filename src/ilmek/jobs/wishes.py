@@ -69,7 +69,8 @@ def _of_aim(aim: str, params: AutomatedLoomParams) -> tuple[Choice, ...]:
 def _of_heads(made: LoomDesign, carpet: CarpetPile) -> Choice:
     """The choice of the fewest heads that keep the deadline."""
     fewer = made.heads - 1
-    failed = f"weaving time {_hours(_time(made, carpet, fewer))}" if fewer else ""
+    time = _time(made, carpet, fewer) if fewer else math.inf
+    failed = f"weaving time {_hours(time)}" if fewer and time < math.inf else "colours of a part" if fewer else ""
     return Choice("heads", str(made.heads), "the deadline", str(fewer) if fewer else "", failed)
 
 

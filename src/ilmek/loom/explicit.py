@@ -23,6 +23,7 @@ class CompiledProgramme:
         self._stops: dict[int, tuple[Stop, ...]] = {}
         for stop in programme.stops:
             self._stops[stop.row] = (*self._stops.get(stop.row, ()), stop)
+        self._counts = row_counts(programme.edges, programme.heads)
         self._next, self._loaded = 0, programme.tubes.loading.copy()
 
     @cached_property
@@ -39,8 +40,8 @@ class CompiledProgramme:
         self._next, self._loaded = number + 1, loaded
         columns = np.empty(made.columns, np.int32)
         expand(line, Layout(made.heads, made.edges), number % 2 == 0, made.keys[number], columns)
-        counts = row_counts(made.edges, made.heads)[number % 2]
-        return RowOperations(number, columns, line[columns], counts, stops=self._stops.get(number, ()))
+        stops = self._stops.get(number, ())
+        return RowOperations(number, columns, line[columns], self._counts[number % 2], stops=stops)
 
     def chart_row(self, number: int) -> UInt8[np.ndarray, " columns"]:
         """Yarn of each knot of a loom row. Raises LoomError beyond the carpet."""
