@@ -20,7 +20,9 @@ from ilmek.io.journal_file import SystemFile
 from ilmek.io.programme_file import write_programme
 from ilmek.jobs.run.loom_run import LoomRun
 from ilmek.jobs.run.order import USUAL_RATES, RunOrder
+from ilmek.loom.control.ports import Fault
 from ilmek.loom.control.view import Snapshot
+from ilmek.loom.twin.state import Injected, SensorFault
 
 
 @pytest.fixture(scope="session")
@@ -158,6 +160,27 @@ def _until(run: LoomRun, state: str) -> None:
     while run.snapshot().state != state:
         assert time.monotonic() < end, run.snapshot().state
         time.sleep(0.005)
+
+
+def test_a_person_is_asked_what_the_sensor_cannot_tell(carpet: Path, tmp_path: Path) -> None:
+    with LoomRun(RunOrder(carpet, tmp_path / "j", speed=None, operator=False)) as run:
+        run.port.act(Injected(Fault.TIMEOUT, 2, 3), SensorFault("knotted", None))
+        thread = threading.Thread(target=run.work)
+        thread.start()
+        _until(run, "Held")
+        found = as_json("status", "--journal", tmp_path / "j")
+        assert "operation not finished in time, row 3" in found["alarms"][0]["cause"]
+        assert run.command("yes").reason == "yes: the controller asks nothing"
+        assert not run.command("unhold").ok
+        assert run.command("acknowledge").ok
+        assert run.command("unhold").ok
+        _until(run, "Unholding")
+        assert "is the knot of row 3 on warp pair 4 tied" in run.snapshot().requests[0]
+        assert "asks" in call("status", "--journal", tmp_path / "j").stdout
+        assert call("resume", "--journal", tmp_path / "j", "--answer", "no").exit_code == 0
+        thread.join(10)
+        assert not thread.is_alive()
+        assert run.result().ok
 
 
 def test_a_run_waits_for_room_on_the_disc(carpet: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

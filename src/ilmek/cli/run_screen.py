@@ -1,5 +1,6 @@
 """The screen of `ilmek run`: state, row, heads with their yarns, alarms with their remedies, time left."""
 
+from collections import deque
 from collections.abc import Sequence
 
 from rich import box
@@ -17,6 +18,9 @@ from ilmek.loom.control.view import AlarmView, HeadView, Snapshot
 FRAMES = 10.0
 """Pictures a second."""
 
+_LATELY = 50
+"""Pictures over which the speed is taken."""
+
 MOST_HEADS, MOST_ALARMS = 24, 4
 """Largest numbers of heads and of alarms that are shown."""
 
@@ -30,12 +34,21 @@ class RunScreen:
         self._yarns, self._hint = yarns, hint
         self._live = Live(console=console, auto_refresh=False, transient=True)
         self._due = 0.0
+        self._points: deque[tuple[float, int]] = deque(maxlen=_LATELY)
 
     def show(self, snapshot: Snapshot, now: float) -> None:
         """Draw a snapshot, if the last picture is old enough; now: time of a clock of the caller [s]."""
         if now >= self._due:
             self._due = now + 1 / FRAMES
-            self._live.update(drawn(snapshot, self._yarns, self._hint), refresh=True)
+            self._points.append((now, snapshot.knots))
+            self._live.update(drawn(snapshot, self._yarns, self._hint, self._left(snapshot)), refresh=True)
+
+    def _left(self, snapshot: Snapshot) -> str:
+        """The time that is left of the person's clock, at the speed of the last seconds; "" while it is unknown."""
+        (begin, before), (end, after) = self._points[0], self._points[-1]
+        if after <= before or end <= begin:
+            return ""
+        return f"; here {clock_in_words(int(1e9 * (snapshot.total - after) * (end - begin) / (after - before)))}"
 
     def __enter__(self) -> "RunScreen":
         self._live.start()
@@ -45,12 +58,16 @@ class RunScreen:
         self._live.stop()
 
 
-def drawn(snapshot: Snapshot, yarns: Sequence[Yarn], hint: str) -> RenderableType:
-    """The picture of a snapshot."""
-    parts: list[RenderableType] = [_headline(snapshot), ProgressBar(snapshot.total, snapshot.knots, width=60)]
-    parts.append(Text(_times(snapshot)))
+def drawn(snapshot: Snapshot, yarns: Sequence[Yarn], hint: str, left: str = "") -> RenderableType:
+    """The picture of a snapshot; left: time that is left of the person's clock, in words."""
+    bar = Table.grid()
+    bar.add_row(ProgressBar(snapshot.total, snapshot.knots, width=60))
+    parts: list[RenderableType] = [_headline(snapshot), bar, Text(_times(snapshot, left))]
     if snapshot.stop:
         parts.append(Text(f"change: {printable(snapshot.stop)}", style="yellow"))
+    parts += [
+        Text(f"? {printable(one)} `ilmek resume --answer yes|no`", style="yellow") for one in snapshot.requests[:1]
+    ]
     parts.append(_heads(snapshot.heads, yarns))
     parts += [_alarm(one) for one in snapshot.alarms[:MOST_ALARMS]]
     if hidden := len(snapshot.alarms) - MOST_ALARMS:
@@ -77,11 +94,11 @@ def _headline(snapshot: Snapshot) -> Text:
     return text.append(f"   {row}   {knots}   {snapshot.knots / snapshot.total:.1%}", style="default")
 
 
-def _times(snapshot: Snapshot) -> str:
+def _times(snapshot: Snapshot, here: str) -> str:
     speed = f"{60 * snapshot.speed:.0f} knots/min" if snapshot.speed else "stands"
     faults = f"   faults mended {snapshot.faults:,}" if snapshot.faults else ""
     time, left = clock_in_words(snapshot.time), clock_in_words(snapshot.left)
-    return f"loom's clock {time}   left about {left}   {speed}{faults}"
+    return f"loom's clock {time}   left about {left}{here}   {speed}{faults}"
 
 
 def _heads(heads: Sequence[HeadView], yarns: Sequence[Yarn]) -> RenderableType:

@@ -102,7 +102,7 @@ class ReadOnlyDatabase:
 
     tables  the statement that created each table, by name
     Every method raises DamagedDatabase for a file with another schema, a damaged file, and a query beyond MOST_STEPS.
-    Texts are read as bytes.
+    Texts are read as bytes. It may be used in another thread than that which opened it, by one at a time.
     """
 
     __slots__ = ("_connection", "_slices")
@@ -110,7 +110,8 @@ class ReadOnlyDatabase:
     def __init__(self, path: Path, tables: Mapping[str, str]) -> None:
         self._slices = 0
         try:
-            self._connection = sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro&immutable=1", uri=True)
+            address = f"{path.resolve().as_uri()}?mode=ro&immutable=1"
+            self._connection = sqlite3.connect(address, uri=True, check_same_thread=False)
         except (sqlite3.Error, OSError, RuntimeError) as error:
             raise DamagedDatabase(_reason(error)) from error
         try:

@@ -51,6 +51,7 @@ def status_in_words(found: dict[str, Any]) -> list[tuple[str, str]]:
             ("knots", f"{found['knots']:,} of {found['total']:,}, {found['uncertain']:,} uncertain"),
             ("loom's clock", format_quantity(found["time"], "h")),
         ]
+    pairs += [("asks", str(one)) for one in found.get("requests", ())]
     return [*pairs, *(("alarm", str(one["cause"])) for one in found.get("alarms", ()))]
 
 

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from ilmek.jobs.run.session import ControlSession
-from ilmek.loom.control.exchange import Acknowledged, Commanded, ControlInput, ModeChosen
+from ilmek.loom.control.exchange import Acknowledged, Answered, Commanded, ControlInput, ModeChosen
 from ilmek.loom.control.packml import PackCommand, PackMode, PackState
 from ilmek.loom.control.view import Answer
 
@@ -13,6 +13,12 @@ MODES: Mapping[str, PackMode] = MappingProxyType({one.name.lower(): one for one 
 
 RESUME = "resume"
 """The command that leads on to Execute from whatever state the machine waits in."""
+
+ACKNOWLEDGE = "acknowledge"
+"""The command that states that all alarms were seen and their causes removed."""
+
+ANSWERS: Mapping[str, bool] = MappingProxyType({"yes": True, "no": False})
+"""The answers to the first of the controller's requests."""
 
 _ONWARD: Mapping[PackState, tuple[ControlInput, ...]] = MappingProxyType(
     {
@@ -26,12 +32,21 @@ _ONWARD: Mapping[PackState, tuple[ControlInput, ...]] = MappingProxyType(
 
 
 def give_command(session: ControlSession, name: str) -> Answer:
-    """Give a command of PackML or choose a mode; the controller's answer."""
+    """Give a command of PackML, choose a mode, acknowledge alarms or answer a request; the controller's answer."""
+    if name in ANSWERS:
+        requests = session.status().requests
+        if not requests:
+            return Answer(False, f"{name}: the controller asks nothing")
+        return _answer(session, Answered(requests[0].number, ANSWERS[name]))
+    if name == ACKNOWLEDGE:
+        return _answer(session, Acknowledged())
     if name in MODES:
         return _answer(session, ModeChosen(MODES[name]))
     if name in COMMANDS:
         return _answer(session, Commanded(COMMANDS[name]))
-    return Answer(False, f"no command {name!r}; commands: {', '.join((RESUME, *COMMANDS, *MODES))}")
+    return Answer(
+        False, f"no command {name!r}; commands: {', '.join((RESUME, ACKNOWLEDGE, *COMMANDS, *MODES, *ANSWERS))}"
+    )
 
 
 def lead_on(session: ControlSession) -> Answer:

@@ -21,7 +21,7 @@ from ilmek.io.journal_folder import CHANNEL, JournalFolder
 from ilmek.io.programme_file import ProgrammeFile
 from ilmek.io.woven_file import open_woven
 from ilmek.jobs.check import check_programme
-from ilmek.jobs.run.commands import RESUME, give_command, lead_on
+from ilmek.jobs.run.commands import RESUME, give_command, lead_on, waits
 from ilmek.jobs.run.operator import Operator
 from ilmek.jobs.run.order import RunOrder
 from ilmek.jobs.run.result import COMPLETE, RunResult, snapshot_json
@@ -184,6 +184,8 @@ class LoomRun:
             return Answer(False, "the run is stopping")
         if name == RESUME:
             self._operator.weaving, self._operator.waiting = True, False
+            if waits(self._session):
+                self._operator.repair(self._session)
             return lead_on(self._session)
         answer = give_command(self._session, name)
         if answer.ok:

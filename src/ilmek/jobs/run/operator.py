@@ -53,11 +53,14 @@ class Operator:
             return True
         if not self._tries_again(status):
             return False
-        for act in (Door(True), EmergencyStop(False), Repaired()):
-            self._port.act(act)
-        session.receive(0.0)  # what the sensors then show
+        self.repair(session)
         lead_on(session)
         return True
+
+    def repair(self, session: ControlSession) -> None:
+        """Put the simulated loom in order: guard closed, yarns pieced, axes at rest."""
+        self._port.act(Door(True), EmergencyStop(False), Repaired())
+        session.receive(0.0)  # what the sensors then show
 
     def _tries_again(self, status: ControllerStatus) -> bool:
         done = (status.knots, status.row)

@@ -52,6 +52,7 @@ class SnapshotMaker:
             speed=speed,
             faults=status.faults,
             stop=_stop_words(status, setup),
+            requests=tuple(one.text for one in status.requests),
             heads=tuple(self._head(head, tied[head], operations) for head in range(setup.heads)),
             alarms=tuple(
                 AlarmView(one.kind.name, one.text, one.kind.remedy, one.kind.latched, one.time) for one in status.alarms

@@ -155,9 +155,9 @@ class ActiveAlarm:
 
     @property
     def text(self) -> str:
-        """The alarm in one line: name, location, cause, remedy."""
+        """The alarm in one line: name, location counted from 1, cause, remedy."""
         where = "".join(
-            f", {name} {value}" for name, value in (("row", self.row), ("head", self.head)) if value is not None
+            f", {name} {value + 1}" for name, value in (("row", self.row), ("head", self.head)) if value is not None
         )
         note = f" ({self.note})" if self.note else ""
         return f"{self.kind.name}{where}: {self.kind.cause}{note}; {self.kind.remedy}"

@@ -69,6 +69,7 @@ class Snapshot:
     speed        knots a second of the loom's clock, lately
     faults       knots that had to be tried again
     stop         what the operator changes in the stop that the loom waits in; "": none
+    requests     questions to the operator, which the commands "yes" and "no" answer one after the other
     """
 
     programme: str
@@ -89,6 +90,7 @@ class Snapshot:
     alarms: tuple[AlarmView, ...]
     yarns: tuple[YarnView, ...]
     wefts: tuple[WeftView, ...]
+    requests: tuple[str, ...] = ()
 
 
 @value_record
@@ -109,5 +111,6 @@ class ControllerView(Protocol):
         """Give a command by its name; returns when the controller has accepted or refused it.
 
         Commands are those of PackML, for example "hold"; "production", "maintenance" and "manual", which choose the
-        mode; and "resume", which goes on with the carpet from any state.
+        mode; "resume", which goes on with the carpet from any state; "acknowledge", all alarms;
+        "yes" and "no", which answer the first request.
         """
