@@ -124,7 +124,6 @@ async def session(
         client.set_user(user)
         client.set_password(f"{user}-password" if password is None else password)
     async with client:
-        await client.load_data_type_definitions()
         await act(Calls(client, await client.get_namespace_index("urn:ilmek:loom")))
 
 
@@ -326,10 +325,11 @@ def closed(raw: socket.socket) -> bool:
 def test_a_port_in_use_is_an_error(server: LoomServer, loom: SteppingLoom) -> None:
     port = int(server.url.removeprefix("opc.tcp://127.0.0.1:").partition("/")[0])
     credentials = make_credentials(PLATE.uri, "loom", ("127.0.0.1",))
-    other = LoomServer(loom, PLATE, UserList({}), credentials, port=port)
-    with pytest.raises(LoomError, match=f"127.0.0.1:{port} cannot be listened at"):
-        other.start()
-    other.stop()
+    for host, given in (("127.0.0.1", port), ("nowhere.invalid", 4840), ("192.0.2.1", 4840)):
+        other = LoomServer(loom, PLATE, UserList({}), credentials, host=host, port=given)
+        with pytest.raises(LoomError, match=f"{host}:{given} cannot be listened at"):
+            other.start()
+        other.stop()
 
 
 def test_states_of_the_loom(loom: SteppingLoom, server: LoomServer, pair: Pair) -> None:

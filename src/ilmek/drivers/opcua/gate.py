@@ -7,11 +7,13 @@ call and write to the user's right.
 """
 
 import asyncio
+import socket
 import time
 from collections.abc import Callable
 from typing import Any
 
 from asyncua import Server, ua
+from asyncua.common.connection import TransportLimits
 from asyncua.common.utils import ServiceError
 from asyncua.crypto.permission_rules import User, UserRole
 from asyncua.server.binary_server_asyncio import BinaryServer, OPCUAProtocol
@@ -108,7 +110,15 @@ class GatedProtocol(OPCUAProtocol):
 
 
 class GatedBinaryServer(BinaryServer):
-    """Listens for gated connections."""
+    """Listens for gated connections at a socket that is bound."""
+
+    def __init__(self, internal_server: InternalServer, bound: socket.socket, limits: TransportLimits) -> None:
+        super().__init__(internal_server, *bound.getsockname()[:2], limits)
+        self._bound = bound
+
+    async def start(self) -> None:
+        self._server = await asyncio.get_running_loop().create_server(self._make_protocol, sock=self._bound)
+        self.cleanup_task = asyncio.create_task(self._close_task_loop())
 
     def _make_protocol(self) -> OPCUAProtocol:
         return GatedProtocol(
@@ -259,22 +269,18 @@ class GatedInternalServer(InternalServer):
 class GatedServer(Server):
     """asyncua's server behind the gate: SignAndEncrypt with Basic256Sha256 alone."""
 
-    def __init__(self, users: UserList, log: Callable[[str], None]) -> None:
+    def __init__(self, bound: socket.socket, users: UserList, log: Callable[[str], None]) -> None:
         super().__init__(iserver=GatedInternalServer(users, log))
+        self._bound = bound
         self.set_security_policy([ua.SecurityPolicyType.Basic256Sha256_SignAndEncrypt])
         self.limits.max_recv_buffer = LARGEST_CHUNK
         self.limits.max_message_size = LARGEST_MESSAGE
         self.limits.max_chunk_count = LARGEST_MESSAGE // LARGEST_CHUNK
 
     async def start(self) -> None:
-        """Listen. Raises OSError where the address cannot be listened at."""
+        """Listen."""
         await self._setup_server_nodes()
         await self.iserver.start()
-        host, port = self._get_bind_socket_info()
-        self.bserver = GatedBinaryServer(self.iserver, host, port, self.limits)
+        self.bserver = GatedBinaryServer(self.iserver, self._bound, self.limits)
         self.bserver.set_policies(self._policies)
-        try:
-            await self.bserver.start()
-        except OSError:
-            await self.iserver.stop()
-            raise
+        await self.bserver.start()

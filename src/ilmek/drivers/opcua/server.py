@@ -7,6 +7,8 @@ that may wait for the controller.
 import asyncio
 import contextlib
 import logging
+import os
+import socket
 import threading
 import time
 from collections.abc import Callable
@@ -75,11 +77,32 @@ class LoomServer:
 
     def start(self) -> None:
         """Start the server. Raises LoomError where the address cannot be listened at."""
+        self._bound = self._bind()
+        self._port = int(self._bound.getsockname()[1])
         self._thread.start()
         if not self._ready.wait(_START_TIME):
             raise LoomError("the OPC UA server did not start in time")
         if self._failure is not None:
             raise self._failure
+
+    def _bind(self) -> socket.socket:
+        try:
+            family = socket.getaddrinfo(self._host, self._port, type=socket.SOCK_STREAM)[0][0]
+            bound = socket.socket(family, socket.SOCK_STREAM)
+            try:
+                if os.name == "posix":  # an address of connections that ended a moment ago
+                    bound.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+                bound.bind((self._host, self._port))
+            except BaseException:
+                bound.close()
+                raise
+        except (OSError, UnicodeError) as failed:
+            reason = getattr(failed, "strerror", None) or "no such address"
+            raise LoomError(
+                f"{self._host}:{self._port} cannot be listened at ({reason})",
+                do="free the port, or give another with --port",
+            ) from None
+        return bound
 
     def stop(self) -> None:
         """Close all connections and end the thread."""
@@ -103,19 +126,15 @@ class LoomServer:
         logging.getLogger("asyncua").addHandler(logging.NullHandler())
         try:
             asyncio.run(self._serve())
-        except OSError as failed:
-            self._failure = LoomError(
-                f"{self._host}:{self._port} cannot be listened at ({failed.strerror or failed})",
-                do="free the port, or give another with --port",
-            )
         except BaseException as failed:
             self._failure = failed
         finally:
+            self._bound.close()
             self._ready.set()
 
     async def _serve(self) -> None:
         self._loop, self._ended = asyncio.get_running_loop(), asyncio.Event()
-        server = GatedServer(self._users, self._log)
+        server = GatedServer(self._bound, self._users, self._log)
         await server.init()
         self._configure(server)
         await server.set_application_uri(self._plate.uri)
@@ -130,7 +149,6 @@ class LoomServer:
         await shown.prepare()
         await server.start()
         try:
-            self._port = server.bserver.port
             self._ready.set()
             await self._show(shown)
         finally:
