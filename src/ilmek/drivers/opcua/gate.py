@@ -79,9 +79,11 @@ class GatedProcessor(UaProcessor):
             raise ServiceError(ua.StatusCodes.BadSecurityModeInsufficient)
         if typeid in _REFUSED:
             raise ServiceError(ua.StatusCodes.BadServiceUnsupported)
-        if typeid == ua.NodeId(_I.CreateSessionRequest_Encoding_DefaultBinary) and self.session is not None:
-            raise ServiceError(ua.StatusCodes.BadTooManySessions)  # one of a connection
         await self._pace()
+        if typeid == ua.NodeId(_I.CreateSessionRequest_Encoding_DefaultBinary) and self.session is not None:
+            if self.session.is_activated():
+                raise ServiceError(ua.StatusCodes.BadTooManySessions)  # one of a connection
+            await self.session.close_session()  # its user was refused
         return await super()._process_message(typeid, requesthdr, seqhdr, body)
 
     async def _pace(self) -> None:
