@@ -18,9 +18,9 @@ from ilmek.loom.control.ports import Done, Order, SensorsChanged, Tie
 from ilmek.loom.control.state import ControllerSettings
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "support"))
-from control_model import Budget, Model, TinyProgramme
-from fake_loom import READY
-from small_programme import small_programme
+from control_model import Budget, Model, TinyProgramme  # type: ignore[import-not-found]
+from fake_loom import READY  # type: ignore[import-not-found]
+from small_programme import small_programme  # type: ignore[import-not-found]
 
 ROWS, COLUMNS, HEADS = 300, 450, 10
 
