@@ -8,7 +8,7 @@ from pathlib import Path
 
 SOURCES = sorted((Path(__file__).parents[2] / "src" / "ilmek").rglob("*.py"))
 ARRAYS = re.compile(r"ndarray|Array\b|Float\[|Complex\[|Num\[|Int\[|Int8|Bool\[|Rgb|Indices|RealField|ComplexField")
-MAPPINGS = re.compile(r"Mapping|dict\[|list\[|set\[")
+MAPPINGS = re.compile(r"Mapping|dict\[|list\[|\bset\[")
 
 
 @cache

@@ -50,7 +50,7 @@ class Doubt:
     request: int | None = None
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False)
 class ControllerState:
     """Everything that changes while a controller works.
 
