@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from edited_programme import EditedProgramme, edited, part_of, with_knot, with_knot_twice, without_knot
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from plain_proof import broken_rules
 from small_programme import small_programme
@@ -64,12 +64,30 @@ def edited_programmes(draw: st.DrawFn) -> EditedProgramme:
     return edited(programme, number, lambda _: changed, packages=packages, spacing=draw(st.integers(1, 4)))
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=70, deadline=None)
 @given(edited_programmes())
 def test_the_proof_agrees_with_the_plain_rules(programme: EditedProgramme) -> None:
     proof = prove(programme)
     broken = broken_rules(programme)
     assert proof.ok == (not broken), (proof.faults, broken)
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.data())
+def test_what_is_compiled_is_proved(data: st.DataObject) -> None:
+    """With fewer tubes than yarns, and packages that end within the carpet."""
+    heads, yarns = data.draw(st.integers(1, 4)), data.draw(st.integers(2, 7))
+    sizes = data.draw(st.integers(3, 12)), data.draw(st.integers(max(3, 2 * heads), 40))
+    supply = {"tubes": data.draw(st.integers(1, yarns)), "package": data.draw(st.sampled_from([1.6, 2.5, 1000.0]))}
+    seeds = {"seed": data.draw(st.integers(0, 999)), "weft_rows": data.draw(st.integers(1, 5))}
+    try:
+        programme = small_programme(*sizes, heads, yarns, **seeds, **supply)
+    except LoomError as error:
+        assume("tubes of a head" not in str(error))
+        raise
+    proof = prove(programme)
+    assert proof.faults == ()
+    assert broken_rules(programme) == []
 
 
 def edited_texts(text: str) -> Iterator[tuple[int, str]]:

@@ -36,7 +36,9 @@ def with_everything() -> EditedProgramme:
     return edited(programme, 1, shuffled, loading=loading, packages=packages)
 
 
-@pytest.mark.parametrize("make", [small_programme, with_everything, lambda: small_programme(9, 40, 5, 4)])
+@pytest.mark.parametrize(
+    "make", [small_programme, with_everything, lambda: small_programme(9, 40, 5, 4, tubes=2, package=0.9)]
+)
 def test_text_and_programme_are_the_same_both_ways(tmp_path: Path, make: Callable[[], EditedProgramme]) -> None:
     programme = make()
     files = [tmp_path / name for name in ("a.txt", "b.ilmek", "c.txt", "d.ilmek")]

@@ -58,7 +58,7 @@ def show_check(found: CheckResult) -> None:
     say(_verdict(found))
     show_pairs(
         [
-            ("rows", f"{setup.rows:,} of {setup.columns:,} knots, by {setup.heads} heads"),
+            ("rows", f"{setup.rows:,} of {setup.columns:,} knots; heads: {setup.heads}"),
             ("weaving time", format_quantity(totals.time / 1e9, "h")),
             ("changes of tube", f"{totals.changes:,}"),
             ("stops", f"{totals.stops:,}; bobbins changed: {totals.wefts:,}, packages: {totals.packages:,}"),
