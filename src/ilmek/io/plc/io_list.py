@@ -1,0 +1,72 @@
+"""The list of inputs and outputs of the main program, with addresses, as CSV.
+
+Bits are packed into bytes, words begin at even bytes, double words at multiples of four. Signals of the host (commands,
+the row's data) and of the operator's panel are variables without an address.
+"""
+
+from collections.abc import Iterator
+
+from ilmek.io.csv_cells import csv_rows
+from ilmek.io.plc.units import PlcArray, PlcUnit, PlcVariable
+
+_SIZES = {"BOOL": 0, "USINT": 1, "INT": 2, "DINT": 4, "REAL": 4}
+_LETTERS = {0: "X", 1: "B", 2: "W", 4: "D"}
+
+HOST = frozenset(
+    ("CntrlCmd", "CmdChangeRequest", "UnitMode", "UnitModeChangeRequest", "StepKnot", "Acknowledge", "JogAxis",
+     "RowData", "RowRequest", "StateCurrent", "UnitModeCurrent", "Refused", "Alarm", "KnotsDone", "CarpetDone",
+     "TieAnswer", "EndAnswer", "AskTie", "AskEnd", "ChangeStart", "ChangeDone")
+)  # fmt: skip
+"""Variables that the host or the operator's panel reads and writes."""
+
+HEADER = ("variable", "direction", "type", "address", "meaning")
+
+
+def io_rows(program: PlcUnit) -> list[tuple[str, str, str, str, str]]:
+    """A row for each signal: variable, direction, type, address, meaning; those of the host last."""
+    field: list[tuple[str, str, str, str, str]] = []
+    host: list[tuple[str, str, str, str, str]] = []
+    for kind, direction, letter in (("VAR_INPUT", "input", "I"), ("VAR_OUTPUT", "output", "Q")):
+        addresses = _Addresses(letter)
+        for variable in next(one.variables for one in program.sections if one.kind == kind):
+            if variable.name in HOST:
+                host.append((variable.name, direction, str(variable.kind), "", variable.meaning))
+                continue
+            for name, element in _elements(variable):
+                field.append((name, direction, element, addresses.next(element), variable.meaning))
+    return [*field, *host]
+
+
+def io_csv(program: PlcUnit) -> str:
+    """The list as CSV."""
+    return csv_rows((HEADER, *io_rows(program)))
+
+
+def _elements(variable: PlcVariable) -> Iterator[tuple[str, str]]:
+    if isinstance(variable.kind, PlcArray):
+        for index in range(variable.kind.first, variable.kind.last + 1):
+            yield f"{variable.name}[{index}]", variable.kind.element
+    else:
+        yield variable.name, variable.kind
+
+
+class _Addresses:
+    """Free addresses of inputs or outputs, in ascending order."""
+
+    def __init__(self, letter: str) -> None:
+        self._letter, self._byte, self._bit = letter, 0, 0
+
+    def next(self, kind: str) -> str:
+        size = _SIZES[kind]
+        if size == 0:
+            address = f"%{self._letter}X{self._byte}.{self._bit}"
+            self._bit += 1
+            if self._bit == 8:
+                self._byte, self._bit = self._byte + 1, 0
+            return address
+        if self._bit:
+            self._byte, self._bit = self._byte + 1, 0
+        self._byte = -(-self._byte // size) * size
+        address = f"%{self._letter}{_LETTERS[size]}{self._byte // size if size > 1 else self._byte}"
+        self._byte += size
+        return address

@@ -1,0 +1,136 @@
+"""A loom behind a generated control program: the program's scans, with a host that gives rows and a twin that works."""
+
+from typing import Any
+
+import numpy as np
+from structured_text import Machine
+
+from ilmek.io.plc.project import plc_project
+from ilmek.loom.operations import LoomProgramme, RowEnd
+
+SENSORS: dict[str, Any] = {
+    "EmergencyStop": False, "DoorClosed": True, "WarpTensionKnown": True, "WarpTension": 8.0, "HeadsClear": False,
+    "BeaterBack": True, "ShedClosed": True,
+}  # fmt: skip
+
+
+class PlcLoom:
+    """Executes the control program of a programme. Operations take a number of scans that differs from head to head.
+
+    carpet  (row, column) -> how often and from which tube a knot was tied there      ends  row ends in their order
+    """
+
+    def __init__(self, programme: LoomProgramme) -> None:
+        self.programme, self.heads = programme, programme.setup.heads
+        self.project = plc_project(programme)
+        self.machine = Machine(self.project.text)
+        self.loom = self.machine.instance("Loom")
+        self.carpet: dict[tuple[int, int], list[int]] = {}
+        self.ends: list[tuple[int, int]] = []
+        self.changes: list[int] = []
+        self.sensors = {**SENSORS, "GrippersOpen": [True] * self.heads}
+        self.scans = 0
+        self._left: dict[int, int] = {}
+        self._fail: dict[int, int] = {}
+        self.command = 0
+
+    def give_row(self) -> None:
+        """The host: writes the row that the program requests."""
+        number = self.read("RowRequest")
+        if number == self.read("RowData.Number") or number >= self.programme.setup.rows:
+            return
+        row = self.programme.operations(number)
+        for name, values in (
+            ("Columns", row.columns), ("Tubes", row.tubes), ("First", row.starts[:-1]),
+            ("Limits", np.cumsum(row.counts, axis=1).ravel()),
+        ):  # fmt: skip
+            self.machine.write(self.loom, f"RowData.{name}", [int(one) for one in values])
+        stops = {one.phase for one in row.stops}
+        self.machine.write(self.loom, "RowData.StopBefore", [phase in stops for phase in range(row.phases)])
+        self.machine.write(self.loom, "RowData.Number", number)
+
+    def read(self, path: str) -> Any:
+        return self.machine.read(self.loom, path)
+
+    def fail(self, head: int, alarm: int) -> None:
+        """The next knot of a head ends with a fault; head -1: the next operation after the knots."""
+        self._fail[head] = alarm
+
+    def scan(self, **inputs: Any) -> None:
+        """One scan: the loom's reports since the last one, the sensors, then the program."""
+        self.scans += 1
+        self.give_row()
+        done, fault = [False] * self.heads, [0] * self.heads
+        ended, end_fault = False, 0
+        for head in range(self.heads):
+            if self._over(head, self.read("TieStart")[head], 2 + head):
+                fault[head] = self._fail.pop(head, 0)
+                done[head] = fault[head] == 0
+                if done[head]:
+                    self._tie(head)
+        if self._over(-1, self.read("EndStart"), 3):
+            end_fault = self._fail.pop(-1, 0)
+            ended = end_fault == 0
+            if ended:
+                self._end()
+        changed = bool(self._over(-2, self.read("ChangeStart"), 2))
+        if changed:
+            self.changes.append(self.read("Row"))
+        command, self.command = self.command, 0
+        self.machine.run(
+            self.loom, **self.sensors, TieDone=done, TieFault=fault, EndDone=ended, EndFault=end_fault,
+            ChangeDone=changed, CntrlCmd=command, CmdChangeRequest=command > 0, **inputs,
+        )  # fmt: skip
+
+    def until(self, name: str, value: Any, most: int = 20_000) -> None:
+        """Scan until an output has a value. Raises AssertionError after a number of scans."""
+        for _ in range(most):
+            if self.read(name) == value:
+                return
+            self.scan()
+        raise AssertionError(f"{name} stays {self.read(name)}, alarm {self.read('Alarm')}, row {self.read('Row')}")
+
+    def start(self) -> None:
+        """Reset and start."""
+        self.command = 1
+        self.until("StateCurrent", 4)
+        self.command = 2
+        self.until("StateCurrent", 6)
+
+    def power_cut(self, *, tied: bool) -> None:
+        """All but the retained variables is lost; if `tied`, operations in progress end before, else not at all."""
+        kept = {}
+        for one in self.machine.units["LOOM"].variables:
+            if one.section == "VAR RETAIN":
+                kept[one.name] = self.read(one.name)
+        if tied:
+            for head in range(self.heads):
+                if self.read("TieStart")[head]:
+                    self._tie(head)
+            if self.read("EndStart"):
+                self._end()
+        self.loom = self.machine.instance("Loom")
+        self._left.clear()
+        for name, value in kept.items():
+            self.machine.write(self.loom, name, value)
+
+    def _over(self, key: int, started: bool, scans: int) -> bool:
+        """Whether an operation that is ordered ends in this scan."""
+        if not started:
+            self._left.pop(key, None)
+            return False
+        left = self._left.setdefault(key, scans)
+        self._left[key] = left - 1
+        if left > 1:
+            return False
+        del self._left[key]
+        return True
+
+    def _tie(self, head: int) -> None:
+        at = self.read("Row"), self.read("TieColumn")[head]
+        self.carpet.setdefault(at, []).append(self.read("TieTube")[head])
+
+    def _end(self) -> None:
+        """An operation after the knots is in the carpet; the heads are clear until the take-up."""
+        self.ends.append((self.read("Row"), self.read("EndCode")))
+        self.sensors["HeadsClear"] = self.read("EndCode") < int(RowEnd.TAKE_UP)

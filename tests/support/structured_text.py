@@ -1,0 +1,570 @@
+"""An interpreter of IEC 61131-3 structured text, for tests of generated control programs.
+
+It knows what such programs need: FUNCTION, FUNCTION_BLOCK and PROGRAM with their variable sections, structures, arrays
+of one dimension, IF, CASE, FOR, WHILE, RETURN and EXIT, calls with named inputs and outputs. Integers overflow as an
+error, an index outside its array and a variable read before the program declares it are errors: a test fails where a
+controller would misbehave.
+"""
+
+import contextlib
+import math
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from typing import Any
+
+RANGES = {
+    "SINT": (-(2**7), 2**7 - 1), "INT": (-(2**15), 2**15 - 1), "DINT": (-(2**31), 2**31 - 1),
+    "USINT": (0, 2**8 - 1), "UINT": (0, 2**16 - 1), "UDINT": (0, 2**32 - 1), "BYTE": (0, 255),
+    "LINT": (-(2**63), 2**63 - 1),
+}  # fmt: skip
+REALS = {"REAL", "LREAL"}
+SECTIONS = {"VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT", "VAR", "VAR_TEMP"}
+FUNCTIONS: dict[str, Callable[..., Any]] = {
+    "ABS": abs, "MIN": min, "MAX": max, "LIMIT": lambda low, value, high: min(max(value, low), high),
+    "TRUNC": math.trunc, "SEL": lambda choice, no, yes: yes if choice else no, "SQRT": math.sqrt,
+    **{f"{one}_TO_{other}": int for one in RANGES for other in RANGES},
+    **{f"{one}_TO_{other}": float for one in RANGES for other in REALS},
+    "REAL_TO_LREAL": float, "LREAL_TO_REAL": float,
+}  # fmt: skip
+
+TOKENS = re.compile(
+    r"\s+|\(\*.*?\*\)|//[^\n]*|(?P<number>\d+\.\d+(?:[eE][+-]?\d+)?|\d+(?!\.\d))|(?P<word>[A-Za-z_]\w*)"
+    r"|(?P<sign>:=|=>|<>|<=|>=|\.\.|[-+*/<>=()\[\],;:.&])|(?P<bad>.)",
+    re.DOTALL,
+)
+
+
+class StructuredTextError(Exception):
+    """A fault of the text, or of its execution."""
+
+
+@dataclass
+class Declared:
+    """A variable: its section, name, type, and initial value as an expression."""
+
+    section: str
+    name: str
+    kind: "Kind"
+    initial: Any = None
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A type: its name; of an array the bounds and the type of its elements."""
+
+    name: str
+    bounds: tuple[int, int] | None = None
+    element: "Kind | None" = None
+
+
+@dataclass
+class Unit:
+    """A program organisation unit."""
+
+    kind: str
+    name: str
+    returns: Kind | None = None
+    variables: list[Declared] = field(default_factory=list)
+    body: list[Any] = field(default_factory=list)
+
+
+@dataclass
+class Fixed:
+    """An array with bounds, each element of one type."""
+
+    kind: Kind
+    values: list[Any]
+
+    def index(self, at: int) -> int:
+        assert self.kind.bounds is not None
+        low, high = self.kind.bounds
+        if not low <= at <= high:
+            raise StructuredTextError(f"index {at} outside {low}..{high}")
+        return at - low
+
+
+@dataclass
+class Instance:
+    """An instance of a function block, program or structure: its variables."""
+
+    unit: Unit
+    values: dict[str, Any]
+    kinds: dict[str, Kind]
+
+
+class Parser:
+    """A recursive-descent parser of a whole text."""
+
+    def __init__(self, text: str) -> None:
+        self.tokens = list(self._split(text))
+        self.at = 0
+        self.units: dict[str, Unit] = {}
+        self.structures: dict[str, Unit] = {}
+
+    @staticmethod
+    def _split(text: str) -> Iterator[tuple[str, str]]:
+        for match in TOKENS.finditer(text):
+            kind = match.lastgroup
+            if kind == "bad":
+                raise StructuredTextError(f"unknown character {match.group()!r} at {match.start()}")
+            if kind is not None:
+                value = match.group()
+                yield kind, value.upper() if kind == "word" else value
+        yield "end", ""
+
+    @property
+    def ahead(self) -> str:
+        return self.tokens[self.at][1]
+
+    def take(self, *expected: str) -> str:
+        value = self.ahead
+        if expected and value not in expected:
+            near = " ".join(token for _, token in self.tokens[max(0, self.at - 8) : self.at + 4])
+            raise StructuredTextError(f"{value!r} where {' or '.join(expected)} is expected, near {near!r}")
+        self.at += 1
+        return value
+
+    def accept(self, value: str) -> bool:
+        if self.ahead != value:
+            return False
+        self.at += 1
+        return True
+
+    def parse(self) -> "Parser":
+        while self.tokens[self.at][0] != "end":
+            if self.ahead == "TYPE":
+                self._type()
+            else:
+                self._unit()
+        return self
+
+    def _type(self) -> None:
+        self.take("TYPE")
+        name = self.take()
+        self.take(":")
+        self.take("STRUCT")
+        made = Unit("STRUCT", name)
+        while not self.accept("END_STRUCT"):
+            made.variables += self._declaration("VAR")
+        self.take(";")
+        self.take("END_TYPE")
+        self.structures[name] = made
+
+    def _unit(self) -> None:
+        kind = self.take("FUNCTION", "FUNCTION_BLOCK", "PROGRAM")
+        made = Unit(kind, self.take())
+        if kind == "FUNCTION":
+            self.take(":")
+            made.returns = self._kind()
+        while self.ahead in SECTIONS:
+            section = self.take()
+            while self.ahead in {"RETAIN", "CONSTANT"}:
+                section = f"{section} {self.take()}"
+            while not self.accept("END_VAR"):
+                made.variables += self._declaration(section)
+        made.body = self._statements(f"END_{kind}")
+        self.take(f"END_{kind}")
+        self.units[made.name] = made
+
+    def _declaration(self, section: str) -> list[Declared]:
+        names = [self.take()]
+        while self.accept(","):
+            names.append(self.take())
+        if self.accept("AT"):
+            raise StructuredTextError("located variables belong to the I/O list")
+        self.take(":")
+        kind = self._kind()
+        initial = self._initial() if self.accept(":=") else None
+        self.take(";")
+        return [Declared(section, name, kind, initial) for name in names]
+
+    def _kind(self) -> Kind:
+        if not self.accept("ARRAY"):
+            return Kind(self.take())
+        self.take("[")
+        low = int(self.take())
+        self.take("..")
+        high = int(self.take())
+        self.take("]")
+        self.take("OF")
+        return Kind("ARRAY", (low, high), self._kind())
+
+    def _initial(self) -> Any:
+        if not self.accept("["):
+            return self._expression()
+        values = []
+        while not self.accept("]"):
+            first = self._expression()
+            if self.accept("("):
+                values += [self._expression()] * first[1]
+                self.take(")")
+            else:
+                values.append(first)
+            self.accept(",")
+        return "list", values
+
+    def _statements(self, *ends: str) -> list[Any]:
+        found = []
+        while self.ahead not in ends and not self._label():
+            if not self.accept(";"):
+                found.append(self._statement())
+        return found
+
+    def _label(self) -> bool:
+        """Whether a label of CASE follows: numbers up to a colon."""
+        at = self.at
+        while self.tokens[at][0] == "number" or self.tokens[at][1] in {",", "..", "-"}:
+            at += 1
+        return at > self.at and self.tokens[at][1] == ":"
+
+    def _statement(self) -> Any:  # noqa: PLR0911
+        word = self.ahead
+        if word == "IF":
+            return self._if()
+        if word == "CASE":
+            return self._case()
+        if word == "FOR":
+            return self._for()
+        if word == "WHILE":
+            self.take()
+            condition = self._expression()
+            self.take("DO")
+            body = self._statements("END_WHILE")
+            self.take("END_WHILE")
+            return "while", condition, body
+        if word in {"RETURN", "EXIT"}:
+            return (self.take().lower(),)
+        target = self._primary()
+        if target[0] == "call":
+            return target
+        self.take(":=")
+        return "assign", target, self._expression()
+
+    def _if(self) -> Any:
+        self.take("IF")
+        branches = []
+        condition = self._expression()
+        self.take("THEN")
+        branches.append((condition, self._statements("ELSIF", "ELSE", "END_IF")))
+        while self.accept("ELSIF"):
+            condition = self._expression()
+            self.take("THEN")
+            branches.append((condition, self._statements("ELSIF", "ELSE", "END_IF")))
+        other = self._statements("END_IF") if self.accept("ELSE") else []
+        self.take("END_IF")
+        return "if", branches, other
+
+    def _case(self) -> Any:
+        self.take("CASE")
+        chosen = self._expression()
+        self.take("OF")
+        branches = []
+        while self.ahead not in {"ELSE", "END_CASE"}:
+            labels = []
+            while True:
+                low = int(self.take())
+                labels.append((low, int(self.take()) if self.accept("..") else low))
+                if self.accept(":"):
+                    break
+                self.take(",")
+            branches.append((labels, self._statements("ELSE", "END_CASE")))
+        other = self._statements("END_CASE") if self.accept("ELSE") else []
+        self.take("END_CASE")
+        return "case", chosen, branches, other
+
+    def _for(self) -> Any:
+        self.take("FOR")
+        name = self.take()
+        self.take(":=")
+        first = self._expression()
+        self.take("TO")
+        last = self._expression()
+        step = self._expression() if self.accept("BY") else ("value", 1)
+        self.take("DO")
+        body = self._statements("END_FOR")
+        self.take("END_FOR")
+        return "for", name, first, last, step, body
+
+    LEVELS = (("OR",), ("XOR",), ("AND", "&"), ("=", "<>"), ("<", ">", "<=", ">="), ("+", "-"), ("*", "/", "MOD"))
+
+    def _expression(self, level: int = 0) -> Any:
+        if level == len(self.LEVELS):
+            return self._unary()
+        left = self._expression(level + 1)
+        while self.ahead in self.LEVELS[level]:
+            sign = self.take()
+            left = "binary", sign, left, self._expression(level + 1)
+        return left
+
+    def _unary(self) -> Any:
+        if self.ahead in {"NOT", "-"}:
+            return "unary", self.take(), self._unary()
+        return self._primary()
+
+    def _primary(self) -> Any:
+        kind, value = self.tokens[self.at]
+        self.at += 1
+        if kind == "number":
+            return "value", float(value) if "." in value else int(value)
+        if value in {"TRUE", "FALSE"}:
+            return "value", value == "TRUE"
+        if value == "(":
+            inner = self._expression()
+            self.take(")")
+            return inner
+        if kind != "word":
+            raise StructuredTextError(f"{value!r} where an expression is expected")
+        found: Any = ("name", value)
+        while self.ahead in {".", "[", "("}:
+            if self.accept("."):
+                found = "member", found, self.take()
+            elif self.accept("["):
+                found = "element", found, self._expression()
+                self.take("]")
+            else:
+                found = "call", found, self._arguments()
+        return found
+
+    def _arguments(self) -> list[tuple[str, str, Any]]:
+        self.take("(")
+        found = []
+        while not self.accept(")"):
+            if self.tokens[self.at + 1][1] in {":=", "=>"}:
+                name = self.take()
+                found.append((name, self.take(), self._expression()))
+            else:
+                found.append(("", "", self._expression()))
+            self.accept(",")
+        return found
+
+
+class _Return(Exception):
+    pass
+
+
+class _Exit(Exception):
+    pass
+
+
+class Machine:
+    """Executes the units of a text. `instance(name)` makes one; `run(instance, inputs)` is a scan of it."""
+
+    def __init__(self, text: str) -> None:
+        parsed = Parser(text).parse()
+        self.units, self.structures = parsed.units, parsed.structures
+
+    def instance(self, name: str) -> Instance:
+        unit = self.units.get(name.upper()) or self.structures[name.upper()]
+        made = Instance(unit, {}, {one.name: one.kind for one in unit.variables})
+        for one in unit.variables:
+            made.values[one.name] = self._new(one.kind)
+            if one.initial is not None:
+                self._store(made, ("name", one.name), self._initial(made, one.initial))
+        return made
+
+    def run(self, instance: Instance, **inputs: Any) -> None:
+        """One scan with inputs by name; other inputs keep their values."""
+        for name, value in inputs.items():
+            if name.upper() not in instance.values:
+                raise StructuredTextError(f"{instance.unit.name} has no variable {name}")
+            self._store(instance, ("name", name.upper()), value)
+        with contextlib.suppress(_Return):
+            self._execute(instance, instance.unit.body)
+
+    def read(self, instance: Instance, path: str) -> Any:
+        """The value of a variable: `name`, `name.member`."""
+        value: Any = instance
+        for part in path.upper().split("."):
+            value = value.values[part]
+        return list(value.values) if isinstance(value, Fixed) else value
+
+    def write(self, instance: Instance, path: str, value: Any) -> None:
+        """Set a variable, or all elements of an array."""
+        *parts, last = path.upper().split(".")
+        for part in parts:
+            instance = instance.values[part]
+        self._store(instance, ("name", last), value)
+
+    def call(self, name: str, *arguments: Any) -> Any:
+        """The value of a function for arguments in the order of its inputs."""
+        unit = self.units[name.upper()]
+        made = self.instance(name)
+        inputs = [one.name for one in unit.variables if one.section == "VAR_INPUT"]
+        assert unit.returns is not None
+        made.values[unit.name], made.kinds[unit.name] = self._new(unit.returns), unit.returns
+        self.run(made, **dict(zip(inputs, arguments, strict=True)))
+        return made.values[unit.name]
+
+    def _new(self, kind: Kind) -> Any:
+        if kind.bounds is not None:
+            assert kind.element is not None
+            return Fixed(kind, [self._new(kind.element) for _ in range(kind.bounds[1] - kind.bounds[0] + 1)])
+        if kind.name in RANGES:
+            return 0
+        if kind.name in REALS:
+            return 0.0
+        if kind.name == "BOOL":
+            return False
+        return self.instance(kind.name)
+
+    def _initial(self, instance: Instance, given: Any) -> Any:
+        if given[0] == "list":
+            return [self._value(instance, one) for one in given[1]]
+        return self._value(instance, given)
+
+    @staticmethod
+    def _checked(kind: Kind, value: Any) -> Any:
+        if kind.name in RANGES:
+            if isinstance(value, bool) or not isinstance(value, int):
+                raise StructuredTextError(f"{value!r} assigned to {kind.name}")
+            low, high = RANGES[kind.name]
+            if not low <= value <= high:
+                raise StructuredTextError(f"{value} overflows {kind.name}")
+            return value
+        if kind.name in REALS:
+            if isinstance(value, bool) or not isinstance(value, int | float):
+                raise StructuredTextError(f"{value!r} assigned to {kind.name}")
+            return float(value)
+        if kind.name == "BOOL" and not isinstance(value, bool):
+            raise StructuredTextError(f"{value!r} assigned to BOOL")
+        return value
+
+    def _store(self, instance: Instance, target: Any, value: Any) -> None:
+        if target[0] == "name":
+            name = target[1]
+            if name not in instance.kinds:
+                raise StructuredTextError(f"{instance.unit.name}: {name} is not declared")
+            kind = instance.kinds[name]
+            if kind.bounds is not None:
+                given = value.values if isinstance(value, Fixed) else list(value)
+                made = instance.values[name]
+                if len(given) != len(made.values):
+                    raise StructuredTextError(f"{name} has {len(made.values)} elements, not {len(given)}")
+                assert kind.element is not None
+                made.values[:] = [self._checked(kind.element, one) for one in given]
+                return
+            instance.values[name] = self._checked(kind, value)
+            return
+        inner = self._value(instance, target[1])
+        if target[0] == "member":
+            self._store(inner, ("name", target[2]), value)
+            return
+        assert inner.kind.element is not None
+        inner.values[inner.index(self._value(instance, target[2]))] = self._checked(inner.kind.element, value)
+
+    def _execute(self, instance: Instance, body: list[Any]) -> None:
+        for one in body:
+            getattr(self, f"_do_{one[0]}")(instance, *one[1:])
+
+    def _do_assign(self, instance: Instance, target: Any, value: Any) -> None:
+        self._store(instance, target, self._value(instance, value))
+
+    def _do_call(self, instance: Instance, target: Any, arguments: Any) -> None:
+        self._called(instance, target, arguments)
+
+    def _do_if(self, instance: Instance, branches: Any, other: Any) -> None:
+        for condition, body in branches:
+            if self._truth(instance, condition):
+                self._execute(instance, body)
+                return
+        self._execute(instance, other)
+
+    def _do_case(self, instance: Instance, chosen: Any, branches: Any, other: Any) -> None:
+        value = self._value(instance, chosen)
+        for labels, body in branches:
+            if any(low <= value <= high for low, high in labels):
+                self._execute(instance, body)
+                return
+        self._execute(instance, other)
+
+    def _do_for(self, instance: Instance, name: str, first: Any, last: Any, step: Any, body: Any) -> None:  # noqa: PLR0917
+        begin, end, by = (self._value(instance, one) for one in (first, last, step))
+        for value in range(begin, end + (1 if by > 0 else -1), by):
+            self._store(instance, ("name", name), value)
+            try:
+                self._execute(instance, body)
+            except _Exit:
+                return
+
+    def _do_while(self, instance: Instance, condition: Any, body: Any) -> None:
+        for _ in range(100_000):
+            if not self._truth(instance, condition):
+                return
+            try:
+                self._execute(instance, body)
+            except _Exit:
+                return
+        raise StructuredTextError("WHILE does not end: the watchdog of a controller would stop it")
+
+    def _do_return(self, _instance: Instance) -> None:
+        raise _Return
+
+    def _do_exit(self, _instance: Instance) -> None:
+        raise _Exit
+
+    def _truth(self, instance: Instance, expression: Any) -> bool:
+        value = self._value(instance, expression)
+        if not isinstance(value, bool):
+            raise StructuredTextError(f"{value!r} as a condition")
+        return value
+
+    def _value(self, instance: Instance, expression: Any) -> Any:  # noqa: PLR0911
+        kind = expression[0]
+        if kind == "value":
+            return expression[1]
+        if kind == "name":
+            if expression[1] not in instance.values:
+                raise StructuredTextError(f"{instance.unit.name}: {expression[1]} is not declared")
+            return instance.values[expression[1]]
+        if kind == "member":
+            inner = self._value(instance, expression[1])
+            if expression[2] not in inner.values:
+                raise StructuredTextError(f"{inner.unit.name} has no {expression[2]}")
+            return inner.values[expression[2]]
+        if kind == "element":
+            inner = self._value(instance, expression[1])
+            return inner.values[inner.index(self._value(instance, expression[2]))]
+        if kind == "call":
+            return self._called(instance, expression[1], expression[2])
+        if kind == "unary":
+            value = self._value(instance, expression[2])
+            return (not value) if expression[1] == "NOT" else -value
+        return self._binary(instance, *expression[1:])
+
+    def _binary(self, instance: Instance, sign: str, left: Any, right: Any) -> Any:
+        one, other = self._value(instance, left), self._value(instance, right)
+        if sign in {"AND", "&", "OR", "XOR"}:
+            if not isinstance(one, bool) or not isinstance(other, bool):
+                raise StructuredTextError(f"{sign} of {one!r} and {other!r}")
+            return {"OR": one or other, "XOR": one != other}.get(sign, one and other)
+        if sign in {"/", "MOD"}:
+            if other == 0:
+                raise StructuredTextError("division by zero")
+            if isinstance(one, int) and isinstance(other, int):
+                quotient = int(one / other)
+                return one - quotient * other if sign == "MOD" else quotient
+            return one / other
+        return {
+            "=": one == other, "<>": one != other, "<": one < other, ">": one > other, "<=": one <= other,
+            ">=": one >= other, "+": one + other, "-": one - other, "*": one * other,
+        }[sign]  # fmt: skip
+
+    def _called(self, instance: Instance, target: Any, arguments: Any) -> Any:
+        if target[0] == "name" and target[1] not in instance.values:
+            values = [self._value(instance, one) for _, _, one in arguments]
+            if target[1] in FUNCTIONS:
+                return FUNCTIONS[target[1]](*values)
+            unit = self.units.get(target[1])
+            if unit is None:
+                raise StructuredTextError(f"{target[1]} is not known")
+            inputs = [one.name for one in unit.variables if one.section == "VAR_INPUT"]
+            by_name = {name: value for (name, _, _), value in zip(arguments, values, strict=True) if name}
+            return self.call(unit.name, *([by_name[name] for name in inputs] if by_name else values))
+        block = self._value(instance, target)
+        inputs_given = {name: self._value(instance, one) for name, sign, one in arguments if sign == ":="}
+        self.run(block, **inputs_given)
+        for name, sign, one in arguments:
+            if sign == "=>":
+                self._store(instance, one, block.values[name])
+        return None
