@@ -2,10 +2,10 @@
 
 from typing import Any
 
-import numpy as np
 from structured_text import Machine
 
-from ilmek.io.plc.project import plc_project
+from ilmek.io.plc.project import plc_project, size_of
+from ilmek.io.plc.row_values import row_values
 from ilmek.loom.operations import LoomProgramme, RowEnd
 
 SENSORS: dict[str, Any] = {
@@ -22,7 +22,7 @@ class PlcLoom:
 
     def __init__(self, programme: LoomProgramme) -> None:
         self.programme, self.heads = programme, programme.setup.heads
-        self.project = plc_project(programme)
+        self.project, self.size = plc_project(programme), size_of(programme)
         self.machine = Machine(self.project.text)
         self.loom = self.machine.instance("Loom")
         self.carpet: dict[tuple[int, int], list[int]] = {}
@@ -39,14 +39,8 @@ class PlcLoom:
         number = self.read("RowRequest")
         if number == self.read("RowData.Number") or number >= self.programme.setup.rows:
             return
-        row = self.programme.operations(number)
-        for name, values in (
-            ("Columns", row.columns), ("Tubes", row.tubes), ("First", row.starts[:-1]),
-            ("Limits", np.cumsum(row.counts, axis=1).ravel()),
-        ):  # fmt: skip
-            self.machine.write(self.loom, f"RowData.{name}", [int(one) for one in values])
-        stops = {one.phase for one in row.stops}
-        self.machine.write(self.loom, "RowData.StopBefore", [phase in stops for phase in range(row.phases)])
+        for name, values in row_values(self.programme.operations(number), self.size).items():
+            self.machine.write(self.loom, f"RowData.{name}", values)
         self.machine.write(self.loom, "RowData.Number", number)
 
     def read(self, path: str) -> Any:

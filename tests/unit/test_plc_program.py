@@ -4,22 +4,26 @@ import csv
 import io
 from functools import cache
 from itertools import pairwise
+from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from plc_loom import PlcLoom
 from small_programme import small_programme
 from structured_text import Machine
 
+from ilmek.cli import main
 from ilmek.io.plc.cam_function import ERROR, cam_tables, cam_units
 from ilmek.io.plc.interlock_logic import SENSOR_NAMES, TENSION_KNOWN, interlock_unit
 from ilmek.io.plc.io_list import io_csv
 from ilmek.io.plc.plcopen_xml import NAMESPACE, XHTML, plcopen_xml
 from ilmek.io.plc.project import plc_project
 from ilmek.io.plc.state_model import state_units
+from ilmek.io.programme_file import write_programme
 from ilmek.loom.control.alarms import ALARMS
 from ilmek.loom.control.interlocks import TensionLimits, axes_of, violated
 from ilmek.loom.control.packml import COMPLETED, PackCommand, PackMode, PackState, Refusal, commanded
@@ -291,3 +295,24 @@ def span(address: str) -> tuple[float, float]:
         return 8 * byte + bit, 8 * byte + bit + 1
     size = {"B": 1, "W": 2, "D": 4}[kind]
     return 8 * size * int(number), 8 * size * (int(number) + 1)
+
+
+def test_the_command_writes_the_program_and_the_rows_of_a_file(tmp_path: Path) -> None:
+    programme = small_programme(4, 24, 2, 3)
+    write_programme(tmp_path / "programme.ilmek", programme)
+    done = CliRunner().invoke(main, ["plc", str(tmp_path / "programme.ilmek"), "--out", str(tmp_path / "plc")])
+    assert done.exit_code == 0, done.output
+    assert (tmp_path / "plc" / "loom.st").read_text() == plc_project(programme).text
+    rows = np.loadtxt(tmp_path / "plc" / "rows.csv", delimiter=",", skiprows=1, dtype=int)
+    for number in range(4):
+        row, knots = programme.operations(number), rows[rows[:, 0] == number]
+        assert knots[:, 4].tolist() == row.columns.tolist()
+        assert knots[:, 5].tolist() == row.tubes.tolist()
+        assert knots[:, 6].sum() == sum(2 for _ in row.stops)
+
+
+def test_a_file_that_is_no_programme_is_refused_and_nothing_is_written(tmp_path: Path) -> None:
+    (tmp_path / "programme.ilmek").write_bytes(b"no programme")
+    done = CliRunner().invoke(main, ["plc", str(tmp_path / "programme.ilmek"), "--out", str(tmp_path / "plc")])
+    assert done.exit_code == 2
+    assert not (tmp_path / "plc").exists()

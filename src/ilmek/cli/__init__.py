@@ -50,6 +50,7 @@ main = LazyGroup(
         "stop": ("ilmek.cli.stop", "Stop and end a run, from another terminal."),
         "inspect": ("ilmek.cli.inspect", "Show a loom programme: rows, colours, statistics."),
         "check": ("ilmek.cli.check", "Prove a loom programme: each knot once, no heads meet, yarn enough."),
+        "plc": ("ilmek.cli.plc", "Write the loom's control as structured text and PLCopen XML, with its I/O."),
         "convert": ("ilmek.cli.convert", "Turn a loom programme into text, one operation a line, and back."),
     },
 )

@@ -36,9 +36,10 @@ def plc_project(programme: LoomProgramme, limits: TensionLimits | None = None) -
 
 
 def size_of(programme: LoomProgramme) -> PlcSize:
-    """The sizes of a programme; its first row has as many phases as every other one."""
+    """The sizes of a programme, with the most phases of any row."""
     setup = programme.setup
-    return PlcSize(setup.heads, programme.operations(0).phases, setup.columns, setup.rows)
+    phases = max(programme.operations(number).phases for number in range(setup.rows))
+    return PlcSize(setup.heads, phases, setup.columns, setup.rows)
 
 
 def _remarks(setup: LoomSetup, digest: str) -> tuple[str, ...]:

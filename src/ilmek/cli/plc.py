@@ -1,0 +1,40 @@
+"""`ilmek plc`: the loom's control for a programmable controller."""
+
+from pathlib import Path
+
+import click
+
+from ilmek.cli.call_outputs import call_outputs
+from ilmek.cli.options import force_option
+from ilmek.cli.terminal import note, show_pairs
+from ilmek.jobs.plc import FILES, write_plc
+
+EXAMPLES = """\b
+Examples:
+  ilmek plc carpet/programme.ilmek --out carpet-plc
+
+Limits: 32,000 knots in a row; rows.csv of at most 5 million knots.
+"""
+
+
+@click.command(epilog=EXAMPLES)
+@click.argument("file", type=click.Path(path_type=Path), metavar="FILE")
+@click.option("--out", "folder", type=click.Path(path_type=Path), metavar="DIR", required=True, help="Folder to write.")
+@force_option
+def command(file: Path, folder: Path, force: bool) -> None:
+    """Write the control of the loom for the programme of FILE as IEC 61131-3 structured text and PLCopen XML.
+
+    States, interlocks and alarms come from the same tables as those of `ilmek run`; cams from the cyclograms. The host
+    gives the program one row at a time, from FILE or rows.csv.
+    """
+    with call_outputs({}, force=force, inputs={"FILE": file}) as call:
+        made = write_plc(file, folder, outputs=call.outputs, progress=call.progress)
+    for one in made.notes:
+        note(one)
+    show_pairs(
+        [
+            ("loom", f"{made.setup.heads} heads, {made.setup.rows:,} rows of {made.setup.columns:,} knots"),
+            ("program", f"{made.units} units, {made.signals} signals with an address"),
+            *((str(folder / name), FILES[name]) for name in made.files),
+        ]
+    )
