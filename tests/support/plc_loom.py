@@ -9,7 +9,7 @@ from ilmek.io.plc.row_values import row_values
 from ilmek.loom.operations import LoomProgramme, RowEnd
 
 SENSORS: dict[str, Any] = {
-    "EmergencyStop": False, "DoorClosed": True, "WarpTensionKnown": True, "WarpTension": 8.0, "HeadsClear": False,
+    "EmergencyStop": False, "DoorClosed": True, "WarpTensionKnown": True, "WarpTension": 15.0, "HeadsClear": False,
     "BeaterBack": True, "ShedClosed": True,
 }  # fmt: skip
 

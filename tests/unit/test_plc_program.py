@@ -12,7 +12,7 @@ import pytest
 from click.testing import CliRunner
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from plc_loom import PlcLoom
+from plc_loom import SENSORS, PlcLoom
 from small_programme import small_programme
 from structured_text import Machine
 
@@ -25,7 +25,7 @@ from ilmek.io.plc.project import plc_project
 from ilmek.io.plc.state_model import state_units
 from ilmek.io.programme_file import write_programme
 from ilmek.loom.control.alarms import ALARMS
-from ilmek.loom.control.interlocks import TensionLimits, axes_of, violated
+from ilmek.loom.control.interlocks import axes_of, usual_limits, violated
 from ilmek.loom.control.packml import COMPLETED, PackCommand, PackMode, PackState, Refusal, commanded
 from ilmek.loom.control.ports import EndRow, Fault, Sensors, Tie
 from ilmek.loom.operations import ROW_ENDS, RowEnd
@@ -34,6 +34,7 @@ from ilmek.timing.track import sample
 from ilmek.units import turn
 
 HEADS = 2
+LIMITS = usual_limits(0.002)
 
 
 @cache
@@ -69,7 +70,7 @@ SENSOR_STATES = st.builds(
 
 @cache
 def rules() -> Machine:
-    return Machine(interlock_unit(HEADS, TensionLimits()).text)
+    return Machine(interlock_unit(HEADS, LIMITS).text)
 
 
 @given(SENSOR_STATES)
@@ -79,7 +80,7 @@ def test_interlocks_permit_what_the_controller_permits(sensors: Sensors) -> None
     inputs = {name: getattr(sensors, field) for field, name in SENSOR_NAMES.items()}
     inputs |= {TENSION_KNOWN: sensors.warp_tension is not None, "WarpTension": sensors.warp_tension or 0.0}
     rules().run(block, **inputs)
-    limits = TensionLimits()
+    limits = LIMITS
     for operation in RowEnd:
         name = "".join(part.capitalize() for part in operation.name.split("_"))
         broken = violated(axes_of(EndRow(0, operation)), sensors, limits)
@@ -215,7 +216,7 @@ def test_low_tension_suspends_and_weaving_goes_on_by_a_command() -> None:
     for _ in range(5):
         loom.scan()
     assert loom.read("KnotsDone") == knots
-    loom.sensors["WarpTension"] = 8.0
+    loom.sensors["WarpTension"] = SENSORS["WarpTension"]
     loom.command = int(PackCommand.UNSUSPEND)
     loom.until("StateCurrent", int(PackState.COMPLETE))
 

@@ -6,7 +6,7 @@ from ilmek.io.plc.interlock_logic import interlock_unit
 from ilmek.io.plc.sequence_logic import PlcSize, row_structure, sequence_units
 from ilmek.io.plc.state_model import state_units
 from ilmek.io.plc.units import PlcProject
-from ilmek.loom.control.interlocks import TensionLimits
+from ilmek.loom.control.interlocks import TensionLimits, usual_limits
 from ilmek.loom.operations import LoomProgramme, LoomSetup
 
 CYCLE = 0.010
@@ -29,7 +29,7 @@ def plc_project(programme: LoomProgramme, limits: TensionLimits | None = None) -
     units = (
         *state_units(),
         *cam_units(cam_tables(setup.cyclograms)),
-        interlock_unit(setup.heads, limits or TensionLimits()),
+        interlock_unit(setup.heads, limits or usual_limits(setup.warp_pitch)),
         *sequence_units(size),
     )
     return PlcProject("loom", (row_structure(size),), units, "Loom", CYCLE, _remarks(setup, programme.digest))
