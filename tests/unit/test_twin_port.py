@@ -1,5 +1,7 @@
 """The twin behind the ports: times by the rules, the woven carpet, faults, halts, and the state after a restart."""
 
+import threading
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,11 +12,23 @@ from tests.support.small_programme import small_programme
 from ilmek.drivers.twin_port import TwinPort
 from ilmek.errors import LoomError
 from ilmek.io.woven_file import open_woven
-from ilmek.loom.control.ports import Done, Failed, Fault, SensorsChanged
-from ilmek.loom.operations import LoomProgramme
+from ilmek.loom.control.ports import ChangePackages, Done, EndRow, Failed, Fault, Jog, SensorsChanged, Tie
+from ilmek.loom.operations import LoomProgramme, RowEnd, Stop, TubeChange
 from ilmek.loom.twin.durations import ns
-from ilmek.loom.twin.model import plant_model
-from ilmek.loom.twin.state import Injected, first_state
+from ilmek.loom.twin.faults import StopParams
+from ilmek.loom.twin.model import FaultRates, fault_rates, plant_model
+from ilmek.loom.twin.state import (
+    Door,
+    Halt,
+    Injected,
+    PlantInput,
+    Repaired,
+    SensorFault,
+    SetSpeed,
+    first_state,
+    sensors_of,
+)
+from ilmek.loom.twin.step import step
 from ilmek.loom.twin.woven import Woven, woven_size
 
 
@@ -110,3 +124,150 @@ def test_the_woven_file_is_that_of_its_programme_and_whole(tmp_path: Path) -> No
     path.unlink()
     with pytest.raises(LoomError, match="check the path"), open_woven(path, programme, change=False):
         pass
+
+
+def test_a_halt_leaves_a_gripper_closed_until_the_operator_opens_it() -> None:
+    programme = small_programme(3, 12, 2, 3)
+    plant = plant_model(programme.setup)
+    rest = sensors_of(plant, first_state(plant))
+    order = Tie(1, 0, 0, 6, 0)
+    tying, reports = step(plant, first_state(plant), [order], ns(1.0))
+    assert reports == ()
+    assert sensors_of(plant, tying).grippers_open == (True, False)
+    halted, (report,) = step(plant, tying, [Halt()], ns(9.0))
+    assert isinstance(report, SensorsChanged)
+    assert (report.time, report.sensors.grippers_open, report.sensors.heads_clear) == (ns(1.0), (True, False), False)
+    moved = replace(halted, heads=(halted.heads[0], replace(halted.heads[1], column=9)))
+    with pytest.raises(LoomError, match="gripper closed on warps"):
+        step(plant, moved, [Tie(1, 0, 1, 6, 0)], 0)
+    for cure in (Repaired(), Jog("gripper 1", 0.01)):
+        mended, _ = step(plant, halted, [cure], ns(1.0))
+        assert sensors_of(plant, mended).grippers_open == (True, True)
+    assert sensors_of(plant, step(plant, halted, [Repaired()], 0)[0]) == rest
+
+
+def test_the_sensors_follow_the_operations_after_the_knots() -> None:
+    programme = small_programme(3, 12, 2, 3)
+    plant = plant_model(programme.setup)
+    state, seen = first_state(plant), []
+    for operation in RowEnd:
+        state, reports = step(plant, state, [EndRow(0, operation)], plant.times.of_end(operation))
+        assert reports[-1] == Done(EndRow(0, operation), state.time)
+        seen += [one.sensors for one in reports if isinstance(one, SensorsChanged)]
+    assert [(one.shed_closed, one.beater_back) for one in seen] == [
+        (False, True), (True, True), (True, False), (True, True), (False, True), (True, True), (True, False),
+        (True, True),
+    ]  # fmt: skip
+    assert all(one.heads_clear for one in seen)
+    assert [one.warp_tension for one in seen[:2]] == [plant.tension * 16 // 15 / 1000, plant.tension / 1000]
+
+
+class HandClock:
+    """A clock that waits at once."""
+
+    def __init__(self) -> None:
+        self.time = 0.0
+        self.waits: list[float] = []
+
+    def now(self) -> float:
+        return self.time
+
+    def wait(self, seconds: float, woken: threading.Event) -> None:
+        self.waits.append(seconds)
+        self.time += 0.0 if woken.is_set() else seconds
+
+
+def test_a_speed_is_kept_by_the_callers_clock_and_the_loom_stands_while_he_works() -> None:
+    programme, clock = small_programme(3, 12, 1, 1), HandClock()
+    port = TwinPort(programme.setup, in_memory(programme), speed=10.0, clock=clock)
+    first, second = knots_of(programme.operations(0))[0][0][:2]
+    port.receive(0.0)
+    port.send([first])
+    assert port.receive(0.05) == ()
+    assert (port.time, clock.time) == (ns(0.5), 0.05)
+    assert port.receive(1.0) == (Done(first, ns(2.0)),)
+    assert clock.time == pytest.approx(0.2)
+    clock.time += 0.05  # of work
+    port.send([second])
+    assert port.receive(1.0) == (Done(second, ns(4.0)),)
+    assert clock.time == pytest.approx(0.4)
+    assert port.receive(0.3) == ()
+    assert port.time == ns(7.0)
+
+
+def test_a_caller_who_was_away_for_long_is_not_overrun() -> None:
+    programme, clock = small_programme(3, 12, 1, 1), HandClock()
+    port = TwinPort(programme.setup, in_memory(programme), speed=1.0, clock=clock)
+    knots = knots_of(programme.operations(0))[0][0][:3]
+    port.receive(0.0)
+    port.send(knots[:1])
+    clock.time = 1000.0
+    port.receive(0.0)
+    assert port.time == ns(1.0)
+
+
+def test_an_act_of_another_thread_ends_the_wait_and_acts_at_once() -> None:
+    programme = small_programme(3, 12, 1, 1)
+    port = TwinPort(programme.setup, in_memory(programme))
+    port.receive(0.0)
+    threading.Timer(0.02, port.act, [Door(False)]).start()
+    assert port.receive(60.0) == ()
+    (report,) = port.receive(0.0)
+    assert isinstance(report, SensorsChanged)
+    assert not report.sensors.door_closed
+
+
+@pytest.mark.parametrize("speed", [0.0, -1.0, 1e9, float("nan")])
+def test_a_speed_out_of_bounds_is_refused(speed: float) -> None:
+    programme = small_programme(3, 12, 1, 1)
+    with pytest.raises(LoomError, match="speed"):
+        TwinPort(programme.setup, in_memory(programme), speed=speed)
+
+
+@pytest.mark.parametrize(
+    ("one", "wrong"),
+    [
+        (Tie(0, 3, 0, 0, 0), "row 3"),
+        (Tie(2, 0, 0, 0, 0), "head 2"),
+        (Tie(0, 0, 0, 12, 0), "column 12"),
+        (EndRow(-1, RowEnd.TAKE_UP), "row -1"),
+        (ChangePackages(Stop(0, 0, (7,))), "bobbins of weft"),
+        (ChangePackages(Stop(0, 0, (), (TubeChange(0, 0, 9, 1.0),))), "yarn 9"),
+        (SensorFault("nose", True), "sensor 'nose'"),
+        (SetSpeed(0), "speed 0"),
+        (SetSpeed(1001), "speed 1001"),
+    ],
+)
+def test_what_no_loom_can_do_is_refused(one: PlantInput, wrong: str) -> None:
+    plant = plant_model(small_programme(3, 12, 2, 3).setup)
+    with pytest.raises(LoomError, match=wrong):
+        step(plant, first_state(plant), [one], 0)
+    with pytest.raises(LoomError, match="does not go back"):
+        step(plant, first_state(plant), (), -1)
+
+
+def test_a_slower_loom_takes_longer_and_a_lie_is_answered_until_it_is_mended() -> None:
+    programme = small_programme(3, 12, 1, 1)
+    port = TwinPort(programme.setup, in_memory(programme))
+    (knot,) = knots_of(programme.operations(0))[0][0][:1]
+    port.set_speed(0.5)
+    port.act(SensorFault("knotted", None), SensorFault("warp_tension", 3.5))
+    port.send([knot])
+    assert port.sensors().warp_tension != 3.5
+    port.receive(0.0)
+    assert port.sensors().warp_tension == 3.5
+    assert port.receive(0.0) == (Done(knot, ns(4.0)),)
+    assert port.knotted(0, knot.column) is None
+    port.act(Repaired())
+    port.receive(0.0)
+    assert port.knotted(0, knot.column) is True
+
+
+def test_a_rate_out_of_bounds_is_refused_and_those_of_a_simulation_are_taken() -> None:
+    for wrong in (FaultRates, lambda **rates: FaultRates(seed=-1, **rates)):
+        with pytest.raises(LoomError):
+            wrong(pile_break=1.5)
+    rates = fault_rates(StopParams(), small_programme(3, 12, 1, 1).setup, 7)
+    assert rates.seed == 7
+    assert rates.missed_grip == pytest.approx(5e-4, rel=1e-3)
+    assert rates.pile_break == pytest.approx(0.1e-3 * 0.04, rel=1e-3)

@@ -59,13 +59,14 @@ class FaultRates:
 def fault_rates(params: StopParams, setup: LoomSetup, seed: int) -> FaultRates:
     """The probabilities of a loom's stops: of a Poisson process along a knot's yarn, a pass, a beat over all warps."""
     yarn = max(setup.knot_yarn, default=0.0)
-    of_knot = (params.pile_end * yarn, params.pile_break * yarn, params.gripper_miss)
     return FaultRates(
         seed,
-        *(-math.expm1(-rate) for rate in of_knot),
-        -math.expm1(-params.weft_break),
-        -math.expm1(-params.weft_end),
-        -math.expm1(-params.warp_break * 2 * setup.columns),
+        pile_end=-math.expm1(-params.pile_end * yarn),
+        pile_break=-math.expm1(-params.pile_break * yarn),
+        missed_grip=-math.expm1(-params.gripper_miss),
+        weft_break=-math.expm1(-params.weft_break),
+        weft_end=-math.expm1(-params.weft_end),
+        warp_break=-math.expm1(-params.warp_break * 2 * setup.columns),
     )
 
 
