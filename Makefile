@@ -8,7 +8,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help weave test lint types layers unit shapes mutants fuzz kills bench docs venv lock clean
+.PHONY: help weave test lint types layers unit shapes mutants fuzz kills cuts bench docs venv lock clean
 
 help:
 	@echo "make weave   weave the shipped example and print where its report lies"
@@ -17,6 +17,7 @@ help:
 	@echo "make mutants small wrong changes of the sources, and which of them no test notices (about an hour)"
 	@echo "make fuzz    20,000 hostile inputs for every command (about ten minutes)"
 	@echo "make kills   500 signals at random instants of real commands: no result is lost, no message is false (10 minutes)"
+	@echo "make cuts    power cuts and kills while carpets are woven: every knot is in them once (five minutes)"
 	@echo "make bench   the benchmarks, side by side with their peers"
 	@echo "make docs    the documentation, in docs/_build/html"
 	@echo "make venv    .venv with everything for development"
@@ -63,6 +64,10 @@ shapes: venv
 # Options as of `python -m kills --help`: make kills KILLS="--long --number 40"
 kills: venv
 	PYTHONPATH=src:tests/support $(BIN)/python -m kills $(KILLS)
+
+# Options as of `python -m loom_cuts --help`: make cuts CUTS="--carpets 2 --runs 20"
+cuts: venv
+	PYTHONPATH=src:tests/support $(BIN)/python -m loom_cuts $(CUTS)
 
 # Options as of `python -m mutants --help`: make mutants MUTANTS="--number 50 'ilmek.linkage.*'"
 mutants: venv

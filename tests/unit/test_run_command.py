@@ -3,6 +3,7 @@
 import errno
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -20,6 +21,7 @@ from ilmek.io.journal_file import SystemFile
 from ilmek.io.programme_file import write_programme
 from ilmek.jobs.run.loom_run import LoomRun
 from ilmek.jobs.run.order import USUAL_RATES, RunOrder
+from ilmek.jobs.run.result import snapshot_json
 from ilmek.loom.control.ports import Fault
 from ilmek.loom.control.view import Snapshot
 from ilmek.loom.twin.state import Injected, SensorFault
@@ -69,6 +71,23 @@ def test_a_carpet_is_woven_and_compared(carpet: Path, tmp_path: Path) -> None:
     assert (status["state"], status["knots"], status["running"]) == ("Complete", 144, False)
     anew = as_json("run", carpet, "--journal", tmp_path / "j", "--speed", "max", "--new")
     assert (anew["begun"], anew["digest"], anew["time"]) == (0, found["digest"], found["time"])
+
+
+def documented(heading: str) -> set[str]:
+    page = (Path(__file__).parents[2] / "docs/reference/json.md").read_text(encoding="utf-8")
+    section = page.partition(f"## `{heading}`\n")[2].partition("\n## ")[0]
+    rows = re.findall(r"^\| ([a-z_, ]+) \| (?!meaning)[^|]* \| (?!meaning)", section, re.MULTILINE)
+    return {name for row in rows for name in row.split(", ")} - {"name"}
+
+
+def test_the_names_in_the_json_are_those_of_the_page(carpet: Path, tmp_path: Path) -> None:
+    found = as_json("run", carpet, "--journal", tmp_path / "j", "--speed", "max")
+    assert set(found) == documented("ilmek run FILE --json -")
+    with LoomRun(RunOrder(carpet, tmp_path / "k")) as run:
+        shown = snapshot_json(run.snapshot(), run.programme.setup)
+    names = documented("ilmek status --journal DIR --json -")
+    assert {*shown, "running", "process", "journal"} == names
+    assert set(as_json("status", "--journal", tmp_path / "j")) - {"commit"} <= names
 
 
 def test_the_journal_is_beside_the_programme_by_default(carpet: Path) -> None:
