@@ -36,7 +36,7 @@ def test_an_alarm_states_cause_and_remedy(kind: AlarmKind) -> None:
     assert kind.remedy
     assert 1 <= kind.severity <= 1000
     text = ActiveAlarm(kind, 5, 2, 1, "seen twice").text
-    assert text == f"{kind.name}, row 2, head 1: {kind.cause} (seen twice); {kind.remedy}"
+    assert text == f"{kind.name}, row 3, head 2: {kind.cause} (seen twice); {kind.remedy}"
 
 
 def test_an_alarm_that_ends_by_itself_is_one_that_suspends() -> None:
@@ -57,7 +57,7 @@ def test_the_page_of_alarms_is_the_table() -> None:
 
 def interlock_row(rule: Interlock) -> str:
     value = "" if rule.relation is SensorRelation.KNOWN else f" {str(rule.value).lower()}"
-    blocked = ", ".join(sorted(rule.blocks)) + (f" (not with {rule.unless})" if rule.unless else "")
+    blocked = ", ".join(sorted(rule.blocks))
     when = "begins, moves" if rule.guards else "begins"
     return (
         f"| {rule.name} | `{rule.sensor}` {rule.relation}{value} | {blocked} | {when} | {rule.why} | {rule.reaction} |"

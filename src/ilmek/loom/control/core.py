@@ -7,7 +7,7 @@ from ilmek.loom.control.exchange import Operation, StateChanged, WeavingStep
 from ilmek.loom.control.interlocks import Reaction, usual_limits
 from ilmek.loom.control.journal import Origin, RecordKind
 from ilmek.loom.control.opening import OpenedJournal
-from ilmek.loom.control.packml import COMPLETED, PackCommand, PackMode, PackState, commanded
+from ilmek.loom.control.packml import COMPLETED, MODE_STATES, PackCommand, PackMode, PackState, commanded
 from ilmek.loom.control.ports import EndRow, Jog, Tie
 from ilmek.loom.control.state import ControllerSettings, Doubt, Draft, state_of
 from ilmek.loom.operations import LoomProgramme
@@ -21,14 +21,13 @@ ASKING = frozenset((PackState.RESETTING, PackState.UNHOLDING, PackState.UNSUSPEN
 ENDING = frozenset((PackState.HOLDING, PackState.SUSPENDING, PackState.STOPPING, PackState.COMPLETING))
 """States that end with the operations in progress."""
 
-_REACTIONS: dict[Reaction, tuple[PackCommand, ...]] = {
-    Reaction.NONE: (),
-    Reaction.SUSPEND: (PackCommand.SUSPEND, PackCommand.HOLD),
-    Reaction.HOLD: (PackCommand.HOLD,),
-    Reaction.STOP: (PackCommand.STOP,),
-    Reaction.ABORT: (PackCommand.ABORT,),
+_REACTIONS = {
+    Reaction.SUSPEND: PackCommand.SUSPEND,
+    Reaction.HOLD: PackCommand.HOLD,
+    Reaction.STOP: PackCommand.STOP,
+    Reaction.ABORT: PackCommand.ABORT,
 }
-"""The command of a reaction; where state or mode lack it, the next. Manual mode goes on: it serves to free the loom."""
+"""The command of a reaction. Where a state refuses it, nothing is to be ended; manual mode serves to free the loom."""
 
 
 class ControlCore:
@@ -117,14 +116,15 @@ class ControlCore:
         self.enter(PackState.ABORTED, draft)
 
     def _apply(self, reaction: Reaction, draft: Draft) -> None:
-        """The machine's reaction to an alarm, or the nearest one that its state and mode have."""
+        """The machine's reaction to an alarm; a mode that cannot be suspended holds."""
         state = self.state
-        for command in _REACTIONS[reaction]:
-            following = commanded(state.mode, state.state, command)
-            if isinstance(following, PackState):
-                self.enter(following, draft)
-                state.suspended_by_alarm = command is PackCommand.SUSPEND
-                return
+        if reaction is Reaction.SUSPEND and PackState.SUSPENDED not in MODE_STATES[state.mode]:
+            reaction = Reaction.HOLD
+        command = _REACTIONS.get(reaction)
+        following = None if command is None else commanded(state.mode, state.state, command)
+        if isinstance(following, PackState):
+            self.enter(following, draft)
+            state.suspended_by_alarm = command is PackCommand.SUSPEND
 
     def raise_alarm(self, name: str, draft: Draft, **location: Any) -> None:
         """Raise an alarm, if it is not active yet, and react to it."""

@@ -51,14 +51,14 @@ _WEFT = frozenset((LoomAxis.SHED, LoomAxis.SHUTTLE))
 _KNOT = frozenset((LoomAxis.CARRIAGE, LoomAxis.HEADS, LoomAxis.GRIPPERS))
 ROW_END_AXES: Mapping[RowEnd, frozenset[LoomAxis]] = MappingProxyType(
     {
-        RowEnd.STRAIGHT_WEFT: _WEFT | {LoomAxis.HEADS},
+        RowEnd.STRAIGHT_WEFT: _WEFT,
         RowEnd.FIRST_BEAT: frozenset((LoomAxis.BEATER,)),
         RowEnd.SINUOUS_WEFT: _WEFT,
         RowEnd.SECOND_BEAT: frozenset((LoomAxis.BEATER,)),
         RowEnd.TAKE_UP: frozenset((LoomAxis.TAKE_UP,)),
     }
 )
-"""The axes that move in each operation after the knots. The heads retreat in the first."""
+"""The axes that move in each operation after the knots."""
 
 
 def jog_axis(name: str) -> LoomAxis | None:
@@ -124,7 +124,6 @@ class Interlock:
     sensor    field of `Sensors`; of `grippers_open` that of the head that begins, or all for other operations
     value     compared with; "least", "most": of `TensionLimits`
     guards    it also ends a motion in progress       reaction   of the machine where it stops weaving
-    unless    an operation that moves this axis too is not blocked: it brings the sensor to its value itself
     """
 
     name: str
@@ -135,7 +134,6 @@ class Interlock:
     why: str
     reaction: Reaction
     guards: bool = False
-    unless: LoomAxis | None = None
 
 
 _A = LoomAxis
@@ -162,7 +160,7 @@ INTERLOCKS: tuple[Interlock, ...] = (
               "the comb would strike the head", Reaction.HOLD),
     Interlock("head between the warps", "heads_clear", SensorRelation.IS, True,
               frozenset((_A.SHED, _A.SHUTTLE, _A.TAKE_UP)),
-              "warps and shuttle would strike the head", Reaction.HOLD, unless=_A.HEADS),
+              "warps and shuttle would strike the head", Reaction.HOLD),
     Interlock("beater not back", "beater_back", SensorRelation.IS, True, _KNOT | _WEFT | {_A.TAKE_UP},
               "the comb between the warps is in the path of heads, shed and shuttle", Reaction.HOLD),
     Interlock("shed open", "shed_closed", SensorRelation.IS, True, _KNOT | {_A.BEATER, _A.TAKE_UP},
@@ -187,7 +185,7 @@ def holds(rule: Interlock, sensors: Sensors, limits: TensionLimits, head: int | 
 
 def applies(rule: Interlock, axes: frozenset[LoomAxis]) -> bool:
     """Whether an interlock is about an operation that moves these axes."""
-    return not rule.blocks.isdisjoint(axes) and rule.unless not in axes
+    return not rule.blocks.isdisjoint(axes)
 
 
 def violated(
