@@ -113,7 +113,8 @@ def test_deadline_gives_the_smallest_number_of_heads(case: tuple[Indices, int, i
 @settings(max_examples=60)
 def test_no_chart_is_woven_sooner_than_the_least_time(case: tuple[Indices, int, int]) -> None:
     knots, yarns, heads = case
-    assert make_programme(knots, yarns, heads, TIMES).duration >= least_time(*knots.shape, heads, TIMES) - 1e-6
+    rows, columns = knots.shape
+    assert make_programme(knots, yarns, heads, TIMES).duration >= least_time(rows, columns, heads, TIMES) - 1e-6
 
 
 def test_a_trial_is_given_up_above_the_deadline() -> None:

@@ -214,7 +214,7 @@ class ProgrammeFile:
             query = f"SELECT {key} FROM {table} WHERE {key} < 0 OR {key} >= ? LIMIT 1"
             if next(self._database.select(query, rows), None) is not None:
                 raise self._damaged("it has more rows than the carpet")
-        found = {}
+        found: dict[int, None] = {}
         for count, (row,) in enumerate(self._database.select("SELECT row FROM change ORDER BY row")):
             if count == MOST_CHANGES or type(row) is not int:
                 raise self._damaged("it has too many changes of packages, or one before no row")

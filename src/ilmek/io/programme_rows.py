@@ -118,4 +118,5 @@ def _change(setup: LoomSetup, stored: tuple[Any, ...]) -> int | TubeChange | Non
         return None
     if type(length) is not float or not 0.0 <= length <= LONGEST_PACKAGE:
         return None
-    return TubeChange(*tube, length)
+    head, of_head, yarn = tube
+    return TubeChange(head, of_head, yarn, length)

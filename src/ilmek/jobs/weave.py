@@ -254,9 +254,12 @@ def _loom_facts(woven: WeaveResult) -> tuple[Fact, ...]:
     made, programme, deadline = woven.loomed.design, woven.loomed.programme, woven.loom_order.deadline
     if made is None or programme is None:
         return ()
+    stops = programme.stops
+    packages = len(programme.tubes.changes)
     facts = (
         Fact("Heads", str(programme.heads), f"{made.heads_max} would fit"),
         Fact("Weaving time", time_in_words(programme.duration), f"{programme.rows} rows; {order_in_words(programme)}"),
+        Fact("Planned stops", str(len(stops)), f"{time_in_words(programme.stop_time)}; {packages} packages changed"),
     )
     if deadline is None:
         return facts

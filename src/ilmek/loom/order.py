@@ -37,6 +37,7 @@ from ilmek.loom.replay import (
     link_costs,
     part_of,
     scan,
+    whole,
 )
 from ilmek.num.compiled import compiled
 
@@ -171,7 +172,7 @@ def _shared(
     number, present = own
     found = 0
     for k in range(4 + number):
-        tube = np.int64(hints[k]) if k < 4 else present[k - 4]
+        tube = whole(hints[k]) if k < 4 else present[k - 4]
         known = table[COUNT, tube] == 0 or after[COUNT, tube] == 0
         for j in range(found):
             known = known or shared[j] == tube
@@ -194,7 +195,7 @@ def _entered(tube: int, column: int, state: State, before: Bytes, times: FourTim
         if cost[1 - now, one] >= least and cost[1 - now, one] >= least_alone:
             continue
         spent = 0.0
-        if np.int64(before[one, 2]) != tube and before[one, 2] != NONE:
+        if whole(before[one, 2]) != tube and before[one, 2] != NONE:
             spent += times[1]
         distance = idle(column - end[1 - now, one])
         if not free:
@@ -236,7 +237,7 @@ def _sweeps(  # noqa: PLR0917 - the arrays of a kernel
     for order in (SWEEP_RIGHT, SWEEP_LEFT):
         start, stop = (low, high - 1) if order == SWEEP_RIGHT else (high - 1, low)
         at = _STATES - 2 + order
-        entered = _entered(np.int64(line[start]), start, state, before, times)
+        entered = _entered(whole(line[start]), start, state, before, times)
         cost[now, at], back[at], part_times[at] = _reached(entered, alone, state)
         end[now, at] = stop
         chosen[at, 0], chosen[at, 1], chosen[at, 2], chosen[at, 3] = order, line[start], line[stop], 0
@@ -318,8 +319,8 @@ def _trace(  # noqa: PLR0917 - the arrays of a kernel
         spent[step] = part_times[step, state]
         if row < commit:
             if step == commit * phases - 1:
-                tube, column = np.int64(chosen[step, state, 2]), ended[step, state]
+                tube, column = whole(chosen[step, state, 2]), ended[step, state]
             part = part_of(head, step % phases, phases, (first + row) % 2 == 0)
             keys[row, part] = chosen[step, state]
-        state = np.int64(back[step, state])
+        state = whole(back[step, state])
     return tube, column

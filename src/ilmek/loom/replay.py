@@ -111,7 +111,7 @@ def _directed(key: Bytes, number: int, present: IntArray, table: IntArray, passe
     passes[0, 0], passes[0, number - 1] = key[1], key[2]
     at = 1
     for k in range(number):
-        if present[k] != np.int64(key[1]) and present[k] != np.int64(key[2]):
+        if present[k] != whole(key[1]) and present[k] != whole(key[2]):
             passes[0, at] = present[k]
             at += 1
     begin, end = key[3] & 1, key[3] >> 1
@@ -162,3 +162,9 @@ def link_costs(  # noqa: PLR0917 - the arrays of a kernel
             to_left = min(right + link(table, before, 0, tube, 1), left + link(table, before, 1, tube, 1))
             right, left, before = to_right, to_left, tube
         costs[begin, 0], costs[begin, 1] = right, left
+
+
+@compiled
+def whole(value: int | np.integer) -> int:
+    """A byte as an integer: the compiler compares only values of one type."""
+    return int(np.int64(value))

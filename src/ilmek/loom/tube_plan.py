@@ -20,7 +20,7 @@ from ilmek.arrays import FloatArray, Indices, Int64, IntArray, UInt8
 from ilmek.errors import LoomError
 from ilmek.loom.bobbins import Bobbin
 from ilmek.loom.operations import EMPTY, Stop, TubeChange
-from ilmek.loom.replay import TUBES, part_of
+from ilmek.loom.replay import TUBES, part_of, whole
 from ilmek.loom.sharing import halves, share
 from ilmek.num.compiled import compiled
 from ilmek.records import record
@@ -73,7 +73,7 @@ class TubePlan:
             for point, ones in groupby(self.changes.tolist(), key=lambda change: change[0])
         }
         return tuple(
-            Stop(*divmod(point, self.phases), wefts=tuple(due.get(point, ())), tubes=changed.get(point, ()))
+            Stop(point // self.phases, point % self.phases, tuple(due.get(point, ())), changed.get(point, ()))
             for point in sorted({*due, *changed})
         )
 
@@ -291,7 +291,7 @@ def _victim(step: int, loaded: IntArray, left: FloatArray, after: IntArray) -> i
     """The tube whose yarn is needed again last, and of these the one with least yarn; an empty one before all."""
     best, latest = 0, -1
     for tube in range(loaded.shape[0]):
-        point = np.int64(after.shape[0] + 1 if loaded[tube] == EMPTY else after[step, loaded[tube]])
+        point = after.shape[0] + 1 if loaded[tube] == EMPTY else whole(after[step, loaded[tube]])
         if point > latest or (point == latest and left[tube] < left[best]):
             best, latest = tube, point
     return best
