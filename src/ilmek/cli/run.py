@@ -13,13 +13,13 @@ from ilmek.cli.interrupts import before_end
 from ilmek.cli.options import json_option
 from ilmek.cli.terminal import note, show_pairs
 from ilmek.cli.verdict import CHECK_FAILS
-from ilmek.jobs.run.loom_run import LoomRun
+from ilmek.jobs.run.loom_run import STOP_TIME, LoomRun
 from ilmek.jobs.run.order import RunOrder, read_run_order
 from ilmek.jobs.run.result import RunResult
 from ilmek.loom.control.view import Snapshot
 
-STOP_TIME = 5.0
-"""Time that Ctrl-C gives the loom to stop [s]; then the process ends as by `kill -9`, and nothing is lost either."""
+_LONGEST_STOP = STOP_TIME + 1.0
+"""Time that Ctrl-C gives a run to stop [s]; then the process ends as by `kill -9`, and nothing is lost either."""
 
 EXAMPLES = """\b
 Examples:
@@ -102,7 +102,7 @@ def _woven(order: RunOrder) -> RunResult:
 
         def stopped() -> str:
             run.stop()
-            run.wait(STOP_TIME)
+            run.wait(_LONGEST_STOP)
             now = run.snapshot()
             return f"{now.knots:,} of {now.total:,} knots are tied; the same command goes on in row {now.row + 1:,}"
 

@@ -6,6 +6,7 @@ import random
 import signal
 import subprocess
 import sys
+import time
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -31,8 +32,9 @@ def woven_through_kills(programme: Path, journal: Path, seed: int, commit: int, 
     while True:
         number = chance.choice(SIGNALS)
         with subprocess.Popen(line, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+            _wait_for_lock(journal, process)
             try:
-                output, errors = process.communicate(timeout=1.0 + chance.uniform(0, most))
+                output, errors = process.communicate(timeout=chance.uniform(0, most))
             except subprocess.TimeoutExpired:
                 process.send_signal(number)
                 output, errors = process.communicate()
@@ -50,6 +52,13 @@ def woven_through_kills(programme: Path, journal: Path, seed: int, commit: int, 
     if (run.result["state"], run.result["faults"], run.result["row_end_faults"]) != ("Complete", 0, 0):
         run.findings.append(str(run.result))
     return run
+
+
+def _wait_for_lock(journal: Path, process: subprocess.Popen[str]) -> None:
+    """Wait until a process has locked the journal, or has ended."""
+    lock = journal / "lock"
+    while process.poll() is None and not (lock.exists() and lock.read_text() == f"{process.pid}\n"):
+        time.sleep(0.01)
 
 
 def _certain(journal: Path) -> int:

@@ -41,6 +41,9 @@ PATIENCE = 10.0
 MOST_COMMANDS = 32
 """Largest number of commands that wait."""
 
+STOP_TIME = 2.0
+"""Time in which a stop waits for the operations in progress [s]; then they are halted, and asked for on restart."""
+
 _RETRY = 0.5
 """Time between two attempts to write a journal that could not be written [s]."""
 
@@ -58,7 +61,7 @@ class LoomRun:
         self.order = order
         self._commands: queue.Queue[tuple[str, list[Answer], threading.Event]] = queue.Queue(MOST_COMMANDS)
         self._stop, self._done = threading.Event(), threading.Event()
-        self._due = self._retry = 0.0
+        self._due = self._retry = self._halt = 0.0
         self._ending = False
         with ExitStack() as stack:
             self.programme = stack.enter_context(open_any_programme(order.programme, progress=progress))
@@ -145,7 +148,10 @@ class LoomRun:
         if self._stop.is_set() and not self._ending:
             self._ending = True
             self._operator.weaving = False
+            self._halt = time.monotonic() + STOP_TIME
             give_command(self._session, "stop")
+        elif self._ending and time.monotonic() > self._halt:
+            give_command(self._session, "abort")
         elif self._session.failure is not None:
             self._restore()
         elif self._session.state is not PackState.EXECUTE and not self._operator.see_to(self._session):
