@@ -243,3 +243,19 @@ def test_a_run_that_is_killed_goes_on(carpet: Path, tmp_path: Path) -> None:
     found = as_json("run", carpet, "--journal", tmp_path / "j", "--speed", "max")
     assert found["begun"] >= begun["knots"] > 0
     assert (found["state"], found["faults"]) == ("Complete", 0)
+
+
+def test_a_carpet_is_drawn_while_it_is_woven_and_at_the_end(carpet: Path, tmp_path: Path) -> None:
+    journal = tmp_path / "j"
+    run = call("run", carpet, "--journal", journal, "--speed", "max", "--picture", tmp_path / "run.png")
+    assert run.exit_code == 0, run.output
+    assert f"picture: {tmp_path / 'run.png'}" in run.stdout
+    line = ["status", "--journal", journal, "--picture", tmp_path / "status.png"]
+    assert "give it with --programme" in error(*line)
+    shown = call(*line, "--programme", carpet)
+    assert shown.exit_code == 0, shown.output
+    assert (tmp_path / "status.png").read_bytes() == (tmp_path / "run.png").read_bytes()
+    assert "another programme" in error(*line, "--force", "--programme", carpet.with_name("other.ilmek"))
+    assert "--picture carpet.svg ends in '.svg'" in error(
+        "run", carpet, "--journal", journal, "--picture", "carpet.svg"
+    )

@@ -1,6 +1,6 @@
 """The woven carpet beside its chart: what is counted, where, the digest, and the picture."""
 
-from pathlib import Path
+import io
 
 import numpy as np
 import pytest
@@ -78,7 +78,7 @@ def test_a_carpet_of_another_size_is_refused() -> None:
         Woven(PROGRAMME.setup, bytearray(10))
 
 
-def test_the_picture_shows_knots_bare_warps_and_marks(tmp_path: Path) -> None:
+def test_the_picture_shows_knots_bare_warps_and_marks() -> None:
     rows = range(6)
     whole = draw_woven(
         PROGRAMME.setup,
@@ -91,8 +91,7 @@ def test_the_picture_shows_knots_bare_warps_and_marks(tmp_path: Path) -> None:
         PROGRAMME.setup, np.array([part.yarns(row) for row in rows]), compare(part, PROGRAMME), width=300
     )
     assert (whole.marks, drawn.marks) == (0, 1)
-    drawn.write_png(tmp_path / "woven.png")
-    with Image.open(tmp_path / "woven.png") as read:
+    with Image.open(io.BytesIO(drawn.png)) as read:
         assert read.size == (300, whole.image.height + 22)
         pixels = np.asarray(read.convert("RGB")).astype(int)
     assert np.count_nonzero((pixels == (208, 0, 111)).all(axis=2)) > 40

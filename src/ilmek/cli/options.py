@@ -25,4 +25,10 @@ motion_option = click.option(
     metavar="NAME",
     help="The motion that --animation writes, by its name in the report; default: the first.",
 )
+picture_option = click.option(
+    "--picture",
+    type=click.Path(path_type=Path),
+    metavar="FILE.png",
+    help="Draw the carpet as far as it is woven, with its faults marked.",
+)
 force_option = click.option("--force", is_flag=True, help="Replace a folder that ilmek wrote, and any file.")

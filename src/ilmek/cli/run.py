@@ -10,11 +10,12 @@ import click
 
 from ilmek.cli.call_outputs import call_outputs
 from ilmek.cli.interrupts import before_end
-from ilmek.cli.options import json_option
+from ilmek.cli.options import force_option, json_option, picture_option
 from ilmek.cli.terminal import note, show_pairs
 from ilmek.cli.verdict import CHECK_FAILS
 from ilmek.jobs.run.loom_run import STOP_TIME, LoomRun
 from ilmek.jobs.run.order import RunOrder, read_run_order
+from ilmek.jobs.run.picture import require_png
 from ilmek.jobs.run.result import RunResult
 from ilmek.loom.control.view import Snapshot
 
@@ -25,7 +26,7 @@ EXAMPLES = """\b
 Examples:
   ilmek run carpet/programme.ilmek --speed 1000x
   ilmek run carpet/programme.ilmek --speed max --journal journal --json -
-  ilmek run carpet/programme.ilmek --speed max --faults 7
+  ilmek run carpet/programme.ilmek --speed max --faults 7 --picture carpet.png
   ilmek run carpet/programme.ilmek --new
 
 Limits: file 1,000 MB; journal 4,000 MB; 10,000 knots of a group commit.
@@ -63,6 +64,8 @@ Limits: file 1,000 MB; journal 4,000 MB; 10,000 knots of a group commit.
     metavar="auto|ask",
     help="auto: what fails is repaired at once. ask: the loom waits for `ilmek resume`; default: auto.",
 )
+@picture_option
+@force_option
 @json_option
 def command(
     *,
@@ -73,6 +76,8 @@ def command(
     commit: int | None,
     faults: str | None,
     operator: str,
+    picture: Path | None,
+    force: bool,
     json_to: str | None,
 ) -> int:
     """Weave PROGRAMME on the simulated loom, knot by knot, under the controller with its journal.
@@ -84,32 +89,43 @@ def command(
     Exit code 0: the carpet is complete and equal to the chart; 3: a knot is wrong, or the run ended before.
     """
     order = read_run_order(programme, speed, journal, new=new, commit=commit, faults=faults, operator=operator)
-    with call_outputs({"--json": json_to}, inputs={"PROGRAMME": programme}, bar=False) as call:
-        result = _woven(order)
+    require_png(picture)
+    to = {"--json": json_to, "--picture": picture}
+    with call_outputs(to, force=force, inputs={"PROGRAMME": programme}, bar=False) as call:
+        result, drawn = _woven(order, drawn=picture is not None)
+        if picture is not None:
+            call.outputs.write(picture, drawn)
         call.give_json(result.as_json)
     if not call.quiet:
         show_pairs(result.in_words())
+        call.show_files({"--picture": "picture"})
     return 0 if result.ok else CHECK_FAILS
 
 
-def _woven(order: RunOrder) -> RunResult:
+def _woven(order: RunOrder, drawn: bool) -> tuple[RunResult, bytes]:
+    """The result of a run and, if it is to be drawn, its picture."""
     with LoomRun(order) as run:
-        if run.complete:
-            note(f"the carpet of {order.folder} is complete; --new begins another one")
-            return run.result()
-        if run.begun:
-            note(f"goes on in row {run.snapshot().row + 1:,} after {run.begun:,} certain knots")
+        _weave(order, run)
+        result = run.result()
+        return result, run.png(result) if drawn else b""
 
-        def stopped() -> str:
-            run.stop()
-            run.wait(_LONGEST_STOP)
-            now = run.snapshot()
-            return f"{now.knots:,} of {now.total:,} knots are tied; the same command goes on in row {now.row + 1:,}"
 
-        hint = f"Ctrl-C stops, the same command goes on; ilmek hold|resume|stop --journal {order.folder}"
-        with before_end(stopped), _screen(run, hint) as show:
-            run.work(show)
-        return run.result()
+def _weave(order: RunOrder, run: LoomRun) -> None:
+    if run.complete:
+        note(f"the carpet of {order.folder} is complete; --new begins another one")
+        return
+    if run.begun:
+        note(f"goes on in row {run.snapshot().row + 1:,} after {run.begun:,} certain knots")
+
+    def stopped() -> str:
+        run.stop()
+        run.wait(_LONGEST_STOP)
+        now = run.snapshot()
+        return f"{now.knots:,} of {now.total:,} knots are tied; the same command goes on in row {now.row + 1:,}"
+
+    hint = f"Ctrl-C stops, the same command goes on; ilmek hold|resume|stop --journal {order.folder}"
+    with before_end(stopped), _screen(run, hint) as show:
+        run.work(show)
 
 
 @contextmanager

@@ -38,12 +38,11 @@ def run_command(name: str, text: str) -> click.Command:
     return command
 
 
-def show_status(journal: Path, json_to: str | None, command: str = "") -> None:
-    """Give a command, if any, and show the state of a run."""
+def show_status(journal: Path, json_to: str | None, command: str) -> None:
+    """Give a command, and show the state of a run."""
     found: dict[str, Any] = {}
     with call_outputs({"--json": json_to}, bar=False) as call:
-        if command:
-            give(journal, command)
+        give(journal, command)
         found = run_status(journal)
         call.give_json(lambda: found)
     if not call.quiet:

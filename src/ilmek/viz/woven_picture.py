@@ -1,7 +1,7 @@
 """Picture of a carpet on the loom as far as it is woven: bare warps where no knot is, and a mark on every fault."""
 
+import io
 import zlib
-from pathlib import Path
 
 import numpy as np
 from PIL import Image
@@ -34,9 +34,12 @@ class WovenPicture:
     image: Image.Image
     marks: int
 
-    def write_png(self, path: Path) -> None:
-        """Write it as PNG. Raises OSError."""
-        self.image.save(path, format="PNG", compress_level=1, compress_type=zlib.Z_HUFFMAN_ONLY)
+    @property
+    def png(self) -> bytes:
+        """The picture as a PNG file."""
+        stream = io.BytesIO()
+        self.image.save(stream, format="PNG", compress_level=1, compress_type=zlib.Z_HUFFMAN_ONLY)
+        return stream.getvalue()
 
 
 def draw_woven(

@@ -24,6 +24,7 @@ from ilmek.jobs.check import check_programme
 from ilmek.jobs.run.commands import RESUME, give_command, lead_on, waits
 from ilmek.jobs.run.operator import Operator
 from ilmek.jobs.run.order import RunOrder
+from ilmek.jobs.run.picture import carpet_png
 from ilmek.jobs.run.result import COMPLETE, RunResult, snapshot_json
 from ilmek.jobs.run.session import ControlSession
 from ilmek.jobs.run.snapshots import SnapshotMaker
@@ -131,6 +132,10 @@ class LoomRun:
         state = COMPLETE if self._session.status().complete else now.state
         found = compare(self.woven, self.programme, progress)
         return RunResult(now, state, self.begun, found, str(self.folder.path))
+
+    def png(self, result: RunResult) -> bytes:
+        """The carpet as far as it is woven, as a PNG file."""
+        return carpet_png(self.woven, self.programme, result.woven)
 
     def _opened(self) -> ControlSession:
         return ControlSession(self.programme, self.port, self.folder.journal, self.order.commit)
