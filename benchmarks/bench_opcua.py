@@ -30,7 +30,7 @@ sys.path.append(str(Path(__file__).parents[1] / "tests" / "support"))
 from opcua_loom import PROGRAMME, SteppingLoom
 
 SUBSCRIBERS = int(os.environ.get("SUBSCRIBERS", "200"))
-SECONDS = 20.0
+SECONDS = float(os.environ.get("SECONDS", "20"))
 PERIOD = 100.0
 """Publishing interval [ms]."""
 

@@ -2,7 +2,9 @@
 
 import asyncio
 import socket
+import threading
 from collections.abc import Awaitable, Callable, Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -10,6 +12,7 @@ from asyncua import Client, ua
 from asyncua.crypto.security_policies import SecurityPolicyBasic256Sha256
 from cryptography.hazmat.primitives.serialization import Encoding, NoEncryption, PrivateFormat
 from opcua_loom import PROGRAMME, SteppingLoom
+from small_programme import small_programme
 
 from ilmek.drivers.opcua.certificate import make_credentials
 from ilmek.drivers.opcua.gate import LARGEST_CHUNK, LEAST_INTERVAL, MOST_OF_SESSION
@@ -18,12 +21,15 @@ from ilmek.drivers.opcua.model import LoomNameplate
 from ilmek.drivers.opcua.server import LoomServer
 from ilmek.drivers.opcua.users import LoomUser, UserList, UserRight, hashed
 from ilmek.errors import LoomError
+from ilmek.io.programme_file import write_programme
+from ilmek.jobs.run.loom_run import LoomRun
+from ilmek.jobs.run.order import RunOrder
 from ilmek.loom.control.packml import PackState
-from ilmek.loom.control.view import AlarmView
+from ilmek.loom.control.view import AlarmView, Answer, ControllerView, Snapshot
 
 PLATE = LoomNameplate(
     "ilmek", "automated loom", "0123456789ab", "0.1.0", PROGRAMME, "carpet", 6, 24, 2, 3, ("red", "ivory", "blue"),
-    ("straight weft",),
+    ("straight weft", "sinuous weft"),
 )  # fmt: skip
 CONTROL = "Loom.MachineryBuildingBlocks.JobManagement.JobOrderControl"
 RESULTS = "Loom.MachineryBuildingBlocks.JobManagement.JobOrderResults"
@@ -31,26 +37,55 @@ EXECUTE = "Loom.PackML.BaseStateMachine.MachineState.ExecuteState"
 Pair = tuple[bytes, bytes]
 
 
+class ShownLoom:
+    """The loom that the server shows: the stepping one, or another while a test lasts."""
+
+    def __init__(self) -> None:
+        self.stepping = SteppingLoom()
+        self.shown: ControllerView = self.stepping
+
+    def snapshot(self) -> Snapshot:
+        return self.shown.snapshot()
+
+    def command(self, name: str) -> Answer:
+        return self.shown.command(name)
+
+
 @pytest.fixture(scope="module")
-def running() -> Iterator[tuple[LoomServer, SteppingLoom]]:
+def running() -> Iterator[tuple[LoomServer, ShownLoom]]:
     stored = {name: LoomUser(name, UserRight(name), hashed(f"{name}-password")) for name in ("operator", "viewer")}
-    loom = SteppingLoom()
+    shown, remarks = ShownLoom(), list[str]()
     credentials = make_credentials(PLATE.uri, "loom", ("127.0.0.1",))
-    remarks: list[str] = []
-    with LoomServer(loom, PLATE, UserList(stored), credentials, port=0, interval=0.02, log=remarks.append) as server:
-        yield server, loom
+    with LoomServer(shown, PLATE, UserList(stored), credentials, port=0, interval=0.02, log=remarks.append) as server:
+        yield server, shown
     assert [remark for remark in remarks if "refused a client" not in remark] == []
 
 
 @pytest.fixture
-def server(running: tuple[LoomServer, SteppingLoom]) -> LoomServer:
+def server(running: tuple[LoomServer, ShownLoom]) -> LoomServer:
     return running[0]
 
 
 @pytest.fixture
-def loom(running: tuple[LoomServer, SteppingLoom]) -> SteppingLoom:
-    running[1].reset()
-    return running[1]
+def loom(running: tuple[LoomServer, ShownLoom]) -> SteppingLoom:
+    running[1].shown = running[1].stepping
+    running[1].stepping.reset()
+    return running[1].stepping
+
+
+@pytest.fixture
+def woven(running: tuple[LoomServer, ShownLoom], tmp_path: Path) -> Iterator[LoomRun]:
+    """A carpet on the simulated loom under its controller, in place of the stepping loom."""
+    path = tmp_path / "programme.ilmek"
+    write_programme(path, small_programme(6, 24, 2, 3))
+    with LoomRun(RunOrder(path, tmp_path / "journal", speed=None, start=False)) as run:
+        thread = threading.Thread(target=run.work)
+        thread.start()
+        running[1].shown = run
+        yield run
+        running[1].shown = running[1].stepping
+        run.stop()
+        thread.join()
 
 
 @pytest.fixture(scope="module")
@@ -190,6 +225,23 @@ def test_weaves_a_job_from_order_to_end(server: LoomServer, loom: SteppingLoom, 
         return command in await calls.read("Loom.Status.Commands")
 
     connected(server, pair, act)
+
+
+def test_a_job_is_woven_on_the_simulated_loom(server: LoomServer, woven: LoomRun, pair: Pair) -> None:
+    async def act(calls: Calls) -> None:
+        assert await calls.status(f"{EXECUTE}.Unhold") == "BadInvalidState"
+        assert await calls.returned("StoreAndStart", order("carpet", "")) == ReturnStatus.NO_ERROR
+        await calls.until(lambda: ended(calls))
+        assert await calls.read("Loom.Carpet.Knots") == await calls.read("Loom.Carpet.KnotsTotal") == 6 * 24
+        assert await calls.read("Loom.Status.State") == "Complete"
+        assert await calls.read("Loom.Heads.Head1.Tube0.Left") < 1000.0
+        assert await calls.returned("Clear", "carpet") == ReturnStatus.NO_ERROR
+
+    async def ended(calls: Calls) -> bool:
+        return (await calls.job_states())["carpet"] == "Ended"
+
+    connected(server, pair, act)
+    assert woven.result().ok
 
 
 def test_a_command_that_the_state_forbids_is_refused(server: LoomServer, loom: SteppingLoom, pair: Pair) -> None:
