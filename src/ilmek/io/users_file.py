@@ -47,9 +47,13 @@ def read_users(path: Path, rights: tuple[str, ...]) -> dict[str, StoredUser]:
             entry.keys("right", "password", needs=("right", "password"))
             values = {key: entry.data[key] for key in ("right", "password")}
             if values["right"] not in rights:
-                entry.refuse(ParameterError(f"right {shortened(repr(values['right']))}", allowed=", ".join(rights)))
+                entry.refuse(
+                    ParameterError(f"right {shortened(repr(values['right']))}", allowed=", ".join(rights)), "right"
+                )
             if not isinstance(values["password"], str):
-                entry.refuse(ParameterError("the password is not a hash", do="write it with ilmek serve --add-user"))
+                entry.refuse(
+                    ParameterError("the password is not a hash", do="write it with ilmek serve --add-user"), "password"
+                )
             users[name] = StoredUser(**values)
     except IlmekError as error:
         raise LoomError(error.given, allowed=error.allowed, do=error.do) from None

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from ilmek.drivers.opcua.certificate import Credentials
     from ilmek.drivers.opcua.model import LoomNameplate
     from ilmek.drivers.opcua.server import LoomServer
+    from ilmek.drivers.opcua.users import LoomUser
 
 RIGHTS = ("operator", "viewer")
 """What a user may do: read and command, or read."""
@@ -85,23 +86,37 @@ def checked_order(order: ServeOrder) -> ServeOrder:
             f"there is no users file {order.users_file}",
             do="ilmek serve --add-user NAME writes one",
         )
+    _users(order)
     return order
+
+
+def _users(order: ServeOrder) -> "dict[str, LoomUser]":
+    from ilmek.drivers.opcua.users import LoomUser, UserRight, parse_hash
+
+    stored = read_users(order.users_file, RIGHTS)
+    for name, one in stored.items():
+        try:
+            parse_hash(one.password)
+        except ParameterError as error:
+            raise LoomError(f"{order.users_file}, {name}: {error.given}", do=error.do) from None
+    if not stored:
+        raise LoomError(f"{order.users_file} has no users", do="ilmek serve --add-user NAME writes one")
+    return {name: LoomUser(name, UserRight(one.right), one.password) for name, one in stored.items()}
 
 
 def loom_server(
     view: ControllerView, programme: LoomProgramme, title: str, order: ServeOrder, log: Callable[[str], None]
 ) -> "LoomServer":
-    """The server of a loom at work on a programme; it is not started. title: what people call the programme."""
-    from ilmek.drivers.opcua.server import LoomServer
-    from ilmek.drivers.opcua.users import LoomUser, UserList, UserRight
+    """The server of a loom at work on a programme; it is not started.
 
-    order, plate = checked_order(order), nameplate(programme, title)
-    stored = read_users(order.users_file, RIGHTS)
-    if not stored:
-        raise LoomError(f"{order.users_file} has no users", do="ilmek serve --add-user NAME writes one")
-    users = {name: LoomUser(name, UserRight(one.right), one.password) for name, one in stored.items()}
+    title  what people call the programme     order  one of `checked_order`
+    """
+    from ilmek.drivers.opcua.server import LoomServer
+    from ilmek.drivers.opcua.users import UserList
+
+    plate = nameplate(programme, title)
     credentials = _credentials(order, plate)
-    known = UserList(users, anonymous=order.anonymous)
+    known = UserList(_users(order), anonymous=order.anonymous)
     return LoomServer(view, plate, known, credentials, host=order.host, port=order.port, log=log)
 
 
