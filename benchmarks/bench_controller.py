@@ -16,6 +16,7 @@ from ilmek.loom.control.opening import open_journal
 from ilmek.loom.control.packml import PackCommand, PackState
 from ilmek.loom.control.ports import Done, Order, SensorsChanged, Tie
 from ilmek.loom.control.state import ControllerSettings
+from ilmek.loom.operations import ROW_ENDS
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "support"))
 from control_model import Budget, Model, TinyProgramme  # type: ignore[import-not-found]
@@ -85,7 +86,7 @@ def run() -> None:
         (4, Budget(crashes=3), 2),
     ):
         begin = time.process_time()
-        model = Model(TinyProgramme(rows), budget, group)
+        model = Model(TinyProgramme(rows, ROW_ENDS), budget, group)
         worlds = model.explore()
         spent = time.process_time() - begin
         given = f"{rows} rows, groups of {group}, {budget.crashes} crashes, {budget.commands} commands"

@@ -38,11 +38,14 @@ GOING_ON = {
 
 
 class TinyProgramme:
-    """Two heads: a row of two knots and one, then a stop, a knot each, another stop, and a phase of one head."""
+    """Two heads: a row of two knots and one, then a stop, a knot each, another stop, and a phase of one head.
+
+    ends  operations after the knots: two are enough for every case of their order
+    """
 
     digest = "5a" * 32
 
-    def __init__(self, rows: int = 2, ends: tuple[RowEnd, ...] = tuple(RowEnd)) -> None:
+    def __init__(self, rows: int = 2, ends: tuple[RowEnd, ...] = (RowEnd.STRAIGHT_WEFT, RowEnd.TAKE_UP)) -> None:
         self.setup: LoomSetup = replace(small_programme(6, 24, 2, 2).setup, rows=rows, columns=3)
         self.ends = ends
 

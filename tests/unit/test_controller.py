@@ -76,7 +76,7 @@ def alarms(controller: Controller) -> list[str]:
     return [one.kind.name for one in controller.status().alarms]
 
 
-@pytest.mark.parametrize("number", range(0, 40, 3))
+@pytest.mark.parametrize("number", range(0, 40, 5))
 @pytest.mark.parametrize("name", ["hold", "stop", "suspend", "abort", "complete"])
 def test_the_carpet_goes_on_after_any_command_at_any_time(name: str, number: int) -> None:
     loom, store = FakeLoom(), MemoryStore()
@@ -381,3 +381,23 @@ def test_a_command_that_a_state_forbids_changes_nothing(mode: PackMode, state: P
         assert bool(draft.refusals) is not allowed
         assert (controller.state.state is state) is not allowed
         assert bool(draft.append) is allowed
+
+
+def test_the_first_reaction_halts_what_an_earlier_controller_began() -> None:
+    assert Controller(PROGRAMME, open_journal(b"", PROGRAMME)).react(()).halt
+
+
+def test_a_report_that_comes_while_the_operator_is_asked_answers_the_question() -> None:
+    loom, store = FakeLoom(), MemoryStore()
+    controller = weaving(loom, store)
+    order = loom.moving.pop(0)
+    loom.knows = False
+    step(controller, loom, store, (Failed(order, Fault.TIMEOUT, 5),))
+    run(controller, loom, store)
+    step(controller, loom, store, (Acknowledged(), command("unhold")))
+    assert controller.state.state is PackState.UNHOLDING
+    loom.woven.append(order)
+    step(controller, loom, store, (Done(order, loom.time),))
+    assert (controller.state.state, controller.status().requests) == (PackState.EXECUTE, ())
+    assert step(controller, loom, store, (Answered(1, True),)).refusals
+    finish(controller, loom, store)

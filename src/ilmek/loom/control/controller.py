@@ -40,7 +40,7 @@ from ilmek.loom.control.packml import (
     mode_refused,
     state_name,
 )
-from ilmek.loom.control.ports import ChangePackages, Done, EndRow, Failed, Fault, Jog, SensorsChanged, Tie
+from ilmek.loom.control.ports import ChangePackages, Done, EndRow, Failed, Fault, Jog, Order, SensorsChanged, Tie
 from ilmek.loom.control.sequence import LOOM, key_of
 from ilmek.loom.control.state import MOST_UNSYNCED, USUAL_SETTINGS, ControllerSettings, Doubt, Draft
 from ilmek.loom.operations import LoomProgramme
@@ -163,17 +163,25 @@ class Controller(ControlCore):
         else:
             self.state.time = time
 
-    def _done(self, report: Done, draft: Draft) -> None:
-        self._at(report.time, draft)
-        state, order = self.state, report.order
+    def _ended(self, order: Order, draft: Draft) -> bool:
+        """An order has ended, in time or after its operation became uncertain. Whether it was expected."""
+        state = self.state
         key = JOG if isinstance(order, Jog) else key_of(order)
         doubt = state.doubts.get(key)
         if state.progress.get(key) == order:
             del state.progress[key]
         elif doubt is not None and doubt.operation == order:
             del state.doubts[key]
+            state.requests.pop(doubt.request or 0, None)
         else:
             self.raise_alarm(ControlFault.UNEXPECTED, draft, note=repr(order))
+            return False
+        return True
+
+    def _done(self, report: Done, draft: Draft) -> None:
+        self._at(report.time, draft)
+        state, order = self.state, report.order
+        if not self._ended(order, draft):
             return
         if isinstance(order, Jog):
             return
@@ -185,14 +193,9 @@ class Controller(ControlCore):
     def _failed(self, report: Failed, draft: Draft) -> None:
         self._at(report.time, draft)
         state, order = self.state, report.order
-        key = JOG if isinstance(order, Jog) else key_of(order)
-        if state.progress.get(key) == order:
-            del state.progress[key]
-        elif key in state.doubts and state.doubts[key].operation == order:
-            del state.doubts[key]
-        else:
-            self.raise_alarm(ControlFault.UNEXPECTED, draft, note=repr(order))
+        if not self._ended(order, draft):
             return
+        key = JOG if isinstance(order, Jog) else key_of(order)
         state.faults += 1
         if state.allowance is not None:
             state.allowance += 1

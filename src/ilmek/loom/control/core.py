@@ -41,7 +41,8 @@ class ControlCore:
         self._openings = journal.openings
 
     def begin(self, draft: Draft) -> None:
-        """Begin to write the journal: the header of a new one, and a START."""
+        """Begin to write the journal: the header of a new one, and a START. What moves from before is halted."""
+        draft.halt = True
         draft.append.append(self._opening or b"")
         self._opening = None
         draft.record(self.state, RecordKind.START, 0, self.state.sequence.row, 0, 0, self._openings)
@@ -127,10 +128,9 @@ class ControlCore:
             state.suspended_by_alarm = command is PackCommand.SUSPEND
 
     def raise_alarm(self, name: str, draft: Draft, **location: Any) -> None:
-        """Raise an alarm, if it is not active yet, and react to it."""
+        """Raise an alarm, if it is not active yet, and react to its cause."""
         kind = watching.raised(self.state, draft, name, **location)
-        if kind is not None:
-            self._apply(kind.reaction, draft)
+        self._apply(kind.reaction, draft)
 
     def completed(self, order: Operation, origin: Origin, draft: Draft) -> bool:
         """An operation is in the carpet: record it, and move on. Whether all heads have waited, or now do, for it."""

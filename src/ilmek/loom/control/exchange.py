@@ -127,7 +127,8 @@ ControlEvent: TypeAlias = StateChanged | AlarmChanged
 class ControlOutputs:
     """What the caller carries out, in this order.
 
-    halt       call `LoomPort.halt` first, then `receive`, and give what it reports, even nothing, to `react`
+    halt       call `LoomPort.halt` first, then `receive`, and give what it reports, even nothing, to `react`; also at
+               the first reaction: what an earlier controller began must not end behind its questions
     append     bytes for the journal            sync       make the journal durable
     speed      `LoomPort.set_speed`; None: unchanged
     orders     send them, only after append and sync have succeeded

@@ -35,13 +35,13 @@ def restore(state: ControllerState, kinds: Iterable[AlarmKind]) -> None:
             state.alarms[kind.name, None] = ActiveAlarm(kind, state.time, note="before the restart", present=False)
 
 
-def raised(
-    state: ControllerState, draft: Draft, name: str, *, head: int | None = None, note: str = ""
-) -> AlarmKind | None:
-    """Raise an alarm; its kind, or None if it is active already."""
+def raised(state: ControllerState, draft: Draft, name: str, *, head: int | None = None, note: str = "") -> AlarmKind:
+    """Raise an alarm, if it is not active yet; its kind."""
     kind = ALARMS[name]
     before = state.alarms.get((kind.name, head))
     present = name in _RULES or name == ControlFault.CONTRADICTION
+    if before is not None and before.present:
+        return kind
     alarm = ActiveAlarm(kind, state.time, state.sequence.row, head, note, present)
     state.alarms[kind.name, head] = alarm
     if before is None:
