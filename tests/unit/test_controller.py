@@ -401,3 +401,22 @@ def test_a_report_that_comes_while_the_operator_is_asked_answers_the_question() 
     assert (controller.state.state, controller.status().requests) == (PackState.EXECUTE, ())
     assert step(controller, loom, store, (Answered(1, True),)).refusals
     finish(controller, loom, store)
+
+
+@pytest.mark.parametrize("late", [Done, Failed])
+def test_reports_of_what_an_earlier_controller_began_count(late: type) -> None:
+    loom, store = FakeLoom(), MemoryStore()
+    weaving(loom, store)
+    order = loom.moving[0]
+    controller = begun(FakeLoom(), store)
+    assert controller.status().uncertain == 2
+    if late is Done:
+        loom.woven.append(order)
+        step(controller, loom, store, (Done(order, 7),))
+    else:
+        step(controller, loom, store, (Failed(order, Fault.MISSED_GRIP, 7),))
+    loom.halt()
+    assert controller.status().knots == (1 if late is Done else 0)
+    step(controller, loom, store, (RESET,))
+    step(controller, loom, store, (START,))
+    finish(controller, loom, store)

@@ -58,9 +58,9 @@ def test_the_model_notices_that_nothing_is_asked_after_a_restart(monkeypatch: py
 def test_the_model_notices_that_one_question_is_not_enough_for_a_group(monkeypatch: pytest.MonkeyPatch) -> None:
     resolve = Controller._resolve
 
-    def short(self: Controller, key: int, *rest: object) -> None:
+    def short(self: Controller, key: int, **rest: object) -> None:
         self.state.doubts[key] = replace(self.state.doubts[key], onward=False)
-        resolve(self, key, *rest)  # type: ignore[arg-type]
+        resolve(self, key, **rest)  # type: ignore[arg-type]
 
     monkeypatch.setattr(Controller, "_resolve", short)
     explore(Budget(crashes=1))

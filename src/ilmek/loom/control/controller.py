@@ -163,26 +163,17 @@ class Controller(ControlCore):
         else:
             self.state.time = time
 
-    def _ended(self, order: Order, draft: Draft) -> bool:
-        """An order has ended, in time or after its operation became uncertain. Whether it was expected."""
-        state = self.state
-        key = JOG if isinstance(order, Jog) else key_of(order)
-        doubt = state.doubts.get(key)
-        if state.progress.get(key) == order:
-            del state.progress[key]
-        elif doubt is not None and doubt.operation == order:
-            del state.doubts[key]
-            state.requests.pop(doubt.request or 0, None)
-        else:
-            self.raise_alarm(ControlFault.UNEXPECTED, draft, note=repr(order))
-            return False
-        return True
-
     def _done(self, report: Done, draft: Draft) -> None:
         self._at(report.time, draft)
         state, order = self.state, report.order
-        if not self._ended(order, draft):
+        key = JOG if isinstance(order, Jog) else key_of(order)
+        if state.progress.get(key) != order:
+            if self._doubted(key, order):
+                self._resolve(key, found=True, origin=Origin.REPORT, draft=draft)
+            else:
+                self.raise_alarm(ControlFault.UNEXPECTED, draft, note=repr(order))
             return
+        del state.progress[key]
         if isinstance(order, Jog):
             return
         self.completed(order, Origin.REPORT, draft)
@@ -190,12 +181,25 @@ class Controller(ControlCore):
             self.raise_alarm(ControlFault.STUCK, draft, note=", ".join(sorted(state.watch)))
             state.watch = set()
 
+    def _doubted(self, key: int, order: Order) -> bool:
+        """Whether an order is of an uncertain operation; a question to the operator about it is withdrawn."""
+        doubt = self.state.doubts.get(key)
+        if doubt is None or doubt.operation != order:
+            return False
+        self.state.requests.pop(doubt.request or 0, None)
+        return True
+
     def _failed(self, report: Failed, draft: Draft) -> None:
         self._at(report.time, draft)
         state, order = self.state, report.order
-        if not self._ended(order, draft):
-            return
         key = JOG if isinstance(order, Jog) else key_of(order)
+        if state.progress.get(key) == order:
+            del state.progress[key]
+        elif self._doubted(key, order):
+            del state.doubts[key]
+        else:
+            self.raise_alarm(ControlFault.UNEXPECTED, draft, note=repr(order))
+            return
         state.faults += 1
         if state.allowance is not None:
             state.allowance += 1
@@ -296,7 +300,7 @@ class Controller(ControlCore):
         head, item = (operation.head, operation.number) if isinstance(operation, Tie) else (0, 0)
         draft.record(state, RecordKind.ANSWER, int(given.yes), state.sequence.row, head, 0, item)
         draft.sync = True
-        self._resolve(key_of(operation), given.yes, Origin.OPERATOR, draft)
+        self._resolve(key_of(operation), found=given.yes, origin=Origin.OPERATOR, draft=draft)
 
     def _sensed(self, given: Sensed, draft: Draft) -> None:
         key = key_of(given.operation)
@@ -306,9 +310,9 @@ class Controller(ControlCore):
         if given.found is None and not doubt.trusted:
             doubts.ask_operator(self.state, key, draft)
         else:
-            self._resolve(key, bool(given.found), Origin.SENSOR, draft)
+            self._resolve(key, found=bool(given.found), origin=Origin.SENSOR, draft=draft)
 
-    def _resolve(self, key: int, found: bool, origin: Origin, draft: Draft) -> None:
+    def _resolve(self, key: int, *, found: bool, origin: Origin, draft: Draft) -> None:
         """An uncertain operation is certain: if it is in the carpet, the next one of the head may be as well."""
         state, sequence = self.state, self.state.sequence
         doubt = state.doubts.pop(key)
