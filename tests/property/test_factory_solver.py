@@ -5,8 +5,8 @@ from small_factory import every_plan, small_factory
 
 from ilmek.factory.bound import capacity_bound
 from ilmek.factory.heuristic import first_plan
-from ilmek.factory.model import in_turn, left_shifted, lone_cost, sequences_of
-from ilmek.factory.solver import SolveLimits, horizon_of, solve
+from ilmek.factory.model import SolveLimits, in_turn, left_shifted, lone_cost, sequences_of
+from ilmek.factory.solver import horizon_of, solve
 from ilmek.factory.verification import plan_faults
 from ilmek.factory.yarn_stock import waiting_in
 

@@ -65,3 +65,18 @@ def _axes(members: list[int], weaving: Calendar, attended: Calendar, horizon: in
             ends.append(before)
         before = weaving.work(end)
     return WorkAxes(tuple(members), weaving, attended, horizon, offset, tuple(starts), tuple(gaps), tuple(ends))
+
+
+def time_before(calendar: Calendar, due: int) -> int:
+    """What is added to a working time up to the due date for the instant at which it ends: least where it is later."""
+    index = max((k for k, (start, _) in enumerate(calendar.windows) if start < due), default=0)
+    return calendar.windows[index][0] - calendar.before[index]
+
+
+def gaps_after(calendar: Calendar, due: int, horizon: int) -> list[tuple[int, int]]:
+    """The working time at which each window after the due date begins, and the pause before it [min]."""
+    return [
+        (calendar.before[k], calendar.windows[k][0] - calendar.windows[k - 1][1])
+        for k in range(1, len(calendar.windows))
+        if due <= calendar.windows[k][0] < horizon
+    ]

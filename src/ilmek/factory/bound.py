@@ -60,7 +60,23 @@ def capacity_bound(factory: Factory, horizon: int) -> int:
     )
     if found.status != 0:
         return 0
-    return _dual(shares, -np.asarray(found.ineqlin.marginals), len(factory.jobs))
+    return _dual(shares, -np.asarray(found.ineqlin.marginals), len(factory.jobs)) + _first_dressings(factory)
+
+
+def _first_dressings(factory: Factory) -> int:
+    """The cost of one whole dressing for each setup of several carpets, beyond the short one of all of them."""
+    groups: dict[int, list[int]] = {}
+    for number, job in enumerate(factory.jobs):
+        groups.setdefault(job.setup, []).append(number)
+    return sum(
+        min(
+            factory.loom_cost(number, loom, same=False) - factory.loom_cost(number, loom, same=True)
+            for number in members
+            for loom in factory.jobs[number].weaving
+        )
+        for members in groups.values()
+        if len(members) > 1
+    )
 
 
 def _dual(shares: _Shares, prices: FloatArray, jobs: int) -> int:

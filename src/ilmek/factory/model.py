@@ -95,6 +95,16 @@ class PlannedCarpet:
 
 
 @dataclass(frozen=True, slots=True)
+class SolveLimits:
+    """When the solver ends: after so much deterministic time, the same on every machine, at the latest after so many
+    seconds.
+    """
+
+    deterministic: float
+    seconds: float
+
+
+@dataclass(frozen=True, slots=True)
 class Factory:
     """The problem: jobs, looms, yarns by index."""
 

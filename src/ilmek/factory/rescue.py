@@ -9,8 +9,8 @@ from dataclasses import dataclass, replace
 
 from ilmek.factory.calendar import Calendar, joined_windows, with_free_days, with_overtime
 from ilmek.factory.heuristic import improved_plan
-from ilmek.factory.model import HOUR, Factory, FactoryPlan, left_shifted, sequences_of
-from ilmek.factory.solver import SolveLimits, solve
+from ilmek.factory.model import HOUR, Factory, FactoryPlan, SolveLimits, left_shifted, sequences_of
+from ilmek.factory.solver import solve
 from ilmek.factory.verification import plan_faults
 from ilmek.factory.yarn_stock import scarce_yarns, waiting_in, waiting_times
 

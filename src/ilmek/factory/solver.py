@@ -1,53 +1,25 @@
 """Which loom weaves what when, by the solver CP-SAT of OR-tools (extra `planning`).
 
-Each carpet has a start s and an end e on the attended axis of its loom (`axes`), and both on the axis of weaving, on
-which the carpets of a loom do not overlap:
-
-    d = s + dressing,   w = weaving(d) + weaving time,   e = attended(w) + doffing
-
-The maps between the axes are sums of gaps with a Boolean each, exact at every optimum: a carpet that is later than it
-must be never costs less. Minimised is the cost; then, among plans of the least cost found, the sum of the ends. The
-bound is that of the first, or that of the looms' capacity (`bound`).
+Minimised is the cost; then, among plans of the least cost found, the sum of the ends. The bound is that of the first,
+or that of the looms' capacity (`bound`).
 """
 
 import importlib
-import itertools
-from collections.abc import Mapping
+import time
 from dataclasses import dataclass
 from typing import Any
 
 from ilmek.errors import ParameterError
-from ilmek.factory.axes import WorkAxes, work_axes
 from ilmek.factory.bound import capacity_bound
 from ilmek.factory.calendar import DAY, MOST_DAYS, WEEK
-from ilmek.factory.model import (
-    HOUR,
-    Factory,
-    FactoryPlan,
-    carpet_on,
-    in_turn,
-    left_shifted,
-    likeness,
-    lone_cost,
-    sequences_of,
-)
-from ilmek.factory.yarn_stock import scarce_yarns, waiting_in
-
-WORKERS = 2
-"""Threads of the solver; their number does not change its result."""
+from ilmek.factory.model import Factory, FactoryPlan, SolveLimits, carpet_on, in_turn, left_shifted, lone_cost
+from ilmek.factory.solver_model import FactoryModel
 
 FIRST_SHARE = 0.75
 """Share of the time in which the cost is minimised; in the rest the ends are."""
 
-
-@dataclass(frozen=True, slots=True)
-class SolveLimits:
-    """When the solver ends: after so much deterministic time, the same on every machine, at the latest after so many
-    seconds.
-    """
-
-    deterministic: float
-    seconds: float
+LEAST_SECONDS = 0.1
+"""Least time of a run [s]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,12 +62,12 @@ def solve(
     in_time  jobs that must not be late; where the solver finds no such plan, the status is "none"
     Raises ParameterError where OR-tools is not installed.
     """
-    cp, given = import_solver(), in_turn(given)
+    begun, cp, given = time.monotonic(), import_solver(), in_turn(given)
     horizon = horizon_of(given)
-    model = _FactoryModel(cp, factory, horizon, in_time)
+    model = FactoryModel(cp, factory, horizon, in_time)
     model.hint(given)
     model.minimise_cost()
-    first = model.run(SolveLimits(FIRST_SHARE * limits.deterministic, FIRST_SHARE * limits.seconds))
+    first = model.run(_part(limits, FIRST_SHARE, FIRST_SHARE * limits.seconds - (time.monotonic() - begun)))
     lone = sum(lone_cost(factory, job) for job in range(len(factory.jobs)))
     floor = lone if in_time else max(lone, capacity_bound(factory, horizon))
     if first.sequences is None:
@@ -104,7 +76,7 @@ def solve(
     if not in_time and given.merit < best.merit:
         best = given
     bound = min(max(first.bound, floor), best.cost) if not in_time else floor
-    rest = SolveLimits((1 - FIRST_SHARE) * limits.deterministic, (1 - FIRST_SHARE) * limits.seconds)
+    rest = _part(limits, 1 - FIRST_SHARE, limits.seconds - (time.monotonic() - begun))
     best = in_turn(best)
     model.hint(best)
     model.minimise_ends(best.cost)
@@ -116,326 +88,6 @@ def solve(
     return SolvedPlan(best, bound, horizon, status, first.repeatable and second.repeatable)
 
 
-@dataclass(frozen=True, slots=True)
-class _Run:
-    """What a run of the solver gives: the jobs of each loom in order, their floors, the bound; None without a plan."""
-
-    sequences: list[list[int]] | None
-    floors: Mapping[int, int]
-    bound: int
-    repeatable: bool
-
-
-@dataclass(slots=True)
-class _Timed:
-    """Variables of a job on looms of common axes: start and end on both axes, and whether it is there."""
-
-    present: Any
-    start: Any
-    end: Any
-    woven_start: Any
-    woven_end: Any
-
-
-class _FactoryModel:
-    """The model of a factory for the solver; variables are created once, the objective is exchanged."""
-
-    def __init__(self, cp: Any, factory: Factory, horizon: int, in_time: frozenset[int]) -> None:
-        self.cp, self.factory, self.horizon, self.in_time = cp, factory, horizon, in_time
-        self.model = cp.CpModel()
-        self.axes = work_axes(factory.looms, horizon)
-        self.on: dict[tuple[int, int], Any] = {}
-        self.timed: dict[tuple[int, int], _Timed] = {}
-        self.follows: dict[tuple[int, int, int], Any] = {}
-        self.late: dict[int, Any] = {}
-        for job, what in enumerate(factory.jobs):
-            for loom in what.weaving:
-                self.on[job, loom] = self.model.new_bool_var(f"on {job} {loom}")
-            self.model.add_exactly_one(self.on[job, loom] for loom in what.weaving)
-        for group, axes in enumerate(self.axes):
-            for loom in axes.looms:
-                self._followers(loom)
-            for job, what in enumerate(factory.jobs):
-                if any(loom in what.weaving for loom in axes.looms):
-                    self.timed[job, group] = self._timed(job, group, axes)
-            for loom in axes.looms:
-                self._one_at_a_time(group, loom)
-        for job in range(len(factory.jobs)):
-            self._lateness(job)
-        self._stock()
-        self._alike()
-
-    def _followers(self, loom: int) -> None:
-        """A Boolean for each pair of jobs of one setup: the second follows the first on a loom that gains by it."""
-        on, jobs = self.factory.looms[loom], self.factory.jobs
-        if on.dressing_time(same=True) == on.dressing:
-            return
-        groups: dict[int, list[int]] = {}
-        for job, what in enumerate(jobs):
-            if loom in what.weaving:
-                groups.setdefault(what.setup, []).append(job)
-        for members in groups.values():
-            for first in members:
-                pairs = {then: self.model.new_bool_var("") for then in members if then != first}
-                for then, follows in pairs.items():
-                    self.follows[first, then, loom] = follows
-                    self.model.add_implication(follows, self.on[first, loom])
-                    self.model.add_implication(follows, self.on[then, loom])
-                self.model.add_at_most_one(pairs.values())
-            for then in members:
-                self.model.add_at_most_one(self.follows[first, then, loom] for first in members if first != then)
-
-    def _dressing(self, job: int, axes: WorkAxes) -> Any:
-        """The dressing time of a job as a linear expression."""
-        looms = [loom for loom in axes.looms if loom in self.factory.jobs[job].weaving]
-        full = sum(self.factory.looms[loom].dressing * self.on[job, loom] for loom in looms)
-        return full - sum(
-            (self.factory.looms[loom].dressing - self.factory.looms[loom].dressing_same) * follows
-            for (_, then, loom), follows in self.follows.items()
-            if then == job and loom in axes.looms
-        )
-
-    def _timed(self, job: int, group: int, axes: WorkAxes) -> _Timed:
-        """The variables of a job on one pair of axes, and the relations between them."""
-        model, what = self.model, self.factory.jobs[job]
-        looms = [loom for loom in axes.looms if loom in what.weaving]
-        present = model.new_bool_var(f"present {job} {group}")
-        model.add(sum(self.on[job, loom] for loom in looms) == present)
-        least = axes.attended.work(what.earliest)
-        start = model.new_int_var(least, axes.attended_total, f"start {job} {group}")
-        for loom in looms:
-            available = axes.attended.work(self.factory.looms[loom].available)
-            if available > least:
-                model.add(start >= available).only_enforce_if(self.on[job, loom])
-        dressed = model.new_int_var(least, axes.attended_total, "")
-        model.add(dressed == start + self._dressing(job, axes))
-        woven_start = model.new_int_var(0, axes.weaving_total, "")
-        model.add(woven_start == self._begin_on_weaving(start, axes))
-        weaving = sum(what.weaving[loom] * self.on[job, loom] for loom in looms)
-        woven = model.new_int_var(0, axes.weaving_total, "")
-        model.add(woven == self._end_on_weaving(dressed, axes) + weaving)
-        doffing = sum(self.factory.looms[loom].doffing * self.on[job, loom] for loom in looms)
-        met = self._on_attended(woven, axes)
-        end = model.new_int_var(least, axes.attended_total, f"end {job} {group}")
-        model.add(end == met + doffing)
-        woven_end = model.new_int_var(0, axes.weaving_total, "")
-        # Without doffing a carpet may end while nobody is there.
-        after_doffing = self._end_on_weaving(end, axes)
-        if all(self.factory.looms[loom].doffing > 0 for loom in looms):
-            model.add(woven_end == after_doffing)
-        else:
-            model.add(woven_end >= woven)
-            for loom in looms:
-                if self.factory.looms[loom].doffing > 0:
-                    model.add(woven_end >= after_doffing).only_enforce_if(self.on[job, loom])
-        return _Timed(present, start, end, woven_start, woven_end)
-
-    def _end_on_weaving(self, at: Any, axes: WorkAxes) -> Any:
-        """The weaving time of an end on the attended axis: every gap before it is added."""
-        total = at + axes.offset
-        for start, gap in zip(axes.starts, axes.gaps, strict=True):
-            passed = self.model.new_bool_var("")
-            self.model.add(at <= start).only_enforce_if(~passed)
-            total += gap * passed
-        return total
-
-    def _begin_on_weaving(self, at: Any, axes: WorkAxes) -> Any:
-        """The weaving time of a begin on the attended axis: a gap is added only where it is before it."""
-        total = at + axes.offset
-        for start, gap in zip(axes.starts, axes.gaps, strict=True):
-            passed = self.model.new_bool_var("")
-            self.model.add(at >= start).only_enforce_if(passed)
-            total += gap * passed
-        return total
-
-    def _on_attended(self, woven: Any, axes: WorkAxes) -> Any:
-        """The attended time of an instant on the axis of weaving, or later."""
-        found = self.model.new_int_var(0, axes.attended_total, "")
-        less = woven - axes.offset
-        for start, gap, end in zip(axes.starts, axes.gaps, axes.ends, strict=True):
-            passed = self.model.new_bool_var("")
-            self.model.add(woven <= end).only_enforce_if(~passed)
-            self.model.add(found >= start).only_enforce_if(passed)
-            less -= gap * passed
-        self.model.add(found >= less)
-        return found
-
-    def _one_at_a_time(self, group: int, loom: int) -> None:
-        """The carpets of a loom do not overlap, and between two of one setup that follow each other there is none."""
-        model, intervals = self.model, []
-        for (job, of), timed in self.timed.items():
-            if of == group and (job, loom) in self.on:
-                size = model.new_int_var(0, self.axes[group].weaving_total, "")
-                interval = model.new_optional_interval_var(
-                    timed.woven_start, size, timed.woven_end, self.on[job, loom], f"job {job} loom {loom}"
-                )
-                intervals.append(interval)
-        for (first, then, at), follows in self.follows.items():
-            if at == loom:
-                gap = model.new_int_var(0, self.axes[group].weaving_total, "")
-                begin, end = self.timed[first, group].woven_end, self.timed[then, group].woven_start
-                intervals.append(model.new_optional_interval_var(begin, gap, end, follows, ""))
-        model.add_no_overlap(intervals)
-
-    def _lateness(self, job: int) -> None:
-        """Started hours of delay of a job, by the windows of attended time after the due date."""
-        what, model = self.factory.jobs[job], self.model
-        if job in self.in_time:
-            for group, axes in enumerate(self.axes):
-                if (job, group) in self.timed:
-                    self._in_time(job, group, axes)
-            return
-        hours = model.new_int_var(0, max(-(-(self.horizon - what.due) // HOUR), 0), f"late {job}")
-        self.late[job] = hours
-        for group, axes in enumerate(self.axes):
-            if (job, group) not in self.timed:
-                continue
-            for end, calendar, literals in self._ends(job, group, axes):
-                time = end + _time_before(calendar, what.due)
-                for start, gap in _gaps_after(calendar, what.due, self.horizon):
-                    passed = model.new_bool_var("")
-                    model.add(end <= start).only_enforce_if(~passed)
-                    time += gap * passed
-                model.add(HOUR * hours >= time - what.due).only_enforce_if(literals)
-
-    def _ends(self, job: int, group: int, axes: WorkAxes) -> list[tuple[Any, Any, list[Any]]]:
-        """The end of a job by the calendar that it is counted in: of weaving, where nobody doffs it."""
-        timed, found = self.timed[job, group], []
-        looms = [loom for loom in axes.looms if (job, loom) in self.on]
-        doffed = [loom for loom in looms if self.factory.looms[loom].doffing > 0]
-        if len(doffed) == len(looms):
-            return [(timed.end, axes.attended, [timed.present])]
-        for loom in looms:
-            if loom in doffed:
-                found.append((timed.end, axes.attended, [self.on[job, loom]]))
-            else:
-                found.append((timed.woven_end, axes.weaving, [self.on[job, loom]]))
-        return found
-
-    def _in_time(self, job: int, group: int, axes: WorkAxes) -> None:
-        due = self.factory.jobs[job].due
-        for end, calendar, literals in self._ends(job, group, axes):
-            self.model.add(end <= calendar.work(due)).only_enforce_if(literals)
-
-    def _stock(self) -> None:
-        """Carpets that start before a purchase arrives are woven from the stock."""
-        for index in scarce_yarns(self.factory):
-            yarn, terms = self.factory.yarns[index], []
-            for job, what in enumerate(self.factory.jobs):
-                if not what.yarns.get(index, 0):
-                    continue
-                early = self.model.new_bool_var("")
-                terms.append(what.yarns[index] * early)
-                for group, axes in enumerate(self.axes):
-                    if (job, group) in self.timed:
-                        timed = self.timed[job, group]
-                        least = axes.attended.work(yarn.arrives)
-                        self.model.add(timed.start >= least).only_enforce_if([~early, timed.present])
-            self.model.add(sum(terms) <= yarn.stock)
-
-    def _alike(self) -> None:
-        """Of equal jobs the first begins no later than the next, on looms of common calendars."""
-        if len(self.axes) > 1 or self.follows:
-            return
-        before: dict[object, int] = {}
-        for job, what in enumerate(self.factory.jobs):
-            key = likeness(what)
-            if key in before:
-                self.model.add(self.timed[before[key], 0].start <= self.timed[job, 0].start)
-            before[key] = job
-
-    def _cost(self) -> Any:
-        factory = self.factory
-        looms = sum(factory.loom_cost(job, loom, same=False) * on for (job, loom), on in self.on.items())
-        saved = sum(
-            (factory.loom_cost(then, loom, same=False) - factory.loom_cost(then, loom, same=True)) * follows
-            for (_, then, loom), follows in self.follows.items()
-        )
-        return looms - saved + sum(factory.jobs[job].late * hours for job, hours in self.late.items())
-
-    def minimise_cost(self) -> None:
-        """Minimise the cost of looms and delays."""
-        self.model.minimize(self._cost())
-
-    def minimise_ends(self, cost: int) -> None:
-        """Minimise the sum of the ends of plans of at most a cost."""
-        self.model.add(self._cost() <= cost)
-        ends = []
-        for (_, group), timed in self.timed.items():
-            axes = self.axes[group]
-            weight = max(1, round(100 * self.horizon / max(axes.weaving_total, 1)))
-            end = self.model.new_int_var(0, axes.weaving_total, "")
-            self.model.add(end == timed.woven_end).only_enforce_if(timed.present)
-            ends.append(weight * end)
-        self.model.minimize(sum(ends))
-
-    def hint(self, plan: FactoryPlan) -> None:
-        """Begin the search at a plan."""
-        self.model.clear_hints()
-        where = {one.job: one for one in plan.carpets}
-        for (job, loom), on in self.on.items():
-            self.model.add_hint(on, where[job].loom == loom)
-        for (job, group), timed in self.timed.items():
-            axes, one = self.axes[group], where[job]
-            self.model.add_hint(timed.present, one.loom in axes.looms)
-            if one.loom in axes.looms:
-                self.model.add_hint(timed.start, axes.attended.work(one.start))
-                self.model.add_hint(timed.end, axes.attended.work(one.end))
-        for job, hours in self.late.items():
-            overdue = max(where[job].end - self.factory.jobs[job].due, 0)
-            self.model.add_hint(hours, -(-overdue // HOUR))
-        sequences = sequences_of(plan)
-        pairs = {(first, then, loom) for loom, jobs in enumerate(sequences) for first, then in itertools.pairwise(jobs)}
-        for key, follows in self.follows.items():
-            self.model.add_hint(follows, key in pairs)
-
-    def run(self, limits: SolveLimits) -> _Run:
-        """Solve the model within limits."""
-        solver = self.cp.CpSolver()
-        settings = solver.parameters
-        settings.random_seed = 0
-        settings.num_workers = WORKERS
-        settings.interleave_search = True
-        settings.max_deterministic_time = limits.deterministic
-        settings.max_time_in_seconds = limits.seconds
-        status = solver.solve(self.model)
-        repeatable = solver.wall_time < limits.seconds
-        if status not in (self.cp.OPTIMAL, self.cp.FEASIBLE):
-            return _Run(None, {}, 0, repeatable)
-        bound = int(-(-(solver.best_objective_bound - 0.5) // 1))
-        return _Run(self._sequences(solver), self._floors(solver), max(bound, 0), repeatable)
-
-    def _sequences(self, solver: Any) -> list[list[int]]:
-        sequences: list[list[tuple[int, int, int]]] = [[] for _ in self.factory.looms]
-        for (job, group), timed in self.timed.items():
-            for loom in self.axes[group].looms:
-                if (job, loom) in self.on and solver.value(self.on[job, loom]):
-                    key = solver.value(timed.woven_start), solver.value(timed.woven_end), job
-                    sequences[loom].append(key)
-        return [[job for _, _, job in sorted(sequence)] for sequence in sequences]
-
-    def _floors(self, solver: Any) -> dict[int, int]:
-        """The least starts of the jobs that wait for yarn in the solution."""
-        carpets = []
-        for (job, group), timed in self.timed.items():
-            axes = self.axes[group]
-            for loom in axes.looms:
-                if (job, loom) in self.on and solver.value(self.on[job, loom]):
-                    start = axes.attended.time_of(solver.value(timed.start), begins=True)
-                    carpets.append(carpet_on(self.factory, job, loom, start))
-        return waiting_in(FactoryPlan(self.factory, tuple(carpets)))
-
-
-def _time_before(calendar: Any, due: int) -> int:
-    """What is added to a working time up to the due date for the instant at which it ends: least where it is later."""
-    index = max((k for k, (start, _) in enumerate(calendar.windows) if start < due), default=0)
-    return int(calendar.windows[index][0] - calendar.before[index])
-
-
-def _gaps_after(calendar: Any, due: int, horizon: int) -> list[tuple[int, int]]:
-    """The working time at which each window after the due date begins, and the pause before it [min]."""
-    return [
-        (calendar.before[k], calendar.windows[k][0] - calendar.windows[k - 1][1])
-        for k in range(1, len(calendar.windows))
-        if due <= calendar.windows[k][0] < horizon
-    ]
+def _part(limits: SolveLimits, share: float, seconds: float) -> SolveLimits:
+    """A share of the deterministic time, and the seconds that are left for it."""
+    return SolveLimits(share * limits.deterministic, max(seconds, LEAST_SECONDS))

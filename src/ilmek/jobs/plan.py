@@ -8,9 +8,9 @@ from typing import Any
 
 from ilmek.errors import LoomError, ParameterError
 from ilmek.factory.heuristic import first_plan
-from ilmek.factory.model import HOUR, MONEY, FactoryPlan, PlannedCarpet
+from ilmek.factory.model import HOUR, MONEY, FactoryPlan, PlannedCarpet, SolveLimits
 from ilmek.factory.rescue import Rescue, rescues
-from ilmek.factory.solver import SolvedPlan, SolveLimits, import_solver, solve
+from ilmek.factory.solver import SolvedPlan, import_solver, solve
 from ilmek.factory.verification import plan_faults
 from ilmek.factory.yarn_stock import Purchase, purchases
 from ilmek.io.looms_file import read_looms
@@ -32,7 +32,7 @@ MOST_RESCUED = 5
 SOLVER_SHARE = 0.7
 """Share of the time for the solver; the rest is for the first plan and the measures."""
 
-PACE = 0.2
+PACE = 0.12
 """Deterministic time of the solver in a second of the time limit: a slow computer gets through it too."""
 
 
