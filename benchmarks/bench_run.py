@@ -109,7 +109,7 @@ def durable_commit() -> None:
 
 
 def memory_over_days() -> None:
-    programme = small_programme(12_400, 60, 1, 4, weft_rows=40)
+    programme = small_programme(12_400, 68, 1, 4, weft_rows=40)
     with tempfile.TemporaryDirectory() as folder, JournalFile(SystemFile(Path(folder) / "j", create=True)) as store:
         session = begun(programme, store, 1000)
         maker, port = SnapshotMaker(programme), session.port

@@ -3,6 +3,7 @@
 import errno
 import json
 import os
+import random
 import re
 import signal
 import subprocess
@@ -17,11 +18,13 @@ from click.testing import CliRunner, Result
 from small_programme import small_programme
 
 from ilmek.cli import main
+from ilmek.errors import LoomError
 from ilmek.io.journal_file import SystemFile
 from ilmek.io.programme_file import write_programme
 from ilmek.jobs.run.loom_run import LoomRun
 from ilmek.jobs.run.order import USUAL_RATES, RunOrder
 from ilmek.jobs.run.result import snapshot_json
+from ilmek.jobs.status import run_status
 from ilmek.loom.control.ports import Fault
 from ilmek.loom.control.view import Snapshot
 from ilmek.loom.twin.state import Injected, SensorFault
@@ -139,6 +142,26 @@ def test_a_journal_cut_short_is_behind_its_carpet_and_nothing_is_tied_twice(carp
     journal.write_bytes(journal.read_bytes()[:3000])
     found = as_json("run", carpet, "--journal", tmp_path / "j", "--speed", "max")
     assert (found["state"], found["faults"], found["digest"]) == ("Complete", 0, first["digest"])
+
+
+def test_damaged_journals_are_refused_or_read(carpet: Path, tmp_path: Path) -> None:
+    as_json("run", carpet, "--journal", tmp_path / "j", "--speed", "max")
+    journal, chance = tmp_path / "j" / "journal", random.Random(4)
+    content, read, refusals = journal.read_bytes(), 0, 0
+    for _ in range(150):
+        damaged = bytearray(content[: chance.choice((len(content), chance.randrange(1, len(content))))])
+        for _ in range(chance.randrange(3)):
+            at, wrong = chance.randrange(len(damaged)), chance.randbytes(chance.randrange(1, 40))
+            damaged[at : at + len(wrong)] = wrong
+        journal.write_bytes(damaged)
+        try:
+            found = run_status(tmp_path / "j")
+        except LoomError:
+            refusals += 1
+        else:
+            read += 1
+            assert 0 <= found["knots"] <= 144
+    assert min(read, refusals) > 20
 
 
 def test_commands_without_a_controller(carpet: Path, tmp_path: Path) -> None:

@@ -1,6 +1,7 @@
 """`ilmek run`: weave a programme on the simulated loom."""
 
 import sys
+import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -116,16 +117,21 @@ def _weave(order: RunOrder, run: LoomRun) -> None:
         return
     if run.begun:
         note(f"goes on in row {run.snapshot().row + 1:,} after {run.begun:,} certain knots")
+    ended = threading.Event()
 
     def stopped() -> str:
         run.stop()
-        run.wait(_LONGEST_STOP)
+        ended.wait(_LONGEST_STOP)  # until the screen is cleared
         now = run.snapshot()
         return f"{now.knots:,} of {now.total:,} knots are tied; the same command goes on in row {now.row + 1:,}"
 
     hint = f"Ctrl-C stops, the same command goes on; ilmek hold|resume|stop --journal {order.folder}"
-    with before_end(stopped), _screen(run, hint) as show:
-        run.work(show)
+    with before_end(stopped):
+        try:
+            with _screen(run, hint) as show:
+                run.work(show)
+        finally:
+            ended.set()
 
 
 @contextmanager
