@@ -17,8 +17,10 @@ from ilmek.io.programme_file import open_programme
 from ilmek.jobs.chart import make_charted
 from ilmek.jobs.existing_loom import ExistingLoom, carpet_checks, for_rows, heads_used, read_existing_loom
 from ilmek.jobs.loom import LoomResult, make_loomed, read_loom_order
+from ilmek.jobs.loom_setup import loom_digest
 from ilmek.jobs.order import read_order
-from ilmek.machines.automated_loom.cyclogram import TAKE_UP
+from ilmek.machines.automated_loom import AutomatedLoomParams, design
+from ilmek.machines.automated_loom.cyclogram import TAKE_UP, row_ends
 from ilmek.report import Report
 
 MEDALLION = str(Path(__file__).parents[2] / "examples" / "medallion.png")
@@ -316,3 +318,32 @@ def test_the_order_names_what_cannot_be_set(loom_file: Path) -> None:
     order = read_order(Path(MEDALLION), size=SIZE, quality=QUALITY)
     with pytest.raises(ParameterError, match="leave --aim out"):
         read_loom_order(order, aim="price", loom_file=loom_file)
+
+
+def test_a_programme_s_loom_is_that_of_its_file(tmp_path: Path) -> None:
+    settings = {"width": "60cm", "length": "90cm", "knots_across": "15/dm", "deadline": "30h", "tubes": "9"}
+    file = tmp_path / "loom.json"
+    pairs = [f"{name}={value}" for name, value in settings.items()]
+    assert run("design", "automated-loom", *pairs, "--json", str(file)).exit_code in (0, 3)
+    found, made = read_existing_loom(file).design, design(AutomatedLoomParams.read(settings))
+    assert loom_digest(found.params) == loom_digest(made.params)
+    assert loom_digest(replace(made.params, tubes=8)) != loom_digest(made.params)
+    ends = row_ends(made.row_cyclogram)
+    assert list(ends) == sorted(ends)
+    assert ends[0] > 0
+    assert ends[-1] == made.times.weft
+    assert found.weaver.params.tubes == 9
+
+
+def test_a_programme_states_its_loom_and_its_yarns(loom_file: Path, picture: Path) -> None:
+    found = made(loom_file, picture)
+    assert found.setup is not None
+    assert found.design is not None
+    setup, loom = found.setup, found.design
+    assert setup.loom == loom_digest(loom.params)
+    assert (setup.heads, setup.tubes) == (2, 12)
+    assert (setup.spacing - 1) * loom.knot_pitch < loom.head_width <= setup.spacing * loom.knot_pitch * (1 + 1e-9)
+    yarn = setup.yarns[0]
+    assert setup.packages[0, 0] == pytest.approx(loom.params.package_mass / yarn.linear_density)
+    assert max(setup.knot_yarn) == pytest.approx(loom.params.billed, rel=0.5)
+    assert setup.times.row_ends == row_ends(loom.row_cyclogram)

@@ -92,7 +92,8 @@ def account_row(  # noqa: PLR0917 - the arrays of a kernel
     for head in range(heads):
         at[head] = first
         column[head] = columns[first] if first < columns.shape[0] else 0
-        first += counts[head].sum()
+        for phase in range(phases):
+            first += counts[head, phase]
     total = 0.0
     for phase in range(phases):
         slowest = 0.0

@@ -113,7 +113,8 @@ def _bounded(number: int, present: IntArray, table: IntArray, ends: IntArray) ->
             one, two, best = spent, one, tube
         elif spent < two:
             two = spent
-    ends[:] = _NEVER
+    for tube in range(TUBES):
+        ends[tube] = _NEVER
     for k in range(number):
         tube = present[k]
         gap = table[MOST, tube] - table[LEAST, tube] + 1 > table[COUNT, tube]

@@ -89,16 +89,19 @@ def plan(  # noqa: PLR0917 - the arrays of a kernel
     """
     heads, edges = layout
     steps = lines.shape[0] * ((edges.shape[0] - 1) // heads)
-    spent = np.zeros((heads, steps))
-    before = stand.copy()
+    spent, others = np.zeros((heads, steps)), np.zeros(steps)
+    before = np.zeros((heads, 2), np.int64)
+    for head in range(heads):
+        before[head, 0], before[head, 1] = stand[head, 0], stand[head, 1]
     for _ in range(ROUNDS if heads > 1 else 1):
         for head in range(heads):
-            spent[head] = 0.0
-            others = np.zeros(steps)
-            for other in range(heads):
-                others = np.maximum(others, spent[other])
+            for step in range(steps):
+                others[step] = 0.0
+                for other in range(heads):
+                    if other != head:
+                        others[step] = max(others[step], spent[other, step])
             of = (head, first, commit, before[head, 0], before[head, 1])
-            stand[head] = _plan_head(lines, layout, of, times, others, spent[head], keys)
+            stand[head, 0], stand[head, 1] = _plan_head(lines, layout, of, times, others, spent[head], keys)
 
 
 @compiled
@@ -124,9 +127,11 @@ def _plan_head(  # noqa: PLR0917 - the arrays of a kernel
     part_times, ended = np.zeros((steps, _STATES)), np.zeros((steps, _STATES), np.int64)
     tables, present = np.zeros((2, 3, TUBES), np.int64), np.zeros((2, TUBES), np.int64)
     shared = np.zeros((2, MOST_SHARED), np.int64)
-    cost, end = np.full((2, _STATES), np.inf), np.zeros((2, _STATES), np.int64)
+    cost, end = np.zeros((2, _STATES)), np.zeros((2, _STATES), np.int64)
+    for one in range(1, _STATES):
+        cost[1, one] = np.inf
     chosen_before = np.zeros((_STATES, 4), np.uint8)
-    cost[1, 0], end[1, 0] = 0.0, column
+    end[1, 0] = column
     chosen_before[0, 2] = handler
     low, high, line = _bounds(lines, layout, head, first, 0)
     number, runs = scan(line, low, high, tables[0], present[0])
@@ -149,7 +154,8 @@ def _plan_head(  # noqa: PLR0917 - the arrays of a kernel
         if number > 1:
             boundaries = (begins, ends, shared[now], shared[then])
             _passes((number, present[now], tables[now]), boundaries, state, before, times, out)
-        ended[step] = end[now]
+        for one in range(_STATES):
+            ended[step, one] = end[now, one]
         low, high, line, number, runs, begins = next_low, next_high, next_line, next_number, next_runs, ends
     return _trace((head, first, commit), layout, cost[(steps - 1) % 2], (back, chosen, part_times), ended, spent, keys)
 
@@ -232,7 +238,8 @@ def _sweeps(  # noqa: PLR0917 - the arrays of a kernel
     low, high, runs = part
     cost, end, now, _, _ = state
     back, chosen, part_times = out
-    cost[now, :] = np.inf
+    for one in range(_STATES):
+        cost[now, one] = np.inf
     alone = (high - low) * times[0] + (runs - 1) * times[1]
     for order in (SWEEP_RIGHT, SWEEP_LEFT):
         start, stop = (low, high - 1) if order == SWEEP_RIGHT else (high - 1, low)
@@ -313,7 +320,10 @@ def _trace(  # noqa: PLR0917 - the arrays of a kernel
     head, first, commit = of
     back, chosen, part_times = planned
     phases = (layout.edges.shape[0] - 1) // layout.heads
-    state, tube, column = np.argmin(cost), NONE, 0
+    state, tube, column = 0, NONE, 0
+    for one in range(1, _STATES):
+        if cost[one] < cost[state]:
+            state = one
     for step in range(back.shape[0] - 1, -1, -1):
         row = step // phases
         spent[step] = part_times[step, state]
@@ -321,6 +331,7 @@ def _trace(  # noqa: PLR0917 - the arrays of a kernel
             if step == commit * phases - 1:
                 tube, column = whole(chosen[step, state, 2]), ended[step, state]
             part = part_of(head, step % phases, phases, (first + row) % 2 == 0)
-            keys[row, part] = chosen[step, state]
+            for k in range(4):
+                keys[row, part, k] = chosen[step, state, k]
         state = whole(back[step, state])
     return tube, column

@@ -48,7 +48,8 @@ def part_of(head: int, phase: int, phases: int, forward: bool) -> int:
 @compiled
 def scan(line: Line, low: int, high: int, table: IntArray, present: IntArray) -> tuple[int, int]:
     """Fill the table of a part and the list of its tubes in ascending order; returns their number and its runs."""
-    table[COUNT, :] = 0
+    for one in range(TUBES):
+        table[COUNT, one] = 0
     runs, before = 0, -1
     for column in range(low, high):
         tube = line[column]
@@ -115,10 +116,11 @@ def _directed(key: Bytes, number: int, present: IntArray, table: IntArray, passe
             passes[0, at] = present[k]
             at += 1
     begin, end = key[3] & 1, key[3] >> 1
-    cost, back = np.full((number, 2), np.inf), np.zeros((number, 2), np.int64)
-    cost[0, begin] = 0.0
+    cost, back = np.zeros((number, 2)), np.zeros((number, 2), np.int64)
+    cost[0, 1 - begin] = np.inf
     for k in range(1, number):
         for direction in range(2):
+            cost[k, direction] = np.inf
             for before in range(2):
                 spent = cost[k - 1, before] + link(table, passes[0, k - 1], before, passes[0, k], direction)
                 if spent < cost[k, direction]:
