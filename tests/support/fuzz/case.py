@@ -8,7 +8,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-COMMANDS = ("weave", "chart", "machines", "design", "mechanism", "cyclogram", "knot", "reproduce", "inspect")
+COMMANDS = (
+    "weave", "chart", "machines", "design", "mechanism", "cyclogram", "knot", "reproduce", "inspect", "check",
+    "convert",
+)  # fmt: skip
 TAKEN, OLD, MINE = "taken", "old", "mine.txt"
 """A folder that every input finds, one that some find with a result of ilmek, and a file that ilmek did not write."""
 

@@ -22,6 +22,7 @@ from fuzz.case import MINE, OLD
 from fuzz.mutations import changed_bytes, changed_text, changed_tree, scalar
 from ilmek.io.cyclogram_file import cyclogram_toml
 from ilmek.io.programme_file import write_programme
+from ilmek.io.programme_text import programme_text_parts
 from ilmek.jobs.cyclogram import find
 from ilmek.jobs.loom import knot_yarns, read_loom_order
 from ilmek.jobs.loom_setup import CarpetPile, loom_setup
@@ -110,6 +111,7 @@ class Corpus:
     texts: dict[str, bytes]
     yarns: dict[str, Any]
     programme: bytes
+    programme_text: str
     loom: dict[str, Any]
 
 
@@ -133,7 +135,9 @@ def make_corpus() -> Corpus:
             supply=carpet.supply(made.design.params),
         )
         setup = loom_setup(made.design, carpet, by_two)
-        write_programme(Path(folder) / "programme.ilmek", CompiledProgramme(setup, by_two))
+        compiled = CompiledProgramme(setup, by_two)
+        write_programme(Path(folder) / "programme.ilmek", compiled)
+        text = b"".join(programme_text_parts(compiled)).decode()
         programme = (Path(folder) / "programme.ilmek").read_bytes()
         loom = json.loads((out / "machine.json").read_text(encoding="utf-8"))
     examples = {path.name: path.read_bytes() for path in sorted((ROOT / "examples").glob("*.toml"))}
@@ -146,6 +150,7 @@ def make_corpus() -> Corpus:
         examples,
         trees["wool.toml"],
         programme,
+        text,
         {name: loom[name] for name in ("machine", "parameters", "results", "machines")},
     )
 

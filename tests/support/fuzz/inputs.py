@@ -306,6 +306,31 @@ def inspect(draw: Random, corpus: Corpus) -> tuple[Words, Files]:
     return ["inspect", "given.ilmek", *row, *_json(draw)], {"given.ilmek": content}
 
 
+def _programme(draw: Random, corpus: Corpus) -> tuple[str, bytes]:
+    """A programme of either form, most of them changed."""
+    if draw.random() < 0.2:
+        return "given.ilmek", changed_programme(draw, corpus.programme)
+    description, row, rows = corpus.programme_text.partition("row 1\n")
+    choice = draw.random()
+    if choice < 0.25:
+        description = changed_text(draw, description)
+    elif choice < 0.85:
+        at = draw.randrange(len(rows))
+        rows = rows[:at] + changed_text(draw, rows[at : at + 600]) + rows[at + 600 :]
+    content = f"{description}{row}{rows}".encode("utf-8", "replace")
+    return "given.txt", changed_bytes(draw, content) if choice > 0.95 else content
+
+
+def check(draw: Random, corpus: Corpus) -> tuple[Words, Files]:
+    name, content = _programme(draw, corpus)
+    return ["check", name, *_json(draw)], {name: content}
+
+
+def convert(draw: Random, corpus: Corpus) -> tuple[Words, Files]:
+    name, content = _programme(draw, corpus)
+    return ["convert", name, draw.choice(("new.ilmek", "new.txt", "new.csv", name))], {name: content}
+
+
 def reproduce(draw: Random, corpus: Corpus) -> tuple[Words, Files]:
     return ["reproduce", "--paper", draw.choice((*_PAPERS, scalar(draw))), *_json(draw)], {}
 
@@ -318,8 +343,8 @@ def other_words(draw: Random, corpus: Corpus) -> tuple[Words, Files]:
 
 
 _PAPERS = ("beat-up", "knotting", "tufting", "thesis")
-_MAKERS = (design, machines, mechanism, cyclogram, knot, chart, weave, inspect, reproduce, other_words)
-_SHARES = (0.28, 0.03, 0.17, 0.12, 0.1, 0.14, 0.02, 0.11, 0.005, 0.025)
+_MAKERS = (design, machines, mechanism, cyclogram, knot, chart, weave, inspect, check, convert, reproduce, other_words)
+_SHARES = (0.25, 0.03, 0.16, 0.11, 0.1, 0.13, 0.02, 0.08, 0.06, 0.03, 0.005, 0.025)
 
 
 def usual_cases(corpus: Corpus) -> list[Case]:
@@ -335,6 +360,8 @@ def usual_cases(corpus: Corpus) -> list[Case]:
         ("weave", *carpet, "--deadline", "100h"),
         ("chart", *carpet, "--yarns", "wool.toml"),
         ("inspect", "given.ilmek"),
+        ("check", "given.ilmek"),
+        ("convert", "given.ilmek", "new.txt"),
         ("knot", "path.csv", "--report", "new.html"),
         ("design", "cam", "--workshop", "new", "--report", "new.html"),
         *(("design", machine, "--json", "-") for machine in _MACHINES),
