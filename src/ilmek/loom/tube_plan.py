@@ -117,7 +117,7 @@ def plan_tubes(knots: Indices, heads: int, supply: YarnSupply, wefts: Sequence[B
     edges, yarns, phases = share(knots.shape[1], heads), len(supply.packages), halves(heads)
     chart = np.ascontiguousarray(knots)
     totals = np.zeros((heads, yarns), np.int64)
-    _head_totals(chart, edges[::phases], totals)
+    _head_totals(chart, np.ascontiguousarray(edges[::phases]), totals)
     used = np.flatnonzero(totals.sum(axis=0))
     if yarns <= supply.tubes:
         used = np.arange(yarns)
