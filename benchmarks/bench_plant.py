@@ -15,7 +15,7 @@ from ilmek.io.woven_file import open_woven
 from ilmek.loom.control.ports import Done, Order, PortReport, Tie
 from ilmek.loom.twin.comparison import compare
 from ilmek.loom.twin.events import chained
-from ilmek.loom.twin.model import NO_FAULTS
+from ilmek.loom.twin.model import NO_FAULTS, plant_model
 from ilmek.loom.twin.recording import Recorder, replay
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "support"))
@@ -25,20 +25,19 @@ from small_programme import small_programme  # type: ignore[import-not-found]
 ROWS, COLUMNS, YARNS = 100, 450, 12
 
 
-class TimedPort:
-    """A port, and the processor time spent in it [s]."""
+class TimedPort(TwinPort):
+    """A port that adds up the processor time spent in it [s]."""
 
-    def __init__(self, port: TwinPort) -> None:
-        self.port, self.spent = port, 0.0
+    spent = 0.0
 
     def send(self, orders: Sequence[Order]) -> None:
         begin = time.process_time()
-        self.port.send(orders)
+        super().send(orders)
         self.spent += time.process_time() - begin
 
     def receive(self, timeout: float) -> tuple[PortReport, ...]:
         begin = time.process_time()
-        found = self.port.receive(timeout)
+        found = super().receive(timeout)
         self.spent += time.process_time() - begin
         return found
 
@@ -59,7 +58,7 @@ def run() -> None:
         for heads in (1, 5, 20):
             programme = small_programme(ROWS, COLUMNS, heads, YARNS, weft_rows=20)
             with open_woven(Path(folder) / f"woven{heads}", programme) as woven:
-                port = TimedPort(TwinPort(programme.setup, woven))
+                port = TimedPort(programme.setup, woven)
                 for _ in weave(port, programme):
                     pass
                 assert compare(woven, programme).complete
@@ -68,12 +67,11 @@ def run() -> None:
         programme = small_programme(ROWS, COLUMNS, 5, YARNS)
         path = Path(folder) / "run.txt"
         with open_woven(Path(folder) / "recorded", programme) as woven:
-            port = TwinPort(programme.setup, woven)
-            recorder = Recorder(programme, NO_FAULTS, port.state)
-            port = TwinPort(programme.setup, woven, record=recorder)
-            for _ in weave(port, programme):
+            recorder = Recorder(programme, NO_FAULTS, woven.restored(plant_model(programme.setup)))
+            recorded = TwinPort(programme.setup, woven, record=recorder)
+            for _ in weave(recorded, programme):
                 pass
-            write_recording(path, recorder.recording(port.state))
+            write_recording(path, recorder.recording(recorded.state))
         begin = time.process_time()
         recording = read_recording(path)
         read = time.process_time() - begin

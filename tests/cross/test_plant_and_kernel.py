@@ -1,8 +1,8 @@
 """The plant beside the kernel that weaves whole carpets: the same faults give every attempt the same end."""
 
 import pytest
-from tests.support.plant_driver import weave
-from tests.support.small_programme import small_programme
+from plant_driver import weave
+from small_programme import small_programme
 
 from ilmek.arrays import IntArray
 from ilmek.drivers.twin_port import TwinPort

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.support.plant_driver import weave
-from tests.support.small_programme import small_programme
+from plant_driver import weave
+from small_programme import small_programme
 
 from ilmek.drivers.twin_port import TwinPort
 from ilmek.errors import LoomError

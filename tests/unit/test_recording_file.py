@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from tests.support.small_programme import small_programme
+from small_programme import small_programme
 
 from ilmek.errors import LoomError
 from ilmek.io.recording_file import read_recording, write_recording

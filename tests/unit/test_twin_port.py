@@ -1,16 +1,17 @@
 """The twin behind the ports: times by the rules, the woven carpet, faults, halts, and the state after a restart."""
 
+import errno
 import threading
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.support.plant_driver import knots_of, weave
-from tests.support.small_programme import small_programme
+from plant_driver import knots_of, weave
+from small_programme import small_programme
 
 from ilmek.drivers.twin_port import TwinPort
-from ilmek.errors import LoomError
+from ilmek.errors import LoomError, OutputError
 from ilmek.io.woven_file import open_woven
 from ilmek.loom.control.ports import ChangePackages, Done, EndRow, Failed, Fault, Jog, SensorsChanged, Tie
 from ilmek.loom.operations import LoomProgramme, RowEnd, Stop, TubeChange
@@ -160,6 +161,32 @@ def test_the_sensors_follow_the_operations_after_the_knots() -> None:
     ]  # fmt: skip
     assert all(one.heads_clear for one in seen)
     assert [one.warp_tension for one in seen[:2]] == [plant.tension * 16 // 15 / 1000, plant.tension / 1000]
+
+
+def test_a_disc_that_is_full_leaves_no_carpet(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(path: Path, content: bytes) -> None:
+        path.write_bytes(content[:100])
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    programme = small_programme(3, 12, 2, 3)
+    with monkeypatch.context() as patch:
+        patch.setattr("ilmek.io.woven_file.disk.write", full)
+        with pytest.raises(OutputError, match="No space left"), open_woven(tmp_path / "woven", programme):
+            pass
+    assert list(tmp_path.iterdir()) == []
+    with open_woven(tmp_path / "woven", programme) as woven:
+        assert woven.times_tied(0, 0) == 0
+
+
+def test_a_loom_without_wefts_or_with_many_is_restored() -> None:
+    small = small_programme(3, 12, 2, 3).setup
+    for wefts in ((), small.wefts * 2):
+        setup = replace(small, wefts=wefts)
+        plant = plant_model(setup)
+        woven = Woven(setup, bytearray(woven_size(setup)))
+        woven.keep(first_state(plant))
+        assert woven.restored(plant) == first_state(plant)
+        assert TwinPort(setup, woven).time == 0
 
 
 class HandClock:

@@ -5,7 +5,7 @@ import io
 import numpy as np
 import pytest
 from PIL import Image
-from tests.support.small_programme import small_programme
+from small_programme import small_programme
 
 from ilmek.errors import LoomError
 from ilmek.loom.operations import EMPTY, ROW_ENDS, LoomProgramme, RowEnd

@@ -4,7 +4,7 @@ It is the physical truth of the twin, in any memory of `woven_size` bytes; `io.w
 holds what a loom does not lose when its control fails: its clock, the positions of its heads, its yarn.
 
     words of 8 bytes
-        time; rows left of two bobbins of weft; for each head: column, tube, yarn left in each tube, yarn of each tube
+        time; rows left of each bobbin of weft; for each head: column, tube, yarn left in each tube, yarn of each tube
     words of 2 bytes, row by row from the bottom edge, from the left
         times that a knot was tied + 256 * yarn of the last one
     bytes, row by row from the bottom edge
@@ -26,8 +26,6 @@ from ilmek.loom.twin.state import NOWHERE, HeadCondition, LoomCondition, PlantHe
 MOST_TIMES = 255
 """Largest number of times that is counted for a knot and for an operation."""
 
-_BOBBINS = 2
-
 
 class Woven:
     """The woven carpet in a memory, which it changes in place. The memory of a new carpet is full of zeros."""
@@ -36,7 +34,7 @@ class Woven:
         if len(memory) != woven_size(setup):
             raise LoomError(f"a woven carpet of {len(memory)} bytes", allowed=f"{woven_size(setup)} bytes")
         self.rows, self.columns = setup.rows, setup.columns
-        self._tubes = setup.tubes
+        self._tubes, self._first = setup.tubes, _first_head(setup)
         view, words, knots = memoryview(memory), 8 * _words(setup), 2 * setup.knots
         self._words = view[:words].cast("q")
         self._knots = view[words : words + knots].cast("H")
@@ -79,7 +77,7 @@ class Woven:
 
     def keep_knot(self, time: int, index: int, head: PlantHead) -> None:
         """Keep the state of the loom behind a knot of a head."""
-        at, words = 1 + _BOBBINS + index * (2 + 2 * self._tubes), self._words
+        at, words = self._first + index * (2 + 2 * self._tubes), self._words
         words[0], words[at], words[at + 1] = time, head.column, head.tube
         words[at + 2 + head.tube] = head.left[head.tube]
 
@@ -105,7 +103,7 @@ def woven_size(setup: LoomSetup) -> int:
 
 def state_words(state: PlantState) -> tuple[int, ...]:
     """What a loom keeps without its control, as whole numbers: see the module."""
-    found = [state.time, *(*state.condition.wefts, 0, 0)[:_BOBBINS]]
+    found = [state.time, *state.condition.wefts]
     for head in state.heads:
         found += [head.column, head.tube, *head.left, *head.condition.yarns]
     return tuple(found)
@@ -118,18 +116,22 @@ def state_of_words(plant: PlantModel, words: Sequence[int]) -> PlantState:
         raise LoomError(f"a state of {len(words)} numbers", allowed=f"{_words(setup)} numbers")
     heads = []
     for index in range(setup.heads):
-        at = 1 + _BOBBINS + index * (2 + 2 * tubes)
+        at = _first_head(setup) + index * (2 + 2 * tubes)
         left, yarns = tuple(words[at + 2 : at + 2 + tubes]), tuple(words[at + 2 + tubes : at + 2 + 2 * tubes])
         _require_head(setup, words[at], words[at + 1], left, yarns)
         heads.append(PlantHead(words[at], words[at + 1], left, HeadCondition(yarns)))
-    wefts = tuple(words[1 : 1 + min(len(setup.wefts), _BOBBINS)])
-    if words[0] < 0 or any(not 0 <= rows <= one.rows for rows, one in zip(wefts, setup.wefts, strict=False)):
+    wefts = tuple(words[1 : _first_head(setup)])
+    if words[0] < 0 or any(not 0 <= rows <= one.rows for rows, one in zip(wefts, setup.wefts, strict=True)):
         raise LoomError(f"a loom at time {words[0]} with weft for {wefts} rows", allowed="a state of this loom")
     return PlantState(words[0], tuple(heads), LoomCondition(wefts))
 
 
 def _words(setup: LoomSetup) -> int:
-    return 1 + _BOBBINS + setup.heads * (2 + 2 * setup.tubes)
+    return _first_head(setup) + setup.heads * (2 + 2 * setup.tubes)
+
+
+def _first_head(setup: LoomSetup) -> int:
+    return 1 + len(setup.wefts)
 
 
 def _require_head(setup: LoomSetup, column: int, tube: int, left: tuple[int, ...], yarns: tuple[int, ...]) -> None:
