@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
+from typing import Any
 
 from ilmek.loom.control.controller import Controller
 from ilmek.loom.control.exchange import ControlInput, ControlOutputs, Sensed
@@ -60,7 +61,8 @@ class FakeLoom:
         self.woven.append(order)
         reports: list[PortReport] = []
         if isinstance(order, EndRow) and order.operation in AWAY:
-            reports.append(SensorsChanged(replace(self.now, **{AWAY[order.operation]: False}), self.time))
+            away: dict[str, Any] = {AWAY[order.operation]: False}
+            reports.append(SensorsChanged(replace(self.now, **away), self.time))
             reports.append(SensorsChanged(self.now, self.time))
         return (*reports, Done(order, self.time))
 

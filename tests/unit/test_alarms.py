@@ -11,6 +11,7 @@ from ilmek.loom.control.interlocks import CONTRADICTIONS, INTERLOCKS, JOG_LIMITS
 from ilmek.loom.control.packml import (
     COMPLETED,
     MODE_STATES,
+    PACK_TAGS,
     PackMode,
     PackState,
     allowed_commands,
@@ -18,6 +19,7 @@ from ilmek.loom.control.packml import (
     state_name,
 )
 from ilmek.loom.control.ports import Fault
+from ilmek.viz.style import FONTS
 
 DOCS = Path(__file__).parents[2] / "docs"
 ALARM_PAGE = (DOCS / "reference/alarms.md").read_text(encoding="utf-8")
@@ -90,8 +92,14 @@ def test_the_page_of_the_controller_has_every_state_and_command() -> None:
     assert shown == [state_row(state) for state in PackState]
 
 
+def test_the_page_of_the_controller_has_every_tag() -> None:
+    part = CONTROLLER_PAGE.partition("## Tags")[2].partition("\n## ")[0]
+    shown = [line for line in part.splitlines() if line.startswith("| `")]
+    assert shown == [f"| `{one.name}` | {one.kind} | {one.meaning} |" for one in PACK_TAGS]
+
+
 def test_the_diagram_of_states_is_that_of_the_tables() -> None:
     sys.path.insert(0, str(DOCS.parent))
-    from examples.draw_controller import FONTS, OUT, TITLE, draw  # noqa: PLC0415
+    from examples.draw_controller import OUT, TITLE, draw  # noqa: PLC0415
 
     assert OUT.read_text(encoding="utf-8") == draw().svg(TITLE, FONTS)

@@ -128,7 +128,7 @@ def test_the_controller_does_not_begin_what_is_blocked_and_raises_the_alarm(name
     expected = {Reaction.ABORT: PackState.ABORTED, Reaction.HOLD: PackState.HELD, Reaction.SUSPEND: PackState.SUSPENDED}
     assert loom.moving == []
     assert name in {one.kind.name for one in controller.status().alarms}
-    assert controller.state.state is expected[rule.reaction]
+    assert controller.status().state is expected[rule.reaction]
 
 
 @pytest.mark.parametrize("name", [rule.name for rule in INTERLOCKS if rule.guards])
@@ -143,24 +143,24 @@ def test_a_guard_ends_what_moves(name: str) -> None:
     while loom.moving:
         step(controller, loom, store, loom.receive())
     step(controller, loom, store)
-    assert controller.state.state is REACHED[rule.reaction]
+    assert controller.status().state is REACHED[rule.reaction]
 
 
 def test_tension_that_returns_weaves_on_by_itself_and_a_door_does_not() -> None:
     controller, loom, store = weaving(BLOCKED["warp tension low"][0])
     step(controller, loom, store, (SensorsChanged(READY, 1),))
-    assert controller.state.state is PackState.EXECUTE
+    assert controller.status().state is PackState.EXECUTE
     assert controller.status().alarms == ()
     step(controller, loom, store, (SensorsChanged(BLOCKED["door open"][0], 2),))
     step(controller, loom, store, (SensorsChanged(READY, 3),))
     step(controller, loom, store)
-    assert controller.state.state is PackState.ABORTED
+    assert controller.status().state is PackState.ABORTED
     step(controller, loom, store, (Commanded(PackCommand.CLEAR),))
     step(controller, loom, store, (Commanded(PackCommand.RESET),))
     refused = step(controller, loom, store, (Commanded(PackCommand.START),)).refusals[0]
     assert "acknowledge alarm 102" in refused.text
     step(controller, loom, store, (Acknowledged(102), Commanded(PackCommand.START)))
-    assert controller.state.state is PackState.EXECUTE
+    assert controller.status().state is PackState.EXECUTE
 
 
 def test_a_machine_is_not_cleared_while_its_emergency_stop_is_pressed() -> None:
@@ -180,7 +180,7 @@ def test_a_contradiction_of_sensors_holds_the_loom(one: object) -> None:
     assert contradictions(READY) == ()
     controller, loom, store = weaving()
     step(controller, loom, store, (SensorsChanged(sensors, 1),))
-    assert controller.state.state is PackState.HOLDING
+    assert controller.status().state is PackState.HOLDING
     assert controller.status().alarms[0].kind.number == 401
 
 
@@ -192,7 +192,7 @@ def test_a_sensor_that_does_not_change_while_its_axis_moves_is_stuck(end: RowEnd
     loom.moving.clear()
     loom.woven.append(EndRow(0, end))
     step(controller, loom, store, (Done(EndRow(0, end), loom.time),))
-    assert controller.state.state is PackState.HELD
+    assert controller.status().state is PackState.HELD
     alarm = controller.status().alarms[0]
     assert (alarm.kind.number, alarm.note.startswith(sensor)) == (402, True)
     assert controller.state.sequence.ends_done == end + 1
@@ -214,7 +214,7 @@ def test_a_jog_obeys_the_interlocks_and_the_limits_of_its_axis(name: str) -> Non
     for rule in INTERLOCKS:
         sensors, blocked = BLOCKED[rule.name]
         step(controller, loom, store, (SensorsChanged(sensors, 0),))
-        assert controller.state.state is PackState.EXECUTE
+        assert controller.status().state is PackState.EXECUTE
         if name in blocked:
             outputs = step(controller, loom, store, (JogRequested(axis, limit),))
             assert outputs.refusals

@@ -69,7 +69,7 @@ def test_a_whole_journal_states_every_operation_once() -> None:
 @pytest.mark.parametrize("group", [1, 5])
 def test_a_journal_cut_at_any_byte_is_read_to_its_last_whole_record(group: int) -> None:
     content, _ = woven(group)
-    reference = {}
+    reference: dict[int, tuple[int, ...]] = {}
     for length in range(0, HEADER_BYTES + 40 * RECORD_BYTES + 1, 3):
         opened = open_journal(content[:length], PROGRAMME)
         whole = 0 if length < HEADER_BYTES else length - length % RECORD_BYTES

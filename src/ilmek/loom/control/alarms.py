@@ -59,12 +59,12 @@ _INTERLOCK_REMEDIES: Mapping[str, str] = MappingProxyType(
         "warp tension unknown": "check the cable of the tension sensor; then unhold",
         "warp tension low": "wait for the let-off, or tighten the warps; weaving goes on by itself",
         "warp tension high": "wait for the let-off, or slacken the warps; weaving goes on by itself",
-        "gripper closed on warps": "open the gripper of the head in manual mode, then unhold",
-        "gripper in the shed": "open the grippers in manual mode, then unhold",
-        "head in the comb's path": "retreat the heads in manual mode, then unhold",
-        "head between the warps": "retreat the heads in manual mode, then unhold",
-        "beater not back": "move the beater back in manual mode, then unhold",
-        "shed open": "close the shed in manual mode, then unhold",
+        "gripper closed on warps": "stop, open the gripper of the head in manual mode, reset and start",
+        "gripper in the shed": "stop, open the grippers in manual mode, reset and start",
+        "head in the comb's path": "stop, retreat the heads in manual mode, reset and start",
+        "head between the warps": "stop, retreat the heads in manual mode, reset and start",
+        "beater not back": "stop, move the beater back in manual mode, reset and start",
+        "shed open": "stop, close the shed in manual mode, reset and start",
     }
 )
 _SEVERITIES = {Reaction.ABORT: 1000, Reaction.STOP: 900, Reaction.HOLD: 700, Reaction.SUSPEND: 500, Reaction.NONE: 300}
