@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from ilmek.cli.call_outputs import call_outputs
-from ilmek.cli.options import force_option, json_option
+from ilmek.cli.options import animation_option, force_option, json_option
 from ilmek.cli.settings import read_settings, setting_files
 from ilmek.cli.terminal import note, say, show_pairs, show_table
 from ilmek.cli.verdict import exit_code, note_verdict, show_verdict
@@ -23,6 +23,7 @@ Examples:
   ilmek simulate carpet/programme.ilmek --set gripper_miss=0.002 --set response=3min --set others=stop
   ilmek simulate carpet/programme.ilmek --stops stops.toml --loom carpet/machine.json --json -
   ilmek simulate carpet/programme.ilmek --no-faults --seeds 0 --json -
+  ilmek simulate carpet/programme.ilmek --row 120 --animation row.gif
   ilmek simulate --parameters
 
 Limits: programme 1,000 MB; stops file 250 kB; 1,000,000 seeds; 64 processes.
@@ -56,6 +57,10 @@ def _show_parameters(context: click.Context, _option: click.Parameter, value: bo
     "--loom", type=click.Path(path_type=Path), metavar="FILE.json", help="Loom of the programme, for the energy."
 )
 @click.option("--out", type=click.Path(path_type=Path), metavar="DIR", help="Write page, JSON and tables to a folder.")
+@click.option(
+    "--row", "number", type=int, metavar="N", help="Row shown in motion, from 1 at the bottom; default: the longest."
+)
+@animation_option
 @click.option("--shown", type=click.Choice(("rows",)), help="Write a table of all rows into --out as well.")
 @click.option("--workers", type=int, metavar="N", help="Processes for the runs; default: by the work.")
 @click.option("--cluster", metavar="ADDRESS", help="Dask scheduler for the runs, which needs the extra cluster.")
@@ -80,6 +85,8 @@ def command(
     deadline: str | None,
     loom: Path | None,
     out: Path | None,
+    number: int | None,
+    animation_to: Path | None,
     shown: str | None,
     workers: int | None,
     cluster: str | None,
@@ -105,9 +112,11 @@ def command(
         loom=loom,
         workers=workers,
         cluster=cluster,
+        row=None if number is None else number - 1,
     )
-    with call_outputs({"--json": json_to}, force=force, inputs=inputs) as call:
+    with call_outputs({"--json": json_to, "--animation": animation_to}, force=force, inputs=inputs) as call:
         found = simulate(order, out, rows=shown == "rows", outputs=call.outputs, progress=call.progress)
+        call.give_animation("--animation", found.report)
         call.give_json(found.as_json)
     if call.quiet:
         note_verdict(found.report.all_checks)

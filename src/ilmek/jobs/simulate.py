@@ -1,7 +1,7 @@
 """A programme woven in time: one run with all its events, and the runs of many seeds."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -18,6 +18,7 @@ from ilmek.jobs.simulate_report import fault_columns, row_columns, simulation_re
 from ilmek.jobs.simulate_runs import MOST_WORKERS, runs_of
 from ilmek.loom.twin.carpet_run import CarpetRun, run_carpet
 from ilmek.loom.twin.faults import StopParams, fault_table
+from ilmek.loom.twin.row_motion import row_in_motion
 from ilmek.loom.twin.seed_runs import MOST_SEEDS
 from ilmek.loom.twin.statistics import CarpetStatistics
 from ilmek.params import Setting
@@ -39,7 +40,7 @@ class SimulationOrder:
     seed      of the run; the band's are those from it on
     seeds     runs for the band; 0: none           loom      file of the loom, for the energy
     deadline  of the weaving [s]                   workers   processes, None: chosen
-    cluster   address of a Dask scheduler
+    cluster   address of a Dask scheduler          row       loom row that is shown in motion; None: the longest
     """
 
     file: Path
@@ -50,6 +51,7 @@ class SimulationOrder:
     deadline: float | None = None
     workers: int | None = None
     cluster: str | None = None
+    row: int | None = None
 
     def __post_init__(self) -> None:
         for name, value, least, most in (
@@ -120,6 +122,8 @@ def simulate(
 
 def _simulated(order: SimulationOrder, programme: OpenProgramme, progress: Progress) -> SimulationResult:
     params, setup = order.params, programme.setup
+    if order.row is not None and not 0 <= order.row < setup.rows:
+        raise ParameterError(f"--row {order.row + 1}", allowed=f"1 to {setup.rows}")
     table = fault_table(params, setup)
     run = run_carpet(programme, table, order.seed, waste=params.waste, progress=progress.part(0.3, 0.6, "knots"))
     part = progress.part(0.6, 0.95, "runs")
@@ -134,7 +138,8 @@ def _simulated(order: SimulationOrder, programme: OpenProgramme, progress: Progr
         energy = energy_of_run(order.loom, found)
     stated = programme.totals.duration if isinstance(programme, ProgrammeFile) else None
     report = simulation_report(order.file.name, found, stated, order.deadline, energy)
-    return SimulationResult(run, found, report)
+    moving = row_in_motion(setup, programme.operations(run.slowest[0] if order.row is None else order.row))
+    return SimulationResult(run, found, replace(report, figures=(*report.figures, moving)))
 
 
 def _written(result: SimulationResult, folder: Path, rows: bool, outputs: Outputs) -> SimulationResult:
