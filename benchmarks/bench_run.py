@@ -22,8 +22,7 @@ from ilmek.loom.twin.state import first_state
 from ilmek.loom.twin.woven import Woven, woven_size
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "support"))
-
-from small_programme import small_programme
+from small_programme import small_programme  # type: ignore[import-not-found]
 
 DAYS = 30
 DAY = 86_400_000_000_000

@@ -78,11 +78,11 @@ class CommandServer:
         now = time.monotonic()
         while len(self._clients) < MOST_CLIENTS:
             try:
-                client = self._socket.accept()[0]
+                connection = self._socket.accept()[0]
             except OSError:  # none, or one that has gone, or too many open files
                 break
-            client.setblocking(False)
-            self._clients.append(_Client(client, now + PATIENCE))
+            connection.setblocking(False)
+            self._clients.append(_Client(connection, now + PATIENCE))
         answered = 0
         for client in tuple(self._clients):
             if answered == _EACH_POLL:

@@ -15,7 +15,7 @@ from typing import Any
 
 from ilmek.drivers.twin_port import TwinPort
 from ilmek.errors import LoomError
-from ilmek.io.any_programme import open_any_programme
+from ilmek.io.any_programme import OpenProgramme, open_any_programme
 from ilmek.io.command_channel import CommandServer
 from ilmek.io.journal_folder import CHANNEL, JournalFolder
 from ilmek.io.programme_file import ProgrammeFile
@@ -65,7 +65,8 @@ class LoomRun:
         self._due = self._retry = self._halt = 0.0
         self._ending = False
         with ExitStack() as stack:
-            self.programme = stack.enter_context(open_any_programme(order.programme, progress=progress))
+            self.programme: OpenProgramme = open_any_programme(order.programme, progress=progress)
+            stack.callback(self.programme.close)
             self.folder = stack.enter_context(JournalFolder(order.folder, new=order.new))
             if not self.folder.journal.length:
                 _require_proved(order.programme, progress)
