@@ -36,6 +36,8 @@ class Operator:
         self.waiting = name in ("hold", "suspend", "stop", "abort")
         if name in ("stop", "abort"):
             self.weaving = False
+        elif name in ("start", "unhold", "unsuspend"):
+            self.weaving = True
 
     def see_to(self, session: ControlSession) -> bool:
         """Do what a machine that waits needs. False where nothing helps."""
