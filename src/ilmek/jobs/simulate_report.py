@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ilmek.arrays import FloatArray, IntArray
-from ilmek.loom.twin.carpet_run import FAULT_FIELDS
+from ilmek.loom.twin.carpet_run import FAULT_FIELDS, MOST_FAULTS
 from ilmek.loom.twin.durations import BILLION, durations_of
 from ilmek.loom.twin.kernel import CHANGED, DONE, NO_HEAD
 from ilmek.loom.twin.statistics import CURES, HIGH, LOW, WORDS, CarpetStatistics, seconds
@@ -118,6 +118,8 @@ def _warnings(found: CarpetStatistics, energy: "Energy | None") -> tuple[str, ..
     texts = []
     if energy is None:
         texts.append("no energy: give the loom's machine.json with --loom")
+    if len(found.run.faults) == MOST_FAULTS:
+        texts.append(f"stops.csv and the pictures have the first {MOST_FAULTS:,} faults")
     if len(found.seeds) == 0:
         texts.append("no band: one run alone; give --seeds")
     return tuple(texts)

@@ -10,7 +10,7 @@ from typing import Any
 
 COMMANDS = (
     "weave", "chart", "machines", "design", "mechanism", "cyclogram", "knot", "reproduce", "inspect", "check",
-    "convert",
+    "convert", "simulate",
 )  # fmt: skip
 TAKEN, OLD, MINE = "taken", "old", "mine.txt"
 """A folder that every input finds, one that some find with a result of ilmek, and a file that ilmek did not write."""

@@ -31,7 +31,9 @@ from fuzz.mutations import (
     scalar,
     toml,
 )
+from ilmek.loom.twin.faults import StopParams
 from ilmek.machines import ENTRIES
+from ilmek.params import declared
 
 SPOILT = 0.08
 """Share of the command lines that are changed word by word."""
@@ -331,6 +333,25 @@ def convert(draw: Random, corpus: Corpus) -> tuple[Words, Files]:
     return ["convert", name, draw.choice(("new.ilmek", "new.txt", "new.csv", name))], {name: content}
 
 
+def simulate(draw: Random, corpus: Corpus) -> tuple[Words, Files]:
+    files = {"given.ilmek": changed_programme(draw, corpus.programme) if draw.random() < 0.2 else corpus.programme}
+    words = ["simulate", "given.ilmek", *_json(draw)]
+    words += _given(draw, 0.5, "--seeds", _one_of("0", "1", "20", "-1", "1000001"))
+    words += _given(draw, 0.3, "--seed", _one_of("7", "-1", "9007199254740993"))
+    words += _given(draw, 0.2, "--deadline", _one_of("1s", "72", "50h"))
+    words += _given(draw, 0.2, "--out", _one_of("new", TAKEN))
+    words += _given(draw, 0.1, "--shown", _one_of("rows", "knots"))
+    names = [one.name for one in declared(StopParams)]
+    for _ in range(draw.randrange(4)):
+        words += ["--set", f"{draw.choice(names)}={scalar(draw)}"]
+    if draw.random() < 0.3:
+        values = ("0.1", "3", '"2min"', "[1]", "nan")
+        lines = [f"{draw.choice(names)} = {draw.choice(values)}" for _ in range(3)]
+        files["stops.toml"] = "\n".join(lines).encode()
+        words += ["--stops", "stops.toml"]
+    return words, files
+
+
 def reproduce(draw: Random, corpus: Corpus) -> tuple[Words, Files]:
     return ["reproduce", "--paper", draw.choice((*_PAPERS, scalar(draw))), *_json(draw)], {}
 
@@ -343,8 +364,10 @@ def other_words(draw: Random, corpus: Corpus) -> tuple[Words, Files]:
 
 
 _PAPERS = ("beat-up", "knotting", "tufting", "thesis")
-_MAKERS = (design, machines, mechanism, cyclogram, knot, chart, weave, inspect, check, convert, reproduce, other_words)
-_SHARES = (0.25, 0.03, 0.16, 0.11, 0.1, 0.13, 0.02, 0.08, 0.06, 0.03, 0.005, 0.025)
+_MAKERS = (
+    design, machines, mechanism, cyclogram, knot, chart, weave, inspect, check, convert, simulate, reproduce, other_words,
+)  # fmt: skip
+_SHARES = (0.24, 0.03, 0.15, 0.11, 0.1, 0.13, 0.02, 0.07, 0.05, 0.02, 0.05, 0.005, 0.025)
 
 
 def usual_cases(corpus: Corpus) -> list[Case]:
@@ -362,6 +385,7 @@ def usual_cases(corpus: Corpus) -> list[Case]:
         ("inspect", "given.ilmek"),
         ("check", "given.ilmek"),
         ("convert", "given.ilmek", "new.txt"),
+        ("simulate", "given.ilmek", "--seeds", "5", "--out", "new"),
         ("knot", "path.csv", "--report", "new.html"),
         ("design", "cam", "--workshop", "new", "--report", "new.html"),
         *(("design", machine, "--json", "-") for machine in _MACHINES),

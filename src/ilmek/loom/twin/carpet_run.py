@@ -57,6 +57,9 @@ USES = ("tying", "changing", "travelling", "retrying", "stopped", "waiting", "ro
 LONGEST_DETAIL = 200_000
 """Largest number of events of a row that are kept to draw it."""
 
+MOST_FAULTS = 200_000
+"""Largest number of faults that are kept one by one; all are counted."""
+
 FAULT_FIELDS = ("row", "head", "column", "tube", "cause", "attempts", "call", "wait")
 """Columns of `CarpetRun.faults`: failed attempts; time of the call [ns] (of a fault without one: -1), and wait [ns]."""
 
@@ -71,7 +74,7 @@ class CarpetRun:
     uses       (bins, heads, uses): time of each head by use, over spans of `rows_per_bin` rows [ns]
     last       how often each head was the last of a phase     base      time without faults [ns]
     changes    colour changes of each head                     sums      as of `ilmek.loom.twin.kernel`
-    lost       standstill of the loom by cause [ns]            faults    of heads and of the loom: FAULT_FIELDS
+    lost       standstill of the loom by cause [ns]            faults    the first MOST_FAULTS: FAULT_FIELDS
     packages   use of the pile yarn
     slowest    row that took longest, its begin [ns], and its events (none if there are more than LONGEST_DETAIL)
     """
@@ -223,8 +226,12 @@ class _Weaving:
         tube, attempts = int(knots.tubes[at]), int(fault[RETRIES] + calls)
         self.packages.lose(self.walk, head, tube, attempts, calls)
         call = self.now + int(fault[CALL]) if calls else -1
-        self.faults.append((number, head, int(knots.columns[at]), tube, cause, attempts, call, int(fault[WAIT])))
+        self._keep((number, head, int(knots.columns[at]), tube, cause, attempts, call, int(fault[WAIT])))
         self._count(cause, attempts, calls, int(fault[RESPONDS] + fault[REPAIRS]))
+
+    def _keep(self, fault: tuple[int, ...]) -> None:
+        if len(self.faults) < MOST_FAULTS:
+            self.faults.append(fault)
 
     def _count(self, cause: int, attempts: int, calls: int, work: int) -> None:
         self.sums[FAILED] += attempts if cause < 3 else 0
@@ -241,7 +248,7 @@ class _Weaving:
             for cause, responds, repairs in self._faults_of(end):
                 events.append((self.now, self.now + end.lasts, where, what + 1 + cause))
                 wait = responds + repairs
-                self.faults.append((row.number, -1, -1, -1, cause, 1, self.now + end.lasts, wait))
+                self._keep((row.number, -1, -1, -1, cause, 1, self.now + end.lasts, wait))
                 self._count(cause, 1, 1, wait)
                 self.sums[TRIED] += end.lasts
                 self.sums[STOPPED] += wait
