@@ -365,7 +365,8 @@ def other_words(draw: Random, corpus: Corpus) -> tuple[Words, Files]:
 
 _PAPERS = ("beat-up", "knotting", "tufting", "thesis")
 _MAKERS = (
-    design, machines, mechanism, cyclogram, knot, chart, weave, inspect, check, convert, simulate, reproduce, other_words,
+    design, machines, mechanism, cyclogram, knot, chart, weave, inspect, check, convert, simulate, reproduce,
+    other_words,
 )  # fmt: skip
 _SHARES = (0.24, 0.03, 0.15, 0.11, 0.1, 0.13, 0.02, 0.07, 0.05, 0.02, 0.05, 0.005, 0.025)
 
