@@ -171,7 +171,7 @@ class ProgrammeText:
             self._index[number] = begin, line
             found = self._reader.read(number, data, line)
             self.remarks += found.remarks[: MOST_REMARKS - len(self.remarks)]
-            begin, line, number = begin + len(data), line + data.count(b"\n"), number + 1
+            begin, line, number = begin + len(data), line + found.lines, number + 1
             yield found
         else:
             raise LoomError(f"line {line}: the text ends without `end`", allowed="a whole text", do="write it again")

@@ -40,13 +40,15 @@ class LineRemark:
 class RowText:
     """A row read from its text, and the line of each of its parts.
 
-    line     of the row itself        ties  index of the first knot of each tie, and its line: (ties, 2), by knot
+    line     of the row itself, and `lines` their number
+    ties     index of the first knot of each tie, and its line: (ties, 2), by knot
     changes  line of each change of a stop, in order      ends  line of each operation after the knots
     """
 
     row: RowOperations
     chart: UInt8[np.ndarray, " columns"]
     line: int
+    lines: int
     ties: Int64[np.ndarray, "ties 2"]
     changes: tuple[int, ...]
     ends: tuple[int, ...]
@@ -122,7 +124,8 @@ class RowReader:
         at_end = np.flatnonzero(kinds >= FIRST_END)
         ends = tuple(RowEnd(int(kinds[at]) - FIRST_END) for at in at_end)
         row = RowOperations(number, parts.columns, parts.tubes, counts, ends, stops)
-        return RowText(row, chart, found.line, ties, changes, tuple((at_end + found.line).tolist()), tuple(remarks))
+        lines = (found.line, len(found.table))
+        return RowText(row, chart, *lines, ties, changes, tuple((at_end + found.line).tolist()), tuple(remarks))
 
     def _stops(
         self, number: int, found: "_RowLines", remarks: list[LineRemark]
