@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ilmek.drivers.twin_port import TwinPort
-from ilmek.io.recording_file import read_recording, write_recording
+from ilmek.io.recording_file import read_recording, recording_text
 from ilmek.io.woven_file import open_woven
 from ilmek.loom.control.ports import Done, Order, PortReport, Tie
 from ilmek.loom.twin.comparison import compare
@@ -71,7 +71,7 @@ def run() -> None:
             recorded = TwinPort(programme.setup, woven, record=recorder)
             for _ in weave(recorded, programme):
                 pass
-            write_recording(path, recorder.recording(recorded.state))
+            path.write_text(recording_text(recorder.recording(recorded.state)))
         begin = time.process_time()
         recording = read_recording(path)
         read = time.process_time() - begin

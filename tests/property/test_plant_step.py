@@ -13,7 +13,7 @@ from small_programme import small_programme
 
 from ilmek.drivers.twin_port import TwinPort
 from ilmek.errors import LoomError
-from ilmek.io.recording_file import read_recording, write_recording
+from ilmek.io.recording_file import read_recording, recording_text
 from ilmek.loom.control.ports import ChangePackages, Done, EndRow, Failed, Fault, Jog, Tie
 from ilmek.loom.operations import RowEnd, Stop, TubeChange
 from ilmek.loom.twin.draws import draw
@@ -131,7 +131,7 @@ def test_a_run_with_faults_weaves_every_knot_once_and_replays_from_its_file(seed
     done = [one.order for one in reports if isinstance(one, Done)]
     assert len(done) == len(set(map(str, map(order_key, done))))
     assert all(woven.counts(row).tolist() == [1] * 12 and woven.ends(row).tolist() == [1] * 5 for row in range(4))
-    write_recording(tmp_path / "run.txt", recorder.recording(port.state))
+    (tmp_path / "run.txt").write_text(recording_text(recorder.recording(port.state)))
     states = list(replay(read_recording(tmp_path / "run.txt"), PROGRAMME))
     assert states[-1][0] == port.state
     assert [one for _, some in states for one in some] == reports
@@ -147,7 +147,7 @@ def test_a_recording_is_read_as_it_was_written(inputs: list[tuple[int, PlantInpu
     recording = Recording(PROGRAMME.digest, RATES, state_words(first_state(PLANT)), tuple(inputs), 7, "ab" * 32)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "run.txt"
-        write_recording(path, recording)
+        path.write_text(recording_text(recording))
         assert astuple(read_recording(path)) == astuple(recording)
 
 

@@ -282,3 +282,21 @@ def test_a_carpet_is_drawn_while_it_is_woven_and_at_the_end(carpet: Path, tmp_pa
     assert "--picture carpet.svg ends in '.svg'" in error(
         "run", carpet, "--journal", journal, "--picture", "carpet.svg"
     )
+
+
+def test_a_recorded_run_is_replayed(carpet: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("ilmek.jobs.run.order.USUAL_RATES", type(USUAL_RATES)(0, 0.02, 0.05, 0.01, 0.05))
+    recording = tmp_path / "run.txt"
+    line = ["--journal", tmp_path / "j", "--speed", "max", "--faults", "7"]
+    assert f"recording: {recording}" in call("run", carpet, *line, "--record", recording).stdout
+    found = as_json("replay", recording, carpet)
+    assert (found["ok"], found["knots"], found["begin"]) == (True, 144, 0.0)
+    assert found["failures"] > 0
+    assert found["digest"] == found["recorded"]
+    assert "the recorded run" in call("replay", recording, carpet).stdout
+    recording.write_text(recording.read_text().replace("0 power", "0 tension 0", 1))
+    changed = as_json("replay", recording, carpet, code=3)
+    assert changed["digest"] != changed["recorded"]
+    assert "NOT the recorded run" in call("replay", recording, carpet).stdout
+    assert "another programme" in error("replay", recording, carpet.with_name("other.ilmek"))
+    assert "does not exist" in error("replay", tmp_path / "none.txt", carpet)

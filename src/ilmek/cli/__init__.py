@@ -22,7 +22,7 @@ main = LazyGroup(
         "Exit codes:\n"
         "  0  done, and every check holds\n"
         "  2  bad input, or an output that cannot be written: nothing is written\n"
-        "  3  done, but a check fails: weave, chart, design, cyclogram, check\n"
+        "  3  done, but a check fails: weave, chart, design, cyclogram, check, run, replay\n"
         "\n"
         "Each command has its own help: ilmek COMMAND --help"
     ),
@@ -48,6 +48,7 @@ main = LazyGroup(
         "hold": ("ilmek.cli.hold", "Hold a run, from another terminal."),
         "resume": ("ilmek.cli.resume", "Have a run go on, from another terminal."),
         "stop": ("ilmek.cli.stop", "Stop and end a run, from another terminal."),
+        "replay": ("ilmek.cli.replay", "Replay a recorded run, and compare its digest."),
         "inspect": ("ilmek.cli.inspect", "Show a loom programme: rows, colours, statistics."),
         "check": ("ilmek.cli.check", "Prove a loom programme: each knot once, no heads meet, yarn enough."),
         "plc": ("ilmek.cli.plc", "Write the loom's control as structured text and PLCopen XML, with its I/O."),

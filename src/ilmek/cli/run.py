@@ -5,6 +5,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 
 import click
@@ -17,7 +18,6 @@ from ilmek.cli.verdict import CHECK_FAILS
 from ilmek.jobs.run.loom_run import STOP_TIME, LoomRun
 from ilmek.jobs.run.order import RunOrder, read_run_order
 from ilmek.jobs.run.picture import require_png
-from ilmek.jobs.run.result import RunResult
 from ilmek.loom.control.view import Snapshot
 
 _LONGEST_STOP = STOP_TIME + 1.0
@@ -66,6 +66,12 @@ Limits: file 1,000 MB; journal 4,000 MB; 10,000 knots of a group commit.
     help="auto: what fails is repaired at once. ask: the loom waits for `ilmek resume`; default: auto.",
 )
 @picture_option
+@click.option(
+    "--record",
+    type=click.Path(path_type=Path),
+    metavar="FILE.txt",
+    help="Write what the simulated loom was ordered and what happened to it, for `ilmek replay`.",
+)
 @force_option
 @json_option
 def command(
@@ -78,6 +84,7 @@ def command(
     faults: str | None,
     operator: str,
     picture: Path | None,
+    record: Path | None,
     force: bool,
     json_to: str | None,
 ) -> int:
@@ -91,24 +98,20 @@ def command(
     """
     order = read_run_order(programme, speed, journal, new=new, commit=commit, faults=faults, operator=operator)
     require_png(picture)
-    to = {"--json": json_to, "--picture": picture}
+    order = replace(order, record=record is not None)
+    to = {"--json": json_to, "--picture": picture, "--record": record}
     with call_outputs(to, force=force, inputs={"PROGRAMME": programme}, bar=False) as call:
-        result, drawn = _woven(order, drawn=picture is not None)
-        if picture is not None:
-            call.outputs.write(picture, drawn)
+        with LoomRun(order) as run:
+            _weave(order, run)
+            result = run.result()
+            if picture is not None:
+                call.outputs.write(picture, run.png(result))
+            call.give("--record", run.recorded)
         call.give_json(result.as_json)
     if not call.quiet:
         show_pairs(result.in_words())
-        call.show_files({"--picture": "picture"})
+        call.show_files({"--picture": "picture", "--record": "recording"})
     return 0 if result.ok else CHECK_FAILS
-
-
-def _woven(order: RunOrder, drawn: bool) -> tuple[RunResult, bytes]:
-    """The result of a run and, if it is to be drawn, its picture."""
-    with LoomRun(order) as run:
-        _weave(order, run)
-        result = run.result()
-        return result, run.png(result) if drawn else b""
 
 
 def _weave(order: RunOrder, run: LoomRun) -> None:

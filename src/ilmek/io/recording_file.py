@@ -25,7 +25,6 @@ from dataclasses import astuple
 from pathlib import Path
 
 from ilmek.errors import LoomError, shortened
-from ilmek.io.output import write_file
 from ilmek.io.text_file import read_text
 from ilmek.loom.control.ports import ChangePackages, EndRow, Fault, Jog, Tie
 from ilmek.loom.operations import RowEnd, Stop, TubeChange
@@ -51,14 +50,14 @@ LARGEST = 100_000_000
 """Largest size of a recording [bytes]."""
 
 _FIRST = "ilmek recording 1"
-_WHOLE = re.compile(r"-?(0|[1-9][0-9]{0,18})", re.ASCII)
+_WHOLE = re.compile(r"-?(0|[1-9][0-9]{0,19})", re.ASCII)
 _DIGEST = re.compile(r"[0-9a-f]{64}", re.ASCII)
 _NUMBER = re.compile(r"-?[0-9]{1,20}(\.[0-9]{1,20})?(e[-+]?[0-9]{1,3})?", re.ASCII)
 _WORD = re.compile(r"[a-z_0-9+-]{1,60}", re.ASCII)
 
 
-def write_recording(path: Path, recording: Recording) -> None:
-    """Write a recording; it takes the role of an existing file. Raises OutputError."""
+def recording_text(recording: Recording) -> str:
+    """The content of a recording's file."""
     lines = [
         _FIRST,
         f"programme {recording.programme}",
@@ -67,7 +66,7 @@ def write_recording(path: Path, recording: Recording) -> None:
         *(f"{time} {_words(one)}" for time, one in recording.inputs),
         f"end {recording.end} {recording.digest}\n",
     ]
-    write_file(path, "\n".join(lines))
+    return "\n".join(lines)
 
 
 def read_recording(path: Path) -> Recording:
@@ -174,7 +173,7 @@ def _fields(line: str, name: str, count: int | None = None) -> list[str]:
 
 def _rates(words: list[str]) -> FaultRates:
     seed, *rates = words
-    return FaultRates(_whole(seed, 0), *map(_number, rates))
+    return FaultRates(_whole(seed, 0, (1 << 64) - 1), *map(_number, rates))
 
 
 def _whole(word: str, least: int = -(10**18), most: int = 10**18) -> int:

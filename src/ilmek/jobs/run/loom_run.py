@@ -19,6 +19,7 @@ from ilmek.io.any_programme import OpenProgramme, open_any_programme
 from ilmek.io.command_channel import CommandServer
 from ilmek.io.journal_folder import CHANNEL, JournalFolder
 from ilmek.io.programme_file import ProgrammeFile
+from ilmek.io.recording_file import recording_text
 from ilmek.io.woven_file import open_woven
 from ilmek.jobs.check import check_programme
 from ilmek.jobs.run.commands import RESUME, give_command, lead_on, waits
@@ -31,6 +32,8 @@ from ilmek.jobs.run.snapshots import SnapshotMaker
 from ilmek.loom.control.packml import PackState
 from ilmek.loom.control.view import Answer, Snapshot
 from ilmek.loom.twin.comparison import compare
+from ilmek.loom.twin.model import plant_model
+from ilmek.loom.twin.recording import Recorder
 from ilmek.progress import SILENT, Progress
 
 INTERVAL = 0.05
@@ -76,7 +79,10 @@ class LoomRun:
                     do="restore the file woven, or begin with --new",
                 )
             self.woven = stack.enter_context(open_woven(self.folder.woven, self.programme))
-            self.port = TwinPort(self.programme.setup, self.woven, speed=order.speed, rates=order.rates)
+            self._recorder = self._recording() if order.record else None
+            self.port = TwinPort(
+                self.programme.setup, self.woven, speed=order.speed, rates=order.rates, record=self._recorder
+            )
             self._session = self._opened()
             self._channel = CommandServer(self.folder.path / CHANNEL)
             stack.callback(self._channel.close)
@@ -134,9 +140,17 @@ class LoomRun:
         found = compare(self.woven, self.programme, progress)
         return RunResult(now, state, self.begun, found, str(self.folder.path))
 
+    def recorded(self) -> str:
+        """The inputs of the loom since the run began, as the text of a recording; "" where none are kept."""
+        return "" if self._recorder is None else recording_text(self._recorder.recording(self.port.state))
+
     def png(self, result: RunResult) -> bytes:
         """The carpet as far as it is woven, as a PNG file."""
         return carpet_png(self.woven, self.programme, result.woven)
+
+    def _recording(self) -> Recorder:
+        start = self.woven.restored(plant_model(self.programme.setup))
+        return Recorder(self.programme, self.order.rates, start)
 
     def _opened(self) -> ControlSession:
         return ControlSession(self.programme, self.port, self.folder.journal, self.order.commit)

@@ -31,6 +31,7 @@ class RunOrder:
     commit     knots of a group commit        rates    of simulated faults
     operator   faults and changes are seen to without anybody
     start      weave at once, and end with the carpet; else wait for commands
+    record     keep all inputs of the simulated loom
     """
 
     programme: Path
@@ -41,6 +42,7 @@ class RunOrder:
     rates: FaultRates = NO_FAULTS
     operator: bool = True
     start: bool = True
+    record: bool = False
 
     @property
     def folder(self) -> Path:

@@ -52,8 +52,8 @@ class FaultRates:
         rates = (*of_knot, self.weft_break, self.weft_end, self.warp_break)
         if not all(0 <= rate <= 1 for rate in rates) or sum(of_knot) > 1 or self.weft_break + self.weft_end > 1:
             raise LoomError(f"rates of faults {rates}", allowed="probabilities from 0 to 1, and their sums too")
-        if not 0 <= self.seed < 1 << 63:
-            raise LoomError(f"seed {self.seed}", allowed="0 to 2^63 - 1")
+        if not 0 <= self.seed < 1 << 64:
+            raise LoomError(f"seed {self.seed}", allowed="0 to 2^64 - 1")
 
 
 def fault_rates(params: StopParams, setup: LoomSetup, seed: int) -> FaultRates:
