@@ -1,6 +1,7 @@
 """`ilmek check` and `ilmek convert` on files."""
 
 import json
+import sqlite3
 from pathlib import Path
 from typing import Any
 
@@ -74,6 +75,21 @@ def test_lines_that_do_not_agree_are_errors_of_a_check(tmp_path: Path) -> None:
     assert refused.exit_code == 2
     assert f"p.txt, line {at + 1}: {what}" in refused.stderr
     assert not (tmp_path / "p.ilmek").exists()
+
+
+def test_a_file_whose_rows_were_changed_is_proved_row_by_row(tmp_path: Path, broken: LoomProgramme) -> None:
+    """The rows of another programme put into a file: its digest is another one, and the broken rule has its line."""
+    file = written(tmp_path / "p.ilmek", swept(small_programme()))
+    other = written(tmp_path / "other.ilmek", broken)
+    with sqlite3.connect(file) as base:
+        base.execute("ATTACH ? AS other", (str(other),))
+        base.execute("UPDATE row SET data = (SELECT data FROM other.row AS new WHERE new.number = row.number)")
+    base.close()
+    found = check_programme(file)
+    assert [error.line for error in found.errors] == [1, check_programme(other).errors[0].line]
+    assert "by its operations: the file was changed" in found.errors[0].what
+    refused = run("convert", file, tmp_path / "p.txt")
+    assert (refused.exit_code, "its digest is not that of its rows" in refused.stderr) == (2, True)
 
 
 def test_a_file_is_replaced_only_with_force(tmp_path: Path) -> None:

@@ -28,12 +28,12 @@ _WRITERS = {".ilmek": write_programme, TEXT: write_programme_text}
 def open_any_programme(path: Path, *, lenient: bool = False, progress: Progress = SILENT) -> OpenProgramme:
     """Open a programme of either form; by its ending. It is checked whole, every row included, before this returns.
 
-    lenient  as in `open_programme_text`
+    lenient  as in `open_programme` and `open_programme_text`: for the proof, which names what is wrong
     Raises LoomError, naming the file, and of a text the line.
     """
     if path.suffix.lower() == TEXT:
         return open_programme_text(path, lenient=lenient, progress=progress)
-    return open_programme(path, progress=progress)
+    return open_programme(path, lenient=lenient, progress=progress)
 
 
 def require_form(path: Path) -> None:

@@ -115,10 +115,11 @@ class _Writer:
         return line
 
 
-def open_programme(path: Path, *, progress: Progress = SILENT) -> "ProgrammeFile":
+def open_programme(path: Path, *, lenient: bool = False, progress: Progress = SILENT) -> "ProgrammeFile":
     """Open a programme for reading; close it, or use it as a context manager.
 
     The file may come from anybody: it is checked whole, every row included, before this returns.
+    lenient  open a file whose rows have another digest than it states too: `ProgrammeFile.stated_digest`
     Raises LoomError if the file is missing, no programme, of another format, too large, truncated or damaged, and where
     its rows have another digest.
     """
@@ -129,7 +130,10 @@ def open_programme(path: Path, *, progress: Progress = SILENT) -> "ProgrammeFile
         with _as_loom_error(path):
             stored = database.select("SELECT key, value FROM meta LIMIT 99")
             setup, digest = read_meta({_text(key): _text(value) for key, value in stored})
-            return ProgrammeFile(path, database, setup, digest, progress)
+            file = ProgrammeFile(path, database, setup, digest, progress)
+            if not lenient and file.digest != digest:
+                raise LoomError(f"{path}: its digest is not that of its rows", allowed="a whole programme", do=_AGAIN)
+            return file
     except BaseException:
         database.close()
         raise
@@ -138,17 +142,17 @@ def open_programme(path: Path, *, progress: Progress = SILENT) -> "ProgrammeFile
 class ProgrammeFile:
     """An open programme, `loom.operations.LoomProgramme`, with its totals and the work of each head.
 
+    digest     of its rows                                  stated_digest  as the file states it
     row_times  of each loom row with its end, without stops [s]     stopped  the rows with stops before their phases
     """
 
     def __init__(
         self, path: Path, database: ReadOnlyDatabase, setup: LoomSetup, digest: str, progress: Progress
     ) -> None:
-        self.path, self.setup, self.digest, self._database = path, setup, digest, database
+        self.path, self.setup, self.stated_digest, self._database = path, setup, digest, database
         self.stopped = self._stopped()
         reading = _Reading(self)
-        if programme_digest(reading, progress) != digest:
-            raise self._damaged("its digest is not that of its rows")
+        self.digest = programme_digest(reading, progress)
         self.row_times: FloatArray = np.array(reading.times)
         self.work: HeadWork = reading.account.work
         work, stops = self.work, reading.stop_time
@@ -233,7 +237,7 @@ class _Reading:
     """Sums up each row of a file when its digest is computed, so that a row is read once."""
 
     def __init__(self, file: ProgrammeFile) -> None:
-        self._file, self.setup, self.digest = file, file.setup, file.digest
+        self._file, self.setup, self.digest = file, file.setup, file.stated_digest
         self.account = ProgrammeAccount(file.setup.heads, file.setup.times)
         self.times: list[float] = []
         self.stop_time = 0.0

@@ -106,6 +106,9 @@ def _of_the_totals(programme: OpenProgramme, proof: Proof) -> Iterator[Programme
     """Totals that the file states, and that are not those of its operations."""
     if not isinstance(programme, ProgrammeFile):
         return
+    if programme.stated_digest != programme.digest:
+        digests = f"digest {programme.stated_digest[:12]}… stated, {programme.digest[:12]}… by its operations"
+        yield ProgrammeError(1, f"{digests}: the file was changed")
     stated, totals, time = programme.totals, proof.totals, proof.totals.time / 1e9
     pairs = (
         ("knots", stated.knots, totals.knots),
