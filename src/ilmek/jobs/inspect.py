@@ -14,9 +14,10 @@ from ilmek.io.programme_file import ProgrammeFile, open_programme
 from ilmek.loom.account import stop_duration
 from ilmek.loom.operations import RowOperations, Stop
 from ilmek.progress import SILENT, Progress
+from ilmek.records import record
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class HeadTies:
     """The knots of a head in a row, in order: warp pair (column of the chart) and yarn of each, as the chart has it."""
 
