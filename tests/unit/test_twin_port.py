@@ -1,7 +1,12 @@
 """The twin behind the ports: times by the rules, the woven carpet, faults, halts, and the state after a restart."""
 
 import errno
+import os
+import signal
+import subprocess
+import sys
 import threading
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -12,6 +17,7 @@ from small_programme import small_programme
 
 from ilmek.drivers.twin_port import TwinPort
 from ilmek.errors import LoomError, OutputError
+from ilmek.io.output import disk
 from ilmek.io.woven_file import open_woven
 from ilmek.loom.control.ports import ChangePackages, Done, EndRow, Failed, Fault, Jog, SensorsChanged, Tie
 from ilmek.loom.operations import LoomProgramme, RowEnd, Stop, TubeChange
@@ -176,6 +182,64 @@ def test_a_disc_that_is_full_leaves_no_carpet(tmp_path: Path, monkeypatch: pytes
     assert list(tmp_path.iterdir()) == []
     with open_woven(tmp_path / "woven", programme) as woven:
         assert woven.times_tied(0, 0) == 0
+
+
+@pytest.mark.parametrize("number", range(5))
+def test_a_carpet_is_made_whole_or_not_at_all(number: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    programme, calls = small_programme(3, 12, 2, 3), [0]
+
+    class Killed(BaseException):
+        pass
+
+    def counted(function: Callable[..., object]) -> Callable[..., object]:
+        def call(*args: object) -> object:
+            calls[0] += 1
+            if calls[0] > number:
+                raise Killed
+            return function(*args)
+
+        return call
+
+    with monkeypatch.context() as patch:
+        for name in ("unlink", "write", "sync", "rename"):
+            patch.setattr(f"ilmek.io.woven_file.disk.{name}", counted(getattr(disk, name)))
+        with pytest.raises(Killed), open_woven(tmp_path / "woven", programme):
+            pass
+    whole = (tmp_path / "woven").exists()
+    assert whole == (number == 4)
+    with open_woven(tmp_path / "woven", programme) as woven:
+        assert woven.restored(plant_model(programme.setup)) == first_state(plant_model(programme.setup))
+    assert [one.name for one in tmp_path.iterdir()] == ["woven"]
+
+
+def test_what_a_killed_process_has_woven_is_in_the_file(tmp_path: Path) -> None:
+    programme = small_programme(3, 12, 1, 3)
+    path = tmp_path / "woven"
+    code = f"""
+import os, signal
+from pathlib import Path
+from ilmek.drivers.twin_port import TwinPort
+from ilmek.io.output import disk
+from ilmek.io.woven_file import open_woven
+from plant_driver import weave
+from small_programme import small_programme
+programme = small_programme(3, 12, 1, 3)
+with open_woven(Path({str(path)!r}), programme) as woven:
+    for number, _ in enumerate(weave(TwinPort(programme.setup, woven), programme)):
+        if number == 30:
+            os.kill(os.getpid(), signal.SIGKILL)
+"""
+    support = Path(__file__).parents[1] / "support"
+    paths = os.pathsep.join([str(support), *sys.path])
+    done = subprocess.run([sys.executable, "-c", code], env={**os.environ, "PYTHONPATH": paths}, check=False)
+    assert done.returncode == -signal.SIGKILL
+    with open_woven(path, programme) as woven:
+        tied = sum(int(woven.counts(row).sum()) for row in range(3))
+        ended = sum(int(woven.ends(row).sum()) for row in range(3))
+        assert (tied, ended) == (17, 5)
+        again = TwinPort(programme.setup, woven)
+        assert again.time > 0
+        assert again.state.heads[0].tube >= 0
 
 
 def test_a_loom_without_wefts_or_with_many_is_restored() -> None:

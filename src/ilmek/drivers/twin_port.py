@@ -144,12 +144,11 @@ class TwinPort:
 
     def _wait(self, seconds: float) -> None:
         self._clock.wait(max(seconds, 0.0), self._woken)
+        self._woken.clear()  # the acts themselves are taken before the next wait
 
     def _take_acts(self) -> None:
-        if self._acts:
-            self._woken.clear()
-            while self._acts:
-                self._inputs.append(self._acts.popleft())
+        while self._acts:
+            self._inputs.append(self._acts.popleft())
 
     def _step(self, until: int) -> tuple[PortReport, ...]:
         inputs, self._inputs = self._inputs, []
