@@ -28,7 +28,11 @@ def test_times_add_up(seed: int, others: str, rate: float) -> None:
     assert run.uses.sum(axis=(0, 2)).tolist() == [run.time] * 3
     assert run.sums[COUNTS : COUNTS + 6].sum() == len(run.faults)
     assert (run.sums[ALL_CALLS : ALL_CALLS + 6] <= run.sums[COUNTS : COUNTS + 6]).all()
+    calls = run.faults[run.faults[:, 6] >= 0][:, 6:8]
+    assert (calls.sum(axis=1) <= run.rows[run.faults[run.faults[:, 6] >= 0][:, 0], 0]).all()
     if others == "stop":
+        ordered = calls[np.argsort(calls[:, 0], kind="stable")]
+        assert (ordered[1:, 0] >= ordered[:-1].sum(axis=1)).all()
         assert run.sums[STOPPED] == run.sums[WORK : WORK + 6].sum()
 
 

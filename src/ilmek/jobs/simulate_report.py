@@ -43,8 +43,8 @@ _SPANS = 4000
 """Largest number of stops that are drawn."""
 
 _WEAVES, _WAITS, _STOPS = range(3)
-_KNOT, _MOVE, _END, _CHANGE, _FAILED = range(5)
-_BEFORE = -1
+_KNOT, _MOVE, _END, _CHANGE, _FAILED, _WAIT = range(6)
+_BEFORE, _WAITING = -1, -2
 
 
 def simulation_report(
@@ -192,16 +192,37 @@ def _carpet(found: CarpetStatistics) -> Gantt:
 def _row(found: CarpetStatistics) -> Gantt:
     """Every head over the row that took longest."""
     number, begin, events = found.run.slowest
-    head = events[:, 3] >> 16
-    knot = durations_of(found.setup.times).knot
-    lanes = [
-        _lane(f"head {index + 1}", _split(events[head == index], knot), begin) for index in range(found.setup.heads)
-    ]
-    lanes.append(_lane("loom", events[head == NO_HEAD], begin))
-    kinds = ("knot", "colour change, travel", "weft, beat, take-up", "change of a package", "failed attempt")
-    note = "White: the head waits for a slower one or for the operator, or the loom is at the row's end."
+    head, knot = events[:, 3] >> 16, durations_of(found.setup.times).knot
+    faults = found.run.faults
+    faults = faults[(faults[:, 0] == number) & (faults[:, 6] >= 0)]
+    halts = faults[faults[:, 1] >= 0] if found.params.others == "stop" else faults[:0]
+    lanes = []
+    for index in range(found.setup.heads):
+        tied = _split(_cut(events[head == index], halts), knot)
+        waits = _waits(halts if len(halts) else faults[faults[:, 1] == index])
+        lanes.append(_lane(f"head {index + 1}", np.concatenate([tied, waits]), begin))
+    lanes.append(_lane("loom", np.concatenate([events[head == NO_HEAD], _waits(faults[faults[:, 1] < 0])]), begin))
+    kinds = ("knot", "colour change, travel", "weft, beat, take-up", "change of a package", "failed attempt",
+             "waiting for the operator")  # fmt: skip
+    note = "White: the head waits for a slower one, or the loom is at the row's end."
     return Gantt("row", f"Row {number + 1}, which took longest", Axis("time from the row's begin", "s"), tuple(lanes),
                  kinds, note)  # fmt: skip
+
+
+def _waits(faults: IntArray) -> IntArray:
+    """The waits of faults as events."""
+    calls, waits = faults[:, 6], faults[:, 7]
+    return np.stack([calls, calls + waits, calls, np.full(len(calls), _WAITING)], axis=1)
+
+
+def _cut(events: IntArray, halts: IntArray) -> IntArray:
+    """The events of a head without the standstills of the loom in them."""
+    for call, wait in halts[:, 6:8].tolist():
+        inside = (events[:, 0] < call) & (events[:, 1] > call + wait)
+        first, last = events[inside].copy(), events[inside].copy()
+        first[:, 1], last[:, 0] = call, call + wait
+        events = np.concatenate([events[~inside], first, last])
+    return events
 
 
 def _split(events: IntArray, knot: int) -> IntArray:
@@ -216,8 +237,14 @@ def _split(events: IntArray, knot: int) -> IntArray:
 
 def _lane(name: str, events: IntArray, begin: int) -> GanttLane:
     outcome, loom = events[:, 3] & 255, events[:, 3] >> 16 == NO_HEAD
-    cases = [events[:, 3] == _BEFORE, (outcome == DONE) & loom, outcome == DONE, outcome == CHANGED]
-    kinds = np.select(cases, [_MOVE, _END, _KNOT, _CHANGE], _FAILED)
+    cases = {
+        _MOVE: events[:, 3] == _BEFORE,
+        _WAIT: events[:, 3] == _WAITING,
+        _END: (outcome == DONE) & loom,
+        _KNOT: outcome == DONE,
+        _CHANGE: outcome == CHANGED,
+    }
+    kinds = np.select(list(cases.values()), list(cases), _FAILED)
     order = np.argsort(events[:, 0], kind="stable")
     starts, ends = (events[order, column] - begin for column in (0, 1))
     return GanttLane(name, starts / BILLION, ends / BILLION, kinds[order])

@@ -196,10 +196,10 @@ class _Weaving:
         """Add a phase to the accounts of the heads; a head that has ended waits for the slowest."""
         durations, counts = self.walk.durations, knots.counts[:, phase]
         tries, waits = np.zeros(self.heads, np.int64), np.zeros(self.heads, np.int64)
-        for fault in faults:
+        for fault, late in zip(faults, self._standstills(faults), strict=True):
             tries[fault[HEAD]] += durations.knot * (fault[RETRIES] + fault[CALLS])
             waits[slice(None) if self.table.halts else fault[HEAD]] += fault[WAIT]
-            self._note(number, knots, phase, fault)
+            self._note(number, knots, phase, fault, self.now + int(fault[CALL]) + late)
         use[:, TYING] += durations.knot * counts
         use[:, CHANGING] += durations.colour_change * out.changes
         use[:, TRAVELLING] += durations.travel * out.idle
@@ -219,13 +219,23 @@ class _Weaving:
             own = faults[faults[:, HEAD] == last]
             self.lost[own[np.argmax(own[:, WAIT]), CAUSE]] += lost
 
-    def _note(self, number: int, knots: RowKnots, phase: int, fault: IntArray) -> None:
+    def _standstills(self, faults: IntArray) -> list[int]:
+        """Standstill of a loom that halts before each fault of a phase [ns]; calls are served by time, then by head."""
+        late = np.zeros(len(faults), np.int64)
+        if self.table.halts:
+            order = np.lexsort((faults[:, HEAD], faults[:, CALL]))
+            late[order] = np.cumsum(faults[order, WAIT]) - faults[order, WAIT]
+        return [int(one) for one in late]
+
+    def _note(
+        self, number: int, knots: RowKnots, phase: int, fault: IntArray, called: int
+    ) -> None:
         """Add a fault of a head to the lists."""
         head, cause, calls = int(fault[HEAD]), int(fault[CAUSE]), int(fault[CALLS])
         at = int(knots.first[head, phase] + fault[KNOT])
         tube, attempts = int(knots.tubes[at]), int(fault[RETRIES] + calls)
         self.packages.lose(self.walk, head, tube, attempts, calls)
-        call = self.now + int(fault[CALL]) if calls else -1
+        call = called if calls else -1
         self._keep((number, head, int(knots.columns[at]), tube, cause, attempts, call, int(fault[WAIT])))
         self._count(cause, attempts, calls, int(fault[RESPONDS] + fault[REPAIRS]))
 
