@@ -308,17 +308,25 @@ def test_alarms_are_conditions(server: LoomServer, loom: SteppingLoom, pair: Pai
         events = Events()
         subscription = await calls.client.create_subscription(50, events)
         await subscription.subscribe_alarms_and_conditions(calls.client.nodes.server, calls.node("LoomAlarmType"))
-        loom.alarms = (AlarmView("weft-break", "the weft broke", "thread it", True, 5),)
+        loom.alarms = (AlarmView("weft break", "the weft broke", "thread it", True, 5),)
         await calls.until(lambda: count_is(calls, 1))
         assert await calls.read("Loom.Alarms.Remedies") == ["thread it"]
-        loom.alarms = ()
+        request = ua.CallMethodRequest(
+            ObjectId=calls.node("Loom.Alarms.weft break").nodeid,
+            MethodId=ua.NodeId(ua.ObjectIds.AcknowledgeableConditionType_Acknowledge),
+            InputArguments=[ua.Variant(b"0"), ua.Variant(ua.LocalizedText("threaded"))],
+        )
+        (acknowledged,) = await calls.client.uaclient.call([request])
+        assert acknowledged.StatusCode.is_good()
         await calls.until(lambda: count_is(calls, 0))
+        assert await calls.status("Loom.Alarms.Acknowledge") == "Good"
+        assert loom.given == ["acknowledge", "acknowledge"]
         await calls.until(lambda: seen(events, 2))
         raised, cleared = (event for event in events.seen if event.ConditionName)
         assert (raised.Cause, raised.Remedy, raised.Severity, raised.Retain) == (
             "the weft broke",
             "thread it",
-            800,
+            600,
             True,
         )
         assert (getattr(raised, "ActiveState/Id"), getattr(cleared, "ActiveState/Id")) == (True, False)
@@ -329,7 +337,7 @@ def test_alarms_are_conditions(server: LoomServer, loom: SteppingLoom, pair: Pai
     async def seen(events: Events, count: int) -> bool:
         return sum(bool(event.ConditionName) for event in events.seen) == count
 
-    connected(server, pair, act, "viewer")
+    connected(server, pair, act)
 
 
 def test_clients_stay_within_bounds(server: LoomServer, loom: SteppingLoom, pair: Pair) -> None:

@@ -9,17 +9,19 @@ from ilmek.drivers.opcua.job_orders import Job
 from ilmek.drivers.opcua.methods import job_order, job_response, job_state
 from ilmek.drivers.opcua.model import ALARM_TYPE, LOOM
 from ilmek.drivers.opcua.space import AddressSpace
+from ilmek.loom.control.alarms import ALARMS
 from ilmek.loom.control.view import AlarmView
 
-SEVERITY_STOP, SEVERITY_NOTE = 800, 300
-"""Severity of an alarm for which the loom stands, and of any other (1 to 1000)."""
+NOTE = 300
+"""Severity of a job order's event, and of an alarm that is not in the controller's list."""
 
 
 class LoomEvents:
     """Sends the events, from the server's object and from the loom's.
 
     An alarm is active from when it is raised until it is cleared, and is retained meanwhile, so that ConditionRefresh
-    repeats it. It needs no acknowledgement: what is to be done is done at the loom.
+    repeats it. One for which the loom stands is unacknowledged meanwhile: it is cleared when its cause has ended and an
+    operator acknowledges it.
     """
 
     def __init__(self, space: AddressSpace) -> None:
@@ -63,11 +65,12 @@ class LoomEvents:
             generator.event.JobState = job_state(self._space, job)
             generator.event.JobOrder = job_order(job)
             generator.event.JobResponse = job_response(self._space, job)
-            generator.event.Severity = SEVERITY_NOTE
+            generator.event.Severity = NOTE
             await generator.trigger(message=f"Job order {job.order}: {job.state.value}")
 
     async def _send(self, alarm: AlarmView, *, active: bool) -> None:
-        stops = SEVERITY_STOP if alarm.stops else SEVERITY_NOTE
+        kind = ALARMS.get(alarm.name)
+        unacknowledged = active and alarm.stops
         fields = {
             "NodeId": self._space.node_id(f"{LOOM}.Alarms.{alarm.name}"),
             "ConditionName": alarm.name,
@@ -80,9 +83,9 @@ class LoomEvents:
             "ActiveState": ua.LocalizedText("Active" if active else "Inactive"),
             "ActiveState/Id": active,
             "ActiveState/TransitionTime": datetime.now(UTC),
-            "AckedState": ua.LocalizedText("Acknowledged"),
-            "AckedState/Id": True,
-            "Severity": stops,
+            "AckedState": ua.LocalizedText("Unacknowledged" if unacknowledged else "Acknowledged"),
+            "AckedState/Id": not unacknowledged,
+            "Severity": NOTE if kind is None else kind.severity,
             "Cause": alarm.cause,
             "Remedy": alarm.remedy,
             "StopsLoom": alarm.stops,

@@ -9,7 +9,7 @@ call and write to the user's right.
 import asyncio
 import socket
 import time
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 from typing import Any
 
 from asyncua import Server, ua
@@ -45,6 +45,7 @@ LARGEST_CHUNK, LARGEST_MESSAGE = 1 << 16, 1 << 22
 """Largest chunk and largest message of a client [bytes]."""
 
 _I = ua.ObjectIds
+_ACKNOWLEDGE = ua.NodeId(_I.AcknowledgeableConditionType_Acknowledge)
 _DISCOVERY = {
     ua.NodeId(_I.GetEndpointsRequest_Encoding_DefaultBinary),
     ua.NodeId(_I.FindServersRequest_Encoding_DefaultBinary),
@@ -146,7 +147,9 @@ class GatedSession(InternalSession):
     async def call(self, params: Any) -> list[ua.CallMethodResult]:
         results = []
         for request in _bounded(params):
-            if self.right is UserRight.OPERATOR or request.MethodId in self.iserver.open_methods:
+            if self.right is UserRight.OPERATOR and request.MethodId == _ACKNOWLEDGE:
+                results.append(await self.iserver.acknowledged(request))
+            elif self.right is UserRight.OPERATOR or request.MethodId in self.iserver.open_methods:
                 results += await super().call([request])
             else:
                 results.append(ua.CallMethodResult(StatusCode=ua.StatusCode(ua.StatusCodes.BadUserAccessDenied)))
@@ -226,10 +229,14 @@ def _bounded(items: Any) -> Any:
     return items
 
 
+async def _unknown(_: Any) -> ua.CallMethodResult:
+    return ua.CallMethodResult(StatusCode=ua.StatusCode(ua.StatusCodes.BadNodeIdUnknown))
+
+
 class GatedInternalServer(InternalServer):
     """Sessions of gated users within bounds; a session stays on the channel on which it began.
 
-    open_methods  that a viewer may call too
+    open_methods  that a viewer may call too     acknowledged  answers the method Acknowledge of a condition
     """
 
     def __init__(self, users: UserList, log: Callable[[str], None]) -> None:
@@ -239,6 +246,7 @@ class GatedInternalServer(InternalServer):
             ua.NodeId(_I.ConditionType_ConditionRefresh),
             ua.NodeId(_I.ConditionType_ConditionRefresh2),
         }
+        self.acknowledged: Callable[[Any], Awaitable[Any]] = _unknown
         self.bind_condition_methods = True
         self.max_connections = MOST_CONNECTIONS
         self.max_subscriptions = MOST_SUBSCRIPTIONS

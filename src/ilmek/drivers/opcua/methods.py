@@ -6,6 +6,7 @@ from typing import Any
 from asyncua import ua
 
 from ilmek.drivers.opcua.job_orders import Job, JobDesk, JobState, ReturnStatus
+from ilmek.drivers.opcua.model import LOOM, METHODS, own_objects
 from ilmek.drivers.opcua.space import AddressSpace
 from ilmek.drivers.opcua.values import BLOCKS, PACKML
 from ilmek.loom.control.view import Answer, Snapshot
@@ -55,6 +56,9 @@ class LoomMethods:
         """Bind all methods; the identifiers of those that only read."""
         for path, name in COMMANDS.items():
             self._space.bind(path, self._packml(name))
+        for path, kind in own_objects(self._space.plate).items():
+            for name, (command, _) in METHODS.get(kind, {}).items():
+                self._space.bind(f"{path}.{name}", self._packml(command))
         for path in UNSUPPORTED:
             self._space.bind(path, _unsupported)
         self._space.bind(f"{PACKML}.SetUnitMode", self._set_mode)
@@ -73,6 +77,14 @@ class LoomMethods:
             return await self._answered(name)
 
         return called
+
+    async def acknowledged(self, request: ua.CallMethodRequest) -> ua.CallMethodResult:
+        """Acknowledge of a condition: the loom's alarms are acknowledged together."""
+        condition = request.ObjectId.Identifier
+        known = {f"{LOOM}.Alarms.{alarm.name}" for alarm in self._snapshot().alarms}
+        if condition not in known or request.ObjectId.NamespaceIndex != self._space.spaces["Loom"]:
+            return _result(_C.BadNodeIdUnknown)
+        return await self._answered("acknowledge")
 
     async def _set_mode(self, _: ua.NodeId, *arguments: ua.Variant) -> ua.CallMethodResult:
         modes = {1: "production", 2: "maintenance", 3: "manual"}

@@ -104,6 +104,18 @@ TYPES: Mapping[str, tuple[TypeField, ...]] = MappingProxyType(
 )
 """Object types of the loom's namespace, all subtypes of BaseObjectType."""
 
+METHODS: Mapping[str, Mapping[str, tuple[str, str]]] = MappingProxyType(
+    {
+        "LoomStatusType": {
+            "Resume": ("resume", "lead the loom on to Execute from wherever it stands; acknowledges all alarms"),
+            "AnswerYes": ("yes", "answer what the controller asks: the knot or operation is in the carpet"),
+            "AnswerNo": ("no", "the same: it is not in the carpet"),
+        },
+        "AlarmListType": {"Acknowledge": ("acknowledge", "all alarms were seen and their causes removed")},
+    }
+)
+"""Methods of these types, all without arguments: the command that each gives, and its meaning."""
+
 ALARM_TYPE = "LoomAlarmType"
 ALARM_FIELDS = (
     TypeField("Cause", "String", "cause of the alarm"),

@@ -45,6 +45,7 @@ class LoomServer:
     users     who may read and command             credentials  the server's certificate and key
     host      to listen at                         port         0: a free one
     interval  of the snapshots [s]                 log          takes remarks, such as refused clients
+    paths     of all variables and of all methods, once it has started
     """
 
     def __init__(
@@ -68,6 +69,7 @@ class LoomServer:
         self._thread = threading.Thread(target=self._run, name="opc-ua", daemon=True)
         self._pool = ThreadPoolExecutor(max_workers=1, thread_name_prefix="opc-ua-command")
         self._changed: list[Job] = []
+        self.paths: tuple[tuple[str, ...], tuple[str, ...]] = ((), ())
 
     @property
     def url(self) -> str:
@@ -146,6 +148,8 @@ class LoomServer:
         shown = _Shown(space, desk, LoomEvents(space), snapshot)
         methods = LoomMethods(space, desk, self._command, lambda: shown.snapshot, shown.refused)
         server.iserver.open_methods |= methods.bind()
+        server.iserver.acknowledged = methods.acknowledged
+        self.paths = space.paths, space.methods
         await shown.prepare()
         await server.start()
         try:

@@ -12,6 +12,7 @@ from ilmek.drivers.opcua.model import (
     ALARM_FIELDS,
     ALARM_TYPE,
     LOOM,
+    METHODS,
     NAMESPACE,
     TYPES,
     LoomNameplate,
@@ -153,6 +154,16 @@ class AddressSpace:
         await self._add(
             base, ua.NodeId(_I.HasSubtype), identifier, self._own_name(name), attributes=attributes, kind=None
         )
+        for method, (_, meaning) in METHODS.get(name, {}).items():
+            child = self.node_id(f"{name}.{method}")
+            called = ua.MethodAttributes(
+                DisplayName=ua.LocalizedText(method),
+                Description=ua.LocalizedText(meaning),
+                Executable=True,
+                UserExecutable=True,
+            )
+            await self._add(identifier, reference, child, self._own_name(method), attributes=called, kind=None)
+            await self._refer(child, _I.HasModellingRule, ua.NodeId(_I.ModellingRule_Mandatory))
         for field in fields:
             variable = ua.VariableAttributes(
                 DisplayName=ua.LocalizedText(field.name),
