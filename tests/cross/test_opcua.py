@@ -1,6 +1,7 @@
 """The OPC UA server of a loom, by asyncua's client: security, what is shown, commands, job orders, alarms."""
 
 import asyncio
+import re
 import socket
 import threading
 from collections.abc import Awaitable, Callable, Iterator
@@ -17,7 +18,7 @@ from small_programme import small_programme
 from ilmek.drivers.opcua.certificate import make_credentials
 from ilmek.drivers.opcua.gate import LARGEST_CHUNK, LEAST_INTERVAL, MOST_OF_SESSION
 from ilmek.drivers.opcua.job_orders import ReturnStatus
-from ilmek.drivers.opcua.model import LoomNameplate
+from ilmek.drivers.opcua.model import METHODS, TYPES, LoomNameplate, own_objects
 from ilmek.drivers.opcua.server import LoomServer
 from ilmek.drivers.opcua.users import LoomUser, UserList, UserRight, hashed
 from ilmek.errors import LoomError
@@ -405,3 +406,22 @@ def test_states_of_the_loom(loom: SteppingLoom, server: LoomServer, pair: Pair) 
         return bool(await calls.read("Loom.Status.State") == state)
 
     connected(server, pair, act)
+
+
+def test_the_reference_has_the_nodes_of_the_server(server: LoomServer) -> None:
+    page = (Path(__file__).parents[2] / "docs/reference/opc-ua.md").read_text(encoding="utf-8")
+    variables, methods = server.paths
+    nodes = {*variables, *methods}
+    stated = set(re.findall(r"`(Loom\.[\w.]+)`", page))
+    assert {one for one in stated if not any(f"{node}.".startswith(f"{one}.") for node in nodes)} == set()
+    for path, kind in own_objects(PLATE).items():
+        if re.sub(r"\d", "0", path) == path:
+            for field in TYPES[kind]:
+                data = f"{field.data}[]" if field.array else field.data
+                assert f"| `{path}.{field.name}` | {data} | {field.meaning} |" in page
+            for name, (_, meaning) in METHODS.get(kind, {}).items():
+                assert f"| `{path}.{name}` | method | {meaning} |" in page
+    others = [path for path in methods if not path.startswith(CONTROL) and not path.startswith(RESULTS)]
+    assert {re.sub(r"\d", "0", path) for path in others} <= stated
+    assert [path for path in methods if path.startswith(CONTROL) and f"| {path.rpartition('.')[2]} |" not in page] == []
+    assert all(f"| {status.value} |" in page for status in ReturnStatus)

@@ -25,7 +25,7 @@ from ilmek.drivers.opcua.methods import CONTROL, RECEIVER, LoomMethods, job_valu
 from ilmek.drivers.opcua.model import LOOM, LoomNameplate
 from ilmek.drivers.opcua.space import AddressSpace
 from ilmek.drivers.opcua.users import UserList
-from ilmek.drivers.opcua.values import CurrentState, fixed_values, snapshot_values
+from ilmek.drivers.opcua.values import NESTED, CurrentState, fixed_values, snapshot_values
 from ilmek.errors import LoomError
 from ilmek.loom.control.view import Answer, ControllerView, Snapshot
 
@@ -35,7 +35,11 @@ INTERVAL = 0.1
 ANSWER_TIME = 5.0
 """Time within which the controller must answer a command [s]."""
 
+LIKELY_SPEED = 60.0
+"""Upper end of the range of likely speeds of a head [knots a minute]."""
+
 _START_TIME = 60.0
+_MEMBERS = ("StateType", "TransitionType")
 
 
 class LoomServer:
@@ -196,8 +200,13 @@ class _Shown:
         plate = self.space.plate
         enumeration = self.space.type_id("PackML:ProductionMaintenanceModeEnum")
         master = ua.ISA95WorkMasterDataType(ID=plate.programme, Description=ua.LocalizedText(plate.title))
+        speeds = ua.Range(0.0, LIKELY_SPEED * plate.heads)
+        machines = {path: [self.space.members(kind, one) for one in _MEMBERS] for path, kind in NESTED.items()}
         await self.space.write(
             {
+                **{f"{LOOM}.PackML.Status.{name}.EURange": speeds for name in ("MachSpeed", "CurMachSpeed")},
+                **{f"{path}.AvailableStates": states for path, (states, _) in machines.items()},
+                **{f"{path}.AvailableTransitions": transitions for path, (_, transitions) in machines.items()},
                 f"{CONTROL}.MaxDownloadableJobOrders": MOST_JOBS,
                 f"{CONTROL}.WorkMaster": [master],
                 f"{CONTROL}.EquipmentID": [plate.serial],

@@ -134,6 +134,12 @@ class AddressSpace:
                     return child.NodeId, None if not number else self._attribute(number[0].NodeId, _A.Value)
         raise KeyError(state)
 
+    def members(self, machine: str, kind: str) -> list[ua.NodeId]:
+        """The states or the transitions of a state machine type: its children of a type, "StateType" for example."""
+        owners = self._with_supertypes(self.type_id(machine))
+        children = (child for owner in owners for child in self._children(owner))
+        return [child.NodeId for child in children if child.TypeDefinition == self.type_id(kind)]
+
     def state_number(self, machine: str, name: str) -> tuple[ua.NodeId, int]:
         """Node and number of a state of a state machine type."""
         identifier, number = self._state(CurrentState(machine, name))

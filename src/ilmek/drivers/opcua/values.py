@@ -13,6 +13,13 @@ MILLISECONDS = 1e-6
 BLOCKS = f"{LOOM}.MachineryBuildingBlocks"
 PACKML = f"{LOOM}.PackML"
 
+NESTED = {
+    f"{PACKML}.BaseStateMachine": "PackML:PackMLBaseStateMachineType",
+    f"{PACKML}.BaseStateMachine.MachineState": "PackML:PackMLMachineStateMachineType",
+    f"{PACKML}.BaseStateMachine.MachineState.ExecuteState": "PackML:PackMLExecuteStateMachineType",
+}
+"""The nested state machines of PackML, from the outermost, and their types."""
+
 _BOBBIN = {"Weft": "name", "RowsLeft": "left"}
 
 
@@ -60,27 +67,25 @@ def snapshot_values(plate: LoomNameplate, snapshot: Snapshot) -> dict[str, Any]:
 
 
 def _states(snapshot: Snapshot) -> dict[str, Any]:
-    base, machine, execute = nested_states(snapshot.state)
-    outer = f"{PACKML}.BaseStateMachine"
+    nested = zip(NESTED.items(), nested_states(snapshot.state), strict=True)
+    machines = {
+        f"{BLOCKS}.MachineryItemState": ("Machinery:MachineryItemState_StateMachineType", item_state(snapshot.state)),
+        f"{BLOCKS}.MachineryOperationMode": (
+            "Machinery:MachineryOperationModeStateMachineType",
+            operation_mode(snapshot.mode),
+        ),
+        **{path: (machine, state) for (path, machine), state in nested},
+    }
     return {
         f"{LOOM}.Status.State": snapshot.state,
         f"{LOOM}.Status.StateNumber": STATE_NUMBERS.get(snapshot.state, 0),
         f"{LOOM}.Status.Mode": snapshot.mode,
         f"{LOOM}.Status.ModeNumber": MODE_NUMBERS.get(snapshot.mode, 0),
         f"{LOOM}.Status.Commands": list(snapshot.commands),
-        f"{BLOCKS}.MachineryItemState.CurrentState": CurrentState(
-            "Machinery:MachineryItemState_StateMachineType", item_state(snapshot.state)
-        ),
-        f"{BLOCKS}.MachineryOperationMode.CurrentState": CurrentState(
-            "Machinery:MachineryOperationModeStateMachineType", operation_mode(snapshot.mode)
-        ),
-        f"{outer}.CurrentState": CurrentState("PackML:PackMLBaseStateMachineType", base),
-        f"{outer}.MachineState.CurrentState": (
-            None if machine is None else CurrentState("PackML:PackMLMachineStateMachineType", machine)
-        ),
-        f"{outer}.MachineState.ExecuteState.CurrentState": (
-            None if execute is None else CurrentState("PackML:PackMLExecuteStateMachineType", execute)
-        ),
+        **{
+            f"{path}.CurrentState": None if state is None else CurrentState(machine, state)
+            for path, (machine, state) in machines.items()
+        },
     }
 
 
