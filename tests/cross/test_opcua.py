@@ -130,7 +130,7 @@ class Calls:
         return {one.JobOrder.JobOrderID: one.State[0].StateText.Text for one in listed}
 
     async def until(self, check: Callable[[], Awaitable[bool]]) -> None:
-        async with asyncio.timeout(20):
+        async with asyncio.timeout(60):
             while not await check():
                 await asyncio.sleep(0.02)
 

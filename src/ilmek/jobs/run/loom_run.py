@@ -191,12 +191,15 @@ class LoomRun:
     def _attend(self, show: Callable[[Snapshot], object]) -> None:
         """Take the commands of others, and show the state."""
         self._due = time.monotonic() + INTERVAL
+        answered = []
         while not self._commands.empty():
             name, answers, taken = self._commands.get_nowait()
             answers.append(self._commanded(name))
-            taken.set()
+            answered.append(taken)
         self._channel.poll(self._handled)
         self._snapshot = self._maker.make(self._session)
+        for taken in answered:  # who gave a command finds what came of it in the snapshot
+            taken.set()
         show(self._snapshot)
 
     def _handled(self, name: str) -> dict[str, Any]:

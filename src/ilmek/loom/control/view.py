@@ -108,7 +108,7 @@ class ControllerView(Protocol):
         """Its state after the last event; takes less than a millisecond."""
 
     def command(self, name: str) -> Answer:
-        """Give a command by its name; returns when the controller has accepted or refused it.
+        """Give a command by its name; returns when the controller has answered and the snapshot shows it.
 
         Commands are those of PackML, for example "hold"; "production", "maintenance" and "manual", which choose the
         mode; "resume", which goes on with the carpet from any state; "acknowledge", all alarms;
