@@ -178,5 +178,10 @@ def _echo_restored() -> Iterator[None]:
         return
     number = sys.stdin.fileno()
     state = termios.tcgetattr(number)
-    with before_end(lambda: termios.tcsetattr(number, termios.TCSANOW, state), "no user was written"):
+
+    def restored() -> str:
+        termios.tcsetattr(number, termios.TCSANOW, state)
+        return "no user was written"
+
+    with before_end(restored):
         yield

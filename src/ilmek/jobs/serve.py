@@ -167,7 +167,8 @@ def _credentials(order: ServeOrder, plate: "LoomNameplate") -> "Credentials":
     paths = folder / f"{plate.serial}-certificate.pem", folder / f"{plate.serial}-key.pem"
     if all(path.exists() for path in paths):
         try:
-            return parse_credentials(*(read_bounded(path, "certificate") for path in paths), plate.uri)
+            kept, private = (read_bounded(path, "certificate") for path in paths)
+            return parse_credentials(kept, private, plate.uri)
         except OtherApplicationError:
             pass  # of a loom whose serial number begins alike
     made = make_credentials(plate.uri, f"ilmek loom {plate.serial}", ("127.0.0.1", "::1", "localhost"))
