@@ -80,6 +80,7 @@ def test_programme_ties_the_chart(woven: tuple[Path, Any]) -> None:
             tied[number, row.columns] = setup.loading[of_head, row.tubes]
         assert programme.totals.duration == pytest.approx(found["weaving_time"], rel=1e-12)
         assert setup.heads == 2
+        assert found["time_bound"] <= found["weaving_time"] <= found["time_naive"]
     assert np.array_equal(tied[::-1], chart)
 
 

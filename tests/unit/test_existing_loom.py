@@ -347,3 +347,21 @@ def test_a_programme_states_its_loom_and_its_yarns(loom_file: Path, picture: Pat
     assert setup.packages[0, 0] == pytest.approx(loom.params.package_mass / yarn.linear_density)
     assert max(setup.knot_yarn) == pytest.approx(loom.params.billed, rel=0.5)
     assert setup.times.row_ends == row_ends(loom.row_cyclogram)
+
+
+def test_a_loom_with_fewer_tubes_than_colours_changes_packages(picture: Path) -> None:
+    order = read_order(picture, size=SIZE, quality=QUALITY)
+    charted = make_charted(order)
+    few = make_loomed(read_loom_order(order, heads=1, loom={"beat": "comb", "tubes": "1"}), charted)
+    assert failed(few) == {"colours"}
+    assert few.programme is None
+    assert "take a loom with 2 tubes" in few.checks[0].cure
+    knots = charted.chart.knots.copy()
+    knots[:, :] = np.arange(len(knots))[:, None] // 10 % 2  # bands of one colour each
+    banded = replace(charted, chart=replace(charted.chart, knots=knots))
+    found = make_loomed(read_loom_order(order, heads=1, loom={"beat": "comb", "tubes": "1"}), banded)
+    assert failed(found) == set()
+    assert found.programme is not None
+    changes = len(found.programme.tubes.changes)
+    assert changes == np.count_nonzero(np.diff(knots[:, 0].astype(int)))
+    assert found.programme.stop_time >= 60.0 * changes
