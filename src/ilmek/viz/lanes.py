@@ -83,7 +83,10 @@ class _Frame:
         self, axis: Axis, names: Sequence[str], kinds: Sequence[str], used: Sequence[int], most: float,
         looks: Mapping[str, int],
     ) -> None:  # fmt: skip
-        self._colours = dict(enumerate(map(colour, numbered(kinds, looks))))
+        shades = [colour(number) for number in numbered(kinds, looks)]
+        if len({shades[kind] for kind in used}) < len(used):  # other figures have taken colours: here each its own
+            shades = [colour(number) for number in range(len(kinds))]
+        self._colours = dict(enumerate(shades))
         left = 18.0 + max([40.0, *(text_width(name, STRONG, bold=True) for name in names)])
         keys = _keys([(kind, kinds[kind]) for kind in used], left)
         rows = 1 + max((row for _, row, _ in keys), default=-1)
