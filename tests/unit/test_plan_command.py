@@ -26,7 +26,7 @@ def plan(folder: Path, *more: str) -> Result:
 @pytest.fixture(scope="module")
 def example(tmp_path_factory: pytest.TempPathFactory) -> tuple[dict[str, Any], Path]:
     out = tmp_path_factory.mktemp("plan") / "out"
-    done = plan(EXAMPLES, "--out", str(out), "--json", "-")
+    done = plan(EXAMPLES, "--out", str(out), "--json", "-", "--time-limit", "200s")
     assert done.exit_code == 3, done.output
     return json.loads(done.stdout), out
 

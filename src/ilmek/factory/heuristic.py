@@ -58,10 +58,10 @@ def _dispatched(factory: Factory, order: Sequence[int]) -> FactoryPlan:
     return left_shifted(factory, sequences, floors)
 
 
-def improved_plan(plan: FactoryPlan, progress: Progress = SILENT) -> FactoryPlan:
+def improved_plan(plan: FactoryPlan, progress: Progress = SILENT, *, tries: int = MOST_TRIES) -> FactoryPlan:
     """Move each carpet to the best position of all looms, while that lowers the merit and tries are left."""
     factory = plan.factory
-    sequences, tries = sequences_of(plan), MOST_TRIES
+    sequences = sequences_of(plan)
     floors = waiting_times(factory, [one.job for one in sorted(plan.carpets, key=lambda one: one.start)])
     merits = [_loom_merit(factory, loom, sequence, floors) for loom, sequence in enumerate(sequences)]
     for turn in range(_ROUNDS):

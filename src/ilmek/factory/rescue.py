@@ -17,16 +17,19 @@ from ilmek.factory.yarn_stock import scarce_yarns, waiting_in, waiting_times
 OVERTIME = (1, 2, 4, 8)
 """Hours of overtime a day that are tried."""
 
-MOST_SOLVED = 30
+MOST_SOLVED = 12
 """Largest number of carpets for which the solver is tried where the moves of single carpets find no plan."""
 
-MOST_LOOMS_TRIED = 3
+MOST_LOOMS_TRIED = 2
 """Number of looms of an order on which overtime is tried."""
 
 URGENT = 1000
 """How many times the delay of a carpet that must be in time counts while its plan is searched."""
 
-_LIMITS = SolveLimits(0.3, 3.0)
+TRIES = 5_000
+"""Placements of a carpet that are timed for a measure; 0.05 s."""
+
+_LIMITS = SolveLimits(0.05, 10.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,9 +49,10 @@ class Rescue:
     plan: FactoryPlan
 
 
-def rescues(plan: FactoryPlan, jobs: frozenset[int]) -> tuple[Rescue, ...]:
+def rescues(plan: FactoryPlan, jobs: frozenset[int], ended: Callable[[], bool] = bool) -> tuple[Rescue, ...]:
     """The measures that save the late jobs of an order, the smallest of each kind and loom.
 
+    ended  whether the time is over: then no more measures are tried; default: never
     Where it is enough to put the order before others, measures with a more expensive plan are left out.
     """
     factory, found = plan.factory, []
@@ -57,6 +61,10 @@ def rescues(plan: FactoryPlan, jobs: frozenset[int]) -> tuple[Rescue, ...]:
     if first is not None:
         found.append(Rescue("put first", -1, 0, until, first))
     for attempts in _attempts(factory, plan, jobs, until):
+        if ended():
+            break
+        if len(attempts) > 1 and _saved(attempts[-1][-1], plan, jobs) is None:
+            continue  # where the largest measure does not save it, no smaller one does
         for kind, loom, hours, changed in attempts:
             made = _saved(changed, plan, jobs)
             if made is not None and (first is None or made.cost < first.cost):
@@ -123,7 +131,7 @@ def _saved(changed: Factory, plan: FactoryPlan, jobs: frozenset[int]) -> Factory
     sequences = [*sequences_of(plan), *([] for _ in range(len(changed.looms) - len(plan.factory.looms)))]
     order = [one.job for one in sorted(plan.carpets, key=lambda one: one.start)]
     floors = waiting_times(changed, order)
-    found = improved_plan(left_shifted(urgent, sequences, floors))
+    found = improved_plan(left_shifted(urgent, sequences, floors), tries=TRIES)
     made = left_shifted(changed, sequences_of(found), {**waiting_in(found), **_floors(found, floors)})
     if made.late & in_time and len(changed.jobs) <= MOST_SOLVED:
         made = solve(changed, made, _LIMITS, in_time=in_time).plan

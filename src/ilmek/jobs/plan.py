@@ -29,7 +29,7 @@ LEAST_LIMIT, MOST_LIMIT = 1.0, 3600.0
 MOST_RESCUED = 5
 """Largest number of late orders for which measures are searched: those whose delay costs most."""
 
-SOLVER_SHARE = 0.7
+SOLVER_SHARE = 0.6
 """Share of the time for the solver; the rest is for the first plan and the measures."""
 
 PACE = 0.12
@@ -51,6 +51,7 @@ class PlanResult:
     solved     the plan with its bound; None where no order can be woven
     late       the late orders, those whose delay costs most first; measures for at most MOST_RESCUED of them
     purchases  yarn to buy
+    ended      whether the time limit ended the search of measures
     """
 
     inputs: FactoryInputs
@@ -58,6 +59,7 @@ class PlanResult:
     late: tuple[LateOrder, ...]
     purchases: tuple[Purchase, ...]
     time_limit: float
+    ended: bool = False
 
     @property
     def plan(self) -> FactoryPlan:
@@ -110,6 +112,8 @@ class PlanResult:
             found.append(
                 "the time limit ended the search: another computer may find another plan; give a longer --time-limit"
             )
+        if self.ended:
+            found.append("the time limit ended the search of measures for late orders; give a longer --time-limit")
         measured = sum(bool(one.rescues) for one in self.late)
         if measured < len(self.late):
             found.append(f"measures are searched for {measured} of {len(self.late)} late orders")
@@ -152,10 +156,11 @@ def plan_factory(
     if faults:
         raise LoomError(f"the plan does not hold: {faults[0]}", do="report this with both files")
     done = PlanResult(inputs, solved, (), purchases(solved.plan), limit)
-    return replace(done, late=_late_orders(done, progress.part(0.8, 1.0, "late orders")))
+    return _with_measures(done, begun + limit, progress.part(0.8, 1.0, "late orders"))
 
 
-def _late_orders(done: PlanResult, progress: Progress) -> tuple[LateOrder, ...]:
+def _with_measures(done: PlanResult, deadline: float, progress: Progress) -> PlanResult:
+    """The result with its late orders and what saves them; `deadline`: end of the search on the monotonic clock [s]."""
     plan, jobs = done.plan, done.inputs.factory.jobs
     costs = {
         index: sum(jobs[one.job].late_cost(one.end) for one in done.carpets(index))
@@ -165,9 +170,10 @@ def _late_orders(done: PlanResult, progress: Progress) -> tuple[LateOrder, ...]:
     found = []
     for number, order in enumerate(sorted(costs, key=lambda index: (-costs[index], index))):
         late = frozenset(done.inputs.jobs[order]) & plan.late
-        found.append(LateOrder(order, rescues(plan, late) if number < MOST_RESCUED else ()))
+        measures = rescues(plan, late, lambda: time.monotonic() > deadline) if number < MOST_RESCUED else ()
+        found.append(LateOrder(order, measures))
         progress(min(1.0, (number + 1) / MOST_RESCUED))
-    return tuple(found)
+    return replace(done, late=tuple(found), ended=bool(found) and time.monotonic() > deadline)
 
 
 def _not_woven(inputs: FactoryInputs, order: PlannedOrder) -> list[Check]:
@@ -207,7 +213,7 @@ def plan_results(done: PlanResult) -> dict[str, Any]:
         "gap": done.gap,
         "currency": done.inputs.orders_file.currency,
         "status": "none" if solved is None else solved.status,
-        "repeatable": solved is None or solved.repeatable,
+        "repeatable": solved is None or (solved.repeatable and not done.ended),
         "horizon": None if solved is None else _iso(done, solved.horizon),
         "looms": [_loom_json(done, index) for index in range(len(done.inputs.factory.looms))],
         "late_orders": [

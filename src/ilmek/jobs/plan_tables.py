@@ -12,15 +12,14 @@ def order_table(found: dict[str, Any]) -> PlanTable:
     """The carpets of the results of a plan, in the order of the file."""
     rows = []
     for order in found["orders"]:
+        due = day_text(order["due"])
         for one in order["carpets"]:
-            cost = f"{one['cost']:,.2f}"
-            rows.append(
-                (order["name"], one["loom"], day_text(one["start"]), day_text(one["end"]), cost, _late(one["late"]))
-            )
+            cost, late = f"{one['cost']:,.2f}", _late(one["late"])
+            rows.append((order["name"], one["loom"], day_text(one["start"]), day_text(one["end"]), due, cost, late))
         if not order["woven"]:
-            rows.append((order["name"], "none", "", "", "", "not woven"))
-    headings = ("order", "loom", "start", "end", f"cost [{found['currency']}]", "late")
-    return PlanTable("Orders", headings, tuple(rows), (4, 5))
+            rows.append((order["name"], "none", "", "", due, "", "not woven"))
+    headings = ("order", "loom", "start", "end", "due", f"cost [{found['currency']}]", "late")
+    return PlanTable("Orders", headings, tuple(rows), (5, 6))
 
 
 def measure_table(found: dict[str, Any]) -> PlanTable:

@@ -119,13 +119,16 @@ def _lane(pen: _Pen, lane: PlanLane, low: float) -> None:
         complex(pen.left - 8.0, low + 4.0 + _BAR / 2), lane.name, fontsize=STRONG, bold=True, ha="right",
         va="center_baseline",
     )  # fmt: skip
-    taken: list[tuple[float, float]] = []
     for bar in lane.bars:
         _bar(pen, bar, low + 4.0)
     # One flag for equal carpets, red where one of them is late.
     flagged = {(bar.label, bar.due): bar for bar in sorted(lane.bars, key=lambda bar: bar.late)}
-    for bar in sorted(flagged.values(), key=lambda bar: bar.due):
-        _due(pen, bar, low, taken)
+    shown = [bar for bar in flagged.values() if pen.chart.begin <= bar.due <= pen.chart.end]
+    taken = {bar: (pen.x(bar.due) - 2.0, pen.x(bar.due) + 8.0) for bar in shown}
+    written: list[tuple[float, float]] = []
+    for bar in sorted(shown, key=lambda bar: (not bar.late, bar.due)):
+        others = [span for other, span in taken.items() if other != bar]
+        _due(pen, bar, low, [*others, *written], written)
 
 
 def _open(pen: _Pen, windows: Sequence[tuple[int, int]]) -> Iterator[tuple[int, int]]:
@@ -164,25 +167,22 @@ def fitting(text: str, size: float, room: float) -> str:
     return ""
 
 
-def _due(pen: _Pen, bar: PlanBar, low: float, taken: list[tuple[float, float]]) -> None:
-    """A flag at the due date, with the name where no other flag of the lane is."""
-    chart = pen.chart
-    if not chart.begin <= bar.due <= chart.end:
-        return
+def _due(
+    pen: _Pen, bar: PlanBar, low: float, taken: list[tuple[float, float]], written: list[tuple[float, float]]
+) -> None:
+    """A flag at the due date, with the name where no other flag and no other name of the lane is."""
     x, top = pen.x(bar.due), low + _LANE - 2.0
     shade = _BAD if bar.late else MUTED
     pen.sheet.line(x + 1j * np.array([low + 2.0, top]), color=shade, linewidth=1.0, zorder=3)
     pen.sheet.area(np.array([x, x + 6.0, x]) + 1j * np.array([top, top - 2.5, top - 5.0]), facecolor=shade, zorder=3)
     words = f"due {bar.label}"
     width = text_width(words, SMALL)
-    for start, side in ((x + 8.0, "left"), (x - 3.0 - width, "right")):
+    for start in (x + 8.0, x - 3.0 - width):
         free = all(start + width < a or start > b for a, b in taken)
         if free and start > pen.left and start + width < WIDTH:
-            at = complex(start if side == "left" else x - 3.0, top - 6.0)
-            pen.sheet.text(at, words, fontsize=SMALL, color=shade, ha=side, va="baseline", zorder=5)
-            taken.append((start - 3.0, start + width + 3.0))
+            pen.sheet.text(complex(start, top - 6.0), words, fontsize=SMALL, color=shade, va="baseline", zorder=5)
+            written.append((start - 3.0, start + width + 3.0))
             break
-    taken.append((x - 2.0, x + 8.0))
 
 
 def _dates(pen: _Pen) -> None:
@@ -204,9 +204,6 @@ def _dates(pen: _Pen) -> None:
             last = x
         elif _DAY * pen.scale >= _LEAST_DAY:
             sheet.line(x + 1j * np.array([low, high]), color=GRID, linewidth=0.5, zorder=0.9)
-    years = sorted({(chart.origin + timedelta(minutes=at)).year for at in (chart.begin, chart.end)})
-    words = "–".join(map(str, years))
-    sheet.text(complex(pen.left - 8.0, high + 6.0), words, fontsize=TEXT, color=MUTED, ha="right")
 
 
 def _legend(pen: _Pen) -> None:
@@ -223,3 +220,6 @@ def _legend(pen: _Pen) -> None:
         pen.sheet.text(complex(x + 18.0, low + 1.2), words, fontsize=SMALL, color=MUTED)
         x += 32.0 + text_width(words, SMALL)
     pen.sheet.text(complex(x, low + 1.2), "flag: due date; red: late", fontsize=SMALL, color=MUTED)
+    ends = (pen.chart.origin + timedelta(minutes=at) for at in (pen.chart.begin, pen.chart.end))
+    years = "–".join(dict.fromkeys(str(end.year) for end in ends))
+    pen.sheet.text(complex(WIDTH - _RIGHT, low + 1.2), years, fontsize=SMALL, color=MUTED, ha="right")
