@@ -25,12 +25,18 @@ def random_factory(orders: int, looms: int, due: float, seed: int = 1) -> Factor
     rng = random.Random(seed)
     day = Shift("day", frozenset(range(5)), 6 * 60, 14 * 60, ((600, 620),))
     late = Shift("late", frozenset(range(5)), 14 * 60, 22 * 60, attended=False)
-    own = [
-        tuple(calendar(shifts, 0, frozenset(), attended=only) for only in (False, True))
-        for shifts in ([day, late], [day])
-    ]
+    shifts = ([day, late], [day])
+    weaving, attended = ([calendar(own, 0, frozenset(), attended=only) for own in shifts] for only in (False, True))
     made = tuple(
-        Loom(f"L{k}", *own[k % 2], rng.randint(8, 16) * MONEY, dressing=600, dressing_same=180, doffing=90)
+        Loom(
+            f"L{k}",
+            weaving[k % 2],
+            attended[k % 2],
+            rng.randint(8, 16) * MONEY,
+            dressing=600,
+            dressing_same=180,
+            doffing=90,
+        )
         for k in range(looms)
     )
     works = [rng.randint(600, 3600) for _ in range(orders)]
