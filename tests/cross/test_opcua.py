@@ -368,6 +368,30 @@ def test_clients_stay_within_bounds(server: LoomServer, loom: SteppingLoom, pair
     connected(server, pair, act, "viewer")
 
 
+def test_a_session_stays_on_its_channel(server: LoomServer, loom: SteppingLoom, pair: Pair) -> None:
+    async def act(calls: Calls) -> None:
+        token = calls.client.uaclient.session.authentication_token
+        other = Client(server.url, timeout=20)
+        other.application_uri = "urn:test:client"
+        await other.set_security(SecurityPolicyBasic256Sha256, *pair)
+        other.set_user("operator")
+        other.set_password("wrong-password")
+        await other.connect_socket()
+        try:
+            await other.send_hello()
+            await other.open_secure_channel()
+            other.uaclient.session.restore_authentication_token(token)
+            with pytest.raises(ua.uaerrors.BadSessionIdInvalid):
+                await other.activate_session("operator", "wrong-password")
+            with pytest.raises(ua.uaerrors.BadUserAccessDenied):
+                await other.get_node(ua.NodeId("Loom.Carpet.Knots", calls.index)).read_value()
+        finally:
+            await other.close_secure_channel()
+            other.disconnect_socket()
+
+    connected(server, pair, act)
+
+
 def test_messages_of_any_size_are_cut_off(server: LoomServer) -> None:
     host, port = server.url.removeprefix("opc.tcp://").partition("/")[0].split(":")
     for begin in (b"HELF\xff\xff\xff\x7f", b"GET / HTTP/1.1\r\n\r\n"):

@@ -62,6 +62,21 @@ _REFUSED = {
 }
 
 
+_OVERRIDDEN = {
+    UaProcessor: ("_process_message",),
+    OPCUAProtocol: ("connection_made", "data_received"),
+    BinaryServer: ("_make_protocol", "_close_task_loop", "start"),
+    InternalServer: ("create_session", "lookup_external_session"),
+    InternalSession: ("activate_session", "call", "write", "create_subscription", "delete_subscriptions"),
+    Server: ("_setup_server_nodes",),
+}
+_MISSING = [
+    f"{base.__name__}.{name}" for base, names in _OVERRIDDEN.items() for name in names if name not in vars(base)
+]
+if _MISSING:  # another version of asyncua: the gate would stand open
+    raise ImportError(f"asyncua has no {', '.join(_MISSING)}; ilmek serve needs asyncua 2.1")
+
+
 class RightUser(User):
     """A user of asyncua that carries the right."""
 
