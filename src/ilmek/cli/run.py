@@ -1,27 +1,18 @@
 """`ilmek run`: weave a programme on the simulated loom."""
 
-import sys
-import threading
-import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 
 import click
 
 from ilmek.cli.call_outputs import call_outputs
-from ilmek.cli.interrupts import before_end
 from ilmek.cli.options import force_option, json_option, picture_option
+from ilmek.cli.running import run_options, work_shown
 from ilmek.cli.terminal import note, show_pairs
 from ilmek.cli.verdict import CHECK_FAILS
-from ilmek.jobs.run.loom_run import STOP_TIME, LoomRun
+from ilmek.jobs.run.loom_run import LoomRun
 from ilmek.jobs.run.order import RunOrder, read_run_order
 from ilmek.jobs.run.picture import require_png
-from ilmek.loom.control.view import Snapshot
-
-_LONGEST_STOP = STOP_TIME + 1.0
-"""Time that Ctrl-C gives a run to stop [s]; then the process ends as by `kill -9`, and nothing is lost either."""
 
 EXAMPLES = """\b
 Examples:
@@ -36,35 +27,7 @@ Limits: file 1,000 MB; journal 4,000 MB; 10,000 knots of a group commit.
 
 @click.command(epilog=EXAMPLES)
 @click.argument("programme", type=click.Path(path_type=Path), metavar="PROGRAMME.ilmek")
-@click.option(
-    "--speed",
-    default="1x",
-    metavar="N|max",
-    help="Speed of the simulated loom's clock: 1x, 1000x, max as fast as possible; default: 1x.",
-)
-@click.option(
-    "--journal",
-    type=click.Path(path_type=Path),
-    metavar="DIR",
-    help="Folder of the journal and the woven carpet; default: NAME.journal beside PROGRAMME.",
-)
-@click.option("--new", is_flag=True, help="Begin another carpet; the one in the journal is removed.")
-@click.option(
-    "--commit",
-    type=int,
-    metavar="N",
-    help="Make the journal durable once for N knots; 1: each knot before the next begins. After a power cut the "
-    "sensor finds the knots since; default: 1 up to a speed of 100x, 64 above it.",
-)
-@click.option(
-    "--faults", metavar="SEED", help="Simulate breaks of yarn and weft and missed grips, at usual rates; default: none."
-)
-@click.option(
-    "--operator",
-    default="auto",
-    metavar="auto|ask",
-    help="auto: what fails is repaired at once. ask: the loom waits for `ilmek resume`; default: auto.",
-)
+@run_options
 @picture_option
 @click.option(
     "--record",
@@ -120,33 +83,4 @@ def _weave(order: RunOrder, run: LoomRun) -> None:
         return
     if run.begun:
         note(f"goes on in row {run.snapshot().row + 1:,} after {run.begun:,} certain knots")
-    ended = threading.Event()
-
-    def stopped() -> str:
-        run.stop()
-        ended.wait(_LONGEST_STOP)  # until the screen is cleared
-        now = run.snapshot()
-        return f"{now.knots:,} of {now.total:,} knots are tied; the same command goes on in row {now.row + 1:,}"
-
-    hint = f"Ctrl-C stops, the same command goes on; ilmek hold|resume|stop --journal {order.folder}"
-    with before_end(stopped):
-        try:
-            with _screen(run, hint) as show:
-                run.work(show)
-        finally:
-            ended.set()
-
-
-@contextmanager
-def _screen(run: LoomRun, hint: str) -> Iterator[Callable[[Snapshot], object]]:
-    """What shows the snapshots of a run: a screen on a terminal, nothing in a pipe."""
-    if not sys.stderr.isatty():
-        yield lambda _: None
-        return
-    from rich.console import Console
-
-    from ilmek.cli.run_screen import RunScreen
-
-    console = Console(stderr=True, markup=False, highlight=False)
-    with RunScreen(console, run.programme.setup.yarns, hint) as screen:
-        yield lambda snapshot: screen.show(snapshot, time.monotonic())
+    work_shown(run, f"Ctrl-C stops, the same command goes on; ilmek hold|resume|stop --journal {order.folder}")

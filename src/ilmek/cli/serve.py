@@ -11,6 +11,7 @@ import click
 from ilmek.cli.call_outputs import call_outputs
 from ilmek.cli.interrupts import before_end
 from ilmek.cli.options import force_option
+from ilmek.cli.running import run_options, work_shown
 from ilmek.cli.terminal import note
 from ilmek.errors import ParameterError
 from ilmek.io.users_file import check_user_name
@@ -26,9 +27,6 @@ from ilmek.jobs.serve import (
     nodeset_text,
     require_extra,
 )
-
-STOP_TIME = 5.0
-"""Time that Ctrl-C gives the loom to stop [s]; then the process ends as by `kill -9`, and nothing is lost either."""
 
 EXAMPLES = """\b
 Examples:
@@ -62,22 +60,7 @@ Limits: file 1,000 MB; users file, certificate and key 100 kB; 200 users; 32 job
 @click.option("--key", type=click.Path(path_type=Path), metavar="FILE", help="The key of --certificate.")
 @click.option("--anonymous-read", is_flag=True, help="Clients without a name may read; default: nobody without one.")
 @click.option("--start", is_flag=True, help="Weave at once; default: wait for a job order or a command.")
-@click.option(
-    "--speed",
-    default="1x",
-    metavar="N|max",
-    help="Speed of the simulated loom's clock: 1x, 1000x, max as fast as possible; default: 1x.",
-)
-@click.option(
-    "--journal",
-    type=click.Path(path_type=Path),
-    metavar="DIR",
-    help="Folder of the journal and the woven carpet; default: NAME.journal beside PROGRAMME.",
-)
-@click.option("--new", is_flag=True, help="Begin another carpet; the one in the journal is removed.")
-@click.option("--commit", type=int, metavar="N", help="As of ilmek run; default: 1.")
-@click.option("--faults", metavar="SEED", help="As of ilmek run; default: none.")
-@click.option("--operator", default="auto", metavar="auto|ask", help="As of ilmek run; default: auto.")
+@run_options
 @click.option(
     "--add-user",
     "add_user_name",
@@ -143,15 +126,7 @@ def _serve(run_order: RunOrder, order: ServeOrder) -> None:
         server = loom_server(run, run.programme, run_order.programme.name, order, note)
         stack.enter_context(server)
         note(f"{server.url} serves {run_order.programme}; Ctrl-C ends it")
-
-        def stopped() -> str:
-            run.stop()
-            run.wait(STOP_TIME)
-            now = run.snapshot()
-            return f"{now.knots:,} of {now.total:,} knots are tied; the same command goes on in row {now.row + 1:,}"
-
-        with before_end(stopped):
-            run.work()
+        work_shown(run, f"{server.url}; Ctrl-C ends")
 
 
 def _add_user(order: ServeOrder, name: str, right: str) -> None:

@@ -1,0 +1,94 @@
+"""What the commands share that weave on the simulated loom: options, screen, the line at the end."""
+
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, TypeVar
+
+import click
+
+from ilmek.cli.interrupts import before_end
+from ilmek.jobs.run.loom_run import STOP_TIME, LoomRun
+from ilmek.loom.control.view import Snapshot
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+_LONGEST_STOP = STOP_TIME + 1.0
+"""Time that Ctrl-C gives a run to stop [s]; then the process ends as by `kill -9`, and nothing is lost either."""
+
+_OPTIONS = (
+    click.option(
+        "--speed",
+        default="1x",
+        metavar="N|max",
+        help="Speed of the simulated loom's clock: 1x, 1000x, max as fast as possible; default: 1x.",
+    ),
+    click.option(
+        "--journal",
+        type=click.Path(path_type=Path),
+        metavar="DIR",
+        help="Folder of the journal and the woven carpet; default: NAME.journal beside PROGRAMME.",
+    ),
+    click.option("--new", is_flag=True, help="Begin another carpet; the one in the journal is removed."),
+    click.option(
+        "--commit",
+        type=int,
+        metavar="N",
+        help="Make the journal durable once for N knots; 1: each knot before the next begins. After a power cut the "
+        "sensor finds the knots since; default: 1 up to a speed of 100x, 64 above it.",
+    ),
+    click.option(
+        "--faults",
+        metavar="SEED",
+        help="Simulate breaks of yarn and weft and missed grips, at usual rates; default: none.",
+    ),
+    click.option(
+        "--operator",
+        default="auto",
+        metavar="auto|ask",
+        help="auto: what fails is repaired at once. ask: the loom waits for `ilmek resume`; default: auto.",
+    ),
+)
+
+
+def run_options(command: F) -> F:
+    """Options of a run: speed, journal, faults, operator."""
+    for option in reversed(_OPTIONS):
+        command = option(command)
+    return command
+
+
+def work_shown(run: LoomRun, hint: str) -> None:
+    """Let a run work, shown on a terminal, until it ends or Ctrl-C stops it."""
+    ended = threading.Event()
+
+    def stopped() -> str:
+        run.stop()
+        ended.wait(_LONGEST_STOP)  # until the screen is cleared
+        now = run.snapshot()
+        return f"{now.knots:,} of {now.total:,} knots are tied; the same command goes on in row {now.row + 1:,}"
+
+    with before_end(stopped):
+        try:
+            with _screen(run, hint) as show:
+                run.work(show)
+        finally:
+            ended.set()
+
+
+@contextmanager
+def _screen(run: LoomRun, hint: str) -> Iterator[Callable[[Snapshot], object]]:
+    """What shows the snapshots of a run: a screen on a terminal, nothing in a pipe."""
+    if not sys.stderr.isatty():
+        yield lambda _: None
+        return
+    from rich.console import Console
+
+    from ilmek.cli.run_screen import RunScreen
+
+    console = Console(stderr=True, markup=False, highlight=False)
+    with RunScreen(console, run.programme.setup.yarns, hint) as screen:
+        yield lambda snapshot: screen.show(snapshot, time.monotonic())
