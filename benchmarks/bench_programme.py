@@ -22,7 +22,8 @@ from ilmek.carpet.yarn import Yarn
 from ilmek.io.programme_file import open_programme, write_programme
 from ilmek.loom.explicit import CompiledProgramme
 from ilmek.loom.operations import LoomSetup, OperationTimes
-from ilmek.loom.programme import Programme, Times, least_heads, make_programme
+from ilmek.loom.programme import Programme, least_heads, make_programme
+from ilmek.loom.times import Times
 
 ROWS, COLUMNS, YARNS, HEADS = 5000, 4000, 16, 13
 TIMES = Times(knot=2.0, colour_change=0.54, travel=0.0022, weft=12.0)

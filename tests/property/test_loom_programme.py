@@ -10,8 +10,9 @@ from hypothesis import strategies as st
 from small_programme import head_knots, rows_of
 
 from ilmek.arrays import Indices
-from ilmek.loom.programme import Programme, Times, least_heads, least_time, make_programme, weaving_time
+from ilmek.loom.programme import Programme, least_heads, least_time, make_programme, weaving_time
 from ilmek.loom.sharing import least_distance
+from ilmek.loom.times import Times
 
 TIMES = Times(knot=2.0, colour_change=0.5, travel=0.03, weft=12.0)
 

@@ -13,8 +13,9 @@ from ilmek.arrays import Indices
 from ilmek.errors import LoomError
 from ilmek.loom.bobbins import Bobbin
 from ilmek.loom.operations import EMPTY
-from ilmek.loom.programme import Times, make_programme, weaving_time
+from ilmek.loom.programme import make_programme, weaving_time
 from ilmek.loom.sharing import halves
+from ilmek.loom.times import Times
 from ilmek.loom.tube_plan import YarnSupply, join_changes, most_colours, plan_tubes
 
 WEFTS = (Bobbin("straight weft", 3, 90.0),)

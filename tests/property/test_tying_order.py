@@ -8,7 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ilmek.arrays import Indices
-from ilmek.loom.programme import Times, make_programme
+from ilmek.loom.programme import make_programme
+from ilmek.loom.times import Times
 
 NEAR = 1.06
 """Largest time of the knots over the least of all orders, 1.053 on 8,000 such carpets, rounded up."""

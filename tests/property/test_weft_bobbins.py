@@ -7,7 +7,8 @@ from hypothesis import strategies as st
 
 from ilmek.errors import LoomError
 from ilmek.loom.bobbins import Bobbin, change_stops, stop_count, stop_time
-from ilmek.loom.programme import Times, least_heads, make_programme
+from ilmek.loom.programme import least_heads, make_programme
+from ilmek.loom.times import Times
 
 TIMES = Times(knot=2.0, colour_change=0.5, travel=0.03, weft=12.0)
 

@@ -10,7 +10,8 @@ from ilmek.io.yarn_file import default_yarns
 from ilmek.loom.bobbins import Bobbin
 from ilmek.loom.explicit import CompiledProgramme
 from ilmek.loom.operations import LoomSetup, OperationTimes, RowOperations
-from ilmek.loom.programme import Programme, Times, make_programme
+from ilmek.loom.programme import Programme, make_programme
+from ilmek.loom.times import Times
 from ilmek.loom.tube_plan import YarnSupply
 
 TIMES = OperationTimes(2.0, 0.47, 0.016, (18.0, 30.0, 51.0, 62.0, 69.8), 60.0)

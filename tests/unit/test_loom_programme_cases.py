@@ -6,7 +6,8 @@ from small_programme import head_knots, rows_of, small_programme
 
 from ilmek.arrays import Indices
 from ilmek.errors import LoomError
-from ilmek.loom.programme import Times, least_heads, make_programme, weaving_time
+from ilmek.loom.programme import least_heads, make_programme, weaving_time
+from ilmek.loom.times import Times
 from ilmek.units import hour
 
 TIMES = Times(knot=2.0, colour_change=1.0, travel=0.1, weft=10.0)

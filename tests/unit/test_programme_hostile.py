@@ -22,7 +22,8 @@ from ilmek.io.json_file import json_text
 from ilmek.io.programme_file import open_programme, write_programme
 from ilmek.jobs.inspect import inspect_programme
 from ilmek.loom.explicit import CompiledProgramme
-from ilmek.loom.programme import Times, make_programme
+from ilmek.loom.programme import make_programme
+from ilmek.loom.times import Times
 from ilmek.machines.weaver import WeaverParams, design
 
 ROWS, COLUMNS, HEADS, YARNS = 12, 20, 3, 3

@@ -28,8 +28,9 @@ from ilmek.io.programme_rows import LONGEST_PACKAGE
 from ilmek.io.sqlite_readonly import LARGEST_VALUE
 from ilmek.loom.bobbins import Bobbin
 from ilmek.loom.operations import EMPTY, ROW_ENDS, LoomSetup, OperationTimes
-from ilmek.loom.programme import LONGEST_TIME, MOST_PER_SIDE
+from ilmek.loom.programme import MOST_PER_SIDE
 from ilmek.loom.sharing import MOST_HEADS
+from ilmek.loom.times import LONGEST_TIME
 from ilmek.timing.cyclogram import Cyclogram, Track, TrackEvent, TrackSegment
 from ilmek.units import parse_unit, turn
 

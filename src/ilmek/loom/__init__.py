@@ -10,7 +10,7 @@ from ilmek.lazy import lazy_names
 
 PUBLIC = {
     "Programme": "ilmek.loom.programme",
-    "Times": "ilmek.loom.programme",
+    "Times": "ilmek.loom.times",
     "least_heads": "ilmek.loom.programme",
     "make_programme": "ilmek.loom.programme",
     "weaving_time": "ilmek.loom.programme",
@@ -21,7 +21,7 @@ __getattr__, __dir__ = lazy_names(__name__, PUBLIC)
 
 if TYPE_CHECKING:
     from ilmek.loom.programme import Programme as Programme
-    from ilmek.loom.programme import Times as Times
     from ilmek.loom.programme import least_heads as least_heads
     from ilmek.loom.programme import make_programme as make_programme
     from ilmek.loom.programme import weaving_time as weaving_time
+    from ilmek.loom.times import Times as Times

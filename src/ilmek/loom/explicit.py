@@ -10,7 +10,8 @@ import numpy as np
 from ilmek.arrays import UInt8
 from ilmek.errors import LoomError
 from ilmek.loom.operations import LoomProgramme, LoomSetup, RowOperations, Stop
-from ilmek.loom.programme import Programme, row_counts
+from ilmek.loom.planner import divided, row_counts
+from ilmek.loom.programme import Programme
 from ilmek.loom.replay import Layout, expand
 from ilmek.progress import SILENT, Progress
 
@@ -23,6 +24,7 @@ class CompiledProgramme:
         self._stops: dict[int, tuple[Stop, ...]] = {}
         for stop in programme.stops:
             self._stops[stop.row] = (*self._stops.get(stop.row, ()), stop)
+        self._layout = Layout(programme.heads, divided(programme.edges, programme.blocks))
         self._counts = row_counts(programme.edges, programme.heads)
         self._next, self._loaded = 0, programme.tubes.loading.copy()
 
@@ -39,7 +41,7 @@ class CompiledProgramme:
         line = tubes.lines(made.knots, number, number + 1, loaded)[0]
         self._next, self._loaded = number + 1, loaded
         columns = np.empty(made.columns, np.int32)
-        expand(line, Layout(made.heads, made.edges), number % 2 == 0, made.keys[number], columns)
+        expand(line, self._layout, number % 2 == 0, made.keys[number], columns)
         stops = self._stops.get(number, ())
         return RowOperations(number, columns, line[columns], self._counts[number % 2], stops=stops)
 

@@ -11,7 +11,8 @@ The family of a part: both sweeps, and passes (`loom.replay`) with any of these 
 
 A head goes to its first knot of a row while the row before ends; farther knots than it reaches by then are not chosen.
 A state is the tube in the handler and the column of the head after a part. Every head is planned ROUNDS times, with the
-times of the others as planned last. Three shared tubes suffice for the fewest
+times of the others as planned last; where parts are divided into blocks (`loom.planner`), once and by its own time.
+Three shared tubes suffice for the fewest
 changes of all passes: whatever the boundaries beside it take, one is left for each. The order of a slice of rows is
 planned with the first FORESIGHT rows of the next one; within these it is the quickest of the family.
 """
@@ -88,17 +89,19 @@ def plan(  # noqa: PLR0917 - the arrays of a kernel
     keys   uint8 (commit, parts, 4), see `loom.replay`
     """
     heads, edges = layout
-    steps = lines.shape[0] * ((edges.shape[0] - 1) // heads)
+    phases = (edges.shape[0] - 1) // heads
+    coupled = heads > 1 and phases == 2
+    steps = lines.shape[0] * phases
     spent, others = np.zeros((heads, steps)), np.zeros(steps)
     before = np.zeros((heads, 2), np.int64)
     for head in range(heads):
         before[head, 0], before[head, 1] = stand[head, 0], stand[head, 1]
-    for _ in range(ROUNDS if heads > 1 else 1):
+    for _ in range(ROUNDS if coupled else 1):
         for head in range(heads):
             for step in range(steps):
                 others[step] = 0.0
                 for other in range(heads):
-                    if other != head:
+                    if coupled and other != head:
                         others[step] = max(others[step], spent[other, step])
             of = (head, first, commit, before[head, 0], before[head, 1])
             stand[head, 0], stand[head, 1] = _plan_head(lines, layout, of, times, others, spent[head], keys)

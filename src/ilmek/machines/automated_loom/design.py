@@ -8,8 +8,9 @@ from ilmek.carpet.design import knot_grid
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.errors import LoomError
 from ilmek.loom.bobbins import Bobbin
-from ilmek.loom.programme import Times, least_time
+from ilmek.loom.programme import least_time
 from ilmek.loom.sharing import heads_that_fit, least_distance, share
+from ilmek.loom.times import Times
 from ilmek.machines import loom_parts
 from ilmek.machines.arrangement.side_view import SideView, laid_out
 from ilmek.machines.automated_loom.choice import BeatOption, beat_options, chosen_heads
