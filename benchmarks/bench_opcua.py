@@ -21,7 +21,7 @@ from asyncua import Client
 from asyncua.crypto.security_policies import SecurityPolicyBasic256Sha256
 from cryptography.hazmat.primitives.serialization import Encoding, NoEncryption, PrivateFormat
 
-from ilmek.drivers.opcua.certificate import credentials_pem, make_credentials
+from ilmek.drivers.opcua.certificate import make_credentials
 from ilmek.drivers.opcua.model import LoomNameplate
 from ilmek.drivers.opcua.server import LoomServer
 from ilmek.drivers.opcua.users import LoomUser, UserList, UserRight, hashed
@@ -55,17 +55,17 @@ class Subscriber:
         return sum(after - before - 1 for before, after in pairwise(self.values))
 
 
-async def _client(url: str, pair: tuple[bytes, bytes]) -> Any:
+async def _client(url: str, pair: tuple[bytes, bytes, bytes]) -> Any:
     client = Client(url, timeout=60)
     client.application_uri = "urn:bench:client"
-    await client.set_security(SecurityPolicyBasic256Sha256, *pair)
+    await client.set_security(SecurityPolicyBasic256Sha256, pair[0], pair[1], server_certificate=pair[2])
     client.set_user("viewer")
     client.set_password("viewer-password")
     await client.connect()
     return client
 
 
-async def _subscribe(url: str, pair: tuple[bytes, bytes]) -> tuple[list[Subscriber], float]:
+async def _subscribe(url: str, pair: tuple[bytes, bytes, bytes]) -> tuple[list[Subscriber], float]:
     clients, handlers = [], [Subscriber() for _ in range(SUBSCRIBERS)]
     for handler in handlers:
         client = await _client(url, pair)
@@ -84,14 +84,14 @@ async def _subscribe(url: str, pair: tuple[bytes, bytes]) -> tuple[list[Subscrib
     return handlers, spent
 
 
-def _subscribers(url: str, pair: tuple[bytes, bytes], out: Any) -> None:
+def _subscribers(url: str, pair: tuple[bytes, bytes, bytes], out: Any) -> None:
     handlers, spent = asyncio.run(_subscribe(url, pair))
     late = sorted(one for handler in handlers for one in handler.late)
     seen = [len(handler.values) for handler in handlers]
     out.put((sum(handler.dropped for handler in handlers), min(seen), max(seen), late, spent))
 
 
-async def _flood(url: str, pair: tuple[bytes, bytes], seconds: float) -> int:
+async def _flood(url: str, pair: tuple[bytes, bytes, bytes], seconds: float) -> int:
     client = await _client(url, pair)
     index = await client.get_namespace_index("urn:ilmek:loom")
     node = client.get_node(f"ns={index};s=Loom.Carpet.Knots")
@@ -103,7 +103,7 @@ async def _flood(url: str, pair: tuple[bytes, bytes], seconds: float) -> int:
     return done
 
 
-def _flooder(url: str, pair: tuple[bytes, bytes], out: Any) -> None:
+def _flooder(url: str, pair: tuple[bytes, bytes, bytes], out: Any) -> None:
     out.put(asyncio.run(_flood(url, pair, 5.0)))
 
 
@@ -129,11 +129,10 @@ def run() -> None:
     """Print the figures."""
     made = make_credentials("urn:bench:client", "client", ("localhost",))
     key = made.key.private_bytes(Encoding.DER, PrivateFormat.PKCS8, NoEncryption())
-    pair = made.certificate.public_bytes(Encoding.DER), key
     users = UserList({"viewer": LoomUser("viewer", UserRight.VIEWER, hashed("viewer-password"))})
     loom = SteppingLoom(total=10**9, step=1)
     credentials = make_credentials(PLATE.uri, "loom", ("127.0.0.1",))
-    assert all(credentials_pem(credentials))
+    pair = made.certificate.public_bytes(Encoding.DER), key, credentials.certificate.public_bytes(Encoding.DER)
     context = multiprocessing.get_context("spawn")
     out = context.Queue()
     start = time.perf_counter()

@@ -47,6 +47,13 @@ _TYPE_CLASSES = (ua.NodeClass.ObjectType, ua.NodeClass.VariableType, ua.NodeClas
 _CHILD_REFERENCES = {_I.HasComponent, _I.HasProperty, _I.HasAddIn, _I.Organizes, _I.HasOrderedComponent}
 
 
+class SharedValue(ua.DataValue):
+    """A value that nobody changes: all subscribers have the same one, of which asyncua would make a copy for each."""
+
+    def __deepcopy__(self, _: Any) -> "SharedValue":
+        return self
+
+
 class AddressSpace:
     """The nodes of a server. Build it before the server starts; write values on the server's event loop."""
 
@@ -110,12 +117,12 @@ class AddressSpace:
     async def _write(self, path: str, value: Any, now: datetime, bad: int = ua.StatusCodes.BadNoData) -> None:
         kind, array = self._variant[path]
         if value is None:
-            written = ua.DataValue(StatusCode=ua.StatusCode(bad), SourceTimestamp=now, ServerTimestamp=now)
+            written = SharedValue(StatusCode=ua.StatusCode(bad), SourceTimestamp=now, ServerTimestamp=now)
         else:
             if kind is ua.VariantType.LocalizedText:
                 value = ua.LocalizedText(value)
             variant = ua.Variant(value, kind, is_array=True) if array else ua.Variant(value, kind)
-            written = ua.DataValue(variant, ua.StatusCode(), now, now)
+            written = SharedValue(variant, ua.StatusCode(), now, now)
         await self.server.iserver.write_attribute_value(self.node_id(path), written)
 
     async def _write_state(self, path: str, state: CurrentState | None, now: datetime) -> None:
