@@ -38,6 +38,7 @@ def order_words(order: Order) -> str:
 def stop_words(stop: Stop) -> str:
     """A stop as words: row, phase, bobbins / head, tube, yarn and length [nm] of each package.
 
+    >>> from ilmek.loom.operations import TubeChange
     >>> stop_words(Stop(3, 0, (1,), (TubeChange(0, 2, 4, 0.5),)))
     '3 0 1 / 0 2 4 500000000'
     """
