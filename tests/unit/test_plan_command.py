@@ -8,8 +8,10 @@ from typing import Any
 
 import pytest
 from click.testing import CliRunner, Result
+from small_programme import small_programme
 
 from ilmek.cli import main
+from ilmek.io.programme_file import write_programme
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 NAMES = {
@@ -174,3 +176,16 @@ def test_without_the_solver_the_extra_is_named(tmp_path: Path, monkeypatch: pyte
 @pytest.mark.parametrize("text", ["60", "0s", "2h", "fast"])
 def test_a_time_limit_has_its_unit_and_bounds(tmp_path: Path, text: str) -> None:
     assert plan(written(tmp_path), "--time-limit", text).exit_code == 2
+
+
+def test_a_programme_is_woven_only_by_the_loom_that_it_was_compiled_for(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    programme = small_programme(6, 12, 2, 3, seed=1)
+    write_programme(tmp_path / "p.ilmek", programme)
+    orders = ORDERS.partition("picture")[0] + 'programme = "p.ilmek"\ndue = 2026-12-18\n'
+    found = json.loads(plan(written(tmp_path, orders=orders), "--json", "-").stdout)
+    assert [one["name"] for one in found["reasons"]] == ["one on A: programme: compiled for this loom"]
+    monkeypatch.setattr("ilmek.jobs.plan_inputs.loom_digest", lambda _: programme.setup.loom)
+    (order,) = json.loads(plan(tmp_path, "--json", "-").stdout)["orders"]
+    assert (order["loom"], order["late"]) == ("A", 0)

@@ -12,6 +12,7 @@ import numpy as np
 from ilmek.carpet.bill import YarnBill, yarn_bill
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.recipe.edits import located
+from ilmek.carpet.usual_pile import with_counts
 from ilmek.errors import IlmekError, ParameterError
 from ilmek.factory.calendar import Calendar, Shift, calendar
 from ilmek.factory.model import HOUR, MONEY, CarpetJob, Factory, Loom, StoredYarn
@@ -185,7 +186,8 @@ def _of_programme(entry: FactoryOrder, looms: Sequence[ExistingLoom]) -> Planned
 def _chart_of(programme: ProgrammeFile) -> Chart:
     setup = programme.setup
     rows = [programme.chart_row(number) for number in range(setup.rows)]
-    return Chart(np.array(rows[::-1], np.uint8), setup.yarns, setup.size, setup.quality, setup.knot)
+    yarns = with_counts(setup.yarns, setup.quality, setup.knot)
+    return Chart(np.array(rows[::-1], np.uint8), yarns, setup.size, setup.quality, setup.knot)
 
 
 def _programme_fit(digest: str, time: float, loom: ExistingLoom) -> LoomFit:
