@@ -14,6 +14,7 @@ from opcua_loom import PROGRAMME, SteppingLoom
 from small_programme import small_programme
 
 from ilmek.cli import main
+from ilmek.drivers.opcua import users as users_of_server
 from ilmek.drivers.opcua.certificate import credentials_pem, make_credentials, parse_credentials
 from ilmek.drivers.opcua.job_orders import MOST_JOBS, Job, JobDesk, JobState, ReturnStatus
 from ilmek.drivers.opcua.users import TRIES, LoomUser, UserList, UserRight, hashed, matches, parse_hash
@@ -26,6 +27,12 @@ from ilmek.loom.control.packml import PackState
 from ilmek.loom.control.view import Answer
 
 URI = "urn:ilmek:loom:000000000000"
+
+
+@pytest.fixture(autouse=True)
+def cheap_hashes(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Passwords are hashed at a hundredth of the price."""
+    monkeypatch.setattr(users_of_server, "COST", 1 << 8)
 
 
 @pytest.fixture
@@ -149,7 +156,7 @@ def test_passwords_are_tried_slowly() -> None:
     assert users.admitted("there", "anna", "long-enough") is UserRight.OPERATOR  # a password known to be right
 
 
-@pytest.mark.parametrize("stored", ["", "scrypt$2$8$1$AA==$AA==", "plain", "scrypt$32768$8$1$AA==$AA=="])
+@pytest.mark.parametrize("stored", ["", "scrypt$2$8$1$AA==$AA==", "plain", "scrypt$256$8$1$AA==$AA=="])
 def test_hashes_of_others_are_refused(stored: str) -> None:
     with pytest.raises(ParameterError, match="is not one of ilmek"):
         parse_hash(stored)

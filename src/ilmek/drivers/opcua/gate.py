@@ -216,6 +216,15 @@ class GatedSession(InternalSession):
                 self._own(number)
         return await super().delete_subscriptions(ids)
 
+    def publish(self, acks: Any = None) -> Any:
+        known = self._subscriptions
+        own = [
+            ack
+            for ack in acks or ()
+            if ack.SubscriptionId not in known or known[ack.SubscriptionId].session_id == self.session_id
+        ]
+        return super().publish(own)
+
     def republish(self, params: Any) -> Any:
         self._own(params.SubscriptionId)
         return super().republish(params)

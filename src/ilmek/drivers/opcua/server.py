@@ -134,6 +134,8 @@ class LoomServer:
             asyncio.run(self._serve())
         except BaseException as failed:
             self._failure = failed
+            if self._ready.is_set():
+                self._log(f"the OPC UA server has ended: {failed!r}; the loom goes on")
         finally:
             self._bound.close()
             self._ready.set()
