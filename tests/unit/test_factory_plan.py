@@ -1,6 +1,7 @@
 """Plans: their arithmetic, the check that catches every wrong one, yarn to buy, measures for late orders."""
 
 from dataclasses import replace
+from typing import Any
 
 import pytest
 from small_factory import DAY_SHIFT, LATE_SHIFT, calendars, small_factory
@@ -60,7 +61,7 @@ def mutants(plan: FactoryPlan) -> dict[str, FactoryPlan]:
     first, factory = plan.carpets[0], plan.factory
     other = next(one for one in plan.carpets if one.loom == first.loom and one.job != first.job)
 
-    def changed(**what: int | bool) -> FactoryPlan:
+    def changed(**what: Any) -> FactoryPlan:
         carpets = tuple(replace(one, **what) if one is first else one for one in plan.carpets)
         return FactoryPlan(factory, carpets)
 
