@@ -66,10 +66,21 @@ def _reaction() -> PlcUnit:
 
 
 def _program(size: PlcSize) -> PlcUnit:
-    heads = size.heads
+    sections = (
+        PlcSection("VAR_INPUT", _inputs(size.heads)),
+        PlcSection("VAR_OUTPUT", _outputs(size.heads)),
+        PlcSection("VAR RETAIN", _retained(size.heads)),
+        PlcSection("VAR", _inner(size.heads)),
+    )
+    body = "\n".join((_reports(size), _alarms(size), _uncertain(size), _state(size), _weaving(size)))
+    return PlcUnit("PROGRAM", "Loom", "the loom: states, interlocks, alarms, the sequence of the rows", sections, body)
+
+
+def _inputs(heads: int) -> tuple[PlcVariable, ...]:
+    """Commands, sensors, the row's data, reports and answers."""
     per_head = PlcArray(0, heads - 1, "BOOL")
     codes = PlcArray(0, heads - 1, "INT")
-    inputs = (
+    return (
         PlcVariable("CntrlCmd", "INT", "number of the command"),
         PlcVariable("CmdChangeRequest", "BOOL", "carry it out at the rising edge"),
         PlcVariable("UnitMode", "INT", "mode to change to"),
@@ -87,7 +98,13 @@ def _program(size: PlcSize) -> PlcUnit:
         PlcVariable("TieAnswer", codes, "is the uncertain knot in the carpet: 1 no, 2 yes"),
         PlcVariable("EndAnswer", "INT", "is the uncertain operation in the carpet: 1 no, 2 yes"),
     )
-    outputs = (
+
+
+def _outputs(heads: int) -> tuple[PlcVariable, ...]:
+    """State, alarm, requests, orders and questions."""
+    per_head = PlcArray(0, heads - 1, "BOOL")
+    codes = PlcArray(0, heads - 1, "INT")
+    return (
         PlcVariable("StateCurrent", "INT", "state", str(int(PackState.STOPPED))),
         PlcVariable("UnitModeCurrent", "INT", "mode", str(int(PackMode.PRODUCTION))),
         PlcVariable("Refused", "BOOL", "the command or mode was refused"),
@@ -106,7 +123,13 @@ def _program(size: PlcSize) -> PlcUnit:
         PlcVariable("KnotsDone", "DINT", "knots in the carpet"),
         PlcVariable("CarpetDone", "BOOL", "the carpet is woven"),
     )
-    retained = (
+
+
+def _retained(heads: int) -> tuple[PlcVariable, ...]:
+    """What outlives a power failure."""
+    per_head = PlcArray(0, heads - 1, "BOOL")
+    codes = PlcArray(0, heads - 1, "INT")
+    return (
         PlcVariable("Row", "DINT", "row in work"),
         PlcVariable("Phase", "INT", "phase in work; the number of phases: the operations after the knots"),
         PlcVariable("StopsDone", "INT", "phases whose stop is over"),
@@ -115,7 +138,12 @@ def _program(size: PlcSize) -> PlcUnit:
         PlcVariable("TieBusy", per_head, "a knot is being tied"),
         PlcVariable("EndBusy", "BOOL", "an operation after the knots is being carried out"),
     )
-    inner = (
+
+
+def _inner(heads: int) -> tuple[PlcVariable, ...]:
+    """Blocks and values within a scan."""
+    per_head = PlcArray(0, heads - 1, "BOOL")
+    return (
         PlcVariable("Model", "StateModel"),
         PlcVariable("Rules", "Interlocks"),
         PlcVariable("Head", "INT"),
@@ -128,14 +156,6 @@ def _program(size: PlcSize) -> PlcUnit:
         PlcVariable("MayBegin", "BOOL"),
         PlcVariable("Retried", per_head, "the knot was tried again"),
     )
-    sections = (
-        PlcSection("VAR_INPUT", inputs),
-        PlcSection("VAR_OUTPUT", outputs),
-        PlcSection("VAR RETAIN", retained),
-        PlcSection("VAR", inner),
-    )
-    body = "\n".join((_reports(size), _alarms(size), _uncertain(size), _state(size), _weaving(size)))
-    return PlcUnit("PROGRAM", "Loom", "the loom: states, interlocks, alarms, the sequence of the rows", sections, body)
 
 
 def _words(name: str) -> str:

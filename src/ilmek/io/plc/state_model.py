@@ -120,7 +120,11 @@ IF UnitModeChangeRequest AND NOT ModeSeen THEN
 END_IF;
 ModeSeen := UnitModeChangeRequest;
 """
-    sections = (
+    return PlcUnit("FUNCTION_BLOCK", "StateModel", "states and modes by ISA-TR88.00.02", _machine_sections(), body)
+
+
+def _machine_sections() -> tuple[PlcSection, ...]:
+    return (
         PlcSection(
             "VAR_INPUT",
             (
@@ -150,4 +154,3 @@ ModeSeen := UnitModeChangeRequest;
             ),
         ),
     )
-    return PlcUnit("FUNCTION_BLOCK", "StateModel", "states and modes by ISA-TR88.00.02", sections, body)

@@ -227,9 +227,7 @@ class _Weaving:
             late[order] = np.cumsum(faults[order, WAIT]) - faults[order, WAIT]
         return [int(one) for one in late]
 
-    def _note(
-        self, number: int, knots: RowKnots, phase: int, fault: IntArray, called: int
-    ) -> None:
+    def _note(self, number: int, knots: RowKnots, phase: int, fault: IntArray, called: int) -> None:
         """Add a fault of a head to the lists."""
         head, cause, calls = int(fault[HEAD]), int(fault[CAUSE]), int(fault[CALLS])
         at = int(knots.first[head, phase] + fault[KNOT])
