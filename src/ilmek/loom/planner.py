@@ -88,8 +88,8 @@ class CarpetPlanner:
 
     def _account(self, lines: Bytes, first: int, keys: Bytes) -> None:
         of_row = row_counts(self.parts.edges, self.parts.heads)
-        times = self._times.as_tuple()
-        _account(lines, self.layout, first, keys, of_row, times, (self._tube, self._counted, self._busy), self.row_times)
+        sums = (self._tube, self._counted, self._busy)
+        _account(lines, self.layout, first, keys, of_row, self._times.as_tuple(), sums, self.row_times)
 
     def _compare(self, lines: Bytes, first: int) -> None:
         """Add rows to the bound, and to the time of the naive order."""
