@@ -22,12 +22,14 @@ from ilmek.errors import LoomError
 from ilmek.io.journal_file import SystemFile
 from ilmek.io.programme_file import write_programme
 from ilmek.jobs.run.loom_run import LoomRun
-from ilmek.jobs.run.order import USUAL_RATES, RunOrder
+from ilmek.jobs.run.order import RunOrder
 from ilmek.jobs.run.result import snapshot_json
 from ilmek.jobs.status import run_status
 from ilmek.loom.control.ports import Fault
 from ilmek.loom.control.view import Snapshot
 from ilmek.loom.twin.state import Injected, SensorFault
+
+FAULTS = ("--faults", "7", *(f"--set={one}" for one in ("gripper_miss=0.05", "weft_break=0.05", "pile_break=1/m")))
 
 
 @pytest.fixture(scope="session")
@@ -97,9 +99,8 @@ def test_the_journal_is_beside_the_programme_by_default(carpet: Path) -> None:
     assert RunOrder(carpet).folder == carpet.with_name("carpet.journal")
 
 
-def test_faults_are_repaired(carpet: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("ilmek.jobs.run.order.USUAL_RATES", type(USUAL_RATES)(0, 0.02, 0.05, 0.01, 0.05))
-    found = as_json("run", carpet, "--journal", tmp_path / "j", "--speed", "max", "--faults", "7")
+def test_faults_are_repaired(carpet: Path, tmp_path: Path) -> None:
+    found = as_json("run", carpet, "--journal", tmp_path / "j", "--speed", "max", *FAULTS)
     assert found["repairs"] > 3
     assert (found["state"], found["faults"]) == ("Complete", 0)
 
@@ -111,6 +112,8 @@ def test_faults_are_repaired(carpet: Path, tmp_path: Path, monkeypatch: pytest.M
         (("--speed", "fast"), "--speed 'fast'"),
         (("--commit", "0"), "--commit 0; 1 to 10,000 knots"),
         (("--faults", "-1"), "a seed: a whole number"),
+        (("--set", "gripper_miss=0.1"), "rates of faults without --faults; give a seed"),
+        (("--faults", "7", "--set", "response=1min"), "--set response; rates of faults: pile_end, "),
         (("--operator", "me"), "--operator 'me'; auto, ask"),
     ],
 )
@@ -284,10 +287,9 @@ def test_a_carpet_is_drawn_while_it_is_woven_and_at_the_end(carpet: Path, tmp_pa
     )
 
 
-def test_a_recorded_run_is_replayed(carpet: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("ilmek.jobs.run.order.USUAL_RATES", type(USUAL_RATES)(0, 0.02, 0.05, 0.01, 0.05))
+def test_a_recorded_run_is_replayed(carpet: Path, tmp_path: Path) -> None:
     recording = tmp_path / "run.txt"
-    line = ["--journal", tmp_path / "j", "--speed", "max", "--faults", "7"]
+    line = ["--journal", tmp_path / "j", "--speed", "max", *FAULTS]
     assert f"recording: {recording}" in call("run", carpet, *line, "--record", recording).stdout
     found = as_json("replay", recording, carpet)
     assert (found["ok"], found["knots"], found["begin"]) == (True, 144, 0.0)

@@ -20,6 +20,12 @@ animation_option = click.option(
     callback=lambda _context, _option, path: checked_animation(path),
     help="Write the machine in motion; MP4 needs the extra video.",
 )
+stops_option = click.option(
+    "--stops",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Read the rates of faults and the times of repairs from .toml, .json.",
+)
 motion_option = click.option(
     "--motion",
     metavar="NAME",

@@ -8,6 +8,7 @@ import click
 from ilmek.cli.call_outputs import call_outputs
 from ilmek.cli.options import force_option, json_option, picture_option
 from ilmek.cli.running import run_options, work_shown
+from ilmek.cli.settings import read_settings, setting_files
 from ilmek.cli.terminal import note, show_pairs
 from ilmek.cli.verdict import CHECK_FAILS
 from ilmek.jobs.run.loom_run import LoomRun
@@ -18,10 +19,10 @@ EXAMPLES = """\b
 Examples:
   ilmek run carpet/programme.ilmek --speed 1000x
   ilmek run carpet/programme.ilmek --speed max --journal journal --json -
-  ilmek run carpet/programme.ilmek --speed max --faults 7 --picture carpet.png
+  ilmek run carpet/programme.ilmek --speed max --faults 7 --set gripper_miss=0.01 --picture carpet.png
   ilmek run carpet/programme.ilmek --new
 
-Limits: file 1,000 MB; journal 4,000 MB; 10,000 knots of a group commit.
+Limits: file 1,000 MB; stops file 250 kB; journal 4,000 MB; 10,000 knots of a group commit.
 """
 
 
@@ -45,6 +46,8 @@ def command(
     new: bool,
     commit: int | None,
     faults: str | None,
+    stops: Path | None,
+    settings: tuple[str, ...],
     operator: str,
     picture: Path | None,
     record: Path | None,
@@ -59,11 +62,22 @@ def command(
 
     Exit code 0: the carpet is complete and equal to the chart; 3: a knot is wrong, or the run ended before.
     """
-    order = read_run_order(programme, speed, journal, new=new, commit=commit, faults=faults, operator=operator)
+    order = read_run_order(
+        programme,
+        speed,
+        journal,
+        new=new,
+        commit=commit,
+        faults=faults,
+        stops=stops,
+        settings=read_settings(settings),
+        operator=operator,
+    )
     require_png(picture)
     order = replace(order, record=record is not None)
     to = {"--json": json_to, "--picture": picture, "--record": record}
-    with call_outputs(to, force=force, inputs={"PROGRAMME": programme}, bar=False) as call:
+    inputs = {"PROGRAMME": programme, "--stops": stops, **setting_files(settings)}
+    with call_outputs(to, force=force, inputs=inputs, bar=False) as call:
         with LoomRun(order) as run:
             _weave(order, run)
             result = run.result()

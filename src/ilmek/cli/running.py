@@ -11,6 +11,7 @@ from typing import Any, TypeVar
 import click
 
 from ilmek.cli.interrupts import before_end
+from ilmek.cli.options import stops_option
 from ilmek.jobs.run.loom_run import STOP_TIME, LoomRun
 from ilmek.loom.control.view import Snapshot
 
@@ -43,7 +44,11 @@ _OPTIONS = (
     click.option(
         "--faults",
         metavar="SEED",
-        help="Simulate breaks of yarn and weft and missed grips, at usual rates; default: none.",
+        help="Simulate breaks of yarn, weft and warp and missed grips, as `ilmek simulate` does; default: none.",
+    ),
+    stops_option,
+    click.option(
+        "--set", "settings", multiple=True, metavar="NAME=VALUE", help="Set a rate of --faults, like gripper_miss=0.01."
     ),
     click.option(
         "--operator",

@@ -12,6 +12,7 @@ from ilmek.cli.call_outputs import call_outputs
 from ilmek.cli.interrupts import before_end
 from ilmek.cli.options import force_option
 from ilmek.cli.running import run_options, work_shown
+from ilmek.cli.settings import read_settings
 from ilmek.cli.terminal import note
 from ilmek.errors import ParameterError
 from ilmek.io.users_file import check_user_name
@@ -92,6 +93,8 @@ def command(
     new: bool,
     commit: int | None,
     faults: str | None,
+    stops: Path | None,
+    settings: tuple[str, ...],
     operator: str,
     add_user_name: str | None,
     right: str,
@@ -115,7 +118,17 @@ def command(
         with call_outputs({"--nodeset": nodeset}, force=force, inputs={"PROGRAMME": programme}) as call:
             call.give("--nodeset", lambda: nodeset_text(programme))
         return 0
-    run_order = read_run_order(programme, speed, journal, new=new, commit=commit, faults=faults, operator=operator)
+    run_order = read_run_order(
+        programme,
+        speed,
+        journal,
+        new=new,
+        commit=commit,
+        faults=faults,
+        stops=stops,
+        settings=read_settings(settings),
+        operator=operator,
+    )
     _serve(replace(run_order, start=start), checked_order(order))
     return 0
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from ilmek.cli.call_outputs import call_outputs
-from ilmek.cli.options import animation_option, force_option, json_option
+from ilmek.cli.options import animation_option, force_option, json_option, stops_option
 from ilmek.cli.settings import read_settings, setting_files
 from ilmek.cli.terminal import note, say, show_pairs, show_table
 from ilmek.cli.verdict import exit_code, note_verdict, show_verdict
@@ -47,9 +47,7 @@ def _show_parameters(context: click.Context, _option: click.Parameter, value: bo
 @click.option(
     "--seeds", type=int, default=SEEDS, show_default=True, metavar="K", help="Runs for the band; 0: only the one run."
 )
-@click.option(
-    "--stops", type=click.Path(path_type=Path), metavar="FILE", help="Read rates and times from .toml, .json."
-)
+@stops_option
 @click.option("--set", "settings", multiple=True, metavar="NAME=VALUE", help="Set a rate or a time: see --parameters.")
 @click.option("--no-faults", "without_faults", is_flag=True, help="Stop only as planned: all rates are 0.")
 @click.option("--deadline", metavar="TIME", help="Check that 95 % of the runs are woven in this time, like 72h.")

@@ -5,6 +5,7 @@ response = "90s"
 pile_break = "0.2/km"
 """
 
+from collections.abc import Mapping
 from pathlib import Path
 
 from ilmek.errors import IlmekError, LoomError
@@ -12,6 +13,14 @@ from ilmek.io.data_text import read_data
 from ilmek.io.schema import shown
 from ilmek.loom.twin.faults import StopParams
 from ilmek.params import Setting
+
+
+def read_stops(path: Path | None, settings: Mapping[str, Setting]) -> StopParams:
+    """Stops from a file, if there is one, and settings, which replace those of the file.
+
+    Raises ParameterError, UnitError, LoomError.
+    """
+    return StopParams.read({**({} if path is None else read_stops_file(path)), **settings})
 
 
 def read_stops_file(path: Path) -> dict[str, Setting]:

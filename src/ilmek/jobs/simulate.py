@@ -10,7 +10,7 @@ from ilmek.errors import ParameterError
 from ilmek.io.any_programme import OpenProgramme, open_any_programme
 from ilmek.io.output import Outputs, joined
 from ilmek.io.programme_file import ProgrammeFile
-from ilmek.io.stops_file import read_stops_file
+from ilmek.io.stops_file import read_stops
 from ilmek.io.table_csv import csv_text
 from ilmek.jobs.deadline import read_deadline
 from ilmek.jobs.page import page_text
@@ -92,8 +92,7 @@ def read_simulation_order(
     deadline  like 72h                                                more            as in `SimulationOrder`
     Raises ParameterError, UnitError, LoomError.
     """
-    of_file = {} if stops is None else read_stops_file(stops)
-    params = StopParams.read({**of_file, **settings})
+    params = read_stops(stops, settings)
     params = params.without_faults() if without_faults else params
     return SimulationOrder(file, params, deadline=None if deadline is None else read_deadline(deadline), **more)
 

@@ -32,7 +32,7 @@ from ilmek.jobs.run.snapshots import SnapshotMaker
 from ilmek.loom.control.packml import PackState
 from ilmek.loom.control.view import Answer, Snapshot
 from ilmek.loom.twin.comparison import compare
-from ilmek.loom.twin.model import plant_model
+from ilmek.loom.twin.model import FaultRates, plant_model
 from ilmek.loom.twin.recording import Recorder
 from ilmek.progress import SILENT, Progress
 
@@ -79,9 +79,10 @@ class LoomRun:
                     do="restore the file woven, or begin with --new",
                 )
             self.woven = stack.enter_context(open_woven(self.folder.woven, self.programme))
-            self._recorder = self._recording() if order.record else None
+            rates = order.rates(self.programme.setup)
+            self._recorder = self._recording(rates) if order.record else None
             self.port = TwinPort(
-                self.programme.setup, self.woven, speed=order.speed, rates=order.rates, record=self._recorder
+                self.programme.setup, self.woven, speed=order.speed, rates=rates, record=self._recorder
             )
             self._session = self._opened()
             self._channel = CommandServer(self.folder.path / CHANNEL)
@@ -148,9 +149,9 @@ class LoomRun:
         """The carpet as far as it is woven, as a PNG file."""
         return carpet_png(self.woven, self.programme, result.woven)
 
-    def _recording(self) -> Recorder:
+    def _recording(self, rates: FaultRates) -> Recorder:
         start = self.woven.restored(plant_model(self.programme.setup))
-        return Recorder(self.programme, self.order.rates, start)
+        return Recorder(self.programme, rates, start)
 
     def _opened(self) -> ControlSession:
         return ControlSession(self.programme, self.port, self.folder.journal, self.order.commit)

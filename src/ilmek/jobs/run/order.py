@@ -1,18 +1,20 @@
 """What a run is to weave, and how; read from the options of a command."""
 
-from dataclasses import replace
+from collections.abc import Mapping
 from pathlib import Path
+from types import MappingProxyType
 
 from ilmek.errors import ParameterError, shortened
+from ilmek.io.stops_file import read_stops
 from ilmek.loom.control.opening import LARGEST_GROUP
-from ilmek.loom.twin.model import NO_FAULTS, FaultRates
+from ilmek.loom.operations import LoomSetup
+from ilmek.loom.twin.faults import RATES, StopParams
+from ilmek.loom.twin.model import NO_FAULTS, FaultRates, fault_rates
+from ilmek.params import Setting
 from ilmek.records import value_record
 
 FASTEST = 1e6
 """Largest speed of the simulated loom's clock; beyond it, it is as fast as possible."""
-
-USUAL_RATES = FaultRates(0, pile_break=2e-4, missed_grip=1e-3, warp_break=2e-5, weft_break=5e-4)
-"""Probability of faults of a knot and of a weft. Assumed by this project."""
 
 OPERATORS = ("auto", "ask")
 
@@ -28,8 +30,8 @@ class RunOrder:
 
     programme  the file                       journal  folder; default: beside the programme, NAME.journal
     new        begin another carpet           speed    of the simulated loom's clock; None: as fast as possible
-    commit     knots of a group commit        rates    of simulated faults
-    operator   faults and changes are seen to without anybody
+    commit     knots of a group commit        faults   seed of the simulated faults; None: no faults
+    stops      their rates                    operator faults and changes are seen to without anybody
     start      weave at once, and end with the carpet; else wait for commands
     record     keep all inputs of the simulated loom
     """
@@ -39,7 +41,8 @@ class RunOrder:
     new: bool = False
     speed: float | None = 1.0
     commit: int = 1
-    rates: FaultRates = NO_FAULTS
+    faults: int | None = None
+    stops: StopParams = StopParams()
     operator: bool = True
     start: bool = True
     record: bool = False
@@ -48,6 +51,10 @@ class RunOrder:
     def folder(self) -> Path:
         """The journal's folder."""
         return self.journal or self.programme.with_suffix(".journal")
+
+    def rates(self, setup: LoomSetup) -> FaultRates:
+        """Probabilities of the simulated faults on a loom."""
+        return NO_FAULTS if self.faults is None else fault_rates(self.stops, setup, self.faults)
 
 
 def read_run_order(
@@ -58,9 +65,15 @@ def read_run_order(
     new: bool = False,
     commit: int | None = None,
     faults: str | None = None,
+    stops: Path | None = None,
+    settings: Mapping[str, Setting] = MappingProxyType({}),
     operator: str = "auto",
 ) -> RunOrder:
-    """A run from the options of a command, as texts. Raises ParameterError."""
+    """A run from the options of a command, as texts.
+
+    stops     file of the rates of faults; those in `settings` replace them
+    Raises ParameterError, UnitError, LoomError.
+    """
     factor = _speed(speed)
     if commit is None:
         commit = FAST_COMMIT if factor is None or factor > FAST else 1
@@ -68,8 +81,13 @@ def read_run_order(
         raise ParameterError(f"--commit {commit}", allowed=f"1 to {LARGEST_GROUP:,} knots")
     if operator not in OPERATORS:
         raise ParameterError(f"--operator {shortened(operator)!r}", allowed=", ".join(OPERATORS))
-    rates = NO_FAULTS if faults is None else replace(USUAL_RATES, seed=_seed(faults))
-    return RunOrder(programme, journal, new, factor, commit, rates, operator == "auto")
+    if faults is None and (stops is not None or settings):
+        raise ParameterError("rates of faults without --faults", do="give a seed: --faults 7")
+    for name in settings:
+        if name not in RATES:
+            raise ParameterError(f"--set {shortened(name)}", allowed=f"rates of faults: {', '.join(RATES)}")
+    seed = None if faults is None else _seed(faults)
+    return RunOrder(programme, journal, new, factor, commit, seed, read_stops(stops, settings), operator == "auto")
 
 
 def _speed(text: str) -> float | None:
