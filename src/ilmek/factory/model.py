@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from ilmek.factory.calendar import Calendar
+from ilmek.records import record
 
 MONEY = 10_000
 """Units of money in one unit of the currency."""
@@ -44,7 +45,7 @@ class Loom:
         return (2 * self.cost * minutes + HOUR) // (2 * HOUR)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class CarpetJob:
     """One carpet to weave.
 

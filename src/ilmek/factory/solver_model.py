@@ -27,12 +27,13 @@ from ilmek.factory.model import (
     sequences_of,
 )
 from ilmek.factory.yarn_stock import scarce_yarns, waiting_in
+from ilmek.records import record
 
 WORKERS = 2
 """Threads of the solver; their number does not change its result."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class SolverRun:
     """What a run of the solver gives: the jobs of each loom in order, their floors, the bound; None without a plan."""
 
