@@ -49,6 +49,9 @@ class Subscriber:
         sent = data.monitored_item.Value.SourceTimestamp
         self.late.append(time.time() - sent.timestamp())
 
+    def status_change_notification(self, status: Any) -> None:
+        raise AssertionError(f"the subscription was ended: {status}")
+
     @property
     def dropped(self) -> int:
         """Values that were left out between two that were seen."""
@@ -56,7 +59,7 @@ class Subscriber:
 
 
 async def _client(url: str, pair: tuple[bytes, bytes, bytes]) -> Any:
-    client = Client(url, timeout=60)
+    client = Client(url, timeout=120, watchdog_intervall=600.0)  # a busy computer is no lost connection
     client.application_uri = "urn:bench:client"
     await client.set_security(SecurityPolicyBasic256Sha256, pair[0], pair[1], server_certificate=pair[2])
     client.set_user("viewer")
@@ -66,13 +69,12 @@ async def _client(url: str, pair: tuple[bytes, bytes, bytes]) -> Any:
 
 
 async def _subscribe(url: str, pair: tuple[bytes, bytes, bytes]) -> tuple[list[Subscriber], float]:
-    clients, handlers = [], [Subscriber() for _ in range(SUBSCRIBERS)]
-    for handler in handlers:
-        client = await _client(url, pair)
-        index = await client.get_namespace_index("urn:ilmek:loom")
+    handlers = [Subscriber() for _ in range(SUBSCRIBERS)]
+    clients = [await _client(url, pair) for _ in handlers]
+    index = await clients[0].get_namespace_index("urn:ilmek:loom")
+    for client, handler in zip(clients, handlers, strict=True):
         subscription = await client.create_subscription(PERIOD, handler)
         await subscription.subscribe_data_change(client.get_node(f"ns={index};s=Loom.Carpet.Knots"), queuesize=100)
-        clients.append(client)
     for handler in handlers:
         handler.values.clear()
         handler.late.clear()
