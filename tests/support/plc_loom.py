@@ -6,10 +6,10 @@ from structured_text import Machine
 
 from ilmek.io.plc.project import plc_project, size_of
 from ilmek.io.plc.row_values import row_values
-from ilmek.loom.operations import LoomProgramme, RowEnd
+from ilmek.loom.operations import LoomProgramme
 
 SENSORS: dict[str, Any] = {
-    "EmergencyStop": False, "DoorClosed": True, "WarpTensionKnown": True, "WarpTension": 15.0, "HeadsClear": False,
+    "EmergencyStop": False, "DoorClosed": True, "WarpTensionKnown": True, "WarpTension": 15.0,
     "BeaterBack": True, "ShedClosed": True,
 }  # fmt: skip
 
@@ -17,6 +17,7 @@ SENSORS: dict[str, Any] = {
 class PlcLoom:
     """Executes the control program of a programme. Operations take a number of scans that differs from head to head.
 
+    heads_clear  what the sensor states; None: the heads are clear while none ties
     carpet  (row, column) -> how often and from which tube a knot was tied there      ends  row ends in their order
     """
 
@@ -30,6 +31,7 @@ class PlcLoom:
         self.changes: list[int] = []
         self.sensors = {**SENSORS, "GrippersOpen": [True] * self.heads}
         self.scans = 0
+        self.heads_clear: bool | None = None
         self._left: dict[int, int] = {}
         self._fail: dict[int, int] = {}
         self.command = 0
@@ -71,9 +73,10 @@ class PlcLoom:
         if changed:
             self.changes.append(self.read("Row"))
         command, self.command = self.command, 0
+        clear = self.heads_clear if self.heads_clear is not None else not any(self.read("TieStart"))
         self.machine.run(
-            self.loom, **self.sensors, TieDone=done, TieFault=fault, EndDone=ended, EndFault=end_fault,
-            ChangeDone=changed, CntrlCmd=command, CmdChangeRequest=command > 0, **inputs,
+            self.loom, **self.sensors, HeadsClear=clear, TieDone=done, TieFault=fault, EndDone=ended,
+            EndFault=end_fault, ChangeDone=changed, CntrlCmd=command, CmdChangeRequest=command > 0, **inputs,
         )  # fmt: skip
 
     def until(self, name: str, value: Any, most: int = 20_000) -> None:
@@ -125,6 +128,5 @@ class PlcLoom:
         self.carpet.setdefault(at, []).append(self.read("TieTube")[head])
 
     def _end(self) -> None:
-        """An operation after the knots is in the carpet; the heads are clear until the take-up."""
+        """An operation after the knots is in the carpet."""
         self.ends.append((self.read("Row"), self.read("EndCode")))
-        self.sensors["HeadsClear"] = self.read("EndCode") < int(RowEnd.TAKE_UP)

@@ -236,15 +236,30 @@ def test_maintenance_weaves_one_row_or_one_knot_of_each_head() -> None:
     assert 12 < loom.read("KnotsDone") <= 14
 
 
+def test_a_head_that_does_not_retreat_holds_the_loom_before_the_weft() -> None:
+    loom = PlcLoom(small_programme(3, 12, 2, 2))
+    loom.start()
+    loom.until("KnotsDone", 12)
+    loom.heads_clear = False
+    loom.until("StateCurrent", int(PackState.HELD))
+    assert (loom.read("Alarm"), loom.ends) == (ALARMS["head between the warps"].number, [])
+    loom.heads_clear = None
+    loom.scan(Acknowledge=True)
+    loom.command = int(PackCommand.UNHOLD)
+    loom.scan(Acknowledge=False)
+    loom.until("StateCurrent", int(PackState.COMPLETE))
+
+
 def test_a_jog_moves_only_where_the_interlocks_allow() -> None:
     loom = PlcLoom(small_programme(3, 12, 2, 2))
     loom.scan(UnitMode=int(PackMode.MANUAL), UnitModeChangeRequest=True)
     loom.scan(UnitModeChangeRequest=False)
     loom.start()
     beater = 6
+    loom.heads_clear = False
     loom.scan(JogAxis=beater)
     assert not loom.read("JogStart"), "the heads are in the comb's path"
-    loom.sensors["HeadsClear"] = True
+    loom.heads_clear = True
     loom.scan()
     assert loom.read("JogStart")
     assert loom.carpet == {}

@@ -3,7 +3,8 @@
 from ilmek.errors import LoomError
 from ilmek.io.plc.cam_function import cam_tables, cam_units
 from ilmek.io.plc.interlock_logic import interlock_unit
-from ilmek.io.plc.sequence_logic import PlcSize, row_structure, sequence_units
+from ilmek.io.plc.sequence_logic import sequence_units
+from ilmek.io.plc.sequence_variables import PlcSize, row_structure
 from ilmek.io.plc.state_model import state_units
 from ilmek.io.plc.units import PlcProject
 from ilmek.loom.control.interlocks import TensionLimits, usual_limits

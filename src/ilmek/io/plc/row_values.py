@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ilmek.io.plc.sequence_logic import PlcSize
+from ilmek.io.plc.sequence_variables import PlcSize
 from ilmek.loom.operations import LoomProgramme, RowOperations
 from ilmek.progress import SILENT, Progress
 

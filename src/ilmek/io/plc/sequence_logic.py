@@ -8,44 +8,26 @@ carpet (`Ask...`), and the sensor or an operator answers (`...Answer`: 1 no, 2 y
 An order is a level: `TieStart[h]` stays until `TieDone[h]`, or `TieFault[h]` with the number of a fault's alarm.
 """
 
-from ilmek.io.plc.interlock_logic import KNOT, OPERATIONS, SENSOR_NAMES, TENSION_KNOWN, capitalised, sensor_variables
+from ilmek.io.plc.interlock_logic import KNOT, OPERATIONS, SENSOR_NAMES, TENSION_KNOWN, capitalised
+from ilmek.io.plc.sequence_variables import (
+    PlcSize,
+    inner_variables,
+    program_inputs,
+    program_outputs,
+    retained_variables,
+)
 from ilmek.io.plc.state_model import REACTIONS
-from ilmek.io.plc.units import INDENT, PlcArray, PlcSection, PlcStructure, PlcUnit, PlcVariable
+from ilmek.io.plc.units import INDENT, PlcSection, PlcUnit, PlcVariable
 from ilmek.loom.control.alarms import ALARM_NUMBERS, ALARMS
 from ilmek.loom.control.interlocks import LoomAxis, Reaction
 from ilmek.loom.control.packml import PackMode, PackState
 from ilmek.loom.control.ports import Fault
 from ilmek.loom.operations import ROW_ENDS
-from ilmek.records import value_record
 
-NO_ANSWER, NOT_IN_CARPET, IN_CARPET = 0, 1, 2
+NO_ANSWER, IN_CARPET = 0, 2
 
-
-@value_record
-class PlcSize:
-    """Sizes for which a program is written: heads, most phases of a row, knots of a row, rows."""
-
-    heads: int
-    phases: int
-    columns: int
-    rows: int
-
-
-def row_structure(size: PlcSize) -> PlcStructure:
-    """The structure by which the host gives a row."""
-    return PlcStructure(
-        "LoomRow",
-        (
-            PlcVariable("Number", "DINT", "row, 0 at the bottom edge", "-1"),
-            PlcVariable("Columns", PlcArray(0, size.columns - 1, "INT"), "warp pair of each knot, head by head"),
-            PlcVariable("Tubes", PlcArray(0, size.columns - 1, "USINT"), "tube of each knot"),
-            PlcVariable("First", PlcArray(0, size.heads - 1, "INT"), "index of the first knot of each head"),
-            PlcVariable(
-                "Limits", PlcArray(0, size.heads * size.phases - 1, "INT"), "knots of a head to the end of a phase"
-            ),
-            PlcVariable("StopBefore", PlcArray(0, size.phases - 1, "BOOL"), "packages are changed before the phase"),
-        ),
-    )
+PATIENCE = 200
+"""Scans for which an operation after the knots waits for its sensors, 2 s: the heads retreat, the shed closes."""
 
 
 def sequence_units(size: PlcSize) -> tuple[PlcUnit, ...]:
@@ -67,99 +49,13 @@ def _reaction() -> PlcUnit:
 
 def _program(size: PlcSize) -> PlcUnit:
     sections = (
-        PlcSection("VAR_INPUT", _inputs(size.heads)),
-        PlcSection("VAR_OUTPUT", _outputs(size.heads)),
-        PlcSection("VAR RETAIN", _retained(size.heads)),
-        PlcSection("VAR", _inner(size.heads)),
+        PlcSection("VAR_INPUT", program_inputs(size.heads)),
+        PlcSection("VAR_OUTPUT", program_outputs(size.heads)),
+        PlcSection("VAR RETAIN", retained_variables(size.heads)),
+        PlcSection("VAR", inner_variables(size.heads)),
     )
-    body = "\n".join((_reports(size), _alarms(size), _uncertain(size), _state(size), _weaving(size)))
+    body = "\n".join((_reports(size), _next_row(size), _alarms(size), _uncertain(size), _state(size), _weaving(size)))
     return PlcUnit("PROGRAM", "Loom", "the loom: states, interlocks, alarms, the sequence of the rows", sections, body)
-
-
-def _inputs(heads: int) -> tuple[PlcVariable, ...]:
-    """Commands, sensors, the row's data, reports and answers."""
-    per_head = PlcArray(0, heads - 1, "BOOL")
-    codes = PlcArray(0, heads - 1, "INT")
-    return (
-        PlcVariable("CntrlCmd", "INT", "number of the command"),
-        PlcVariable("CmdChangeRequest", "BOOL", "carry it out at the rising edge"),
-        PlcVariable("UnitMode", "INT", "mode to change to"),
-        PlcVariable("UnitModeChangeRequest", "BOOL", "change it at the rising edge"),
-        PlcVariable("StepKnot", "BOOL", "in maintenance mode: one knot of each head, else one row"),
-        PlcVariable("Acknowledge", "BOOL", "the operator has removed the cause of the alarm"),
-        PlcVariable("JogAxis", "INT", f"axis to move in manual mode, 1 to {len(LoomAxis)}, 0: none"),
-        *sensor_variables(heads),
-        PlcVariable("RowData", "LoomRow", "the row that was requested"),
-        PlcVariable("TieDone", per_head, "the knot is tied"),
-        PlcVariable("TieFault", codes, "number of the fault's alarm, 0: none"),
-        PlcVariable("EndDone", "BOOL", "the operation after the knots is done"),
-        PlcVariable("EndFault", "INT", "number of the fault's alarm, 0: none"),
-        PlcVariable("ChangeDone", "BOOL", "the operator has changed the packages"),
-        PlcVariable("TieAnswer", codes, "is the uncertain knot in the carpet: 1 no, 2 yes"),
-        PlcVariable("EndAnswer", "INT", "is the uncertain operation in the carpet: 1 no, 2 yes"),
-    )
-
-
-def _outputs(heads: int) -> tuple[PlcVariable, ...]:
-    """State, alarm, requests, orders and questions."""
-    per_head = PlcArray(0, heads - 1, "BOOL")
-    codes = PlcArray(0, heads - 1, "INT")
-    return (
-        PlcVariable("StateCurrent", "INT", "state", str(int(PackState.STOPPED))),
-        PlcVariable("UnitModeCurrent", "INT", "mode", str(int(PackMode.PRODUCTION))),
-        PlcVariable("Refused", "BOOL", "the command or mode was refused"),
-        PlcVariable("Alarm", "INT", "number of the gravest active alarm, 0: none"),
-        PlcVariable("Halt", "BOOL", "every motion is to stop at once"),
-        PlcVariable("RowRequest", "DINT", "row that the host is to give"),
-        PlcVariable("TieStart", per_head, "tie a knot"),
-        PlcVariable("TieColumn", codes, "at this warp pair"),
-        PlcVariable("TieTube", PlcArray(0, heads - 1, "USINT"), "from this tube"),
-        PlcVariable("EndStart", "BOOL", "carry out an operation after the knots"),
-        PlcVariable("EndCode", "INT", "its number: " + ", ".join(f"{int(one)} {_words(one.name)}" for one in ROW_ENDS)),
-        PlcVariable("ChangeStart", "BOOL", "the operator is to change packages"),
-        PlcVariable("JogStart", "BOOL", "the axis may move"),
-        PlcVariable("AskTie", per_head, "is the knot of the head in the carpet"),
-        PlcVariable("AskEnd", "BOOL", "is the operation after the knots in the carpet"),
-        PlcVariable("KnotsDone", "DINT", "knots in the carpet"),
-        PlcVariable("CarpetDone", "BOOL", "the carpet is woven"),
-    )
-
-
-def _retained(heads: int) -> tuple[PlcVariable, ...]:
-    """What outlives a power failure."""
-    per_head = PlcArray(0, heads - 1, "BOOL")
-    codes = PlcArray(0, heads - 1, "INT")
-    return (
-        PlcVariable("Row", "DINT", "row in work"),
-        PlcVariable("Phase", "INT", "phase in work; the number of phases: the operations after the knots"),
-        PlcVariable("StopsDone", "INT", "phases whose stop is over"),
-        PlcVariable("EndsDone", "INT", "operations after the knots that are in the carpet"),
-        PlcVariable("Tied", codes, "knots of each head in the row"),
-        PlcVariable("TieBusy", per_head, "a knot is being tied"),
-        PlcVariable("EndBusy", "BOOL", "an operation after the knots is being carried out"),
-    )
-
-
-def _inner(heads: int) -> tuple[PlcVariable, ...]:
-    """Blocks and values within a scan."""
-    per_head = PlcArray(0, heads - 1, "BOOL")
-    return (
-        PlcVariable("Model", "StateModel"),
-        PlcVariable("Rules", "Interlocks"),
-        PlcVariable("Head", "INT"),
-        PlcVariable("Index", "INT"),
-        PlcVariable("Found", "INT"),
-        PlcVariable("Busy", "BOOL"),
-        PlcVariable("Waiting", "BOOL"),
-        PlcVariable("StepDone", "BOOL"),
-        PlcVariable("Complete", "BOOL"),
-        PlcVariable("MayBegin", "BOOL"),
-        PlcVariable("Retried", per_head, "the knot was tried again"),
-    )
-
-
-def _words(name: str) -> str:
-    return name.lower().replace("_", " ")
 
 
 def _raise(number: str, levels: int = 0) -> str:
@@ -208,6 +104,12 @@ IF ChangeStart AND ChangeDone THEN
     ChangeStart := FALSE;
     StopsDone := Phase + 1;
 END_IF;
+"""
+
+
+def _next_row(size: PlcSize) -> str:
+    """The row is woven: to the next one. The knots in the carpet."""
+    return f"""\
 IF EndsDone = {len(ROW_ENDS)} THEN
     Row := Row + 1;
     Phase := 0;
@@ -395,8 +297,13 @@ ELSIF NOT Busy AND NOT EndBusy THEN
         EndCode := EndsDone;
         EndBusy := TRUE;
         EndStart := TRUE;
-    ELSIF ReactionOf(Found) > ReactionOf(Alarm) OR Alarm = 0 THEN
-        Alarm := Found;
+        Waited := 0;
+    ELSE
+        Waited := Waited + 1;
+        IF Waited > {PATIENCE} THEN
+            Waited := 0;
+{_raise("Found", 3)}
+        END_IF;
     END_IF;
 END_IF;
 """

@@ -15,7 +15,7 @@ from ilmek.report import Animation, Axis, Dot, Drawing, MovingStroke, Reading, S
 from ilmek.timing.track import sample
 from ilmek.units import turn
 
-FRAMES = 180
+FRAMES = 120
 DRIVE = Axis("angle of the row", "deg")
 
 _LINES = 24
