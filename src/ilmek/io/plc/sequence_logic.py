@@ -54,7 +54,9 @@ def _program(size: PlcSize) -> PlcUnit:
         PlcSection("VAR RETAIN", retained_variables(size.heads)),
         PlcSection("VAR", inner_variables(size.heads)),
     )
-    body = "\n".join((_reports(size), _next_row(size), _alarms(size), _uncertain(size), _state(size), _weaving(size)))
+    body = "\n".join(
+        (_reports(size), _next_row(size), _alarms(size), _uncertain(size), _state(size), _knots(size) + _row_ends())
+    )
     return PlcUnit("PROGRAM", "Loom", "the loom: states, interlocks, alarms, the sequence of the rows", sections, body)
 
 
@@ -241,13 +243,8 @@ def _jogs() -> str:
     )
 
 
-def _weaving(size: PlcSize) -> str:
-    """What begins in state Execute: knots of the phase, then the operations after the knots."""
-    permits = "\n".join(
-        f"        {int(one)}: MayBegin := Rules.Permit{name}; Found := Rules.Blocked{name};"
-        for one, name in ((one, capitalised(one.name)) for one in ROW_ENDS)
-    )
-    assert set(OPERATIONS) >= {capitalised(one.name) for one in ROW_ENDS}
+def _knots(size: PlcSize) -> str:
+    """What begins in state Execute while a phase is in work: a stop, or the next knot of each head."""
     return f"""\
 (* weaving *)
 RowRequest := Row;
@@ -287,6 +284,17 @@ IF Phase < {size.phases} THEN
             END_IF;
         END_IF;
     END_FOR;
+"""
+
+
+def _row_ends() -> str:
+    """What begins behind the last phase: the operations after the knots, when their sensors permit."""
+    permits = "\n".join(
+        f"        {int(one)}: MayBegin := Rules.Permit{name}; Found := Rules.Blocked{name};"
+        for one, name in ((one, capitalised(one.name)) for one in ROW_ENDS)
+    )
+    assert set(OPERATIONS) >= {capitalised(one.name) for one in ROW_ENDS}
+    return f"""\
 ELSIF NOT Busy AND NOT EndBusy THEN
     MayBegin := FALSE;
     Found := 0;

@@ -26,7 +26,7 @@ _CLOTH = 0.12
 
 
 def row_from_the_front(loom: LoomDesign) -> Animation:
-    """Carrier, weft and comb before the warps. What stands in front of them, the heads, is left out."""
+    """Carrier, weft and comb before the warps. The heads, which stand in front of them, are not drawn."""
     angle, wide, side = _angles(), loom.task.cloth_width, loom.side
     height = (side.carrier.corner + side.carrier.size / 2).imag
     top = 1.3 * max(float(side.cams[0].at.imag), height)
@@ -44,7 +44,7 @@ def row_from_the_front(loom: LoomDesign) -> Animation:
             *warps,
         ),
         (Dot(0j, "fell", "point"),),
-        note=f"{_LINES} of {loom.warps} warps are drawn; the heads, which stand in front, are left out",
+        note=f"{_LINES} of {loom.warps} warps are drawn, and no heads, which stand in front",
     )
     strokes = (
         MovingStroke(comb, "path", "comb", closed=True),
