@@ -65,7 +65,9 @@ def lamp(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(ilmek.machines, "__path__", [*ilmek.machines.__path__, str(tmp_path)])
     monkeypatch.setitem(ilmek.machines.ENTRIES, "lamp", ilmek.machines.Entry("light over the fell", part=True))
     importlib.invalidate_caches()
+    design.cache_clear()
     yield
+    design.cache_clear()
     sys.modules.pop("ilmek.machines.lamp", None)
 
 

@@ -51,9 +51,10 @@ def weight(reason: dict[str, Any]) -> float:
 
 
 @pytest.mark.parametrize("name", MACHINES)
-def test_design_ends_as_its_checks_demand(name: str) -> None:
-    shown, found = run("design", name), run("design", name, "--json", "-")
-    assert shown.exit_code == found.exit_code == judged(json.loads(found.stdout))
+def test_design_ends_as_its_checks_demand(tmp_path: Path, name: str) -> None:
+    file = tmp_path / "found.json"
+    shown = run("design", name, "--json", str(file))
+    assert shown.exit_code == judged(json.loads(file.read_text(encoding="utf-8")))
     assert re.match(r"(checks: \d+ passed|weaves: )", shown.stdout.splitlines()[1])
 
 

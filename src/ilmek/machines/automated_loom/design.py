@@ -52,6 +52,7 @@ class LoomDesign:
     task           of its machines                        side  the side view
     head           what ties the knots       beat  the drive of the beat
     row_timing, row_cyclogram   of the wefts and beats of a row, one turn of the shedding cams
+    knot_cyclogram              of a knot
     times          of the acts of weaving, as the programme counts them
     choices        of what the parameters left open; `params` has what was chosen
     """
@@ -68,6 +69,7 @@ class LoomDesign:
     beat: BeatDrive
     row_timing: RowTiming
     row_cyclogram: Cyclogram
+    knot_cyclogram: Cyclogram
     times: Times
     choices: tuple[Choice, ...] = ()
 
@@ -137,7 +139,7 @@ class LoomDesign:
     @property
     def cyclograms(self) -> tuple[Cyclogram, Cyclogram]:
         """The cyclograms of a knot and of a row."""
-        return knot_cyclogram(self.weaver, self.times.knot), self.row_cyclogram
+        return self.knot_cyclogram, self.row_cyclogram
 
 
 @record
@@ -219,6 +221,7 @@ def with_beat(ready: ReadyLoom, option: BeatOption, choices: tuple[Choice, ...] 
         beat=beat,
         row_timing=timing,
         row_cyclogram=_row_cyclogram(timing, period, machines),
+        knot_cyclogram=knot_cyclogram(head, times.knot),
         times=times,
         choices=(*choices, *ready.choices, *of_heads),
     )

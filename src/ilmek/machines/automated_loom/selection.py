@@ -5,14 +5,19 @@ the whole loom, until one keeps every limit. With a deadline a quicker beat may 
 loom decides.
 """
 
+from functools import lru_cache
+
 from ilmek.machines.automated_loom.design import LoomDesign, ReadyLoom, ready_loom, with_beat
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.automated_loom.report import analyse, checks
 from ilmek.report import Alternative, choose
 
 
+@lru_cache(maxsize=8)
 def design(params: AutomatedLoomParams) -> LoomDesign:
     """The loom for a carpet. Where no beat keeps every limit, the loom with the one that misses them least.
+
+    The last looms are kept: commands and reports that begin with the same parameters share the design.
 
     Raises LoomError where more heads are given than fit, or the shed leaves no time for the weft; CarpetError for a
     carpet without knots; the errors of the machines where their parameters contradict each other.

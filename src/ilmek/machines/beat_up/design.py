@@ -176,6 +176,7 @@ class BeatUp:
         return evaluate(self.params, self.plan, self.bodies, angle)
 
 
+@lru_cache(maxsize=16)
 def design(params: BeatUpParams) -> BeatUp:
     """Size, move and load a beat-up mechanism.
 

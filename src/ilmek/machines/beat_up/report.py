@@ -1,6 +1,7 @@
 """What is reported of a beat-up: checks against the paper's criteria, its run by a motor, tables and figures."""
 
 import math
+from functools import lru_cache
 
 from ilmek.dynamics.counterweight import Balance
 from ilmek.dynamics.motor_run import REACHED, LastTurn, MotorRun
@@ -51,6 +52,7 @@ class BeatUpAnalysis:
     use: BeatUpUse = group()
 
 
+@lru_cache(maxsize=8)
 def analyse(design: BeatUp) -> BeatUpAnalysis:
     """The run and the family of a design."""
     running = design.motor_run()

@@ -11,10 +11,12 @@ The comb also bears its own inertia: between supports s apart, with s / 2 beyond
 q = m a / L is q s^2 / 8, that of the overhang.                                                        [theory of beams]
 """
 
+import heapq
 import math
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import lru_cache
+from itertools import islice
 
 from ilmek.elements.duty import MARGIN
 from ilmek.elements.motors import MOTORS, SERVO
@@ -109,17 +111,17 @@ def chosen_linkage(
 
     Raises MechanismError where the crank-rockers do not move.
     """
-    ranked = sorted(_options(params, fabric, needed), key=lambda one: (not one[1], _estimated(one[0], fabric, needed)))
+    options = tuple(_options(params, fabric, needed))
     made: list[tuple[HammerParams, CombLinkage]] = []
     candidates: list[Alternative] = []
-    for option, _ in ranked[:_DESIGNED]:
+    for option in islice(_ranked(options, fabric, needed), _DESIGNED):
         made.append((option, linkage_for(option, fabric, needed)))
         candidates.append(Alternative(_named(option), linkage_checks(made[-1][1])))
         if not candidates[-1].failed:
             break
     index, choice = choose("crank-rockers", candidates)
     option, linkage = made[index]
-    found = (choice,) if len(ranked) > 1 else ()
+    found = (choice,) if len(options) > 1 else ()
     return option, linkage, (*found, *linkage.strength.choices, *linkage.start.choices)
 
 
@@ -128,8 +130,29 @@ def _named(params: HammerParams) -> str:
     return f"{params.rockers} at {speed}, ballast {format_quantity(params.ballast or 0.0, 'kg', 3)}"
 
 
-def _options(params: HammerParams, fabric: Fabric, needed: float) -> Iterator[tuple[HammerParams, bool]]:
-    """Each number of crank-rockers and speed, with ballast and links, and whether there are links strong enough."""
+def _ranked(options: tuple[tuple[HammerParams, float], ...], fabric: Fabric, needed: float) -> Iterator[HammerParams]:
+    """The options with their links: those strong enough first, in ascending order of their estimated price.
+
+    The price with the lightest links offered is a lower bound: stronger links are looked for in ascending order of it,
+    so that options that are not reached need none.
+    """
+    queue: list[tuple[bool, float, int, float | None, HammerParams]] = []
+    for index, (option, share) in enumerate(options):
+        width, thickness = min(_offered(option), key=math.prod)
+        lightest = replace(option, link_width=width, link_thickness=thickness)
+        queue.append((False, _estimated(lightest, fabric, needed), index, share, option))
+    heapq.heapify(queue)
+    while queue:
+        _, _, index, share, option = heapq.heappop(queue)
+        if share is None:
+            yield option
+            continue
+        option, enough = _with_links(option, share)
+        heapq.heappush(queue, (not enough, _estimated(option, fabric, needed), index, None, option))
+
+
+def _options(params: HammerParams, fabric: Fabric, needed: float) -> Iterator[tuple[HammerParams, float]]:
+    """Each number of crank-rockers and speed, with ballast, and the share of the comb of each crank-rocker [kg]."""
     acceleration = force_at_beat(_unit(params.ground))
     most = params.rockers if params.beaters else min(params.rockers + MORE_BEATERS - 1, MOST_BEATERS)
     for number in range(params.rockers, most + 1):
@@ -138,7 +161,7 @@ def _options(params: HammerParams, fabric: Fabric, needed: float) -> Iterator[tu
         for speed in (params.beat_speed,) if params.beat_speed else SPEEDS:
             mass = _RESERVE * (params.force or needed) * params.warps / (acceleration * speed**2)
             ballast = min(max(mass - comb, 0.0), MOST_BALLAST) if params.ballast is None else params.ballast
-            yield _with_links(replace(shared, beat_speed=speed, ballast=ballast), (comb + ballast) / number)
+            yield replace(shared, beat_speed=speed, ballast=ballast), (comb + ballast) / number
 
 
 def _with_links(params: HammerParams, share: float) -> tuple[HammerParams, bool]:
@@ -147,13 +170,8 @@ def _with_links(params: HammerParams, share: float) -> tuple[HammerParams, bool]
     Where none does, the largest.
     """
     speed = params.beat_speed or 1.0
-    unit = _unit(params.ground)
-    offered, enough = FLAT_BARS, False
-    if params.link_width or params.link_thickness:
-        widest = params.link_width or (params.link_thickness or 0.0) * 3
-        offered = ((widest, params.link_thickness or widest / 3),)
-    lengths = unit.lengths
-    for width, thickness in offered:
+    lengths, enough = _unit(params.ground).lengths, False
+    for width, thickness in _offered(params):
         links = width * thickness * params.density
         # The links' own inertia counts as that of their whole mass at the beater.
         own = links * (lengths["coupler"] + lengths["beater"])
@@ -165,6 +183,14 @@ def _with_links(params: HammerParams, share: float) -> tuple[HammerParams, bool]
         if enough:
             break
     return replace(params, link_width=width, link_thickness=thickness), enough
+
+
+def _offered(params: HammerParams) -> tuple[tuple[float, float], ...]:
+    """Widths and thicknesses of the links to choose from [m]: of stock, or the given one."""
+    if not params.link_width and not params.link_thickness:
+        return FLAT_BARS
+    width = params.link_width or (params.link_thickness or 0.0) * 3
+    return ((width, params.link_thickness or width / 3),)
 
 
 @lru_cache(maxsize=32)

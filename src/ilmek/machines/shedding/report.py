@@ -1,11 +1,13 @@
 """The report of shedding cams: what is worth knowing, and tables."""
 
+from functools import lru_cache
+
 import numpy as np
 
 from ilmek.cams.laws import LAWS, SMOOTH_LAWS
 from ilmek.cams.limits import concave_radius_min, convex_radius_min
 from ilmek.cams.plate import PlateCam
-from ilmek.cams.programme import jumps
+from ilmek.cams.programme import CamProgramme, jumps
 from ilmek.cams.sizing import CamLimits, pressure_prime
 from ilmek.elements import shafts
 from ilmek.machines.shedding.analysis import SheddingAnalysis
@@ -142,12 +144,18 @@ def _law_table(design: SheddingDesign) -> Table:
 
 def _law_row(design: SheddingDesign, name: str) -> tuple[float | int | str, ...]:
     params, law, programme = design.params, LAWS[name], lifting(design.params, name)
-    prime = pressure_prime(programme, CamLimits(params.pressure_angle_limit, params.pressure_angle_limit)).value
-    # The roller may be larger than this law's prime circle; the pitch curve does not depend on it.
-    radius = convex_radius_min(PlateCam(programme, prime)).value
+    prime, radius = _size_of(programme, params.pressure_angle_limit)
     rate = params.speed / min(params.rise, params.fall_angle)
     velocity, acceleration = params.lift * rate * law.velocity_peak, params.lift * rate**2 * law.acceleration_peak
     return name, prime, radius, velocity, acceleration, len(jumps(programme))
+
+
+@lru_cache(maxsize=64)
+def _size_of(programme: CamProgramme, pressure_angle: float) -> tuple[float, float]:
+    """Prime radius for a pressure angle, and least convex radius [m]: of each law they are the same in most looms."""
+    prime = pressure_prime(programme, CamLimits(pressure_angle, pressure_angle)).value
+    # The roller may be larger than this law's prime circle; the pitch curve does not depend on it.
+    return prime, convex_radius_min(PlateCam(programme, prime)).value
 
 
 def _side_table(design: SheddingDesign) -> Table:
