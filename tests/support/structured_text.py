@@ -8,10 +8,11 @@ controller would misbehave.
 
 import contextlib
 import math
+import operator
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypeAlias
 
 RANGES = {
     "SINT": (-(2**7), 2**7 - 1), "INT": (-(2**15), 2**15 - 1), "DINT": (-(2**31), 2**31 - 1),
@@ -91,6 +92,10 @@ class Instance:
     unit: Unit
     values: dict[str, Any]
     kinds: dict[str, Kind]
+
+
+Evaluator: TypeAlias = Callable[[Instance], Any]
+"""The value of an expression for the variables of an instance."""
 
 
 class Parser:
@@ -339,6 +344,34 @@ class Parser:
         return found
 
 
+def _logical(sign: str, operation: Callable[[bool, bool], bool]) -> Callable[[Any, Any], bool]:
+    def applied(one: Any, other: Any) -> bool:
+        if not isinstance(one, bool) or not isinstance(other, bool):
+            raise StructuredTextError(f"{sign} of {one!r} and {other!r}")
+        return operation(one, other)
+
+    return applied
+
+
+def _quotient(one: Any, other: Any) -> Any:
+    if other == 0:
+        raise StructuredTextError("division by zero")
+    return int(one / other) if isinstance(one, int) and isinstance(other, int) else one / other
+
+
+def _remainder(one: Any, other: Any) -> Any:
+    quotient = _quotient(one, other)
+    return one - quotient * other if isinstance(quotient, int) else quotient
+
+
+OPERATIONS: dict[str, Callable[[Any, Any], Any]] = {
+    "AND": _logical("AND", operator.and_), "&": _logical("&", operator.and_), "OR": _logical("OR", operator.or_),
+    "XOR": _logical("XOR", operator.xor), "=": operator.eq, "<>": operator.ne, "<": operator.lt, ">": operator.gt,
+    "<=": operator.le, ">=": operator.ge, "+": operator.add, "-": operator.sub, "*": operator.mul,
+    "/": _quotient, "MOD": _remainder,
+}  # fmt: skip
+
+
 class _Return(Exception):
     pass
 
@@ -353,6 +386,8 @@ class Machine:
     def __init__(self, text: str) -> None:
         parsed = Parser(text).parse()
         self.units, self.structures = parsed.units, parsed.structures
+        self._evaluators: dict[int, tuple[Evaluator, Any]] = {}
+        self._bodies: dict[int, tuple[list[tuple[Callable[..., None], Any]], Any]] = {}
 
     def instance(self, name: str) -> Instance:
         unit = self.units.get(name.upper()) or self.structures[name.upper()]
@@ -454,8 +489,11 @@ class Machine:
         inner.values[inner.index(self._value(instance, target[2]))] = self._checked(inner.kind.element, value)
 
     def _execute(self, instance: Instance, body: list[Any]) -> None:
-        for one in body:
-            getattr(self, f"_do_{one[0]}")(instance, *one[1:])
+        known = self._bodies.get(id(body))
+        if known is None:
+            known = self._bodies[id(body)] = [(getattr(self, f"_do_{one[0]}"), one[1:]) for one in body], body
+        for statement, arguments in known[0]:
+            statement(instance, *arguments)
 
     def _do_assign(self, instance: Instance, target: Any, value: Any) -> None:
         self._store(instance, target, self._value(instance, value))
@@ -473,9 +511,10 @@ class Machine:
     def _do_case(self, instance: Instance, chosen: Any, branches: Any, other: Any) -> None:
         value = self._value(instance, chosen)
         for labels, body in branches:
-            if any(low <= value <= high for low, high in labels):
-                self._execute(instance, body)
-                return
+            for low, high in labels:
+                if low <= value <= high:
+                    self._execute(instance, body)
+                    return
         self._execute(instance, other)
 
     def _do_for(self, instance: Instance, name: str, first: Any, last: Any, step: Any, body: Any) -> None:  # noqa: PLR0917
@@ -509,46 +548,62 @@ class Machine:
             raise StructuredTextError(f"{value!r} as a condition")
         return value
 
-    def _value(self, instance: Instance, expression: Any) -> Any:  # noqa: PLR0911
-        kind = expression[0]
-        if kind == "value":
-            return expression[1]
-        if kind == "name":
-            if expression[1] not in instance.values:
-                raise StructuredTextError(f"{instance.unit.name}: {expression[1]} is not declared")
-            return instance.values[expression[1]]
-        if kind == "member":
-            inner = self._value(instance, expression[1])
-            if expression[2] not in inner.values:
-                raise StructuredTextError(f"{inner.unit.name} has no {expression[2]}")
-            return inner.values[expression[2]]
-        if kind == "element":
-            inner = self._value(instance, expression[1])
-            return inner.values[inner.index(self._value(instance, expression[2]))]
-        if kind == "call":
-            return self._called(instance, expression[1], expression[2])
-        if kind == "unary":
-            value = self._value(instance, expression[2])
-            return (not value) if expression[1] == "NOT" else -value
-        return self._binary(instance, *expression[1:])
+    def _value(self, instance: Instance, expression: Any) -> Any:
+        return self._evaluator(expression)(instance)
 
-    def _binary(self, instance: Instance, sign: str, left: Any, right: Any) -> Any:
-        one, other = self._value(instance, left), self._value(instance, right)
-        if sign in {"AND", "&", "OR", "XOR"}:
-            if not isinstance(one, bool) or not isinstance(other, bool):
-                raise StructuredTextError(f"{sign} of {one!r} and {other!r}")
-            return {"OR": one or other, "XOR": one != other}.get(sign, one and other)
-        if sign in {"/", "MOD"}:
-            if other == 0:
-                raise StructuredTextError("division by zero")
-            if isinstance(one, int) and isinstance(other, int):
-                quotient = int(one / other)
-                return one - quotient * other if sign == "MOD" else quotient
-            return one / other
-        return {
-            "=": one == other, "<>": one != other, "<": one < other, ">": one > other, "<=": one <= other,
-            ">=": one >= other, "+": one + other, "-": one - other, "*": one * other,
-        }[sign]  # fmt: skip
+    def _evaluator(self, expression: Any) -> Evaluator:
+        """An expression as a function of the instance, made once: a scan evaluates thousands of them."""
+        known = self._evaluators.get(id(expression))
+        if known is None:
+            known = self._evaluators[id(expression)] = (
+                getattr(self, f"_of_{expression[0]}")(*expression[1:]),
+                expression,
+            )
+        return known[0]
+
+    @staticmethod
+    def _of_value(value: Any) -> Evaluator:
+        return lambda _: value
+
+    @staticmethod
+    def _of_name(name: str) -> Evaluator:
+        def found(instance: Instance) -> Any:
+            if name not in instance.values:
+                raise StructuredTextError(f"{instance.unit.name}: {name} is not declared")
+            return instance.values[name]
+
+        return found
+
+    def _of_member(self, outer: Any, name: str) -> Evaluator:
+        of = self._evaluator(outer)
+
+        def found(instance: Instance) -> Any:
+            inner = of(instance)
+            if name not in inner.values:
+                raise StructuredTextError(f"{inner.unit.name} has no {name}")
+            return inner.values[name]
+
+        return found
+
+    def _of_element(self, array: Any, at: Any) -> Evaluator:
+        of, index = self._evaluator(array), self._evaluator(at)
+
+        def found(instance: Instance) -> Any:
+            inner = of(instance)
+            return inner.values[inner.index(index(instance))]
+
+        return found
+
+    def _of_call(self, target: Any, arguments: Any) -> Evaluator:
+        return lambda instance: self._called(instance, target, arguments)
+
+    def _of_unary(self, sign: str, expression: Any) -> Evaluator:
+        of = self._evaluator(expression)
+        return (lambda instance: not of(instance)) if sign == "NOT" else (lambda instance: -of(instance))
+
+    def _of_binary(self, sign: str, left: Any, right: Any) -> Evaluator:
+        one, other, operation = self._evaluator(left), self._evaluator(right), OPERATIONS[sign]
+        return lambda instance: operation(one(instance), other(instance))
 
     def _called(self, instance: Instance, target: Any, arguments: Any) -> Any:
         if target[0] == "name" and target[1] not in instance.values:
