@@ -137,10 +137,10 @@ def _ranked(options: tuple[tuple[HammerParams, float], ...], fabric: Fabric, nee
     so that options that are not reached need none.
     """
     queue: list[tuple[bool, float, int, float | None, HammerParams]] = []
-    for index, (option, share) in enumerate(options):
+    for index, (option, load) in enumerate(options):
         width, thickness = min(_offered(option), key=math.prod)
         lightest = replace(option, link_width=width, link_thickness=thickness)
-        queue.append((False, _estimated(lightest, fabric, needed), index, share, option))
+        queue.append((False, _estimated(lightest, fabric, needed), index, load, option))
     heapq.heapify(queue)
     while queue:
         _, _, index, share, option = heapq.heappop(queue)
