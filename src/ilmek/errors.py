@@ -17,6 +17,11 @@ import difflib
 from collections.abc import Iterable
 
 
+def joined_message(given: str, allowed: str, do: str) -> str:
+    """A message in one line: what was given, what is allowed, what to do; an empty part is left out."""
+    return "; ".join(part for part in (given, allowed, do) if part)
+
+
 class IlmekError(Exception):
     """An error that the user can correct.
 
@@ -29,7 +34,7 @@ class IlmekError(Exception):
         self.given = given
         self.allowed = allowed
         self.do = do
-        super().__init__("; ".join(part for part in (given, allowed, do) if part))
+        super().__init__(joined_message(given, allowed, do))
 
 
 class UnitError(IlmekError):

@@ -40,6 +40,8 @@ rad, mrad, deg, turn = 1.0, 1e-3, math.pi / 180, 2 * math.pi
 rpm = turn / minute
 N, kN, mN = 1.0, 1e3, 1e-3
 Pa, kPa, MPa, GPa = 1.0, 1e3, 1e6, 1e9
+BILLION = 1_000_000_000
+"""Nanoseconds in a second, and nanometres in a metre: the loom's clock and yarns count in them."""
 
 _NONE: Dimension = (0, 0, 0, 0)
 _LENGTH: Dimension = (1, 0, 0, 0)

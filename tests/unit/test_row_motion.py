@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 from small_programme import small_programme
 
-from ilmek.loom.twin.durations import BILLION, durations_of
+from ilmek.loom.twin.durations import durations_of
 from ilmek.loom.twin.row_motion import row_in_motion, timed_row
 from ilmek.report import Animation, MovingStroke
+from ilmek.units import BILLION
 
 
 def strokes(moving: Animation, label: str) -> list[MovingStroke]:

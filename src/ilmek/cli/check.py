@@ -9,7 +9,7 @@ from ilmek.cli.options import force_option, json_option
 from ilmek.cli.terminal import note, say, show_pairs
 from ilmek.cli.verdict import CHECK_FAILS
 from ilmek.jobs.check import CheckResult, check_programme
-from ilmek.units import format_quantity
+from ilmek.units import BILLION, format_quantity
 
 MOST_SHOWN = 20
 """Largest number of errors that are printed."""
@@ -59,7 +59,7 @@ def show_check(found: CheckResult) -> None:
     show_pairs(
         [
             ("rows", f"{setup.rows:,} of {setup.columns:,} knots; heads: {setup.heads}"),
-            ("weaving time", format_quantity(totals.time / 1e9, "h")),
+            ("weaving time", format_quantity(totals.time / BILLION, "h")),
             ("changes of tube", f"{totals.changes:,}"),
             ("stops", f"{totals.stops:,}; bobbins changed: {totals.wefts:,}, packages: {totals.packages:,}"),
         ]

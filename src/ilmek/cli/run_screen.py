@@ -14,6 +14,7 @@ from rich.text import Text
 from ilmek.carpet.yarn import Yarn
 from ilmek.errors import printable, shortened
 from ilmek.loom.control.view import AlarmView, HeadView, Snapshot
+from ilmek.units import BILLION
 
 FRAMES = 10.0
 """Pictures a second."""
@@ -48,7 +49,7 @@ class RunScreen:
         (begin, before), (end, after) = self._points[0], self._points[-1]
         if after <= before or end <= begin:
             return ""
-        return f"; here {clock_in_words(int(1e9 * (snapshot.total - after) * (end - begin) / (after - before)))}"
+        return f"; here {clock_in_words(int(BILLION * (snapshot.total - after) * (end - begin) / (after - before)))}"
 
     def __enter__(self) -> "RunScreen":
         self._live.start()
@@ -82,7 +83,7 @@ def clock_in_words(nanoseconds: int) -> str:
     >>> clock_in_words(90_061_000_000_000), clock_in_words(61_500_000_000)
     ('25 h 1 min', '1 min 1 s')
     """
-    seconds = nanoseconds // 1_000_000_000
+    seconds = nanoseconds // BILLION
     if seconds >= 3600:
         return f"{seconds // 3600:,} h {seconds % 3600 // 60} min"
     return f"{seconds // 60} min {seconds % 60} s" if seconds >= 60 else f"{seconds} s"

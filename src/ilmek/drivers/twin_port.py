@@ -18,6 +18,7 @@ from ilmek.loom.twin.model import NO_FAULTS, FaultRates, plant_model
 from ilmek.loom.twin.state import Act, Halt, PlantInput, PlantState, PowerOn, SetSpeed, next_instant, sensors_of
 from ilmek.loom.twin.step import step
 from ilmek.loom.twin.woven import Woven
+from ilmek.units import BILLION
 
 SLOWEST, FASTEST = 0.001, 1e6
 """Bounds of a speed: time of the loom over that of the caller."""
@@ -127,7 +128,7 @@ class TwinPort:
         now = self._clock.now()
         reached = self._reached(now, speed)
         if instant is None or instant > reached:
-            ahead = timeout if instant is None else min(timeout, (instant - reached) / (1e9 * speed))
+            ahead = timeout if instant is None else min(timeout, (instant - reached) / (BILLION * speed))
             self._wait(ahead)
             reached = self._reached(self._clock.now(), speed)
         until = reached if instant is None else min(instant, reached)
@@ -136,10 +137,10 @@ class TwinPort:
     def _reached(self, now: float, speed: float) -> int:
         """The loom's time by the caller's clock; a long lag moves the origin."""
         begin, base = self._origin
-        reached = base + int((now - begin) * speed * 1e9)
-        if reached - self._state.time > LARGEST_LAG * speed * 1e9 and next_instant(self._state) is not None:
+        reached = base + int((now - begin) * speed * BILLION)
+        if reached - self._state.time > LARGEST_LAG * speed * BILLION and next_instant(self._state) is not None:
             self._origin = now - LARGEST_LAG, self._state.time
-            reached = self._state.time + int(LARGEST_LAG * speed * 1e9)
+            reached = self._state.time + int(LARGEST_LAG * speed * BILLION)
         return reached
 
     def _wait(self, seconds: float) -> None:

@@ -8,6 +8,7 @@ from typing import Any, NoReturn, TypeVar
 from ilmek.errors import IlmekError, MechanismError, ParameterError
 from ilmek.io.line_numbers import Path
 from ilmek.io.schema import SourceText, key_faults, read_quantity, shown
+from ilmek.params import Setting
 
 E = TypeVar("E", bound="FileEntry")
 
@@ -54,6 +55,16 @@ class FileEntry:
         """The inner tables by name."""
         for key, value in self.data.items():
             yield key, type(self)(value, (*self.path, key), self.source)
+
+    def settings(self, prefix: str = "") -> Iterator[tuple[str, Setting]]:
+        """The settings of this table and its inner tables by dotted name."""
+        for key, value in self.data.items():
+            if isinstance(value, Mapping):
+                yield from type(self)(value, (*self.path, key), self.source).settings(f"{prefix}{key}.")
+            elif isinstance(value, str | int | float):
+                yield f"{prefix}{key}", value
+            else:
+                self.refuse(ParameterError(f"{shown(value)} is not a value", do='write it like "8mm", 8 or true'), key)
 
     def table(self: E, key: str) -> E:
         """An inner table; empty if it is missing."""

@@ -36,7 +36,7 @@ Files are named relative to the folder of the looms and lie in it.
 """
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from datetime import date, datetime
 from pathlib import Path
@@ -226,7 +226,7 @@ def _loom(row: FactoryEntry, path: Path, currency: str, shifts: tuple[ShiftEntry
     return LoomEntry(
         row.label("name"),
         file,
-        dict(_flat(row.table("design"), "")),
+        dict(row.table("design").settings()),
         _chosen(row, shifts),
         cost or 0.0,
         stops,
@@ -257,17 +257,6 @@ def _chosen(row: FactoryEntry, shifts: tuple[ShiftEntry, ...]) -> tuple[str, ...
     if not any(known[name].attended for name in given):
         row.refuse(ParameterError("no shift of the loom is attended", do="give one in which it is dressed"), "shifts")
     return tuple(given)
-
-
-def _flat(table: FactoryEntry, prefix: str) -> Iterator[tuple[str, Setting]]:
-    """The settings of a table by dotted name."""
-    for key, value in table.data.items():
-        if isinstance(value, Mapping):
-            yield from _flat(FactoryEntry(value, (*table.path, key), table.source), f"{prefix}{key}.")
-        elif isinstance(value, str | int | float):
-            yield f"{prefix}{key}", value
-        else:
-            table.refuse(ParameterError(f"{shown(value)} is not a value", do='write it like "8mm", 8 or true'), key)
 
 
 def _yarn(row: FactoryEntry, currency: str) -> StockEntry:

@@ -166,7 +166,7 @@ class ProgrammeFile:
 
     def operations(self, number: int) -> RowOperations:
         """The operations of a loom row. Raises LoomError beyond the carpet, or if it is damaged."""
-        self._require(number)
+        self.setup.require_row(number)
         with _as_loom_error(self.path):
             changes = self._database.select(_CHANGES, int(number)) if number in self.stopped else iter(())
             stops = read_stops(self.setup, number, changes)
@@ -183,7 +183,7 @@ class ProgrammeFile:
 
     def chart_row(self, number: int) -> UInt8[np.ndarray, " columns"]:
         """Yarn of each knot of a loom row. Raises LoomError as `operations`."""
-        self._require(number)
+        self.setup.require_row(number)
         with _as_loom_error(self.path):
             stored = next(self._database.select("SELECT data FROM chart WHERE number = ?", int(number)), None)
         if stored is None:
@@ -224,10 +224,6 @@ class ProgrammeFile:
                 raise self._damaged("it has too many changes of packages, or one before no row")
             found[row] = None
         return found
-
-    def _require(self, number: int) -> None:
-        if not 0 <= number < self.setup.rows:
-            raise LoomError(f"row {number}", allowed=f"rows 0 to {self.setup.rows - 1}")
 
     def _damaged(self, reason: str) -> LoomError:
         return LoomError(f"{self.path}: {reason}", allowed="a whole programme", do=_AGAIN)

@@ -24,10 +24,9 @@ from ilmek.elements.knot_kinds import WRAPS
 from ilmek.errors import LoomError, shortened
 from ilmek.io.carpet_facts import quality_entry, size_entry, yarn_entries
 from ilmek.io.meta_entry import MetaEntry
-from ilmek.io.programme_rows import LONGEST_PACKAGE
 from ilmek.io.sqlite_readonly import LARGEST_VALUE
 from ilmek.loom.bobbins import Bobbin
-from ilmek.loom.operations import EMPTY, ROW_ENDS, LoomSetup, OperationTimes
+from ilmek.loom.operations import EMPTY, LONGEST_PACKAGE, ROW_ENDS, LoomSetup, OperationTimes
 from ilmek.loom.programme import MOST_PER_SIDE
 from ilmek.loom.sharing import MOST_HEADS
 from ilmek.loom.times import LONGEST_TIME

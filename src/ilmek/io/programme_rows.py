@@ -19,7 +19,7 @@ import numpy as np
 
 from ilmek.arrays import UInt8
 from ilmek.errors import LoomError
-from ilmek.loom.operations import LoomSetup, RowEnd, RowOperations, Stop, TubeChange
+from ilmek.loom.operations import LONGEST_PACKAGE, LoomSetup, RowEnd, RowOperations, Stop, TubeChange
 
 LEVEL = 1
 """Level of the compression: rows are mostly zeros."""
@@ -32,9 +32,6 @@ MOST_ENDS = 100
 
 MOST_MORE = 2
 """Most knots of a row over those of the chart's: a programme that ties a knot twice can be read, to be checked."""
-
-LONGEST_PACKAGE = 1e9
-"""Bound of the length of yarn on a package [m]."""
 
 
 def packed(data: bytes) -> bytes:

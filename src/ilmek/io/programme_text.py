@@ -141,8 +141,7 @@ class ProgrammeText:
 
     def row_text(self, number: int) -> RowText:
         """A row and its lines. Raises LoomError as `operations`."""
-        if not 0 <= number < self.setup.rows:
-            raise LoomError(f"row {number}", allowed=f"rows 0 to {self.setup.rows - 1}")
+        self.setup.require_row(number)
         if self._latest is None or self._latest.row.number != number:
             (begin, line), end = self._index[number].tolist(), int(self._index[number + 1, 0])
             self._file.seek(begin)

@@ -10,8 +10,8 @@ from ilmek.errors import IlmekError, LoomError, shortened
 from ilmek.io import programme_line_reading as reading
 from ilmek.io import programme_line_writing as writing
 from ilmek.io.programme_line_reading import FIRST_END, RowParts, RowSizes
-from ilmek.io.programme_rows import LONGEST_PACKAGE, MOST_ENDS, MOST_MORE, MOST_PHASES
-from ilmek.loom.operations import LoomSetup, RowEnd, RowOperations, Stop, TubeChange
+from ilmek.io.programme_rows import MOST_ENDS, MOST_MORE, MOST_PHASES
+from ilmek.loom.operations import LONGEST_PACKAGE, LoomSetup, RowEnd, RowOperations, Stop, TubeChange
 from ilmek.records import record
 
 MOST_REMARKS = 100

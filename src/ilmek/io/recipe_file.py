@@ -220,7 +220,7 @@ class _RecipeReader:
             root.text("aim") if root.has("aim") else None,
             root.text("warp_pitch") if root.has("warp_pitch") else None,
             self._file(root, "loom_file"),
-            dict(_flat(table, "")),
+            dict(table.settings()),
             self._where(root, "loom"),
         )
 
@@ -385,14 +385,3 @@ def _position(entry: FileEntry) -> str | tuple[int, int]:
         allowed = f"one of {', '.join(POSITIONS)}, or [row, column]"
         entry.refuse(CarpetError(f"{shown(value)} is no position", allowed=allowed), "position")
     return str(value)
-
-
-def _flat(table: FileEntry, prefix: str) -> Iterator[tuple[str, Setting]]:
-    """The settings of a table by dotted name."""
-    for key, value in table.data.items():
-        if isinstance(value, Mapping):
-            yield from _flat(FileEntry(value, (*table.path, key), table.source), f"{prefix}{key}.")
-        elif isinstance(value, str | int | float):
-            yield f"{prefix}{key}", value
-        else:
-            table.refuse(ParameterError(f"{shown(value)} is not a value", do='write it like "8mm", 8 or true'), key)

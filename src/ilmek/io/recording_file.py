@@ -45,6 +45,7 @@ from ilmek.loom.twin.state import (
     SetSpeed,
     Tension,
 )
+from ilmek.units import BILLION
 
 LARGEST = 100_000_000
 """Largest size of a recording [bytes]."""
@@ -136,7 +137,7 @@ def _input(words: list[str]) -> PlantInput:
 _PARSERS: dict[str, tuple[int | None, Callable[[list[str]], PlantInput]]] = {
     "tie": (5, lambda rest: Tie(*(_whole(word, 0) for word in rest))),
     "end": (2, lambda rest: EndRow(_whole(rest[0], 0), _row_end(rest[1]))),
-    "jog": (2, lambda rest: Jog(_name(rest[0]), _whole(rest[1]) / 1e9)),
+    "jog": (2, lambda rest: Jog(_name(rest[0]), _whole(rest[1]) / BILLION)),
     "speed": (1, lambda rest: SetSpeed(_whole(rest[0], 1, 1000))),
     "change": (None, lambda rest: ChangePackages(_stop(rest))),
     "packages": (None, lambda rest: PackageChanged(_stop(rest))),
@@ -159,7 +160,8 @@ def _stop(words: list[str]) -> Stop:
     row, phase, *wefts = (_whole(word, 0) for word in words[:at])
     numbers = [_whole(word, 0) for word in words[at + 1 :]]
     tubes = tuple(
-        TubeChange(numbers[n], numbers[n + 1], numbers[n + 2], numbers[n + 3] / 1e9) for n in range(0, len(numbers), 4)
+        TubeChange(numbers[n], numbers[n + 1], numbers[n + 2], numbers[n + 3] / BILLION)
+        for n in range(0, len(numbers), 4)
     )
     return Stop(row, phase, tuple(wefts), tubes)
 

@@ -15,6 +15,7 @@ from ilmek.io.programme_text_rows import RowText
 from ilmek.loom.operations import LoomSetup
 from ilmek.loom.proof import MOST_FAULTS, FaultyPart, Proof, ProvedTotals, RuleFault, prove
 from ilmek.progress import SILENT, Progress
+from ilmek.units import BILLION
 
 _SAME = 1e-9
 """Relative difference of a sum of floating point numbers and one of whole nanoseconds."""
@@ -58,7 +59,7 @@ class CheckResult:
             "columns": setup.columns,
             "heads": setup.heads,
             "totals": {
-                "time": totals.time / 1e9,
+                "time": totals.time / BILLION,
                 "colour_changes": totals.changes,
                 "travel": totals.moved,
                 "idle_travel": totals.idle,
@@ -109,7 +110,7 @@ def _of_the_totals(programme: OpenProgramme, proof: Proof) -> Iterator[Programme
     if programme.stated_digest != programme.digest:
         digests = f"digest {programme.stated_digest[:12]}… stated, {programme.digest[:12]}… by its operations"
         yield ProgrammeError(1, f"{digests}: the file was changed")
-    stated, totals, time = programme.totals, proof.totals, proof.totals.time / 1e9
+    stated, totals, time = programme.totals, proof.totals, proof.totals.time / BILLION
     pairs = (
         ("knots", stated.knots, totals.knots),
         ("changes of tube", stated.changes, totals.changes),

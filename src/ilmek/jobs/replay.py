@@ -9,9 +9,7 @@ from ilmek.loom.control.ports import Done, Failed, Tie
 from ilmek.loom.twin.recording import replay
 from ilmek.progress import SILENT, Progress
 from ilmek.records import value_record
-from ilmek.units import format_quantity
-
-BILLION = 1e9
+from ilmek.units import BILLION, format_quantity
 
 
 @value_record

@@ -3,11 +3,11 @@
 import numpy as np
 
 from ilmek.arrays import IntArray
-from ilmek.loom.twin.durations import BILLION, durations_of
+from ilmek.loom.twin.durations import durations_of
 from ilmek.loom.twin.kernel import CHANGED, DONE, NO_HEAD
 from ilmek.loom.twin.statistics import HIGH, LOW, WORDS, CarpetStatistics, seconds
 from ilmek.report import Axis, Figure, Gantt, GanttLane, Mark, Plot, Series, StackedBars
-from ilmek.units import hour
+from ilmek.units import BILLION, hour
 
 MOST_HEADS_DRAWN = 40
 """Largest number of heads in a figure."""

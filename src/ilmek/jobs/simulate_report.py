@@ -8,10 +8,9 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.jobs.simulate_figures import simulation_figures
 from ilmek.loom.twin.carpet_run import FAULT_FIELDS, MOST_FAULTS
-from ilmek.loom.twin.durations import BILLION
 from ilmek.loom.twin.statistics import CURES, HIGH, LOW, WORDS, CarpetStatistics
 from ilmek.report import Check, Column, Report, Table, at_least, at_most, columns, results_of
-from ilmek.units import format_quantity, hour
+from ilmek.units import BILLION, format_quantity, hour
 
 if TYPE_CHECKING:
     from ilmek.machines.automated_loom.energy import Energy

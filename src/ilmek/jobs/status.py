@@ -11,9 +11,7 @@ from ilmek.io.journal_folder import CHANNEL, journal_bytes, require_journal, run
 from ilmek.loom.control.journal import RecordKind, read_journal
 from ilmek.loom.control.packml import PackState, state_name
 from ilmek.loom.operations import RowEnd
-from ilmek.units import format_quantity
-
-BILLION = 1e9
+from ilmek.units import BILLION, format_quantity
 
 
 def run_status(folder: Path) -> dict[str, Any]:

@@ -8,7 +8,6 @@ from functools import cached_property
 import numpy as np
 
 from ilmek.arrays import UInt8
-from ilmek.errors import LoomError
 from ilmek.loom.operations import LoomProgramme, LoomSetup, RowOperations, Stop
 from ilmek.loom.planner import divided, row_counts
 from ilmek.loom.programme import Programme
@@ -35,7 +34,7 @@ class CompiledProgramme:
 
     def operations(self, number: int) -> RowOperations:
         """The operations of a loom row. Raises LoomError beyond the carpet."""
-        self._require(number)
+        self.setup.require_row(number)
         made, tubes = self._programme, self._programme.tubes
         loaded = self._loaded if number == self._next else tubes.loaded(number * tubes.phases - 1)
         line = tubes.lines(made.knots, number, number + 1, loaded)[0]
@@ -47,13 +46,9 @@ class CompiledProgramme:
 
     def chart_row(self, number: int) -> UInt8[np.ndarray, " columns"]:
         """Yarn of each knot of a loom row. Raises LoomError beyond the carpet."""
-        self._require(number)
+        self.setup.require_row(number)
         line: UInt8[np.ndarray, " columns"] = self._programme.knots[self.setup.rows - 1 - number]
         return line
-
-    def _require(self, number: int) -> None:
-        if not 0 <= number < self.setup.rows:
-            raise LoomError(f"row {number}", allowed=f"rows 0 to {self.setup.rows - 1}")
 
 
 def programme_digest(programme: LoomProgramme, progress: Progress = SILENT) -> str:

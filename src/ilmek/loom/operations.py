@@ -8,7 +8,9 @@ their order, and all heads wait for the slowest. After the last phase come two w
 Controller, twin and proof work from this form alone. Loom rows count from the carpet's bottom edge.
 """
 
+from collections.abc import Mapping
 from enum import IntEnum
+from types import MappingProxyType
 from typing import Protocol
 
 import numpy as np
@@ -17,6 +19,7 @@ from ilmek.arrays import Int32, Int64, IntArray, UInt8
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import Yarn
+from ilmek.errors import LoomError
 from ilmek.loom.bobbins import Bobbin
 from ilmek.records import record, value_record
 from ilmek.timing.cyclogram import Cyclogram
@@ -36,6 +39,12 @@ class RowEnd(IntEnum):
 
 
 ROW_ENDS = tuple(RowEnd)
+
+WEFT_OF: Mapping[RowEnd, int] = MappingProxyType({RowEnd.STRAIGHT_WEFT: 0, RowEnd.SINUOUS_WEFT: 1})
+"""Bobbin of the weft that an operation inserts, an index into `LoomSetup.wefts`; the others insert none."""
+
+LONGEST_PACKAGE = 1e9
+"""Largest length of yarn on a package [m]."""
 
 
 @value_record
@@ -145,6 +154,11 @@ class LoomSetup:
     knot_yarn: tuple[float, ...]
     wefts: tuple[Bobbin, ...] = ()
     cyclograms: tuple[Cyclogram, ...] = ()
+
+    def require_row(self, number: int) -> None:
+        """Raises LoomError for a row beyond the carpet."""
+        if not 0 <= number < self.rows:
+            raise LoomError(f"row {number}", allowed=f"rows 0 to {self.rows - 1}")
 
     @property
     def knots(self) -> int:

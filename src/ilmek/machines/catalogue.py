@@ -4,7 +4,7 @@ import difflib
 import importlib
 from collections.abc import Iterator, Mapping
 
-from ilmek.errors import ParameterError
+from ilmek.errors import ParameterError, joined_message
 from ilmek.machines import ENTRIES
 from ilmek.machines.component import Component
 
@@ -13,7 +13,7 @@ class UnknownMachineError(ParameterError, KeyError):
     """A name that no machine has: a KeyError to whoever reads the catalogue as a mapping."""
 
     def __str__(self) -> str:
-        return "; ".join(part for part in (self.given, self.allowed, self.do) if part)
+        return joined_message(self.given, self.allowed, self.do)
 
 
 class Catalogue(Mapping[str, Component]):

@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from enum import IntEnum, StrEnum
 
+from ilmek.drivers.opcua.states import OUT_OF_SERVICE
 from ilmek.loom.control.view import Answer, Snapshot
 
 MOST_JOBS = 32
@@ -83,7 +84,6 @@ class Job:
 Command = Callable[[str], Awaitable[Answer]]
 
 _STOPPED = frozenset(("Stopping", "Stopped"))
-_ABORTED = frozenset(("Aborting", "Aborted", "Clearing"))
 _WAITING = frozenset(("Holding", "Held", "Suspending", "Suspended"))
 
 
@@ -166,7 +166,7 @@ class JobDesk:
         state, end = JobState.RUNNING, None
         if snapshot.state == "Complete" or snapshot.state in _STOPPED:
             state, end = JobState.ENDED, datetime.now(UTC)
-        elif snapshot.state in _ABORTED:
+        elif snapshot.state in OUT_OF_SERVICE:
             state, end = JobState.ABORTED, datetime.now(UTC)
         elif snapshot.state in _WAITING:
             state = JobState.INTERRUPTED

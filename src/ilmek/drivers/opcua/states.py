@@ -25,7 +25,9 @@ OPERATION_MODES: Mapping[str, str] = MappingProxyType(
 )
 """State of MachineryOperationMode for each mode of PackML; any other is None."""
 
-_OUT_OF_SERVICE = frozenset(("Aborting", "Aborted", "Clearing"))
+OUT_OF_SERVICE = frozenset(("Aborting", "Aborted", "Clearing"))
+"""States of PackML in which the loom is aborted."""
+
 _NOT_EXECUTING = frozenset(("Stopped", "Idle", "Resetting", "Held", "Suspended", "Complete"))
 
 
@@ -50,7 +52,7 @@ def item_state(state: str) -> str:
     >>> item_state("Execute"), item_state("Held"), item_state("Aborted")
     ('Executing', 'NotExecuting', 'OutOfService')
     """
-    if state in _OUT_OF_SERVICE:
+    if state in OUT_OF_SERVICE:
         return "OutOfService"
     return "NotExecuting" if state in _NOT_EXECUTING else "Executing"
 

@@ -3,6 +3,7 @@
 from collections import defaultdict
 
 from ilmek.io.plc.units import INDENT, PlcSection, PlcUnit, PlcVariable, indented
+from ilmek.loom.control.core import REACTION_COMMANDS
 from ilmek.loom.control.interlocks import Reaction
 from ilmek.loom.control.packml import (
     COMPLETED,
@@ -17,13 +18,6 @@ from ilmek.loom.control.packml import (
 
 REACTIONS: dict[Reaction, int] = {reaction: number for number, reaction in enumerate(Reaction)}
 """Numbers of the reactions, the gravest the highest."""
-
-_COMMANDS = {
-    Reaction.SUSPEND: PackCommand.SUSPEND,
-    Reaction.HOLD: PackCommand.HOLD,
-    Reaction.STOP: PackCommand.STOP,
-    Reaction.ABORT: PackCommand.ABORT,
-}
 
 
 def state_units() -> tuple[PlcUnit, ...]:
@@ -82,7 +76,7 @@ def _machine() -> PlcUnit:
     """The block that keeps state and mode; an alarm's reaction goes before a command, a command before completion."""
     reactions = [
         f"{int(REACTIONS[reaction])}: Wanted := {int(command)}; (* {command.name.capitalize()} *)"
-        for reaction, command in _COMMANDS.items()
+        for reaction, command in REACTION_COMMANDS.items()
     ]
     changes = ", ".join(str(int(state)) for state in sorted(MODE_CHANGES))
     body = f"""\

@@ -7,9 +7,7 @@ from ilmek.loom.control.view import Snapshot
 from ilmek.loom.operations import LoomSetup
 from ilmek.loom.twin.comparison import WovenResult
 from ilmek.records import record
-from ilmek.units import format_quantity
-
-BILLION = 1e9
+from ilmek.units import BILLION, format_quantity
 
 COMPLETE = "Complete"
 

@@ -13,7 +13,7 @@ from ilmek.loom.control.packml import allowed_commands, state_name
 from ilmek.loom.control.ports import ChangePackages
 from ilmek.loom.control.view import AlarmView, HeadView, Snapshot
 from ilmek.loom.operations import EMPTY, LoomProgramme, LoomSetup, RowOperations
-from ilmek.units import format_quantity
+from ilmek.units import BILLION, format_quantity
 
 _LATELY = 40
 """Snapshots over which the speed is taken."""
@@ -83,13 +83,15 @@ class SnapshotMaker:
         if self._row_times is None:
             return (self._programme.setup.knots - status.knots) * status.time // max(1, status.knots)
         rest = 1.0 - sum(tied) / max(1, sum(knots))
-        return round(1e9 * (float(self._row_times[status.row + 1 :].sum()) + rest * float(self._row_times[status.row])))
+        return round(
+            BILLION * (float(self._row_times[status.row + 1 :].sum()) + rest * float(self._row_times[status.row]))
+        )
 
     def _speed(self, status: ControllerStatus) -> float:
         """Knots a second of the loom's clock, lately."""
         self._points.append((status.time, status.knots))
         (begin, before), (end, after) = self._points[0], self._points[-1]
-        return 1e9 * (after - before) / (end - begin) if end > begin else 0.0
+        return BILLION * (after - before) / (end - begin) if end > begin else 0.0
 
 
 def _stop_words(status: ControllerStatus, setup: LoomSetup) -> str:

@@ -21,7 +21,7 @@ ASKING = frozenset((PackState.RESETTING, PackState.UNHOLDING, PackState.UNSUSPEN
 ENDING = frozenset((PackState.HOLDING, PackState.SUSPENDING, PackState.STOPPING, PackState.COMPLETING))
 """States that end with the operations in progress."""
 
-_REACTIONS = {
+REACTION_COMMANDS = {
     Reaction.SUSPEND: PackCommand.SUSPEND,
     Reaction.HOLD: PackCommand.HOLD,
     Reaction.STOP: PackCommand.STOP,
@@ -121,7 +121,7 @@ class ControlCore:
         state = self.state
         if reaction is Reaction.SUSPEND and PackState.SUSPENDED not in MODE_STATES[state.mode]:
             reaction = Reaction.HOLD
-        command = _REACTIONS.get(reaction)
+        command = REACTION_COMMANDS.get(reaction)
         following = None if command is None else commanded(state.mode, state.state, command)
         if isinstance(following, PackState):
             self.enter(following, draft)

@@ -13,6 +13,7 @@ from collections.abc import Mapping
 from enum import IntEnum
 from types import MappingProxyType
 
+from ilmek.errors import joined_message
 from ilmek.records import value_record
 
 
@@ -130,7 +131,7 @@ class Refusal:
     @property
     def text(self) -> str:
         """The refusal in one line."""
-        return "; ".join(part for part in (self.given, self.allowed, self.do) if part)
+        return joined_message(self.given, self.allowed, self.do)
 
 
 def state_name(state: PackState) -> str:

@@ -10,7 +10,17 @@ import numpy as np
 
 from ilmek.arrays import IntArray
 from ilmek.errors import LoomError
-from ilmek.loom.operations import EMPTY, ROW_ENDS, LoomProgramme, LoomSetup, OperationTimes, RowEnd, RowOperations, Stop
+from ilmek.loom.operations import (
+    EMPTY,
+    ROW_ENDS,
+    WEFT_OF,
+    LoomProgramme,
+    LoomSetup,
+    OperationTimes,
+    RowEnd,
+    RowOperations,
+    Stop,
+)
 from ilmek.loom.proof.faults import FaultyPart, RuleFault, knot_faults, missing_knots
 from ilmek.loom.proof.kernel import (
     CHANGES,
@@ -26,6 +36,7 @@ from ilmek.loom.proof.kernel import (
 )
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
+from ilmek.units import BILLION
 
 MOST_FAULTS = 1000
 """Largest number of faults that are listed; all are counted."""
@@ -36,8 +47,6 @@ _ROUNDING = 1e-9
 _MOST_LEFT = 2**62
 """Knots left in a package that never ends."""
 
-_NANO = 1_000_000_000
-
 _END_NAMES = {
     RowEnd.STRAIGHT_WEFT: "straight weft",
     RowEnd.FIRST_BEAT: "first beat",
@@ -45,7 +54,6 @@ _END_NAMES = {
     RowEnd.SECOND_BEAT: "second beat",
     RowEnd.TAKE_UP: "take-up",
 }
-_WEFTS = {RowEnd.STRAIGHT_WEFT: 0, RowEnd.SINUOUS_WEFT: 1}
 
 
 @record
@@ -235,8 +243,8 @@ class _Prover:
             given = _END_NAMES[RowEnd(row.ends[index])] if index < len(row.ends) else "nothing"
             self._note(RuleFault(row.number, *part, f"{given} at the end of the row, must be {needed}"))
         for index, end in enumerate(row.ends):
-            if _WEFTS.get(end, len(self._rows_on)) < len(self._rows_on):
-                self._weave_weft(row.number, index, _WEFTS[end])
+            if WEFT_OF.get(end, len(self._rows_on)) < len(self._rows_on):
+                self._weave_weft(row.number, index, WEFT_OF[end])
         self.time += self._rules.row_end
 
     def _weave_weft(self, number: int, index: int, weft: int) -> None:
@@ -254,7 +262,7 @@ class _Prover:
 
 def nanoseconds(time: float) -> int:
     """A time [s] in whole nanoseconds."""
-    return round(_NANO * time)
+    return round(BILLION * time)
 
 
 def _require_setup(setup: LoomSetup) -> None:

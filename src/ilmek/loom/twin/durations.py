@@ -11,8 +11,7 @@ from itertools import pairwise
 
 from ilmek.loom.operations import LoomSetup, OperationTimes, RowEnd, Stop
 from ilmek.records import value_record
-
-BILLION = 1_000_000_000
+from ilmek.units import BILLION
 
 
 def ns(seconds: float) -> int:

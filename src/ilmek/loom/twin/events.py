@@ -5,6 +5,7 @@ import struct
 
 from ilmek.loom.control.ports import ChangePackages, Done, EndRow, Failed, Order, PortReport, SensorsChanged, Tie
 from ilmek.loom.operations import Stop
+from ilmek.units import BILLION
 
 _KNOT = struct.Struct("<cqiiiii")
 _sha256 = hashlib.sha256
@@ -32,7 +33,7 @@ def order_words(order: Order) -> str:
         return f"end {order.row} {int(order.operation)}"
     if isinstance(order, ChangePackages):
         return f"change {stop_words(order.stop)}"
-    return f"jog {order.axis.replace(' ', '+')} {round(1e9 * order.distance)}"
+    return f"jog {order.axis.replace(' ', '+')} {round(BILLION * order.distance)}"
 
 
 def stop_words(stop: Stop) -> str:
@@ -42,7 +43,7 @@ def stop_words(stop: Stop) -> str:
     >>> stop_words(Stop(3, 0, (1,), (TubeChange(0, 2, 4, 0.5),)))
     '3 0 1 / 0 2 4 500000000'
     """
-    tubes = (f"{one.head} {one.tube} {one.yarn} {round(1e9 * one.length)}" for one in stop.tubes)
+    tubes = (f"{one.head} {one.tube} {one.yarn} {round(BILLION * one.length)}" for one in stop.tubes)
     return " ".join([str(stop.row), str(stop.phase), *map(str, stop.wefts), "/", *tubes])
 
 

@@ -3,14 +3,13 @@
 from dataclasses import replace
 
 from ilmek.loom.control.ports import EndRow, Fault, Tie
-from ilmek.loom.operations import EMPTY, RowEnd
+from ilmek.loom.operations import EMPTY, WEFT_OF, RowEnd
 from ilmek.loom.twin.model import PlantModel
 from ilmek.loom.twin.state import NOWHERE, LoomCondition, PlantHead
 
 _KNOT_FAULTS = frozenset((Fault.PILE_END, Fault.PILE_BREAK, Fault.MISSED_GRIP, Fault.WARP_BREAK, Fault.TIMEOUT))
 _WEFT_FAULTS = frozenset((Fault.WEFT_BREAK, Fault.WEFT_END, Fault.TIMEOUT))
 _BEAT_FAULTS = frozenset((Fault.WARP_BREAK, Fault.TIMEOUT))
-_WEFTS = {RowEnd.STRAIGHT_WEFT: 0, RowEnd.SINUOUS_WEFT: 1}
 """The bobbin of each insertion of weft."""
 
 _BEATS = (RowEnd.FIRST_BEAT, RowEnd.SECOND_BEAT)
@@ -42,7 +41,7 @@ def knot_fate(
 
 def end_fate(plant: PlantModel, loom: LoomCondition, order: EndRow) -> tuple[Fault | None, LoomCondition]:
     """The fault of an operation after the knots of a row, None: it will be carried out; and the loom as above."""
-    bobbin = _WEFTS.get(order.operation)
+    bobbin = WEFT_OF.get(order.operation)
     if loom.emergency_stop:
         return Fault.TIMEOUT, loom
     if bobbin is not None and loom.weft_broken:
@@ -66,13 +65,13 @@ def _without(loom: LoomCondition, index: int) -> LoomCondition:
 
 def after_weft(wefts: tuple[int, ...], operation: RowEnd) -> tuple[int, ...]:
     """Rows that the bobbins still last after an operation."""
-    bobbin = _WEFTS.get(operation)
+    bobbin = WEFT_OF.get(operation)
     return tuple(rows - (index == bobbin) for index, rows in enumerate(wefts))
 
 
 def after_end_fault(loom: LoomCondition, operation: RowEnd, fault: Fault) -> LoomCondition:
     """The condition after an operation that failed: what is broken or empty stays so until it is cured."""
-    attempts, bobbin = loom.attempts + 1, _WEFTS.get(operation)
+    attempts, bobbin = loom.attempts + 1, WEFT_OF.get(operation)
     if fault is Fault.WEFT_BREAK:
         return replace(loom, attempts=attempts, weft_broken=True)
     if fault is Fault.WEFT_END:

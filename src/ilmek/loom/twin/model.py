@@ -8,11 +8,12 @@ from typing import TypeAlias
 
 from ilmek.errors import LoomError
 from ilmek.loom.control.ports import Fault
-from ilmek.loom.operations import ROW_ENDS, LoomSetup, RowEnd, Stop
+from ilmek.loom.operations import LONGEST_PACKAGE, ROW_ENDS, WEFT_OF, LoomSetup, RowEnd, Stop
 from ilmek.loom.twin.draws import bound, draw
-from ilmek.loom.twin.durations import BILLION, Durations, durations_of, stop_duration
+from ilmek.loom.twin.durations import Durations, durations_of, stop_duration
 from ilmek.loom.twin.faults import StopParams
 from ilmek.records import record, value_record
+from ilmek.units import BILLION
 from ilmek.weaving.tension import usual_tension
 
 WATCHDOG = 3
@@ -121,12 +122,6 @@ class PlantModel:
         return _drawn(limits, draw(self.rates.seed, index, attempt))
 
 
-LONGEST_PACKAGE = 1e6
-"""Largest length of yarn on a package [m]."""
-
-_WEFTS = (RowEnd.STRAIGHT_WEFT, RowEnd.SINUOUS_WEFT)
-
-
 def plant_model(setup: LoomSetup, rates: FaultRates = NO_FAULTS) -> PlantModel:
     """The plant of a programme's loom."""
     times = durations_of(setup.times)
@@ -155,12 +150,12 @@ def _marks(operation: RowEnd, duration: int) -> tuple[Mark, ...]:
     """The changes of sensors: the shed is open, and the beater away from its rest, in the middle half."""
     if operation == RowEnd.TAKE_UP:
         return ()
-    sensor = "shed_closed" if operation in _WEFTS else "beater_back"
+    sensor = "shed_closed" if operation in WEFT_OF else "beater_back"
     return (duration // 4, sensor, False), (duration - duration // 4, sensor, True)
 
 
 def _end_limits(operation: RowEnd, rates: FaultRates) -> Limits:
-    if operation in _WEFTS:
+    if operation in WEFT_OF:
         return _limits((rates.weft_break, Fault.WEFT_BREAK), (rates.weft_end, Fault.WEFT_END))
     return () if operation == RowEnd.TAKE_UP else _limits((rates.warp_break, Fault.WARP_BREAK))
 

@@ -8,12 +8,12 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray, IntArray
 from ilmek.loom.operations import LoomSetup, RowOperations
-from ilmek.loom.twin.durations import BILLION, Durations, durations_of
+from ilmek.loom.twin.durations import Durations, durations_of
 from ilmek.records import record
 from ilmek.report import Animation, Axis, Drawing, MovingStroke, Reading, Stroke
 from ilmek.timing.cyclogram import Track
 from ilmek.timing.track import sample
-from ilmek.units import turn
+from ilmek.units import BILLION, turn
 
 FRAMES = 150
 MOST_TICKS = 60

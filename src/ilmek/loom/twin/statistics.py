@@ -19,12 +19,12 @@ import numpy as np
 from ilmek.arrays import FloatArray, IntArray
 from ilmek.loom.operations import LoomSetup
 from ilmek.loom.twin.carpet_run import USES, CarpetRun
-from ilmek.loom.twin.durations import BILLION, durations_of, ns
+from ilmek.loom.twin.durations import durations_of, ns
 from ilmek.loom.twin.faults import CAUSES, StopParams
 from ilmek.loom.twin.kernel import ALL_CALLS, COUNTS, FAILED, STOPPED, TIME, WORK
 from ilmek.loom.twin.packages import PackageUse
 from ilmek.records import computed, record
-from ilmek.units import hour
+from ilmek.units import BILLION, hour
 
 CURES: Mapping[str, str] = {
     "tying": "more heads, or a shorter cycle of a knot",

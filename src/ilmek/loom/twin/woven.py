@@ -19,8 +19,8 @@ import numpy as np
 
 from ilmek.arrays import UInt8
 from ilmek.errors import LoomError
-from ilmek.loom.operations import EMPTY, ROW_ENDS, LoomSetup, RowEnd
-from ilmek.loom.twin.model import LONGEST_PACKAGE, PlantModel, nanometres
+from ilmek.loom.operations import EMPTY, LONGEST_PACKAGE, ROW_ENDS, LoomSetup, RowEnd
+from ilmek.loom.twin.model import PlantModel, nanometres
 from ilmek.loom.twin.state import NOWHERE, HeadCondition, LoomCondition, PlantHead, PlantState
 
 MOST_TIMES = 255
