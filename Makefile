@@ -43,7 +43,9 @@ venv: $(VENV)/.installed-dev
 weave: $(VENV)/.installed
 	@$(BIN)/ilmek weave examples/medallion.png --size seccade --quality 25x25/dm --out out/medallion --force
 
-test: lint layers types unit
+# Types beside the tests: mypy has one process, and takes more than a minute in a fresh checkout.
+test: lint layers
+	@$(MAKE) --no-print-directory -j 2 types unit
 
 lint: venv
 	$(BIN)/ruff check .

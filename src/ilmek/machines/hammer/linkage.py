@@ -143,11 +143,11 @@ def _ranked(options: tuple[tuple[HammerParams, float], ...], fabric: Fabric, nee
         queue.append((False, _estimated(lightest, fabric, needed), index, load, option))
     heapq.heapify(queue)
     while queue:
-        _, _, index, share, option = heapq.heappop(queue)
-        if share is None:
+        _, _, index, unsettled, option = heapq.heappop(queue)
+        if unsettled is None:
             yield option
             continue
-        option, enough = _with_links(option, share)
+        option, enough = _with_links(option, unsettled)
         heapq.heappush(queue, (not enough, _estimated(option, fabric, needed), index, None, option))
 
 
