@@ -79,7 +79,7 @@ def woven(running: tuple[LoomServer, ShownLoom], tmp_path: Path) -> Iterator[Loo
     """A carpet on the simulated loom under its controller, in place of the stepping loom."""
     path = tmp_path / "programme.ilmek"
     write_programme(path, small_programme(6, 24, 2, 3))
-    with LoomRun(RunOrder(path, tmp_path / "journal", speed=None, start=False)) as run:
+    with LoomRun(RunOrder(path, tmp_path / "journal", speed=None, start=False, serves=True)) as run:
         thread = threading.Thread(target=run.work)
         thread.start()
         running[1].shown = run

@@ -215,7 +215,7 @@ def test_a_person_is_asked_what_the_sensor_cannot_tell(carpet: Path, tmp_path: P
         _until(run, "Held")
         found = as_json("status", "--journal", tmp_path / "j")
         assert "operation not finished in time, row 3" in found["alarms"][0]["cause"]
-        assert run.command("yes").reason == "yes: the controller asks nothing"
+        assert run.command("yes").reason == "the controller asks nothing"
         assert not run.command("unhold").ok
         assert run.command("acknowledge").ok
         assert run.command("unhold").ok
@@ -251,6 +251,31 @@ def test_a_run_waits_for_room_on_the_disc(carpet: Path, tmp_path: Path, monkeypa
     assert calls[0] > 40
     assert "disc full" in alarms
     assert (found.state, found.faults, found.snapshot.knots) == ("Complete", 0, 144)
+
+
+def test_a_carpet_whose_journal_is_lost_is_found_by_its_sensors(carpet: Path, tmp_path: Path) -> None:
+    journal = tmp_path / "j"
+    with LoomRun(RunOrder(carpet, journal, speed=None)) as run:
+        run.work(lambda now: run.stop() if now.knots >= 30 else None)
+    (journal / "journal").write_bytes(b"")
+    with LoomRun(RunOrder(carpet, journal, speed=None)) as run:
+        run.work()
+        found = run.result()
+    assert (found.state, found.faults, found.snapshot.knots) == ("Complete", 0, 144)
+
+
+def test_a_server_goes_on_after_a_carpet(carpet: Path, tmp_path: Path) -> None:
+    after: list[int] = []
+    with LoomRun(RunOrder(carpet, tmp_path / "j", speed=None, serves=True)) as run:
+
+        def show(snapshot: Snapshot) -> None:
+            if snapshot.state == "Complete":
+                after.append(snapshot.knots)
+            if len(after) == 2:
+                run.stop()
+
+        run.work(show)
+    assert after[:2] == [144, 144]
 
 
 def test_a_run_that_is_killed_goes_on(carpet: Path, tmp_path: Path) -> None:

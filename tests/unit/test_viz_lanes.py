@@ -30,6 +30,13 @@ def test_neighbouring_spans_of_a_kind_are_one_and_short_ones_lie_on_top() -> Non
     assert weaves != waits
 
 
+def test_a_repeated_short_span_lies_on_the_long_one_each_time() -> None:
+    chart = Gantt("g", "Heads", Axis("time", "h"), (lane("head 1", (0, 100, 0), (10, 12, 1), (50, 52, 1)),),
+                  ("weaves", "stop"))  # fmt: skip
+    *_, weaves, first, second = filled(svg(chart))
+    assert first == second != weaves
+
+
 def test_every_part_of_a_bar_has_a_colour_of_its_own() -> None:
     names = tuple(f"use {number}" for number in range(8))
     bars = StackedBars("b", "Uses", Axis("time", "s"), ("a", "b"), names, np.ones((2, 8)))

@@ -31,9 +31,10 @@ def command(file: Path, folder: Path, force: bool) -> None:
         made = write_plc(file, folder, outputs=call.outputs, progress=call.progress)
     for one in made.notes:
         note(one)
+    heads = "1 head" if made.setup.heads == 1 else f"{made.setup.heads} heads"
     show_pairs(
         [
-            ("loom", f"{made.setup.heads} heads, {made.setup.rows:,} rows of {made.setup.columns:,} knots"),
+            ("loom", f"{heads}, {made.setup.rows:,} rows of {made.setup.columns:,} knots"),
             ("program", f"{made.units} units, {made.signals} signals with an address"),
             *((str(folder / name), FILES[name]) for name in made.files),
         ]

@@ -12,6 +12,8 @@ import click
 
 from ilmek.cli.interrupts import before_end
 from ilmek.cli.options import stops_option
+from ilmek.cli.terminal import note
+from ilmek.cli.waiting_notes import WaitingNotes
 from ilmek.jobs.run.loom_run import STOP_TIME, LoomRun
 from ilmek.loom.control.view import Snapshot
 
@@ -86,9 +88,10 @@ def work_shown(run: LoomRun, hint: str) -> None:
 
 @contextmanager
 def _screen(run: LoomRun, hint: str) -> Iterator[Callable[[Snapshot], object]]:
-    """What shows the snapshots of a run: a screen on a terminal, nothing in a pipe."""
+    """What shows the snapshots of a run: a screen on a terminal; in a pipe notes while it waits."""
     if not sys.stderr.isatty():
-        yield lambda _: None
+        notes = WaitingNotes(note)
+        yield lambda snapshot: notes.show(snapshot, time.monotonic())
         return
     from rich.console import Console
 

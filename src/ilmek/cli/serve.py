@@ -129,7 +129,7 @@ def command(
         settings=read_settings(settings),
         operator=operator,
     )
-    _serve(replace(run_order, start=start), checked_order(order))
+    _serve(replace(run_order, start=start, serves=True), checked_order(order))
     return 0
 
 

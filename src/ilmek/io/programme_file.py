@@ -271,8 +271,8 @@ def _check_header(path: Path) -> None:
     if header.length > LARGEST_FILE:
         raise LoomError(f"{path} has {header.length} bytes", allowed=f"at most {LARGEST_FILE // 1_000_000} MB")
     if header.length < header.expected_length:
-        expected = f"{header.expected_length} bytes; it has {header.length}"
-        raise LoomError(f"{path} is truncated", allowed=expected, do=_AGAIN)
+        short = f"{path} is truncated: {header.length} of {header.expected_length} bytes"
+        raise LoomError(short, allowed="a whole programme", do=_AGAIN)
     if not header.plain or not header.expected_length:
         raise LoomError(f"{path} is damaged (its header)", allowed="a whole programme", do=_AGAIN)
 

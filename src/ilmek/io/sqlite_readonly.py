@@ -68,7 +68,7 @@ class SqliteHeader:
                 self._data = file.read(_HEADER)
         except OSError as error:
             raise LoomError(
-                f"{path} cannot be read: {error.strerror}", allowed="a programme written by ilmek"
+                f"{path} cannot be read: {error.strerror}", do="give a programme written by ilmek"
             ) from error
 
     @property

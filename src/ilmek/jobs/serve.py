@@ -135,7 +135,7 @@ def nameplate(programme: LoomProgramme, title: str) -> "LoomNameplate":
     setup = programme.setup
     return LoomNameplate(
         manufacturer="ilmek",
-        model=f"automated carpet loom of {setup.heads} heads",
+        model=f"automated carpet loom of {setup.heads} {'head' if setup.heads == 1 else 'heads'}",
         serial=setup.loom[:_SERIAL],
         software=__version__,
         programme=programme.digest,

@@ -149,7 +149,8 @@ def _progress(found: CarpetStatistics) -> Plot:
     shown = {words: 100 * uses[:, index] / total for index, words in enumerate(WORDS.values())}
     kept = {words: values for words, values in shown.items() if values.max() >= 1.0}
     series = tuple(Series(words, rows, values) for words, values in kept.items())
-    note = f"Mean of the heads over {run.rows_per_bin} rows; left out: what never has 1 %."
+    rows_of = "one row" if run.rows_per_bin == 1 else f"{run.rows_per_bin} rows"
+    note = f"Mean of the heads over {rows_of}; left out: what never has 1 %."
     return Plot("shares", "Use of the time over the rows", Axis("row"), Axis("share of the heads' time [%]"), series,
                 note=note)  # fmt: skip
 

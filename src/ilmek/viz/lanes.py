@@ -39,14 +39,13 @@ def draw_gantt(gantt: Gantt, looks: Mapping[str, int]) -> Sheet:
 
 
 def _merged(lane: GanttLane, frame: "_Frame") -> list[tuple[int, float, float]]:
-    """Spans on the sheet [pt], neighbours of one kind joined; those wider than `_LEAST` first."""
+    """Spans on the sheet [pt], neighbours of one kind joined; the longest first, so that shorter ones lie over them."""
     starts, ends = frame.x(lane.starts), frame.x(lane.ends)
-    wide: list[tuple[int, float, float]] = []
-    narrow: list[tuple[int, float, float]] = []
+    spans: list[tuple[int, float, float]] = []
     open_spans: dict[int, list[float]] = {}
 
     def put(kind: int, low: float, high: float) -> None:
-        (wide if high - low > _LEAST else narrow).append((kind, low, max(high, low + _LEAST)))
+        spans.append((kind, low, max(high, low + _LEAST)))
 
     for kind, low, high in zip(lane.kinds.tolist(), starts.tolist(), ends.tolist(), strict=True):
         last = open_spans.get(kind)
@@ -58,7 +57,7 @@ def _merged(lane: GanttLane, frame: "_Frame") -> list[tuple[int, float, float]]:
         open_spans[kind] = [low, high]
     for kind, (low, high) in open_spans.items():
         put(kind, low, high)
-    return [*wide, *narrow]
+    return sorted(spans, key=lambda span: span[1] - span[2])
 
 
 def draw_stacked(bars: StackedBars, looks: Mapping[str, int]) -> Sheet:

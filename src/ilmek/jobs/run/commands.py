@@ -24,7 +24,7 @@ _ONWARD: Mapping[PackState, tuple[ControlInput, ...]] = MappingProxyType(
     {
         PackState.ABORTED: (Acknowledged(), Commanded(PackCommand.CLEAR)),
         PackState.STOPPED: (Acknowledged(), Commanded(PackCommand.RESET)),
-        PackState.IDLE: (Commanded(PackCommand.START),),
+        PackState.IDLE: (Acknowledged(), Commanded(PackCommand.START)),
         PackState.HELD: (Acknowledged(), Commanded(PackCommand.UNHOLD)),
         PackState.SUSPENDED: (Acknowledged(), Commanded(PackCommand.UNSUSPEND)),
     }
@@ -36,7 +36,7 @@ def give_command(session: ControlSession, name: str) -> Answer:
     if name in ANSWERS:
         requests = session.status().requests
         if not requests:
-            return Answer(False, f"{name}: the controller asks nothing")
+            return Answer(False, "the controller asks nothing")
         return _answer(session, Answered(requests[0].number, ANSWERS[name]))
     if name == ACKNOWLEDGE:
         return _answer(session, Acknowledged())

@@ -162,7 +162,7 @@ class LoomRun:
             return False
         if self._ending:
             return True
-        return self.order.start and state is PackState.COMPLETE
+        return state is PackState.COMPLETE and not self.order.serves
 
     def _lead(self) -> None:
         """What the operator does, and what follows from a stop or a journal that cannot be written."""
@@ -220,7 +220,7 @@ class LoomRun:
         answer = give_command(self._session, name)
         if answer.ok:
             self._operator.commanded(name)
-            if name == "stop" and self.order.start:
+            if name == "stop" and not self.order.serves:
                 self.stop()
         return answer
 

@@ -48,7 +48,8 @@ class Operator:
         if self.waiting:
             return True
         if session.state not in _FAULTY:
-            if self.weaving and waits(session):
+            asked = session.state is PackState.IDLE and status.alarms and not self.automatic
+            if self.weaving and waits(session) and not asked:
                 lead_on(session)
             return True
         if not self.automatic:

@@ -32,7 +32,8 @@ class RunOrder:
     new        begin another carpet           speed    of the simulated loom's clock; None: as fast as possible
     commit     knots of a group commit        faults   seed of the simulated faults; None: no faults
     stops      their rates                    operator faults and changes are seen to without anybody
-    start      weave at once, and end with the carpet; else wait for commands
+    start      weave at once; else wait for commands
+    serves     go on after the carpet and after a stop, for commands; else end with them
     record     keep all inputs of the simulated loom
     """
 
@@ -45,6 +46,7 @@ class RunOrder:
     stops: StopParams = StopParams()
     operator: bool = True
     start: bool = True
+    serves: bool = False
     record: bool = False
 
     @property
