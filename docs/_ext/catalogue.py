@@ -28,7 +28,7 @@ OUT = Path(__file__).parents[1] / "reference" / "generated"
 PACKAGES = (
     "units", "errors", "arrays", "progress", "records", "params", "report", "num", "plane", "linkage", "elements",
     "synthesis", "dynamics", "cams", "timing", "weaving", "carpet", "loom", "machines", "verification", "io",
-    "viz", "jobs", "api",
+    "viz", "drivers", "factory", "jobs", "api",
 )  # fmt: skip
 
 

@@ -36,7 +36,6 @@ from ilmek.loom.proof.kernel import (
 )
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
-from ilmek.units import BILLION
 
 MOST_FAULTS = 1000
 """Largest number of faults that are listed; all are counted."""
@@ -46,6 +45,8 @@ _ROUNDING = 1e-9
 
 _MOST_LEFT = 2**62
 """Knots left in a package that never ends."""
+
+_NANO = 1_000_000_000
 
 _END_NAMES = {
     RowEnd.STRAIGHT_WEFT: "straight weft",
@@ -262,7 +263,7 @@ class _Prover:
 
 def nanoseconds(time: float) -> int:
     """A time [s] in whole nanoseconds."""
-    return round(BILLION * time)
+    return round(_NANO * time)
 
 
 def _require_setup(setup: LoomSetup) -> None:
