@@ -76,6 +76,8 @@ def work_shown(run: LoomRun, hint: str) -> None:
         run.stop()
         ended.wait(_LONGEST_STOP)  # until the screen is cleared
         now = run.snapshot()
+        if now.knots == now.total and now.row + 1 >= now.rows:
+            return f"all {now.total:,} knots are tied"
         return f"{now.knots:,} of {now.total:,} knots are tied; the same command goes on in row {now.row + 1:,}"
 
     with before_end(stopped):

@@ -116,7 +116,7 @@ def _check(path: Path, head: bytes, size: int, programme: LoomProgramme) -> None
         other = f"{path} has format {version}" if order == _ORDER else f"{path} is of another kind of computer"
         raise LoomError(other, allowed=f"format {VERSION} of this one", do=_NEW)
     if head != expected:
-        raise LoomError(f"{path} is the carpet of another programme", allowed="that of this programme", do=_NEW)
+        raise LoomError(f"{path} is the carpet of another programme", do="give another --journal, or --new")
     if size != _START + woven_size(programme.setup):
         raise LoomError(f"{path} has {size} bytes", allowed=f"{_START + woven_size(programme.setup)} bytes", do=_NEW)
 
