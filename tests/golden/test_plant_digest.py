@@ -5,7 +5,7 @@ from small_programme import small_programme
 
 from ilmek.drivers.twin_port import TwinPort
 from ilmek.loom.control.ports import Failed
-from ilmek.loom.twin.comparison import woven_digest
+from ilmek.loom.twin.comparison import compare
 from ilmek.loom.twin.model import FaultRates, plant_model
 from ilmek.loom.twin.state import Repaired, first_state
 from ilmek.loom.twin.woven import Woven, woven_size
@@ -20,4 +20,4 @@ def test_the_digests_of_a_run_with_faults() -> None:
     failures = sum(isinstance(one, Failed) for one in weave(port, programme, cure=lambda _: port.act(Repaired())))
     assert (failures, port.time) == (18, 684488000000)
     assert port.state.digest.hex() == "a38bda25afb7a8511b7b1068feede6b2ae1687e62a36de514cabffca975be5de"
-    assert woven_digest(woven) == "1e7149f0274efb83493870e0a6b42bef5c60b824844a28f8337d7752e97b8fe6"
+    assert compare(woven, programme).digest == "1e7149f0274efb83493870e0a6b42bef5c60b824844a28f8337d7752e97b8fe6"

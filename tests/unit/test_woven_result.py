@@ -9,7 +9,7 @@ from small_programme import small_programme
 
 from ilmek.errors import LoomError
 from ilmek.loom.operations import EMPTY, ROW_ENDS, LoomProgramme, RowEnd
-from ilmek.loom.twin.comparison import EndFault, WovenFault, WovenFaultKind, chart_digest, compare, woven_digest
+from ilmek.loom.twin.comparison import EndFault, WovenFault, WovenFaultKind, chart_digest, compare
 from ilmek.loom.twin.woven import MOST_TIMES, Woven, woven_size
 from ilmek.viz.woven_picture import draw_woven
 
@@ -33,7 +33,7 @@ def test_a_carpet_without_faults_has_the_digest_of_its_chart() -> None:
     result = compare(woven, PROGRAMME)
     assert result.complete
     assert (result.knots, result.rows, result.to_come) == (144, 6, 0)
-    assert result.digest == chart_digest(PROGRAMME) == woven_digest(woven)
+    assert result.digest == chart_digest(PROGRAMME)
 
 
 def test_every_fault_is_counted_and_found() -> None:

@@ -8,7 +8,6 @@ the left; EMPTY where there is no knot. A carpet without faults has the digest o
 """
 
 import hashlib
-from collections.abc import Callable
 from enum import StrEnum
 
 import numpy as np
@@ -116,18 +115,9 @@ def compare(woven: Woven, programme: LoomProgramme, progress: Progress = SILENT)
 
 def chart_digest(programme: LoomProgramme) -> str:
     """The digest of a carpet woven without faults."""
-    return _digest(programme.setup.rows, programme.chart_row)
-
-
-def woven_digest(woven: Woven) -> str:
-    """The digest of a woven carpet."""
-    return _digest(woven.rows, woven.yarns)
-
-
-def _digest(rows: int, row_of: Callable[[int], _Row]) -> str:
     found = hashlib.sha256()
-    for row in range(rows):
-        found.update(np.ascontiguousarray(row_of(row), np.uint8).tobytes())
+    for row in range(programme.setup.rows):
+        found.update(np.ascontiguousarray(programme.chart_row(row), np.uint8).tobytes())
     return found.hexdigest()
 
 
