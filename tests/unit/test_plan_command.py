@@ -110,7 +110,10 @@ BAD_ORDERS = {
     "no quality": (("colours = 6", 'quality = "many"'), "line 3"),
     "outside": (("medallion.png", "../medallion.png"), "reaches outside the folder of the orders"),
     "missing": (("medallion.png", "none.png"), "is not there"),
-    "both": (('picture = "medallion.png"', 'picture = "medallion.png"\nprogramme = "p.ilmek"'), "both or neither"),
+    "both": (
+        ('picture = "medallion.png"', 'picture = "medallion.png"\nprogramme = "p.ilmek"'),
+        "has both picture and programme",
+    ),
     "too many": (("due", "quantity = 501\ndue"), "a whole number, 1 to 500"),
     "year": (("2026-12-18", "9026-12-18"), "the year 9026; 1900 to 2200"),
     "far away": (("due", "earliest = 2199-01-01\ndue"), "the plan does not end within 1830 days"),
@@ -118,6 +121,7 @@ BAD_ORDERS = {
 BAD_LOOMS = {
     "no unit": (('"12h"', "12"), 'line 9, loom.0.dressing: 12 has no unit; text in h; write it like "2h"'),
     "no money": (('"14 EUR/h"', "14"), "line 8, loom.0.cost: 14 is not money"),
+    "no currency": (('"14 EUR/h"', '"14 h"'), "in another currency, or in none; the currency of the file: EUR; write"),
     "hours": (("06:00-14:00", "6-14"), "line 4, shift.0.hours: '6-14' are no hours"),
     "day": (("Mon-Fri", "Mon-Fry"), "line 3, shift.0.days: 'Mon-Fry' are no days of the week"),
     "shift": (('name = "A"', 'name = "A"\nshifts = ["nigt"]'), "unknown shift"),
@@ -153,6 +157,15 @@ def test_bad_looms_are_one_clear_error(tmp_path: Path, name: str) -> None:
     done = plan(written(tmp_path, looms=LOOMS.replace(old, new, 1)))
     assert done.exit_code == 2
     assert message in " ".join(done.stderr.split())
+
+
+def test_slips_that_only_make_the_plan_worse_are_noted(tmp_path: Path) -> None:
+    stock = LOOMS + '[[yarn]]\nname = "madder rde"\nstock = "6kg"\n'
+    found = plan(written(tmp_path, orders=ORDERS.replace("2026-12-18", "2025-12-18"), looms=stock), "--json", "-")
+    assert found.exit_code == 3
+    due, yarn = json.loads(found.stdout)["warnings"][:2]
+    assert "due 2025-12-18 23:59 is before its earliest begin" in due
+    assert yarn == "looms.toml: no carpet of the plan takes the yarn 'madder rde' (did you mean 'madder red'?)"
 
 
 def test_a_carpet_that_no_loom_weaves_is_named_with_its_cure(tmp_path: Path) -> None:

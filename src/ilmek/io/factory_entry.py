@@ -67,7 +67,8 @@ class FactoryEntry(FileEntry):
             self.refuse(error, key)
         if found[2] != currency:
             allowed = f"the currency of the file: {currency}"
-            self.refuse(ParameterError(f"{shown(value)} is in another currency", allowed=allowed), key)
+            given = f"{shown(value)} is in another currency, or in none"
+            self.refuse(ParameterError(given, allowed=allowed, do=f"write it {example}"), key)
         try:
             unit, needed = parse_unit(found[3] or ""), parse_unit(per)
         except IlmekError as error:

@@ -124,7 +124,8 @@ class _OrderReader:
     def order(self, row: FactoryEntry) -> FactoryOrder:
         row.keys(*ORDER_KEYS, *CARPET_KEYS, *self.parameters, needs=("name", "due"))
         if row.has("picture") == row.has("programme"):
-            row.refuse(ParameterError("has both or neither of picture and programme", allowed="one of them"))
+            given = "has both picture and programme" if row.has("picture") else "has neither picture nor programme"
+            row.refuse(ParameterError(given, do="give one of the two"))
         programme = self._file(row, "programme")
         for key in (*CARPET_KEYS, *self.parameters):
             if programme is not None and row.has(key):

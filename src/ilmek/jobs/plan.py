@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from ilmek.errors import LoomError, ParameterError
+from ilmek.errors import LoomError, ParameterError, did_you_mean
 from ilmek.factory.heuristic import first_plan
 from ilmek.factory.model import HOUR, MONEY, FactoryPlan, PlannedCarpet, SolveLimits
 from ilmek.factory.rescue import Rescue, rescues
@@ -106,8 +106,8 @@ class PlanResult:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """What limits the plan's claims."""
-        found = []
+        """What limits the plan's claims, and what may be a slip in the files."""
+        found = [*_hopeless_dates(self.inputs), *_unused_yarns(self.inputs)]
         if self.solved is not None and not self.solved.repeatable:
             found.append(
                 "the time limit ended the search: another computer may find another plan; give a longer --time-limit"
@@ -118,6 +118,27 @@ class PlanResult:
         if measured < len(self.late):
             found.append(f"measures are searched for {measured} of {len(self.late)} late orders")
         return tuple(found)
+
+
+def _hopeless_dates(inputs: FactoryInputs) -> list[str]:
+    """Orders that are due before they may begin."""
+    return [
+        f"{one.entry.name}: due {one.entry.due:%Y-%m-%d %H:%M} is before its earliest begin "
+        f"{one.entry.earliest:%Y-%m-%d %H:%M}; no plan is in time"
+        for one in inputs.orders
+        if one.entry.due <= one.entry.earliest
+    ]
+
+
+def _unused_yarns(inputs: FactoryInputs) -> list[str]:
+    """Yarns of the looms' file that no carpet of the plan takes: their stock counts for nothing."""
+    used = [yarn.name for yarn in inputs.factory.yarns]
+    unused = [yarn.name for yarn in inputs.looms_file.yarns if yarn.name not in used]
+    if not used or not unused:
+        return []
+    named = [f"{name!r}" + (f" ({hint})" if (hint := did_you_mean(name, used)) else "") for name in unused[:3]]
+    names = ", ".join(named) + (f" and {len(unused) - 3} more" if len(unused) > 3 else "")
+    return [f"{inputs.looms_file.path.name}: no carpet of the plan takes the yarn {names}"]
 
 
 def read_time_limit(text: str) -> float:
