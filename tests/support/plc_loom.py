@@ -2,11 +2,12 @@
 
 from typing import Any
 
+import numpy as np
 from structured_text import Machine
 
 from ilmek.io.plc.project import plc_project, size_of
-from ilmek.io.plc.row_values import row_values
-from ilmek.loom.operations import LoomProgramme
+from ilmek.io.plc.sequence_variables import PlcSize
+from ilmek.loom.operations import LoomProgramme, RowOperations
 
 SENSORS: dict[str, Any] = {
     "EmergencyStop": False, "DoorClosed": True, "WarpTensionKnown": True, "WarpTension": 15.0,
@@ -130,3 +131,18 @@ class PlcLoom:
     def _end(self) -> None:
         """An operation after the knots is in the carpet."""
         self.ends.append((self.read("Row"), self.read("EndCode")))
+
+
+def row_values(row: RowOperations, size: PlcSize) -> dict[str, list[int] | list[bool]]:
+    """The values of the structure's arrays by name; phases that a row lacks repeat its last one."""
+    limits = np.cumsum(row.counts, axis=1)
+    missing = size.phases - row.phases
+    limits = np.concatenate([limits, np.repeat(limits[:, -1:], missing, axis=1)], axis=1)
+    stops = {stop.phase for stop in row.stops}
+    return {
+        "Columns": row.columns.tolist(),
+        "Tubes": row.tubes.tolist(),
+        "First": row.starts[:-1].tolist(),
+        "Limits": limits.ravel().tolist(),
+        "StopBefore": [phase in stops for phase in range(size.phases)],
+    }

@@ -153,7 +153,7 @@ def colours_check(chart: Chart, heads: int, params: AutomatedLoomParams) -> Chec
         params.head_tubes,
         "1",
         "tubes of a head, against the colours of a part of a row; packages are changed between the parts",
-        cure=f"set --colours {params.head_tubes} or more heads, or take a loom with {needed} tubes a head",
+        cure=f"set --colours {params.head_tubes}, or more heads, or take a loom with {needed} tubes a head",
     )
 
 

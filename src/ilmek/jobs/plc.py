@@ -8,7 +8,7 @@ from ilmek.io.output import Outputs
 from ilmek.io.plc.io_list import io_csv, io_rows
 from ilmek.io.plc.plcopen_xml import plcopen_xml
 from ilmek.io.plc.project import plc_project
-from ilmek.io.plc.row_values import rows_csv
+from ilmek.io.plc.rows_table import rows_csv
 from ilmek.loom.operations import LoomSetup
 from ilmek.progress import SILENT, Progress
 

@@ -1,29 +1,13 @@
-"""What the host writes into `RowData` for a row, and all rows as CSV for hosts without ilmek."""
+"""The rows of a programme as CSV, for the host that writes them into `RowData`."""
 
 from collections.abc import Iterator
 
 import numpy as np
 
-from ilmek.io.plc.sequence_variables import PlcSize
-from ilmek.loom.operations import LoomProgramme, RowOperations
+from ilmek.loom.operations import LoomProgramme
 from ilmek.progress import SILENT, Progress
 
 ROWS_HEADER = ("row", "head", "number", "phase", "column", "tube", "stop_before")
-
-
-def row_values(row: RowOperations, size: PlcSize) -> dict[str, list[int] | list[bool]]:
-    """The values of the structure's arrays by name; phases that a row lacks repeat its last one."""
-    limits = np.cumsum(row.counts, axis=1)
-    missing = size.phases - row.phases
-    limits = np.concatenate([limits, np.repeat(limits[:, -1:], missing, axis=1)], axis=1)
-    stops = {stop.phase for stop in row.stops}
-    return {
-        "Columns": row.columns.tolist(),
-        "Tubes": row.tubes.tolist(),
-        "First": row.starts[:-1].tolist(),
-        "Limits": limits.ravel().tolist(),
-        "StopBefore": [phase in stops for phase in range(size.phases)],
-    }
 
 
 def rows_csv(programme: LoomProgramme, progress: Progress = SILENT) -> Iterator[str]:
