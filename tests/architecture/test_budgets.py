@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from sources import tree_of
 
 SOURCES = sorted((Path(__file__).parents[2] / "src" / "ilmek").rglob("*.py"))
 LAZY = {"cli", "jobs"}
@@ -14,7 +15,7 @@ CODE = [path for path in SOURCES if path.name != "__init__.py"]
 
 
 def nodes(path: Path, *kinds: type[ast.AST]) -> Iterator[ast.AST]:
-    yield from (node for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))) if isinstance(node, kinds))
+    yield from (node for node in ast.walk(tree_of(path)) if isinstance(node, kinds))
 
 
 def body_lines(node: ast.AST) -> int:
@@ -44,7 +45,7 @@ def test_medians_keep_their_budget() -> None:
 
 @pytest.mark.parametrize("path", SOURCES, ids=lambda path: "/".join(path.parts[-2:]))
 def test_every_public_name_is_documented(path: Path) -> None:
-    tree = ast.parse(path.read_text(encoding="utf-8"))
+    tree = tree_of(path)
     assert ast.get_docstring(tree), f"{path} has no docstring"
     for node in tree.body:
         if isinstance(node, ast.FunctionDef | ast.ClassDef) and not (node.name.startswith("_") or _is_overload(node)):

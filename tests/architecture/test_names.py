@@ -8,6 +8,7 @@ from pathlib import Path
 
 import click
 import pytest
+from sources import tree_of
 
 from ilmek.cli import main
 from ilmek.machines.catalogue import MACHINES
@@ -44,7 +45,7 @@ def public_classes() -> dict[str, list[str]]:
     """Where each public class of the package is defined."""
     found: dict[str, list[str]] = defaultdict(list)
     for path in SOURCES:
-        for node in ast.parse(path.read_text(encoding="utf-8")).body:
+        for node in tree_of(path).body:
             if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
                 found[node.name].append(str(path.relative_to(PACKAGE)))
     return found
@@ -83,7 +84,7 @@ def attributes(kind: ast.ClassDef) -> Iterator[str]:
 
 def public_names(path: Path) -> Iterator[str]:
     """The names of a module's public functions, their parameters, its constants and the attributes of its classes."""
-    for node in ast.parse(path.read_text(encoding="utf-8")).body:
+    for node in tree_of(path).body:
         if isinstance(node, ast.FunctionDef) and not node.name.startswith("_"):
             yield from signature(node)
         elif isinstance(node, ast.ClassDef) and not node.name.startswith("_"):

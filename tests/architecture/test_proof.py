@@ -3,6 +3,8 @@
 import ast
 from pathlib import Path
 
+from sources import tree_of
+
 LOOM = Path(__file__).parents[2] / "src" / "ilmek" / "loom"
 ALLOWED = {
     "ilmek.loom.operations",
@@ -16,7 +18,7 @@ ALLOWED = {
 
 def imported(path: Path) -> set[str]:
     """The modules of the package that a module imports."""
-    nodes = list(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
+    nodes = list(ast.walk(tree_of(path)))
     found = {str(node.module) for node in nodes if isinstance(node, ast.ImportFrom)}
     found |= {f"{node.module}.{one.name}" for node in nodes if isinstance(node, ast.ImportFrom) for one in node.names}
     found |= {one.name for node in nodes if isinstance(node, ast.Import) for one in node.names}

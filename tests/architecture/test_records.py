@@ -6,6 +6,8 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
+from sources import tree_of
+
 SOURCES = sorted((Path(__file__).parents[2] / "src" / "ilmek").rglob("*.py"))
 ARRAYS = re.compile(r"ndarray|Array\b|Float\[|Complex\[|Num\[|Int\[|Int8|Bool\[|Rgb|Indices|RealField|ComplexField")
 MAPPINGS = re.compile(r"Mapping|dict\[|list\[|\bset\[")
@@ -19,7 +21,7 @@ def compared_by_value() -> tuple[tuple[str, ast.ClassDef], ...]:
 
 def _compared_by_value() -> Iterator[tuple[str, ast.ClassDef]]:
     for path in SOURCES:
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        for node in ast.walk(tree_of(path)):
             if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
                 decorators = " ".join(ast.unparse(one) for one in node.decorator_list)
                 if re.search(r"\bdataclass\b|value_record", decorators) and "eq=False" not in decorators:

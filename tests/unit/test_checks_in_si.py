@@ -6,6 +6,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
+from sources import tree_of
 
 import ilmek
 from ilmek.cli.terminal import show_checks
@@ -94,9 +95,7 @@ def converted(tree: ast.AST) -> list[str]:
 
 def test_no_check_converts_its_numbers() -> None:
     assert len(SOURCES) > 100
-    assert {str(path): converted(ast.parse(path.read_text(encoding="utf-8"))) for path in SOURCES} == {
-        str(path): [] for path in SOURCES
-    }
+    assert {str(path): converted(tree_of(path)) for path in SOURCES} == {str(path): [] for path in SOURCES}
 
 
 @pytest.mark.parametrize(
