@@ -73,6 +73,8 @@ def drawn(snapshot: Snapshot, yarns: Sequence[Yarn], hint: str, left: str = "") 
     parts += [_alarm(one) for one in snapshot.alarms[:MOST_ALARMS]]
     if hidden := len(snapshot.alarms) - MOST_ALARMS:
         parts += [Text(f"… {hidden} more alarms")] if hidden > 0 else []
+    if any(one.stops for one in snapshot.alarms):
+        parts.append(Text("when the cause is removed, `ilmek resume` acknowledges the alarms and goes on"))
     parts.append(Text(printable(hint), style="dim"))
     return Group(*parts)
 
