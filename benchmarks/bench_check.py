@@ -23,7 +23,8 @@ begin = time.perf_counter()
 found = check_programme(Path(sys.argv[1]))
 wall, processor = time.perf_counter() - begin, time.process_time()
 memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * (1 if sys.platform == "darwin" else 1024)
-print(f"{wall:.1f} s, with the start {processor:.1f} s of a processor, peak memory {memory / 1e9:.2f} GB, {found.totals.knots / 1e6:.0f} million knots, ok: {found.ok}")
+times = f"{wall:.1f} s, with the start {processor:.1f} s of a processor, peak memory {memory / 1e9:.2f} GB"
+print(f"{times}, {found.totals.knots / 1e6:.0f} million knots, ok: {found.ok}")
 """
 
 
