@@ -55,14 +55,14 @@ def command(file: Path, number: int | None, force: bool, json_to: str | None) ->
 def show_programme(found: InspectionResult) -> None:
     """Print size, weaving time, yarns and heads of the whole carpet."""
     setup, totals, work = found.programme.setup, found.programme.totals, found.programme.work
-    heads = "1 head" if setup.heads == 1 else f"{setup.heads} heads"
+    with_heads = "1 head" if setup.heads == 1 else f"{setup.heads} heads"
     show_pairs(
         [
             ("carpet", f"{setup.size}, {setup.quality}, {setup.knot} knot"),
             ("rows", f"{setup.rows:,} of {setup.columns:,} knots, {totals.knots:,} in all"),
             (
                 "loom",
-                f"{heads} of {setup.tubes} tubes, warp pitch {format_quantity(setup.warp_pitch, 'mm')}",
+                f"{with_heads} of {setup.tubes} tubes, warp pitch {format_quantity(setup.warp_pitch, 'mm')}",
             ),
             ("weaving time", f"{format_quantity(totals.duration, 'h')}"),
             ("colour changes", f"{totals.changes:,}, {totals.changes_per_knot:.3f} per knot"),
