@@ -1,7 +1,7 @@
 """Every run of a controller over a small carpet: completions in any order, crashes, commands, faults, answers.
 
 A world is a controller, a loom and a journal on a disc. From each world all that can happen next is tried; worlds that
-cannot be told apart are one. What must be true: no operation is ordered that is in the carpet or in progress; with a
+cannot be distinguished are one. What must be true: no operation is ordered that is in the carpet or in progress; with a
 group commit of n knots, at most n - 1 operations and one for each head are in the carpet, or in progress, and not
 durable; and from every world the carpet can be finished, with every operation once.
 
@@ -185,7 +185,7 @@ class Model:
         assert not stuck, next(key for key, number in self.numbers.items() if number in stuck)
 
     def key(self, world: World) -> tuple[object, ...]:
-        """Equal for worlds that cannot be told apart."""
+        """Equal for worlds that cannot be distinguished."""
         state = world.controller.state
         return (
             state.state, state.sequence.position(), self.mask(state.progress.values()),

@@ -1,4 +1,4 @@
-"""The text form of a programme: the same both ways, and whatever is wrong in it is named with its line."""
+"""The text form of a programme: lossless in both directions, and whatever is wrong in it is named with its line."""
 
 from collections.abc import Callable
 from dataclasses import replace

@@ -11,7 +11,7 @@
     …
     end
 
-Text and programme are the same, both ways: a programme that is written and read again has the same digest. The grammar
+Text and programme are equal: a programme that is written and read again has the same digest. The grammar
 is in `docs/reference/programme-text.md`. A text is read row by row, and never whole.
 """
 

@@ -101,7 +101,7 @@ def _scaling(cells: int, pixels: int) -> Image.Resampling:
 
 
 def _warps(height: int, width: int, columns: int) -> Rgb:
-    """Two warps for each column, or as many as can be told apart, over a dark gap."""
+    """Two warps for each column, or as many as can be distinguished, over a dark gap."""
     pitch = max(width / (2 * columns), 4.0)
     phase = (np.arange(width) + 0.5) / pitch % 1.0
     thread = np.clip(1.3 * np.sin(np.pi * phase), 0.22, 1.0)
@@ -161,7 +161,7 @@ def _apart(faults: list[tuple[WovenFaultKind, complex]]) -> list[tuple[WovenFaul
 
 
 def _mark(canvas: Canvas, kind: WovenFaultKind, centre: complex) -> None:
-    """A ring, a square or a triangle, which are told apart without their colour."""
+    """A ring, a square or a triangle, which are distinguished without their colour."""
     corners = {WovenFaultKind.MISSING: 32, WovenFaultKind.DOUBLE: 4, WovenFaultKind.WRONG_YARN: 3}[kind]
     turn = 0.25 * np.pi if corners == 4 else 0.5 * np.pi
     angles = turn + 2 * np.pi * np.arange(corners + 1) / corners

@@ -72,7 +72,7 @@ class Job:
 
     @property
     def over(self) -> bool:
-        """Whether it ended, one way or the other."""
+        """Whether it ended, with success or not."""
         return self.state in (JobState.ENDED, JobState.ABORTED)
 
     @property

@@ -46,7 +46,7 @@ MOST_COMMANDS = 32
 """Largest number of commands that wait."""
 
 STOP_TIME = 2.0
-"""Time in which a stop waits for the operations in progress [s]; then they are halted, and asked for on restart."""
+"""Time in which a stop waits for the operations in progress [s]; then they are halted, and queried on restart."""
 
 _RETRY = 0.5
 """Time between two attempts to write a journal that could not be written [s]."""

@@ -16,7 +16,7 @@ JOG = -2
 """Key of a jog in progress."""
 
 ASKING = frozenset((PackState.RESETTING, PackState.UNHOLDING, PackState.UNSUSPENDING))
-"""States in which sensor and operator are asked for uncertain operations; they end when none is left."""
+"""States in which sensor and operator are queried about uncertain operations; they end when none is left."""
 
 ENDING = frozenset((PackState.HOLDING, PackState.SUSPENDING, PackState.STOPPING, PackState.COMPLETING))
 """States that end with the operations in progress."""

@@ -58,8 +58,8 @@ class ControllerState:
     retried     keys whose operation missed its grip once          alarms   by name and head
     watch       sensors that have yet to change in the row's end in progress
     goal        row at which maintenance mode stops; allowance: operations that it may still begin, None: no limit
-    halted      the loom was halted, and what it reports after it has been asked for
-    verified    the sensor was asked for the frontier since the journal was opened
+    halted      the loom was halted, and what it reports after it has been requested
+    verified    the sensor was queried for the frontier since the journal was opened
     lag         records that are not durable                       pending  completions among them
     """
 

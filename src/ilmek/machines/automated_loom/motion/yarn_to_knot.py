@@ -68,7 +68,7 @@ def _corner(number: int, wide: float) -> complex:
 
 
 def _instants(weaver: Weaver) -> tuple[float, ...]:
-    """Cam angles: the yarn grasped, half-way round the warps, round them, taken by the centre gripper, released."""
+    """Cam angles: the yarn grasped, half round the warps, round them, taken by the centre gripper, released."""
     grasped, taken, released = led_between(weaver.cyclogram)
     cross = weaver.cyclogram.track(SIDE_MOTION).segment("cross")
     back = weaver.cyclogram.track(CENTRE_MOTION).segment("return")
