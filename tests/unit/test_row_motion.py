@@ -18,7 +18,7 @@ def strokes(moving: Animation, label: str) -> list[MovingStroke]:
 def test_the_row_lasts_as_long_as_its_heads_by_the_rules(heads: int, seed: int) -> None:
     programme = small_programme(6, 24, heads, 4, seed=seed)
     durations, row = durations_of(programme.setup.times), programme.operations(3)
-    timed = timed_row(row, durations, np.full(heads, -1))
+    timed = timed_row(row, durations)
     spent = np.zeros((heads, row.phases))
     for head in range(heads):
         first = row.starts[head]

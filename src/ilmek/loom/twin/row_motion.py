@@ -6,9 +6,10 @@ the row's cyclogram has them. Height is not to scale: it shows what is tied, and
 
 import numpy as np
 
-from ilmek.arrays import ComplexArray, FloatArray, IntArray
+from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.loom.operations import LoomSetup, RowOperations
 from ilmek.loom.twin.durations import Durations, durations_of
+from ilmek.loom.twin.phase import PhaseTimes, RowKnots, time_knots
 from ilmek.records import record
 from ilmek.report import Animation, Axis, Drawing, MovingStroke, Reading, Stroke
 from ilmek.timing.cyclogram import Track
@@ -28,44 +29,36 @@ _HEAD, _TICK, _SHED = 0.08, 0.03, 0.05
 
 @record
 class TimedRow:
-    """When each knot of a row is tied, head by head in the order of tying [s], and the end of the knots [s].
+    """When each knot of a row is tied, head by head in the order of tying, and the end of all knots [s]."""
 
-    begins, ends  of each knot [s], without stops      last  end of all knots [s]
-    """
-
-    begins: FloatArray
     ends: FloatArray
     last: float
 
 
-def timed_row(row: RowOperations, durations: Durations, tubes: IntArray) -> TimedRow:
-    """The knots of a row in time.
-
-    tubes  aligned in each head before the row, (heads,); -1: that of its first knot
-    """
-    begins, ends = np.zeros(len(row.columns)), np.zeros(len(row.columns))
-    starts, phase_begin = row.starts, 0
-    at, tube = starts[:-1].copy(), tubes.astype(np.int64)
+def timed_row(row: RowOperations, durations: Durations) -> TimedRow:
+    """The knots of a row in time, without stops; the tube of each head's first knot is aligned before."""
+    heads, counts = row.heads, np.ascontiguousarray(row.counts, np.int64)
+    first = np.ascontiguousarray(row.starts[:-1, None] + np.cumsum(counts, axis=1) - counts)
+    by_tube = np.zeros((heads, int(row.tubes.max()) + 1), np.int64)
+    columns, tubes = np.ascontiguousarray(row.columns, np.int32), np.ascontiguousarray(row.tubes, np.uint8)
+    knots = RowKnots(columns, tubes, first, counts, by_tube)
+    states = np.full((heads, 2), -1, np.int64)
+    base, yarn, changes, idle = np.zeros((4, heads), np.int64)
+    times = PhaseTimes(np.zeros(len(columns), np.int64), base, yarn, changes, idle, by_tube.copy())
+    ends, begin = np.zeros(len(columns), np.int64), 0
     for phase in range(row.phases):
-        slowest = phase_begin
-        for head in range(row.heads):
-            clock = phase_begin
-            for knot in range(at[head], at[head] + int(row.counts[head, phase])):
-                moved = abs(int(row.columns[knot]) - int(row.columns[knot - 1])) if knot > starts[head] else 0
-                changed = tube[head] not in (-1, row.tubes[knot])
-                begins[knot] = clock / BILLION
-                clock += durations.knot + changed * durations.colour_change + durations.travel * max(moved - 1, 0)
-                ends[knot], tube[head] = clock / BILLION, row.tubes[knot]
-            at[head] += int(row.counts[head, phase])
-            slowest = max(slowest, clock)
-        phase_begin = slowest
-    return TimedRow(begins, ends, phase_begin / BILLION)
+        time_knots(knots, phase, (durations.knot, durations.colour_change, durations.travel), states, times)
+        for head in range(heads):
+            tied = slice(first[head, phase], first[head, phase] + counts[head, phase])
+            ends[tied] = begin + np.cumsum(times.lasts[tied])
+        begin += int(times.base.max())
+    return TimedRow(ends / BILLION, begin / BILLION)
 
 
 def row_in_motion(setup: LoomSetup, row: RowOperations) -> Animation:
     """The row over its time; the tubes of the first knots are aligned before."""
     durations = durations_of(setup.times)
-    timed = timed_row(row, durations, np.full(row.heads, -1))
+    timed = timed_row(row, durations)
     total = timed.last + durations.row_end / BILLION
     time = np.linspace(0.0, total, FRAMES)
     pitch = 2 * setup.warp_pitch
