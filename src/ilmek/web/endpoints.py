@@ -1,0 +1,45 @@
+"""The API: every request, the function of `jobs` that answers it, and what it may cost.
+
+A function is given by its name, so that the server imports no engineering: the worker process that answers imports it.
+It takes one record, the request, and a `Progress`, and returns a record, which is sent as JSON, or a `Binary`. Types of
+requests and answers are dataclasses; the schema of the API and the types of the client are derived from them.
+"""
+
+from dataclasses import dataclass
+
+SECOND = 1.0
+HOUR = 3600.0
+
+
+@dataclass(frozen=True, slots=True)
+class Endpoint:
+    """One request of the API.
+
+    method    GET: the request is made of the path and the query; POST: of the path and the JSON body
+    path      below /api; a part in braces is a field of the request
+    function  "module:name" below ilmek.jobs
+    limit     longest time of an answer [s]; a worker that takes longer is ended
+    affinity  requests of one name are answered by one worker where it is free: it keeps what the one before read
+    work      True: the answer is a number of a work that goes on (202); its progress and result come by events
+    """
+
+    method: str
+    path: str
+    function: str
+    summary: str
+    limit: float = 60 * SECOND
+    affinity: str = ""
+    work: bool = False
+
+
+ENDPOINTS: tuple[Endpoint, ...] = (
+    Endpoint("GET", "/machines", "studio.machines:list_of_machines", "The machines of the catalogue."),
+    Endpoint("GET", "/machines/{name}", "studio.machines:form", "The declared parameters of a machine."),
+    Endpoint(
+        "POST",
+        "/machines/{name}/design",
+        "studio.machines:design",
+        "Design a machine: the JSON of `ilmek design NAME --json -`.",
+        affinity="machine",
+    ),
+)
