@@ -8,16 +8,18 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help weave test lint types layers unit shapes mutants fuzz kills cuts bench docs venv lock clean
+.PHONY: help weave studio client client-check browser test lint types layers unit shapes mutants fuzz kills cuts bench docs venv lock clean
 
 help:
 	@echo "make weave   weave the shipped example and print where its report lies"
+	@echo "make studio  open the studio on the shipped example, in a browser"
 	@echo "make test    every check and every test"
 	@echo "make shapes  the engine's tests with the shapes of all arrays checked (slower)"
 	@echo "make mutants small wrong changes of the sources, and which of them no test notices (about an hour)"
 	@echo "make fuzz    20,000 hostile inputs for every command (about ten minutes)"
 	@echo "make kills   500 signals at random instants of real commands: no result is lost, no message is false (10 minutes)"
 	@echo "make cuts    power cuts and kills while carpets are woven: every knot is in them once (five minutes)"
+	@echo "make client  the studio's client from its sources, into the package (needs Node)"
 	@echo "make bench   the benchmarks, side by side with their peers"
 	@echo "make docs    the documentation, in docs/_build/html"
 	@echo "make venv    .venv with everything for development"
@@ -43,8 +45,34 @@ venv: $(VENV)/.installed-dev
 weave: $(VENV)/.installed
 	@$(BIN)/ilmek weave examples/medallion.png --size seccade --quality 25x25/dm --out out/medallion --force
 
+# The project is out/studio; without it the example is copied there. Options as of `ilmek studio --help`:
+# make studio STUDIO="my-project --no-browser"
+STUDIO ?= out/studio
+studio: $(VENV)/.installed
+	@$(BIN)/ilmek studio $(STUDIO)
+
+studio/node_modules/.installed: studio/package.json studio/package-lock.json
+	@cd studio && npm ci --no-audit --no-fund --loglevel=error
+	@touch $@
+
+# Users need no Node: the built client is in the package. Who changes studio/src builds it again.
+client: venv studio/node_modules/.installed
+	PYTHONPATH=src $(BIN)/python -m ilmek.web.schema studio/src/api
+	cd studio && npm run --silent types && npm run --silent build
+
+# Without Node the tests still prove, by a digest, that the shipped client is the build of the sources.
+client-check:
+	@if command -v npm >/dev/null; then $(MAKE) --no-print-directory studio/node_modules/.installed && cd studio && npm run --silent check && npm run --silent test && npm run --silent verify; \
+	else echo "npm is missing: the client's own tests are left out"; fi
+
+# The tests in a browser need Chromium, from the packages of the system where they may be installed.
+browser:
+	@command -v chromium >/dev/null || command -v chromium-browser >/dev/null || command -v google-chrome >/dev/null \
+	|| { [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null && { apt-get update -qq; apt-get install -y -qq --no-install-recommends chromium; } >/dev/null 2>&1; } \
+	|| echo "Chromium is missing and cannot be installed here: the tests in a browser are left out"
+
 # Types beside the tests: mypy has one process, and takes more than a minute in a fresh checkout.
-test: lint layers
+test: lint layers client-check browser
 	@$(MAKE) --no-print-directory -j 2 types unit
 
 lint: venv
@@ -92,6 +120,8 @@ lock:
 	.venv-lock/bin/python -m pip install --quiet --upgrade '.[dev]'
 	.venv-lock/bin/python -m pip freeze --exclude ilmek --exclude-editable > constraints.txt
 	rm -rf .venv-lock
+	cd studio && npm install --package-lock-only --omit-lockfile-registry-resolved --no-fund
+	$(PYTHON) -c 'import json; p = "studio/package-lock.json"; d = json.load(open(p)); [v.pop("funding", None) for v in d["packages"].values()]; open(p, "w").write(json.dumps(d, indent=2) + "\n")'
 
 clean:
-	rm -rf .venv out docs/_build .pytest_cache .mypy_cache .ruff_cache .import_linter_cache
+	rm -rf .venv studio/node_modules out docs/_build .pytest_cache .mypy_cache .ruff_cache .import_linter_cache
