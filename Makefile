@@ -66,14 +66,16 @@ client-check:
 	else echo "npm is missing: the client's own tests are left out"; fi
 
 # The tests in a browser need Chromium, from the packages of the system where they may be installed.
-browser:
+browser: venv
 	@command -v chromium >/dev/null || command -v chromium-browser >/dev/null || command -v google-chrome >/dev/null \
 	|| { [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null && { apt-get update -qq; apt-get install -y -qq --no-install-recommends chromium; } >/dev/null 2>&1; } \
 	|| echo "Chromium is missing and cannot be installed here: the tests in a browser are left out"
+	$(BIN)/pytest -n 0 tests/browser
 
 # Types beside the tests: mypy has one process, and takes more than a minute in a fresh checkout.
-test: lint layers client-check browser
+test: lint layers client-check
 	@$(MAKE) --no-print-directory -j 2 types unit
+	@$(MAKE) --no-print-directory browser
 
 lint: venv
 	$(BIN)/ruff check .
@@ -86,7 +88,7 @@ types: venv
 	$(BIN)/mypy
 
 unit: venv
-	$(BIN)/pytest -n 2 --dist worksteal
+	$(BIN)/pytest -n 2 --dist worksteal --ignore tests/browser
 
 shapes: venv
 	$(BIN)/pytest -n 2 --dist worksteal --jaxtyping-packages=ilmek,typecheck.checker $$($(BIN)/python tests/support/engine_paths.py)

@@ -1,0 +1,40 @@
+"""One browser for all tests, one studio for each file, and no fault of a page unnoticed."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, Page, sync_playwright
+from studio_browser import Seen, Studio, browser_path, context_of, launched, studio
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Browser]:
+    if browser_path() is None:
+        pytest.skip("no Chromium here: make browser installs it where it may")
+    with sync_playwright() as playwright:
+        browser = launched(playwright)
+        yield browser
+        browser.close()
+
+
+@pytest.fixture(scope="module")
+def running(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Studio]:
+    with studio(Path(tmp_path_factory.mktemp("studio")) / "project") as one:
+        yield one
+
+
+@pytest.fixture
+def seen() -> Seen:
+    return Seen()
+
+
+@pytest.fixture
+def page(browser: Browser, running: Studio, seen: Seen) -> Iterator[Page]:
+    """A page of the studio, already entered; the test fails for each fault of it."""
+    with context_of(browser) as context:
+        page = context.new_page()
+        seen.watch(page, running.base)
+        page.goto(running.address)
+        yield page
+    assert seen.faults == []

@@ -1,0 +1,155 @@
+"""The studio as its user sees it: a server on a copy of the example project, and Chromium driven by Playwright.
+
+Everything that a page must not do is collected: errors on the console, errors of scripts, requests that leave the
+machine, answers of the server that are faults.
+"""
+
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from urllib.parse import urlsplit
+
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Page, Playwright, Request, Response
+
+ADDRESS = re.compile(r"http://127\.0\.0\.1:\d+/\?token=[\w-]+")
+VIEWS = ("carpet", "machine", "linkage", "synthesis", "cyclogram", "loom", "files")
+FLAGS = (
+    "--no-sandbox",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+)
+BROWSERS = ("chromium", "chromium-browser", "google-chrome")
+PATIENCE = 30_000
+"""Longest wait for something to appear [ms]; machines with other work are slow."""
+
+
+def browser_path() -> str | None:
+    """The browser of the system, if any."""
+    return next((path for path in map(shutil.which, BROWSERS) if path), None)
+
+
+def launched(playwright: Playwright) -> Browser:
+    """Chromium without a window."""
+    return playwright.chromium.launch(executable_path=browser_path(), args=list(FLAGS), headless=True)
+
+
+@dataclass
+class Studio:
+    """A running studio.
+
+    project  its folder      address  with the token, as printed
+    """
+
+    project: Path
+    port: int
+    process: subprocess.Popen[str]
+    address: str
+
+    @property
+    def base(self) -> str:
+        """The address without the token."""
+        return f"http://127.0.0.1:{self.port}/"
+
+    def kill(self) -> None:
+        """End the server as a power cut does."""
+        self.process.kill()
+        self.process.wait(10)
+
+    def restart(self) -> None:
+        """Start the server again, on the same port."""
+        self.process, self.address = _started(self.project, self.port)
+
+
+def _started(project: Path, port: int) -> tuple["subprocess.Popen[str]", str]:
+    command = [sys.executable, "-m", "ilmek", "studio", str(project), "--no-browser", "--port", str(port)]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env={**os.environ, "PYTHONUNBUFFERED": "1"})
+    assert process.stdout is not None
+    for line in process.stdout:
+        if found := ADDRESS.search(line):
+            return process, found.group()
+    raise AssertionError(f"the studio ended with {process.wait()}")
+
+
+@contextmanager
+def studio(project: Path, port: int = 0) -> Iterator[Studio]:
+    """A studio on a project, ended afterwards."""
+    process, address = _started(project, port)
+    running = Studio(project, int(urlsplit(address).port or 0), process, address)
+    try:
+        yield running
+    finally:
+        if running.process.poll() is None:
+            running.process.send_signal(signal.SIGINT)
+            running.process.wait(20)
+
+
+@dataclass
+class Seen:
+    """What a page did that it must not do."""
+
+    faults: list[str] = field(default_factory=list)
+    expected: tuple[str, ...] = ()
+    """Texts of console errors that the test causes itself."""
+
+    def watch(self, page: Page, base: str) -> None:
+        """Collect the faults of a page."""
+        page.on("console", self._console)
+        page.on("pageerror", lambda error: self.faults.append(f"error of a script: {error}"))
+        page.on("request", lambda request: self._request(request, base))
+        page.on("response", self._response)
+
+    def _console(self, message: ConsoleMessage) -> None:
+        if message.type == "error" and not any(text in message.text for text in self.expected):
+            self.faults.append(f"console: {message.text}")
+
+    def _request(self, request: Request, base: str) -> None:
+        if not request.url.startswith((base, base.replace("http", "ws", 1), "data:", "blob:")):
+            self.faults.append(f"request off the machine: {request.url}")
+
+    def _response(self, response: Response) -> None:
+        if response.status >= 500:
+            self.faults.append(f"{response.status} for {response.url}")
+
+
+def violations(page: Page) -> list[str]:
+    """What axe-core finds on a page: rule, and the elements concerned."""
+    found = Axe().run(page, options={"resultTypes": ["violations"]}).response["violations"]
+    return [f"{one['id']}: {[node['target'] for node in one['nodes']][:4]}" for one in found]
+
+
+def open_view(page: Page, running: Studio, view: str) -> None:
+    """Go to a view and wait until it has its first content."""
+    if not page.url.startswith(running.base):
+        page.goto(running.address)
+    page.evaluate(f"location.hash = '#{view}'")
+    page.wait_for_selector(f"main[data-view='{view}'][data-ready='true']", timeout=PATIENCE)
+
+
+def settled(page: Page, quiet: float = 0.3) -> None:
+    """Wait until no request is on its course for a moment."""
+    page.wait_for_load_state("networkidle", timeout=PATIENCE)
+    time.sleep(quiet)
+
+
+def context_of(browser: Browser, *, width: int = 1400, height: int = 900, dark: bool = False) -> BrowserContext:
+    """A fresh visitor with a window of a size [px]."""
+    return browser.new_context(
+        viewport={"width": width, "height": height},
+        color_scheme="dark" if dark else "light",
+        reduced_motion="reduce",
+        locale="en-GB",
+    )
