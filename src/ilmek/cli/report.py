@@ -5,8 +5,8 @@ from collections.abc import Sequence
 
 from ilmek.cli.terminal import say, show_checks, show_table
 from ilmek.cli.verdict import CHECKS, WEAVES, show_verdict
-from ilmek.report import Check, Choice, Column, Report, Result, Table, rounded
-from ilmek.units import format_number, format_quantity, from_si, printed_unit
+from ilmek.report import Check, Choice, Column, Report, Table, result_text, rounded
+from ilmek.units import format_number, from_si, printed_unit
 
 
 def headline_of(report: Report) -> str:
@@ -18,7 +18,7 @@ def show_report(report: Report) -> None:
     """Print the verdict with its reasons, results, brief tables, choices and checks."""
     say(report.title)
     show_verdict(report.all_checks, headline_of(report), report.nearest)
-    shown = [(r.name, _shown(r), r.meaning) for r in report.results if r.shown]
+    shown = [(r.name, result_text(r.value, r.unit), r.meaning) for r in report.results if r.shown]
     show_table(("result", "value", "meaning"), shown, right=(1,))
     more = [result.name for result in report.results if not result.shown]
     more += [f"{child.key}.*" for child in report.children]
@@ -68,25 +68,3 @@ def cell_text(cell: float | int | str, column: Column) -> str:
     if isinstance(cell, float):
         cell = rounded(cell, column.unit)
     return format_number(from_si(cell, column.unit), column.digits) if math.isfinite(cell) else "–"
-
-
-def _shown(result: Result) -> str:
-    """A result in its unit; a group, name by name."""
-    return _value(result.value, result.unit)
-
-
-def _value(value: object, unit: str) -> str:  # noqa: PLR0911 - one line for each kind
-    if value is None or (isinstance(value, float) and math.isnan(value)):
-        return "–"
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    if isinstance(value, int | float):
-        return format_quantity(rounded(value, unit), unit)
-    if isinstance(value, list | tuple | dict) and not value:
-        return "none"
-    if isinstance(value, dict):
-        return "\n".join(f"{name} {_value(item, unit)}" for name, item in value.items())
-    if isinstance(value, list | tuple):
-        records = isinstance(value[0], dict)
-        return f"{len(value)} entries, with --json" if records else ", ".join(_value(item, unit) for item in value)
-    return str(value)

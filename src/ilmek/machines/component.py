@@ -10,6 +10,7 @@ gets its parameters from the loom's task (`fit`), and the loom sums what its com
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from typing import Any
 
 from ilmek.dynamics.own_machine import OwnMachine
@@ -98,19 +99,17 @@ class Component:
         progress(0.0)
         return self.design(params, progress) if self.long else self.design(params)
 
-    def report(self, design: Any, *, in_a_loom: bool = False) -> Report:
+    def report(self, design: Any, *, in_a_loom: bool = False, illustrated: bool = True) -> Report:
         """The report of a design, with those of the machines in it.
 
         A broken invariant is a failed check of it (`ilmek.machines.invariants`).
 
-        in_a_loom  True: without the figures that only the machine's own page shows
+        in_a_loom    True: without the figures that only the machine's own page shows
+        illustrated  False: without tables and figures, which take as long as all the rest
         """
         analysis = self.analysis(design)
         records = self.results(analysis)
-        left_out: list[str] = []
-        figures = made_figures(lambda: self.figures(analysis), left_out)
-        if in_a_loom and self.own_figures:
-            figures = tuple(figure for figure in figures if not figure.name.startswith(self.own_figures))
+        figures, left_out = self.drawn(design, in_a_loom=in_a_loom) if illustrated else ((), ())
         tests = self.self_tests(analysis)
         made = Report(
             machine=self.name,
@@ -119,18 +118,29 @@ class Component:
             results=results_of(*(records if isinstance(records, tuple) else (records,))),
             checks=(*self.checks(analysis), *(test for test in tests if not test.ok)),
             self_tests=tests,
-            tables=self.tables(analysis),
+            tables=self.tables(analysis) if illustrated else (),
             figures=figures,
             warnings=(*self.warnings(analysis), *left_out),
             plates=self.plates(design),
             cam_tables=self.cam_tables(design),
             parts=self.parts(design),
-            children=tuple(child.report for child in self.children(design)),
+            children=tuple(child.reported(illustrated=illustrated) for child in self.children(design)),
             choices=self.choices(design),
             headline=self.headline,
         )
         made = replace(made, checks=(*made.checks, *broken(made, self.work(design))))
         return replace(made, results=(*results_of(self.verdict(made)), *made.results)) if self.verdict else made
+
+    def drawn(self, design: Any, *, in_a_loom: bool = False) -> tuple[tuple[Figure, ...], tuple[str, ...]]:
+        """The figures of a design, and a warning for each that cannot be made.
+
+        in_a_loom  True: without those that only the machine's own page shows
+        """
+        left_out: list[str] = []
+        figures = made_figures(lambda: self.figures(self.analysis(design)), left_out)
+        if in_a_loom and self.own_figures:
+            figures = tuple(figure for figure in figures if not figure.name.startswith(self.own_figures))
+        return figures, tuple(left_out)
 
     def report_for(self, settings: Mapping[str, Setting]) -> Report:
         """The report of the design for settings of its parameters, texts with units allowed. Raises any IlmekError."""
@@ -165,7 +175,12 @@ class Child:
         """Work of its acts."""
         return self.component.work(self.design)
 
-    @property
-    def report(self) -> Report:
-        """Its report, as a machine in a loom."""
-        return self.made or self.component.report(self.design, in_a_loom=True)
+    def reported(self, *, illustrated: bool = True) -> Report:
+        """Its report, as a machine in a loom; `illustrated` as in `Component.report`."""
+        return self.made or _report_in_a_loom(self.component, self.design, illustrated)
+
+
+@lru_cache(maxsize=32)
+def _report_in_a_loom(component: Component, design: Any, illustrated: bool) -> Report:
+    """The report of a machine in a loom, made once for a design: looms that differ elsewhere share it."""
+    return component.report(design, in_a_loom=True, illustrated=illustrated)

@@ -33,7 +33,7 @@ from ilmek.report.figure import (
     Timing,
 )
 from ilmek.report.json import Json, plain
-from ilmek.report.results import Result, results_of
+from ilmek.report.results import Result, result_text, results_of
 from ilmek.report.rounding import rounded
 from ilmek.report.table import Column, Table, columns
 from ilmek.report.verdict import Reason, reasons, verdict_json
@@ -94,6 +94,7 @@ __all__ = [
     "reasons",
     "record",
     "result",
+    "result_text",
     "results_of",
     "rounded",
     "shown_value",

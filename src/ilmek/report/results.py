@@ -7,7 +7,8 @@ from typing import Any
 
 from ilmek.records import DeclaredResult, layout, record
 from ilmek.report.json import Json
-from ilmek.units import parse_unit
+from ilmek.report.rounding import rounded
+from ilmek.units import format_quantity, parse_unit
 
 _NEVER_NEGATIVE = {parse_unit(unit).dimension for unit in ("kg", "m^2", "m^3", "m^4", "kg*m^2", "kg/m", "kg/m^3", "s")}
 """Dimensions of masses, areas, volumes, moments of inertia, densities and times."""
@@ -66,3 +67,25 @@ def _results(record: object, prefix: str) -> Iterator[Result]:
 def _result(name: str, value: Json, declared: DeclaredResult) -> Result:
     least = least_of_unit(declared.unit) if declared.least is None else declared.least
     return Result(name, value, declared.unit, declared.meaning, declared.shown, least, declared.absent)
+
+
+def result_text(value: object, unit: str) -> str:  # noqa: PLR0911 - one line for each kind
+    """The value of a result in its unit, without rounding noise; a group name by name, a line each.
+
+    >>> result_text(0.06, "mm"), result_text(True, ""), result_text([0.5, None], "m")
+    ('60 mm', 'yes', '0.5 m, –')
+    """
+    if value is None or (isinstance(value, float) and math.isnan(value)):
+        return "–"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, int | float):
+        return format_quantity(rounded(value, unit), unit)
+    if isinstance(value, list | tuple | dict) and not value:
+        return "none"
+    if isinstance(value, dict):
+        return "\n".join(f"{name} {result_text(item, unit)}" for name, item in value.items())
+    if isinstance(value, list | tuple):
+        records = isinstance(value[0], dict)
+        return f"{len(value)} entries, with --json" if records else ", ".join(result_text(one, unit) for one in value)
+    return str(value)

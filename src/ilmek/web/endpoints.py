@@ -42,4 +42,19 @@ ENDPOINTS: tuple[Endpoint, ...] = (
         "Design a machine: the JSON of `ilmek design NAME --json -`.",
         affinity="machine",
     ),
+    Endpoint("POST", "/machines/{name}/reading", "studio.machines:reading", "Read one typed value of a parameter."),
+    Endpoint(
+        "POST",
+        "/machines/{name}/view",
+        "studio.machine_view:view",
+        "Design a machine: verdict, checks and results with their texts, without tables and figures.",
+        affinity="machine",
+    ),
+    Endpoint(
+        "POST",
+        "/machines/{name}/nearest",
+        "studio.machine_view:nearest",
+        "The nearest carpets that a loom could weave, where it cannot weave what is required.",
+        affinity="nearest",
+    ),
 )

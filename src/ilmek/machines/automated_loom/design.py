@@ -3,6 +3,8 @@
 import math
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import lru_cache
+from typing import Any
 
 from ilmek.carpet.design import knot_grid
 from ilmek.carpet.sizes import CarpetSize
@@ -33,6 +35,7 @@ from ilmek.machines.shedding import SheddingDesign
 from ilmek.machines.warp_tension import WarpTensionDesign
 from ilmek.machines.weaver import Weaver
 from ilmek.machines.weft import Weft
+from ilmek.params import Params
 from ilmek.records import record
 from ilmek.report import Choice
 from ilmek.timing.cyclogram import Cyclogram
@@ -239,7 +242,7 @@ def _at_period(shedding: Child, period: float) -> Child:
     params = shedding.design.params
     if period <= turn / params.speed:
         return shedding
-    return Child(shedding.component, shedding.component.design(replace(params, speed=turn / period)))
+    return Child(shedding.component, _designed("shedding", replace(params, speed=turn / period)))
 
 
 def _row_cyclogram(timing: RowTiming, period: float, machines: Mapping[str, Child]) -> Cyclogram:
@@ -253,8 +256,14 @@ def _made(name: str, task: LoomTask) -> tuple[Child, LoomTask]:
     """A machine designed for the task, and the task with it."""
     component = MACHINES[name]
     assert component.fit is not None
-    made = component.design(task.parameters(name, component.fit(task)))
+    made = _designed(name, task.parameters(name, component.fit(task)))
     return Child(component, made), replace(task, designs={**task.designs, name: made})
+
+
+@lru_cache(maxsize=64)
+def _designed(name: str, params: Params) -> Any:
+    """A machine, designed once for each set of parameters: looms that differ elsewhere share it."""
+    return MACHINES[name].design(params)
 
 
 def times_at(head: Weaver, knot_pitch: float, weft: float) -> Times:

@@ -1,5 +1,7 @@
 """A beat-up in use: strength of links and pins, start and stop of its crank, its travel along the carpet."""
 
+from functools import lru_cache
+
 from ilmek.machines.beat_up.crank_start import CrankDuty, CrankStart, crank_start, start_checks
 from ilmek.machines.beat_up.design import BeatUp
 from ilmek.machines.beat_up.strength import BeatUpStrength, beat_up_strength, beat_up_strength_checks
@@ -22,6 +24,7 @@ class BeatUpUse:
     start: CrankStart = group()
 
 
+@lru_cache(maxsize=8)
 def in_use(design: BeatUp, fabric: Fabric | None = None) -> BeatUpUse:
     """The beat-up that beats along the width; fabric: at the fell, default: of the thesis' warps at their pitch."""
     params = design.params

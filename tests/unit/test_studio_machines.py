@@ -1,0 +1,90 @@
+"""Machines in the studio: forms from their declarations, designs as the command line writes them, typed values."""
+
+import json
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from ilmek.cli import main
+from ilmek.errors import ParameterError
+from ilmek.jobs.studio.answers import Context
+from ilmek.jobs.studio.machine_view import nearest, view
+from ilmek.jobs.studio.machines import (
+    DesignRequest,
+    MachineName,
+    Nothing,
+    TypedValue,
+    design,
+    form,
+    list_of_machines,
+    reading,
+)
+from ilmek.machines import SUMMARIES
+from ilmek.machines.catalogue import MACHINES
+from ilmek.params import reachable
+from ilmek.report import plain
+
+HERE = Context()
+
+
+def test_catalogue_lists_every_machine_with_its_summary() -> None:
+    assert {one.name: one.summary for one in list_of_machines(Nothing(), HERE).machines} == SUMMARIES
+
+
+@pytest.mark.parametrize("name", SUMMARIES)
+def test_form_has_every_declared_parameter_and_each_default_reads_as_itself(name: str) -> None:
+    fields = form(MachineName(name), HERE).fields
+    assert [one.name for one in fields] == list(reachable(MACHINES[name].params))
+    for one in fields:
+        if one.default is not None and one.kind != "text" and one.default not in one.choices:
+            found = reading(TypedValue(name, one.name, one.default_text), HERE)
+            expected = one.default if one.kind == "flag" else pytest.approx(one.default, rel=1e-5)
+            assert found.value == expected, one.name
+
+
+def test_field_has_unit_bounds_and_the_machine_it_belongs_to() -> None:
+    fields = {one.name: one for one in form(MachineName("automated-loom"), HERE).fields}
+    swing = fields["beat-up.swing"]
+    assert fields["width"].default_text == "1.2 m"
+    assert (swing.machine, swing.group, swing.kind, swing.unit) == ("beat-up", "beat-up", "quantity", "deg")
+    assert fields["width"].machine == "" and "at least" in fields["width"].allowed
+
+
+def test_design_is_the_json_of_the_command_line(tmp_path: Path) -> None:
+    file = tmp_path / "out.json"
+    CliRunner().invoke(main, ["design", "beat-up", "--set", "swing=32deg", "--json", str(file)])
+    assert plain(design(DesignRequest("beat-up", {"swing": "32deg"}), HERE)) == json.loads(file.read_text())
+
+
+def test_typed_value_is_refused_as_the_command_line_refuses_it() -> None:
+    with pytest.raises(ParameterError, match="wrong unit"):
+        reading(TypedValue("beat-up", "swing", "20mm"), HERE)
+    with pytest.raises(ParameterError, match="out of bounds"):
+        reading(TypedValue("beat-up", "swing", "300deg"), HERE)
+    with pytest.raises(ParameterError, match="unknown parameter"):
+        reading(TypedValue("beat-up", "swng", "20deg"), HERE)
+
+
+@pytest.mark.parametrize(("name", "settings"), [("beat-up", {"swing": "34deg"}), ("shedding", {"lift": "70mm"})])
+def test_view_has_the_verdict_and_the_checks_of_the_design(name: str, settings: dict[str, str]) -> None:
+    made, seen = plain(design(DesignRequest(name, settings), HERE)), view(DesignRequest(name, settings), HERE)
+    assert seen.holds == made["holds"]
+    assert [(one.name, one.value, one.ok) for one in seen.checks if not one.machine] == [
+        (one["name"], one["value"], one["ok"]) for one in made["checks"]
+    ]
+    assert {one.name: one.value for one in seen.results if one.value is not None} == {
+        name: value
+        for name, value in made["results"].items()
+        if name in {one.name for one in seen.results} and isinstance(value, int | float) and not isinstance(value, bool)
+    }
+    (changed,) = (name for name, one in seen.parameters.items() if one.set)
+    assert changed in settings
+
+
+def test_loom_in_the_studio_has_the_checks_of_all_its_machines_and_states_the_nearest_carpets() -> None:
+    settings = {"knots_across": "200/dm", "knots_along": "200/dm", "width": "0.3m", "length": "0.3m"}
+    seen = view(DesignRequest("automated-loom", settings), HERE)
+    assert not seen.holds and seen.failed == len(seen.reasons)
+    assert {one.machine for one in seen.checks} >= {"", "weaver", "shedding", "warp-tension"}
+    assert "quality" in nearest(DesignRequest("automated-loom", settings), HERE).text
