@@ -1,0 +1,27 @@
+"""Random input for two minutes (thirty by ILMEK_MONKEY=1800): no error, no growth of memory."""
+
+import os
+
+from monkey import walk
+from playwright.sync_api import Page
+from studio_browser import Seen, Studio, open_view, settled
+
+SECONDS = float(os.environ.get("ILMEK_MONKEY", "120"))
+SEED = int(os.environ.get("ILMEK_MONKEY_SEED", "1"))
+
+
+def test_a_monkey_finds_no_error(page: Page, running: Studio, seen: Seen) -> None:
+    page.on("dialog", lambda dialog: dialog.dismiss())
+    seen.expected = ("status of 422", "status of 400", "status of 409", "status of 412")  # what it typed is wrong
+    open_view(page, running, "carpet")
+
+    def check() -> None:
+        assert seen.faults == []
+
+    walked = walk(page, SEED, SECONDS, check)
+    assert walked.actions > SECONDS / 4
+    assert walked.late < 2 * walked.early + 60e6
+    page.reload()
+    open_view(page, running, "machine")
+    settled(page)
+    assert page.locator("main h1").count() == 1

@@ -1,0 +1,81 @@
+"""Two tabs on one project, another program beside them, and a server that is lost during an edit."""
+
+import re
+import time
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, Page, expect
+from studio_browser import PATIENCE, Seen, Studio, context_of, open_view, settled
+
+FILE = "machines/beat-up.toml"
+
+
+def _swing(page: Page) -> str:
+    return page.get_by_label(re.compile("^swing")).first.input_value()
+
+
+def _type_swing(page: Page, value: str) -> None:
+    field = page.get_by_label(re.compile("^swing")).first
+    field.fill(value)
+    field.press("Enter")
+
+
+def _file_has(project: Path, text: str, patience: float = 20.0) -> bool:
+    until = time.monotonic() + patience
+    while time.monotonic() < until:
+        if text in (project / FILE).read_text(encoding="utf-8"):
+            return True
+        time.sleep(0.05)
+    return False
+
+
+@pytest.fixture
+def machine(page: Page, running: Studio) -> Page:
+    open_view(page, running, "machine/beat-up")
+    return page
+
+
+def test_an_edit_is_in_the_file_and_in_the_other_tab(browser: Browser, running: Studio, machine: Page) -> None:
+    with context_of(browser) as context:
+        other = context.new_page()
+        open_view(other, running, "machine/beat-up")
+        _type_swing(machine, "31deg")
+        assert _file_has(running.project, "31deg")
+        expect(other.get_by_label(re.compile("^swing")).first).to_have_value(re.compile("^31"), timeout=PATIENCE)
+
+
+def test_undo_is_there_after_a_reload(running: Studio, machine: Page) -> None:
+    before = _swing(machine)
+    _type_swing(machine, "33deg")
+    assert _file_has(running.project, "33deg")
+    machine.reload()
+    open_view(machine, running, "machine/beat-up")
+    machine.get_by_role("button", name=re.compile("^Undo")).first.click()
+    expect(machine.get_by_label(re.compile("^swing")).first).to_have_value(before, timeout=PATIENCE)
+
+
+def test_an_edit_survives_a_server_that_is_killed(running: Studio, machine: Page, seen: Seen) -> None:
+    seen.expected = (
+        "ERR_CONNECTION_REFUSED",
+        "WebSocket connection",
+        "ERR_EMPTY_RESPONSE",
+        "ERR_CONNECTION_RESET",
+        "ERR_INCOMPLETE",
+    )
+    running.kill()
+    _type_swing(machine, "34deg")
+    expect(machine.get_by_role("status").filter(has_text=re.compile("server|connection", re.I)).first).to_be_visible(
+        timeout=PATIENCE
+    )
+    running.restart()
+    assert _file_has(running.project, "34deg", patience=30)
+    settled(machine)
+    assert _swing(machine).startswith("34")
+
+
+def test_a_change_of_another_program_is_shown(running: Studio, machine: Page) -> None:
+    path = running.project / FILE
+    text = path.read_text(encoding="utf-8")
+    path.write_text(re.sub(r'swing = ".*?"', 'swing = "29deg"', text), encoding="utf-8")
+    expect(machine.get_by_label(re.compile("^swing")).first).to_have_value(re.compile("^29"), timeout=PATIENCE)

@@ -1,0 +1,96 @@
+"""A monkey: random input on a page of the studio, from a seed, and the growth of its memory."""
+
+import random
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from playwright.sync_api import Error, Page
+from studio_browser import VIEWS
+
+KEYS = (
+    "Tab",
+    "Shift+Tab",
+    "Enter",
+    "Space",
+    "ArrowLeft",
+    "ArrowRight",
+    "ArrowUp",
+    "ArrowDown",
+    "Escape",
+    "Delete",
+    "Control+z",
+    "Home",
+    "5",
+    "-",
+    "m",
+)
+TYPED = ("0", "60mm", "1e9", "-3deg", "nan", "<b>x</b>", "ğüşıöç", "", "12 rad/s")
+CLICKABLE = (
+    "main button:visible, main input:visible, main select:visible, main [role=tab]:visible, main summary:visible"
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Walk:
+    """What a walk did: number of actions, bytes of the page's heap after collections at its first third and its end."""
+
+    actions: int
+    early: float
+    late: float
+
+
+def walk(page: Page, seed: int, seconds: float, check: Callable[[], None]) -> Walk:
+    """Act at random for a time; `check` is called after every action."""
+    chance = random.Random(seed)
+    began, actions, early = time.monotonic(), 0, 0.0
+    while (spent := time.monotonic() - began) < seconds:
+        _act(page, chance)
+        check()
+        actions += 1
+        if not early and spent > seconds / 3:
+            early = heap(page)
+    return Walk(actions, early, heap(page))
+
+
+def heap(page: Page) -> float:
+    """Bytes in use of the page's heap, after a collection."""
+    session = page.context.new_cdp_session(page)
+    session.send("HeapProfiler.collectGarbage")
+    used = session.send("Runtime.getHeapUsage")["usedSize"]
+    session.detach()
+    return float(used)
+
+
+def _act(page: Page, chance: random.Random) -> None:
+    kind = chance.random()
+    size = page.viewport_size or {"width": 1400, "height": 900}
+    x, y = chance.uniform(0, size["width"] - 1), chance.uniform(0, size["height"] - 1)
+    try:
+        if kind < 0.06:
+            page.evaluate(f"location.hash = '#{chance.choice(VIEWS)}'")
+        elif kind < 0.4:
+            _click_one(page, chance)
+        elif kind < 0.6:
+            page.mouse.click(x, y)
+        elif kind < 0.75:
+            page.mouse.move(x, y)
+            page.mouse.down()
+            page.mouse.move(chance.uniform(0, size["width"] - 1), chance.uniform(0, size["height"] - 1), steps=4)
+            page.mouse.up()
+        elif kind < 0.9:
+            page.keyboard.press(chance.choice(KEYS))
+        elif kind < 0.95:
+            page.mouse.wheel(0, chance.uniform(-600, 600))
+        else:
+            page.keyboard.type(chance.choice(TYPED))
+    except Error as error:  # an element that left while the monkey reached for it
+        if "Target" in str(error) or "crash" in str(error).lower():
+            raise
+
+
+def _click_one(page: Page, chance: random.Random) -> None:
+    found = page.locator(CLICKABLE)
+    count = found.count()
+    if count:
+        found.nth(chance.randrange(count)).click(timeout=500, force=chance.random() < 0.3)
