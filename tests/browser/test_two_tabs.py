@@ -8,6 +8,9 @@ import pytest
 from playwright.sync_api import Browser, Page, expect
 from studio_browser import PATIENCE, Seen, Studio, context_of, open_view, settled
 
+LOST = ("ERR_CONNECTION", "ERR_EMPTY_RESPONSE", "ERR_INCOMPLETE", "WebSocket connection")
+"""Texts on the console where a server is gone."""
+
 FILE = "machines/beat-up.toml"
 
 

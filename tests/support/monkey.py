@@ -9,26 +9,11 @@ from playwright.sync_api import Error, Page
 from studio_browser import VIEWS
 
 KEYS = (
-    "Tab",
-    "Shift+Tab",
-    "Enter",
-    "Space",
-    "ArrowLeft",
-    "ArrowRight",
-    "ArrowUp",
-    "ArrowDown",
-    "Escape",
-    "Delete",
-    "Control+z",
-    "Home",
-    "5",
-    "-",
-    "m",
+    *("Tab", "Shift+Tab", "Enter", "Space", "Escape", "Delete", "Home", "Control+z", "5", "-", "m"),
+    *("ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown"),
 )
 TYPED = ("0", "60mm", "1e9", "-3deg", "nan", "<b>x</b>", "ğüşıöç", "", "12 rad/s")
-CLICKABLE = (
-    "main button:visible, main input:visible, main select:visible, main [role=tab]:visible, main summary:visible"
-)
+CLICKABLE = ", ".join(f"main {one}:visible" for one in ("button", "input", "select", "[role=tab]", "summary"))
 
 
 @dataclass(frozen=True, slots=True)
