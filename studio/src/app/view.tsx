@@ -1,0 +1,57 @@
+import { type ComponentType, h } from "preact";
+import { useEffect, useRef, useState } from "preact/hooks";
+import { t } from "../text";
+import { Button } from "../ui";
+import { Boundary } from "./boundary";
+import { LOADERS, route, type View, type ViewProps } from "./routes";
+
+const loaded = new Map<View, ComponentType<ViewProps>>();
+
+/** The view of the address, loaded when it is first shown. */
+export function CurrentView() {
+  const { view, name } = route.value;
+  const [, redraw] = useState(0);
+  const [failed, setFailed] = useState<string | null>(null);
+  const main = useRef<HTMLElement>(null);
+  const first = useRef(true);
+  const load = () => {
+    setFailed(null);
+    LOADERS[view]().then(
+      (module) => {
+        loaded.set(view, module.default);
+        redraw((count) => count + 1);
+      },
+      (error: unknown) => setFailed(error instanceof Error ? error.message : String(error)),
+    );
+  };
+  useEffect(() => {
+    document.title = `${t(`app.${view}`)} – ${t("app.name")}`;
+    if (!loaded.has(view)) load();
+    if (!first.current) main.current?.focus();
+    first.current = false;
+  }, [view]);
+  const shown = loaded.get(view);
+  return (
+    <main class="app-view" id="content" tabIndex={-1} ref={main}>
+      {shown !== undefined ? (
+        <Boundary key={view}>{h(shown, { name })}</Boundary>
+      ) : failed !== null ? (
+        <div class="app-plain" role="alert">
+          <h1>{t("app.loadFailed")}</h1>
+          <p>{t("app.loadFailedHelp")}</p>
+          <pre class="ui-callout bad">{failed}</pre>
+          <div class="ui-row">
+            <Button kind="primary" onClick={load}>
+              {t("app.tryAgain")}
+            </Button>
+            <Button onClick={() => location.reload()}>{t("app.reload")}</Button>
+          </div>
+        </div>
+      ) : (
+        <p class="app-loading" role="status">
+          {t("app.loading")}
+        </p>
+      )}
+    </main>
+  );
+}

@@ -1,0 +1,14 @@
+/** Every text in Turkish. */
+
+import type { Translation } from "..";
+import app from "./app";
+import carpet from "./carpet";
+import cyclogram from "./cyclogram";
+import files from "./files";
+import linkage from "./linkage";
+import loom from "./loom";
+import machine from "./machine";
+import synthesis from "./synthesis";
+import ui from "./ui";
+
+export const tr: Translation = { app, carpet, cyclogram, files, linkage, loom, machine, synthesis, ui };
