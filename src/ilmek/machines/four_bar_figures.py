@@ -26,9 +26,11 @@ STILL = 1e-6
 
 def own_machine(design: FourBarDesign) -> OwnMachine | None:
     """The four-bar that is drawn as an own mechanism, at its first position; None where there is none."""
-    if design.best is None:
-        return None
-    four_bar = design.best.candidate.four_bar
+    return None if design.best is None else own_four_bar(design.best.candidate.four_bar)
+
+
+def own_four_bar(four_bar: FourBar) -> OwnMachine:
+    """A four-bar as an own mechanism, at its drawn position, with the path of its tracer."""
     traced = () if four_bar.tracer is None else (("coupler", TRACER),)
     return OwnMachine(four_bar.mechanism(), paths=traced)
 

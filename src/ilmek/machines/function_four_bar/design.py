@@ -33,12 +33,13 @@ ROUNDING = 1e-6
 class FunctionFourBar(FourBarDesign):
     """Four-bars for a function.
 
-    function       required        approximation  the method's answer for the solution that is drawn
+    function        required
+    approximations  the method's answers for the solutions, in their order
     """
 
     params: FunctionFourBarParams
     function: Function
-    approximation: FunctionApproximation | None
+    approximations: tuple[FunctionApproximation, ...]
 
     error_max = detail_of_best("deg", "greatest error of the rocker over the range", "error_max")
     error_rms = detail_of_best("deg", "root of the mean square error over the range", "error_rms")
@@ -49,6 +50,11 @@ class FunctionFourBar(FourBarDesign):
         "x_drawn; crank_start, rocker_start from the ground link; error_max, error_rms of the rocker, y_error_max; "
         "extremes [{x, error}]; bound, gap, proven"
     )
+
+    @property
+    def approximation(self) -> FunctionApproximation | None:
+        """The method's answer for the solution that is drawn; None where there is none."""
+        return None if self.choice.number is None else self.approximations[self.choice.number - 1]
 
 
 def design(params: FunctionFourBarParams) -> FunctionFourBar:
@@ -73,8 +79,8 @@ def design(params: FunctionFourBarParams) -> FunctionFourBar:
     ranked = ranked_by_error(options, lambda one: finite(one.details[error]), tolerated=tolerated)
     choice = choose(ranked, answers.left_out, params, rank=ranked.index)
     candidates = [one.candidate for one in options]
-    drawn = None if choice.best is None else answers.found[candidates.index(choice.best.candidate)]
-    return FunctionFourBar(choice=choice, params=params, function=function, approximation=drawn)
+    kept = tuple(answers.found[candidates.index(one.candidate)] for one in choice.kept)
+    return FunctionFourBar(choice=choice, params=params, function=function, approximations=kept)
 
 
 def _judged(params: FunctionFourBarParams, function: Function, found: FunctionApproximation) -> Candidate:

@@ -168,7 +168,7 @@ def _searched(params: MotionFourBarParams, poses: BodyPoses, limits: MotionLimit
     """The best four-bars of three or four poses; where there is none, the nearest ones and what cures it."""
     drawn = burmester_curve(*poses) if len(poses.points) == 4 else None
     curve = None if drawn is None else burmester_curve(*poses, params.samples)
-    space = MotionSpace(poses, curve, limits)
+    space = MotionSpace(poses, curve, limits, params.links)
     found = search_pairs(space, params.count, progress.part(0.0, 0.5, "search"))
     tracer = complex(poses.points[0])
     options = [
@@ -179,7 +179,7 @@ def _searched(params: MotionFourBarParams, poses: BodyPoses, limits: MotionLimit
     choice = choose(options, (), params, breaches=partial(breaches, limits=limits), task_only=params.task_only)
     family = SearchedFamily(found.searched, found.found if choice.kept else 0, found.left_out)
     cured: tuple[str, ...] = ()
-    if not choice.kept:
+    if not choice.kept and params.loosen:
 
         def judged(pins: ComplexArray) -> Candidate:
             task = PrecisionTask(points=poses.points, coupler=poses.angles)

@@ -9,6 +9,7 @@ from ilmek.params import kind
 from ilmek.params.text_lists import BodyPoses, Bounds, read_bounds, read_poses, read_region, read_two_points
 from ilmek.synthesis.burmester.constant_distance import require_task
 from ilmek.synthesis.motion.limits import NOWHERE, MotionLimits
+from ilmek.synthesis.motion.search import LINKS
 from ilmek.synthesis.selection import FourBarTaskParams
 
 KNOTTING = "(0mm,0mm,10deg) (25mm,15mm,3deg) (30mm,1mm,-25deg)"
@@ -53,6 +54,12 @@ class MotionFourBarParams(FourBarTaskParams):
     )
     samples: int = kind.count(
         400, at_least=8, at_most=1000, doc="links tried on each closed part of the curves of four poses"
+    )
+    links: int = kind.count(
+        LINKS, at_least=30, at_most=LINKS, doc="links of three poses that are paired with each other"
+    )
+    loosen: bool = kind.flag(
+        True, doc="without a solution: search the single limits that give one if they are loosened"
     )
 
     def check_together(self) -> None:

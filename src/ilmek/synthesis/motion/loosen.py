@@ -135,7 +135,7 @@ def _wider(bounds: Bounds, by: float) -> Bounds:
 def _cure(space: MotionSpace, judged: Callable[[ComplexArray], Candidate], name: str, progress: Progress) -> list[Cure]:
     """The cure by one limit; [] where none is found."""
     size = space.extent or space.frame.size
-    without = MotionSpace(space.poses, space.curve, loosened(space.limits, name, math.inf, size))
+    without = MotionSpace(space.poses, space.curve, loosened(space.limits, name, math.inf, size), space.most)
     seeds = SETS if len(space.family.forms) == 2 and name not in FLAGS else 1
     pool, _, _, _ = without.sampled(without.bounds, 0, progress.part(0.0, 0.3))
     for seed in range(1, seeds):
@@ -160,7 +160,7 @@ def _least_share(space: MotionSpace, near: PairPool, name: str, progress: Progre
     while factor > FINEST and share <= GREATEST:
         progress(0.6)
         limits = loosened(space.limits, name, share, space.extent or space.frame.size)
-        trial = MotionSpace(space.poses, space.curve, limits)
+        trial = MotionSpace(space.poses, space.curve, limits, space.most)
         good = feasible(trial.repaired(near, trial.bounds, 25, progress))
         if len(good.scores):
             reached_at, near = share, good
@@ -180,7 +180,7 @@ def _stated(space: MotionSpace, judged: Callable[[ComplexArray], Candidate], nam
     """The cure with its value rounded to what can be typed, and the four-bars that it gives."""
     limits = loosened(space.limits, name, share * 1.002 + 1e-4, space.extent or space.frame.size)
     setting, instead, limits = in_words(space.limits, limits, name, share)
-    trial = MotionSpace(space.poses, space.curve, limits)
+    trial = MotionSpace(space.poses, space.curve, limits, space.most)
     found: PairSearch = search_pairs(trial, 3)
     good = [pair for pair in found.pairs if not breaches(judged(pair.pins), limits)]
     return [Cure(name, setting, instead, found.found, share)] if good else []

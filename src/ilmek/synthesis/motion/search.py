@@ -26,7 +26,7 @@ from ilmek.synthesis.motion import measures, refine, regions
 from ilmek.synthesis.motion.limits import MotionLimits
 
 LINKS = 1000
-"""Links of three poses that are paired with each other."""
+"""Links of three poses that are paired with each other, unless their number is given."""
 
 ROWS = 50
 """Links whose pairs are evaluated in one call of compiled code."""
@@ -122,10 +122,13 @@ class MotionSpace:
     """The family of pairs of guides of poses, and its search.
 
     poses  three or four      curve  of four poses: their curve, densely sampled
+    links  links of three poses that are paired with each other
     """
 
-    def __init__(self, poses: BodyPoses, curve: BurmesterCurve | None, limits: MotionLimits) -> None:
-        self.poses, self.curve, self.limits = poses, curve, limits
+    def __init__(
+        self, poses: BodyPoses, curve: BurmesterCurve | None, limits: MotionLimits, links: int = LINKS
+    ) -> None:
+        self.poses, self.curve, self.limits, self.most = poses, curve, limits, links
         forms, self.frame = pose_forms(*poses)
         self.extent = extent_of_points(poses.points)
         if not self.extent:
@@ -175,7 +178,7 @@ class MotionSpace:
 
     def _pivots(self, which: int, seed: int) -> ComplexArray:
         """Pivots of three poses: of links with a pivot near the poses, and of links with a pin near them."""
-        share = _spread(4 * LINKS, seed)
+        share = _spread(4 * self.most, seed)
         middle = complex(np.mean(self.family.points))
         most = min(FAR, 1.05 * float(self.bounds.limits[measures.SIZE_MAX]) + 0.1)
         around = middle + NEAR * (most / NEAR) ** share[:, 0] * unit(2 * math.pi * share[:, 1])
@@ -192,8 +195,8 @@ class MotionSpace:
         ends = other_ends(homogeneous(around), np.swapaxes(self.family.forms, -1, -2))
         near = np.abs(ends[:, 2]) > 1e-9 * np.hypot(ends[:, 0], ends[:, 1])
         of_pins = (ends[near, 0] + 1j * ends[near, 1]) / ends[near, 2]
-        sets = [self._inside(one, which)[: LINKS // 3 + 1] for one in (around, of_pins, evenly)]
-        return np.concatenate(sets)[:LINKS]
+        sets = [self._inside(one, which)[: self.most // 3 + 1] for one in (around, of_pins, evenly)]
+        return np.concatenate(sets)[: self.most]
 
     def _inside(self, pivots: ComplexArray, which: int) -> ComplexArray:
         box, corners = self.bounds.boxes[which], (self.bounds.crank, self.bounds.rocker)[which]
