@@ -44,7 +44,7 @@ def links_of(one: ShownFourBar) -> np.ndarray:
         ("path-four-bar", {"points": BOW, "closed": "yes"}),
         ("motion-four-bar", {}),
         ("motion-four-bar", {"poses": FLAP}),
-        ("function-four-bar", {"function": "x^1.5", "start": 1.0, "stop": 4.0}),
+        ("function-four-bar", {}),
     ],
 )
 def test_the_links_keep_their_lengths_in_motion(machine: str, settings: dict[str, Any]) -> None:
@@ -106,7 +106,9 @@ def test_without_an_answer_reasons_and_single_limits_are_named() -> None:
 
 
 def test_a_function_has_its_curve_for_each_candidate() -> None:
-    found = answer("function-four-bar", function="x^1.5", start=1.0, stop=4.0, crank_swing="90deg", criterion="minimax")
+    swings = {"crank_swing": "90deg", "rocker_swing": "90deg"}
+    found = answer("function-four-bar", function="x^1.5", start=1.0, stop=4.0, criterion="minimax", **swings)
+    assert len(found.candidates) == 2
     assert found.required is not None
     for one in found.candidates:
         assert one.function is not None

@@ -57,4 +57,26 @@ ENDPOINTS: tuple[Endpoint, ...] = (
         "The nearest carpets that a loom could weave, where it cannot weave what is required.",
         affinity="nearest",
     ),
+    Endpoint(
+        "POST",
+        "/synthesis/candidates",
+        "studio.synthesis:candidates",
+        "The four-bars for a task, ranked, with reasons for those left out; `quick` while a point is dragged.",
+        affinity="synthesis",
+    ),
+    Endpoint(
+        "POST",
+        "/synthesis/search",
+        "studio.synthesis:candidates",
+        "The same as work, with progress: the full search.",
+        limit=HOUR,
+        work=True,
+    ),
+    Endpoint(
+        "POST",
+        "/synthesis/mechanism",
+        "studio.synthesis:mechanism",
+        "A four-bar of a synthesis as a mechanism file.",
+        affinity="synthesis",
+    ),
 )

@@ -81,7 +81,7 @@ def candidates(request: SynthesisRequest, context: Context) -> SynthesisAnswer:
 
 def _read(request: SynthesisRequest) -> tuple[str, Params]:
     """The machine and its parameters; a short search has those of `QUICK`."""
-    name = request.data.get("machine")
+    name = str(request.data.get("machine", ""))
     if name not in QUICK:
         raise ParameterError(f"machine = {name!r} is no synthesis", allowed=", ".join(QUICK), do="name one of them")
     settings = request.data.get("settings", {})
