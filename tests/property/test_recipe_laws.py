@@ -13,8 +13,8 @@ from ilmek.carpet.quality import Quality, parse_quality
 from ilmek.carpet.recipe.border import draw_border, edges, repeat_lines
 from ilmek.carpet.recipe.composition import compose
 from ilmek.carpet.recipe.edits import apply_edit, line_knots, parse_edit
-from ilmek.carpet.recipe.mirror import complete, part_grid
-from ilmek.carpet.recipe.recipe import MIRRORS, ORDERS, POSITIONS, Border, Breadth, Motif, Recipe, Repeat
+from ilmek.carpet.recipe.mirror import MIRRORS, complete, part_grid
+from ilmek.carpet.recipe.recipe import ORDERS, POSITIONS, Border, Breadth, Motif, Recipe, Repeat
 from ilmek.carpet.recipe.repeat import repeated
 from ilmek.carpet.sizes import CarpetSize, parse_size
 from ilmek.errors import CarpetError

@@ -36,8 +36,8 @@ from typing import Any
 from ilmek.carpet.palette_rules import names_text
 from ilmek.carpet.quality import Quality, gereh_note, parse_quality
 from ilmek.carpet.recipe.edits import FORMS, Edit, parse_edit
+from ilmek.carpet.recipe.mirror import MIRRORS
 from ilmek.carpet.recipe.recipe import (
-    MIRRORS,
     MOST_BORDERS,
     MOST_EDITS,
     MOST_MOTIFS,

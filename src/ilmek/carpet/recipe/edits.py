@@ -8,6 +8,10 @@
     half 12,40 ivory                  two half knots: the cell's yarn on its left warp, this one on its right warp
     jufti 12,40                       one knot on four warps: this cell and the next one, of one yarn
     jufti 1,1 50,50                   within a rectangle: every two neighbours, from the left, of one yarn
+    mirror across in 1,1 50,50        the left half of a rectangle, reflected, becomes its right half; along: the upper
+                                      half the lower one; both: the upper left quarter all; without `in`: of the carpet
+    repeat 1,1 10,10 in 1,1 50,50     a rectangle becomes the tile of another one, or of the carpet
+    border 3 ivory in 1,1 50,50       a border of 3 knots along the edge of a rectangle, inside, or of the carpet
 
 A knot is given as row,column. Rows are counted as they are woven, from 1 at the carpet's lower edge; columns from 1 at
 the left edge.
@@ -24,6 +28,8 @@ from ilmek.arrays import Indices, Int64
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.colour_difference import nearest
 from ilmek.carpet.design import bands
+from ilmek.carpet.recipe.border import edges
+from ilmek.carpet.recipe.mirror import MIRRORS, complete
 from ilmek.carpet.yarn import Yarn, yarn_labs
 from ilmek.errors import CarpetError, IlmekError, did_you_mean, shortened
 from ilmek.num.compiled import compiled
@@ -40,11 +46,19 @@ FORMS = {
     "replace": "replace YARN by YARN, or replace YARN by YARN in ROW,COLUMN ROW,COLUMN",
     "half": "half ROW,COLUMN YARN",
     "jufti": "jufti ROW,COLUMN, or jufti ROW,COLUMN ROW,COLUMN",
+    "mirror": "mirror across (or along, both), and in ROW,COLUMN ROW,COLUMN for a part",
+    "repeat": "repeat ROW,COLUMN ROW,COLUMN, and in ROW,COLUMN ROW,COLUMN for a part",
+    "border": "border WIDTH YARN, and in ROW,COLUMN ROW,COLUMN for a part",
 }
 """How each edit is written."""
 
-_KNOTS = {"set": (1, 10_000), "fill": (1, 1), "line": (2, 2), "half": (1, 1), "jufti": (1, 2)}
-"""Least and largest number of knots of an edit."""
+_KNOTS = {"set": (1, 10_000), "fill": (1, 1), "line": (2, 2), "half": (1, 1), "jufti": (1, 2), "repeat": (2, 2)}
+"""Least and largest number of knots of an edit, without those of the part that it acts on; default: none."""
+
+_WITHIN = ("replace", "mirror", "repeat", "border")
+"""Edits that act on the carpet, or on a part."""
+
+_WITHOUT_YARN = ("jufti", "mirror", "repeat")
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,6 +66,7 @@ class Edit:
     """An edit as it is written.
 
     kind   of FORMS      knots  rows and columns, from 1      yarns  the text of the yarns      where  file and line
+    direction  of a mirror, of MIRRORS      width  of a border [knots]
     """
 
     kind: str
@@ -59,6 +74,8 @@ class Edit:
     yarns: str
     text: str
     where: str = ""
+    direction: str = ""
+    width: int = 0
 
 
 def parse_edit(text: str, where: str = "") -> Edit:
@@ -71,17 +88,25 @@ def parse_edit(text: str, where: str = "") -> Edit:
     if kind not in FORMS:
         near = did_you_mean(kind, FORMS)
         raise CarpetError(f"unknown edit {shortened(kind)!r}", allowed=", ".join(FORMS), do=near)
-    if kind == "replace":
-        yarns, inside, region = rest.partition(" in ")
-        knots, left = _points(region)
-        fits = not left and len(knots) == (2 if inside else 0)
-    else:
-        knots, yarns = _points(rest)
-        fits = _KNOTS[kind][0] <= len(knots) <= _KNOTS[kind][1]
-    yarns = " ".join(yarns.split())
-    if not fits or bool(yarns) == (kind == "jufti"):
+    part: tuple[Knot, ...] = ()
+    fits = True
+    if kind in _WITHIN:
+        rest, inside, region = rest.partition(" in ")
+        part, left = _points(region)
+        fits = not left and len(part) == (2 if inside else 0)
+    knots, words = ((), rest) if kind == "replace" else _points(rest)
+    least, most = _KNOTS.get(kind, (0, 0))
+    yarns, direction, width = " ".join(words.split()), "", 0
+    if kind == "mirror":
+        yarns, direction = "", yarns
+        fits = fits and direction in MIRRORS
+    elif kind == "border":
+        digits, _, yarns = yarns.partition(" ")
+        width = int(digits) if re.fullmatch(r"[1-9]\d{0,3}", digits) else 0
+        fits = fits and width > 0
+    if not (fits and least <= len(knots) <= most) or bool(yarns) == (kind in _WITHOUT_YARN):
         raise CarpetError(f"{shortened(text.strip())!r} is no edit", do=f"write {FORMS[kind]}")
-    return Edit(kind, knots, yarns, " ".join(text.split()), where)
+    return Edit(kind, (*knots, *part), yarns, " ".join(text.split()), where, direction, width)
 
 
 def _points(text: str) -> tuple[tuple[Knot, ...], str]:
@@ -116,8 +141,11 @@ def srgb_of(name: str) -> tuple[int, int, int]:
 
 
 def named_yarns(edit: Edit, yarns: Sequence[Yarn]) -> tuple[int, ...]:
-    """Indices of the yarns of an edit: one; of `replace` old and new, of `jufti` none. Raises CarpetError."""
-    if edit.kind == "jufti":
+    """Indices of the yarns of an edit: one; of `replace` old and new, of `jufti`, `mirror` and `repeat` none.
+
+    Raises CarpetError.
+    """
+    if edit.kind in _WITHOUT_YARN:
         return ()
     if edit.kind != "replace":
         return (yarn_number(edit.yarns, yarns),)
@@ -143,9 +171,37 @@ def check_knots(edit: Edit, rows: int, columns: int) -> None:
 
 def apply_edit(knots: Indices, edit: Edit, yarns: tuple[int, ...], progress: Progress = SILENT) -> None:
     """Apply an edit to the knots of a chart, row 0 on top; yarns: indices as of `named_yarns`."""
+    at = [(len(knots) - row, column - 1) for row, column in edit.knots]
     if edit.kind in _APPLY:  # half and jufti knots are marks beside the knots
-        at = [(len(knots) - row, column - 1) for row, column in edit.knots]
         _APPLY[edit.kind](knots, at, yarns, progress)
+    elif edit.kind == "mirror":
+        complete(area_of(knots, at), edit.direction)
+    elif edit.kind == "repeat":
+        _repeat(knots, at)
+    elif edit.kind == "border":
+        part = area_of(knots, at)
+        for side in edges(*part.shape, (min(edit.width, len(part)), min(edit.width, part.shape[1]))):
+            part[side] = yarns[0]
+
+
+def area_of(knots: Indices, corners: list[Knot]) -> Indices:
+    """The part of the knots between two opposite corners, whose knots belong to it; the whole without corners."""
+    if not corners:
+        return knots
+    (top, left), (bottom, right) = np.sort(np.array(corners), axis=0).tolist()
+    return knots[top : bottom + 1, left : right + 1]
+
+
+def _repeat(knots: Indices, at: list[Knot]) -> None:
+    """Repeat the part between the first two knots over that between the next two, or the whole; it stays in place."""
+    (top, left), tile = (min(row for row, _ in at[:2]), min(column for _, column in at[:2])), area_of(knots, at[:2])
+    tile = tile.copy()
+    first = (min(row for row, _ in at[2:]), min(column for _, column in at[2:])) if at[2:] else (0, 0)
+    part = area_of(knots, at[2:])
+    rows = (np.arange(len(part)) + first[0] - top) % len(tile)
+    columns = (np.arange(part.shape[1]) + first[1] - left) % tile.shape[1]
+    for band in bands(*part.shape):
+        part[band] = tile[np.ix_(rows[band], columns)]
 
 
 def _set(knots: Indices, at: list[Knot], yarns: tuple[int, ...], progress: Progress) -> None:
@@ -176,9 +232,7 @@ def line_knots(begin: Knot, end: Knot) -> tuple[Int64[np.ndarray, " knots"], Int
 
 
 def _replace(knots: Indices, at: list[Knot], yarns: tuple[int, ...], progress: Progress) -> None:
-    if at:
-        (top, left), (bottom, right) = np.sort(np.array(at), axis=0).tolist()
-        knots = knots[top : bottom + 1, left : right + 1]
+    knots = area_of(knots, at)
     for band in bands(*knots.shape):
         part = knots[band]
         part[part == yarns[0]] = yarns[1]

@@ -3,7 +3,10 @@
 On an odd number of columns (rows) the middle one belongs to the given part, which has it as its last.
 """
 
-from ilmek.arrays import Pixels
+from ilmek.arrays import Indices, Pixels
+
+MIRRORS = ("across", "along", "both")
+"""across: the left half is given; along: the upper half; both: the upper left quarter."""
 
 
 def part_grid(mirror: str, grid: tuple[int, int]) -> tuple[int, int]:
@@ -19,8 +22,8 @@ def part_grid(mirror: str, grid: tuple[int, int]) -> tuple[int, int]:
     return (-(-rows // 2) if halves[0] else rows), (-(-columns // 2) if halves[1] else columns)
 
 
-def complete(colours: Pixels, mirror: str) -> None:
-    """Complete an area of colours (rows, columns, 3), whose given part is drawn, by reflection, in place.
+def complete(colours: Pixels | Indices, mirror: str) -> None:
+    """Complete an area of colours (rows, columns, 3) or yarns, whose given part is drawn, by reflection, in place.
 
     >>> import numpy as np
     >>> area = np.array([[[1, 1, 1], [2, 2, 2], [0, 0, 0]]], dtype=np.uint8)

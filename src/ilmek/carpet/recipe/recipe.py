@@ -11,9 +11,6 @@ from typing import Any
 
 from ilmek.carpet.recipe.edits import Edit
 
-MIRRORS = ("across", "along", "both")
-"""across: the left half is given; along: the upper half; both: the upper left quarter."""
-
 ORDERS = ("straight", "brick", "half-drop", "mirrored")
 """straight: in rows and columns; brick: every second row is shifted by half a tile; half-drop: every second column is;
 mirrored: every second tile is reflected, in both directions."""
