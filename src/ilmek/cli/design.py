@@ -12,6 +12,7 @@ from ilmek.cli.settings import read_settings, setting_files
 from ilmek.cli.terminal import note, say
 from ilmek.cli.verdict import exit_code, note_verdict
 from ilmek.jobs.design import design_machine, mechanism_text, require_mechanism
+from ilmek.jobs.machine_file import read_machine_order
 from ilmek.jobs.workshop_order import WorkshopOrder
 
 EXAMPLES = """\b
@@ -23,13 +24,14 @@ Examples:
   ilmek design hammer --animation hammer.gif
   ilmek design automated-loom --animation knot.gif --motion loom-knot-front
   ilmek design motion-four-bar --to gripper.toml
+  ilmek design machines/beat-up.toml --set swing=32deg
 
 The parameters of a machine, and their limits: ilmek machines MACHINE
 """
 
 
 @click.command(epilog=EXAMPLES)
-@click.argument("name", metavar="MACHINE")
+@click.argument("name", metavar="MACHINE|FILE.toml")
 @click.argument("more", nargs=-1, metavar="[NAME=VALUE]...")
 @click.option(
     "--set",
@@ -75,17 +77,22 @@ def command(  # noqa: PLR0917 - click calls it by name
     tolerance: str | None,
     force: bool,
 ) -> int:
-    """Design MACHINE and report it: results, checks against limits, warnings. Ends with 3 where a check fails."""
+    """Design MACHINE and report it: results, checks against limits, warnings. Ends with 3 where a check fails.
+
+    FILE.toml has the machine and settings; --set wins over the settings of the file.
+    """
     _require(
         {"--tolerance": tolerance, "--motion": motion}, {"--workshop DIR": parts_to, "--animation FILE": animation_to}
     )
     given = (*settings, *more, *(() if aim is None else (f"aim={aim}",)))
+    order = read_machine_order(name, read_settings(given))
     if mechanism_to is not None:
-        require_mechanism(name, mechanism_to)
+        require_mechanism(order.machine, mechanism_to)
     files = {"--json": json_to, "--report": page_to, "--animation": animation_to, "--to": mechanism_to}
     workshop = None if parts_to is None else WorkshopOrder(parts_to, tolerance)
-    with call_outputs(files, force=force, inputs=setting_files(given)) as call:
-        made = design_machine(name, read_settings(given), workshop, outputs=call.outputs, progress=call.progress)
+    inputs = {**({} if order.file is None else {"FILE": order.file}), **setting_files(given)}
+    with call_outputs(files, force=force, inputs=inputs) as call:
+        made = design_machine(order.machine, order.settings, workshop, outputs=call.outputs, progress=call.progress)
         call.give_page("--report", made.report)
         call.give_animation("--animation", made.report, motion)
         if mechanism_to is not None and made.mechanism is not None:

@@ -1,0 +1,257 @@
+"""The files of a project: opened, read, saved, undone, refused; comments kept, nothing lost."""
+
+import os
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from ilmek.errors import IlmekError, OutputError, ParameterError
+from ilmek.jobs.studio import project_folder
+from ilmek.jobs.studio.answers import Context
+from ilmek.jobs.studio.project import (
+    FileContent,
+    NewRequest,
+    PathRequest,
+    ProjectRequest,
+    RenameRequest,
+    SaveRequest,
+    delete_file,
+    new_file,
+    project,
+    read_file,
+    redo,
+    rename_file,
+    save_file,
+    undo,
+)
+from ilmek.jobs.studio.project_history import MOST_STATES, history_path
+from ilmek.jobs.studio.project_open import open_project
+from ilmek.jobs.studio.project_pictures import UploadRequest, delete_picture, raw_file, upload_picture
+from ilmek.jobs.studio.project_watch import ProjectWatch
+
+RECIPE = 'plain = "ivory"  # the field\nsize = "60x90cm"\n\n# the edge\n[[border]]\nyarn = "dark red"\nwidth = 3\n'
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    base = tmp_path / "mine"
+    (base / "machines").mkdir(parents=True)
+    (base / "carpet.toml").write_text(RECIPE)
+    (base / "machines" / "beat-up.toml").write_text('machine = "beat-up"\n\n[settings]\nswing = "30deg"\n')
+    return open_project(base)
+
+
+@pytest.fixture
+def context(folder: Path) -> Context:
+    return Context(str(folder))
+
+
+def content(context: Context, path: str = "carpet.toml") -> FileContent:
+    return read_file(PathRequest(path), context)
+
+
+def save(context: Context, text: str, path: str = "carpet.toml") -> FileContent:
+    saved = save_file(SaveRequest(path, content(context, path).digest, text=text), context)
+    assert saved.saved
+    return saved.file
+
+
+def test_a_missing_folder_is_filled_with_an_example_without_errors(tmp_path: Path) -> None:
+    found = project(ProjectRequest(), Context(str(open_project(tmp_path / "new"))))
+    assert {file.kind for file in found.files} == {"carpet", "machine", "linkage", "synthesis", "cyclogram"}
+    assert {file.path: file.error for file in found.files if file.error} == {}
+    assert [picture.path for picture in found.pictures] == ["pictures/medallion.png"]
+
+
+def test_a_filling_that_was_killed_goes_on(tmp_path: Path) -> None:
+    (tmp_path / ".studio").mkdir()
+    (tmp_path / ".studio" / "filling").touch()
+    (tmp_path / "carpet.toml").write_text("# mine\n")
+    open_project(tmp_path)
+    assert (tmp_path / "carpet.toml").read_text() == "# mine\n"
+    assert (tmp_path / "linkages" / "four-bar.toml").is_file()
+    assert not (tmp_path / ".studio" / "filling").exists()
+
+
+def test_another_folder_and_a_file_are_refused(tmp_path: Path) -> None:
+    (tmp_path / "letter.txt").write_text("Dear all")
+    with pytest.raises(OutputError, match=r"no project.*carpet\.toml"):
+        open_project(tmp_path)
+    with pytest.raises(OutputError, match="is a file; give a folder"):
+        open_project(tmp_path / "letter.txt")
+    assert sorted(os.listdir(tmp_path)) == ["letter.txt"]
+
+
+def test_a_folder_without_permission_and_a_full_disc_have_clear_errors(
+    folder: Path, context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(project_folder.disk, "sync", full)
+    with pytest.raises(OutputError, match="No space left.*free some space"):
+        save(context, "plain = 'camel'\n")
+    assert (folder / "carpet.toml").read_text() == RECIPE
+    assert not list(folder.glob("*.tmp"))
+
+    def closed(*_: object, **__: object) -> None:
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(Path, "mkdir", closed)
+    with pytest.raises(OutputError, match="Permission denied.*permission"):
+        open_project(folder)
+
+
+def test_a_broken_file_names_its_line_and_the_rest_opens(folder: Path, context: Context) -> None:
+    (folder / "machines" / "cam.toml").write_text('machine = "cam"\n[settings]\nrise = 12 13\n')
+    (folder / "machines" / "x.toml").write_bytes(b'machine = "cam"\n\xff\n')
+    (folder / "machines" / "wide.toml").write_text('machine = "beat-up"\n[settings]\n\nswing = "900deg"\n')
+    files = {file.path: file for file in project(ProjectRequest(), context).files}
+    errors = {path: file.error.line for path, file in files.items() if file.error}
+    assert errors == {"machines/cam.toml": 3, "machines/x.toml": 2, "machines/wide.toml": 4}
+    assert "out of bounds" in files["machines/wide.toml"].error.given
+    assert str(folder) not in files["machines/wide.toml"].error.given
+    assert content(context, "machines/x.toml").data is None
+
+
+def test_data_is_saved_with_comments_and_only_changes_are_written(folder: Path, context: Context) -> None:
+    found = content(context)
+    data = {**found.data, "size": "80x120cm", "colours": 4}
+    saved = save_file(SaveRequest("carpet.toml", found.digest, data=data), context)
+    assert saved.saved
+    assert saved.file.data == data
+    text = (folder / "carpet.toml").read_text()
+    assert "# the field" in text
+    assert "# the edge" in text
+    assert tomllib.loads(text) == data
+
+
+def test_work_in_progress_is_saved_with_its_error(folder: Path, context: Context) -> None:
+    found = save(context, 'plain = "ivory"\nsize = "huge"\n')
+    assert found.error is not None
+    assert found.error.line == 2
+    assert save(context, "plain = [").data is None
+    assert (folder / "carpet.toml").read_text() == "plain = ["
+
+
+def test_a_change_of_another_program_is_not_overwritten(folder: Path, context: Context) -> None:
+    mine = content(context)
+    (folder / "carpet.toml").write_text('plain = "camel"\n')
+    answer = save_file(SaveRequest("carpet.toml", mine.digest, text="plain = 'red'\n"), context)
+    assert not answer.saved
+    assert answer.file.data == {"plain": "camel"}
+    assert (folder / "carpet.toml").read_text() == 'plain = "camel"\n'
+    kept = save_file(SaveRequest("carpet.toml", answer.file.digest, text=RECIPE), context)
+    assert kept.saved
+    assert undo(PathRequest("carpet.toml"), context).data == {"plain": "camel"}
+
+
+def test_undo_and_redo_go_through_restarts(context: Context) -> None:
+    for size in ("70x90cm", "80x90cm", "90x90cm"):
+        save(context, f'plain = "ivory"\nsize = "{size}"\n')
+    sizes = [undo(PathRequest("carpet.toml"), context).data["size"] for _ in range(4)]
+    assert sizes == ["80x90cm", "70x90cm", "60x90cm", "60x90cm"]
+    assert not content(context).undo
+    assert [redo(PathRequest("carpet.toml"), context).data["size"] for _ in range(2)] == ["70x90cm", "80x90cm"]
+    assert content(context).redo
+    save(context, RECIPE)
+    assert not content(context).redo
+
+
+def test_a_history_cut_off_at_any_byte_loses_nothing_saved(folder: Path, context: Context) -> None:
+    for number in range(3):
+        save(context, f'plain = "ivory"\nsize = "{6 + number}0x90cm"  # ğ\n')
+    file = history_path(folder, "carpet.toml")
+    whole, text = file.read_bytes(), (folder / "carpet.toml").read_text()
+    for size in range(0, len(whole), 7):
+        file.write_bytes(whole[:size])
+        (folder / "carpet.toml").write_text(text)
+        assert content(context).text == text
+        assert save(context, RECIPE).undo
+        assert undo(PathRequest("carpet.toml"), context).text == text
+
+
+def test_a_history_is_bounded(folder: Path, context: Context, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("ilmek.jobs.studio.project_history.MOST_STATES", 5)
+    monkeypatch.setattr("ilmek.jobs.studio.project.file_error", lambda *_: None)
+    for number in range(30):
+        save(context, f"plain = '{number}'\n")
+    assert len(history_path(folder, "carpet.toml").read_bytes().splitlines()) <= 2 * 5
+    assert undo(PathRequest("carpet.toml"), context).data == {"plain": "28"}
+    assert MOST_STATES >= 100
+
+
+def test_files_are_created_copied_renamed_deleted_and_brought_back(folder: Path, context: Context) -> None:
+    new_file(NewRequest("machines/b.toml", source="machines/beat-up.toml"), context)
+    save(context, 'machine = "cam"\n', "machines/b.toml")
+    rename_file(RenameRequest("machines/b.toml", "machines/c.toml"), context)
+    assert "beat-up" in undo(PathRequest("machines/c.toml"), context).text
+    delete_file(PathRequest("machines/c.toml"), context)
+    assert not (folder / "machines" / "c.toml").exists()
+    assert "beat-up" in undo(PathRequest("machines/c.toml"), context).text
+    with pytest.raises(ParameterError, match="exists already"):
+        new_file(NewRequest("machines/c.toml"), context)
+    with pytest.raises(ParameterError, match="another kind"):
+        rename_file(RenameRequest("machines/c.toml", "linkages/c.toml"), context)
+
+
+@pytest.mark.parametrize(
+    "path",
+    ["", "../carpet.toml", "/etc/passwd", "machines/../../x.toml", "machines//x.toml", "a\\b.toml", "machines/.x.toml",
+     ".studio/secret.toml", "machines/\0.toml", "machines/con.toml", "machines/x.toml ", "machines/\u202ex.toml",
+     "x" * 101 + ".toml", "machines/deep/x.toml", "pictures/x.toml", "carpet.txt", "C:/x.toml", "./carpet.toml"],
+)  # fmt: skip
+def test_no_path_leaves_the_folder(path: str, folder: Path, context: Context) -> None:
+    before = sorted(folder.parent.rglob("*"))
+    for task in (
+        lambda: read_file(PathRequest(path), context),
+        lambda: save_file(SaveRequest(path, "", text="x = 1\n"), context),
+        lambda: new_file(NewRequest(path), context),
+        lambda: new_file(NewRequest("machines/n.toml", source=path or "."), context),
+        lambda: rename_file(RenameRequest("machines/beat-up.toml", path), context),
+        lambda: delete_file(PathRequest(path), context),
+        lambda: undo(PathRequest(path), context),
+        lambda: raw_file(PathRequest(path), context),
+        lambda: delete_picture(PathRequest(path), context),
+    ):
+        with pytest.raises(IlmekError):
+            task()
+    assert [file for file in sorted(folder.parent.rglob("*")) if file not in before] in ([], [folder / ".studio/lock"])
+
+
+def test_links_are_not_followed(folder: Path, context: Context, tmp_path: Path) -> None:
+    (tmp_path / "secret.toml").write_text("secret = 1\n")
+    (folder / "linked.toml").symlink_to(tmp_path / "secret.toml")
+    (folder / "linkages").symlink_to(tmp_path)
+    for path in ("linked.toml", "linkages/secret.toml", "linkages/new.toml"):
+        with pytest.raises(ParameterError, match="is a link"):
+            save_file(SaveRequest(path, "", text="x = 1\n"), context)
+        with pytest.raises(ParameterError, match="is a link"):
+            raw_file(PathRequest(path), context)
+    assert (tmp_path / "secret.toml").read_text() == "secret = 1\n"
+    assert "linked.toml" not in {file.path for file in project(ProjectRequest(), context).files}
+
+
+def test_pictures_are_taken_by_their_content(folder: Path, context: Context) -> None:
+    png = b"\x89PNG\r\n\x1a\n" + bytes(20)
+    assert upload_picture(UploadRequest("C:\\My Photos\\../rug (1).JPG", png), context).path == "pictures/rug--1.png"
+    assert upload_picture(UploadRequest("rug--1.png", png), context).path == "pictures/rug--1.png"
+    assert upload_picture(UploadRequest("rug--1.png", png + b"x"), context).path == "pictures/rug--1-2.png"
+    for name, body in (("x.png", b"<html>"), ("x.svg", b"<?xml version='1.0'?><svg/>"), ("", b"")):
+        with pytest.raises(ParameterError, match="no picture"):
+            upload_picture(UploadRequest(name, body), context)
+    assert raw_file(PathRequest("pictures/rug--1.png"), context).kind == "image/png"
+    delete_picture(PathRequest("pictures/rug--1.png"), context)
+    assert not (folder / "pictures" / "rug--1.png").exists()
+
+
+def test_changes_of_all_programs_are_seen(folder: Path, context: Context) -> None:
+    watch = ProjectWatch(folder)
+    assert watch.changes() == ()
+    save(context, 'plain = "camel"\n')
+    (folder / "out" / "carpet").mkdir(parents=True)
+    (folder / "out" / "carpet" / "report.html").write_text("<p>")
+    (folder / "machines" / "beat-up.toml").unlink()
+    assert watch.changes() == ("carpet.toml", "machines/beat-up.toml", "out/carpet/report.html")
+    assert watch.changes() == ()
