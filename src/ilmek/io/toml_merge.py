@@ -1,6 +1,6 @@
-"""Changes of a TOML text that keep what is not changed: comments, order, blank lines, the notation of numbers.
+r"""Changes of a TOML text that keep what is not changed: comments, order, blank lines, the notation of numbers.
 
->>> print(merged_toml('size = "60x90cm"  # as ordered\\npile = 8\\n', {"size": "80x120cm", "pile": 8}), end="")
+>>> print(merged_toml('size = "60x90cm"  # as ordered\npile = 8\n', {"size": "80x120cm", "pile": 8}), end="")
 size = "80x120cm"  # as ordered
 pile = 8
 """
@@ -24,7 +24,7 @@ def merged_toml(text: str, data: Mapping[str, Any]) -> str:
     """The text with the values of `data`; only what differs is written anew.
 
     A text that is not TOML, or longer than MOST_MERGED, is written anew as a whole.
-    Raises ParameterError for data that TOML does not have: null, and lists of unequal depth are allowed.
+    Raises ParameterError for null, which TOML does not have.
     """
     _check(data, ())
     try:

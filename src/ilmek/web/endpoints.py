@@ -79,4 +79,17 @@ ENDPOINTS: tuple[Endpoint, ...] = (
         "A four-bar of a synthesis as a mechanism file.",
         affinity="synthesis",
     ),
+    Endpoint("GET", "/project", "studio.project:project", "The files of the project, each with its first error."),
+    Endpoint("GET", "/project/files/{path:path}", "studio.project:read_file", "A text file of the project."),
+    Endpoint(
+        "PUT",
+        "/project/files/{path:path}",
+        "studio.project:save_file",
+        "Save a text file, where nobody changed it since; what is not changed is kept, also comments.",
+    ),
+    Endpoint("POST", "/project/undo", "studio.project:undo", "Bring back the state of a file before the current one."),
+    Endpoint("POST", "/project/redo", "studio.project:redo", "Bring back the state of a file that was undone last."),
+    Endpoint("POST", "/project/new", "studio.project:new_file", "A new text file, or a copy of one."),
+    Endpoint("POST", "/project/rename", "studio.project:rename_file", "Rename a text file, with its history."),
+    Endpoint("POST", "/project/delete", "studio.project:delete_file", "Delete a text file; undo brings it back."),
 )

@@ -188,10 +188,7 @@ def save_file(request: SaveRequest, context: Context) -> SavedFile:
 def _new_content(request: SaveRequest, old: bytes) -> bytes:
     if (request.data is None) == (request.text is None):
         raise ParameterError(f"{request.path}: data or text is required", do="give one of them")
-    if request.data is not None:
-        text = merged_toml(_text(old), request.data)
-    else:
-        text = request.text or ""
+    text = request.text or "" if request.data is None else merged_toml(_text(old), request.data)
     return _checked(request.path, text)
 
 

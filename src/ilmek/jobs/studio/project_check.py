@@ -49,7 +49,7 @@ def file_error(base: Path, path: str, digest: str) -> FileError | None:
 
 
 @lru_cache(maxsize=1000)
-def _kept(base: Path, path: str, digest: str) -> FileError | None:  # noqa: ARG001 - another content, another error
+def _kept(base: Path, path: str, digest: str) -> FileError | None:
     return _read(base, path)
 
 

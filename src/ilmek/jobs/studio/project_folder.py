@@ -80,7 +80,8 @@ class ProjectFolder:
         Raises ParameterError for a path that leaves the folder, also through a link, and for names that no file has.
         """
         parts = text.split("/")
-        if not text or len(text) > 500 or len(parts) > 8 or "\\" in text or any(part in ("", ".", "..") for part in parts):
+        odd = "\\" in text or any(part in ("", ".", "..") for part in parts)
+        if odd or len(text) > 500 or len(parts) > 8:
             given = f"{shortened(ascii(text))} is no file of the project"
             raise ParameterError(given, allowed="a path below the project's folder, with /")
         path = self.base.joinpath(*map(check_name, parts))
@@ -112,16 +113,14 @@ class ProjectFolder:
 
     def _names(self, folder: str) -> list[str]:
         """The paths of the regular files of a folder with names that the studio takes."""
-        found = []
         try:
             with os.scandir(self.base / folder) as entries:
-                for entry in entries:
-                    if entry.is_file(follow_symlinks=False) and _is_taken(entry.name):
-                        found.append(f"{folder}/{entry.name}" if folder else entry.name)
+                names = [one.name for one in entries if one.is_file(follow_symlinks=False) and _is_taken(one.name)]
         except FileNotFoundError:
             return []
         except OSError as error:
             raise cannot("be read", self.base / folder, error) from None
+        found = [f"{folder}/{name}" if folder else name for name in names]
         return sorted(found, key=lambda path: (path != "carpet.toml", path.casefold(), path))
 
     @contextlib.contextmanager

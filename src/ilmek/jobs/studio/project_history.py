@@ -59,12 +59,11 @@ class History:
 
     def add(self, state: State) -> None:
         """A new current state, if it is another one. Raises OutputError."""
-        if self.at < 0 or self.current != state:
-            if self.at >= 0 or state is not None:
-                self._append({"text": state})
-                self.states[self.at + 1 :] = [state]
-                self.at += 1
-                self._shorten()
+        if self.current != state:
+            self._append({"text": state})
+            self.states[self.at + 1 :] = [state]
+            self.at += 1
+            self._shorten()
 
     def move(self, step: int) -> None:
         """Make the state `step` further the current one. Raises OutputError."""

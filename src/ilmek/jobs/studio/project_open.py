@@ -50,9 +50,7 @@ def open_project(path: Path) -> Path:
 def _is_project(folder: Path, names: set[str]) -> bool:
     if OWN in names or f"carpet{SUFFIX}" in names:
         return True
-    return any(
-        next((folder / kind).glob(f"*{SUFFIX}"), None) is not None for kind in KINDS if kind and kind in names
-    )
+    return any(next((folder / kind).glob(f"*{SUFFIX}"), None) is not None for kind in KINDS if kind and kind in names)
 
 
 def _copy(source: Traversable, target: Path) -> None:

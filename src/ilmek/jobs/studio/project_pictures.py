@@ -1,4 +1,4 @@
-"""Pictures of a project, and the files that the client shows or downloads as they are."""
+"""Pictures of a project: taken by their content, deleted."""
 
 from dataclasses import dataclass
 from itertools import count
@@ -6,7 +6,7 @@ from pathlib import PurePosixPath
 
 from ilmek.errors import ParameterError, shortened
 from ilmek.io.output import disk
-from ilmek.jobs.studio.answers import Binary, Context
+from ilmek.jobs.studio.answers import Context
 from ilmek.jobs.studio.project import Changed, PathRequest, PictureSummary
 from ilmek.jobs.studio.project_folder import (
     OUT,
@@ -14,16 +14,12 @@ from ilmek.jobs.studio.project_folder import (
     ProjectFolder,
     cannot,
     check_name,
-    kind_of,
     read_bytes,
     write_bytes,
 )
 
 LARGEST_PICTURE = 45_000_000
 """Largest size of a picture that the studio takes [bytes]; a larger one is copied into the folder."""
-
-LARGEST_RAW = 500_000_000
-"""Largest size of a file that is sent as it is [bytes]."""
 
 BEGINS = {
     b"\x89PNG\r\n\x1a\n": (".png",),
@@ -40,29 +36,10 @@ BEGINS = {
 }
 """Begins of the files that are taken, and the endings of their names."""
 
-MEDIA = {
-    ".png": "image/png",
-    ".jpg": "image/jpeg",
-    ".jpeg": "image/jpeg",
-    ".gif": "image/gif",
-    ".bmp": "image/bmp",
-    ".webp": "image/webp",
-    ".avif": "image/avif",
-    ".html": "text/html; charset=utf-8",
-    ".txt": "text/plain; charset=utf-8",
-    ".toml": "text/plain; charset=utf-8",
-    ".csv": "text/csv; charset=utf-8",
-    ".json": "application/json",
-    ".pdf": "application/pdf",
-    ".glb": "model/gltf-binary",
-    ".mp4": "video/mp4",
-}
-"""Media types by ending; of all others application/octet-stream, which browsers save."""
-
 
 @dataclass(frozen=True, slots=True)
 class UploadRequest:
-    """A picture: the name of its file, and its bytes as base64."""
+    """A picture: the name of its file, and its bytes."""
 
     name: str
     content: bytes
@@ -125,15 +102,3 @@ def delete_picture(request: PathRequest, context: Context) -> Changed:
         except OSError as error:
             raise cannot("be deleted", path, error) from None
     return Changed((request.path,))
-
-
-def raw_file(request: PathRequest, context: Context) -> Binary:
-    """A picture, a text file or a file of out/ as it is. Raises ParameterError where there is none."""
-    folder = ProjectFolder(context.folder.resolve())
-    path = folder.path(request.path)
-    if request.path.partition("/")[0] not in (PICTURES, OUT) and kind_of(request.path) is None:
-        raise ParameterError(f"{request.path} is no file that the studio shows")
-    content = read_bytes(path, LARGEST_RAW)
-    if content is None:
-        raise ParameterError(f"{request.path} is not there", do="write it again")
-    return Binary(MEDIA.get(path.suffix.lower(), "application/octet-stream"), content)
