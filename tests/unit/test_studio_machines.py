@@ -48,7 +48,8 @@ def test_field_has_unit_bounds_and_the_machine_it_belongs_to() -> None:
     swing = fields["beat-up.swing"]
     assert fields["width"].default_text == "1.2 m"
     assert (swing.machine, swing.group, swing.kind, swing.unit) == ("beat-up", "beat-up", "quantity", "deg")
-    assert fields["width"].machine == "" and "at least" in fields["width"].allowed
+    assert fields["width"].machine == ""
+    assert "at least" in fields["width"].allowed
 
 
 def test_design_is_the_json_of_the_command_line(tmp_path: Path) -> None:
@@ -85,6 +86,7 @@ def test_view_has_the_verdict_and_the_checks_of_the_design(name: str, settings: 
 def test_loom_in_the_studio_has_the_checks_of_all_its_machines_and_states_the_nearest_carpets() -> None:
     settings = {"knots_across": "200/dm", "knots_along": "200/dm", "width": "0.3m", "length": "0.3m"}
     seen = view(DesignRequest("automated-loom", settings), HERE)
-    assert not seen.holds and seen.failed == len(seen.reasons)
+    assert not seen.holds
+    assert seen.failed == len(seen.reasons)
     assert {one.machine for one in seen.checks} >= {"", "weaver", "shedding", "warp-tension"}
     assert "quality" in nearest(DesignRequest("automated-loom", settings), HERE).text

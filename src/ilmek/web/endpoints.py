@@ -59,6 +59,22 @@ ENDPOINTS: tuple[Endpoint, ...] = (
     ),
     Endpoint(
         "POST",
+        "/machines/{name}/sensitivities",
+        "studio.sensitivities:sensitivities",
+        "What each parameter does to each check, by small steps; each is sent as soon as it is known.",
+        limit=HOUR,
+        affinity="sensitivities",
+        work=True,
+    ),
+    Endpoint(
+        "POST",
+        "/machines/{name}/comparison",
+        "studio.comparison:comparison",
+        "What differs between two settings of a machine: parameters, results, checks.",
+        affinity="machine",
+    ),
+    Endpoint(
+        "POST",
         "/synthesis/candidates",
         "studio.synthesis:candidates",
         "The four-bars for a task, ranked, with reasons for those left out; `quick` while a point is dragged.",
