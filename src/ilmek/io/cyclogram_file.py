@@ -27,6 +27,7 @@ Numbers are SI and radians; text has its unit. Written files are read again with
 an angle or a position is written in its unit if that gives the same number again, else in SI.
 """
 
+import copy
 import itertools
 import json
 import math
@@ -84,6 +85,37 @@ def read_cyclogram(path: Path) -> Cyclogram:
 def parse_cyclogram(text: str, *, name: str = "cyclogram", toml: bool = True) -> Cyclogram:
     """The cyclogram of a TOML or JSON text; messages call it `name`. Raises as `read_cyclogram`."""
     return _read(parse_data(text, name=name, toml=toml, error=ParameterError), name)
+
+
+def cyclogram_of_data(data: Mapping[str, Any], *, name: str = "cyclogram") -> Cyclogram:
+    """The cyclogram of the plain data of a file, as `tomllib` or `json` reads them; messages call it `name`.
+
+    Raises ParameterError with the key.
+    """
+    return _read(DataText(data, {}, ""), name)
+
+
+def timed_data(data: Mapping[str, Any], cyclogram: Cyclogram) -> dict[str, Any]:
+    """The data of a file with the timing of another cyclogram of the same tracks; all else is kept as it is written.
+
+    Changed are the period, start and end of motions, and the angles of events that follow no motion; an angle of an
+    event that follows one is left out.
+    """
+    timed = copy.deepcopy(dict(data))
+    if cyclogram.period != cyclogram_of_data(data).period:
+        timed["period"] = written_quantity(cyclogram.period, "s")
+    for track in cyclogram.tracks:
+        entry = timed["tracks"][track.name]
+        for part in track.segments:
+            angles = {"start": written_quantity(part.start, "deg"), "end": written_quantity(part.end, "deg")}
+            entry["motions"][part.name] |= angles
+        for event in track.events:
+            given = entry["events"][event.name]
+            if event.on:
+                given.pop("angle", None)
+            else:
+                given["angle"] = written_quantity(event.angle, "deg")
+    return timed
 
 
 def _read(text: DataText, name: str) -> Cyclogram:

@@ -38,17 +38,18 @@ class LocatedError(MechanismError):
 
 @record
 class SourceText:
-    """The source of data: its name in messages, and the line of each key."""
+    """The source of data: its name in messages, and the line of each key; without lines, data that are no text."""
 
     name: str
     lines: KeyLines
 
     def refuse(self, path: Path, error: IlmekError) -> NoReturn:
         """Raise the error again, preceded by the line and the key; a key without a line takes that of its table."""
-        while path and path not in self.lines:
+        while self.lines and path and path not in self.lines:
             path = path[:-1]
         key = ".".join(str(key) for key in path)
-        given = f"{self.name}, line {self.lines[path]}{f', {key}' if key else ''}: {error.given}"
+        at = (*([f"line {self.lines[path]}"] if self.lines else []), *([key] if key else []))
+        given = f"{', '.join((self.name, *at))}: {error.given}"
         raise LocatedError(given, allowed=error.allowed, do=error.do) from None
 
     @contextmanager

@@ -10,7 +10,8 @@ from ilmek.arrays import FloatArray
 from ilmek.errors import ParameterError
 from ilmek.io.cyclogram_file import cyclogram_data, read_cyclogram
 from ilmek.io.table_csv import check_size
-from ilmek.machines.catalogue import MACHINES
+from ilmek.machines.catalogue import MACHINES, find_machine
+from ilmek.params import Setting
 from ilmek.progress import SILENT, Progress
 from ilmek.report import Check, Column, Report, Result, Table, at_most
 from ilmek.timing.cyclogram import Cyclogram, Track, check_cyclogram
@@ -34,22 +35,31 @@ def find(name: str, settings: Mapping[str, str]) -> Cyclogram:
     if machine not in MACHINES or Path(name).suffix.lower() in (".toml", ".json"):
         path = Path(name)
         if not path.suffix and not path.exists():
-            machines = ", ".join(_timed())
+            machines = ", ".join(timed())
             raise ParameterError(f"{name} is neither a cyclogram file nor a machine", allowed=f"a path, or {machines}")
         if settings:
-            raise ParameterError(f"{name} is a file and has no parameters to set", allowed=", ".join(_timed()))
+            raise ParameterError(f"{name} is a file and has no parameters to set", allowed=", ".join(timed()))
         return read_cyclogram(path)
-    kind = MACHINES[machine]
-    if kind.cyclograms is None:
-        raise ParameterError(f"{machine} has no cyclogram", allowed=f"machines with some: {', '.join(_timed())}")
-    made = {one.name: one for one in kind.cyclograms(kind.design(kind.params.read(settings)))}
+    made = {one.name: one for one in cyclograms_of(machine, settings)}
     if which not in made and (which or len(made) > 1):
         choices = " or ".join(f"{machine}:{one}" for one in made)
         raise ParameterError(f"{name} has several cyclograms", allowed=choices)
     return made[which] if which else next(iter(made.values()))
 
 
-def _timed() -> list[str]:
+def cyclograms_of(machine: str, settings: Mapping[str, Setting], progress: Progress = SILENT) -> tuple[Cyclogram, ...]:
+    """The cyclograms of a machine of the catalogue.
+
+    Raises ParameterError for an unknown machine, and for one without cyclograms; Cancelled.
+    """
+    kind = find_machine(machine)
+    if kind.cyclograms is None:
+        raise ParameterError(f"{machine} has no cyclogram", allowed=f"machines with some: {', '.join(timed())}")
+    return tuple(kind.cyclograms(kind.designed(kind.params.read(settings), progress)))
+
+
+def timed() -> list[str]:
+    """The machines of the catalogue that have cyclograms."""
     return [name for name, machine in MACHINES.items() if machine.cyclograms is not None]
 
 
@@ -68,7 +78,7 @@ def report(cyclogram: Cyclogram, solution: Solution | None = None) -> Report:
 
     Raises ParameterError if its constraints contradict each other, so that no timing can satisfy them.
     """
-    checks = (*check_cyclogram(cyclogram), *_limit_checks(cyclogram))
+    checks = (*check_cyclogram(cyclogram), *limit_checks(cyclogram))
     if solution is None and not all(check.ok for check in checks):
         require_possible(cyclogram)
     notes = {
@@ -117,10 +127,11 @@ def columns(cyclogram: Cyclogram, steps: int) -> dict[str, FloatArray]:
 
 def binding_words(solution: Solution) -> list[str]:
     """The binding constraints, one line each, in the order of the turn."""
-    return [f"{one.label}: {_cost(one, solution)}" for one in solution.binding]
+    return [f"{one.label}: {binding_cost(one, solution)}" for one in solution.binding]
 
 
-def _cost(one: Binding, solution: Solution) -> str:
+def binding_cost(one: Binding, solution: Solution) -> str:
+    """What a binding constraint costs, as a phrase."""
     if one.kind == "motion":
         return f"{format_number(100 * one.share, 3)} % of the turn's requirement"
     if one.kind in ("order", "turn"):
@@ -129,7 +140,7 @@ def _cost(one: Binding, solution: Solution) -> str:
     return f"1 deg less would reduce the {grows} by {format_number(100 * one.cost * deg, 3)} %"
 
 
-def _limit_checks(cyclogram: Cyclogram) -> list[Check]:
+def limit_checks(cyclogram: Cyclogram) -> list[Check]:
     """Largest speed and acceleration of each track against its limits."""
     checks = []
     for track in cyclogram.tracks:
@@ -170,7 +181,7 @@ def _improvement(solution: Solution) -> list[Result]:
 
 def _binding_table(solution: Solution) -> Table:
     columns = (Column("constraint"), Column("kind"), Column("effect"))
-    rows = tuple((one.label, one.kind, _cost(one, solution)) for one in solution.binding)
+    rows = tuple((one.label, one.kind, binding_cost(one, solution)) for one in solution.binding)
     return Table("binding", "Binding constraints, in the order of the turn", columns, rows, brief=True)
 
 

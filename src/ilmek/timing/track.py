@@ -8,6 +8,7 @@ beta = end - start; over time they are multiplied by w and w^2, w = 2 pi / perio
 end of the turn into the next.
 """
 
+import itertools
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
@@ -22,6 +23,8 @@ from ilmek.units import format_quantity, turn
 
 Curve: TypeAlias = Callable[[RealField], RealField]
 _SAME = 1e-9
+_INSIDE = 1e-12
+"""Share of a motion by which a jump is approached from either side."""
 
 
 @runtime_checkable
@@ -43,6 +46,14 @@ class MotionLaw(Protocol):
     @property
     def a(self) -> Curve:
         """Second derivative."""
+
+    @property
+    def j(self) -> Curve:
+        """Third derivative."""
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Values of u inside the motion where a or j jumps."""
 
     @property
     def velocity_peak(self) -> float:
@@ -228,6 +239,61 @@ def sample(track: Track, angle: FloatArray) -> TrackMotion:
     return TrackMotion(angle, position, slope, bend)
 
 
+@record
+class TrackCurves:
+    """Curves of a track over the turn: master angles [rad], position [SI], and its derivatives by the angle.
+
+    Where a derivative jumps, its angle occurs twice: with the value before, and with that after.
+    """
+
+    angle: FloatArray
+    position: FloatArray
+    slope: FloatArray
+    bend: FloatArray
+    jolt: FloatArray
+
+
+def curves(track: Track, steps: int) -> TrackCurves:
+    """The curves of a track with all jumps; steps: of a turn, in motion (a dwell has its ends alone)."""
+    parts = [part for segment in laid(track) for part in _smooth(segment, steps)]
+    parts += _dwells(track, parts)
+    rows = sorted(parts, key=lambda one: (float(one[0, 0]), float(one[0, -1])))
+    return TrackCurves(*np.concatenate(rows, axis=1))
+
+
+def _smooth(segment: TrackSegment, steps: int) -> Iterator[FloatArray]:
+    """Rows of the curves of a motion within the turn, one array between two jumps."""
+    stroke, beta = segment.stroke, segment.beta
+    shares = [0.0, *(u for u in segment.law.breaks if 0.0 < u < 1.0), 1.0]
+    for first, last in itertools.pairwise(shares):
+        low, high = max(segment.angle(first), 0.0), min(segment.angle(last), turn)
+        if high <= low:
+            continue
+        angle = np.linspace(low, high, max(2, math.ceil((high - low) / turn * steps) + 1))
+        u = np.clip((angle - segment.start) / beta, first + _INSIDE, last - _INSIDE)
+        law = segment.law
+        rates = (stroke / beta**order * one(u) for order, one in enumerate((law.s, law.v, law.a, law.j)))
+        position, *derivatives = (np.broadcast_to(rate, angle.shape) for rate in rates)
+        yield np.stack([angle, segment.begin + position, *derivatives])
+
+
+def _dwells(track: Track, moving: list[FloatArray]) -> list[FloatArray]:
+    """Rows of the curves between the motions."""
+    at = track.segments[0].begin if track.segments else 0.0
+    found, last = [], 0.0
+    for one in sorted(moving, key=lambda row: float(row[0, 0])):
+        if one[0, 0] > last + _SAME:
+            found.append(_still(last, float(one[0, 0]), at))
+        last, at = float(one[0, -1]), float(one[1, -1])
+    if last < turn - _SAME:
+        found.append(_still(last, turn, at))
+    return found
+
+
+def _still(low: float, high: float, at: float) -> FloatArray:
+    return np.array([[low, high], [at, at], [0.0, 0.0], [0.0, 0.0], [0.0, 0.0]])
+
+
 def laid(track: Track) -> Iterator[TrackSegment]:
     """The motions over the turn; one that runs through its end appears at the start of the turn too."""
     last = track.segments[-1] if track.segments else None
@@ -256,6 +322,12 @@ def peak_acceleration(track: Track, period: float) -> float:
     w = turn / period
     peaks = (abs(part.stroke) * part.law.acceleration_peak * (w / part.beta) ** 2 for part in track.segments)
     return max(peaks, default=0.0)
+
+
+def peak_jerk(track: Track, period: float) -> float:
+    """Largest jerk of the track [SI/s^3] at a period of the master shaft [s]: max |h| j_peak (w/beta)^3."""
+    w = turn / period
+    return max((abs(part.stroke) * part.law.jerk_peak * (w / part.beta) ** 3 for part in track.segments), default=0.0)
 
 
 def shortest_period(track: Track, speed_limit: float, acceleration_limit: float) -> float:

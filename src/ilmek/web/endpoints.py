@@ -108,4 +108,26 @@ ENDPOINTS: tuple[Endpoint, ...] = (
     Endpoint("POST", "/project/new", "studio.project:new_file", "A new text file, or a copy of one."),
     Endpoint("POST", "/project/rename", "studio.project:rename_file", "Rename a text file, with its history."),
     Endpoint("POST", "/project/delete", "studio.project:delete_file", "Delete a text file; undo brings it back."),
+    Endpoint(
+        "POST",
+        "/cyclogram/view",
+        "studio.cyclogram:view",
+        "A cyclogram: curves of its tracks, relations and exclusions with their margins, checks (packed).",
+        affinity="cyclogram",
+    ),
+    Endpoint(
+        "POST",
+        "/cyclogram/solve",
+        "studio.cyclogram:solved",
+        "Least acceleration or shortest turn of a cyclogram, and what binds.",
+        limit=HOUR,
+        work=True,
+    ),
+    Endpoint(
+        "POST",
+        "/cyclogram/machine",
+        "studio.cyclogram:of_machine",
+        "The cyclograms of a machine of the catalogue, as files' data.",
+        affinity="machine",
+    ),
 )
