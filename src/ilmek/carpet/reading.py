@@ -7,7 +7,7 @@ photo  box averages in linear light [`design`]
 The tone of the design is changed after it is read, whatever the reading [`tone`].
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 
 from ilmek.arrays import Rgb
@@ -78,6 +78,11 @@ class ReadParams(Params):
         white = self.white if self.white in (None, AUTO) else read_colour("white", self.white)
         return Tone(self.brightness, self.contrast, self.saturation, white)
 
+    @property
+    def untoned(self) -> "ReadParams":
+        """The same without changes of the colours."""
+        return replace(self, brightness=0.0, contrast=0.0, saturation=0.0, white=None)
+
     def least_patch_of(self, kind: str) -> int:
         """The least patch of a design that was read as this kind."""
         return LEAST_PATCHES[kind] if self.least_patch is None else self.least_patch
@@ -97,6 +102,12 @@ class Design:
     kind: str
     reason: str
     foreign: int | None = None
+
+
+def toned_design(design: Design, tone: Tone, progress: Progress = SILENT) -> Design:
+    """A design with its tone changed."""
+    colours, words = toned(design.colours, tone, progress)
+    return replace(design, colours=colours, reason=design.reason + words)
 
 
 def exact_design(
@@ -119,8 +130,7 @@ def exact_design(
     found = find_drawing(rgb, size, quality, drawn=drawn or params.reading == "exact", progress=progress)
     if found is None:
         return None
-    colours, tone = toned(found.rgb, params.tone)
-    return Design(colours, "exact", found.reason + tone, 0), found.size, found.quality
+    return toned_design(Design(found.rgb, "exact", found.reason, 0), params.tone), found.size, found.quality
 
 
 def read_design(
@@ -144,11 +154,9 @@ def read_design(
     flat = flat_design(rgb, grid, progress, seen.true if unpadded is None else None)
     required = "as required; " if params.reading == "flat" and not seen.is_flat else ""
     axes = f"; symmetric about the {' and the '.join(flat.symmetric)} axis" if flat.symmetric else ""
-    colours, tone = toned(flat.colours, params.tone)
-    return Design(colours, "flat", required + seen.sentence + axes + tone, flat.foreign)
+    return toned_design(Design(flat.colours, "flat", required + seen.sentence + axes, flat.foreign), params.tone)
 
 
 def _photo(rgb: Rgb, grid: tuple[int, int], params: ReadParams, reason: str, progress: Progress) -> Design:
     averages = resampled(rgb, *grid, progress.part(0.0, 0.8))
-    colours, tone = toned(averages, params.tone, progress.part(0.8, 1.0))
-    return Design(colours, "photo", reason + tone)
+    return toned_design(Design(averages, "photo", reason), params.tone, progress.part(0.8, 1.0))

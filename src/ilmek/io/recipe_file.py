@@ -55,6 +55,7 @@ from ilmek.elements.knot_kinds import parse_knot
 from ilmek.errors import CarpetError, IlmekError, ParameterError
 from ilmek.io.data_text import read_data
 from ilmek.io.file_entry import FileEntry
+from ilmek.io.line_numbers import KeyLines
 from ilmek.io.schema import SourceText, shown
 from ilmek.io.yarn_file import read_yarns, yarns_from_records
 from ilmek.params import Parameter, Setting
@@ -114,9 +115,15 @@ def read_recipe(path: Path, parameters: Mapping[str, Parameter]) -> RecipeFile:
     Raises CarpetError with the file, the line and the key for any error in the file.
     """
     text = read_data(path, "recipe", CarpetError)
-    source = SourceText(str(path), text.lines)
+    return recipe_of_data(text.data, path, parameters, text.lines)
+
+
+def recipe_of_data(
+    data: Mapping[str, Any], path: Path, parameters: Mapping[str, Parameter], lines: KeyLines | None = None
+) -> RecipeFile:
+    """As `read_recipe`, of the data of a file; lines: of its keys, default: all of them line 0."""
     try:
-        return _RecipeReader(FileEntry(text.data, (), source), path).read(parameters)
+        return _RecipeReader(FileEntry(data, (), SourceText(str(path), lines or {(): 0})), path).read(parameters)
     except IlmekError as error:
         raise CarpetError(error.given, allowed=error.allowed, do=error.do) from None
 

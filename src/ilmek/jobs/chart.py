@@ -26,6 +26,7 @@ from ilmek.jobs.charting import chart_of_order
 from ilmek.jobs.order import MOST_PRINTED, MOST_SHEETS, CarpetOrder, ResolvedOrder
 from ilmek.jobs.recipe import chart_of_recipe
 from ilmek.jobs.rows import rows_plan, write_rows
+from ilmek.jobs.stages import ANEW, Stages
 from ilmek.jobs.yarn_choice import PROPOSED, proposed_shades, twin_warnings, yarn_choice_results, yarn_notes
 from ilmek.jobs.yarn_warnings import yarn_warnings
 from ilmek.progress import SILENT, Progress
@@ -153,13 +154,15 @@ def _page(charted: ChartResult, names: Sequence[str], left_out: Sequence[str], d
     )
 
 
-def make_charted(order: CarpetOrder, progress: Progress = SILENT, *, with_source: bool = False) -> ChartResult:
+def make_charted(
+    order: CarpetOrder, progress: Progress = SILENT, *, with_source: bool = False, stages: Stages = ANEW
+) -> ChartResult:
     """Read the picture and chart it. Raises PictureError, CarpetError or YarnError.
 
-    with_source  keep the fitted picture, made small, for a page
+    with_source  keep the fitted picture, made small, for a page      stages  default: every stage is made anew
     """
     charted_by = chart_of_order if order.recipe is None else chart_of_recipe
-    made = charted_by(order, progress, with_source=with_source)
+    made = charted_by(order, progress, with_source=with_source, stages=stages)
     chart = made.chart
     check_carpet_width(chart.size, order.files.carpet_width)
     bill = yarn_bill(chart, order.plan)

@@ -1,6 +1,7 @@
 """From the file of an order to its chart: what the file states, and what the order changes of it."""
 
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,7 @@ from ilmek.carpet.exact import few_colours, has_grid, of_grid, stated_quality
 from ilmek.carpet.fitted import fitted_design, unfitted_design
 from ilmek.carpet.fitting import Fit, FitParams, fit_notes, prepare_picture
 from ilmek.carpet.quality import Quality
-from ilmek.carpet.reading import Design, ReadParams
+from ilmek.carpet.reading import Design, ReadParams, toned_design
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import MOST_YARNS
 from ilmek.errors import PictureError
@@ -20,6 +21,7 @@ from ilmek.io.chart.oxs_reading import is_oxs, read_chart_oxs
 from ilmek.io.chart.png import is_chart_png, read_chart_png
 from ilmek.io.picture import Picture, read_picture
 from ilmek.jobs.order import GROUPS, CarpetOrder, ResolvedOrder, check_sheets
+from ilmek.jobs.stages import ANEW, Stages
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 
@@ -44,7 +46,9 @@ class OrderedChart:
     source: Rgb | None = None
 
 
-def chart_of_order(order: CarpetOrder, progress: Progress = SILENT, *, with_source: bool = False) -> OrderedChart:
+def chart_of_order(
+    order: CarpetOrder, progress: Progress = SILENT, *, with_source: bool = False, stages: Stages = ANEW
+) -> OrderedChart:
     """The chart of an order.
 
     A chart that ilmek wrote is taken as it is; what the order gives acts on it. Another knot is put in the place of its
@@ -52,85 +56,127 @@ def chart_of_order(order: CarpetOrder, progress: Progress = SILENT, *, with_sour
     on it as on a drawing in its yarns, and so do a size and a quality that do not have its grid.
     Raises PictureError, CarpetError or YarnError.
     """
-    chart, notes = _own_chart(order, progress.part(0.0, 0.4, "picture"))
-    if chart is None:
-        picture = read_picture(order.picture, progress.part(0.0, 0.2, "picture"))
-        rgb, notes = picture.rgb, (*notes, *picture.notes)
-        stated = _stated(order, picture)
-        drawn = stated is not None
-        if stated is not None:
-            order = replace(order, quality=stated)
-            notes = (*notes, f"its resolution is that of knots: {stated}")
-        del picture
-        if order.size is not None and order.reading.reading == "auto" and order.fit.fit != FitParams().fit:
-            order = replace(order, quality=order.resolved().quality)
-        prepared, fit = prepare_picture(rgb, order.fit, progress.part(0.2, 0.25), size=order.resolved().size)
-    else:
+    file = file_key(order.picture)
+    key = (file, order.size, order.quality, order.fit, order.reading.untoned, order.palette, with_source)
+    chart, notes = stages.keep("own chart", file, lambda: _own_chart(order, progress.part(0.0, 0.4, "picture")))
+    if chart is not None:
         given, order = order, _on_the_chart(order, chart)
         made = order.resolved()
         check_sheets(made.size, made.quality, order)
         if _keeps_knots(order, chart):
             kept = replace(chart, yarns=made.yarns, size=made.size, quality=made.quality, knot=made.knot)
             return OrderedChart(made, kept, notes)
-        notes = (*notes, *_flattened(chart))
-        rgb = drawn_chart(chart)
-        prepared, fit = prepare_picture(rgb, order.fit, progress.part(0.2, 0.25))
-        drawn = given.size is None and _is_part(prepared, chart)
-        order = replace(order, size=None) if drawn else order
-        del chart
-    del rgb
-    read = _read(order, prepared, fit, progress.part(0.25, 0.4, "chart"), drawn=drawn, with_source=with_source)
-    del prepared
-    made = read.order
-    made_chart = chart_of_design(
-        read.design,
-        made.size,
-        made.quality,
-        made.yarns,
-        knot=made.knot,
-        fit=read.fit,
-        reading=order.reading,
-        palette=order.palette,
-        progress=progress.part(0.4, 1.0, "chart"),
-    )
-    return OrderedChart(made, used_first(made_chart), (*notes, *read.notes), read.source)
+        of_chart, reading = chart, progress.part(0.2, 0.4, "chart")
+        read = stages.keep("read", key, lambda: _read_chart(order, of_chart, given, reading, with_source=with_source))
+        del chart, of_chart
+    else:
+        reading = progress.part(0.0, 0.4)
+        read = stages.keep("read", key, lambda: _read_file(order, file, reading, stages, with_source=with_source))
+    made = replace(order, size=read.size, quality=read.quality).resolved()
+    rest = (order.reading, order.palette, made.size, made.quality, made.knot, made.yarns)
+
+    def chart_of() -> Chart:
+        design = toned_design(stages.shown(read.design), order.reading.tone, progress.part(0.4, 0.5, "chart"))
+        made_chart = chart_of_design(
+            design,
+            made.size,
+            made.quality,
+            made.yarns,
+            knot=made.knot,
+            fit=read.fit,
+            reading=order.reading,
+            palette=order.palette,
+            progress=progress.part(0.5, 1.0, "chart"),
+        )
+        return used_first(made_chart)
+
+    return OrderedChart(made, stages.keep("chart", (key, rest), chart_of), (*notes, *read.notes), read.source)
+
+
+def file_key(path: Path) -> tuple[Path, int, int]:
+    """What changes when a file does."""
+    try:
+        found = path.stat()
+    except OSError:
+        return path, 0, 0
+    return path, found.st_size, found.st_mtime_ns
 
 
 @record
 class _ReadPicture:
-    """The order with nothing left open, the design of its picture, how it was fitted, notes, and what a page shows."""
+    """The design of a picture without changes of its tone, size and quality, how it was fitted, notes, and what a page
+    shows.
+    """
 
-    order: ResolvedOrder
+    size: CarpetSize
+    quality: Quality
     design: Design
     fit: Fit
     notes: tuple[str, ...]
     source: Rgb | None
 
 
+def _read_file(
+    order: CarpetOrder, file: object, progress: Progress, stages: Stages, *, with_source: bool
+) -> _ReadPicture:
+    """Read a picture that is no chart."""
+    picture = stages.keep("picture", file, lambda: read_picture(order.picture, progress.part(0.0, 0.5, "picture")))
+    rgb, notes = picture.rgb, picture.notes
+    stated = _stated(order, picture)
+    if stated is not None:
+        order = replace(order, quality=stated)
+        notes = (*notes, f"its resolution is that of knots: {stated}")
+    del picture
+    if order.size is not None and order.reading.reading == "auto" and order.fit.fit != FitParams().fit:
+        order = replace(order, quality=order.resolved().quality)
+    size, fitting = order.resolved().size, order.fit
+    prepared, fit = stages.keep(
+        "prepared",
+        (file, fitting, size),
+        lambda: prepare_picture(rgb, fitting, progress.part(0.5, 0.6), size=size),
+    )
+    del rgb
+    reading = progress.part(0.6, 1.0, "chart")
+    read = _read(order, prepared, fit, reading, drawn=stated is not None, with_source=with_source)
+    return replace(read, notes=(*notes, *read.notes))
+
+
+def _read_chart(
+    order: CarpetOrder, chart: Chart, given: CarpetOrder, progress: Progress, *, with_source: bool
+) -> _ReadPicture:
+    """Read a chart as a drawing; given: the order without what it has of the chart."""
+    prepared, fit = prepare_picture(drawn_chart(chart), order.fit, progress.part(0.0, 0.3))
+    drawn = given.size is None and _is_part(prepared, chart)
+    order = replace(order, size=None) if drawn else order
+    reading = progress.part(0.3, 1.0)
+    read = _read(order, prepared, fit, reading, drawn=drawn, with_source=with_source)
+    return replace(read, notes=(*_flattened(chart), *read.notes))
+
+
 def _read(
     order: CarpetOrder, prepared: Rgb, fit: Fit, progress: Progress, *, drawn: bool, with_source: bool
 ) -> _ReadPicture:
-    """Read a picture that is turned and cropped.
+    """Read a picture that is turned and cropped; its tone stays.
 
     fit    what was done to it      drawn  every pixel is a knot, whatever the size
     """
+    params = order.reading.untoned
     first = progress.part(0.0, 0.4)
     exact = unfitted_design(
-        prepared, order.size, order.quality, fitting=order.fit, reading=order.reading, drawn=drawn, progress=first
+        prepared, order.size, order.quality, fitting=order.fit, reading=params, drawn=drawn, progress=first
     )
     if exact is not None:
         design, size, quality = exact
-        made = replace(order, size=size, quality=quality).resolved()
         check_sheets(size, quality, order)
-        return _ReadPicture(made, design, fit, (), shown_source(prepared) if with_source else None)
+        return _ReadPicture(size, quality, design, fit, (), shown_source(prepared) if with_source else None)
     made = order.resolved()
     check_sheets(made.size, made.quality, order)
     reading = progress.part(0.35, 1.0)
     design, fitted, fit = fitted_design(
-        prepared, fit, made.size, made.quality, fitting=order.fit, reading=order.reading, progress=reading
+        prepared, fit, made.size, made.quality, fitting=order.fit, reading=params, progress=reading
     )
     notes = fit_notes(fit, fitted.shape[:2], made.size, knot_grid(made.size, made.quality))
-    return _ReadPicture(made, design, fit, notes, shown_source(fitted) if with_source else None)
+    return _ReadPicture(made.size, made.quality, design, fit, notes, shown_source(fitted) if with_source else None)
 
 
 def _stated(order: CarpetOrder, picture: Picture) -> Quality | None:

@@ -24,7 +24,7 @@ from ilmek.elements.knot_kinds import parse_knot
 from ilmek.errors import CarpetError, ParameterError, did_you_mean
 from ilmek.io.chart.oxs import require_oxs
 from ilmek.io.chart.sheets import cut, require_wall
-from ilmek.io.recipe_file import LoomKeys, RecipeFile, read_recipe
+from ilmek.io.recipe_file import LoomKeys, RecipeFile, read_recipe, recipe_of_data
 from ilmek.io.yarn_file import default_yarns, read_yarns
 from ilmek.jobs.carpet_files import FileParams
 from ilmek.params import Parameter, Params, Setting, declared
@@ -145,7 +145,19 @@ def read_order(
         "notes": None if quality is None else tuple(filter(None, (gereh_note(quality),))),
     }
     groups = read_groups({**({} if found is None else found.settings), **_given(settings)})
-    order = replace(base, **_given(given), **groups)
+    return _checked(replace(base, **_given(given), **groups))
+
+
+def order_of_data(path: Path, data: Mapping[str, Any]) -> CarpetOrder:
+    """The order of a recipe from its data, as `read_order` of a file at this path that holds them."""
+    found = recipe_of_data(data, path, recipe_parameters())
+    with located(str(path)):
+        groups = read_groups(found.settings)
+    return _checked(replace(_order_of(path, found), **groups))
+
+
+def _checked(order: CarpetOrder) -> CarpetOrder:
+    """The order, after the checks that need no picture."""
     if order.yarns is not None:
         check_palette(order.palette, order.yarns)
     if order.size is not None:

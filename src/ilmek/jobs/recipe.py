@@ -2,13 +2,14 @@
 
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from ilmek.arrays import Pixels
 from ilmek.carpet.chart import Chart, chart_of_design, used_first
 from ilmek.carpet.palette_rules import PaletteParams, names_text, yarn_names
 from ilmek.carpet.reading import READINGS
-from ilmek.carpet.recipe.composition import compose
+from ilmek.carpet.recipe.composition import Composition, compose
 from ilmek.carpet.recipe.edits import located
 from ilmek.carpet.recipe.finish import finish
 from ilmek.carpet.recipe.recipe import Recipe
@@ -21,13 +22,16 @@ from ilmek.io.recipe_file import LoomKeys, RecipeFile
 from ilmek.io.recipe_text import recipe_text
 from ilmek.io.toml_text import written_quantity
 from ilmek.io.yarn_file import default_yarns
-from ilmek.jobs.charting import OrderedChart, chart_of_order, drawn_chart, shown_source
+from ilmek.jobs.charting import OrderedChart, chart_of_order, drawn_chart, file_key, shown_source
 from ilmek.jobs.order import GROUPS, CarpetOrder, ResolvedOrder, check_sheets, recipe_key
+from ilmek.jobs.stages import ANEW, Stages
 from ilmek.params import declared
 from ilmek.progress import SILENT, Progress
 
 
-def chart_of_recipe(order: CarpetOrder, progress: Progress = SILENT, *, with_source: bool = False) -> OrderedChart:
+def chart_of_recipe(
+    order: CarpetOrder, progress: Progress = SILENT, *, with_source: bool = False, stages: Stages = ANEW
+) -> OrderedChart:
     """As `charting.chart_of_order`, of an order whose picture is a recipe; the source is the design as composed.
 
     Raises as it does.
@@ -40,7 +44,7 @@ def chart_of_recipe(order: CarpetOrder, progress: Progress = SILENT, *, with_sou
         assert recipe.picture is not None
         picture = replace(order, picture=recipe.picture, recipe=None)
         try:
-            done = chart_of_order(picture, progress.part(0.0, 0.8), with_source=with_source)
+            done = chart_of_order(picture, progress.part(0.0, 0.8), with_source=with_source, stages=stages)
         except IlmekError as error:
             with located(recipe.where if isinstance(error, PictureError) else str(recipe.file)):
                 raise
@@ -49,34 +53,52 @@ def chart_of_recipe(order: CarpetOrder, progress: Progress = SILENT, *, with_sou
         chart = finish(chart, recipe, _counted(done.order), None, progress.part(0.8, 1.0, "edits"))
         chart = used_first(chart) if recipe.edits else chart
         return OrderedChart(replace(done.order, order=given), chart, done.notes, done.source)
+    made = _composed_chart(recipe, order, progress, stages, with_source=with_source)
+    return replace(made, order=replace(made.order, order=given))
+
+
+def _composed_chart(
+    recipe: Recipe, order: CarpetOrder, progress: Progress, stages: Stages, *, with_source: bool
+) -> OrderedChart:
+    """The chart of a recipe that is more than one whole picture."""
     made = order.resolved()
     check_sheets(made.size, made.quality, order)
-    pictures, notes = _pictures(recipe, progress.part(0.0, 0.3, "picture"))
-    composition = compose(
-        recipe,
-        made.size,
-        made.quality,
-        made.yarns,
-        pictures,
-        fit=order.fit,
-        reading=order.reading,
-        progress=progress.part(0.3, 0.5, "chart"),
-    )
-    del pictures
-    chart = chart_of_design(
-        composition.design,
-        made.size,
-        made.quality,
-        made.yarns,
-        knot=made.knot,
-        fit=composition.fit,
-        reading=order.reading,
-        palette=order.palette,
-        progress=progress.part(0.5, 0.8, "chart"),
-    )
+    plain = replace(recipe, edits=())
+    files = tuple(file_key(path) for path in recipe.pictures)
+    key = (plain, files, made.size, made.quality, made.yarns, order.fit, order.reading)
+
+    def composed() -> tuple[Composition, tuple[str, ...]]:
+        pictures, notes = _pictures(recipe, progress.part(0.0, 0.3, "picture"), stages)
+        composition = compose(
+            recipe,
+            made.size,
+            made.quality,
+            made.yarns,
+            pictures,
+            fit=order.fit,
+            reading=order.reading,
+            progress=progress.part(0.3, 0.5, "chart"),
+        )
+        return composition, (*notes, *composition.notes)
+
+    def charted() -> Chart:
+        return chart_of_design(
+            stages.shown(composition.design),
+            made.size,
+            made.quality,
+            made.yarns,
+            knot=made.knot,
+            fit=composition.fit,
+            reading=order.reading,
+            palette=order.palette,
+            progress=progress.part(0.5, 0.8, "chart"),
+        )
+
+    composition, notes = stages.keep("composition", key, composed)
+    chart = stages.keep("chart", (key, made.knot, order.palette), charted)
     source = shown_source(composition.design.colours) if with_source else None
     chart = finish(chart, recipe, _counted(made), composition, progress.part(0.8, 1.0, "edits"))
-    return OrderedChart(replace(made, order=given), used_first(chart), (*notes, *composition.notes), source)
+    return OrderedChart(made, used_first(chart), notes, source)
 
 
 def _check_never(recipe: Recipe, palette: PaletteParams) -> None:
@@ -112,14 +134,16 @@ def _counted(made: ResolvedOrder) -> tuple[Yarn, ...]:
     return with_counts(made.yarns, made.quality, made.knot)
 
 
-def _pictures(recipe: Recipe, progress: Progress) -> tuple[Mapping[Path, Pixels], tuple[str, ...]]:
+def _pictures(recipe: Recipe, progress: Progress, stages: Stages) -> tuple[Mapping[Path, Pixels], tuple[str, ...]]:
     """The pixels of all pictures, and notes on them."""
     found, notes = {}, []
     files = recipe.pictures
     for number, (path, where) in enumerate(files.items()):
         part = progress.part(number / len(files), (number + 1) / len(files))
         with located(where):
-            found[path], more = _pixels(path, SMALLEST if path == recipe.picture else 1, part)
+            smallest = SMALLEST if path == recipe.picture else 1
+            key = (file_key(path), smallest)
+            found[path], more = stages.keep("tile", key, partial(_pixels, path, smallest, part))
         notes += [f"{path.name}: {note}" for note in more]
     return found, tuple(notes)
 

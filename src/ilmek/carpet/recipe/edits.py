@@ -180,7 +180,8 @@ def apply_edit(knots: Indices, edit: Edit, yarns: tuple[int, ...], progress: Pro
         _repeat(knots, at)
     elif edit.kind == "border":
         part = area_of(knots, at)
-        for side in edges(*part.shape, (min(edit.width, len(part)), min(edit.width, part.shape[1]))):
+        rows, columns = part.shape
+        for side in edges(rows, columns, (min(edit.width, rows), min(edit.width, columns))):
             part[side] = yarns[0]
 
 

@@ -39,9 +39,9 @@ def finish(
     named = {number for found in numbers for number in found}
     named |= {number for _, number in made.yarns} if made is not None else set()
     chart, index = _with_yarns(chart, yarns, named)
-    knots = chart.knots
+    knots = chart.knots.copy()
     if made is not None:
-        knots = _as_composed(chart, made, index, progress.part(0.0, 0.5))
+        _draw_composed(knots, chart.yarns, made, index, progress.part(0.0, 0.5))
     before = knots.copy() if recipe.edits else knots
     editing = progress.part(0.5, 0.9, "edits")
     marks = EditedMarks()
@@ -60,10 +60,7 @@ def finish(
 
 
 def _with_yarns(chart: Chart, yarns: Sequence[Yarn], named: set[int]) -> tuple[Chart, dict[int, int]]:
-    """The chart with the named yarns in its own list, and the index in it of each of these.
-
-    The chart's knots are its own, and may be changed.
-    """
+    """The chart with the named yarns in its own list, and the index in it of each of these."""
     names = {yarn.name for yarn in chart.yarns}
     kept = [number for number, yarn in enumerate(yarns) if yarn.name in names or number in named]
     chosen = tuple(yarns[number] for number in kept)
@@ -86,21 +83,22 @@ def _with_yarns(chart: Chart, yarns: Sequence[Yarn], named: set[int]) -> tuple[C
     return made, {number: at for at, number in enumerate(kept)}
 
 
-def _as_composed(chart: Chart, made: Composition, index: dict[int, int], progress: Progress) -> Indices:
-    """The knots with drawn areas as they were drawn, and named yarns where they are."""
-    knots, colours = chart.knots, made.design.colours
+def _draw_composed(
+    knots: Indices, yarns: Sequence[Yarn], made: Composition, index: dict[int, int], progress: Progress
+) -> None:
+    """Draw into the knots of a chart, of its yarns, areas as they were drawn, and named yarns where they are."""
+    colours = made.design.colours
     if made.drawn:
-        labs = yarn_labs(chart.yarns)
+        labs = yarn_labs(yarns)
         for area, shown in made.drawn:
             np.copyto(knots[area], _nearest(colours[area], labs), where=True if shown is None else shown)
             progress(0.5)
     for (rows, columns), number in made.yarns:
-        srgb = np.array(chart.yarns[index[number]].srgb, dtype=np.uint8)
+        srgb = np.array(yarns[index[number]].srgb, dtype=np.uint8)
         for part in bands(rows.stop - rows.start, columns.stop - columns.start):
             band = (slice(rows.start + part.start, rows.start + part.stop), columns)
             knots[band][(colours[band] == srgb).all(axis=-1)] = index[number]
         progress(1.0)
-    return knots
 
 
 def _nearest(colours: Pixels, labs: FloatArray) -> Indices:

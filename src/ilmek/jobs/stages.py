@@ -1,0 +1,25 @@
+"""Stages of a chart, so that a caller who changes an order again and again can keep what does not change."""
+
+from collections.abc import Callable, Hashable
+from typing import TypeVar
+
+from ilmek.carpet.reading import Design
+
+T = TypeVar("T")
+
+
+class Stages:
+    """The stages of a chart, each made when it is needed; a subclass may keep their results."""
+
+    def keep(self, stage: str, key: Hashable, make: Callable[[], T]) -> T:
+        """The result of a stage: of `make`, or as it was kept of an equal key. Whoever takes it must not change it."""
+        del stage, key
+        return make()
+
+    def shown(self, design: Design) -> Design:
+        """The design before its tone is changed and its yarns are chosen: as it is."""
+        return design
+
+
+ANEW = Stages()
+"""Every stage is made anew."""
