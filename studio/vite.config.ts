@@ -15,6 +15,7 @@ export default defineConfig({
     cssCodeSplit: true,
     reportCompressedSize: true,
     chunkSizeWarningLimit: 800,
+    license: { fileName: "licenses.md" },
   },
   test: {
     environment: "happy-dom",

@@ -6,7 +6,7 @@ import { join, relative, sep } from "node:path";
 import { fileURLToPath } from "node:url";
 
 const studio = fileURLToPath(new URL("..", import.meta.url));
-const client = join(studio, "../src/ilmek/web/client");
+const client = process.argv[2] ?? join(studio, "../src/ilmek/web/client");
 const SOURCES = [
   "index.html",
   "package-lock.json",
