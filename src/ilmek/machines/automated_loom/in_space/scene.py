@@ -1,0 +1,91 @@
+"""The scene of a loom: all its parts, its warps, yarns and carpet."""
+
+from functools import lru_cache
+
+import numpy as np
+
+from ilmek.arrays import Float
+from ilmek.machines.automated_loom.cyclogram import EVEN, ODD
+from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.automated_loom.in_space.beating import beating
+from ilmek.machines.automated_loom.in_space.cams import cams, warp_positions, warp_shafts
+from ilmek.machines.automated_loom.in_space.heads import HEAD, heads, knot_yarn
+from ilmek.machines.automated_loom.in_space.maker import KNOT, ROW, SceneMaker, maker_of, track_angles
+from ilmek.machines.automated_loom.in_space.standing import standing
+from ilmek.machines.automated_loom.in_space.weft import weft, wefts
+from ilmek.report import Report
+from ilmek.report.scene import Scene, SceneCarpet, SceneWarps
+from ilmek.timing.track import sample
+from ilmek.units import turn
+
+_ARC = 7
+"""Points of the warps' line over the back rest."""
+
+
+@lru_cache(maxsize=2)
+def scene(loom: LoomDesign, report: Report) -> Scene:
+    """The scene of a loom, with the checks of its report at the parts that they concern."""
+    made = maker_of(loom, report.all_checks)
+    groups = [build(made) for build in (standing, cams, beating, weft, heads)]
+    return Scene(
+        title=report.title,
+        frames=tuple(frame for group in groups for frame in group.frames),
+        parts=tuple(part for group in groups for part in group.parts),
+        warps=_warps(made),
+        yarns=(*wefts(made), *knot_yarn(made)),
+        carpet=_carpet(made),
+        periods={ROW: loom.row_cyclogram.period, KNOT: loom.times.knot},
+        heads=HEAD,
+        floor=loom.side.floor,
+    )
+
+
+def _warps(made: SceneMaker) -> SceneWarps:
+    loom, side, row = made.loom, made.loom.side, made.loom.row_cyclogram
+    line, lifted = warp_line(made)
+    even, odd = row.track(EVEN), row.track(ODD)
+    angle = track_angles(even, odd)
+    shaft, is_odd = warp_shafts(made)
+    return SceneWarps(
+        x=warp_positions(made),
+        shaft=shaft,
+        odd=is_odd,
+        line=line,
+        lifted=lifted,
+        lifts=tuple(float(cam.lift) for cam in side.cams),
+        angle=angle,
+        even_share=sample(even, angle).position / loom.row_timing.lift,
+        odd_share=sample(odd, angle).position / loom.row_timing.lift,
+        diameter=loom.task.yarns.warp.diameter,
+    )
+
+
+def warp_line(made: SceneMaker) -> tuple[Float[np.ndarray, "points 2"], tuple[int, ...]]:
+    """A warp at rest in the side view, z and y [m], and the numbers of its points that the cam shafts lift.
+
+    From the fell by the cam shafts to the back rest, over it, and level to the upper cylinder.
+    """
+    side = made.loom.side
+    rest = side.back_rest
+    heights = [float(cam.at.imag) for cam in side.cams]
+    points = [0j, *(1j * height for height in heights), 1j * side.spans.back_rest]
+    over = rest.at + rest.radius * np.exp(1j * np.linspace(0.0, turn / 4, _ARC))
+    points += [*over.tolist(), complex(side.upper.at + 1j * side.upper.radius)]
+    line = np.array(points)
+    return np.stack([line.real, line.imag], axis=1), tuple(range(1, len(heights) + 1))
+
+
+def _carpet(made: SceneMaker) -> SceneCarpet:
+    """The carpet from the fell down the fronts of spacer and lower cylinder, and half round the roll."""
+    loom, side = made.loom, made.loom.side
+    round_ = side.lower.at + side.lower.radius * np.exp(-1j * np.linspace(0.0, turn / 2, 17))
+    line = np.concatenate([[0j], round_])
+    return SceneCarpet(
+        width=loom.task.cloth_width,
+        columns=loom.columns,
+        rows=loom.rows,
+        column_pitch=loom.knot_pitch,
+        row_pitch=loom.task.row_pitch,
+        pile=side.pile,
+        line=np.stack([line.real, line.imag], axis=1),
+    )

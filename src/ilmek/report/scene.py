@@ -1,0 +1,154 @@
+"""A machine in space as plain data: its parts as solids at true size, the frames that carry them, and their motions.
+
+Axes [m]: x along the width, to the weaver's right, 0 in the middle of the cloth; y up, 0 at the fell; z to the front,
+where the weaver stands. A frame lies in its parent and is made several times; a part is fixed in its frame:
+
+    point in the parent = origin + shift(q) + R(axis, phase + rotation(q)) point         q angle of the frame's drive
+"""
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from ilmek.arrays import Float, FloatArray, Int
+from ilmek.records import record
+from ilmek.report.check import Check
+
+ACROSS = (1.0, 0.0, 0.0)
+"""Axis of what turns in the side view: a positive angle turns from y to z, from up to the front."""
+
+
+@record
+class Solid:
+    """A closed surface of triangles: points [m], and for each three of them, counter-clockwise seen from outside."""
+
+    points: Float[np.ndarray, "points 3"]
+    triangles: Int[np.ndarray, "triangles 3"]
+
+
+@record
+class SceneMotion:
+    """A rigid motion over the angle of a drive, straight between its samples; it ends where it began, or goes on.
+
+    drive     "row" or "knot"             angle   [rad], ascending from 0 to 2 pi
+    shift     [m]                         rotation  about the frame's axis [rad]
+    """
+
+    drive: str
+    angle: Float[np.ndarray, " samples"]
+    shift: Float[np.ndarray, "samples 3"]
+    rotation: Float[np.ndarray, " samples"]
+
+
+@record
+class SceneFrame:
+    """A frame, `origins` times in each of its parents.
+
+    parent   name of the frame that carries it; "": the ground
+    origins   positions of its origin [m]       phases   its rotations at rest [rad]; default: none
+    motion   default: it is fixed              axis     about which it turns
+    """
+
+    name: str
+    origins: Float[np.ndarray, "origins 3"]
+    parent: str = ""
+    motion: SceneMotion | None = None
+    phases: FloatArray | None = None
+    axis: tuple[float, float, float] = ACROSS
+
+
+@record
+class ScenePart:
+    """A part at true size.
+
+    name, title  unique; for people             machine   that it belongs to
+    frame        that carries it                solids    each in the frame, from the finest to the coarsest
+    deviations   of the solids' outlines from the part [m]
+    material     "" where it is not known       mass      of one [kg]; nan: not weighed
+    number       of the parts list              checks    that concern it
+    plate        name of its drawing for the workshop; "": none
+    envelope     the solid is the room that the design keeps for it: its shape is not designed
+    """
+
+    name: str
+    title: str
+    machine: str
+    frame: str
+    solids: tuple[Solid, ...]
+    deviations: tuple[float, ...]
+    material: str = ""
+    mass: float = math.nan
+    number: int = 1
+    checks: tuple[Check, ...] = ()
+    plate: str = ""
+    envelope: bool = False
+
+
+@record
+class SceneWarps:
+    """The warps: their x [m], and in the side view the line of one that is lifted by shares of its track.
+
+    x, shaft  position across [m], and number of the cam shaft, of each warp       odd  whether it is an odd one
+    line      at rest, from the carpet to the upper cylinder, (points, 2): z and y [m]
+    lifted    number of the point of the line that each cam shaft lifts            lifts  to the front, fully lifted [m]
+    angle, even, odd_share   shares of the lift of even and odd warps over the angle of a row [rad]
+    """
+
+    x: FloatArray
+    shaft: Int[np.ndarray, " warps"]
+    odd: Int[np.ndarray, " warps"]
+    line: Float[np.ndarray, "points 2"]
+    lifted: tuple[int, ...]
+    lifts: tuple[float, ...]
+    angle: FloatArray
+    even_share: FloatArray
+    odd_share: FloatArray
+    diameter: float
+
+
+@record
+class SceneYarn:
+    """A yarn over the angle of a drive: points [m] in a frame at each angle [rad], (angles, points, 3)."""
+
+    name: str
+    title: str
+    frame: str
+    drive: str
+    angle: FloatArray
+    points: Float[np.ndarray, "angles points 3"]
+    diameter: float
+
+
+@record
+class SceneCarpet:
+    """The carpet: its width, the pitches, and the line of its pile's ground in the side view, from the fell down.
+
+    line  (points, 2): z and y [m]        pile  height of the pile in front of it [m]
+    """
+
+    width: float
+    columns: int
+    rows: int
+    column_pitch: float
+    row_pitch: float
+    pile: float
+    line: Float[np.ndarray, "points 2"]
+
+
+@record
+class Scene:
+    """A loom in space.
+
+    periods  time of a turn of each drive [s]        heads  name of the frame of the heads, which stand anywhere on x
+    """
+
+    title: str
+    frames: tuple[SceneFrame, ...]
+    parts: tuple[ScenePart, ...]
+    warps: SceneWarps
+    yarns: tuple[SceneYarn, ...]
+    carpet: SceneCarpet
+    periods: Mapping[str, float]
+    heads: str
+    floor: float
