@@ -40,6 +40,7 @@ main = LazyGroup(
         "cyclogram": ("ilmek.cli.cyclogram", "Check, optimise, tabulate and draw a cyclogram."),
         "knot": ("ilmek.cli.knot", "Prove which knot the motion of a gripper ties."),
         "reproduce": ("ilmek.cli.reproduce", "Recompute four published papers and compare, number by number."),
+        "studio": ("ilmek.cli.studio", "Open a project in the browser: carpet, machines, linkages and loom."),
         "plan": ("ilmek.cli.plan", "Plan several carpets on looms that exist: which loom weaves what when."),
         "simulate": ("ilmek.cli.simulate", "Weave a programme in time: stops, utilisation, when it is done."),
         "run": ("ilmek.cli.run", "Weave a loom programme on the simulated loom, with a journal."),

@@ -1,8 +1,9 @@
 """The API: every request, the function of `jobs` that answers it, and what it may cost.
 
 A function is given by its name, so that the server imports no engineering: the worker process that answers imports it.
-It takes one record, the request, and a `Progress`, and returns a record, which is sent as JSON, or a `Binary`. Types of
-requests and answers are dataclasses; the schema of the API and the types of the client are derived from them.
+It takes one record, the request, and a `Context`, and returns a record, which is sent as JSON, or a `Binary`. Types of
+requests and answers are dataclasses; the schema of the API and the types of the client are derived from them
+(`python -m ilmek.web.schema studio/src/api`, then `npm run types`).
 """
 
 from dataclasses import dataclass
@@ -15,12 +16,16 @@ HOUR = 3600.0
 class Endpoint:
     """One request of the API.
 
-    method    GET: the request is made of the path and the query; POST: of the path and the JSON body
+    method    GET, DELETE: the request is made of the path and the query; POST, PUT: of the path and the JSON body
     path      below /api; a part in braces is a field of the request
     function  "module:name" below ilmek.jobs
     limit     longest time of an answer [s]; a worker that takes longer is ended
     affinity  requests of one name are answered by one worker where it is free: it keeps what the one before read
-    work      True: the answer is a number of a work that goes on (202); its progress and result come by events
+    work      True: the answer is the number of a work that goes on (202); its progress and end come by events
+    upload    media types of a body that is no JSON; it becomes the field `content` (bytes) of the request, whose other
+              fields come from the path and the query
+    records   names of further records in the function's module that a client receives: what the work shows before its
+              end, and the JSON before packed arrays
     """
 
     method: str
@@ -30,6 +35,8 @@ class Endpoint:
     limit: float = 60 * SECOND
     affinity: str = ""
     work: bool = False
+    upload: tuple[str, ...] = ()
+    records: tuple[str, ...] = ()
 
 
 ENDPOINTS: tuple[Endpoint, ...] = (

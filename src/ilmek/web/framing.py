@@ -4,17 +4,29 @@ from typing import BinaryIO
 
 import msgspec
 
+JSON = "application/json"
+
 MOST = 2**31 - 1
 """Largest number of bytes of a message."""
 
 
+class Ready(msgspec.Struct, tag="ready", array_like=True):
+    """The worker has started and takes requests."""
+
+
 class Ask(msgspec.Struct, tag="ask", array_like=True):
-    """A request for a worker: number, "module:name" of the function, and the JSON of its record."""
+    """A request for a worker.
+
+    function  "module:name" below ilmek.jobs      body  the JSON of its record      project  folder of the project
+    lax       texts may stand for numbers, as in a query      content  the field `content` of the record: an upload
+    """
 
     number: int
     function: str
     body: bytes
     project: str
+    lax: bool = False
+    content: bytes | None = None
 
 
 class Cancel(msgspec.Struct, tag="cancel", array_like=True):
@@ -32,10 +44,14 @@ class Step(msgspec.Struct, tag="step", array_like=True):
 
 
 class News(msgspec.Struct, tag="news", array_like=True):
-    """What a request that goes on has to show before its end: JSON."""
+    """What a request has to show before its end: JSON.
+
+    everyone  True: for all open pages, whatever request it is; False: for the one who follows the work
+    """
 
     number: int
     body: bytes
+    everyone: bool = False
 
 
 class Answer(msgspec.Struct, tag="answer", array_like=True):
@@ -51,7 +67,7 @@ class Answer(msgspec.Struct, tag="answer", array_like=True):
     time: float
 
 
-Message = Ask | Cancel | Step | News | Answer
+Message = Ready | Ask | Cancel | Step | News | Answer
 
 _ENCODER = msgspec.msgpack.Encoder()
 _DECODER: msgspec.msgpack.Decoder[Message] = msgspec.msgpack.Decoder(Message)
@@ -73,8 +89,11 @@ def decoded(body: bytes) -> Message:
 def read_message(stream: BinaryIO) -> Message | None:
     """The next message of a stream; None at its end."""
     head = stream.read(4)
-    if len(head) < 4:
-        return None
     size = int.from_bytes(head, "little")
-    body = stream.read(size)
-    return decoded(body) if len(body) == size else None
+    body = stream.read(size) if len(head) == 4 else b""
+    return decoded(body) if body and len(body) == size else None
+
+
+def error_body(given: str, *, allowed: str = "", do: str = "") -> bytes:
+    """The JSON of an error as the API has it."""
+    return msgspec.json.encode({"error": {"given": given, "allowed": allowed, "do": do}})

@@ -1,22 +1,25 @@
 """The pool of worker processes: gives them requests, follows their progress, ends those that take too long.
 
-A worker answers one request at a time. A request waits until a worker is free; one with an affinity waits for the
-worker that served the same affinity last only where that worker is free, else it takes any. Works that go on for long
-leave at least one worker to the requests of people who wait.
+A worker answers one request at a time. A request waits until a worker is free; one with an affinity takes the worker
+that served the same affinity last where that worker is free, else any. Works that go on for long leave at least one
+worker to the requests of people who wait, and a worker that ends is replaced.
 """
 
 import asyncio
 import contextlib
 import itertools
 import os
+import signal
 import sys
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
 from dataclasses import dataclass, field
 
-from ilmek.web.framing import Answer, Ask, Cancel, Message, News, Step, decoded, encoded
+import msgspec
 
-GRACE = 2.0
+from ilmek.web.framing import JSON, Answer, Ask, Cancel, Message, News, Ready, Step, decoded, encoded, error_body
+
+GRACE = 4.0
 """Time that a cancelled request has to end by itself before its worker is ended [s]."""
 
 MEMORY = 8 * 2**30
@@ -25,13 +28,15 @@ MEMORY = 8 * 2**30
 MOST_WAITING = 200
 """Largest number of requests that wait for a worker."""
 
-JSON = "application/json"
+MOST_FAILED_STARTS = 3
+"""Workers in a row that end before they are ready; then the requests that wait fail."""
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False)
 class Request:
     """A request that waits or is answered.
 
+    limit   longest time of an answer [s]      long  a work that goes on, not a person who waits
     follow  called with each Step and News of it
     """
 
@@ -44,33 +49,44 @@ class Request:
     cancelled: bool = False
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False)
 class _Worker:
     process: asyncio.subprocess.Process
+    started: bool = False
+    ready: bool = False
     request: Request | None = None
     affinity: str = ""
-    tasks: set[asyncio.Task[None]] = field(default_factory=set)
+    limit: asyncio.TimerHandle | None = None
 
 
 class PoolFull(Exception):
     """Too many requests wait."""
 
 
+def _ignored(message: Step | News) -> None:
+    """Progress that nobody follows."""
+
+
+@dataclass(slots=True)
 class Pool:
     """Worker processes; `start` before the first request, `close` at the end.
 
-    size     most workers at a time      project  folder of the project
+    project  folder of the project      size  most workers at a time      memory  of a worker [bytes]
+    command  starts a worker            grace  see GRACE
     """
 
-    def __init__(self, project: str, size: int | None = None) -> None:
-        self.size = size or max(3, min(8, os.cpu_count() or 1))
-        self._project = project
-        self._workers: list[_Worker] = []
-        self._waiting: deque[Request] = deque()
-        self._numbers = itertools.count(1)
-        self._starting = 0
-        self._closed = False
-        self._jobs: set[asyncio.Task[None]] = set()
+    project: str
+    size: int = field(default_factory=lambda: max(3, min(8, os.cpu_count() or 1)))
+    memory: int = MEMORY
+    command: tuple[str, ...] = (sys.executable, "-m", "ilmek.web.worker")
+    grace: float = GRACE
+    _workers: list[_Worker] = field(default_factory=list)
+    _waiting: deque[Request] = field(default_factory=deque)
+    _numbers: "itertools.count[int]" = field(default_factory=lambda: itertools.count(1))
+    _starting: int = 0
+    _failed_starts: int = 0
+    _closed: bool = False
+    _tasks: set[asyncio.Task[None]] = field(default_factory=set)
 
     async def start(self, workers: int = 2) -> None:
         """Start the first workers; they get ready while the page loads."""
@@ -80,12 +96,15 @@ class Pool:
         """End all workers; what they do is lost."""
         self._closed = True
         for worker in self._workers:
-            with contextlib.suppress(ProcessLookupError):
-                worker.process.kill()
+            _kill(worker)
         for request in self._waiting:
-            if not request.answer.done():
-                request.answer.cancel()
-        await asyncio.gather(*(worker.process.wait() for worker in self._workers))
+            request.answer.cancel()
+        while self._tasks:
+            await asyncio.gather(*self._tasks, return_exceptions=True)
+
+    def processes(self) -> list[int]:
+        """The numbers of the workers' processes."""
+        return [worker.process.pid for worker in self._workers]
 
     async def answer(
         self,
@@ -94,13 +113,15 @@ class Pool:
         *,
         limit: float,
         affinity: str = "",
+        lax: bool = False,
+        content: bytes | None = None,
         long: bool = False,
-        follow: Callable[[Step | News], None] = lambda message: None,
+        follow: Callable[[Step | News], None] = _ignored,
     ) -> Answer:
         """The answer of a worker. Where the caller is cancelled, so is the request. Raises PoolFull."""
-        if len(self._waiting) >= MOST_WAITING:
+        if len(self._waiting) >= MOST_WAITING or self._closed:
             raise PoolFull
-        ask = Ask(next(self._numbers), function, body, self._project)
+        ask = Ask(next(self._numbers), function, body, self.project, lax, content)
         request = Request(ask, limit, affinity, long, follow, asyncio.get_running_loop().create_future())
         self._waiting.append(request)
         self._serve()
@@ -116,94 +137,101 @@ class Pool:
             self._waiting.remove(request)
         for worker in self._workers:
             if worker.request is request:
-                self._later(self._end_cancelled(worker, request))
+                self._later(_write(worker, Cancel(request.ask.number)))
+                self._limit(worker, self.grace)
 
-    async def _end_cancelled(self, worker: _Worker, request: Request) -> None:
-        await self._write(worker, Cancel(request.ask.number))
-        await asyncio.sleep(GRACE)
-        if worker.request is request:
-            self._kill(worker)
-
-    def _later(self, work: object) -> None:
-        task = asyncio.ensure_future(work)  # type: ignore[call-overload]
-        self._jobs.add(task)
-        task.add_done_callback(self._jobs.discard)
+    def _later(self, work: Coroutine[object, object, None]) -> None:
+        task = asyncio.ensure_future(work)
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
 
     def _serve(self) -> None:
-        """Give waiting requests to free workers, and start workers while requests wait."""
+        """Give waiting requests to free workers, and start workers while requests wait or none is left for the next."""
         if self._closed:
             return
-        busy_long = sum(1 for worker in self._workers if worker.request is not None and worker.request.long)
+        long = sum(1 for worker in self._workers if worker.request is not None and worker.request.long)
         for request in tuple(self._waiting):
-            if request.long and busy_long >= self.size - 1:
+            if request.long and long >= self.size - 1:
                 continue
             worker = self._free(request.affinity)
             if worker is None:
                 break
             self._waiting.remove(request)
-            busy_long += request.long
-            worker.request, worker.affinity = request, request.affinity
-            self._later(self._give(worker, request))
-        if self._waiting and len(self._workers) + self._starting < self.size:
+            long += request.long
+            self._give(worker, request)
+        coming = self._starting + sum(1 for worker in self._workers if not worker.ready)
+        wanted = len(self._waiting) or int(long > 0 and self._free("") is None)
+        for _ in range(min(wanted - coming, self.size - len(self._workers) - self._starting)):
             self._later(self._add())
 
     def _free(self, affinity: str) -> _Worker | None:
-        free = [worker for worker in self._workers if worker.request is None]
+        free = [worker for worker in self._workers if worker.ready and worker.request is None]
         return min(free, key=lambda worker: (worker.affinity != affinity, worker.affinity != ""), default=None)
 
-    async def _give(self, worker: _Worker, request: Request) -> None:
-        await self._write(worker, request.ask)
-        await asyncio.sleep(request.limit)
-        if worker.request is request:
-            given = f"the request took longer than {request.limit:g} s and was ended"
-            self._finish(worker, _failed(request, 503, given))
-            self._kill(worker)
+    def _give(self, worker: _Worker, request: Request) -> None:
+        worker.request, worker.affinity = request, request.affinity
+        self._limit(worker, request.limit)
+        self._later(_write(worker, request.ask))
 
-    async def _write(self, worker: _Worker, message: Message) -> None:
-        assert worker.process.stdin is not None
-        with contextlib.suppress(ConnectionError):
-            worker.process.stdin.write(encoded(message))
-            await worker.process.stdin.drain()
+    def _limit(self, worker: _Worker, limit: float) -> None:
+        """End a worker that has not answered its request within `limit` [s]."""
+        if worker.limit is not None:
+            worker.limit.cancel()
+        worker.limit = asyncio.get_running_loop().call_later(limit, self._overdue, worker, limit)
+
+    def _overdue(self, worker: _Worker, limit: float) -> None:
+        if worker.request is not None:
+            given = f"the request took longer than {limit:g} s and was ended"
+            _kill(worker)
+            self._finish(worker, _failed(worker.request, 503, given))
 
     async def _add(self) -> None:
         self._starting += 1
         try:
             process = await asyncio.create_subprocess_exec(
-                sys.executable,
-                "-m",
-                "ilmek.web.worker",
-                str(MEMORY),
+                *self.command,
+                str(self.memory),
                 stdin=asyncio.subprocess.PIPE,
                 stdout=asyncio.subprocess.PIPE,
                 start_new_session=True,  # Ctrl-C is for the server
                 env={**os.environ, "NUMBA_NUM_THREADS": os.environ.get("NUMBA_NUM_THREADS", "2")},
             )
+        except OSError as error:
+            self._fail_waiting(f"no worker process can be started ({error.strerror})")
+            return
         finally:
             self._starting -= 1
         worker = _Worker(process)
-        self._workers.append(worker)
         if self._closed:
-            process.kill()
-            return
+            _kill(worker)
+        self._workers.append(worker)
         self._later(self._read(worker))
-        self._serve()
 
     async def _read(self, worker: _Worker) -> None:
         """Follow what a worker sends until it ends."""
         stream = worker.process.stdout
         assert stream is not None
-        with contextlib.suppress(asyncio.IncompleteReadError, ConnectionError):
+        with contextlib.suppress(asyncio.IncompleteReadError, ConnectionError, msgspec.DecodeError):
             while True:
                 size = int.from_bytes(await stream.readexactly(4), "little")
                 self._receive(worker, decoded(await stream.readexactly(size)))
+        _kill(worker)
         self._workers.remove(worker)
         if worker.request is not None:
             given = "the worker ended while it answered (the memory of one request is limited)"
             self._finish(worker, _failed(worker.request, 507, given))
-        await worker.process.wait()
+        self._failed_starts = 0 if worker.started else self._failed_starts + 1
+        if self._failed_starts >= MOST_FAILED_STARTS:
+            self._fail_waiting("the worker processes end before they are ready; the terminal shows why")
         self._serve()
+        await worker.process.wait()
 
     def _receive(self, worker: _Worker, message: Message) -> None:
+        if isinstance(message, Ready):
+            worker.started = worker.ready = True
+            self._failed_starts = 0
+            self._serve()
+            return
         request = worker.request
         if request is None or isinstance(message, Ask | Cancel) or message.number != request.ask.number:
             return
@@ -215,20 +243,35 @@ class Pool:
 
     def _finish(self, worker: _Worker, answer: Answer) -> None:
         request, worker.request = worker.request, None
+        if worker.limit is not None:
+            worker.limit.cancel()
         if request is not None and not request.answer.done():
             request.answer.set_result(answer)
 
-    def _kill(self, worker: _Worker) -> None:
-        with contextlib.suppress(ProcessLookupError):
+    def _fail_waiting(self, given: str) -> None:
+        self._failed_starts = 0
+        while self._waiting:
+            request = self._waiting.popleft()
+            if not request.answer.done():
+                request.answer.set_result(_failed(request, 503, given))
+
+
+async def _write(worker: _Worker, message: Message) -> None:
+    assert worker.process.stdin is not None
+    with contextlib.suppress(ConnectionError):
+        worker.process.stdin.write(encoded(message))
+        await worker.process.stdin.drain()
+
+
+def _kill(worker: _Worker) -> None:
+    """End a worker with the processes that it has started; it takes no request any more."""
+    worker.ready = False
+    with contextlib.suppress(ProcessLookupError, PermissionError):
+        if hasattr(os, "killpg"):
+            os.killpg(worker.process.pid, signal.SIGKILL)
+        else:
             worker.process.kill()
 
 
 def _failed(request: Request, status: int, given: str) -> Answer:
-    body = b'{"error":{"given":%s,"allowed":"","do":"try again, or take a smaller task"}}'
-    return Answer(request.ask.number, status, JSON, body % _quoted(given), request.limit)
-
-
-def _quoted(text: str) -> bytes:
-    import json
-
-    return json.dumps(text).encode()
+    return Answer(request.ask.number, status, JSON, error_body(given, do="try again, or take a smaller task"), 0.0)

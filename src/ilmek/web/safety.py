@@ -7,9 +7,9 @@ rebinding) and, where it has an Origin, that of the server (against forged reque
 
 import hashlib
 import hmac
+import ipaddress
 import secrets
 from dataclasses import dataclass, field
-from http.cookies import SimpleCookie
 
 from starlette.datastructures import Headers, MutableHeaders, QueryParams
 from starlette.responses import PlainTextResponse, RedirectResponse, Response
@@ -33,30 +33,46 @@ HEADERS = {
 LONGEST_BODY = 64 * 2**20
 """Largest body of a request [bytes]."""
 
+COOKIE_AGE = 30 * 86400
+"""Life of the cookie [s]."""
+
 
 @dataclass(frozen=True, slots=True)
 class Access:
     """What opens the studio.
 
-    hosts     values of Host that are the server's, with the port
-    secret    of the project; the cookie is made from it, so that a page is still known after a restart
-    token     of the first address
-    password  required where the server listens beyond the loopback; "": none
+    hosts            values of Host that are the server's, with the port
+    secret           of the project; the cookie is made from it, so that a page is still known after a restart
+    password         required where the server listens beyond the loopback, and then no token helps; "": none
+    token            of the first address
+    everywhere_port  not 0: a Host of digits with this port is the server's too; only a name can be rebound
     """
 
     hosts: frozenset[str]
     secret: str
     password: str = ""
     token: str = field(default_factory=lambda: secrets.token_urlsafe(24))
+    everywhere_port: int = 0
 
     @property
     def cookie(self) -> str:
         """The value of the cookie."""
         return hmac.new(self.secret.encode(), b"studio " + self.password.encode(), hashlib.sha256).hexdigest()
 
+    def knows_host(self, host: str) -> bool:
+        """Whether a value of Host is the server's."""
+        if host in self.hosts:
+            return True
+        name, _, port = host.rpartition(":")
+        try:
+            ipaddress.ip_address(name.strip("[]"))
+        except ValueError:
+            return False
+        return self.everywhere_port != 0 and port == str(self.everywhere_port)
+
     def knows_token(self, token: str) -> bool:
-        """Whether a token is the one of the first address."""
-        return hmac.compare_digest(token.encode(), self.token.encode())
+        """Whether a token is the one of the first address; False where a password is required."""
+        return hmac.compare_digest(token.encode(), self.token.encode()) and not self.password
 
     def knows_password(self, password: str) -> bool:
         """Whether a password is right; False where there is none."""
@@ -88,44 +104,56 @@ class Guard:
             await refusal(scope, receive, _with_headers(send))
 
     def _refusal(self, scope: Scope) -> Response | None:
-        """The answer to a request that is not allowed; None: it is."""
+        """The answer to a request that is not allowed, or to the first one; None: it is passed on."""
         headers = Headers(scope=scope)
         host = headers.get("host", "").lower()
-        if host not in self._access.hosts:
+        if not self._access.knows_host(host):
             return PlainTextResponse("This address is not the studio's.\n", 421)
-        origin = headers.get("origin")
-        if origin is not None and origin.lower() not in {f"http://{host}", f"https://{host}"}:
+        if not _is_of_this_site(headers, host):
             return PlainTextResponse("Requests of other sites are not allowed.\n", 403)
-        if headers.get("sec-fetch-site", "same-origin") not in ("same-origin", "none"):
-            return PlainTextResponse("Requests of other sites are not allowed.\n", 403)
-        if int(headers.get("content-length") or 0) > LONGEST_BODY:
+        length = headers.get("content-length") or "0"
+        if not length.isdecimal() or int(length[:20]) > LONGEST_BODY:
             return PlainTextResponse(f"The request is longer than {LONGEST_BODY:,} bytes.\n", 413)
-        if self._is_known(headers):
-            return None
-        return self._first_visit(scope)
+        return None if self._is_known(headers) else self._first_visit(scope)
 
     def _is_known(self, headers: Headers) -> bool:
         kind, _, token = headers.get("authorization", "").partition(" ")
-        if kind.lower() == "bearer" and not self._access.password and self._access.knows_token(token.strip()):
+        if kind.lower() == "bearer" and self._access.knows_token(token.strip()):
             return True
-        morsel = SimpleCookie(headers.get("cookie", "")).get(self._cookie_name)
-        return morsel is not None and self._access.knows_cookie(morsel.value)
+        return any(self._access.knows_cookie(value) for value in cookies(headers, self._cookie_name))
 
     def _first_visit(self, scope: Scope) -> Response | None:
-        query = QueryParams(scope.get("query_string", b""))
-        if scope["type"] == "http" and scope["method"] == "GET" and scope["path"] == "/" and "token" in query:
-            if self._access.knows_token(query["token"]) and not self._access.password:
-                return self.entered()
-        if scope["type"] == "http" and scope["path"] == "/login" and self._access.password:
-            return None
+        if scope["type"] == "http":
+            query = QueryParams(scope.get("query_string", b""))
+            if scope["method"] == "GET" and scope["path"] == "/" and self._access.knows_token(query.get("token", "")):
+                return entered(self._access, self._cookie_name)
+            if self._access.password and scope["path"] == "/login":
+                return None
+            if self._access.password and scope["method"] == "GET" and scope["path"] == "/":
+                return RedirectResponse("/login", 303)
         text = "Open the studio by the address that `ilmek studio` prints; it has a token.\n"
         return PlainTextResponse(text, 401)
 
-    def entered(self) -> Response:
-        """The answer that sets the cookie and leads to the page."""
-        response = RedirectResponse("/", 303)
-        response.set_cookie(self._cookie_name, self._access.cookie, httponly=True, samesite="strict", path="/")
-        return response
+
+def _is_of_this_site(headers: Headers, host: str) -> bool:
+    """Whether a request comes from a page of the studio, from an address that was typed, or from no page at all."""
+    origin = headers.get("origin")
+    if origin is not None and origin.lower() not in (f"http://{host}", f"https://{host}"):
+        return False
+    return headers.get("sec-fetch-site", "none") in ("same-origin", "none")
+
+
+def cookies(headers: Headers, name: str) -> list[str]:
+    """The values of a cookie; other cookies of the host may be of any form."""
+    pairs = (pair.strip().partition("=") for line in headers.getlist("cookie") for pair in line.split(";"))
+    return [value for key, _, value in pairs if key == name]
+
+
+def entered(access: Access, cookie_name: str) -> Response:
+    """The answer that sets the cookie and leads to the page."""
+    response = RedirectResponse("/", 303)
+    response.set_cookie(cookie_name, access.cookie, httponly=True, samesite="strict", path="/", max_age=COOKIE_AGE)
+    return response
 
 
 def _with_headers(send: Send) -> Send:

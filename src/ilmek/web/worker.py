@@ -3,27 +3,29 @@
     python -m ilmek.web.worker MEMORY
 
 Requests come by standard input, answers leave by standard output (see `framing`). What a library prints goes to the
-error stream. Memory beyond MEMORY bytes is refused by the system, and the request ends with an error.
+error stream. Memory beyond MEMORY bytes is refused by the system, and the request ends with an error. At the end of
+standard input, which is the end of the server however it came, the worker ends at once with all its own processes.
 """
 
 import contextlib
 import os
+import signal
 import sys
 import threading
 import time
 import traceback
+from functools import cache
 from importlib import import_module
 from queue import SimpleQueue
-from typing import Any, BinaryIO, get_type_hints
+from typing import Any, BinaryIO, NoReturn, get_type_hints
 
 import msgspec
 
 from ilmek.errors import IlmekError
 from ilmek.jobs.studio.answers import Binary, Context
 from ilmek.progress import Cancelled, Progress
-from ilmek.web.framing import Answer, Ask, Cancel, Message, News, Step, encoded, read_message
+from ilmek.web.framing import JSON, Answer, Ask, Cancel, Message, News, Ready, Step, encoded, error_body, read_message
 
-JSON = "application/json"
 REPORT_EVERY = 0.05
 """Shortest time between two reports of progress [s]."""
 
@@ -33,18 +35,23 @@ class Worker:
 
     def __init__(self, requests: BinaryIO, answers: BinaryIO) -> None:
         self._requests, self._answers = requests, answers
-        self._queue: SimpleQueue[Ask | None] = SimpleQueue()
+        self._queue: SimpleQueue[Ask] = SimpleQueue()
         self._cancelled: set[int] = set()
         self._writing = threading.Lock()
 
     def run(self) -> None:
-        """Answer requests until there are no more."""
-        threading.Thread(target=self._read, daemon=True).start()
-        while (ask := self._queue.get()) is not None:
+        """Answer requests until the process ends."""
+        self._send(Ready())
+        while True:
+            ask = self._queue.get()
             began = time.perf_counter()
             status, kind, body = self._answered(ask)
             self._cancelled.discard(ask.number)
             self._send(Answer(ask.number, status, kind, body, time.perf_counter() - began))
+
+    def listen(self) -> None:
+        """Read requests from now on."""
+        threading.Thread(target=self._read, daemon=True).start()
 
     def _read(self) -> None:
         while (message := read_message(self._requests)) is not None:
@@ -52,7 +59,7 @@ class Worker:
                 self._cancelled.add(message.number)
             elif isinstance(message, Ask):
                 self._queue.put(message)
-        self._queue.put(None)
+        end()
 
     def _send(self, message: Message) -> None:
         with self._writing, contextlib.suppress(BrokenPipeError):
@@ -75,47 +82,80 @@ class Worker:
         """Status, media type and body of the answer."""
         try:
             function, request_type = resolved(ask.function)
-            request = msgspec.json.decode(ask.body, type=request_type)
+            request = _request(ask, request_type)
             context = Context(
-                ask.project, self._progress(ask.number), lambda news: self._send(News(ask.number, encoded_json(news)))
+                ask.project,
+                self._progress(ask.number),
+                lambda news: self._send(News(ask.number, encoded_json(news))),
+                lambda news: self._send(News(ask.number, encoded_json(news), everyone=True)),
             )
             context.progress(0.0)
             answer = function(request, context)
-        except Cancelled:
-            return 499, JSON, b"{}"
-        except IlmekError as error:
-            return 422, JSON, encoded_json({"error": {"given": error.given, "allowed": error.allowed, "do": error.do}})
-        except msgspec.ValidationError as error:
-            return 400, JSON, encoded_json({"error": {"given": str(error), "allowed": "", "do": ""}})
-        except MemoryError:
-            given = "the computer's memory for one request is not enough"
-            return 507, JSON, encoded_json({"error": {"given": given, "allowed": "", "do": "take a smaller task"}})
         except Exception as error:
-            traceback.print_exc()
-            given = f"a fault of the studio: {type(error).__name__}: {error}"
-            return 500, JSON, encoded_json({"error": {"given": given, "allowed": "", "do": "please report it"}})
+            return _refused(error)
         if isinstance(answer, Binary):
             return 200, answer.kind, answer.body
         return 200, JSON, encoded_json(answer)
 
 
-def resolved(name: str) -> tuple[Any, type]:
-    """The function of "module:name" below ilmek.jobs, and the type of its request."""
+def _refused(error: Exception) -> tuple[int, str, bytes]:
+    """Status, media type and body of the answer after an error."""
+    if isinstance(error, IlmekError):
+        return 422, JSON, error_body(error.given, allowed=error.allowed, do=error.do)
+    if isinstance(error, Cancelled):
+        return 499, JSON, b"{}"
+    if isinstance(error, msgspec.ValidationError):
+        return 400, JSON, error_body(str(error))
+    if isinstance(error, MemoryError):
+        return 507, JSON, error_body("the memory for one request is not enough", do="take a smaller task")
+    traceback.print_exception(error)
+    return 500, JSON, error_body(f"a fault of the studio: {type(error).__name__}: {error}", do="please report it")
+
+
+def _request(ask: Ask, kind: type) -> Any:
+    """The record of a request. Raises msgspec.ValidationError, also for text that is no JSON."""
+    try:
+        if ask.content is None:
+            return msgspec.json.decode(ask.body, type=kind, strict=not ask.lax)
+        fields = msgspec.json.decode(ask.body) | {"content": ask.content}
+        return msgspec.convert(fields, kind, strict=False, builtin_types=(bytes,))
+    except msgspec.ValidationError:
+        raise
+    except msgspec.DecodeError as error:
+        raise msgspec.ValidationError(f"the body is no JSON: {error}") from None
+
+
+@cache
+def resolved(name: str) -> tuple[Any, Any]:
+    """The function of "module:name" below ilmek.jobs (or of ilmek.web), and the type of its request."""
     module, _, attribute = name.partition(":")
-    function = getattr(import_module(f"ilmek.jobs.{module}"), attribute)
+    function = getattr(import_module(module if module.startswith("ilmek.web.") else f"ilmek.jobs.{module}"), attribute)
     return function, get_type_hints(function)["request"]
 
 
+def end() -> NoReturn:
+    """End this process and those that it has started, at once."""
+    if os.name == "posix" and os.getpgid(0) == os.getpid():
+        os.killpg(0, signal.SIGKILL)
+    os._exit(1)
+
+
 def encoded_json(value: object) -> bytes:
-    """JSON of records, mappings and lists; numbers that are not finite are null."""
-    return msgspec.json.encode(value)
+    """JSON of records, mappings, lists and arrays; numbers that are not finite are null."""
+    return msgspec.json.encode(value, enc_hook=_plain)
+
+
+def _plain(value: Any) -> object:
+    """The plain data of an array or a number of numpy. Raises NotImplementedError for anything else."""
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    raise NotImplementedError(f"an answer with {type(value).__name__}")
 
 
 def limit_memory(most: int) -> None:
     """Have the system refuse memory beyond `most` bytes, where it can."""
     with contextlib.suppress(ImportError, ValueError, OSError):
-        import resource
-
+        resource = import_module("resource")  # not on Windows
         resource.setrlimit(resource.RLIMIT_AS, (most, most))
 
 
@@ -124,8 +164,10 @@ def main() -> None:
     limit_memory(int(sys.argv[1]))
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)
+    worker = Worker(sys.stdin.buffer, answers)
+    worker.listen()
     import_module("ilmek.jobs.studio.warm_up").warm_up()
-    Worker(sys.stdin.buffer, answers).run()
+    worker.run()
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 """What a task of the studio gets beside its request, and what it may answer besides records."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
 import msgspec
@@ -20,6 +20,10 @@ class Binary:
     body: bytes
 
 
+def _unseen(news: object) -> None:
+    """Nobody follows."""
+
+
 @dataclass(frozen=True, slots=True)
 class Context:
     """What a task gets beside its request.
@@ -27,11 +31,13 @@ class Context:
     project   folder of the project; every file of the task lies in it
     progress  receives the progress; raises Cancelled
     show      sends a record to whoever follows the work, before its end
+    announce  sends a record to every open page: a file has changed
     """
 
     project: str = "."
     progress: Progress = SILENT
-    show: Callable[[object], None] = field(default=lambda news: None)
+    show: Callable[[object], None] = _unseen
+    announce: Callable[[object], None] = _unseen
 
     @property
     def folder(self) -> Path:

@@ -1,0 +1,67 @@
+"""The page that requires the password, where the studio listens beyond the loopback."""
+
+import asyncio
+from urllib.parse import parse_qs
+
+from starlette.requests import Request
+from starlette.responses import HTMLResponse, RedirectResponse, Response
+from starlette.routing import Route
+
+from ilmek.web.safety import Access, entered
+
+FIRST_DELAY = 0.5
+"""Delay after the first wrong password [s]; it doubles with each further one."""
+
+LONGEST_DELAY = 16.0
+"""Largest delay after a wrong password [s]."""
+
+LONGEST_FORM = 4096
+"""Largest body of the form [bytes]."""
+
+_PAGE = """<!doctype html>
+<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
+<title>ilmek studio</title></head><body><main><h1>ilmek studio</h1>
+<form method="post" action="/login"><p><label for="password">Password</label>
+<input id="password" name="password" type="password" autocomplete="current-password" required autofocus></p>
+<p role="alert">{note}</p><p><button>Open the studio</button></p></form></main></body></html>
+"""
+
+
+class Login:
+    """Shows the form and checks passwords, one at a time and slower after each wrong one."""
+
+    def __init__(self, access: Access, cookie_name: str, first_delay: float = FIRST_DELAY) -> None:
+        self._access, self._cookie_name, self._delay = access, cookie_name, first_delay
+        self._wrong = 0
+        self._turn = asyncio.Lock()
+
+    async def __call__(self, request: Request) -> Response:
+        """Answer GET by the form and POST by the studio or the form again."""
+        if not self._access.password:
+            return RedirectResponse("/", 303)
+        if request.method == "GET":
+            return HTMLResponse(_PAGE.format(note=""))
+        body = b""
+        async for part in request.stream():
+            body += part
+            if len(body) > LONGEST_FORM:
+                return HTMLResponse(_PAGE.format(note="The password is not right."), 413)
+        async with self._turn:
+            if self._access.knows_password(_password(body)):
+                self._wrong = 0
+                return entered(self._access, self._cookie_name)
+            await asyncio.sleep(min(self._delay * 2**self._wrong, LONGEST_DELAY))
+            self._wrong = min(self._wrong + 1, 20)
+        return HTMLResponse(_PAGE.format(note="The password is not right."), 403)
+
+
+def _password(body: bytes) -> str:
+    try:
+        return parse_qs(body.decode("ascii"), max_num_fields=4, encoding="utf-8").get("password", [""])[0]
+    except ValueError:
+        return ""
+
+
+def login_routes(access: Access, cookie_name: str) -> list[Route]:
+    """The route of the form."""
+    return [Route("/login", Login(access, cookie_name).__call__, methods=["GET", "POST"])]
