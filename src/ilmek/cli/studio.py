@@ -1,15 +1,16 @@
 """`ilmek studio`: the carpet, the machines and the loom in the browser."""
 
 import sys
-from importlib.util import find_spec
+from dataclasses import replace
 from pathlib import Path
 
 import click
 
 from ilmek.cli.interrupts import before_end
 from ilmek.cli.terminal import note
-from ilmek.errors import OutputError, ParameterError
+from ilmek.errors import ParameterError
 from ilmek.io.secret_file import read_bounded
+from ilmek.jobs.studio.project_open import open_project
 from ilmek.web.serve import PORT, StudioOrder, checked_order, serve
 
 EXAMPLES = """\b
@@ -34,7 +35,7 @@ DEFAULT_PROJECT = Path("studio-project")
     "--password-file",
     type=click.Path(path_type=Path),
     metavar="FILE",
-    help="File with the password that --host requires; default: it is asked for.",
+    help="File with the password that --host requires; default: typed.",
 )
 def command(*, project: Path | None, port: int, no_browser: bool, host: str, password_file: Path | None) -> int:
     """Open the studio on the folder PROJECT: carpet, machines, linkages, cyclograms and loom in the browser.
@@ -48,22 +49,10 @@ def command(*, project: Path | None, port: int, no_browser: bool, host: str, pas
     if not order.local or password_file is not None:
         order = StudioOrder(folder, host, port, _password(password_file))
     checked_order(order)
-    _open(folder)
+    folder = open_project(folder)
     with before_end(lambda: f"the studio is closed; the project is in {folder}"):
-        serve(order, note, click.echo, browser=not no_browser)
+        serve(replace(order, project=folder), note, click.echo, browser=not no_browser)
     return 0
-
-
-def _open(folder: Path) -> None:
-    """Have the folder of the project. Raises OutputError."""
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise OutputError(f"the folder {folder} cannot be made ({error.strerror})", do="give another PROJECT") from None
-    if find_spec("ilmek.jobs.studio.project") is not None:
-        from ilmek.jobs.studio.project import open_project
-
-        open_project(folder)
 
 
 def _password(file: Path | None) -> str:

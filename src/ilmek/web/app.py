@@ -5,6 +5,7 @@ import re
 import time
 from collections.abc import AsyncIterator, Awaitable, Callable
 from contextlib import asynccontextmanager
+from pathlib import Path
 
 import msgspec
 from starlette.applications import Starlette
@@ -15,10 +16,11 @@ from starlette.routing import BaseRoute, Route, WebSocketRoute
 from starlette.websockets import WebSocket
 
 from ilmek import __version__
+from ilmek.jobs.studio.project_watch import INTERVAL, ProjectWatch
 from ilmek.web.api_page import api_page
 from ilmek.web.endpoints import ENDPOINTS, Endpoint
-from ilmek.web.events import Hub
-from ilmek.web.framing import JSON, Answer, News, Step, error_body
+from ilmek.web.events import EventHub
+from ilmek.web.framing import JSON, News, Reply, StepMessage, error_body
 from ilmek.web.login import login_routes
 from ilmek.web.pool import Pool, PoolFull
 from ilmek.web.safety import LONGEST_BODY, Access, Guard
@@ -45,15 +47,17 @@ def studio_app(
     endpoints  the API; default: all of it
     """
     pool = pool or Pool(project)
-    hub = Hub({"version": __version__, "start": time.time_ns() // 1_000_000}, lambda page: works.page_left(page))  # noqa: PLW0108 - works follows
+    hub = EventHub({"version": __version__, "start": time.time_ns() // 1_000_000}, lambda page: works.page_left(page))  # noqa: PLW0108 - works follows
     works = Works(pool, hub)
 
     @asynccontextmanager
     async def life(app: Starlette) -> AsyncIterator[None]:  # noqa: ARG001 - starlette gives it
         start = asyncio.ensure_future(pool.start())
+        watch = asyncio.ensure_future(_announced_changes(Path(project), hub))
         try:
             yield
         finally:
+            watch.cancel()
             hub.close()
             await start
             await works.close()
@@ -80,8 +84,17 @@ def studio_app(
     return app
 
 
-def _route(endpoint: Endpoint, pool: Pool, works: Works, hub: Hub) -> Route:
-    def follow(message: Step | News) -> None:
+async def _announced_changes(project: Path, hub: EventHub) -> None:
+    """Tell the pages which files of the project have changed, whoever changed them."""
+    watch = ProjectWatch(project)
+    while True:
+        await asyncio.sleep(INTERVAL)
+        if paths := await asyncio.to_thread(watch.changes):
+            hub.send({"type": "changed", "paths": paths})
+
+
+def _route(endpoint: Endpoint, pool: Pool, works: Works, hub: EventHub) -> Route:
+    def follow(message: StepMessage | News) -> None:
         if isinstance(message, News) and message.everyone:
             hub.send({"type": "announced", "news": msgspec.Raw(message.body)})
 
@@ -162,7 +175,7 @@ async def _body(request: Request) -> bytes | None:
     return b"".join(parts)
 
 
-async def _while_wanted(request: Request, answer: Awaitable[Answer]) -> Answer | None:
+async def _while_wanted(request: Request, answer: Awaitable[Reply]) -> Reply | None:
     """The answer; None: the client has gone, and the request was cancelled."""
     task = asyncio.ensure_future(answer)
     gone = asyncio.ensure_future(_disconnected(request))
@@ -194,7 +207,7 @@ def _no_work(number: int) -> Response:
     return _error(404, f"there is no work {number}", do="start it again")
 
 
-def _response(answer: Answer, total: float) -> Response:
+def _response(answer: Reply, total: float) -> Response:
     times = f"task;dur={1000 * answer.time:.1f}, wait;dur={1000 * max(total - answer.time, 0.0):.1f}"
     headers = {"server-timing": times, "cache-control": "no-store"}
     return Response(answer.body, answer.status, headers, media_type=answer.kind)

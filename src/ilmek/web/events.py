@@ -8,7 +8,8 @@ Each event is an object of JSON with `type`:
     done       a work has ended well: `work`, `time` [s]; its answer is at /api/work/N
     failed     a work has ended with an error: `work`, `error`
     cancelled  a work was cancelled: `work`
-    announced  something of the project has changed: `news`
+    announced  what a request has to tell all pages: `news`
+    changed    files of the project came, went or changed: their `paths`
 """
 
 import asyncio
@@ -25,7 +26,7 @@ MOST_PAGES = 100
 """Connections at a time."""
 
 
-class Hub:
+class EventHub:
     """Sends events to pages; a page gives its name as `?page=NAME`."""
 
     def __init__(self, hello: dict[str, object], left: Callable[[str], None]) -> None:

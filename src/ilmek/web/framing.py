@@ -35,7 +35,7 @@ class Cancel(msgspec.Struct, tag="cancel", array_like=True):
     number: int
 
 
-class Step(msgspec.Struct, tag="step", array_like=True):
+class StepMessage(msgspec.Struct, tag="step", array_like=True):
     """Progress of a request: stage and completed share."""
 
     number: int
@@ -54,7 +54,7 @@ class News(msgspec.Struct, tag="news", array_like=True):
     everyone: bool = False
 
 
-class Answer(msgspec.Struct, tag="answer", array_like=True):
+class Reply(msgspec.Struct, tag="answer", array_like=True):
     """The answer to a request.
 
     status   as of HTTP      kind  media type      time  [s] that the function took
@@ -67,7 +67,7 @@ class Answer(msgspec.Struct, tag="answer", array_like=True):
     time: float
 
 
-Message = Ready | Ask | Cancel | Step | News | Answer
+Message = Ready | Ask | Cancel | StepMessage | News | Reply
 
 _ENCODER = msgspec.msgpack.Encoder()
 _DECODER: msgspec.msgpack.Decoder[Message] = msgspec.msgpack.Decoder(Message)

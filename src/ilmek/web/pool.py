@@ -17,7 +17,7 @@ from dataclasses import dataclass, field
 
 import msgspec
 
-from ilmek.web.framing import JSON, Answer, Ask, Cancel, Message, News, Ready, Step, decoded, encoded, error_body
+from ilmek.web.framing import JSON, Ask, Cancel, Message, News, Ready, Reply, StepMessage, decoded, encoded, error_body
 
 GRACE = 4.0
 """Time that a cancelled request has to end by itself before its worker is ended [s]."""
@@ -37,15 +37,15 @@ class Request:
     """A request that waits or is answered.
 
     limit   longest time of an answer [s]      long  a work that goes on, not a person who waits
-    follow  called with each Step and News of it
+    follow  called with each StepMessage and News of it
     """
 
     ask: Ask
     limit: float
     affinity: str
     long: bool
-    follow: Callable[[Step | News], None]
-    answer: asyncio.Future[Answer]
+    follow: Callable[[StepMessage | News], None]
+    answer: asyncio.Future[Reply]
     cancelled: bool = False
 
 
@@ -63,7 +63,7 @@ class PoolFull(Exception):
     """Too many requests wait."""
 
 
-def _ignored(message: Step | News) -> None:
+def _ignored(message: StepMessage | News) -> None:
     """Progress that nobody follows."""
 
 
@@ -116,8 +116,8 @@ class Pool:
         lax: bool = False,
         content: bytes | None = None,
         long: bool = False,
-        follow: Callable[[Step | News], None] = _ignored,
-    ) -> Answer:
+        follow: Callable[[StepMessage | News], None] = _ignored,
+    ) -> Reply:
         """The answer of a worker. Where the caller is cancelled, so is the request. Raises PoolFull."""
         if len(self._waiting) >= MOST_WAITING or self._closed:
             raise PoolFull
@@ -235,13 +235,13 @@ class Pool:
         request = worker.request
         if request is None or isinstance(message, Ask | Cancel) or message.number != request.ask.number:
             return
-        if isinstance(message, Answer):
+        if isinstance(message, Reply):
             self._finish(worker, message)
             self._serve()
         elif not request.cancelled:
             request.follow(message)
 
-    def _finish(self, worker: _Worker, answer: Answer) -> None:
+    def _finish(self, worker: _Worker, answer: Reply) -> None:
         request, worker.request = worker.request, None
         if worker.limit is not None:
             worker.limit.cancel()
@@ -273,5 +273,5 @@ def _kill(worker: _Worker) -> None:
             worker.process.kill()
 
 
-def _failed(request: Request, status: int, given: str) -> Answer:
-    return Answer(request.ask.number, status, JSON, error_body(given, do="try again, or take a smaller task"), 0.0)
+def _failed(request: Request, status: int, given: str) -> Reply:
+    return Reply(request.ask.number, status, JSON, error_body(given, do="try again, or take a smaller task"), 0.0)

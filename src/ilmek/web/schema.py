@@ -4,6 +4,7 @@ python -m ilmek.web.schema FOLDER       writes openapi.json and messages.json: a
 """
 
 import json
+import re
 import sys
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -37,7 +38,8 @@ def openapi(endpoints: Iterable[Endpoint] = ENDPOINTS) -> dict[str, Any]:
     for endpoint in endpoints:
         request, answer = (schemas[kind] for kind in _types(endpoint))
         operation = _operation(endpoint, _followed(request, components), answer)
-        paths.setdefault(f"/api{endpoint.path}", {})[endpoint.method.lower()] = operation
+        path = re.sub(r":\w+}", "}", endpoint.path)
+        paths.setdefault(f"/api{path}", {})[endpoint.method.lower()] = operation
     return {
         "openapi": "3.1.0",
         "info": {"title": "ilmek studio", "version": __version__, "description": _DESCRIPTION},
@@ -93,7 +95,7 @@ def _schemas(endpoints: tuple[Endpoint, ...], template: str) -> tuple[dict[Any, 
     answers = [_types(endpoint)[1] for endpoint in endpoints]
     answers += [kind for endpoint in endpoints for kind in _further(endpoint)]
     kinds = list(dict.fromkeys(kind for kind in (*requests, *answers) if kind is not Binary))
-    found, components = msgspec.json.schema_components(kinds, ref_template=template)
+    found, components = msgspec.json.schema_components(kinds, schema_hook=_any, ref_template=template)
     schemas = dict(zip(kinds, found, strict=True)) | {Binary: {}}
     doubled = sorted(name for name in components if not name.isidentifier())
     if doubled:
@@ -102,6 +104,13 @@ def _schemas(endpoints: tuple[Endpoint, ...], template: str) -> tuple[dict[Any, 
     for name, schema in components.items():
         _complete(schema, optional=name in asked)
     return schemas, dict(sorted(components.items()))
+
+
+def _any(kind: type) -> dict[str, Any]:
+    """The schema of `object`: any JSON."""
+    if kind is not object:
+        raise NotImplementedError(f"{kind} in a record of the API")
+    return {"description": "any JSON"}
 
 
 def _reached(schemas: Iterable[Any], components: dict[str, Any]) -> set[str]:
@@ -137,7 +146,9 @@ def _followed(schema: dict[str, Any], components: dict[str, Any]) -> dict[str, A
 
 def _operation(endpoint: Endpoint, request: dict[str, Any], answer: dict[str, Any]) -> dict[str, Any]:
     properties: dict[str, Any] = dict(request.get("properties", {}))
-    in_path = {name: properties.pop(name, {}) for name in properties.copy() if f"{{{name}" in endpoint.path}
+    in_path = {
+        name: properties.pop(name, {}) for name in properties.copy() if re.search(rf"{{{name}[:}}]", endpoint.path)
+    }
     bodiless = endpoint.method in ("GET", "DELETE") or bool(endpoint.upload)
     required = [name for name in request.get("required", ()) if name in properties and name != "content"]
     operation: dict[str, Any] = {

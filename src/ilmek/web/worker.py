@@ -24,7 +24,19 @@ import msgspec
 from ilmek.errors import IlmekError
 from ilmek.jobs.studio.answers import Binary, Context
 from ilmek.progress import Cancelled, Progress
-from ilmek.web.framing import JSON, Answer, Ask, Cancel, Message, News, Ready, Step, encoded, error_body, read_message
+from ilmek.web.framing import (
+    JSON,
+    Ask,
+    Cancel,
+    Message,
+    News,
+    Ready,
+    Reply,
+    StepMessage,
+    encoded,
+    error_body,
+    read_message,
+)
 
 REPORT_EVERY = 0.05
 """Shortest time between two reports of progress [s]."""
@@ -40,14 +52,14 @@ class Worker:
         self._writing = threading.Lock()
 
     def run(self) -> None:
-        """Answer requests until the process ends."""
+        """Reply requests until the process ends."""
         self._send(Ready())
         while True:
             ask = self._queue.get()
             began = time.perf_counter()
             status, kind, body = self._answered(ask)
             self._cancelled.discard(ask.number)
-            self._send(Answer(ask.number, status, kind, body, time.perf_counter() - began))
+            self._send(Reply(ask.number, status, kind, body, time.perf_counter() - began))
 
     def listen(self) -> None:
         """Read requests from now on."""
@@ -74,7 +86,7 @@ class Worker:
             now = time.monotonic()
             if now - last >= REPORT_EVERY:
                 last = now
-                self._send(Step(number, stage, share))
+                self._send(StepMessage(number, stage, share))
 
         return Progress(report, lambda: number in self._cancelled)
 
@@ -160,7 +172,7 @@ def limit_memory(most: int) -> None:
 
 
 def main() -> None:
-    """Answer the requests of standard input on standard output."""
+    """Reply the requests of standard input on standard output."""
     limit_memory(int(sys.argv[1]))
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)

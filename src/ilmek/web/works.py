@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 
 import msgspec
 
-from ilmek.web.events import Hub
-from ilmek.web.framing import JSON, Answer, News, Step, error_body
+from ilmek.web.events import EventHub
+from ilmek.web.framing import JSON, News, Reply, StepMessage, error_body
 from ilmek.web.pool import Pool, PoolFull
 
 MOST_KEPT = 50
@@ -28,7 +28,7 @@ class _Work:
     task: "asyncio.Task[None] | None" = None
     stage: str = ""
     share: float = 0.0
-    answer: Answer | None = None
+    answer: Reply | None = None
 
 
 @dataclass(slots=True)
@@ -36,7 +36,7 @@ class Works:
     """The works that run, and the answers of those that have ended."""
 
     pool: Pool
-    hub: Hub
+    hub: EventHub
     patience: float = PATIENCE
     _works: dict[int, _Work] = field(default_factory=dict)
     _numbers: "itertools.count[int]" = field(default_factory=lambda: itertools.count(1))
@@ -48,7 +48,7 @@ class Works:
         number, work = next(self._numbers), _Work(page)
         self._works[number] = work
 
-        def follow(message: Step | News) -> None:
+        def follow(message: StepMessage | News) -> None:
             self._follow(number, work, message)
 
         work.task = asyncio.ensure_future(self._run(number, work, (function, body, limit, content), follow))
@@ -59,13 +59,13 @@ class Works:
         number: int,
         work: _Work,
         ask: tuple[str, bytes, float, bytes | None],
-        follow: Callable[[Step | News], None],
+        follow: Callable[[StepMessage | News], None],
     ) -> None:
         function, body, limit, content = ask
         try:
             answer = await self.pool.answer(function, body, limit=limit, content=content, long=True, follow=follow)
         except PoolFull:
-            answer = Answer(0, 503, JSON, error_body("too many requests wait", do="try again"), 0.0)
+            answer = Reply(0, 503, JSON, error_body("too many requests wait", do="try again"), 0.0)
         except asyncio.CancelledError:
             self._works.pop(number, None)
             self.hub.send({"type": "cancelled", "work": number}, work.page)
@@ -78,8 +78,8 @@ class Works:
             error = msgspec.json.decode(answer.body).get("error")
             self.hub.send({"type": "failed", "work": number, "error": error}, work.page)
 
-    def _follow(self, number: int, work: _Work, message: Step | News) -> None:
-        if isinstance(message, Step):
+    def _follow(self, number: int, work: _Work, message: StepMessage | News) -> None:
+        if isinstance(message, StepMessage):
             work.stage, work.share = message.stage, message.share
             event = {"type": "step", "work": number, "stage": message.stage, "share": message.share}
             self.hub.send(event, work.page)
@@ -93,13 +93,13 @@ class Works:
         for number in ended[:-MOST_KEPT]:
             del self._works[number]
 
-    def state(self, number: int) -> Answer | None:
+    def state(self, number: int) -> Reply | None:
         """The answer of a work; status 202 while it goes on; None: there is no such work."""
         work = self._works.get(number)
         if work is None or work.answer is not None:
             return None if work is None else work.answer
         body = msgspec.json.encode({"work": number, "stage": work.stage, "share": work.share})
-        return Answer(0, 202, JSON, body, 0.0)
+        return Reply(0, 202, JSON, body, 0.0)
 
     def cancel(self, number: int) -> bool:
         """Cancel a work that goes on, and forget one that has ended; False: there is no such work."""
