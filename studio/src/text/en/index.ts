@@ -6,7 +6,8 @@ import files from "./files";
 import linkage from "./linkage";
 import loom from "./loom";
 import machine from "./machine";
+import project from "./project";
 import synthesis from "./synthesis";
 import ui from "./ui";
 
-export const en = { app, carpet, cyclogram, files, linkage, loom, machine, synthesis, ui };
+export const en = { app, carpet, cyclogram, files, linkage, loom, machine, project, synthesis, ui };

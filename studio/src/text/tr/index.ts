@@ -8,7 +8,8 @@ import files from "./files";
 import linkage from "./linkage";
 import loom from "./loom";
 import machine from "./machine";
+import project from "./project";
 import synthesis from "./synthesis";
 import ui from "./ui";
 
-export const tr: Translation = { app, carpet, cyclogram, files, linkage, loom, machine, synthesis, ui };
+export const tr: Translation = { app, carpet, cyclogram, files, linkage, loom, machine, project, synthesis, ui };

@@ -1,0 +1,22 @@
+/** The project in the browser. */
+export { type FileContent, type FileError, type FileSummary, fileAddress, type PictureSummary } from "./api";
+export { Conflicts } from "./conflicts";
+export { Document, type SaveState as DocumentState } from "./document";
+export {
+  activeDocument,
+  deleteFile,
+  filesChanged,
+  filesOf,
+  freePath,
+  newFile,
+  openDocument,
+  openDocuments,
+  project,
+  refreshProject,
+  renameFile,
+  saveAll,
+  undoDelete,
+  uploadPicture,
+} from "./project";
+export { SaveState } from "./save-state";
+export { useDocument } from "./use-document";

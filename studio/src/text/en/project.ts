@@ -1,0 +1,26 @@
+/** Texts about the files of the project: saved, undone, in conflict. */
+export default {
+  undo: "Undo (Ctrl+Z)",
+  redo: "Redo (Ctrl+Shift+Z)",
+  loading: "Opening",
+  saved: "Saved",
+  changed: "Changed",
+  saving: "Saving",
+  lost: "Kept in this browser",
+  refused: "Not saved",
+  conflict: "Changed by two",
+  missing: "Not there",
+  decide: "Decide",
+  conflictTitle: "{path} was changed twice",
+  conflictHelp:
+    "Another program or another tab changed this file after you opened it. Nothing was overwritten. Choose which state to keep; undo brings the other one back.",
+  conflictGone: "Another program deleted or renamed this file. Keep your state to write the file again.",
+  showDifference: "Show the difference",
+  takeTheirs: "Take theirs",
+  keepMine: "Keep mine",
+  difference: "Difference",
+  value: "Value",
+  line: "Line",
+  mine: "Mine",
+  theirs: "On the disc",
+} as const;

@@ -1,0 +1,30 @@
+import type { Same } from "..";
+import type en from "../en/project";
+
+/** Proje dosyalarıyla ilgili metinler. */
+export default {
+  undo: "Geri al (Ctrl+Z)",
+  redo: "Yinele (Ctrl+Shift+Z)",
+  loading: "Açılıyor",
+  saved: "Kaydedildi",
+  changed: "Değişti",
+  saving: "Kaydediliyor",
+  lost: "Bu tarayıcıda tutuluyor",
+  refused: "Kaydedilmedi",
+  conflict: "İki yerden değişti",
+  missing: "Bulunamadı",
+  decide: "Karar ver",
+  conflictTitle: "{path} iki kez değiştirildi",
+  conflictHelp:
+    "Siz açtıktan sonra başka bir program ya da sekme bu dosyayı değiştirdi. Hiçbir şeyin üzerine yazılmadı. Hangi durumun kalacağını seçin; geri alma ötekini getirir.",
+  conflictGone:
+    "Başka bir program bu dosyayı sildi ya da adını değiştirdi. Dosyayı yeniden yazmak için kendi durumunuzu tutun.",
+  showDifference: "Farkı göster",
+  takeTheirs: "Ötekini al",
+  keepMine: "Benimkini tut",
+  difference: "Fark",
+  value: "Değer",
+  line: "Satır",
+  mine: "Benimki",
+  theirs: "Diskteki",
+} as const satisfies Same<typeof en>;
