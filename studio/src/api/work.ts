@@ -1,0 +1,118 @@
+/** Long work: started by a request, reported by events, cancelled by a signal. */
+import { onEvent, type ServerEvent } from "./events";
+import { ApiError, get, post, remove } from "./request";
+
+export interface WorkListeners<News> {
+  onStep?: (stage: string, share: number) => void;
+  onNews?: (news: News) => void;
+  signal?: AbortSignal;
+}
+
+/** Events that came before the number of their work was known. */
+const early: ServerEvent[] = [];
+const MOST_EARLY = 200;
+let starting = 0;
+
+onEvent((event) => {
+  if (starting > 0 && "work" in event) {
+    early.push(event);
+    if (early.length > MOST_EARLY) early.shift();
+  }
+});
+
+/**
+ * The answer of a long work. It survives a lost connection; where the server was started anew the work is gone, and the
+ * promise fails. Raises ApiError, or AbortError after `signal`.
+ */
+export async function runWork<Reply, News = unknown>(
+  path: string,
+  body: unknown,
+  { onStep, onNews, signal }: WorkListeners<News> = {},
+): Promise<Reply> {
+  starting += 1;
+  let number: number;
+  let before: ServerEvent[];
+  try {
+    number = (await post<{ work: number }>(path, body, signal)).work;
+  } finally {
+    starting -= 1;
+    before = starting === 0 ? early.splice(0) : [...early];
+  }
+  return follow<Reply>(number, before, {
+    onStep: onStep ?? (() => {}),
+    onNews: (news) => onNews?.(news as News),
+    ...(signal ? { signal } : {}),
+  });
+}
+
+function follow<Reply>(
+  number: number,
+  before: ServerEvent[],
+  {
+    onStep,
+    onNews,
+    signal,
+  }: { onStep: (stage: string, share: number) => void; onNews: (news: unknown) => void; signal?: AbortSignal },
+): Promise<Reply> {
+  const path = `/work/${number}`;
+  return new Promise<Reply>((resolve, reject) => {
+    const end = onEvent(take);
+    signal?.addEventListener("abort", abort, { once: true });
+    for (const event of before) take(event);
+    if (signal?.aborted) abort();
+
+    function close(): void {
+      end();
+      signal?.removeEventListener("abort", abort);
+    }
+
+    function abort(): void {
+      close();
+      void remove(path).catch(() => {});
+      reject(new DOMException("cancelled", "AbortError"));
+    }
+
+    function fetchAnswer(): void {
+      close();
+      get<Reply>(path).then(resolve, reject);
+    }
+
+    /** After the connection was lost: is the work still there, and has it ended meanwhile? */
+    function look(): void {
+      get<Reply | { work: number; stage: string }>(path).then(
+        (state) => {
+          if (!isRunning(state, number)) {
+            close();
+            resolve(state as Reply);
+          }
+        },
+        (error: unknown) => {
+          close();
+          reject(error);
+        },
+      );
+    }
+
+    function take(event: ServerEvent): void {
+      if (event.type === "hello") look();
+      if (!("work" in event) || event.work !== number) return;
+      if (event.type === "step") onStep(event.stage, event.share);
+      if (event.type === "news") onNews(event.news);
+      if (event.type === "done") fetchAnswer();
+      if (event.type === "cancelled") {
+        close();
+        reject(new DOMException("cancelled", "AbortError"));
+      }
+      if (event.type === "failed") {
+        close();
+        const { given = "", allowed = "", do: advice = "" } = event.error ?? {};
+        reject(new ApiError(500, given, allowed, advice));
+      }
+    }
+  });
+}
+
+function isRunning(state: unknown, number: number): boolean {
+  const fields = state as Record<string, unknown>;
+  return Boolean(fields) && fields["work"] === number && "stage" in fields && "share" in fields;
+}
