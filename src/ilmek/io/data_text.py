@@ -72,6 +72,28 @@ def parse_data(text: str, *, name: str, toml: bool, error: type[IlmekError], lon
     return DataText(data, lines, text)
 
 
+def plain_data(data: Any, name: str, error: type[IlmekError]) -> Any:
+    """Data that were no text, checked as those of a text are; messages call them `name`. Raises `error`."""
+    try:
+        _check_depth(data, DEEPEST)
+        _check_texts(data, {(): 1})
+    except IlmekError as failed:
+        raise error(
+            f"{name}, {failed.given.removeprefix('line 1, ').removeprefix('line 1: ')}",
+            allowed=failed.allowed,
+            do=failed.do,
+        ) from None
+    return data
+
+
+def _check_depth(data: Any, left: int) -> None:
+    """Raise IlmekError for tables and lists in one another that are too deep."""
+    if left < 0:
+        raise IlmekError("is nested too deeply", allowed=f"at most {DEEPEST} levels")
+    for inner in data.values() if isinstance(data, dict) else data if isinstance(data, list) else ():
+        _check_depth(inner, left - 1)
+
+
 def _toml(text: str, found: list[Token]) -> tuple[Any, KeyLines]:
     try:
         return tomllib.loads(text), toml_lines(found)

@@ -39,7 +39,7 @@ from typing import Any
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.own_machine import FlatMember, OwnMachine
 from ilmek.errors import MechanismError
-from ilmek.io.data_text import DataText, parse_data, read_data
+from ilmek.io.data_text import DataText, parse_data, plain_data, read_data
 from ilmek.io.mechanism.joints import members_of
 from ilmek.io.mechanism.loads import frictions_of, gravity_of, loads_of
 from ilmek.io.mechanism.masses import check_link, flat_member, inertia_of, pin_members, sections_of
@@ -104,6 +104,14 @@ def read_mechanism(path: Path) -> MechanismFile:
 def parse_mechanism(text: str, *, name: str = "mechanism", toml: bool = True) -> MechanismFile:
     """The mechanism of a TOML or JSON text; messages call it `name`. Raises as `read_mechanism`."""
     return _read(parse_data(text, name=name, toml=toml, error=MechanismError), name)
+
+
+def mechanism_of_data(data: Mapping[str, Any], *, name: str = "mechanism") -> MechanismFile:
+    """The mechanism of the plain data of a file, as `tomllib` or `json` reads them; messages call it `name`.
+
+    Raises MechanismError with the key.
+    """
+    return _read(DataText(plain_data(data, name, MechanismError), {}, ""), name)
 
 
 def _read(text: DataText, name: str) -> MechanismFile:

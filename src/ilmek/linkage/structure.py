@@ -12,7 +12,7 @@ crank turned by the input on ground
 coupler and rocker joined at B (branch +1), attached to crank and ground: RRR
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from itertools import combinations, islice
 
 from ilmek.errors import MechanismError
@@ -58,7 +58,31 @@ def plan(mechanism: Mechanism, *, closed_forms: bool = True) -> Plan:
     Raises MechanismError where a part is over-constrained or under-constrained, naming its bodies, joints and inputs,
     and where a group lacks its branch.
     """
-    known, steps = {GROUND}, []
+    return Plan(mechanism, tuple(_steps(mechanism, closed_forms)))
+
+
+def solvable_steps(mechanism: Mechanism) -> tuple[tuple[Step, ...], MechanismError | None]:
+    """The steps that can be solved of a mechanism that may be unfinished, and why there are no more; None: all can.
+
+    >>> from ilmek.linkage.model import Body, Pin, Rotation
+    >>> bodies = Body("ground", {"A": 0}), Body("crank", {"A": 0, "B": 1}), Body("rod", {"B": 0})
+    >>> open_chain = Mechanism(bodies, (Pin("A", "ground", "crank"), Pin("B", "crank", "rod")), (Rotation("crank", "A"),))
+    >>> steps, reason = solvable_steps(open_chain)
+    >>> [step.bodies for step in steps], reason.given
+    ([('crank',)], 'mechanism is under-constrained at rod')
+    """
+    steps: list[Step] = []
+    try:
+        for step in _steps(mechanism, closed_forms=True):
+            steps.append(step)  # noqa: PERF402 - those before the error are kept
+    except MechanismError as error:
+        return tuple(steps), error
+    return tuple(steps), None
+
+
+def _steps(mechanism: Mechanism, closed_forms: bool) -> Iterator[Step]:
+    """The steps in order. Raises as `plan`, after those that can be solved."""
+    known = {GROUND}
     assigned = assigned_constraints(mechanism)
     while len(known) <= len(mechanism.moving):
         if assigned.excess:
@@ -66,9 +90,8 @@ def plan(mechanism: Mechanism, *, closed_forms: bool = True) -> Plan:
         else:
             group = _group(mechanism, _next_bodies(mechanism, known, assigned.constraints), known)
         recognised = (recognise(group) for recognise in (CLOSED_FORMS if closed_forms else CLOSED_FORMS[:2]))
-        steps.append(next((step for step in recognised if step is not None), None) or general.from_group(group))
+        yield next((step for step in recognised if step is not None), None) or general.from_group(group)
         known.update(group.bodies)
-    return Plan(mechanism, tuple(steps))
 
 
 def _next_bodies(mechanism: Mechanism, known: set[str], assigned: Constraints) -> tuple[str, ...]:

@@ -145,13 +145,13 @@ def run(file: MechanismFile, request: MotionRequest, progress: Progress = SILENT
     Cancelled.
     """
     machine, plan = file.machine, file.plan()
-    _check_groups(plan)
+    check_groups(plan)
     driven = driven_inputs(machine, plan, request)
     check_size(len(driven.values), _columns(machine), "--steps", MechanismError)
     motion = solve(plan, *driven.rates, progress=progress.part(0.0, 1.0, "motion"))
     if (motion.status != Status.OK).all():
         raise _closes_elsewhere(plan, motion, driven)
-    forces, left_out = _forces(machine, motion, driven)
+    forces, left_out = forces_or_reason(machine, motion, driven)
     made = MechanismRun(
         machine,
         plan,
@@ -169,8 +169,8 @@ def run(file: MechanismFile, request: MotionRequest, progress: Progress = SILENT
     return made
 
 
-def _forces(machine: OwnMachine, motion: Motion, driven: DrivenInputs) -> tuple[InverseRun | None, str]:
-    """The forces, or why there are none."""
+def forces_or_reason(machine: OwnMachine, motion: Motion, driven: DrivenInputs) -> tuple[InverseRun | None, str]:
+    """The forces of a motion; or None and why there are none, "" for a machine without masses, loads and friction."""
     if not machine.has_forces:
         return None, ""
     try:
@@ -199,7 +199,8 @@ def _closes_elsewhere(plan: Plan, motion: Motion, driven: DrivenInputs) -> Mecha
     raise AssertionError("no sample closes")
 
 
-def _check_groups(plan: Plan) -> None:
+def check_groups(plan: Plan) -> None:
+    """Raise MechanismError for a group of more than `MOST_BODIES` bodies without a closed form."""
     for step in plan.steps:
         if isinstance(step, GeneralGroup) and len(step.bodies) > MOST_BODIES:
             raise MechanismError(

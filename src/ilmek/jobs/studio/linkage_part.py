@@ -1,0 +1,98 @@
+"""The part of an unfinished mechanism that can be computed: bodies that are joined, and groups that are determined."""
+
+import dataclasses
+from collections.abc import Mapping
+from typing import Any
+
+from ilmek.dynamics.own_machine import OwnMachine
+from ilmek.io.mechanism.joints import members_of
+from ilmek.linkage.branches_in_pose import Pose, branches_in_pose, required_branches
+from ilmek.linkage.groups.group import Step
+from ilmek.linkage.model import GROUND, Mechanism
+from ilmek.linkage.structure import solvable_steps
+
+REFERRING = ("loads", "springs", "dampers", "couplings", "pose")
+"""Tables whose entries name bodies."""
+
+
+def joined_part(data: Mapping[str, Any]) -> tuple[dict[str, Any], tuple[str, ...]]:
+    """The data of a file without the bodies that no joint holds, and the names of these.
+
+    What refers to such a body is left out with it. Keys that an empty drawing lacks are added.
+    """
+    joints, tables = _table(data, "joints"), _table(data, "bodies")
+    given = {**data, "bodies": {GROUND: {}, **tables}, "joints": joints, "inputs": data.get("inputs", {})}
+    if not all(
+        isinstance(table, dict) and isinstance(table.get("pin") or table.get("slide"), list)
+        for table in joints.values()
+    ):
+        return given, ()
+    held = {body for bodies in members_of(joints).values() for body in bodies if isinstance(body, str)} | {GROUND}
+    loose = tuple(body for body in given["bodies"] if body not in held)
+    if not loose:
+        return given, ()
+    given["bodies"] = {body: table for body, table in given["bodies"].items() if body in held}
+    for key in REFERRING:
+        if isinstance(given.get(key), dict):
+            given[key] = {
+                name: entry for name, entry in given[key].items() if name not in loose and not _names(entry, loose)
+            }
+    if isinstance(given.get("paths"), list):
+        given["paths"] = [entry for entry in given["paths"] if not _names(entry, loose)]
+    return {key: value for key, value in given.items() if value != {} or key in ("bodies", "joints", "inputs")}, loose
+
+
+def _table(data: Mapping[str, Any], key: str) -> dict[str, Any]:
+    """A table of the file; empty if it is missing or no table, which the reader of the file reports."""
+    found = data.get(key)
+    return found if isinstance(found, dict) else {}
+
+
+def _names(entry: object, bodies: tuple[str, ...]) -> bool:
+    """Whether an entry names one of the bodies."""
+    inner = entry.values() if isinstance(entry, dict) else entry if isinstance(entry, list) else ()
+    return entry in bodies if isinstance(entry, str) else any(_names(one, bodies) for one in inner)
+
+
+def solved_part(mechanism: Mechanism, steps: tuple[Step, ...]) -> Mechanism:
+    """The mechanism of the bodies that some steps locate."""
+    bodies = {GROUND, *(body for step in steps for body in step.bodies)}
+    if len(bodies) == len(mechanism.bodies):
+        return mechanism
+    joints = tuple(joint for joint in mechanism.joints if set(joint.bodies) <= bodies)
+    names = {joint.name for joint in joints}
+    return dataclasses.replace(
+        mechanism,
+        bodies=tuple(body for body in mechanism.bodies if body.name in bodies),
+        joints=joints,
+        inputs=tuple(entry for entry in mechanism.inputs if entry.joint in names),
+        branches={name: sign for name, sign in mechanism.branches.items() if name in names},
+        pose={body: pose for body, pose in mechanism.pose.items() if body in bodies},
+        couplings=tuple(one for one in mechanism.couplings if set(one.bodies) <= bodies),
+    )
+
+
+def machine_of_part(machine: OwnMachine, part: Mechanism) -> OwnMachine:
+    """A machine of a part: its motion only, as loads and masses belong to the whole."""
+    if part is machine.mechanism:
+        return machine
+    inputs = {entry.name for entry in part.inputs}
+    return OwnMachine(part, motions={name: motion for name, motion in machine.motions.items() if name in inputs})
+
+
+def drawn_branches(mechanism: Mechanism, pose: Pose) -> dict[str, int]:
+    """The signs of branches that the mechanism lacks, as its bodies show them in a pose.
+
+    pose  of bodies; default of one that is not listed: that of the mechanism, or as drawn
+    """
+    lacking = tuple(name for name in required_branches(mechanism) if name not in mechanism.branches)
+    return signs_in_pose(mechanism, pose, lacking) if lacking else {}
+
+
+def signs_in_pose(mechanism: Mechanism, pose: Pose, names: tuple[str, ...]) -> dict[str, int]:
+    """The signs of some branches, as the bodies show them in a pose; of the part that can be solved."""
+    every = dataclasses.replace(mechanism, branches=dict.fromkeys(names, +1) | dict(mechanism.branches))
+    part = solved_part(every, solvable_steps(every)[0])
+    inside = {joint.name for joint in part.joints}
+    known = {body: one for body, one in {**mechanism.pose, **pose}.items() if body in part.moving}
+    return branches_in_pose(part, known, tuple(name for name in names if name in inside))
