@@ -66,7 +66,8 @@ def solvable_steps(mechanism: Mechanism) -> tuple[tuple[Step, ...], MechanismErr
 
     >>> from ilmek.linkage.model import Body, Pin, Rotation
     >>> bodies = Body("ground", {"A": 0}), Body("crank", {"A": 0, "B": 1}), Body("rod", {"B": 0})
-    >>> open_chain = Mechanism(bodies, (Pin("A", "ground", "crank"), Pin("B", "crank", "rod")), (Rotation("crank", "A"),))
+    >>> pins = Pin("A", "ground", "crank"), Pin("B", "crank", "rod")
+    >>> open_chain = Mechanism(bodies, pins, (Rotation("crank", "A"),))
     >>> steps, reason = solvable_steps(open_chain)
     >>> [step.bodies for step in steps], reason.given
     ([('crank',)], 'mechanism is under-constrained at rod')

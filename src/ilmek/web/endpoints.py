@@ -137,4 +137,18 @@ ENDPOINTS: tuple[Endpoint, ...] = (
         "The cyclograms of a machine of the catalogue, as files' data.",
         affinity="machine",
     ),
+    Endpoint(
+        "POST",
+        "/mechanism",
+        "studio.linkage:mechanism",
+        "A mechanism from its file's data: structure, what is missing, motion; also while a joint is dragged.",
+        affinity="linkage",
+    ),
+    Endpoint(
+        "POST",
+        "/mechanism/quality",
+        "studio.linkage_quality:quality",
+        "Circuits, mobility, coupler curves, least transmission angles and the checks of `ilmek mechanism`.",
+        affinity="linkage-quality",
+    ),
 )

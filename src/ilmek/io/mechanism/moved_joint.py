@@ -1,8 +1,9 @@
 """A joint moved in the plane: which numbers of a mechanism file change, and which stay.
 
-The joint moves in the bodies that it joins; every other joint stays where it is at that moment. A number keeps its form:
-a length stays a length, a point by radius and angle stays one. Points that are no joints stay where they are in their
-body. The drive of a link given by its length follows the link's direction, so the value of the input changes with it.
+The joint moves in the bodies that it joins; every other joint stays where it is at that moment. A number keeps its
+form: a length stays a length, a point by radius and angle stays one. Points that are no joints stay where they are in
+their body. The frame of a link given by its length follows the link's direction; if it is driven, the value of the
+input changes with it.
 """
 
 import cmath
@@ -58,7 +59,7 @@ def moved_joint(data: Mapping[str, Any], mechanism: Mechanism, pose: Pose, joint
         moving.move(data["joints"][joint]["slide"][1], joint, to)
     else:
         for body in members[joint]:
-            to = moving.on_its_line(body, joint, to)
+            to = moving.on_its_line(body, to)
         for body in members[joint]:
             moving.move(body, joint, to)
     return MovedJoint(tuple(moving.changes), {body: one for body, one in moving.pose.items() if body != GROUND})
@@ -90,7 +91,7 @@ class _Moving:
             _, angle = self.pose[body]
             self.pose[body] = (to, angle)
 
-    def on_its_line(self, body: str, joint: str, to: complex) -> complex:
+    def on_its_line(self, body: str, to: complex) -> complex:
         """The nearest position on the line of a block's slide; the position itself for another body."""
         if not self._is_block(body):
             return to

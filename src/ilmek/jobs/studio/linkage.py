@@ -170,4 +170,4 @@ def changed(data: Mapping[str, Any], changes: list[FileChange]) -> dict[str, Any
 
 def _all_poses(drawn: DrawnMechanism) -> dict[str, tuple[complex, float]]:
     """The poses as drawn; bodies without a joint as in their frame."""
-    return {**{body: (0j, 0.0) for body in drawn.loose}, **drawn.pose}
+    return {**dict.fromkeys(drawn.loose, (0j, 0.0)), **drawn.pose}

@@ -29,7 +29,8 @@ class JointAnswer:
 
     name    a pin of several bodies is divided: `M` and `M.BODY`      file_joint  its name in the file
     kind    "pin" or "slide"      bodies  of a slide the sliding body and its guide
-    along   direction of a slide's line in the guide's frame [rad]      turned  angle of the body against the guide [rad]
+    along   direction of a slide's line in the guide's frame [rad]
+    turned  angle of the sliding body against the guide [rad]
     """
 
     name: str

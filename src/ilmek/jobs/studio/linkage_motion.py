@@ -36,8 +36,11 @@ from ilmek.linkage.transmission import transmission_angles
 DIGITS = 6
 """Significant digits of a series, of its greatest value."""
 
+POSE_DIGITS = 8
+"""The same of poses: lengths are computed from them while a joint is dragged."""
+
 ANGLE_DECIMALS = 6
-"""Decimals of angles [rad]."""
+"""Decimals of transmission angles [rad]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,7 +147,11 @@ def _fault(motion: Motion) -> LinkageFault | None:
 
 def _pose_series(motion: Motion, body: str) -> PoseSeries:
     origin = motion.origin(body)
-    return PoseSeries(rounded(origin.real), rounded(origin.imag), rounded(motion.angle(body), decimals=ANGLE_DECIMALS))
+    return PoseSeries(
+        rounded(origin.real, POSE_DIGITS),
+        rounded(origin.imag, POSE_DIGITS),
+        rounded(motion.angle(body), decimals=POSE_DIGITS),
+    )
 
 
 def _points(motion: Motion) -> dict[str, dict[str, VectorSeries]]:
@@ -174,8 +181,8 @@ def vectors(values: ComplexField) -> VectorSeries:
     return VectorSeries(rounded(np.real(values)), rounded(np.imag(values)))
 
 
-def rounded(values: FloatArray, *, decimals: int | None = None) -> list[float | None]:
-    """Numbers with `DIGITS` significant digits of the greatest, as a list; NaN, infinity: null in JSON.
+def rounded(values: FloatArray, digits: int = DIGITS, *, decimals: int | None = None) -> list[float | None]:
+    """Numbers with so many significant digits of the greatest, as a list; NaN, infinity: null in JSON.
 
     >>> rounded(np.array([1.23456789, 0.000123456789]))
     [1.23457, 0.00012]
@@ -183,6 +190,6 @@ def rounded(values: FloatArray, *, decimals: int | None = None) -> list[float | 
     if decimals is None:
         finite = np.abs(values[np.isfinite(values)])
         greatest = float(finite.max(initial=0.0))
-        decimals = DIGITS - 1 - math.floor(math.log10(greatest)) if greatest > 0 else 0
+        decimals = digits - 1 - math.floor(math.log10(greatest)) if greatest > 0 else 0
     made: list[float | None] = np.round(values, decimals).tolist()
     return made

@@ -1,0 +1,227 @@
+"""Tasks of the linkage editor: structure of finished and unfinished mechanisms, motion, a dragged joint, quality."""
+
+import cmath
+import copy
+import math
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import numpy as np
+import pytest
+
+from ilmek.errors import MechanismError, ParameterError
+from ilmek.io.mechanism_file import mechanism_of_data, read_mechanism
+from ilmek.jobs.studio.answers import Context
+from ilmek.jobs.studio.linkage import DraggedJoint, MechanismRequest, changed, mechanism
+from ilmek.jobs.studio.linkage_answer import MechanismAnswer
+from ilmek.jobs.studio.linkage_quality import quality
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+MECHANISMS = ("jansen_leg", "stephenson_dwell", "tufting_needle", "quick_return", "slider_crank_press", "peaucellier")
+MECHANISMS += ("class_three", "klann_leg")
+
+FOUR_BAR: dict[str, Any] = {
+    "name": "four-bar",
+    "inputs": {"A0": "crank"},
+    "branches": {"B": 1},
+    "bodies": {
+        "ground": {"points": {"A0": [0, 0], "B0": ["300mm", 0]}},
+        "crank": {"length": "60mm"},
+        "coupler": {"length": "200mm", "points": {"P": {"radius": "100mm", "angle": "25deg"}}},
+        "rocker": {"length": "230mm"},
+    },
+    "joints": {
+        "A0": {"pin": ["ground", "crank"]},
+        "A": {"pin": ["crank", "coupler"]},
+        "B": {"pin": ["coupler", "rocker"]},
+        "B0": {"pin": ["ground", "rocker"]},
+    },
+}
+
+
+def example(name: str) -> dict[str, Any]:
+    return tomllib.loads((EXAMPLES / f"{name}.toml").read_text())
+
+
+def shown(data: dict[str, Any], **more: Any) -> MechanismAnswer:
+    return mechanism(MechanismRequest(data, **more), Context())
+
+
+def poses_of(answer: MechanismAnswer, sample: int) -> dict[str, tuple[float, float, float]]:
+    assert answer.motion is not None
+    return {
+        body: (float(one.x[sample] or 0), float(one.y[sample] or 0), float(one.angle[sample] or 0))
+        for body, one in answer.motion.poses.items()
+    }
+
+
+def position(answer: MechanismAnswer, poses: dict[str, tuple[float, float, float]], joint: str) -> complex:
+    """A joint of the file in the world [m]; of a slide the point of its guide."""
+    one = next(one for one in answer.joints if one.file_joint == joint)
+    body = one.bodies[-1]
+    x, y, angle = poses.get(body, (0.0, 0.0, 0.0))
+    local = next(other.points for other in answer.bodies if other.name == body)[one.name]
+    return complex(x, y) + complex(*local) * cmath.rect(1, angle)
+
+
+def test_the_motion_is_that_of_the_command_line_to_six_digits() -> None:
+    answer = shown(FOUR_BAR)
+    motion = answer.motion
+    assert motion is not None
+    assert len(motion.values) == 361
+    assert motion.status == [0] * 361
+    crank = complex(0.06 * math.cos(1.0), 0.06 * math.sin(1.0))
+    at = np.interp(1.0, motion.values, motion.points["crank"]["A"].x)  # type: ignore[arg-type]
+    assert at == pytest.approx(crank.real, abs=2e-5)
+    assert motion.closing == ((0.0, 2 * math.pi),)
+    assert set(motion.points["coupler"]) == {"B", "P"}
+    assert min(angle or 0 for angle in motion.transmission["B"]) > 0.5
+
+
+def test_assur_groups_are_named_as_one_draws() -> None:
+    structure = shown(FOUR_BAR).structure
+    assert (structure.degrees_of_freedom, structure.driven, structure.loops) == (1, 1, 1)
+    assert [(one.kind, one.bodies, one.free) for one in structure.groups] == [
+        ("input", ("crank",), ""),
+        ("RRR", ("coupler", "rocker"), "B"),
+    ]
+    assert structure.missing is None
+
+
+def test_an_unfinished_mechanism_moves_as_far_as_it_is_determined() -> None:
+    data = copy.deepcopy(FOUR_BAR)
+    data["joints"]["B0"]["pin"] = ["ground", "rocker"]
+    data["bodies"]["link"] = {"points": {"C": ["10mm", "20mm"], "D": ["30mm", "40mm"]}}
+    data["bodies"]["arm"] = {"points": {"B0": [0, 0], "E": ["50mm", 0]}}
+    data["joints"]["B0"]["pin"] = ["ground", "rocker", "arm"]
+    answer = shown(data)
+    assert answer.structure.loose == ("link",)
+    assert answer.structure.left == ("arm",)
+    assert answer.structure.missing is not None
+    assert "under-constrained at arm" in answer.structure.missing.given
+    assert answer.motion is not None
+    assert set(answer.motion.poses) == {"crank", "coupler", "rocker"}
+    assert set(answer.poses) == {"link", "arm"}
+
+
+def test_a_drawing_without_a_drive_has_a_structure_and_no_motion() -> None:
+    answer = shown({"bodies": {"ground": {"points": {"O": [0, 0]}}, "link": {"points": {"O": [0, 0], "A": ["9mm", 0]}}},
+                    "joints": {"O": {"pin": ["ground", "link"]}}})  # fmt: skip
+    assert answer.motion is None
+    assert answer.structure.degrees_of_freedom == 1
+    assert "under-constrained" in (answer.structure.missing.given if answer.structure.missing else "")
+    assert shown({}).structure.degrees_of_freedom == 0
+
+
+def test_branches_of_a_drawing_are_those_that_it_shows() -> None:
+    drawn = shown(FOUR_BAR)
+    poses = poses_of(drawn, 0)
+    points = {name: position(drawn, poses, name) for name in FOUR_BAR["joints"]}
+    links = {"crank": ("A0", "A"), "coupler": ("A", "B"), "rocker": ("B", "B0")}
+    for mirrored in (1, -1):
+        at = {name: [f"{one.real * 1e3}mm", f"{mirrored * one.imag * 1e3}mm"] for name, one in points.items()}
+        data = {
+            "bodies": {"ground": {"points": {"A0": at["A0"], "B0": at["B0"]}}}
+            | {body: {"points": {name: at[name] for name in names}} for body, names in links.items()},
+            "joints": FOUR_BAR["joints"],
+            "inputs": FOUR_BAR["inputs"],
+        }
+        answer = shown(data)
+        assert [(one.path, one.value) for one in answer.changes] == [(("branches", "B"), mirrored)]
+        assert answer.motion is not None
+        assert answer.motion.status[0] == 0
+
+
+@pytest.mark.parametrize("name", MECHANISMS)
+def test_only_the_dragged_joint_moves(name: str) -> None:
+    data = example(name)
+    before = shown(data, steps=36)
+    poses = poses_of(before, 2)
+    for joint, table in data["joints"].items():
+        if "slide" in table:
+            continue
+        to = position(before, poses, joint) + complex(0.002, 0.001)
+        answer = shown(data, steps=4, poses=poses, drag=DraggedJoint(joint, to.real, to.imag))
+        after = mechanism_of_data(changed(data, list(answer.changes)))
+        fixed = {
+            one.name: f"{answer.values[one.name]}{'rad' if one.kind == 'rotation' else 'm'}" for one in answer.inputs
+        }
+        there = shown(changed(data, list(answer.changes)), fixed=fixed, poses=poses)
+        moved = poses_of(there, 0)
+        on_line = any(not data["bodies"][body].get("points") and "length" not in data["bodies"][body]
+                      for body in table["pin"] if body != "ground")  # fmt: skip
+        assert after.mechanism.name == before.name
+        for other in data["joints"]:
+            if "slide" in data["joints"][other]:
+                continue
+            apart = abs(position(there, moved, other) - (to if other == joint else position(before, poses, other)))
+            assert apart < 1e-6 or (on_line and other == joint), (joint, other, apart)
+
+
+def test_a_drag_keeps_the_form_of_each_number() -> None:
+    poses = poses_of(shown(FOUR_BAR), 40)
+    answer = shown(FOUR_BAR, poses=poses, drag=DraggedJoint("B", 0.2, 0.2))
+    changes = {".".join(one.path): one.value for one in answer.changes}
+    assert set(changes) == {"bodies.coupler.length", "bodies.rocker.length"}
+    assert changes["bodies.rocker.length"] == "223.6068mm"
+    below = shown(FOUR_BAR, poses=poses, drag=DraggedJoint("B", 0.2, -0.2))
+    assert ("branches", "B") in {one.path for one in below.changes}
+
+
+def test_an_impossible_mechanism_is_drawn_up_to_where_it_fails_with_the_reason() -> None:
+    data = copy.deepcopy(FOUR_BAR)
+    data["bodies"]["crank"]["length"] = "200mm"
+    motion = shown(data).motion
+    assert motion is not None
+    assert motion.fault is not None
+    assert "cannot close for crank" in motion.fault.given
+    assert [round(math.degrees(end), 3) for ends in motion.closing for end in ends] == [0, 117.226, 242.774, 360]
+    assert motion.dead_centres[0].bodies == ("coupler", "rocker")
+    assert motion.poses["rocker"].x[0] is not None
+    assert math.isnan(motion.poses["rocker"].angle[180] or math.nan)
+    assert b"null" in msgspec.json.encode(motion)
+
+
+def test_wrong_entries_are_named_by_their_key() -> None:
+    data = copy.deepcopy(FOUR_BAR)
+    data["bodies"]["crank"]["length"] = "60 apples"
+    with pytest.raises(MechanismError, match=r"mechanism, bodies.crank.length: "):
+        shown(data)
+    with pytest.raises(ParameterError, match="steps"):
+        shown(FOUR_BAR, steps=10**7)
+    with pytest.raises(MechanismError, match="no joint 'Z'"):
+        shown(FOUR_BAR, drag=DraggedJoint("Z", 0, 0))
+    deep: Any = []
+    for _ in range(30):
+        deep = [deep]
+    with pytest.raises(MechanismError, match="nested too deeply"):
+        mechanism_of_data({"bodies": deep})
+
+
+def test_forces_and_rates_come_if_required() -> None:
+    data = example("tufting_needle")
+    motion = shown(data, rates=True, forces=True).motion
+    assert motion is not None
+    assert motion.forces is not None
+    file = read_mechanism(EXAMPLES / "tufting_needle.toml")
+    assert set(motion.forces.joints) == {joint.name for joint in file.mechanism.joints}
+    assert max(abs(one or 0) for one in motion.forces.effort) > 1
+    assert motion.rates["needle"]["F"].velocity.x[10] is not None
+    without = shown(FOUR_BAR, forces=True).motion
+    assert without is not None
+    assert without.forces is None
+    assert "mass" in without.no_forces
+
+
+def test_quality_has_circuits_dead_centres_curves_and_checks() -> None:
+    found = quality(MechanismRequest(FOUR_BAR), Context())
+    assert [one.current for one in found.circuits].count(True) == 1
+    assert len(found.circuits) == 2
+    assert found.mobility == "1 degree of freedom by count and by rank"
+    assert [one.point for one in found.curves] == ["P"]
+    assert found.curves[0].length > 0.1
+    assert found.transmission[0].pin == "B"
+    open_chain = {key: value for key, value in FOUR_BAR.items() if key != "inputs"}
+    assert quality(MechanismRequest(open_chain), Context()).fault is not None
