@@ -129,7 +129,7 @@ def _check_tokens(found: list[Token], longest: int) -> None:
 
 def _check_texts(data: Any, lines: KeyLines) -> None:
     """Raise IlmekError for a name or text that cannot be printed, and for a number that is not finite."""
-    for path, value in _values(data, ()):
+    for path, value in values(data, ()):
         at = f"line {_line(path, lines)}"
         name = path[-1] if path else 0
         if isinstance(name, str) and not (len(name) <= LONGEST_NAME and name.isprintable()):
@@ -142,12 +142,12 @@ def _check_texts(data: Any, lines: KeyLines) -> None:
             raise IlmekError(f"{at}, {'.'.join(map(str, path))}: {value} is not a finite number")
 
 
-def _values(data: Any, path: KeyPath) -> Iterator[tuple[KeyPath, Any]]:
+def values(data: Any, path: KeyPath) -> Iterator[tuple[KeyPath, Any]]:
     """Every value with its path, tables and lists before what is in them; the depth is bounded by the tokens."""
     yield path, data
     inner = data.items() if isinstance(data, dict) else enumerate(data) if isinstance(data, list) else ()
     for key, value in inner:
-        yield from _values(value, (*path, key))
+        yield from values(value, (*path, key))
 
 
 def _line(path: KeyPath, lines: KeyLines) -> int:

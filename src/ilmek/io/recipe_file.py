@@ -53,7 +53,7 @@ from ilmek.carpet.sizes import CarpetSize, parse_size
 from ilmek.carpet.yarn import Yarn
 from ilmek.elements.knot_kinds import parse_knot
 from ilmek.errors import CarpetError, IlmekError, ParameterError
-from ilmek.io.data_text import read_data
+from ilmek.io.data_text import read_data, values
 from ilmek.io.file_entry import FileEntry
 from ilmek.io.line_numbers import KeyLines
 from ilmek.io.schema import SourceText, shown
@@ -122,8 +122,9 @@ def recipe_of_data(
     data: Mapping[str, Any], path: Path, parameters: Mapping[str, Parameter], lines: KeyLines | None = None
 ) -> RecipeFile:
     """As `read_recipe`, of the data of a file; lines: of its keys, default: all of them line 0."""
+    known = {key: 0 for key, _ in values(data, ())} if lines is None else lines
     try:
-        return _RecipeReader(FileEntry(data, (), SourceText(str(path), lines or {(): 0})), path).read(parameters)
+        return _RecipeReader(FileEntry(data, (), SourceText(str(path), known)), path).read(parameters)
     except IlmekError as error:
         raise CarpetError(error.given, allowed=error.allowed, do=error.do) from None
 

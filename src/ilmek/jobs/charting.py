@@ -57,7 +57,7 @@ def chart_of_order(
     Raises PictureError, CarpetError or YarnError.
     """
     file = file_key(order.picture)
-    key = (file, order.size, order.quality, order.fit, order.reading.untoned, order.palette, with_source)
+    key = (file, order.size, order.quality, order.fit, order.reading.untoned, with_source)
     chart, notes = stages.keep("own chart", file, lambda: _own_chart(order, progress.part(0.0, 0.4, "picture")))
     if chart is not None:
         given, order = order, _on_the_chart(order, chart)

@@ -143,12 +143,12 @@ def _pictures(recipe: Recipe, progress: Progress, stages: Stages) -> tuple[Mappi
         with located(where):
             smallest = SMALLEST if path == recipe.picture else 1
             key = (file_key(path), smallest)
-            found[path], more = stages.keep("tile", key, partial(_pixels, path, smallest, part))
+            found[path], more = stages.keep("tile", key, partial(picture_pixels, path, smallest, part))
         notes += [f"{path.name}: {note}" for note in more]
     return found, tuple(notes)
 
 
-def _pixels(path: Path, smallest: int, progress: Progress) -> tuple[Pixels, tuple[str, ...]]:
+def picture_pixels(path: Path, smallest: int, progress: Progress) -> tuple[Pixels, tuple[str, ...]]:
     """The pixels of a picture or of an OXS chart, which has its yarns' colours, and notes."""
     if not is_oxs(path):
         picture = read_picture(path, progress, smallest=smallest)

@@ -1,0 +1,151 @@
+"""The carpet's view: charts of unsaved recipes, what is kept between changes, rows, corners, pictures."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from ilmek.errors import CarpetError, ParameterError, PictureError
+from ilmek.io.chart.rows_text import row_bands
+from ilmek.jobs.chart import make_charted
+from ilmek.jobs.order import read_order
+from ilmek.jobs.studio import carpet_stages
+from ilmek.jobs.studio.answers import Binary, Context
+from ilmek.jobs.studio.carpet import chart, corners, picture, proposal, row
+from ilmek.jobs.studio.carpet_answers import ChartRequest, PictureRequest, ProposalRequest, RowRequest
+
+SMALL = {"picture": "pictures/photo.png", "size": "40x60cm", "quality": "20x20/dm"}
+
+
+@pytest.fixture
+def context(tmp_path: Path) -> Context:
+    carpet_stages.forget()
+    (tmp_path / "pictures").mkdir()
+    across, down = np.meshgrid(np.arange(160), np.arange(240))
+    waves = [127 + 100 * np.sin(across / 17 + down / 31 + turn) for turn in (0, 2, 4)]
+    noise = np.random.default_rng(1).normal(0, 8, (240, 160, 3))
+    rgb = (np.stack(waves, axis=-1) + noise).clip(0, 255).astype(np.uint8)
+    Image.fromarray(rgb).save(tmp_path / "pictures/photo.png")
+    return Context(str(tmp_path))
+
+
+def _parts(answer: Binary) -> tuple[dict[str, Any], bytes]:
+    length = int.from_bytes(answer.body[:4], "little")
+    about = json.loads(answer.body[4 : 4 + length])
+    knots = about["rows"] * about["columns"] if "rows" in about else 0
+    return about, answer.body[4 + length : 4 + length + knots] if knots else answer.body[4 + length :]
+
+
+def _chart(context: Context, *, draft: bool = False, **more: Any) -> tuple[dict[str, Any], bytes]:
+    return _parts(chart(ChartRequest({**SMALL, **more}, draft=draft), context))
+
+
+def _as_file(context: Context, text: str) -> Any:
+    (context.folder / "carpet.toml").write_text(text, encoding="utf-8")
+    return make_charted(read_order(context.folder / "carpet.toml"))
+
+
+def test_an_unsaved_recipe_has_the_chart_of_its_file(context: Context) -> None:
+    edits = ["border 2 ivory", "set 5,5 madder red"]
+    about, knots = _chart(context, colours=6, brightness="10%", edits=edits)
+    lines = [f"{key} = {json.dumps(value)}" for key, value in SMALL.items()]
+    text = "\n".join([*lines, "colours = 6", 'brightness = "10%"', f"edits = {json.dumps(edits)}"])
+    made = _as_file(context, text)
+    assert knots == made.chart.knots.tobytes()
+    assert [yarn["name"] for yarn in about["yarns"]] == [yarn.name for yarn in made.chart.yarns]
+    assert sum(yarn["mass"] for yarn in about["yarns"]) == pytest.approx(made.bill.pile_mass, rel=1e-12)
+    assert about["price"] == made.bill.price
+    assert about["edited"] == made.chart.reading.edited > 0
+    assert about["reason"].endswith("(picture of carpet.toml)")
+
+
+def test_what_is_kept_does_not_change(context: Context) -> None:
+    first = _chart(context)[1]
+    assert _chart(context, edits=["replace ivory by madder red", "mirror both"])[1] != first
+    assert _chart(context, saturation=0.5)[1] != first
+    assert _chart(context)[1] == first
+    Image.new("RGB", (80, 120), "#9e2b25").save(context.folder / "pictures/photo.png")
+    assert len(set(_chart(context)[1])) == 1
+
+
+def test_a_composed_recipe_is_kept_too(context: Context) -> None:
+    border = [{"yarn": "ivory", "width": 3}]
+    first = _chart(context, border=border)
+    again = _chart(context, border=border, edits=["set 9,9 dark red"])
+    assert _chart(context, border=border)[1] == first[1]
+    assert again[0]["edited"] == 1
+    assert first[0]["reason"].startswith("composed by carpet.toml")
+
+
+def test_a_draft_is_nearly_the_chart(context: Context) -> None:
+    (full, knots), (draft, quick) = _chart(context), _chart(context, draft=True)
+    names = [[yarn["srgb"] for yarn in about["yarns"]] for about in (full, draft)]
+    same = [names[0][one] == names[1][other] for one, other in zip(knots, quick, strict=True)]
+    assert np.mean(same) > 0.9
+    assert draft["draft"]
+    assert not full["draft"]
+
+
+def test_the_fitted_picture_is_sent_once(context: Context) -> None:
+    answer = chart(ChartRequest(dict(SMALL)), context)
+    source = _parts(answer)[0]["source"]
+    assert source["sent"]
+    assert (source["width"], source["height"]) == (160, 240)
+    again = chart(ChartRequest({**SMALL, "colours": 5}, source=source["key"]), context)
+    assert not _parts(again)[0]["source"]["sent"]
+    assert len(answer.body) - len(again.body) > 160 * 240
+
+
+def test_a_row_is_that_of_rows_txt(context: Context) -> None:
+    recipe = {**SMALL, "edits": ["replace ivory by ivory", "jufti 1,1 9,80", "half 10,4 near-black"]}
+    made = _as_file(context, "\n".join(f"{key} = {json.dumps(value)}" for key, value in recipe.items())).chart
+    lines = b"".join(part for _, part in row_bands(made, "runs", "both")).decode().splitlines()
+    for number in (1, 10, 120):
+        answer = row(RowRequest(recipe, number), context)
+        assert [answer.rightward, answer.leftward] == [line for line in lines if line.startswith(f"{number} ")]
+        assert sum(run.cells for run in answer.runs) == made.columns
+    with pytest.raises(ParameterError, match="row 121"):
+        row(RowRequest(recipe, 121), context)
+
+
+def test_shades_are_proposed_by_share(context: Context) -> None:
+    shades = proposal(ProposalRequest(dict(SMALL), 5), context).shades
+    assert len(shades) == 5
+    assert sum(shade.share for shade in shades) == pytest.approx(1.0)
+    assert [shade.share for shade in shades] == sorted((shade.share for shade in shades), reverse=True)
+
+
+def test_corners_are_found_or_refused(context: Context) -> None:
+    rgb = np.full((300, 260, 3), (190, 170, 140), dtype=np.uint8)
+    rgb[50:250, 60:200] = (120, 20, 30)
+    Image.fromarray(rgb).save(context.folder / "pictures/floor.png")
+    found = corners(PictureRequest("pictures/floor.png"), context)
+    assert np.allclose(found.corners, [(60, 50), (200, 50), (200, 250), (60, 250)], atol=1.0)
+    with pytest.raises(PictureError, match="not clear"):
+        corners(PictureRequest("pictures/photo.png"), context)
+
+
+def test_a_picture_is_sent_small(context: Context) -> None:
+    about, pixels = _parts(picture(PictureRequest("pictures/photo.png", 100), context))
+    assert (about["width"], about["height"]) == (160, 240)
+    assert (about["shown_width"], about["shown_height"]) == (67, 100)
+    assert len(pixels) >= 67 * 100 * 3
+
+
+@pytest.mark.parametrize("path", ["../carpet.toml", "/etc/passwd", "pictures/../../x.png"])
+def test_no_path_leaves_the_project(path: str, context: Context) -> None:
+    with pytest.raises(ParameterError):
+        picture(PictureRequest(path), context)
+    with pytest.raises(CarpetError):
+        chart(ChartRequest({**SMALL, "picture": path}), context)
+
+
+def test_an_error_names_the_key_and_no_folder(context: Context) -> None:
+    with pytest.raises(CarpetError) as refused:
+        _chart(context, border=[{"yarn": "ivory"}])
+    assert refused.value.given.startswith("carpet.toml, border.0: ")
+    with pytest.raises(CarpetError, match=r"^carpet\.toml, edits\.1: unknown yarn 'mauve'"):
+        _chart(context, edits=["set 1,1 ivory", "set 1,1 mauve"])
