@@ -11,6 +11,15 @@ from dataclasses import dataclass
 SECOND = 1.0
 HOUR = 3600.0
 
+PICTURE_TYPES = (
+    *(
+        f"image/{kind}"
+        for kind in ("png", "jpeg", "gif", "bmp", "tiff", "webp", "avif", "jp2", "x-pcx", "vnd.zbrush.pcx")
+    ),
+    *("text/xml", "application/xml", "application/octet-stream"),
+)
+"""Media types of an upload, as browsers state them by the file's name; the type is checked by the content."""
+
 
 @dataclass(frozen=True, slots=True)
 class Endpoint:
@@ -115,6 +124,19 @@ ENDPOINTS: tuple[Endpoint, ...] = (
     Endpoint("POST", "/project/new", "studio.project:new_file", "A new text file, or a copy of one."),
     Endpoint("POST", "/project/rename", "studio.project:rename_file", "Rename a text file, with its history."),
     Endpoint("POST", "/project/delete", "studio.project:delete_file", "Delete a text file; undo brings it back."),
+    Endpoint(
+        "POST",
+        "/project/pictures",
+        "studio.project_pictures:upload_picture",
+        "Put a picture, or a chart (.oxs), into the project.",
+        upload=PICTURE_TYPES,
+    ),
+    Endpoint(
+        "POST",
+        "/project/pictures/delete",
+        "studio.project_pictures:delete_picture",
+        "Delete a picture, or a file of out/.",
+    ),
     Endpoint(
         "POST",
         "/cyclogram/view",

@@ -40,6 +40,5 @@ export { ApiError, post, upload };
 
 /** What went wrong, in the server's words; "" for a server that does not answer. */
 export function problemOf(error: unknown): string {
-  if (!(error instanceof ApiError)) return "";
-  return [error.given, error.allowed, error.do].filter(Boolean).join("; ");
+  return error instanceof ApiError ? error.message : "";
 }

@@ -1,4 +1,5 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import { ServerLost } from "../api/request";
 import { ApiError, type FileContent, type ProjectApi, type State } from "./api";
 import { Document, PAUSE } from "./document";
 import { type Drafts, storedDrafts } from "./drafts";
@@ -67,7 +68,7 @@ class FakeServer implements ProjectApi {
   }
 
   private check(): void {
-    if (this.lost) throw new TypeError("Failed to fetch");
+    if (this.lost) throw new ServerLost();
     if (this.refuse !== null) throw this.refuse;
   }
 }
@@ -164,7 +165,7 @@ describe("saving", () => {
 
   it("reports what the server refuses, and tries again", async () => {
     const document = await opened();
-    server.refuse = new ApiError(422, { given: "the disc is full", allowed: "", do: "free some space" });
+    server.refuse = new ApiError(422, "the disc is full", "", "free some space");
     document.update(() => ({ colours: 1 }));
     await document.flush();
     expect([document.saved.value, document.problem.value]).toEqual(["refused", "the disc is full; free some space"]);
@@ -288,7 +289,7 @@ describe("another program or tab", () => {
 
   it("a file that is gone is reported", async () => {
     const document = await opened();
-    server.refuse = new ApiError(422, { given: "carpet.toml is not there", allowed: "", do: "" });
+    server.refuse = new ApiError(422, "carpet.toml is not there");
     await document.refresh();
     expect([document.saved.value, document.problem.value]).toEqual(["missing", "carpet.toml is not there"]);
   });

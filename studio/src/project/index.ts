@@ -2,6 +2,7 @@
 export { type FileContent, type FileError, type FileSummary, fileAddress, type PictureSummary } from "./api";
 export { Conflicts } from "./conflicts";
 export { Document, type SaveState as DocumentState } from "./document";
+export { follow } from "./follow";
 export {
   activeDocument,
   deleteFile,
