@@ -1,11 +1,15 @@
 import { render } from "preact";
+import { connect } from "./api/events";
 import { App } from "./app/app";
 import { applySettings } from "./app/settings";
+import { follow } from "./project";
 import "./ui/style.css";
 import "./app/app.css";
 
 const place = document.getElementById("studio");
 if (place !== null) {
   await applySettings();
+  connect();
+  follow();
   render(<App />, place);
 }

@@ -10,6 +10,37 @@
  */
 export interface Messages {}
 /**
+ * A body: its points in its own frame [m], by name, and whether it is located by the groups found so far.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "BodyAnswer".
+ */
+export interface BodyAnswer {
+  name: string;
+  points: {
+    /**
+     * @minItems 2
+     * @maxItems 2
+     */
+    [k: string]: never[];
+  };
+  solved: boolean;
+}
+/**
+ * A part of a circuit between dead centres: range of the input [rad; m], signs of the closed forms.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "BranchAnswer".
+ */
+export interface BranchAnswer {
+  start: number;
+  stop: number;
+  branches: {
+    [k: string]: number;
+  };
+  full: boolean;
+}
+/**
  * The files that a request changed.
  *
  * This interface was referenced by `Messages`'s JSON-Schema
@@ -32,6 +63,21 @@ export interface CheckDifference {
   a_holds: boolean | null;
   b_holds: boolean | null;
   change: number | null;
+}
+/**
+ * A circuit: its branches in order, values of the input at which it reverses, and at which another one crosses.
+ *
+ *     current  whether the mechanism as drawn is on it      closed  whether the path returns to its start
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "CircuitAnswer".
+ */
+export interface CircuitAnswer {
+  branches: BranchAnswer[];
+  dead_centres: number[];
+  crossings: number[];
+  closed: boolean;
+  current: boolean;
 }
 /**
  * What differs between two settings A and B of a machine.
@@ -75,6 +121,53 @@ export interface ComparisonRequest {
   };
 }
 /**
+ * Gears, a belt or a rack: kind, its bodies and the points in the middle of the wheels, ratio.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "CouplingAnswer".
+ */
+export interface CouplingAnswer {
+  name: string;
+  kind: string;
+  /**
+   * @minItems 2
+   * @maxItems 2
+   */
+  first: never[];
+  /**
+   * @minItems 2
+   * @maxItems 2
+   */
+  second: never[];
+  carrier: string;
+  ratio: number;
+}
+/**
+ * A coupler curve over the longest range that closes: length [m], cusps, crossings with itself, inflections.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "CurveAnswer".
+ */
+export interface CurveAnswer {
+  body: string;
+  point: string;
+  length: number;
+  cusps: SpecialPoint[];
+  crossings: SpecialPoint[];
+  inflections: SpecialPoint[];
+}
+/**
+ * A point of a coupler curve: value of the input [rad; m] and position [m].
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "SpecialPoint".
+ */
+export interface SpecialPoint {
+  input: number;
+  x: number;
+  y: number;
+}
+/**
  * A cyclogram as the plain data of its file.
  *
  * This interface was referenced by `Messages`'s JSON-Schema
@@ -115,6 +208,16 @@ export interface ShownBinding {
   effect: string;
   share: number | null;
   cost: number;
+}
+/**
+ * A value of the input at which it reverses [rad; m], and the bodies that are in line there.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "DeadCentreAnswer".
+ */
+export interface DeadCentreAnswer {
+  value: number;
+  bodies: string[];
 }
 /**
  * A design of a machine: settings by name, texts with units or numbers in SI.
@@ -224,6 +327,17 @@ export interface ForceValue {
   set: boolean;
 }
 /**
+ * A joint of the file and its new position [m].
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "DraggedJoint".
+ */
+export interface DraggedJoint {
+  joint: string;
+  x: number;
+  y: number;
+}
+/**
  * What a parameter does to a check.
  *
  *     machine   the machine in it that the check is of, "" for its own
@@ -245,6 +359,16 @@ export interface Effect {
   then: boolean;
   turns_at: number | null;
   turns_text: string;
+}
+/**
+ * A new value of an entry of a file: the keys that lead to it, and text, number, list or table.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "FileChange".
+ */
+export interface FileChange {
+  path: string[];
+  value: unknown;
 }
 /**
  * A text file.
@@ -293,6 +417,32 @@ export interface FileSummary {
   digest: string;
   size: number;
   error: FileError | null;
+}
+/**
+ * Forces over the samples, with what they depend on.
+ *
+ *     joints   joint -> force on the pin's second body, or on the slide's body [N]
+ *     effort   of the drive [N m; N]      shaking  force of the moving masses on the frame [N]
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ForceSeries".
+ */
+export interface ForceSeries {
+  joints: {
+    [k: string]: VectorSeries;
+  };
+  effort: (number | null)[];
+  shaking: VectorSeries;
+}
+/**
+ * A vector over the samples; None where there is none.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "VectorSeries".
+ */
+export interface VectorSeries {
+  x: (number | null)[];
+  y: (number | null)[];
 }
 /**
  * A declared parameter.
@@ -362,6 +512,69 @@ export interface GeneratedFunction {
   drawn_at: number;
 }
 /**
+ * An Assur group, or a driven body.
+ *
+ *     kind    "input", "gears", "general", or the joints of a dyad: "RRR", "RRP", "RPR", "PRP", "RPP"
+ *     bodies, joints  its members; joints to known bodies are among them
+ *     branch  sign of a dyad that has two assemblies; 0: it has one      free  the joint of that sign
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "GroupAnswer".
+ */
+export interface GroupAnswer {
+  kind: string;
+  bodies: string[];
+  joints: string[];
+  description: string;
+  branch: number;
+  free: string;
+}
+/**
+ * An input: name in `fixed` and `over`, driven joint of the file, kind "rotation" or "displacement".
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "InputAnswer".
+ */
+export interface InputAnswer {
+  name: string;
+  joint: string;
+  kind: string;
+}
+/**
+ * A joint of two bodies.
+ *
+ *     name    a pin of several bodies is divided: `M` and `M.BODY`      file_joint  its name in the file
+ *     kind    "pin" or "slide"      bodies  of a slide the sliding body and its guide
+ *     along   direction of a slide's line in the guide's frame [rad]
+ *     turned  angle of the sliding body against the guide [rad]
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "JointAnswer".
+ */
+export interface JointAnswer {
+  name: string;
+  file_joint: string;
+  kind: string;
+  /**
+   * @minItems 2
+   * @maxItems 2
+   */
+  bodies: never[];
+  along: number;
+  turned: number;
+}
+/**
+ * The least transmission angle at a pin [rad], and the value of the input there [rad; m].
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "LeastTransmission".
+ */
+export interface LeastTransmission {
+  pin: string;
+  angle: number;
+  input: number;
+}
+/**
  * A four-bar that was left out: its pins as drawn [m], how it was found, and each reason as a sentence.
  *
  * This interface was referenced by `Messages`'s JSON-Schema
@@ -390,6 +603,17 @@ export interface LeftOutReason {
   name: string;
   words: string;
   count: number;
+}
+/**
+ * What is wrong with a mechanism: what was found, what is allowed, what to do.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "LinkageFault".
+ */
+export interface LinkageFault {
+  given: string;
+  allowed: string;
+  do: string;
 }
 /**
  * A single limit that gives a four-bar if it is loosened.
@@ -483,6 +707,125 @@ export interface MachineName {
   name: string;
 }
 /**
+ * A mechanism as drawn.
+ *
+ *     poses    of the moving bodies that no motion holds: origin [m] and angle [rad]
+ *     no_motion  why there is no motion
+ *     changes  of the file: of a dragged joint, and branches that the drawing shows and the file lacks
+ *     values   of the inputs in the dragged pose [rad; m]
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "MechanismAnswer".
+ */
+export interface MechanismAnswer {
+  name: string;
+  bodies: BodyAnswer[];
+  joints: JointAnswer[];
+  couplings: CouplingAnswer[];
+  inputs: InputAnswer[];
+  structure: Structure;
+  poses: {
+    /**
+     * @minItems 3
+     * @maxItems 3
+     */
+    [k: string]: never[];
+  };
+  motion: MotionAnswer | null;
+  no_motion: LinkageFault | null;
+  changes: FileChange[];
+  values: {
+    [k: string]: number;
+  };
+}
+/**
+ * The structure of a mechanism that may be unfinished.
+ *
+ *     degrees_of_freedom  by count, 3 bodies - 2 joints - couplings      driven  number of inputs
+ *     loops    independent loops, joints + couplings - moving bodies
+ *     groups   in the order of solution      left    bodies that no group holds      loose  bodies without a joint
+ *     missing  why there are no more groups; None: all bodies are located
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "Structure".
+ */
+export interface Structure {
+  degrees_of_freedom: number;
+  driven: number;
+  loops: number;
+  groups: GroupAnswer[];
+  left: string[];
+  loose: string[];
+  missing: LinkageFault | null;
+}
+/**
+ * The motion of all located bodies over the range of the driving input.
+ *
+ *     driving       name of the input; "": all inputs are fixed      kind  "rotation" or "displacement"
+ *     values        of the input [rad; m]      speed  constant speed [rad/s; m/s]; None: it follows a law of time
+ *     status        by sample: 0 OK, 1 cannot close, 2 dead centre, 3 not converged
+ *     fault         why it does not close everywhere, with the range and a remedy
+ *     poses         body -> its pose      points  body -> points that are no joints or joints by the first body
+ *     transmission  pin -> acute transmission angle [rad]
+ *     closing       ranges of the input in which it closes [rad; m]      dead_centres  ends at which the input reverses
+ *     change_points values at which two assemblies meet [rad; m]
+ *     rates         body -> point -> velocity and acceleration; only if required
+ *     forces        only if required, and if the file has masses, loads or friction; else `no_forces` states why not
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "MotionAnswer".
+ */
+export interface MotionAnswer {
+  driving: string;
+  kind: string;
+  values: (number | null)[];
+  speed: number | null;
+  status: number[];
+  fault: LinkageFault | null;
+  poses: {
+    [k: string]: PoseSeries;
+  };
+  points: {
+    [k: string]: {
+      [k: string]: VectorSeries;
+    };
+  };
+  transmission: {
+    [k: string]: (number | null)[];
+  };
+  closing: never[][];
+  dead_centres: DeadCentreAnswer[];
+  change_points: number[];
+  rates: {
+    [k: string]: {
+      [k: string]: Rates;
+    };
+  };
+  forces: ForceSeries | null;
+  no_forces: string;
+}
+/**
+ * A body over the samples: origin of its frame [m] and angle [rad].
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "PoseSeries".
+ */
+export interface PoseSeries {
+  x: (number | null)[];
+  y: (number | null)[];
+  angle: (number | null)[];
+}
+/**
+ * Velocity [m/s] and acceleration [m/s²] of a point.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "Rates".
+ */
+export interface Rates {
+  velocity: VectorSeries;
+  acceleration: VectorSeries;
+}
+/**
  * A mechanism file: its text, as `--to` writes it, and its data.
  *
  * This interface was referenced by `Messages`'s JSON-Schema
@@ -498,6 +841,40 @@ export interface MechanismDocument {
       [k: string]: unknown;
     };
   };
+}
+/**
+ * A mechanism, saved or not, and the motion that is to be computed.
+ *
+ *     mechanism  the plain data of a mechanism file
+ *     fixed      input -> value, like "30deg"; of several inputs all but one are fixed, by default at 0
+ *     over       range of the driving input, like "0deg..360deg"; default: a turn, or the range in which a slide closes
+ *     speed      of the driving input, like "60rpm"; default: that of the file, or 1 rad/s
+ *     steps      of the range
+ *     poses      body -> origin [m] and angle [rad] as drawn at present: for bodies without a motion, branches, a drag
+ *     drag       a joint moved to a new position, from the pose in `poses`
+ *     rates, forces  whether velocities and accelerations, or forces, are required
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "MechanismRequest".
+ */
+export interface MechanismRequest {
+  mechanism: {};
+  fixed?: {
+    [k: string]: string;
+  };
+  over?: string;
+  speed?: string;
+  steps?: number;
+  poses?: {
+    /**
+     * @minItems 3
+     * @maxItems 3
+     */
+    [k: string]: never[];
+  };
+  drag?: DraggedJoint | null;
+  rates?: boolean;
+  forces?: boolean;
 }
 /**
  * The nearest tasks that a machine could do, where it cannot do what is required; "" where there are none.
@@ -574,6 +951,26 @@ export interface ProjectSummary {
   folder: string;
   files: FileSummary[];
   pictures: PictureSummary[];
+}
+/**
+ * The quality of a mechanism.
+ *
+ *     circuits  with all assemblies; empty where `left_out` states why      mobility  degrees of freedom by count and rank
+ *     checks    as in the JSON of `ilmek mechanism`                        warnings  what is left out, and what to add
+ *     fault     why there is nothing
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "QualityAnswer".
+ */
+export interface QualityAnswer {
+  circuits: CircuitAnswer[];
+  curves: CurveAnswer[];
+  transmission: LeastTransmission[];
+  mobility: string;
+  checks: {}[];
+  warnings: string[];
+  left_out: string[];
+  fault: LinkageFault | null;
 }
 /**
  * What a typed value was read as: the SI value, and its text.
@@ -823,4 +1220,14 @@ export interface TypedValue {
   name: string;
   parameter: string;
   setting: number | boolean | string | null;
+}
+/**
+ * A picture: the name of its file, and its bytes.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "UploadRequest".
+ */
+export interface UploadRequest {
+  name: string;
+  content: string;
 }

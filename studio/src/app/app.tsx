@@ -1,6 +1,7 @@
 import { effect } from "@preact/signals";
 import { useEffect, useState } from "preact/hooks";
 import { connection } from "../api/connection";
+import { Conflicts } from "../project";
 import { t } from "../text";
 import { Icon, IconButton, toast } from "../ui";
 import { Toasts } from "../ui/toast";
@@ -34,6 +35,7 @@ export function App() {
         <CurrentView />
       </div>
       <Toasts />
+      <Conflicts />
       <SettingsDialog open={settings} onClose={() => setSettings(false)} />
     </div>
   );
