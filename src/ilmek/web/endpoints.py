@@ -172,6 +172,9 @@ ENDPOINTS: tuple[Endpoint, ...] = (
         "studio.linkage_quality:quality",
         "Circuits, mobility, coupler curves, least transmission angles and the checks of `ilmek mechanism`.",
         affinity="linkage-quality",
+    ),
+    Endpoint(
+        "POST",
         "/carpet/chart",
         "studio.carpet:chart",
         "The chart of a recipe, saved or not: yarns, checks, cost; then one byte a knot (packed).",
