@@ -8,6 +8,7 @@ import "./app/app.css";
 
 const place = document.getElementById("studio");
 if (place !== null) {
+  connect();
   await applySettings();
   connect();
   follow();

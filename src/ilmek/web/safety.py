@@ -9,6 +9,7 @@ import hashlib
 import hmac
 import ipaddress
 import secrets
+import time
 from dataclasses import dataclass, field
 
 from starlette.datastructures import Headers, MutableHeaders, QueryParams
@@ -95,13 +96,14 @@ class Guard:
             await self._app(scope, receive, send)
             return
         refusal = self._refusal(scope)
+        send = _with_headers(send, time.perf_counter())
         if refusal is None:
-            await self._app(scope, receive, _with_headers(send))
+            await self._app(scope, receive, send)
         elif scope["type"] == "websocket":
             await receive()
             await send({"type": "websocket.close", "code": 1008, "reason": "not allowed"})
         else:
-            await refusal(scope, receive, _with_headers(send))
+            await refusal(scope, receive, send)
 
     def _refusal(self, scope: Scope) -> Response | None:
         """The answer to a request that is not allowed, or to the first one; None: it is passed on."""
@@ -114,7 +116,12 @@ class Guard:
         length = headers.get("content-length") or "0"
         if not length.isdecimal() or int(length[:20]) > LONGEST_BODY:
             return PlainTextResponse(f"The request is longer than {LONGEST_BODY:,} bytes.\n", 413)
-        return None if self._is_known(headers) else self._first_visit(scope)
+        return self._with_token(scope) if self._is_known(headers) else self._first_visit(scope)
+
+    def _with_token(self, scope: Scope) -> Response | None:
+        """Where a page that is known comes with a token: the address without it, which stays in the history."""
+        opened = scope["type"] == "http" and scope["path"] == "/" and scope["query_string"].startswith(b"token=")
+        return RedirectResponse("/", 303) if opened else None
 
     def _is_known(self, headers: Headers) -> bool:
         kind, _, token = headers.get("authorization", "").partition(" ")
@@ -156,13 +163,14 @@ def entered(access: Access, cookie_name: str) -> Response:
     return response
 
 
-def _with_headers(send: Send) -> Send:
+def _with_headers(send: Send, began: float) -> Send:
     async def sent(message: Message) -> None:
         if message["type"] == "http.response.start":
             headers = MutableHeaders(scope=message)
             for name, value in HEADERS.items():
                 headers.setdefault(name, value)
             headers.setdefault("content-security-policy", CONTENT_POLICY)
+            headers.append("server-timing", f"total;dur={1000 * (time.perf_counter() - began):.1f}")
         await send(message)
 
     return sent

@@ -8,6 +8,7 @@ import webbrowser
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import uvicorn
 
@@ -112,24 +113,25 @@ def serve(order: StudioOrder, note: Callable[[str], None], show: Callable[[str],
     show(address)
     if browser:
         threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()
-    uvicorn.Server(_config(str(order.project.resolve()), access, port)).run(sockets=[listener])
+    app = studio_app(str(order.project.resolve()), access, f"ilmek-studio-{port}")
+    uvicorn.Server(uvicorn.Config(app, **server_settings())).run(sockets=[listener])
 
 
-def _config(project: str, access: Access, port: int) -> uvicorn.Config:
-    return uvicorn.Config(
-        studio_app(project, access, f"ilmek-studio-{port}"),
-        loop="asyncio",
-        http="h11",
-        ws="websockets-sansio",
-        ws_max_size=65536,
-        ws_ping_interval=20.0,
-        lifespan="on",
-        log_config=None,
-        log_level="error",
-        access_log=False,
-        server_header=False,
-        date_header=False,
-        limit_concurrency=MOST_CONNECTIONS,
-        timeout_keep_alive=30,
-        timeout_graceful_shutdown=2,
-    )
+def server_settings() -> dict[str, Any]:
+    """How uvicorn serves the studio."""
+    return {
+        "loop": "asyncio",
+        "http": "h11",
+        "ws": "websockets-sansio",
+        "ws_max_size": 65536,
+        "ws_ping_interval": 20.0,
+        "lifespan": "on",
+        "log_config": None,
+        "log_level": "error",
+        "access_log": False,
+        "server_header": False,
+        "date_header": False,
+        "limit_concurrency": MOST_CONNECTIONS,
+        "timeout_keep_alive": 30,
+        "timeout_graceful_shutdown": 2,
+    }

@@ -1,5 +1,4 @@
 /** Requests to the studio's server. Paths are those of the API, below /api. */
-import { connection } from "./connection";
 
 /** What the server refuses: what was given, what is allowed, what to do. */
 export class ApiError extends Error {
@@ -103,7 +102,6 @@ export async function answered(method: string, path: string, content?: Content, 
     });
   } catch (error) {
     if (signal?.aborted) throw error;
-    connection.value = "lost";
     throw new ServerLost();
   }
   if (!response.ok) throw await errorOf(response);
