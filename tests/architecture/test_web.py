@@ -7,15 +7,37 @@ import sys
 from pathlib import Path
 
 import pytest
-from sources import PACKAGE, tree_of
+from sources import tree_of
 
 from ilmek.web.endpoints import ENDPOINTS
 from ilmek.web.schema import messages, openapi
 
 ROOT = Path(__file__).parents[2]
+PACKAGE = ROOT / "src" / "ilmek"
 SOURCES = [*sorted((PACKAGE / "web").glob("*.py")), *sorted((PACKAGE / "jobs" / "studio").glob("*.py"))]
-UNSAFE = {"pickle", "marshal", "shelve", "dill", "cloudpickle", "subprocess", "multiprocessing", "concurrent", "code", "pty"}
-UNSAFE_CALLS = {"eval", "exec", "compile", "system", "popen", "spawnl", "spawnv", "create_subprocess_shell", "__import__"}
+UNSAFE = {
+    "pickle",
+    "marshal",
+    "shelve",
+    "dill",
+    "cloudpickle",
+    "subprocess",
+    "multiprocessing",
+    "concurrent",
+    "code",
+    "pty",
+}
+UNSAFE_CALLS = {
+    "eval",
+    "exec",
+    "compile",
+    "system",
+    "popen",
+    "spawnl",
+    "spawnv",
+    "create_subprocess_shell",
+    "__import__",
+}
 
 
 @pytest.mark.parametrize("path", SOURCES, ids=lambda path: f"{path.parent.name}/{path.name}")

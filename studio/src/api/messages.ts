@@ -50,6 +50,42 @@ export interface Changed {
   paths: string[];
 }
 /**
+ * A chart of a recipe.
+ *
+ *     recipe  data of the recipe, saved or not      path  of its file in the project
+ *     draft   quick, while a slider moves: colours of a photo are rounded before their yarns are chosen
+ *     source  key of the fitted picture that the caller has: it is not sent again
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ChartRequest".
+ */
+export interface ChartRequest {
+  recipe: {};
+  path?: string;
+  draft?: boolean;
+  source?: string;
+}
+/**
+ * A yarn of the chart, in the order of its indices, and what is needed of it.
+ *
+ *     srgb    `#rrggbb`              symbol  as on the printed chart and in rows.txt
+ *     length, mass  [m], [kg]; 0 where no knot has it      price  of what is to buy; None: not known
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ChartYarn".
+ */
+export interface ChartYarn {
+  name: string;
+  srgb: string;
+  symbol: string;
+  knots: number;
+  length: number;
+  mass: number;
+  price: number | null;
+  count: string;
+  hanks: number;
+}
+/**
  * A check that differs: values with limits as texts, and whether it holds; null where one has no such check.
  *
  * This interface was referenced by `Messages`'s JSON-Schema
@@ -119,6 +155,16 @@ export interface ComparisonRequest {
   b?: {
     [k: string]: number | boolean | string | null;
   };
+}
+/**
+ * The corners of a carpet in a photograph [pixels], clockwise from its upper left, and its clearness, 0 to 1.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "Corners".
+ */
+export interface Corners {
+  corners: never[][];
+  clearness: number;
 }
 /**
  * Gears, a belt or a rack: kind, its bodies and the points in the middle of the wheels, ratio.
@@ -914,6 +960,16 @@ export interface PathRequest {
   path: string;
 }
 /**
+ * A picture of the project, and the longest side at which it is sent [pixels].
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "PictureRequest".
+ */
+export interface PictureRequest {
+  picture: string;
+  most?: number;
+}
+/**
  * A picture of the project. size: [bytes].
  *
  * This interface was referenced by `Messages`'s JSON-Schema
@@ -951,6 +1007,39 @@ export interface ProjectSummary {
   folder: string;
   files: FileSummary[];
   pictures: PictureSummary[];
+}
+/**
+ * The proposed shades.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "Proposal".
+ */
+export interface Proposal {
+  shades: ShadeToDye[];
+}
+/**
+ * A proposed shade: colour `#rrggbb`, share of the knots, the nearest yarn of the wool list and its CIEDE2000.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ShadeToDye".
+ */
+export interface ShadeToDye {
+  name: string;
+  srgb: string;
+  share: number;
+  nearest: string;
+  delta_e: number;
+}
+/**
+ * Shades that suit the picture of a recipe best: at most `count`.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ProposalRequest".
+ */
+export interface ProposalRequest {
+  recipe: {};
+  count?: number;
+  path?: string;
 }
 /**
  * The quality of a mechanism.
@@ -991,6 +1080,48 @@ export interface ReadValue {
 export interface RenameRequest {
   path: string;
   new: string;
+}
+/**
+ * A row to weave by: its runs, and its lines from left to right and from right to left as rows.txt has them.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "RowAnswer".
+ */
+export interface RowAnswer {
+  row: number;
+  rows: number;
+  columns: number;
+  runs: RowRun[];
+  rightward: string;
+  leftward: string;
+  yarns: ChartYarn[];
+}
+/**
+ * A run of a row, from left to right: first knot from 1, cells, knots, yarn by its index.
+ *
+ *     mark    0: whole knots, 1: two half knots in each cell, 2: jufti knots on two cells      second  yarn of half knots
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "RowRun".
+ */
+export interface RowRun {
+  first: number;
+  cells: number;
+  knots: number;
+  yarn: number;
+  mark: number;
+  second: number;
+}
+/**
+ * A row of the chart of a recipe, from 1 at the lower edge.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "RowRequest".
+ */
+export interface RowRequest {
+  recipe: {};
+  row: number;
+  path?: string;
 }
 /**
  * A new state of a text file.
