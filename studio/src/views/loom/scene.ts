@@ -1,0 +1,125 @@
+/** A loom in space as the server sends it: what is said of it, and typed arrays of its numbers. */
+
+export type Range = [first: number, count: number];
+
+export interface SceneCheck {
+  name: string;
+  value: number | null;
+  limit: number | null;
+  unit: string;
+  ok: boolean;
+  source: string;
+  relation: string;
+  cure: string;
+}
+
+export interface SceneMotion {
+  drive: Drive;
+  angle: Range;
+  shift: Range | null;
+  rotation: Range | null;
+}
+
+export interface SceneFrame {
+  name: string;
+  parent: string;
+  origins: Range;
+  phases: Range | null;
+  axis: [number, number, number];
+  motion: SceneMotion | null;
+}
+
+export interface SceneSolid {
+  points: Range;
+  triangles: Range;
+  deviation: number;
+}
+
+export interface ScenePart {
+  name: string;
+  title: string;
+  machine: string;
+  frame: string;
+  solids: SceneSolid[];
+  material: string;
+  mass: number | null;
+  number: number;
+  checks: SceneCheck[];
+  plate: string;
+  envelope: boolean;
+}
+
+export interface SceneYarn {
+  name: string;
+  title: string;
+  frame: string;
+  drive: Drive;
+  angle: Range;
+  points: Range;
+  number: number;
+  diameter: number;
+}
+
+export interface SceneChart {
+  rows: number;
+  columns: number;
+  colours: string[];
+  yarns: string[];
+}
+
+/** What turns: the cyclogram of a row, or that of a knot. */
+export type Drive = "row" | "knot";
+
+export interface SceneAbout {
+  title: string;
+  heads: string;
+  floor: number;
+  periods: Record<Drive, number>;
+  frames: SceneFrame[];
+  parts: ScenePart[];
+  warps: {
+    x: Range;
+    shaft: Range;
+    odd: Range;
+    line: Range;
+    lifted: number[];
+    lifts: number[];
+    angle: Range;
+    even: Range;
+    oddShare: Range;
+    diameter: number;
+  };
+  yarns: SceneYarn[];
+  carpet: {
+    width: number;
+    columns: number;
+    rows: number;
+    columnPitch: number;
+    rowPitch: number;
+    pile: number;
+    line: Range;
+  };
+  chart: SceneChart | null;
+  lengths: [number, number, number];
+}
+
+export interface SceneModel {
+  about: SceneAbout;
+  /** Numbers at a range of the block of floats. */
+  floats: (range: Range) => Float32Array;
+  /** Whole numbers at a range of the block of integers. */
+  integers: (range: Range) => Uint32Array;
+  /** The yarn of each knot, the top row of the carpet first; null without a chart. */
+  knots: Uint8Array | null;
+}
+
+/** The model of an answer: its JSON, and the blocks of floats, integers and knots. */
+export function sceneModel(about: SceneAbout, floats: ArrayBuffer, integers: ArrayBuffer, knots: Uint8Array): SceneModel {
+  const [reals, wholes] = [new Float32Array(floats), new Uint32Array(integers)];
+  return {
+    about,
+    floats: ([first, count]) => reals.subarray(first, first + count),
+    integers: ([first, count]) => wholes.subarray(first, first + count),
+    knots: about.chart === null ? null : knots,
+  };
+}
