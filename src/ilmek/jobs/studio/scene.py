@@ -52,7 +52,7 @@ class PlateRequest:
 
 @dataclass(frozen=True, slots=True)
 class PlateDrawing:
-    """The drawing of a plate [m]: closed lines of x and y in turn, the outline first, and round holes (x, y, radius)."""
+    """The drawing of a plate [m]: closed lines of x and y in turn, the outline first; round holes: x, y, radius."""
 
     title: str
     lines: tuple[tuple[float, ...], ...]
@@ -78,7 +78,7 @@ class ProjectLoom:
 
 
 def scene(request: LoomRequest, context: Context) -> Binary:
-    """The loom in space: JSON, 32-bit floats, 32-bit integers; of a recipe also its chart, a byte a knot, top row first.
+    """The loom in space: JSON, 32-bit floats and integers; of a recipe also its chart, a byte a knot, top row first.
 
     Raises IlmekError where the file is no loom, or its loom cannot be designed.
     """

@@ -1,5 +1,6 @@
 """The scene of a loom: all its parts, its warps, yarns and carpet."""
 
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -27,10 +28,12 @@ def scene(loom: LoomDesign, report: Report) -> Scene:
     """The scene of a loom, with the checks of its report at the parts that they concern."""
     made = maker_of(loom, report.all_checks)
     groups = [build(made) for build in (standing, cams, beating, weft, heads)]
+    drawn = {plate.name for plate in report.all_plates}
+    parts = (part for group in groups for part in group.parts)
     return Scene(
         title=report.title,
         frames=tuple(frame for group in groups for frame in group.frames),
-        parts=tuple(part for group in groups for part in group.parts),
+        parts=tuple(part if part.plate in drawn else replace(part, plate="") for part in parts),
         warps=_warps(made),
         yarns=(*wefts(made), *knot_yarn(made)),
         carpet=_carpet(made),

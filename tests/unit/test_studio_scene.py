@@ -1,0 +1,87 @@
+"""The loom's scene in the studio's API: packed numbers, the drawing of a plate, what is refused."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from ilmek.errors import IlmekError
+from ilmek.jobs.studio.answers import Binary, Context
+from ilmek.jobs.studio.scene import LoomRequest, PlateRequest, glb, plate, project_loom, scene
+from ilmek.plane.contours import area
+from ilmek.report import Contour
+from ilmek.units import turn
+from ilmek.viz.scene_data import needed_samples
+
+
+@pytest.fixture(scope="module")
+def project(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("project")
+    (folder / "machines").mkdir()
+    text = 'machine = "automated-loom"\n\n[settings]\nwidth = "0.3 m"\nlength = "0.4 m"\nbeat = "travelling"\n'
+    (folder / "machines" / "loom.toml").write_text(text)
+    (folder / "machines" / "cam.toml").write_text('machine = "cam"\n\n[settings]\n')
+    return folder
+
+
+def _read(answer: Binary) -> tuple[dict, list[np.ndarray]]:
+    size = int.from_bytes(answer.body[:4], "little")
+    about, begin, parts = json.loads(answer.body[4 : 4 + size]), 4 + size, []
+    for length in about["lengths"]:
+        parts.append(np.frombuffer(answer.body[begin : begin + length], np.uint8))
+        begin += -(-length // 8) * 8
+    assert begin == len(answer.body)
+    return about, parts
+
+
+def test_the_numbers_of_a_scene_are_those_of_its_parts(project: Path) -> None:
+    about, (floats, integers, knots) = _read(scene(LoomRequest("machines/loom.toml"), Context(str(project))))
+    made = project_loom(project, "machines/loom.toml").scene
+    reals, wholes = floats.view("<f4"), integers.view("<u4")
+    assert about["chart"] is None
+    assert len(knots) == 0
+    for part, solid in zip(about["parts"], made.parts, strict=True):
+        (first, count), (begin, number) = part["solids"][0]["points"], part["solids"][0]["triangles"]
+        assert np.allclose(reals[first : first + count].reshape(-1, 3), solid.solids[0].points, atol=1e-6)
+        assert np.array_equal(wholes[begin : begin + number].reshape(-1, 3), solid.solids[0].triangles)
+    assert about["warps"]["x"][1] == len(made.warps.x)
+
+
+def test_samples_that_are_left_out_lie_on_a_line(project: Path) -> None:
+    made = project_loom(project, "machines/loom.toml").scene
+    for frame in made.frames:
+        if frame.motion is None:
+            continue
+        kept = needed_samples(frame.motion)
+        angle = frame.motion.angle
+        assert angle[kept][0] == 0
+        assert angle[kept][-1] == pytest.approx(turn)
+        for values, error in ((frame.motion.shift, 2e-5), (frame.motion.rotation[:, None], 2e-4)):
+            for column in values.T:
+                assert np.abs(np.interp(angle, angle[kept], column[kept]) - column).max() <= error * 1.001
+
+
+def test_a_plates_drawing_encloses_its_area(project: Path) -> None:
+    context = Context(str(project))
+    drawn = plate(PlateRequest("beat-up-crank", "machines/loom.toml"), context)
+    known = {one.name: one for one in project_loom(project, "machines/loom.toml").report.all_plates}["beat-up-crank"]
+    points = np.array(drawn.lines[0]).reshape(-1, 2) @ np.array([1, 1j])
+    assert isinstance(known.outline, Contour)
+    assert area(Contour(points, np.zeros(len(points)))) == pytest.approx(area(known.outline), rel=1e-3)
+    assert len(drawn.holes) == len(known.holes)
+    with pytest.raises(IlmekError, match="no plate"):
+        plate(PlateRequest("wheel", "machines/loom.toml"), context)
+
+
+def test_a_file_that_is_no_loom_is_refused(project: Path) -> None:
+    with pytest.raises(IlmekError, match="file of a cam"):
+        scene(LoomRequest("machines/cam.toml"), Context(str(project)))
+    with pytest.raises(IlmekError, match="no file of the project"):
+        scene(LoomRequest("../secret.toml"), Context(str(project)))
+
+
+def test_the_loom_as_glb(project: Path) -> None:
+    answer = glb(LoomRequest("machines/loom.toml"), Context(str(project)))
+    assert answer.kind == "model/gltf-binary"
+    assert answer.body[:4] == b"glTF"
