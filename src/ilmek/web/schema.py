@@ -61,8 +61,20 @@ def messages(endpoints: Iterable[Endpoint] = ENDPOINTS) -> dict[str, Any]:
         "description": "The records of the studio's API.",
         "type": "object",
         "additionalProperties": False,
-        "definitions": components,
+        "definitions": _draft_7(components),
     }
+
+
+def _draft_7(schema: Any) -> Any:
+    """A schema with the tuples of draft 7, `items` as a list, as the generator of types reads them."""
+    if isinstance(schema, list):
+        return [_draft_7(one) for one in schema]
+    if not isinstance(schema, dict):
+        return schema
+    made = {key: _draft_7(value) for key, value in schema.items() if key != "prefixItems"}
+    if "prefixItems" in schema:
+        made |= {"items": _draft_7(schema["prefixItems"]), "additionalItems": False}
+    return made
 
 
 _DESCRIPTION = "SI units and radians. Works answer 202 with their number; see /api for how they go on."

@@ -22,7 +22,7 @@ export interface BodyAnswer {
      * @minItems 2
      * @maxItems 2
      */
-    [k: string]: never[];
+    [k: string]: [number, number];
   };
   solved: boolean;
 }
@@ -163,7 +163,7 @@ export interface ComparisonRequest {
  * via the `definition` "Corners".
  */
 export interface Corners {
-  corners: never[][];
+  corners: [number, number][];
   clearness: number;
 }
 /**
@@ -179,12 +179,12 @@ export interface CouplingAnswer {
    * @minItems 2
    * @maxItems 2
    */
-  first: never[];
+  first: [string, string];
   /**
    * @minItems 2
    * @maxItems 2
    */
-  second: never[];
+  second: [string, string];
   carrier: string;
   ratio: number;
 }
@@ -538,7 +538,7 @@ export interface FourBarRequest {
      * @minItems 2
      * @maxItems 2
      */
-    [k: string]: never[];
+    [k: string]: [number, number];
   };
 }
 /**
@@ -605,7 +605,7 @@ export interface JointAnswer {
    * @minItems 2
    * @maxItems 2
    */
-  bodies: never[];
+  bodies: [string, string];
   along: number;
   turned: number;
 }
@@ -632,7 +632,7 @@ export interface LeftOutFourBar {
      * @minItems 2
      * @maxItems 2
      */
-    [k: string]: never[];
+    [k: string]: [number, number];
   };
   made: string;
   reasons: {
@@ -660,6 +660,17 @@ export interface LinkageFault {
   given: string;
   allowed: string;
   do: string;
+}
+/**
+ * A loom of the project: by a recipe, the loom for its carpet; by a machine file, the loom of its settings.
+ *
+ *     file  path in the project
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "LoomRequest".
+ */
+export interface LoomRequest {
+  file?: string;
 }
 /**
  * A single limit that gives a four-bar if it is loosened.
@@ -775,7 +786,7 @@ export interface MechanismAnswer {
      * @minItems 3
      * @maxItems 3
      */
-    [k: string]: never[];
+    [k: string]: [number, number, number];
   };
   motion: MotionAnswer | null;
   no_motion: LinkageFault | null;
@@ -839,7 +850,7 @@ export interface MotionAnswer {
   transmission: {
     [k: string]: (number | null)[];
   };
-  closing: never[][];
+  closing: [number, number][];
   dead_centres: DeadCentreAnswer[];
   change_points: number[];
   rates: {
@@ -916,7 +927,7 @@ export interface MechanismRequest {
      * @minItems 3
      * @maxItems 3
      */
-    [k: string]: never[];
+    [k: string]: [number, number, number];
   };
   drag?: DraggedJoint | null;
   rates?: boolean;
@@ -988,6 +999,31 @@ export interface PictureSummary {
 export interface PivotCurves {
   pivots: number[][];
   pins: number[][];
+}
+/**
+ * The drawing of a plate [m]: closed lines of x and y in turn, the outline first; round holes: x, y, radius.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "PlateDrawing".
+ */
+export interface PlateDrawing {
+  title: string;
+  lines: number[][];
+  holes: [number, number, number][];
+  thickness: number;
+  material: string;
+  number: number;
+  notes: string[];
+}
+/**
+ * A plate of a loom, by its name in the workshop files.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "PlateRequest".
+ */
+export interface PlateRequest {
+  plate: string;
+  file?: string;
 }
 /**
  * The whole project.
@@ -1212,7 +1248,7 @@ export interface ShownFourBar {
      * @minItems 2
      * @maxItems 2
      */
-    [k: string]: never[];
+    [k: string]: [number, number];
   };
   links: {
     [k: string]: number;
@@ -1323,9 +1359,9 @@ export interface SynthesisAnswer {
   no_four_bar: string[];
   loosened: LoosenedLimit[];
   warnings: string[];
-  points: never[][];
+  points: [number, number][];
   angles: number[];
-  required: never[] | null;
+  required: [number[], number[]] | null;
   curves: PivotCurves | null;
 }
 /**
