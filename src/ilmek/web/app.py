@@ -23,7 +23,7 @@ from ilmek.web.events import EventHub
 from ilmek.web.framing import JSON, News, Reply, StepMessage, error_body
 from ilmek.web.login import login_routes
 from ilmek.web.pool import Pool, PoolFull
-from ilmek.web.safety import LONGEST_BODY, Access, Guard
+from ilmek.web.safety import CLOSE, LONGEST_BODY, Access, Guard
 from ilmek.web.static_files import client_file, project_file
 from ilmek.web.works import Works
 
@@ -142,7 +142,9 @@ async def _taken(request: Request, endpoint: Endpoint) -> tuple[bytes, bytes | N
         return _error(415, f"a body of {kind or 'no type'}", allowed=" or ".join(endpoint.upload or (JSON,)))
     body = await _body(request)
     if body is None:
-        return _error(413, f"a body of more than {LONGEST_BODY:,} bytes", do="take a smaller file")
+        refusal = _error(413, f"a body of more than {LONGEST_BODY:,} bytes", do="take a smaller file")
+        refusal.headers.update(CLOSE)
+        return refusal
     if endpoint.upload:
         return msgspec.json.encode(fields), body
     return _merged(body, fields), None

@@ -34,6 +34,9 @@ HEADERS = {
 LONGEST_BODY = 64 * 2**20
 """Largest body of a request [bytes]."""
 
+CLOSE = {"connection": "close"}
+"""Header of an answer after which the rest of the request is not read."""
+
 COOKIE_AGE = 30 * 86400
 """Life of the cookie [s]."""
 
@@ -115,7 +118,7 @@ class Guard:
             return PlainTextResponse("Requests of other sites are not allowed.\n", 403)
         length = headers.get("content-length") or "0"
         if not length.isdecimal() or int(length[:20]) > LONGEST_BODY:
-            return PlainTextResponse(f"The request is longer than {LONGEST_BODY:,} bytes.\n", 413)
+            return PlainTextResponse(f"The request is longer than {LONGEST_BODY:,} bytes.\n", 413, CLOSE)
         return self._with_token(scope) if self._is_known(headers) else self._first_visit(scope)
 
     def _with_token(self, scope: Scope) -> Response | None:
