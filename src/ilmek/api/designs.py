@@ -5,6 +5,7 @@ from types import MappingProxyType
 
 from ilmek.errors import ParameterError
 from ilmek.jobs.design import design_machine
+from ilmek.jobs.machine_file import read_machine_order
 from ilmek.jobs.machines import machine_form, machine_list
 from ilmek.jobs.reproduce import ReproductionResult, reproduce_papers
 from ilmek.params import Setting
@@ -30,7 +31,7 @@ def design(
 ) -> Report:
     """Design a machine of the catalogue and report it.
 
-    name        of the machine, like "beat-up"; see `list_machines`
+    name        of the machine, like "beat-up"; see `list_machines`. Or the path of a machine file, .toml or .json
     parameters  values by name, nested ones by dotted names: {"pile_handler.rise": "30deg"}
     settings    the same as keywords: design("beat-up", swing=30 * deg)
 
@@ -38,9 +39,9 @@ def design(
     checks that do not hold. Raises ParameterError for an unknown machine or parameter and for a value out of bounds;
     errors of the machine; Cancelled.
     """
-    given = {**parameters, **settings}
-    _check_densities(name, given)
-    return design_machine(name, given, progress=progress).report
+    order = read_machine_order(name, {**parameters, **settings})
+    _check_densities(order.machine, order.settings)
+    return design_machine(order.machine, order.settings, progress=progress).report
 
 
 def _check_densities(name: str, settings: Mapping[str, Setting]) -> None:

@@ -4,7 +4,7 @@
 
     [settings]
     swing = "30deg"
-    "motor.inertia" = "2e-4kg*m^2"              # of a nested parameter; or a table [settings.motor]
+    "strength.pin_diameter" = "8mm"             # of a nested parameter; or a table [settings.strength]
 
 Texts have their units, as on the command line; numbers are SI.
 """

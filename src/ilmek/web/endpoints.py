@@ -161,6 +161,7 @@ ENDPOINTS: tuple[Endpoint, ...] = (
         "studio.project_pictures:delete_picture",
         "Delete a picture, or a file of out/.",
     ),
+    Endpoint("POST", "/commands", "studio.commands:shown_command", "A state as its command line and as Python."),
     Endpoint(
         "POST",
         "/cyclogram/view",
