@@ -1,0 +1,73 @@
+"""Figures of reports as plain data: nothing lost that a screen could show, and small."""
+
+import msgspec
+import numpy as np
+import pytest
+
+from ilmek.jobs.design import design_machine
+from ilmek.jobs.studio.figure_answers import ShownSection
+from ilmek.jobs.studio.figures import rounded_numbers, shown_figures, shown_sections
+from ilmek.report import Animation, Gantt, Plot, StackedBars, Timing
+from ilmek.report.figure import Axis, GanttLane, Lane, Series
+
+
+@pytest.fixture(scope="module")
+def sections() -> list[ShownSection]:
+    return shown_sections(design_machine("beat-up", {}).report)
+
+
+def test_a_report_comes_through_json_unchanged(sections: list[ShownSection]) -> None:
+    assert msgspec.json.decode(msgspec.json.encode(sections), type=list[ShownSection]) == sections
+
+
+def test_numbers_have_six_digits() -> None:
+    values = np.array([np.pi * 10.0**power for power in range(-12, 13)])
+    rounded = np.array(rounded_numbers(values), float)
+    assert np.max(np.abs(rounded / values - 1)) <= 5e-6
+    assert max(len(f"{value!r}") for value in rounded.tolist()) <= 16
+
+
+def test_a_moving_machine_is_that_of_the_report() -> None:
+    report = design_machine("beat-up", {}).report
+    (given,) = (one for one in report.figures if isinstance(one, Animation))
+    made = next(one.animation for one in shown_figures(report.figures) if one.animation is not None)
+    tracks = [np.array(one, float).reshape(-1, 2) @ (1, 1j) for one in made.tracks]
+    size = max(np.ptp(stroke.points.real) for stroke in given.strokes)
+    for stroke, shape in zip(given.strokes, made.shapes, strict=True):
+        if shape.shape:
+            local = np.array(shape.shape, float).reshape(-1, 2) @ (1, 1j)
+            along = tracks[shape.tracks[1]] - tracks[shape.tracks[0]]
+            points = tracks[shape.tracks[0]][:, np.newaxis] + local * (along / abs(along))[:, np.newaxis]
+        else:
+            points = np.stack([tracks[number] for number in shape.tracks], axis=1)
+        assert np.max(np.abs(points - stroke.points)) < 1e-4 * size
+
+
+def test_a_body_has_one_look_in_all_figures(sections: list[ShownSection]) -> None:
+    looks: dict[str, set[int]] = {}
+    for figure in sections[0].figures:
+        strokes = figure.drawing.strokes if figure.drawing else []
+        shapes = figure.animation.shapes if figure.animation else []
+        for one in (*strokes, *shapes):
+            if one.role == "link":
+                looks.setdefault(one.label.split()[0], set()).add(one.look)
+    assert looks
+    assert all(len(found) == 1 for found in looks.values())
+
+
+def test_every_kind_of_figure() -> None:
+    time = Axis("time", "s")
+    axis = np.linspace(0, 1, 5000)
+    made = shown_figures(
+        (
+            Plot("p", "Plot", time, Axis("y", "mm"), (Series("a", axis, np.sin(40 * axis)),)),
+            Timing("t", "Cyclogram", 2.0, (Lane("shed", "cam", 2 * np.pi * axis, axis),)),
+            Gantt("g", "Heads", time, (GanttLane("1", axis[:2], axis[1:3], np.array([0, 1])),), ("ties", "waits")),
+            StackedBars("b", "Times", time, ("row",), ("a", "b"), np.array([[1.0, np.nan]])),
+        )
+    )
+    assert [one.name for one in made if one.plot or one.timing or one.gantt or one.bars] == ["p", "t", "g", "b"]
+    assert made[0].plot is not None
+    assert len(made[0].plot.curves[0].x) <= 720
+    assert made[3].bars is not None
+    assert made[3].bars.values == [[1.0, None]]
