@@ -90,7 +90,9 @@ class Pool:
 
     async def start(self, workers: int = 2) -> None:
         """Start the first workers; they get ready while the page loads."""
-        await asyncio.gather(*(self._add() for _ in range(min(workers, self.size))))
+        workers = min(workers, self.size)
+        self._starting += workers
+        await asyncio.gather(*(self._add() for _ in range(workers)))
 
     async def close(self) -> None:
         """End all workers; what they do is lost."""
@@ -162,6 +164,7 @@ class Pool:
         coming = self._starting + sum(1 for worker in self._workers if not worker.ready)
         wanted = len(self._waiting) or int(long > 0 and self._free("") is None)
         for _ in range(min(wanted - coming, self.size - len(self._workers) - self._starting)):
+            self._starting += 1
             self._later(self._add())
 
     def _free(self, affinity: str) -> _Worker | None:
@@ -186,7 +189,7 @@ class Pool:
             self._finish(worker, _failed(worker.request, 503, given))
 
     async def _add(self) -> None:
-        self._starting += 1
+        """Start a worker that is counted in `_starting` already."""
         try:
             process = await asyncio.create_subprocess_exec(
                 *self.command,
