@@ -132,11 +132,11 @@ def violations(page: Page) -> list[str]:
 
 
 def open_view(page: Page, running: Studio, view: str) -> None:
-    """Go to a view, also to an item of it as "machine/beat-up", and wait until it has its first content."""
+    """Go to a view and wait until it has its first content."""
     if not page.url.startswith(running.base):
         page.goto(running.address)
     page.evaluate(f"location.hash = '#{view}'")
-    page.wait_for_selector(f"main[data-view='{view.partition('/')[0]}'][data-ready='true']", timeout=PATIENCE)
+    page.wait_for_selector(f"main[data-view='{view}'][data-ready='true']", timeout=PATIENCE)
 
 
 def settled(page: Page, quiet: float = 0.3) -> None:

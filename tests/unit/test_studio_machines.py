@@ -9,6 +9,7 @@ from click.testing import CliRunner
 from ilmek.cli import main
 from ilmek.errors import ParameterError
 from ilmek.jobs.studio.answers import Context
+from ilmek.jobs.studio.machine_figures import FiguresRequest, figures
 from ilmek.jobs.studio.machine_view import nearest, view
 from ilmek.jobs.studio.machines import (
     DesignRequest,
@@ -90,3 +91,22 @@ def test_loom_in_the_studio_has_the_checks_of_all_its_machines_and_states_the_ne
     assert seen.failed == len(seen.reasons)
     assert {one.machine for one in seen.checks} >= {"", "weaver", "shedding", "warp-tension"}
     assert "quality" in nearest(DesignRequest("automated-loom", settings), HERE).text
+
+
+@pytest.mark.parametrize("name", ["beat-up", "shedding"])
+def test_figures_are_those_of_the_page_chosen_by_name(name: str) -> None:
+    machine = MACHINES[name]
+    page = [figure.name for figure in machine.report_for({}).figures]
+    none = figures(FiguresRequest(name, {}, names=()), HERE)
+    assert [one.name for one in none.known] == page
+    assert none.figures == []
+    chosen = figures(FiguresRequest(name, {}, names=(page[1], "unknown")), HERE)
+    assert [one.name for one in chosen.figures] == [page[1]]
+
+
+def test_figures_of_a_machine_in_the_loom_are_without_those_of_its_own_page_alone() -> None:
+    found = figures(FiguresRequest("automated-loom", {}, part="shedding", names=()), HERE)
+    assert "shedding" in {one.name for one in found.parts}
+    assert any(one.kind == "animation" for one in found.known)
+    with pytest.raises(ParameterError, match="no part"):
+        figures(FiguresRequest("automated-loom", {}, part="tufting"), HERE)

@@ -75,6 +75,13 @@ ENDPOINTS: tuple[Endpoint, ...] = (
     ),
     Endpoint(
         "POST",
+        "/machines/{name}/figures",
+        "studio.machine_figures:figures",
+        "Figures of a design by name, as data; and the names of all that there are.",
+        affinity="machine",
+    ),
+    Endpoint(
+        "POST",
         "/machines/{name}/sensitivities",
         "studio.sensitivities:sensitivities",
         "What each parameter does to each check, by small steps; each is sent as soon as it is known.",

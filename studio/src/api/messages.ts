@@ -116,6 +116,29 @@ export interface CircuitAnswer {
   current: boolean;
 }
 /**
+ * A state that is shown as its command line and as Python.
+ *
+ *     kind      carpet, chart, machine, linkage, cyclogram
+ *     path      the project's file; "": `machine`, of the catalogue; of a cyclogram also MACHINE:CYCLOGRAM
+ *     settings  of the machine, by name: beside a file they win over it
+ *     options   of the command, by name: `over`, `speed`, `steps`, `at` of a linkage, `solve` of a cyclogram, `out` of a
+ *               carpet
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "CommandRequest".
+ */
+export interface CommandRequest {
+  kind: string;
+  path?: string;
+  machine?: string;
+  settings?: {
+    [k: string]: number | boolean | string | null;
+  };
+  options?: {
+    [k: string]: number | boolean | string | null;
+  };
+}
+/**
  * What differs between two settings A and B of a machine.
  *
  * This interface was referenced by `Messages`'s JSON-Schema
@@ -390,7 +413,7 @@ export interface DraggedJoint {
  *     change    of value over limit, for a rise of the parameter by 1 % (by one of its unit where it is 0); for a choice:
  *               with the other choice. Of a check against 0: of the value, over the value now
  *     relative  the same over value over limit now
- *     ok, then  whether the check holds now, and after the change: of a choice only, else the same
+ *     ok, after whether the check holds now, and after the change: of a choice only, else the same
  *     turns_at  value of the parameter [SI] at which the check would fail, or hold, in a straight line; null: none near
  *
  * This interface was referenced by `Messages`'s JSON-Schema
@@ -402,9 +425,25 @@ export interface Effect {
   change: number;
   relative: number;
   ok: boolean;
-  then: boolean;
+  after: boolean;
   turns_at: number | null;
   turns_text: string;
+}
+/**
+ * Figures of a design of a machine.
+ *
+ *     part   a machine in it, "" for the machine itself      names  of the figures; null: all, with an empty list none
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "FiguresRequest".
+ */
+export interface FiguresRequest {
+  name: string;
+  settings?: {
+    [k: string]: number | boolean | string | null;
+  };
+  part?: string;
+  names?: string[] | null;
 }
 /**
  * A new value of an entry of a file: the keys that lead to it, and text, number, list or table.
@@ -734,6 +773,314 @@ export interface MachineFields {
   fields: FormField[];
   machines: string[];
   long: boolean;
+}
+/**
+ * The figures required, all that there are, the machines in it, and a warning for each that cannot be made.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "MachineFigures".
+ */
+export interface MachineFigures {
+  figures: ShownFigure[];
+  known: NamedFigure[];
+  parts: NamedPart[];
+  warnings: string[];
+}
+/**
+ * A figure: one of its kinds, the others are null.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ShownFigure".
+ */
+export interface ShownFigure {
+  name: string;
+  title: string;
+  note: string;
+  plot: ShownPlot | null;
+  drawing: ShownDrawing | null;
+  animation: ShownAnimation | null;
+  timing: ShownTiming | null;
+  gantt: ShownGantt | null;
+  bars: ShownBars | null;
+}
+/**
+ * Curves over one axis; figures over a quantity of the same label share a cursor.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ShownPlot".
+ */
+export interface ShownPlot {
+  x: ShownAxis;
+  y: ShownAxis;
+  curves: ShownCurve[];
+  marks: ShownMark[];
+}
+/**
+ * An axis: label, and the unit its SI data are shown in.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ShownAxis".
+ */
+export interface ShownAxis {
+  label: string;
+  unit: string;
+}
+/**
+ * A curve of a plot.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ShownCurve".
+ */
+export interface ShownCurve {
+  label: string;
+  look: number;
+  dashed: boolean;
+  x: (number | null)[];
+  y: (number | null)[];
+}
+/**
+ * A named abscissa [SI].
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ShownMark".
+ */
+export interface ShownMark {
+  x: number;
+  label: string;
+}
+/**
+ * A drawing to scale.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ShownDrawing".
+ */
+export interface ShownDrawing {
+  strokes: ShownStroke[];
+  dots: ShownDot[];
+  unit: string;
+}
+/**
+ * A polyline of a drawing [m]; `role` sets how it is drawn. look: -1 where its role has a colour of its own.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ShownStroke".
+ */
+export interface ShownStroke {
+  points: (number | null)[];
+  role: string;
+  label: string;
+  closed: boolean;
+  filled: boolean;
+  look: number;
+}
+/**
+ * A named point [m]; role: pin, pivot or point.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ShownDot".
+ */
+export interface ShownDot {
+  /**
+   * @minItems 2
+   * @maxItems 2
+   */
+  at: [number, number];
+  label: string;
+  role: string;
+}
+/**
+ * A machine in motion: what stands still, and what moves over the frames.
+ *
+ *     tracks  of points, x, y, x, y, … over the frames [m]      at      value of the drive at the frames [SI]
+ *     closes  the frame after the last is the first             period  of the real machine [s]; null: none
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ShownAnimation".
+ */
+export interface ShownAnimation {
+  still: ShownDrawing;
+  drive: ShownAxis;
+  at: (number | null)[];
+  tracks: (number | null)[][];
+  shapes: MovingShape[];
+  points: MovingPoint[];
+  readings: ShownReading[];
+  closes: boolean;
+  start: number;
+  period: number | null;
+}
+/**
+ * A line that moves. track: numbers of the tracks of its points.
+ *
+ *     shape   where it keeps its shape: its points about the first track, the second track ahead of it on the x axis
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "MovingShape".
+ */
+export interface MovingShape {
+  tracks: number[];
+  shape: (number | null)[];
+  role: string;
+  label: string;
+  closed: boolean;
+  look: number;
+}
+/**
+ * A point that moves: pin, point or block; ahead: the track of a point ahead of a block on its guide, -1: none.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "MovingPoint".
+ */
+export interface MovingPoint {
+  track: number;
+  ahead: number;
+  label: string;
+  role: string;
+}
+/**
+ * A number over the frames [SI], shown in a unit.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ShownReading".
+ */
+export interface ShownReading {
+  label: string;
+  unit: string;
+  values: (number | null)[];
+}
+/**
+ * A cyclogram over one turn of the master shaft, which takes `period` [s].
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ShownTiming".
+ */
+export interface ShownTiming {
+  drive: ShownAxis;
+  period: number;
+  lanes: ShownLane[];
+  links: ShownLink[];
+}
+/**
+ * A track of a cyclogram: position 0 to 1 over the master angle [rad].
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ShownLane".
+ */
+export interface ShownLane {
+  name: string;
+  actuator: string;
+  unit: string;
+  look: number;
+  angle: (number | null)[];
+  position: (number | null)[];
+  events: ShownMark[];
+  moves: ShownMove[];
+  shades: ShownShade[];
+}
+/**
+ * A motion of a lane, from `begin` to `finish` [SI] over master angles [rad].
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ShownMove".
+ */
+export interface ShownMove {
+  name: string;
+  start: number;
+  end: number;
+  begin: number;
+  finish: number;
+  law: string;
+}
+/**
+ * A window of a lane [rad].
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ShownShade".
+ */
+export interface ShownShade {
+  start: number;
+  end: number;
+  label: string;
+  bad: boolean;
+}
+/**
+ * What must come after what: a lane's number and a master angle [rad] each.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ShownLink".
+ */
+export interface ShownLink {
+  /**
+   * @minItems 2
+   * @maxItems 2
+   */
+  first: [number, number];
+  /**
+   * @minItems 2
+   * @maxItems 2
+   */
+  then: [number, number];
+  label: string;
+  ok: boolean;
+}
+/**
+ * What lanes are busy with over time; the first `pale` kinds are drawn pale.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ShownGantt".
+ */
+export interface ShownGantt {
+  x: ShownAxis;
+  lanes: ShownSpans[];
+  kinds: string[];
+  looks: number[];
+  pale: number;
+}
+/**
+ * A lane of a Gantt chart: spans of time [s] and the number of the kind of each.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ShownSpans".
+ */
+export interface ShownSpans {
+  name: string;
+  starts: (number | null)[];
+  ends: (number | null)[];
+  kinds: number[];
+}
+/**
+ * Horizontal bars, each of parts side by side; values [SI] of each bar by kind.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ShownBars".
+ */
+export interface ShownBars {
+  x: ShownAxis;
+  bars: string[];
+  kinds: string[];
+  looks: number[];
+  values: (number | null)[][];
+}
+/**
+ * A figure that the machine has; kind: plot, drawing, animation, timing, gantt or bars.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "NamedFigure".
+ */
+export interface NamedFigure {
+  name: string;
+  title: string;
+  kind: string;
+}
+/**
+ * A machine in the machine, by its name and its title.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "NamedPart".
+ */
+export interface NamedPart {
+  name: string;
+  title: string;
 }
 /**
  * The machines of the catalogue.
@@ -1226,6 +1573,16 @@ export interface SensitivityRequest {
     [k: string]: number | boolean | string | null;
   };
   parameters?: string[];
+}
+/**
+ * The same state as command line and as Python.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ShownCommand".
+ */
+export interface ShownCommand {
+  command: string;
+  python: string;
 }
 /**
  * A four-bar that does the task, as it is shown in the gallery; SI and radians.

@@ -132,20 +132,30 @@ def judged(name: str, settings: Mapping[str, Setting], progress: Progress = SILE
 
 def report_for(name: str, params: Params, progress: Progress = SILENT) -> Report:
     """The report of a design without tables and figures. The last ones are kept."""
+    return _kept(name, params, progress)[1]
+
+
+def designed(name: str, params: Params, progress: Progress = SILENT) -> Any:
+    """A design of a machine. The last ones are kept."""
+    return _kept(name, params, progress)[0]
+
+
+def _kept(name: str, params: Params, progress: Progress) -> tuple[Any, Report]:
     key = name, params
-    if (found := _REPORTS.get(key)) is None:
+    if (found := _DESIGNS.get(key)) is None:
         machine = find_machine(name)
-        found = _REPORTS[key] = machine.report(machine.designed(params, progress), illustrated=False)
-        if len(_REPORTS) > _KEPT:
-            del _REPORTS[next(iter(_REPORTS))]
+        design = machine.designed(params, progress)
+        found = _DESIGNS[key] = design, machine.report(design, illustrated=False)
+        if len(_DESIGNS) > _MOST:
+            del _DESIGNS[next(iter(_DESIGNS))]
     return found
 
 
-_KEPT = 32
-"""Number of reports that a worker keeps."""
+_MOST = 24
+"""Number of designs that a worker keeps."""
 
-_REPORTS: dict[tuple[str, Params], Report] = {}
-"""The last reports by machine and parameters."""
+_DESIGNS: dict[tuple[str, Params], tuple[Any, Report]] = {}
+"""The last designs and their reports by machine and parameters."""
 
 
 def shown(report: Report, params: Params, seconds: float) -> DesignView:

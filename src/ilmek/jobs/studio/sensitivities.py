@@ -42,7 +42,7 @@ class Effect:
     change    of value over limit, for a rise of the parameter by 1 % (by one of its unit where it is 0); for a choice:
               with the other choice. Of a check against 0: of the value, over the value now
     relative  the same over value over limit now
-    ok, then  whether the check holds now, and after the change: of a choice only, else the same
+    ok, after whether the check holds now, and after the change: of a choice only, else the same
     turns_at  value of the parameter [SI] at which the check would fail, or hold, in a straight line; null: none near
     """
 
@@ -51,7 +51,7 @@ class Effect:
     change: float
     relative: float
     ok: bool
-    then: bool
+    after: bool
     turns_at: float | None = None
     turns_text: str = ""
 
@@ -213,7 +213,7 @@ def _ranked(name: str, step: str, effects: Iterator[Effect], value: float) -> Se
     """The strongest effects: those that turn a check first, the nearest of them first; the rest by relative size."""
 
     def rank(one: Effect) -> tuple[bool, float, float]:
-        turns = one.ok != one.then or one.turns_at is not None
+        turns = one.ok != one.after or one.turns_at is not None
         return not turns, abs((one.turns_at or value) - value), -abs(one.relative)
 
     found = sorted(effects, key=rank)

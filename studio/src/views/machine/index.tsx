@@ -1,12 +1,71 @@
+import { useEffect, useMemo, useState } from "preact/hooks";
+import { goTo, type ViewProps } from "../../app/routes";
+import { remember, remembered } from "../../app/settings";
+import { filesOf, project, SaveState } from "../../project";
+import { useDocument } from "../../project/use-document";
 import { t } from "../../text";
-import { CopyCommand } from "../../ui";
+import { Split } from "../../ui";
+import { Chooser, NoFile } from "./chooser";
+import { FormSide } from "./form-side";
+import { MachineModel } from "./model";
+import { Outcome } from "./outcome";
+import type { MachineFile } from "./settings";
+import { VerdictBadge } from "./verdict";
+import "./machine.css";
 
-export default function Machine() {
+/** The file shown where the address names none: the last one, or the first of the project. */
+function usual(): string {
+  const names = filesOf("machine").map((file) => nameOf(file.path));
+  const last = remembered("machine.last");
+  return last !== null && names.includes(last) ? last : names.includes("beat-up") ? "beat-up" : (names[0] ?? "");
+}
+
+function nameOf(path: string): string {
+  return path.replace(/^machines\//, "").replace(/\.toml$/, "");
+}
+
+export default function Machine({ name }: ViewProps) {
+  if (project.value === null) return <p class="app-loading">{t("app.loading")}</p>;
+  const shown = name === "" ? usual() : name;
+  if (shown === "") {
+    return (
+      <div class="app-plain">
+        <h1>{t("machine.title")}</h1>
+        <Chooser name="" onChoose={(to) => goTo("machine", to)} />
+      </div>
+    );
+  }
+  return <OneMachine key={shown} name={shown} />;
+}
+
+function OneMachine({ name }: { name: string }) {
+  const document = useDocument<MachineFile>(`machines/${name}.toml`);
+  const model = useMemo(() => new MachineModel(document), [document]);
+  const [tab, setTab] = useState("checks");
+  useEffect(() => {
+    remember("machine.last", name);
+    return () => model.close();
+  }, [model]);
+  const missing = document.saved.value === "missing";
   return (
-    <div class="app-plain">
-      <h1>{t("machine.title")}</h1>
-      <p>{t("machine.lead")}</p>
-      <CopyCommand command="ilmek design beat-up" />
+    <div class="machine">
+      <header class="machine-head">
+        <h1 class="visually-hidden">{t("machine.title")}</h1>
+        <Chooser name={name} onChoose={(to) => goTo("machine", to)} />
+        <VerdictBadge model={model} />
+        <span class="ui-grow" />
+        {!missing && <SaveState document={document as never} />}
+      </header>
+      {missing ? (
+        <NoFile name={name} />
+      ) : (
+        <Split
+          name="machine"
+          width={420}
+          first={<FormSide model={model} />}
+          second={<Outcome model={model} tab={tab} onTab={setTab} />}
+        />
+      )}
     </div>
   );
 }

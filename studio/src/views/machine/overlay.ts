@@ -1,0 +1,20 @@
+/** The curves of B, dashed over those of A. */
+import type { ShownFigure } from "../../api/messages";
+
+/** The figures of A with the curves of the figures of B that have the same name and the same axes. */
+export function overlaid(a: readonly ShownFigure[], b: readonly ShownFigure[]): ShownFigure[] {
+  const others = new Map(b.map((figure) => [figure.name, figure]));
+  return a.map((figure) => {
+    const [mine, theirs] = [figure.plot, others.get(figure.name)?.plot];
+    if (!mine || !theirs || mine.x.label !== theirs.x.label || mine.y.unit !== theirs.y.unit) return figure;
+    const dashed = theirs.curves.map((curve) => ({ ...curve, label: `B: ${curve.label}`, dashed: true }));
+    return { ...figure, plot: { ...mine, curves: [...mine.curves, ...dashed] } };
+  });
+}
+
+/** The figures that are shown at first: what moves, else a drawing, and the first two curves. */
+export function firstFigures(known: readonly { name: string; kind: string }[]): string[] {
+  const of = (kind: string) => known.filter((figure) => figure.kind === kind).map((figure) => figure.name);
+  const drawn = [...of("animation").slice(0, 1), ...of("drawing").slice(0, 1)].slice(0, 1);
+  return [...drawn, ...of("plot").slice(0, 2)];
+}
