@@ -9,7 +9,6 @@ from ilmek.io.output import disk
 from ilmek.jobs.studio.answers import Context
 from ilmek.jobs.studio.project import Changed, PathRequest, PictureSummary
 from ilmek.jobs.studio.project_folder import (
-    OUT,
     PICTURES,
     ProjectFolder,
     cannot,
@@ -91,11 +90,11 @@ def _endings(content: bytes) -> tuple[str, ...]:
 
 
 def delete_picture(request: PathRequest, context: Context) -> Changed:
-    """Delete a picture, or a file of out/. Raises ParameterError for another file, or where there is none."""
+    """Delete a picture. Raises ParameterError for another file, or where there is none."""
     folder = ProjectFolder(context.folder.resolve())
     path = folder.path(request.path)
-    if request.path.partition("/")[0] not in (PICTURES, OUT) or not path.is_file():
-        raise ParameterError(f"{request.path} is no file of {PICTURES}/ or {OUT}/")
+    if path.parent != folder.base / PICTURES or not path.is_file():
+        raise ParameterError(f"{request.path} is no file of {PICTURES}/")
     with folder.locked():
         try:
             disk.unlink(path)

@@ -1,0 +1,224 @@
+"""Everything out: what the command line writes of a file of the project, written into out/ by the same functions.
+
+Each product has its command line; run in the project's folder it writes the same files.
+"""
+
+import contextlib
+import shlex
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
+
+from ilmek.errors import ParameterError
+from ilmek.io.json_file import json_text
+from ilmek.io.mechanism_file import read_mechanism
+from ilmek.io.output import Outputs
+from ilmek.io.table_csv import csv_text
+from ilmek.jobs import cyclogram as cyclograms
+from ilmek.jobs.animation import write_animation
+from ilmek.jobs.chart import chart_order
+from ilmek.jobs.design import design_machine, mechanism_text, require_mechanism
+from ilmek.jobs.loom import read_loom_order
+from ilmek.jobs.machine_file import read_machine_order
+from ilmek.jobs.mechanism.analysis import analysis
+from ilmek.jobs.mechanism.data import as_json, columns
+from ilmek.jobs.mechanism.report import report as mechanism_report
+from ilmek.jobs.mechanism.report import with_parts
+from ilmek.jobs.mechanism.request import STEPS, MotionRequest
+from ilmek.jobs.mechanism.run import run
+from ilmek.jobs.order import read_order
+from ilmek.jobs.page import page_text
+from ilmek.jobs.studio.answers import Context
+from ilmek.jobs.studio.project_folder import OUT, ProjectFolder, kind_of
+from ilmek.jobs.weave import weave
+from ilmek.jobs.workshop_order import WorkshopOrder, workshop_writer
+from ilmek.progress import Progress
+from ilmek.report import Check, Report, reasons
+
+
+@dataclass(frozen=True, slots=True)
+class OutputRequest:
+    """A product of a text file of the project: its name in `PRODUCTS`."""
+
+    path: str
+    product: str
+
+
+@dataclass(frozen=True, slots=True)
+class ProductsRequest:
+    """A text file of the project."""
+
+    path: str
+
+
+@dataclass(frozen=True, slots=True)
+class Product:
+    """What can be written of a file: name, file or folder below out/, and the command line."""
+
+    name: str
+    target: str
+    command: str
+
+
+@dataclass(frozen=True, slots=True)
+class ProductList:
+    """What can be written of a file."""
+
+    products: tuple[Product, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class WrittenProduct:
+    """What was written.
+
+    target  the file or folder      failed  names of the checks that do not hold      notes  warnings
+    """
+
+    target: str
+    failed: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
+
+
+Result = tuple[tuple[Check, ...], tuple[str, ...]]
+"""Checks and notes."""
+
+PRODUCTS: Mapping[str, Mapping[str, str]] = {
+    "carpet": {"carpet": "", "chart": "-chart"},
+    "machine": {"page": ".html", "parts": "-parts", "animation": ".gif", "data": ".json"},
+    "synthesis": {"page": ".html", "mechanism": ".toml", "parts": "-parts", "animation": ".gif", "data": ".json"},
+    "linkage": {"page": ".html", "parts": "-parts", "table": ".csv", "animation": ".gif", "data": ".json"},
+    "cyclogram": {"page": ".html", "table": ".csv", "data": ".json"},
+}
+"""Products by kind of file: what is added to the name of the target."""
+
+_COMMANDS = {"machine": "design", "synthesis": "design", "linkage": "mechanism", "cyclogram": "cyclogram"}
+_OPTIONS = {
+    "page": "--report",
+    "parts": "--workshop",
+    "animation": "--animation",
+    "data": "--json",
+    "table": "--csv",
+    "mechanism": "--to",
+}
+
+
+def products(request: ProductsRequest, context: Context) -> ProductList:
+    """What can be written of a file, each with its command line. Raises ParameterError for another file."""
+    ProjectFolder(context.folder).text_path(request.path)
+    return ProductList(tuple(_product(request.path, name) for name in PRODUCTS.get(kind_of(request.path) or "", ())))
+
+
+def _product(path: str, name: str) -> Product:
+    kind, stem = kind_of(path) or "", PurePosixPath(path).stem
+    target = f"{OUT}/{'' if kind == 'carpet' else f'{kind}-'}{stem}{PRODUCTS[kind][name]}"
+    if kind == "carpet":
+        parts = ("ilmek", "weave" if name == "carpet" else "chart", path, "--out", target, "--force")
+    else:
+        parts = ("ilmek", _COMMANDS[kind], path, _OPTIONS[name], target, "--force")
+    return Product(name, target, shlex.join(parts))
+
+
+def write_product(request: OutputRequest, context: Context) -> WrittenProduct:
+    """Write a product into out/; what ilmek wrote there before is replaced.
+
+    Raises ParameterError for an unknown product, errors of the file, OutputError; then nothing is written; Cancelled.
+    """
+    folder = ProjectFolder(context.folder.resolve())
+    folder.text_path(request.path)
+    kind = kind_of(request.path) or ""
+    known = PRODUCTS.get(kind, {})
+    if request.product not in known:
+        raise ParameterError(f"{request.path} has no product {request.product!r}", allowed=", ".join(known))
+    product = _product(request.path, request.product)
+    folder.path(product.target)
+    (folder.base / OUT).mkdir(exist_ok=True)
+    with contextlib.chdir(folder.base):  # as the command: files name each other by relative paths
+        path, target = Path(request.path), Path(product.target)
+        with Outputs(force=True, inputs={request.path: path}, progress=context.progress) as outputs:
+            checks, notes = _WRITERS[kind](path, target, product.name, outputs, context.progress)
+    return WrittenProduct(product.target, tuple(reason.name for reason in reasons(checks)), notes)
+
+
+def _carpet(path: Path, target: Path, name: str, outputs: Outputs, progress: Progress) -> Result:
+    order = read_order(path)
+    if name == "chart":
+        charted, _ = chart_order(order, target, outputs=outputs, progress=progress)
+        return charted.checks, (*charted.notes, *charted.warnings)
+    woven = weave(order, read_loom_order(order), target, outputs=outputs, progress=progress)
+    return woven.checks, (*woven.charted.notes, *woven.warnings)
+
+
+def _machine(path: Path, target: Path, name: str, outputs: Outputs, progress: Progress) -> Result:
+    order = read_machine_order(str(path), {})
+    if name == "mechanism":
+        require_mechanism(order.machine, target)
+    _expect(target, name, outputs)
+    workshop = WorkshopOrder(target) if name == "parts" else None
+    made = design_machine(order.machine, order.settings, workshop, outputs=outputs, progress=progress.part(0.0, 0.8))
+    if name == "mechanism":
+        if made.mechanism is None:
+            raise ParameterError(f"{path} has no solution, so that there is no linkage to write")
+        outputs.write(target, mechanism_text(made.mechanism, target))
+    elif name == "parts" and made.workshop is None:
+        raise ParameterError(f"{path} has no solution, so that there are no links to make")
+    more = _write_report(made.report, made.as_json, target, name, outputs=outputs, progress=progress.part(0.8, 1.0))
+    return made.report.all_checks, (*made.warnings, *more)
+
+
+def _linkage(path: Path, target: Path, name: str, outputs: Outputs, progress: Progress) -> Result:
+    _expect(target, name, outputs)
+    write = workshop_writer(WorkshopOrder(target) if name == "parts" else None, outputs)
+    moved = run(read_mechanism(path), MotionRequest({}, "", "", STEPS), progress.part(0.0, 0.6, "motion"))
+    found = analysis(moved, progress.part(0.6, 0.8, "report"))
+    made = mechanism_report(found, drawn=name in ("page", "animation"))
+    notes = list(made.warnings)
+    if write is not None:
+        workshop = write(with_parts(made, moved.machine))
+        notes += workshop.notes
+    if name == "table":
+        outputs.write(target, csv_text(columns(found), progress.part(0.8, 1.0, "table")))
+    part = progress.part(0.8, 1.0)
+    notes += _write_report(made, lambda: as_json(found, made), target, name, outputs=outputs, progress=part)
+    return made.all_checks, tuple(notes)
+
+
+def _cyclogram(path: Path, target: Path, name: str, outputs: Outputs, progress: Progress) -> Result:
+    _expect(target, name, outputs)
+    found = cyclograms.find(str(path), {})
+    made = cyclograms.report(found)
+    if name == "table":
+        outputs.write(target, csv_text(cyclograms.columns(found, 360), progress.part(0.0, 1.0, "table")))
+    notes = _write_report(made, made.as_json, target, name, outputs=outputs, progress=progress)
+    return made.checks, tuple(notes)
+
+
+def _expect(target: Path, name: str, outputs: Outputs) -> None:
+    """Check, before any work, that a file can be written."""
+    if name != "parts":
+        outputs.expect_file(target, _OPTIONS[name])
+
+
+def _write_report(
+    report: Report, data: Callable[[], object], target: Path, name: str, *, outputs: Outputs, progress: Progress
+) -> list[str]:
+    """Write the page, the animation or the data of a report, if that is the product; warnings of the page."""
+    notes: list[str] = []
+    if name == "page":
+        page = page_text(report, notes)
+        if page is None:
+            raise ParameterError("the report page could not be made", do="; ".join(notes))
+        outputs.write(target, page)
+    elif name == "animation":
+        write_animation(report, target, outputs, progress)
+    elif name == "data":
+        outputs.write(target, json_text(data(), progress))
+    return notes
+
+
+_WRITERS: Mapping[str, Callable[[Path, Path, str, Outputs, Progress], Result]] = {
+    "carpet": _carpet,
+    "machine": _machine,
+    "synthesis": _machine,
+    "linkage": _linkage,
+    "cyclogram": _cyclogram,
+}

@@ -1,0 +1,95 @@
+"""Everything out: each product of a file, byte for byte as its command line writes it; listed, removed."""
+
+import contextlib
+import shlex
+import shutil
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from ilmek.cli import main
+from ilmek.errors import IlmekError, ParameterError
+from ilmek.jobs.studio.answers import Context
+from ilmek.jobs.studio.outputs import PRODUCTS, OutputRequest, ProductsRequest, products, write_product
+from ilmek.jobs.studio.project import PathRequest, ProjectRequest
+from ilmek.jobs.studio.project_out import delete_written, written
+from ilmek.progress import Cancelled, Progress
+
+EXAMPLE = Path(__file__).parents[2] / "src" / "ilmek" / "data" / "example_project"
+CARPET = 'plain = "ivory"\nsize = "20x30cm"\npdf = false\n\n[[border]]\nyarn = "dark red"\nwidth = 3\n'
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    for path in (
+        "machines/cam.toml",
+        "synthesis/square.toml",
+        "linkages/slider-crank-press.toml",
+        "cyclograms/press.toml",
+    ):
+        (tmp_path / path).parent.mkdir()
+        shutil.copy(EXAMPLE / path, tmp_path / path)
+    (tmp_path / "carpet.toml").write_text(CARPET)
+    return tmp_path
+
+
+def contents(path: Path) -> dict[str, bytes]:
+    if path.is_file():
+        return {"": path.read_bytes()}
+    files = [file for file in path.iterdir() if file.name != ".ilmek"]
+    return {
+        file.name: b"" if file.suffix == ".step" else file.read_bytes() for file in files
+    }  # OCC counts its products
+
+
+@pytest.mark.parametrize(
+    ("path", "names"),
+    [
+        ("carpet.toml", ("chart",)),
+        ("machines/cam.toml", ("page", "data")),
+        ("synthesis/square.toml", ("mechanism",)),
+        ("linkages/slider-crank-press.toml", ("page", "parts", "table", "animation", "data")),
+        ("cyclograms/press.toml", ("page", "table", "data")),
+    ],
+)
+def test_a_product_is_what_its_command_writes(folder: Path, path: str, names: tuple[str, ...]) -> None:
+    context = Context(str(folder))
+    found = {one.name: one for one in products(ProductsRequest(path), context).products}
+    for name in names:
+        done = write_product(OutputRequest(path, name), context)
+        assert (done.target, done.failed) == (found[name].target, ())
+        by_studio = contents(folder / done.target)
+        with contextlib.chdir(folder):
+            result = CliRunner().invoke(main, shlex.split(found[name].command)[1:])
+        assert result.exit_code == 0, result.output
+        assert contents(folder / done.target) == by_studio
+    entries = written(ProjectRequest(), context).entries
+    assert {entry.path for entry in entries} == {found[name].target for name in names}
+    assert all(entry.size == sum(file.size for file in entry.files) > 0 for entry in entries)
+    for entry in entries:
+        delete_written(PathRequest(entry.path), context)
+    assert written(ProjectRequest(), context).entries == ()
+
+
+def test_every_kind_has_products(folder: Path) -> None:
+    context = Context(str(folder))
+    for path in ("carpet.toml", "machines/cam.toml", "linkages/slider-crank-press.toml"):
+        assert len(products(ProductsRequest(path), context).products) >= 2
+    assert products(ProductsRequest("yarns/mine.toml"), context).products == ()
+    assert set(PRODUCTS) == {"carpet", "machine", "synthesis", "linkage", "cyclogram"}
+
+
+def test_a_cancelled_or_impossible_product_writes_nothing(folder: Path) -> None:
+    (folder / "linkages" / "bad.toml").write_text("name = 1\n")
+    with pytest.raises(Cancelled):
+        write_product(OutputRequest("carpet.toml", "chart"), Context(str(folder), Progress(cancelled=lambda: True)))
+    for path, name in (("linkages/bad.toml", "page"), ("machines/cam.toml", "poem"), ("../x.toml", "page")):
+        with pytest.raises(IlmekError):
+            write_product(OutputRequest(path, name), Context(str(folder)))
+    (folder / "linked").symlink_to(folder / "machines")
+    (folder / "out").mkdir(exist_ok=True)
+    assert list((folder / "out").iterdir()) == []
+    for path in ("machines/cam.toml", "out", "out/../carpet.toml", "out/nothing"):
+        with pytest.raises(ParameterError):
+            delete_written(PathRequest(path), Context(str(folder)))
