@@ -1309,6 +1309,48 @@ export interface NewRequest {
  */
 export interface Nothing {}
 /**
+ * A file or a folder in out/ with its files, hidden ones left out; size: of all of them [bytes].
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "OutEntry".
+ */
+export interface OutEntry {
+  path: string;
+  size: number;
+  time: number;
+  files: OutFile[];
+}
+/**
+ * A file below out/. size: [bytes]; time: of its last change [s since 1970].
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "OutFile".
+ */
+export interface OutFile {
+  path: string;
+  size: number;
+  time: number;
+}
+/**
+ * What was written, the newest first.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "OutList".
+ */
+export interface OutList {
+  entries: OutEntry[];
+}
+/**
+ * A product of a text file of the project: its name in `PRODUCTS`.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "OutputRequest".
+ */
+export interface OutputRequest {
+  path: string;
+  product: string;
+}
+/**
  * A text file of the project, by its path relative to the folder, with /.
  *
  * This interface was referenced by `Messages`'s JSON-Schema
@@ -1371,6 +1413,35 @@ export interface PlateDrawing {
 export interface PlateRequest {
   plate: string;
   file?: string;
+}
+/**
+ * What can be written of a file: name, file or folder below out/, and the command line.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "Product".
+ */
+export interface Product {
+  name: string;
+  target: string;
+  command: string;
+}
+/**
+ * What can be written of a file.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ProductList".
+ */
+export interface ProductList {
+  products: Product[];
+}
+/**
+ * A text file of the project.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ProductsRequest".
+ */
+export interface ProductsRequest {
+  path: string;
 }
 /**
  * The whole project.
@@ -1754,4 +1825,17 @@ export interface TypedValue {
 export interface UploadRequest {
   name: string;
   content: string;
+}
+/**
+ * What was written.
+ *
+ *     target  the file or folder      failed  names of the checks that do not hold      notes  warnings
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "WrittenProduct".
+ */
+export interface WrittenProduct {
+  target: string;
+  failed: string[];
+  notes: string[];
 }
