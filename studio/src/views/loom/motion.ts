@@ -26,7 +26,13 @@ export function between(values: Float32Array, index: number, share: number, step
 }
 
 /** A matrix, columns first: a rotation about an axis through the origin, then a shift. */
-export function rigid(out: Float32Array, at: number, axis: readonly number[], rotation: number, shift: readonly number[]) {
+export function rigid(
+  out: Float32Array,
+  at: number,
+  axis: readonly number[],
+  rotation: number,
+  shift: readonly number[],
+) {
   const [x = 0, y = 0, z = 0] = axis;
   const [c, s] = [Math.cos(rotation), Math.sin(rotation)];
   const d = 1 - c;
@@ -51,10 +57,18 @@ export function rigid(out: Float32Array, at: number, axis: readonly number[], ro
 /** The product of two rigid matrices: first b, then a. */
 export function product(out: Float32Array, at: number, a: Float32Array, ai: number, b: Float32Array, bi: number) {
   for (let column = 0; column < 4; column++) {
-    const [b0, b1, b2, b3] = [0, 1, 2, 3].map((row) => b[bi + 4 * column + row] ?? 0) as [number, number, number, number];
+    const [b0, b1, b2, b3] = [0, 1, 2, 3].map((row) => b[bi + 4 * column + row] ?? 0) as [
+      number,
+      number,
+      number,
+      number,
+    ];
     for (let row = 0; row < 4; row++)
       out[at + 4 * column + row] =
-        (a[ai + row] ?? 0) * b0 + (a[ai + 4 + row] ?? 0) * b1 + (a[ai + 8 + row] ?? 0) * b2 + (a[ai + 12 + row] ?? 0) * b3;
+        (a[ai + row] ?? 0) * b0 +
+        (a[ai + 4 + row] ?? 0) * b1 +
+        (a[ai + 8 + row] ?? 0) * b2 +
+        (a[ai + 12 + row] ?? 0) * b3;
   }
 }
 
@@ -97,7 +111,15 @@ export class Frames {
       knot: frame.motion?.drive === "knot" || (parent?.moves.knot ?? false),
     };
     const count = own * (parent?.count ?? 1);
-    const placed = { frame, parent, origins, count, moves, matrices: new Float32Array(16 * count), local: new Float32Array(16) };
+    const placed = {
+      frame,
+      parent,
+      origins,
+      count,
+      moves,
+      matrices: new Float32Array(16 * count),
+      local: new Float32Array(16),
+    };
     this.placed.push(placed);
     this.byName.set(frame.name, placed);
   }

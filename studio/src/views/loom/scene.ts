@@ -114,7 +114,12 @@ export interface SceneModel {
 }
 
 /** The model of an answer: its JSON, and the blocks of floats, integers and knots. */
-export function sceneModel(about: SceneAbout, floats: ArrayBuffer, integers: ArrayBuffer, knots: Uint8Array): SceneModel {
+export function sceneModel(
+  about: SceneAbout,
+  floats: ArrayBuffer,
+  integers: ArrayBuffer,
+  knots: Uint8Array,
+): SceneModel {
   const [reals, wholes] = [new Float32Array(floats), new Uint32Array(integers)];
   return {
     about,

@@ -1,0 +1,60 @@
+/** Colours of the scene in both themes. */
+import type { ScenePart } from "./scene";
+
+export interface Look {
+  ground: string;
+  line: string;
+  warp: string;
+  weft: string;
+  pile: string;
+  carpet: string;
+  chosen: string;
+  envelope: string;
+  steel: string;
+  hard: string;
+  wood: string;
+  floor: string;
+  machines: Record<string, string>;
+}
+
+const LIGHT: Look = {
+  ground: "#eef0f2",
+  line: "#52606d",
+  warp: "#8a7a55",
+  weft: "#8c2f2b",
+  pile: "#1f4e8c",
+  carpet: "#b9ad94",
+  chosen: "#e8a200",
+  envelope: "#5b86b8",
+  steel: "#9aa5b1",
+  hard: "#7b8794",
+  wood: "#c19a62",
+  floor: "#d5d9dd",
+  machines: { "beat-up": "#b4613a", hammer: "#b4613a", weft: "#3f8f6b", weaver: "#6d6fae", shedding: "#7d93a8" },
+};
+
+const DARK: Look = {
+  ground: "#171c21",
+  line: "#a9b4bf",
+  warp: "#b9a878",
+  weft: "#e58079",
+  pile: "#8fbcf5",
+  carpet: "#8d836c",
+  chosen: "#ffc53d",
+  envelope: "#5b86b8",
+  steel: "#8b97a3",
+  hard: "#75808b",
+  wood: "#b08a55",
+  floor: "#252c33",
+  machines: { "beat-up": "#c9764c", hammer: "#c9764c", weft: "#46a37b", weaver: "#8486c9", shedding: "#6f8aa6" },
+};
+
+export function look(theme: string | null): Look {
+  return theme === "dark" ? DARK : LIGHT;
+}
+
+export function colourOf(part: ScenePart, shown: Look): string {
+  if (part.envelope) return shown.envelope;
+  if (part.material === "beech") return shown.wood;
+  return shown.machines[part.machine] ?? (part.material.includes("hardened") ? shown.hard : shown.steel);
+}

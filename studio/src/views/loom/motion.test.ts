@@ -1,0 +1,84 @@
+import { describe, expect, it } from "vitest";
+import { between, Frames, product, rigid, sampleAt, TURN, warpShares } from "./motion";
+import { type SceneAbout, type SceneFrame, sceneModel } from "./scene";
+
+const numbers: number[] = [];
+const put = (...values: number[]): [number, number] => {
+  numbers.push(...values);
+  return [numbers.length - values.length, values.length];
+};
+
+function frame(name: string, parent: string, origins: number[], more: Partial<SceneFrame> = {}): SceneFrame {
+  return { name, parent, origins: put(...origins), phases: null, axis: [1, 0, 0], motion: null, ...more };
+}
+
+function model(frames: SceneFrame[]) {
+  const warps = { angle: put(0, 1, 3, TURN), even: put(0, 1, 0, 0), oddShare: put(0, 0, 1, 0) };
+  const about = { frames, warps } as unknown as SceneAbout;
+  return sceneModel(
+    { ...about, chart: null },
+    new Float32Array(numbers).buffer,
+    new Uint32Array().buffer,
+    new Uint8Array(),
+  );
+}
+
+describe("samples", () => {
+  it("are found on both sides and between", () => {
+    const angles = new Float32Array([0, 1, 2, 4]);
+    expect(sampleAt(angles, -1)).toEqual([0, 0]);
+    expect(sampleAt(angles, 1.5)).toEqual([1, 0.5]);
+    expect(sampleAt(angles, 3)).toEqual([2, 0.5]);
+    expect(sampleAt(angles, 9)).toEqual([2, 1]);
+    expect(between(new Float32Array([0, 2, 4, 8]), 2, 0.25)).toBe(5);
+  });
+});
+
+describe("matrices", () => {
+  it("turn from up to the front about x", () => {
+    const out = new Float32Array(16);
+    rigid(out, 0, [1, 0, 0], Math.PI / 2, [1, 2, 3]);
+    const up = [0, 1, 2].map((row) => (out[4 + row] ?? 0) + (out[12 + row] ?? 0));
+    expect(up[0]).toBeCloseTo(1);
+    expect(up[1]).toBeCloseTo(2);
+    expect(up[2]).toBeCloseTo(4);
+  });
+
+  it("multiply like two motions after each other", () => {
+    const [a, b, out] = [new Float32Array(16), new Float32Array(16), new Float32Array(16)];
+    rigid(a, 0, [0, 0, 1], Math.PI / 2, [1, 0, 0]);
+    rigid(b, 0, [1, 0, 0], 0, [2, 0, 0]);
+    product(out, 0, a, 0, b, 0);
+    expect([out[12], out[13], out[14]].map((one) => Math.round(1e6 * (one ?? 0)) / 1e6)).toEqual([1, 2, 0]);
+  });
+});
+
+describe("frames", () => {
+  it("are carried, repeated, and moved only by their drive", () => {
+    const motion = { drive: "row" as const, angle: put(0, TURN), shift: put(0, 0, 0, 0, 0, 4), rotation: null };
+    const frames = new Frames(
+      model([
+        frame("head", "rail", [1, 0, 0, 2, 0, 0]),
+        frame("rail", "", [0, 5, 0], { motion }),
+        frame("tool", "head", [0, 1, 0]),
+      ]),
+    );
+    expect(frames.placed.map((one) => [one.frame.name, one.count, one.moves.row, one.moves.knot])).toEqual([
+      ["rail", 1, true, false],
+      ["head", 2, true, false],
+      ["tool", 2, true, false],
+    ]);
+    frames.update({ row: TURN / 2, knot: 0 });
+    const tool = frames.byName.get("tool");
+    expect([...(tool?.matrices.slice(28, 31) ?? [])]).toEqual([2, 6, 2]);
+  });
+
+  it("name the frame that is missing", () => {
+    expect(() => new Frames(model([frame("head", "rail", [0, 0, 0])]))).toThrow("no frame");
+  });
+});
+
+it("warps are lifted by the shares of their parity", () => {
+  expect(warpShares(model([]), 0.5)).toEqual([0.5, 0]);
+  expect(warpShares(model([]), 2)).toEqual([0.5, 0.5]);
+});
