@@ -153,4 +153,4 @@ def test_a_wrong_file_is_refused(data: dict[str, Any], words: str) -> None:
 
 def test_a_four_bar_without_a_pin_is_refused() -> None:
     with pytest.raises(ParameterError, match="has no b"):
-        mechanism(FourBarRequest({"a0": (0.0, 0.0), "b0": (1.0, 0.0), "a": (0.0, 1.0)}), Context())
+        mechanism(FourBarRequest({"a0": [0.0, 0.0], "b0": [1.0, 0.0], "a": [0.0, 1.0]}), Context())

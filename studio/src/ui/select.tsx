@@ -35,10 +35,12 @@ interface TextProps extends Omit<FieldProps, "aside"> {
   placeholder?: string;
   disabled?: boolean;
   onChange: (value: string) => void;
+  /** The text is complete: Enter, or the field is left. */
+  onCommit?: (value: string) => void;
 }
 
 /** A text without rules. */
-export function TextField({ value, placeholder, disabled = false, onChange, ...rest }: TextProps) {
+export function TextField({ value, placeholder, disabled = false, onChange, onCommit, ...rest }: TextProps) {
   return (
     <Field {...rest}>
       {(tied) => (
@@ -51,6 +53,7 @@ export function TextField({ value, placeholder, disabled = false, onChange, ...r
           placeholder={placeholder}
           disabled={disabled}
           onInput={(event) => onChange(event.currentTarget.value)}
+          onChange={(event) => onCommit?.(event.currentTarget.value)}
         />
       )}
     </Field>

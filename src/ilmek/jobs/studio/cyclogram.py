@@ -184,8 +184,8 @@ def _presence(cyclogram: Cyclogram, one: Presence) -> ShownPresence:
     return ShownPresence(one.track, one.label(cyclogram.units), windows, _finite(one.low), _finite(one.high))
 
 
-def _spans(windows: Windows) -> tuple[tuple[float, float], ...]:
-    return tuple((one.start, one.end) for one in windows)
+def _spans(windows: Windows) -> list[list[float]]:
+    return [[one.start, one.end] for one in windows]
 
 
 def solved(request: SolveRequest, context: Context) -> CyclogramSolution:

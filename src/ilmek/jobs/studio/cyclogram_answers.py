@@ -87,7 +87,7 @@ class ShownPresence:
 
     track: str
     label: str
-    windows: tuple[tuple[float, float], ...]
+    windows: list[list[float]]
     low: float | None = None
     high: float | None = None
 
@@ -103,7 +103,7 @@ class ShownExclusion:
     why: str
     first: ShownPresence
     second: ShownPresence
-    overlaps: tuple[tuple[float, float], ...]
+    overlaps: list[list[float]]
     apart: float
     gap: float
     margin: float

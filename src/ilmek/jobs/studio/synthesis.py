@@ -47,7 +47,7 @@ class SynthesisRequest:
 class FourBarRequest:
     """A four-bar by its pins as drawn [m]: a0, b0, a, b, and tracer where it has one."""
 
-    pins: dict[str, tuple[float, float]]
+    pins: dict[str, list[float]]
 
 
 def candidates(request: SynthesisRequest, context: Context) -> SynthesisAnswer:
@@ -99,6 +99,9 @@ def mechanism(request: FourBarRequest, context: Context) -> MechanismDocument:
     missing = [name for name in ("a0", "b0", "a", "b") if name not in request.pins]
     if missing:
         raise ParameterError(f"the four-bar has no {missing[0]}", allowed="pins a0, b0, a, b and tracer")
-    known = {name: complex(*at) for name, at in request.pins.items() if name in FourBar.__slots__}
+    wrong = [name for name, at in request.pins.items() if len(at) != 2 or name not in FourBar.__slots__]
+    if wrong:
+        raise ParameterError(f"pin {wrong[0]} of the four-bar", allowed="a0, b0, a, b and tracer, each [x, y]")
+    known = {name: complex(*at) for name, at in request.pins.items()}
     text = mechanism_toml(own_four_bar(FourBar(**known)))
     return MechanismDocument(text, tomllib.loads(text))

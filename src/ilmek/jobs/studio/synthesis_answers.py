@@ -77,7 +77,7 @@ class ShownFourBar:
     """
 
     number: int
-    pins: dict[str, tuple[float, float]]
+    pins: dict[str, list[float]]
     links: dict[str, float]
     class_name: str
     crank_turns: bool
@@ -114,7 +114,7 @@ class LeftOutReason:
 class LeftOutFourBar:
     """A four-bar that was left out: its pins as drawn [m], how it was found, and each reason as a sentence."""
 
-    pins: dict[str, tuple[float, float]]
+    pins: dict[str, list[float]]
     made: str
     reasons: dict[str, str]
 
@@ -160,9 +160,9 @@ class SynthesisAnswer:
     no_four_bar: tuple[str, ...]
     loosened: tuple[LoosenedLimit, ...]
     warnings: tuple[str, ...]
-    points: list[tuple[float, float]] = field(default_factory=list)
+    points: list[list[float]] = field(default_factory=list)
     angles: list[float] = field(default_factory=list)
-    required: tuple[list[float], list[float]] | None = None
+    required: list[list[float]] | None = None
     curves: PivotCurves | None = None
 
 

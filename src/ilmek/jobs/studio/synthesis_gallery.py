@@ -111,10 +111,10 @@ def _known(value: float) -> float | None:
     return value if math.isfinite(value) else None
 
 
-def pins(four_bar: FourBar) -> dict[str, tuple[float, float]]:
+def pins(four_bar: FourBar) -> dict[str, list[float]]:
     """Pivots, pins and tracer of a four-bar as drawn [m], unrounded: the same four-bar can be made from them."""
     known = {name: getattr(four_bar, name) for name in PINS}
-    return {name: (at.real, at.imag) for name, at in known.items() if at is not None}
+    return {name: [at.real, at.imag] for name, at in known.items() if at is not None}
 
 
 def _position(met: PositionResult) -> ShownPosition:
@@ -224,16 +224,16 @@ def _thinned(points: ComplexArray) -> ComplexArray:
     return np.append(points[:-1:step], points[-1:])
 
 
-def function_required(design: FourBarDesign) -> tuple[list[float], list[float]] | None:
+def function_required(design: FourBarDesign) -> list[list[float]] | None:
     """X and the required rotation of the rocker of a function [rad]; None of other tasks."""
     if not isinstance(design, FunctionFourBar):
         return None
     function = design.function
     x = np.linspace(function.start, function.stop, POSITIONS + 1)
-    return x.tolist(), np.asarray(function.rocker(x)).tolist()
+    return [x.tolist(), np.asarray(function.rocker(x)).tolist()]
 
 
-def task_points(design: Any) -> tuple[list[tuple[float, float]], list[float]]:
+def task_points(design: Any) -> tuple[list[list[float]], list[float]]:
     """The points [m] of the task, and the angles of its poses [rad]; empty where it has none."""
     if isinstance(design, MotionFourBar):
         points, angles = design.poses
@@ -241,5 +241,5 @@ def task_points(design: Any) -> tuple[list[tuple[float, float]], list[float]]:
     return _pairs(getattr(design, "points", NO_POINTS)), []
 
 
-def _pairs(points: ComplexArray) -> list[tuple[float, float]]:
-    return [(float(at.real), float(at.imag)) for at in points]
+def _pairs(points: ComplexArray) -> list[list[float]]:
+    return [[float(at.real), float(at.imag)] for at in points]

@@ -1,0 +1,205 @@
+import { useState } from "preact/hooks";
+import type { ShownFourBar, SynthesisAnswer } from "../../api/messages";
+import { formatNumber, t, textIfKnown } from "../../text";
+import { Button, formatQuantity, Icon, QuantityField, Select, Toggle } from "../../ui";
+import { accepted, type Filter, NO_FILTER, type Order, ordered } from "./filter";
+import { StillThumbnail, Thumbnail } from "./thumbnail";
+
+interface GalleryProps {
+  answer: SynthesisAnswer;
+  chosen: number;
+  onChoose: (number: number) => void;
+  onLoosen: (name: string, value: string) => void;
+}
+
+/** The candidates, moving, in the order of their rank; filters; those left out with their reasons. */
+export function Gallery({ answer, chosen, onChoose, onLoosen }: GalleryProps) {
+  const [filter, setFilter] = useState<Filter>(NO_FILTER);
+  const [order, setOrder] = useState<Order>("rank");
+  const shown = ordered(
+    answer.candidates.filter((one) => accepted(one, filter)),
+    order,
+  );
+  const hidden = answer.candidates.length - shown.length;
+  return (
+    <section class="ui-stack" aria-label={t("synthesis.gallery")}>
+      <div class="ui-row synthesis-gallery-head">
+        <h2 class="ui-grow">{t("synthesis.gallery")}</h2>
+        {answer.quick && <span class="ui-badge warn">{t("synthesis.preview")}</span>}
+        <span class="ui-muted">{t("synthesis.found", { count: answer.found })}</span>
+      </div>
+      {answer.candidates.length > 1 && (
+        <details class="ui-details">
+          <summary>{t("synthesis.filter")}</summary>
+          <Filters filter={filter} order={order} onFilter={setFilter} onOrder={setOrder} />
+        </details>
+      )}
+      {hidden > 0 && (
+        <p class="ui-row ui-muted" role="status">
+          {t("synthesis.hidden", { count: hidden })}
+          <Button size="small" onClick={() => setFilter(NO_FILTER)}>
+            {t("synthesis.showAll")}
+          </Button>
+        </p>
+      )}
+      {answer.candidates.length === 0 && <NoAnswer answer={answer} onLoosen={onLoosen} />}
+      <ul class="synthesis-cards">
+        {shown.map((one) => (
+          <li key={one.number}>
+            <Card one={one} chosen={one.number === chosen} onChoose={() => onChoose(one.number)} />
+          </li>
+        ))}
+      </ul>
+      <LeftOut answer={answer} />
+    </section>
+  );
+}
+
+function Card({ one, chosen, onChoose }: { one: ShownFourBar; chosen: boolean; onChoose: () => void }) {
+  return (
+    <button type="button" class="synthesis-card" aria-pressed={chosen} onClick={onChoose}>
+      <span class="synthesis-card-head">
+        <strong>{one.number}</strong>
+        <span>{classText(one.class_name)}</span>
+        {chosen && <Icon name="good" label={t("synthesis.isChosen")} />}
+      </span>
+      <Thumbnail one={one} />
+      <dl>
+        {one.merit && <Fact name={t("synthesis.merit")} value={formatNumber(one.merit.value, 3)} />}
+        {errorText(one) !== "" && <Fact name={t("synthesis.error")} value={errorText(one)} />}
+        <Fact name="μ" value={formatQuantity(one.transmission, "deg", 3)} />
+        <Fact name={t("synthesis.size")} value={formatQuantity(one.size, "mm", 3)} />
+      </dl>
+    </button>
+  );
+}
+
+export function Fact({ name, value }: { name: string; value: string }) {
+  return (
+    <div>
+      <dt>{name}</dt>
+      <dd>{value}</dd>
+    </div>
+  );
+}
+
+/** Class of a four-bar by Grashof. */
+export function classText(name: string): string {
+  return textIfKnown(`synthesis.class_${name.replaceAll("-", "_")}`) ?? name;
+}
+
+/** The greatest error: a length of points, an angle of functions; an exact one is "0". */
+export function errorText(one: ShownFourBar): string {
+  if (one.error_max === null || one.error_max === undefined) return "";
+  if (one.function) return formatQuantity(one.error_max, "deg", 3);
+  return one.error_max < 1e-9 ? t("synthesis.exact") : formatQuantity(one.error_max, "mm", 3);
+}
+
+interface FiltersProps {
+  filter: Filter;
+  order: Order;
+  onFilter: (filter: Filter) => void;
+  onOrder: (order: Order) => void;
+}
+
+function Filters({ filter, order, onFilter, onOrder }: FiltersProps) {
+  return (
+    <div class="synthesis-filters">
+      <Select
+        label={t("synthesis.order")}
+        value={order}
+        choices={[
+          { value: "rank", label: t("synthesis.byRank") },
+          { value: "error", label: t("synthesis.byError") },
+          { value: "transmission", label: t("synthesis.byTransmission") },
+          { value: "size", label: t("synthesis.bySize") },
+        ]}
+        onChange={onOrder}
+      />
+      <QuantityField
+        label={t("synthesis.leastTransmission")}
+        value={filter.transmission}
+        unit="deg"
+        optional
+        bounds={{ at_least: 0, at_most: Math.PI / 2 }}
+        onChange={(text) => onFilter({ ...filter, transmission: text })}
+      />
+      <QuantityField
+        label={t("synthesis.greatestSize")}
+        value={filter.size}
+        unit="mm"
+        optional
+        bounds={{ above: 0 }}
+        onChange={(text) => onFilter({ ...filter, size: text })}
+      />
+      <Toggle
+        label={t("synthesis.turnsOnly")}
+        value={filter.turns}
+        onChange={(turns) => onFilter({ ...filter, turns })}
+      />
+      <Toggle
+        label={t("synthesis.provenOnly")}
+        value={filter.certified}
+        onChange={(certified) => onFilter({ ...filter, certified })}
+      />
+    </div>
+  );
+}
+
+function NoAnswer({ answer, onLoosen }: { answer: SynthesisAnswer; onLoosen: (name: string, value: string) => void }) {
+  return (
+    <div class="ui-callout warn" role="status">
+      <strong>{t("synthesis.noAnswer")}</strong>
+      <p>{answer.sieve}</p>
+      {answer.loosened.length > 0 && <p>{t("synthesis.loosenHelp")}</p>}
+      <ul class="synthesis-loosened">
+        {answer.loosened.map((one) => (
+          <li key={one.words}>
+            <span>{one.words}</span>
+            {one.name && one.value && (
+              <Button size="small" onClick={() => onLoosen(one.name ?? "", one.value ?? "")}>
+                {t("synthesis.setTo", { name: one.name, value: one.value })}
+              </Button>
+            )}
+          </li>
+        ))}
+      </ul>
+      {answer.quick && <p>{t("synthesis.causesFollow")}</p>}
+    </div>
+  );
+}
+
+function LeftOut({ answer }: { answer: SynthesisAnswer }) {
+  if (answer.left_out.length === 0 && answer.no_four_bar.length === 0) return null;
+  const most = Math.max(1, ...answer.left_out.map((one) => one.count));
+  return (
+    <details class="ui-details">
+      <summary>{t("synthesis.leftOut")}</summary>
+      <p class="ui-help">{t("synthesis.leftOutHelp")}</p>
+      <ul class="synthesis-reasons">
+        {answer.left_out.map((one) => (
+          <li key={one.name}>
+            <span>{textIfKnown(`synthesis.reason_${one.name}`) ?? one.words}</span>
+            <span class="number">{formatNumber(one.count, 9)}</span>
+            <meter min={0} max={most} value={one.count} aria-label={one.words} />
+          </li>
+        ))}
+      </ul>
+      {answer.no_four_bar.length > 0 && (
+        <ul>
+          {answer.no_four_bar.map((words) => (
+            <li key={words}>{words}</li>
+          ))}
+        </ul>
+      )}
+      <ul class="synthesis-removed">
+        {answer.removed.map((one, index) => (
+          <li key={index}>
+            <StillThumbnail pins={one.pins} />
+            <span>{Object.values(one.reasons).join("; ")}</span>
+          </li>
+        ))}
+      </ul>
+    </details>
+  );
+}

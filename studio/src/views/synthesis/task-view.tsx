@@ -1,0 +1,208 @@
+import type { ComponentChildren } from "preact";
+import { useEffect, useMemo, useState } from "preact/hooks";
+import type { MechanismDocument, ShownFourBar, SynthesisAnswer } from "../../api/messages";
+import { post } from "../../api/request";
+import { goTo } from "../../app/routes";
+import { freePath, newFile, SaveState, useDocument } from "../../project";
+import { t } from "../../text";
+import { Button, CopyCommand, Progress, Segments, toast } from "../../ui";
+import { playing, setPlaying } from "./clock";
+import { Details } from "./details";
+import { FunctionCanvas } from "./function-canvas";
+import { Gallery } from "./gallery";
+import { Limits } from "./limits";
+import { PlaneCanvas } from "./plane-canvas";
+import { PointsTable } from "./points-table";
+import { CandidateSearch } from "./search";
+import { isMachine, pointsOf, type SynthesisData, type TaskPoint, withPoints, withSetting } from "./task";
+
+interface TaskProps {
+  path: string;
+  stem: string;
+  head: ComponentChildren;
+}
+
+/** One task: its canvas, its table and limits, and the gallery of what does it. */
+export function TaskView({ path, stem, head }: TaskProps) {
+  const file = useDocument<SynthesisData>(path);
+  const search = useMemo(() => new CandidateSearch(), []);
+  const [draft, setDraft] = useState<SynthesisData | null>(null);
+  const [point, setPoint] = useState(-1);
+  const saved = file.data.value;
+  const data = draft ?? saved;
+  useEffect(() => () => search.close(), []);
+  useEffect(() => {
+    if (data !== null && isMachine(data.machine)) search.follow(withSetting(data, "chosen", undefined), draft === null);
+  }, [data, draft === null]);
+  /** Shows a change at once; saves it when the drag has ended. */
+  const change = (next: SynthesisData, settled: boolean) => {
+    if (settled) file.update(() => next);
+    setDraft(settled ? null : next);
+  };
+  const answer = search.answer.value;
+  const number = Math.min(Math.max(Number(data?.settings?.["chosen"] ?? 1), 1), answer?.candidates.length ?? 1);
+  const chosen = answer?.candidates.find((one) => one.number === number) ?? null;
+  return (
+    <>
+      <header class="ui-view-head">
+        <div>
+          <h1>{t("synthesis.title")}</h1>
+          <p>{t("synthesis.lead")}</p>
+        </div>
+        <div class="ui-row synthesis-files">{head}</div>
+        <SaveState document={file as never} />
+      </header>
+      {data === null || !isMachine(data.machine) ? (
+        <Unreadable missing={file.saved.value === "missing"} empty={data === null && file.saved.value === "loading"} />
+      ) : (
+        <div class="synthesis-columns">
+          <div class="synthesis-main ui-stack">
+            <Editor data={data} answer={answer} chosen={chosen} point={point} onPoint={setPoint} onChange={change} />
+            <Status search={search} data={data} />
+            {chosen && <Taken one={chosen} stem={stem} />}
+          </div>
+          <div class="synthesis-gallery">
+            {answer && (
+              <Gallery
+                answer={answer}
+                chosen={number}
+                onChoose={(to) => change(withSetting(data, "chosen", to === 1 ? undefined : to), true)}
+                onLoosen={(name, value) => change(withSetting(data, name, loosened(value)), true)}
+              />
+            )}
+          </div>
+          <TaskPanel data={data} path={path} stem={stem} point={point} onPoint={setPoint} onChange={change} />
+        </div>
+      )}
+    </>
+  );
+}
+
+function loosened(value: string): string | boolean {
+  return value === "no" ? false : value;
+}
+
+function Unreadable({ missing, empty }: { missing: boolean; empty: boolean }) {
+  if (empty) return <p class="ui-muted">{t("app.loading")}</p>;
+  return (
+    <div class="ui-callout warn" role="alert">
+      <strong>{t(missing ? "synthesis.missing" : "synthesis.unreadable")}</strong>
+      <p>{t("synthesis.unreadableHelp")}</p>
+    </div>
+  );
+}
+
+interface EditorProps {
+  data: SynthesisData;
+  answer: SynthesisAnswer | null;
+  chosen: ShownFourBar | null;
+  point: number;
+  onPoint: (index: number) => void;
+  onChange: (data: SynthesisData, settled: boolean) => void;
+}
+
+function Editor(props: EditorProps) {
+  const points = useMemo(() => pointsOf(props.data), [props.data]);
+  if (points === null) return <p class="ui-callout bad">{t("synthesis.pointsUnreadable")}</p>;
+  if (props.data.machine === "function-four-bar") return <FunctionCanvas {...props} points={points} />;
+  return <PlaneCanvas {...props} points={points} />;
+}
+
+/** What the search does, and how to have it begin or end. */
+function Status({ search, data }: { search: CandidateSearch; data: SynthesisData }) {
+  const state = search.state.value;
+  const error = search.error.value;
+  return (
+    <div class="ui-stack">
+      <div class="ui-row">
+        <Button
+          size="small"
+          icon={playing.value ? "pause" : "play"}
+          pressed={playing.value}
+          onClick={() => setPlaying(!playing.peek())}
+        >
+          {t("synthesis.move")}
+        </Button>
+        <span class="ui-grow ui-muted synthesis-sieve" role="status">
+          {state === "failed" ? t("synthesis.failed") : (search.answer.value?.sieve ?? "")}
+        </span>
+        {(state === "stopped" || state === "failed") && (
+          <Button size="small" icon="search" onClick={() => void search.search(withSetting(data, "chosen", undefined))}>
+            {t("synthesis.searchAgain")}
+          </Button>
+        )}
+      </div>
+      {state === "full" && (
+        <Progress label={t("synthesis.searching")} share={search.share.value} onCancel={() => search.stop()} />
+      )}
+      {error && (
+        <div class="ui-callout bad" role="alert">
+          <strong>{error.given}</strong>
+          {error.allowed && <p>{error.allowed}</p>}
+          {error.do && <p>{error.do}</p>}
+        </div>
+      )}
+      {search.answer.value?.warnings.map((words) => (
+        <p key={words} class="ui-callout warn">
+          {words}
+        </p>
+      ))}
+    </div>
+  );
+}
+
+/** The chosen candidate, and its way into the editor of linkages. */
+function Taken({ one, stem }: { one: ShownFourBar; stem: string }) {
+  const [busy, setBusy] = useState(false);
+  const take = async () => {
+    setBusy(true);
+    try {
+      const made = await post<MechanismDocument>("/synthesis/mechanism", { pins: one.pins });
+      const path = freePath("linkages", stem);
+      await newFile(path, { text: made.text });
+      toast(t("synthesis.taken", { path }), "good");
+      goTo("linkage", path.replace(/^linkages\//, "").replace(/\.toml$/, ""));
+    } catch (error) {
+      toast(t("synthesis.notTaken"), "bad", error instanceof Error ? error.message : String(error));
+      setBusy(false);
+    }
+  };
+  return <Details one={one} busy={busy} onTake={take} />;
+}
+
+interface PanelProps extends Omit<EditorProps, "answer" | "chosen"> {
+  path: string;
+  stem: string;
+}
+
+function TaskPanel({ data, path, stem, point, onPoint, onChange }: PanelProps) {
+  const [tab, setTab] = useState<"points" | "limits">("points");
+  const points = pointsOf(data) ?? [];
+  const machine = data.machine;
+  if (!isMachine(machine)) return null;
+  const setPoints = (next: TaskPoint[]) => onChange(withPoints(data, next), true);
+  return (
+    <section class="synthesis-task ui-stack" aria-label={t("synthesis.task")}>
+      <Segments
+        label={t("synthesis.task")}
+        labelHidden
+        value={tab}
+        choices={[
+          { value: "points", label: t(machine === "motion-four-bar" ? "synthesis.poses" : "synthesis.points") },
+          { value: "limits", label: t("synthesis.limits") },
+        ]}
+        onChange={setTab}
+      />
+      {tab === "points" ? (
+        <PointsTable machine={machine} points={points} chosen={point} onChoose={onPoint} onChange={setPoints} />
+      ) : (
+        <Limits
+          machine={machine}
+          settings={data.settings ?? {}}
+          onChange={(name, value) => onChange(withSetting(data, name, value), true)}
+        />
+      )}
+      <CopyCommand command={`ilmek design ${path} --to linkages/${stem}.toml`} />
+    </section>
+  );
+}
