@@ -44,7 +44,7 @@ export function PointsTable({ machine, points, chosen, onChoose, onChange }: Poi
                 />
               ))}
             </div>
-            <div class="synthesis-point-buttons">
+            <div class={`synthesis-point-buttons ${fields.length > 2 ? "column" : ""}`}>
               {machine !== "function-four-bar" && (
                 <>
                   <IconButton
