@@ -92,6 +92,40 @@ def between(
     return distance
 
 
+def between_segments(
+    a: Complex[np.ndarray, "*#batch"],
+    b: Complex[np.ndarray, "*#batch"],
+    c: Complex[np.ndarray, "*#batch"],
+    d: Complex[np.ndarray, "*#batch"],
+) -> Float[np.ndarray, "*batch"]:
+    """Distance of the segments a-b and c-d [m]; where they cross, minus the penetration depth: `between` of segments.
+
+    >>> one, other = np.array([0j, 0j]), np.array([1j, 0.5 - 1j])
+    >>> [between_segments(one, one + 2, other, other + end).tolist() for end in (1j, 2j)]
+    [[1.0, 0.0], [1.0, -0.5]]
+    """
+    ends = to_segments(a, c, d), to_segments(b, c, d), to_segments(c, a, b), to_segments(d, a, b)
+    outside = np.minimum(np.minimum(ends[0], ends[1]), np.minimum(ends[2], ends[3]))
+    separation = np.maximum(_beside(a, b, c, d), _beside(c, d, a, b))
+    distance: Float[np.ndarray, "*batch"] = np.where(separation < 0, separation, outside)
+    return distance
+
+
+def _beside(
+    a: Complex[np.ndarray, "*#batch"],
+    b: Complex[np.ndarray, "*#batch"],
+    c: Complex[np.ndarray, "*#batch"],
+    d: Complex[np.ndarray, "*#batch"],
+) -> Float[np.ndarray, "*batch"]:
+    """Separation [m] of the points c and d from the line a-b: below 0 where they are on both sides; 0 for a point."""
+    edge = b - a
+    length = np.abs(edge)
+    first, second = cross(edge, c - a), cross(edge, d - a)
+    apart = np.maximum(np.minimum(first, second), -np.maximum(first, second))
+    separation: Float[np.ndarray, "*batch"] = apart / np.where(length > 0, length, 1.0)
+    return separation
+
+
 def nearest(first: Complex[np.ndarray, " a"], second: Complex[np.ndarray, " b"]) -> tuple[complex, complex]:
     """The nearest points [m] of two separate convex polygons: one on each.
 

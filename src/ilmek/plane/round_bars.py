@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.arrays import Complex, Float, FloatArray
-from ilmek.plane.outlines import between
+from ilmek.plane.outlines import between_segments
 from ilmek.records import record
 
 TOLERANCE, RELATIVE = 1e-6, 5e-3
@@ -48,15 +48,11 @@ class RoundBars:
 
 def apart(one: RoundBars, other: RoundBars, but: tuple[int, int] | None = None) -> Float[np.ndarray, " n"]:
     """Least distance of two sets of bars [m], at each position; `but`: a pair that is joined and left out."""
-    pairs = [
-        between(np.stack([one.starts[:, i], one.ends[:, i]], -1), np.stack([other.starts[:, j], other.ends[:, j]], -1))
-        - one.radii[i]
-        - other.radii[j]
-        for i in range(len(one.radii))
-        for j in range(len(other.radii))
-        if (i, j) != but
-    ]
-    least: Float[np.ndarray, " n"] = np.min(np.stack(pairs), axis=0)
+    a, b = (one.starts[:, :, None], one.ends[:, :, None]), (other.starts[:, None], other.ends[:, None])
+    pairs = between_segments(*a, *b) - one.radii[:, None] - other.radii
+    if but is not None:
+        pairs[:, but[0], but[1]] = np.inf
+    least: Float[np.ndarray, " n"] = np.min(pairs, axis=(1, 2))
     return least
 
 

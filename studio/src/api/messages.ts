@@ -573,11 +573,7 @@ export interface FormField {
  */
 export interface FourBarRequest {
   pins: {
-    /**
-     * @minItems 2
-     * @maxItems 2
-     */
-    [k: string]: [number, number];
+    [k: string]: number[];
   };
 }
 /**
@@ -667,11 +663,7 @@ export interface LeastTransmission {
  */
 export interface LeftOutFourBar {
   pins: {
-    /**
-     * @minItems 2
-     * @maxItems 2
-     */
-    [k: string]: [number, number];
+    [k: string]: number[];
   };
   made: string;
   reasons: {
@@ -1672,11 +1664,7 @@ export interface ShownCommand {
 export interface ShownFourBar {
   number: number;
   pins: {
-    /**
-     * @minItems 2
-     * @maxItems 2
-     */
-    [k: string]: [number, number];
+    [k: string]: number[];
   };
   links: {
     [k: string]: number;
@@ -1787,9 +1775,9 @@ export interface SynthesisAnswer {
   no_four_bar: string[];
   loosened: LoosenedLimit[];
   warnings: string[];
-  points: [number, number][];
+  points: number[][];
   angles: number[];
-  required: [number[], number[]] | null;
+  required: number[][] | null;
   curves: PivotCurves | null;
 }
 /**

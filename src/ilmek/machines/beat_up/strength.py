@@ -4,6 +4,8 @@ The forces are those of the empty beat: the fell's resistance opposes the inerti
 The mean of pressure times speed is that over the time from one turn to the next.
 """
 
+from functools import lru_cache
+
 from ilmek.dynamics.loads import Gravity
 from ilmek.machines.beat_up.design import PINS, BeatUp
 from ilmek.machines.linkage_strength import (
@@ -41,6 +43,7 @@ class BeatUpStrength:
         return self.found.choices
 
 
+@lru_cache(maxsize=16)
 def beat_up_strength(
     design: BeatUp, limits: StrengthParams, every: float | None = None, *, name: str = "strength"
 ) -> BeatUpStrength:

@@ -7,6 +7,7 @@ seven phases of constant jerk. Before a phase the grippers that take an end clos
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields
+from functools import lru_cache
 from typing import TypeAlias
 
 import numpy as np
@@ -122,8 +123,8 @@ def _motions(params: KnottingDyadParams, head: Head) -> _Motions:
     together = [np.concatenate(pair, axis=1) for pair in zip(backwards, of_one, strict=True)]
     return _Motions(
         path,
-        quickest_motion(JointPath(path.s, *of_one), _limits(params, 2), INTERVALS),
-        quickest_motion(JointPath(path.s, *together), _limits(params, 4), INTERVALS),
+        _quickest(params, path.s, *of_one),
+        _quickest(params, path.s, *together),
         s_curve(
             head.centre_stroke,
             AxisLimits(params.centre_speed, params.centre_acceleration, params.centre_jerk),
@@ -132,9 +133,19 @@ def _motions(params: KnottingDyadParams, head: Head) -> _Motions:
     )
 
 
-def _limits(params: KnottingDyadParams, axes: int) -> AxesLimits:
-    each = params.joint_speed, params.joint_acceleration, params.joint_jerk
-    return AxesLimits(*(np.full(axes, limit) for limit in each))
+def _quickest(params: KnottingDyadParams, s: FloatArray, *nodes: FloatArray) -> PathMotion:
+    """The quickest motion along a path with two derivatives at its nodes, within the limits of the joints."""
+    limits = params.joint_speed, params.joint_acceleration, params.joint_jerk
+    return _kept_motion(limits, *(np.ascontiguousarray(one).tobytes() for one in (s, *nodes)))
+
+
+@lru_cache(maxsize=8)
+def _kept_motion(limits: tuple[float, float, float], *nodes: bytes) -> PathMotion:
+    """The same, computed once for a path and its limits: arms that differ elsewhere share it."""
+    s, *every = (np.frombuffer(one) for one in nodes)
+    path = JointPath(s, *(one.reshape(len(s), -1) for one in every))
+    axes = path.positions.shape[1]
+    return quickest_motion(path, AxesLimits(*(np.full(axes, limit) for limit in limits)), INTERVALS)
 
 
 def _grips(params: KnottingDyadParams, last: Phase, phase: Phase, now: float) -> Iterator[CyclePart]:

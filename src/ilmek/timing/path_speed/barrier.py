@@ -127,15 +127,19 @@ def _newton(
     intervals, seen = len(task.knots) - 1, task.seen
     bent = -0.5 * task.root / state.w[:, None] ** 1.5
     gradients = task.rows + bent[..., None] * task.basis[:, None]
-    slope = np.zeros(len(state.x))
-    np.add.at(slope, seen, (-0.5 * task.weight * state.w**-1.5)[:, None] * task.basis)
-    np.add.at(slope, seen, -((mean / state.slack)[:, None] @ gradients)[:, 0])
+    slope = _summed(seen, (-0.5 * task.weight * state.w**-1.5)[:, None] * task.basis, len(state.x))
+    slope += _summed(seen, -((mean / state.slack)[:, None] @ gradients)[:, 0], len(state.x))
     curvature = _blocks((0.75 * task.weight * state.w**-2.5)[:, None] * task.basis, task.basis, intervals)
     steep = gradients * (duals / state.slack)[..., None]
     curvature += _blocks(steep.reshape(-1, ORDER), gradients.reshape(-1, ORDER), intervals)
     step = scipy.linalg.solveh_banded(_banded(curvature), -slope, lower=True)
     change = (gradients @ step[seen][..., None])[..., 0]
     return step, change, (mean - duals * change) / state.slack - duals
+
+
+def _summed(seen: IntArray, values: FloatArray, size: int) -> FloatArray:
+    """Sums of the values by the numbers of their coefficients."""
+    return np.bincount(seen.ravel(), values.ravel(), minlength=size)
 
 
 def _blocks(left: FloatArray, right: FloatArray, intervals: int) -> FloatArray:
