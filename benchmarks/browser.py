@@ -122,7 +122,11 @@ class Page:
 
     def load(self, path: Path) -> None:
         """Load a file, again if it is the same."""
-        self.send("Page.navigate", {"url": path.resolve().as_uri()})
+        self.visit(path.resolve().as_uri())
+
+    def visit(self, address: str) -> None:
+        """Load what is at an address."""
+        self.send("Page.navigate", {"url": address})
         self._browser.until(
             lambda one: one.get("method") == "Page.loadEventFired" and one.get("sessionId") == self._session
         )

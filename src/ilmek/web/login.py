@@ -36,7 +36,7 @@ class Login:
         self._turn = asyncio.Lock()
 
     async def __call__(self, request: Request) -> Response:
-        """Reply GET by the form and POST by the studio or the form again."""
+        """Answer GET by the form and POST by the studio or the form again."""
         if not self._access.password:
             return RedirectResponse("/", 303)
         if request.method == "GET":

@@ -94,7 +94,7 @@ class Guard:
         self._app, self._access, self._cookie_name = app, access, cookie_name
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Reply a request or pass it on."""
+        """Answer a request or pass it on."""
         if scope["type"] not in ("http", "websocket"):
             await self._app(scope, receive, send)
             return

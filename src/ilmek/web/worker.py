@@ -14,9 +14,10 @@ import sys
 import threading
 import time
 import traceback
+from collections.abc import Callable, Iterable, Iterator
 from functools import cache
 from importlib import import_module
-from queue import SimpleQueue
+from queue import Empty, SimpleQueue
 from typing import Any, BinaryIO, NoReturn, get_type_hints
 
 import msgspec
@@ -42,6 +43,10 @@ REPORT_EVERY = 0.05
 """Shortest time between two reports of progress [s]."""
 
 
+IDLE = 0.3
+"""Time without a request after which a worker prepares for the next [s]."""
+
+
 class Worker:
     """Reads requests in a thread, so that a cancellation arrives while a request is answered."""
 
@@ -51,15 +56,28 @@ class Worker:
         self._cancelled: set[int] = set()
         self._writing = threading.Lock()
 
-    def run(self) -> None:
-        """Reply requests until the process ends."""
+    def run(self, preparations: Iterable[Callable[[], object]] = ()) -> None:
+        """Answer requests until the process ends; without requests, prepare for those to come, step by step."""
         self._send(Ready())
+        steps = iter(preparations)
         while True:
-            ask = self._queue.get()
+            ask = self._next(steps)
             began = time.perf_counter()
             status, kind, body = self._answered(ask)
             self._cancelled.discard(ask.number)
             self._send(Reply(ask.number, status, kind, body, time.perf_counter() - began))
+
+    def _next(self, steps: Iterator[Callable[[], object]]) -> Ask:
+        """The next request."""
+        while True:
+            try:
+                return self._queue.get(timeout=IDLE)
+            except Empty:
+                step = next(steps, None)
+            if step is None:
+                return self._queue.get()
+            with contextlib.suppress(Exception):  # what fails here is reported where a request needs it
+                step()
 
     def listen(self) -> None:
         """Read requests from now on."""
@@ -172,14 +190,15 @@ def limit_memory(most: int) -> None:
 
 
 def main() -> None:
-    """Reply the requests of standard input on standard output."""
+    """Answer the requests of standard input on standard output."""
     limit_memory(int(sys.argv[1]))
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)
     worker = Worker(sys.stdin.buffer, answers)
     worker.listen()
-    import_module("ilmek.jobs.studio.warm_up").warm_up()
-    worker.run()
+    warm = import_module("ilmek.jobs.studio.warm_up")
+    warm.warm_up()
+    worker.run(warm.preparations())
 
 
 if __name__ == "__main__":

@@ -1,11 +1,29 @@
-"""What a worker imports before its first request, so that the first answer comes as quickly as the next."""
+"""What a worker does before its first request, and while it has none, so that the first answers come quickly."""
 
+import pkgutil
+from collections.abc import Callable, Iterator
+from functools import partial
 from importlib import import_module
 
 MODULES = ("numpy", "ilmek.machines.catalogue", "ilmek.jobs.design")
+DESIGNS = ("beat-up", "cam", "automated-loom")
+"""Machines whose design loads the compiled kernels that most others have too."""
 
 
 def warm_up() -> None:
     """Import what nearly every request needs."""
     for module in MODULES:
         import_module(module)
+
+
+def preparations() -> Iterator[Callable[[], object]]:
+    """What a worker without requests does, in steps of less than a second: tasks, machines, compiled kernels."""
+    tasks = import_module("ilmek.jobs.studio").__path__
+    for module in pkgutil.iter_modules(tasks, "ilmek.jobs.studio."):
+        yield partial(import_module, module.name)
+    machines = import_module("ilmek.machines.catalogue").MACHINES
+    for name in machines:
+        yield partial(machines.__getitem__, name)
+    design = import_module("ilmek.jobs.design").design_machine
+    for name in DESIGNS:
+        yield partial(design, name, {})
