@@ -16,6 +16,7 @@ import tomllib
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing, contextmanager
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +25,8 @@ from benchmarks.browser import Browser, installed
 ROUNDS = 200
 CLIENTS = 20
 STARTS = 3
+MACHINES = (("beat-up", "swing", 30, 0.1, 30), ("shedding", "dwell", 60, 0.1, 30))
+"""Machine, the parameter that moves, its first value [deg], limit of a design [s], and how many designs."""
 
 
 class Client:
@@ -123,12 +126,11 @@ def requests(client: Client, project: Path) -> None:
 
     drag()
     line(f"{path.stem}: motion at 360 positions", [timed(drag) for _ in range(ROUNDS)], 0.03)
-    for machine, limit, rounds in (("beat-up", 0.1, 30), ("cam", 0.1, 30)):
+    for machine, setting, value, limit, rounds in MACHINES:
         form = f"/api/machines/{machine}/view"
-        client.send("POST", form, {"settings": {}})
-        line(
-            f"{machine}: design", [timed(lambda form=form: client.send("POST", form, {})) for _ in range(rounds)], limit
-        )
+        bodies = [{"settings": {setting: f"{value + 0.01 * number}deg"}} for number in range(rounds + 1)]
+        client.send("POST", form, bodies.pop())
+        line(f"{machine}: design", [timed(partial(client.send, "POST", form, body)) for body in bodies], limit)
 
 
 def many(address: str) -> None:

@@ -43,7 +43,7 @@ REPORT_EVERY = 0.05
 """Shortest time between two reports of progress [s]."""
 
 
-IDLE = 0.3
+IDLE = 1.5
 """Time without a request after which a worker prepares for the next [s]."""
 
 
