@@ -13,4 +13,4 @@ export { Split } from "./split";
 export { type Cell, Table, type TableColumn } from "./table";
 export { Tabs } from "./tabs";
 export { type ToastKind, toast } from "./toast";
-export { type Bounds, formatQuantity, fromSi, quantityText, readQuantity, shownUnit } from "./units";
+export { type Bounds, formatQuantity, fromSi, parseUnit, quantityText, readQuantity, shownUnit } from "./units";

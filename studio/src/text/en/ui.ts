@@ -27,6 +27,7 @@ export default {
   play: "Play",
   pause: "Pause",
   speed: "Speed",
+  perRun: "{seconds} s a run",
   realSpeed: "real speed",
   frame: "Position",
   zoomIn: "Zoom in",

@@ -29,6 +29,7 @@ export default {
   play: "Oynat",
   pause: "Duraklat",
   speed: "Hız",
+  perRun: "çevrim {seconds} s",
   realSpeed: "gerçek hız",
   frame: "Konum",
   zoomIn: "Yakınlaştır",

@@ -1,0 +1,12 @@
+/** Figures of reports, drawn from plain data, with a shared cursor. */
+export { CheckList, type CheckShown } from "./checks";
+export { CursorContext, type Cursors, cursorOf, moveTo, useCursor } from "./cursor";
+export { Drawing } from "./drawing";
+export type * from "./figures";
+export { colourOf, colours, cssColour } from "./looks";
+export { Player } from "./player";
+export { Plot } from "./plot";
+export { Figure, Report, SharedCursor } from "./report";
+export { ChoiceTable, ResultTable } from "./results";
+export { Gantt, StackedBars } from "./spans";
+export { Timing } from "./timing";

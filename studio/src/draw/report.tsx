@@ -1,0 +1,72 @@
+import type { ComponentChildren } from "preact";
+import { useMemo } from "preact/hooks";
+import { Table } from "../ui";
+import { CursorContext, type Cursors } from "./cursor";
+import { Drawing } from "./drawing";
+import type { ShownFigure, ShownSection } from "./figures";
+import { Player } from "./player";
+import { Plot } from "./plot";
+import { Gantt, StackedBars } from "./spans";
+import { Timing } from "./timing";
+import "./draw.css";
+
+/** A figure with its title and note. */
+export function Figure({ figure, autoplay = false }: { figure: ShownFigure; autoplay?: boolean }) {
+  const wide = figure.timing || figure.gantt || figure.bars;
+  return (
+    <figure class={`figure${wide ? " wide" : ""}`}>
+      <figcaption>{figure.title}</figcaption>
+      <Body figure={figure} autoplay={autoplay} />
+      {figure.note && <p class="ui-help">{figure.note}</p>}
+    </figure>
+  );
+}
+
+function Body({ figure, autoplay }: { figure: ShownFigure; autoplay: boolean }) {
+  const { title, plot, drawing, animation, timing, gantt, bars } = figure;
+  if (plot) return <Plot plot={plot} title={title} />;
+  if (drawing) return <Drawing drawing={drawing} title={title} />;
+  if (animation) return <Player animation={animation} title={title} autoplay={autoplay} />;
+  if (timing) return <Timing timing={timing} title={title} />;
+  if (gantt) return <Gantt gantt={gantt} title={title} />;
+  return bars ? <StackedBars bars={bars} title={title} /> : null;
+}
+
+/** Figures over the same quantity inside share a cursor. */
+export function SharedCursor({ children }: { children: ComponentChildren }) {
+  const cursors = useMemo<Cursors>(() => new Map(), []);
+  return <CursorContext.Provider value={cursors}>{children}</CursorContext.Provider>;
+}
+
+/** Figures and tables of a report and of the machines in it. */
+export function Report({ sections, autoplay = false }: { sections: readonly ShownSection[]; autoplay?: boolean }) {
+  return (
+    <>
+      {sections.map((section, number) => (
+        <Section key={`${number} ${section.machine}`} section={section} autoplay={autoplay && number === 0} />
+      ))}
+    </>
+  );
+}
+
+function Section({ section, autoplay }: { section: ShownSection; autoplay: boolean }) {
+  return (
+    <SharedCursor>
+      <section class="ui-stack" aria-label={section.title}>
+        {section.depth > 0 && <h2>{section.title}</h2>}
+        {section.lead && <p class="ui-muted">{section.lead}</p>}
+        <div class="fig-grid">
+          {(section.figures ?? []).map((figure) => (
+            <Figure key={figure.name} figure={figure} autoplay={autoplay} />
+          ))}
+        </div>
+        {(section.tables ?? []).map((table) => (
+          <div key={table.name} class="ui-stack">
+            <h3>{table.title}</h3>
+            <Table label={table.title} columns={table.columns} rows={table.rows} height="420px" />
+          </div>
+        ))}
+      </section>
+    </SharedCursor>
+  );
+}
