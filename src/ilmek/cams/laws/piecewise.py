@@ -6,7 +6,7 @@ that overshoots has its exact bounds. [derived here]
 
 import numpy as np
 
-from ilmek.arrays import FloatArray, IntArray, RealField
+from ilmek.arrays import ComplexArray, FloatArray, IntArray, RealField
 from ilmek.cams.laws.law import Law, LawValues, Parameters
 from ilmek.records import record
 
@@ -15,6 +15,9 @@ _SAME = 1e-9
 
 _EXACT = 1e-12
 """Distance from a whole number below which a value is snapped to it."""
+
+_REAL = 1e-4
+"""Imaginary part below which a root counts as real: a double one is found as a pair of complex ones."""
 
 
 @record
@@ -66,7 +69,13 @@ class Piecewise:
 
     def bounds(self) -> tuple[float, float]:
         """Least and greatest value, from the ends of each piece and the roots of its derivative."""
-        values = np.concatenate([_extremes(row) for row in self.rows])
+        slopes = self.rows[:, 1:] * np.arange(1, self.rows.shape[1])
+        if slopes.shape[1] > 1 and np.all(slopes[:, [0, -1]] != 0.0):
+            roots = _roots(slopes)
+            near = np.clip(np.where(np.abs(roots.imag) < _REAL, roots.real, 0.0), 0.0, 1.0)
+            values = _horner(self.rows.T[:, :, None], np.pad(near, ((0, 0), (0, 2)), constant_values=(0.0, 1.0)))
+        else:
+            values = np.concatenate([_extremes(row) for row in self.rows])
         return float(values.min()), float(values.max())
 
     def peak(self) -> float:
@@ -126,9 +135,17 @@ def _horner(coefficients: FloatArray, t: RealField) -> RealField:
     return value
 
 
+def _roots(rows: FloatArray) -> ComplexArray:
+    """Roots of polynomials of one degree by ascending coefficients, first and last not 0: all at once."""
+    companions = np.zeros((len(rows), rows.shape[1] - 1, rows.shape[1] - 1))
+    companions[:, 1:, :-1] = np.eye(rows.shape[1] - 2)
+    companions[:, 0] = -rows[:, -2::-1] / rows[:, -1:]
+    return np.asarray(np.linalg.eigvals(companions), dtype=complex)
+
+
 def _extremes(row: FloatArray) -> FloatArray:
     """Values of a polynomial at 0, 1 and where its derivative is 0 between."""
     slope = row[1:] * np.arange(1, row.size)
     roots = np.roots(slope[::-1]) if slope.size else np.array([])
-    near = np.clip(roots.real[np.abs(roots.imag) < 1e-4], 0.0, 1.0)
+    near = np.clip(roots.real[np.abs(roots.imag) < _REAL], 0.0, 1.0)
     return np.asarray(_horner(row, np.concatenate([[0.0, 1.0], near])))

@@ -1,6 +1,7 @@
 """The paper's beat-up in a loom: it travels along the carpet on its slide and strokes along the width."""
 
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -101,8 +102,7 @@ class TravellingBeat:
         """The same for the time from beat to beat."""
         fabric = loom_fabric(task)
         params = task.parameters("beat-up", replace(self.design.params, interval=fit(task).interval))
-        # Only the time from beat to beat is new: it decides on motor and flywheel.
-        made = replace(self.design, params=params)
+        made = _at_interval(self.design, params)
         duty = replace(self.use.start.duty, linkage=made, every=params.interval)
         use = replace(self.use, start=crank_start(duty, params.start))
         across = use.travel
@@ -123,6 +123,12 @@ class TravellingBeat:
             beaten=across.stroke_warps,
             frame_force=frame_force(made),
         )
+
+
+@lru_cache(maxsize=16)
+def _at_interval(linkage: BeatUp, params: BeatUpParams) -> BeatUp:
+    """The same linkage with another time from beat to beat, which decides on motor and flywheel alone."""
+    return replace(linkage, params=params)
 
 
 def planned_beat(task: LoomTask, _kind: str) -> TravellingBeat:

@@ -8,6 +8,8 @@ the pins changes sign, and so much is counted on. It grows with the square of th
 need, the fell takes what they need.
 """
 
+from functools import lru_cache
+
 import numpy as np
 
 from ilmek.arrays import FloatArray
@@ -98,6 +100,7 @@ def _ends(values: FloatArray) -> list[float]:
     return [float(values.min()), float(values.max())]
 
 
+@lru_cache(maxsize=16)
 def design(params: HammerParams) -> Hammer:
     """The hammer for the parameters. Raises MechanismError where its crank-rockers do not move."""
     fabric = params.fabric

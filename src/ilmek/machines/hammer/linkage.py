@@ -104,6 +104,7 @@ def linkage_parts(found: CombLinkage) -> tuple[Part, ...]:
     return (*((ballast,) if found.ballast else ()), *links_parts(found.one, found.number), *start_parts(found.start))
 
 
+@lru_cache(maxsize=16)
 def chosen_linkage(
     params: HammerParams, fabric: Fabric, needed: float
 ) -> tuple[HammerParams, CombLinkage, tuple[Choice, ...]]:
