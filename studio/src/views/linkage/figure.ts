@@ -1,0 +1,252 @@
+/** The mechanism at one value of the drive: poses, points and shapes in the world, and what a pointer hits. */
+import type { MechanismAnswer, MotionAnswer } from "../../api/messages";
+import {
+  distance,
+  hull,
+  isInside,
+  type Pose,
+  STILL,
+  segmentDistance,
+  toWorld,
+  type Vec,
+  vec,
+} from "./geometry";
+import { GROUND } from "./mechanism";
+
+/** A place between two samples: index of the first, and share towards the next. */
+export interface Sample {
+  readonly index: number;
+  readonly share: number;
+}
+
+/** A point of a body in the world. */
+export interface DrawnPoint {
+  readonly body: string;
+  readonly name: string;
+  readonly at: Vec;
+  /** The joint of the file to which it belongs. */
+  readonly joint?: string | undefined;
+}
+
+export interface DrawnBody {
+  readonly name: string;
+  readonly points: readonly DrawnPoint[];
+  /** Corners of its outline: one of a block, two of a bar, three or more of a plate. */
+  readonly outline: readonly Vec[];
+  readonly solved: boolean;
+}
+
+export interface DrawnJoint {
+  readonly name: string;
+  readonly kind: "pin" | "slide";
+  readonly at: Vec;
+  readonly bodies: readonly string[];
+  /** Of a slide: position of its block, and direction of its line in the world. */
+  readonly block: Vec;
+  readonly line: number;
+  readonly grounded: boolean;
+  readonly driven: boolean;
+}
+
+export interface Figure {
+  readonly poses: Readonly<Record<string, Pose>>;
+  readonly bodies: readonly DrawnBody[];
+  readonly joints: readonly DrawnJoint[];
+  readonly points: readonly DrawnPoint[];
+  /** Whether the mechanism closes at the value; else it is drawn at the nearest value at which it does. */
+  readonly closes: boolean;
+}
+
+const TURN = 2 * Math.PI;
+
+/** The value within the range of a motion that is the same position: a turning drive by whole turns. */
+export function wrapped(motion: MotionAnswer, value: number): number {
+  const [first, last] = range(motion);
+  if (motion.kind !== "rotation" || value >= first - 1e-12 === value <= last + 1e-12) return value;
+  const turns = Math.floor((value - first) / TURN);
+  return Math.min(value - turns * TURN, Math.max(last, first));
+}
+
+/** Least and greatest value of the drive. */
+export function range(motion: MotionAnswer): [number, number] {
+  const [first, last] = [motion.values[0] ?? 0, motion.values.at(-1) ?? 0];
+  return first <= last ? [first, last] : [last, first];
+}
+
+/** Where a value lies between the samples. */
+export function sampleAt(values: readonly (number | null)[], value: number): Sample {
+  const count = values.length;
+  if (count < 2) return { index: 0, share: 0 };
+  const up = (values.at(-1) ?? 0) >= (values[0] ?? 0);
+  let [low, high] = [0, count - 1];
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    const below = (values[middle] ?? 0) <= value;
+    if (below === up) low = middle;
+    else high = middle;
+  }
+  const [a, b] = [values[low] ?? 0, values[high] ?? 0];
+  const share = a === b ? 0 : (value - a) / (b - a);
+  return { index: low, share: Math.min(Math.max(share, 0), 1) };
+}
+
+/** The nearest sample at which the mechanism has a position; undefined where there is none. */
+export function nearestSolved(motion: MotionAnswer, at: Sample): Sample | undefined {
+  const good = (index: number) => motion.status[index] === 0 || (motion.status[index] === 2 && isPlaced(motion, index));
+  const nearer = at.share < 0.5 ? at.index : at.index + 1;
+  if (good(at.index) && (at.share === 0 || good(at.index + 1))) return at;
+  for (let apart = 0; apart < motion.status.length; apart += 1) {
+    for (const index of [nearer - apart, nearer + apart]) {
+      if (index >= 0 && index < motion.status.length && good(index)) return { index, share: 0 };
+    }
+  }
+  return undefined;
+}
+
+function isPlaced(motion: MotionAnswer, index: number): boolean {
+  return Object.values(motion.poses).every((pose) => pose.x[index] != null && pose.angle[index] != null);
+}
+
+/** A series between two samples. */
+export function between(series: readonly (number | null)[], at: Sample): number | null {
+  const a = series[at.index];
+  if (a == null || at.share === 0) return a ?? null;
+  const b = series[at.index + 1];
+  return b == null ? null : a + (b - a) * at.share;
+}
+
+/** The mechanism at a value of the drive; `earlier`: poses of bodies that are nowhere else. */
+export function figureAt(answer: MechanismAnswer, value: number, earlier: Readonly<Record<string, Pose>> = {}): Figure {
+  const poses: Record<string, Pose> = { [GROUND]: STILL };
+  for (const body of answer.bodies) if (body.name !== GROUND) poses[body.name] = earlier[body.name] ?? STILL;
+  for (const [body, [x, y, angle]] of Object.entries(answer.poses)) poses[body] = { x, y, angle };
+  let closes = true;
+  const { motion } = answer;
+  if (motion) {
+    const at = sampleAt(motion.values, wrapped(motion, value));
+    const solved = nearestSolved(motion, at);
+    closes = solved === at;
+    for (const [body, series] of Object.entries(motion.poses)) {
+      if (solved === undefined) continue;
+      const [x, y, angle] = [between(series.x, solved), between(series.y, solved), between(series.angle, solved)];
+      if (x !== null && y !== null && angle !== null) poses[body] = { x, y, angle };
+    }
+  }
+  return { poses, closes, ...shapes(answer, poses) };
+}
+
+function shapes(answer: MechanismAnswer, poses: Readonly<Record<string, Pose>>) {
+  const fileJoint = new Map(answer.joints.map((joint) => [joint.name, joint.file_joint]));
+  const bodies = answer.bodies.map((body): DrawnBody => {
+    const pose = poses[body.name] ?? STILL;
+    const points = Object.entries(body.points).map(
+      ([name, [x, y]]): DrawnPoint => ({
+        body: body.name,
+        name,
+        at: toWorld(pose, vec(x, y)),
+        joint: fileJoint.get(name),
+      }),
+    );
+    return { name: body.name, points, outline: outlineOf(points.map((point) => point.at)), solved: body.solved };
+  });
+  const byName = new Map(bodies.map((body) => [body.name, body]));
+  const at = (body: string, point: string) => byName.get(body)?.points.find((one) => one.name === point)?.at ?? vec(0, 0);
+  const driven = new Set(answer.inputs.map((input) => input.joint));
+  const merged = new Map<string, DrawnJoint>();
+  for (const joint of answer.joints) {
+    const [first, second] = joint.bodies;
+    const known = merged.get(joint.file_joint);
+    const members = [...new Set([...(known?.bodies ?? []), first, second])];
+    merged.set(joint.file_joint, {
+      name: joint.file_joint,
+      kind: joint.kind === "slide" ? "slide" : "pin",
+      at: known?.at ?? at(second, joint.name),
+      block: at(first, joint.name),
+      line: (poses[second]?.angle ?? 0) + joint.along,
+      bodies: members,
+      grounded: members.includes(GROUND),
+      driven: (known?.driven ?? false) || driven.has(joint.name),
+    });
+  }
+  const seen = new Set<string>();
+  const points = bodies
+    .flatMap((body) => body.points)
+    .filter((point) => {
+      if (point.joint === undefined) return true;
+      if (seen.has(point.joint)) return false;
+      seen.add(point.joint);
+      return true;
+    });
+  return { bodies, joints: [...merged.values()], points };
+}
+
+/** The outline of points: of several at one position the first, of three or more their convex hull. */
+export function outlineOf(points: readonly Vec[]): Vec[] {
+  const apart: Vec[] = [];
+  for (const point of points) if (apart.every((other) => distance(other, point) > 1e-9)) apart.push(point);
+  return apart.length < 3 ? apart : hull(apart);
+}
+
+/** What lies under the pointer: joints before points before bodies. */
+export type Hit =
+  | { readonly kind: "joint"; readonly name: string; readonly at: Vec }
+  | { readonly kind: "point"; readonly body: string; readonly name: string; readonly at: Vec }
+  | { readonly kind: "body"; readonly name: string }
+  | undefined;
+
+export function hitAt(figure: Figure, at: Vec, reach: number): Hit {
+  let best: Hit;
+  let nearest = reach;
+  for (const joint of figure.joints) {
+    const apart = distance(joint.at, at) - (joint.kind === "pin" ? reach * 0.05 : 0);
+    if (apart <= nearest) {
+      nearest = apart;
+      best = { kind: "joint", name: joint.name, at: joint.at };
+    }
+  }
+  if (best) return best;
+  for (const point of figure.points) {
+    const apart = distance(point.at, at);
+    if (point.joint === undefined && apart <= nearest) {
+      nearest = apart;
+      best = { kind: "point", body: point.body, name: point.name, at: point.at };
+    }
+  }
+  if (best) return best;
+  for (const body of [...figure.bodies].reverse()) {
+    if (body.name !== GROUND && bodyDistance(body, at) <= reach) return { kind: "body", name: body.name };
+  }
+  return undefined;
+}
+
+/** Distance of a position from a body's outline; 0 inside. */
+export function bodyDistance(body: DrawnBody, at: Vec): number {
+  const { outline } = body;
+  const [first] = outline;
+  if (first === undefined) return Number.POSITIVE_INFINITY;
+  if (outline.length === 1) return distance(first, at);
+  if (outline.length > 2 && isInside(at, outline)) return 0;
+  return Math.min(...outline.map((corner, index) => segmentDistance(at, corner, outline[(index + 1) % outline.length] ?? corner)));
+}
+
+/** Bodies under a position, nearest first. */
+export function bodiesAt(figure: Figure, at: Vec, reach: number): string[] {
+  return figure.bodies
+    .filter((body) => body.name !== GROUND && bodyDistance(body, at) <= reach)
+    .sort((a, b) => bodyDistance(a, at) - bodyDistance(b, at))
+    .map((body) => body.name);
+}
+
+/** Everything of a figure and a motion that the first view must show. */
+export function extent(answer: MechanismAnswer, figure: Figure): Vec[] {
+  const all = figure.points.map((point) => point.at);
+  for (const points of Object.values(answer.motion?.points ?? {})) {
+    for (const { x, y } of Object.values(points)) {
+      x.forEach((value, index) => {
+        const other = y[index];
+        if (index % 6 === 0 && value != null && other != null) all.push(vec(value, other));
+      });
+    }
+  }
+  return all;
+}
