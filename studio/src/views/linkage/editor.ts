@@ -1,7 +1,8 @@
 /** The state of the linkage editor: the document, what the server computed of it, tool, selection, drive, drag. */
 import { computed, effect, signal } from "@preact/signals";
-import { ApiError, latest, post, ServerLost } from "../../api";
+import { latest } from "../../api/latest";
 import type { MechanismAnswer, QualityAnswer } from "../../api/messages";
+import { ApiError, post, ServerLost } from "../../api/request";
 import type { Document } from "../../project";
 import { type Figure, figureAt, range, wrapped } from "./figure";
 import { type Camera, type Pose, STILL, toLocal, type Vec, vec } from "./geometry";
@@ -152,7 +153,13 @@ export class Editor {
   beginDrag(joint: string): void {
     this.isPlaying.value = false;
     this.#changes = [];
-    this.#dragging = { joint, base: structuredClone(this.data), poses: this.#sentPoses(), last: vec(0, 0), ended: false };
+    this.#dragging = {
+      joint,
+      base: structuredClone(this.data),
+      poses: this.#sentPoses(),
+      last: vec(0, 0),
+      ended: false,
+    };
     this.isDragging.value = true;
   }
 
@@ -207,7 +214,11 @@ export class Editor {
   #dragRequest(dragging: Dragging): Request {
     const { velocities, accelerations, forces } = this.shown.peek();
     const request = this.#request(dragging.base, this.drive.peek(), velocities || accelerations, forces);
-    return { ...request, poses: dragging.poses, drag: { joint: dragging.joint, x: dragging.last.x, y: dragging.last.y } };
+    return {
+      ...request,
+      poses: dragging.poses,
+      drag: { joint: dragging.joint, x: dragging.last.x, y: dragging.last.y },
+    };
   }
 
   #sentPoses(): Record<string, [number, number, number]> {

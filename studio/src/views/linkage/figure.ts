@@ -1,16 +1,6 @@
 /** The mechanism at one value of the drive: poses, points and shapes in the world, and what a pointer hits. */
 import type { MechanismAnswer, MotionAnswer } from "../../api/messages";
-import {
-  distance,
-  hull,
-  isInside,
-  type Pose,
-  STILL,
-  segmentDistance,
-  toWorld,
-  type Vec,
-  vec,
-} from "./geometry";
+import { distance, hull, isInside, type Pose, STILL, segmentDistance, toWorld, type Vec, vec } from "./geometry";
 import { GROUND } from "./mechanism";
 
 /** A place between two samples: index of the first, and share towards the next. */
@@ -150,7 +140,8 @@ function shapes(answer: MechanismAnswer, poses: Readonly<Record<string, Pose>>) 
     return { name: body.name, points, outline: outlineOf(points.map((point) => point.at)), solved: body.solved };
   });
   const byName = new Map(bodies.map((body) => [body.name, body]));
-  const at = (body: string, point: string) => byName.get(body)?.points.find((one) => one.name === point)?.at ?? vec(0, 0);
+  const at = (body: string, point: string) =>
+    byName.get(body)?.points.find((one) => one.name === point)?.at ?? vec(0, 0);
   const driven = new Set(answer.inputs.map((input) => input.joint));
   const merged = new Map<string, DrawnJoint>();
   for (const joint of answer.joints) {
@@ -226,7 +217,9 @@ export function bodyDistance(body: DrawnBody, at: Vec): number {
   if (first === undefined) return Number.POSITIVE_INFINITY;
   if (outline.length === 1) return distance(first, at);
   if (outline.length > 2 && isInside(at, outline)) return 0;
-  return Math.min(...outline.map((corner, index) => segmentDistance(at, corner, outline[(index + 1) % outline.length] ?? corner)));
+  return Math.min(
+    ...outline.map((corner, index) => segmentDistance(at, corner, outline[(index + 1) % outline.length] ?? corner)),
+  );
 }
 
 /** Bodies under a position, nearest first. */

@@ -1,12 +1,202 @@
+/** The linkage editor. */
+import { useEffect, useMemo, useState } from "preact/hooks";
+import { post } from "../../api/request";
+import { rename } from "../../app/routes";
+import { filesOf, freePath, newFile, project, refreshProject, SaveState, useDocument } from "../../project";
 import { t } from "../../text";
-import { CopyCommand } from "../../ui";
+import { Button, CopyCommand, formatQuantity, IconButton, Select, Slider, toast } from "../../ui";
+import { Canvas } from "./canvas";
+import { Editor } from "./editor";
+import { extent, range, wrapped } from "./figure";
+import { fitted } from "./geometry";
+import { emptyMechanism, type MechanismData } from "./mechanism";
+import { Panels } from "./panels";
+import { Pointer } from "./pointer";
+import { Actions, LETTERS, ShownToggles, Toolbar, TypedSpot } from "./toolbar";
+import { Tools } from "./tools";
+import "./linkage.css";
 
-export default function Linkage() {
+const FIRST = "four-bar";
+
+export default function Linkage({ name }: { name: string }) {
+  useEffect(() => {
+    if (project.peek() === null) void refreshProject().catch(() => undefined);
+  }, []);
+  const files = filesOf("linkage");
+  const names = files.map((file) => file.path.replace(/^linkages\//, "").replace(/\.toml$/, ""));
+  const shown = name !== "" ? name : names.includes(FIRST) ? FIRST : names[0];
+  if (project.value === null) return <p class="app-loading">{t("app.loading")}</p>;
+  if (shown === undefined) {
+    return (
+      <div class="app-plain">
+        <h1>{t("linkage.title")}</h1>
+        <p>{t("linkage.noFiles")}</p>
+        <Button kind="primary" onClick={() => void create()}>
+          {t("linkage.new")}
+        </Button>
+      </div>
+    );
+  }
+  return <LinkageFile key={shown} name={shown} names={names} />;
+}
+
+async function create(source?: string): Promise<void> {
+  const path = freePath("linkages", source === undefined ? "linkage" : source);
+  const own = path.replace(/^linkages\//, "").replace(/\.toml$/, "");
+  try {
+    await newFile(path, source === undefined ? { text: emptyMechanism(own) } : { source: `linkages/${source}.toml` });
+    rename(own);
+  } catch (error) {
+    toast(t("linkage.notCreated"), "bad", String(error));
+  }
+}
+
+function LinkageFile({ name, names }: { name: string; names: readonly string[] }) {
+  const path = `linkages/${name}.toml`;
+  const document = useDocument<MechanismData>(path);
+  const parts = useMemo(() => {
+    const editor = new Editor(document);
+    const tools = new Tools(editor);
+    return { editor, tools, pointer: new Pointer(editor, tools) };
+  }, [document]);
+  useEffect(() => () => parts.editor.dispose(), [parts]);
+  const { editor, tools, pointer } = parts;
+  const choices = [...new Set([name, ...names])].sort().map((one) => ({ value: one, label: one }));
   return (
-    <div class="app-plain">
-      <h1>{t("linkage.title")}</h1>
-      <p>{t("linkage.lead")}</p>
-      <CopyCommand command="ilmek mechanism FILE.toml" />
+    <div
+      class="linkage-view"
+      role="group"
+      aria-label={t("linkage.title")}
+      onKeyDown={(event) => {
+        const tool = LETTERS[event.key.toLowerCase()];
+        const typing = (event.target as HTMLElement).matches("input, select, textarea");
+        if (tool === undefined || typing || event.ctrlKey || event.metaKey || event.altKey) return;
+        tools.choose(tool);
+      }}
+    >
+      <header class="linkage-head">
+        <h1 class="visually-hidden">{t("linkage.title")}</h1>
+        <Select label={t("linkage.file")} value={name} choices={choices} onChange={(one) => rename(one)} />
+        <Button icon="add" onClick={() => void create()}>
+          {t("linkage.new")}
+        </Button>
+        <Button icon="copy" onClick={() => void create(name)}>
+          {t("linkage.copyFile")}
+        </Button>
+        <SaveState document={document} />
+      </header>
+      <div class="linkage-body-area">
+        <Toolbar tools={tools} />
+        <div class="linkage-stage">
+          <Canvas editor={editor} tools={tools} pointer={pointer} />
+          <p class="visually-hidden" id="linkage-keys">
+            {t("linkage.keys")}
+          </p>
+          <div class="linkage-zoom">
+            <IconButton icon="plus" label={t("ui.zoomIn")} onClick={() => pointer.zoom(1.25)} />
+            <IconButton icon="minus" label={t("ui.zoomOut")} onClick={() => pointer.zoom(0.8)} />
+            <IconButton
+              icon="fit"
+              label={t("ui.zoomFit")}
+              onClick={() => {
+                const [answer, figure] = [editor.answer.peek(), editor.figure.peek()];
+                if (answer && figure) editor.camera.value = fitted(extent(answer, figure), pointer.size);
+              }}
+            />
+          </div>
+          <TypedSpot tools={tools} />
+          <Player editor={editor} />
+        </div>
+        <aside class="linkage-aside" aria-label={t("linkage.panels")}>
+          <ShownToggles editor={editor} />
+          <Actions editor={editor} />
+          <Panels editor={editor} />
+          <Commands editor={editor} path={path} />
+        </aside>
+      </div>
     </div>
   );
+}
+
+/** Seconds that the drive takes over its range. */
+const DURATION = 5;
+
+function Player({ editor }: { editor: Editor }) {
+  const playing = editor.isPlaying.value;
+  const motion = editor.answer.value?.motion;
+  useEffect(() => {
+    if (!playing) return undefined;
+    let frame = 0;
+    let before = performance.now();
+    let sense = 1;
+    const step = (now: number) => {
+      const current = editor.answer.peek()?.motion;
+      if (current) {
+        const [low, high] = range(current);
+        const full = current.kind === "rotation" && high - low > 6.28 && current.fault === null;
+        const by = (sense * (high - low) * (now - before)) / 1000 / DURATION;
+        let value = editor.value.peek() + by;
+        if (full) value = value > high ? value - (high - low) : value;
+        else {
+          const [from, to] = current.closing.find(([a, b]) => a - 1e-6 <= value - by && value - by <= b + 1e-6) ?? [
+            low,
+            high,
+          ];
+          if (value > to || value < from) sense = value > to ? -1 : 1;
+          value = Math.min(Math.max(value, from), to);
+        }
+        editor.value.value = value;
+      }
+      before = now;
+      frame = requestAnimationFrame(step);
+    };
+    frame = requestAnimationFrame(step);
+    return () => cancelAnimationFrame(frame);
+  }, [playing]);
+  if (!motion) return null;
+  const [low, high] = range(motion);
+  const unit = motion.kind === "rotation" ? "deg" : "mm";
+  const value = wrapped(motion, editor.value.value);
+  const closes = editor.figure.value?.closes ?? true;
+  const text = formatQuantity(value, unit, 4);
+  return (
+    <div class="linkage-player">
+      <IconButton
+        icon={playing ? "pause" : "play"}
+        label={t(playing ? "ui.pause" : "ui.play")}
+        onClick={() => {
+          editor.isPlaying.value = !playing;
+        }}
+      />
+      <Slider
+        bare
+        label={t("linkage.driveOf", { name: motion.driving })}
+        value={value}
+        min={low}
+        max={high}
+        text={text}
+        onInput={(to) => {
+          editor.isPlaying.value = false;
+          editor.value.value = to;
+        }}
+      />
+      <output class={closes ? "" : "bad"}>{closes ? text : t("linkage.open", { value: text })}</output>
+    </div>
+  );
+}
+
+/** The state as its command line and as Python. */
+function Commands({ editor, path }: { editor: Editor; path: string }) {
+  const { over, speed } = editor.drive.value;
+  const [shown, setShown] = useState<{ command: string; python: string } | null>(null);
+  useEffect(() => {
+    const own = new AbortController();
+    const options = { ...(over ? { over } : {}), ...(speed ? { speed } : {}) };
+    post<{ command: string; python: string }>("/commands", { kind: "linkage", path, options }, own.signal).then(
+      setShown,
+      () => undefined,
+    );
+    return () => own.abort();
+  }, [path, over, speed]);
+  return shown === null ? null : <CopyCommand command={shown.command} python={shown.python} />;
 }

@@ -1,5 +1,5 @@
 /** The plain data of a mechanism file, and the edits of the drawing: each a function of the data that it changes. */
-import { quantityText, readQuantity } from "../../ui";
+import { quantityText } from "../../ui";
 import { type Pose, STILL, toLocal, type Vec } from "./geometry";
 
 export type Entry = unknown;
@@ -54,14 +54,6 @@ export function angleEntry(data: MechanismData, value: number): string | number 
 
 export function pointEntry(data: MechanismData, at: Vec): (string | number)[] {
   return [lengthEntry(data, at.x), lengthEntry(data, at.y)];
-}
-
-/** The value of a quantity of the file [SI]; undefined for an expression. */
-export function valueOf(entry: Entry, unit: string): number | undefined {
-  if (typeof entry === "number") return entry;
-  if (typeof entry !== "string") return undefined;
-  const read = readQuantity(entry, unit);
-  return "si" in read ? read.si : undefined;
 }
 
 /** A name that nothing of the file has yet: points and joints A, B, ... A1; bodies link1, link2. */
@@ -382,4 +374,3 @@ export function apply(data: MechanismData, changes: readonly { path: readonly st
 export function emptyMechanism(name: string): string {
   return `name = ${JSON.stringify(name)}\ninputs = {}\n\n[bodies]\nground = {}\n\n[joints]\n`;
 }
-

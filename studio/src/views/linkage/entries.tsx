@@ -1,0 +1,91 @@
+/** Numbers and texts of the file as fields: each is written as the file has it, and taken over with Enter or on leaving. */
+import { useEffect, useState } from "preact/hooks";
+import type { Editor } from "./editor";
+import { apply, type Table } from "./mechanism";
+
+interface EntryFieldProps {
+  label: string;
+  value: string;
+  onCommit: (text: string) => void;
+}
+
+/** A text that is taken over with Enter or on leaving; Escape brings the old one back. */
+export function EntryField({ label, value, onCommit }: EntryFieldProps) {
+  const [draft, setDraft] = useState(value);
+  useEffect(() => setDraft(value), [value]);
+  const commit = () => {
+    if (draft.trim() !== value) onCommit(draft.trim());
+  };
+  return (
+    <label class="linkage-entry">
+      <span>{label}</span>
+      <input
+        class="ui-input"
+        type="text"
+        autocomplete="off"
+        spellcheck={false}
+        value={draft}
+        onInput={(event) => setDraft(event.currentTarget.value)}
+        onBlur={commit}
+        onKeyDown={(event) => {
+          if (event.key === "Enter") commit();
+          if (event.key === "Escape") setDraft(value);
+          event.stopPropagation();
+        }}
+      />
+    </label>
+  );
+}
+
+/** A text as an entry of the file: a plain number where it is one, else text; true and false are themselves. */
+export function entryOf(text: string): string | number | boolean {
+  if (text === "true" || text === "false") return text === "true";
+  return text !== "" && /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(text) ? Number(text) : text;
+}
+
+/** Every number and text below a table of the file: keys that lead to it, and its value. */
+export function leaves(entry: unknown, path: readonly string[] = []): { path: readonly string[]; value: string }[] {
+  if (Array.isArray(entry)) return entry.flatMap((one, index) => leaves(one, [...path, String(index)]));
+  if (entry !== null && typeof entry === "object") {
+    return Object.entries(entry).flatMap(([key, value]) => leaves(value, [...path, key]));
+  }
+  return [{ path, value: String(entry) }];
+}
+
+const COORDINATES: Record<string, string> = { "0": "x", "1": "y" };
+
+/** The name of an entry: "A x", "mass". */
+export function entryLabel(path: readonly string[]): string {
+  const shown = path.filter((key) => key !== "points");
+  return shown
+    .map((key, index) => (index === shown.length - 1 && shown.length > 1 ? (COORDINATES[key] ?? key) : key))
+    .join(" ");
+}
+
+interface EntriesProps {
+  editor: Editor;
+  /** Keys that lead to the table. */
+  path: readonly string[];
+  table: Table | undefined;
+  skip?: readonly string[];
+}
+
+/** The entries below a table of the file as fields. */
+export function Entries({ editor, path, table, skip = [] }: EntriesProps) {
+  if (table === undefined) return null;
+  const kept = Object.fromEntries(Object.entries(table).filter(([key]) => !skip.includes(key)));
+  return (
+    <div class="linkage-entries">
+      {leaves(kept).map((leaf) => (
+        <EntryField
+          key={leaf.path.join(".")}
+          label={entryLabel(leaf.path)}
+          value={leaf.value}
+          onCommit={(text) =>
+            editor.edit((data) => apply(data, [{ path: [...path, ...leaf.path], value: entryOf(text) }]))
+          }
+        />
+      ))}
+    </div>
+  );
+}

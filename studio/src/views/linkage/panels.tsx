@@ -1,0 +1,352 @@
+/** Panels beside the drawing: structure, parts with their numbers, motion, checks. */
+import { useState } from "preact/hooks";
+import { formatNumber, t, textIfKnown } from "../../text";
+import { Button, Icon, IconButton, QuantityField, Tabs } from "../../ui";
+import type { Editor } from "./editor";
+import { Entries, EntryField } from "./entries";
+import { bodiesOf, GROUND, renameBody, type Table } from "./mechanism";
+import { Motion } from "./motion";
+import { deleteSelection } from "./pointer";
+
+type Panel = "structure" | "parts" | "motion" | "checks";
+
+export function Panels({ editor }: { editor: Editor }) {
+  const [panel, setPanel] = useState<Panel>("structure");
+  const tabs = (["structure", "parts", "motion", "checks"] as const).map((value) => ({
+    value,
+    label: t(`linkage.${value}`),
+  }));
+  return (
+    <div class="linkage-panels">
+      <Faults editor={editor} />
+      <Tabs label={t("linkage.panels")} value={panel} tabs={tabs} onChange={setPanel}>
+        {panel === "structure" && <StructurePanel editor={editor} />}
+        {panel === "parts" && <Parts editor={editor} />}
+        {panel === "motion" && <Motion editor={editor} />}
+        {panel === "checks" && <Checks editor={editor} />}
+      </Tabs>
+    </div>
+  );
+}
+
+interface Reported {
+  given: string;
+  allowed?: string;
+  do?: string;
+}
+
+function Report({ fault, kind }: { fault: Reported; kind: "bad" | "warn" }) {
+  return (
+    <div class={`ui-callout ${kind}`} role="status">
+      <p>{fault.given}</p>
+      {fault.allowed && <p>{fault.allowed}</p>}
+      {fault.do && (
+        <p>
+          <b>{fault.do}</b>
+        </p>
+      )}
+    </div>
+  );
+}
+
+/** What does not work, and what to do. */
+function Faults({ editor }: { editor: Editor }) {
+  const answer = editor.answer.value;
+  const refused = editor.refused.value;
+  const motion = answer?.motion;
+  return (
+    <>
+      {refused && <Report fault={refused} kind="bad" />}
+      {!refused && motion?.fault && <Report fault={motion.fault} kind="bad" />}
+      {!refused && answer?.no_motion && <Report fault={answer.no_motion} kind="warn" />}
+      {motion && motion.no_forces !== "" && <Report fault={{ given: motion.no_forces }} kind="warn" />}
+    </>
+  );
+}
+
+function StructurePanel({ editor }: { editor: Editor }) {
+  const structure = editor.answer.value?.structure;
+  if (!structure) return <p class="ui-muted">{t("app.loading")}</p>;
+  const { degrees_of_freedom: count, driven, loops, groups, left, loose, missing } = structure;
+  return (
+    <div class="linkage-structure">
+      <dl class="linkage-facts">
+        <dt>{t("linkage.mobility")}</dt>
+        <dd>{formatNumber(count)}</dd>
+        <dt>{t("linkage.drivenCount")}</dt>
+        <dd>{formatNumber(driven)}</dd>
+        <dt>{t("linkage.loops")}</dt>
+        <dd>{formatNumber(loops)}</dd>
+      </dl>
+      {editor.quality.value?.mobility && <p class="ui-help">{editor.quality.value.mobility}</p>}
+      <h3>{t("linkage.groups")}</h3>
+      <ol class="linkage-groups">
+        {groups.map((group, index) => (
+          <li key={group.bodies.join()} class={`group-${index % 8}`}>
+            <button
+              type="button"
+              class="linkage-row"
+              aria-pressed={group.bodies.every((body) => editor.selection.value.bodies.includes(body))}
+              onClick={() => editor.select({ bodies: group.bodies, joints: group.joints })}
+            >
+              <span class="swatch" aria-hidden="true" />
+              <b>{textIfKnown(`linkage.group${group.kind}`) ?? group.kind}</b>
+              <span>{group.bodies.join(", ")}</span>
+              <small>{t("linkage.withJoints", { joints: group.joints.join(", ") })}</small>
+            </button>
+            {group.branch !== 0 && (
+              <Button
+                size="small"
+                onClick={() =>
+                  editor.edit((data) => {
+                    data.branches = { ...data.branches, [group.free]: -group.branch };
+                  })
+                }
+              >
+                {t("linkage.flip", { joint: group.free })}
+              </Button>
+            )}
+          </li>
+        ))}
+      </ol>
+      {groups.length === 0 && <p class="ui-muted">{t("linkage.noGroups")}</p>}
+      {(left.length > 0 || loose.length > 0) && (
+        <p class="ui-callout warn">{t("linkage.left", { bodies: [...left, ...loose].join(", ") })}</p>
+      )}
+      {missing && <Report fault={missing} kind="warn" />}
+      {loose.length > 0 && <p class="ui-help">{t("linkage.looseHelp", { bodies: loose.join(", ") })}</p>}
+    </div>
+  );
+}
+
+/** All bodies, joints and points as lists, and the numbers of what is chosen. */
+function Parts({ editor }: { editor: Editor }) {
+  const data = editor.document.data.value ?? {};
+  const selection = editor.selection.value;
+  const figure = editor.figure.value;
+  const free = (figure?.points ?? []).filter((point) => point.joint === undefined);
+  return (
+    <div class="linkage-parts">
+      <ListOf
+        title={t("linkage.bodies")}
+        names={Object.keys(data.bodies ?? {})}
+        chosen={selection.bodies}
+        onChoose={(body) => editor.select({ bodies: [body] })}
+      />
+      <ListOf
+        title={t("linkage.joints")}
+        names={Object.keys(data.joints ?? {})}
+        chosen={selection.joints}
+        onChoose={(joint) => editor.select({ joints: [joint] })}
+      />
+      <ListOf
+        title={t("linkage.points")}
+        names={free.map((point) => `${point.body}.${point.name}`)}
+        chosen={selection.points}
+        onChoose={(point) => editor.select({ points: [point] })}
+      />
+      {selection.bodies.map((body) => (
+        <BodyNumbers key={body} editor={editor} body={body} />
+      ))}
+      {selection.joints.map((joint) => (
+        <JointNumbers key={joint} editor={editor} joint={joint} />
+      ))}
+      {selection.points.map((point) => (
+        <PointNumbers key={point} editor={editor} point={point} />
+      ))}
+      <Others editor={editor} />
+    </div>
+  );
+}
+
+interface ListProps {
+  title: string;
+  names: readonly string[];
+  chosen: readonly string[];
+  onChoose: (name: string) => void;
+}
+
+function ListOf({ title, names, chosen, onChoose }: ListProps) {
+  return (
+    <section>
+      <h3>{`${title} (${names.length})`}</h3>
+      <div class="linkage-list">
+        {names.map((name) => (
+          <Button key={name} size="small" pressed={chosen.includes(name)} onClick={() => onChoose(name)}>
+            {name}
+          </Button>
+        ))}
+      </div>
+    </section>
+  );
+}
+
+function BodyNumbers({ editor, body }: { editor: Editor; body: string }) {
+  const table = editor.document.data.value?.bodies?.[body] as Table | undefined;
+  if (table === undefined) return null;
+  return (
+    <section class="linkage-numbers">
+      <header>
+        <h3>{t("linkage.body", { name: body })}</h3>
+        {body !== GROUND && (
+          <IconButton icon="remove" size="small" label={t("linkage.remove")} onClick={() => deleteSelection(editor)} />
+        )}
+      </header>
+      {body !== GROUND && (
+        <EntryField
+          label={t("linkage.name")}
+          value={body}
+          onCommit={(name) => {
+            editor.edit((data) => void renameBody(data, body, name));
+            if (editor.data.bodies?.[name] !== undefined) editor.select({ bodies: [name] });
+          }}
+        />
+      )}
+      <Entries editor={editor} path={["bodies", body]} table={table} />
+    </section>
+  );
+}
+
+function JointNumbers({ editor, joint }: { editor: Editor; joint: string }) {
+  const table = editor.document.data.value?.joints?.[joint];
+  const drawn = editor.figure.value?.joints.find((one) => one.name === joint);
+  if (table === undefined) return null;
+  return (
+    <section class="linkage-numbers">
+      <header>
+        <h3>{t("linkage.joint", { name: joint })}</h3>
+        <IconButton icon="remove" size="small" label={t("linkage.remove")} onClick={() => deleteSelection(editor)} />
+      </header>
+      <p class="ui-help">{bodiesOf(table).join(", ")}</p>
+      {drawn && (
+        <Coordinates
+          at={drawn.at}
+          onMove={(to) => {
+            if (Math.hypot(to.x - drawn.at.x, to.y - drawn.at.y) > 1e-9) editor.moveJoint(joint, to);
+          }}
+        />
+      )}
+      <Entries editor={editor} path={["joints", joint]} table={table as Table} skip={["pin", "slide"]} />
+    </section>
+  );
+}
+
+function PointNumbers({ editor, point }: { editor: Editor; point: string }) {
+  const drawn = editor.figure.value?.points.find((one) => `${one.body}.${one.name}` === point);
+  if (!drawn) return null;
+  const entry = editor.document.data.value?.bodies?.[drawn.body]?.points?.[drawn.name];
+  return (
+    <section class="linkage-numbers">
+      <header>
+        <h3>{t("linkage.pointOf", { name: drawn.name, body: drawn.body })}</h3>
+        <IconButton icon="remove" size="small" label={t("linkage.remove")} onClick={() => deleteSelection(editor)} />
+      </header>
+      <Coordinates at={drawn.at} onMove={(to) => editor.movePoint(drawn.body, drawn.name, to)} />
+      {entry !== undefined && (
+        <Entries editor={editor} path={["bodies", drawn.body, "points"]} table={{ [drawn.name]: entry }} />
+      )}
+    </section>
+  );
+}
+
+interface CoordinatesProps {
+  at: { x: number; y: number };
+  onMove: (to: { x: number; y: number }) => void;
+}
+
+/** Position in the world, typed: taken over with Enter or on leaving. */
+function Coordinates({ at, onMove }: CoordinatesProps) {
+  const [typed, setTyped] = useState<{ x?: number; y?: number }>({});
+  const shown = (value: number) => `${Number((value * 1000).toFixed(4))}mm`;
+  const commit = () => {
+    if (typed.x !== undefined || typed.y !== undefined) onMove({ x: typed.x ?? at.x, y: typed.y ?? at.y });
+    setTyped({});
+  };
+  return (
+    <form
+      class="linkage-coordinates"
+      onSubmit={(event) => {
+        event.preventDefault();
+        commit();
+      }}
+      onFocusOut={(event) => {
+        if (!event.currentTarget.contains(event.relatedTarget as Node | null)) commit();
+      }}
+    >
+      <QuantityField
+        label="x"
+        unit="mm"
+        value={shown(at.x)}
+        onChange={(_, x) => x !== null && setTyped({ ...typed, x })}
+      />
+      <QuantityField
+        label="y"
+        unit="mm"
+        value={shown(at.y)}
+        onChange={(_, y) => y !== null && setTyped({ ...typed, y })}
+      />
+      <button type="submit" class="visually-hidden">
+        {t("linkage.set")}
+      </button>
+    </form>
+  );
+}
+
+const TABLES = ["values", "couplings", "loads", "springs", "dampers", "friction"] as const;
+
+/** Named values, gears, loads: with their numbers. */
+function Others({ editor }: { editor: Editor }) {
+  const data = editor.document.data.value ?? {};
+  return (
+    <>
+      {TABLES.filter((key) => data[key] !== undefined).map((key) => (
+        <section key={key} class="linkage-numbers">
+          <h3>{t(`linkage.${key}`)}</h3>
+          {Object.entries(data[key] as Record<string, unknown>).map(([name, entry]) => (
+            <div key={name} class="linkage-other">
+              <Entries editor={editor} path={[key]} table={{ [name]: entry }} />
+              <IconButton
+                icon="remove"
+                size="small"
+                label={t("linkage.removeOf", { name })}
+                onClick={() =>
+                  editor.edit((copy) => {
+                    const table = copy[key] as Record<string, unknown>;
+                    delete table[name];
+                    if (Object.keys(table).length === 0) delete copy[key];
+                  })
+                }
+              />
+            </div>
+          ))}
+        </section>
+      ))}
+    </>
+  );
+}
+
+function Checks({ editor }: { editor: Editor }) {
+  const quality = editor.quality.value;
+  if (!quality) return <p class="ui-muted">{t("app.loading")}</p>;
+  const checks = quality.checks as unknown as { name: string; value: number; limit: number; unit: string; ok: boolean; relation: string; cure: string }[]; // biome-ignore format: the check's record
+  return (
+    <div class="linkage-checks">
+      {checks.length === 0 && <p class="ui-muted">{t("linkage.noChecks")}</p>}
+      <ul>
+        {checks.map((check) => (
+          <li key={check.name} class={check.ok ? "good" : "bad"}>
+            <Icon name={check.ok ? "good" : "error"} label={check.ok ? t("ui.holds") : t("ui.fails")} />
+            <span>{check.name.replaceAll("_", " ")}</span>
+            {!check.ok && check.cure && <small>{check.cure}</small>}
+          </li>
+        ))}
+      </ul>
+      {[...quality.warnings, ...quality.left_out].map((warning) => (
+        <p key={warning} class="ui-callout warn">
+          {warning}
+        </p>
+      ))}
+      {quality.fault && <Report fault={quality.fault} kind="warn" />}
+    </div>
+  );
+}
