@@ -2,6 +2,7 @@
 import * as three from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { Cloth } from "./cloth-mesh";
+import { spacingOf, strideFor, thinned } from "./crowd";
 import { colourOf, type Look, look } from "./look";
 import { type Angles, Frames, type Placed } from "./motion";
 import type { Drive, SceneModel, ScenePart } from "./scene";
@@ -11,6 +12,12 @@ import { DIRECTIONS, fittingDistance, levelFor, turnOfKey, type ViewName } from 
 const ANGLE_OF_VIEW = 32;
 const RADIANS = Math.PI / 180;
 
+/** Copies of a part from which on only those that are needed are drawn. */
+const CROWD = 64;
+
+/** Deviation of a solid from the part that is not seen [px]. */
+const COARSE = 1.3;
+
 interface Shown {
   part: ScenePart;
   placed: Placed;
@@ -18,6 +25,9 @@ interface Shown {
   levels: three.BufferGeometry[];
   /** Where the part is moved when the loom is exploded, for the factor 1 [m]. */
   apart: three.Vector3;
+  /** The matrices of all copies of a crowd, and their distance across [m]. */
+  all: Float32Array;
+  spacing: number;
 }
 
 export interface Pick {
@@ -40,8 +50,12 @@ export class Stage {
   private readonly plane = new three.Plane(new three.Vector3(-1, 0, 0), 0);
   private readonly box = new three.Box3();
   private readonly selectBox = new three.Box3();
+  private readonly product = new three.Matrix4();
+  private readonly frustum = new three.Frustum();
+  private readonly sphere = new three.Sphere();
   private look: Look = look(null);
   private waiting = 0;
+  private pictures = 0;
   private angles: Angles = { row: 0, knot: 0 };
   private followed: number | null = null;
   private followedAt = new three.Vector3();
@@ -52,7 +66,11 @@ export class Stage {
     readonly model: SceneModel,
     private readonly canvas: HTMLCanvasElement,
   ) {
-    this.renderer = new three.WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
+    this.renderer = new three.WebGLRenderer({
+      canvas,
+      antialias: !drawnBySoftware(),
+      powerPreference: "high-performance",
+    });
     this.renderer.localClippingEnabled = true;
     this.frames = new Frames(model);
     this.frames.update(this.angles);
@@ -91,8 +109,10 @@ export class Stage {
 
   readonly draw = (): void => {
     this.waiting = 0;
-    this.chooseLevels();
+    this.chooseDetail();
     this.renderer.render(this.scene, this.camera);
+    this.pictures += 1;
+    this.canvas.dataset["pictures"] = String(this.pictures);
     this.drawn();
   };
 
@@ -253,20 +273,6 @@ export class Stage {
     return found;
   }
 
-  /** The least of so many milliseconds that a picture takes, and their mean: drawn one after the other. */
-  measureRate(pictures: number): { mean: number; triangles: number; lines: number } {
-    const pixel = new Uint8Array(4);
-    const context = this.renderer.getContext();
-    const begin = performance.now();
-    for (let k = 0; k < pictures; k++) {
-      this.turn({ row: (k / pictures) * 2 * Math.PI, knot: 0 });
-      this.draw();
-      context.readPixels(0, 0, 1, 1, context.RGBA, context.UNSIGNED_BYTE, pixel);
-    }
-    const { triangles, lines } = this.renderer.info.render;
-    return { mean: (performance.now() - begin) / pictures, triangles, lines };
-  }
-
   private addLights(): void {
     const sun = new three.DirectionalLight(0xffffff, 1.7);
     sun.position.set(1.2, 2, 2.5);
@@ -291,7 +297,8 @@ export class Stage {
     const mesh = new three.InstancedMesh(levels[levels.length - 1], material, placed.count);
     mesh.name = part.name;
     mesh.frustumCulled = false;
-    this.parts.push({ part, placed, mesh, levels, apart: new three.Vector3() });
+    const spacing = spacingOf(placed.matrices, placed.count);
+    this.parts.push({ part, placed, mesh, levels, apart: new three.Vector3(), all: placed.matrices.slice(), spacing });
     this.scene.add(mesh);
   }
 
@@ -301,8 +308,10 @@ export class Stage {
     for (const shown of this.parts) this.arrange(shown);
   }
 
+  /** Writes where the copies of a part are; of a crowd that is chosen for each picture. */
   private arrange(shown: Shown): void {
-    const target = shown.mesh.instanceMatrix.array as Float32Array;
+    const crowd = shown.placed.count > CROWD;
+    const target = crowd ? shown.all : (shown.mesh.instanceMatrix.array as Float32Array);
     target.set(shown.placed.matrices);
     if (this.exploded > 0) {
       const { x, y, z } = shown.apart;
@@ -337,7 +346,7 @@ export class Stage {
       k < shown.placed.count;
       k = k + 1 === shown.placed.count ? k + 1 : Math.min(k + steps, shown.placed.count - 1)
     ) {
-      shown.mesh.getMatrixAt(k, matrix);
+      matrix.fromArray(shown.placed.count > CROWD ? shown.all : shown.mesh.instanceMatrix.array, 16 * k);
       const bounds = shown.levels[0]?.boundingBox;
       if (bounds) box.union(own.copy(bounds).applyMatrix4(matrix));
     }
@@ -368,11 +377,15 @@ export class Stage {
     this.camera.position.add(by);
   }
 
-  /** Of each part the coarsest solid whose deviation is less than a pixel where the camera looks. */
-  private chooseLevels(): void {
+  /** Of each part the coarsest solid whose deviation is less than a pixel where the camera looks; of crowds, the copies. */
+  private chooseDetail(): void {
     const far = this.camera.position.distanceTo(this.controls.target);
     const pixel = (2 * far * Math.tan((ANGLE_OF_VIEW * RADIANS) / 2)) / Math.max(this.canvas.height, 1);
-    for (const { part, mesh, levels } of this.parts) {
+    this.camera.updateMatrixWorld();
+    this.product.multiplyMatrices(this.camera.projectionMatrix, this.camera.matrixWorldInverse);
+    this.frustum.setFromProjectionMatrix(this.product);
+    for (const shown of this.parts) {
+      const { part, mesh, levels } = shown;
       const level =
         levels[
           levelFor(
@@ -381,7 +394,22 @@ export class Stage {
           )
         ];
       if (level !== undefined && mesh.geometry !== level) mesh.geometry = level;
+      if (shown.placed.count > CROWD) this.gather(shown, pixel);
     }
+  }
+
+  private gather(shown: Shown, pixel: number): void {
+    const stride = strideFor(shown.spacing, pixel);
+    this.sphere.radius = (shown.levels[0]?.boundingSphere?.radius ?? 1) + stride * shown.spacing;
+    const center = shown.levels[0]?.boundingSphere?.center ?? new three.Vector3();
+    this.sphere.radius += center.length();
+    const into = shown.mesh.instanceMatrix.array as Float32Array;
+    shown.mesh.count = thinned(shown.all, shown.placed.count, stride, into, (x, y, z) => {
+      this.sphere.center.set(x, y, z);
+      return this.frustum.intersectsSphere(this.sphere);
+    });
+    shown.mesh.instanceMatrix.needsUpdate = true;
+    shown.mesh.boundingSphere = null;
   }
 
   private paint(shown: Shown): void {
@@ -405,4 +433,13 @@ export class Stage {
     (grid.material as three.Material).opacity = 0.35;
     return grid;
   }
+}
+
+/** Whether the processor itself draws: then edges are not smoothed, which takes most of the time. */
+function drawnBySoftware(): boolean {
+  const context = document.createElement("canvas").getContext("webgl2");
+  const about = context?.getExtension("WEBGL_debug_renderer_info");
+  const name = about ? String(context?.getParameter(about.UNMASKED_RENDERER_WEBGL)) : "";
+  context?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|software|basic render/i.test(name);
 }

@@ -1,9 +1,10 @@
 /** The picture of a loom with everything that is set by hand; it needs no server. */
 import type { ComponentChildren } from "preact";
-import { useEffect, useRef, useState } from "preact/hooks";
-import { formatNumber, formatSpan, t } from "../../text";
-import { Button, IconButton, Segments, Select, Slider, Toggle } from "../../ui";
-import { type Angles, TURN } from "./motion";
+import { useCallback, useEffect, useRef, useState } from "preact/hooks";
+import { formatNumber, t } from "../../text";
+import { Button, Select, Slider, Toggle } from "../../ui";
+import { DriveBar } from "./drive-bar";
+import type { Angles } from "./motion";
 import { PartDetails, PartList } from "./parts";
 import { usePlayer } from "./player";
 import type { Drive, SceneModel } from "./scene";
@@ -37,9 +38,11 @@ export function Workbench({ model, above, below, drawing, live = null }: Workben
   const canvas = useRef<HTMLCanvasElement>(null);
   const labels = useRef<HTMLDivElement>(null);
   const stage = usePicture(model, canvas, labels, { names, onPick: setChosen });
-  const player = usePlayer(about.periods[drive], (angle) => {
-    stage.current?.turn({ row: drive === "row" ? angle : 0, knot: drive === "knot" ? angle : 0 });
-  });
+  const show = useCallback(
+    (angle: number) => stage.current?.turn({ row: drive === "row" ? angle : 0, knot: drive === "knot" ? angle : 0 }),
+    [drive, model],
+  );
+  const player = usePlayer(about.periods[drive], show);
   useEffect(() => stage.current?.choose(chosen), [chosen]);
   useEffect(() => stage.current?.followHead(followed === "" ? null : Number(followed)), [followed]);
   useEffect(() => stage.current?.section(axis === "none" ? null : axis, cut), [axis, cut]);
@@ -51,7 +54,7 @@ export function Workbench({ model, above, below, drawing, live = null }: Workben
     stage.current?.turn(live.angles);
   }, [live]);
   const key = (event: KeyboardEvent) => {
-    if (event.key === " ") player.toggle();
+    if (event.key === " ") player.playing.value = !player.playing.peek();
     else if (event.key === "Home") stage.current?.show("iso");
     else if (!stage.current?.key(event.key, event.shiftKey)) return;
     event.preventDefault();
@@ -59,7 +62,6 @@ export function Workbench({ model, above, below, drawing, live = null }: Workben
   const part = about.parts.find((one) => one.name === chosen);
   const heads = about.frames.find((one) => one.name === about.heads)?.origins[1] ?? 0;
   const copies = heads / 3;
-  const seconds = formatSpan((player.angle / TURN) * about.periods[drive]);
   return (
     <div class="loom">
       <div class="loom-picture">
@@ -74,41 +76,15 @@ export function Workbench({ model, above, below, drawing, live = null }: Workben
           onKeyDown={key}
         />
         <div class="loom-labels" ref={labels} aria-hidden="true" />
-        <div class="loom-drive">
-          <IconButton
-            icon={player.playing ? "pause" : "play"}
-            label={player.playing ? t("loom.pause") : t("loom.play")}
-            onClick={player.toggle}
-          />
-          <Segments
-            label={t("loom.drive")}
-            labelHidden
-            value={drive}
-            choices={(["row", "knot"] as const).map((value) => ({ value, label: t(`loom.${value}`) }))}
-            onChange={(to) => {
-              setDrive(to);
-              player.set(0);
-            }}
-          />
-          <Slider
-            label={t("loom.angle")}
-            value={player.angle}
-            min={0}
-            max={TURN}
-            step={TURN / 720}
-            text={t("loom.angleText", { angle: formatNumber((player.angle * 360) / TURN, 4), time: seconds })}
-            onInput={player.set}
-          />
-          <Select
-            label={t("loom.speed")}
-            value={String(player.speed)}
-            choices={[1, 2, 5, 10, 50].map((factor) => ({
-              value: String(1 / factor),
-              label: factor === 1 ? t("loom.fullSpeed") : t("loom.slower", { factor }),
-            }))}
-            onChange={(speed) => player.setSpeed(Number(speed))}
-          />
-        </div>
+        <DriveBar
+          player={player}
+          drive={drive}
+          period={about.periods[drive]}
+          onDrive={(to) => {
+            setDrive(to);
+            player.angle.value = 0;
+          }}
+        />
       </div>
       <div class="loom-side">
         {above}

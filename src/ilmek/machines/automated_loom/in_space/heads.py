@@ -12,6 +12,8 @@ from ilmek.arrays import FloatArray
 from ilmek.machines.arrangement.head_shape import HeadTool
 from ilmek.machines.automated_loom.cyclogram import CARRIAGE
 from ilmek.machines.automated_loom.in_space.maker import (
+    COARSE,
+    COARSEST,
     FINE,
     KNOT,
     SceneGroup,
@@ -107,7 +109,7 @@ def _cam_parts(made: SceneMaker) -> Iterator[ScenePart]:
         cam = masses[plate.name]
         checks = made.checked(*(f"weaver: {what}, {cam.name}" for what in _CAM_CHECKS), f"weaver: {cam.name}: ")
         yield plate_part(
-            plate, CAMS, x, machine=MACHINE, mass=float("nan"), checks=checks, deviations=(FINE, 10 * FINE)
+            plate, CAMS, x, machine=MACHINE, mass=float("nan"), checks=checks, deviations=(FINE, COARSE, COARSEST)
         )
         if cam.actuator.startswith("cam"):
             x += plate.thickness + params.cam_gap

@@ -1,0 +1,45 @@
+/** Which of many equal parts side by side are drawn: those in the picture; far away only some, wider in their stead. */
+
+/** The odd number of neighbours that one stands for, where neighbours are nearer than so many metres of a pixel. */
+export function strideFor(spacing: number, pixel: number): number {
+  const needed = (APART * pixel) / Math.max(spacing, 1e-9);
+  return needed <= 1 ? 1 : 2 * Math.floor(needed / 2) + 1;
+}
+
+/** Distance of neighbours that are drawn each [px]. */
+const APART = 4;
+
+/** Mean distance across of so many matrices, which stand one after the other across. */
+export function spacingOf(matrices: Float32Array, count: number): number {
+  if (count < 2) return Number.POSITIVE_INFINITY;
+  let [low, high] = [Number.POSITIVE_INFINITY, Number.NEGATIVE_INFINITY];
+  for (let k = 0; k < count; k++) {
+    const x = matrices[16 * k + 12] ?? 0;
+    if (x < low) low = x;
+    if (x > high) high = x;
+  }
+  return (high - low) / (count - 1);
+}
+
+/**
+ * Copies every `stride`-th matrix that is seen, as many times wider; the number of copies.
+ *
+ * seen  whether a sphere at (x, y, z) is in the picture
+ */
+export function thinned(
+  from: Float32Array,
+  count: number,
+  stride: number,
+  into: Float32Array,
+  seen: (x: number, y: number, z: number) => boolean,
+): number {
+  let drawn = 0;
+  for (let k = stride >> 1; k < count; k += stride) {
+    const at = 16 * k;
+    if (!seen(from[at + 12] ?? 0, from[at + 13] ?? 0, from[at + 14] ?? 0)) continue;
+    const to = 16 * drawn++;
+    for (let n = 0; n < 16; n++) into[to + n] = from[at + n] ?? 0;
+    for (let n = 0; n < 3; n++) into[to + n] = stride * (from[at + n] ?? 0);
+  }
+  return drawn;
+}
