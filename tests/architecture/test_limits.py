@@ -27,7 +27,7 @@ def test_a_limit_is_that_of_the_program(limit: str, constant: str) -> None:
 
 
 COMMANDS = ["weave", "chart", "mechanism", "cyclogram", "knot", "inspect", "simulate", "call", "check", "convert"]
-COMMANDS += ["run", "serve", "status", "hold", "resume", "stop", "plan"]
+COMMANDS += ["run", "serve", "status", "hold", "resume", "stop", "plan", "studio"]
 
 
 @pytest.mark.parametrize("name", COMMANDS)

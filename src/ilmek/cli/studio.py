@@ -20,7 +20,7 @@ Examples:
   ilmek studio carpet --port 8500
   ilmek studio carpet --host 0.0.0.0 --password-file password.txt
 
-Limits: upload 64 MB; 8 GB of memory a request; 100 open pages.
+Limits: upload 64 MB; 100 open pages; 300 connections; 20 works at a time.
 """
 
 DEFAULT_PROJECT = Path("studio-project")

@@ -22,7 +22,7 @@ from ilmek.web.framing import JSON, Ask, Cancel, Message, News, Ready, Reply, St
 GRACE = 4.0
 """Time that a cancelled request has to end by itself before its worker is ended [s]."""
 
-MEMORY = 8 * 2**30
+MEMORY = 8_000_000_000
 """Memory of a worker [bytes]."""
 
 MOST_WAITING = 200

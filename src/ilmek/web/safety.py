@@ -31,7 +31,7 @@ HEADERS = {
 }
 """Headers of every answer beside the content policy."""
 
-LONGEST_BODY = 64 * 2**20
+LONGEST_BODY = 64_000_000
 """Largest body of a request [bytes]."""
 
 CLOSE = {"connection": "close"}
