@@ -133,6 +133,8 @@ def test_a_picture_is_sent_small(context: Context) -> None:
     assert (about["width"], about["height"]) == (160, 240)
     assert (about["shown_width"], about["shown_height"]) == (67, 100)
     assert len(pixels) >= 67 * 100 * 3
+    turned, _ = _parts(picture(PictureRequest("pictures/photo.png", turn="90deg"), context))
+    assert (turned["width"], turned["height"]) == (240, 160)
 
 
 @pytest.mark.parametrize("path", ["../carpet.toml", "/etc/passwd", "pictures/../../x.png"])

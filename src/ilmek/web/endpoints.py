@@ -223,6 +223,7 @@ ENDPOINTS: tuple[Endpoint, ...] = (
         "The chart of a recipe, saved or not: yarns, checks, cost; then one byte a knot (packed).",
         limit=10 * 60 * SECOND,
         affinity="carpet",
+        records=("ChartAnswer",),
     ),
     Endpoint(
         "POST",
@@ -253,5 +254,6 @@ ENDPOINTS: tuple[Endpoint, ...] = (
         "studio.carpet:picture",
         "A picture of the project as it is read, made small (packed).",
         affinity="carpet picture",
+        records=("PictureAbout",),
     ),
 )

@@ -11,6 +11,7 @@ from ilmek.arrays import Rgb
 from ilmek.carpet.calling import count_text, row_steps
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.design import resampled
+from ilmek.carpet.fitting import FitParams, prepare_picture
 from ilmek.carpet.outline import find_outline
 from ilmek.carpet.rows import row_runs
 from ilmek.errors import IlmekError, ParameterError
@@ -40,6 +41,7 @@ from ilmek.jobs.studio.carpet_answers import (
     SourcePicture,
 )
 from ilmek.jobs.studio.carpet_stages import KeptStages
+from ilmek.jobs.studio.machine_view import shown_check
 from ilmek.jobs.studio.project_folder import ProjectFolder
 from ilmek.jobs.yarn_choice import proposed_shades
 
@@ -85,6 +87,8 @@ def picture(request: PictureRequest, context: Context) -> Binary:
     """A picture of the project as it is read, made small: `PictureAbout`, then its pixels. Raises PictureError."""
     with _plain_errors(context):
         rgb, notes = _pixels(request, context)
+        fitting = FitParams.read({"corners": request.corners or None, "turn": request.turn or 0.0})
+        rgb, _ = prepare_picture(rgb, fitting, context.progress)
     height, width = rgb.shape[:2]
     scale = min(1.0, max(64, min(request.most, 4000)) / max(height, width))
     shown = resampled(rgb, max(1, round(scale * height)), max(1, round(scale * width)), context.progress)
@@ -210,7 +214,7 @@ def _answer(made: ChartResult, draft: bool, seconds: float) -> ChartAnswer:
         mass_per_area=bill.mass_per_area,
         price=bill.price,
         currency=bill.currency,
-        checks=tuple(check.as_json() for check in made.checks),
+        checks=tuple(shown_check(check) for check in made.checks),
         warnings=made.warnings,
         notes=made.notes,
         half_knots=sum(chart.tied.half),

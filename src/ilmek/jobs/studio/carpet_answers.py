@@ -3,6 +3,8 @@
 from dataclasses import dataclass, field
 from typing import Any
 
+from ilmek.jobs.studio.machine_view import ShownCheck
+
 RECIPE = "carpet.toml"
 """The recipe of a project."""
 
@@ -42,10 +44,15 @@ class RowRequest:
 
 @dataclass(frozen=True, slots=True)
 class PictureRequest:
-    """A picture of the project, and the longest side at which it is sent [pixels]."""
+    """A picture of the project, and the longest side at which it is sent [pixels].
+
+    corners, turn  as in a recipe: the picture is first straightened and turned
+    """
 
     picture: str
     most: int = 1400
+    corners: str = ""
+    turn: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,7 +144,7 @@ class ChartAnswer:
     mass_per_area: float
     price: float | None
     currency: str
-    checks: tuple[dict[str, Any], ...]
+    checks: tuple[ShownCheck, ...]
     warnings: tuple[str, ...]
     notes: tuple[str, ...]
     half_knots: int

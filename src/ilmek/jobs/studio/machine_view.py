@@ -199,22 +199,26 @@ def _against(check: Any) -> str:
     return f"{value}, limit {check.relation} {limit}"
 
 
+def shown_check(check: Check, machine: str = "") -> ShownCheck:
+    """A check as it is shown; machine: in it that the check is of."""
+    value, limit = in_words(check)
+    return ShownCheck(
+        name=check.name,
+        machine=machine,
+        ok=check.ok,
+        value=_number(check.value),
+        limit=_number(check.limit),
+        relation=check.relation,
+        value_text=value,
+        limit_text=limit,
+        ratio=ratio_of(check),
+        source=check.source,
+        cure=check.cure,
+    )
+
+
 def _checks(report: Report, machine: str) -> Iterator[ShownCheck]:
-    for one in report.checks:
-        value, limit = in_words(one)
-        yield ShownCheck(
-            name=one.name,
-            machine=machine,
-            ok=one.ok,
-            value=_number(one.value),
-            limit=_number(one.limit),
-            relation=one.relation,
-            value_text=value,
-            limit_text=limit,
-            ratio=ratio_of(one),
-            source=one.source,
-            cure=one.cure,
-        )
+    yield from (shown_check(one, machine) for one in report.checks)
     for child in report.children:
         yield from _checks(child, f"{machine}: {child.machine}" if machine else child.machine)
 

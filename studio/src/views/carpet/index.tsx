@@ -1,12 +1,161 @@
-import { t } from "../../text";
-import { CopyCommand } from "../../ui";
+import { useEffect, useState } from "preact/hooks";
+import { goTo, type ViewProps } from "../../app/routes";
+import { refreshProject, SaveState, useDocument } from "../../project";
+import { formatNumber, t } from "../../text";
+import { Button, Select, Split, Tabs } from "../../ui";
+import { Bill } from "./bill";
+import "./carpet.css";
+import { remember } from "../../app/settings";
+import { ChartCanvas } from "./chart-canvas";
+import { type CarpetModel, modelOf, type Recipe } from "./model";
+import { recipesOf, Settings, takePicture } from "./settings";
+import { Tools } from "./tools";
+import { Weaver } from "./weaver";
+import { Yarns } from "./yarns";
 
-export default function Carpet() {
+/** The carpet: from a picture to the chart, its yarns and its rows. */
+export default function Carpet({ name }: ViewProps) {
+  const path = name === "" ? "carpet.toml" : `${name}.toml`;
+  return <RecipeView key={path} path={path} />;
+}
+
+function RecipeView({ path }: { path: string }) {
+  const model = modelOf(path);
+  const document = useDocument<Recipe>(path);
+  const [dragging, setDragging] = useState(false);
+  useEffect(() => {
+    void refreshProject().catch(() => undefined);
+    return model.follow();
+  }, [model]);
+  const drop = (event: DragEvent) => {
+    event.preventDefault();
+    setDragging(false);
+    const file = event.dataTransfer?.files[0];
+    if (file !== undefined) void takePicture(model, file);
+  };
+  const over = (event: DragEvent) => {
+    event.preventDefault();
+    setDragging(true);
+  };
+  const onRow = (row: number) => {
+    remember(`weaver.${path}`, `${row} 0 alternate`);
+    model.weaving.value = true;
+  };
   return (
-    <div class="app-plain">
-      <h1>{t("carpet.title")}</h1>
-      <p>{t("carpet.lead")}</p>
-      <CopyCommand command="ilmek weave carpet.toml" />
+    <section
+      class={`carpet-view${dragging ? " dragging" : ""}`}
+      aria-label={t("carpet.title")}
+      onDragOver={over}
+      onDragLeave={() => setDragging(false)}
+      onDrop={drop}
+    >
+      <header class="ui-view-head carpet-head">
+        <h1>{t("carpet.title")}</h1>
+        <RecipeChoice path={path} />
+        <SaveState document={document as never} />
+        <Timing model={model} />
+        <Button
+          pressed={model.weaving.value}
+          onClick={() => {
+            model.weaving.value = !model.weaving.peek();
+          }}
+        >
+          {t("carpet.weaver")}
+        </Button>
+      </header>
+      <Problem model={model} />
+      {model.weaving.value ? (
+        <Weaver
+          model={model}
+          onClose={() => {
+            model.weaving.value = false;
+          }}
+        />
+      ) : (
+        <Split
+          name="carpet"
+          width={360}
+          first={<Side model={model} onRow={onRow} />}
+          second={<Sheet model={model} />}
+        />
+      )}
+    </section>
+  );
+}
+
+function Sheet({ model }: { model: CarpetModel }) {
+  return (
+    <div class="carpet-main">
+      <Tools model={model} />
+      <ChartCanvas model={model} />
+    </div>
+  );
+}
+
+type SideTab = "settings" | "yarns" | "bill";
+
+function Side({ model, onRow }: { model: CarpetModel; onRow: (row: number) => void }) {
+  const [tab, setTab] = useState<SideTab>("settings");
+  return (
+    <div class="carpet-side">
+      <Tabs
+        label={t("carpet.title")}
+        value={tab}
+        tabs={[
+          { value: "settings", label: t("carpet.settings") },
+          { value: "yarns", label: t("carpet.yarns") },
+          { value: "bill", label: t("carpet.result") },
+        ]}
+        onChange={setTab}
+      >
+        {tab === "settings" && <Settings model={model} />}
+        {tab === "yarns" && <Yarns model={model} />}
+        {tab === "bill" && <Bill model={model} onRow={onRow} />}
+      </Tabs>
+    </div>
+  );
+}
+
+function RecipeChoice({ path }: { path: string }) {
+  const paths = recipesOf();
+  if (paths.length < 2) return <p>{path}</p>;
+  const choices = [...new Set([path, ...paths])].map((one) => ({ value: one, label: one }));
+  return (
+    <Select
+      label={t("carpet.recipe")}
+      value={path}
+      choices={choices}
+      onChange={(chosen) => goTo("carpet", chosen === "carpet.toml" ? "" : chosen.replace(/\.toml$/, ""))}
+    />
+  );
+}
+
+function Timing({ model }: { model: CarpetModel }) {
+  const chart = model.chart.value;
+  if (chart === null) return null;
+  const { rows, columns, draft, reading } = chart.about;
+  const waited = formatNumber(model.waited.value, 3);
+  const kind = draft && reading === "photo" ? t("carpet.draft") : t("carpet.exactChart");
+  return (
+    <p class="carpet-timing" aria-live="off">
+      {model.busy.value ? t("carpet.making") : t("carpet.timing", { rows, columns, kind, waited })}
+    </p>
+  );
+}
+
+function Problem({ model }: { model: CarpetModel }) {
+  const problem = model.problem.value;
+  if (problem === null) return null;
+  return (
+    <div class="ui-callout bad carpet-problem" role="alert">
+      <strong>{problem.given}</strong>
+      {problem.allowed && <p>{t("carpet.allowed", { allowed: problem.allowed })}</p>}
+      {problem.do && <p>{problem.do}</p>}
+      {model.edits().length > 0 && problem.given.includes("edits.") && (
+        <Button size="small" onClick={() => model.set({ edits: model.edits().slice(0, -1) })}>
+          {t("carpet.dropEdit")}
+        </Button>
+      )}
     </div>
   );
 }

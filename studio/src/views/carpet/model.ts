@@ -1,0 +1,174 @@
+/** The state of the view: the recipe's document, its chart, the tool in hand. */
+import { computed, effect, type ReadonlySignal, signal } from "@preact/signals";
+import { type Latest, latest } from "../../api/latest";
+import type { ChartAnswer } from "../../api/messages";
+import { ApiError, type Packed, postPacked } from "../../api/request";
+import { remember, remembered } from "../../app/settings";
+import { type Document, openDocument } from "../../project";
+import type { Grid, Knot } from "./geometry";
+
+/** The data of a recipe's file. */
+export type Recipe = Record<string, unknown>;
+
+export interface Chart {
+  about: ChartAnswer;
+  knots: Uint8Array;
+  grid: Grid;
+}
+
+export interface Source {
+  key: string;
+  width: number;
+  height: number;
+  pixels: Uint8Array;
+}
+
+export const TOOLS = ["pan", "pencil", "line", "fill", "mirror", "repeat", "border"] as const;
+export type Tool = (typeof TOOLS)[number];
+
+/** Pause after the last change before a chart is made with all colours of a photo [ms]. */
+const PAUSE = 450;
+
+/** Time after which a chart in the making is given up for a newer state [ms]. */
+const PATIENCE = 3000;
+
+export class CarpetModel {
+  readonly document: Document<Recipe>;
+  readonly chart = signal<Chart | null>(null);
+  readonly source = signal<Source | null>(null);
+  /** What the server refuses in the recipe; null: nothing. */
+  readonly problem = signal<ApiError | null>(null);
+  readonly busy = signal(false);
+  /** Time that the last chart took, from the change to the answer [ms]. */
+  readonly waited = signal(0);
+  readonly tool = signal<Tool>("pan");
+  /** Name of the yarn that the tools give. */
+  readonly yarn = signal("");
+  /** Tile of the tool repeat, once it is chosen. */
+  readonly tile = signal<readonly [Knot, Knot] | null>(null);
+  readonly borderWidth = signal(3);
+  readonly mirror = signal<"across" | "along" | "both">("across");
+  readonly split = signal(Number(remembered("carpet.split") ?? "1"));
+  readonly left = signal<"chart" | "source">("chart");
+  readonly weaving = signal(false);
+  readonly recipe: ReadonlySignal<Recipe | null>;
+  readonly yarnIndex: ReadonlySignal<number>;
+  readonly #ask: Latest<{ recipe: Recipe; draft: boolean }>;
+  #timer: ReturnType<typeof setTimeout> | undefined;
+
+  constructor(readonly path: string) {
+    this.document = openDocument<Recipe>(path);
+    this.recipe = computed(() => this.document.data.value);
+    this.yarnIndex = computed(
+      () => this.chart.value?.about.yarns.findIndex((yarn) => yarn.name === this.yarn.value) ?? -1,
+    );
+    let began = 0;
+    this.#ask = latest(
+      ({ recipe, draft }: { recipe: Recipe; draft: boolean }, abort) => {
+        this.busy.value = true;
+        began = performance.now();
+        const source = this.source.peek()?.key ?? "";
+        return postPacked<ChartAnswer>("/carpet/chart", { recipe, path, draft, source }, abort);
+      },
+      (answer, { recipe }) => {
+        this.waited.value = performance.now() - began;
+        this.#take(answer, recipe);
+      },
+      (error) => {
+        this.busy.value = false;
+        this.problem.value = error instanceof ApiError ? error : null;
+      },
+      PATIENCE,
+    );
+  }
+
+  /** Follows the document until the returned function is called. */
+  follow(): () => void {
+    const end = effect(() => {
+      const recipe = this.recipe.value;
+      clearTimeout(this.#timer);
+      if (recipe !== null) this.#ask({ recipe, draft: true });
+    });
+    const kept = effect(() => remember("carpet.split", String(this.split.value)));
+    return () => {
+      end();
+      kept();
+      clearTimeout(this.#timer);
+      this.#ask.cancel();
+      this.busy.value = false;
+    };
+  }
+
+  #take({ about, parts }: Packed<ChartAnswer>, recipe: Recipe): void {
+    const { rows, columns, width, length, source } = about;
+    const pixels = source?.sent ? 3 * source.width * source.height : 0;
+    const [knots, shown] = parts([rows * columns, pixels]);
+    this.busy.value = false;
+    this.problem.value = null;
+    if (source?.sent && shown !== undefined) {
+      this.source.value = { key: source.key, width: source.width, height: source.height, pixels: shown };
+    }
+    const aspect = width / columns / (length / rows);
+    this.chart.value = { about, knots: knots ?? new Uint8Array(), grid: { rows, columns, aspect } };
+    if (!about.yarns.some((yarn) => yarn.name === this.yarn.peek())) this.yarn.value = about.yarns[0]?.name ?? "";
+    clearTimeout(this.#timer);
+    // A draft differs from the chart where the picture was read as a photo.
+    if (about.draft && about.reading === "photo") {
+      this.#timer = setTimeout(() => {
+        if (this.recipe.peek() === recipe) this.#ask({ recipe, draft: false });
+      }, PAUSE);
+    }
+  }
+
+  /** A value of the recipe as text; "" where it is not given. */
+  text(key: string): string {
+    const value = this.recipe.value?.[key];
+    if (Array.isArray(value)) return value.join(", ");
+    return value === undefined || value === null ? "" : String(value);
+  }
+
+  /** Sets values of the recipe; "", null and undefined take a key out. */
+  set(values: Recipe): void {
+    this.document.update((recipe) => {
+      for (const [key, value] of Object.entries(values)) {
+        if (value === "" || value === null || value === undefined) delete recipe[key];
+        else recipe[key] = value;
+      }
+      return recipe;
+    });
+  }
+
+  /** The edits of the recipe. */
+  edits(): readonly string[] {
+    const edits = this.recipe.value?.["edits"];
+    return Array.isArray(edits) ? (edits as string[]) : [];
+  }
+
+  /** Adds edits to the recipe; undo takes them out again. */
+  edit(lines: readonly string[]): void {
+    if (lines.length === 0) return;
+    this.document.update((recipe) => {
+      const before = Array.isArray(recipe["edits"]) ? (recipe["edits"] as string[]) : [];
+      return { ...recipe, edits: [...before, ...lines] };
+    });
+  }
+}
+
+const models = new Map<string, CarpetModel>();
+
+/** The model of a recipe: the same one as long as the page is open. */
+export function modelOf(path: string): CarpetModel {
+  const known = models.get(path);
+  if (known !== undefined) return known;
+  const made = new CarpetModel(path);
+  models.set(path, made);
+  return made;
+}
+
+/** Names of a list of yarns as the recipe has them: a list, or texts with commas or semicolons. */
+export function namesOf(value: unknown): string[] {
+  if (Array.isArray(value)) return value.map(String);
+  if (typeof value !== "string") return [];
+  const names = value.match(/"[^"]*"|'[^']*'|[^,;]+/g) ?? [];
+  return names.map((name) => name.trim().replace(/^(["'])(.*)\1$/, "$2")).filter(Boolean);
+}

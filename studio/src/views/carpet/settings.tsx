@@ -1,0 +1,247 @@
+import { useEffect, useId, useRef, useState } from "preact/hooks";
+import { filesOf, project, uploadPicture } from "../../project";
+import { formatNumber, t } from "../../text";
+import { Button, Select, Slider, toast } from "../../ui";
+import { Field } from "../../ui/field";
+import type { CarpetModel } from "./model";
+import { SourceDialog } from "./source";
+
+/** What the carpet is made of and how its picture is read: the keys of the recipe. */
+export function Settings({ model }: { model: CarpetModel }) {
+  const recipe = model.recipe.value;
+  const [source, setSource] = useState<"crop" | "corners" | null>(null);
+  if (recipe === null) return null;
+  const picture = model.text("picture");
+  const composed = picture === "";
+  return (
+    <div class="ui-stack">
+      <Picture model={model} />
+      {composed && <p class="ui-callout">{t("carpet.composed")}</p>}
+      <div class="carpet-pair">
+        <TextSetting model={model} name="size" label={t("carpet.size")} help={t("carpet.sizeHelp")} />
+        <TextSetting model={model} name="quality" label={t("carpet.quality")} help={t("carpet.qualityHelp")} />
+        <ChoiceSetting model={model} name="knot" label={t("carpet.knot")} choices={["symmetric", "asymmetric"]} />
+        <ChoiceSetting
+          model={model}
+          name="read"
+          label={t("carpet.reading")}
+          choices={["auto", "exact", "flat", "photo"]}
+        />
+      </div>
+      {!composed && (
+        <details class="ui-details" open>
+          <summary>{t("carpet.fitTitle")}</summary>
+          <div class="ui-stack">
+            <ChoiceSetting
+              model={model}
+              name="fit"
+              label={t("carpet.fit")}
+              choices={["auto", "crop", "pad", "stretch", "turn"]}
+            />
+            <Turn model={model} />
+            <div class="ui-row">
+              <Button onClick={() => setSource("crop")}>{t("carpet.cropPicture")}</Button>
+              <Button onClick={() => setSource("corners")}>{t("carpet.setCorners")}</Button>
+            </div>
+            <p class="ui-help">{fitText(model)}</p>
+          </div>
+        </details>
+      )}
+      <details class="ui-details" open>
+        <summary>{t("carpet.tone")}</summary>
+        <div class="ui-stack">
+          <ShareSetting model={model} name="brightness" label={t("carpet.brightness")} least={-0.9} most={0.9} />
+          <ShareSetting model={model} name="contrast" label={t("carpet.contrast")} least={-1} most={2} />
+          <ShareSetting model={model} name="saturation" label={t("carpet.saturation")} least={-1} most={2} />
+          <TextSetting model={model} name="white" label={t("carpet.white")} help={t("carpet.whiteHelp")} />
+        </div>
+      </details>
+      {source !== null && <SourceDialog model={model} mode={source} onClose={() => setSource(null)} />}
+    </div>
+  );
+}
+
+function fitText(model: CarpetModel): string {
+  const fit = model.chart.value?.about.fit ?? "";
+  const notes = [model.text("crop") && t("carpet.isCropped"), model.text("corners") && t("carpet.isStraightened")];
+  return [fit, ...notes].filter(Boolean).join("; ");
+}
+
+/** The picture: one of the project, or a file that is dropped or chosen. */
+function Picture({ model }: { model: CarpetModel }) {
+  const input = useRef<HTMLInputElement>(null);
+  const pictures = project.value?.pictures ?? [];
+  const chosen = model.text("picture");
+  const known = pictures.map((one) => one.path);
+  const choices = [...new Set([chosen, ...known])].map((path) => ({
+    value: path,
+    label: path || t("carpet.noPicture"),
+  }));
+  return (
+    <div class="ui-stack">
+      <Select
+        label={t("carpet.picture")}
+        value={chosen}
+        choices={choices}
+        onChange={(picture) => choosePicture(model, picture)}
+      />
+      <div class="ui-row">
+        <Button icon="upload" onClick={() => input.current?.click()}>
+          {t("carpet.choosePicture")}
+        </Button>
+        <span class="ui-muted">{t("carpet.dropHint")}</span>
+      </div>
+      <input
+        ref={input}
+        class="visually-hidden"
+        type="file"
+        accept="image/*,.oxs"
+        tabIndex={-1}
+        aria-label={t("carpet.choosePicture")}
+        onChange={(event) => {
+          const file = event.currentTarget.files?.[0];
+          if (file !== undefined) void takePicture(model, file);
+          event.currentTarget.value = "";
+        }}
+      />
+    </div>
+  );
+}
+
+/** Another picture: what held of the one before only is taken out. */
+function choosePicture(model: CarpetModel, picture: string): void {
+  if (picture !== "") model.set({ picture, plain: "", repeat: null, crop: "", corners: "", turn: "", edits: null });
+}
+
+/** Puts a file into the project and makes it the recipe's picture. */
+export async function takePicture(model: CarpetModel, file: File): Promise<void> {
+  try {
+    choosePicture(model, (await uploadPicture(file)).path);
+  } catch (error) {
+    toast(t("carpet.notTaken", { name: file.name }), "bad", error instanceof Error ? error.message : "");
+  }
+}
+
+interface SettingProps {
+  model: CarpetModel;
+  name: string;
+  label: string;
+  help?: string;
+}
+
+/** A text of the recipe, taken when the field is left or Enter is pressed. */
+export function TextSetting({ model, name, label, help }: SettingProps) {
+  const value = model.text(name);
+  const [draft, setDraft] = useState(value);
+  useEffect(() => setDraft(value), [value]);
+  return (
+    <Field label={label} help={help}>
+      {(tied) => (
+        <input
+          {...tied}
+          class="ui-input"
+          type="text"
+          autocomplete="off"
+          spellcheck={false}
+          value={draft}
+          onInput={(event) => setDraft(event.currentTarget.value)}
+          onChange={(event) => model.set({ [name]: event.currentTarget.value.trim() })}
+        />
+      )}
+    </Field>
+  );
+}
+
+const CHOICE_TEXTS = {
+  auto: () => t("carpet.auto"),
+  exact: () => t("carpet.exact"),
+  flat: () => t("carpet.flat"),
+  photo: () => t("carpet.photo"),
+  crop: () => t("carpet.crop"),
+  pad: () => t("carpet.pad"),
+  stretch: () => t("carpet.stretch"),
+  turn: () => t("carpet.quarterTurn"),
+  symmetric: () => t("carpet.symmetric"),
+  asymmetric: () => t("carpet.asymmetric"),
+};
+type ChoiceName = keyof typeof CHOICE_TEXTS;
+
+function ChoiceSetting({ model, name, label, choices }: SettingProps & { choices: readonly ChoiceName[] }) {
+  const [first] = choices;
+  const value = (model.text(name) || model.text(name === "read" ? "reading" : name) || first) as ChoiceName;
+  return (
+    <Select
+      label={label}
+      value={value}
+      choices={choices.map((choice) => ({ value: choice, label: CHOICE_TEXTS[choice]() }))}
+      onChange={(chosen) => {
+        const extra =
+          name === "read" ? { reading: "" } : name === "fit" && chosen !== "pad" ? { border_colour: "" } : {};
+        model.set({ ...extra, [name]: chosen === first ? "" : chosen });
+      }}
+    />
+  );
+}
+
+/** A share as a slider in per cent; the recipe takes it as a number. */
+function ShareSetting({ model, name, label, least, most }: SettingProps & { least: number; most: number }) {
+  const share = shareOf(model.recipe.value?.[name]);
+  const percent = Math.round(100 * share);
+  return (
+    <Slider
+      label={label}
+      value={share}
+      min={least}
+      max={most}
+      step={0.01}
+      text={`${percent > 0 ? "+" : ""}${formatNumber(percent)} %`}
+      onInput={(value) => model.set({ [name]: Math.abs(value) < 0.005 ? "" : Math.round(100 * value) / 100 })}
+    />
+  );
+}
+
+/** A share as the recipe may have it: a number, or a text with %. */
+export function shareOf(value: unknown): number {
+  if (typeof value === "number") return value;
+  const found = typeof value === "string" ? /^\s*([+-]?[\d.]+)\s*(%?)\s*$/.exec(value) : null;
+  if (found === null) return 0;
+  return Number(found[1]) / (found[2] === "%" ? 100 : 1);
+}
+
+/** An angle of the recipe in degrees. */
+export function degreesOf(value: unknown): number {
+  if (typeof value === "number") return (180 * value) / Math.PI;
+  const found = typeof value === "string" ? /^\s*([+-]?[\d.]+)\s*(deg|°|rad)?\s*$/.exec(value) : null;
+  if (found === null) return 0;
+  return found[2] === "deg" || found[2] === "°" ? Number(found[1]) : (180 * Number(found[1])) / Math.PI;
+}
+
+function Turn({ model }: { model: CarpetModel }) {
+  const degrees = degreesOf(model.recipe.value?.["turn"]);
+  const give = (value: number) => {
+    const rounded = Math.round(10 * value) / 10;
+    model.set({ turn: rounded === 0 ? "" : `${rounded}deg` });
+  };
+  const id = useId();
+  return (
+    <div class="carpet-turn">
+      <Slider
+        label={t("carpet.turn")}
+        value={degrees}
+        min={-180}
+        max={180}
+        step={0.5}
+        text={`${formatNumber(degrees)}°`}
+        onInput={give}
+      />
+      <Button size="small" id={id} onClick={() => give(((degrees + 90 + 180) % 360) - 180)}>
+        {t("carpet.quarter")}
+      </Button>
+    </div>
+  );
+}
+
+/** The recipes of the project. */
+export function recipesOf(): readonly string[] {
+  return filesOf("carpet").map((file) => file.path);
+}

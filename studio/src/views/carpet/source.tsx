@@ -1,0 +1,195 @@
+import { useEffect, useRef, useState } from "preact/hooks";
+import type { Corners, PictureAbout } from "../../api/messages";
+import { ApiError, post, postPacked } from "../../api/request";
+import { t } from "../../text";
+import { Button, Dialog } from "../../ui";
+import type { CarpetModel } from "./model";
+import { cornersText, cropHandles, cropText, movedCrop, type PicturePoint, pointsOf } from "./parts";
+
+interface SourceProps {
+  model: CarpetModel;
+  mode: "crop" | "corners";
+  onClose: () => void;
+}
+
+/** The picture of the recipe, and on it the part that is used, or the corners of a photographed carpet. */
+export function SourceDialog({ model, mode, onClose }: SourceProps) {
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const [about, setAbout] = useState<PictureAbout | null>(null);
+  const [points, setPoints] = useState<PicturePoint[]>([]);
+  const [problem, setProblem] = useState("");
+  const [busy, setBusy] = useState(false);
+  const picture = model.text("picture");
+
+  useEffect(() => {
+    const abort = new AbortController();
+    // A crop counts in the picture after it is straightened and turned.
+    const before = mode === "crop" ? { corners: model.text("corners"), turn: model.text("turn") } : {};
+    postPacked<PictureAbout>("/carpet/picture", { picture, most: 1200, ...before }, abort.signal).then(
+      ({ about: found, parts }) => {
+        const { shown_width: width, shown_height: height } = found;
+        const [pixels] = parts([3 * width * height]);
+        draw(canvas.current, width, height, pixels ?? new Uint8Array());
+        setAbout(found);
+        setPoints(startOf(model, mode, found));
+      },
+      (error: unknown) => !abort.signal.aborted && setProblem(textOf(error)),
+    );
+    return () => abort.abort();
+  }, [picture, mode]);
+
+  const find = async () => {
+    setBusy(true);
+    setProblem("");
+    try {
+      const found = await post<Corners>("/carpet/corners", { picture });
+      setPoints(found.corners.map(([x, y]) => ({ x, y })));
+    } catch (error) {
+      setProblem(textOf(error));
+    }
+    setBusy(false);
+  };
+  const apply = () => {
+    if (about === null) return;
+    const [first, last] = [points[0], points[1]];
+    if (mode === "corners") model.set({ corners: cornersText(points) });
+    else if (first && last) model.set({ crop: cropText(first, last, about.width, about.height) });
+    onClose();
+  };
+  const handles = mode === "crop" ? cropHandles(points) : points;
+  const move = (at: number, to: PicturePoint) => {
+    if (about === null) return;
+    const held = { x: Math.min(Math.max(to.x, 0), about.width), y: Math.min(Math.max(to.y, 0), about.height) };
+    setPoints(mode === "crop" ? movedCrop(points, at, held) : points.map((one, index) => (index === at ? held : one)));
+  };
+  return (
+    <Dialog
+      title={mode === "crop" ? t("carpet.cropPicture") : t("carpet.setCorners")}
+      open
+      wide
+      onClose={onClose}
+      actions={
+        <>
+          {mode === "corners" && (
+            <Button onClick={() => void find()} disabled={busy || about === null}>
+              {busy ? t("carpet.finding") : t("carpet.findCorners")}
+            </Button>
+          )}
+          <Button
+            onClick={() => {
+              model.set({ [mode]: "" });
+              onClose();
+            }}
+          >
+            {mode === "crop" ? t("carpet.wholePicture") : t("carpet.noCorners")}
+          </Button>
+          <Button kind="primary" onClick={apply} disabled={about === null}>
+            {t("carpet.apply")}
+          </Button>
+        </>
+      }
+    >
+      <p class="ui-help">{mode === "crop" ? t("carpet.cropHelp") : t("carpet.cornersHelp")}</p>
+      {problem !== "" && (
+        <p class="ui-callout bad" role="alert">
+          {problem}
+        </p>
+      )}
+      <div class="carpet-source">
+        <canvas ref={canvas} width={1} height={1} />
+        {about !== null && (
+          <>
+            <svg viewBox={`0 0 ${about.width} ${about.height}`} preserveAspectRatio="none" aria-hidden="true">
+              <path
+                fill-rule="evenodd"
+                d={`M0 0H${about.width}V${about.height}H0ZM${handles.map(({ x, y }) => `${x} ${y}`).join("L")}Z`}
+              />
+            </svg>
+            {handles.map((point, at) => (
+              <Handle key={at} at={at} point={point} about={about} onMove={move} />
+            ))}
+          </>
+        )}
+      </div>
+    </Dialog>
+  );
+}
+
+interface HandleProps {
+  at: number;
+  point: PicturePoint;
+  about: PictureAbout;
+  onMove: (at: number, to: PicturePoint) => void;
+}
+
+/** A corner that is dragged, or moved by the arrow keys. */
+function Handle({ at, point, about, onMove }: HandleProps) {
+  const names = [t("carpet.upperLeft"), t("carpet.upperRight"), t("carpet.lowerRight"), t("carpet.lowerLeft")];
+  const drag = (event: PointerEvent) => {
+    const handle = event.currentTarget as HTMLElement;
+    if (!handle.hasPointerCapture(event.pointerId)) return;
+    const box = handle.parentElement?.getBoundingClientRect();
+    if (box === undefined) return;
+    onMove(at, {
+      x: ((event.clientX - box.left) / box.width) * about.width,
+      y: ((event.clientY - box.top) / box.height) * about.height,
+    });
+  };
+  const key = (event: KeyboardEvent) => {
+    const step = (event.shiftKey ? 0.05 : 0.005) * Math.max(about.width, about.height);
+    const by = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step] }[event.key];
+    if (by === undefined) return;
+    event.preventDefault();
+    onMove(at, { x: point.x + (by[0] ?? 0), y: point.y + (by[1] ?? 0) });
+  };
+  const place = { left: `${(100 * point.x) / about.width}%`, top: `${(100 * point.y) / about.height}%` };
+  return (
+    <button
+      type="button"
+      class="carpet-handle"
+      style={place}
+      aria-label={`${names[at] ?? ""}: ${Math.round(point.x)}, ${Math.round(point.y)}`}
+      onPointerDown={(event) => event.currentTarget.setPointerCapture(event.pointerId)}
+      onPointerMove={drag}
+      onKeyDown={key}
+    >
+      {at + 1}
+    </button>
+  );
+}
+
+function startOf(model: CarpetModel, mode: "crop" | "corners", about: PictureAbout): PicturePoint[] {
+  const { width, height } = about;
+  const given = pointsOf(model.text(mode), mode === "crop" ? 2 : 4, width, height);
+  if (given !== null) return given;
+  const whole = [
+    { x: 0, y: 0 },
+    { x: width, y: height },
+  ];
+  if (mode === "crop") return whole;
+  const [left, right, top, bottom] = [0.1 * width, 0.9 * width, 0.1 * height, 0.9 * height];
+  return [
+    { x: left, y: top },
+    { x: right, y: top },
+    { x: right, y: bottom },
+    { x: left, y: bottom },
+  ];
+}
+
+function draw(canvas: HTMLCanvasElement | null, width: number, height: number, pixels: Uint8Array): void {
+  const context = canvas?.getContext("2d");
+  if (!canvas || !context) return;
+  canvas.width = width;
+  canvas.height = height;
+  const image = context.createImageData(width, height);
+  for (let at = 0; at < width * height; at += 1) {
+    image.data.set(pixels.subarray(3 * at, 3 * at + 3), 4 * at);
+    image.data[4 * at + 3] = 255;
+  }
+  context.putImageData(image, 0, 0);
+}
+
+function textOf(error: unknown): string {
+  if (!(error instanceof ApiError)) return t("app.lost");
+  return [error.given, error.allowed, error.do].filter(Boolean).join("; ");
+}

@@ -1,0 +1,76 @@
+import { t } from "../../text";
+import { Button, NumberField, Segments, Select } from "../../ui";
+import { type CarpetModel, TOOLS } from "./model";
+import { takesPart } from "./pointer";
+import { applyToWhole } from "./use-hand";
+
+/** The tools of the chart, and what the one in hand needs. */
+export function Tools({ model }: { model: CarpetModel }) {
+  const tool = model.tool.value;
+  const listed = model.chart.value?.about.listed ?? [];
+  const inChart = model.chart.value?.about.yarns ?? [];
+  const names = [...new Set([...inChart.map((yarn) => yarn.name), ...listed.map((yarn) => yarn.name)])];
+  const gives = tool === "pencil" || tool === "line" || tool === "fill" || tool === "border";
+  const edits = model.edits();
+  return (
+    <div class="carpet-tools">
+      <Segments
+        label={t("carpet.tool")}
+        labelHidden
+        value={tool}
+        choices={TOOLS.map((one) => ({ value: one, label: t(`carpet.${one}Tool`) }))}
+        onChange={(chosen) => {
+          model.tool.value = chosen;
+          model.tile.value = null;
+        }}
+      />
+      {gives && (
+        <Select
+          label={t("carpet.yarn")}
+          value={model.yarn.value}
+          choices={names.map((name) => ({ value: name, label: name }))}
+          onChange={(name) => {
+            model.yarn.value = name;
+          }}
+        />
+      )}
+      {tool === "mirror" && (
+        <Segments
+          label={t("carpet.mirrorTool")}
+          labelHidden
+          value={model.mirror.value}
+          choices={[
+            { value: "across", label: t("carpet.across") },
+            { value: "along", label: t("carpet.along") },
+            { value: "both", label: t("carpet.both") },
+          ]}
+          onChange={(direction) => {
+            model.mirror.value = direction;
+          }}
+        />
+      )}
+      {tool === "border" && (
+        <NumberField
+          label={t("carpet.borderWidth")}
+          value={model.borderWidth.value}
+          min={1}
+          max={1000}
+          onChange={(width) => {
+            model.borderWidth.value = Math.round(width);
+          }}
+        />
+      )}
+      {takesPart(tool) && (
+        <Button disabled={tool === "repeat" && model.tile.value === null} onClick={() => applyToWhole(model)}>
+          {t("carpet.wholeCarpet")}
+        </Button>
+      )}
+      {tool !== "pan" && (
+        <p class="ui-help ui-grow">
+          {tool === "repeat" && model.tile.value !== null ? t("carpet.repeatPart") : t(`carpet.${tool}Help`)}
+        </p>
+      )}
+      {edits.length > 0 && <span class="ui-muted">{t("carpet.editCount", { count: edits.length })}</span>}
+    </div>
+  );
+}
