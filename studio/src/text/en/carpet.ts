@@ -148,6 +148,7 @@ export default {
   nextRun: "Next run",
   rowBefore: "Row below",
   nextRow: "Row above",
+  runs: "Runs of the row, in the direction of reading",
   rowsText: "The row as in rows.txt, in both directions",
   weaverKeys: "Right and left arrow: next run and run before. Up and down arrow: row above and below. Escape: back.",
 } as const;

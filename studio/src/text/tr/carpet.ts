@@ -150,6 +150,7 @@ export default {
   nextRun: "Sonraki dizi",
   rowBefore: "Alttaki sıra",
   nextRow: "Üstteki sıra",
+  runs: "Sıranın dizileri, okuma yönünde",
   rowsText: "rows.txt dosyasındaki gibi sıra, iki yönde",
   weaverKeys: "Sağ ve sol ok: sonraki ve önceki dizi. Yukarı ve aşağı ok: üstteki ve alttaki sıra. Escape: geri.",
 } satisfies Same<typeof en>;

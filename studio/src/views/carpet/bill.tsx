@@ -28,7 +28,7 @@ export function Bill({ model, onRow }: { model: CarpetModel; onRow: (row: number
         <Fact name={t("carpet.edited")} value={formatNumber(about.edited)} />
       </dl>
       <Checks model={model} />
-      <h3>{t("carpet.bill")}</h3>
+      <h2>{t("carpet.bill")}</h2>
       <Table
         label={t("carpet.bill")}
         columns={[
@@ -41,7 +41,7 @@ export function Bill({ model, onRow }: { model: CarpetModel; onRow: (row: number
         rows={[...yarns, ...ground]}
         height="320px"
       />
-      <h3>{t("carpet.hardest")}</h3>
+      <h2>{t("carpet.hardest")}</h2>
       <ul class="carpet-rows">
         {about.hardest.map((hard) => (
           <li key={hard.row}>

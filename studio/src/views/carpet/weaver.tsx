@@ -120,10 +120,12 @@ export function Weaver({ model, onClose }: { model: CarpetModel; onClose: () => 
       <p class="carpet-now" role="status">
         {now !== undefined && found !== null && <RunText run={now} answer={found} rightward={rightward} />}
       </p>
-      <ol class={`carpet-runs ${rightward ? "" : "leftward"}`}>
-        {found !== null &&
-          runs.map((run, index) => <RunCell key={index} run={run} answer={found} now={index === at} />)}
-      </ol>
+      <div class="carpet-strip" tabIndex={0} role="region" aria-label={t("carpet.runs")}>
+        <ol class="carpet-runs">
+          {found !== null &&
+            runs.map((run, index) => <RunCell key={index} run={run} answer={found} now={index === at} />)}
+        </ol>
+      </div>
       <pre class="carpet-line" tabIndex={0} role="region" aria-label={t("carpet.rowsText")}>
         {found === null ? "" : `${found.rightward}\n${found.leftward}`}
       </pre>
