@@ -50,20 +50,46 @@ export interface Changed {
   paths: string[];
 }
 /**
- * A chart of a recipe.
+ * A chart, before its knots: one byte a knot, the index of its yarn, row by row from the upper edge.
  *
- *     recipe  data of the recipe, saved or not      path  of its file in the project
- *     draft   quick, while a slider moves: colours of a photo are rounded before their yarns are chosen
- *     source  key of the fitted picture that the caller has: it is not sent again
+ *     width, length  of the carpet [m]      quality  as written      reading, reason, fit  how the picture was read
+ *     listed  all yarns that may be chosen      hardest  rows with most changes      edited  knots that edits changed
+ *     mass, mass_per_area, price  of all yarns [kg], [kg/m²]
+ *     checks, warnings, notes  as in the report      seconds  that it took
  *
  * This interface was referenced by `Messages`'s JSON-Schema
- * via the `definition` "ChartRequest".
+ * via the `definition` "ChartAnswer".
  */
-export interface ChartRequest {
-  recipe: {};
-  path?: string;
-  draft?: boolean;
-  source?: string;
+export interface ChartAnswer {
+  rows: number;
+  columns: number;
+  width: number;
+  length: number;
+  quality: string;
+  knot: string;
+  reading: string;
+  reason: string;
+  fit: string;
+  yarns: ChartYarn[];
+  ground: GroundNeed[];
+  listed: ListedYarn[];
+  hardest: HardRow[];
+  mean_changes: number;
+  edited: number;
+  small_patches: number;
+  mean_delta_e: number;
+  mass: number;
+  mass_per_area: number;
+  price: number | null;
+  currency: string;
+  checks: ShownCheck[];
+  warnings: string[];
+  notes: string[];
+  half_knots: number;
+  jufti_knots: number;
+  draft: boolean;
+  seconds: number;
+  source: SourcePicture | null;
 }
 /**
  * A yarn of the chart, in the order of its indices, and what is needed of it.
@@ -84,6 +110,90 @@ export interface ChartYarn {
   price: number | null;
   count: string;
   hanks: number;
+}
+/**
+ * A yarn of the ground: name, use, length [m], mass [kg], price.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "GroundNeed".
+ */
+export interface GroundNeed {
+  name: string;
+  use: string;
+  length: number;
+  mass: number;
+  price: number | null;
+}
+/**
+ * A yarn of the list: name and colour `#rrggbb`.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ListedYarn".
+ */
+export interface ListedYarn {
+  name: string;
+  srgb: string;
+}
+/**
+ * A row with many changes of yarn.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "HardRow".
+ */
+export interface HardRow {
+  row: number;
+  changes: number;
+}
+/**
+ * A check: `value` against `limit` [SI], both as texts too.
+ *
+ *     machine  the machine in it that the check is of, "" for its own
+ *     ratio    value over limit; null where the limit is 0 or one of them is no number
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ShownCheck".
+ */
+export interface ShownCheck {
+  name: string;
+  machine: string;
+  ok: boolean;
+  value: number | null;
+  limit: number | null;
+  relation: string;
+  value_text: string;
+  limit_text: string;
+  ratio: number | null;
+  source: string;
+  cure: string;
+}
+/**
+ * The fitted picture, small: key, pixels across and down; sent: it is the second part of the answer, 3 bytes a
+ *     pixel.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "SourcePicture".
+ */
+export interface SourcePicture {
+  key: string;
+  width: number;
+  height: number;
+  sent: boolean;
+}
+/**
+ * A chart of a recipe.
+ *
+ *     recipe  data of the recipe, saved or not      path  of its file in the project
+ *     draft   quick, while a slider moves: colours of a photo are rounded before their yarns are chosen
+ *     source  key of the fitted picture that the caller has: it is not sent again
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ChartRequest".
+ */
+export interface ChartRequest {
+  recipe: {};
+  path?: string;
+  draft?: boolean;
+  source?: string;
 }
 /**
  * A check that differs: values with limits as texts, and whether it holds; null where one has no such check.
@@ -333,28 +443,6 @@ export interface DesignView {
 export interface ShownReason {
   name: string;
   text: string;
-  cure: string;
-}
-/**
- * A check: `value` against `limit` [SI], both as texts too.
- *
- *     machine  the machine in it that the check is of, "" for its own
- *     ratio    value over limit; null where the limit is 0 or one of them is no number
- *
- * This interface was referenced by `Messages`'s JSON-Schema
- * via the `definition` "ShownCheck".
- */
-export interface ShownCheck {
-  name: string;
-  machine: string;
-  ok: boolean;
-  value: number | null;
-  limit: number | null;
-  relation: string;
-  value_text: string;
-  limit_text: string;
-  ratio: number | null;
-  source: string;
   cure: string;
 }
 /**
@@ -1352,7 +1440,22 @@ export interface PathRequest {
   path: string;
 }
 /**
+ * A picture before its pixels, 3 bytes each: its own sides, the sides as sent, and notes on its reading.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "PictureAbout".
+ */
+export interface PictureAbout {
+  width: number;
+  height: number;
+  shown_width: number;
+  shown_height: number;
+  notes: string[];
+}
+/**
  * A picture of the project, and the longest side at which it is sent [pixels].
+ *
+ *     corners, turn  as in a recipe: the picture is first straightened and turned
  *
  * This interface was referenced by `Messages`'s JSON-Schema
  * via the `definition` "PictureRequest".
@@ -1360,6 +1463,8 @@ export interface PathRequest {
 export interface PictureRequest {
   picture: string;
   most?: number;
+  corners?: string;
+  turn?: string;
 }
 /**
  * A picture of the project. size: [bytes].
