@@ -27,7 +27,8 @@ function differing(one, other) {
 }
 
 try {
-  const run = (command, ...given) => execFileSync("npx", ["--no-install", command, ...given], { cwd: studio, stdio: "pipe" });
+  const run = (command, ...given) =>
+    execFileSync("npx", ["--no-install", command, ...given], { cwd: studio, stdio: "pipe" });
   run("vite", "build", "--outDir", join(work, "client"), "--emptyOutDir", "--logLevel", "error");
   execFileSync("node", ["scripts/stamp.mjs", join(work, "client")], { cwd: studio, stdio: "inherit" });
   const changed = differing(shipped, join(work, "client"));

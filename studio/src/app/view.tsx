@@ -1,8 +1,9 @@
 import { type ComponentType, h } from "preact";
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import { t } from "../text";
 import { Button } from "../ui";
 import { Boundary } from "./boundary";
+import { ready } from "./ready";
 import { LOADERS, route, type View, type ViewProps } from "./routes";
 
 const loaded = new Map<View, ComponentType<ViewProps>>();
@@ -24,6 +25,9 @@ export function CurrentView() {
       (error: unknown) => setFailed(error instanceof Error ? error.message : String(error)),
     );
   };
+  useLayoutEffect(() => {
+    ready.value = false;
+  }, [view]);
   useEffect(() => {
     document.title = `${t(`app.${view}`)} – ${t("app.name")}`;
     if (!loaded.has(view)) load();
@@ -32,7 +36,7 @@ export function CurrentView() {
   }, [view]);
   const shown = loaded.get(view);
   return (
-    <main class="app-view" id="content" tabIndex={-1} ref={main}>
+    <main class="app-view" id="content" tabIndex={-1} ref={main} data-view={view} data-ready={ready.value}>
       {shown !== undefined ? (
         <Boundary key={view}>{h(shown, { name })}</Boundary>
       ) : failed !== null ? (

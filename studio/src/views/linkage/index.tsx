@@ -1,6 +1,7 @@
 /** The linkage editor. */
 import { useEffect, useMemo, useState } from "preact/hooks";
 import { post } from "../../api/request";
+import { useReady } from "../../app/ready";
 import { rename } from "../../app/routes";
 import { filesOf, freePath, newFile, project, refreshProject, SaveState, useDocument } from "../../project";
 import { t } from "../../text";
@@ -61,6 +62,7 @@ function LinkageFile({ name, names }: { name: string; names: readonly string[] }
   }, [document]);
   useEffect(() => () => parts.editor.dispose(), [parts]);
   const { editor, tools, pointer } = parts;
+  useReady(editor.figure.value !== null);
   const choices = [...new Set([name, ...names])].sort().map((one) => ({ value: one, label: one }));
   return (
     <div

@@ -2,6 +2,7 @@
 import type { ComponentChildren, ComponentType } from "preact";
 import { useEffect, useState } from "preact/hooks";
 import { type ApiError, answered, postPacked } from "../../api/request";
+import { useReady } from "../../app/ready";
 import { rename, type ViewProps } from "../../app/routes";
 import { project } from "../../project";
 import { t } from "../../text";
@@ -32,6 +33,7 @@ export default function Loom({ name }: ViewProps) {
     );
     return () => control.abort();
   }, [file]);
+  useReady(model !== null && workbench !== null);
   if (!hasWebgl()) return <Sorry text={t("loom.noWebgl")} file={file} />;
   if (error !== null) return <Sorry text={`${t("loom.failed")}: ${error.message}`} file={file} />;
   if (model === null || workbench === null)

@@ -1,4 +1,5 @@
 import { useEffect, useMemo, useState } from "preact/hooks";
+import { useReady } from "../../app/ready";
 import { goTo, type ViewProps } from "../../app/routes";
 import { remember, remembered } from "../../app/settings";
 import { filesOf, project, SaveState } from "../../project";
@@ -47,6 +48,7 @@ function OneMachine({ name }: { name: string }) {
     return () => model.close();
   }, [model]);
   const missing = document.saved.value === "missing";
+  useReady(model.view.value !== null);
   return (
     <div class="machine">
       <header class="machine-head">

@@ -2,6 +2,7 @@ import type { ComponentChildren } from "preact";
 import { useEffect, useMemo, useState } from "preact/hooks";
 import type { MechanismDocument, ShownFourBar, SynthesisAnswer } from "../../api/messages";
 import { post } from "../../api/request";
+import { useReady } from "../../app/ready";
 import { goTo } from "../../app/routes";
 import { freePath, newFile, SaveState, useDocument } from "../../project";
 import { t } from "../../text";
@@ -40,6 +41,7 @@ export function TaskView({ path, stem, head }: TaskProps) {
     setDraft(settled ? null : next);
   };
   const answer = search.answer.value;
+  useReady(answer !== null);
   const number = Math.min(Math.max(Number(data?.settings?.["chosen"] ?? 1), 1), answer?.candidates.length ?? 1);
   const chosen = answer?.candidates.find((one) => one.number === number) ?? null;
   return (
