@@ -125,6 +125,16 @@ export class MachineModel {
     this.set(changesTo(flat(this.document.data.peek()?.settings), b));
   }
 
+  /** Shows the figures of a machine in the machine; "": of the machine itself. */
+  showPart(part: string): void {
+    batch(() => {
+      this.part.value = part;
+      this.chosen.value = null;
+      this.figures.value = this.figures.peek() && { ...(this.figures.peek() as MachineFigures), figures: [] };
+      this.figuresOfB.value = null;
+    });
+  }
+
   chooseFigures(names: readonly string[]): void {
     this.chosen.value = names;
     remember(`machine.figures.${this.machine.peek()}.${this.part.peek()}`, JSON.stringify(names));
@@ -213,6 +223,7 @@ export class MachineModel {
     if (this.failure.peek() !== null) return;
     this.#findNearest(state);
     this.#compare(state);
+    if (this.figuresOfB.peek() === null) this.#drawB();
     this.#move(state);
   }
 

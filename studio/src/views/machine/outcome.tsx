@@ -1,10 +1,11 @@
+import { CheckList, ChoiceTable, ResultTable } from "../../draw";
 import { t } from "../../text";
 import { Tabs } from "../../ui";
 import { Command } from "./command";
 import { Compare } from "./compare";
+import { Figures } from "./figures";
 import type { MachineModel } from "./model";
-import { Choices, Results } from "./results";
-import { Checks, Verdict } from "./verdict";
+import { Verdict } from "./verdict";
 
 interface OutcomeProps {
   model: MachineModel;
@@ -26,15 +27,36 @@ export function Outcome({ model, tab, onTab }: OutcomeProps) {
   return (
     <div class="machine-outcome ui-stack">
       <Verdict model={model} />
+      <Figures model={model} />
       {view !== null && (
         <Tabs label={view.title} value={tab} tabs={tabs} onChange={onTab}>
-          {tab === "checks" && <Checks view={view} />}
-          {tab === "results" && <Results view={view} />}
+          {tab === "checks" && <CheckList checks={view.checks} />}
+          {tab === "results" && <ResultTable results={view.results} />}
           {tab === "compare" && <Compare model={model} />}
-          {tab === "choices" && <Choices view={view} />}
+          {tab === "choices" && <Choices warnings={view.warnings} choices={view.choices} />}
           {tab === "command" && <Command model={model} />}
         </Tabs>
       )}
+    </div>
+  );
+}
+
+interface ChoicesProps {
+  warnings: readonly string[];
+  choices: Parameters<typeof ChoiceTable>[0]["choices"];
+}
+
+/** Warnings of the design, and what it chose of what was left open. */
+function Choices({ warnings, choices }: ChoicesProps) {
+  return (
+    <div class="ui-stack">
+      {warnings.length === 0 && <p class="ui-muted">{t("machine.noWarnings")}</p>}
+      {warnings.map((text) => (
+        <p key={text} class="ui-callout warn">
+          {text}
+        </p>
+      ))}
+      {choices.length === 0 ? <p class="ui-muted">{t("machine.noChoices")}</p> : <ChoiceTable choices={choices} />}
     </div>
   );
 }

@@ -1,7 +1,6 @@
-import type { DesignView, ShownCheck } from "../../api/messages";
-import { formatNumber, formatSpan, t } from "../../text";
+import type { DesignView } from "../../api/messages";
+import { formatSpan, t } from "../../text";
 import { Icon } from "../../ui";
-import { keyOf } from "./effects";
 import type { MachineModel } from "./model";
 
 /** Reasons listed in the verdict. */
@@ -56,60 +55,5 @@ export function VerdictBadge({ model }: { model: MachineModel }) {
         {model.working.value ? t("machine.designing") : t("machine.designed", { time: formatSpan(view.seconds) })}
       </span>
     </span>
-  );
-}
-
-/** The checks: value against limit, as a bar and as texts; failed ones first. */
-export function Checks({ view }: { view: DesignView }) {
-  const checks = [...view.checks].sort((a, b) => Number(a.ok) - Number(b.ok));
-  return (
-    <div class="ui-table-scroll" tabIndex={0} role="region" aria-label={t("machine.checks")}>
-      <table class="ui-table machine-checks">
-        <thead>
-          <tr>
-            <th scope="col">{t("machine.checkName")}</th>
-            <th scope="col">{t("machine.ok")}</th>
-            <th scope="col" class="number">
-              {t("machine.value")}
-            </th>
-            <th scope="col" class="number">
-              {t("machine.limit")}
-            </th>
-            <th scope="col">{t("machine.source")}</th>
-          </tr>
-        </thead>
-        <tbody>
-          {checks.map((check) => (
-            <CheckRow key={keyOf(check.machine, check.name)} check={check} />
-          ))}
-        </tbody>
-      </table>
-    </div>
-  );
-}
-
-function CheckRow({ check }: { check: ShownCheck }) {
-  return (
-    <tr class={check.ok ? "" : "machine-failed"}>
-      <th scope="row">
-        {check.machine !== "" && <span class="ui-muted">{check.machine}: </span>}
-        {check.name}
-        {!check.ok && check.cure !== "" && <p class="ui-help">{check.cure}</p>}
-      </th>
-      <td>
-        <span class={`ui-badge ${check.ok ? "good" : "bad"}`}>
-          <Icon name={check.ok ? "good" : "error"} />
-          {check.ok ? t("machine.ok") : t("machine.failed")}
-        </span>
-      </td>
-      <td class="number">{check.value_text}</td>
-      <td class="number">
-        {check.relation} {check.limit_text}
-        {check.ratio != null && check.limit !== 1 && (
-          <span class="visually-hidden">{t("machine.share", { percent: formatNumber(100 * check.ratio, 3) })}</span>
-        )}
-      </td>
-      <td class="ui-muted">{check.source}</td>
-    </tr>
   );
 }
