@@ -55,6 +55,13 @@ def test_nothing_is_shown_without_token_or_cookie(server: Studio, path: str) -> 
     assert server.send("POST", "/api/echo", {}, {}).status == 401
 
 
+def test_the_token_of_the_browser_opens_once(server: Studio) -> None:
+    for status in (303, 401):
+        assert server.send("GET", f"/?token={server.access.browser_token}", headers={}).status == status
+    bearer = {"authorization": f"Bearer {server.access.browser_token}"}
+    assert server.send("GET", "/api", headers=bearer).status == 401
+
+
 def test_a_program_may_send_the_token_as_bearer(server: Studio) -> None:
     headers = {"authorization": f"Bearer {server.access.token}"}
     assert server.send("POST", "/api/echo", {}, headers).status == 200

@@ -1,16 +1,14 @@
 """`ilmek serve`: weave a programme on the simulated loom, seen and commanded over OPC UA."""
 
-import sys
-from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
 
 import click
 
 from ilmek.cli.call_outputs import call_outputs
-from ilmek.cli.interrupts import before_end
 from ilmek.cli.options import force_option
+from ilmek.cli.password import typed_password
 from ilmek.cli.running import run_options, work_shown
 from ilmek.cli.settings import read_settings
 from ilmek.cli.terminal import note
@@ -144,32 +142,5 @@ def _serve(run_order: RunOrder, order: ServeOrder) -> None:
 
 def _add_user(order: ServeOrder, name: str, right: str) -> None:
     check_user_name(name)
-    there = add_user(order.users_file, name, right, _password())
+    there = add_user(order.users_file, name, right, typed_password("no user was written"))
     note(f"{order.users_file} has {'a new password of' if there else 'the user'} {name}, {right}")
-
-
-def _password() -> str:
-    """A password from the terminal, which does not show it; from a pipe its first line."""
-    if not sys.stdin.isatty():
-        return sys.stdin.readline().rstrip("\r\n")
-    with _echo_restored():
-        return str(click.prompt("Password", hide_input=True, confirmation_prompt=True, err=True))
-
-
-@contextmanager
-def _echo_restored() -> Iterator[None]:
-    """Have Ctrl-C leave the terminal as it is now."""
-    try:
-        import termios
-    except ImportError:  # Windows
-        yield
-        return
-    number = sys.stdin.fileno()
-    state = termios.tcgetattr(number)
-
-    def restored() -> str:
-        termios.tcsetattr(number, termios.TCSANOW, state)
-        return "no user was written"
-
-    with before_end(restored):
-        yield

@@ -1,12 +1,12 @@
 """`ilmek studio`: the carpet, the machines and the loom in the browser."""
 
-import sys
 from dataclasses import replace
 from pathlib import Path
 
 import click
 
 from ilmek.cli.interrupts import before_end
+from ilmek.cli.password import typed_password
 from ilmek.cli.terminal import note
 from ilmek.errors import ParameterError
 from ilmek.io.secret_file import read_bounded
@@ -61,6 +61,4 @@ def _password(file: Path | None) -> str:
             return read_bounded(file, "password").decode().splitlines()[0]
         except (UnicodeDecodeError, IndexError):
             raise ParameterError(f"the password file {file} is no text", do="give a file with one line") from None
-    if not sys.stdin.isatty():
-        return sys.stdin.readline().rstrip("\r\n")
-    return str(click.prompt("Password", hide_input=True, confirmation_prompt=True, err=True))
+    return typed_password("nothing was written")

@@ -196,6 +196,7 @@ class Pool:
                 str(self.memory),
                 stdin=asyncio.subprocess.PIPE,
                 stdout=asyncio.subprocess.PIPE,
+                limit=2**24,
                 start_new_session=True,  # Ctrl-C is for the server
                 env={**os.environ, "NUMBA_NUM_THREADS": os.environ.get("NUMBA_NUM_THREADS", "2")},
             )

@@ -49,6 +49,7 @@ class Access:
     secret           of the project; the cookie is made from it, so that a page is still known after a restart
     password         required where the server listens beyond the loopback, and then no token helps; "": none
     token            of the first address
+    browser_token    the same for one visit: the browser is started with it, and other accounts can see that
     everywhere_port  not 0: a Host of digits with this port is the server's too; only a name can be rebound
     """
 
@@ -56,6 +57,7 @@ class Access:
     secret: str
     password: str = ""
     token: str = field(default_factory=lambda: secrets.token_urlsafe(24))
+    browser_token: str = field(default_factory=lambda: secrets.token_urlsafe(24))
     everywhere_port: int = 0
 
     @property
@@ -78,6 +80,10 @@ class Access:
         """Whether a token is the one of the first address; False where a password is required."""
         return hmac.compare_digest(token.encode(), self.token.encode()) and not self.password
 
+    def knows_browser_token(self, token: str) -> bool:
+        """Whether a token is the one that the browser is started with; False where a password is required."""
+        return hmac.compare_digest(token.encode(), self.browser_token.encode()) and not self.password
+
     def knows_password(self, password: str) -> bool:
         """Whether a password is right; False where there is none."""
         return bool(self.password) and hmac.compare_digest(password.encode(), self.password.encode())
@@ -92,6 +98,7 @@ class Guard:
 
     def __init__(self, app: ASGIApp, access: Access, cookie_name: str) -> None:
         self._app, self._access, self._cookie_name = app, access, cookie_name
+        self._browser_visited = False
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Answer a request or pass it on."""
@@ -132,10 +139,17 @@ class Guard:
             return True
         return any(self._access.knows_cookie(value) for value in cookies(headers, self._cookie_name))
 
+    def _opens(self, token: str) -> bool:
+        """Whether a token opens the studio; that of the browser does so once."""
+        if not self._browser_visited and self._access.knows_browser_token(token):
+            self._browser_visited = True
+            return True
+        return self._access.knows_token(token)
+
     def _first_visit(self, scope: Scope) -> Response | None:
         if scope["type"] == "http":
-            query = QueryParams(scope.get("query_string", b""))
-            if scope["method"] == "GET" and scope["path"] == "/" and self._access.knows_token(query.get("token", "")):
+            token = QueryParams(scope.get("query_string", b"")).get("token", "")
+            if scope["method"] == "GET" and scope["path"] == "/" and self._opens(token):
                 return entered(self._access, self._cookie_name)
             if self._access.password and scope["path"] == "/login":
                 return None

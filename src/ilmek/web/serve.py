@@ -109,10 +109,11 @@ def serve(order: StudioOrder, note: Callable[[str], None], show: Callable[[str],
         note(f"port {order.port} is in use; the studio takes {port}")
     access = access_to(order, port, secret)
     host = socket.gethostname() if order.host in _EVERYWHERE else f"[{order.host}]" if ":" in order.host else order.host
-    address = f"http://{host}:{port}/" + ("" if order.password else f"?token={access.token}")
-    show(address)
+    address = f"http://{host}:{port}/"
+    show(address if order.password else f"{address}?token={access.token}")
     if browser:
-        threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()
+        opened = address if order.password else f"{address}?token={access.browser_token}"
+        threading.Thread(target=webbrowser.open, args=(opened,), daemon=True).start()
     app = studio_app(str(order.project.resolve()), access, f"ilmek-studio-{port}")
     uvicorn.Server(uvicorn.Config(app, **server_settings())).run(sockets=[listener])
 

@@ -189,9 +189,17 @@ def limit_memory(most: int) -> None:
         resource.setrlimit(resource.RLIMIT_AS, (most, most))
 
 
+def widen_pipe(handle: int) -> None:
+    """Have a pipe take a large answer in few pieces, where the system can."""
+    with contextlib.suppress(ImportError, AttributeError, OSError):
+        fcntl = import_module("fcntl")
+        fcntl.fcntl(handle, fcntl.F_SETPIPE_SZ, 2**20)
+
+
 def main() -> None:
     """Answer the requests of standard input on standard output."""
     limit_memory(int(sys.argv[1]))
+    widen_pipe(1)
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)
     worker = Worker(sys.stdin.buffer, answers)

@@ -15,6 +15,9 @@ from ilmek.web.pool import Pool, PoolFull
 MOST_KEPT = 50
 """Answers that are kept after the end of their works."""
 
+MOST_KEPT_BYTES = 200_000_000
+"""Size of the answers that are kept; the newest is kept whatever its size."""
+
 MOST_RUNNING = 20
 """Works that run or wait at a time."""
 
@@ -89,9 +92,9 @@ class Works:
             self.hub.send({"type": "news", "work": number, "news": msgspec.Raw(message.body)}, work.page)
 
     def _forget_oldest(self) -> None:
-        ended = [number for number, work in self._works.items() if work.answer is not None]
-        for number in ended[:-MOST_KEPT]:
-            del self._works[number]
+        ended = [(number, len(work.answer.body)) for number, work in self._works.items() if work.answer is not None]
+        while len(ended) > MOST_KEPT or (len(ended) > 1 and sum(size for _, size in ended) > MOST_KEPT_BYTES):
+            del self._works[ended.pop(0)[0]]
 
     def state(self, number: int) -> Reply | None:
         """The answer of a work; status 202 while it goes on; None: there is no such work."""
