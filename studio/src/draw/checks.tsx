@@ -57,16 +57,17 @@ function Row({ check }: { check: CheckShown }) {
           {check.machine ? <span class="ui-muted">{check.machine}: </span> : null}
           {check.name}
         </span>
+        <Bar check={check} />
         <span class="check-values">
           <b>{check.value_text}</b> {sign} {check.limit_text}
         </span>
-        <Bar check={check} />
-        {!check.ok && (
+        {check.ok ? (
+          check.source && <p class="check-source">{check.source}</p>
+        ) : (
           <p class="check-cure">
             <b>{t("ui.fails")}.</b> {check.cure || check.source}
           </p>
         )}
-        {check.ok && check.source && <p class="check-source">{check.source}</p>}
       </div>
     </li>
   );
@@ -78,12 +79,11 @@ function Bar({ check }: { check: CheckShown }) {
   if (ratio == null || !(ratio >= 0)) return null;
   const whole = Math.max(1.25, Math.min(ratio, 4) * 1.04);
   const wide = (100 * Math.min(ratio, whole)) / whole;
-  const limit = 100 / whole;
   return (
     <svg class="check-bar" viewBox="0 0 100 6" preserveAspectRatio="none" aria-hidden="true">
       <rect class="check-bar-ground" width="100" height="6" rx="1.5" />
       <rect class="check-bar-value" width={wide} height="6" rx="1.5" />
-      <rect class="check-bar-limit" x={limit - 0.5} width="1" height="6" />
+      <rect class="check-bar-limit" x={100 / whole - 0.7} width="1.4" height="6" />
     </svg>
   );
 }

@@ -61,10 +61,14 @@ function Section({ section, autoplay }: { section: ShownSection; autoplay: boole
           ))}
         </div>
         {(section.tables ?? []).map((table) => (
-          <div key={table.name} class="ui-stack">
-            <h3>{table.title}</h3>
-            <Table label={table.title} columns={table.columns} rows={table.rows} height="420px" />
-          </div>
+          <Table
+            key={table.name}
+            label={table.title}
+            columns={table.columns}
+            rows={table.rows}
+            height="420px"
+            captioned
+          />
         ))}
       </section>
     </SharedCursor>

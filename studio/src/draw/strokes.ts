@@ -245,9 +245,14 @@ export function name(context: Context, text: string, x: number, y: number, colou
   context.fillText(text, x, y);
 }
 
-/** A colour mixed with another; both are written #rrggbb. */
+/** A colour mixed with another; both are written #rrggbb or #rgb. */
 export function mixed(colour: string, other: string, share: number): string {
-  const part = (text: string, at: number) => Number.parseInt(text.slice(at, at + 2), 16);
-  const both = (at: number) => Math.round(share * part(colour, at) + (1 - share) * part(other, at));
-  return `rgb(${both(1)} ${both(3)} ${both(5)})`;
+  const [a, b] = [channels(colour), channels(other)];
+  return `rgb(${a.map((value, k) => Math.round(share * value + (1 - share) * (b[k] ?? 0))).join(" ")})`;
+}
+
+function channels(colour: string): number[] {
+  const digits = colour.length === 4 ? [1, 1, 2, 2, 3, 3] : [1, 2, 3, 4, 5, 6];
+  const long = digits.map((at) => colour[at] ?? "0").join("");
+  return [0, 2, 4].map((at) => Number.parseInt(long.slice(at, at + 2), 16));
 }

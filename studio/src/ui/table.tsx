@@ -18,20 +18,22 @@ interface TableProps {
   /** SI numbers and texts. */
   rows: readonly (readonly Cell[])[];
   /** Greatest height before it scrolls. */
-  height?: string;
+  height?: string | undefined;
+  /** Shows the label above the rows. */
+  captioned?: boolean;
   /** Shown instead of rows where there are none. */
   empty?: ComponentChildren;
 }
 
 /** Rows under headings with units; a heading sorts by its column. */
-export function Table({ label, columns, rows, height, empty }: TableProps) {
+export function Table({ label, columns, rows, height, empty, captioned = false }: TableProps) {
   const [order, setOrder] = useState<{ column: number; up: boolean } | null>(null);
   if (rows.length === 0 && empty !== undefined) return <p class="ui-muted">{empty}</p>;
   const sorted = order === null ? rows : [...rows].sort((a, b) => compare(a[order.column], b[order.column], order.up));
   const sort = (column: number) => {
     setOrder(order?.column !== column ? { column, up: true } : order.up ? { column, up: false } : null);
   };
-  const numeric = columns.map((_, at) => rows.every((row) => typeof row[at] !== "string"));
+  const numeric = columns.map((_, at) => rows.every((row) => isNumeric(row[at])));
   return (
     <div
       class="ui-table-scroll"
@@ -41,6 +43,7 @@ export function Table({ label, columns, rows, height, empty }: TableProps) {
       aria-label={label}
     >
       <table class="ui-table">
+        {captioned && <caption>{label}</caption>}
         <thead>
           <tr>
             {columns.map((column, at) => {
@@ -87,6 +90,11 @@ export function Table({ label, columns, rows, height, empty }: TableProps) {
       </table>
     </div>
   );
+}
+
+/** Whether a cell holds a number, or a dash in its stead. */
+function isNumeric(cell: Cell | undefined): boolean {
+  return typeof cell !== "string" || /^[-–]?$/.test(cell);
 }
 
 /** A heading with its unit in brackets. */
