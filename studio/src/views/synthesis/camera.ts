@@ -1,4 +1,5 @@
 /** From the plane [m] to the screen [px], y up. */
+import type { Size } from "../../ui";
 
 export interface Camera {
   /** Pixels a metre along x and along y. */
@@ -9,10 +10,7 @@ export interface Camera {
   oy: number;
 }
 
-export interface Size {
-  width: number;
-  height: number;
-}
+export type { Size } from "../../ui";
 
 export interface At {
   x: number;

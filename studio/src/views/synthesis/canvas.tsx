@@ -1,7 +1,7 @@
 import type { ComponentChildren, RefObject } from "preact";
-import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
 import { t } from "../../text";
-import { IconButton } from "../../ui";
+import { IconButton, useSize } from "../../ui";
 import { type At, type Camera, fitted, gridLines, type Size, toPlane, toScreen, zoomed } from "./camera";
 import { dragged, type Handle, handleAt, handlesOf, nearest, nudged, type RegionKind, type Scene } from "./handles";
 import { rectangle } from "./task";
@@ -130,23 +130,6 @@ function withRegion(scene: Scene, kind: RegionKind, camera: Camera, from: At, to
   const ends = dragged(made, camera, { kind: "point", index: 1 }, to).points;
   const [one, other] = [ends[0] ?? { x: 0, y: 0 }, ends[1] ?? { x: 0, y: 0 }];
   return { ...scene, regions: { ...scene.regions, [kind]: rectangle(one, other) } };
-}
-
-function useSize(svg: RefObject<SVGSVGElement | null>): Size {
-  const [size, setSize] = useState<Size>({ width: 600, height: 420 });
-  useLayoutEffect(() => {
-    const own = svg.current;
-    if (own === null) return undefined;
-    const take = () => {
-      const { width, height } = own.getBoundingClientRect();
-      if (width > 0 && height > 0) setSize({ width, height });
-    };
-    take();
-    const observer = new ResizeObserver(take);
-    observer.observe(own);
-    return () => observer.disconnect();
-  }, []);
-  return size;
 }
 
 /** The camera: fitted anew where the content leaves the drawing, or fills little of it, but never during a drag. */
