@@ -186,6 +186,7 @@ ENDPOINTS: tuple[Endpoint, ...] = (
         "studio.cyclogram:view",
         "A cyclogram: curves of its tracks, relations and exclusions with their margins, checks (packed).",
         affinity="cyclogram",
+        records=("CyclogramView",),
     ),
     Endpoint(
         "POST",

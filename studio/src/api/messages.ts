@@ -389,6 +389,160 @@ export interface ShownBinding {
   cost: number;
 }
 /**
+ * A cyclogram; behind it the curves of each track as 32-bit floats, one part per track: angle [rad], position [SI],
+ *     velocity, acceleration and jerk over time [SI/s, SI/s^2, SI/s^3], each `count` numbers. A jump has its angle twice.
+ *
+ *     limits  of the actuators, each with the largest value of its track      laws  names of all motion laws
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "CyclogramView".
+ */
+export interface CyclogramView {
+  name: string;
+  period: number;
+  tracks: ShownTrack[];
+  relations: ShownRelation[];
+  exclusions: ShownExclusion[];
+  limits: ShownLimit[];
+  laws: string[];
+  lengths: number[];
+}
+/**
+ * A track. SI; null where there is no limit, or where a peak is infinite.
+ *
+ *     factor  SI value in `unit` is value times this      locked  the solver leaves it as it is
+ *     count   number of samples of its curves             low, high  least and greatest position
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ShownTrack".
+ */
+export interface ShownTrack {
+  name: string;
+  actuator: string;
+  unit: string;
+  factor: number;
+  revolves: number;
+  locked: boolean;
+  limits: {
+    [k: string]: number | null;
+  };
+  motions: ShownMotionPart[];
+  events: ShownEvent[];
+  peaks: {
+    [k: string]: number | null;
+  };
+  low: number;
+  high: number;
+  count: number;
+}
+/**
+ * A motion of a track: master angles [rad], positions [SI], its law and the largest values of its derivatives.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ShownMotionPart".
+ */
+export interface ShownMotionPart {
+  name: string;
+  start: number;
+  end: number;
+  begin: number;
+  finish: number;
+  law: string;
+  law_label: string;
+  speed: number | null;
+  acceleration: number | null;
+  jerk: number | null;
+}
+/**
+ * A named instant of a track [rad]; `on` is the motion that it follows, at this share of its time.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ShownEvent".
+ */
+export interface ShownEvent {
+  name: string;
+  angle: number;
+  on: string;
+  share: number;
+}
+/**
+ * `then` comes at least `least` and at most `most` after `first` [rad].
+ *
+ *     margin  to the nearer limit, below 0 where it does not hold      turns  `then` is that of so many turns later
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ShownRelation".
+ */
+export interface ShownRelation {
+  label: string;
+  why: string;
+  first: ShownMoment;
+  then: ShownMoment;
+  turns: number;
+  gap: number;
+  least: number | null;
+  most: number | null;
+  margin: number;
+  ok: boolean;
+}
+/**
+ * An instant: the track, "" for a fixed angle, and the master angle [rad].
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ShownMoment".
+ */
+export interface ShownMoment {
+  track: string;
+  angle: number;
+  label: string;
+}
+/**
+ * Two presences that exclude each other: their least distance, the required gap and the margin [rad].
+ *
+ *     overlaps  windows in which both are present
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ShownExclusion".
+ */
+export interface ShownExclusion {
+  label: string;
+  why: string;
+  first: ShownPresence;
+  second: ShownPresence;
+  overlaps: number[][];
+  apart: number;
+  gap: number;
+  margin: number;
+  ok: boolean;
+}
+/**
+ * A presence: the track, "" for fixed windows; its windows of the master angle [rad]; bounds of the zone [SI].
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ShownPresence".
+ */
+export interface ShownPresence {
+  track: string;
+  label: string;
+  windows: number[][];
+  low: number | null;
+  high: number | null;
+}
+/**
+ * The largest speed or acceleration of a track against the limit of its actuator [SI], shown in `unit`.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ShownLimit".
+ */
+export interface ShownLimit {
+  label: string;
+  why: string;
+  value: number | null;
+  limit: number;
+  unit: string;
+  ok: boolean;
+}
+/**
  * A value of the input at which it reverses [rad; m], and the bodies that are in line there.
  *
  * This interface was referenced by `Messages`'s JSON-Schema

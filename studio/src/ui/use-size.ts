@@ -14,7 +14,8 @@ export function useSize(element: RefObject<Element | null>, first: Size = { widt
     if (own === null) return undefined;
     const take = () => {
       const { width, height } = own.getBoundingClientRect();
-      if (width > 0 && height > 0) setSize((now) => (now.width === width && now.height === height ? now : { width, height }));
+      if (width > 0 && height > 0)
+        setSize((now) => (now.width === width && now.height === height ? now : { width, height }));
     };
     take();
     const observer = new ResizeObserver(take);

@@ -18,6 +18,7 @@ from ilmek.jobs.studio.cyclogram_answers import (
     ShownBinding,
     ShownEvent,
     ShownExclusion,
+    ShownLimit,
     ShownMoment,
     ShownMotionPart,
     ShownPresence,
@@ -77,18 +78,16 @@ def view(request: CyclogramRequest, context: Context) -> Binary:
     parts = [_packed(cyclogram, rows) for _, rows in drawn]
     relations = tuple(_relation(cyclogram, one) for one in cyclogram.relations)
     exclusions = tuple(_exclusion(cyclogram, one) for one in cyclogram.exclusions)
-    checks = (
-        *check_all(cyclogram, cyclogram.relations),
-        *(check_apart(cyclogram, one) for one in cyclogram.exclusions),
-        *limit_checks(cyclogram),
-    )
     about = CyclogramView(
         name=cyclogram.name,
         period=cyclogram.period,
         tracks=tuple(_track(cyclogram, track, rows) for track, rows in drawn),
         relations=relations,
         exclusions=exclusions,
-        checks=tuple(one.as_json() for one in checks),
+        limits=tuple(
+            ShownLimit(one.name, one.source, _finite(one.value), one.limit, one.unit, one.ok)
+            for one in limit_checks(cyclogram)
+        ),
         laws=tuple(FAMILIES),
         lengths=tuple(len(one) for one in parts),
     )

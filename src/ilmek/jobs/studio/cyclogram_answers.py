@@ -111,12 +111,23 @@ class ShownExclusion:
 
 
 @dataclass(frozen=True, slots=True)
+class ShownLimit:
+    """The largest speed or acceleration of a track against the limit of its actuator [SI], shown in `unit`."""
+
+    label: str
+    why: str
+    value: float | None
+    limit: float
+    unit: str
+    ok: bool
+
+
+@dataclass(frozen=True, slots=True)
 class CyclogramView:
     """A cyclogram; behind it the curves of each track as 32-bit floats, one part per track: angle [rad], position [SI],
     velocity, acceleration and jerk over time [SI/s, SI/s^2, SI/s^3], each `count` numbers. A jump has its angle twice.
 
-    checks  of relations, exclusions and limits: name, value, limit, unit, ok, source, relation, cure
-    laws    names of all motion laws
+    limits  of the actuators, each with the largest value of its track      laws  names of all motion laws
     """
 
     name: str
@@ -124,7 +135,7 @@ class CyclogramView:
     tracks: tuple[ShownTrack, ...]
     relations: tuple[ShownRelation, ...]
     exclusions: tuple[ShownExclusion, ...]
-    checks: tuple[dict[str, Any], ...]
+    limits: tuple[ShownLimit, ...]
     laws: tuple[str, ...]
     lengths: tuple[int, ...] = ()
 

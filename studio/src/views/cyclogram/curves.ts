@@ -88,6 +88,11 @@ export function withinTurn(windows: readonly (readonly number[])[]): [number, nu
     if (end - start >= turn) return [[0, turn]];
     const from = ((start % turn) + turn) % turn;
     const to = from + (end - start);
-    return to > turn + 1e-9 ? [[from, turn], [0, to - turn]] : [[from, Math.min(to, turn)]];
+    return to > turn + 1e-9
+      ? [
+          [from, turn],
+          [0, to - turn],
+        ]
+      : [[from, Math.min(to, turn)]];
   });
 }

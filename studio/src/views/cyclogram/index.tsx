@@ -1,12 +1,104 @@
+import { useEffect, useState } from "preact/hooks";
+import type { MachineCyclograms } from "../../api/messages";
+import { post } from "../../api/request";
+import { goTo, type ViewProps } from "../../app/routes";
+import { filesOf, freePath, newFile, project, refreshProject } from "../../project";
 import { t } from "../../text";
-import { CopyCommand } from "../../ui";
+import { Button, Dialog, Progress, Select, toast } from "../../ui";
+import { CyclogramEditor } from "./editor";
+import "./cyclogram.css";
 
-export default function Cyclogram() {
+const FOLDER = "cyclograms";
+
+function stemOf(path: string): string {
+  return path.replace(/^[^/]+\//, "").replace(/\.toml$/, "");
+}
+
+/** Motions over the master angle: files of the project, or the cyclograms of a machine. */
+export default function Cyclogram({ name }: ViewProps) {
+  const [opening, setOpening] = useState(false);
+  useEffect(() => {
+    if (project.peek() === null) void refreshProject().catch(() => undefined);
+  }, []);
+  const files = filesOf("cyclogram");
+  const first = files.find((one) => stemOf(one.path) === "press") ?? files[0];
+  const stem = name || stemOf(first?.path ?? "");
+  const head = (
+    <>
+      {files.length > 0 && (
+        <Select
+          label={t("cyclogram.file")}
+          value={stem}
+          choices={files.map((one) => ({ value: stemOf(one.path), label: stemOf(one.path) }))}
+          onChange={(to) => goTo("cyclogram", to)}
+        />
+      )}
+      <Button icon="add" onClick={() => setOpening(true)}>
+        {t("cyclogram.ofMachine")}
+      </Button>
+    </>
+  );
   return (
-    <div class="app-plain">
-      <h1>{t("cyclogram.title")}</h1>
-      <p>{t("cyclogram.lead")}</p>
-      <CopyCommand command="ilmek cyclogram FILE.toml" />
+    <div class="cyclogram">
+      {stem === "" || stem.includes(":") ? (
+        <div class="ui-stack">
+          <h1>{t("cyclogram.title")}</h1>
+          {stem === "" && <p>{project.value === null ? t("app.loading") : t("cyclogram.noFile")}</p>}
+          {stem !== "" && <Import key={stem} source={stem} />}
+          <div class="ui-row">{head}</div>
+        </div>
+      ) : (
+        <CyclogramEditor key={stem} path={`${FOLDER}/${stem}.toml`} head={head} />
+      )}
+      <Dialog title={t("cyclogram.ofMachine")} open={opening} onClose={() => setOpening(false)}>
+        <p>{t("cyclogram.ofMachineHelp")}</p>
+        <div class="ui-row">
+          {SOURCES.map((source) => (
+            <Button
+              key={source}
+              onClick={() => {
+                setOpening(false);
+                goTo("cyclogram", source);
+              }}
+            >
+              {source}
+            </Button>
+          ))}
+        </div>
+      </Dialog>
     </div>
   );
+}
+
+/** Cyclograms of the catalogue's machines, as the command line names them. */
+const SOURCES = ["automated-loom:row", "automated-loom:knot", "weaver:knot"];
+
+/** Designs a machine and writes its cyclogram into the project. */
+function Import({ source }: { source: string }) {
+  const [failed, setFailed] = useState("");
+  useEffect(() => {
+    const abort = new AbortController();
+    const [machine = "", which = ""] = source.split(":");
+    post<MachineCyclograms>("/cyclogram/machine", { machine }, abort.signal)
+      .then(async (found) => {
+        const one = found.cyclograms.find((made) => made.name === which) ?? found.cyclograms[0];
+        if (one === undefined) throw new Error(source);
+        const path = freePath(FOLDER, `${machine}-${one.name}`);
+        await newFile(path, { text: one.text });
+        toast(t("cyclogram.written", { path }), "good");
+        goTo("cyclogram", stemOf(path));
+      })
+      .catch((error: unknown) => {
+        if (!abort.signal.aborted) setFailed(error instanceof Error ? error.message : String(error));
+      });
+    return () => abort.abort();
+  }, []);
+  if (failed !== "")
+    return (
+      <div class="ui-callout bad" role="alert">
+        <strong>{t("cyclogram.notOpened", { source })}</strong>
+        <p>{failed}</p>
+      </div>
+    );
+  return <Progress label={t("cyclogram.designing", { source })} onCancel={() => goTo("cyclogram")} />;
 }

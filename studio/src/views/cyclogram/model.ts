@@ -91,7 +91,10 @@ export function withSpan(data: CyclogramData, track: string, motion: string, spa
   });
   const events = next.tracks?.[track]?.events;
   if (events === undefined) return next;
-  const freed = Object.entries(events).map(([name, event]) => [name, event.on === motion ? withoutAngle(event) : event]);
+  const freed = Object.entries(events).map(([name, event]) => [
+    name,
+    event.on === motion ? withoutAngle(event) : event,
+  ]);
   return withTrack(next, track, { events: Object.fromEntries(freed) as Record<string, EventData> });
 }
 
@@ -101,7 +104,12 @@ function withoutAngle(event: EventData): EventData {
 }
 
 /** The data with entries of a motion changed. */
-export function withMotion(data: CyclogramData, track: string, motion: string, change: Partial<MotionData>): CyclogramData {
+export function withMotion(
+  data: CyclogramData,
+  track: string,
+  motion: string,
+  change: Partial<MotionData>,
+): CyclogramData {
   const motions = data.tracks?.[track]?.motions;
   const part = motions?.[motion];
   if (part === undefined) return data;
@@ -137,7 +145,8 @@ export function withBegin(data: CyclogramData, track: ShownTrack, motion: string
   const index = track.motions.findIndex((one) => one.name === motion);
   const before = track.motions.at(index - 1);
   const own = track.motions[index];
-  if (before !== undefined && own !== undefined && joins(before, own)) return withLevel(data, track, before.name, level);
+  if (before !== undefined && own !== undefined && joins(before, own))
+    return withLevel(data, track, before.name, level);
   return withMotion(data, track.name, motion, { from: positionText(level, track.unit) });
 }
 

@@ -1,0 +1,163 @@
+import type { ComponentChildren } from "preact";
+import { useEffect, useMemo, useRef, useState } from "preact/hooks";
+import type { ShownTrack } from "../../api/messages";
+import { SaveState, useDocument } from "../../project";
+import { formatNumber, t } from "../../text";
+import { CopyCommand, formatQuantity, QuantityField, quantityText, Segments, Slider } from "../../ui";
+import { type Curve, QUANTITIES } from "./curves";
+import { Lanes } from "./lanes";
+import { type CyclogramData, DEGREE, dragged, type Grip, TURN, withLevel, withSpan } from "./model";
+import { Solve } from "./solution";
+import { CyclogramStore, type Fault } from "./store";
+import { countOf, Motions, Readings, Rules } from "./tables";
+
+/** One cyclogram: its lanes, the cursor, its rules, its solutions, and its values typed. */
+export function CyclogramEditor({ path, head }: { path: string; head: ComponentChildren }) {
+  const file = useDocument<CyclogramData>(path);
+  const store = useMemo(() => new CyclogramStore(), []);
+  const [draft, setDraft] = useState<CyclogramData | null>(null);
+  const [curve, setCurve] = useState<Curve>("position");
+  const [cursor, setCursor] = useState(0);
+  const base = useRef<{ data: CyclogramData; track: ShownTrack } | null>(null);
+  const last = useRef<CyclogramData | null>(null);
+  const saved = file.data.value;
+  const data = draft ?? saved;
+  useEffect(() => () => store.close(), []);
+  useEffect(() => {
+    if (data !== null) store.follow(data);
+  }, [data]);
+  const shown = store.shown.value;
+  const compared = store.compared.value;
+  const change = (next: CyclogramData) => {
+    setDraft(null);
+    file.update(() => next);
+  };
+  /** Drags from the state at the drag's beginning, so that the pointer and what it drags stay together. */
+  const drag = (track: ShownTrack, made: (from: CyclogramData, own: ShownTrack) => CyclogramData) => {
+    if (saved === null) return;
+    base.current ??= { data: saved, track };
+    last.current = made(base.current.data, base.current.track);
+    setDraft(last.current);
+  };
+  const onSpan = (track: ShownTrack, motion: string, grip: Grip, by: number) =>
+    drag(track, (from, own) => {
+      const span = dragged(own, motion, grip, by);
+      return span === null ? from : withSpan(from, own.name, motion, span);
+    });
+  const onLevel = (track: ShownTrack, motion: string, level: number) =>
+    drag(track, (from, own) => {
+      const step = niceLevel(own);
+      return withLevel(from, own, motion, Math.round(level / step) * step);
+    });
+  const onEnd = () => {
+    const made = last.current;
+    base.current = null;
+    last.current = null;
+    if (made !== null) change(made);
+  };
+  const stem = path.replace(/^[^/]+\//, "").replace(/\.toml$/, "");
+  return (
+    <>
+      <header class="ui-view-head">
+        <div>
+          <h1>{t("cyclogram.title")}</h1>
+          <p>{t("cyclogram.lead")}</p>
+        </div>
+        <div class="ui-row cyclogram-files">{head}</div>
+        <SaveState document={file as never} />
+      </header>
+      <FaultNote fault={store.fault.value} />
+      {data === null && file.saved.value === "missing" && (
+        <p class="ui-callout warn" role="alert">
+          {t("cyclogram.missingFile")}
+        </p>
+      )}
+      {data !== null && shown !== null && (
+        <div class="cyclogram-columns">
+          <div class="ui-stack cyclogram-main">
+            <div class="ui-row">
+              <Segments
+                label={t("cyclogram.curve")}
+                labelHidden
+                value={curve}
+                choices={QUANTITIES.map((value) => ({ value, label: t(`cyclogram.${value}`) }))}
+                onChange={setCurve}
+              />
+              <Verdict {...countOf(shown)} />
+            </div>
+            <div class="cyclogram-scroll">
+              <Lanes
+                shown={shown}
+                before={compared?.before ?? null}
+                curve={curve}
+                cursor={cursor}
+                locked={compared !== null}
+                onCursor={setCursor}
+                onSpan={onSpan}
+                onLevel={onLevel}
+                onEnd={onEnd}
+              />
+            </div>
+            <Slider
+              label={t("cyclogram.cursor")}
+              value={cursor}
+              min={0}
+              max={TURN}
+              step={DEGREE}
+              text={formatQuantity(cursor, "deg", 4)}
+              onInput={setCursor}
+            />
+            <Readings shown={shown} cursor={cursor} />
+          </div>
+          <div class="ui-stack cyclogram-side">
+            <div class="cyclogram-period">
+              <QuantityField
+                label={t("cyclogram.period")}
+                value={quantityText(shown.about.period, "s")}
+                unit="s"
+                bounds={{ at_least: 1e-9 }}
+                disabled={compared !== null}
+                onChange={(text) => change({ ...data, period: text })}
+              />
+            </div>
+            <Solve store={store} data={data} onTake={change} />
+            <h2>{t("cyclogram.rules")}</h2>
+            <Rules shown={shown} />
+            {compared === null && (
+              <>
+                <h2>{t("cyclogram.motions")}</h2>
+                <Motions data={data} shown={shown} onChange={change} />
+              </>
+            )}
+            <CopyCommand command={`ilmek cyclogram ${path} --solve acceleration --report ${stem}.html`} />
+          </div>
+        </div>
+      )}
+    </>
+  );
+}
+
+/** A round step of the levels of a track: about a hundredth of its stroke [SI]. */
+function niceLevel(track: ShownTrack): number {
+  const stroke = Math.max(track.high - track.low, 1e-6) * track.factor;
+  return 10 ** Math.floor(Math.log10(stroke / 50)) / track.factor;
+}
+
+function Verdict({ all, bad }: { all: number; bad: number }) {
+  return (
+    <span class={`ui-badge ${bad ? "bad" : "good"}`} role="status">
+      {bad ? t("cyclogram.failing", { count: bad, all: formatNumber(all) }) : t("cyclogram.allHold")}
+    </span>
+  );
+}
+
+function FaultNote({ fault }: { fault: Fault | null }) {
+  if (fault === null) return null;
+  return (
+    <div class="ui-callout bad" role="alert">
+      <strong>{fault.given}</strong>
+      {fault.allowed && <p>{fault.allowed}</p>}
+      {fault.do && <p>{fault.do}</p>}
+    </div>
+  );
+}
