@@ -11,7 +11,7 @@ export interface State {
 }
 
 export interface ProjectApi {
-  project(): Promise<ProjectSummary>;
+  project(checked: boolean): Promise<ProjectSummary>;
   read(path: string): Promise<FileContent>;
   save(path: string, base: string, state: State): Promise<SavedFile>;
   undo(path: string): Promise<FileContent>;
@@ -29,7 +29,7 @@ export function fileAddress(path: string): string {
 }
 
 export const serverApi: ProjectApi = {
-  project: () => get<ProjectSummary>("/project"),
+  project: (checked) => get<ProjectSummary>(`/project?checked=${checked}`),
   read: (path) => get<FileContent>(filePath(path)),
   save: (path, base, state) => put<SavedFile>(filePath(path), { base, ...state }),
   undo: (path) => post<FileContent>("/project/undo", { path }),

@@ -17,17 +17,25 @@ export const openDocuments = computed(() => opened.value);
 /** The document that the keys for undo, redo and save act on. */
 export const activeDocument = signal<Document<object> | null>(null);
 
+/** Time after the first list until the files are checked [ms]: the first view comes before. */
+const CHECK_AFTER = 1500;
+
 let reading: Promise<void> | null = null;
 
-/** Reads the list of files again; several calls while it is read are one. */
+/**
+ * Reads the list of files again; several calls while it is read are one. The first list comes without the errors of the
+ * files, which follow: a check of all files takes longer than a page may.
+ */
 export function refreshProject(): Promise<void> {
+  const first = summary.peek() === null;
   reading ??= serverApi
-    .project()
+    .project(!first)
     .then((found) => {
       summary.value = found;
     })
     .finally(() => {
       reading = null;
+      if (first && summary.peek() !== null) setTimeout(() => void refreshProject().catch(() => undefined), CHECK_AFTER);
     });
   return reading;
 }

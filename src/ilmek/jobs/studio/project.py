@@ -28,7 +28,12 @@ from ilmek.jobs.studio.project_history import History, move_history, read_histor
 
 @dataclass(frozen=True, slots=True)
 class ProjectRequest:
-    """The whole project."""
+    """The whole project.
+
+    checked  whether the first error of each file is required; the first check takes some seconds
+    """
+
+    checked: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -147,19 +152,20 @@ def project(request: ProjectRequest, context: Context) -> ProjectSummary:
     paths = folder.texts()
     for number, path in enumerate(paths):
         context.progress(number / len(paths))
-        files.append(_summary(folder, path))
+        files.append(_summary(folder, path, checked=request.checked))
     pictures = tuple(PictureSummary(path, (folder.base / path).stat().st_size) for path in folder.pictures())
     return ProjectSummary(folder.base.name, str(folder.base), tuple(files), pictures)
 
 
-def _summary(folder: ProjectFolder, path: str) -> FileSummary:
+def _summary(folder: ProjectFolder, path: str, *, checked: bool) -> FileSummary:
     kind = kind_of(path) or ""
     try:
         content = read_bytes(folder.base / path) or b""
     except Exception as error:  # of one file; the rest opens
         return FileSummary(path, kind, "", 0, FileError(str(error)))
     digest = digest_of(content)
-    return FileSummary(path, kind, digest, len(content), file_error(folder.base, path, digest))
+    error_of_file = file_error(folder.base, path, digest) if checked else None
+    return FileSummary(path, kind, digest, len(content), error_of_file)
 
 
 def read_file(request: PathRequest, context: Context) -> FileContent:
