@@ -1697,10 +1697,14 @@ export interface ProductsRequest {
 /**
  * The whole project.
  *
+ *     checked  whether the first error of each file is required; the first check takes some seconds
+ *
  * This interface was referenced by `Messages`'s JSON-Schema
  * via the `definition` "ProjectRequest".
  */
-export interface ProjectRequest {}
+export interface ProjectRequest {
+  checked?: boolean;
+}
 /**
  * A project: its folder, its text files by kind, and its pictures.
  *
