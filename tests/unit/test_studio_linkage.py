@@ -98,6 +98,7 @@ def test_an_unfinished_mechanism_moves_as_far_as_it_is_determined() -> None:
     data["joints"]["B0"]["pin"] = ["ground", "rocker", "arm"]
     answer = shown(data)
     assert answer.structure.loose == ("link",)
+    assert answer.bodies[-1].points == {"C": (0.01, 0.02), "D": (0.03, 0.04)}
     assert answer.structure.left == ("arm",)
     assert answer.structure.missing is not None
     assert "under-constrained at arm" in answer.structure.missing.given

@@ -14,9 +14,16 @@ from ilmek.errors import IlmekError, ParameterError
 from ilmek.io.mechanism.moved_joint import FileChange, moved_joint
 from ilmek.io.mechanism_file import MechanismFile, mechanism_of_data
 from ilmek.jobs.studio.answers import Context
-from ilmek.jobs.studio.linkage_answer import LinkageFault, MechanismAnswer
+from ilmek.jobs.studio.linkage_answer import BodyAnswer, LinkageFault, MechanismAnswer
 from ilmek.jobs.studio.linkage_motion import RunOptions, motion_of
-from ilmek.jobs.studio.linkage_part import drawn_branches, joined_part, machine_of_part, signs_in_pose, solved_part
+from ilmek.jobs.studio.linkage_part import (
+    drawn_branches,
+    joined_part,
+    loose_points,
+    machine_of_part,
+    signs_in_pose,
+    solved_part,
+)
 from ilmek.jobs.studio.linkage_structure import bodies_of, couplings_of, inputs_of, joints_of, structure_of
 from ilmek.linkage.branches_in_pose import Pose
 from ilmek.linkage.initial_pose import inputs_in_pose
@@ -95,10 +102,11 @@ def mechanism(request: MechanismRequest, context: Context) -> MechanismAnswer:
         motion, why = motion_of(machine_of_part(drawn.machine, part), plan_of(part), options, drawn.pose), None
     except IlmekError as error:
         motion, why = None, fault_of(error)
+    loose = tuple(BodyAnswer(body, loose_points(request.mechanism, body), solved=False) for body in drawn.loose)
     known = {GROUND, *(body for step in steps for body in step.bodies)}
     return MechanismAnswer(
         drawn.mechanism.name,
-        bodies_of(drawn.mechanism, known),
+        bodies_of(drawn.mechanism, known) + loose,
         joints_of(drawn.mechanism, request.mechanism.get("joints", {})),
         couplings_of(drawn.mechanism),
         inputs_of(drawn.mechanism),

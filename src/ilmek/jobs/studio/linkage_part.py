@@ -5,7 +5,9 @@ from collections.abc import Mapping
 from typing import Any
 
 from ilmek.dynamics.own_machine import OwnMachine
+from ilmek.errors import IlmekError
 from ilmek.io.mechanism.joints import members_of
+from ilmek.io.mechanism_file import mechanism_of_data
 from ilmek.linkage.branches_in_pose import Pose, branches_in_pose, required_branches
 from ilmek.linkage.groups.group import Step
 from ilmek.linkage.model import GROUND, Mechanism
@@ -40,6 +42,28 @@ def joined_part(data: Mapping[str, Any]) -> tuple[dict[str, Any], tuple[str, ...
     if isinstance(given.get("paths"), list):
         given["paths"] = [entry for entry in given["paths"] if not _names(entry, loose)]
     return {key: value for key, value in given.items() if value != {} or key in ("bodies", "joints", "inputs")}, loose
+
+
+def loose_points(data: Mapping[str, Any], body: str) -> dict[str, tuple[float, float]]:
+    """The points of a body without a joint [m]; none where they cannot be read, or follow from its joints alone.
+
+    It is read as if its first point were pinned to the ground.
+    """
+    table = _table(data, "bodies")[body]
+    first = next(iter(table.get("points", {})), None)
+    if first is None:
+        return {}
+    alone = {
+        "bodies": {GROUND: {"points": {first: [0, 0]}}, body: {"points": table["points"]}},
+        "joints": {first: {"pin": [GROUND, body]}},
+        "inputs": {},
+        **{key: data[key] for key in ("values", "units") if key in data},
+    }
+    try:
+        points = mechanism_of_data(alone).mechanism.body(body).points
+    except IlmekError:
+        return {}
+    return {name: (at.real, at.imag) for name, at in points.items()}
 
 
 def _table(data: Mapping[str, Any], key: str) -> dict[str, Any]:

@@ -97,6 +97,7 @@ export default {
   driven: "driven",
   driveOf: "Drive {name}",
   open: "{value}: does not close",
+  noDrive: "nothing is driven",
   over: "Range",
   overTurn: "Like 0deg..180deg; empty: a full turn.",
   overSlide: "Like 0mm..50mm; empty: the range in which it closes.",

@@ -99,6 +99,7 @@ export default {
   driven: "tahrikli",
   driveOf: "{name} tahriki",
   open: "{value}: kapanmıyor",
+  noDrive: "tahrik yok",
   over: "Aralık",
   overTurn: "Örneğin 0deg..180deg; boş: tam tur.",
   overSlide: "Örneğin 0mm..50mm; boş: kapandığı aralık.",

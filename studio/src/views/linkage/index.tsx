@@ -155,10 +155,9 @@ function Player({ editor }: { editor: Editor }) {
     frame = requestAnimationFrame(step);
     return () => cancelAnimationFrame(frame);
   }, [playing]);
-  if (!motion) return null;
-  const [low, high] = range(motion);
-  const unit = motion.kind === "rotation" ? "deg" : "mm";
-  const value = wrapped(motion, editor.value.value);
+  const [low, high] = motion ? range(motion) : [0, 1];
+  const unit = motion?.kind === "displacement" ? "mm" : "deg";
+  const value = motion ? wrapped(motion, editor.value.value) : 0;
   const closes = editor.figure.value?.closes ?? true;
   const text = formatQuantity(value, unit, 4);
   return (
@@ -166,13 +165,15 @@ function Player({ editor }: { editor: Editor }) {
       <IconButton
         icon={playing ? "pause" : "play"}
         label={t(playing ? "ui.pause" : "ui.play")}
+        disabled={!motion}
         onClick={() => {
           editor.isPlaying.value = !playing;
         }}
       />
       <Slider
         bare
-        label={t("linkage.driveOf", { name: motion.driving })}
+        label={t("linkage.driveOf", { name: motion?.driving ?? "" })}
+        disabled={!motion}
         value={value}
         min={low}
         max={high}
@@ -182,7 +183,9 @@ function Player({ editor }: { editor: Editor }) {
           editor.value.value = to;
         }}
       />
-      <output class={closes ? "" : "bad"}>{closes ? text : t("linkage.open", { value: text })}</output>
+      <output class={closes ? "" : "bad"}>
+        {motion ? (closes ? text : t("linkage.open", { value: text })) : t("linkage.noDrive")}
+      </output>
     </div>
   );
 }

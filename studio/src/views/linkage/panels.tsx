@@ -54,6 +54,8 @@ function Faults({ editor }: { editor: Editor }) {
   const answer = editor.answer.value;
   const refused = editor.refused.value;
   const motion = answer?.motion;
+  const { data, error } = editor.document;
+  if (data.value === null && error.value !== null) return <Report fault={error.value} kind="bad" />;
   return (
     <>
       {refused && <Report fault={refused} kind="bad" />}
