@@ -14,5 +14,4 @@ export { type Cell, Table, type TableColumn } from "./table";
 export { Tabs } from "./tabs";
 export { type ToastKind, toast } from "./toast";
 export { type Bounds, formatQuantity, fromSi, parseUnit, quantityText, readQuantity, shownUnit } from "./units";
-export { type Bounds, formatQuantity, fromSi, quantityText, readQuantity, shownUnit } from "./units";
 export { type Size, useSize } from "./use-size";
