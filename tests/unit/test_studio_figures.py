@@ -4,20 +4,30 @@ import msgspec
 import numpy as np
 import pytest
 
+from ilmek.errors import ParameterError
 from ilmek.jobs.design import design_machine
-from ilmek.jobs.studio.figure_answers import ShownSection
-from ilmek.jobs.studio.figures import rounded_numbers, shown_figures, shown_sections
+from ilmek.jobs.studio.answers import Context
+from ilmek.jobs.studio.figure_answers import ShownFigure
+from ilmek.jobs.studio.figures import rounded_numbers, shown_figures
+from ilmek.jobs.studio.machine_figures import TablesRequest, tables
 from ilmek.report import Animation, Gantt, Plot, StackedBars, Timing
 from ilmek.report.figure import Axis, GanttLane, Lane, Series
 
 
 @pytest.fixture(scope="module")
-def sections() -> list[ShownSection]:
-    return shown_sections(design_machine("beat-up", {}).report)
+def figures() -> list[ShownFigure]:
+    return shown_figures(design_machine("beat-up", {}).report.figures)
 
 
-def test_a_report_comes_through_json_unchanged(sections: list[ShownSection]) -> None:
-    assert msgspec.json.decode(msgspec.json.encode(sections), type=list[ShownSection]) == sections
+def test_figures_come_through_json_unchanged(figures: list[ShownFigure]) -> None:
+    assert msgspec.json.decode(msgspec.json.encode(figures), type=list[ShownFigure]) == figures
+
+
+def test_tables_of_a_machine_and_of_a_machine_in_it() -> None:
+    made = tables(TablesRequest("beat-up"), Context()).tables
+    assert [one.name for one in made] == [one.name for one in design_machine("beat-up", {}).report.tables]
+    with pytest.raises(ParameterError, match="no part 'reed'"):
+        tables(TablesRequest("beat-up", part="reed"), Context())
 
 
 def test_numbers_have_six_digits() -> None:
@@ -43,9 +53,9 @@ def test_a_moving_machine_is_that_of_the_report() -> None:
         assert np.max(np.abs(points - stroke.points)) < 1e-4 * size
 
 
-def test_a_body_has_one_look_in_all_figures(sections: list[ShownSection]) -> None:
+def test_a_body_has_one_look_in_all_figures(figures: list[ShownFigure]) -> None:
     looks: dict[str, set[int]] = {}
-    for figure in sections[0].figures:
+    for figure in figures:
         strokes = figure.drawing.strokes if figure.drawing else []
         shapes = figure.animation.shapes if figure.animation else []
         for one in (*strokes, *shapes):

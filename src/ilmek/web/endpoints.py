@@ -82,6 +82,13 @@ ENDPOINTS: tuple[Endpoint, ...] = (
     ),
     Endpoint(
         "POST",
+        "/machines/{name}/tables",
+        "studio.machine_figures:tables",
+        "The tables of a design.",
+        affinity="machine",
+    ),
+    Endpoint(
+        "POST",
         "/machines/{name}/sensitivities",
         "studio.sensitivities:sensitivities",
         "What each parameter does to each check, by small steps; each is sent as soon as it is known.",

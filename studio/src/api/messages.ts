@@ -1345,6 +1345,38 @@ export interface MachineName {
   name: string;
 }
 /**
+ * The tables of a design.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "MachineTables".
+ */
+export interface MachineTables {
+  tables: ShownTable[];
+}
+/**
+ * Rows of SI numbers and texts.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ShownTable".
+ */
+export interface ShownTable {
+  name: string;
+  title: string;
+  columns: ShownColumn[];
+  rows: (number | string | null)[][];
+}
+/**
+ * A column: heading, unit of its SI numbers, and their significant digits.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "ShownColumn".
+ */
+export interface ShownColumn {
+  heading: string;
+  unit: string;
+  digits: number;
+}
+/**
  * A mechanism as drawn.
  *
  *     poses    of the moving bodies that no motion holds: origin [m] and angle [rad]
@@ -2055,6 +2087,19 @@ export interface SynthesisAnswer {
 export interface SynthesisRequest {
   data?: {};
   quick?: boolean;
+}
+/**
+ * The tables of a design of a machine; part: of a machine in it, "" for the machine itself.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "TablesRequest".
+ */
+export interface TablesRequest {
+  name: string;
+  settings?: {
+    [k: string]: number | boolean | string | null;
+  };
+  part?: string;
 }
 /**
  * A value that is typed for a parameter of a machine: a text with a unit, or a number in SI.

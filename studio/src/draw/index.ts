@@ -6,7 +6,7 @@ export type * from "./figures";
 export { colourOf, colours, cssColour } from "./looks";
 export { Player } from "./player";
 export { Plot } from "./plot";
-export { Figure, Report, SharedCursor } from "./report";
+export { Figure, SharedCursor, Tables } from "./report";
 export { ChoiceTable, ResultTable } from "./results";
 export { Gantt, StackedBars } from "./spans";
 export { Timing } from "./timing";

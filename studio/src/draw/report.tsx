@@ -3,7 +3,7 @@ import { useMemo } from "preact/hooks";
 import { Table } from "../ui";
 import { CursorContext, type Cursors } from "./cursor";
 import { Drawing } from "./drawing";
-import type { ShownFigure, ShownSection } from "./figures";
+import type { ShownFigure, ShownTable } from "./figures";
 import { Player } from "./player";
 import { Plot } from "./plot";
 import { Gantt, StackedBars } from "./spans";
@@ -38,39 +38,20 @@ export function SharedCursor({ children }: { children: ComponentChildren }) {
   return <CursorContext.Provider value={cursors}>{children}</CursorContext.Provider>;
 }
 
-/** Figures and tables of a report and of the machines in it. */
-export function Report({ sections, autoplay = false }: { sections: readonly ShownSection[]; autoplay?: boolean }) {
+/** Tables of a report. */
+export function Tables({ tables }: { tables: readonly ShownTable[] }) {
   return (
-    <>
-      {sections.map((section, number) => (
-        <Section key={`${number} ${section.machine}`} section={section} autoplay={autoplay && number === 0} />
+    <div class="ui-stack">
+      {tables.map((table) => (
+        <Table
+          key={table.name}
+          label={table.title}
+          columns={table.columns}
+          rows={table.rows}
+          height="420px"
+          captioned
+        />
       ))}
-    </>
-  );
-}
-
-function Section({ section, autoplay }: { section: ShownSection; autoplay: boolean }) {
-  return (
-    <SharedCursor>
-      <section class="ui-stack" aria-label={section.title}>
-        {section.depth > 0 && <h2>{section.title}</h2>}
-        {section.lead && <p class="ui-muted">{section.lead}</p>}
-        <div class="fig-grid">
-          {(section.figures ?? []).map((figure) => (
-            <Figure key={figure.name} figure={figure} autoplay={autoplay} />
-          ))}
-        </div>
-        {(section.tables ?? []).map((table) => (
-          <Table
-            key={table.name}
-            label={table.title}
-            columns={table.columns}
-            rows={table.rows}
-            height="420px"
-            captioned
-          />
-        ))}
-      </section>
-    </SharedCursor>
+    </div>
   );
 }

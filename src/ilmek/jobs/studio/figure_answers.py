@@ -4,7 +4,7 @@ Values are SI, rounded to six significant digits; NaN is null. Points are x, y, 
 number of a colour, a marker and dashes: a body or quantity has one look in all figures of a report.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TypeAlias
 
 Numbers: TypeAlias = list[float | None]
@@ -252,15 +252,3 @@ class ShownTable:
     title: str
     columns: list[ShownColumn]
     rows: list[list[float | int | str | None]]
-
-
-@dataclass(frozen=True, slots=True)
-class ShownSection:
-    """Figures and tables of one machine of a report; depth 0: the machine itself, 1: a machine in it, and so on."""
-
-    machine: str
-    title: str
-    lead: str
-    depth: int
-    figures: list[ShownFigure] = field(default_factory=list)
-    tables: list[ShownTable] = field(default_factory=list)

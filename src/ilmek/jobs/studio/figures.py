@@ -3,7 +3,7 @@
 Curves of many samples are thinned as on the pages that the command line writes.
 """
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 
@@ -27,7 +27,6 @@ from ilmek.jobs.studio.figure_answers import (
     ShownMove,
     ShownPlot,
     ShownReading,
-    ShownSection,
     ShownShade,
     ShownSpans,
     ShownStroke,
@@ -41,7 +40,6 @@ from ilmek.report import (
     Gantt,
     MovingStroke,
     Plot,
-    Report,
     StackedBars,
     Stroke,
     Table,
@@ -56,23 +54,6 @@ DIGITS = 6
 
 FINE = 4000.0
 """Extent of a drawing in the units in which its lines are thinned: it can be enlarged ten times without corners."""
-
-
-def shown_sections(report: Report) -> list[ShownSection]:
-    """Figures and tables of a report and of the machines in it, in the order of its page."""
-    tree = list(_tree(report, 0))
-    looks = looks_of(figure for one, _ in tree for figure in one.figures)
-    return [
-        ShownSection(
-            one.machine,
-            one.title,
-            one.lead,
-            depth,
-            [shown_figure(figure, looks) for figure in one.figures],
-            [shown_table(table) for table in one.tables],
-        )
-        for one, depth in tree
-    ]
 
 
 def shown_figures(figures: Iterable[Figure]) -> list[ShownFigure]:
@@ -132,12 +113,6 @@ def interleaved(points: ComplexArray) -> Numbers:
     [1.0, 2.0, 3.0, -4.0]
     """
     return rounded_numbers(np.ascontiguousarray(points, dtype=complex).view(float))
-
-
-def _tree(report: Report, depth: int) -> Iterator[tuple[Report, int]]:
-    yield report, depth
-    for child in report.children:
-        yield from _tree(child, depth + 1)
 
 
 def _plot(plot: Plot, looks: Mapping[str, int]) -> ShownPlot:

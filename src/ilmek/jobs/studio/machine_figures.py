@@ -1,11 +1,11 @@
-"""Figures of a machine's design, chosen by name, as data that the client draws."""
+"""Figures of a machine's design, chosen by name, and its tables, as data that the client draws."""
 
 from dataclasses import dataclass, field
 
 from ilmek.errors import ParameterError
 from ilmek.jobs.studio.answers import Context
-from ilmek.jobs.studio.figure_answers import ShownFigure
-from ilmek.jobs.studio.figures import shown_figures
+from ilmek.jobs.studio.figure_answers import ShownFigure, ShownTable
+from ilmek.jobs.studio.figures import shown_figures, shown_table
 from ilmek.jobs.studio.machine_view import designed
 from ilmek.machines.catalogue import find_machine
 from ilmek.machines.component import Child, Component
@@ -53,6 +53,22 @@ class MachineFigures:
     warnings: tuple[str, ...]
 
 
+@dataclass(frozen=True, slots=True)
+class TablesRequest:
+    """The tables of a design of a machine; part: of a machine in it, "" for the machine itself."""
+
+    name: str
+    settings: dict[str, Setting] = field(default_factory=dict)
+    part: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class MachineTables:
+    """The tables of a design."""
+
+    tables: list[ShownTable]
+
+
 KINDS = {
     "Plot": "plot",
     "Drawing": "drawing",
@@ -79,13 +95,29 @@ def figures(request: FiguresRequest, context: Context) -> MachineFigures:
     )
 
 
+def tables(request: TablesRequest, context: Context) -> MachineTables:
+    """The tables of a design. Raises as `design_machine` does, and ParameterError for an unknown part."""
+    machine = find_machine(request.name)
+    design = designed(request.name, machine.params.read(request.settings), context.progress)
+    component = machine
+    if request.part:
+        child = _part(machine, tuple(machine.children(design)), request.part)
+        component, design = child.component, child.design
+    return MachineTables([shown_table(table) for table in component.tables(component.analysis(design))])
+
+
+def _part(machine: Component, children: tuple[Child, ...], part: str) -> Child:
+    child = next((one for one in children if one.name == part), None)
+    if child is None:
+        names = ", ".join(one.name for one in children) or "none"
+        raise ParameterError(f"{machine.name} has no part {part!r}", allowed=f"parts: {names}")
+    return child
+
+
 def _drawn(
     machine: Component, design: object, children: tuple[Child, ...], part: str
 ) -> tuple[tuple[Figure, ...], tuple[str, ...]]:
     if not part:
         return machine.drawn(design)
-    child = next((one for one in children if one.name == part), None)
-    if child is None:
-        names = ", ".join(one.name for one in children) or "none"
-        raise ParameterError(f"{machine.name} has no part {part!r}", allowed=f"parts: {names}")
+    child = _part(machine, children, part)
     return child.component.drawn(child.design, in_a_loom=True)

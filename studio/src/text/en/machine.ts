@@ -28,6 +28,8 @@ export default {
   keptBelow: "Below is the last design that worked.",
   nearest: "Nearest that can be woven: {text}",
   checks: "Checks",
+  tables: "Tables",
+  noTables: "This design has no tables.",
   results: "Results",
   choices: "Choices",
   comparison: "Compare A and B",

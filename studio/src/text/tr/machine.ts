@@ -31,6 +31,8 @@ export default {
   keptBelow: "Aşağıda çalışan son tasarım var.",
   nearest: "Dokunabilecek en yakın: {text}",
   checks: "Denetimler",
+  tables: "Çizelgeler",
+  noTables: "Bu tasarımın çizelgesi yok.",
   results: "Sonuçlar",
   choices: "Seçimler",
   comparison: "A ile B'yi karşılaştır",

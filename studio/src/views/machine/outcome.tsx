@@ -5,6 +5,7 @@ import { Command } from "./command";
 import { Compare } from "./compare";
 import { Figures } from "./figures";
 import type { MachineModel } from "./model";
+import { DesignTables } from "./tables";
 import { Verdict } from "./verdict";
 
 interface OutcomeProps {
@@ -20,6 +21,7 @@ export function Outcome({ model, tab, onTab }: OutcomeProps) {
   const tabs = [
     { value: "checks", label: `${t("machine.checks")}${failed}` },
     { value: "results", label: t("machine.results") },
+    { value: "tables", label: t("machine.tables") },
     { value: "compare", label: t("machine.comparison") },
     { value: "choices", label: t("machine.choices") },
     { value: "command", label: t("machine.command") },
@@ -32,6 +34,7 @@ export function Outcome({ model, tab, onTab }: OutcomeProps) {
         <Tabs label={view.title} value={tab} tabs={tabs} onChange={onTab}>
           {tab === "checks" && <CheckList checks={view.checks} />}
           {tab === "results" && <ResultTable results={view.results} />}
+          {tab === "tables" && <DesignTables model={model} />}
           {tab === "compare" && <Compare model={model} />}
           {tab === "choices" && <Choices warnings={view.warnings} choices={view.choices} />}
           {tab === "command" && <Command model={model} />}
