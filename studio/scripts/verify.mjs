@@ -30,6 +30,7 @@ try {
   const run = (command, ...given) =>
     execFileSync("npx", ["--no-install", command, ...given], { cwd: studio, stdio: "pipe" });
   run("vite", "build", "--outDir", join(work, "client"), "--emptyOutDir", "--logLevel", "error");
+  execFileSync("node", ["scripts/page.mjs", join(work, "client")], { cwd: studio, stdio: "inherit" });
   execFileSync("node", ["scripts/stamp.mjs", join(work, "client")], { cwd: studio, stdio: "inherit" });
   const changed = differing(shipped, join(work, "client"));
   const types = readFileSync(join(studio, "src/api/messages.ts"));

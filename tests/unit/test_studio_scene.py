@@ -1,17 +1,26 @@
 """The loom's scene in the studio's API: packed numbers, the drawing of a plate, what is refused."""
 
+import base64
+import gzip
 import json
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from ilmek.carpet.chart import Chart
+from ilmek.carpet.quality import Quality
+from ilmek.carpet.sizes import CarpetSize
+from ilmek.carpet.yarn import Yarn
 from ilmek.errors import IlmekError
+from ilmek.jobs import loom_space
+from ilmek.jobs.loom_space import loom_in_space, scene_answer
 from ilmek.jobs.studio.answers import Binary, Context
 from ilmek.jobs.studio.scene import LoomRequest, PlateRequest, glb, plate, project_loom, scene
 from ilmek.plane.contours import area
 from ilmek.report import Contour
 from ilmek.units import turn
+from ilmek.viz.loom_page import LoomPage, loom_page
 from ilmek.viz.scene_data import needed_samples
 
 
@@ -85,3 +94,27 @@ def test_the_loom_as_glb(project: Path) -> None:
     answer = glb(LoomRequest("machines/loom.toml"), Context(str(project)))
     assert answer.kind == "model/gltf-binary"
     assert answer.body[:4] == b"glTF"
+
+
+def test_the_page_of_a_loom_has_its_scene_and_the_client(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    loom = project_loom(project, "machines/loom.toml")
+    monkeypatch.setattr(loom_space, "CLIENT", "web/client/none.js")
+    assert loom_in_space(loom.design, loom.report, None) is None
+    monkeypatch.setattr(loom_space, "CLIENT", "viz/templates/space.js")
+    found = loom_in_space(loom.design, loom.report, None)
+    assert found is not None
+    data = gzip.decompress(base64.b64decode(found.data))
+    assert data == scene(LoomRequest("machines/loom.toml"), Context(str(project))).body
+    page = loom_page(LoomPage("Loom", "1 m", "report.html", space=found))
+    assert all(text in page for text in (found.client, found.data, 'id="show-loom"'))
+    assert "show-loom" not in loom_page(LoomPage("Loom", "1 m", "report.html"))
+
+
+def test_a_large_chart_is_shown_by_fewer_knots(project: Path) -> None:
+    made = project_loom(project, "machines/loom.toml").scene
+    yarn = Yarn("red", (200, 0, 0), (40.0, 60.0, 50.0))
+    knots = np.zeros((300, 500), np.uint8)
+    chart = Chart(knots, (yarn,), CarpetSize(0.3, 0.4), Quality(1000.0, 1000.0), "symmetric")
+    about, parts = _read(scene_answer(made, chart, most=40_000))
+    assert (about["chart"]["rows"], about["chart"]["columns"]) == (150, 250)
+    assert len(parts[2]) == 150 * 250

@@ -14,6 +14,7 @@ from ilmek.io.output import Outputs
 from ilmek.progress import SILENT, Progress
 
 if TYPE_CHECKING:
+    from ilmek.jobs.design import DesignResult
     from ilmek.report import Report
 
 STANDARD = "-"
@@ -67,6 +68,13 @@ class CallOutputs:
                 del self._to[option]
             else:
                 self.give(option, lambda: page)
+
+    def give_scene(self, option: str, made: "DesignResult") -> None:
+        """Stage a designed loom in space as GLB."""
+        if option in self._to and made.loom is not None:
+            from ilmek.jobs.loom_space import loom_glb
+
+            self.outputs.write(Path(self._to[option]), loom_glb(made.loom, made.report))
 
     def give_animation(self, option: str, report: "Report", motion: str | None = None) -> None:
         """Stage a motion that a report shows, the first or one by name. Raises ParameterError where there is none."""

@@ -11,7 +11,7 @@ from ilmek.cli.report import headline_of, show_report
 from ilmek.cli.settings import read_settings, setting_files
 from ilmek.cli.terminal import note, say
 from ilmek.cli.verdict import exit_code, note_verdict
-from ilmek.jobs.design import design_machine, mechanism_text, require_mechanism
+from ilmek.jobs.design import design_machine, mechanism_text, require_loom, require_mechanism
 from ilmek.jobs.machine_file import read_machine_order
 from ilmek.jobs.workshop_order import WorkshopOrder
 
@@ -24,6 +24,7 @@ Examples:
   ilmek design hammer --animation hammer.gif
   ilmek design automated-loom --animation knot.gif --motion loom-knot-front
   ilmek design motion-four-bar --to gripper.toml
+  ilmek design automated-loom --glb loom.glb
   ilmek design machines/beat-up.toml --set swing=32deg
 
 The parameters of a machine, and their limits: ilmek machines MACHINE
@@ -61,6 +62,13 @@ The parameters of a machine, and their limits: ilmek machines MACHINE
     metavar="FILE.toml",
     help="Write the linkage as a mechanism file (.toml, .json) for ilmek mechanism.",
 )
+@click.option(
+    "--glb",
+    "space_to",
+    type=click.Path(path_type=Path),
+    metavar="FILE.glb",
+    help="Write a loom in space, with its motions over a row and a knot, as GLB (glTF 2.0).",
+)
 @click.option("--tolerance", metavar="ERROR", help="Tolerance of cam tables: 1um, 0.01deg, or 0.01% of the stroke.")
 @force_option
 def command(  # noqa: PLR0917 - click calls it by name
@@ -74,6 +82,7 @@ def command(  # noqa: PLR0917 - click calls it by name
     motion: str | None,
     parts_to: Path | None,
     mechanism_to: Path | None,
+    space_to: Path | None,
     tolerance: str | None,
     force: bool,
 ) -> int:
@@ -88,7 +97,15 @@ def command(  # noqa: PLR0917 - click calls it by name
     order = read_machine_order(name, read_settings(given))
     if mechanism_to is not None:
         require_mechanism(order.machine, mechanism_to)
-    files = {"--json": json_to, "--report": page_to, "--animation": animation_to, "--to": mechanism_to}
+    if space_to is not None:
+        require_loom(order.machine, space_to)
+    files = {
+        "--json": json_to,
+        "--report": page_to,
+        "--animation": animation_to,
+        "--to": mechanism_to,
+        "--glb": space_to,
+    }
     workshop = None if parts_to is None else WorkshopOrder(parts_to, tolerance)
     inputs = {**({} if order.file is None else {"FILE": order.file}), **setting_files(given)}
     with call_outputs(files, force=force, inputs=inputs) as call:
@@ -98,10 +115,11 @@ def command(  # noqa: PLR0917 - click calls it by name
         if mechanism_to is not None and made.mechanism is not None:
             text = mechanism_text(made.mechanism, mechanism_to)
             call.give("--to", lambda: text)
+        call.give_scene("--glb", made)
         call.give_json(made.as_json)
     if not call.quiet:
         show_report(made.report)
-        call.show_files({"--report": "report", "--animation": "animation"})
+        call.show_files({"--report": "report", "--animation": "animation", "--glb": "loom in space"})
         if mechanism_to is not None and made.mechanism is not None:
             say(f"mechanism: {mechanism_to}")
         if made.workshop is not None:

@@ -17,6 +17,7 @@ from ilmek.report import Report
 if TYPE_CHECKING:
     from ilmek.dynamics.own_machine import OwnMachine
     from ilmek.jobs.workshop import Workshop
+    from ilmek.machines.automated_loom.design import LoomDesign
 
 
 WRITERS = {".toml": "mechanism_toml", ".json": "mechanism_json"}
@@ -28,11 +29,15 @@ LOOM = "automated-loom"
 
 @dataclass(frozen=True, slots=True)
 class DesignResult:
-    """The report of a design, the workshop files that were written, if any, and its linkage where it has one."""
+    """The report of a design, the workshop files that were written, if any, and its linkage where it has one.
+
+    loom  the design of a loom, for its picture in space; None of any other machine
+    """
 
     report: Report
     workshop: "Workshop | None" = None
     mechanism: "OwnMachine | None" = None
+    loom: "LoomDesign | None" = None
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -51,6 +56,14 @@ def require_mechanism(name: str, file: Path) -> None:
         raise ParameterError(f"{name} has no linkage that --to could write", allowed=able)
     if file.suffix.lower() not in WRITERS:
         raise ParameterError(f"mechanism file {file} ends in {file.suffix!r}", allowed=" or ".join(WRITERS))
+
+
+def require_loom(name: str, file: Path) -> None:
+    """Raise ParameterError unless the machine is a loom and the file ends in .glb."""
+    if find_machine(name).name != LOOM:
+        raise ParameterError(f"{name} has no picture in space that --glb could write", allowed=LOOM)
+    if file.suffix.lower() != ".glb":
+        raise ParameterError(f"--glb {file} ends in {file.suffix!r}", allowed=".glb")
 
 
 def mechanism_text(machine: "OwnMachine", file: Path) -> str:
@@ -88,7 +101,8 @@ def design_machine(
         progress.part(0.8, 1.0, "files")
         linkage = None if machine.mechanism is None else machine.mechanism(designed)
         made_of_links = machine.mechanism is None or linkage is not None  # without a solution there is nothing to make
-        return DesignResult(report, write(report) if write is not None and made_of_links else None, linkage)
+        loom = designed if machine.name == LOOM else None
+        return DesignResult(report, write(report) if write is not None and made_of_links else None, linkage, loom)
 
 
 def _with_nearest(report: Report, params: Params, progress: Progress) -> Report:

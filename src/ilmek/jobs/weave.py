@@ -13,6 +13,7 @@ from ilmek.jobs.carpet_files import file_notes
 from ilmek.jobs.carpet_report import page_of
 from ilmek.jobs.chart import ChartResult, chart_results, job_json, make_charted, write_chart
 from ilmek.jobs.loom import LoomOrder, LoomResult, make_loomed, params_for
+from ilmek.jobs.loom_space import loom_in_space
 from ilmek.jobs.order import CarpetOrder
 from ilmek.jobs.yarn_warnings import currency_warning
 from ilmek.loom.explicit import CompiledProgramme
@@ -235,7 +236,7 @@ def _carpet_page(woven: WeaveResult, drawn: DrawnCarpet | None) -> CarpetPage:
 
 
 def _loom_page(woven: WeaveResult) -> LoomPage:
-    chart = woven.charted.chart
+    chart, design = woven.charted.chart, woven.loomed.design
     of_machines = {check.name for report in (woven.loom.own(), *woven.loom.children) for check in report.checks}
     return LoomPage(
         title=f"Loom for {woven.charted.order.order.picture.stem}",
@@ -246,6 +247,7 @@ def _loom_page(woven: WeaveResult) -> LoomPage:
         warnings=woven.loomed.notes,
         choices=woven.loom.all_choices,
         nearest=woven.loom.nearest,
+        space=None if design is None else loom_in_space(design, woven.loom, chart),
     )
 
 

@@ -11,6 +11,14 @@ GOOD, BAD = "The loom weaves this carpet.", "The loom cannot weave this carpet, 
 
 
 @dataclass(frozen=True, slots=True)
+class LoomInSpace:
+    """The picture of a loom in space: the client that draws it and the scene's data, both compressed, as base64."""
+
+    client: str
+    data: str
+
+
+@dataclass(frozen=True, slots=True)
 class LoomPage:
     """Contents of the page of a loom.
 
@@ -21,6 +29,7 @@ class LoomPage:
     warnings     warnings that belong to no machine
     choices      what the loom chose of what was left open
     nearest      carpets that the loom could weave, in words, where it cannot weave this one
+    space        the picture in space; default: none
     """
 
     title: str
@@ -31,6 +40,7 @@ class LoomPage:
     warnings: tuple[str, ...] = ()
     choices: tuple[Choice, ...] = ()
     nearest: str = ""
+    space: LoomInSpace | None = None
 
 
 def loom_page(page: LoomPage, left_out: list[str] | None = None, progress: Progress = SILENT) -> str:
@@ -54,5 +64,6 @@ def loom_page(page: LoomPage, left_out: list[str] | None = None, progress: Progr
         choices=page.choices,
         warnings=[*page.warnings, *of_machines, *left_out],
         sections=sections,
+        space=page.space,
         checks=failures_first(checks),
     )

@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -12,9 +11,10 @@ from ilmek.errors import ParameterError
 from ilmek.io.glb import glb_bytes
 from ilmek.jobs.chart import ChartResult, make_charted
 from ilmek.jobs.loom import make_loomed, read_loom_order
+from ilmek.jobs.loom_space import scene_answer
 from ilmek.jobs.machine_file import read_machine_order
 from ilmek.jobs.order import read_order
-from ilmek.jobs.studio.answers import Binary, Context, packed
+from ilmek.jobs.studio.answers import Binary, Context
 from ilmek.jobs.studio.project_folder import ProjectFolder, digest_of, kind_of, read_bytes
 from ilmek.machines.automated_loom import MACHINE
 from ilmek.machines.automated_loom.design import LoomDesign
@@ -24,7 +24,6 @@ from ilmek.progress import SILENT, Progress
 from ilmek.report import Contour, Plate, Report
 from ilmek.report.scene import Scene
 from ilmek.units import mm
-from ilmek.viz.scene_data import scene_data
 
 GLB = "model/gltf-binary"
 RECIPE = "carpet.toml"
@@ -83,23 +82,7 @@ def scene(request: LoomRequest, context: Context) -> Binary:
     Raises IlmekError where the file is no loom, or its loom cannot be designed.
     """
     loom = project_loom(context.folder, request.file, context.progress)
-    data = scene_data(loom.scene)
-    chart = loom.charted.chart if loom.charted is not None else None
-    knots = b"" if chart is None else np.asarray(chart.knots).astype(np.uint8).tobytes()
-    about: dict[str, Any] = {
-        **data.about,
-        "file": request.file,
-        "chart": None
-        if chart is None
-        else {
-            "rows": chart.rows,
-            "columns": chart.columns,
-            "colours": [yarn.hex for yarn in chart.yarns],
-            "yarns": [yarn.name for yarn in chart.yarns],
-        },
-        "lengths": [len(data.floats), len(data.integers), len(knots)],
-    }
-    return packed(about, data.floats, data.integers, knots)
+    return scene_answer(loom.scene, None if loom.charted is None else loom.charted.chart)
 
 
 def glb(request: LoomRequest, context: Context) -> Binary:

@@ -14,8 +14,7 @@ export class Cloth {
     const made = ribbon(model, carpet.pile / 2);
     const geometry = new three.BufferGeometry();
     geometry.setAttribute("position", new three.BufferAttribute(made.points, 3));
-    const rows = chart?.rows ?? carpet.rows;
-    const uv = made.uv.map((value, k) => (k % 2 === 0 ? value : -value / (rows * carpet.rowPitch)));
+    const uv = made.uv.map((value, k) => (k % 2 === 0 ? value : -value / (carpet.rows * carpet.rowPitch)));
     geometry.setAttribute("uv", new three.BufferAttribute(uv, 2));
     geometry.setIndex(new three.BufferAttribute(made.triangles, 1));
     geometry.computeVertexNormals();
@@ -40,12 +39,12 @@ export class Cloth {
     };
     this.mesh = new three.Mesh(geometry, this.material);
     this.mesh.frustumCulled = false;
-    this.weave(rows);
+    this.weave(carpet.rows);
   }
 
   /** Shows so many rows; the last one lies at the fell. */
   weave(rows: number): void {
-    this.woven.value = rows / (this.model.about.chart?.rows ?? this.model.about.carpet.rows);
+    this.woven.value = rows / this.model.about.carpet.rows;
   }
 
   dispose(): void {

@@ -390,7 +390,7 @@ export class Stage {
         levels[
           levelFor(
             part.solids.map((solid) => solid.deviation),
-            pixel,
+            COARSE * pixel,
           )
         ];
       if (level !== undefined && mesh.geometry !== level) mesh.geometry = level;

@@ -29,7 +29,7 @@ export function usePicture(
     made.drawn = () => {
       if (labels.current) drawLabels(made, labels.current, wanted.current.names, element);
     };
-    made.weave(Math.round(0.6 * (model.about.chart?.rows ?? model.about.carpet.rows)));
+    made.weave(Math.round(0.6 * model.about.carpet.rows));
     const root = document.documentElement;
     const paint = () => made.setTheme(root.dataset["theme"] ?? null);
     const sized = () => made.resize(element.clientWidth, element.clientHeight);

@@ -26,7 +26,7 @@ type Axis = "none" | "x" | "y" | "z";
 
 export function Workbench({ model, above, below, drawing, live = null }: WorkbenchProps) {
   const { about } = model;
-  const all = about.chart?.rows ?? about.carpet.rows;
+  const all = about.carpet.rows;
   const [drive, setDrive] = useState<Drive>("row");
   const [chosen, setChosen] = useState("");
   const [followed, setFollowed] = useState("");

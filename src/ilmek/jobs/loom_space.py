@@ -1,0 +1,65 @@
+"""A loom in space as files: GLB, and the data of the picture in loom.html with the client that draws it."""
+
+import base64
+import gzip
+from importlib.resources import files
+from typing import Any
+
+import numpy as np
+
+from ilmek.carpet.chart import Chart
+from ilmek.io.glb import glb_bytes
+from ilmek.jobs.studio.answers import Binary, packed
+from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.automated_loom.in_space.scene import scene
+from ilmek.report import Report
+from ilmek.report.scene import Scene
+from ilmek.viz.loom_page import LoomInSpace
+from ilmek.viz.scene_data import scene_data
+
+CLIENT = "web/client/loom-page.js"
+"""The client of the picture, in the package."""
+
+MOST_KNOTS = 1_000_000
+"""Knots of a chart in a page; of a larger one every second, third, ... row and column is shown."""
+
+
+def loom_glb(loom: LoomDesign, report: Report) -> bytes:
+    """A loom as GLB, with its motions over a row and over a knot as animations."""
+    return glb_bytes(scene(loom, report))
+
+
+def scene_answer(made: Scene, chart: Chart | None, *, most: int | None = None) -> Binary:
+    """A scene with the chart of its carpet: JSON, 32-bit floats and integers, a byte a knot, the top row first.
+
+    most  knots of the chart; default: all
+    """
+    data = scene_data(made)
+    knots = np.zeros((0, 0), np.uint8)
+    if chart is not None and len(chart.yarns) <= np.iinfo(np.uint8).max + 1:
+        every = 1 if most is None else max(1, int(np.ceil(np.sqrt(chart.knots.size / most))))
+        knots = np.ascontiguousarray(chart.knots[::every, ::every]).astype(np.uint8)
+    shown: dict[str, Any] | None = None
+    if chart is not None and knots.size:
+        shown = {
+            "rows": knots.shape[0],
+            "columns": knots.shape[1],
+            "colours": [yarn.hex for yarn in chart.yarns],
+            "yarns": [yarn.name for yarn in chart.yarns],
+        }
+    lengths = [len(data.floats), len(data.integers), knots.nbytes]
+    return packed({**data.about, "chart": shown, "lengths": lengths}, data.floats, data.integers, knots.tobytes())
+
+
+def loom_in_space(loom: LoomDesign, report: Report, chart: Chart | None) -> LoomInSpace | None:
+    """The picture of a loom for its page; None where the package has no client, as in its sources before a build."""
+    client = files("ilmek").joinpath(CLIENT)
+    if not client.is_file():
+        return None
+    data = scene_answer(scene(loom, report), chart, most=MOST_KNOTS)
+    return LoomInSpace(_compressed(client.read_bytes()), _compressed(data.body))
+
+
+def _compressed(content: bytes) -> str:
+    """Compressed, as base64; the same content gives the same text."""
+    return base64.b64encode(gzip.compress(content, 9, mtime=0)).decode("ascii")

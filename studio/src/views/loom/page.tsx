@@ -1,0 +1,57 @@
+/** The loom in space in a page by itself, loom.html: its data stand in the page, no server is needed. */
+import { render } from "preact";
+import { unpacked } from "../../api/request";
+import { t } from "../../text";
+import shared from "../../ui/style.css?inline";
+import own from "./loom.css?inline";
+import { type SceneAbout, sceneModel } from "./scene";
+import { Workbench } from "./workbench";
+
+const PAGE =
+  ":host{display:block;height:min(86vh,900px);border:1px solid var(--line);color:var(--ink);font:14px/1.45 system-ui,sans-serif}.loom-host{height:100%}";
+
+/** Styles of a whole page for an element of another page: what is said of the root holds for the element. */
+export function hosted(css: string): string {
+  return css.replace(/:root(\[[^\]]*\])/g, ":host($1)").replaceAll(":root", ":host");
+}
+
+/** The bytes of a text of base64 of compressed bytes. */
+async function inflated(text: string): Promise<ArrayBuffer> {
+  const bytes = Uint8Array.from(atob(text.trim()), (letter) => letter.charCodeAt(0));
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+  return new Response(stream).arrayBuffer();
+}
+
+/** Shows the scene in an element; its data are the text of the element with the id `loom-scene`. */
+async function show(into: HTMLElement): Promise<void> {
+  if (document.createElement("canvas").getContext("webgl2") === null) {
+    into.textContent = t("loom.noWebgl");
+    return;
+  }
+  const answer = unpacked<SceneAbout>(await inflated(document.getElementById("loom-scene")?.textContent ?? ""));
+  const [floats, integers, knots] = answer.parts(answer.about.lengths);
+  if (!floats || !integers || !knots) return;
+  const exact = (part: Uint8Array<ArrayBuffer>) =>
+    part.buffer.slice(part.byteOffset, part.byteOffset + part.byteLength);
+  const root = into.attachShadow({ mode: "open" });
+  const style = document.createElement("style");
+  style.textContent = hosted(shared) + hosted(own) + PAGE;
+  const host = document.createElement("div");
+  host.className = "loom-host";
+  root.append(style, host);
+  theme(into);
+  render(<Workbench model={sceneModel(answer.about, exact(floats), exact(integers), knots)} />, host);
+}
+
+/** The colours that the reader's system prefers. */
+function theme(into: HTMLElement): void {
+  const dark = matchMedia("(prefers-color-scheme: dark)");
+  const paint = () => {
+    for (const element of [into, document.documentElement]) element.dataset["theme"] = dark.matches ? "dark" : "light";
+  };
+  dark.addEventListener("change", paint);
+  paint();
+}
+
+const into = document.getElementById("loom-in-space");
+if (into !== null) void show(into);
