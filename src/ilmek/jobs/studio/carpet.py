@@ -7,16 +7,23 @@ from contextlib import contextmanager
 from dataclasses import replace
 from hashlib import blake2b
 
+import numpy as np
+
 from ilmek.arrays import Rgb
+from ilmek.carpet.bill import yarn_bill
 from ilmek.carpet.calling import count_text, row_steps
-from ilmek.carpet.chart import Chart
+from ilmek.carpet.chart import Chart, make_chart
 from ilmek.carpet.design import resampled
 from ilmek.carpet.fitting import FitParams, prepare_picture
 from ilmek.carpet.outline import find_outline
+from ilmek.carpet.quality import parse_quality
 from ilmek.carpet.rows import row_runs
+from ilmek.carpet.sizes import parse_size
+from ilmek.carpet.statistics import chart_statistics
 from ilmek.errors import IlmekError, ParameterError
 from ilmek.io.chart.symbols import symbols
 from ilmek.io.picture import SMALLEST
+from ilmek.io.yarn_file import default_yarns
 from ilmek.jobs.chart import ChartResult, make_charted
 from ilmek.jobs.charting import file_key
 from ilmek.jobs.order import CarpetOrder, order_of_data
@@ -47,6 +54,14 @@ from ilmek.jobs.yarn_choice import proposed_shades
 
 MOST_SHADES = 60
 """Largest number of shades that are proposed."""
+
+
+def prepare() -> None:
+    """Load the kernels of a chart by making a small one of a photo."""
+    noise = np.random.default_rng(1).integers(0, 256, (64, 64, 3), dtype=np.uint8)
+    made = make_chart(noise, parse_size("16x16cm"), parse_quality("20x20/dm"), default_yarns())
+    yarn_bill(made)
+    chart_statistics(made)
 
 
 def chart(request: ChartRequest, context: Context) -> Binary:

@@ -6,7 +6,6 @@ import {
   type Grid,
   heldView,
   knotAt,
-  knotOf,
   nearestKnot,
   panned,
   showing,
@@ -70,7 +69,7 @@ describe("the view of a chart", () => {
 describe("the knot under the pointer", () => {
   it("is counted as the weaver counts", () => {
     expect(weaverNumbers({ column: 0, line: 299 }, GRID)).toEqual({ row: 1, knot: 1 });
-    expect(knotOf(300, 200, GRID)).toEqual({ column: 199, line: 0 });
+    expect(weaverNumbers({ column: 199, line: 0 }, GRID)).toEqual({ row: 300, knot: 200 });
   });
 
   it("is none outside the carpet", () => {

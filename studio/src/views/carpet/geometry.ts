@@ -121,11 +121,6 @@ export function weaverNumbers(knot: Knot, grid: Grid): { row: number; knot: numb
   return { row: grid.rows - knot.line, knot: knot.column + 1 };
 }
 
-/** The knot of a row and a number as the weaver counts. */
-export function knotOf(row: number, number: number, grid: Grid): Knot {
-  return { column: number - 1, line: grid.rows - row };
-}
-
 /** The tiles of a chart whose sides have at most `most` knots. */
 export function tilesOf(rows: number, columns: number, most: number): Tile[] {
   const tiles: Tile[] = [];

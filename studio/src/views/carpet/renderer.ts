@@ -43,6 +43,9 @@ const CELL = 64;
 /** Time after the last change of the view after which its pixels are averaged finely [ms]. */
 const REST = 120;
 
+/** Time between two frames above which a moving view is drawn more coarsely [ms]. */
+const SLOW = 24;
+
 export class Renderer {
   readonly #gl: WebGL2RenderingContext;
   readonly #program: WebGLProgram;
@@ -56,6 +59,9 @@ export class Renderer {
   #frame = 0;
   #rest: ReturnType<typeof setTimeout> | undefined;
   #fine = false;
+  /** Mean time between the frames of a movement [ms]; long where there is no graphics hardware. */
+  #pace = 16;
+  #last = 0;
   #hasSource = false;
   #signs = "";
 
@@ -193,6 +199,9 @@ export class Renderer {
     gl.clearColor(0, 0, 0, 0);
     gl.clear(gl.COLOR_BUFFER_BIT);
     if (scene === null || grid.rows === 0 || gl.isContextLost()) return;
+    const now = performance.now();
+    if (!this.#fine && now - this.#last < REST) this.#pace += 0.2 * (now - this.#last - this.#pace);
+    this.#last = now;
     const ratio = width / Math.max(1, this.canvas.clientWidth);
     const px = scene.view.scale * ratio;
     const least = px * Math.min(1, grid.aspect);
@@ -211,7 +220,7 @@ export class Renderer {
     gl.uniform2f(this.#at.u_grid, grid.columns, grid.rows);
     gl.uniform1f(this.#at.u_split, scene.split >= 1 ? width + 9 : scene.split * width);
     gl.uniform1i(this.#at.u_left, scene.left === "source" && this.#hasSource ? 1 : 0);
-    gl.uniform1i(this.#at.u_samples, samplesOf(least, this.#fine));
+    gl.uniform1i(this.#at.u_samples, samplesOf(least, this.#fine ? 8 : this.#pace > SLOW ? 1 : 2));
     gl.uniform1f(this.#at.u_lines, 10);
     gl.uniform1f(this.#at.u_ratio, ratio);
     gl.activeTexture(gl.TEXTURE0);
@@ -234,11 +243,10 @@ export class Renderer {
   }
 }
 
-/** Samples of a pixel in each direction: as many as knots lie in it, few while the view moves. */
-export function samplesOf(pixelsPerKnot: number, fine: boolean): number {
+/** Samples of a pixel in each direction: as many as knots lie in it, at most `most`. */
+export function samplesOf(pixelsPerKnot: number, most: number): number {
   if (pixelsPerKnot >= 2) return 1;
-  const wanted = Math.ceil(1 / pixelsPerKnot) + 1;
-  return Math.min(wanted, fine ? 8 : 2);
+  return Math.min(Math.ceil(1 / pixelsPerKnot) + 1, most);
 }
 
 function textureOf(gl: WebGL2RenderingContext, filter: number): WebGLTexture {

@@ -71,10 +71,22 @@ function YarnLine({ model, name, srgb, symbol }: YarnProps) {
         </span>
         <span>{name}</span>
       </button>
-      <Button size="small" kind="quiet" pressed={has("keep")} onClick={() => toggle("keep")}>
+      <Button
+        size="small"
+        kind="quiet"
+        pressed={has("keep")}
+        aria-label={`${t("carpet.keep")}: ${name}`}
+        onClick={() => toggle("keep")}
+      >
         {t("carpet.keep")}
       </Button>
-      <Button size="small" kind="quiet" pressed={has("never")} onClick={() => toggle("never")}>
+      <Button
+        size="small"
+        kind="quiet"
+        pressed={has("never")}
+        aria-label={`${t("carpet.never")}: ${name}`}
+        onClick={() => toggle("never")}
+      >
         {t("carpet.never")}
       </Button>
     </li>
