@@ -1,6 +1,7 @@
 /** Texts of the view "machine". */
 export default {
   title: "Machine",
+  outcome: "Design",
   choose: "Machine",
   inProject: "In this project",
   fromCatalogue: "New, from the catalogue",

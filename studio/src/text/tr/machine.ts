@@ -4,6 +4,7 @@ import type en from "../en/machine";
 
 export default {
   title: "Makine",
+  outcome: "Tasarım",
   choose: "Makine",
   inProject: "Bu projede",
   fromCatalogue: "Yeni, katalogdan",

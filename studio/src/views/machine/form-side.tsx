@@ -6,7 +6,7 @@ import { type Group, groupsOf } from "./form";
 import type { MachineModel } from "./model";
 
 /** Number of parameters of a group that are shown before the rest is opened. */
-const FIRST = 24;
+const FIRST = 60;
 
 /** The form: search, filter, groups of parameters. */
 export function FormSide({ model }: { model: MachineModel }) {
@@ -101,7 +101,7 @@ function GroupOfFields({ model, group, open }: { model: MachineModel; group: Gro
   return (
     <details class="machine-group" open={open}>
       <summary>
-        <h3>{group.name === "" ? t("machine.groupGeneral") : group.name.replaceAll("_", " ")}</h3>
+        <h2>{group.name === "" ? t("machine.groupGeneral") : group.name.replaceAll("_", " ")}</h2>
         <span class="ui-muted">{t("machine.count", { count: group.fields.length })}</span>
       </summary>
       {shown.map((field) => (

@@ -5,7 +5,7 @@ import { remember, remembered } from "../../app/settings";
 import { filesOf, project, SaveState } from "../../project";
 import { useDocument } from "../../project/use-document";
 import { t } from "../../text";
-import { Split } from "../../ui";
+import { Segments, Split } from "../../ui";
 import { Chooser, NoFile } from "./chooser";
 import { FormSide } from "./form-side";
 import { MachineModel } from "./model";
@@ -43,6 +43,7 @@ function OneMachine({ name }: { name: string }) {
   const document = useDocument<MachineFile>(`machines/${name}.toml`);
   const model = useMemo(() => new MachineModel(document), [document]);
   const [tab, setTab] = useState("checks");
+  const [side, setSide] = useState<"outcome" | "form">("outcome");
   useEffect(() => {
     remember("machine.last", name);
     return () => model.close();
@@ -50,11 +51,23 @@ function OneMachine({ name }: { name: string }) {
   const missing = document.saved.value === "missing";
   useReady(model.view.value !== null);
   return (
-    <div class="machine">
+    <div class={`machine show-${side}`}>
       <header class="machine-head">
         <h1 class="visually-hidden">{t("machine.title")}</h1>
         <Chooser name={name} onChoose={(to) => goTo("machine", to)} />
         <VerdictBadge model={model} />
+        <div class="machine-sides">
+          <Segments
+            label={t("machine.title")}
+            labelHidden
+            value={side}
+            choices={[
+              { value: "outcome", label: t("machine.outcome") },
+              { value: "form", label: t("machine.parameters") },
+            ]}
+            onChange={setSide}
+          />
+        </div>
         <span class="ui-grow" />
         {!missing && <SaveState document={document as never} />}
       </header>

@@ -43,16 +43,23 @@ function Reasons({ view }: { view: DesignView }) {
 /** The verdict as a badge, and how long the design took. */
 export function VerdictBadge({ model }: { model: MachineModel }) {
   const view = model.view.value;
-  if (view === null) return null;
-  const good = view.holds;
+  const failure = model.failure.value;
+  if (view === null && failure === null) return null;
+  const good = view?.holds === true && failure === null;
   return (
     <span class="ui-row" role="status">
       <span class={`ui-badge machine-badge ${good ? "good" : "bad"}`}>
         <Icon name={good ? "good" : "error"} />
-        {good ? t("machine.holds") : t("machine.fails", { count: view.failed })}
+        {failure !== null || view === null
+          ? t("machine.noDesign")
+          : good
+            ? t("machine.holds")
+            : t("machine.fails", { count: view.failed })}
       </span>
       <span class="ui-muted machine-time">
-        {model.working.value ? t("machine.designing") : t("machine.designed", { time: formatSpan(view.seconds) })}
+        {model.working.value
+          ? t("machine.designing")
+          : view !== null && failure === null && t("machine.designed", { time: formatSpan(view.seconds) })}
       </span>
     </span>
   );
