@@ -4,8 +4,10 @@ A motion from begin to finish passes the position p at the share u of its time w
 The master angle is start + u (end - start): linear in start and end for any law. The solver depends on this.
 """
 
+import itertools
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -56,7 +58,7 @@ def turning_shares(law: MotionLaw) -> FloatArray:
 
 def crossing_shares(segment: TrackSegment, position: RealField) -> tuple[float, ...]:
     """Shares of a motion's time [-] at which it is at a position [SI], ascending, exact to rounding."""
-    found = (_crossed(segment, piece, float(position)) for piece in _pieces(segment))
+    found = (_crossed(segment, piece, float(position)) for piece in _pieces(segment.law))
     return tuple(sorted({u for u in found if u is not None}))
 
 
@@ -131,7 +133,7 @@ def _inside(segment: TrackSegment, low: float, high: float) -> Iterator[tuple[fl
             yield 0.0, 1.0
         return
     last: tuple[float, float] | None = None
-    for piece in _pieces(segment):
+    for piece in _pieces(segment.law):
         span = _piece_inside(segment, piece, low, high)
         if last and span and span[0] == last[1]:
             last = (last[0], span[1])
@@ -143,10 +145,10 @@ def _inside(segment: TrackSegment, low: float, high: float) -> Iterator[tuple[fl
         yield last
 
 
-def _pieces(segment: TrackSegment) -> Iterator[tuple[float, float]]:
-    """Ranges of the share in which the motion is monotonic."""
-    shares = turning_shares(segment.law)
-    return zip(shares[:-1].tolist(), shares[1:].tolist(), strict=True)
+@lru_cache(maxsize=500)
+def _pieces(law: MotionLaw) -> tuple[tuple[float, float], ...]:
+    """Ranges of the share in which a law is monotonic."""
+    return tuple(itertools.pairwise(turning_shares(law).tolist()))
 
 
 def _piece_inside(
@@ -168,12 +170,20 @@ def _crossed(segment: TrackSegment, piece: tuple[float, float], position: float)
     """The share within a piece at which the motion is at a position; None where it is not."""
     if segment.stroke == 0 or not np.isfinite(position):
         return None
-    goal = (position - segment.begin) / segment.stroke
-    ends = np.array([float(segment.law.s(u)) - goal for u in piece])
+    return _share_of(segment.law, piece, (position - segment.begin) / segment.stroke)
+
+
+@lru_cache(maxsize=5000)
+def _share_of(law: MotionLaw, piece: tuple[float, float], goal: float) -> float | None:
+    """The share within a piece at which s of a law is `goal`; None where it is not.
+
+    It does not depend on the master angle: while motions are moved in time, it is found once.
+    """
+    ends = np.array([float(law.s(u)) - goal for u in piece])
     for u, off in zip(piece, ends, strict=True):
         if abs(off) <= _AT_END:
             return u
     if ends[0] * ends[1] > 0:
         return None
     low, high = np.array([piece[0]]), np.array([piece[1]])
-    return float(bracketed_roots(lambda u: np.asarray(segment.law.s(u), dtype=float) - goal, low, high)[0])
+    return float(bracketed_roots(lambda u: np.asarray(law.s(u), dtype=float) - goal, low, high)[0])

@@ -56,7 +56,8 @@ export function rangeOf(values: Float32Array, curve: Curve): Range {
   }
   if (curve !== "position") [low, high] = [Math.min(low, 0), Math.max(high, 0)];
   if (!(high - low > 1e-12 * Math.max(1, Math.abs(high)))) return { low: low - 1, high: high + 1 };
-  return { low, high };
+  const noise = 1e-6 * (high - low);
+  return { low: Math.abs(low) < noise ? 0 : low, high: Math.abs(high) < noise ? 0 : high };
 }
 
 /** A curve as a path: x [px] of an angle, y [px] of a value. */

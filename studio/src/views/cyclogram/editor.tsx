@@ -115,7 +115,7 @@ export function CyclogramEditor({ path, head }: { path: string; head: ComponentC
                 label={t("cyclogram.period")}
                 value={quantityText(shown.about.period, "s")}
                 unit="s"
-                bounds={{ at_least: 1e-9 }}
+                bounds={{ above: 0 }}
                 disabled={compared !== null}
                 onChange={(text) => change({ ...data, period: text })}
               />
