@@ -115,7 +115,7 @@ function Quality({ editor, shown }: { editor: Editor; shown: (value: number) => 
       )}
       {quality.circuits.length > 0 && (
         <section>
-          <h3>{t("linkage.circuits", { count: quality.circuits.length })}</h3>
+          <h2>{t("linkage.circuits", { count: quality.circuits.length })}</h2>
           <ol class="linkage-circuits">
             {quality.circuits.map((circuit, index) => (
               <li key={index} aria-current={circuit.current}>
@@ -134,7 +134,7 @@ function Quality({ editor, shown }: { editor: Editor; shown: (value: number) => 
       )}
       {quality.curves.length > 0 && (
         <section>
-          <h3>{t("linkage.curves")}</h3>
+          <h2>{t("linkage.curves")}</h2>
           <ul>
             {quality.curves.map((curve) => (
               <li key={`${curve.body}.${curve.point}`}>

@@ -81,7 +81,7 @@ function StructurePanel({ editor }: { editor: Editor }) {
         <dd>{formatNumber(loops)}</dd>
       </dl>
       {editor.quality.value?.mobility && <p class="ui-help">{editor.quality.value.mobility}</p>}
-      <h3>{t("linkage.groups")}</h3>
+      <h2>{t("linkage.groups")}</h2>
       <ol class="linkage-groups">
         {groups.map((group, index) => (
           <li key={group.bodies.join()} class={`group-${index % 8}`}>
@@ -171,7 +171,7 @@ interface ListProps {
 function ListOf({ title, names, chosen, onChoose }: ListProps) {
   return (
     <section>
-      <h3>{`${title} (${names.length})`}</h3>
+      <h2>{`${title} (${names.length})`}</h2>
       <div class="linkage-list">
         {names.map((name) => (
           <Button key={name} size="small" pressed={chosen.includes(name)} onClick={() => onChoose(name)}>
@@ -189,7 +189,7 @@ function BodyNumbers({ editor, body }: { editor: Editor; body: string }) {
   return (
     <section class="linkage-numbers">
       <header>
-        <h3>{t("linkage.body", { name: body })}</h3>
+        <h2>{t("linkage.body", { name: body })}</h2>
         {body !== GROUND && (
           <IconButton icon="remove" size="small" label={t("linkage.remove")} onClick={() => deleteSelection(editor)} />
         )}
@@ -216,7 +216,7 @@ function JointNumbers({ editor, joint }: { editor: Editor; joint: string }) {
   return (
     <section class="linkage-numbers">
       <header>
-        <h3>{t("linkage.joint", { name: joint })}</h3>
+        <h2>{t("linkage.joint", { name: joint })}</h2>
         <IconButton icon="remove" size="small" label={t("linkage.remove")} onClick={() => deleteSelection(editor)} />
       </header>
       <p class="ui-help">{bodiesOf(table).join(", ")}</p>
@@ -240,7 +240,7 @@ function PointNumbers({ editor, point }: { editor: Editor; point: string }) {
   return (
     <section class="linkage-numbers">
       <header>
-        <h3>{t("linkage.pointOf", { name: drawn.name, body: drawn.body })}</h3>
+        <h2>{t("linkage.pointOf", { name: drawn.name, body: drawn.body })}</h2>
         <IconButton icon="remove" size="small" label={t("linkage.remove")} onClick={() => deleteSelection(editor)} />
       </header>
       <Coordinates at={drawn.at} onMove={(to) => editor.movePoint(drawn.body, drawn.name, to)} />
@@ -303,7 +303,7 @@ function Others({ editor }: { editor: Editor }) {
     <>
       {TABLES.filter((key) => data[key] !== undefined).map((key) => (
         <section key={key} class="linkage-numbers">
-          <h3>{t(`linkage.${key}`)}</h3>
+          <h2>{t(`linkage.${key}`)}</h2>
           {Object.entries(data[key] as Record<string, unknown>).map(([name, entry]) => (
             <div key={name} class="linkage-other">
               <Entries editor={editor} path={[key]} table={{ [name]: entry }} />

@@ -1,0 +1,134 @@
+import { describe, expect, it } from "vitest";
+import { entryLabel, entryOf, leaves } from "./entries";
+import { STILL, vec } from "./geometry";
+import {
+  addBody,
+  addGears,
+  addPivot,
+  addSlide,
+  addTracer,
+  apply,
+  copyBodies,
+  type MechanismData,
+  removeAll,
+  renameBody,
+  toggleDrive,
+} from "./mechanism";
+
+function drawn(): MechanismData {
+  const data: MechanismData = { name: "drawn" };
+  addBody(data, [{ at: vec(0, 0) }, { at: vec(0.04, 0.02) }], {});
+  addBody(data, [{ at: vec(0.04, 0.02), body: "link1", point: "B" }, { at: vec(0.1, 0.1) }], {});
+  addBody(data, [{ at: vec(0.1, 0.1), body: "link2", point: "C" }, { at: vec(0.12, 0) }], {});
+  addPivot(data, { at: vec(0, 0), body: "link1", point: "A" }, {});
+  addPivot(data, { at: vec(0.12, 0), body: "link3", point: "D" }, {});
+  toggleDrive(data, "A");
+  return data;
+}
+
+describe("edits of a mechanism", () => {
+  it("draws a four-bar of three links, two pins, two pivots and a drive", () => {
+    const data = drawn();
+    expect(Object.keys(data.joints ?? {})).toEqual(["B", "C", "A", "D"]);
+    expect(data.joints?.["B"]?.pin).toEqual(["link1", "link2"]);
+    expect(data.joints?.["A"]?.pin).toEqual(["link1", "ground"]);
+    expect(data.inputs).toEqual({ A: "link1" });
+    expect(data.bodies?.["link1"]?.points).toEqual({ A: [0, 0], B: ["40mm", "20mm"] });
+    expect(data.bodies?.["ground"]?.points?.["D"]).toEqual(["120mm", 0]);
+  });
+
+  it("joins a third link to a pin, and takes points in the frame of a body that moved", () => {
+    const data = drawn();
+    addBody(data, [{ at: vec(0.1, 0.1), joint: "C" }, { at: vec(0.2, 0.1) }], {});
+    expect(data.joints?.["C"]?.pin).toEqual(["link2", "link3", "link4"]);
+    const name = addTracer(data, "link2", vec(0.05, 0.05), { link2: { x: 0.01, y: 0, angle: Math.PI / 2 } });
+    expect(data.bodies?.["link2"]?.points?.[name]).toEqual(["50mm", "-40mm"]);
+  });
+
+  it("makes a block with a guide on the ground or on a link", () => {
+    const data = drawn();
+    const slide = addSlide(data, { at: vec(0.1, 0.1), joint: "C" }, "ground", Math.PI / 4, {});
+    expect(data.joints?.[slide]).toEqual({ slide: ["block1", "ground"], along: "45deg" });
+    expect(data.joints?.["C"]?.pin).toContain("block1");
+    expect(data.bodies?.["block1"]).toEqual({});
+    toggleDrive(data, slide);
+    expect(data.inputs?.[slide]).toBe("block1");
+    toggleDrive(data, slide);
+    expect(data.inputs?.[slide]).toBeUndefined();
+  });
+
+  it("couples two wheels on the ground, and refuses wheels without a carrier", () => {
+    const data = drawn();
+    const poses = { link1: { x: 0, y: 0, angle: 0.5 }, link3: STILL };
+    expect(addGears(data, "A", "D", poses)).toBe("gears1");
+    const gears = (data["couplings"] as Record<string, Record<string, unknown>>)["gears1"];
+    expect(gears?.["gears"]).toEqual([["link1", "A"], ["link3", "D"]]); // biome-ignore format: pairs
+    expect(gears?.["first_at"]).toBe("28.64789deg");
+    expect(addGears(data, "A", "C", poses)).toBeUndefined();
+  });
+
+  it("removes what refers to a body that is gone", () => {
+    const data = drawn();
+    data["loads"] = { push: { force: "1N", on: ["link3", "C"] }, pull: { force: "1N", on: ["link2", "C"] } };
+    data["paths"] = [["link3", "C"]];
+    data.branches = { C: 1 };
+    removeAll(data, { bodies: ["link3", "ground"] });
+    expect(Object.keys(data.bodies ?? {})).toEqual(["link1", "link2", "ground"]);
+    expect(Object.keys(data.joints ?? {})).toEqual(["B", "A"]);
+    expect(data["loads"]).toEqual({ pull: { force: "1N", on: ["link2", "C"] } });
+    expect(data["paths"]).toBeUndefined();
+    expect(data.branches).toEqual({});
+    expect(data.bodies?.["ground"]?.points).toEqual({ A: [0, 0] });
+    removeAll(data, { joints: ["A"] });
+    expect(data.inputs).toEqual({});
+  });
+
+  it("copies bodies with the joints among them", () => {
+    const data = drawn();
+    const corners = {
+      link1: { A: vec(0, 0), B: vec(0.04, 0.02) },
+      link2: { B: vec(0.04, 0.02), C: vec(0.1, 0.1) },
+    };
+    const made = copyBodies(data, ["link1", "link2", "ground"], corners, (at) => vec(-at.x, at.y));
+    expect(made).toHaveLength(2);
+    const joints = Object.values(data.joints ?? {}).filter((joint) => joint.pin?.every((body) => made.includes(body)));
+    expect(joints).toHaveLength(1);
+    expect(Object.values(data.bodies?.[made[0] ?? ""]?.points ?? {})[1]).toEqual(["-40mm", "20mm"]);
+  });
+
+  it("renames a body everywhere, and refuses a name that is taken", () => {
+    const data = drawn();
+    data["motions"] = { link1: "60rpm" };
+    expect(renameBody(data, "link1", "crank")).toBe(true);
+    expect(data.joints?.["A"]?.pin).toEqual(["crank", "ground"]);
+    expect(data.inputs).toEqual({ A: "crank" });
+    expect(data["motions"]).toEqual({ crank: "60rpm" });
+    expect(Object.keys(data.bodies ?? {})[0]).toBe("crank");
+    expect(renameBody(data, "crank", "link2")).toBe(false);
+    expect(renameBody(data, "ground", "base")).toBe(false);
+  });
+
+  it("sets entries by their keys", () => {
+    const data = drawn();
+    apply(data, [
+      { path: ["bodies", "link1", "points", "B"], value: ["41mm", 0] },
+      { path: ["branches", "C"], value: -1 },
+      { path: ["bodies", "link2", "points", "C", "1"], value: "7mm" },
+    ]);
+    expect(data.bodies?.["link1"]?.points?.["B"]).toEqual(["41mm", 0]);
+    expect(data.branches).toEqual({ C: -1 });
+    expect(data.bodies?.["link2"]?.points?.["C"]).toEqual(["100mm", "7mm"]);
+  });
+
+  it("shows every number of a table as a field", () => {
+    const table = { points: { P: { radius: "8mm", angle: "35deg" }, A: [0, "2mm"] }, mass: "1kg" };
+    expect(leaves(table).map((leaf) => [entryLabel(leaf.path), leaf.value])).toEqual([
+      ["P radius", "8mm"],
+      ["P angle", "35deg"],
+      ["A x", "0"],
+      ["A y", "2mm"],
+      ["mass", "1kg"],
+    ]);
+    expect([entryOf("2"), entryOf("2mm"), entryOf("2*r"), entryOf("true")]).toEqual([2, "2mm", "2*r", true]);
+  });
+});
