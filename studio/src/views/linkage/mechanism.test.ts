@@ -73,7 +73,7 @@ describe("edits of a mechanism", () => {
     data["paths"] = [["link3", "C"]];
     data.branches = { C: 1 };
     removeAll(data, { bodies: ["link3", "ground"] });
-    expect(Object.keys(data.bodies ?? {})).toEqual(["link1", "link2", "ground"]);
+    expect(Object.keys(data.bodies ?? {})).toEqual(["ground", "link1", "link2"]);
     expect(Object.keys(data.joints ?? {})).toEqual(["B", "A"]);
     expect(data["loads"]).toEqual({ pull: { force: "1N", on: ["link2", "C"] } });
     expect(data["paths"]).toBeUndefined();
@@ -89,7 +89,7 @@ describe("edits of a mechanism", () => {
       link1: { A: vec(0, 0), B: vec(0.04, 0.02) },
       link2: { B: vec(0.04, 0.02), C: vec(0.1, 0.1) },
     };
-    const made = copyBodies(data, ["link1", "link2", "ground"], corners, (at) => vec(-at.x, at.y));
+    const made = copyBodies(data, ["ground", "link1", "link2"], corners, (at) => vec(-at.x, at.y));
     expect(made).toHaveLength(2);
     const joints = Object.values(data.joints ?? {}).filter((joint) => joint.pin?.every((body) => made.includes(body)));
     expect(joints).toHaveLength(1);
@@ -103,7 +103,7 @@ describe("edits of a mechanism", () => {
     expect(data.joints?.["A"]?.pin).toEqual(["crank", "ground"]);
     expect(data.inputs).toEqual({ A: "crank" });
     expect(data["motions"]).toEqual({ crank: "60rpm" });
-    expect(Object.keys(data.bodies ?? {})[0]).toBe("crank");
+    expect(Object.keys(data.bodies ?? {})[1]).toBe("crank");
     expect(renameBody(data, "crank", "link2")).toBe(false);
     expect(renameBody(data, "ground", "base")).toBe(false);
   });
