@@ -32,6 +32,8 @@ export function ChartCanvas({ model }: { model: CarpetModel }) {
   const [missing, setMissing] = useState(false);
   const [restored, setRestored] = useState(0);
   const shape = useRef("");
+  /** The view of the whole carpet, which stays whole while the page changes its size. */
+  const whole = useRef<View | null>(null);
 
   useLayoutEffect(() => {
     const element = canvas.current;
@@ -70,7 +72,10 @@ export function ChartCanvas({ model }: { model: CarpetModel }) {
     const { rows, columns, aspect } = chart.grid;
     const key = `${rows} ${columns} ${aspect.toFixed(4)}`;
     const old = view.peek();
-    if (shape.current !== key || old.scale === 0) view.value = wholeView(chart.grid, held);
+    const was = whole.current;
+    whole.current = wholeView(chart.grid, held);
+    const isWhole = was !== null && Math.abs(old.scale / was.scale - 1) < 1e-6;
+    if (shape.current !== key || old.scale === 0 || isWhole) view.value = whole.current;
     else view.value = heldView(old, chart.grid, held);
     shape.current = key;
   });

@@ -145,13 +145,16 @@ function Timing({ model }: { model: CarpetModel }) {
 
 function Problem({ model }: { model: CarpetModel }) {
   const problem = model.problem.value;
-  if (problem === null) return null;
+  // What the file's reader reports already is not said twice.
+  const reported = model.document.error.value?.given.replace(/, line \d+/, "");
+  const ofEdit = problem?.given.includes("edits.") && model.edits().length > 0;
+  if (problem === null || (reported === problem.given && !ofEdit)) return null;
   return (
     <div class="ui-callout bad carpet-problem" role="alert">
       <strong>{problem.given}</strong>
       {problem.allowed && <p>{t("carpet.allowed", { allowed: problem.allowed })}</p>}
       {problem.do && <p>{problem.do}</p>}
-      {model.edits().length > 0 && problem.given.includes("edits.") && (
+      {ofEdit && (
         <Button size="small" onClick={() => model.set({ edits: model.edits().slice(0, -1) })}>
           {t("carpet.dropEdit")}
         </Button>
