@@ -121,7 +121,7 @@ def _schemas(endpoints: tuple[Endpoint, ...], template: str) -> tuple[dict[Any, 
 def _any(kind: type) -> dict[str, Any]:
     """The schema of `object`: any JSON."""
     if kind is not object:
-        raise NotImplementedError(f"{kind} in a record of the API")
+        raise TypeError(f"{kind} in a record of the API")
     return {"description": "any JSON"}
 
 

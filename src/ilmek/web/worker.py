@@ -176,10 +176,10 @@ def encoded_json(value: object) -> bytes:
 
 
 def _plain(value: Any) -> object:
-    """The plain data of an array or a number of numpy. Raises NotImplementedError for anything else."""
+    """The plain data of an array or a number of numpy. Raises TypeError for anything else."""
     if hasattr(value, "tolist"):
         return value.tolist()
-    raise NotImplementedError(f"an answer with {type(value).__name__}")
+    raise TypeError(f"an answer with {type(value).__name__}")
 
 
 def limit_memory(most: int) -> None:

@@ -6,7 +6,7 @@ from functools import partial
 from importlib import import_module
 
 MODULES = ("numpy", "ilmek.machines.catalogue", "ilmek.jobs.design")
-DESIGNS = ("beat-up", "cam", "automated-loom")
+DESIGNS = ("beat-up", "cam")
 """Machines whose design loads the compiled kernels that most others have too."""
 
 
