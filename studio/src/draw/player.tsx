@@ -6,7 +6,7 @@ import { useCanvas } from "./canvas";
 import { type Cursor, isAngle, keyStep, moveTo, useCursor, within } from "./cursor";
 import { namesOf, paintDrawing } from "./drawing";
 import type { ShownAnimation } from "./figures";
-import { between, frameAt, phaseAt, rangeOf, reachOf, shapeAt, shareAt, stepsOf } from "./motion";
+import { between, frameAt, phaseAt, quiet, rangeOf, reachOf, shapeAt, shareAt, stepsOf } from "./motion";
 import { type Named, paintNames } from "./names";
 import { paintScaleBar, Stage } from "./stage";
 import { byRole, paintDot, paintStroke } from "./strokes";
@@ -160,7 +160,12 @@ function Readings({ animation, at }: { animation: ShownAnimation; at: number }) 
       {animation.readings.map((reading) => (
         <div key={reading.label}>
           <dt>{reading.label}</dt>
-          <dd>{formatQuantity(between(reading.values, frame, animation.at.length, 1, 0), reading.unit)}</dd>
+          <dd>
+            {formatQuantity(
+              quiet(between(reading.values, frame, animation.at.length, 1, 0), reading.values),
+              reading.unit,
+            )}
+          </dd>
         </div>
       ))}
     </dl>

@@ -7,7 +7,7 @@ export default {
   views: "Görünümler",
   carpet: "Halı",
   machine: "Makine",
-  linkage: "Kol mekanizması",
+  linkage: "Mekanizma",
   synthesis: "Sentez",
   cyclogram: "Siklogram",
   loom: "Tezgâh",
