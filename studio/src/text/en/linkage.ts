@@ -105,6 +105,7 @@ export default {
   speedHelp: "Like 60rpm or 0.2m/s; empty: that of the file.",
   fixed: "{name} is fixed at",
   transmission: "Transmission angle",
+  usual: "usual limit",
   effort: "Effort of the drive",
   curveOf: "{title}: {names}",
   closes: "Closes for",

@@ -107,6 +107,7 @@ export default {
   speedHelp: "Örneğin 60rpm ya da 0.2m/s; boş: dosyadaki hız.",
   fixed: "{name} sabit değeri",
   transmission: "Bağlama açısı",
+  usual: "alışılmış sınır",
   effort: "Tahrik momenti ya da kuvveti",
   curveOf: "{title}: {names}",
   closes: "Kapandığı aralık",

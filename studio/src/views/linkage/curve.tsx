@@ -1,115 +1,84 @@
-/** Curves over the drive, with the cursor of the drawing: a press moves the drive there. */
-import { useMemo } from "preact/hooks";
-import { formatNumber, t } from "../../text";
-import { fromSi, shownUnit } from "../../ui";
+/** Curves over the drive: their cursor is the position of the mechanism. */
+import { useSignalEffect } from "@preact/signals";
+import { useContext, useMemo } from "preact/hooks";
+import type { MotionAnswer } from "../../api/messages";
+import { CursorContext, type Cursors, cursorOf, Plot } from "../../draw";
+import type { ShownMark, ShownPlot } from "../../draw/figures";
+import { t } from "../../text";
 import type { Editor } from "./editor";
-import { between, range, sampleAt, wrapped } from "./figure";
+import { wrapped } from "./figure";
+
+type Numbers = readonly (number | null)[];
 
 interface Props {
-  editor: Editor;
+  motion: MotionAnswer;
   title: string;
   unit: string;
-  series: Readonly<Record<string, readonly (number | null)[]>>;
+  series: Readonly<Record<string, Numbers>>;
   /** A level drawn across [SI]. */
-  limit?: number;
+  limit?: { value: number; label: string };
 }
 
-const [WIDTH, HEIGHT, LEFT, TOP, BOTTOM] = [340, 150, 42, 10, 24];
+/** One cursor for all curves over the drive, tied to the position of the mechanism. */
+export function useDriveCursor(editor: Editor): Cursors {
+  const cursors = useMemo<Cursors>(() => new Map(), [editor]);
+  useSignalEffect(() => {
+    const motion = editor.answer.value?.motion;
+    if (!motion) return;
+    const cursor = cursorOf(cursors, driveLabel(motion));
+    cursor.player.value = editor.isPlaying.value || editor.isDragging.value ? editor : null;
+    cursor.at.value = wrapped(motion, editor.value.value);
+  });
+  useSignalEffect(() => {
+    const motion = editor.answer.value?.motion;
+    if (!motion) return;
+    const cursor = cursorOf(cursors, driveLabel(motion));
+    const at = cursor.at.value;
+    if (at === null || Math.abs(at - wrapped(motion, editor.value.peek())) < 1e-12) return;
+    if (cursor.player.peek() === null) editor.isPlaying.value = false;
+    editor.value.value = at;
+  });
+  return cursors;
+}
 
-export function Curve({ editor, title, unit, series, limit }: Props) {
-  const motion = editor.answer.value?.motion;
-  const names = Object.keys(series);
-  const low = Math.min(0, ...names.flatMap((name) => finite(series[name])));
-  const high = Math.max(limit ?? 0, ...names.flatMap((name) => finite(series[name])));
-  const [first, last] = motion ? range(motion) : [0, 1];
-  const span = high - low || 1;
-  const x = (value: number) => LEFT + ((value - first) / (last - first || 1)) * (WIDTH - LEFT - 8);
-  const y = (value: number) => TOP + (1 - (value - low) / span) * (HEIGHT - TOP - BOTTOM);
-  const paths = useMemo(
-    () => names.map((name) => pathOf(motion?.values ?? [], series[name] ?? [], x, y)),
-    [motion, series],
-  );
-  if (!motion || names.length === 0) return null;
-  const turning = motion.kind === "rotation";
-  const drive = turning ? "deg" : "mm";
-  const value = wrapped(motion, editor.value.value);
-  const sample = sampleAt(motion.values, value);
-  const go = (event: PointerEvent & { currentTarget: SVGSVGElement }) => {
-    if (event.type !== "pointerdown" && event.buttons !== 1) return;
-    const { left, width } = event.currentTarget.getBoundingClientRect();
-    const at = ((event.clientX - left) / width) * WIDTH;
-    editor.isPlaying.value = false;
-    editor.value.value =
-      first + (Math.min(Math.max(at - LEFT, 0), WIDTH - LEFT - 8) / (WIDTH - LEFT - 8)) * (last - first);
-  };
+function driveLabel(motion: MotionAnswer): string {
+  return motion.driving;
+}
+
+export function Curve({ motion, title, unit, series, limit }: Props) {
+  const cursors = useContext(CursorContext);
+  const plot = useMemo(() => plotOf(motion, title, unit, series, limit), [motion, title]);
+  if (plot.curves.length === 0) return null;
+  cursorOf(cursors, plot.x.label);
   return (
-    <figure class="linkage-curve">
-      <figcaption>{`${title} [${shownUnit(unit)}]`}</figcaption>
-      <svg
-        viewBox={`0 0 ${WIDTH} ${HEIGHT}`}
-        role="img"
-        aria-label={t("linkage.curveOf", { title, names: names.join(", ") })}
-        onPointerDown={go}
-        onPointerMove={go}
-      >
-        {[low, (low + high) / 2, high].map((level) => (
-          <g key={level} class="level">
-            <path d={`M${LEFT} ${y(level)}H${WIDTH - 8}`} />
-            <text x={LEFT - 5} y={y(level) + 4}>
-              {formatNumber(fromSi(level, unit), 3)}
-            </text>
-          </g>
-        ))}
-        {[first, (first + last) / 2, last].map((at) => (
-          <text key={at} class="tick" x={x(at)} y={HEIGHT - 7}>
-            {`${formatNumber(fromSi(at, drive), 4)}${turning ? "°" : ""}`}
-          </text>
-        ))}
-        {limit !== undefined && <path class="limit" d={`M${LEFT} ${y(limit)}H${WIDTH - 8}`} />}
-        {paths.map((d, index) => (
-          <path key={names[index]} class={`line line-${index % 8}`} d={d} />
-        ))}
-        <path class="cursor" d={`M${x(value)} ${TOP}V${HEIGHT - BOTTOM}`} />
-      </svg>
-      <ul>
-        {names.map((name, index) => {
-          const now = between(series[name] ?? [], sample);
-          return (
-            <li key={name}>
-              <svg viewBox="0 0 18 8" aria-hidden="true">
-                <path class={`line line-${index % 8}`} d="M0 4H18" />
-              </svg>
-              {`${name}: ${now === null ? "–" : formatNumber(fromSi(now, unit), 4)}${shownUnit(unit) === "°" ? "°" : ` ${shownUnit(unit)}`}`}
-            </li>
-          );
-        })}
-      </ul>
-    </figure>
+    <Plot
+      plot={plot}
+      title={`${t("linkage.curveOf", { title, names: Object.keys(series).join(", ") })}`}
+      height={150}
+    />
   );
 }
 
-function finite(series: readonly (number | null)[] | undefined): number[] {
-  return (series ?? []).filter((value): value is number => value !== null && Number.isFinite(value));
-}
-
-/** A curve with gaps where it has no value. */
-export function pathOf(
-  values: readonly (number | null)[],
-  series: readonly (number | null)[],
-  x: (value: number) => number,
-  y: (value: number) => number,
-): string {
-  let open = true;
-  return series
-    .map((value, index) => {
-      const at = values[index];
-      if (value === null || at == null) {
-        open = true;
-        return "";
-      }
-      const part = `${open ? "M" : "L"}${x(at).toFixed(1)} ${y(value).toFixed(1)}`;
-      open = false;
-      return part;
-    })
-    .join("");
+/** Curves over the drive, with a limit across and the dead centres as marks. */
+export function plotOf(
+  motion: MotionAnswer,
+  title: string,
+  unit: string,
+  series: Readonly<Record<string, Numbers>>,
+  limit?: { value: number; label: string },
+): ShownPlot {
+  const curves = Object.entries(series).map(([label, y], look) => ({
+    label,
+    look,
+    dashed: false,
+    x: motion.values,
+    y: [...y],
+  }));
+  const ends = [motion.values[0] ?? 0, motion.values.at(-1) ?? 0];
+  if (limit && curves.length > 0) {
+    curves.push({ label: limit.label, look: 7, dashed: true, x: ends, y: [limit.value, limit.value] });
+  }
+  const marks: ShownMark[] = motion.dead_centres.map((one) => ({ x: one.value, label: one.bodies.join(", ") }));
+  const drive = motion.kind === "rotation" ? "deg" : "mm";
+  return { x: { label: driveLabel(motion), unit: drive }, y: { label: title, unit }, curves, marks };
 }

@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import type { MechanismAnswer, MotionAnswer } from "../../api/messages";
 import { arrowPath, greatest } from "./arrows";
-import { pathOf } from "./curve";
+import { plotOf } from "./curve";
 import { bodiesAt, figureAt, hitAt, nearestSolved, sampleAt, wrapped } from "./figure";
 import { vec } from "./geometry";
 import { inFrame } from "./pointer";
@@ -87,9 +87,16 @@ describe("the figure at a value of the drive", () => {
 });
 
 describe("curves and arrows", () => {
-  it("leave gaps where there is no value", () => {
-    const same = (value: number) => value;
-    expect(pathOf([0, 1, 2, 3], [1, null, 2, 3], same, same)).toBe("M0.0 1.0M2.0 2.0L3.0 3.0");
+  it("have a limit across and the dead centres as marks", () => {
+    const dead = { ...motion, dead_centres: [{ value: 1.5, bodies: ["coupler", "rocker"] }] };
+    const plot = plotOf(dead, "angle", "deg", { B: [1, 1, null, null] }, { value: 0.7, label: "usual" });
+    expect(plot.x).toEqual({ label: "crank", unit: "deg" });
+    expect(plot.curves.map((curve) => [curve.label, curve.y])).toEqual([
+      ["B", [1, 1, null, null]],
+      ["usual", [0.7, 0.7]],
+    ]);
+    expect(plot.marks).toEqual([{ x: 1.5, label: "coupler, rocker" }]);
+    expect(plotOf(dead, "angle", "deg", {}, { value: 0.7, label: "usual" }).curves).toEqual([]);
   });
 
   it("have the scale of the greatest of all samples, and no head without a shaft", () => {

@@ -1,7 +1,9 @@
 /** The panel of the motion: drive, transmission angle, where it closes, circuits, coupler curves. */
+
+import { CursorContext } from "../../draw";
 import { formatNumber, t } from "../../text";
 import { formatQuantity, QuantityField } from "../../ui";
-import { Curve } from "./curve";
+import { Curve, useDriveCursor } from "./curve";
 import type { Editor } from "./editor";
 import { EntryField } from "./entries";
 
@@ -12,22 +14,23 @@ export function Motion({ editor }: { editor: Editor }) {
   const answer = editor.answer.value;
   const motion = answer?.motion;
   const turning = motion?.kind !== "displacement";
+  const cursors = useDriveCursor(editor);
   const shown = (value: number) => formatQuantity(value, turning ? "deg" : "mm", 5);
   return (
     <div class="linkage-motion">
       <DriveFields editor={editor} turning={turning} />
       {motion && (
-        <>
+        <CursorContext.Provider value={cursors}>
           <Curve
-            editor={editor}
+            motion={motion}
             title={t("linkage.transmission")}
             unit="deg"
             series={motion.transmission}
-            limit={USUAL}
+            limit={{ value: USUAL, label: t("linkage.usual") }}
           />
           {motion.forces && (
             <Curve
-              editor={editor}
+              motion={motion}
               title={t("linkage.effort")}
               unit={turning ? "N*m" : "N"}
               series={{ [motion.driving]: motion.forces.effort }}
@@ -48,7 +51,7 @@ export function Motion({ editor }: { editor: Editor }) {
               </>
             )}
           </dl>
-        </>
+        </CursorContext.Provider>
       )}
       <Quality editor={editor} shown={shown} />
     </div>
