@@ -64,7 +64,7 @@ async def outcome(pool: Pool, number: int, case: Case) -> Reply | None:
 
 
 @given(st.lists(CASES, min_size=1, max_size=10))
-@settings(max_examples=20)
+@settings(max_examples=12)
 def test_each_request_has_its_own_answer(runner: tuple[asyncio.Runner, Pool], cases: list[Case]) -> None:
     loop, pool = runner
 

@@ -162,7 +162,8 @@ class Pool:
             long += request.long
             self._give(worker, request)
         coming = self._starting + sum(1 for worker in self._workers if not worker.ready)
-        wanted = len(self._waiting) or int(long > 0 and self._free("") is None)
+        spare = bool(self._workers) and self._free("") is None and self._failed_starts == 0
+        wanted = len(self._waiting) or int(spare)
         for _ in range(min(wanted - coming, self.size - len(self._workers) - self._starting)):
             self._starting += 1
             self._later(self._add())
