@@ -169,6 +169,6 @@ export function modelOf(path: string): CarpetModel {
 export function namesOf(value: unknown): string[] {
   if (Array.isArray(value)) return value.map(String);
   if (typeof value !== "string") return [];
-  const names = value.match(/"[^"]*"|'[^']*'|[^,;]+/g) ?? [];
+  const names = value.match(/\s*"[^"]*"|\s*'[^']*'|[^,;]+/g) ?? [];
   return names.map((name) => name.trim().replace(/^(["'])(.*)\1$/, "$2")).filter(Boolean);
 }
