@@ -149,6 +149,20 @@ ENDPOINTS: tuple[Endpoint, ...] = (
         limit=300 * SECOND,
         affinity="loom",
     ),
+    Endpoint(
+        "POST",
+        "/loom/run",
+        "studio.loom_run:run",
+        "Weave the carpet of a recipe on the twin; news of the run ten times a second.",
+        limit=24 * HOUR,
+        work=True,
+    ),
+    Endpoint(
+        "POST",
+        "/loom/command",
+        "studio.loom_run:command",
+        "A command to the run: hold, resume, stop, acknowledge, yes, no.",
+    ),
     Endpoint("GET", "/project", "studio.project:project", "The files of the project, each with its first error."),
     Endpoint("GET", "/project/files/{path:path}", "studio.project:read_file", "A text file of the project."),
     Endpoint(

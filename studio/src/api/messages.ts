@@ -226,6 +226,16 @@ export interface CircuitAnswer {
   current: boolean;
 }
 /**
+ * Whether the controller carries a command out, and why not.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "CommandAnswer".
+ */
+export interface CommandAnswer {
+  ok: boolean;
+  reason: string;
+}
+/**
  * A state that is shown as its command line and as Python.
  *
  *     kind      carpet, chart, machine, linkage, cyclogram
@@ -933,6 +943,15 @@ export interface LinkageFault {
   given: string;
   allowed: string;
   do: string;
+}
+/**
+ * A command to the run: hold, resume, stop, acknowledge, yes or no.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "LoomCommand".
+ */
+export interface LoomCommand {
+  command: string;
 }
 /**
  * A loom of the project: by a recipe, the loom for its carpet; by a machine file, the loom of its settings.
@@ -1863,6 +1882,73 @@ export interface RowRequest {
   recipe: {};
   row: number;
   path?: string;
+}
+/**
+ * An alarm of the run: its cause, and what is to be done.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "RunAlarm".
+ */
+export interface RunAlarm {
+  name: string;
+  cause: string;
+  remedy: string;
+}
+/**
+ * The end of a run: state, knots, and those that are missing, double or in a wrong yarn; the last news of it.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "RunEnd".
+ */
+export interface RunEnd {
+  state: string;
+  knots: number;
+  total: number;
+  faults: number;
+  last: RunNews;
+}
+/**
+ * The run at an instant; rows and warp pairs count from 0, from the bottom edge and from the left.
+ *
+ *     time, left   of the loom's clock, until now and until the end by the programme [s]
+ *     columns      of the knot in work of each head; null: none yet in this row
+ *     tied, due    knots of the row that are tied, and all of the row
+ *     stop         what the operator changes in the stop that the loom waits in; "": none
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "RunNews".
+ */
+export interface RunNews {
+  state: string;
+  row: number;
+  rows: number;
+  knots: number;
+  total: number;
+  time: number;
+  left: number;
+  speed: number;
+  faults: number;
+  stop: string;
+  columns: (number | null)[];
+  tied: number;
+  due: number;
+  alarms: RunAlarm[];
+  requests: string[];
+  commands: string[];
+}
+/**
+ * A run of the twin.
+ *
+ *     file   a recipe of the project      speed   of the loom's clock, 1 to 1,000,000
+ *     faults  seed of the simulated faults; null: none
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "RunRequest".
+ */
+export interface RunRequest {
+  file?: string;
+  speed?: number;
+  faults?: number | null;
 }
 /**
  * A new state of a text file.

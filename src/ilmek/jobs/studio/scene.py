@@ -10,7 +10,7 @@ from ilmek.arrays import ComplexArray
 from ilmek.errors import ParameterError
 from ilmek.io.glb import glb_bytes
 from ilmek.jobs.chart import ChartResult, make_charted
-from ilmek.jobs.loom import make_loomed, read_loom_order
+from ilmek.jobs.loom import LoomResult, make_loomed, read_loom_order
 from ilmek.jobs.loom_space import scene_answer
 from ilmek.jobs.machine_file import read_machine_order
 from ilmek.jobs.order import read_order
@@ -64,11 +64,12 @@ class PlateDrawing:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ProjectLoom:
-    """A designed loom with its report, and the carpet that it is for, if any."""
+    """A designed loom with its report; the carpet that it is for and its programme, if any."""
 
     design: LoomDesign
     report: Report
-    charted: ChartResult | None
+    charted: ChartResult | None = None
+    loomed: LoomResult | None = None
 
     @property
     def scene(self) -> Scene:
@@ -137,7 +138,7 @@ def _of_machine(path: str, _digest: str) -> ProjectLoom:
     if order.machine != MACHINE.name:
         raise ParameterError(f"{Path(path).name} is the file of a {order.machine}", allowed=_NO_LOOM)
     design = MACHINE.designed(MACHINE.params.read(order.settings))
-    return ProjectLoom(design, MACHINE.report(design), None)
+    return ProjectLoom(design, MACHINE.report(design))
 
 
 _recipes: dict[tuple[str, str], ProjectLoom] = {}
@@ -156,7 +157,7 @@ def _of_recipe(path: str, digest: str, progress: Progress) -> ProjectLoom:
             raise ParameterError(
                 reason.name if reason else "the loom cannot be designed", do=reason.cure if reason else ""
             )
-        found = ProjectLoom(loomed.design, loomed.report, charted)
+        found = ProjectLoom(loomed.design, loomed.report, charted, loomed)
         while len(_recipes) >= _MOST_RECIPES:
             _recipes.pop(next(iter(_recipes)))
         _recipes[path, digest] = found

@@ -7,7 +7,9 @@ import { rename, type ViewProps } from "../../app/routes";
 import { project } from "../../project";
 import { t } from "../../text";
 import { Button, CopyCommand, Progress, Select, toast } from "../../ui";
+import type { Live } from "./live";
 import { PlateSketch } from "./plate";
+import { RunPanel } from "./run-panel";
 import { type SceneAbout, type SceneModel, sceneModel } from "./scene";
 import "./loom.css";
 
@@ -16,12 +18,14 @@ const RECIPE = "carpet.toml";
 export default function Loom({ name }: ViewProps) {
   const file = name || RECIPE;
   const [model, setModel] = useState<SceneModel | null>(null);
+  const [live, setLive] = useState<Live | null>(null);
   const [error, setError] = useState<ApiError | Error | null>(null);
   const [workbench, setWorkbench] = useState<ComponentType<WorkbenchProps> | null>(null);
   useEffect(() => {
     const control = new AbortController();
     setError(null);
     setModel(null);
+    setLive(null);
     Promise.all([loadModel(file, control.signal), import("./workbench")]).then(
       ([found, module]) => {
         setWorkbench(() => module.Workbench);
@@ -44,12 +48,19 @@ export default function Loom({ name }: ViewProps) {
       </div>
     );
   const Shown = workbench;
+  const below = (
+    <>
+      <RunPanel key={file} file={file} model={model} onLive={setLive} />
+      <Files file={file} />
+    </>
+  );
   return (
     <Shown
       key={file}
       model={model}
       above={<Source file={file} title={model.about.title} />}
-      below={<Files file={file} />}
+      below={below}
+      live={live}
       drawing={(plate) => <PlateSketch file={file} plate={plate} />}
     />
   );
@@ -60,6 +71,7 @@ interface WorkbenchProps {
   above?: ComponentChildren;
   below?: ComponentChildren;
   drawing?: (plate: string) => ComponentChildren;
+  live?: Live | null;
 }
 
 async function loadModel(file: string, signal: AbortSignal): Promise<SceneModel> {
@@ -120,7 +132,7 @@ function Files({ file }: { file: string }) {
 }
 
 function command(file: string): string {
-  return file === RECIPE ? `ilmek weave ${file}` : `ilmek design ${file} --workshop workshop`;
+  return file === RECIPE ? `ilmek weave ${file}` : `ilmek design ${file} --glb loom.glb`;
 }
 
 function Sorry({ text, file }: { text: string; file: string }) {

@@ -6,6 +6,7 @@ import { spacingOf, strideFor, thinned } from "./crowd";
 import { colourOf, type Look, look } from "./look";
 import { type Angles, Frames, type Placed } from "./motion";
 import type { Drive, SceneModel, ScenePart } from "./scene";
+import { drawnBySoftware, floorGrid, lights } from "./surroundings";
 import { Threads } from "./threads";
 import { DIRECTIONS, fittingDistance, levelFor, turnOfKey, type ViewName } from "./views";
 
@@ -74,11 +75,10 @@ export class Stage {
     this.renderer.localClippingEnabled = true;
     this.frames = new Frames(model);
     this.frames.update(this.angles);
-    this.addLights();
     for (const part of model.about.parts) this.addPart(part);
     this.cloth = new Cloth(model);
     this.threads = new Threads(model, this.frames);
-    this.scene.add(this.cloth.mesh, this.threads.group, this.floor());
+    this.scene.add(this.cloth.mesh, this.threads.group, floorGrid(model.about.floor), ...lights());
     this.place();
     this.measure();
     this.controls = new OrbitControls(this.camera, canvas);
@@ -267,18 +267,13 @@ export class Stage {
     for (const name of names) {
       const shown = this.parts.find((one) => one.part.name === name);
       if (shown === undefined) continue;
-      const at = this.boxOfPart(shown, this.selectBox).getCenter(new three.Vector3()).project(this.camera);
+      const middle = this.boxOfPart(shown, this.selectBox).getCenter(new three.Vector3());
+      const cut = (shown.mesh.material as three.Material).clippingPlanes ?? [];
+      if (cut.some((plane) => plane.distanceToPoint(middle) < 0)) continue;
+      const at = middle.project(this.camera);
       if (at.z < 1 && Math.abs(at.x) < 1 && Math.abs(at.y) < 1) found.push({ name, x: at.x, y: at.y });
     }
     return found;
-  }
-
-  private addLights(): void {
-    const sun = new three.DirectionalLight(0xffffff, 1.7);
-    sun.position.set(1.2, 2, 2.5);
-    const back = new three.DirectionalLight(0xffffff, 0.6);
-    back.position.set(-2, 1, -1.5);
-    this.scene.add(new three.HemisphereLight(0xffffff, 0x8a8f96, 1.6), sun, back);
   }
 
   private addPart(part: ScenePart): void {
@@ -425,21 +420,4 @@ export class Stage {
     material.side = planes.length > 0 ? three.DoubleSide : three.FrontSide;
     if (before !== planes.length) material.needsUpdate = true;
   }
-
-  private floor(): three.Object3D {
-    const grid = new three.GridHelper(6, 24, 0x8a95a0, 0xb7bec6);
-    grid.position.y = this.model.about.floor - 0.001;
-    (grid.material as three.Material).transparent = true;
-    (grid.material as three.Material).opacity = 0.35;
-    return grid;
-  }
-}
-
-/** Whether the processor itself draws: then edges are not smoothed, which takes most of the time. */
-function drawnBySoftware(): boolean {
-  const context = document.createElement("canvas").getContext("webgl2");
-  const about = context?.getExtension("WEBGL_debug_renderer_info");
-  const name = about ? String(context?.getParameter(about.UNMASKED_RENDERER_WEBGL)) : "";
-  context?.getExtension("WEBGL_lose_context")?.loseContext();
-  return /swiftshader|llvmpipe|software|basic render/i.test(name);
 }

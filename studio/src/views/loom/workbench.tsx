@@ -4,7 +4,7 @@ import { useCallback, useEffect, useRef, useState } from "preact/hooks";
 import { formatNumber, t } from "../../text";
 import { Button, Select, Slider, Toggle } from "../../ui";
 import { DriveBar } from "./drive-bar";
-import type { Angles } from "./motion";
+import type { Live } from "./live";
 import { PartDetails, PartList } from "./parts";
 import { usePlayer } from "./player";
 import type { Drive, SceneModel } from "./scene";
@@ -19,7 +19,7 @@ interface WorkbenchProps {
   /** The drawing of a plate, where it can be had. */
   drawing?: (plate: string) => ComponentChildren;
   /** Rows that a run has woven, and the positions of its heads across [m]; null: set by hand. */
-  live?: { rows: number; heads: number[]; angles: Angles } | null;
+  live?: Live | null;
 }
 
 type Axis = "none" | "x" | "y" | "z";
