@@ -1,6 +1,7 @@
 import type { ComponentChildren } from "preact";
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import type { ShownTrack } from "../../api/messages";
+import { useReady } from "../../app/ready";
 import { SaveState, useDocument } from "../../project";
 import { formatNumber, t } from "../../text";
 import { CopyCommand, formatQuantity, QuantityField, quantityText, Segments, Slider } from "../../ui";
@@ -27,6 +28,7 @@ export function CyclogramEditor({ path, head }: { path: string; head: ComponentC
     if (data !== null) store.follow(data);
   }, [data]);
   const shown = store.shown.value;
+  useReady(shown !== null);
   const compared = store.compared.value;
   const change = (next: CyclogramData) => {
     setDraft(null);
