@@ -1,0 +1,86 @@
+"""Works without a server: those of a page that has gone, and the answers that are kept."""
+
+import asyncio
+from dataclasses import dataclass, field
+from typing import Any
+
+import pytest
+
+from ilmek.web.events import EventHub
+from ilmek.web.framing import JSON, Reply
+from ilmek.web.pool import Pool, PoolFull
+from ilmek.web.works import MOST_KEPT, MOST_KEPT_BYTES, MOST_RUNNING, Works
+
+
+@dataclass
+class FakePool(Pool):
+    """Answers by a text, or never."""
+
+    body: bytes | None = None
+    cancelled: list[bytes] = field(default_factory=list)
+
+    async def answer(self, *_: Any, **__: Any) -> Reply:
+        body = bytes(_[1])
+        try:
+            while self.body is None:
+                await asyncio.sleep(10)
+        except asyncio.CancelledError:
+            self.cancelled.append(body)
+            raise
+        return Reply(1, 200, JSON, self.body, 0.0)
+
+
+def works(body: bytes | None) -> tuple[Works, FakePool]:
+    pool = FakePool(".", body=body)
+    return Works(pool, EventHub({}, lambda _: None), patience=0.01), pool
+
+
+async def _settle() -> None:
+    await asyncio.sleep(0.05)
+
+
+def test_the_works_of_a_page_that_does_not_come_back_end() -> None:
+    async def scenario() -> None:
+        running, pool = works(None)
+        running.start("f", b"of one", 1.0, "one")
+        other = running.start("f", b"of two", 1.0, "two")
+        nobody = running.start("f", b"of nobody", 1.0, "")
+        await asyncio.sleep(0)
+        running.page_left("one")
+        running.page_left("")
+        await _settle()
+        assert pool.cancelled == [b"of one"]
+        for number in (other, nobody):
+            state = running.state(number)
+            assert state is not None
+            assert state.status == 202
+        await running.close()
+
+    asyncio.run(scenario())
+
+
+@pytest.mark.parametrize(("size", "kept"), [(10, MOST_KEPT), (MOST_KEPT_BYTES // 4, 4), (2 * MOST_KEPT_BYTES, 1)])
+def test_answers_are_kept_up_to_a_number_and_a_size(size: int, kept: int) -> None:
+    async def scenario() -> None:
+        running, _ = works(bytes(size))
+        numbers = []
+        for _ in range(MOST_KEPT + 3):
+            numbers.append(running.start("f", b"", 1.0, ""))
+            await asyncio.sleep(0)
+        await _settle()
+        there = [number for number in numbers if running.state(number) is not None]
+        assert there == numbers[-kept:]
+
+    asyncio.run(scenario())
+
+
+def test_too_many_works_are_refused() -> None:
+    async def scenario() -> None:
+        running, _ = works(None)
+        for _ in range(MOST_RUNNING):
+            running.start("f", b"", 1.0, "")
+        with pytest.raises(PoolFull):
+            running.start("f", b"", 1.0, "")
+        await running.close()
+
+    asyncio.run(scenario())
