@@ -1,5 +1,6 @@
 /** The project in the browser. */
 export { type FileContent, type FileError, type FileSummary, fileAddress, type PictureSummary } from "./api";
+export { FileCommand } from "./command";
 export { Conflicts } from "./conflicts";
 export { Document, type SaveState as DocumentState } from "./document";
 export { follow } from "./follow";

@@ -2,9 +2,9 @@ import type { ComponentChildren } from "preact";
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import type { ShownTrack } from "../../api/messages";
 import { useReady } from "../../app/ready";
-import { SaveState, useDocument } from "../../project";
+import { FileCommand, SaveState, useDocument } from "../../project";
 import { formatNumber, t } from "../../text";
-import { CopyCommand, formatQuantity, QuantityField, quantityText, Segments, Slider } from "../../ui";
+import { formatQuantity, QuantityField, quantityText, Segments, Slider } from "../../ui";
 import { type Curve, QUANTITIES } from "./curves";
 import { Lanes } from "./lanes";
 import { type CyclogramData, DEGREE, dragged, type Grip, TURN, withLevel, withSpan } from "./model";
@@ -57,7 +57,6 @@ export function CyclogramEditor({ path, head }: { path: string; head: ComponentC
     last.current = null;
     if (made !== null) change(made);
   };
-  const stem = path.replace(/^[^/]+\//, "").replace(/\.toml$/, "");
   return (
     <>
       <header class="ui-view-head">
@@ -131,7 +130,7 @@ export function CyclogramEditor({ path, head }: { path: string; head: ComponentC
                 <Motions data={data} shown={shown} onChange={change} />
               </>
             )}
-            <CopyCommand command={`ilmek cyclogram ${path} --solve acceleration --report ${stem}.html`} />
+            <FileCommand kind="cyclogram" path={path} options={compared ? { solve: compared.solution.goal } : {}} />
           </div>
         </div>
       )}

@@ -106,6 +106,9 @@ function Control(props: ControlProps) {
   return <Typed {...props} about={about} />;
 }
 
+/** Pause after the last letter before what is typed is in the document, although the field is not left [ms]. */
+const PAUSE = 700;
+
 const TRUE = new Set(["yes", "true", "on", "1"]);
 
 /** A quantity, a number or a text typed freely, a number with a slider. */
@@ -114,6 +117,7 @@ function Typed({ id, model, field, setting, force, set, about }: ControlProps & 
   const [draft, setDraft] = useState(given);
   const [refused, setRefused] = useState("");
   const typed = useRef(given);
+  const pause = useRef<ReturnType<typeof setTimeout> | undefined>(undefined);
   useEffect(() => {
     if (given !== typed.current) {
       setDraft(given);
@@ -134,8 +138,11 @@ function Typed({ id, model, field, setting, force, set, about }: ControlProps & 
     typed.current = made === undefined ? "" : String(made);
     if (made === undefined) set(undefined);
     else model.drag(field.name, made);
+    clearTimeout(pause.current);
+    pause.current = setTimeout(() => model.drop(), PAUSE);
   };
   const end = () => {
+    clearTimeout(pause.current);
     model.drop();
     if (refused === "") setDraft(typed.current);
   };

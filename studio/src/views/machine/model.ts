@@ -81,6 +81,7 @@ export class MachineModel {
 
   /** Ends what is under way. */
   close(): void {
+    this.drop();
     for (const end of this.#ends) end();
     clearTimeout(this.#timer);
     this.#later.abort();

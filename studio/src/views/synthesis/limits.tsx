@@ -42,6 +42,9 @@ const GROUPS: Record<string, readonly string[]> = {
   defects: ["one_circuit", "one_branch", "in_order"],
 };
 
+/** An upper bound so far off that it is not worth a line of the form; the server keeps it. */
+const FAR = 1e5;
+
 interface LimitsProps {
   machine: Machine;
   settings: Settings;
@@ -61,7 +64,7 @@ export function Limits({ machine, settings, onChange }: LimitsProps) {
   return (
     <div class="ui-stack">
       {groups.map(([group, names]) => {
-        const own = shown.filter((one) => names.includes(one.name));
+        const own = names.flatMap((name) => shown.filter((one) => one.name === name));
         const given = own.filter((one) => settings[one.name] !== undefined).length;
         if (own.length === 0) return null;
         return (
@@ -115,7 +118,13 @@ function Setting({ field, value, onChange }: SettingProps) {
     );
   }
   if (field.kind === "text") return <TextSetting field={field} label={label} value={value} onChange={onChange} />;
-  const bounds = { above: field.above, at_least: field.at_least, below: field.below, at_most: field.at_most };
+  const far = (field.at_most ?? 0) / field.factor >= FAR;
+  const bounds = {
+    above: field.above,
+    at_least: field.at_least,
+    below: field.below,
+    at_most: far ? null : field.at_most,
+  };
   const count = field.kind === "count";
   return (
     <QuantityField

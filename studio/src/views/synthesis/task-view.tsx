@@ -4,9 +4,9 @@ import type { MechanismDocument, ShownFourBar, SynthesisAnswer } from "../../api
 import { post } from "../../api/request";
 import { useReady } from "../../app/ready";
 import { goTo } from "../../app/routes";
-import { freePath, newFile, SaveState, useDocument } from "../../project";
+import { FileCommand, freePath, newFile, SaveState, useDocument } from "../../project";
 import { t } from "../../text";
-import { Button, CopyCommand, Progress, Segments, toast } from "../../ui";
+import { Button, Progress, Segments, toast } from "../../ui";
 import { playing, setPlaying } from "./clock";
 import { Details } from "./details";
 import { FunctionCanvas } from "./function-canvas";
@@ -73,7 +73,7 @@ export function TaskView({ path, stem, head }: TaskProps) {
               />
             )}
           </div>
-          <TaskPanel data={data} path={path} stem={stem} point={point} onPoint={setPoint} onChange={change} />
+          <TaskPanel data={data} path={path} point={point} onPoint={setPoint} onChange={change} />
         </div>
       )}
     </>
@@ -174,10 +174,9 @@ function Taken({ one, stem }: { one: ShownFourBar; stem: string }) {
 
 interface PanelProps extends Omit<EditorProps, "answer" | "chosen"> {
   path: string;
-  stem: string;
 }
 
-function TaskPanel({ data, path, stem, point, onPoint, onChange }: PanelProps) {
+function TaskPanel({ data, path, point, onPoint, onChange }: PanelProps) {
   const [tab, setTab] = useState<"points" | "limits">("points");
   const points = pointsOf(data) ?? [];
   const machine = data.machine;
@@ -204,7 +203,7 @@ function TaskPanel({ data, path, stem, point, onPoint, onChange }: PanelProps) {
           onChange={(name, value) => onChange(withSetting(data, name, value), true)}
         />
       )}
-      <CopyCommand command={`ilmek design ${path} --to linkages/${stem}.toml`} />
+      <FileCommand kind="machine" path={path} />
     </section>
   );
 }

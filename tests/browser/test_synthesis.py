@@ -1,0 +1,74 @@
+"""Synthesis in a real browser: a point is dragged and the candidates follow; one of them goes to the editor."""
+
+import re
+import time
+import tomllib
+from pathlib import Path
+from typing import Any
+
+from playwright.sync_api import Page, expect
+from studio_browser import PATIENCE, Studio, open_view, violations
+
+
+def data_of(project: Path, path: str) -> dict[str, Any]:
+    return tomllib.loads((project / path).read_text(encoding="utf-8"))
+
+
+def until_file(project: Path, path: str, words: str, patience: float = 20.0) -> None:
+    """Wait until a file of the project has a text."""
+    until = time.monotonic() + patience
+    while words not in (project / path).read_text(encoding="utf-8"):
+        assert time.monotonic() < until, f"{path} never had {words}"
+        time.sleep(0.05)
+
+
+def middle(page: Page, selector: str, number: int = 0) -> tuple[float, float]:
+    box = page.locator(selector).nth(number).bounding_box()
+    assert box is not None
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+
+def full_search_ended(page: Page) -> None:
+    expect(page.get_by_role("progressbar")).to_have_count(0, timeout=PATIENCE)
+    expect(page.locator(".synthesis-card").first).to_be_visible(timeout=PATIENCE)
+
+
+def test_a_pose_is_dragged_and_undone(page: Page, running: Studio) -> None:
+    open_view(page, running, "synthesis/flap")
+    full_search_ended(page)
+    before = data_of(running.project, "synthesis/flap.toml")
+    x, y = middle(page, ".handle.point .dot", 2)
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 20, y + 15, steps=5)
+    page.mouse.up()
+    expect(page.get_by_label("Undo (Ctrl+Z)")).to_be_enabled(timeout=PATIENCE)
+    until = time.monotonic() + 20
+    while data_of(running.project, "synthesis/flap.toml") == before:
+        assert time.monotonic() < until
+        time.sleep(0.05)
+    full_search_ended(page)
+    assert violations(page) == []
+    page.get_by_label("Undo (Ctrl+Z)").click()
+    until_file(running.project, "synthesis/flap.toml", before["settings"]["poses"])
+
+
+def test_a_point_is_moved_by_keys_and_a_limit_typed(page: Page, running: Studio) -> None:
+    open_view(page, running, "synthesis/flat-d")
+    full_search_ended(page)
+    before = data_of(running.project, "synthesis/flat-d.toml")["settings"]["points"]
+    page.get_by_role("button", name=re.compile("^Point 1 at")).focus()
+    page.keyboard.press("ArrowRight")
+    page.get_by_text("Limits", exact=True).click()
+    page.get_by_label("Size at most", exact=True).fill("180mm")
+    until_file(running.project, "synthesis/flat-d.toml", "180mm")
+    assert data_of(running.project, "synthesis/flat-d.toml")["settings"]["points"] != before
+
+
+def test_a_candidate_goes_to_the_editor(page: Page, running: Studio) -> None:
+    open_view(page, running, "synthesis/square")
+    full_search_ended(page)
+    page.locator(".synthesis-card").last.click()
+    page.get_by_role("button", name="To the linkage editor").click()
+    page.wait_for_url(re.compile("#linkage/square"), timeout=PATIENCE)
+    assert data_of(running.project, "linkages/square.toml")["inputs"] == {"A0": "crank"}
