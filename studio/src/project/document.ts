@@ -33,6 +33,9 @@ export interface Surroundings {
   drafts: Drafts;
 }
 
+/** A document whatever its data is. */
+export type AnyDocument = Omit<Document<object>, "update" | "data"> & { readonly data: ReadonlySignal<object | null> };
+
 export class Document<T extends object = Record<string, unknown>> {
   readonly #data = signal<T | null>(null);
   readonly #text = signal("");

@@ -2,7 +2,7 @@
 export { type FileContent, type FileError, type FileSummary, fileAddress, type PictureSummary } from "./api";
 export { FileCommand } from "./command";
 export { Conflicts } from "./conflicts";
-export { Document, type SaveState as DocumentState } from "./document";
+export { type AnyDocument, Document, type SaveState as DocumentState } from "./document";
 export { follow } from "./follow";
 export {
   activeDocument,

@@ -1,7 +1,7 @@
 import { t } from "../text";
 import { Button, Icon, IconButton } from "../ui";
 import { decide } from "./conflicts";
-import type { Document, SaveState as State } from "./document";
+import type { AnyDocument, SaveState as State } from "./document";
 
 const ICONS = {
   loading: "connecting",
@@ -15,7 +15,7 @@ const ICONS = {
 } as const satisfies Record<State, string>;
 
 /** Whether a document is saved, with undo and redo, and its first error. */
-export function SaveState({ document }: { document: Document<object> }) {
+export function SaveState({ document }: { document: AnyDocument }) {
   const state = document.saved.value;
   const error = document.error.value;
   return (

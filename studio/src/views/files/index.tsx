@@ -1,12 +1,33 @@
+import { useEffect } from "preact/hooks";
+import { rename, type ViewProps } from "../../app/routes";
+import { openDocuments, project } from "../../project";
 import { t } from "../../text";
-import { CopyCommand } from "../../ui";
+import { FileList } from "./file-list";
+import { FileSide } from "./file-side";
+import { refreshOut } from "./work";
+import { Written } from "./written";
+import "./files.css";
 
-export default function Files() {
+/** The files of the project, and everything that the command line writes of them. */
+export default function Files({ name }: ViewProps) {
+  const found = project.value;
+  useEffect(() => {
+    void refreshOut().catch(() => undefined);
+  }, [openDocuments.value.length]);
+  if (found === null) return <p class="app-loading">{t("app.loading")}</p>;
+  const known = found.files.some((file) => file.path === name);
+  const chosen = known ? name : (found.files[0]?.path ?? "");
   return (
-    <div class="app-plain">
-      <h1>{t("files.title")}</h1>
-      <p>{t("files.lead")}</p>
-      <CopyCommand command="ilmek --help" />
+    <div class="files">
+      <header class="files-title">
+        <h1>{t("files.title")}</h1>
+        <p class="ui-muted">{found.folder}</p>
+      </header>
+      <FileList chosen={chosen} onChoose={rename} />
+      <div class="ui-stack files-side">
+        {chosen !== "" && <FileSide key={chosen} path={chosen} />}
+        <Written />
+      </div>
     </div>
   );
 }

@@ -1,0 +1,66 @@
+/** What is being written, kept while another view is shown. */
+import { signal } from "@preact/signals";
+import type { OutList, WrittenProduct } from "../../api/messages";
+import { ApiError, get, post } from "../../api/request";
+import { runWork } from "../../api/work";
+import { openDocuments } from "../../project";
+
+export interface Writing {
+  share?: number;
+  stage: string;
+  abort?: AbortController;
+  done?: WrittenProduct;
+  problem?: string;
+}
+
+/** By file and product. */
+export const writings = signal<Readonly<Record<string, Writing>>>({});
+export const out = signal<OutList | null>(null);
+
+export function keyOf(path: string, product: string): string {
+  return `${product} ${path}`;
+}
+
+function note(key: string, writing: Writing): void {
+  writings.value = { ...writings.peek(), [key]: writing };
+}
+
+/** Reads the list of what was written again. */
+export async function refreshOut(): Promise<void> {
+  out.value = await get<OutList>("/project/out");
+}
+
+/** Writes a product of a file, as it is now. */
+export async function write(path: string, product: string): Promise<void> {
+  const key = keyOf(path, product);
+  if (writings.peek()[key]?.abort !== undefined) return;
+  const abort = new AbortController();
+  note(key, { stage: "", abort });
+  try {
+    await openDocuments
+      .peek()
+      .find((document) => document.path === path)
+      ?.flush();
+    const done = await runWork<WrittenProduct>(
+      "/project/write",
+      { path, product },
+      { onStep: (stage, share) => note(key, { stage, share, abort }), signal: abort.signal },
+    );
+    note(key, { stage: "", done });
+  } catch (error) {
+    if (abort.signal.aborted) note(key, { stage: "" });
+    else note(key, { stage: "", problem: error instanceof Error ? error.message : String(error) });
+  }
+  await refreshOut().catch(() => undefined);
+}
+
+/** Deletes a file or folder of out/; returns the problem, "" for none. */
+export async function removeWritten(path: string): Promise<string> {
+  try {
+    await post("/project/out/delete", { path });
+    await refreshOut();
+    return "";
+  } catch (error) {
+    return error instanceof ApiError ? error.message : "";
+  }
+}
