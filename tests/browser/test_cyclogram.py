@@ -3,8 +3,7 @@
 import re
 
 from playwright.sync_api import Page, expect
-from studio_browser import PATIENCE, Studio, open_view, violations
-from test_synthesis import data_of, middle, until_file
+from studio_browser import PATIENCE, Studio, data_of, middle, open_view, until_file, violations
 
 FILE = "cyclograms/press.toml"
 

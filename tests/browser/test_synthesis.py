@@ -2,30 +2,9 @@
 
 import re
 import time
-import tomllib
-from pathlib import Path
-from typing import Any
 
 from playwright.sync_api import Page, expect
-from studio_browser import PATIENCE, Studio, open_view, violations
-
-
-def data_of(project: Path, path: str) -> dict[str, Any]:
-    return tomllib.loads((project / path).read_text(encoding="utf-8"))
-
-
-def until_file(project: Path, path: str, words: str, patience: float = 20.0) -> None:
-    """Wait until a file of the project has a text."""
-    until = time.monotonic() + patience
-    while words not in (project / path).read_text(encoding="utf-8"):
-        assert time.monotonic() < until, f"{path} never had {words}"
-        time.sleep(0.05)
-
-
-def middle(page: Page, selector: str, number: int = 0) -> tuple[float, float]:
-    box = page.locator(selector).nth(number).bounding_box()
-    assert box is not None
-    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+from studio_browser import PATIENCE, Studio, data_of, middle, open_view, until_file, violations
 
 
 def full_search_ended(page: Page) -> None:

@@ -11,10 +11,12 @@ import signal
 import subprocess
 import sys
 import time
+import tomllib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 from urllib.parse import urlsplit
 
 from axe_playwright_python.sync_playwright import Axe
@@ -136,7 +138,8 @@ def open_view(page: Page, running: Studio, view: str) -> None:
     if not page.url.startswith(running.base):
         page.goto(running.address)
     page.evaluate(f"location.hash = '#{view}'")
-    page.wait_for_selector(f"main[data-view='{view}'][data-ready='true']", timeout=PATIENCE)
+    name = view.partition("/")[0]
+    page.wait_for_selector(f"main[data-view='{name}'][data-ready='true']", timeout=PATIENCE)
 
 
 def settled(page: Page, quiet: float = 0.3) -> None:
@@ -153,3 +156,23 @@ def context_of(browser: Browser, *, width: int = 1400, height: int = 900, dark: 
         reduced_motion="reduce",
         locale="en-GB",
     )
+
+
+def data_of(project: Path, path: str) -> dict[str, Any]:
+    """The data of a file of the project."""
+    return tomllib.loads((project / path).read_text(encoding="utf-8"))
+
+
+def until_file(project: Path, path: str, words: str, patience: float = 20.0) -> None:
+    """Wait until a file of the project has a text."""
+    until = time.monotonic() + patience
+    while words not in (project / path).read_text(encoding="utf-8"):
+        assert time.monotonic() < until, f"{path} never had {words}"
+        time.sleep(0.05)
+
+
+def middle(page: Page, selector: str, number: int = 0) -> tuple[float, float]:
+    """Middle of an element on the page [px]."""
+    box = page.locator(selector).nth(number).bounding_box()
+    assert box is not None
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2

@@ -50,7 +50,6 @@ export default {
   envelope: "The design keeps this room; the shape in it is not designed.",
   checks: "Checks that concern it",
   noChecks: "No check names this part alone.",
-  limit: "Limit",
   holds: "holds",
   fails: "fails",
   drawing: "Drawing for the workshop",

@@ -52,7 +52,6 @@ export default {
   envelope: "Tasarım bu yeri ayırır; içindeki biçim tasarlanmamıştır.",
   checks: "İlgili denetimler",
   noChecks: "Yalnız bu parçayı anan denetim yok.",
-  limit: "Sınır",
   holds: "sağlanıyor",
   fails: "sağlanmıyor",
   drawing: "Atölye çizimi",

@@ -1,4 +1,5 @@
 import { useEffect, useState } from "preact/hooks";
+import { useReady } from "../../app/ready";
 import { goTo, type ViewProps } from "../../app/routes";
 import { refreshProject, SaveState, useDocument } from "../../project";
 import { formatNumber, t } from "../../text";
@@ -23,6 +24,7 @@ function RecipeView({ path }: { path: string }) {
   const model = modelOf(path);
   const document = useDocument<Recipe>(path);
   const [dragging, setDragging] = useState(false);
+  useReady(model.chart.value !== null || model.problem.value !== null || document.saved.value === "missing");
   useEffect(() => {
     void refreshProject().catch(() => undefined);
     return model.follow();

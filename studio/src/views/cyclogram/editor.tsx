@@ -28,8 +28,8 @@ export function CyclogramEditor({ path, head }: { path: string; head: ComponentC
     if (data !== null) store.follow(data);
   }, [data]);
   const shown = store.shown.value;
-  useReady(shown !== null);
   const compared = store.compared.value;
+  useReady(shown !== null || store.fault.value !== null || file.saved.value === "missing");
   const change = (next: CyclogramData) => {
     setDraft(null);
     file.update(() => next);

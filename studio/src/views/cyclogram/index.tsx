@@ -1,6 +1,7 @@
 import { useEffect, useState } from "preact/hooks";
 import type { MachineCyclograms } from "../../api/messages";
 import { post } from "../../api/request";
+import { useReady } from "../../app/ready";
 import { goTo, type ViewProps } from "../../app/routes";
 import { filesOf, freePath, newFile, project, refreshProject } from "../../project";
 import { t } from "../../text";
@@ -20,6 +21,7 @@ export default function Cyclogram({ name }: ViewProps) {
   useEffect(() => {
     if (project.peek() === null) void refreshProject().catch(() => undefined);
   }, []);
+  useReady(project.value !== null && filesOf("cyclogram").length === 0);
   const files = filesOf("cyclogram");
   const first = files.find((one) => stemOf(one.path) === "press") ?? files[0];
   const stem = name || stemOf(first?.path ?? "");

@@ -1,16 +1,18 @@
 import { useEffect } from "preact/hooks";
+import { useReady } from "../../app/ready";
 import { rename, type ViewProps } from "../../app/routes";
 import { openDocuments, project } from "../../project";
 import { t } from "../../text";
 import { FileList } from "./file-list";
 import { FileSide } from "./file-side";
-import { refreshOut } from "./work";
+import { out, refreshOut } from "./work";
 import { Written } from "./written";
 import "./files.css";
 
 /** The files of the project, and everything that the command line writes of them. */
 export default function Files({ name }: ViewProps) {
   const found = project.value;
+  useReady(found !== null && out.value !== null);
   useEffect(() => {
     void refreshOut().catch(() => undefined);
   }, [openDocuments.value.length]);

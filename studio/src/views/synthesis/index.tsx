@@ -1,4 +1,5 @@
 import { useEffect, useState } from "preact/hooks";
+import { useReady } from "../../app/ready";
 import { goTo, type ViewProps } from "../../app/routes";
 import { filesOf, freePath, newFile, project, refreshProject } from "../../project";
 import { t } from "../../text";
@@ -20,6 +21,7 @@ export default function Synthesis({ name }: ViewProps) {
   useEffect(() => {
     if (project.peek() === null) void refreshProject().catch(() => undefined);
   }, []);
+  useReady(project.value !== null && filesOf(FOLDER).length === 0);
   const files = filesOf(FOLDER);
   const stem = name || stemOf(files[0]?.path ?? "");
   const head = (

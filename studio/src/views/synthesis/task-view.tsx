@@ -41,7 +41,7 @@ export function TaskView({ path, stem, head }: TaskProps) {
     setDraft(settled ? null : next);
   };
   const answer = search.answer.value;
-  useReady(answer !== null);
+  useReady(answer !== null || search.error.value !== null || file.saved.value === "missing");
   const number = Math.min(Math.max(Number(data?.settings?.["chosen"] ?? 1), 1), answer?.candidates.length ?? 1);
   const chosen = answer?.candidates.find((one) => one.number === number) ?? null;
   return (
