@@ -10,6 +10,7 @@ import tempfile
 import time
 import tomllib
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -17,8 +18,8 @@ import msgspec
 
 from benchmarks.bench_studio import Client, line, studio
 from ilmek.jobs.studio.answers import Context
-from ilmek.jobs.studio.linkage import DraggedJoint, MechanismRequest, mechanism
-from ilmek.jobs.studio.linkage_quality import quality
+from ilmek.jobs.studio.linkage.quality import quality
+from ilmek.jobs.studio.linkage.tasks import DraggedJoint, MechanismRequest, mechanism
 
 LINKAGES = (("four-bar", "B", 0.03), ("watt-six-bar", "B", 0.0), ("jansen-leg", "P", 0.0), ("class-three", "Q", 0.0))
 """File of the example project, the joint that is dragged, and the promised round trip [s]; 0: none is promised."""
@@ -62,6 +63,11 @@ def round_trip(client: Client, request: dict[str, Any]) -> float:
     return time.perf_counter() - began
 
 
+def answered(request: MechanismRequest) -> bytes:
+    """The JSON of an answer of the engine."""
+    return msgspec.json.encode(mechanism(request, Context()))
+
+
 def main() -> None:
     """Drag joints of four linkages by the API."""
     with tempfile.TemporaryDirectory() as folder, studio(Path(folder) / "project") as address:
@@ -73,9 +79,9 @@ def main() -> None:
             assert isinstance(typed[0].drag, DraggedJoint)
             client.send("POST", "/api/mechanism", request(0))
             line(f"{name}: round trip of a drag", [round_trip(client, request(n)) for n in range(MOVES)], limit)
-            engine = [processor(lambda one=one: msgspec.json.encode(mechanism(one, Context()))) for one in typed]
+            engine = [processor(partial(answered, one)) for one in typed]
             line(f"{name}: processor time of the engine", engine, SERVER if limit else 0.0)
-            later = processor(lambda data=data: quality(MechanismRequest(data), Context()))
+            later = processor(partial(quality, MechanismRequest(data), Context()))
             print(f"{name + ': circuits, quality, checks at rest':44s} once   {1000 * later:8.1f} ms")
         client.close()
 

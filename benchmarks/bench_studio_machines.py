@@ -9,15 +9,16 @@ processor is stated beside the time on the clock: other work on the computer len
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import msgspec
 import numpy as np
 
 from ilmek.errors import IlmekError
 from ilmek.jobs.studio.answers import Context
-from ilmek.jobs.studio.machine_figures import FiguresRequest, figures
-from ilmek.jobs.studio.machine_view import view
-from ilmek.jobs.studio.machines import DesignRequest, MachineName, form
+from ilmek.jobs.studio.machine.figures import FiguresRequest, figures
+from ilmek.jobs.studio.machine.tasks import DesignRequest, MachineName, form
+from ilmek.jobs.studio.machine.view import view
 from ilmek.params import Setting
 
 MACHINES = (
@@ -77,8 +78,8 @@ def changes(name: str) -> list[Taken]:
         for step in STEPS:
             settings: dict[str, Setting] = {one.name: value * step}
             try:
-                seen = timed(lambda settings=settings: view(DesignRequest(name, settings), HERE))
-                drawn = timed(lambda settings=settings: figures(FiguresRequest(name, settings, names=chosen), HERE))
+                seen = timed(partial(view, DesignRequest(name, settings), HERE))
+                drawn = timed(partial(figures, FiguresRequest(name, settings, names=chosen), HERE))
             except IlmekError:
                 break
             if step != STEPS[0]:

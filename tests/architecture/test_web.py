@@ -58,7 +58,7 @@ def test_no_pickle_no_shell_no_code(path: Path) -> None:
 
 def test_the_server_imports_no_engineering() -> None:
     script = (
-        "import sys, ilmek.cli, ilmek.cli.studio; from ilmek.jobs.studio.project_open import open_project\n"
+        "import sys, ilmek.cli, ilmek.cli.studio; from ilmek.jobs.studio.project.opening import open_project\n"
         "heavy = {'numpy', 'scipy', 'numba', 'PIL', 'tomlkit', 'click.testing', 'ilmek.machines', 'ilmek.params'}\n"
         "print(sorted(heavy & set(sys.modules)))"
     )

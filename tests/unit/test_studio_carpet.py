@@ -12,17 +12,17 @@ from ilmek.errors import CarpetError, ParameterError, PictureError
 from ilmek.io.chart.rows_text import row_bands
 from ilmek.jobs.chart import make_charted
 from ilmek.jobs.order import read_order
-from ilmek.jobs.studio import carpet_stages
 from ilmek.jobs.studio.answers import Binary, Context
-from ilmek.jobs.studio.carpet import chart, corners, picture, proposal, row
-from ilmek.jobs.studio.carpet_answers import ChartRequest, PictureRequest, ProposalRequest, RowRequest
+from ilmek.jobs.studio.carpet import stages
+from ilmek.jobs.studio.carpet.answers import ChartRequest, PictureRequest, ProposalRequest, RowRequest
+from ilmek.jobs.studio.carpet.tasks import chart, corners, picture, proposal, row
 
 SMALL = {"picture": "pictures/photo.png", "size": "40x60cm", "quality": "20x20/dm"}
 
 
 @pytest.fixture
 def context(tmp_path: Path) -> Context:
-    carpet_stages.forget()
+    stages.forget()
     (tmp_path / "pictures").mkdir()
     across, down = np.meshgrid(np.arange(160), np.arange(240))
     waves = [127 + 100 * np.sin(across / 17 + down / 31 + turn) for turn in (0, 2, 4)]

@@ -14,7 +14,7 @@ from ilmek.errors import ParameterError
 from ilmek.io.cyclogram_file import cyclogram_of_data, read_cyclogram, timed_data
 from ilmek.jobs.cyclogram import solve
 from ilmek.jobs.studio.answers import Binary, Context
-from ilmek.jobs.studio.cyclogram import (
+from ilmek.jobs.studio.cyclogram.tasks import (
     CyclogramRequest,
     MachineCyclogramRequest,
     SolveRequest,

@@ -14,9 +14,9 @@ import pytest
 from ilmek.errors import MechanismError, ParameterError
 from ilmek.io.mechanism_file import mechanism_of_data, read_mechanism
 from ilmek.jobs.studio.answers import Context
-from ilmek.jobs.studio.linkage import DraggedJoint, MechanismRequest, changed, mechanism
-from ilmek.jobs.studio.linkage_answer import MechanismAnswer
-from ilmek.jobs.studio.linkage_quality import quality
+from ilmek.jobs.studio.linkage.answer import MechanismAnswer
+from ilmek.jobs.studio.linkage.quality import quality
+from ilmek.jobs.studio.linkage.tasks import DraggedJoint, MechanismRequest, changed, mechanism
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 MECHANISMS = ("jansen_leg", "stephenson_dwell", "tufting_needle", "quick_return", "slider_crank_press", "peaucellier")

@@ -10,7 +10,7 @@ from PIL import Image
 
 from ilmek.errors import IlmekError
 from ilmek.jobs.studio.answers import Context
-from ilmek.jobs.studio.loom_run import CommandAnswer, LoomCommand, RunEnd, RunNews, RunRequest, command, run
+from ilmek.jobs.studio.loom.run import CommandAnswer, LoomCommand, RunNews, RunRequest, TwinRunEnd, command, run
 from ilmek.progress import Cancelled, Progress
 
 
@@ -41,7 +41,7 @@ def test_a_run_is_held_led_on_and_stopped_by_commands(project: Path) -> None:
     context = Context(str(project), show=news.append)
     with pytest.raises(IlmekError, match="no run"):
         command(LoomCommand("hold"), context)
-    ends: list[RunEnd] = []
+    ends: list[TwinRunEnd] = []
     working = threading.Thread(target=lambda: ends.append(run(RunRequest(speed=500.0), context)))
     working.start()
     try:

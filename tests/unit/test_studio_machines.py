@@ -9,9 +9,8 @@ from click.testing import CliRunner
 from ilmek.cli import main
 from ilmek.errors import ParameterError
 from ilmek.jobs.studio.answers import Context
-from ilmek.jobs.studio.machine_figures import FiguresRequest, figures
-from ilmek.jobs.studio.machine_view import nearest, view
-from ilmek.jobs.studio.machines import (
+from ilmek.jobs.studio.machine.figures import FiguresRequest, figures
+from ilmek.jobs.studio.machine.tasks import (
     DesignRequest,
     MachineName,
     Nothing,
@@ -21,6 +20,7 @@ from ilmek.jobs.studio.machines import (
     list_of_machines,
     reading,
 )
+from ilmek.jobs.studio.machine.view import nearest, view
 from ilmek.machines import SUMMARIES
 from ilmek.machines.catalogue import MACHINES
 from ilmek.params import reachable

@@ -12,8 +12,8 @@ from ilmek.cli import main
 from ilmek.errors import IlmekError, ParameterError
 from ilmek.jobs.studio.answers import Context
 from ilmek.jobs.studio.outputs import PRODUCTS, OutputRequest, ProductsRequest, products, write_product
-from ilmek.jobs.studio.project import PathRequest, ProjectRequest
-from ilmek.jobs.studio.project_out import delete_written, written
+from ilmek.jobs.studio.project.out import delete_written, written
+from ilmek.jobs.studio.project.tasks import PathRequest, ProjectRequest
 from ilmek.progress import Cancelled, Progress
 
 EXAMPLE = Path(__file__).parents[2] / "src" / "ilmek" / "data" / "example_project"

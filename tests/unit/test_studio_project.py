@@ -6,9 +6,12 @@ from pathlib import Path
 import pytest
 
 from ilmek.errors import IlmekError, OutputError, ParameterError
-from ilmek.jobs.studio import project_folder
 from ilmek.jobs.studio.answers import Context
-from ilmek.jobs.studio.project import (
+from ilmek.jobs.studio.project import folder as project_folder
+from ilmek.jobs.studio.project.history import MOST_STATES, history_path
+from ilmek.jobs.studio.project.opening import open_project
+from ilmek.jobs.studio.project.pictures import UploadRequest, delete_picture, upload_picture
+from ilmek.jobs.studio.project.tasks import (
     FileContent,
     NewRequest,
     PathRequest,
@@ -24,10 +27,7 @@ from ilmek.jobs.studio.project import (
     save_file,
     undo,
 )
-from ilmek.jobs.studio.project_history import MOST_STATES, history_path
-from ilmek.jobs.studio.project_open import open_project
-from ilmek.jobs.studio.project_pictures import UploadRequest, delete_picture, upload_picture
-from ilmek.jobs.studio.project_watch import ProjectWatch
+from ilmek.jobs.studio.project.watch import ProjectWatch
 
 RECIPE = 'plain = "ivory"  # the field\nsize = "60x90cm"\n\n# the edge\n[[border]]\nyarn = "dark red"\nwidth = 3\n'
 
@@ -172,8 +172,8 @@ def test_a_history_cut_off_at_any_byte_loses_nothing_saved(folder: Path, context
 
 
 def test_a_history_is_bounded(folder: Path, context: Context, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("ilmek.jobs.studio.project_history.MOST_STATES", 5)
-    monkeypatch.setattr("ilmek.jobs.studio.project.file_error", lambda *_: None)
+    monkeypatch.setattr("ilmek.jobs.studio.project.history.MOST_STATES", 5)
+    monkeypatch.setattr("ilmek.jobs.studio.project.tasks.file_error", lambda *_: None)
     for number in range(30):
         save(context, f"plain = '{number}'\n")
     assert len(history_path(folder, "carpet.toml").read_bytes().splitlines()) <= 2 * 5

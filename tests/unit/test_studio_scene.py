@@ -16,7 +16,7 @@ from ilmek.errors import IlmekError
 from ilmek.jobs import loom_space
 from ilmek.jobs.loom_space import loom_in_space, scene_answer
 from ilmek.jobs.studio.answers import Binary, Context
-from ilmek.jobs.studio.scene import LoomRequest, PlateRequest, glb, plate, project_loom, scene
+from ilmek.jobs.studio.loom.scene import LoomRequest, PlateRequest, glb, plate, project_loom, scene
 from ilmek.plane.contours import area
 from ilmek.report import Contour
 from ilmek.units import turn

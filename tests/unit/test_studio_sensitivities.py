@@ -6,8 +6,8 @@ import pytest
 
 from ilmek.errors import IlmekError
 from ilmek.jobs.studio.answers import Context
-from ilmek.jobs.studio.comparison import ComparisonRequest, comparison
-from ilmek.jobs.studio.sensitivities import Sensitivity, SensitivityRequest, sensitivities
+from ilmek.jobs.studio.machine.comparison import ComparisonRequest, comparison
+from ilmek.jobs.studio.machine.sensitivities import Sensitivity, SensitivityRequest, sensitivities
 from ilmek.machines.catalogue import MACHINES
 from ilmek.progress import Cancelled, Progress
 

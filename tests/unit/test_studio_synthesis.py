@@ -13,8 +13,8 @@ from ilmek.errors import ParameterError
 from ilmek.io.mechanism_file import parse_mechanism
 from ilmek.jobs.design import design_machine, mechanism_text
 from ilmek.jobs.studio.answers import Context
-from ilmek.jobs.studio.synthesis import FourBarRequest, SynthesisRequest, candidates, mechanism
-from ilmek.jobs.studio.synthesis_answers import ShownFourBar, SynthesisAnswer
+from ilmek.jobs.studio.synthesis.answers import ShownFourBar, SynthesisAnswer
+from ilmek.jobs.studio.synthesis.tasks import FourBarRequest, SynthesisRequest, candidates, mechanism
 from ilmek.progress import Cancelled, Progress
 
 BOW = "(60mm,0mm) (52mm,12mm) (30mm,18mm) (8mm,12mm) (0mm,0mm) (15mm,0mm) (30mm,0mm) (45mm,0mm)"

@@ -5,13 +5,13 @@ from pathlib import Path
 
 import click
 
-from ilmek.cli.call_outputs import call_outputs
+from ilmek.cli.call_outputs import CallOutputs, call_outputs
 from ilmek.cli.options import animation_option, force_option, json_option, motion_option
 from ilmek.cli.report import headline_of, show_report
 from ilmek.cli.settings import read_settings, setting_files
 from ilmek.cli.terminal import note, say
 from ilmek.cli.verdict import exit_code, note_verdict
-from ilmek.jobs.design import design_machine, mechanism_text, require_loom, require_mechanism
+from ilmek.jobs.design import DesignResult, design_machine, mechanism_text, require_loom, require_mechanism
 from ilmek.jobs.machine_file import read_machine_order
 from ilmek.jobs.workshop_order import WorkshopOrder
 
@@ -117,6 +117,12 @@ def command(  # noqa: PLR0917 - click calls it by name
             call.give("--to", lambda: text)
         call.give_scene("--glb", made)
         call.give_json(made.as_json)
+    _show(made, call, mechanism_to, parts_to)
+    return exit_code(made.report.all_checks)
+
+
+def _show(made: DesignResult, call: CallOutputs, mechanism_to: Path | None, parts_to: Path | None) -> None:
+    """The report and the files on the terminal; what was required and not written is noted."""
     if not call.quiet:
         show_report(made.report)
         call.show_files({"--report": "report", "--animation": "animation", "--glb": "loom in space"})
@@ -128,11 +134,10 @@ def command(  # noqa: PLR0917 - click calls it by name
         note_verdict(made.report.all_checks, headline_of(made.report))
     if mechanism_to is not None and made.mechanism is None:
         note(f"{mechanism_to} was not written: there is no linkage")
-    if workshop is not None and made.workshop is None:
+    if parts_to is not None and made.workshop is None:
         note(f"{parts_to} was not written: there are no links")
     for warning in made.warnings:
         note(warning)
-    return exit_code(made.report.all_checks)
 
 
 def _require(options: Mapping[str, str | None], files: Mapping[str, Path | None]) -> None:

@@ -10,7 +10,7 @@ from ilmek.cli.password import typed_password
 from ilmek.cli.terminal import note
 from ilmek.errors import ParameterError
 from ilmek.io.secret_file import read_bounded
-from ilmek.jobs.studio.project_open import open_project
+from ilmek.jobs.studio.project.opening import open_project
 from ilmek.web.serve import PORT, StudioOrder, checked_order, serve
 
 EXAMPLES = """\b

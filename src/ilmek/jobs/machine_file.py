@@ -10,7 +10,7 @@ from ilmek.machines.catalogue import find_machine
 from ilmek.params import Params, Setting, listed
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False, slots=True)
 class MachineOrder:
     """A machine of the catalogue by its name, the settings of its parameters, and the file that they are from."""
 

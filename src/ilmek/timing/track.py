@@ -31,6 +31,9 @@ _INSIDE = 1e-12
 class MotionLaw(Protocol):
     """A rise of 1 in a time of 1: s, v, a on u in [0, 1], and peaks. `ilmek.cams.laws.Law` is one."""
 
+    def __hash__(self) -> int:
+        """A law is compared by identity, or by its values."""
+
     @property
     def name(self) -> str:
         """The law's name, as written in files."""

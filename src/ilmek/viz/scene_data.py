@@ -14,7 +14,7 @@ SHIFT_ERROR, TURN_ERROR = 2e-5, 2e-4
 """Deviations of the samples that are sent from those of a motion, at most [m, rad]."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(eq=False, frozen=True, slots=True)
 class SceneData:
     """A scene: JSON, 32-bit floats, and 32-bit integers; a part of a block is [first, number]."""
 
@@ -23,7 +23,7 @@ class SceneData:
     integers: bytes
 
 
-@dataclass(slots=True)
+@dataclass(eq=False, slots=True)
 class _Blocks:
     floats: list[FloatArray] = field(default_factory=list)
     integers: list[IntArray] = field(default_factory=list)

@@ -16,7 +16,7 @@ from starlette.routing import BaseRoute, Route, WebSocketRoute
 from starlette.websockets import WebSocket
 
 from ilmek import __version__
-from ilmek.jobs.studio.project_watch import INTERVAL, ProjectWatch
+from ilmek.jobs.studio.project.watch import INTERVAL, ProjectWatch
 from ilmek.web.api_page import api_page
 from ilmek.web.endpoints import ENDPOINTS, Endpoint
 from ilmek.web.events import EventHub

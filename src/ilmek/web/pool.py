@@ -67,7 +67,7 @@ def _ignored(message: StepMessage | News) -> None:
     """Progress that nobody follows."""
 
 
-@dataclass(slots=True)
+@dataclass(eq=False, slots=True)
 class Pool:
     """Worker processes; `start` before the first request, `close` at the end.
 

@@ -1,6 +1,6 @@
 """The types of the API, from its table and the functions behind it.
 
-python -m ilmek.web.schema FOLDER       writes openapi.json and messages.json: all records as one JSON Schema
+python -m ilmek.web.schema FOLDER       writes messages.json: all records as one JSON Schema
 """
 
 import json
@@ -198,11 +198,9 @@ def _responses(endpoint: Endpoint, answer: dict[str, Any]) -> dict[str, Any]:
 
 
 def main() -> None:
-    """Write openapi.json and messages.json to the folder that is given."""
-    folder = Path(sys.argv[1])
-    for name, content in (("openapi", openapi()), ("messages", messages())):
-        text = json.dumps(content, indent=1, ensure_ascii=False)
-        (folder / f"{name}.json").write_text(text + "\n", encoding="utf-8")
+    """Write messages.json to the folder that is given."""
+    text = json.dumps(messages(), indent=1, ensure_ascii=False)
+    (Path(sys.argv[1]) / "messages.json").write_text(text + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -34,7 +34,7 @@ class _Work:
     answer: Reply | None = None
 
 
-@dataclass(slots=True)
+@dataclass(eq=False, slots=True)
 class Works:
     """The works that run, and the answers of those that have ended."""
 

@@ -1569,9 +1569,9 @@ export interface MechanismRequest {
  * The nearest tasks that a machine could do, where it cannot do what is required; "" where there are none.
  *
  * This interface was referenced by `Messages`'s JSON-Schema
- * via the `definition` "Nearest".
+ * via the `definition` "NearestTasks".
  */
-export interface Nearest {
+export interface NearestTasks {
   text: string;
   wishes: {}[];
 }
@@ -1895,19 +1895,6 @@ export interface RunAlarm {
   remedy: string;
 }
 /**
- * The end of a run: state, knots, and those that are missing, double or in a wrong yarn; the last news of it.
- *
- * This interface was referenced by `Messages`'s JSON-Schema
- * via the `definition` "RunEnd".
- */
-export interface RunEnd {
-  state: string;
-  knots: number;
-  total: number;
-  faults: number;
-  last: RunNews;
-}
-/**
  * The run at an instant; rows and warp pairs count from 0, from the bottom edge and from the left.
  *
  *     time, left   of the loom's clock, until now and until the end by the programme [s]
@@ -2186,6 +2173,19 @@ export interface TablesRequest {
     [k: string]: number | boolean | string | null;
   };
   part?: string;
+}
+/**
+ * The end of a run: state, knots, and those that are missing, double or in a wrong yarn; the last news of it.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "TwinRunEnd".
+ */
+export interface TwinRunEnd {
+  state: string;
+  knots: number;
+  total: number;
+  faults: number;
+  last: RunNews;
 }
 /**
  * A value that is typed for a parameter of a machine: a text with a unit, or a number in SI.

@@ -73,7 +73,9 @@ class Piecewise:
         if slopes.shape[1] > 1 and np.all(slopes[:, [0, -1]] != 0.0):
             roots = _roots(slopes)
             near = np.clip(np.where(np.abs(roots.imag) < _REAL, roots.real, 0.0), 0.0, 1.0)
-            values = _horner(self.rows.T[:, :, None], np.pad(near, ((0, 0), (0, 2)), constant_values=(0.0, 1.0)))
+            values = np.asarray(
+                _horner(self.rows.T[:, :, None], np.pad(near, ((0, 0), (0, 2)), constant_values=(0.0, 1.0)))
+            )
         else:
             values = np.concatenate([_extremes(row) for row in self.rows])
         return float(values.min()), float(values.max())

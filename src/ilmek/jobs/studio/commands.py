@@ -16,7 +16,7 @@ from ilmek.machines.catalogue import find_machine
 from ilmek.params import Setting, reachable
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False, slots=True)
 class CommandRequest:
     """A state that is shown as its command line and as Python.
 

@@ -29,7 +29,7 @@ from ilmek.jobs.mechanism.run import run
 from ilmek.jobs.order import read_order
 from ilmek.jobs.page import page_text
 from ilmek.jobs.studio.answers import Context
-from ilmek.jobs.studio.project_folder import OUT, ProjectFolder, kind_of
+from ilmek.jobs.studio.project.folder import OUT, ProjectFolder, kind_of
 from ilmek.jobs.weave import weave
 from ilmek.jobs.workshop_order import WorkshopOrder, workshop_writer
 from ilmek.progress import Progress

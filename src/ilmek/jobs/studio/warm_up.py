@@ -21,7 +21,7 @@ def preparations() -> Iterator[Callable[[], object]]:
     tasks = import_module("ilmek.jobs.studio").__path__
     for module in pkgutil.iter_modules(tasks, "ilmek.jobs.studio."):
         yield partial(import_module, module.name)
-    yield import_module("ilmek.jobs.studio.carpet").prepare
+    yield import_module("ilmek.jobs.studio.carpet.tasks").prepare
     machines = import_module("ilmek.machines.catalogue").MACHINES
     for name in machines:
         yield partial(machines.__getitem__, name)

@@ -1,6 +1,6 @@
 /** A run of the twin: start, hold, resume, stop; its row, knot, alarms and the time that is left. */
 import { useEffect, useRef, useState } from "preact/hooks";
-import type { CommandAnswer, RunEnd, RunNews } from "../../api/messages";
+import type { CommandAnswer, TwinRunEnd, RunNews } from "../../api/messages";
 import { post } from "../../api/request";
 import { runWork } from "../../api/work";
 import { formatNumber, formatSpan, t } from "../../text";
@@ -36,7 +36,7 @@ export function RunPanel({ file, model, onLive }: RunPanelProps) {
     setSaid("");
     setNews(null);
     try {
-      const end = await runWork<RunEnd, RunNews>(
+      const end = await runWork<TwinRunEnd, RunNews>(
         "/loom/run",
         { file, speed: Number(speed) },
         { onNews: take, signal: control.current.signal },

@@ -6,7 +6,7 @@ import type {
   DesignView,
   MachineFields,
   MachineFigures,
-  Nearest,
+  NearestTasks,
   Sensitivities,
   Sensitivity,
 } from "../../api/messages";
@@ -230,7 +230,7 @@ export class MachineModel {
 
   #findNearest(state: State): void {
     if (state.machine !== "automated-loom" || this.view.peek()?.holds !== false) return;
-    post<Nearest>(path(state.machine, "nearest"), { settings: state.settings }, this.#later.signal).then(
+    post<NearestTasks>(path(state.machine, "nearest"), { settings: state.settings }, this.#later.signal).then(
       (found) => {
         this.nearest.value = found.text;
       },

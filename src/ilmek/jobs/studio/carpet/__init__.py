@@ -1,0 +1,1 @@
+"""The carpet: recipes, charts and rows."""

@@ -1,0 +1,239 @@
+"""The carpet's view: charts of a recipe, proposed shades, corners of a photographed carpet, rows to weave by."""
+
+import json
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from hashlib import blake2b
+
+import numpy as np
+
+from ilmek.arrays import Rgb
+from ilmek.carpet.bill import yarn_bill
+from ilmek.carpet.calling import count_text, row_steps
+from ilmek.carpet.chart import Chart, make_chart
+from ilmek.carpet.design import resampled
+from ilmek.carpet.fitting import FitParams, prepare_picture
+from ilmek.carpet.outline import find_outline
+from ilmek.carpet.quality import parse_quality
+from ilmek.carpet.rows import row_runs
+from ilmek.carpet.sizes import parse_size
+from ilmek.carpet.statistics import chart_statistics
+from ilmek.errors import IlmekError, ParameterError
+from ilmek.io.chart.symbols import symbols
+from ilmek.io.picture import SMALLEST
+from ilmek.io.yarn_file import default_yarns
+from ilmek.jobs.chart import ChartResult, make_charted
+from ilmek.jobs.charting import file_key
+from ilmek.jobs.order import CarpetOrder, order_of_data
+from ilmek.jobs.recipe import picture_pixels
+from ilmek.jobs.studio.answers import Binary, Context, packed
+from ilmek.jobs.studio.carpet.answers import (
+    ChartAnswer,
+    ChartRequest,
+    ChartYarn,
+    Corners,
+    GroundNeed,
+    HardRow,
+    ListedYarn,
+    PictureAbout,
+    PictureRequest,
+    Proposal,
+    ProposalRequest,
+    RowAnswer,
+    RowRequest,
+    RowRun,
+    ShadeToDye,
+    SourcePicture,
+)
+from ilmek.jobs.studio.carpet.stages import KeptStages
+from ilmek.jobs.studio.machine.view import shown_check
+from ilmek.jobs.studio.project.folder import ProjectFolder
+from ilmek.jobs.yarn_choice import proposed_shades
+
+MOST_SHADES = 60
+"""Largest number of shades that are proposed."""
+
+
+def prepare() -> None:
+    """Load the kernels of a chart by making a small one of a photo."""
+    noise = np.random.default_rng(1).integers(0, 256, (64, 64, 3), dtype=np.uint8)
+    made = make_chart(noise, parse_size("16x16cm"), parse_quality("20x20/dm"), default_yarns())
+    yarn_bill(made)
+    chart_statistics(made)
+
+
+def chart(request: ChartRequest, context: Context) -> Binary:
+    """The chart of a recipe: `ChartAnswer`, then its knots, then the fitted picture where the caller lacks it.
+
+    Raises IlmekError as `ilmek chart`.
+    """
+    began = time.perf_counter()
+    made = _charted(request, context, KeptStages(request.draft))
+    source, pixels = _source(made.source, request.source)
+    about = replace(_answer(made, request.draft, time.perf_counter() - began), source=source)
+    return packed(about, made.chart.knots.tobytes(), *pixels)
+
+
+def proposal(request: ProposalRequest, context: Context) -> Proposal:
+    """The shades that suit the picture of a recipe best, to dye or to match. Raises IlmekError."""
+    if not 2 <= request.count <= MOST_SHADES:
+        raise ParameterError(f"{request.count} shades", allowed=f"2 to {MOST_SHADES}")
+    with _plain_errors(context):
+        order = _order(request, context)
+        order = replace(order, palette=replace(order.palette, propose=request.count))
+        made = make_charted(order, context.progress, with_source=True, stages=KeptStages())
+    shades = proposed_shades(made.chart)
+    return Proposal(
+        tuple(ShadeToDye(one.name, one.shade.hex, one.shade.share, one.nearest, one.difference) for one in shades)
+    )
+
+
+def corners(request: PictureRequest, context: Context) -> Corners:
+    """The corners of a carpet photographed at an angle. Raises PictureError where its outline is not clear."""
+    with _plain_errors(context):
+        rgb, _ = _pixels(request, context)
+        found, clearness = find_outline(rgb, context.progress)
+    return Corners(tuple((x, y) for x, y in found.tolist()), clearness)
+
+
+def picture(request: PictureRequest, context: Context) -> Binary:
+    """A picture of the project as it is read, made small: `PictureAbout`, then its pixels. Raises PictureError."""
+    with _plain_errors(context):
+        rgb, notes = _pixels(request, context)
+        fitting = FitParams.read({"corners": request.corners or None, "turn": request.turn or 0.0})
+        rgb, _ = prepare_picture(rgb, fitting, context.progress)
+    height, width = rgb.shape[:2]
+    scale = min(1.0, max(64, min(request.most, 4000)) / max(height, width))
+    shown = resampled(rgb, max(1, round(scale * height)), max(1, round(scale * width)), context.progress)
+    about = PictureAbout(width, height, shown.shape[1], shown.shape[0], notes)
+    return packed(about, shown.tobytes())
+
+
+def row(request: RowRequest, context: Context) -> RowAnswer:
+    """A row of the chart of a recipe to weave by. Raises ParameterError for a row that is not in the chart."""
+    made = _charted(request, context, KeptStages()).chart
+    if not 1 <= request.row <= made.rows:
+        raise ParameterError(f"row {request.row}", allowed=f"1 to {made.rows}, from the lower edge")
+    runs = tuple(
+        RowRun(run.first + 1, run.cells, run.knots, run.yarn, run.mark, run.second)
+        for run in row_runs(made, request.row)
+    )
+    right, left = (_row_text(made, request.row, direction) for direction in ("right", "left"))
+    return RowAnswer(request.row, made.rows, made.columns, runs, right, left, _yarns(made))
+
+
+def _row_text(made: Chart, number: int, direction: str) -> str:
+    """A row by its runs, like `12A 3B 2½AC`."""
+    signs = symbols(len(made.yarns))
+    words = []
+    for step in row_steps(made, number, "runs", direction):
+        sign, second = signs[step.yarn], signs[step.second] if "½" in count_text(step) else ""
+        words.append(f"{count_text(step)}{':' if sign.isdigit() else ''}{sign}{second}")
+    return f"{number} {'>' if direction == 'right' else '<'} {' '.join(words)}"
+
+
+def _order(request: ChartRequest | ProposalRequest | RowRequest, context: Context) -> CarpetOrder:
+    """The order of the recipe of a request, whose file need not be saved."""
+    return order_of_data(_folder(context).path(request.path), request.recipe)
+
+
+def _charted(request: ChartRequest | RowRequest, context: Context, stages: KeptStages) -> ChartResult:
+    """The chart of a request, with the last ones kept."""
+    with _plain_errors(context):
+        order = _order(request, context)
+        files = tuple(file_key(path) for path in order.inputs.values() if path != order.picture)
+        key = (context.project, request.path, json.dumps(request.recipe, sort_keys=True), files, stages.draft)
+        return stages.keep(
+            "charted", key, lambda: make_charted(order, context.progress, with_source=True, stages=stages)
+        )
+
+
+def _folder(context: Context) -> ProjectFolder:
+    return ProjectFolder(context.folder.resolve())
+
+
+def _pixels(request: PictureRequest, context: Context) -> tuple[Rgb, tuple[str, ...]]:
+    path = _folder(context).path(request.picture)
+    return KeptStages().keep(
+        "tile", (file_key(path), SMALLEST), lambda: picture_pixels(path, SMALLEST, context.progress)
+    )
+
+
+@contextmanager
+def _plain_errors(context: Context) -> Iterator[None]:
+    """Name files as in the project, and leave out the line of data that have no text."""
+    try:
+        yield
+    except IlmekError as error:
+        base = f"{context.folder.resolve()}/"
+        given, allowed, do = (
+            text.replace(base, "").replace(", line 0", "") for text in (error.given, error.allowed, error.do)
+        )
+        raise type(error)(given, allowed=allowed, do=do) from None
+
+
+def _source(shown: Rgb | None, known: str) -> tuple[SourcePicture | None, tuple[bytes, ...]]:
+    """What is said of the fitted picture, and its pixels where they are sent."""
+    if shown is None:
+        return None, ()
+    pixels = shown.tobytes()
+    key = blake2b(pixels, digest_size=8).hexdigest()
+    about = SourcePicture(key, shown.shape[1], shown.shape[0], key != known)
+    return about, (() if key == known else (pixels,))
+
+
+def _yarns(made: Chart) -> tuple[ChartYarn, ...]:
+    signs = symbols(len(made.yarns))
+    return tuple(ChartYarn(yarn.name, yarn.hex, signs[index]) for index, yarn in enumerate(made.yarns))
+
+
+def _needed(made: ChartResult) -> tuple[ChartYarn, ...]:
+    """The yarns of a chart with what is needed of them."""
+    yarns = list(_yarns(made.chart))
+    for index, need in zip(made.chart.used, made.bill.pile, strict=True):
+        yarns[index] = replace(
+            yarns[index],
+            knots=need.knots,
+            length=need.length,
+            mass=need.mass,
+            price=need.price,
+            count=need.count,
+            hanks=need.hanks,
+        )
+    return tuple(yarns)
+
+
+def _answer(made: ChartResult, draft: bool, seconds: float) -> ChartAnswer:
+    chart, bill, reading = made.chart, made.bill, made.chart.reading
+    return ChartAnswer(
+        rows=chart.rows,
+        columns=chart.columns,
+        width=chart.size.width,
+        length=chart.size.length,
+        quality=str(chart.quality),
+        knot=chart.knot,
+        reading=reading.kind,
+        reason=reading.reason,
+        fit=reading.fit.words,
+        yarns=_needed(made),
+        ground=tuple(GroundNeed(one.name, one.use, one.length, one.mass, one.price) for one in bill.ground),
+        listed=tuple(ListedYarn(yarn.name, yarn.hex) for yarn in made.order.yarns),
+        hardest=tuple(HardRow(number, made.statistics.of_row(number)) for number in made.statistics.hardest),
+        mean_changes=made.statistics.mean_changes,
+        edited=reading.edited,
+        small_patches=chart.small_patches,
+        mean_delta_e=reading.mean_delta_e,
+        mass=bill.mass,
+        mass_per_area=bill.mass_per_area,
+        price=bill.price,
+        currency=bill.currency,
+        checks=tuple(shown_check(check) for check in made.checks),
+        warnings=made.warnings,
+        notes=made.notes,
+        half_knots=sum(chart.tied.half),
+        jufti_knots=sum(chart.tied.jufti),
+        draft=draft,
+        seconds=seconds,
+    )

@@ -1,0 +1,1 @@
+"""Cyclograms under the hands of their user."""

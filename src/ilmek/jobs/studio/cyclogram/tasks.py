@@ -1,0 +1,217 @@
+"""A cyclogram under the user's hands: curves, relations and exclusions while it is dragged; its solution as work."""
+
+import math
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from ilmek.cams.laws import FAMILIES
+from ilmek.io.cyclogram_file import cyclogram_data, cyclogram_of_data, cyclogram_toml, timed_data
+from ilmek.jobs.cyclogram import binding_cost, cyclograms_of, limit_checks, solve, timed
+from ilmek.jobs.studio.answers import Binary, Context, packed
+from ilmek.jobs.studio.cyclogram.answers import (
+    CyclogramSolution,
+    CyclogramView,
+    MachineCyclograms,
+    NamedCyclogram,
+    ShownBinding,
+    ShownEvent,
+    ShownExclusion,
+    ShownLimit,
+    ShownMoment,
+    ShownMotionPart,
+    ShownPresence,
+    ShownRelation,
+    ShownTrack,
+)
+from ilmek.params import Setting
+from ilmek.timing.cyclogram import (
+    Cyclogram,
+    Exclusion,
+    Moment,
+    Relation,
+    Track,
+    TrackSegment,
+    check_all,
+    check_apart,
+    moment_angle,
+    present,
+)
+from ilmek.timing.figures import law_label
+from ilmek.timing.relations import Presence, Spans
+from ilmek.timing.track import TrackCurves, curves, peak_acceleration, peak_jerk, peak_speed
+from ilmek.timing.windows import Windows, common
+from ilmek.units import from_si, turn
+
+STEPS = 720
+"""Samples of a turn."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class CyclogramRequest:
+    """A cyclogram as the plain data of its file."""
+
+    data: dict[str, Any]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class SolveRequest:
+    """A cyclogram as the plain data of its file, and its goal: acceleration or period."""
+
+    data: dict[str, Any]
+    goal: str = "acceleration"
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class MachineCyclogramRequest:
+    """A machine of the catalogue and its settings; "": which machines have cyclograms."""
+
+    machine: str = ""
+    settings: dict[str, Setting] = field(default_factory=dict)
+
+
+def view(request: CyclogramRequest, context: Context) -> Binary:
+    """A cyclogram as it is shown: see `CyclogramView`. Raises ParameterError with the key of what is wrong."""
+    cyclogram = cyclogram_of_data(request.data)
+    drawn = [(track, curves(track, STEPS)) for track in cyclogram.tracks]
+    parts = [_packed(cyclogram, rows) for _, rows in drawn]
+    relations = tuple(_relation(cyclogram, one) for one in cyclogram.relations)
+    exclusions = tuple(_exclusion(cyclogram, one) for one in cyclogram.exclusions)
+    about = CyclogramView(
+        name=cyclogram.name,
+        period=cyclogram.period,
+        tracks=tuple(_track(cyclogram, track, rows) for track, rows in drawn),
+        relations=relations,
+        exclusions=exclusions,
+        limits=tuple(
+            ShownLimit(one.name, one.source, _finite(one.value), one.limit, one.unit, one.ok)
+            for one in limit_checks(cyclogram)
+        ),
+        laws=tuple(FAMILIES),
+        lengths=tuple(len(one) for one in parts),
+    )
+    return packed(about, *parts)
+
+
+def _packed(cyclogram: Cyclogram, rows: TrackCurves) -> bytes:
+    """Angle, position, velocity, acceleration and jerk over time, as 32-bit floats."""
+    w = cyclogram.speed
+    found = (rows.angle, rows.position, rows.slope * w, rows.bend * w**2, rows.jolt * w**3)
+    return np.stack(found).astype("<f4").tobytes()
+
+
+def _track(cyclogram: Cyclogram, track: Track, rows: TrackCurves) -> ShownTrack:
+    limits, period = track.limits, cyclogram.period
+    return ShownTrack(
+        name=track.name,
+        actuator=track.actuator,
+        unit=track.unit,
+        factor=from_si(1.0, track.unit),
+        revolves=track.revolves,
+        locked=track.locked,
+        limits={name: _finite(getattr(limits, name)) for name in ("speed", "acceleration", "jerk")}
+        | {"time": limits.time or None},
+        motions=tuple(_part(cyclogram, part) for part in track.segments),
+        events=tuple(ShownEvent(one.name, one.angle, one.on, one.share) for one in track.events),
+        peaks={
+            "speed": _finite(peak_speed(track, period)),
+            "acceleration": _finite(peak_acceleration(track, period)),
+            "jerk": _finite(peak_jerk(track, period)),
+        },
+        low=float(rows.position.min()),
+        high=float(rows.position.max()),
+        count=len(rows.angle),
+    )
+
+
+def _part(cyclogram: Cyclogram, part: TrackSegment) -> ShownMotionPart:
+    rate, law = cyclogram.speed / part.beta, part.law
+    peaks = (law.velocity_peak, law.acceleration_peak, law.jerk_peak)
+    values = (_finite(abs(part.stroke) * peak * rate**order) for order, peak in enumerate(peaks, 1))
+    return ShownMotionPart(part.name, part.start, part.end, part.begin, part.finish, law.name, law_label(law), *values)
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None
+
+
+def _relation(cyclogram: Cyclogram, one: Relation) -> ShownRelation:
+    first, then = (_moment(cyclogram, moment) for moment in (one.first, one.then))
+    gap = then.angle + turn * one.turns - first.angle
+    least = one.gap + one.delay * cyclogram.speed if one.gap > -math.inf else None
+    most = one.most if one.most < math.inf else None
+    margins = [math.inf if least is None else gap - least, math.inf if most is None else most - gap]
+    return ShownRelation(
+        label=one.label(cyclogram.units),
+        why=one.why,
+        first=first,
+        then=then,
+        turns=one.turns,
+        gap=gap,
+        least=least,
+        most=most,
+        margin=min(margins),
+        ok=all(check.ok for check in check_all(cyclogram, (one,))),
+    )
+
+
+def _moment(cyclogram: Cyclogram, moment: Moment) -> ShownMoment:
+    return ShownMoment(moment.track, moment_angle(cyclogram, moment), moment.label(cyclogram.units))
+
+
+def _exclusion(cyclogram: Cyclogram, one: Exclusion) -> ShownExclusion:
+    check = check_apart(cyclogram, one)
+    both = common(present(cyclogram, one.first), present(cyclogram, one.second))
+    return ShownExclusion(
+        label=one.label(cyclogram.units),
+        why=one.why,
+        first=_presence(cyclogram, one.first),
+        second=_presence(cyclogram, one.second),
+        overlaps=_spans(both),
+        apart=check.value,
+        gap=check.limit,
+        margin=check.value - check.limit,
+        ok=check.ok,
+    )
+
+
+def _presence(cyclogram: Cyclogram, one: Presence) -> ShownPresence:
+    windows = _spans(present(cyclogram, one))
+    if isinstance(one, Spans):
+        return ShownPresence("", one.name, windows)
+    return ShownPresence(one.track, one.label(cyclogram.units), windows, _finite(one.low), _finite(one.high))
+
+
+def _spans(windows: Windows) -> list[list[float]]:
+    return [[one.start, one.end] for one in windows]
+
+
+def solved(request: SolveRequest, context: Context) -> CyclogramSolution:
+    """A cyclogram solved for a goal: the data of its file with the new timing, and what binds.
+
+    Raises ParameterError as `ilmek cyclogram --solve` does: it names relations that contradict each other; Cancelled.
+    """
+    solution = solve(cyclogram_of_data(request.data), request.goal, context.progress)
+    return CyclogramSolution(
+        data=timed_data(request.data, solution.cyclogram),
+        goal=solution.goal,
+        measure=solution.measure,
+        unit=solution.unit,
+        factor=from_si(1.0, solution.unit),
+        before=solution.before,
+        after=solution.after,
+        binding=tuple(
+            ShownBinding(one.label, one.kind, binding_cost(one, solution), _finite(one.share), one.cost)
+            for one in solution.binding
+        ),
+    )
+
+
+def of_machine(request: MachineCyclogramRequest, context: Context) -> MachineCyclograms:
+    """The cyclograms of a machine as files' data. Raises ParameterError for a machine without some; Cancelled."""
+    if not request.machine:
+        return MachineCyclograms(tuple(timed()))
+    made = cyclograms_of(request.machine, request.settings, context.progress.part(0.0, 1.0, "design"))
+    found = tuple(NamedCyclogram(one.name, cyclogram_data(one), cyclogram_toml(one)) for one in made)
+    return MachineCyclograms(tuple(timed()), found)

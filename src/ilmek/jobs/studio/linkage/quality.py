@@ -1,0 +1,214 @@
+"""What takes longer than a drag: circuits, mobility by rank, coupler curves, forces against their limits."""
+
+import math
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from ilmek.errors import IlmekError
+from ilmek.jobs.mechanism.analysis import analysis
+from ilmek.jobs.mechanism.run import MechanismRun
+from ilmek.jobs.studio.answers import Context
+from ilmek.jobs.studio.linkage.answer import LinkageFault
+from ilmek.jobs.studio.linkage.motion import RunOptions, mechanism_run
+from ilmek.jobs.studio.linkage.part import machine_of_part, solved_part
+from ilmek.jobs.studio.linkage.tasks import MechanismRequest, drawn_mechanism, fault_of, plan_of
+from ilmek.linkage.circuits import Circuit, circuits
+from ilmek.linkage.configuration_path import InputPath
+from ilmek.linkage.coupler_curve import coupler_curve
+from ilmek.linkage.mobility import mobility
+from ilmek.linkage.motion import moving_points
+from ilmek.linkage.one_input import OneInput
+from ilmek.linkage.status import Status
+from ilmek.linkage.structure import solvable_steps
+from ilmek.linkage.transmission import transmission_angles
+
+MOST_BRANCHES = 5
+"""Largest number of branches whose combinations are followed to find circuits."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class BranchAnswer:
+    """A part of a circuit between dead centres: range of the input [rad; m], signs of the closed forms."""
+
+    start: float
+    stop: float
+    branches: dict[str, int]
+    full: bool
+
+
+@dataclass(frozen=True, slots=True)
+class CircuitAnswer:
+    """A circuit: its branches in order, values of the input at which it reverses, and at which another one crosses.
+
+    current  whether the mechanism as drawn is on it      closed  whether the path returns to its start
+    """
+
+    branches: tuple[BranchAnswer, ...]
+    dead_centres: tuple[float, ...]
+    crossings: tuple[float, ...]
+    closed: bool
+    current: bool
+
+
+@dataclass(frozen=True, slots=True)
+class SpecialPoint:
+    """A point of a coupler curve: value of the input [rad; m] and position [m]."""
+
+    input: float
+    x: float
+    y: float
+
+
+@dataclass(frozen=True, slots=True)
+class CurveAnswer:
+    """A coupler curve over the longest range that closes: length [m], cusps, crossings with itself, inflections."""
+
+    body: str
+    point: str
+    length: float
+    cusps: tuple[SpecialPoint, ...]
+    crossings: tuple[SpecialPoint, ...]
+    inflections: tuple[SpecialPoint, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class LeastTransmission:
+    """The least transmission angle at a pin [rad], and the value of the input there [rad; m]."""
+
+    pin: str
+    angle: float
+    input: float
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class QualityAnswer:
+    """The quality of a mechanism.
+
+    circuits  with all assemblies; empty where `left_out` states why      mobility  degrees of freedom by count and rank
+    checks    as in the JSON of `ilmek mechanism`                        warnings  what is left out, and what to add
+    fault     why there is nothing
+    """
+
+    circuits: tuple[CircuitAnswer, ...] = ()
+    curves: tuple[CurveAnswer, ...] = ()
+    transmission: tuple[LeastTransmission, ...] = ()
+    mobility: str = ""
+    checks: tuple[dict[str, Any], ...] = ()
+    warnings: tuple[str, ...] = ()
+    left_out: tuple[str, ...] = field(default_factory=tuple)
+    fault: LinkageFault | None = None
+
+
+def quality(request: MechanismRequest, context: Context) -> QualityAnswer:
+    """Circuits, mobility, coupler curves, least transmission angles, and the checks of the command line.
+
+    Of an unfinished mechanism its determined part. Raises MechanismError for data that are no mechanism file.
+    """
+    drawn = drawn_mechanism(request)
+    part = solved_part(drawn.mechanism, solvable_steps(drawn.mechanism)[0])
+    if not part.inputs:
+        return QualityAnswer(fault=LinkageFault("nothing is driven", do="add a drive"))
+    machine = machine_of_part(drawn.machine, part)
+    options = RunOptions(request.fixed, request.over, request.speed, request.steps, forces=True)
+    try:
+        made = mechanism_run(machine, plan_of(part), options, drawn.pose)
+    except IlmekError as error:
+        return QualityAnswer(fault=fault_of(error))
+    moved = _moved(made)
+    context.progress(0.2)
+    found, left_out = _circuits(moved) if moved is not None else ((), ())
+    context.progress(0.6)
+    checks, warnings = _checks(made, context)
+    return QualityAnswer(
+        found,
+        _curves(made, moved) if moved is not None else (),
+        _transmission(made),
+        _mobility(made),
+        checks,
+        warnings,
+        left_out,
+    )
+
+
+def _moved(made: MechanismRun) -> OneInput | None:
+    """The mechanism moved by its driving input; None where others move too."""
+    if made.running is None or not made.others_rest:
+        return None
+    values = made.at(made.values)
+    return OneInput(
+        made.plan,
+        made.running.name,
+        {name: float(np.ravel(v)[0]) for name, v in values.items() if name != made.running.name},
+    )
+
+
+def _circuits(moved: OneInput) -> tuple[tuple[CircuitAnswer, ...], tuple[str, ...]]:
+    """All circuits, or why they are left out."""
+    count = len(moved.plan.mechanism.branches)
+    if count > MOST_BRANCHES:
+        return (), (f"circuits of {count} branches, {2**count} assemblies; at most {MOST_BRANCHES} branches",)
+    try:
+        return tuple(_circuit(one, dict(moved.plan.mechanism.branches)) for one in circuits(moved)), ()
+    except IlmekError as error:
+        return (), (str(error),)
+
+
+def _circuit(circuit: Circuit, own: dict[str, int]) -> CircuitAnswer:
+    branches = tuple(BranchAnswer(one.start, one.stop, dict(one.branches), one.full) for one in circuit.branches)
+    current = any(one.branches == own for one in branches)
+    return CircuitAnswer(branches, circuit.dead_centres, circuit.crossings, circuit.closed, current)
+
+
+def _curves(made: MechanismRun, moved: OneInput) -> tuple[CurveAnswer, ...]:
+    """The coupler curves of the points that are no joints, or of the file's paths."""
+    ranges = [(low, high) for low, high in made.closing if high > low]
+    joints = {joint.name for joint in made.plan.mechanism.joints}
+    points = list(made.machine.paths) or [one for one in moving_points(made.plan.mechanism) if one[1] not in joints]
+    if not ranges or not points:
+        return ()
+    low, high = max(ranges, key=lambda ends: ends[1] - ends[0])
+    inside = 0.0 if math.isclose(high - low, 2 * math.pi) else 1e-6 * (high - low)
+    try:
+        path = InputPath(moved, low + inside, high - inside)
+    except IlmekError:
+        return ()
+    return tuple(_curve(path, body, point) for body, point in points)
+
+
+def _curve(path: InputPath, body: str, point: str) -> CurveAnswer:
+    curve = coupler_curve(path, body, point)
+    cusps = tuple(SpecialPoint(one.input, one.position.real, one.position.imag) for one in curve.cusps())
+    bends = tuple(SpecialPoint(one.input, one.position.real, one.position.imag) for one in curve.inflections())
+    crossings = tuple(SpecialPoint(one.inputs[0], one.position.real, one.position.imag) for one in curve.crossings())
+    return CurveAnswer(body, point, curve.length(), cusps, crossings, bends)
+
+
+def _transmission(made: MechanismRun) -> tuple[LeastTransmission, ...]:
+    found = []
+    for pin, angles in transmission_angles(made.motion, made.machine.transmission).items():
+        if np.isfinite(angles).any():
+            at = int(np.nanargmin(angles))
+            found.append(LeastTransmission(pin, float(angles[at]), float(made.values[at])))
+    return tuple(found)
+
+
+def _mobility(made: MechanismRun) -> str:
+    """The mobility in the middle of the samples that close."""
+    (good,) = np.nonzero(made.motion.status == Status.OK)
+    if not len(good):
+        return ""
+    try:
+        return mobility(made.plan.mechanism, made.motion.pose(int(good[len(good) // 2]))).description
+    except IlmekError as error:
+        return str(error)
+
+
+def _checks(made: MechanismRun, context: Context) -> tuple[tuple[dict[str, Any], ...], tuple[str, ...]]:
+    """The checks and warnings of the mechanism, as the command line reports them."""
+    try:
+        found = analysis(made, context.progress.part(0.6, 0.9, "forces"))
+    except IlmekError as error:
+        return (), (str(error),)
+    return tuple(check.as_json() for check in found.checks), found.warnings

@@ -1,0 +1,99 @@
+"""The structure of a mechanism in plain data: bodies, joints, degrees of freedom, Assur groups."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from ilmek.io.mechanism.names import is_part
+from ilmek.jobs.studio.linkage.answer import (
+    BodyAnswer,
+    CouplingAnswer,
+    GroupAnswer,
+    InputAnswer,
+    JointAnswer,
+    LinkageFault,
+    Structure,
+)
+from ilmek.linkage.groups.general import GeneralGroup
+from ilmek.linkage.groups.group import Step
+from ilmek.linkage.model import GROUND, Joint, Mechanism, Rotation, Slide, degrees_of_freedom
+
+DYADS = ("RRR", "RRP", "RPR", "PRP", "RPP")
+"""Groups of two bodies and three joints, by their joints: R turning, P sliding."""
+
+
+def bodies_of(mechanism: Mechanism, known: set[str]) -> tuple[BodyAnswer, ...]:
+    """All bodies; `known` are located."""
+    return tuple(
+        BodyAnswer(body.name, {name: (at.real, at.imag) for name, at in body.points.items()}, body.name in known)
+        for body in mechanism.bodies
+    )
+
+
+def joints_of(mechanism: Mechanism, file_joints: Mapping[str, Any]) -> tuple[JointAnswer, ...]:
+    """All joints of two bodies."""
+    return tuple(_joint(joint, file_joints) for joint in mechanism.joints)
+
+
+def _joint(joint: Joint, file_joints: Mapping[str, Any]) -> JointAnswer:
+    own = joint.name
+    if own not in file_joints:
+        own = next((name for name in file_joints if is_part(joint.name, name)), own)
+    if isinstance(joint, Slide):
+        return JointAnswer(joint.name, own, "slide", joint.bodies, joint.along, joint.turned)
+    return JointAnswer(joint.name, own, "pin", joint.bodies)
+
+
+def couplings_of(mechanism: Mechanism) -> tuple[CouplingAnswer, ...]:
+    """All gears, belts and racks."""
+    return tuple(
+        CouplingAnswer(one.name, one.kind, one.first, one.second, one.carrier, one.ratio) for one in mechanism.couplings
+    )
+
+
+def inputs_of(mechanism: Mechanism) -> tuple[InputAnswer, ...]:
+    """All inputs."""
+    return tuple(
+        InputAnswer(entry.name, entry.joint, "rotation" if isinstance(entry, Rotation) else "displacement")
+        for entry in mechanism.inputs
+    )
+
+
+def structure_of(
+    mechanism: Mechanism, steps: tuple[Step, ...], loose: tuple[str, ...], missing: LinkageFault | None
+) -> Structure:
+    """Degrees of freedom, loops and groups, in the order of solution."""
+    known, groups = {GROUND}, []
+    for step in steps:
+        groups.append(_group(mechanism, step, known))
+        known.update(step.bodies)
+    return Structure(
+        degrees_of_freedom(mechanism),
+        len(mechanism.inputs),
+        len(mechanism.joints) + len(mechanism.couplings) - len(mechanism.moving),
+        tuple(groups),
+        tuple(body for body in mechanism.moving if body not in known),
+        loose,
+        missing,
+    )
+
+
+def _group(mechanism: Mechanism, step: Step, known: set[str]) -> GroupAnswer:
+    own = set(step.bodies)
+    joints = [one for one in mechanism.joints if own & set(one.bodies) and set(one.bodies) <= own | known]
+    inner = [one.name for one in joints if set(one.bodies) <= own]
+    free = next((name for name in inner if name in mechanism.branches), "")
+    names = tuple(one.name for one in joints)
+    return GroupAnswer(
+        _kind(mechanism, step, names), step.bodies, names, step.description, mechanism.branches.get(free, 0), free
+    )
+
+
+def _kind(mechanism: Mechanism, step: Step, joints: tuple[str, ...]) -> str:
+    """The kind of a group; see `GroupAnswer`."""
+    named = step.description.rpartition(": ")[2]
+    if named in DYADS:
+        return named
+    if isinstance(step, GeneralGroup):
+        return "general"
+    driven = {entry.joint for entry in mechanism.inputs}
+    return "input" if driven & set(joints) else "gears"

@@ -1,0 +1,1 @@
+"""The loom in space, and the run of its twin."""

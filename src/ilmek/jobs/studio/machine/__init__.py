@@ -1,0 +1,1 @@
+"""The form of a machine, its design, and what its parameters do."""

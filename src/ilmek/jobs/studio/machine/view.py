@@ -1,0 +1,242 @@
+"""A design of a machine as the studio shows it: verdict, checks, results, choices and warnings, with their texts.
+
+The numbers are those of `design_machine`; tables and figures are left out, so that it follows a slider that moves.
+"""
+
+import math
+import time
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from ilmek.jobs.nearest import with_nearest
+from ilmek.jobs.studio.answers import Context
+from ilmek.jobs.studio.machine.tasks import DesignRequest, parameters_of, value_text
+from ilmek.machines.catalogue import find_machine
+from ilmek.params import Params, Setting, Value
+from ilmek.progress import SILENT, Progress
+from ilmek.report import Check, Report, in_words, result_text
+
+
+@dataclass(frozen=True, slots=True)
+class ShownCheck:
+    """A check: `value` against `limit` [SI], both as texts too.
+
+    machine  the machine in it that the check is of, "" for its own
+    ratio    value over limit; null where the limit is 0 or one of them is no number
+    """
+
+    name: str
+    machine: str
+    ok: bool
+    value: float | None
+    limit: float | None
+    relation: str
+    value_text: str
+    limit_text: str
+    ratio: float | None
+    source: str
+    cure: str
+
+
+@dataclass(frozen=True, slots=True)
+class ShownResult:
+    """A result; `value` [SI] where it is one number. `machine` as of a check."""
+
+    name: str
+    machine: str
+    text: str
+    unit: str
+    meaning: str
+    value: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class ShownChoice:
+    """What the design chose of what was left open, which check decided, and what the next cheaper one failed."""
+
+    name: str
+    chosen: str
+    decided_by: str
+    next_cheaper: str
+    failed: str
+
+
+@dataclass(frozen=True, slots=True)
+class ShownReason:
+    """Why the machine does not do its work, and what would cure it."""
+
+    name: str
+    text: str
+    cure: str
+
+
+@dataclass(frozen=True, slots=True)
+class ForceValue:
+    """The value in force of a parameter [SI], and its text; set: whether it differs from the default."""
+
+    value: Value
+    text: str
+    set: bool = False
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class DesignView:
+    """A design of a machine as the studio shows it.
+
+    parameters  in force by name, those that the design chose too
+    failed      number of checks that do not hold          seconds  that the design and its report took [s]
+    """
+
+    machine: str
+    title: str
+    holds: bool
+    failed: int
+    reasons: tuple[ShownReason, ...]
+    checks: tuple[ShownCheck, ...]
+    results: tuple[ShownResult, ...]
+    choices: tuple[ShownChoice, ...]
+    warnings: tuple[str, ...]
+    parameters: dict[str, ForceValue]
+    seconds: float
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class NearestTasks:
+    """The nearest tasks that a machine could do, where it cannot do what is required; "" where there are none."""
+
+    text: str = ""
+    wishes: tuple[dict[str, Any], ...] = field(default=())
+
+
+def view(request: DesignRequest, context: Context) -> DesignView:
+    """Design a machine and show it without tables and figures. Raises as `design_machine` does."""
+    began = time.perf_counter()
+    params, report = judged(request.name, request.settings, context.progress)
+    return shown(report, params, time.perf_counter() - began)
+
+
+def nearest(request: DesignRequest, context: Context) -> NearestTasks:
+    """The nearest carpets that a loom could weave, where it cannot weave what is required: some seconds of work."""
+    params, report = judged(request.name, request.settings, context.progress)
+    found = with_nearest(report, params, context.progress)
+    wishes: Any = found.results[-1].value if found is not report else ()
+    return NearestTasks(found.nearest, tuple(wishes))
+
+
+def judged(name: str, settings: Mapping[str, Setting], progress: Progress = SILENT) -> tuple[Params, Report]:
+    """The parameters of a machine for settings, and the report of its design without tables and figures."""
+    params = find_machine(name).params.read(settings)
+    return params, report_for(name, params, progress)
+
+
+def report_for(name: str, params: Params, progress: Progress = SILENT) -> Report:
+    """The report of a design without tables and figures. The last ones are kept."""
+    return _kept(name, params, progress)[1]
+
+
+def designed(name: str, params: Params, progress: Progress = SILENT) -> Any:
+    """A design of a machine. The last ones are kept."""
+    return _kept(name, params, progress)[0]
+
+
+def _kept(name: str, params: Params, progress: Progress) -> tuple[Any, Report]:
+    key = name, params
+    if (found := _DESIGNS.get(key)) is None:
+        machine = find_machine(name)
+        design = machine.designed(params, progress)
+        found = _DESIGNS[key] = design, machine.report(design, illustrated=False)
+        if len(_DESIGNS) > _MOST:
+            del _DESIGNS[next(iter(_DESIGNS))]
+    return found
+
+
+_MOST = 24
+"""Number of designs that a worker keeps."""
+
+_DESIGNS: dict[tuple[str, Params], tuple[Any, Report]] = {}
+"""The last designs and their reports by machine and parameters."""
+
+
+def shown(report: Report, params: Params, seconds: float) -> DesignView:
+    """A report as the studio shows it."""
+    checks = tuple(_checks(report, ""))
+    return DesignView(
+        machine=report.machine,
+        title=report.title,
+        holds=not report.failed,
+        failed=sum(not one.ok for one in checks),
+        reasons=tuple(ShownReason(one.name, _against(one), one.cure) for one in report.reasons),
+        checks=checks,
+        results=tuple(_results(report, "")),
+        choices=tuple(ShownChoice(**one.as_json()) for one in report.all_choices),
+        warnings=report.all_warnings,
+        parameters=in_force(report, params),
+        seconds=seconds,
+    )
+
+
+def in_force(report: Report, params: Params) -> dict[str, ForceValue]:
+    """The parameters in force by name: as given, as the design chose them, and those of the machines in it."""
+    known, given = parameters_of(report.machine), params.as_dict()
+    values = {**_of_machines(report), **report.parameters}
+    return {
+        name: ForceValue(
+            value := values.get(name, one.default),
+            value_text(value, one.unit),
+            name in given and given[name] != one.default,
+        )
+        for name, one in known.items()
+    }
+
+
+def _of_machines(report: Report) -> dict[str, Any]:
+    return {f"{child.machine}.{name}": value for child in report.children for name, value in child.parameters.items()}
+
+
+def _against(check: Any) -> str:
+    value, limit = in_words(check)
+    return f"{value}, limit {check.relation} {limit}"
+
+
+def shown_check(check: Check, machine: str = "") -> ShownCheck:
+    """A check as it is shown; machine: in it that the check is of."""
+    value, limit = in_words(check)
+    return ShownCheck(
+        name=check.name,
+        machine=machine,
+        ok=check.ok,
+        value=_number(check.value),
+        limit=_number(check.limit),
+        relation=check.relation,
+        value_text=value,
+        limit_text=limit,
+        ratio=ratio_of(check),
+        source=check.source,
+        cure=check.cure,
+    )
+
+
+def _checks(report: Report, machine: str) -> Iterator[ShownCheck]:
+    yield from (shown_check(one, machine) for one in report.checks)
+    for child in report.children:
+        yield from _checks(child, f"{machine}: {child.machine}" if machine else child.machine)
+
+
+def _results(report: Report, machine: str) -> Iterator[ShownResult]:
+    for one in report.results:
+        if one.shown:
+            number = one.value if isinstance(one.value, int | float) and not isinstance(one.value, bool) else None
+            text = result_text(one.value, one.unit)
+            yield ShownResult(one.name, machine, text, one.unit, one.meaning, _number(number))
+    for child in report.children:
+        yield from _results(child, f"{machine}: {child.machine}" if machine else child.machine)
+
+
+def ratio_of(check: Check) -> float | None:
+    """Value over limit of a check; None where that is no number."""
+    return _number(check.value / check.limit) if check.limit and math.isfinite(check.limit) else None
+
+
+def _number(value: float | None) -> float | None:
+    return None if value is None or not math.isfinite(value) else float(value)

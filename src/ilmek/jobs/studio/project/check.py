@@ -1,0 +1,64 @@
+"""The first error of a project's text file, found by the reader of the command line."""
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+
+from ilmek.errors import IlmekError
+from ilmek.io.cyclogram_file import read_cyclogram
+from ilmek.io.mechanism_file import read_mechanism
+from ilmek.io.yarn_file import read_yarns
+from ilmek.jobs.machine_file import read_machine_order
+from ilmek.jobs.order import read_order
+from ilmek.jobs.studio.project.folder import kind_of
+
+_LINE = re.compile(r"\bline (\d+)")
+
+READERS: dict[str, Callable[[Path], object]] = {
+    "carpet": read_order,
+    "machine": lambda path: read_machine_order(str(path), {}),
+    "linkage": lambda path: read_mechanism(path).plan(),
+    "synthesis": lambda path: read_machine_order(str(path), {}),
+    "cyclogram": read_cyclogram,
+    "yarns": read_yarns,
+}
+"""The reader of each kind of text file."""
+
+
+@dataclass(frozen=True, slots=True)
+class FileError:
+    """The first error of a file: what was given, what is allowed, what to do, and the line where it is known."""
+
+    given: str
+    allowed: str = ""
+    do: str = ""
+    line: int | None = None
+
+
+def file_error(base: Path, path: str, digest: str) -> FileError | None:
+    """The first error of a text file of the project; None: it can be read.
+
+    digest  of its content
+    A recipe is read again whenever it is required: it depends on other files.
+    """
+    if kind_of(path) == "carpet":
+        return _read(base, path)
+    return _kept(base, path, digest)
+
+
+@lru_cache(maxsize=1000)
+def _kept(base: Path, path: str, digest: str) -> FileError | None:
+    return _read(base, path)
+
+
+def _read(base: Path, path: str) -> FileError | None:
+    file = base / path
+    try:
+        READERS[kind_of(path) or "carpet"](file)
+    except IlmekError as error:
+        given, allowed, do = (part.replace(f"{base}/", "") for part in (error.given, error.allowed, error.do))
+        line = _LINE.search(given)
+        return FileError(given, allowed, do, int(line[1]) if line else None)
+    return None

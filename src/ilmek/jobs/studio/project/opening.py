@@ -1,0 +1,74 @@
+"""A project is opened: an empty or missing folder is filled with the example, another one is checked."""
+
+import contextlib
+import os
+from importlib import resources
+from importlib.resources.abc import Traversable
+from pathlib import Path
+
+from ilmek.errors import OutputError
+from ilmek.jobs.studio.project.folder import KINDS, OWN, SUFFIX, cannot, write_bytes
+
+EXAMPLE = "example_project"
+"""The example below ilmek.data."""
+
+_FILLING = "filling"
+"""Mark that the example is being copied; a kill leaves it, and the next start goes on."""
+
+
+def open_project(path: Path) -> Path:
+    """The folder of a project, ready for use, without links.
+
+    An empty or missing folder is filled with the example. Raises OutputError for a file, for a folder in which is
+    something else, and for one that cannot be read or written.
+    """
+    path = path.expanduser()
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+        folder = path.resolve()
+        names = {entry.name for entry in os.scandir(folder)}
+        own = folder / OWN
+        if not names or (own / _FILLING).exists():
+            own.mkdir(mode=0o700, exist_ok=True)
+            (own / _FILLING).touch()
+            _copy(resources.files("ilmek.data").joinpath(EXAMPLE), folder)
+            (own / _FILLING).unlink()
+        elif not _is_project(folder, names):
+            do = f"give an empty or a new folder, or put a recipe, carpet{SUFFIX}, into it"
+            raise OutputError(f"{path} is no project: it has other files", do=do)
+        own.mkdir(mode=0o700, exist_ok=True)
+        if not (own / ".gitignore").exists():
+            (own / ".gitignore").write_text("*\n", encoding="utf-8")
+        _check_writable(own)
+    except FileExistsError:
+        raise OutputError(f"{path} is a file", do="give a folder") from None
+    except OSError as error:
+        raise cannot("be opened as a project", path, error) from None
+    return folder
+
+
+def _is_project(folder: Path, names: set[str]) -> bool:
+    if OWN in names or f"carpet{SUFFIX}" in names:
+        return True
+    return any(next((folder / kind).glob(f"*{SUFFIX}"), None) is not None for kind in KINDS if kind and kind in names)
+
+
+def _copy(source: Traversable, target: Path) -> None:
+    """Copy the files that are not there yet."""
+    for entry in source.iterdir():
+        if entry.is_dir():
+            if not entry.name.startswith(("_", ".")):
+                (target / entry.name).mkdir(exist_ok=True)
+                _copy(entry, target / entry.name)
+        elif not (target / entry.name).exists() and not entry.name.endswith((".py", ".pyc")):
+            write_bytes(target / entry.name, entry.read_bytes())
+
+
+def _check_writable(folder: Path) -> None:
+    """Raise OSError for a folder in which no file can be written."""
+    trial = folder / "writable"
+    try:
+        trial.write_bytes(b"\n")
+    finally:
+        with contextlib.suppress(OSError):
+            trial.unlink(missing_ok=True)

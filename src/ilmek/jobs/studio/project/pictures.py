@@ -1,0 +1,103 @@
+"""Pictures of a project: taken by their content, deleted."""
+
+from dataclasses import dataclass
+from itertools import count
+from pathlib import PurePosixPath
+
+from ilmek.errors import ParameterError, shortened
+from ilmek.io.output import disk
+from ilmek.jobs.studio.answers import Context
+from ilmek.jobs.studio.project.folder import (
+    PICTURES,
+    ProjectFolder,
+    cannot,
+    check_name,
+    read_bytes,
+    write_bytes,
+)
+from ilmek.jobs.studio.project.tasks import Changed, PathRequest, PictureSummary
+
+LARGEST_PICTURE = 45_000_000
+"""Largest size of a picture that the studio takes [bytes]; a larger one is copied into the folder."""
+
+BEGINS = {
+    b"\x89PNG\r\n\x1a\n": (".png",),
+    b"\xff\xd8\xff": (".jpg", ".jpeg"),
+    b"GIF8": (".gif",),
+    b"BM": (".bmp",),
+    b"II*\0": (".tif", ".tiff"),
+    b"MM\0*": (".tif", ".tiff"),
+    b"\x0a\x05\x01": (".pcx",),
+    b"\x0a\x03\x01": (".pcx",),
+    b"qoif": (".qoi",),
+    b"<?xml": (".oxs",),
+    b"<chart": (".oxs",),
+}
+"""Begins of the files that are taken, and the endings of their names."""
+
+
+@dataclass(frozen=True, slots=True)
+class UploadRequest:
+    """A picture: the name of its file, and its bytes."""
+
+    name: str
+    content: bytes
+
+
+def upload_picture(request: UploadRequest, context: Context) -> PictureSummary:
+    """Put a picture into pictures/; its type is that of its content. A name that is taken gets a number.
+
+    Raises ParameterError for what is no picture, or is too large; OutputError.
+    """
+    folder = ProjectFolder(context.folder.resolve())
+    content, name = request.content, PurePosixPath(request.name.replace("\\", "/")).name
+    if len(content) > LARGEST_PICTURE:
+        given = f"{shortened(name)} has {len(content):,} bytes"
+        raise ParameterError(given, allowed=f"at most {LARGEST_PICTURE:,}", do=f"copy it into {PICTURES}/ yourself")
+    endings = _endings(content)
+    if not endings:
+        given = f"{shortened(name) or 'the file'} is no picture that can be read"
+        raise ParameterError(given, do="use a PNG, JPEG, TIFF, WebP, BMP or GIF file")
+    stem, suffix = PurePosixPath(name).stem, PurePosixPath(name).suffix.lower()
+    stem = "".join(sign if sign.isalnum() or sign in "_-" else "-" for sign in stem).strip("-_")[:60] or "picture"
+    ending = suffix if suffix in endings else endings[0]
+    with folder.locked():
+        for number in count(1):
+            path = f"{PICTURES}/{check_name(stem + (f'-{number}' if number > 1 else '') + ending)}"
+            file = folder.path(path)
+            if not file.exists():
+                write_bytes(file, content)
+                break
+            if file.stat().st_size == len(content) and read_bytes(file, LARGEST_PICTURE) == content:
+                break
+    return PictureSummary(path, len(content))
+
+
+def _endings(content: bytes) -> tuple[str, ...]:
+    """The endings of a picture by its content; none: it is no picture."""
+    if content[:4] == b"RIFF" and content[8:12] == b"WEBP":
+        return (".webp",)
+    if content[4:8] == b"ftyp" and content[8:12] in (b"avif", b"avis"):
+        return (".avif",)
+    if content.startswith(b"\0\0\0\x0cjP  \r\n\x87\n"):
+        return (".jp2",)
+    text = content[:400].lstrip(b"\xef\xbb\xbf \r\n\t")
+    for begin, endings in BEGINS.items():
+        if (text if begin.startswith(b"<") else content).startswith(begin):
+            is_chart = begin != b"<?xml" or b"<chart" in content[:4000]
+            return endings if is_chart else ()
+    return ()
+
+
+def delete_picture(request: PathRequest, context: Context) -> Changed:
+    """Delete a picture. Raises ParameterError for another file, or where there is none."""
+    folder = ProjectFolder(context.folder.resolve())
+    path = folder.path(request.path)
+    if path.parent != folder.base / PICTURES or not path.is_file():
+        raise ParameterError(f"{request.path} is no file of {PICTURES}/")
+    with folder.locked():
+        try:
+            disk.unlink(path)
+        except OSError as error:
+            raise cannot("be deleted", path, error) from None
+    return Changed((request.path,))

@@ -1,0 +1,245 @@
+"""The four-bars of a synthesis as records for the gallery: dimensions, merit, motion, curve, errors."""
+
+import math
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.jobs.studio.synthesis.answers import (
+    GeneratedFunction,
+    LeftOutFourBar,
+    LeftOutReason,
+    LoosenedLimit,
+    PivotCurves,
+    ShownFourBar,
+    ShownMerit,
+    ShownMotion,
+    ShownPosition,
+)
+from ilmek.linkage.solve import solve
+from ilmek.linkage.structure import plan
+from ilmek.machines.function_four_bar import FunctionFourBar
+from ilmek.machines.motion_four_bar import MotionFourBar
+from ilmek.report import Json
+from ilmek.synthesis.approximation.function_generator import FunctionApproximation
+from ilmek.synthesis.burmester.curve import CurveBranch
+from ilmek.synthesis.candidate import Candidate, PositionResult
+from ilmek.synthesis.circuit_loops import LoopConfigurations, circuit_loops
+from ilmek.synthesis.filters import REASONS
+from ilmek.synthesis.four_bar import FourBar
+from ilmek.synthesis.merit import Merit, merit_value
+from ilmek.synthesis.selection import PINS, FourBarDesign, FourBarOption, FourBarSelection, finite
+from ilmek.units import turn
+
+POSITIONS = 120
+"""Positions of a motion, and points of a curve."""
+
+LISTED = 24
+"""Greatest number of four-bars that are listed as left out."""
+
+DIGITS = 8
+"""Decimals of a position in motion [m]: 10 nm."""
+
+LONGEST = 300
+"""Greatest number of points of a part of the curves of pivots and pins."""
+
+NO_POINTS = np.zeros(0, dtype=complex)
+
+_SETTING = re.compile(r"(\w+)=(.+?) (?:instead of|gives) ")
+
+
+def gallery(design: FourBarDesign) -> tuple[ShownFourBar, ...]:
+    """The four-bars within all limits, the best first."""
+    task_only = isinstance(design, MotionFourBar) and design.params.task_only
+    shown = tuple(_shown(number, option, task_only=task_only) for number, option in enumerate(design.choice.kept, 1))
+    if not isinstance(design, FunctionFourBar):
+        return shown
+    return tuple(
+        replace(
+            one,
+            motion=_motion_over_range(
+                found.four_bar, finite(option.details["crank_start"]), design.function.crank_swing
+            ),
+            function=_generated(found),
+        )
+        for one, option, found in zip(shown, design.choice.kept, design.approximations, strict=True)
+    )
+
+
+def _shown(number: int, option: FourBarOption, *, task_only: bool) -> ShownFourBar:
+    one, details = option.candidate, option.details
+    active = details.get("active")
+    return ShownFourBar(
+        number=number,
+        pins=pins(one.four_bar),
+        links=one.four_bar.lengths._asdict(),
+        class_name=one.grashof.kind,
+        crank_turns=one.crank_turns,
+        branch=one.four_bar.branch,
+        circuits=one.circuits,
+        positions=tuple(_position(met) for met in one.positions),
+        order=one.order,
+        in_order=one.in_order,
+        transmission=one.transmission_over(task_only=task_only),
+        link_ratio=one.link_ratio,
+        size=one.size,
+        merit=None if option.merit is None else _merit(option.merit),
+        error_max=_known(_error_max(one, details)),
+        error_rms=_known(finite(details.get("error_rms"))),
+        apart=_known(option.apart),
+        certified=option.certified or details.get("proven") is True,
+        made=option.made,
+        active=tuple(str(limit) for limit in active) if isinstance(active, list) else (),
+        motion=_motion(one),
+        curve=_whole_curve(one),
+    )
+
+
+def _error_max(one: Candidate, details: Mapping[str, Json]) -> float:
+    """Greatest error that the method reports; else that of the check, of points before that of angles."""
+    reported = finite(details.get("error_max"))
+    if math.isfinite(reported):
+        return reported
+    return one.point_error if math.isfinite(one.point_error) else one.angle_error
+
+
+def _known(value: float) -> float | None:
+    return value if math.isfinite(value) else None
+
+
+def pins(four_bar: FourBar) -> dict[str, list[float]]:
+    """Pivots, pins and tracer of a four-bar as drawn [m], unrounded: the same four-bar can be made from them."""
+    known = {name: getattr(four_bar, name) for name in PINS}
+    return {name: [at.real, at.imag] for name, at in known.items() if at is not None}
+
+
+def _position(met: PositionResult) -> ShownPosition:
+    return ShownPosition(
+        _known(met.crank_angle),
+        met.circuit,
+        met.branch,
+        _known(met.point_error),
+        _known(met.coupler_error),
+        _known(met.rocker_error),
+    )
+
+
+def _merit(merit: Merit) -> ShownMerit:
+    terms = {
+        "transmission": merit.transmission,
+        "size": merit.size,
+        "ratio": merit.ratio,
+        "sensitivity": merit.sensitivity,
+    }
+    best = (1.0, 0.0, 1.0, 0.0)
+    own = (math.sin(merit.transmission), merit.size, merit.ratio, merit.sensitivity)
+    factors = {name: float(merit_value(*(*best[:at], own[at], *best[at + 1 :]))) ** 4 for at, name in enumerate(terms)}
+    return ShownMerit(merit.value, terms, factors, _known(merit.point_shift), _known(merit.angle_shift))
+
+
+def _motion(one: Candidate) -> ShownMotion:
+    """The turn of a crank that turns fully, or the motion from the first to the last position."""
+    closed = one.crank_turns or not one.one_branch
+    moved = one.motion(POSITIONS) if one.one_branch else _loop(one, turn * np.arange(POSITIONS) / POSITIONS)
+    tracer = moved.tracer if one.four_bar.tracer is not None else NO_POINTS
+    return ShownMotion(flat(moved.a), flat(moved.b), flat(tracer), closed)
+
+
+def _motion_over_range(one: FourBar, start: float, swing: float) -> ShownMotion:
+    """The motion over the range of a function: the crank from its start by its swing [rad], on the branch as drawn."""
+    motion = solve(plan(one.mechanism()), np.linspace(start, start + swing, POSITIONS))
+    a, b = (np.asarray(motion.point("coupler", name).position) for name in ("A", "B"))
+    closes = np.isfinite(b)
+    return ShownMotion(flat(a[closes]), flat(b[closes]), [], closed=False)
+
+
+def _whole_curve(one: Candidate) -> list[float]:
+    """The whole circuit of the first position as the tracer draws it."""
+    if one.four_bar.tracer is None:
+        return []
+    return flat(_loop(one, np.linspace(0.0, turn, POSITIONS + 1)).tracer)
+
+
+def _loop(one: Candidate, u: FloatArray) -> LoopConfigurations:
+    """Positions on the circuit of the first position."""
+    return circuit_loops(one.four_bar)[max(one.positions[0].circuit - 1, 0)].at(u)
+
+
+def flat(points: ComplexArray) -> list[float]:
+    """Points as x, y, x, y, … [m], rounded to `DIGITS` decimals."""
+    rows = np.stack([points.real, points.imag], axis=-1).round(DIGITS)
+    found: list[float] = rows.ravel().tolist()
+    return found
+
+
+def _generated(found: FunctionApproximation) -> GeneratedFunction:
+    curve = found.curve
+    rows = (curve.x, curve.required, curve.generated, curve.error)
+    x, required, generated, error = (np.asarray(row).round(9).tolist() for row in rows)
+    return GeneratedFunction(x, required, generated, error, np.asarray(found.at).tolist(), float(found.drawn_at))
+
+
+def reasons(choice: FourBarSelection) -> tuple[LeftOutReason, ...]:
+    """The limits that four-bars miss, the most frequent first."""
+    counts: Mapping[str, int] = choice.left_out
+    ordered = sorted(counts.items(), key=lambda one: -one[1])
+    return tuple(LeftOutReason(name, REASONS.get(name, name), count) for name, count in ordered)
+
+
+def left_out(choice: FourBarSelection) -> tuple[LeftOutFourBar, ...]:
+    """The first four-bars that were left out, each with its reasons; those with the fewest reasons first."""
+    ordered = sorted(choice.removed, key=lambda one: len(one[1]))[:LISTED]
+    return tuple(LeftOutFourBar(pins(one.candidate.four_bar), one.made, dict(why)) for one, why in ordered)
+
+
+def loosened(cures: Sequence[str]) -> tuple[LoosenedLimit, ...]:
+    """Single limits that give a four-bar if they are loosened, with the setting that does it.
+
+    >>> loosened(["size_max=210mm instead of 200 mm gives 3"])[0].value
+    '210mm'
+    """
+    found = [(words, _SETTING.match(words)) for words in cures]
+    return tuple(LoosenedLimit(words, *(known.groups() if known else ())) for words, known in found)
+
+
+def pivot_curves(design: FourBarDesign) -> PivotCurves | None:
+    """The curves of pivots and pins of four poses; None of other tasks."""
+    curve = getattr(design, "curve", None)
+    if curve is None:
+        return None
+    return PivotCurves(_parts(curve.centre_branches), _parts(curve.circle_branches))
+
+
+def _parts(branches: Sequence[CurveBranch]) -> tuple[list[float], ...]:
+    """Parts of a curve, thinned to `LONGEST` points."""
+    return tuple(flat(_thinned(np.append(one.points, one.points[:1] if one.closed else []))) for one in branches)
+
+
+def _thinned(points: ComplexArray) -> ComplexArray:
+    step = max(1, math.ceil(len(points) / LONGEST))
+    return np.append(points[:-1:step], points[-1:])
+
+
+def function_required(design: FourBarDesign) -> list[list[float]] | None:
+    """X and the required rotation of the rocker of a function [rad]; None of other tasks."""
+    if not isinstance(design, FunctionFourBar):
+        return None
+    function = design.function
+    x = np.linspace(function.start, function.stop, POSITIONS + 1)
+    return [x.tolist(), np.asarray(function.rocker(x)).tolist()]
+
+
+def task_points(design: Any) -> tuple[list[list[float]], list[float]]:
+    """The points [m] of the task, and the angles of its poses [rad]; empty where it has none."""
+    if isinstance(design, MotionFourBar):
+        points, angles = design.poses
+        return _pairs(points), angles.tolist()
+    return _pairs(getattr(design, "points", NO_POINTS)), []
+
+
+def _pairs(points: ComplexArray) -> list[list[float]]:
+    return [[float(at.real), float(at.imag)] for at in points]
