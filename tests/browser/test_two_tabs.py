@@ -5,21 +5,22 @@ import time
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser, Page, expect
+from playwright.sync_api import Browser, Locator, Page, expect
 from studio_browser import PATIENCE, Seen, Studio, context_of, open_view, settled
-
-LOST = ("ERR_CONNECTION", "ERR_EMPTY_RESPONSE", "ERR_INCOMPLETE", "WebSocket connection")
-"""Texts on the console where a server is gone."""
 
 FILE = "machines/beat-up.toml"
 
 
+def _field(page: Page) -> Locator:
+    return page.get_by_role("textbox", name=re.compile("^swing"))
+
+
 def _swing(page: Page) -> str:
-    return page.get_by_label(re.compile("^swing")).first.input_value()
+    return _field(page).input_value()
 
 
 def _type_swing(page: Page, value: str) -> None:
-    field = page.get_by_label(re.compile("^swing")).first
+    field = _field(page)
     field.fill(value)
     field.press("Enter")
 
@@ -45,7 +46,7 @@ def test_an_edit_is_in_the_file_and_in_the_other_tab(browser: Browser, running: 
         open_view(other, running, "machine/beat-up")
         _type_swing(machine, "31deg")
         assert _file_has(running.project, "31deg")
-        expect(other.get_by_label(re.compile("^swing")).first).to_have_value(re.compile("^31"), timeout=PATIENCE)
+        expect(_field(other)).to_have_value(re.compile("^31"), timeout=PATIENCE)
 
 
 def test_undo_is_there_after_a_reload(running: Studio, machine: Page) -> None:
@@ -55,7 +56,7 @@ def test_undo_is_there_after_a_reload(running: Studio, machine: Page) -> None:
     machine.reload()
     open_view(machine, running, "machine/beat-up")
     machine.get_by_role("button", name=re.compile("^Undo")).first.click()
-    expect(machine.get_by_label(re.compile("^swing")).first).to_have_value(before, timeout=PATIENCE)
+    expect(_field(machine)).to_have_value(before, timeout=PATIENCE)
 
 
 def test_an_edit_survives_a_server_that_is_killed(running: Studio, machine: Page, seen: Seen) -> None:
@@ -81,4 +82,4 @@ def test_a_change_of_another_program_is_shown(running: Studio, machine: Page) ->
     path = running.project / FILE
     text = path.read_text(encoding="utf-8")
     path.write_text(re.sub(r'swing = ".*?"', 'swing = "29deg"', text), encoding="utf-8")
-    expect(machine.get_by_label(re.compile("^swing")).first).to_have_value(re.compile("^29"), timeout=PATIENCE)
+    expect(_field(machine)).to_have_value(re.compile("^29"), timeout=PATIENCE)

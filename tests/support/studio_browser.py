@@ -69,7 +69,18 @@ class Studio:
     def kill(self) -> None:
         """End the server as a power cut does."""
         self.process.kill()
-        self.process.wait(10)
+        self._ended()
+
+    def stop(self) -> None:
+        """End the server as its user does, by Ctrl-C."""
+        if self.process.poll() is None:
+            self.process.send_signal(signal.SIGINT)
+        self._ended()
+
+    def _ended(self) -> None:
+        self.process.wait(20)
+        assert self.process.stdout is not None
+        self.process.stdout.close()
 
     def restart(self) -> None:
         """Start the server again, on the same port."""
@@ -94,9 +105,7 @@ def studio(project: Path, port: int = 0) -> Iterator[Studio]:
     try:
         yield running
     finally:
-        if running.process.poll() is None:
-            running.process.send_signal(signal.SIGINT)
-            running.process.wait(20)
+        running.stop()
 
 
 @dataclass
