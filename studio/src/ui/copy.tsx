@@ -60,7 +60,7 @@ function Copy({ label, text }: { label: string; text: string }) {
           {copied ? t("ui.copied") : t("ui.copy")}
         </Button>
       </div>
-      <pre tabIndex={0} aria-label={label} role="region">
+      <pre tabIndex={0} aria-label={label} role="group">
         <code>{text}</code>
       </pre>
     </div>
