@@ -1,4 +1,7 @@
-"""Random input for two minutes (thirty by ILMEK_MONKEY=1800): no error, no growth of memory."""
+"""Random input for a while: no error, no growth of memory.
+
+Seconds by ILMEK_MONKEY: 40, 120 in continuous integration, 1800 now and then. Its seed by ILMEK_MONKEY_SEED.
+"""
 
 import os
 
@@ -6,7 +9,7 @@ from monkey import walk
 from playwright.sync_api import Page
 from studio_browser import Seen, Studio, open_view, settled
 
-SECONDS = float(os.environ.get("ILMEK_MONKEY", "120"))
+SECONDS = float(os.environ.get("ILMEK_MONKEY", "40"))
 SEED = int(os.environ.get("ILMEK_MONKEY_SEED", "1"))
 
 
@@ -18,9 +21,10 @@ def test_a_monkey_finds_no_error(page: Page, running: Studio, seen: Seen) -> Non
     def check() -> None:
         assert seen.faults == []
 
-    walked = walk(page, SEED, SECONDS, check)
+    walked = walk(page, running.process.pid, SEED, SECONDS, check)
     assert walked.actions > SECONDS / 4
-    assert walked.late < 2 * walked.early + 60e6
+    for early, late in (walked.heap, walked.resident):
+        assert late < 1.5 * early + 100e6
     page.reload()
     open_view(page, running, "machine")
     settled(page)

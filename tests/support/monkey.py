@@ -1,9 +1,11 @@
 """A monkey: random input on a page of the studio, from a seed, and the growth of its memory."""
 
+import os
 import random
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 
 from playwright.sync_api import Error, Page
 from studio_browser import VIEWS
@@ -18,24 +20,38 @@ CLICKABLE = ", ".join(f"main {one}:visible" for one in ("button", "input", "sele
 
 @dataclass(frozen=True, slots=True)
 class Walk:
-    """What a walk did: number of actions, bytes of the page's heap after collections at its first third and its end."""
+    """What a walk did: number of actions, and memory [B] at its first third and at its end.
+
+    heap      of the page, after a collection, as (early, late)
+    resident  of the server and its workers, likewise
+    """
 
     actions: int
-    early: float
-    late: float
+    heap: tuple[float, float]
+    resident: tuple[float, float]
 
 
-def walk(page: Page, seed: int, seconds: float, check: Callable[[], None]) -> Walk:
-    """Act at random for a time; `check` is called after every action."""
+def walk(page: Page, server: int, seed: int, seconds: float, check: Callable[[], None]) -> Walk:
+    """Act at random for a time; `check` is called after every action. server: its process."""
     chance = random.Random(seed)
-    began, actions, early = time.monotonic(), 0, 0.0
+    began, actions, early = time.monotonic(), 0, (0.0, 0.0)
     while (spent := time.monotonic() - began) < seconds:
         _act(page, chance)
         check()
         actions += 1
-        if not early and spent > seconds / 3:
-            early = heap(page)
-    return Walk(actions, early, heap(page))
+        if not early[0] and spent > seconds / 3:
+            early = heap(page), resident(server)
+    return Walk(actions, (early[0], heap(page)), (early[1], resident(server)))
+
+
+def resident(process: int) -> float:
+    """Bytes in memory of a process and of those that it started."""
+    tasks = Path(f"/proc/{process}/task")
+    if not tasks.is_dir():  # the process has ended, or the system has no such folder
+        return 0.0
+    children = [int(child) for task in tasks.iterdir() for child in (task / "children").read_text().split()]
+    pages = int(Path(f"/proc/{process}/statm").read_text().split()[1])
+    return pages * os.sysconf("SC_PAGESIZE") + sum(resident(child) for child in children)
 
 
 def heap(page: Page) -> float:
