@@ -14,6 +14,7 @@ export default {
   noneFound: "No parameter fits. Change the words, or show all.",
   groupGeneral: "General",
   count: "{count} parameter|{count} parameters",
+  adjust: "Adjust {name}",
   reset: "Reset {name} to its default",
   resetAll: "Reset all",
   resetAllHint: "Takes every setting out of the file; undo brings them back",

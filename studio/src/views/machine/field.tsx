@@ -236,7 +236,7 @@ function ValueSlider({ model, field, value }: RowProps & { value: number }) {
   return (
     <Slider
       bare
-      label={labelOf(field)}
+      label={t("machine.adjust", { name: labelOf(field) })}
       value={Math.round(positionOf(value, scale))}
       min={0}
       max={STEPS}
