@@ -14,7 +14,7 @@ from ilmek.web.schema import messages, openapi
 
 ROOT = Path(__file__).parents[2]
 PACKAGE = ROOT / "src" / "ilmek"
-SOURCES = [*sorted((PACKAGE / "web").glob("*.py")), *sorted((PACKAGE / "jobs" / "studio").glob("*.py"))]
+SOURCES = [path for folder in ("web", "jobs/studio") for path in sorted((PACKAGE / folder).rglob("*.py"))]
 UNSAFE = {
     "pickle",
     "marshal",
@@ -40,7 +40,7 @@ UNSAFE_CALLS = {
 }
 
 
-@pytest.mark.parametrize("path", SOURCES, ids=lambda path: f"{path.parent.name}/{path.name}")
+@pytest.mark.parametrize("path", SOURCES, ids=lambda path: str(path.relative_to(PACKAGE)))
 def test_no_pickle_no_shell_no_code(path: Path) -> None:
     found: set[str] = set()
     for node in ast.walk(tree_of(path)):

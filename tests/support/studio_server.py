@@ -15,6 +15,7 @@ import uvicorn
 from websockets.sync.client import ClientConnection, connect
 
 from ilmek.web.app import studio_app
+from ilmek.web.endpoints import ENDPOINTS
 from ilmek.web.pool import Pool
 from ilmek.web.safety import Access
 from ilmek.web.serve import StudioOrder, access_to, bound_socket, server_settings
@@ -68,13 +69,17 @@ class Studio:
 
 
 @contextmanager
-def studio(project: Path, *, password: str = "", size: int = 3, **pool_fields: Any) -> Iterator[Studio]:
-    """A server of the tasks of `studio_tasks`."""
+def studio(
+    project: Path, *, password: str = "", size: int = 3, real: bool = False, **pool_fields: Any
+) -> Iterator[Studio]:
+    """A server of the tasks of `studio_tasks`, or of the real ones."""
     listener = bound_socket("127.0.0.1", 0)
     port = int(listener.getsockname()[1])
     access = access_to(StudioOrder(project, password=password), port, "secret of the test")
-    pool = Pool(str(project), size=size, command=studio_tasks.COMMAND, **pool_fields)
-    app = studio_app(str(project), access, f"ilmek-studio-{port}", pool, studio_tasks.ENDPOINTS)
+    endpoints = ENDPOINTS if real else studio_tasks.ENDPOINTS
+    command = {} if real else {"command": studio_tasks.COMMAND}
+    pool = Pool(str(project), size=size, **{**command, **pool_fields})
+    app = studio_app(str(project), access, f"ilmek-studio-{port}", pool, endpoints)
     server = uvicorn.Server(uvicorn.Config(app, **server_settings()))
     thread = threading.Thread(target=server.run, args=([listener],))
     thread.start()

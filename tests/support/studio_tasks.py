@@ -15,6 +15,9 @@ from ilmek.jobs.studio.answers import Binary, Context, packed
 from ilmek.web import worker
 from ilmek.web.endpoints import Endpoint
 
+LARGE = 12_000_000
+"""Size of a large answer [bytes]."""
+
 COMMAND = (sys.executable, __file__)
 
 
@@ -75,6 +78,11 @@ def arrays(request: SleepRequest, context: Context) -> Binary:
     return packed({"sizes": [3, 9]}, b"abc", b"123456789")
 
 
+def large(request: SleepRequest, context: Context) -> Binary:
+    """More than the buffers of a connection hold."""
+    return Binary("application/octet-stream", bytes(LARGE))
+
+
 def uploaded(request: UploadedRequest, context: Context) -> dict[str, Any]:
     return {"name": request.name, "size": len(request.content), "times": request.times}
 
@@ -84,7 +92,7 @@ def task(name: str, method: str = "POST", **fields: Any) -> Endpoint:
 
 
 ENDPOINTS = (
-    *(task(name) for name in ("echo", "crash", "fault", "refused", "swallow", "printing", "arrays")),
+    *(task(name) for name in ("echo", "crash", "fault", "refused", "swallow", "printing", "arrays", "large")),
     task("sleep", affinity="sleep"),
     task("sleep/{seconds}", "GET"),
     Endpoint("POST", "/late", "studio_tasks:sleep", "ended after 0.3 s", limit=0.3),

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from studio_server import Studio, studio
+from studio_server import JSON, Studio, studio
 from websockets.sync.client import ClientConnection
 
 
@@ -60,13 +60,16 @@ def test_packed_arrays_are_aligned(server: Studio) -> None:
         ("/api/late", {"seconds": 5.0, "deaf": True}, 503, "longer than 0.3 s"),
         ("/api/sleep", {"seconds": "long"}, 400, "$.seconds"),
         ("/api/sleep", [], 400, "object"),
+        ("/api/echo", b'{"a":' + b"[" * 100_000 + b"]" * 100_000 + b"}", 400, "nested too deeply"),
+        ("/api/echo", b'{"a": "\xff"}', 400, "no JSON"),
+        ("/api/echo", b'{"a": NaN}', 400, "no JSON"),
         ("/api/none", {}, 404, "not in the API"),
     ],
 )
 def test_an_error_states_what_was_given_and_the_next_request_is_answered(
     server: Studio, path: str, body: Any, status: int, given: str
 ) -> None:
-    answer = server.send("POST", path, body)
+    answer = server.send("POST", path, body, {**server.cookie, **JSON})
     assert (answer.status, given in answer.given) == (status, True)
     assert server.send("POST", "/api/echo", {}).status == 200
 

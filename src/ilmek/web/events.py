@@ -78,10 +78,10 @@ class EventHub:
 
 
 async def _until_gone(socket: WebSocket) -> None:
-    """Wait for the end of a connection; what a page sends has no meaning."""
-    with contextlib.suppress(WebSocketDisconnect):
-        while (await socket.receive())["type"] != "websocket.disconnect":
-            pass
+    """Wait for the end of a connection; a page sends nothing, and one that does is disconnected."""
+    if (await socket.receive())["type"] != "websocket.disconnect":
+        with contextlib.suppress(WebSocketDisconnect, RuntimeError):
+            await socket.close(1008, "a page sends nothing")
 
 
 async def _written(socket: WebSocket, queue: "asyncio.Queue[bytes | None]") -> None:

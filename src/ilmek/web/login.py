@@ -15,6 +15,9 @@ FIRST_DELAY = 0.5
 LONGEST_DELAY = 16.0
 """Largest delay after a wrong password [s]."""
 
+MOST_WAITING = 8
+"""Passwords that wait to be checked; more are refused."""
+
 LONGEST_FORM = 4096
 """Largest body of the form [bytes]."""
 
@@ -32,7 +35,7 @@ class Login:
 
     def __init__(self, access: Access, cookie_name: str, first_delay: float = FIRST_DELAY) -> None:
         self._access, self._cookie_name, self._delay = access, cookie_name, first_delay
-        self._wrong = 0
+        self._wrong = self._waiting = 0
         self._turn = asyncio.Lock()
 
     async def __call__(self, request: Request) -> Response:
@@ -46,13 +49,26 @@ class Login:
             body += part
             if len(body) > LONGEST_FORM:
                 return HTMLResponse(_PAGE.format(note="The password is not right."), 413)
-        async with self._turn:
-            if self._access.knows_password(_password(body)):
-                self._wrong = 0
-                return entered(self._access, self._cookie_name)
-            await asyncio.sleep(min(self._delay * 2**self._wrong, LONGEST_DELAY))
-            self._wrong = min(self._wrong + 1, 20)
+        if self._waiting >= MOST_WAITING:
+            return HTMLResponse(_PAGE.format(note="Too many try to enter; wait a minute."), 429)
+        self._waiting += 1
+        try:
+            async with self._turn:
+                right = await self._checked(_password(body))
+        finally:
+            self._waiting -= 1
+        if right:
+            return entered(self._access, self._cookie_name)
         return HTMLResponse(_PAGE.format(note="The password is not right."), 403)
+
+    async def _checked(self, password: str) -> bool:
+        """Whether a password is right; a wrong one is answered late."""
+        if self._access.knows_password(password):
+            self._wrong = 0
+            return True
+        await asyncio.sleep(min(self._delay * 2**self._wrong, LONGEST_DELAY))
+        self._wrong = min(self._wrong + 1, 20)
+        return False
 
 
 def _password(body: bytes) -> str:

@@ -16,6 +16,8 @@ from starlette.datastructures import Headers, MutableHeaders, QueryParams
 from starlette.responses import PlainTextResponse, RedirectResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from ilmek.web.framing import JSON, error_body
+
 CONTENT_POLICY = (
     "default-src 'self'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; font-src 'self'; "
     "connect-src 'self'; worker-src 'self' blob:; object-src 'none'; base-uri 'none'; form-action 'self'; "
@@ -120,12 +122,12 @@ class Guard:
         headers = Headers(scope=scope)
         host = headers.get("host", "").lower()
         if not self._access.knows_host(host):
-            return PlainTextResponse("This address is not the studio's.\n", 421)
+            return _refused(scope, 421, "this address is not the studio's", "open the one that `ilmek studio` prints")
         if not _is_of_this_site(headers, host):
-            return PlainTextResponse("Requests of other sites are not allowed.\n", 403)
+            return _refused(scope, 403, "a request of another site", "open the studio by its own address")
         length = headers.get("content-length") or "0"
         if not length.isdecimal() or int(length[:20]) > LONGEST_BODY:
-            return PlainTextResponse(f"The request is longer than {LONGEST_BODY:,} bytes.\n", 413, CLOSE)
+            return _refused(scope, 413, f"a body of more than {LONGEST_BODY:,} bytes", "take a smaller file")
         return self._with_token(scope) if self._is_known(headers) else self._first_visit(scope)
 
     def _with_token(self, scope: Scope) -> Response | None:
@@ -155,16 +157,22 @@ class Guard:
                 return None
             if self._access.password and scope["method"] == "GET" and scope["path"] == "/":
                 return RedirectResponse("/login", 303)
-        text = "Open the studio by the address that `ilmek studio` prints; it has a token.\n"
-        return PlainTextResponse(text, 401)
+        return _refused(scope, 401, "no token of the studio", "open the address that `ilmek studio` prints; it has one")
+
+
+def _refused(scope: Scope, status: int, given: str, do: str) -> Response:
+    """A refusal, to a program as the API has it. The rest of the request is not read."""
+    if scope["path"].startswith("/api/"):
+        return Response(error_body(given, do=do), status, CLOSE, media_type=JSON)
+    return PlainTextResponse(f"{given}; {do}\n", status, CLOSE)
 
 
 def _is_of_this_site(headers: Headers, host: str) -> bool:
     """Whether a request comes from a page of the studio, from an address that was typed, or from no page at all."""
-    origin = headers.get("origin")
-    if origin is not None and origin.lower() not in (f"http://{host}", f"https://{host}"):
+    own = (f"http://{host}", f"https://{host}")
+    if any(origin.lower() not in own for origin in headers.getlist("origin")):
         return False
-    return headers.get("sec-fetch-site", "none") in ("same-origin", "none")
+    return all(site in ("same-origin", "none") for site in headers.getlist("sec-fetch-site"))
 
 
 def cookies(headers: Headers, name: str) -> list[str]:

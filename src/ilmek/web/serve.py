@@ -15,6 +15,7 @@ import uvicorn
 from ilmek.errors import LoomError, ParameterError
 from ilmek.io.secret_file import read_bounded, write_secret
 from ilmek.web.app import studio_app
+from ilmek.web.connection import BoundedConnection
 from ilmek.web.safety import Access
 
 PORT = 8420
@@ -122,7 +123,7 @@ def server_settings() -> dict[str, Any]:
     """How uvicorn serves the studio."""
     return {
         "loop": "asyncio",
-        "http": "h11",
+        "http": BoundedConnection,
         "ws": "websockets-sansio",
         "ws_max_size": 65536,
         "ws_ping_interval": 20.0,

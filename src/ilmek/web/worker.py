@@ -151,8 +151,10 @@ def _request(ask: Ask, kind: type) -> Any:
         return msgspec.convert(fields, kind, strict=False, builtin_types=(bytes,))
     except msgspec.ValidationError:
         raise
-    except msgspec.DecodeError as error:
+    except (msgspec.DecodeError, UnicodeDecodeError) as error:
         raise msgspec.ValidationError(f"the body is no JSON: {error}") from None
+    except RecursionError:
+        raise msgspec.ValidationError("the JSON of the body is nested too deeply") from None
 
 
 @cache

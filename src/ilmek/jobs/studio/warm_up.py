@@ -19,7 +19,7 @@ def warm_up() -> None:
 def preparations() -> Iterator[Callable[[], object]]:
     """What a worker without requests does, in steps of less than a second: tasks, machines, compiled kernels."""
     tasks = import_module("ilmek.jobs.studio").__path__
-    for module in pkgutil.iter_modules(tasks, "ilmek.jobs.studio."):
+    for module in pkgutil.walk_packages(tasks, "ilmek.jobs.studio."):
         yield partial(import_module, module.name)
     yield import_module("ilmek.jobs.studio.carpet.tasks").prepare
     machines = import_module("ilmek.machines.catalogue").MACHINES
