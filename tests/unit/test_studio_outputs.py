@@ -1,9 +1,12 @@
 """Everything out: each product of a file, byte for byte as its command line writes it; listed, removed."""
 
 import contextlib
+import os
 import shlex
 import shutil
+from io import BytesIO
 from pathlib import Path
+from zipfile import ZipFile
 
 import pytest
 from click.testing import CliRunner
@@ -11,8 +14,11 @@ from click.testing import CliRunner
 from ilmek.cli import main
 from ilmek.errors import IlmekError, ParameterError
 from ilmek.jobs.studio.answers import Context
-from ilmek.jobs.studio.outputs import PRODUCTS, OutputRequest, ProductsRequest, products, write_product
-from ilmek.jobs.studio.project.out import delete_written, written
+from ilmek.jobs.studio.outputs import OutputRequest, write_product
+from ilmek.jobs.studio.project.folder import ProjectFolder
+from ilmek.jobs.studio.project.origins import inputs
+from ilmek.jobs.studio.project.out import archive, delete_written, written
+from ilmek.jobs.studio.project.products import PRODUCTS, products
 from ilmek.jobs.studio.project.tasks import PathRequest, ProjectRequest
 from ilmek.progress import Cancelled, Progress
 
@@ -55,7 +61,7 @@ def contents(path: Path) -> dict[str, bytes]:
 )
 def test_a_product_is_what_its_command_writes(folder: Path, path: str, names: tuple[str, ...]) -> None:
     context = Context(str(folder))
-    found = {one.name: one for one in products(ProductsRequest(path), context).products}
+    found = {one.name: one for one in products(PathRequest(path), context).products}
     for name in names:
         done = write_product(OutputRequest(path, name), context)
         assert (done.target, done.failed) == (found[name].target, ())
@@ -75,8 +81,8 @@ def test_a_product_is_what_its_command_writes(folder: Path, path: str, names: tu
 def test_every_kind_has_products(folder: Path) -> None:
     context = Context(str(folder))
     for path in ("carpet.toml", "machines/cam.toml", "linkages/slider-crank-press.toml"):
-        assert len(products(ProductsRequest(path), context).products) >= 2
-    assert products(ProductsRequest("yarns/mine.toml"), context).products == ()
+        assert len(products(PathRequest(path), context).products) >= 2
+    assert products(PathRequest("yarns/mine.toml"), context).products == ()
     assert set(PRODUCTS) == {"carpet", "machine", "synthesis", "linkage", "cyclogram"}
 
 
@@ -93,3 +99,53 @@ def test_a_cancelled_or_impossible_product_writes_nothing(folder: Path) -> None:
     for path in ("machines/cam.toml", "out", "out/../carpet.toml", "out/nothing"):
         with pytest.raises(ParameterError):
             delete_written(PathRequest(path), Context(str(folder)))
+
+
+def changed(folder: Path) -> dict[str, tuple[str, ...]]:
+    return {entry.path: entry.changed for entry in written(ProjectRequest(), Context(str(folder))).entries}
+
+
+def test_what_has_changed_since_a_product_was_written_is_named(folder: Path) -> None:
+    context = Context(str(folder))
+    file = folder / "cyclograms" / "press.toml"
+    text = file.read_text()
+    (folder / "out").mkdir()
+    by_command = folder / "out" / "cyclogram-press.csv"
+    by_command.write_text("0\n")
+    write_product(OutputRequest("cyclograms/press.toml", "data"), context)
+    assert changed(folder) == {"out/cyclogram-press.json": (), "out/cyclogram-press.csv": ()}
+    file.write_text(text + "\n# later\n")
+    os.utime(file, (2e9, 2e9))
+    assert set(changed(folder).values()) == {("cyclograms/press.toml",)}
+    file.write_text(text)  # undone; the command's file is compared by time alone
+    os.utime(file, (2e9, 2e9))
+    assert changed(folder)["out/cyclogram-press.json"] == ()
+    assert changed(folder)["out/cyclogram-press.csv"] == ("cyclograms/press.toml",)
+    (folder / ".studio" / "written.json").write_text("[broken")
+    assert changed(folder)["out/cyclogram-press.json"] == ("cyclograms/press.toml",)
+    file.unlink()
+    assert changed(folder) == {"out/cyclogram-press.json": (), "out/cyclogram-press.csv": ()}
+
+
+def test_files_that_a_file_names_are_its_inputs(folder: Path) -> None:
+    (folder / "yarns").mkdir()
+    (folder / "yarns" / "mine.toml").write_text('[[yarn]]\nname = "ivory"\nsrgb = "#efe6d2"\n')
+    (folder / "machines" / "loom.toml").write_text('machine = "cam"\n[settings]\nmotion = "@law.csv"\n')
+    (folder / "machines" / "law.csv").write_text("0,0\n")
+    (folder / "carpet.toml").write_text(
+        'yarns = "yarns/mine.toml"\nloom_file = "machines/loom.toml"\npicture = "/etc/x.png"\n'
+    )
+    found = inputs(ProjectFolder(folder), "carpet.toml")
+    assert found == ["carpet.toml", "yarns/mine.toml", "machines/loom.toml", "machines/law.csv"]
+
+
+def test_a_folder_is_packed(folder: Path) -> None:
+    (folder / "out" / "carpet" / "rows").mkdir(parents=True)
+    (folder / "out" / "carpet" / "rows" / "ğ 1.txt").write_text("row")
+    (folder / "out" / "carpet" / ".ilmek").write_text("hidden")
+    packed = archive(PathRequest("out/carpet"), Context(str(folder)))
+    with ZipFile(BytesIO(packed.body)) as files:
+        assert {name: files.read(name) for name in files.namelist()} == {"carpet/rows/ğ 1.txt": b"row"}
+    for path in ("out", "out/nothing", "machines", "../x"):
+        with pytest.raises(ParameterError):
+            archive(PathRequest(path), Context(str(folder)))

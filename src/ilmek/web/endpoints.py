@@ -195,7 +195,9 @@ ENDPOINTS: tuple[Endpoint, ...] = (
         "studio.project.pictures:delete_picture",
         "Delete a picture.",
     ),
-    Endpoint("POST", "/project/products", "studio.outputs:products", "What can be written of a file, with commands."),
+    Endpoint(
+        "POST", "/project/products", "studio.project.products:products", "What can be written of a file, with commands."
+    ),
     Endpoint(
         "POST",
         "/project/write",
@@ -205,6 +207,7 @@ ENDPOINTS: tuple[Endpoint, ...] = (
         work=True,
     ),
     Endpoint("GET", "/project/out", "studio.project.out:written", "What was written into out/, the newest first."),
+    Endpoint("GET", "/project/archive/{path:path}", "studio.project.out:archive", "A folder in out/ as ZIP."),
     Endpoint("POST", "/project/out/delete", "studio.project.out:delete_written", "Delete a file or folder of out/."),
     Endpoint("POST", "/commands", "studio.commands:shown_command", "A state as its command line and as Python."),
     Endpoint(

@@ -743,7 +743,8 @@ export interface FileError {
 /**
  * A text file of the project.
  *
- *     digest  of its content      size  [bytes]      error  the first one; null: it can be used
+ *     digest  of its content              size   [bytes]
+ *     time    of its last change [s since 1970]      error  the first one; null: it can be used
  *
  * This interface was referenced by `Messages`'s JSON-Schema
  * via the `definition` "FileSummary".
@@ -753,6 +754,7 @@ export interface FileSummary {
   kind: string;
   digest: string;
   size: number;
+  time: number;
   error: FileError | null;
 }
 /**
@@ -1596,6 +1598,9 @@ export interface Nothing {}
 /**
  * A file or a folder in out/ with its files, hidden ones left out; size: of all of them [bytes].
  *
+ *     source   the text file of which it was written; "": unknown
+ *     changed  the files that have changed since it was written: `source`, and files that it names
+ *
  * This interface was referenced by `Messages`'s JSON-Schema
  * via the `definition` "OutEntry".
  */
@@ -1604,6 +1609,8 @@ export interface OutEntry {
   size: number;
   time: number;
   files: OutFile[];
+  source: string;
+  changed: string[];
 }
 /**
  * A file below out/. size: [bytes]; time: of its last change [s since 1970].
@@ -1626,7 +1633,7 @@ export interface OutList {
   entries: OutEntry[];
 }
 /**
- * A product of a text file of the project: its name in `PRODUCTS`.
+ * A product of a text file of the project: its name in `products.PRODUCTS`.
  *
  * This interface was referenced by `Messages`'s JSON-Schema
  * via the `definition` "OutputRequest".
@@ -1735,15 +1742,6 @@ export interface Product {
  */
 export interface ProductList {
   products: Product[];
-}
-/**
- * A text file of the project.
- *
- * This interface was referenced by `Messages`'s JSON-Schema
- * via the `definition` "ProductsRequest".
- */
-export interface ProductsRequest {
-  path: string;
 }
 /**
  * The whole project.

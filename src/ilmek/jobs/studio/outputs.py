@@ -4,10 +4,9 @@ Each product has its command line; run in the project's folder it writes the sam
 """
 
 import contextlib
-import shlex
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 
 from ilmek.errors import ParameterError
 from ilmek.io.json_file import json_text
@@ -17,8 +16,9 @@ from ilmek.io.table_csv import csv_text
 from ilmek.jobs import cyclogram as cyclograms
 from ilmek.jobs.animation import write_animation
 from ilmek.jobs.chart import chart_order
-from ilmek.jobs.design import design_machine, mechanism_text, require_mechanism
+from ilmek.jobs.design import design_machine, mechanism_text
 from ilmek.jobs.loom import read_loom_order
+from ilmek.jobs.loom_space import loom_glb
 from ilmek.jobs.machine_file import read_machine_order
 from ilmek.jobs.mechanism.analysis import analysis
 from ilmek.jobs.mechanism.data import as_json, columns
@@ -30,6 +30,9 @@ from ilmek.jobs.order import read_order
 from ilmek.jobs.page import page_text
 from ilmek.jobs.studio.answers import Context
 from ilmek.jobs.studio.project.folder import OUT, ProjectFolder, kind_of
+from ilmek.jobs.studio.project.origins import digests_of, note_origin
+from ilmek.jobs.studio.project.out import last_change
+from ilmek.jobs.studio.project.products import OPTIONS, product, product_names
 from ilmek.jobs.weave import weave
 from ilmek.jobs.workshop_order import WorkshopOrder, workshop_writer
 from ilmek.progress import Progress
@@ -38,33 +41,10 @@ from ilmek.report import Check, Report, reasons
 
 @dataclass(frozen=True, slots=True)
 class OutputRequest:
-    """A product of a text file of the project: its name in `PRODUCTS`."""
+    """A product of a text file of the project: its name in `products.PRODUCTS`."""
 
     path: str
     product: str
-
-
-@dataclass(frozen=True, slots=True)
-class ProductsRequest:
-    """A text file of the project."""
-
-    path: str
-
-
-@dataclass(frozen=True, slots=True)
-class Product:
-    """What can be written of a file: name, file or folder below out/, and the command line."""
-
-    name: str
-    target: str
-    command: str
-
-
-@dataclass(frozen=True, slots=True)
-class ProductList:
-    """What can be written of a file."""
-
-    products: tuple[Product, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,41 +62,6 @@ class WrittenProduct:
 Result = tuple[tuple[Check, ...], tuple[str, ...]]
 """Checks and notes."""
 
-PRODUCTS: Mapping[str, Mapping[str, str]] = {
-    "carpet": {"carpet": "", "chart": "-chart"},
-    "machine": {"page": ".html", "parts": "-parts", "animation": ".gif", "data": ".json"},
-    "synthesis": {"page": ".html", "mechanism": ".toml", "parts": "-parts", "animation": ".gif", "data": ".json"},
-    "linkage": {"page": ".html", "parts": "-parts", "table": ".csv", "animation": ".gif", "data": ".json"},
-    "cyclogram": {"page": ".html", "table": ".csv", "data": ".json"},
-}
-"""Products by kind of file: what is added to the name of the target."""
-
-_COMMANDS = {"machine": "design", "synthesis": "design", "linkage": "mechanism", "cyclogram": "cyclogram"}
-_OPTIONS = {
-    "page": "--report",
-    "parts": "--workshop",
-    "animation": "--animation",
-    "data": "--json",
-    "table": "--csv",
-    "mechanism": "--to",
-}
-
-
-def products(request: ProductsRequest, context: Context) -> ProductList:
-    """What can be written of a file, each with its command line. Raises ParameterError for another file."""
-    ProjectFolder(context.folder).text_path(request.path)
-    return ProductList(tuple(_product(request.path, name) for name in PRODUCTS.get(kind_of(request.path) or "", ())))
-
-
-def _product(path: str, name: str) -> Product:
-    kind, stem = kind_of(path) or "", PurePosixPath(path).stem
-    target = f"{OUT}/{'' if kind == 'carpet' else f'{kind}-'}{stem}{PRODUCTS[kind][name]}"
-    if kind == "carpet":
-        parts = ("ilmek", "weave" if name == "carpet" else "chart", path, "--out", target, "--force")
-    else:
-        parts = ("ilmek", _COMMANDS[kind], path, _OPTIONS[name], target, "--force")
-    return Product(name, target, shlex.join(parts))
-
 
 def write_product(request: OutputRequest, context: Context) -> WrittenProduct:
     """Write a product into out/; what ilmek wrote there before is replaced.
@@ -125,18 +70,20 @@ def write_product(request: OutputRequest, context: Context) -> WrittenProduct:
     """
     folder = ProjectFolder(context.folder.resolve())
     folder.text_path(request.path)
-    kind = kind_of(request.path) or ""
-    known = PRODUCTS.get(kind, {})
+    known = product_names(folder, request.path)
     if request.product not in known:
         raise ParameterError(f"{request.path} has no product {request.product!r}", allowed=", ".join(known))
-    product = _product(request.path, request.product)
-    folder.path(product.target)
+    made = product(request.path, request.product)
+    write = _WRITERS[kind_of(request.path) or ""]
+    final = folder.path(made.target)
+    digests = digests_of(folder, request.path)
     (folder.base / OUT).mkdir(exist_ok=True)
     with contextlib.chdir(folder.base):  # as the command: files name each other by relative paths
-        path, target = Path(request.path), Path(product.target)
+        path, target = Path(request.path), Path(made.target)
         with Outputs(force=True, inputs={request.path: path}, progress=context.progress) as outputs:
-            checks, notes = _WRITERS[kind](path, target, product.name, outputs, context.progress)
-    return WrittenProduct(product.target, tuple(reason.name for reason in reasons(checks)), notes)
+            checks, notes = write(path, target, made.name, outputs, context.progress)
+    note_origin(folder, made.target, digests, last_change(final))
+    return WrittenProduct(made.target, tuple(reason.name for reason in reasons(checks)), notes)
 
 
 def _carpet(path: Path, target: Path, name: str, outputs: Outputs, progress: Progress) -> Result:
@@ -150,8 +97,6 @@ def _carpet(path: Path, target: Path, name: str, outputs: Outputs, progress: Pro
 
 def _machine(path: Path, target: Path, name: str, outputs: Outputs, progress: Progress) -> Result:
     order = read_machine_order(str(path), {})
-    if name == "mechanism":
-        require_mechanism(order.machine, target)
     _expect(target, name, outputs)
     workshop = WorkshopOrder(target) if name == "parts" else None
     made = design_machine(order.machine, order.settings, workshop, outputs=outputs, progress=progress.part(0.0, 0.8))
@@ -159,6 +104,8 @@ def _machine(path: Path, target: Path, name: str, outputs: Outputs, progress: Pr
         if made.mechanism is None:
             raise ParameterError(f"{path} has no solution, so that there is no linkage to write")
         outputs.write(target, mechanism_text(made.mechanism, target))
+    elif name == "space" and made.loom is not None:
+        outputs.write(target, loom_glb(made.loom, made.report))
     elif name == "parts" and made.workshop is None:
         raise ParameterError(f"{path} has no solution, so that there are no links to make")
     more = _write_report(made.report, made.as_json, target, name, outputs=outputs, progress=progress.part(0.8, 1.0))
@@ -195,7 +142,7 @@ def _cyclogram(path: Path, target: Path, name: str, outputs: Outputs, progress: 
 def _expect(target: Path, name: str, outputs: Outputs) -> None:
     """Check, before any work, that a file can be written."""
     if name != "parts":
-        outputs.expect_file(target, _OPTIONS[name])
+        outputs.expect_file(target, OPTIONS[name])
 
 
 def _write_report(

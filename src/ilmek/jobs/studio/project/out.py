@@ -1,14 +1,19 @@
-"""What was written into out/: listed and removed."""
+"""What was written into out/: listed with what has changed since, packed, removed."""
 
 import os
 import shutil
 from collections.abc import Iterator
 from dataclasses import dataclass
+from io import BytesIO
+from itertools import islice
 from pathlib import Path
+from zipfile import ZIP_DEFLATED, ZipFile
 
 from ilmek.errors import ParameterError
-from ilmek.jobs.studio.answers import Context
+from ilmek.jobs.studio.answers import Binary, Context
 from ilmek.jobs.studio.project.folder import OUT, ProjectFolder, cannot
+from ilmek.jobs.studio.project.origins import read_origins
+from ilmek.jobs.studio.project.products import sources
 from ilmek.jobs.studio.project.tasks import Changed, PathRequest, ProjectRequest
 
 MOST_LISTED = 2_000
@@ -16,6 +21,10 @@ MOST_LISTED = 2_000
 
 DEEPEST = 4
 """Largest depth of folders below out/ that are listed."""
+
+
+LARGEST_ARCHIVE = 300_000_000
+"""Largest size of the files of an archive [bytes]; the answer is made in memory."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,12 +38,18 @@ class OutFile:
 
 @dataclass(frozen=True, slots=True)
 class OutEntry:
-    """A file or a folder in out/ with its files, hidden ones left out; size: of all of them [bytes]."""
+    """A file or a folder in out/ with its files, hidden ones left out; size: of all of them [bytes].
+
+    source   the text file of which it was written; "": unknown
+    changed  the files that have changed since it was written: `source`, and files that it names
+    """
 
     path: str
     size: int
     time: float
     files: tuple[OutFile, ...]
+    source: str = ""
+    changed: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,21 +60,36 @@ class OutList:
 
 
 def written(request: ProjectRequest, context: Context) -> OutList:
-    """The files and folders in out/. Raises OutputError for a folder that is closed."""
-    base = ProjectFolder(context.folder.resolve()).base
+    """The files and folders in out/, what they were written of, and whether that has changed since.
+
+    Raises OutputError for a folder that is closed.
+    """
+    folder = ProjectFolder(context.folder.resolve())
+    origins, known = read_origins(folder), sources(folder.texts())
     entries: list[OutEntry] = []
     left = MOST_LISTED
-    for top in _scanned(base / OUT):
-        files = []
-        for path, status in _files(top, 0):
-            if left:
-                left -= 1
-                files.append(OutFile(Path(path).relative_to(base).as_posix(), status.st_size, status.st_mtime))
-        if files:
+    for top in _scanned(folder.base / OUT):
+        found = list(islice(_files(top, 0), left))
+        left -= len(found)
+        if found:
             name = f"{OUT}/{top.name}"
-            time = max(file.time for file in files)
-            entries.append(OutEntry(name, sum(file.size for file in files), time, tuple(files)))
+            times = [status.st_mtime_ns for _, status in found]
+            source = known.get(name, "")
+            files = tuple(_out_file(folder.base, path, status) for path, status in found)
+            changed = origins.changed(name, source, max(times)) if source else ()
+            entries.append(OutEntry(name, sum(one.size for one in files), max(times) / 1e9, files, source, changed))
     return OutList(tuple(sorted(entries, key=lambda entry: (-entry.time, entry.path))))
+
+
+def _out_file(base: Path, path: str, status: os.stat_result) -> OutFile:
+    return OutFile(Path(path).relative_to(base).as_posix(), status.st_size, status.st_mtime)
+
+
+def last_change(path: Path) -> int:
+    """The time of the last change of a file, or of the files of a folder [ns]; hidden ones left out."""
+    if path.is_file():
+        return path.stat().st_mtime_ns
+    return max((status.st_mtime_ns for top in _scanned(path) for _, status in _files(top, 1)), default=0)
 
 
 def _scanned(folder: Path) -> list[os.DirEntry[str]]:
@@ -94,3 +124,20 @@ def delete_written(request: PathRequest, context: Context) -> Changed:
         except OSError as error:
             raise cannot("be deleted", path, error) from None
     return Changed((request.path,))
+
+
+def archive(request: PathRequest, context: Context) -> Binary:
+    """The files of a folder in out/ as ZIP. Raises ParameterError where there is none, or it is too large."""
+    folder = ProjectFolder(context.folder.resolve())
+    path = folder.path(request.path)
+    files = [(Path(file), status.st_size) for top in _scanned(path) for file, status in _files(top, 1)]
+    if path.parent != folder.base / OUT or not files:
+        raise ParameterError(f"{request.path} is no folder in {OUT}/")
+    if (size := sum(one for _, one in files)) > LARGEST_ARCHIVE:
+        given = f"{request.path} has {size:,} bytes"
+        raise ParameterError(given, allowed=f"at most {LARGEST_ARCHIVE:,}", do="copy the folder itself")
+    with BytesIO() as packed:
+        with ZipFile(packed, "w", ZIP_DEFLATED, compresslevel=1, strict_timestamps=False) as archived:
+            for file, _ in files:
+                archived.write(file, f"{path.name}/{file.relative_to(path).as_posix()}")
+        return Binary("application/zip", packed.getvalue())

@@ -78,13 +78,15 @@ class RenameRequest:
 class FileSummary:
     """A text file of the project.
 
-    digest  of its content      size  [bytes]      error  the first one; null: it can be used
+    digest  of its content              size   [bytes]
+    time    of its last change [s since 1970]      error  the first one; null: it can be used
     """
 
     path: str
     kind: str
     digest: str
     size: int
+    time: float = 0.0
     error: FileError | None = None
 
 
@@ -161,11 +163,12 @@ def _summary(folder: ProjectFolder, path: str, *, checked: bool) -> FileSummary:
     kind = kind_of(path) or ""
     try:
         content = read_bytes(folder.base / path) or b""
+        time = (folder.base / path).stat().st_mtime
     except Exception as error:  # of one file; the rest opens
-        return FileSummary(path, kind, "", 0, FileError(str(error)))
+        return FileSummary(path, kind, "", 0, error=FileError(str(error)))
     digest = digest_of(content)
     error_of_file = file_error(folder.base, path, digest) if checked else None
-    return FileSummary(path, kind, digest, len(content), error_of_file)
+    return FileSummary(path, kind, digest, len(content), time, error_of_file)
 
 
 def read_file(request: PathRequest, context: Context) -> FileContent:
