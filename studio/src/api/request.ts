@@ -49,9 +49,9 @@ export async function remove(path: string, signal?: AbortSignal): Promise<void> 
   await answered("DELETE", path, undefined, signal);
 }
 
-/** Send a file as it is; its media type is that of the file. */
+/** Send a file as it is; the server tells its type by its content: names and browsers are not relied on. */
 export async function upload<T>(path: string, file: Blob, signal?: AbortSignal): Promise<T> {
-  return (await answered("POST", path, { body: file, type: file.type }, signal)).json() as Promise<T>;
+  return (await answered("POST", path, { body: file, type: "application/octet-stream" }, signal)).json() as Promise<T>;
 }
 
 export async function getPacked<T>(path: string, signal?: AbortSignal): Promise<Packed<T>> {

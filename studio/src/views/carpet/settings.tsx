@@ -110,7 +110,8 @@ function Picture({ model }: { model: CarpetModel }) {
 
 /** Another picture: what held of the one before only is taken out. */
 function choosePicture(model: CarpetModel, picture: string): void {
-  if (picture !== "") model.set({ picture, plain: "", repeat: null, crop: "", corners: "", turn: "", edits: null });
+  if (picture === "" || picture === model.text("picture")) return;
+  model.set({ picture, plain: "", repeat: null, crop: "", corners: "", turn: "", edits: null });
 }
 
 /** Puts a file into the project and makes it the recipe's picture. */

@@ -1,0 +1,137 @@
+"""The carpet in a real browser: a dropped picture, the chart that follows, edits of the recipe, rows to weave by."""
+
+import re
+import subprocess
+import sys
+from io import BytesIO
+from pathlib import Path
+
+import pytest
+from PIL import Image
+from playwright.sync_api import Page, expect
+from studio_browser import PATIENCE, Studio, data_of, middle, open_view, until_file, violations
+
+from ilmek.io.yarn_file import default_yarns
+
+DROP = """([name, bytes]) => {
+  const data = new DataTransfer();
+  data.items.add(new File([Uint8Array.from(bytes)], name));
+  const view = document.querySelector('.carpet-view');
+  for (const kind of ['dragover', 'drop'])
+    view.dispatchEvent(new DragEvent(kind, { dataTransfer: data, bubbles: true, cancelable: true }));
+}"""
+AT_KNOT = re.compile(r"Row (\d+) from below, knot (\d+) from the left: (.+) \((.)\)")
+
+
+def _picture(mode: str = "RGB") -> bytes:
+    """A drawing of four stripes."""
+    drawing = Image.new("RGB", (80, 120), "#9e2b25")
+    for number, colour in enumerate(("#1b2a4e", "#efe5cf", "#d9a441")):
+        drawing.paste(colour, (0, 30 * number, 80, 30 * number + 30))
+    file = BytesIO()
+    drawing.convert(mode).save(file, "PNG")
+    return file.getvalue()
+
+
+def _drop(page: Page, name: str, content: bytes) -> None:
+    page.evaluate(DROP, [name, list(content)])
+
+
+def _set(page: Page, label: str, value: str) -> None:
+    field = page.get_by_label(label, exact=True)
+    field.fill(value)
+    field.press("Enter")
+
+
+def _tool(page: Page, name: str) -> None:
+    page.locator(".carpet-tools").get_by_role("radio", name=name).check()
+
+
+def _status(page: Page, text: str | re.Pattern[str]) -> str:
+    """The line below the chart, once it has a text."""
+    line = page.locator(".carpet-status")
+    expect(line).to_contain_text(text, timeout=PATIENCE)
+    return line.inner_text()
+
+
+def _edits(running: Studio) -> list[str]:
+    found: list[str] = data_of(running.project, "carpet.toml").get("edits", [])
+    return found
+
+
+@pytest.fixture
+def carpet(page: Page, running: Studio) -> Page:
+    open_view(page, running, "carpet")
+    return page
+
+
+def test_a_dropped_picture_and_a_size_are_in_the_recipe(carpet: Page, running: Studio) -> None:
+    _drop(carpet, "stripes.png", _picture())
+    until_file(running.project, "carpet.toml", "pictures/stripes.png")
+    assert (running.project / "pictures/stripes.png").read_bytes() == _picture()
+    _set(carpet, "Size", "40x60cm")
+    _status(carpet, "100 knots across, 150 rows")
+    until_file(running.project, "carpet.toml", "40x60cm")
+    carpet.locator("input[type=file]").set_input_files(
+        {"name": "again.png", "mimeType": "image/png", "buffer": _picture()}
+    )
+    until_file(running.project, "carpet.toml", "pictures/again.png")
+
+
+def test_a_stroke_is_an_edit_that_undo_takes_out(carpet: Page, running: Studio) -> None:
+    before = _edits(running)
+    _tool(carpet, "Pencil")
+    carpet.get_by_role("button", name="Single knots").click()
+    x, y = middle(carpet, ".carpet-surface")
+    carpet.mouse.move(x, y)
+    found = AT_KNOT.search(_status(carpet, AT_KNOT))
+    assert found is not None
+    carpet.get_by_label("Yarn", exact=True).select_option("sage green")
+    carpet.mouse.click(x, y)
+    until_file(running.project, "carpet.toml", f"set {found[1]},{found[2]} sage green")
+    expect(carpet.locator(".carpet-status")).to_contain_text("sage green", timeout=PATIENCE)
+    carpet.keyboard.press("Control+z")
+    expect(carpet.locator(".carpet-status")).to_contain_text(found[3], timeout=PATIENCE)
+    assert _edits(running) == before
+
+
+def test_a_knot_is_that_of_the_command_line(carpet: Page, running: Studio, tmp_path: Path) -> None:
+    recipe, out = running.project / "carpet.toml", tmp_path / "chart"
+    command = ("chart", str(recipe), "--no-pdf", "--rows", "none", "--out", str(out))
+    with subprocess.Popen([sys.executable, "-m", "ilmek", *command], stdout=subprocess.DEVNULL) as charting:
+        carpet.get_by_role("button", name="Single knots").click()
+        surface = carpet.locator(".carpet-surface")
+        surface.press("ArrowUp")
+        begin = AT_KNOT.search(_status(carpet, AT_KNOT))
+        assert begin is not None
+        for key in ("Shift+ArrowUp", "ArrowLeft", "Shift+ArrowLeft"):
+            surface.press(key)
+        at_cursor = _status(carpet, f"Row {int(begin[1]) + 10} from below, knot {int(begin[2]) - 11} from")
+        carpet.mouse.move(*middle(carpet, ".carpet-marks .cursor"))
+        expect(carpet.locator(".carpet-status")).to_have_text(at_cursor)
+        assert charting.wait() == 0
+    found = AT_KNOT.search(at_cursor)
+    assert found is not None
+    colour_of = {yarn.name: yarn.hex for yarn in default_yarns()}
+    chart = Image.open(out / "chart.png").convert("RGB")
+    rgb = chart.getpixel((int(found[2]) - 1, chart.height - int(found[1])))
+    assert colour_of[found[3]] == "#{:02x}{:02x}{:02x}".format(*rgb)
+
+
+def test_the_weaver_goes_on_where_the_page_was_left(carpet: Page, running: Studio) -> None:
+    carpet.get_by_role("button", name="Weaver's view").click()
+    weaver = carpet.locator(".carpet-weaver")
+    expect(weaver).to_be_focused()
+    for key in ("ArrowUp", "ArrowUp", "ArrowDown", "ArrowUp", "ArrowUp"):
+        weaver.press(key)
+    heading = weaver.get_by_role("heading")
+    expect(heading).to_contain_text(re.compile("^Row 4 of"))
+    expect(weaver.locator("[aria-current=step]")).to_have_count(1, timeout=PATIENCE)
+    assert violations(carpet) == []
+    carpet.reload()
+    open_view(carpet, running, "carpet")
+    carpet.get_by_role("button", name="Weaver's view").click()
+    expect(heading).to_contain_text(re.compile("^Row 4 of"))
+    expect(weaver).to_be_focused()
+    carpet.keyboard.press("Escape")
+    expect(carpet.locator(".carpet-surface")).to_be_visible()
