@@ -140,7 +140,8 @@ class SceneCarpet:
 class Scene:
     """A loom in space.
 
-    periods  time of a turn of each drive [s]        heads  name of the frame of the heads, which stand anywhere on x
+    periods   time of a turn of each drive [s]       heads  name of the frame of the heads, which stand anywhere on x
+    failures  the checks of the whole loom that fail
     """
 
     title: str
@@ -152,3 +153,4 @@ class Scene:
     periods: Mapping[str, float]
     heads: str
     floor: float
+    failures: tuple[Check, ...] = ()

@@ -52,6 +52,7 @@ def scene_data(scene: Scene) -> SceneData:
         "title": scene.title,
         "heads": scene.heads,
         "floor": scene.floor,
+        "failures": [check.as_json() for check in scene.failures],
         "periods": dict(scene.periods),
         "frames": [_frame(blocks, one) for one in scene.frames],
         "parts": [_part(blocks, one) for one in scene.parts],

@@ -30,8 +30,22 @@ export interface Packed<T> {
   parts: (lengths: readonly number[]) => Uint8Array<ArrayBuffer>[];
 }
 
-/** Name of this page: the works that it starts report to it alone, and end some time after it has gone. */
-export const page: string = Array.from(crypto.getRandomValues(new Uint8Array(12)), (n) => n.toString(36)).join("");
+/**
+ * Name of this page, the same after it is loaded again: the works that it starts report to it alone, and end some time
+ * after it has gone.
+ */
+export const page: string = named();
+
+function named(): string {
+  const fresh = Array.from(crypto.getRandomValues(new Uint8Array(12)), (n) => n.toString(36)).join("");
+  try {
+    const known = sessionStorage.getItem("ilmek.page") ?? fresh;
+    sessionStorage.setItem("ilmek.page", known);
+    return known;
+  } catch {
+    return fresh;
+  }
+}
 
 export async function get<T>(path: string, signal?: AbortSignal): Promise<T> {
   return (await answered("GET", path, undefined, signal)).json() as Promise<T>;

@@ -5,6 +5,8 @@ import { ApiError, get, post, remove } from "./request";
 export interface WorkListeners<News> {
   onStep?: (stage: string, share: number) => void;
   onNews?: (news: News) => void;
+  /** The number of the work, as soon as it is known: by it the work is followed again after the page was loaded anew. */
+  onNumber?: (number: number) => void;
   signal?: AbortSignal;
 }
 
@@ -27,38 +29,38 @@ onEvent((event) => {
 export async function runWork<Reply, News = unknown>(
   path: string,
   body: unknown,
-  { onStep, onNews, signal }: WorkListeners<News> = {},
+  listeners: WorkListeners<News> = {},
 ): Promise<Reply> {
   starting += 1;
   let number: number;
   let before: ServerEvent[];
   try {
-    number = (await post<{ work: number }>(path, body, signal)).work;
+    number = (await post<{ work: number }>(path, body, listeners.signal)).work;
   } finally {
     starting -= 1;
     before = starting === 0 ? early.splice(0) : [...early];
   }
-  return follow<Reply>(number, before, {
-    onStep: onStep ?? (() => {}),
-    onNews: (news) => onNews?.(news as News),
-    ...(signal ? { signal } : {}),
-  });
+  listeners.onNumber?.(number);
+  return follow<Reply, News>(number, before, listeners);
 }
 
-function follow<Reply>(
+/** The answer of a work that this page started before it was loaded anew. Raises as `runWork`. */
+export function followWork<Reply, News = unknown>(number: number, listeners: WorkListeners<News> = {}): Promise<Reply> {
+  return follow<Reply, News>(number, null, listeners);
+}
+
+/** before: the events that have come; null: not known. */
+function follow<Reply, News>(
   number: number,
-  before: ServerEvent[],
-  {
-    onStep,
-    onNews,
-    signal,
-  }: { onStep: (stage: string, share: number) => void; onNews: (news: unknown) => void; signal?: AbortSignal },
+  before: readonly ServerEvent[] | null,
+  { onStep, onNews, signal }: WorkListeners<News>,
 ): Promise<Reply> {
   const path = `/work/${number}`;
   return new Promise<Reply>((resolve, reject) => {
     const end = onEvent(take);
     signal?.addEventListener("abort", abort, { once: true });
-    for (const event of before) take(event);
+    if (before === null) look();
+    else for (const event of before) take(event);
     if (signal?.aborted) abort();
 
     function close(): void {
@@ -96,8 +98,8 @@ function follow<Reply>(
     function take(event: ServerEvent): void {
       if (event.type === "hello") look();
       if (!("work" in event) || event.work !== number) return;
-      if (event.type === "step") onStep(event.stage, event.share);
-      if (event.type === "news") onNews(event.news);
+      if (event.type === "step") onStep?.(event.stage, event.share);
+      if (event.type === "news") onNews?.(event.news as News);
       if (event.type === "done") fetchAnswer();
       if (event.type === "cancelled") {
         close();

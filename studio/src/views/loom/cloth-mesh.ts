@@ -47,9 +47,8 @@ export class Cloth {
     this.woven.value = rows / this.model.about.carpet.rows;
   }
 
+  /** Frees what is not in the scene: geometry and material are. */
   dispose(): void {
-    this.mesh.geometry.dispose();
     this.texture.dispose();
-    this.material.dispose();
   }
 }

@@ -1,108 +1,125 @@
-/** The loom of the project in space: its file chosen, its model loaded, its plates drawn, its GLB saved. */
-import type { ComponentChildren, ComponentType } from "preact";
+/** The loom of the project in space: its file chosen, its model loaded, its run shown, its plates drawn, its GLB saved. */
+import type { ComponentType } from "preact";
 import { useEffect, useState } from "preact/hooks";
-import { type ApiError, answered, postPacked } from "../../api/request";
+import { answered, postPacked } from "../../api/request";
 import { useReady } from "../../app/ready";
-import { rename, type ViewProps } from "../../app/routes";
-import { project } from "../../project";
+import { goTo, rename, type ViewProps } from "../../app/routes";
+import { filesOf, project, refreshProject } from "../../project";
 import { t } from "../../text";
 import { Button, CopyCommand, Progress, Select, toast } from "../../ui";
-import type { Live } from "./live";
+import { type Live, liveOf } from "./live";
 import { PlateSketch } from "./plate";
+import { findRun, run } from "./run";
 import { RunPanel } from "./run-panel";
-import { type SceneAbout, type SceneModel, sceneModel } from "./scene";
+import { modelOf, type SceneAbout, type SceneModel } from "./scene";
+import type { WorkbenchProps } from "./workbench";
 import "./loom.css";
 
 const RECIPE = "carpet.toml";
 
 export default function Loom({ name }: ViewProps) {
-  const file = name || RECIPE;
+  useEffect(() => {
+    if (project.peek() === null) void refreshProject().catch(() => undefined);
+    void findRun();
+  }, []);
+  const files = loomFiles();
+  const file = name || files[0];
+  if (file === undefined) return project.value === null ? <Loading /> : <NoLoom />;
+  return <LoomOf key={file} file={file} files={[...new Set([file, ...files])]} />;
+}
+
+/** The files of the project that a loom can be made of: the recipe, and machine files. */
+function loomFiles(): string[] {
+  const machines = filesOf("machine").filter((one) => /loom/.test(one.path));
+  return [...filesOf("carpet"), ...machines].map((one) => one.path);
+}
+
+interface LoomOfProps {
+  file: string;
+  files: readonly string[];
+}
+
+function LoomOf({ file, files }: LoomOfProps) {
   const [model, setModel] = useState<SceneModel | null>(null);
-  const [live, setLive] = useState<Live | null>(null);
-  const [error, setError] = useState<ApiError | Error | null>(null);
   const [workbench, setWorkbench] = useState<ComponentType<WorkbenchProps> | null>(null);
+  const [error, setError] = useState("");
   useEffect(() => {
     const control = new AbortController();
-    setError(null);
-    setModel(null);
-    setLive(null);
-    Promise.all([loadModel(file, control.signal), import("./workbench")]).then(
-      ([found, module]) => {
+    Promise.all([postPacked<SceneAbout>("/loom/scene", { file }, control.signal), import("./workbench")]).then(
+      ([answer, module]) => {
         setWorkbench(() => module.Workbench);
-        setModel(found);
+        setModel(modelOf(answer));
       },
       (reason: unknown) => {
-        if (!control.signal.aborted) setError(reason instanceof Error ? reason : new Error(String(reason)));
+        if (!control.signal.aborted) setError(reason instanceof Error ? reason.message : String(reason));
       },
     );
     return () => control.abort();
-  }, [file]);
-  useReady(model !== null && workbench !== null);
-  if (!hasWebgl()) return <Sorry text={t("loom.noWebgl")} file={file} />;
-  if (error !== null) return <Sorry text={`${t("loom.failed")}: ${error.message}`} file={file} />;
-  if (model === null || workbench === null)
-    return (
-      <div class="app-plain">
-        <h1>{t("loom.title")}</h1>
-        <Progress label={t("loom.loading")} />
-      </div>
-    );
+  }, []);
+  const live = useLive(file, model);
+  useReady(model !== null || error !== "");
+  if (error !== "") return <Sorry file={file} files={files} reason={error} />;
+  if (model === null || workbench === null) return <Loading />;
   const Shown = workbench;
-  const below = (
-    <>
-      <RunPanel key={file} file={file} model={model} onLive={setLive} />
-      <Files file={file} />
-    </>
-  );
   return (
     <Shown
-      key={file}
       model={model}
-      above={<Source file={file} title={model.about.title} />}
-      below={below}
+      above={
+        <div>
+          <h1>{model.about.title}</h1>
+          <Source file={file} files={files} />
+        </div>
+      }
+      below={<Files file={file} />}
+      running={<RunPanel file={file} weaves={model.about.chart !== null} />}
       live={live}
       drawing={(plate) => <PlateSketch file={file} plate={plate} />}
     />
   );
 }
 
-interface WorkbenchProps {
-  model: SceneModel;
-  above?: ComponentChildren;
-  below?: ComponentChildren;
-  drawing?: (plate: string) => ComponentChildren;
-  live?: Live | null;
+/** What the run of a file shows; null: it does not run. */
+function useLive(file: string, model: SceneModel | null): Live | null {
+  const [live, setLive] = useState<Live | null>(null);
+  useEffect(() => {
+    let before: Live | null = null;
+    return run.subscribe((now) => {
+      if (model === null || now?.file !== file || now.news === null) return;
+      before = liveOf(model, now, now.news, before);
+      setLive(before);
+    });
+  }, [model]);
+  return live;
 }
 
-async function loadModel(file: string, signal: AbortSignal): Promise<SceneModel> {
-  const answer = await postPacked<SceneAbout>("/loom/scene", { file }, signal);
-  const [floats, integers, knots] = answer.parts(answer.about.lengths);
-  if (!floats || !integers || !knots) throw new Error("a scene without its numbers");
-  return sceneModel(answer.about, exact(floats), exact(integers), knots);
-}
-
-function exact(part: Uint8Array<ArrayBuffer>): ArrayBuffer {
-  return part.buffer.slice(part.byteOffset, part.byteOffset + part.byteLength);
-}
-
-let webgl: boolean | null = null;
-function hasWebgl(): boolean {
-  webgl ??= document.createElement("canvas").getContext("webgl2") !== null;
-  return webgl;
-}
-
-/** The files of the project that a loom can be made of: the recipe, and machine files. */
-function Source({ file, title }: { file: string; title: string }) {
-  const paths = (project.value?.files ?? [])
-    .filter((one) => one.kind === "carpet" || (one.kind === "machine" && /loom/.test(one.path)))
-    .map((one) => one.path);
-  const choices = [...new Set([file, ...paths])].map((path) => ({ value: path, label: path }));
+function Loading() {
   return (
-    <div>
-      <h1>{title}</h1>
-      <Select label={t("loom.file")} value={file} choices={choices} onChange={rename} />
+    <div class="app-plain">
+      <h1>{t("loom.title")}</h1>
+      <Progress label={t("loom.loading")} />
     </div>
   );
+}
+
+function NoLoom() {
+  useReady(true);
+  return (
+    <div class="app-plain">
+      <h1>{t("loom.title")}</h1>
+      <p>{t("loom.noLoom")}</p>
+      <div class="ui-row">
+        <Button kind="primary" onClick={() => goTo("machine", "automated-loom")}>
+          {t("loom.designOne")}
+        </Button>
+        <Button onClick={() => goTo("carpet")}>{t("loom.toCarpet")}</Button>
+      </div>
+    </div>
+  );
+}
+
+function Source({ file, files }: LoomOfProps) {
+  const choices = files.map((path) => ({ value: path, label: path }));
+  return <Select label={t("loom.file")} value={file} choices={choices} onChange={rename} />;
 }
 
 function Files({ file }: { file: string }) {
@@ -135,14 +152,14 @@ function command(file: string): string {
   return file === RECIPE ? `ilmek weave ${file}` : `ilmek design ${file} --glb loom.glb`;
 }
 
-function Sorry({ text, file }: { text: string; file: string }) {
+function Sorry({ file, files, reason }: LoomOfProps & { reason: string }) {
   return (
     <div class="app-plain">
       <h1>{t("loom.title")}</h1>
       <p class="ui-callout bad" role="alert">
-        {text}
+        {`${t("loom.failed")}: ${reason}`}
       </p>
-      <Source file={file} title="" />
+      <Source file={file} files={files} />
       <CopyCommand command={command(file)} />
     </div>
   );

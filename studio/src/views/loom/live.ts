@@ -1,9 +1,12 @@
 /** What a run shows in the picture: woven rows, where the heads stand, and the angles of row and knot. */
 import type { RunNews } from "../../api/messages";
 import { type Angles, TURN } from "./motion";
+import type { Run } from "./run";
 import type { SceneModel } from "./scene";
 
 export interface Live {
+  /** The run turns the loom, nobody else. */
+  going: boolean;
   rows: number;
   heads: number[];
   angles: Angles;
@@ -15,7 +18,7 @@ export interface Live {
  * While knots are tied the row stands at its beginning and each knot turns by the loom's clock; while wefts are laid and
  * beaten, from the instant `tied` on at which the last knot was tied, the row turns.
  */
-export function liveOf(model: SceneModel, news: RunNews, before: Live | null, tied: number): Live {
+export function liveOf(model: SceneModel, { going, tied }: Run, news: RunNews, before: Live | null): Live {
   const { carpet, periods, frames, heads } = model.about;
   const rest = model.floats(frames.find((one) => one.name === heads)?.origins ?? [0, 0]);
   const across = (column: number) => (column + 0.5) * carpet.columnPitch - (carpet.columns * carpet.columnPitch) / 2;
@@ -25,6 +28,7 @@ export function liveOf(model: SceneModel, news: RunNews, before: Live | null, ti
   });
   const tying = news.tied < news.due;
   return {
+    going,
     rows: Math.min(news.row + (tying ? 0 : 1), news.rows),
     heads: at,
     angles: {

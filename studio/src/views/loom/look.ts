@@ -9,6 +9,7 @@ export interface Look {
   pile: string;
   carpet: string;
   chosen: string;
+  failed: string;
   envelope: string;
   steel: string;
   hard: string;
@@ -25,6 +26,7 @@ const LIGHT: Look = {
   pile: "#1f4e8c",
   carpet: "#b9ad94",
   chosen: "#e8a200",
+  failed: "#d22f27",
   envelope: "#5b86b8",
   steel: "#9aa5b1",
   hard: "#7b8794",
@@ -41,6 +43,7 @@ const DARK: Look = {
   pile: "#8fbcf5",
   carpet: "#8d836c",
   chosen: "#ffc53d",
+  failed: "#ff6b5e",
   envelope: "#5b86b8",
   steel: "#8b97a3",
   hard: "#75808b",

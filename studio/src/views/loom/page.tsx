@@ -1,10 +1,9 @@
 /** The loom in space in a page by itself, loom.html: its data stand in the page, no server is needed. */
 import { render } from "preact";
 import { unpacked } from "../../api/request";
-import { t } from "../../text";
 import shared from "../../ui/style.css?inline";
 import own from "./loom.css?inline";
-import { type SceneAbout, sceneModel } from "./scene";
+import { modelOf, type SceneAbout } from "./scene";
 import { Workbench } from "./workbench";
 
 const PAGE =
@@ -24,15 +23,7 @@ async function inflated(text: string): Promise<ArrayBuffer> {
 
 /** Shows the scene in an element; its data are the text of the element with the id `loom-scene`. */
 async function show(into: HTMLElement): Promise<void> {
-  if (document.createElement("canvas").getContext("webgl2") === null) {
-    into.textContent = t("loom.noWebgl");
-    return;
-  }
-  const answer = unpacked<SceneAbout>(await inflated(document.getElementById("loom-scene")?.textContent ?? ""));
-  const [floats, integers, knots] = answer.parts(answer.about.lengths);
-  if (!floats || !integers || !knots) return;
-  const exact = (part: Uint8Array<ArrayBuffer>) =>
-    part.buffer.slice(part.byteOffset, part.byteOffset + part.byteLength);
+  const content = await inflated(document.getElementById("loom-scene")?.textContent ?? "");
   const root = into.attachShadow({ mode: "open" });
   const style = document.createElement("style");
   style.textContent = hosted(shared) + hosted(own) + PAGE;
@@ -40,7 +31,7 @@ async function show(into: HTMLElement): Promise<void> {
   host.className = "loom-host";
   root.append(style, host);
   theme(into);
-  render(<Workbench model={sceneModel(answer.about, exact(floats), exact(integers), knots)} />, host);
+  render(<Workbench model={modelOf(unpacked<SceneAbout>(content))} />, host);
 }
 
 /** The colours that the reader's system prefers. */

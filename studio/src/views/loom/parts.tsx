@@ -3,7 +3,7 @@ import type { ComponentChildren } from "preact";
 import { useId } from "preact/hooks";
 import { t } from "../../text";
 import { Button, formatQuantity } from "../../ui";
-import type { SceneCheck, ScenePart } from "./scene";
+import { failures, type SceneCheck, type SceneModel, type ScenePart } from "./scene";
 
 interface ListProps {
   parts: readonly ScenePart[];
@@ -35,7 +35,7 @@ export function PartList({ parts, chosen, onChoose }: ListProps) {
           <optgroup key={machine} label={machine}>
             {own.map((part) => (
               <option key={part.name} value={part.name} selected={part.name === chosen}>
-                {failed(part) > 0 ? `⚠ ${part.title}` : part.title}
+                {failures(part).length > 0 ? `⚠ ${part.title}` : part.title}
               </option>
             ))}
           </optgroup>
@@ -48,31 +48,89 @@ export function PartList({ parts, chosen, onChoose }: ListProps) {
   );
 }
 
-function failed(part: ScenePart): number {
-  return part.checks.filter((check) => !check.ok).length;
+/** The part after the chosen one for Page Down, the one before for Page Up; null for other keys. */
+export function neighbour(parts: readonly ScenePart[], chosen: string, key: string): string | null {
+  const step = { PageDown: 1, PageUp: -1 }[key];
+  if (step === undefined || parts.length === 0) return null;
+  const listed = byMachine(parts).flatMap(([, own]) => own);
+  const at = listed.findIndex((one) => one.name === chosen);
+  const next = at < 0 && step < 0 ? -1 : at + step;
+  return listed[(next + listed.length) % listed.length]?.name ?? null;
+}
+
+interface FailuresProps {
+  checks: readonly SceneCheck[];
+  parts: readonly ScenePart[];
+  onChoose: (name: string) => void;
+}
+
+/** The checks of the loom that fail, with what cures them and the parts that they concern. */
+export function Failures({ checks, parts, onChoose }: FailuresProps) {
+  if (checks.length === 0) return null;
+  return (
+    <section class="ui-callout bad loom-failures" aria-label={t("loom.failures")}>
+      <b>{t("loom.unsound", { count: checks.length })}</b>
+      <ul>
+        {checks.map((check) => (
+          <li key={check.name}>
+            {`${check.name}: ${judged(check)}`}
+            {check.cure !== "" && <p>{check.cure}</p>}
+            {parts
+              .filter((part) => failures(part).some((one) => one.name === check.name))
+              .map((part) => (
+                <Button key={part.name} size="small" onClick={() => onChoose(part.name)}>
+                  {part.title}
+                </Button>
+              ))}
+          </li>
+        ))}
+      </ul>
+    </section>
+  );
+}
+
+/** Extents of a part as it is made [m]: across, upright, front to back. */
+export function extents(model: SceneModel, part: ScenePart): [number, number, number] {
+  const points = part.solids[0] ? model.floats(part.solids[0].points) : new Float32Array();
+  const [low, high] = [Array(3).fill(Number.POSITIVE_INFINITY), Array(3).fill(Number.NEGATIVE_INFINITY)];
+  points.forEach((value, k) => {
+    low[k % 3] = Math.min(low[k % 3], value);
+    high[k % 3] = Math.max(high[k % 3], value);
+  });
+  return [0, 1, 2].map((k) => high[k] - low[k]) as [number, number, number];
 }
 
 interface DetailsProps {
+  model: SceneModel;
   part: ScenePart;
-  onLook: () => void;
+  /** Brings it near; null: there is no picture. */
+  onLook: (() => void) | null;
   children?: ComponentChildren;
 }
 
-export function PartDetails({ part, onLook, children }: DetailsProps) {
-  const bad = failed(part);
+export function PartDetails({ model, part, onLook, children }: DetailsProps) {
+  const bad = failures(part).length;
   const facts: [string, string][] = [
     [t("loom.machine"), part.machine],
     [t("loom.material"), part.material || t("loom.notStated")],
     [t("loom.mass"), part.mass === null ? t("loom.notWeighed") : formatQuantity(part.mass, "kg")],
     [t("loom.number"), String(part.number)],
+    [
+      t("loom.extents"),
+      extents(model, part)
+        .map((one) => formatQuantity(one, "mm"))
+        .join(" × "),
+    ],
   ];
   return (
     <section class="loom-part" aria-live="polite">
       <div class="ui-row">
         <h2 class="ui-grow">{part.title}</h2>
-        <Button size="small" onClick={onLook}>
-          {t("loom.nearer")}
-        </Button>
+        {onLook && (
+          <Button size="small" onClick={onLook}>
+            {t("loom.nearer")}
+          </Button>
+        )}
       </div>
       {part.envelope && <p class="ui-muted">{t("loom.envelope")}</p>}
       <dl class="loom-facts">

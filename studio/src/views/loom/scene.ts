@@ -1,4 +1,5 @@
 /** A loom in space as the server sends it: what is said of it, and typed arrays of its numbers. */
+import type { Packed } from "../../api/request";
 
 export type Range = [first: number, count: number];
 
@@ -49,6 +50,11 @@ export interface ScenePart {
   envelope: boolean;
 }
 
+/** The checks that a part fails. */
+export function failures(part: ScenePart): SceneCheck[] {
+  return part.checks.filter((check) => !check.ok);
+}
+
 export interface SceneYarn {
   name: string;
   title: string;
@@ -74,6 +80,8 @@ export interface SceneAbout {
   title: string;
   heads: string;
   floor: number;
+  /** The checks of the whole loom that fail, also those that concern no part alone. */
+  failures: SceneCheck[];
   periods: Record<Drive, number>;
   frames: SceneFrame[];
   parts: ScenePart[];
@@ -127,4 +135,15 @@ export function sceneModel(
     integers: ([first, count]) => wholes.subarray(first, first + count),
     knots: about.chart === null ? null : knots,
   };
+}
+
+/** The model of a packed answer. */
+export function modelOf({ about, parts }: Packed<SceneAbout>): SceneModel {
+  const [floats, integers, knots] = parts(about.lengths);
+  if (!floats || !integers || !knots) throw new Error("a scene without its numbers");
+  return sceneModel(about, exact(floats), exact(integers), knots);
+}
+
+function exact(part: Uint8Array<ArrayBuffer>): ArrayBuffer {
+  return part.buffer.slice(part.byteOffset, part.byteOffset + part.byteLength);
 }

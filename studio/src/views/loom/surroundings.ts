@@ -20,11 +20,17 @@ export function floorGrid(height: number): three.Object3D {
   return grid;
 }
 
-/** Whether the processor itself draws: then edges are not smoothed, which takes most of the time. */
-export function drawnBySoftware(): boolean {
+export type Graphics = "none" | "processor" | "card";
+
+let known: Graphics | null = null;
+
+/** What draws: nothing, the processor itself, or a graphics card. */
+export function graphics(): Graphics {
+  if (known !== null) return known;
   const context = document.createElement("canvas").getContext("webgl2");
   const about = context?.getExtension("WEBGL_debug_renderer_info");
   const name = about ? String(context?.getParameter(about.UNMASKED_RENDERER_WEBGL)) : "";
   context?.getExtension("WEBGL_lose_context")?.loseContext();
-  return /swiftshader|llvmpipe|software|basic render/i.test(name);
+  known = context === null ? "none" : /swiftshader|llvmpipe|software|basic render/i.test(name) ? "processor" : "card";
+  return known;
 }

@@ -1,127 +1,168 @@
-/** Warps as one mesh of lines, which the graphics processor lifts; wefts and the yarns of the knots. */
+/** Warps, wefts and yarns of knots: ribbons as wide as the thread, a pixel at least, that face the camera. */
 import * as three from "three";
 import type { Look } from "./look";
 import { type Angles, type Frames, type Placed, warpShares, yarnPoints } from "./motion";
-import type { SceneModel, SceneYarn } from "./scene";
+import type { Drive, SceneModel } from "./scene";
+
+/** A segment of a thread from `from` to `to`; of a warp, its ends are lifted by shares of their lifts. */
+const VERTEX = `
+#include <clipping_planes_pars_vertex>
+attribute vec3 from;
+attribute vec3 to;
+attribute vec2 lifts;
+attribute float odd;
+uniform float radius;
+uniform float pixel;
+uniform vec2 shares;
+varying float across;
+varying float round;
+void main() {
+  vec3 lift = vec3(0.0, 0.0, mix(shares.x, shares.y, odd));
+  vec3 begin = (modelViewMatrix * vec4(from + lifts.x * lift, 1.0)).xyz;
+  vec3 end = (modelViewMatrix * vec4(to + lifts.y * lift, 1.0)).xyz;
+  vec4 mvPosition = vec4(mix(begin, end, position.y), 1.0);
+  float least = 0.5 * pixel * max(-mvPosition.z, 0.0);
+  mvPosition.xyz += normalize(cross(end - begin, mvPosition.xyz)) * max(radius, least) * position.x;
+  across = position.x;
+  round = clamp(radius / least - 1.0, 0.0, 1.0);
+  #include <clipping_planes_vertex>
+  gl_Position = projectionMatrix * mvPosition;
+}`;
+
+const FRAGMENT = `
+#include <clipping_planes_pars_fragment>
+uniform vec3 colour;
+varying float across;
+varying float round;
+void main() {
+  #include <clipping_planes_fragment>
+  float lit = mix(0.45, 1.15, sqrt(max(0.0, 1.0 - across * across)));
+  gl_FragColor = vec4(colour * mix(1.0, lit, round), 1.0);
+  #include <colorspace_fragment>
+}`;
 
 interface ShownYarn {
-  yarn: SceneYarn;
   number: number;
+  drive: Drive;
   placed: Placed;
-  points: Float32Array;
-  lines: three.Line[];
+  points: three.InstancedInterleavedBuffer;
+  meshes: three.Mesh[];
+  material: three.ShaderMaterial;
 }
 
 export class Threads {
   readonly group = new three.Group();
-  readonly materials: three.LineBasicMaterial[] = [];
-  private readonly lift = { value: new three.Vector2() };
-  private readonly warps: three.LineSegments;
+  private readonly warps: three.ShaderMaterial;
   private readonly yarns: ShownYarn[] = [];
 
   constructor(
     private readonly model: SceneModel,
     frames: Frames,
   ) {
-    this.warps = new three.LineSegments(warpGeometry(model), this.warpMaterial());
-    this.warps.frustumCulled = false;
-    this.group.add(this.warps);
-    model.about.yarns.forEach((yarn, number) => {
+    const { warps, yarns } = model.about;
+    this.warps = threadMaterial(warps.diameter);
+    this.group.add(threadMesh(warpSegments(model), this.warps));
+    yarns.forEach((yarn, number) => {
       const placed = frames.byName.get(yarn.frame);
-      if (placed !== undefined) this.addYarn(yarn, number, placed);
+      if (placed === undefined) return;
+      const points = new three.InstancedInterleavedBuffer(new Float32Array(3 * yarn.number), 3);
+      const [geometry, material] = [yarnSegments(points), threadMaterial(yarn.diameter)];
+      const meshes = Array.from({ length: placed.count }, () => threadMesh(geometry, material));
+      this.group.add(...meshes);
+      this.yarns.push({ number, drive: yarn.drive, placed, points, meshes, material });
     });
     this.update({ row: 0, knot: 0 });
   }
 
-  /** Number of warps that are drawn. */
-  get count(): number {
-    return this.model.about.warps.x[1];
+  get materials(): three.ShaderMaterial[] {
+    return [this.warps, ...this.yarns.map((one) => one.material)];
   }
 
   update(angles: Angles): void {
-    const [even, odd] = warpShares(this.model, angles.row);
-    this.lift.value.set(even, odd);
-    for (const { yarn, number, placed, points, lines } of this.yarns) {
-      yarnPoints(this.model, number, angles[yarn.drive], points);
-      lines.forEach((line, copy) => {
-        line.matrix.fromArray(placed.matrices, 16 * copy);
+    this.warps.uniforms["shares"]?.value.set(...warpShares(this.model, angles.row));
+    for (const { number, drive, placed, points, meshes } of this.yarns) {
+      yarnPoints(this.model, number, angles[drive], points.array as Float32Array);
+      points.needsUpdate = true;
+      meshes.forEach((mesh, copy) => {
+        mesh.matrix.fromArray(placed.matrices, 16 * copy);
       });
-      const geometry = lines[0]?.geometry;
-      const position = geometry?.getAttribute("position");
-      if (position !== undefined) position.needsUpdate = true;
     }
   }
 
   paint(look: Look): void {
-    const [warps, ...others] = this.materials;
-    warps?.color.set(look.warp);
-    others.forEach((material, k) => {
-      material.color.set(this.yarns[k]?.yarn.drive === "knot" ? look.pile : look.weft);
-    });
+    this.warps.uniforms["colour"]?.value.set(look.warp);
+    for (const { drive, material } of this.yarns)
+      material.uniforms["colour"]?.value.set(drive === "knot" ? look.pile : look.weft);
   }
 
-  dispose(): void {
-    this.warps.geometry.dispose();
-    for (const { lines } of this.yarns) lines[0]?.geometry.dispose();
-    for (const material of this.materials) material.dispose();
-  }
-
-  private warpMaterial(): three.LineBasicMaterial {
-    const material = new three.LineBasicMaterial();
-    material.onBeforeCompile = (shader) => {
-      shader.uniforms["shares"] = this.lift;
-      shader.vertexShader = `attribute float lifted;\nattribute float odd;\nuniform vec2 shares;\n${shader.vertexShader}`;
-      shader.vertexShader = shader.vertexShader.replace(
-        "#include <begin_vertex>",
-        "#include <begin_vertex>\ntransformed.z += lifted * mix(shares.x, shares.y, odd);",
-      );
-    };
-    this.materials.push(material);
-    return material;
-  }
-
-  private addYarn(yarn: SceneYarn, number: number, placed: Placed): void {
-    const points = new Float32Array(3 * yarn.number);
-    const geometry = new three.BufferGeometry();
-    geometry.setAttribute("position", new three.BufferAttribute(points, 3));
-    const material = new three.LineBasicMaterial();
-    this.materials.push(material);
-    const lines = Array.from({ length: placed.count }, () => {
-      const line = new three.Line(geometry, material);
-      line.matrixAutoUpdate = false;
-      line.frustumCulled = false;
-      return line;
-    });
-    this.group.add(...lines);
-    this.yarns.push({ yarn, number, placed, points, lines });
+  /** Size of a pixel at a distance of 1. */
+  setPixel(pixel: number): void {
+    for (const { uniforms } of this.materials) if (uniforms["pixel"]) uniforms["pixel"].value = pixel;
   }
 }
 
-/** Every warp's line as segments; each point with its lift [m] and the parity of its warp. */
-function warpGeometry(model: SceneModel): three.BufferGeometry {
+function threadMaterial(diameter: number): three.ShaderMaterial {
+  return new three.ShaderMaterial({
+    vertexShader: VERTEX,
+    fragmentShader: FRAGMENT,
+    uniforms: {
+      radius: { value: diameter / 2 },
+      pixel: { value: 1e-3 },
+      shares: { value: new three.Vector2() },
+      colour: { value: new three.Color() },
+    },
+    side: three.DoubleSide,
+    clipping: true,
+  });
+}
+
+function threadMesh(geometry: three.BufferGeometry, material: three.Material): three.Mesh {
+  const mesh = new three.Mesh(geometry, material);
+  mesh.matrixAutoUpdate = false;
+  mesh.frustumCulled = false;
+  return mesh;
+}
+
+/** A ribbon for each segment: x from edge to edge, y from its beginning to its end. */
+function ribbons(segments: number): three.InstancedBufferGeometry {
+  const geometry = new three.InstancedBufferGeometry();
+  geometry.setAttribute("position", new three.Float32BufferAttribute([-1, 0, 0, 1, 0, 0, -1, 1, 0, 1, 1, 0], 3));
+  geometry.setIndex([0, 1, 2, 2, 1, 3]);
+  geometry.instanceCount = segments;
+  return geometry;
+}
+
+/** The segments between points that follow each other. */
+function yarnSegments(points: three.InstancedInterleavedBuffer): three.BufferGeometry {
+  const geometry = ribbons(points.count - 1);
+  geometry.setAttribute("from", new three.InterleavedBufferAttribute(points, 3, 0));
+  geometry.setAttribute("to", new three.InterleavedBufferAttribute(points, 3, 3));
+  return geometry;
+}
+
+/** Every warp's line as segments, with the lifts of their ends [m] and the parity of the warp. */
+export function warpSegments(model: SceneModel): three.InstancedBufferGeometry {
   const { warps } = model.about;
   const [x, line] = [model.floats(warps.x), model.floats(warps.line)];
   const [shaft, odd] = [model.integers(warps.shaft), model.integers(warps.odd)];
-  const count = line.length / 2;
-  const points: number[] = [];
-  const lifted: number[] = [];
-  const parity: number[] = [];
+  const made: Record<string, number[]> = { from: [], to: [], lifts: [], odd: [] };
+  const point = (warp: number, k: number) => [x[warp] ?? 0, line[2 * k + 1] ?? 0, line[2 * k] ?? 0];
   for (let warp = 0; warp < x.length; warp++) {
     const own = shaft[warp] ?? 0;
-    const path = Array.from({ length: count }, (_, k) => k).filter((k) => {
-      const number = warps.lifted.indexOf(k);
-      return number < 0 || number === own;
-    });
-    for (let k = 0; k + 1 < path.length; k++)
-      for (const index of [path[k] ?? 0, path[k + 1] ?? 0]) {
-        points.push(x[warp] ?? 0, line[2 * index + 1] ?? 0, line[2 * index] ?? 0);
-        lifted.push(warps.lifted[own] === index ? (warps.lifts[own] ?? 0) : 0);
-        parity.push(odd[warp] ?? 0);
-      }
+    const others = warps.lifted.filter((_, number) => number !== own);
+    const path = Array.from({ length: line.length / 2 }, (_, k) => k).filter((k) => !others.includes(k));
+    const lift = (k: number) => (warps.lifted[own] === k ? (warps.lifts[own] ?? 0) : 0);
+    for (const [n, k] of path.slice(0, -1).entries()) {
+      const next = path[n + 1] ?? k;
+      made["from"]?.push(...point(warp, k));
+      made["to"]?.push(...point(warp, next));
+      made["lifts"]?.push(lift(k), lift(next));
+      made["odd"]?.push(odd[warp] ?? 0);
+    }
   }
-  const geometry = new three.BufferGeometry();
-  geometry.setAttribute("position", new three.Float32BufferAttribute(points, 3));
-  geometry.setAttribute("lifted", new three.Float32BufferAttribute(lifted, 1));
-  geometry.setAttribute("odd", new three.Float32BufferAttribute(parity, 1));
+  const segments = made["odd"]?.length ?? 0;
+  const geometry = ribbons(segments);
+  for (const [name, values] of Object.entries(made))
+    geometry.setAttribute(name, new three.InstancedBufferAttribute(new Float32Array(values), values.length / segments));
   return geometry;
 }

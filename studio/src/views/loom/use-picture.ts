@@ -1,7 +1,7 @@
 /** A stage on a canvas: made when the canvas is there, as large as it, in the colours of the theme. */
 import type { RefObject } from "preact";
 import { useEffect, useRef } from "preact/hooks";
-import type { SceneModel } from "./scene";
+import { failures, type SceneModel } from "./scene";
 import { Stage } from "./stage";
 
 interface PictureOptions {
@@ -39,7 +39,7 @@ export function usePicture(
     paint();
     sized();
     made.show("iso");
-    const end = clicks(element, (x, y) => wanted.current.onPick(made.pick(x, y)?.name ?? ""));
+    const end = clicks(element, (x, y) => wanted.current.onPick(made.pick(x, y)));
     return () => {
       end();
       watch.disconnect();
@@ -72,14 +72,17 @@ function clicks(element: HTMLElement, chosen: (x: number, y: number) => void): (
 }
 
 function drawLabels(stage: Stage, into: HTMLElement, shown: boolean, canvas: HTMLElement): void {
-  const parts = stage.model.about.parts.slice(0, 200);
-  const found = shown ? spaced(stage.labels(parts.map((one) => one.name)), canvas) : [];
+  const { parts } = stage.model.about;
+  const found = shown ? spaced(stage.labels(), canvas) : [];
   while (into.children.length > found.length) into.lastElementChild?.remove();
   while (into.children.length < found.length) into.append(document.createElement("span"));
   found.forEach((one, k) => {
     const label = into.children[k] as HTMLElement;
-    label.textContent = parts.find((part) => part.name === one.name)?.title ?? one.name;
-    label.style.transform = `translate(${Math.round(one.left)}px, ${Math.round(one.top)}px)`;
+    const part = parts.find((each) => each.name === one.name);
+    const mark = part && failures(part).length > 0 ? "⚠ " : "";
+    label.textContent = mark + (part?.title ?? one.name).split(/[:,]/)[0];
+    const left = Math.min(one.left, canvas.clientWidth - label.offsetWidth - 8);
+    label.style.transform = `translate(${Math.round(left)}px, ${Math.round(one.top)}px)`;
   });
 }
 

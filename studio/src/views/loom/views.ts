@@ -1,7 +1,7 @@
 /** Standard views and where the camera stands for them; what a key does to the camera. */
-export type ViewName = "iso" | "front" | "side" | "above" | "fell" | "head";
+export type ViewName = "iso" | "front" | "side" | "above" | "fell" | "shed" | "head";
 
-export const VIEW_NAMES: ViewName[] = ["iso", "front", "side", "above", "fell", "head"];
+export const VIEW_NAMES: ViewName[] = ["iso", "front", "side", "above", "fell", "shed", "head"];
 
 /** Direction from the target to the camera: x to the weaver's right, y up, z to the front. */
 export const DIRECTIONS: Record<ViewName, [number, number, number]> = {
@@ -10,7 +10,8 @@ export const DIRECTIONS: Record<ViewName, [number, number, number]> = {
   side: [1, 0.02, 0.0001],
   above: [0, 1, 0.0001],
   fell: [0.5, 0.35, 1],
-  head: [0.7, 0.35, 1],
+  shed: [1, 0.06, 0.62],
+  head: [1, 0.3, 0.4],
 };
 
 export interface Box {

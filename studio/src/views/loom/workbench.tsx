@@ -1,152 +1,164 @@
-/** The picture of a loom with everything that is set by hand; it needs no server. */
+/** The picture of a loom with everything that is set by hand, and its parts; it needs no server. */
 import type { ComponentChildren } from "preact";
 import { useCallback, useEffect, useRef, useState } from "preact/hooks";
-import { formatNumber, t } from "../../text";
-import { Button, Select, Slider, Toggle } from "../../ui";
+import { t } from "../../text";
+import { Tabs } from "../../ui";
+import { Controls, type PictureState } from "./controls";
 import { DriveBar } from "./drive-bar";
 import type { Live } from "./live";
-import { PartDetails, PartList } from "./parts";
-import { usePlayer } from "./player";
+import { TURN } from "./motion";
+import { Failures, neighbour, PartDetails, PartList } from "./parts";
+import { type Player, usePlayer } from "./player";
 import type { Drive, SceneModel } from "./scene";
+import type { Stage } from "./stage";
+import { graphics } from "./surroundings";
 import { usePicture } from "./use-picture";
-import { VIEW_NAMES } from "./views";
 
-interface WorkbenchProps {
+export interface WorkbenchProps {
   model: SceneModel;
-  /** What a server adds: the source of the loom above, files and a run below. */
+  /** What a server adds: the source of the loom above, its files below, and a run of the twin. */
   above?: ComponentChildren;
   below?: ComponentChildren;
+  running?: ComponentChildren;
   /** The drawing of a plate, where it can be had. */
   drawing?: (plate: string) => ComponentChildren;
-  /** Rows that a run has woven, and the positions of its heads across [m]; null: set by hand. */
+  /** Rows that a run has woven, its heads and angles; null: none. */
   live?: Live | null;
 }
 
-type Axis = "none" | "x" | "y" | "z";
+type Tab = "look" | "parts" | "run";
 
-export function Workbench({ model, above, below, drawing, live = null }: WorkbenchProps) {
+/** A press of "," or "." turns by so much, with Shift by ten times [rad]. */
+const SCRUB = TURN / 360;
+
+export function Workbench({ model, above, below, running, drawing, live = null }: WorkbenchProps) {
   const { about } = model;
-  const all = about.carpet.rows;
+  const drawn = graphics() !== "none";
   const [drive, setDrive] = useState<Drive>("row");
   const [chosen, setChosen] = useState("");
-  const [followed, setFollowed] = useState("");
-  const [axis, setAxis] = useState<Axis>("none");
-  const [cut, setCut] = useState(0.5);
-  const [apart, setApart] = useState(0);
-  const [names, setNames] = useState(false);
-  const [rows, setRows] = useState(Math.round(0.6 * all));
+  const [tab, setTab] = useState<Tab>(drawn ? "look" : "parts");
+  const [state, setState] = useState<PictureState>(() => ({
+    followed: "",
+    axis: "none",
+    cut: 0.5,
+    apart: 0,
+    names: false,
+    rows: Math.round(0.6 * about.carpet.rows),
+  }));
   const canvas = useRef<HTMLCanvasElement>(null);
   const labels = useRef<HTMLDivElement>(null);
-  const stage = usePicture(model, canvas, labels, { names, onPick: setChosen });
+  const pick = (name: string) => {
+    setChosen(name);
+    if (name !== "") setTab("parts");
+  };
+  const stage = usePicture(model, canvas, labels, { names: state.names, onPick: pick });
   const show = useCallback(
     (angle: number) => stage.current?.turn({ row: drive === "row" ? angle : 0, knot: drive === "knot" ? angle : 0 }),
     [drive, model],
   );
   const player = usePlayer(about.periods[drive], show);
   useEffect(() => stage.current?.choose(chosen), [chosen]);
-  useEffect(() => stage.current?.followHead(followed === "" ? null : Number(followed)), [followed]);
-  useEffect(() => stage.current?.section(axis === "none" ? null : axis, cut), [axis, cut]);
-  useEffect(() => stage.current?.explode(apart), [apart]);
-  useEffect(() => stage.current?.weave(live?.rows ?? rows), [rows, live?.rows]);
+  useEffect(() => stage.current?.followHead(state.followed === "" ? null : Number(state.followed)), [state.followed]);
+  useEffect(
+    () => stage.current?.section(state.axis === "none" ? null : state.axis, state.cut),
+    [state.axis, state.cut],
+  );
+  useEffect(() => stage.current?.explode(state.apart), [state.apart]);
+  useEffect(() => stage.current?.weave(state.rows), [state.rows]);
   useEffect(() => {
     if (live === null) return;
+    if (live.going) player.playing.value = false;
+    setState((now) => (now.rows === live.rows ? now : { ...now, rows: live.rows }));
     stage.current?.putHeads(live.heads);
     stage.current?.turn(live.angles);
   }, [live]);
-  const key = (event: KeyboardEvent) => {
-    if (event.key === " ") player.playing.value = !player.playing.peek();
-    else if (event.key === "Home") stage.current?.show("iso");
-    else if (!stage.current?.key(event.key, event.shiftKey)) return;
+  const byHand = live?.going !== true;
+  const onKey = (event: KeyboardEvent) => {
+    const next = neighbour(about.parts, chosen, event.key);
+    if (next !== null) pick(next);
+    else if (!turned(event, player, byHand) && !moved(event, stage.current)) return;
     event.preventDefault();
   };
   const part = about.parts.find((one) => one.name === chosen);
   const heads = about.frames.find((one) => one.name === about.heads)?.origins[1] ?? 0;
-  const copies = heads / 3;
+  const tabs = [
+    ...(drawn ? [{ value: "look" as Tab, label: t("loom.look") }] : []),
+    { value: "parts" as Tab, label: t("loom.parts") },
+    ...(running === undefined ? [] : [{ value: "run" as Tab, label: t("loom.run") }]),
+  ];
   return (
     <div class="loom">
       <div class="loom-picture">
-        {/* biome-ignore lint/a11y/noInteractiveElementToNoninteractiveRole: the picture is worked by keys */}
-        <canvas
-          ref={canvas}
-          tabIndex={0}
-          role="application"
-          aria-label={t("loom.picture")}
-          aria-description={t("loom.pictureHelp")}
-          title={t("loom.pictureHelp")}
-          onKeyDown={key}
-        />
-        <div class="loom-labels" ref={labels} aria-hidden="true" />
-        <DriveBar
-          player={player}
-          drive={drive}
-          period={about.periods[drive]}
-          onDrive={(to) => {
-            setDrive(to);
-            player.angle.value = 0;
-          }}
-        />
+        {drawn ? (
+          <>
+            {/* biome-ignore lint/a11y/noInteractiveElementToNoninteractiveRole: the picture is worked by keys */}
+            <canvas
+              ref={canvas}
+              tabIndex={0}
+              role="application"
+              aria-label={t("loom.picture")}
+              aria-description={t("loom.pictureHelp")}
+              title={t("loom.pictureHelp")}
+              onKeyDown={onKey}
+            />
+            <div class="loom-labels" ref={labels} aria-hidden="true" />
+            {byHand && (
+              <DriveBar
+                player={player}
+                drive={drive}
+                period={about.periods[drive]}
+                onDrive={(to) => {
+                  setDrive(to);
+                  player.angle.value = 0;
+                }}
+              />
+            )}
+          </>
+        ) : (
+          <p class="ui-callout warn">{t("loom.noWebgl")}</p>
+        )}
       </div>
       <div class="loom-side">
         {above}
-        <fieldset class="loom-views">
-          <legend>{t("loom.views")}</legend>
-          {VIEW_NAMES.map((name) => (
-            <Button key={name} size="small" onClick={() => stage.current?.show(name)}>
-              {t(`loom.${name}`)}
-            </Button>
-          ))}
-        </fieldset>
-        <Select
-          label={t("loom.follow")}
-          value={followed}
-          choices={[
-            { value: "", label: t("loom.nobody") },
-            ...Array.from({ length: copies }, (_, k) => ({
-              value: String(k),
-              label: t("loom.headNumber", { number: k + 1 }),
-            })),
-          ]}
-          onChange={setFollowed}
-        />
-        <Select
-          label={t("loom.section")}
-          value={axis}
-          choices={[
-            { value: "none" as Axis, label: t("loom.none") },
-            { value: "x" as Axis, label: t("loom.across") },
-            { value: "y" as Axis, label: t("loom.level") },
-            { value: "z" as Axis, label: t("loom.depth") },
-          ]}
-          onChange={setAxis}
-        />
-        {axis !== "none" && (
-          <Slider label={t("loom.cut")} value={cut} min={0} max={1} text={percent(cut)} onInput={setCut} />
-        )}
-        <Slider label={t("loom.explode")} value={apart} min={0} max={1} text={percent(apart)} onInput={setApart} />
-        {live === null && (
-          <Slider
-            label={t("loom.rows")}
-            value={rows}
-            min={0}
-            max={all}
-            step={1}
-            text={t("loom.rowsText", { rows, all })}
-            onInput={setRows}
-          />
-        )}
-        <Toggle label={t("loom.labels")} value={names} onChange={setNames} />
+        <Failures checks={about.failures} parts={about.parts} onChoose={pick} />
+        <Tabs label={t("loom.sides")} value={tab} tabs={tabs} onChange={setTab}>
+          <div class="loom-tab">
+            {tab === "look" && (
+              <Controls
+                state={state}
+                heads={heads / 3}
+                rows={byHand ? about.carpet.rows : null}
+                onShow={(view) => stage.current?.show(view)}
+                onChange={(change) => setState((now) => ({ ...now, ...change }))}
+              />
+            )}
+            {tab === "parts" && <PartList parts={about.parts} chosen={chosen} onChoose={setChosen} />}
+            {tab === "parts" && part && (
+              <PartDetails model={model} part={part} onLook={drawn ? () => stage.current?.lookAt(part.name) : null}>
+                {part.plate !== "" && drawing?.(part.plate)}
+              </PartDetails>
+            )}
+            {tab === "run" && running}
+          </div>
+        </Tabs>
         {below}
-        <PartList parts={about.parts} chosen={chosen} onChoose={setChosen} />
-        {part && (
-          <PartDetails part={part} onLook={() => stage.current?.lookAt(part.name)}>
-            {part.plate !== "" && drawing?.(part.plate)}
-          </PartDetails>
-        )}
       </div>
     </div>
   );
 }
 
-function percent(share: number): string {
-  return `${formatNumber(Math.round(100 * share))} %`;
+/** What a key does to the camera; whether it does anything. */
+function moved({ key, shiftKey }: KeyboardEvent, stage: Stage | null): boolean {
+  if (key !== "Home") return stage?.key(key, shiftKey) ?? false;
+  stage?.show("iso");
+  return true;
+}
+
+/** What a key does to the master angle; whether it does anything. */
+function turned({ key }: KeyboardEvent, { playing, angle }: Player, byHand: boolean): boolean {
+  const steps = { ",": -1, ".": 1, "<": -10, ">": 10 }[key];
+  if (!byHand || (steps === undefined && key !== " ")) return false;
+  if (steps === undefined) playing.value = !playing.peek();
+  else angle.value = (angle.peek() + steps * SCRUB + TURN) % TURN;
+  return true;
 }

@@ -40,6 +40,7 @@ def scene(loom: LoomDesign, report: Report) -> Scene:
         periods={ROW: loom.row_cyclogram.period, KNOT: loom.times.knot},
         heads=HEAD,
         floor=loom.side.floor,
+        failures=tuple(check for check in report.all_checks if not check.ok),
     )
 
 
@@ -71,7 +72,7 @@ def warp_line(made: SceneMaker) -> tuple[Float[np.ndarray, "points 2"], tuple[in
     side = made.loom.side
     rest = side.back_rest
     heights = [float(cam.at.imag) for cam in side.cams]
-    points = [0j, *(1j * height for height in heights), 1j * side.spans.back_rest]
+    points = [0j, *(1j * height for height in heights)]
     over = rest.at + rest.radius * np.exp(1j * np.linspace(0.0, turn / 4, _ARC))
     points += [*over.tolist(), complex(side.upper.at + 1j * side.upper.radius)]
     line = np.array(points)

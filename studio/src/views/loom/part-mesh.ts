@@ -1,0 +1,149 @@
+/** A part in the picture: its copies as instances, as fine as the picture needs. */
+import * as three from "three";
+import { spacingOf, strideFor, thinned } from "./crowd";
+import { colourOf, type Look } from "./look";
+import type { Placed } from "./motion";
+import { failures, type SceneModel, type ScenePart } from "./scene";
+import { levelFor } from "./views";
+
+/** Copies of a part from which on only those that are needed are drawn. */
+const CROWD = 64;
+
+/** Deviation of a solid from the part that is not seen [px]. */
+const COARSE = 1.3;
+
+/** Copies that are looked at for the box of a part. */
+const MOST_BOXED = 9;
+
+export class PartMesh {
+  readonly mesh: three.InstancedMesh<three.BufferGeometry, three.MeshLambertMaterial>;
+  /** Where the part is moved when the loom is exploded, for the factor 1 [m]. */
+  readonly apart = new three.Vector3();
+  private readonly levels: three.BufferGeometry[];
+  private readonly sphere: three.Sphere;
+  /** The matrices of all copies of a crowd; of others those that are drawn. */
+  private readonly all: Float32Array;
+  private readonly spacing: number;
+  private anchor: three.Vector3 | null = null;
+
+  constructor(
+    readonly part: ScenePart,
+    readonly placed: Placed,
+    model: SceneModel,
+  ) {
+    this.levels = part.solids.map((solid) => {
+      const geometry = new three.BufferGeometry();
+      geometry.setAttribute("position", new three.BufferAttribute(model.floats(solid.points), 3));
+      geometry.setIndex(new three.BufferAttribute(model.integers(solid.triangles), 1));
+      geometry.computeBoundingSphere();
+      geometry.computeBoundingBox();
+      return geometry;
+    });
+    const material = new three.MeshLambertMaterial({ flatShading: true });
+    if (part.envelope) Object.assign(material, { transparent: true, depthWrite: false });
+    this.mesh = new three.InstancedMesh(this.finest, material, placed.count);
+    this.mesh.name = part.name;
+    this.mesh.frustumCulled = false;
+    this.sphere = this.finest.boundingSphere ?? new three.Sphere();
+    this.spacing = spacingOf(placed.matrices, placed.count);
+    this.all = this.isCrowd ? placed.matrices.slice() : (this.mesh.instanceMatrix.array as Float32Array);
+  }
+
+  get failed(): boolean {
+    return failures(this.part).length > 0;
+  }
+
+  /** Frees what is not in the scene: its material is. */
+  dispose(): void {
+    for (const level of this.levels) level.dispose();
+    this.mesh.dispose();
+  }
+
+  /** Writes where the copies are; of a crowd those that are drawn are chosen for each picture. */
+  arrange(exploded: number): void {
+    this.all.set(this.placed.matrices);
+    if (exploded > 0)
+      for (let k = 0; k < this.placed.count; k++)
+        this.apart.toArray().forEach((shift, axis) => {
+          this.all[16 * k + 12 + axis] = (this.all[16 * k + 12 + axis] ?? 0) + exploded * shift;
+        });
+    this.changed();
+  }
+
+  /** Takes the coarsest solid that deviates by less than a pixel, a size in metres; of a crowd the copies in view. */
+  detail(pixel: number, view: three.Frustum): void {
+    const deviations = this.part.solids.map((solid) => solid.deviation);
+    this.mesh.geometry = this.levels[levelFor(deviations, COARSE * pixel)] ?? this.finest;
+    if (!this.isCrowd) return;
+    const stride = strideFor(this.spacing, pixel);
+    const reach = this.sphere.radius + this.sphere.center.length() + stride * this.spacing;
+    const seen = new three.Sphere(new three.Vector3(), reach);
+    const into = this.mesh.instanceMatrix.array as Float32Array;
+    this.mesh.count = thinned(this.all, this.placed.count, stride, into, (x, y, z) => {
+      seen.center.set(x, y, z);
+      return view.intersectsSphere(seen);
+    });
+    this.changed();
+  }
+
+  paint(look: Look, chosen: boolean): void {
+    const { material } = this.mesh;
+    material.color.set(chosen ? look.chosen : this.failed ? look.failed : colourOf(this.part, look));
+    if (this.part.envelope) material.opacity = chosen || this.failed ? 0.55 : 0.25;
+  }
+
+  /** The box of the copies, into `box`. */
+  boxed(box: three.Box3): three.Box3 {
+    box.makeEmpty();
+    const [matrix, own, last] = [new three.Matrix4(), new three.Box3(), this.placed.count - 1];
+    const steps = Math.min(MOST_BOXED - 1, last);
+    for (let k = 0; k <= steps; k++) {
+      matrix.fromArray(this.all, 16 * (steps === 0 ? 0 : Math.round((k * last) / steps)));
+      if (this.finest.boundingBox) box.union(own.copy(this.finest.boundingBox).applyMatrix4(matrix));
+    }
+    return box;
+  }
+
+  /** A point on the middle copy, as near as can be to its middle. */
+  shownAt(): three.Vector3 {
+    this.anchor ??= innermost(this.finest);
+    const matrix = new three.Matrix4().fromArray(this.all, 16 * (this.placed.count >> 1));
+    return this.anchor.clone().applyMatrix4(matrix);
+  }
+
+  private get isCrowd(): boolean {
+    return this.placed.count > CROWD;
+  }
+
+  private get finest(): three.BufferGeometry {
+    return this.levels[0] as three.BufferGeometry;
+  }
+
+  private changed(): void {
+    this.mesh.instanceMatrix.needsUpdate = true;
+    this.mesh.boundingSphere = null;
+  }
+}
+
+/** The middle of the triangle that is nearest to the middle of the box. */
+function innermost(geometry: three.BufferGeometry): three.Vector3 {
+  const [middle, found, corner, at] = [0, 1, 2, 3].map(() => new three.Vector3()) as [
+    three.Vector3,
+    three.Vector3,
+    three.Vector3,
+    three.Vector3,
+  ];
+  geometry.boundingBox?.getCenter(middle);
+  const [position, index] = [geometry.getAttribute("position"), geometry.getIndex()];
+  let least = Number.POSITIVE_INFINITY;
+  for (let k = 0; k + 2 < (index?.count ?? 0); k += 3) {
+    at.set(0, 0, 0);
+    for (let n = 0; n < 3; n++)
+      at.addScaledVector(corner.fromBufferAttribute(position, index?.getX(k + n) ?? 0), 1 / 3);
+    const far = at.distanceToSquared(middle);
+    if (far >= least) continue;
+    least = far;
+    found.copy(at);
+  }
+  return found;
+}
