@@ -10,7 +10,6 @@ const place = document.getElementById("studio");
 if (place !== null) {
   connect();
   await applySettings();
-  connect();
   follow();
   render(<App />, place);
 }

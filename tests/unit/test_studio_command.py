@@ -18,16 +18,18 @@ import pytest
 from click.testing import CliRunner
 
 from ilmek.cli import main
+from ilmek.jobs.studio.project.opening import open_project, served_alone
 
 
 @contextmanager
-def started(project: Path, *options: str) -> Iterator[tuple["subprocess.Popen[str]", int, str]]:
-    """A studio in a process: the process, its port and its token."""
+def started(project: Path, *options: str, token: bool = True) -> Iterator[tuple["subprocess.Popen[str]", int, str]]:
+    """A studio in a process: the process, its port and its token, if it has one."""
     command = [sys.executable, "-m", "ilmek", "studio", str(project), "--no-browser", *options]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     try:
         assert process.stdout is not None
-        found = re.fullmatch(r"http://127\.0\.0\.1:(\d+)/\?token=([\w-]+)\n", process.stdout.readline())
+        pattern = r"http://127\.0\.0\.1:(\d+)/" + (r"\?token=([\w-]+)\n" if token else "()\n")
+        found = re.fullmatch(pattern, process.stdout.readline())
         assert found is not None
         yield process, int(found[1]), found[2]
     finally:
@@ -88,6 +90,43 @@ def test_a_port_in_use_is_reported(tmp_path: Path) -> None:
             process.terminate()
             _, errors = process.communicate(timeout=5)
     assert errors.splitlines()[0] == f"note: port {port} is in use; the studio takes {taken}"
+
+
+def test_a_second_studio_on_the_project_is_reported(tmp_path: Path) -> None:
+    note = "note: the project is open in another studio too; each shows what the other saves"
+    with started(tmp_path / "carpets", "--port", "0") as (one, *_), started(tmp_path / "carpets", "--port", "0") as two:
+        for process, reported in ((one, False), (two[0], True)):
+            process.send_signal(signal.SIGINT)
+            assert (note in process.communicate(timeout=20)[1].splitlines()) is reported
+
+
+def test_a_project_is_served_alone_again_after_the_others_end(tmp_path: Path) -> None:
+    project = open_project(tmp_path / "carpets")
+    with served_alone(project) as first, served_alone(project) as second:
+        assert (first, second) == (True, False)
+    with served_alone(project) as third:
+        assert third
+
+
+def test_no_secret_is_on_a_command_line_or_in_the_environment(tmp_path: Path) -> None:
+    (tmp_path / "password").write_text("right horse staple\n")
+    (tmp_path / "password").chmod(0o600)
+    options = ("--port", "0", "--password-file", str(tmp_path / "password"))
+    with started(tmp_path / "carpets", *options, token=False) as (process, port, _):
+        assert get(port, "/")[0] == 303
+        shown = secrets_of(process.pid)
+    with started(tmp_path / "carpets", "--port", "0") as (process, port, token):
+        assert get(port, "/api/machines", Authorization=f"Bearer {token}")[0] == 200
+        shown += secrets_of(process.pid)
+    assert b"ilmek" in shown
+    for secret in ("horse", token, (tmp_path / "carpets" / ".studio" / "secret").read_text()):
+        assert secret.encode() not in shown
+
+
+def secrets_of(number: int) -> bytes:
+    """What other programs can see of a process and its workers."""
+    folders = [Path(f"/proc/{process}") for process in (number, *children(number))]
+    return b"".join((folder / name).read_bytes() for folder in folders for name in ("cmdline", "environ"))
 
 
 def refused(*arguments: str, typed: str = "") -> str:

@@ -1,19 +1,23 @@
 """Who may use the studio: each refusal over a real connection."""
 
 import contextlib
+import errno
 import http.client
 import json
 import os
 import socket
 import time
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from studio_server import Studio, studio
 from websockets.exceptions import InvalidStatus
 
 from ilmek.errors import LoomError, ParameterError
+from ilmek.web import login
 from ilmek.web.safety import LONGEST_BODY, Access
 from ilmek.web.serve import StudioOrder, access_to, bound_socket, checked_order, project_secret
 from ilmek.web.static_files import within
@@ -93,6 +97,7 @@ def test_the_names_of_this_computer_are_allowed(server: Studio, host: str) -> No
         {"origin": "http://127.0.0.1:1"},
         {"sec-fetch-site": "cross-site"},
         {"sec-fetch-site": "same-site"},
+        {"referer": "https://evil.example/", "sec-fetch-site": "cross-site", "sec-fetch-mode": "navigate"},
     ],
 )
 def test_requests_of_other_sites_are_refused_also_websockets(server: Studio, headers: dict[str, str]) -> None:
@@ -259,6 +264,39 @@ def test_the_secret_is_kept_for_its_owner_alone(tmp_path: Path) -> None:
     (tmp_path / ".studio" / "secret").chmod(0o644)
     with pytest.raises(LoomError, match="others can read"):
         project_secret(tmp_path)
+
+
+def test_a_port_of_the_system_is_not_called_in_use(monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(*_: object) -> None:
+        raise PermissionError(errno.EACCES, "Permission denied")
+
+    monkeypatch.setattr(socket, "socket", lambda *_: SimpleNamespace(bind=refuse, close=tuple, setsockopt=refuse_not))
+    with pytest.raises(LoomError, match="port 80 is for the system alone; give --port 1024 or more"):
+        bound_socket("127.0.0.1", 80)
+
+
+def refuse_not(*_: object) -> None:
+    """Take any option."""
+
+
+def test_the_server_listens_at_the_loopback_alone(server: Studio) -> None:
+    assert StudioOrder(Path()).host == "127.0.0.1"
+    others = {"127.0.0.2", *socket.gethostbyname_ex(socket.gethostname())[2]} - {"127.0.0.1"}
+    for other in others:
+        with pytest.raises(OSError, match="refused|timed out"):
+            socket.create_connection((other, server.port), timeout=2)
+
+
+def test_many_passwords_at_a_time_are_refused(guarded: Studio, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(login, "LONGEST_DELAY", 0.3)
+
+    def guess(_: int) -> int:
+        return guarded.send("POST", "/login", b"password=wrong", {}).status
+
+    with ThreadPoolExecutor(20) as many:
+        statuses = list(many.map(guess, range(20)))
+    assert set(statuses) == {403, 429}
+    assert guarded.send("GET", "/api").status == 200  # those who are in stay in
 
 
 def test_a_port_in_use_is_followed_by_the_next() -> None:

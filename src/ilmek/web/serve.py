@@ -14,6 +14,7 @@ import uvicorn
 
 from ilmek.errors import LoomError, ParameterError
 from ilmek.io.secret_file import read_bounded, write_secret
+from ilmek.jobs.studio.project.opening import served_alone
 from ilmek.web.app import studio_app
 from ilmek.web.connection import BoundedConnection
 from ilmek.web.safety import Access
@@ -71,7 +72,9 @@ def bound_socket(host: str, port: int) -> socket.socket:
             listener.listen(_BACKLOG)
         except OSError as error:
             listener.close()
-            if error.errno not in (errno.EADDRINUSE, errno.EACCES):
+            if error.errno == errno.EACCES:
+                raise LoomError(f"port {number} is for the system alone", do="give --port 1024 or more") from None
+            if error.errno != errno.EADDRINUSE:
                 raise LoomError(
                     f"the studio cannot listen at {host} ({error.strerror})", do="give another --host"
                 ) from None
@@ -99,7 +102,7 @@ def access_to(order: StudioOrder, port: int, secret: str) -> Access:
 def serve(order: StudioOrder, note: Callable[[str], None], show: Callable[[str], None], *, browser: bool) -> None:
     """Serve a project until the process ends.
 
-    note  receives a line where the port is another      show  receives the address
+    note  receives a line where the port is another, or the project is open elsewhere      show  receives the address
     browser  open the address in the user's browser
     """
     checked_order(order)
@@ -116,7 +119,10 @@ def serve(order: StudioOrder, note: Callable[[str], None], show: Callable[[str],
         opened = address if order.password else f"{address}?token={access.browser_token}"
         threading.Thread(target=webbrowser.open, args=(opened,), daemon=True).start()
     app = studio_app(str(order.project.resolve()), access, f"ilmek-studio-{port}")
-    uvicorn.Server(uvicorn.Config(app, **server_settings())).run(sockets=[listener])
+    with served_alone(order.project) as alone:
+        if not alone:
+            note("the project is open in another studio too; each shows what the other saves")
+        uvicorn.Server(uvicorn.Config(app, **server_settings())).run(sockets=[listener])
 
 
 def server_settings() -> dict[str, Any]:

@@ -2,11 +2,13 @@
 
 import contextlib
 import os
+from collections.abc import Iterator
 from importlib import resources
 from importlib.resources.abc import Traversable
 from pathlib import Path
 
 from ilmek.errors import OutputError
+from ilmek.io.output import disk
 from ilmek.jobs.studio.project.folder import KINDS, OWN, SUFFIX, cannot, write_bytes
 
 EXAMPLE = "example_project"
@@ -45,6 +47,35 @@ def open_project(path: Path) -> Path:
     except OSError as error:
         raise cannot("be opened as a project", path, error) from None
     return folder
+
+
+@contextlib.contextmanager
+def served_alone(folder: Path) -> Iterator[bool]:
+    """Held while a studio serves a project: whether no other one does. Both may; saves wait for each other.
+
+    Raises OutputError.
+    """
+    path = folder / OWN / "served"
+    try:
+        handle = os.open(path, os.O_RDWR | os.O_CREAT, 0o600)
+    except OSError as error:
+        raise cannot("be written", path, error) from None
+    try:
+        yield disk.fcntl is None or _is_first(handle)
+    finally:
+        os.close(handle)
+
+
+def _is_first(handle: int) -> bool:
+    """Whether nobody else has locked a file; it is locked, until it is closed or its process ends."""
+    try:
+        disk.fcntl.flock(handle, disk.fcntl.LOCK_EX | disk.fcntl.LOCK_NB)
+        first = True
+    except OSError:
+        first = False
+    with contextlib.suppress(OSError):  # another one is just looking, or the file system has no locks
+        disk.fcntl.flock(handle, disk.fcntl.LOCK_SH | disk.fcntl.LOCK_NB)
+    return first
 
 
 def _is_project(folder: Path, names: set[str]) -> bool:
