@@ -97,11 +97,15 @@ export function saveAll(): Promise<unknown> {
   return Promise.all([...documents.values()].map((document) => document.flush()));
 }
 
-/** Creates a text file, of a text or as a copy of another one. Throws ApiError. */
-export async function newFile(path: string, content: { text?: string; source?: string } = {}): Promise<void> {
+/** Creates a text file, of a text, of plain data or as a copy of another one. Throws ApiError. */
+export async function newFile(
+  path: string,
+  { data, ...content }: { text?: string; source?: string; data?: unknown } = {},
+): Promise<void> {
   if (content.source !== undefined) await documents.get(content.source)?.flush();
   forget(path);
   await post("/project/new", { path, ...content });
+  if (data !== undefined) await serverApi.save(path, (await serverApi.read(path)).digest, { data });
   await refreshProject();
 }
 

@@ -15,10 +15,15 @@ interface Arrow {
   readonly key: string;
   readonly at: Vec;
   readonly to: Vec;
+  /** Its magnitude [SI]. */
+  readonly value: number;
 }
 
 /** Length on the screen of the greatest arrow of a motion [px]. */
 const LONGEST = 110;
+
+/** Share of the greatest one from which an arrow has its value beside it. */
+const LEAST_NAMED = 0.02;
 
 interface Props {
   editor: Editor;
@@ -50,6 +55,13 @@ export function Arrows({ editor, figure, camera, size }: Props) {
             {arrows.map((one) => (
               <path key={one.key} d={arrowPath(one.at, one.to)} />
             ))}
+            {arrows
+              .filter((one) => one.value > most * LEAST_NAMED)
+              .map((one) => (
+                <text key={one.key} x={one.to.x + 6} y={one.to.y + 14}>
+                  {formatQuantity(one.value, unit, 3)}
+                </text>
+              ))}
             <g class="legend" transform={`translate(${size.width - 150} ${22 + row * 22})`}>
               <path d={arrowPath(vec(0, 0), vec(LONGEST / 2, 0))} />
               <text x={LONGEST / 2 + 8} y={4}>
@@ -93,7 +105,7 @@ function arrow(
   const [x, y] = [between(series.x, sample), between(series.y, sample)];
   if (from === undefined || x === null || y === null) return [];
   const at = toScreen(camera, size, from);
-  return [{ key, at, to: vec(at.x + x * by, at.y - y * by) }];
+  return [{ key, at, to: vec(at.x + x * by, at.y - y * by), value: Math.hypot(x, y) }];
 }
 
 /** The greatest length of vectors over all samples. */

@@ -5,8 +5,8 @@ import { formatNumber, t } from "../../text";
 import { formatQuantity } from "../../ui";
 import { Arrows } from "./arrows";
 import type { Editor } from "./editor";
-import { type DrawnBody, type DrawnJoint, extent, type Figure } from "./figure";
-import { type Camera, fitted, gridStep, type Size, toScreen, type Vec } from "./geometry";
+import type { DrawnBody, DrawnJoint, Figure } from "./figure";
+import { type Camera, gridStep, type Size, toScreen, type Vec } from "./geometry";
 import { GROUND } from "./mechanism";
 import type { Pointer } from "./pointer";
 import type { Tools } from "./tools";
@@ -47,7 +47,7 @@ export function Canvas({ editor, tools, pointer }: Props) {
     const figure = editor.figure.value;
     if (fit.current || answer === null || figure === null) return;
     fit.current = true;
-    editor.camera.value = fitted(extent(answer, figure), pointer.size);
+    pointer.fit();
   });
   const figure = editor.figure.value;
   const camera = editor.camera.value;
@@ -76,19 +76,12 @@ export function Canvas({ editor, tools, pointer }: Props) {
         pointer.up(event.pointerId, position(event, event.currentTarget), event.pointerType === "touch")
       }
       onContextMenu={(event) => event.preventDefault()}
-      onKeyDown={(event) => {
-        if (event.ctrlKey || event.metaKey || event.altKey) return;
-        if (pointer.key(event.key, event.shiftKey)) {
-          event.preventDefault();
-          event.stopPropagation();
-        }
-      }}
     >
       {shown.grid && <Grid camera={camera} size={size} />}
       {figure !== null && (
         <>
           {shown.paths && <Paths editor={editor} camera={camera} size={size} />}
-          <Drawing editor={editor} figure={figure} camera={camera} size={size} />
+          <Drawing editor={editor} pointer={pointer} figure={figure} camera={camera} size={size} />
           <Arrows editor={editor} figure={figure} camera={camera} size={size} />
         </>
       )}
@@ -160,12 +153,13 @@ function Paths({ editor, camera, size }: { editor: Editor; camera: Camera; size:
 
 interface DrawingProps {
   editor: Editor;
+  pointer: Pointer;
   figure: Figure;
   camera: Camera;
   size: Size;
 }
 
-function Drawing({ editor, figure, camera, size }: DrawingProps) {
+function Drawing({ editor, pointer, figure, camera, size }: DrawingProps) {
   const at = (point: Vec) => toScreen(camera, size, point);
   const { bodies, joints, points } = editor.selection.value;
   const { names } = editor.shown.value;
@@ -212,7 +206,7 @@ function Drawing({ editor, figure, camera, size }: DrawingProps) {
       {figure.joints.map((joint) => (
         <JointShape
           key={joint.name}
-          editor={editor}
+          pointer={pointer}
           joint={joint}
           at={at}
           chosen={joints.includes(joint.name)}
@@ -271,14 +265,14 @@ function SlideShape({ joint, at }: { joint: DrawnJoint; at: (point: Vec) => Vec 
 }
 
 interface JointProps {
-  editor: Editor;
+  pointer: Pointer;
   joint: DrawnJoint;
   at: (point: Vec) => Vec;
   chosen: boolean;
   named: boolean;
 }
 
-function JointShape({ editor, joint, at, chosen, named }: JointProps) {
+function JointShape({ pointer, joint, at, chosen, named }: JointProps) {
   const { x, y } = at(joint.at);
   const kind = t(joint.kind === "slide" ? "linkage.slideOf" : joint.grounded ? "linkage.pivotOf" : "linkage.pinOf", {
     name: joint.name,
@@ -294,7 +288,7 @@ function JointShape({ editor, joint, at, chosen, named }: JointProps) {
       aria-label={`${kind}; ${where}${joint.driven ? `; ${t("linkage.driven")}` : ""}`}
       aria-pressed={chosen}
       data-joint={joint.name}
-      onFocus={() => editor.select({ joints: [joint.name] })}
+      onFocus={() => pointer.focusJoint(joint.name, joint.at)}
     >
       <circle class="reach" r={13} />
       {joint.grounded && joint.kind === "pin" && (

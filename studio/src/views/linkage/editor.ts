@@ -4,9 +4,10 @@ import { latest } from "../../api/latest";
 import type { MechanismAnswer, QualityAnswer } from "../../api/messages";
 import { ApiError, post, ServerLost } from "../../api/request";
 import type { Document } from "../../project";
-import { type Figure, figureAt, range, wrapped } from "./figure";
+import { type Figure, figureAt, range, type Shift, valueNear, wrapped } from "./figure";
 import { type Camera, type Pose, STILL, toLocal, type Vec, vec } from "./geometry";
 import { apply, GROUND, type MechanismData, setPoint } from "./mechanism";
+import { connected, shiftBodies } from "./moving";
 
 export const TOOLS = [
   "select",
@@ -92,9 +93,11 @@ export class Editor {
   /** Time from the newest state of a drag to its answer [ms]. */
   readonly roundTrip = signal(0);
   readonly isDragging = signal(false);
+  /** Bodies that are being moved as a whole. */
+  readonly shift = signal<Shift | null>(null);
   readonly figure = computed<Figure | null>(() => {
     const answer = this.answer.value;
-    return answer === null ? null : figureAt(answer, this.value.value, this.#poses);
+    return answer === null ? null : figureAt(answer, this.value.value, this.#poses, this.shift.value);
   });
 
   #poses: Readonly<Record<string, Pose>> = {};
@@ -147,6 +150,42 @@ export class Editor {
 
   select(selection: Partial<Selection>): void {
     this.selection.value = { ...NOTHING, ...selection };
+  }
+
+  /** Chooses everything that is drawn. */
+  selectAll(): void {
+    const { bodies, joints = {} } = this.data;
+    const points = this.figure.peek()?.points.filter((point) => point.joint === undefined) ?? [];
+    this.select({
+      bodies: Object.keys(bodies ?? {}).filter((body) => body !== GROUND),
+      joints: Object.keys(joints),
+      points: points.map((point) => `${point.body}.${point.name}`),
+    });
+  }
+
+  /** The bodies that move with a chosen one: all, where all are chosen; those joined to it, where none is pivoted. */
+  movable(body: string): readonly string[] {
+    const all = Object.keys(this.data.bodies ?? {});
+    const { bodies } = this.selection.peek();
+    if (all.length > 1 && all.every((one) => one === GROUND || bodies.includes(one))) return [...all];
+    const { bodies: joined, grounded } = connected(this.data, body);
+    return grounded ? [] : joined;
+  }
+
+  /** Moves bodies as a whole. */
+  moveBodies(bodies: readonly string[], by: Vec): void {
+    const figure = this.figure.peek();
+    const solved = new Set(
+      figure?.bodies.filter((body) => body.solved && body.name !== GROUND).map(({ name }) => name),
+    );
+    const own = bodies.filter((body) => !solved.has(body));
+    if (figure) this.edit((data) => shiftBodies(data, own, by, figure));
+  }
+
+  /** Moves the mechanism by hand: a point of a body goes towards a position. */
+  turnTowards(body: string, local: Vec, to: Vec): void {
+    const motion = this.answer.peek()?.motion;
+    if (motion) this.value.value = valueNear(motion, body, local, to, this.value.peek());
   }
 
   /** Begins to drag a joint of the file. */

@@ -6,7 +6,8 @@ import { apply, type Table } from "./mechanism";
 interface EntryFieldProps {
   label: string;
   value: string;
-  onCommit: (text: string) => void;
+  /** Takes over a text; returns false where it cannot be. */
+  onCommit: (text: string) => unknown;
 }
 
 /** A text that is taken over with Enter or on leaving; Escape brings the old one back. */
@@ -14,7 +15,7 @@ export function EntryField({ label, value, onCommit }: EntryFieldProps) {
   const [draft, setDraft] = useState(value);
   useEffect(() => setDraft(value), [value]);
   const commit = () => {
-    if (draft.trim() !== value) onCommit(draft.trim());
+    if (draft.trim() !== value && onCommit(draft.trim()) === false) setDraft(value);
   };
   return (
     <label class="linkage-entry">

@@ -1,6 +1,6 @@
 /** The mechanism at one value of the drive: poses, points and shapes in the world, and what a pointer hits. */
 import type { MechanismAnswer, MotionAnswer } from "../../api/messages";
-import { distance, hull, isInside, type Pose, STILL, segmentDistance, toWorld, type Vec, vec } from "./geometry";
+import { distance, hull, isInside, type Pose, plus, STILL, segmentDistance, toWorld, type Vec, vec } from "./geometry";
 import { GROUND } from "./mechanism";
 
 /** A place between two samples: index of the first, and share towards the next. */
@@ -93,6 +93,31 @@ export function nearestSolved(motion: MotionAnswer, at: Sample): Sample | undefi
   return undefined;
 }
 
+/** Share of the samples on both sides of the present one in which a mechanism is moved by hand. */
+const NEAR = 1 / 6;
+
+/** The value of the drive, near the present one, at which a point of a body is nearest to a position. */
+export function valueNear(motion: MotionAnswer, body: string, local: Vec, to: Vec, now: number): number {
+  const series = motion.poses[body];
+  const count = motion.values.length;
+  if (!series || count < 2) return now;
+  const around = motion.kind === "rotation" && Math.abs(range(motion)[1] - range(motion)[0] - TURN) < 1e-6;
+  const middle = sampleAt(motion.values, wrapped(motion, now)).index;
+  const apart = (index: number): number => {
+    const [x, y, angle] = [series.x[index], series.y[index], series.angle[index]];
+    if (motion.status[index] !== 0 || x == null || y == null || angle == null) return Number.POSITIVE_INFINITY;
+    return distance(toWorld({ x, y, angle }, local), to);
+  };
+  let [best, nearest] = [middle, Number.POSITIVE_INFINITY];
+  for (let step = -Math.ceil(count * NEAR); step <= count * NEAR; step += 1) {
+    const index = around ? (middle + step + count - 1) % (count - 1) : middle + step;
+    if (index < 0 || index >= count) continue;
+    const own = apart(index);
+    if (own < nearest) [best, nearest] = [index, own];
+  }
+  return motion.values[best] ?? now;
+}
+
 function isPlaced(motion: MotionAnswer, index: number): boolean {
   return Object.values(motion.poses).every((pose) => pose.x[index] != null && pose.angle[index] != null);
 }
@@ -105,8 +130,19 @@ export function between(series: readonly (number | null)[], at: Sample): number 
   return b == null ? null : a + (b - a) * at.share;
 }
 
+/** Bodies that are being moved as a whole, and by how much. */
+export interface Shift {
+  readonly bodies: readonly string[];
+  readonly by: Vec;
+}
+
 /** The mechanism at a value of the drive; `earlier`: poses of bodies that are nowhere else. */
-export function figureAt(answer: MechanismAnswer, value: number, earlier: Readonly<Record<string, Pose>> = {}): Figure {
+export function figureAt(
+  answer: MechanismAnswer,
+  value: number,
+  earlier: Readonly<Record<string, Pose>> = {},
+  shift?: Shift | null,
+): Figure {
   const poses: Record<string, Pose> = { [GROUND]: STILL };
   for (const body of answer.bodies) if (body.name !== GROUND) poses[body.name] = earlier[body.name] ?? STILL;
   for (const [body, [x, y, angle]] of Object.entries(answer.poses)) poses[body] = { x, y, angle };
@@ -121,6 +157,10 @@ export function figureAt(answer: MechanismAnswer, value: number, earlier: Readon
       const [x, y, angle] = [between(series.x, solved), between(series.y, solved), between(series.angle, solved)];
       if (x !== null && y !== null && angle !== null) poses[body] = { x, y, angle };
     }
+  }
+  for (const body of shift?.bodies ?? []) {
+    const pose = poses[body];
+    if (pose && shift) poses[body] = { ...plus(pose, shift.by), angle: pose.angle };
   }
   return { poses, closes, ...shapes(answer, poses) };
 }

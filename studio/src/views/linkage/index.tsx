@@ -1,19 +1,19 @@
 /** The linkage editor. */
-import { useEffect, useMemo, useState } from "preact/hooks";
+import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import { post } from "../../api/request";
 import { useReady } from "../../app/ready";
-import { rename } from "../../app/routes";
-import { filesOf, freePath, newFile, project, refreshProject, SaveState, useDocument } from "../../project";
+import { filesOf, project, refreshProject, SaveState, useDocument } from "../../project";
 import { t } from "../../text";
-import { Button, CopyCommand, formatQuantity, IconButton, Select, Slider, toast } from "../../ui";
+import { Button, CopyCommand, formatQuantity, IconButton, Slider } from "../../ui";
 import { Canvas } from "./canvas";
 import { Editor } from "./editor";
-import { extent, range, wrapped } from "./figure";
-import { fitted } from "./geometry";
-import { emptyMechanism, type MechanismData } from "./mechanism";
+import { range, wrapped } from "./figure";
+import { createEmpty, FileBar, nameOf, openFile, pathOf } from "./files";
+import { listenToKeys } from "./keys";
+import { type MechanismData, nextStep } from "./mechanism";
 import { Panels } from "./panels";
 import { Pointer } from "./pointer";
-import { Actions, LETTERS, ShownToggles, Toolbar, TypedSpot } from "./toolbar";
+import { ShownToggles, Toolbar, TypedSpot } from "./toolbar";
 import { Tools } from "./tools";
 import "./linkage.css";
 
@@ -23,8 +23,7 @@ export default function Linkage({ name }: { name: string }) {
   useEffect(() => {
     if (project.peek() === null) void refreshProject().catch(() => undefined);
   }, []);
-  const files = filesOf("linkage");
-  const names = files.map((file) => file.path.replace(/^linkages\//, "").replace(/\.toml$/, ""));
+  const names = filesOf("linkage").map((file) => nameOf(file.path));
   const shown = name !== "" ? name : names.includes(FIRST) ? FIRST : names[0];
   if (project.value === null) return <p class="app-loading">{t("app.loading")}</p>;
   if (shown === undefined) {
@@ -32,7 +31,7 @@ export default function Linkage({ name }: { name: string }) {
       <div class="app-plain">
         <h1>{t("linkage.title")}</h1>
         <p>{t("linkage.noFiles")}</p>
-        <Button kind="primary" onClick={() => void create()}>
+        <Button kind="primary" onClick={() => void createEmpty()}>
           {t("linkage.new")}
         </Button>
       </div>
@@ -41,55 +40,45 @@ export default function Linkage({ name }: { name: string }) {
   return <LinkageFile key={shown} name={shown} names={names} />;
 }
 
-async function create(source?: string): Promise<void> {
-  const path = freePath("linkages", source === undefined ? "linkage" : source);
-  const own = path.replace(/^linkages\//, "").replace(/\.toml$/, "");
-  try {
-    await newFile(path, source === undefined ? { text: emptyMechanism(own) } : { source: `linkages/${source}.toml` });
-    rename(own);
-  } catch (error) {
-    toast(t("linkage.notCreated"), "bad", String(error));
-  }
-}
-
 function LinkageFile({ name, names }: { name: string; names: readonly string[] }) {
-  const path = `linkages/${name}.toml`;
+  const path = pathOf(name);
   const document = useDocument<MechanismData>(path);
+  const stage = useRef<HTMLDivElement>(null);
   const parts = useMemo(() => {
     const editor = new Editor(document);
     const tools = new Tools(editor);
     return { editor, tools, pointer: new Pointer(editor, tools) };
   }, [document]);
-  useEffect(() => () => parts.editor.dispose(), [parts]);
   const { editor, tools, pointer } = parts;
-  useReady(editor.figure.value !== null);
-  const choices = [...new Set([name, ...names])].sort().map((one) => ({ value: one, label: one }));
+  const focus = () => stage.current?.querySelector<SVGElement>(".linkage-canvas")?.focus();
+  useEffect(() => {
+    const stop = listenToKeys(pointer, () => stage.current);
+    return () => {
+      stop();
+      editor.dispose();
+    };
+  }, [parts]);
+  useReady(editor.figure.value !== null || document.error.value !== null);
   return (
     <div
       class="linkage-view"
       role="group"
       aria-label={t("linkage.title")}
-      onKeyDown={(event) => {
-        const tool = LETTERS[event.key.toLowerCase()];
-        const typing = (event.target as HTMLElement).matches("input, select, textarea");
-        if (tool === undefined || typing || event.ctrlKey || event.metaKey || event.altKey) return;
-        tools.choose(tool);
+      onDragOver={(event) => event.preventDefault()}
+      onDrop={(event) => {
+        event.preventDefault();
+        const [file] = event.dataTransfer?.files ?? [];
+        if (file) void openFile(file);
       }}
     >
       <header class="linkage-head">
         <h1 class="visually-hidden">{t("linkage.title")}</h1>
-        <Select label={t("linkage.file")} value={name} choices={choices} onChange={(one) => rename(one)} />
-        <Button icon="add" onClick={() => void create()}>
-          {t("linkage.new")}
-        </Button>
-        <Button icon="copy" onClick={() => void create(name)}>
-          {t("linkage.copyFile")}
-        </Button>
+        <FileBar name={name} names={names} />
         <SaveState document={document} />
       </header>
       <div class="linkage-body-area">
-        <Toolbar tools={tools} />
-        <div class="linkage-stage">
+        <Toolbar tools={tools} onChoose={focus} />
+        <div class="linkage-stage" ref={stage}>
           <Canvas editor={editor} tools={tools} pointer={pointer} />
           <p class="visually-hidden" id="linkage-keys">
             {t("linkage.keys")}
@@ -97,26 +86,34 @@ function LinkageFile({ name, names }: { name: string; names: readonly string[] }
           <div class="linkage-zoom">
             <IconButton icon="plus" label={t("ui.zoomIn")} onClick={() => pointer.zoom(1.25)} />
             <IconButton icon="minus" label={t("ui.zoomOut")} onClick={() => pointer.zoom(0.8)} />
-            <IconButton
-              icon="fit"
-              label={t("ui.zoomFit")}
-              onClick={() => {
-                const [answer, figure] = [editor.answer.peek(), editor.figure.peek()];
-                if (answer && figure) editor.camera.value = fitted(extent(answer, figure), pointer.size);
-              }}
-            />
+            <IconButton icon="fit" label={t("ui.zoomFit")} onClick={() => pointer.fit()} />
           </div>
-          <TypedSpot tools={tools} />
+          <TypedSpot tools={tools} onDone={focus} />
+          <NextStep editor={editor} />
           <Player editor={editor} />
         </div>
         <aside class="linkage-aside" aria-label={t("linkage.panels")}>
           <ShownToggles editor={editor} />
-          <Actions editor={editor} />
           <Panels editor={editor} />
           <Commands editor={editor} path={path} />
         </aside>
       </div>
     </div>
+  );
+}
+
+/** What an unfinished drawing needs next. */
+function NextStep({ editor }: { editor: Editor }) {
+  const data = editor.document.data.value;
+  const structure = editor.answer.value?.structure;
+  if (data === null || !structure || editor.refused.value !== null) return null;
+  const step = nextStep(data, structure);
+  if (step === null) return null;
+  const { degrees_of_freedom: count, driven } = structure;
+  return (
+    <p class="linkage-next" role="status">
+      {t(`linkage.next_${step}`, { count, driven })}
+    </p>
   );
 }
 

@@ -11,9 +11,9 @@ import {
   copyBodies,
   type MechanismData,
   removeAll,
-  renameBody,
   toggleDrive,
 } from "./mechanism";
+import { renameBody, renameJoint, renamePoint } from "./renaming";
 
 function drawn(): MechanismData {
   const data: MechanismData = { name: "drawn" };
@@ -130,5 +130,48 @@ describe("edits of a mechanism", () => {
       ["mass", "1kg"],
     ]);
     expect([entryOf("2"), entryOf("2mm"), entryOf("2*r"), entryOf("true")]).toEqual([2, "2mm", "2*r", true]);
+  });
+});
+
+describe("new names", () => {
+  const data = (): MechanismData => ({
+    bodies: {
+      ground: { points: { A: [0, 0] } },
+      crank: { points: { A: [0, 0], B: ["60mm", 0], P: { offset: [0, "9mm"], from: "B" } }, centre: "B" },
+      rod: { length: "90mm", between: ["B", "C"] },
+    },
+    joints: { A: { pin: ["ground", "crank"] }, B: { pin: ["crank", "rod"] } },
+    inputs: { A: "crank" },
+    branches: { B: 1 },
+    loads: { pull: { force: "1N", on: ["rod", "B"] } },
+    paths: [["crank", "P"]],
+    transmission: ["B"],
+  });
+
+  it("of a joint reach its points, branches, loads and everything else that names it", () => {
+    const own = data();
+    expect(renameJoint(own, "B", "crank pin")).toBe(true);
+    expect(own.joints).toEqual({ A: { pin: ["ground", "crank"] }, "crank pin": { pin: ["crank", "rod"] } });
+    expect(own.bodies?.["crank"]).toEqual({
+      points: { A: [0, 0], "crank pin": ["60mm", 0], P: { offset: [0, "9mm"], from: "crank pin" } },
+      centre: "crank pin",
+    });
+    expect(own.bodies?.["rod"]).toEqual({ length: "90mm", between: ["crank pin", "C"] });
+    expect([own.branches, own["loads"], own["transmission"]]).toEqual([
+      { "crank pin": 1 },
+      { pull: { force: "1N", on: ["rod", "crank pin"] } },
+      ["crank pin"],
+    ]);
+    expect([renameJoint(own, "A", "P"), renameJoint(own, "A", " "), renameJoint(own, "A", "a.b")]).toEqual([
+      false,
+      false,
+      false,
+    ]);
+  });
+
+  it("of a point reach what is drawn of it", () => {
+    const own = data();
+    expect([renamePoint(own, "crank", "P", "B"), renamePoint(own, "crank", "P", "tip")]).toEqual([false, true]);
+    expect(own["paths"]).toEqual([["crank", "tip"]]);
   });
 });

@@ -237,7 +237,8 @@ export function addMass(data: MechanismData, body: string, at: Vec, poses: Poses
   table["centre"] = pointEntry(data, toLocal(poses[body] ?? STILL, at));
 }
 
-const REFERRING = ["loads", "springs", "dampers", "couplings", "paths", "transmission"] as const;
+/** Tables whose entries name bodies. */
+export const REFERRING = ["loads", "springs", "dampers", "couplings", "paths", "transmission"] as const;
 
 /** Removes bodies, joints and couplings, with everything that refers to them. */
 export function removeAll(data: MechanismData, names: { bodies?: string[]; joints?: string[] }): void {
@@ -333,28 +334,6 @@ function omit(table: Table, keys: readonly string[]): Table {
   return Object.fromEntries(Object.entries(table).filter(([key]) => !keys.includes(key)));
 }
 
-/** Renames a body everywhere. */
-export function renameBody(data: MechanismData, from: string, to: string): boolean {
-  if (from === to || from === GROUND || to.trim() === "" || to in (data.bodies ?? {})) return false;
-  data.bodies = rekeyed(bodies(data), from, to);
-  const swap = (entry: Entry): Entry => {
-    if (entry === from) return to;
-    if (Array.isArray(entry)) return entry.map(swap);
-    if (entry === null || typeof entry !== "object") return entry;
-    return Object.fromEntries(Object.entries(entry).map(([key, value]) => [key, swap(value)]));
-  };
-  for (const key of ["joints", "inputs", ...REFERRING]) if (data[key] !== undefined) data[key] = swap(data[key]);
-  for (const key of ["pose", "motions"]) {
-    const table = data[key];
-    if (table !== null && typeof table === "object" && from in table) data[key] = rekeyed(table as Table, from, to);
-  }
-  return true;
-}
-
-function rekeyed<T>(table: Record<string, T>, from: string, to: string): Record<string, T> {
-  return Object.fromEntries(Object.entries(table).map(([key, value]) => [key === from ? to : key, value]));
-}
-
 /** Sets entries of the file: keys and value each. */
 export function apply(data: MechanismData, changes: readonly { path: readonly string[]; value: Entry }[]): void {
   for (const { path, value } of changes) {
@@ -368,6 +347,18 @@ export function apply(data: MechanismData, changes: readonly { path: readonly st
     const last = path.at(-1);
     if (last !== undefined) table[last] = value;
   }
+}
+
+/** What an unfinished drawing needs next; null: nothing. */
+export function nextStep(data: MechanismData, structure: { degrees_of_freedom: number; driven: number }) {
+  const moving = Object.keys(data.bodies ?? {}).filter((body) => body !== GROUND);
+  if (moving.length === 0) return "link";
+  if (jointsOf(data, GROUND).length === 0) return "ground";
+  if (moving.some((body) => jointsOf(data, body).length === 0)) return "join";
+  const { degrees_of_freedom: count, driven } = structure;
+  if (count < driven || count < 1) return "over";
+  if (driven === 0) return "drive";
+  return count > driven ? "under" : null;
 }
 
 /** An empty mechanism: the ground, ready to be drawn on. */

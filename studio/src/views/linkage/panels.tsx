@@ -1,12 +1,11 @@
 /** Panels beside the drawing: structure, parts with their numbers, motion, checks. */
 import { useState } from "preact/hooks";
 import { formatNumber, t, textIfKnown } from "../../text";
-import { Button, Icon, IconButton, QuantityField, Tabs } from "../../ui";
+import { Button, Icon, IconButton, Tabs } from "../../ui";
 import type { Editor } from "./editor";
-import { Entries, EntryField } from "./entries";
-import { bodiesOf, GROUND, renameBody, type Table } from "./mechanism";
+import { Entries } from "./entries";
 import { Motion } from "./motion";
-import { deleteSelection } from "./pointer";
+import { Selected } from "./selected";
 
 type Panel = "structure" | "parts" | "motion" | "checks";
 
@@ -18,6 +17,7 @@ export function Panels({ editor }: { editor: Editor }) {
   }));
   return (
     <div class="linkage-panels">
+      <Selected editor={editor} />
       <Faults editor={editor} />
       <Tabs label={t("linkage.panels")} value={panel} tabs={tabs} onChange={setPanel}>
         {panel === "structure" && <StructurePanel editor={editor} />}
@@ -147,15 +147,6 @@ function Parts({ editor }: { editor: Editor }) {
         chosen={selection.points}
         onChoose={(point) => editor.select({ points: [point] })}
       />
-      {selection.bodies.map((body) => (
-        <BodyNumbers key={body} editor={editor} body={body} />
-      ))}
-      {selection.joints.map((joint) => (
-        <JointNumbers key={joint} editor={editor} joint={joint} />
-      ))}
-      {selection.points.map((point) => (
-        <PointNumbers key={point} editor={editor} point={point} />
-      ))}
       <Others editor={editor} />
     </div>
   );
@@ -180,117 +171,6 @@ function ListOf({ title, names, chosen, onChoose }: ListProps) {
         ))}
       </div>
     </section>
-  );
-}
-
-function BodyNumbers({ editor, body }: { editor: Editor; body: string }) {
-  const table = editor.document.data.value?.bodies?.[body] as Table | undefined;
-  if (table === undefined) return null;
-  return (
-    <section class="linkage-numbers">
-      <header>
-        <h2>{t("linkage.body", { name: body })}</h2>
-        {body !== GROUND && (
-          <IconButton icon="remove" size="small" label={t("linkage.remove")} onClick={() => deleteSelection(editor)} />
-        )}
-      </header>
-      {body !== GROUND && (
-        <EntryField
-          label={t("linkage.name")}
-          value={body}
-          onCommit={(name) => {
-            editor.edit((data) => void renameBody(data, body, name));
-            if (editor.data.bodies?.[name] !== undefined) editor.select({ bodies: [name] });
-          }}
-        />
-      )}
-      <Entries editor={editor} path={["bodies", body]} table={table} />
-    </section>
-  );
-}
-
-function JointNumbers({ editor, joint }: { editor: Editor; joint: string }) {
-  const table = editor.document.data.value?.joints?.[joint];
-  const drawn = editor.figure.value?.joints.find((one) => one.name === joint);
-  if (table === undefined) return null;
-  return (
-    <section class="linkage-numbers">
-      <header>
-        <h2>{t("linkage.joint", { name: joint })}</h2>
-        <IconButton icon="remove" size="small" label={t("linkage.remove")} onClick={() => deleteSelection(editor)} />
-      </header>
-      <p class="ui-help">{bodiesOf(table).join(", ")}</p>
-      {drawn && (
-        <Coordinates
-          at={drawn.at}
-          onMove={(to) => {
-            if (Math.hypot(to.x - drawn.at.x, to.y - drawn.at.y) > 1e-9) editor.moveJoint(joint, to);
-          }}
-        />
-      )}
-      <Entries editor={editor} path={["joints", joint]} table={table as Table} skip={["pin", "slide"]} />
-    </section>
-  );
-}
-
-function PointNumbers({ editor, point }: { editor: Editor; point: string }) {
-  const drawn = editor.figure.value?.points.find((one) => `${one.body}.${one.name}` === point);
-  if (!drawn) return null;
-  const entry = editor.document.data.value?.bodies?.[drawn.body]?.points?.[drawn.name];
-  return (
-    <section class="linkage-numbers">
-      <header>
-        <h2>{t("linkage.pointOf", { name: drawn.name, body: drawn.body })}</h2>
-        <IconButton icon="remove" size="small" label={t("linkage.remove")} onClick={() => deleteSelection(editor)} />
-      </header>
-      <Coordinates at={drawn.at} onMove={(to) => editor.movePoint(drawn.body, drawn.name, to)} />
-      {entry !== undefined && (
-        <Entries editor={editor} path={["bodies", drawn.body, "points"]} table={{ [drawn.name]: entry }} />
-      )}
-    </section>
-  );
-}
-
-interface CoordinatesProps {
-  at: { x: number; y: number };
-  onMove: (to: { x: number; y: number }) => void;
-}
-
-/** Position in the world, typed: taken over with Enter or on leaving. */
-function Coordinates({ at, onMove }: CoordinatesProps) {
-  const [typed, setTyped] = useState<{ x?: number; y?: number }>({});
-  const shown = (value: number) => `${Number((value * 1000).toFixed(4))}mm`;
-  const commit = () => {
-    if (typed.x !== undefined || typed.y !== undefined) onMove({ x: typed.x ?? at.x, y: typed.y ?? at.y });
-    setTyped({});
-  };
-  return (
-    <form
-      class="linkage-coordinates"
-      onSubmit={(event) => {
-        event.preventDefault();
-        commit();
-      }}
-      onFocusOut={(event) => {
-        if (!event.currentTarget.contains(event.relatedTarget as Node | null)) commit();
-      }}
-    >
-      <QuantityField
-        label="x"
-        unit="mm"
-        value={shown(at.x)}
-        onChange={(_, x) => x !== null && setTyped({ ...typed, x })}
-      />
-      <QuantityField
-        label="y"
-        unit="mm"
-        value={shown(at.y)}
-        onChange={(_, y) => y !== null && setTyped({ ...typed, y })}
-      />
-      <button type="submit" class="visually-hidden">
-        {t("linkage.set")}
-      </button>
-    </form>
   );
 }
 

@@ -1,8 +1,23 @@
 /** Pointer, wheel and keys of the canvas: drag of joints and points, pan, pinch, selection by a frame. */
 import { signal } from "@preact/signals";
 import type { Editor } from "./editor";
-import type { Figure } from "./figure";
-import { fromScreen, gridStep, minus, plus, type Size, times, toScreen, type Vec, vec, zoomed } from "./geometry";
+import { extent, type Figure } from "./figure";
+import {
+  fitted,
+  fromScreen,
+  gridStep,
+  minus,
+  plus,
+  type Size,
+  STILL,
+  tidy,
+  times,
+  toLocal,
+  toScreen,
+  type Vec,
+  vec,
+  zoomed,
+} from "./geometry";
 import { removeAll, removePoint } from "./mechanism";
 import type { Tools } from "./tools";
 
@@ -12,6 +27,8 @@ const SLOP = 3;
 type Press =
   | { kind: "joint"; name: string; begun: boolean }
   | { kind: "point"; body: string; name: string; begun: boolean }
+  /** grip: where it is held, in its own frame; bodies: those that move as a whole; several: were chosen before. */
+  | { kind: "body"; name: string; grip: Vec; bodies: readonly string[]; several: boolean; begun: boolean }
   | { kind: "pan"; camera: Vec; begun: boolean }
   | { kind: "frame"; begun: boolean }
   | { kind: "tool"; begun: boolean };
@@ -52,12 +69,24 @@ export class Pointer {
     if (button === 1 || button === 2) this.#press = pan;
     else if (editor.tool.peek() !== "select") this.#press = { kind: "tool", begun: false };
     else {
-      const hit = tools.hit(this.world(screen), touch);
+      const at = this.world(screen);
+      const hit = tools.hit(at, touch);
       if (hit?.kind === "joint") this.#press = { kind: "joint", name: hit.name, begun: false };
       else if (hit?.kind === "point") this.#press = { kind: "point", body: hit.body, name: hit.name, begun: false };
-      else this.#press = shift && hit === undefined ? { kind: "frame", begun: false } : pan;
-      this.#choose(hit, shift);
+      else this.#press = shift ? { kind: "frame", begun: false } : pan;
+      if (hit?.kind === "body") this.#grip(hit.name, at, shift);
+      else this.#choose(hit, shift);
     }
+  }
+
+  /** Takes hold of a body; several that are chosen stay so until it is clear that they are not moved. */
+  #grip(name: string, at: Vec, more: boolean): void {
+    const { editor } = this;
+    const { bodies } = editor.selection.peek();
+    const several = !more && bodies.length > 1 && bodies.includes(name);
+    if (!several) this.#choose({ kind: "body", name }, more);
+    const grip = toLocal(editor.figure.peek()?.poses[name] ?? STILL, at);
+    this.#press = { kind: "body", name, grip, bodies: editor.movable(name), several, begun: false };
   }
 
   move(id: number, screen: Vec, touch: boolean): void {
@@ -79,6 +108,11 @@ export class Pointer {
       if (press.kind === "joint") editor.beginDrag(press.name);
       if (press.kind === "tool") tools.put(this.world(this.#from), touch);
     }
+    this.#drag(press, screen, touch);
+  }
+
+  #drag(press: Press, screen: Vec, touch: boolean): void {
+    const { editor, tools } = this;
     if (press.kind === "joint") editor.drag(tools.snapped(this.world(screen), touch, jointSpot(press.name)).at);
     else if (press.kind === "tool") tools.hover(this.world(screen), touch);
     else if (press.kind === "pan") {
@@ -88,6 +122,19 @@ export class Pointer {
     } else if (press.kind === "frame") this.frame.value = { from: this.world(this.#from), to: this.world(screen) };
     else if (press.kind === "point")
       this.tools.draft.value = { spots: [], next: tools.snapped(this.world(screen), touch) };
+    else if (press.bodies.length > 0) editor.shift.value = { bodies: press.bodies, by: this.#shift(screen) };
+    else {
+      editor.isPlaying.value = false;
+      editor.turnTowards(press.name, press.grip, this.world(screen));
+    }
+  }
+
+  /** How far the pointer went since it was pressed, in steps of the grid where that is shown. */
+  #shift(screen: Vec): Vec {
+    const { camera, shown } = this.editor;
+    const by = minus(this.world(screen), this.world(this.#from));
+    const grid = gridStep(camera.peek().scale);
+    return shown.peek().grid ? vec(tidy(by.x, grid), tidy(by.y, grid)) : by;
   }
 
   up(id: number, screen: Vec, touch: boolean): void {
@@ -107,6 +154,25 @@ export class Pointer {
       const drawn = tools.draft.peek().spots.length;
       if (!press.begun || drawn > 0) tools.put(at, touch);
     } else if (press.kind === "frame") this.#chooseFrame();
+    else if (press.kind === "body" && press.begun) this.#endShift();
+    else if (press.kind === "body" && press.several) editor.select({ bodies: [press.name] });
+  }
+
+  #endShift(): void {
+    const shift = this.editor.shift.peek();
+    this.editor.shift.value = null;
+    if (shift !== null) this.editor.moveBodies(shift.bodies, shift.by);
+  }
+
+  /** A joint has the focus of the keys: it is chosen, or the cross of a tool goes to it. */
+  focusJoint(name: string, at: Vec): void {
+    if (this.#fingers.size > 0) return;
+    if (this.editor.tool.peek() === "select") {
+      this.editor.select({ joints: [name] });
+      return;
+    }
+    this.cross.value = at;
+    this.tools.hover(at);
   }
 
   /** Gives up what the pointer does. */
@@ -114,6 +180,14 @@ export class Pointer {
     if (this.#press?.kind === "joint" && this.#press.begun) this.editor.cancelDrag();
     this.#press = null;
     this.frame.value = null;
+    this.editor.shift.value = null;
+  }
+
+  /** Shows everything. */
+  fit(): void {
+    const { answer, figure, camera } = this.editor;
+    const [found, drawn] = [answer.peek(), figure.peek()];
+    if (found && drawn) camera.value = fitted(extent(found, drawn), this.size);
   }
 
   wheel(screen: Vec, by: number): void {
@@ -132,7 +206,9 @@ export class Pointer {
     const by =
       Math.hypot(now.x - other.x, now.y - other.y) / Math.max(Math.hypot(before.x - other.x, before.y - other.y), 1);
     const { camera } = this.editor;
-    camera.value = zoomed(camera.peek(), this.size, by, times(plus(now, other), 0.5));
+    const { scale, centre } = zoomed(camera.peek(), this.size, by, times(plus(now, other), 0.5));
+    const went = times(minus(now, before), 0.5 / scale);
+    camera.value = { scale, centre: plus(centre, vec(-went.x, went.y)) };
   }
 
   #choose(hit: ReturnType<Tools["hit"]>, more: boolean): void {
@@ -167,15 +243,14 @@ export class Pointer {
   key(key: string, shift: boolean): boolean {
     const { editor, tools } = this;
     const step = STEPS[key];
-    if (key === "Escape") {
-      if (editor.isDragging.peek()) editor.cancelDrag();
+    if (key === "Home") this.fit();
+    else if (key === "Escape") {
+      if (this.#press?.begun) this.#drop();
       else if (editor.tool.peek() !== "select") tools.cancel();
       else editor.select({});
       this.cross.value = null;
-      return true;
-    }
-    if (key === "Delete" || key === "Backspace") return deleteSelection(editor);
-    if (key === "+" || key === "=") this.zoom(1.25);
+    } else if (key === "Delete" || key === "Backspace") return deleteSelection(editor);
+    else if (key === "+" || key === "=") this.zoom(1.25);
     else if (key === "-") this.zoom(0.8);
     else if (editor.tool.peek() === "select") return step !== undefined && this.#nudge(step, shift);
     else if (step !== undefined) {
@@ -194,11 +269,13 @@ export class Pointer {
     const { editor } = this;
     const camera = editor.camera.peek();
     const by = times(step, gridStep(camera.scale) * (shift ? 10 : 1));
-    const { joints, points } = editor.selection.peek();
+    const { bodies, joints, points } = editor.selection.peek();
     const figure = editor.figure.peek();
+    const moved = bodies[0] === undefined ? [] : editor.movable(bodies[0]);
     const joint = figure?.joints.find((one) => one.name === joints[0]);
     const point = figure?.points.find((one) => `${one.body}.${one.name}` === points[0]);
-    if (joint) editor.moveJoint(joint.name, plus(joint.at, by));
+    if (moved.length > 0) editor.moveBodies(moved, by);
+    else if (joint) editor.moveJoint(joint.name, plus(joint.at, by));
     else if (point) editor.movePoint(point.body, point.name, plus(point.at, by));
     else editor.camera.value = { ...camera, centre: plus(camera.centre, times(step, 40 / camera.scale)) };
     return true;

@@ -1,12 +1,10 @@
 /** The tools of the drawing, and what is shown; a bar of icons, with a letter each. */
 
-import { useState } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
 import { t } from "../../text";
-import { Button, IconButton, QuantityField, Toggle } from "../../ui";
+import { Button, formatQuantity, IconButton, QuantityField, Toggle } from "../../ui";
 import { type Editor, type Shown, TOOLS, type Tool } from "./editor";
-import { plus, vec } from "./geometry";
-import { copyBodies, GROUND } from "./mechanism";
-import { deleteSelection } from "./pointer";
+import { direction, distance, vec } from "./geometry";
 import type { Tools } from "./tools";
 
 const SHAPES: Record<Tool, string> = {
@@ -38,25 +36,51 @@ export const LETTERS: Record<string, Tool> = {
   m: "mass",
 };
 
-export function Toolbar({ tools }: { tools: Tools }) {
+const TURNS: Record<string, number | undefined> = { ArrowDown: 1, ArrowRight: 1, ArrowUp: -1, ArrowLeft: -1 };
+
+/** Tools, a letter each; the arrow keys go from one to the next. `onChoose`: a tool waits for positions on the canvas. */
+export function Toolbar({ tools, onChoose }: { tools: Tools; onChoose: () => void }) {
+  const box = useRef<HTMLDivElement>(null);
   const { editor } = tools;
   const letter = Object.fromEntries(Object.entries(LETTERS).map(([key, tool]) => [tool, key.toUpperCase()]));
   return (
-    <div class="linkage-tools" role="toolbar" aria-label={t("linkage.tools")} aria-orientation="vertical">
+    <div
+      ref={box}
+      class="linkage-tools"
+      role="toolbar"
+      aria-label={t("linkage.tools")}
+      aria-orientation="vertical"
+      onKeyDown={(event) => {
+        const turn = TURNS[event.key];
+        const buttons = [...(box.current?.querySelectorAll("button") ?? [])];
+        const at = buttons.indexOf(document.activeElement as HTMLButtonElement);
+        if (turn === undefined || at < 0) return;
+        event.preventDefault();
+        buttons[(at + turn + buttons.length) % buttons.length]?.focus();
+      }}
+    >
       {TOOLS.map((tool) => (
         <button
           key={tool}
           type="button"
-          class="ui-button quiet icon"
+          class="ui-button quiet"
           aria-pressed={editor.tool.value === tool}
-          aria-label={t(`linkage.tool_${tool}`)}
+          aria-keyshortcuts={letter[tool]}
           title={`${t(`linkage.tool_${tool}`)} (${letter[tool]})`}
+          tabIndex={editor.tool.value === tool ? 0 : -1}
           data-tool={tool}
-          onClick={() => tools.choose(tool)}
+          onClick={() => {
+            tools.choose(tool);
+            onChoose();
+          }}
         >
           <svg class="ui-icon" viewBox="0 0 24 24" aria-hidden="true">
             <path d={SHAPES[tool]} />
           </svg>
+          <span class="name">{t(`linkage.tool_${tool}`)}</span>
+          <span class="key" aria-hidden="true">
+            {letter[tool]}
+          </span>
         </button>
       ))}
     </div>
@@ -85,60 +109,42 @@ export function ShownToggles({ editor }: { editor: Editor }) {
   );
 }
 
-/** What can be done with the chosen bodies. */
-export function Actions({ editor }: { editor: Editor }) {
-  const { bodies, joints, points } = editor.selection.value;
-  const copy = (mirrored: boolean) => {
-    const figure = editor.figure.peek();
-    if (figure === null) return;
-    const corners = Object.fromEntries(
-      figure.bodies.map((body) => [body.name, Object.fromEntries(body.points.map((point) => [point.name, point.at]))]),
-    );
-    const all = figure.bodies.filter((body) => bodies.includes(body.name)).flatMap((body) => body.outline);
-    const right = Math.max(...all.map((point) => point.x));
-    const aside = 24 / editor.camera.peek().scale;
-    const place = mirrored
-      ? (at: { x: number; y: number }) => vec(2 * right + aside - at.x, at.y)
-      : (at: { x: number; y: number }) => plus(at, vec(aside, -aside));
-    let made: string[] = [];
-    editor.edit((data) => {
-      made = copyBodies(data, bodies, corners, place);
-    });
-    editor.select({ bodies: made });
-  };
-  const some = bodies.some((body) => body !== GROUND);
-  return (
-    <div class="ui-row">
-      <Button size="small" disabled={!some} onClick={() => copy(false)}>
-        {t("linkage.duplicate")}
-      </Button>
-      <Button size="small" disabled={!some} onClick={() => copy(true)}>
-        {t("linkage.mirror")}
-      </Button>
-      <Button
-        size="small"
-        icon="remove"
-        disabled={bodies.length + joints.length + points.length === 0}
-        onClick={() => deleteSelection(editor)}
-      >
-        {t("linkage.remove")}
-      </Button>
-    </div>
-  );
-}
+/** Tools that wait for a joint or point that is there, not for a position. */
+const ON_PARTS: ReadonlySet<Tool> = new Set(["gears", "drive", "force"]);
 
-/** Typed coordinates of the next spot, or length and direction from the last one. */
-export function TypedSpot({ tools }: { tools: Tools }) {
-  const [typed, setTyped] = useState({ x: "0mm", y: "0mm", polar: false });
-  const [si, setSi] = useState({ a: 0, b: 0 });
-  const last = tools.draft.value.spots.at(-1);
-  const polar = typed.polar && last !== undefined;
+/** The next spot typed: its coordinates, or length and direction from the last one. */
+export function TypedSpot({ tools, onDone }: { tools: Tools; onDone: () => void }) {
+  const [typed, setTyped] = useState({ x: "", y: "" });
+  const [at, setAt] = useState<{ x: number | null; y: number | null }>({ x: null, y: null });
+  const [byLine, setByLine] = useState(true);
+  const { spots, next } = tools.draft.value;
+  const last = spots.at(-1);
+  const line = byLine && last !== undefined;
   const tool = tools.editor.tool.value;
-  if (tool === "select") return null;
-  const put = () => {
-    const at = polar ? plus(last.at, vec(si.a * Math.cos(si.b), si.a * Math.sin(si.b))) : vec(si.a, si.b);
-    tools.putAt(at);
+  const clear = () => {
+    setTyped({ x: "", y: "" });
+    setAt({ x: null, y: null });
+    tools.typed.value = { length: null, angle: null };
   };
+  useEffect(clear, [spots.length, tool, byLine]);
+  if (tool === "select") return null;
+  const type = (key: "x" | "y", text: string, si: number | null) => {
+    const now = { ...at, [key]: si };
+    setTyped({ ...typed, [key]: text });
+    setAt(now);
+    if (line) tools.typed.value = { length: now.x, angle: now.y };
+  };
+  const put = () => {
+    const near = next?.at ?? last?.at ?? vec(0, 0);
+    if (line) tools.putLine();
+    else if (at.x !== null || at.y !== null) tools.putAt(vec(at.x ?? near.x, at.y ?? near.y));
+  };
+  const isTyped = !ON_PARTS.has(tool);
+  const from = last?.at ?? vec(0, 0);
+  const there = next?.at ?? from;
+  const shown = line
+    ? [formatQuantity(distance(from, there), "mm"), formatQuantity(direction(from, there), "deg")]
+    : [formatQuantity(there.x, "mm"), formatQuantity(there.y, "mm")];
   return (
     <form
       class="linkage-typed"
@@ -147,33 +153,27 @@ export function TypedSpot({ tools }: { tools: Tools }) {
         event.preventDefault();
         put();
       }}
+      onKeyDown={(event) => event.key === "Escape" && onDone()}
     >
       <p class="ui-help">{t(`linkage.hint_${tool}`)}</p>
-      {last !== undefined && (
-        <Toggle label={t("linkage.polar")} value={typed.polar} onChange={(on) => setTyped({ ...typed, polar: on })} />
+      {isTyped &&
+        (["x", "y"] as const).map((key, index) => (
+          <QuantityField
+            key={`${key}${line}`}
+            label={line ? t(index === 0 ? "linkage.length" : "linkage.direction") : key}
+            unit={line && index === 1 ? "deg" : "mm"}
+            optional
+            placeholder={shown[index] ?? ""}
+            value={typed[key]}
+            onChange={(text, si) => type(key, text, si)}
+          />
+        ))}
+      {isTyped && (
+        <Button size="small" onClick={put}>
+          {t("linkage.set")}
+        </Button>
       )}
-      <QuantityField
-        label={polar ? t("linkage.length") : "x"}
-        unit="mm"
-        value={typed.x}
-        onChange={(x, a) => {
-          setTyped({ ...typed, x });
-          setSi({ ...si, a: a ?? 0 });
-        }}
-      />
-      <QuantityField
-        key={String(polar)}
-        label={polar ? t("linkage.direction") : "y"}
-        unit={polar ? "deg" : "mm"}
-        value={polar ? "0deg" : typed.y}
-        onChange={(y, b) => {
-          if (!polar) setTyped({ ...typed, y });
-          setSi({ ...si, b: b ?? 0 });
-        }}
-      />
-      <Button size="small" onClick={put}>
-        {t("linkage.set")}
-      </Button>
+      {isTyped && last !== undefined && <Toggle label={t("linkage.polar")} value={byLine} onChange={setByLine} />}
       <IconButton icon="close" size="small" label={t("linkage.endTool")} onClick={() => tools.choose("select")} />
     </form>
   );

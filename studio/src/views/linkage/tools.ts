@@ -4,7 +4,7 @@ import { t } from "../../text";
 import { toast } from "../../ui";
 import type { Editor, Tool } from "./editor";
 import { bodiesAt, type Figure, type Hit, hitAt } from "./figure";
-import { direction, gridStep, type Snap, snap, toLocal, type Vec } from "./geometry";
+import { direction, distance, gridStep, plus, type Snap, snap, times, toLocal, type Vec, vec } from "./geometry";
 import {
   addBody,
   addForce,
@@ -35,8 +35,20 @@ const EMPTY: Draft = { spots: [], next: null };
 export const REACH = 12;
 export const TOUCH_REACH = 24;
 
+/** What was typed of the line to the next spot: its length [m] and direction [rad]. */
+export interface TypedLine {
+  readonly length: number | null;
+  readonly angle: number | null;
+}
+
+const FREE: TypedLine = { length: null, angle: null };
+
+/** Distance below which positions are the same [m]. */
+const SAME = 1e-7;
+
 export class Tools {
   readonly draft = signal<Draft>(EMPTY);
+  readonly typed = signal<TypedLine>(FREE);
 
   constructor(readonly editor: Editor) {}
 
@@ -47,13 +59,18 @@ export class Tools {
 
   choose(tool: Tool): void {
     this.editor.tool.value = tool;
-    this.draft.value = EMPTY;
+    this.#forget();
   }
 
   /** Forgets the draft; without one the tool goes back to selecting. */
   cancel(): void {
     if (this.draft.peek().spots.length === 0) this.editor.tool.value = "select";
+    this.#forget();
+  }
+
+  #forget(): void {
     this.draft.value = EMPTY;
+    this.typed.value = FREE;
   }
 
   hit(at: Vec, touch = false): Hit {
@@ -67,6 +84,11 @@ export class Tools {
     const grid = this.editor.shown.peek().grid ? gridStep(this.editor.camera.peek().scale) : 0;
     const points = figure === null ? [] : spotsOf(figure).filter((spot) => spot.name !== besides);
     const from = this.draft.peek().spots.at(-1)?.at;
+    const { length, angle } = this.typed.peek();
+    if (from && (length !== null || angle !== null)) {
+      const held = onLine(from, at, length, angle);
+      return snap(held, { grid: 0, reach: SAME, points });
+    }
     return snap(at, { grid, reach: this.reach(touch), points, from });
   }
 
@@ -84,13 +106,23 @@ export class Tools {
   /** Puts a spot exactly where it was typed. */
   putAt(at: Vec): void {
     const near = this.snapped(at);
-    const same = near.to === "point" && Math.hypot(near.at.x - at.x, near.at.y - at.y) < 1e-7;
-    this.putSpot(same ? this.spot(near) : { at }, at, false);
+    this.putSpot(distance(near.at, at) < SAME ? this.spot(near) : { at }, at, false);
+  }
+
+  /** Puts a spot at the typed length and direction from the last one; what is not typed is as the pointer shows it. */
+  putLine(): void {
+    const { spots, next } = this.draft.peek();
+    const from = spots.at(-1)?.at;
+    const { length, angle } = this.typed.peek();
+    if (from && (length !== null || angle !== null)) {
+      this.putAt(onLine(from, next?.at ?? plus(from, vec(1, 0)), length, angle));
+    }
   }
 
   private putSpot(spot: Spot, at: Vec, touch: boolean): void {
     const tool = this.editor.tool.peek();
     const spots = [...this.draft.peek().spots, spot];
+    this.typed.value = FREE;
     const needed = { link: 2, body: 3, slide: 2, gears: 2 }[tool as string] ?? 1;
     if (!this.fits(tool, spot, spots.length)) return;
     if (spots.length < needed) {
@@ -207,8 +239,18 @@ function pivot(
   return addPivot(data, spot, poses);
 }
 
+/** The position of a typed length and direction from a start; what is not typed follows the pointer. */
+function onLine(from: Vec, to: Vec, length: number | null, angle: number | null): Vec {
+  const turn = Math.PI / 4;
+  const free = direction(from, to);
+  const nearest = Math.round(free / turn) * turn;
+  const held = angle ?? (Math.abs(free - nearest) < 0.06 ? nearest : free);
+  const along = length ?? Math.max((to.x - from.x) * Math.cos(held) + (to.y - from.y) * Math.sin(held), 0);
+  return plus(from, times(vec(Math.cos(held), Math.sin(held)), along));
+}
+
 function same(a: Spot, b: Spot): boolean {
-  return Math.hypot(a.at.x - b.at.x, a.at.y - b.at.y) < 1e-9;
+  return distance(a.at, b.at) < SAME;
 }
 
 function joined(editor: Editor, spot: Spot, body: string): boolean {

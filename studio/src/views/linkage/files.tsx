@@ -1,0 +1,114 @@
+/** Mechanism files: the one that is shown, a new one, one from the user's disc, a copy under another name. */
+import { useRef, useState } from "preact/hooks";
+import { rename } from "../../app/routes";
+import { freePath, newFile } from "../../project";
+import { t } from "../../text";
+import { Button, Dialog, Select, TextField, toast } from "../../ui";
+import { emptyMechanism } from "./mechanism";
+
+const FOLDER = "linkages";
+
+export function pathOf(name: string): string {
+  return `${FOLDER}/${name}.toml`;
+}
+
+export function nameOf(path: string): string {
+  return path.replace(/^linkages\//, "").replace(/\.toml$/, "");
+}
+
+/** Creates a mechanism file under a free name and shows it; reports why it could not. */
+async function create(stem: string, content: (name: string) => Parameters<typeof newFile>[1]): Promise<void> {
+  const path = freePath(FOLDER, stem);
+  const name = nameOf(path);
+  try {
+    await newFile(path, content(name));
+    rename(name);
+  } catch (error) {
+    toast(t("linkage.notCreated"), "bad", error instanceof Error ? error.message : String(error));
+  }
+}
+
+export function createEmpty(): Promise<void> {
+  return create("linkage", (name) => ({ text: emptyMechanism(name) }));
+}
+
+/** Largest mechanism file [bytes]. */
+const LARGEST = 1_000_000;
+
+/** Takes a .toml or .json file of the user's disc into the project. */
+export async function openFile(file: File): Promise<void> {
+  const stem = file.name.replace(/\.[^.]*$/, "").replace(/[^\w-]+/g, "-") || "linkage";
+  if (!/\.(toml|json)$/i.test(file.name) || file.size > LARGEST) {
+    toast(t("linkage.notMechanismFile", { name: file.name }), "bad");
+    return;
+  }
+  const text = await file.text();
+  if (/\.toml$/i.test(file.name)) return create(stem, () => ({ text }));
+  try {
+    const data: unknown = JSON.parse(text);
+    await create(stem, () => ({ data }));
+  } catch (error) {
+    toast(t("linkage.notJson", { name: file.name }), "bad", String(error));
+  }
+}
+
+export function FileBar({ name, names }: { name: string; names: readonly string[] }) {
+  const input = useRef<HTMLInputElement>(null);
+  const [copy, setCopy] = useState<string | null>(null);
+  const choices = [...new Set([name, ...names])].sort().map((one) => ({ value: one, label: one }));
+  const save = () => {
+    const stem = (copy ?? "").trim().replace(/\.toml$/, "");
+    setCopy(null);
+    if (stem !== "") void create(stem, () => ({ source: pathOf(name) }));
+  };
+  return (
+    <>
+      <Select label={t("linkage.file")} value={name} choices={choices} onChange={(one) => rename(one)} />
+      <Button icon="add" onClick={() => void createEmpty()}>
+        {t("linkage.new")}
+      </Button>
+      <Button icon="open" onClick={() => input.current?.click()}>
+        {t("linkage.openFile")}
+      </Button>
+      <input
+        ref={input}
+        type="file"
+        accept=".toml,.json"
+        hidden
+        aria-label={t("linkage.openFile")}
+        onChange={(event) => {
+          const [file] = event.currentTarget.files ?? [];
+          if (file) void openFile(file);
+          event.currentTarget.value = "";
+        }}
+      />
+      <Button icon="copy" onClick={() => setCopy(`${name}-2`)}>
+        {t("linkage.saveAs")}
+      </Button>
+      <Dialog
+        title={t("linkage.saveAsTitle")}
+        open={copy !== null}
+        onClose={() => setCopy(null)}
+        actions={
+          <Button kind="primary" onClick={save}>
+            {t("linkage.saveCopy")}
+          </Button>
+        }
+      >
+        <form
+          onSubmit={(event) => {
+            event.preventDefault();
+            save();
+          }}
+        >
+          <TextField
+            label={t("linkage.newName")}
+            value={copy ?? ""}
+            help={t("linkage.newNameHelp", { folder: FOLDER })}
+            onChange={setCopy}
+          />
+        </form>
+      </Dialog>
+    </>
+  );
+}
