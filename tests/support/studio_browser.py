@@ -12,7 +12,7 @@ import subprocess
 import sys
 import time
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -177,6 +177,14 @@ def until_file(project: Path, path: str, words: str, patience: float = 20.0) -> 
     until = time.monotonic() + patience
     while words not in (project / path).read_text(encoding="utf-8"):
         assert time.monotonic() < until, f"{path} never had {words}"
+        time.sleep(0.05)
+
+
+def until_data(project: Path, path: str, accepted: Callable[[dict[str, Any]], bool], patience: float = 20.0) -> None:
+    """Wait until the data of a file of the project are accepted."""
+    until = time.monotonic() + patience
+    while not accepted(data_of(project, path)):
+        assert time.monotonic() < until, f"{path} stays {data_of(project, path)}"
         time.sleep(0.05)
 
 

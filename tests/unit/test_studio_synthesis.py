@@ -49,7 +49,7 @@ def links_of(one: ShownFourBar) -> np.ndarray:
 )
 def test_the_links_keep_their_lengths_in_motion(machine: str, settings: dict[str, Any]) -> None:
     found = answer(machine, **settings)
-    assert found.quick
+    assert found.quick == (machine != "function-four-bar")
     assert found.candidates
     for one in found.candidates:
         assert len(one.motion.a) == 240

@@ -271,7 +271,7 @@ function Blocks({ lane, track, scale, motion, span, range, take, onSpan, onEnd, 
               width={width}
               height={13}
               rx={2}
-              tabIndex={index === 0 ? 0 : -1}
+              tabindex={index === 0 ? 0 : -1}
               role="button"
               aria-label={t("cyclogram.moveMotion", { name, from: degrees(span.start), to: degrees(span.end) })}
               onPointerDown={take(lane, track, motion, "all", range)}
@@ -317,7 +317,7 @@ interface EndProps {
 
 function End({ name, x, y, onTake, onKey }: EndProps) {
   return (
-    <g class="end" tabIndex={0} role="button" aria-label={name} onPointerDown={onTake} onKeyDown={onKey}>
+    <g class="end" tabindex={0} role="button" aria-label={name} onPointerDown={onTake} onKeyDown={onKey}>
       <rect class="reach" x={x - 8} y={y - 6} width={16} height={25} />
       <line x1={x} x2={x} y1={y - 2} y2={y + 15} />
     </g>

@@ -66,7 +66,7 @@ function Comparison({ compared, onTake, onDiscard }: ComparisonProps) {
         <Button onClick={onDiscard}>{t("cyclogram.discard")}</Button>
       </div>
       <div>
-        <h3>{t("cyclogram.binds")}</h3>
+        <h2>{t("cyclogram.binds")}</h2>
         <ol class="cyclogram-binding">
           {solution.binding.map((one, index) => (
             <li key={index}>

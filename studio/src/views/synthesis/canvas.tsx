@@ -233,7 +233,7 @@ function Handles(props: CanvasProps & { camera: Camera }) {
             <g
               key={key}
               class={`handle ${handle.kind} ${own ? "chosen" : ""}`}
-              tabIndex={0}
+              tabindex={0}
               role="button"
               aria-label={props.nameOf(handle)}
               onKeyDown={press(handle)}

@@ -25,7 +25,9 @@ export function Gallery({ answer, chosen, onChoose, onLoosen }: GalleryProps) {
     <section class="ui-stack" aria-label={t("synthesis.gallery")}>
       <div class="ui-row synthesis-gallery-head">
         <h2 class="ui-grow">{t("synthesis.gallery")}</h2>
-        {answer.quick && <span class="ui-badge warn">{t("synthesis.preview")}</span>}
+        <span class={`ui-badge ${answer.quick ? "warn" : "good"}`}>
+          {t(answer.quick ? "synthesis.shortSearch" : "synthesis.fullSearch")}
+        </span>
         <span class="ui-muted">{t("synthesis.found", { count: answer.found })}</span>
       </div>
       {answer.candidates.length > 1 && (

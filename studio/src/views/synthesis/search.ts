@@ -37,7 +37,9 @@ export class CandidateSearch {
     },
     (found) => {
       this.quickTime.value = performance.now() - this.#sent;
-      if (this.#full === null) this.#take(found, "quick");
+      if (this.#full !== null) return;
+      if (!found.quick) clearTimeout(this.#timer);
+      this.#take(found, found.quick ? "quick" : "done");
     },
     (error) => this.#fail(error),
     PATIENCE,

@@ -114,6 +114,7 @@ function Editor(props: EditorProps) {
 function Status({ search, data }: { search: CandidateSearch; data: SynthesisData }) {
   const state = search.state.value;
   const error = search.error.value;
+  const answer = search.answer.value;
   return (
     <div class="ui-stack">
       <div class="ui-row">
@@ -126,7 +127,7 @@ function Status({ search, data }: { search: CandidateSearch; data: SynthesisData
           {t("synthesis.move")}
         </Button>
         <span class="ui-grow ui-muted synthesis-sieve" role="status">
-          {state === "failed" ? t("synthesis.failed") : (search.answer.value?.sieve ?? "")}
+          {state === "failed" ? t("synthesis.failed") : (answer?.sieve ?? "")}
         </span>
         {(state === "stopped" || state === "failed") && (
           <Button size="small" icon="search" onClick={() => void search.search(withSetting(data, "chosen", undefined))}>
@@ -144,11 +145,13 @@ function Status({ search, data }: { search: CandidateSearch; data: SynthesisData
           {error.do && <p>{error.do}</p>}
         </div>
       )}
-      {search.answer.value?.warnings.map((words) => (
-        <p key={words} class="ui-callout warn">
-          {words}
-        </p>
-      ))}
+      {answer !== null &&
+        !answer.quick &&
+        answer.warnings.map((words) => (
+          <p key={words} class="ui-callout warn">
+            {words}
+          </p>
+        ))}
     </div>
   );
 }

@@ -143,7 +143,7 @@ class PivotCurves:
 class SynthesisAnswer:
     """The four-bars for a task, the best first.
 
-    quick     whether the search was short: the full one may find better ones
+    quick     whether the search was short: the full one may find more, and better ones
     sieve     how many were found and kept, as a sentence
     found     number within all limits, `more` of them not listed
     required  of a function: x and the required rotation of the rocker [rad]

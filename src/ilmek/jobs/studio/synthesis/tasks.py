@@ -55,14 +55,14 @@ def candidates(request: SynthesisRequest, context: Context) -> SynthesisAnswer:
 
     Raises ParameterError where the file states another machine, or the task cannot be read; Cancelled.
     """
-    name, params = _read(request)
+    name, params, short = _read(request)
     machine = find_machine(name)
     design = machine.designed(params, context.progress.part(0.0, 1.0, "search"))
     choice = design.choice
     points, angles = task_points(design)
     return SynthesisAnswer(
         machine=name,
-        quick=request.quick,
+        quick=short,
         sieve=choice.sieve,
         found=choice.found,
         more=choice.more,
@@ -79,8 +79,8 @@ def candidates(request: SynthesisRequest, context: Context) -> SynthesisAnswer:
     )
 
 
-def _read(request: SynthesisRequest) -> tuple[str, Params]:
-    """The machine and its parameters; a short search has those of `QUICK`."""
+def _read(request: SynthesisRequest) -> tuple[str, Params, bool]:
+    """The machine, its parameters, and whether the search is short: then they have the settings of `QUICK`."""
     name = str(request.data.get("machine", ""))
     if name not in QUICK:
         raise ParameterError(f"machine = {name!r} is no synthesis", allowed=", ".join(QUICK), do="name one of them")
@@ -88,7 +88,8 @@ def _read(request: SynthesisRequest) -> tuple[str, Params]:
     if not isinstance(settings, dict):
         raise ParameterError("settings is no table", do='write [settings] and below it points = "(20mm,20mm) …"')
     exact = settings.get("exact") in (True, "yes", "true", "on")
-    return name, find_machine(name).params.read({**settings, **(QUICK[name] if request.quick and not exact else {})})
+    shorter = QUICK[name] if request.quick and not exact else {}
+    return name, find_machine(name).params.read({**settings, **shorter}), bool(shorter)
 
 
 def mechanism(request: FourBarRequest, context: Context) -> MechanismDocument:
