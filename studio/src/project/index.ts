@@ -14,6 +14,7 @@ export {
   openDocument,
   openDocuments,
   project,
+  projectProblem,
   refreshProject,
   renameFile,
   saveAll,

@@ -1,6 +1,6 @@
 /** The project: its files as the server lists them, and the documents that are open. */
 import { computed, signal } from "@preact/signals";
-import { type FileSummary, type PictureSummary, type ProjectSummary, post, serverApi, upload } from "./api";
+import { type FileSummary, type PictureSummary, type ProjectSummary, post, problemOf, serverApi, upload } from "./api";
 import { Document } from "./document";
 import { type Drafts, storedDrafts } from "./drafts";
 
@@ -20,6 +20,9 @@ export const activeDocument = signal<Document<object> | null>(null);
 /** Time after the first list until the files are checked [ms]: the first view comes before. */
 const CHECK_AFTER = 1500;
 
+/** Why the project's files could not be listed; "": they could. A server that does not answer is no reason. */
+export const projectProblem = signal("");
+
 let reading: Promise<void> | null = null;
 
 /**
@@ -30,9 +33,16 @@ export function refreshProject(): Promise<void> {
   const first = summary.peek() === null;
   reading ??= serverApi
     .project(!first)
-    .then((found) => {
-      summary.value = found;
-    })
+    .then(
+      (found) => {
+        summary.value = found;
+        projectProblem.value = "";
+      },
+      (error: unknown) => {
+        projectProblem.value = problemOf(error);
+        throw error;
+      },
+    )
     .finally(() => {
       reading = null;
       if (first && summary.peek() !== null) setTimeout(() => void refreshProject().catch(() => undefined), CHECK_AFTER);

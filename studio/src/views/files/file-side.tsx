@@ -1,148 +1,117 @@
-import { useEffect, useRef, useState } from "preact/hooks";
-import type { Product, ProductList } from "../../api/messages";
-import { post } from "../../api/request";
-import { fileAddress, SaveState, useDocument } from "../../project";
-import { t, textIfKnown } from "../../text";
-import { Button, CopyCommand, Icon, Progress } from "../../ui";
-import { keyOf, type Writing, write, writings } from "./work";
+import { useState } from "preact/hooks";
+import { address } from "../../app/routes";
+import { type FileSummary, fileAddress, SaveState, useDocument } from "../../project";
+import { t } from "../../text";
+import { Button, Dialog, Icon, TextField } from "../../ui";
+import { duplicate, giveName, remove } from "./changes";
+import { sizeText, timeText } from "./format";
+import { type Kind, stemOf, viewAddress } from "./names";
+import { Products } from "./products";
+import { TextEditor } from "./text-editor";
 
-/** A file of the project: its text, its state, and what can be written of it. */
-export function FileSide({ path }: { path: string }) {
-  const document = useDocument(path);
-  const [products, setProducts] = useState<readonly Product[]>([]);
-  useEffect(() => {
-    const abort = new AbortController();
-    post<ProductList>("/project/products", { path }, abort.signal).then(
-      (found) => setProducts(found.products),
-      () => setProducts([]),
-    );
-    return () => abort.abort();
-  }, [path]);
-  return (
-    <div class="ui-stack">
-      <div class="ui-row files-head">
-        <h2 class="ui-grow">{path}</h2>
-        <SaveState document={document} />
-      </div>
-      <h3>{t("files.out")}</h3>
-      {products.length === 0 && <p class="ui-muted">{t("files.noProducts")}</p>}
-      <div class="files-products">
-        {products.map((product) => (
-          <ProductCard key={product.name} path={path} product={product} />
-        ))}
-      </div>
-      <Editor key={path} path={path} />
-    </div>
-  );
+interface SideProps {
+  file: FileSummary;
+  onChoose: (path: string) => void;
 }
 
-function ProductCard({ path, product }: { path: string; product: Product }) {
-  const writing = writings.value[keyOf(path, product.name)];
-  const title = textIfKnown(`files.product_${product.name}`) ?? product.name;
+/** Mark of the heading that gets the focus when a file is chosen on a narrow page. */
+export const CHOSEN = "files-chosen";
+
+/** A file of the project: what it is, its actions, what can be written of it, its text. */
+export function FileSide({ file, onChoose }: SideProps) {
+  const { path } = file;
+  const document = useDocument(path);
   return (
-    <section class="files-product" aria-label={title}>
-      <div class="ui-row">
-        <h4 class="ui-grow">{title}</h4>
-        {writing?.abort === undefined && (
-          <Button kind="primary" size="small" icon="download" onClick={() => void write(path, product.name)}>
-            {t("files.write")}
-          </Button>
-        )}
+    <section class="ui-stack files-chosen" aria-labelledby={CHOSEN}>
+      <div class="files-head">
+        <a class="files-back" href={address("files")}>
+          <Icon name="left" />
+          {t("files.all")}
+        </a>
+        <h2 id={CHOSEN} tabIndex={-1}>
+          {stemOf(path)}
+        </h2>
+        <span class="ui-muted">
+          <code>{path}</code> · {sizeText(file.size)} · {t("files.changedAt", { time: timeText(file.time ?? 0) })}
+        </span>
       </div>
-      <p class="ui-muted">{textIfKnown(`files.product_${product.name}_help`) ?? product.target}</p>
-      {writing !== undefined && <State writing={writing} target={product.target} />}
-      <CopyCommand command={product.command} />
+      <SaveState document={document} />
+      <Actions file={file} onChoose={onChoose} />
+      <TextEditor document={document} />
+      <Products path={path} digest={file.digest} />
     </section>
   );
 }
 
-function State({ writing, target }: { writing: Writing; target: string }) {
-  if (writing.abort !== undefined) {
-    const stage = textIfKnown(`files.stage_${writing.stage.replaceAll(" ", "_")}`) ?? writing.stage;
-    return (
-      <Progress
-        label={stage === "" ? t("files.writing") : stage}
-        share={writing.share}
-        onCancel={() => writing.abort?.abort()}
-      />
-    );
-  }
-  if (writing.problem !== undefined) {
-    return (
-      <p class="ui-callout bad" role="alert">
-        {writing.problem}
-      </p>
-    );
-  }
-  if (writing.done === undefined) return null;
-  const { failed = [], notes = [] } = writing.done;
+function Actions({ file: { path, kind }, onChoose }: SideProps) {
+  const [renaming, setRenaming] = useState(false);
+  const view = viewAddress(kind, path);
+  const copy = async () => {
+    const made = await duplicate(kind as Kind, path);
+    if (made !== "") onChoose(made);
+  };
+  const drop = async () => {
+    if (await remove(path)) onChoose("");
+  };
   return (
-    <div class={`ui-callout ${failed.length > 0 ? "bad" : "good"}`} role="status">
-      <p class="ui-row">
-        <Icon name={failed.length > 0 ? "warning" : "good"} />
-        <span class="ui-grow">{t("files.written", { target })}</span>
-        {/\.\w+$/.test(target) && (
-          <a href={fileAddress(target)} target="_blank" rel="noreferrer">
-            {t("files.show")}
-          </a>
-        )}
-      </p>
-      {failed.length > 0 && <p>{t("files.failed", { names: failed.join("; ") })}</p>}
-      {notes.length > 0 && (
-        <details>
-          <summary>{t("files.notes", { count: notes.length })}</summary>
-          <ul>
-            {notes.map((note) => (
-              <li key={note}>{note}</li>
-            ))}
-          </ul>
-        </details>
+    <div class="ui-row">
+      {view !== null && (
+        <a class="ui-button primary small" href={view}>
+          <Icon name="open" />
+          {t("files.open")}
+        </a>
+      )}
+      <Button size="small" icon="copy" onClick={copy}>
+        {t("files.duplicate")}
+      </Button>
+      <Button size="small" icon="pencil" onClick={() => setRenaming(true)}>
+        {t("files.rename")}
+      </Button>
+      <a class="ui-button small" href={`${fileAddress(path)}?download=1`} download>
+        <Icon name="download" />
+        {t("files.downloadText")}
+      </a>
+      <Button size="small" icon="remove" onClick={drop}>
+        {t("files.delete")}
+      </Button>
+      {renaming && (
+        <Rename
+          path={path}
+          onClose={() => setRenaming(false)}
+          onRename={async (stem) => {
+            setRenaming(false);
+            onChoose(await giveName(path, stem));
+          }}
+        />
       )}
     </div>
   );
 }
 
-/** The text of a file, for what no view edits and for errors. */
-function Editor({ path }: { path: string }) {
-  const document = useDocument(path);
-  const [own, setOwn] = useState<string | null>(null);
-  const area = useRef<HTMLTextAreaElement>(null);
-  const text = own ?? document.text.value;
-  const state = document.saved.value;
-  useEffect(() => {
-    if (state === "saved") setOwn(null);
-  }, [state, document.text.value]);
-  const line = document.error.value?.line;
-  const goToLine = (number: number) => {
-    const begin =
-      text
-        .split("\n")
-        .slice(0, number - 1)
-        .join("\n").length + (number > 1 ? 1 : 0);
-    const end = text.indexOf("\n", begin);
-    area.current?.focus();
-    area.current?.setSelectionRange(begin, end < 0 ? text.length : end);
-  };
+function Rename(props: { path: string; onClose: () => void; onRename: (stem: string) => Promise<void> }) {
+  const [stem, setStem] = useState(stemOf(props.path));
   return (
-    <details class="files-editor" open={document.error.value !== null}>
-      <summary>{t("files.text")}</summary>
-      {typeof line === "number" && (
-        <Button size="small" onClick={() => goToLine(line)}>
-          {t("files.goToLine", { line })}
-        </Button>
-      )}
-      <textarea
-        ref={area}
-        aria-label={t("files.textOf", { path })}
-        spellcheck={false}
-        rows={Math.min(30, text.split("\n").length + 1)}
-        value={text}
-        disabled={state === "loading" || state === "missing"}
-        onInput={(event) => {
-          setOwn(event.currentTarget.value);
-          document.setText(event.currentTarget.value);
+    <Dialog
+      open
+      title={t("files.renameTitle", { path: props.path })}
+      onClose={props.onClose}
+      actions={
+        <>
+          <Button onClick={props.onClose}>{t("ui.cancel")}</Button>
+          <Button kind="primary" onClick={() => void props.onRename(stem)}>
+            {t("files.rename")}
+          </Button>
+        </>
+      }
+    >
+      <form
+        onSubmit={(event) => {
+          event.preventDefault();
+          void props.onRename(stem);
         }}
-      />
-    </details>
+      >
+        <TextField label={t("files.newName")} value={stem} onChange={setStem} />
+      </form>
+    </Dialog>
   );
 }

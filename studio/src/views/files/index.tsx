@@ -1,35 +1,54 @@
 import { useEffect } from "preact/hooks";
 import { useReady } from "../../app/ready";
-import { rename, type ViewProps } from "../../app/routes";
-import { openDocuments, project } from "../../project";
+import { goTo, type ViewProps } from "../../app/routes";
+import { project, projectProblem, refreshProject } from "../../project";
 import { t } from "../../text";
+import { Button } from "../../ui";
 import { FileList } from "./file-list";
-import { FileSide } from "./file-side";
-import { out, refreshOut } from "./work";
+import { CHOSEN, FileSide } from "./file-side";
+import { followOut, out } from "./work";
 import { Written } from "./written";
 import "./files.css";
+
+/** Pages of this width and less show the list or one file, not both. */
+const NARROW = "(max-width: 800px)";
+
+function choose(path: string): void {
+  goTo("files", path);
+  if (path !== "" && matchMedia(NARROW).matches) requestAnimationFrame(() => document.getElementById(CHOSEN)?.focus());
+}
 
 /** The files of the project, and everything that the command line writes of them. */
 export default function Files({ name }: ViewProps) {
   const found = project.value;
   useReady(found !== null && out.value !== null);
-  useEffect(() => {
-    void refreshOut().catch(() => undefined);
-  }, [openDocuments.value.length]);
-  if (found === null) return <p class="app-loading">{t("app.loading")}</p>;
-  const known = found.files.some((file) => file.path === name);
-  const chosen = known ? name : (found.files[0]?.path ?? "");
+  useEffect(followOut, []);
+  if (found === null) return <NoProject />;
+  const named = found.files.find((file) => file.path === name);
+  const chosen = named ?? found.files[0];
   return (
-    <div class="files">
+    <div class={`files${named ? " detail" : ""}`}>
       <header class="files-title">
         <h1>{t("files.title")}</h1>
         <p class="ui-muted">{found.folder}</p>
+        <NoProject />
       </header>
-      <FileList chosen={chosen} onChoose={rename} />
-      <div class="ui-stack files-side">
-        {chosen !== "" && <FileSide key={chosen} path={chosen} />}
-        <Written />
+      <FileList chosen={chosen?.path ?? ""} onChoose={choose} />
+      <div class="files-side">
+        {chosen && <FileSide key={chosen.path} file={chosen} onChoose={choose} />}
+        <Written folder={found.folder} />
       </div>
+    </div>
+  );
+}
+
+/** Why the project's files cannot be read; before the first answer that they are being read. */
+function NoProject() {
+  if (projectProblem.value === "") return project.value === null ? <p class="app-loading">{t("app.loading")}</p> : null;
+  return (
+    <div class="ui-callout bad ui-row" role="alert">
+      <p class="ui-grow">{projectProblem.value}</p>
+      <Button onClick={() => void refreshProject().catch(() => undefined)}>{t("app.tryAgain")}</Button>
     </div>
   );
 }

@@ -1,5 +1,6 @@
 /** What is being written, kept while another view is shown. */
 import { signal } from "@preact/signals";
+import { onEvent } from "../../api/events";
 import type { OutList, WrittenProduct } from "../../api/messages";
 import { ApiError, get, post } from "../../api/request";
 import { runWork } from "../../api/work";
@@ -25,9 +26,26 @@ function note(key: string, writing: Writing): void {
   writings.value = { ...writings.peek(), [key]: writing };
 }
 
-/** Reads the list of what was written again. */
+/** Why the list of what was written cannot be read; "": it can. */
+export const outProblem = signal("");
+
+/** Reads the list of what was written again; the last one stays where it cannot be read. */
 export async function refreshOut(): Promise<void> {
-  out.value = await get<OutList>("/project/out");
+  try {
+    out.value = await get<OutList>("/project/out");
+    outProblem.value = "";
+  } catch (error) {
+    if (error instanceof ApiError) outProblem.value = error.message;
+    out.value ??= { entries: [] };
+  }
+}
+
+/** Keeps the list of what was written up to date; returns what ends it. */
+export function followOut(): () => void {
+  void refreshOut();
+  return onEvent((event) => {
+    if (event.type === "changed" || event.type === "hello") void refreshOut();
+  });
 }
 
 /** Writes a product of a file, as it is now. */
@@ -51,7 +69,7 @@ export async function write(path: string, product: string): Promise<void> {
     if (abort.signal.aborted) note(key, { stage: "" });
     else note(key, { stage: "", problem: error instanceof Error ? error.message : String(error) });
   }
-  await refreshOut().catch(() => undefined);
+  await refreshOut();
 }
 
 /** Deletes a file or folder of out/; returns the problem, "" for none. */

@@ -1,30 +1,35 @@
-import { useEffect, useState } from "preact/hooks";
-import type { OutEntry, OutFile } from "../../api/messages";
+import { useState } from "preact/hooks";
+import type { OutEntry } from "../../api/messages";
 import { fileAddress } from "../../project";
-import { language, t } from "../../text";
+import { t } from "../../text";
 import { Icon, IconButton } from "../../ui";
-import { sizeText } from "./size";
-import { out, refreshOut, removeWritten } from "./work";
+import { sizeText, timeText } from "./format";
+import { Downloads, FileLink, isSingle, Preview } from "./out-files";
+import { Stale } from "./products";
+import { out, outProblem, removeWritten } from "./work";
 
-/** What was written into out/, with links; pages open in a sandbox of their own. */
-export function Written() {
-  const [problem, setProblem] = useState("");
-  useEffect(() => {
-    refreshOut().catch(() => setProblem(t("files.noList")));
-  }, []);
+/** All that was written into out/, with links; pages open in a sandbox of their own. */
+export function Written({ folder }: { folder: string }) {
+  const [failure, setFailure] = useState("");
   const entries = out.value?.entries ?? [];
+  const problem = outProblem.value || failure;
   return (
-    <section class="ui-stack" aria-label={t("files.inOut")}>
-      <h2>{t("files.inOut")}</h2>
+    <section class="ui-stack files-all" aria-labelledby="files-written">
+      <div>
+        <h2 id="files-written">{t("files.inOut")}</h2>
+        <p class="ui-muted">
+          <code>{folder}/out</code>
+        </p>
+      </div>
       {problem !== "" && (
         <p class="ui-callout bad" role="alert">
           {problem}
         </p>
       )}
-      {entries.length === 0 && <p class="ui-muted">{t("files.nothingWritten")}</p>}
+      {entries.length === 0 && problem === "" && <p class="ui-muted">{t("files.nothingWritten")}</p>}
       <ul class="files-written">
         {entries.map((entry) => (
-          <Entry key={entry.path} entry={entry} onDelete={async () => setProblem(await removeWritten(entry.path))} />
+          <Entry key={entry.path} entry={entry} onDelete={async () => setFailure(await removeWritten(entry.path))} />
         ))}
       </ul>
     </section>
@@ -32,63 +37,55 @@ export function Written() {
 }
 
 function Entry({ entry, onDelete }: { entry: OutEntry; onDelete: () => Promise<void> }) {
-  const single = entry.files.length === 1 && entry.files[0]?.path === entry.path;
-  const when = new Intl.DateTimeFormat(language.value, { dateStyle: "short", timeStyle: "short" });
+  const single = isSingle(entry);
   return (
     <li>
-      <div class="ui-row">
-        <Icon name={single ? "copy" : "files"} />
-        <span class="ui-grow files-name">
-          {single && entry.files[0] !== undefined ? <Link file={entry.files[0]} label={entry.path} /> : entry.path}
-        </span>
-        <span class="ui-muted">{sizeText(entry.size)}</span>
-        <span class="ui-muted">{when.format(new Date(1000 * entry.time))}</span>
-        {single && <Download path={entry.path} />}
-        <IconButton
-          icon="remove"
-          size="small"
-          label={t("files.deleteWritten", { path: entry.path })}
-          onClick={() => void onDelete()}
-        />
+      <div class="files-product-head">
+        <Preview entry={entry} />
+        <div class="ui-grow">
+          <strong class="files-name">{entry.path.slice("out/".length)}</strong>
+          {!single && <span class="ui-muted"> {t("files.count", { count: entry.files.length })}</span>}
+          <p class="files-age">
+            {sizeText(entry.size)} · {timeText(entry.time)} <Stale entry={entry} />
+          </p>
+        </div>
+        <div class="ui-row files-buttons">
+          <Downloads entry={entry} />
+          <IconButton
+            icon="remove"
+            size="small"
+            label={t("files.deleteWritten", { path: entry.path })}
+            onClick={() => void onDelete()}
+          />
+        </div>
       </div>
-      {!single && (
-        <ul>
-          {entry.files.map((file) => (
-            <li key={file.path} class="ui-row">
-              <span class="ui-grow files-name">
-                <Link file={file} label={file.path.slice(entry.path.length + 1)} />
-              </span>
-              <span class="ui-muted">{sizeText(file.size)}</span>
-              <Download path={file.path} />
-            </li>
-          ))}
-        </ul>
-      )}
+      {!single && <FolderFiles entry={entry} />}
     </li>
   );
 }
 
-const SHOWN = /\.(html|png|jpe?g|gif|webp|pdf|txt|csv|json|toml|mp4|svg)$/i;
-
-function Link({ file, label }: { file: OutFile; label: string }) {
-  if (!SHOWN.test(file.path)) return <>{label}</>;
+function FolderFiles({ entry }: { entry: OutEntry }) {
   return (
-    <a href={fileAddress(file.path)} target="_blank" rel="noreferrer">
-      {label}
-    </a>
-  );
-}
-
-function Download({ path }: { path: string }) {
-  return (
-    <a
-      class="ui-button quiet small icon"
-      href={`${fileAddress(path)}?download=1`}
-      download
-      aria-label={t("files.download", { path })}
-      title={t("files.download", { path })}
-    >
-      <Icon name="download" />
-    </a>
+    <details class="files-command">
+      <summary>{t("files.filesOf", { path: entry.path })}</summary>
+      <ul>
+        {entry.files.map((file) => (
+          <li key={file.path} class="ui-row">
+            <span class="ui-grow files-name">
+              <FileLink file={file} label={file.path.slice(entry.path.length + 1)} />
+            </span>
+            <span class="ui-muted">{sizeText(file.size)}</span>
+            <a
+              class="ui-button quiet small icon"
+              href={`${fileAddress(file.path)}?download=1`}
+              download
+              aria-label={t("files.download", { path: file.path })}
+            >
+              <Icon name="download" />
+            </a>
+          </li>
+        ))}
+      </ul>
+    </details>
   );
 }
