@@ -51,7 +51,6 @@ export default {
   nothingWritten: "Nothing was written yet. Choose a file and write what you need of it.",
   count: "{count} file|{count} files",
   filesOf: "Files of {path}",
-  noList: "The list could not be read. Reload the page, or start the studio again.",
   deleteWritten: "Delete {path}",
   download: "Download {path}",
   product_carpet: "Carpet and loom",

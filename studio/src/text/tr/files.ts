@@ -53,7 +53,6 @@ export default {
   nothingWritten: "Henüz bir şey yazılmadı. Bir dosya seçin, gerekeni yazın.",
   count: "{count} dosya|{count} dosya",
   filesOf: "{path} dosyaları",
-  noList: "Liste okunamadı. Sayfayı yenileyin ya da stüdyoyu yeniden başlatın.",
   deleteWritten: "{path} sil",
   download: "{path} indir",
   product_carpet: "Halı ve tezgâh",
