@@ -56,21 +56,30 @@ class Cell:
 
 
 def cells(table: Table) -> list[list[Cell]]:
-    """A table's rows as printed; numbers below 1e-9 of the largest in their column are printed as 0.
+    """A table's rows as printed, without rounding noise.
 
     >>> from ilmek.report import Column
     >>> shown = cells(Table("t", "", (Column("x", "mm"),), ((0.1,), (1e-17,))))
     >>> [row[0].text for row in shown]
     ['100', '0']
     """
+    return [
+        [Cell(number(v, c.unit, c.digits), isinstance(v, int | float)) for v, c in zip(row, table.columns, strict=True)]
+        for row in quiet_rows(table)
+    ]
+
+
+def quiet_rows(table: Table) -> list[list[float | int | str]]:
+    """A table's rows; numbers below 1e-9 of the largest in their column are 0.
+
+    >>> quiet_rows(Table("t", "", (), ((0.1, "a"), (1e-17, "b"))))
+    [[0.1, 'a'], [0.0, 'b']]
+    """
     noise = [
         _NOISE * max((abs(v) for v in column if _measured(v)), default=0.0) for column in zip(*table.rows, strict=True)
     ]
     return [
-        [
-            Cell(number(0 if _measured(v) and abs(v) < least else v, c.unit, c.digits), isinstance(v, int | float))
-            for v, least, c in zip(row, noise, table.columns, strict=True)
-        ]
+        [0.0 if _measured(v) and abs(v) < least else v for v, least in zip(row, noise, strict=True)]
         for row in table.rows
     ]
 

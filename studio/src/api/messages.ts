@@ -147,8 +147,9 @@ export interface HardRow {
 /**
  * A check: `value` against `limit` [SI], both as texts too.
  *
- *     machine  the machine in it that the check is of, "" for its own
- *     ratio    value over limit; null where the limit is 0 or one of them is no number
+ *     machine     the machine in it that the check is of, "" for its own
+ *     limit_text  with its relation: "≤ 5 mm"; "" of a plain yes or no
+ *     ratio       value over limit; null of a plain yes or no, where the limit is 0, or one of them is no number
  *
  * This interface was referenced by `Messages`'s JSON-Schema
  * via the `definition` "ShownCheck".
@@ -2121,7 +2122,7 @@ export interface SolveRequest {
 /**
  * The four-bars for a task, the best first.
  *
- *     quick     whether the search was short: the full one may find better ones
+ *     quick     whether the search was short: the full one may find more, and better ones
  *     sieve     how many were found and kept, as a sentence
  *     found     number within all limits, `more` of them not listed
  *     required  of a function: x and the required rotation of the rocker [rad]

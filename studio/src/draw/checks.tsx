@@ -9,8 +9,8 @@ export interface CheckShown {
   machine?: string;
   ok: boolean;
   value_text: string;
+  /** With its relation. */
   limit_text: string;
-  relation: string;
   /** Value over limit; null where there is none. */
   ratio?: number | null;
   source: string;
@@ -48,7 +48,6 @@ export function CheckList({ checks }: { checks: readonly CheckShown[] }) {
 }
 
 function Row({ check }: { check: CheckShown }) {
-  const sign = { "<=": "≤", ">=": "≥" }[check.relation] ?? check.relation;
   return (
     <li class={`check ${check.ok ? "" : "bad"}`}>
       <Icon name={check.ok ? "connected" : "error"} label={check.ok ? t("ui.holds") : t("ui.fails")} />
@@ -59,7 +58,7 @@ function Row({ check }: { check: CheckShown }) {
         </span>
         <Bar check={check} />
         <span class="check-values">
-          <b>{check.value_text}</b> {sign} {check.limit_text}
+          <b>{check.value_text}</b> {check.limit_text}
         </span>
         {check.ok ? (
           check.source && <p class="check-source">{check.source}</p>

@@ -45,15 +45,14 @@ export function paintDrawing(context: CanvasRenderingContext2D, drawing: ShownDr
   }
 }
 
-/** Names of dots, and of strokes once each. */
-export function namesOf(drawing: ShownDrawing, map: Map2D): Named[] {
+/** Names of dots, and of strokes once each; `seen`: names that are shown already. */
+export function namesOf(drawing: ShownDrawing, map: Map2D, seen = new Set<string>()): Named[] {
   const made: Named[] = [];
   for (const dot of drawing.dots) {
     if (dot.label === "") continue;
     const at: [number, number] = [map.x0 + dot.at[0] * map.scale, map.y0 - dot.at[1] * map.scale];
     made.push({ text: dot.label, anchors: [at], bold: true, look: -1, clear: 8 });
   }
-  const seen = new Set<string>();
   for (const stroke of drawing.strokes) {
     if (stroke.label === "" || stroke.role === "dimension" || seen.has(stroke.label)) continue;
     seen.add(stroke.label);

@@ -1,6 +1,6 @@
 /** The parts of an animation at a frame, between frames on straight lines. */
 import type { MovingShape, Numbers, ShownAnimation } from "./figures";
-import { type Extent, emptyExtent, extentOf, include, type Map2D } from "./viewport";
+import { type Extent, extentOf, include, type Map2D } from "./viewport";
 
 /** Number of steps between frames from the first to the last, or to the first again. */
 export function stepsOf(animation: ShownAnimation): number {
@@ -44,14 +44,8 @@ export function reachOf(animation: ShownAnimation): Extent {
   for (const track of animation.tracks) include(extent, track);
   for (const shape of animation.shapes) {
     if (shape.shape.length === 0) continue;
-    const round = emptyExtent();
-    include(round, shape.shape);
-    const radius = Math.max(Math.abs(round.left), Math.abs(round.right), Math.abs(round.low), Math.abs(round.high));
-    const track = animation.tracks[shape.tracks[0] ?? 0] ?? [];
-    for (let k = 0; k + 1 < track.length; k += 2) {
-      const [x, y] = [track[k], track[k + 1]];
-      if (x == null || y == null) continue;
-      include(extent, [x - radius, y - radius, x + radius, y + radius]);
+    for (let frame = 0; frame < animation.at.length; frame++) {
+      include(extent, pointsAt(animation, shape, frame));
     }
   }
   return extent;
@@ -59,20 +53,19 @@ export function reachOf(animation: ShownAnimation): Extent {
 
 /** The points of a moving shape at a frame [px]. */
 export function shapeAt(animation: ShownAnimation, shape: MovingShape, frame: number, map: Map2D): Float64Array {
+  return pointsAt(animation, shape, frame).map((value, k) =>
+    k % 2 === 0 ? map.x0 + value * map.scale : map.y0 - value * map.scale,
+  );
+}
+
+/** The points of a moving shape at a frame [m]. */
+function pointsAt(animation: ShownAnimation, shape: MovingShape, frame: number): Float64Array {
   const frames = animation.at.length;
   const point = (track: number): [number, number] => {
     const list = animation.tracks[track] ?? [];
     return [between(list, frame, frames, 2, 0), between(list, frame, frames, 2, 1)];
   };
-  if (shape.shape.length === 0) {
-    const made = new Float64Array(2 * shape.tracks.length);
-    shape.tracks.forEach((track, k) => {
-      const [x, y] = point(track);
-      made[2 * k] = map.x0 + x * map.scale;
-      made[2 * k + 1] = map.y0 - y * map.scale;
-    });
-    return made;
-  }
+  if (shape.shape.length === 0) return Float64Array.from(shape.tracks.flatMap(point));
   const [x, y] = point(shape.tracks[0] ?? 0);
   const [ax, ay] = point(shape.tracks[1] ?? 0);
   const size = Math.hypot(ax - x, ay - y) || 1;
@@ -80,8 +73,8 @@ export function shapeAt(animation: ShownAnimation, shape: MovingShape, frame: nu
   const made = new Float64Array(shape.shape.length);
   for (let k = 0; k + 1 < made.length; k += 2) {
     const [lx, ly] = [shape.shape[k] ?? Number.NaN, shape.shape[k + 1] ?? Number.NaN];
-    made[k] = map.x0 + (x + c * lx - s * ly) * map.scale;
-    made[k + 1] = map.y0 - (y + s * lx + c * ly) * map.scale;
+    made[k] = x + c * lx - s * ly;
+    made[k + 1] = y + s * lx + c * ly;
   }
   return made;
 }

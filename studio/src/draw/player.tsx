@@ -182,6 +182,7 @@ function paintFrame(
   height: number,
 ): void {
   const names: Named[] = [];
+  const seen = new Set<string>();
   const frames = animation.at.length;
   for (const shape of byRole(animation.shapes)) {
     const points = shapeAt(animation, shape, frame, map);
@@ -190,7 +191,9 @@ function paintFrame(
       ((points[0] ?? 0) + (points[2] ?? 0)) / 2,
       ((points[1] ?? 0) + (points[3] ?? 0)) / 2,
     ];
-    if (shape.label) names.push({ text: shape.label, anchors: [middle], bold: false, look: shape.look, clear: 9 });
+    if (shape.label === "" || seen.has(shape.label)) continue;
+    seen.add(shape.label);
+    names.push({ text: shape.label, anchors: [middle], bold: false, look: shape.look, clear: 9 });
   }
   for (const dot of animation.still.dots) {
     paintDot(context, dot.role, map.x0 + dot.at[0] * map.scale, map.y0 - dot.at[1] * map.scale);
@@ -203,5 +206,5 @@ function paintFrame(
     paintDot(context, dot.role, x, y, along);
     if (dot.label) names.unshift({ text: dot.label, anchors: [[x, y]], bold: true, look: -1, clear: 8 });
   }
-  paintNames(context, [...names, ...namesOf(animation.still, map)], width, height);
+  paintNames(context, [...names, ...namesOf(animation.still, map, seen)], width, height);
 }

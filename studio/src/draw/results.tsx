@@ -1,6 +1,6 @@
 import { useState } from "preact/hooks";
-import { t } from "../text";
-import { TextField } from "../ui";
+import { formatNumber, t } from "../text";
+import { Button, TextField } from "../ui";
 
 /** A result as the server shows it. */
 export interface ResultShown {
@@ -10,13 +10,18 @@ export interface ResultShown {
   meaning: string;
 }
 
-/** Results with their meanings; a field filters them where there are many. */
+/** Number of results that are shown at first. */
+const AT_FIRST = 40;
+
+/** Results with their meanings; where there are many, the first ones, and a field that filters them. */
 export function ResultTable({ results }: { results: readonly ResultShown[] }) {
   const [filter, setFilter] = useState("");
+  const [all, setAll] = useState(false);
   const wanted = filter.trim().toLowerCase();
-  const shown = results.filter((one) =>
+  const found = results.filter((one) =>
     `${one.machine ?? ""} ${one.name} ${one.meaning}`.toLowerCase().includes(wanted),
   );
+  const shown = all ? found : found.slice(0, AT_FIRST);
   return (
     <div class="ui-stack">
       {results.length > 12 && <TextField label={t("ui.filter")} value={filter} onChange={setFilter} />}
@@ -35,7 +40,7 @@ export function ResultTable({ results }: { results: readonly ResultShown[] }) {
             {shown.map((one) => (
               <tr key={`${one.machine ?? ""}.${one.name}`}>
                 <th scope="row">{one.meaning}</th>
-                <td class="number">{one.text}</td>
+                <td class="number fig-lines">{one.text}</td>
                 <td>
                   <code>{one.machine ? `${one.machine}.${one.name}` : one.name}</code>
                 </td>
@@ -44,6 +49,11 @@ export function ResultTable({ results }: { results: readonly ResultShown[] }) {
           </tbody>
         </table>
       </div>
+      {shown.length < found.length && (
+        <Button kind="quiet" size="small" onClick={() => setAll(true)}>
+          {t("ui.showAll")} ({formatNumber(found.length)})
+        </Button>
+      )}
     </div>
   );
 }

@@ -27,12 +27,8 @@ export interface Map2D {
   y0: number;
 }
 
-export function emptyExtent(): Extent {
-  const far = Number.POSITIVE_INFINITY;
-  return { left: far, right: -far, low: far, high: -far };
-}
-
-export function include(extent: Extent, points: Numbers): void {
+/** Widens a box to hold points, x and y in turn; gaps are null or NaN. */
+export function include(extent: Extent, points: Numbers | Float64Array): void {
   for (let k = 0; k + 1 < points.length; k += 2) {
     const [x, y] = [points[k], points[k + 1]];
     if (x == null || y == null) continue;
@@ -45,7 +41,8 @@ export function include(extent: Extent, points: Numbers): void {
 
 /** The box around a drawing. */
 export function extentOf(drawing: ShownDrawing): Extent {
-  const extent = emptyExtent();
+  const far = Number.POSITIVE_INFINITY;
+  const extent = { left: far, right: -far, low: far, high: -far };
   for (const stroke of drawing.strokes) include(extent, stroke.points);
   for (const dot of drawing.dots) include(extent, dot.at);
   return extent;

@@ -100,7 +100,7 @@ export function formatNumber(value: number, digits = 4): string {
     });
     formats.set(key, format);
   }
-  return format.format(rounded).replace("-", "−");
+  return format.format(rounded).replaceAll("-", "−");
 }
 
 /** A time span in words: "2 h 5 min", "40 s". */

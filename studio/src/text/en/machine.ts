@@ -18,7 +18,7 @@ export default {
   reset: "Reset {name} to its default",
   resetAll: "Reset all",
   resetAllHint: "Takes every setting out of the file; undo brings them back",
-  chosenBy: "chosen: {value}",
+  chosen: "Chosen by the design: {value}.",
   byDesign: "chosen by the design",
   defaultIs: "default {value}",
   readAs: "read as {value}",

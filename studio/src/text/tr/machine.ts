@@ -21,7 +21,7 @@ export default {
   reset: "Varsayılana döndür: {name}",
   resetAll: "Tümünü sıfırla",
   resetAllHint: "Bütün ayarları dosyadan çıkarır; geri al ile dönerler",
-  chosenBy: "seçilen: {value}",
+  chosen: "Tasarımın seçtiği: {value}.",
   byDesign: "tasarım seçer",
   defaultIs: "varsayılan {value}",
   readAs: "{value} olarak okundu",

@@ -77,7 +77,7 @@ function Checks({ model }: { model: CarpetModel }) {
       {about.checks.map((check) => (
         <li key={check.name} class={check.ok ? "good" : "bad"}>
           <Icon name={check.ok ? "good" : "error"} label={check.ok ? t("carpet.holds") : t("carpet.fails")} />
-          <span>{`${check.name}: ${check.value_text} ${check.relation} ${check.limit_text}`}</span>
+          <span>{`${check.name}: ${check.value_text} ${check.limit_text}`}</span>
         </li>
       ))}
       {about.warnings.map((warning) => (

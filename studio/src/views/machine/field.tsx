@@ -28,6 +28,7 @@ export function FieldRow({ model, field }: RowProps) {
     model.set({ ...changes, [field.name]: to });
   };
   const label = labelOf(field);
+  const chosen = name === undefined && field.default === null && force?.value != null;
   return (
     <div class={`machine-field${name === undefined ? "" : " set"}`}>
       <div class="ui-field-head">
@@ -49,11 +50,17 @@ export function FieldRow({ model, field }: RowProps) {
       </div>
       <Control id={id} model={model} field={field} setting={setting} force={force} set={set} />
       <p class="ui-help" id={`${id}-help`}>
-        {field.doc}
+        <Meaning text={field.doc} />
+        {chosen && <> {t("machine.chosen", { value: force.text })}</>}
       </p>
       {model.moving.value && <Strip model={model} field={field} />}
     </div>
   );
+}
+
+/** What a parameter means; examples of what can be typed are in backticks. */
+function Meaning({ text }: { text: string }) {
+  return <>{text.split("`").map((part, at) => (at % 2 === 0 ? part : <code key={at}>{part}</code>))}</>;
 }
 
 interface ControlProps extends RowProps {
@@ -219,8 +226,8 @@ export function settingOf(field: FormField, text: string): Setting | undefined {
 }
 
 function placeholderOf(field: FormField, force: ForceValue | undefined): string {
-  if (force?.value != null && field.default === null) return t("machine.chosenBy", { value: force.text });
-  return field.default === null ? t("machine.byDesign") : field.default_text;
+  if (field.default !== null) return field.default_text;
+  return force?.value == null ? t("machine.byDesign") : force.text;
 }
 
 /** A slider over a part of the bounds; it follows a value that is typed outside of that part. */

@@ -2,7 +2,7 @@ import { useState } from "preact/hooks";
 import { formatNumber, t } from "../../text";
 import { Button, Icon, Progress, Toggle } from "../../ui";
 import { FieldRow } from "./field";
-import { type Group, groupsOf } from "./form";
+import { type Group, groupLabel, groupsOf } from "./form";
 import type { MachineModel } from "./model";
 
 /** Number of parameters of a group that are shown before the rest is opened. */
@@ -101,7 +101,7 @@ function GroupOfFields({ model, group, open }: { model: MachineModel; group: Gro
   return (
     <details class="machine-group" open={open}>
       <summary>
-        <h2>{group.name === "" ? t("machine.groupGeneral") : group.name.replaceAll("_", " ")}</h2>
+        <h2>{group.name === "" ? t("machine.groupGeneral") : groupLabel(group.name)}</h2>
         <span class="ui-muted">{t("machine.count", { count: group.fields.length })}</span>
       </summary>
       {shown.map((field) => (

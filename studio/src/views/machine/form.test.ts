@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import type { FormField } from "../../api/messages";
-import { groupsOf, isSet, labelOf, nameIn } from "./form";
+import { groupLabel, groupsOf, isSet, labelOf, nameIn } from "./form";
 
 const NO = { words: "", changed: false, machine: "" };
 
@@ -60,4 +60,8 @@ test("only what is set, of every machine", () => {
 
 test("a name is shown in words without its group", () => {
   expect(FIELDS.map(labelOf)).toEqual(["swing", "beat force", "material", "law"]);
+});
+
+test("the group of a machine in the machine is shown with its path", () => {
+  expect(groupLabel("weaver.side_grippers")).toBe("weaver › side grippers");
 });

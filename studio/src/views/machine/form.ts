@@ -44,6 +44,11 @@ export function nameIn(field: FormField, settings: Settings): string | undefined
   return field.alias !== "" && field.alias in settings ? field.alias : undefined;
 }
 
+/** A group's name in words: `weaver.side_grippers` is "weaver › side grippers". */
+export function groupLabel(name: string): string {
+  return name.replaceAll("_", " ").split(".").join(" › ");
+}
+
 /** The last part of a parameter's name, in words: `beat_force` is "beat force". */
 export function labelOf(field: FormField): string {
   return (field.name.split(".").at(-1) ?? field.name).replaceAll("_", " ");

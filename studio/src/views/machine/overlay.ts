@@ -12,9 +12,9 @@ export function overlaid(a: readonly ShownFigure[], b: readonly ShownFigure[]): 
   });
 }
 
-/** The figures that are shown at first: what moves, else a drawing, and the first two curves. */
+/** The figures that are shown at first: what moves, else a drawing, and the first two curves; without curves both. */
 export function firstFigures(known: readonly { name: string; kind: string }[]): string[] {
   const of = (kind: string) => known.filter((figure) => figure.kind === kind).map((figure) => figure.name);
-  const drawn = [...of("animation").slice(0, 1), ...of("drawing").slice(0, 1)].slice(0, 1);
-  return [...drawn, ...of("plot").slice(0, 2)];
+  const [drawn, plots] = [[...of("animation").slice(0, 1), ...of("drawing").slice(0, 1)], of("plot").slice(0, 2)];
+  return plots.length > 0 ? [...drawn.slice(0, 1), ...plots] : drawn;
 }

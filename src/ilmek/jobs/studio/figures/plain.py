@@ -47,6 +47,7 @@ from ilmek.report import (
 )
 from ilmek.viz.looks import COLOURED, looks_of, numbered
 from ilmek.viz.moving_parts import is_rigid
+from ilmek.viz.number_format import quiet_rows
 from ilmek.viz.thinning import thinned_curve, thinned_line
 
 DIGITS = 6
@@ -82,9 +83,9 @@ def shown_figure(figure: Figure, looks: Mapping[str, int]) -> ShownFigure:
 
 
 def shown_table(table: Table) -> ShownTable:
-    """A table."""
+    """A table, without rounding noise."""
     heads = [ShownColumn(one.heading, one.unit, one.digits) for one in table.columns]
-    return ShownTable(table.name, table.title, heads, [list(row) for row in table.rows])
+    return ShownTable(table.name, table.title, heads, quiet_rows(table))
 
 
 def rounded_numbers(values: FloatArray) -> Numbers:

@@ -98,7 +98,7 @@ def _holds(check: ShownCheck | None) -> bool | None:
 
 
 def _text(check: ShownCheck | None) -> str:
-    return "" if check is None else f"{check.value_text} {check.relation} {check.limit_text}"
+    return "" if check is None else f"{check.value_text} {check.limit_text}".strip()
 
 
 def _change(one: object, other: object) -> float | None:

@@ -1,5 +1,6 @@
 """The catalogue of machines, the form of one, one typed value of it, and its design."""
 
+import re
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import Any
@@ -10,7 +11,7 @@ from ilmek.jobs.machines import machine_list
 from ilmek.jobs.studio.answers import Context
 from ilmek.machines.catalogue import find_machine
 from ilmek.params import Parameter, Setting, Value, overridden, reachable
-from ilmek.units import format_quantity, parse_unit, printed_unit
+from ilmek.units import format_number, format_quantity, parse_unit, printed_unit
 
 KINDS = {float: "quantity", int: "count", bool: "flag", str: "text"}
 """Names of the kinds of parameters; a text with choices is a "choice"."""
@@ -150,12 +151,22 @@ def value_text(value: Value, unit: str) -> str:
 
     >>> value_text(0.0625, "mm"), value_text(True, ""), value_text(None, "mm"), value_text("rapier", "")
     ('62.5 mm', 'yes', '', 'rapier')
+    >>> value_text(7850, "kg/m^3"), value_text(12000000, "")
+    ('7850 kg/m³', '12000000')
+    >>> value_text("(40.1923788646684mm,150mm)", "")
+    '(40.1924mm,150mm)'
     """
-    if value is None or isinstance(value, str):
-        return value or ""
+    if value is None:
+        return ""
+    if isinstance(value, str):
+        return _LONG.sub(lambda found: format_number(float(found.group()), 6), value)
     if isinstance(value, bool):
         return "yes" if value else "no"
-    return str(value) if isinstance(value, int) else format_quantity(value, unit, 6)
+    return str(value) if isinstance(value, int) and not unit else format_quantity(value, unit, 6)
+
+
+_LONG = re.compile(r"\d+\.\d{5,}")
+"""Numbers in a text with more digits than are shown."""
 
 
 @lru_cache(maxsize=32)

@@ -15,15 +15,17 @@ from ilmek.jobs.studio.machine.tasks import DesignRequest, parameters_of, value_
 from ilmek.machines.catalogue import find_machine
 from ilmek.params import Params, Setting, Value
 from ilmek.progress import SILENT, Progress
-from ilmek.report import Check, Report, in_words, result_text
+from ilmek.report import Check, Json, Reason, Report, in_words, result_text
+from ilmek.viz.number_format import beside, compared, quantity
 
 
 @dataclass(frozen=True, slots=True)
 class ShownCheck:
     """A check: `value` against `limit` [SI], both as texts too.
 
-    machine  the machine in it that the check is of, "" for its own
-    ratio    value over limit; null where the limit is 0 or one of them is no number
+    machine     the machine in it that the check is of, "" for its own
+    limit_text  with its relation: "≤ 5 mm"; "" of a plain yes or no
+    ratio       value over limit; null of a plain yes or no, where the limit is 0, or one of them is no number
     """
 
     name: str
@@ -166,7 +168,7 @@ def shown(report: Report, params: Params, seconds: float) -> DesignView:
         title=report.title,
         holds=not report.failed,
         failed=sum(not one.ok for one in checks),
-        reasons=tuple(ShownReason(one.name, _against(one), one.cure) for one in report.reasons),
+        reasons=tuple(ShownReason(one.name, " ".join(printed(one)).strip(), one.cure) for one in report.reasons),
         checks=checks,
         results=tuple(_results(report, "")),
         choices=tuple(ShownChoice(**one.as_json()) for one in report.all_choices),
@@ -194,14 +196,21 @@ def _of_machines(report: Report) -> dict[str, Any]:
     return {f"{child.machine}.{name}": value for child in report.children for name, value in child.parameters.items()}
 
 
-def _against(check: Any) -> str:
-    value, limit = in_words(check)
-    return f"{value}, limit {check.relation} {limit}"
+def printed(check: Check | Reason) -> tuple[str, str]:
+    """Value and limit with their unit, the limit with its relation; of a plain yes or no, the limit is left out.
+
+    >>> from ilmek.report import at_most, must
+    >>> printed(at_most("angle", 0.1, 0.2, "deg", "")), printed(must("knot tied", False, ""))
+    (('5.73°', '≤ 11.46°'), ('no', ''))
+    """
+    value, limit = compared(check)
+    unit = beside(check)
+    return value + unit, "" if limit == "yes" else limit + unit
 
 
 def shown_check(check: Check, machine: str = "") -> ShownCheck:
     """A check as it is shown; machine: in it that the check is of."""
-    value, limit = in_words(check)
+    value, limit = printed(check)
     return ShownCheck(
         name=check.name,
         machine=machine,
@@ -211,7 +220,7 @@ def shown_check(check: Check, machine: str = "") -> ShownCheck:
         relation=check.relation,
         value_text=value,
         limit_text=limit,
-        ratio=ratio_of(check),
+        ratio=ratio_of(check) if limit else None,
         source=check.source,
         cure=check.cure,
     )
@@ -227,7 +236,7 @@ def _results(report: Report, machine: str) -> Iterator[ShownResult]:
     for one in report.results:
         if one.shown:
             number = one.value if isinstance(one.value, int | float) and not isinstance(one.value, bool) else None
-            text = result_text(one.value, one.unit)
+            text = quantity(number, one.unit) if number is not None else result_text(one.value, one.unit)
             yield ShownResult(one.name, machine, text, one.unit, one.meaning, _number(number))
     for child in report.children:
         yield from _results(child, f"{machine}: {child.machine}" if machine else child.machine)
