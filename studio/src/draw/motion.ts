@@ -41,9 +41,12 @@ export function quiet(value: number, values: Numbers): number {
 /** All positions that an animation reaches. */
 export function reachOf(animation: ShownAnimation): Extent {
   const extent = extentOf(animation.still);
-  for (const track of animation.tracks) include(extent, track);
+  for (const point of animation.points) include(extent, animation.tracks[point.track] ?? []);
   for (const shape of animation.shapes) {
-    if (shape.shape.length === 0) continue;
+    if (shape.shape.length === 0) {
+      for (const track of shape.tracks) include(extent, animation.tracks[track] ?? []);
+      continue;
+    }
     for (let frame = 0; frame < animation.at.length; frame++) {
       include(extent, pointsAt(animation, shape, frame));
     }

@@ -15,7 +15,7 @@ from ilmek.jobs.studio.machine.tasks import DesignRequest, parameters_of, value_
 from ilmek.machines.catalogue import find_machine
 from ilmek.params import Params, Setting, Value
 from ilmek.progress import SILENT, Progress
-from ilmek.report import Check, Json, Reason, Report, in_words, result_text
+from ilmek.report import Check, Reason, Report, result_text
 from ilmek.viz.number_format import beside, compared, quantity
 
 
