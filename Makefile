@@ -58,6 +58,7 @@ studio/node_modules/.installed: studio/package.json studio/package-lock.json
 # Users need no Node: the built client is in the package. Who changes studio/src builds it again.
 client: venv studio/node_modules/.installed
 	PYTHONPATH=src $(BIN)/python -m ilmek.web.schema studio/src/api
+	PYTHONPATH=src $(BIN)/python -m ilmek.web.api_page docs/reference/studio-api.md
 	cd studio && npm run --silent types && npm run --silent build
 
 # Without Node the tests still prove, by a digest, that the shipped client is the build of the sources.

@@ -2,15 +2,20 @@
 
 import ast
 import json
+import re
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 from sources import tree_of
 
-from ilmek.web.endpoints import ENDPOINTS
-from ilmek.web.schema import messages, openapi
+from ilmek.jobs.studio.answers import Binary
+from ilmek.web.api_page import with_table
+from ilmek.web.endpoints import ENDPOINTS, Endpoint
+from ilmek.web.openapi import openapi
+from ilmek.web.schema import answer_type, messages
 
 ROOT = Path(__file__).parents[2]
 PACKAGE = ROOT / "src" / "ilmek"
@@ -78,12 +83,59 @@ def test_each_record_of_the_messages_is_a_type_of_the_client() -> None:
 
 
 def test_the_api_is_described_whole() -> None:
-    paths = openapi()["paths"]
-    described = {(method.upper(), path) for path, methods in paths.items() for method in methods}
-    assert len(described) == len(ENDPOINTS)
-    for methods in paths.values():
-        for operation in methods.values():
-            assert operation["summary"].endswith(".")
+    described = openapi()
+    operations = {
+        (method.upper(), path): operation
+        for path, methods in described["paths"].items()
+        for method, operation in methods.items()
+    }
+    assert {(endpoint.method, f"/api{re.sub(r':[a-z]+', '', endpoint.path)}") for endpoint in ENDPOINTS} <= set(
+        operations
+    )
+    assert len({operation["operationId"] for operation in operations.values()}) == len(operations)
+    for (method, path), operation in operations.items():
+        assert operation["summary"].endswith(".")
+        assert operation["description"]
+        assert {"200", "202", "204"} & set(operation["responses"])
+        assert {"401", "403", "421"} <= set(operation["responses"])
+        in_path = {one["name"] for one in operation["parameters"] if one["in"] == "path"}
+        assert in_path == set(re.findall(r"{(\w+)}", path))
+        assert ("requestBody" in operation) == (method in ("POST", "PUT"))
+
+
+def test_the_description_is_openapi() -> None:
+    described = openapi()
+    assert described["openapi"].startswith("3.1.")
+    assert set(described) == {"openapi", "info", "security", "paths", "components"}
+    waiting: list[Any] = [described]
+    while waiting:
+        part = waiting.pop()
+        waiting.extend(part.values() if isinstance(part, dict) else part if isinstance(part, list) else ())
+        if not isinstance(part, dict):
+            continue
+        if "$ref" in part and isinstance(part["$ref"], str):
+            target: Any = described
+            for name in part["$ref"].removeprefix("#/").split("/"):
+                target = target[name]
+        if isinstance(part.get("type"), str) and "scheme" not in part:
+            assert part["type"] in {"object", "array", "string", "number", "integer", "boolean", "null"}
+        if "required" in part and "properties" in part:
+            assert set(part["required"]) <= set(part["properties"])
+        if "responses" in part and "summary" in part:
+            assert all(re.fullmatch(r"[1-5]\d\d", status) for status in part["responses"])
+        if set(part) & {"200", "202"}:
+            assert all("$ref" in one or one["description"] for one in part.values())
+
+
+@pytest.mark.parametrize("endpoint", ENDPOINTS, ids=lambda endpoint: f"{endpoint.method} {endpoint.path}")
+def test_an_answer_that_is_no_record_states_its_type(endpoint: Endpoint) -> None:
+    assert (answer_type(endpoint) is Binary) == bool(endpoint.answer)
+
+
+def test_the_page_of_the_api_has_every_request() -> None:
+    page = (ROOT / "docs" / "reference" / "studio-api.md").read_text(encoding="utf-8")
+    assert page == with_table(page), "run: python -m ilmek.web.api_page docs/reference/studio-api.md"
+    assert page.count("| `") >= len(ENDPOINTS)
 
 
 def test_no_two_endpoints_are_one() -> None:

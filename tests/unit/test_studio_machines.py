@@ -24,7 +24,6 @@ from ilmek.jobs.studio.machine.view import nearest, view
 from ilmek.machines import SUMMARIES
 from ilmek.machines.catalogue import MACHINES
 from ilmek.params import reachable
-from ilmek.report import plain
 
 HERE = Context()
 
@@ -56,7 +55,7 @@ def test_field_has_unit_bounds_and_the_machine_it_belongs_to() -> None:
 def test_design_is_the_json_of_the_command_line(tmp_path: Path) -> None:
     file = tmp_path / "out.json"
     CliRunner().invoke(main, ["design", "beat-up", "--set", "swing=32deg", "--json", str(file)])
-    assert plain(design(DesignRequest("beat-up", {"swing": "32deg"}), HERE)) == json.loads(file.read_text())
+    assert design(DesignRequest("beat-up", {"swing": "32deg"}), HERE).body == file.read_bytes()
 
 
 def test_typed_value_is_refused_as_the_command_line_refuses_it() -> None:
@@ -70,7 +69,7 @@ def test_typed_value_is_refused_as_the_command_line_refuses_it() -> None:
 
 @pytest.mark.parametrize(("name", "settings"), [("beat-up", {"swing": "34deg"}), ("shedding", {"lift": "70mm"})])
 def test_view_has_the_verdict_and_the_checks_of_the_design(name: str, settings: dict[str, str]) -> None:
-    made, seen = plain(design(DesignRequest(name, settings), HERE)), view(DesignRequest(name, settings), HERE)
+    made, seen = json.loads(design(DesignRequest(name, settings), HERE).body), view(DesignRequest(name, settings), HERE)
     assert seen.holds == made["holds"]
     assert [(one.name, one.value, one.ok) for one in seen.checks if not one.machine] == [
         (one["name"], one["value"], one["ok"]) for one in made["checks"]

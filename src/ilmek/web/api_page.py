@@ -1,11 +1,17 @@
-"""The readable page of the API at /api, from its table."""
+"""The readable page of the API at /api, and the table of the manual, from the table of the API.
 
+python -m ilmek.web.api_page FILE       writes the table into docs/reference/studio-api.md
+"""
+
+import re
+import sys
 from html import escape
+from pathlib import Path
 
 from starlette.requests import Request
 from starlette.responses import HTMLResponse
 
-from ilmek.web.endpoints import Endpoint
+from ilmek.web.endpoints import ENDPOINTS, Endpoint
 
 _PAGE = """<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
@@ -27,6 +33,30 @@ async def api_page(request: Request) -> HTMLResponse:
 
 
 def _row(endpoint: Endpoint) -> str:
-    kinds = f" Body: {', '.join(endpoint.upload)}." if endpoint.upload else ""
-    note = escape(f"{endpoint.summary}{' A work.' if endpoint.work else ''}{kinds}")
-    return f"<tr><td><code>{endpoint.method} /api{escape(endpoint.path)}</code></td><td>{note}</td></tr>"
+    return f"<tr><td><code>{escape(_request(endpoint))}</code></td><td>{escape(_note(endpoint))}</td></tr>"
+
+
+def _request(endpoint: Endpoint) -> str:
+    return f"{endpoint.method} /api{endpoint.path.replace(':path', '')}"
+
+
+def _note(endpoint: Endpoint) -> str:
+    work = " A work." if endpoint.work else ""
+    body = f" Body: {', '.join(endpoint.upload)}." if endpoint.upload else ""
+    return f"{endpoint.summary}{work}{body}"
+
+
+def with_table(page: str) -> str:
+    r"""A page of the manual with the table of the API between its lines `| request | what it does |` and an empty one.
+
+    >>> print(with_table("a\n| request | what it does |\nold\n\nb").splitlines()[-3])
+    | `POST /api/carpet/picture` | A picture of the project as it is read, made small (packed). |
+    """
+    rows = "\n".join(f"| `{_request(one)}` | {_note(one)} |" for one in ENDPOINTS)
+    head = "| request | what it does |\n"
+    return re.sub(re.escape(head) + r"(.+\n)*\n", lambda _: f"{head}|---|---|\n{rows}\n\n", page, count=1)
+
+
+if __name__ == "__main__":
+    file = Path(sys.argv[1])
+    file.write_text(with_table(file.read_text(encoding="utf-8")), encoding="utf-8")

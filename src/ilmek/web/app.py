@@ -30,8 +30,7 @@ from ilmek.web.works import Works
 GONE = 499
 """Status of an answer that nobody waits for."""
 
-_BODILESS = ("GET", "DELETE")
-_INNER = (Endpoint("GET", "/openapi.json", "ilmek.web.schema:openapi_answer", "This API as OpenAPI 3.1."),)
+_INNER = (Endpoint("GET", "/openapi.json", "ilmek.web.openapi:openapi_answer", "This API as OpenAPI 3.1."),)
 
 
 def studio_app(
@@ -116,7 +115,7 @@ def _route(endpoint: Endpoint, pool: Pool, works: Works, hub: EventHub) -> Route
                     body,
                     limit=endpoint.limit,
                     affinity=endpoint.affinity,
-                    lax=endpoint.method in _BODILESS,
+                    lax=not endpoint.has_body,
                     content=content,
                     follow=follow,
                 ),
@@ -134,9 +133,9 @@ async def _taken(request: Request, endpoint: Endpoint) -> tuple[bytes, bytes | N
     """The JSON of a request, and the content of an upload; or the refusal."""
     fields: dict[str, object] = dict(request.path_params)
     kind = request.headers.get("content-type", "").partition(";")[0].strip().lower()
-    if endpoint.method in _BODILESS or endpoint.upload:
+    if endpoint.upload or not endpoint.has_body:
         fields = {**request.query_params, **fields}
-    if endpoint.method in _BODILESS:
+    if not endpoint.has_body:
         return msgspec.json.encode(fields), None
     if kind not in (endpoint.upload or (JSON,)):
         return _error(415, f"a body of {kind or 'no type'}", allowed=" or ".join(endpoint.upload or (JSON,)))

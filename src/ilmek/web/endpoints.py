@@ -3,10 +3,12 @@
 A function is given by its name, so that the server imports no engineering: the worker process that answers imports it.
 It takes one record, the request, and a `Context`, and returns a record, which is sent as JSON, or a `Binary`. Types of
 requests and answers are dataclasses; the schema of the API and the types of the client are derived from them
-(`python -m ilmek.web.schema studio/src/api`, then `npm run types`).
+(`make client`), and so is the table of the manual.
 """
 
 from dataclasses import dataclass
+
+from ilmek.jobs.studio.answers import PACKED
 
 SECOND = 1.0
 HOUR = 3600.0
@@ -33,6 +35,7 @@ class Endpoint:
     work      True: the answer is the number of a work that goes on (202); its progress and end come by events
     upload    media types of a body that is no JSON; it becomes the field `content` (bytes) of the request, whose other
               fields come from the path and the query
+    answer    media type of an answer that is no record: packed arrays, a file, JSON as the command line writes it
     records   names of further records in the function's module that a client receives: what the work shows before its
               end, and the JSON before packed arrays
     """
@@ -45,7 +48,13 @@ class Endpoint:
     affinity: str = ""
     work: bool = False
     upload: tuple[str, ...] = ()
+    answer: str = ""
     records: tuple[str, ...] = ()
+
+    @property
+    def has_body(self) -> bool:
+        """Whether a request has a body."""
+        return self.method not in ("GET", "DELETE")
 
 
 ENDPOINTS: tuple[Endpoint, ...] = (
@@ -57,6 +66,7 @@ ENDPOINTS: tuple[Endpoint, ...] = (
         "studio.machine.tasks:design",
         "Design a machine: the JSON of `ilmek design NAME --json -`.",
         affinity="machine",
+        answer="application/json",
     ),
     Endpoint(
         "POST", "/machines/{name}/reading", "studio.machine.tasks:reading", "Read one typed value of a parameter."
@@ -134,6 +144,7 @@ ENDPOINTS: tuple[Endpoint, ...] = (
         "A loom of the project in space: parts, motions, warps, yarns, carpet (packed).",
         limit=300 * SECOND,
         affinity="loom",
+        answer=PACKED,
     ),
     Endpoint(
         "POST",
@@ -150,6 +161,7 @@ ENDPOINTS: tuple[Endpoint, ...] = (
         "A loom of the project as GLB, in motion.",
         limit=300 * SECOND,
         affinity="loom",
+        answer="model/gltf-binary",
     ),
     Endpoint(
         "POST",
@@ -207,7 +219,13 @@ ENDPOINTS: tuple[Endpoint, ...] = (
         work=True,
     ),
     Endpoint("GET", "/project/out", "studio.project.out:written", "What was written into out/, the newest first."),
-    Endpoint("GET", "/project/archive/{path:path}", "studio.project.out:archive", "A folder in out/ as ZIP."),
+    Endpoint(
+        "GET",
+        "/project/archive/{path:path}",
+        "studio.project.out:archive",
+        "A folder in out/ as ZIP.",
+        answer="application/zip",
+    ),
     Endpoint("POST", "/project/out/delete", "studio.project.out:delete_written", "Delete a file or folder of out/."),
     Endpoint("POST", "/commands", "studio.commands:shown_command", "A state as its command line and as Python."),
     Endpoint(
@@ -217,6 +235,7 @@ ENDPOINTS: tuple[Endpoint, ...] = (
         "A cyclogram: curves of its tracks, relations and exclusions with their margins, checks (packed).",
         affinity="cyclogram",
         records=("CyclogramView",),
+        answer=PACKED,
     ),
     Endpoint(
         "POST",
@@ -255,6 +274,7 @@ ENDPOINTS: tuple[Endpoint, ...] = (
         limit=10 * 60 * SECOND,
         affinity="carpet",
         records=("ChartAnswer",),
+        answer=PACKED,
     ),
     Endpoint(
         "POST",
@@ -286,5 +306,6 @@ ENDPOINTS: tuple[Endpoint, ...] = (
         "A picture of the project as it is read, made small (packed).",
         affinity="carpet picture",
         records=("PictureAbout",),
+        answer=PACKED,
     ),
 )

@@ -3,12 +3,12 @@
 import re
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
-from typing import Any
 
 from ilmek.errors import ParameterError
+from ilmek.io.json_file import json_text
 from ilmek.jobs.design import design_machine
 from ilmek.jobs.machines import machine_list
-from ilmek.jobs.studio.answers import Context
+from ilmek.jobs.studio.answers import Binary, Context
 from ilmek.machines.catalogue import find_machine
 from ilmek.params import Parameter, Setting, Value, overridden, reachable
 from ilmek.units import format_number, format_quantity, parse_unit, printed_unit
@@ -141,9 +141,10 @@ def reading(request: TypedValue, context: Context) -> ReadValue:
     return ReadValue(value, value_text(value, parameter.unit))
 
 
-def design(request: DesignRequest, context: Context) -> dict[str, Any]:
-    """Design a machine: the JSON of the command line. Raises as `design_machine` does."""
-    return design_machine(request.name, request.settings, progress=context.progress).as_json()
+def design(request: DesignRequest, context: Context) -> Binary:
+    """Design a machine: the JSON of the command line, byte for byte. Raises as `design_machine` does."""
+    made = design_machine(request.name, request.settings, progress=context.progress)
+    return Binary("application/json", json_text(made.as_json(), context.progress).encode())
 
 
 def value_text(value: Value, unit: str) -> str:
