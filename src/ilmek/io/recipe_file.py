@@ -339,7 +339,7 @@ def file_inside(folder: Path, text: str) -> Path:
         inside = (folder / path).resolve(strict=True)
         base = folder.resolve(strict=True)
     except OSError:
-        raise CarpetError(f"{shown(text)} is not there", do=f"put it into {folder.resolve()}") from None
+        raise CarpetError(f"{shown(text)} is not there", do="put it into the folder of the recipe") from None
     if not inside.is_relative_to(base):
         raise CarpetError(f"{shown(text)} is a link to a file outside the recipe's folder", do=do)
     if not inside.is_file():

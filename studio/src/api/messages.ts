@@ -95,7 +95,8 @@ export interface ChartAnswer {
  * A yarn of the chart, in the order of its indices, and what is needed of it.
  *
  *     srgb    `#rrggbb`              symbol  as on the printed chart and in rows.txt
- *     length, mass  [m], [kg]; 0 where no knot has it      price  of what is to buy; None: not known
+ *     length, mass  [m], [kg]; 0 where no knot has it      to_buy  mass with the reserve [kg]
+ *     price         of what is to buy; None: not known     hanks   to buy, whole ones
  *
  * This interface was referenced by `Messages`'s JSON-Schema
  * via the `definition` "ChartYarn".
@@ -107,12 +108,12 @@ export interface ChartYarn {
   knots: number;
   length: number;
   mass: number;
+  to_buy: number;
   price: number | null;
-  count: string;
   hanks: number;
 }
 /**
- * A yarn of the ground: name, use, length [m], mass [kg], price.
+ * A yarn of the ground: name, use, length [m], mass and mass to buy [kg], hanks to buy, price.
  *
  * This interface was referenced by `Messages`'s JSON-Schema
  * via the `definition` "GroundNeed".
@@ -122,6 +123,8 @@ export interface GroundNeed {
   use: string;
   length: number;
   mass: number;
+  to_buy: number;
+  hanks: number;
   price: number | null;
 }
 /**

@@ -1,21 +1,19 @@
-import { useEffect, useState } from "preact/hooks";
-import type { ShownCommand } from "../../api/messages";
-import { post } from "../../api/request";
 import { formatNumber, t } from "../../text";
-import { Button, CopyCommand, Icon, Table } from "../../ui";
+import { Button, Icon, Table } from "../../ui";
 import type { CarpetModel } from "./model";
 
 /** What the carpet needs and costs, what is hard in it, and whether it can be made. */
-export function Bill({ model, onRow }: { model: CarpetModel; onRow: (row: number) => void }) {
+export function Bill({ model, onWeave }: { model: CarpetModel; onWeave: (row: number) => void }) {
   const chart = model.chart.value;
   if (chart === null) return null;
   const { about } = chart;
   const yarns = about.yarns
     .filter((yarn) => yarn.knots > 0)
-    .map((yarn) => [`${yarn.symbol} ${yarn.name}`, yarn.knots, yarn.length, yarn.mass, yarn.price]);
-  const ground = about.ground.map((yarn) => [yarn.name, null, yarn.length, yarn.mass, yarn.price]);
+    .map((yarn) => [`${yarn.symbol} ${yarn.name}`, yarn.knots, yarn.length, yarn.mass, yarn.to_buy, yarn.price]);
+  const ground = about.ground.map((yarn) => [yarn.name, null, yarn.length, yarn.mass, yarn.to_buy, yarn.price]);
+  const hasReading = about.reading === "exact" || about.reading === "flat" || about.reading === "photo";
   return (
-    <div class="ui-stack">
+    <div class="ui-stack carpet-bill">
       <dl class="carpet-facts">
         <Fact name={t("carpet.knots")} value={formatNumber(about.rows * about.columns)} />
         <Fact name={t("carpet.mass")} value={`${formatNumber(about.mass, 3)} kg`} />
@@ -24,8 +22,16 @@ export function Bill({ model, onRow }: { model: CarpetModel; onRow: (row: number
           name={t("carpet.cost")}
           value={about.price === null ? t("carpet.noPrice") : `${formatNumber(about.price, 4)} ${about.currency}`}
         />
-        <Fact name={t("carpet.readAs")} value={about.reading} note={about.reason} />
+        <Fact name={t("carpet.difference")} value={formatNumber(about.mean_delta_e, 3)} />
+        <Fact name={t("carpet.smallPatches")} value={formatNumber(about.small_patches)} />
         <Fact name={t("carpet.edited")} value={formatNumber(about.edited)} />
+        {about.half_knots > 0 && <Fact name={t("carpet.halfKnots")} value={formatNumber(about.half_knots)} />}
+        {about.jufti_knots > 0 && <Fact name={t("carpet.juftiKnots")} value={formatNumber(about.jufti_knots)} />}
+        <Fact
+          name={t("carpet.readAs")}
+          value={hasReading ? t(`carpet.${about.reading as "exact" | "flat" | "photo"}`) : about.reading}
+          note={about.reason}
+        />
       </dl>
       <Checks model={model} />
       <h2>{t("carpet.bill")}</h2>
@@ -36,23 +42,38 @@ export function Bill({ model, onRow }: { model: CarpetModel; onRow: (row: number
           { heading: t("carpet.knots") },
           { heading: t("carpet.length"), unit: "m", digits: 3 },
           { heading: t("carpet.massShort"), unit: "kg", digits: 3 },
+          { heading: t("carpet.toBuy"), unit: "kg", digits: 3 },
           { heading: t("carpet.price", { currency: about.currency }), digits: 3 },
         ]}
         rows={[...yarns, ...ground]}
-        height="320px"
+        height="420px"
       />
       <h2>{t("carpet.hardest")}</h2>
       <ul class="carpet-rows">
         {about.hardest.map((hard) => (
           <li key={hard.row}>
-            <Button size="small" kind="quiet" onClick={() => onRow(hard.row)}>
+            <Button
+              size="small"
+              kind="quiet"
+              title={t("carpet.showRow")}
+              onClick={() => {
+                model.sought.value = hard.row;
+              }}
+            >
               {t("carpet.hardRow", { row: hard.row, changes: hard.changes })}
+            </Button>
+            <Button
+              size="small"
+              aria-label={t("carpet.weaveRow", { row: hard.row })}
+              title={t("carpet.weaveRow", { row: hard.row })}
+              onClick={() => onWeave(hard.row)}
+            >
+              {t("carpet.weave")}
             </Button>
           </li>
         ))}
       </ul>
       <p class="ui-help">{t("carpet.meanChanges", { mean: formatNumber(about.mean_changes, 3) })}</p>
-      <Command model={model} />
     </div>
   );
 }
@@ -94,15 +115,4 @@ function Checks({ model }: { model: CarpetModel }) {
       ))}
     </ul>
   );
-}
-
-/** The recipe as the command line and as Python. */
-function Command({ model }: { model: CarpetModel }) {
-  const [shown, setShown] = useState<ShownCommand>({ command: `ilmek weave ${model.path}`, python: "" });
-  useEffect(() => {
-    const abort = new AbortController();
-    post<ShownCommand>("/commands", { kind: "carpet", path: model.path }, abort.signal).then(setShown, () => undefined);
-    return () => abort.abort();
-  }, [model.path]);
-  return <CopyCommand command={shown.command} {...(shown.python ? { python: shown.python } : {})} />;
 }

@@ -1,20 +1,22 @@
 import { useSignal, useSignalEffect } from "@preact/signals";
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import { t } from "../../text";
-import { Button, IconButton, Segments, Slider } from "../../ui";
+import { Button, IconButton } from "../../ui";
+import { Compare, CompareLine } from "./compare";
 import {
   canvasPoint,
+  closeTo,
   type Grid,
+  heldKnot,
   heldView,
   type Knot,
+  middleKnot,
   type Size,
-  showing,
   type View,
   weaverNumbers,
   wholeView,
   zoomed,
 } from "./geometry";
-
 import type { CarpetModel } from "./model";
 import { Renderer } from "./renderer";
 import { handOf, useHand } from "./use-hand";
@@ -85,6 +87,16 @@ export function ChartCanvas({ model }: { model: CarpetModel }) {
     renderer.current?.setYarns(chart.about.yarns);
     renderer.current?.setChart(chart.grid, chart.knots);
   });
+  // A row that is looked up is shown with the cursor on it.
+  useSignalEffect(() => {
+    const [row, chart] = [model.sought.value, model.chart.peek()];
+    if (row === null || chart === null) return;
+    model.sought.value = null;
+    const { columns, rows } = chart.grid;
+    cursor.value = heldKnot({ column: Math.floor(columns / 2), line: rows - row }, chart.grid);
+    hover.value = null;
+    view.value = closeTo(cursor.value, chart.grid, size.peek());
+  });
   useSignalEffect(() => {
     const source = model.source.value;
     if (source !== null) renderer.current?.setSource(source.width, source.height, source.pixels);
@@ -136,6 +148,7 @@ export function ChartCanvas({ model }: { model: CarpetModel }) {
             />
           )}
         </div>
+        {chart !== null && <CompareLine model={model} />}
         <div class="carpet-zoom">
           <IconButton icon="plus" label={t("carpet.zoomIn")} onClick={() => zoom(ZOOM)} />
           <IconButton icon="minus" label={t("carpet.zoomOut")} onClick={() => zoom(1 / ZOOM)} />
@@ -149,16 +162,8 @@ export function ChartCanvas({ model }: { model: CarpetModel }) {
           <Button
             size="small"
             onClick={() => {
-              if (chart === null) return;
-              const at = cursor.peek() ?? { column: Math.floor(view.peek().x), line: Math.floor(view.peek().y) };
-              const close = { ...view.peek(), scale: 28 };
-              view.value = showing(
-                close,
-                chart.grid,
-                size.peek(),
-                at,
-                Math.min(size.peek().width, size.peek().height) / 2,
-              );
+              if (chart !== null)
+                view.value = closeTo(cursor.peek() ?? middleKnot(view.peek()), chart.grid, size.peek());
             }}
           >
             {t("carpet.zoomKnots")}
@@ -178,53 +183,18 @@ export function ChartCanvas({ model }: { model: CarpetModel }) {
 
 function KnotText({ model, knot }: { model: CarpetModel; knot: Knot | null }) {
   const chart = model.chart.value;
-  if (chart === null) return <span>{t("carpet.loading")}</span>;
+  if (chart === null) return <span>{model.busy.value ? t("carpet.making") : t("carpet.noChart")}</span>;
   if (knot === null) {
     const { rows, columns } = chart.grid;
     return <span>{t("carpet.grid", { rows, columns })}</span>;
   }
-  const yarn = chart.about.yarns[chart.knots[knot.line * chart.grid.columns + knot.column] ?? 0];
+  const yarn = model.yarnAt(knot);
   const { row, knot: number } = weaverNumbers(knot, chart.grid);
   return (
     <>
       <span class="carpet-swatch" style={{ background: yarn?.srgb ?? "transparent" }} aria-hidden="true" />
       <span>{t("carpet.atKnot", { row, knot: number, yarn: yarn?.name ?? "", symbol: yarn?.symbol ?? "" })}</span>
     </>
-  );
-}
-
-/** The slider between the chart, or the picture, at the left and the carpet at the right. */
-function Compare({ model }: { model: CarpetModel }) {
-  const share = Math.round(100 * model.split.value);
-  return (
-    <div class="carpet-compare">
-      <Segments
-        label={t("carpet.left")}
-        labelHidden
-        value={model.left.value}
-        choices={[
-          { value: "chart", label: t("carpet.chart") },
-          { value: "source", label: t("carpet.sourcePicture") },
-        ]}
-        onChange={(left) => {
-          model.left.value = left;
-          if (model.split.peek() < 0.05) model.split.value = 0.5;
-        }}
-      />
-      <Slider
-        bare
-        label={t("carpet.compare")}
-        value={model.split.value}
-        min={0}
-        max={1}
-        step={0.01}
-        text={t("carpet.compareText", { share })}
-        onInput={(value) => {
-          model.split.value = value;
-        }}
-      />
-      <span>{t("carpet.carpet")}</span>
-    </div>
   );
 }
 
@@ -255,7 +225,15 @@ function Marks({ model, grid, view, size, cursor, hand }: MarksProps) {
       {tile !== null && <rect class="tile" {...box(tile[0], tile[1])} />}
       {part !== null && <rect class="part" {...box(part[0], part[1])} />}
       {ends?.[0] && ends[1] && <line class="part" x1={ends[0].x} y1={ends[0].y} x2={ends[1].x} y2={ends[1].y} />}
-      {cursor !== null && <rect class="cursor" {...box(cursor, cursor)} />}
+      {cursor !== null && (
+        <>
+          <rect
+            class="row"
+            {...box({ column: 0, line: cursor.line }, { column: grid.columns - 1, line: cursor.line })}
+          />
+          <rect class="cursor" {...box(cursor, cursor)} />
+        </>
+      )}
     </svg>
   );
 }

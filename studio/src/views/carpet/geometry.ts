@@ -36,6 +36,9 @@ export interface Tile {
 /** Largest height of a knot [px]. */
 export const CLOSEST = 64;
 
+/** Height of a knot in a view of single knots [px]. */
+const CLOSE = 28;
+
 /** Room around the whole carpet [px]. */
 const ROOM = 16;
 
@@ -114,6 +117,16 @@ export function showing(view: View, grid: Grid, size: Size, knot: Knot, margin =
   const over = (value: number, most: number) =>
     most < 2 * margin ? value - most / 2 : Math.min(0, value - margin) + Math.max(0, value - most + margin);
   return panned(view, grid, size, -over(at.x, size.width), -over(at.y, size.height));
+}
+
+/** A view of single knots with a knot in its middle. */
+export function closeTo(knot: Knot, grid: Grid, size: Size): View {
+  return heldView({ x: knot.column + 0.5, y: knot.line + 0.5, scale: CLOSE }, grid, size);
+}
+
+/** The knot in the middle of a view. */
+export function middleKnot(view: View): Knot {
+  return { column: Math.floor(view.x), line: Math.floor(view.y) };
 }
 
 /** Number of a knot's row as the weaver counts, from 1 at the lower edge, and of the knot from the left. */

@@ -1,18 +1,20 @@
 import { useEffect, useState } from "preact/hooks";
 import { useReady } from "../../app/ready";
 import { goTo, type ViewProps } from "../../app/routes";
-import { refreshProject, SaveState, useDocument } from "../../project";
+import { remember } from "../../app/settings";
+import { FileCommand, project, refreshProject, SaveState, useDocument } from "../../project";
 import { formatNumber, t } from "../../text";
 import { Button, Select, Split, Tabs } from "../../ui";
 import { Bill } from "./bill";
-import "./carpet.css";
-import { remember } from "../../app/settings";
 import { ChartCanvas } from "./chart-canvas";
+import { Edits } from "./edits";
 import { type CarpetModel, modelOf, type Recipe } from "./model";
-import { recipesOf, Settings, takePicture } from "./settings";
+import { ChooseFile, takePicture } from "./picture";
+import { recipesOf, Settings } from "./settings";
 import { Tools } from "./tools";
 import { Weaver } from "./weaver";
 import { Yarns } from "./yarns";
+import "./carpet.css";
 
 /** The carpet: from a picture to the chart, its yarns and its rows. */
 export default function Carpet({ name }: ViewProps) {
@@ -21,10 +23,14 @@ export default function Carpet({ name }: ViewProps) {
 }
 
 function RecipeView({ path }: { path: string }) {
+  // A file that is made or deleted is another document.
+  project.value;
   const model = modelOf(path);
   const document = useDocument<Recipe>(path);
   const [dragging, setDragging] = useState(false);
-  useReady(model.chart.value !== null || model.problem.value !== null || document.saved.value === "missing");
+  const isMissing = document.saved.value === "missing";
+  const isRead = document.data.value !== null || document.saved.value === "loading";
+  useReady(model.chart.value !== null || model.problem.value !== null || document.error.value !== null || isMissing);
   useEffect(() => {
     void refreshProject().catch(() => undefined);
     return model.follow();
@@ -39,7 +45,7 @@ function RecipeView({ path }: { path: string }) {
     event.preventDefault();
     setDragging(true);
   };
-  const onRow = (row: number) => {
+  const onWeave = (row: number) => {
     remember(`weaver.${path}`, `${row} 0 alternate`);
     model.weaving.value = true;
   };
@@ -66,7 +72,9 @@ function RecipeView({ path }: { path: string }) {
         </Button>
       </header>
       <Problem model={model} />
-      {model.weaving.value ? (
+      {!isRead ? (
+        <NoRecipe model={model} isMissing={isMissing} />
+      ) : model.weaving.value ? (
         <Weaver
           model={model}
           onClose={() => {
@@ -76,8 +84,8 @@ function RecipeView({ path }: { path: string }) {
       ) : (
         <Split
           name="carpet"
-          width={360}
-          first={<Side model={model} onRow={onRow} />}
+          width={400}
+          first={<Side model={model} onWeave={onWeave} />}
           second={<Sheet model={model} />}
         />
       )}
@@ -94,9 +102,24 @@ function Sheet({ model }: { model: CarpetModel }) {
   );
 }
 
-type SideTab = "settings" | "yarns" | "bill";
+/** A recipe that is not there yet, which a picture makes, or cannot be read. */
+function NoRecipe({ model, isMissing }: { model: CarpetModel; isMissing: boolean }) {
+  const { path } = model;
+  return (
+    <div class="ui-callout carpet-missing">
+      <p>{isMissing ? t("carpet.missing", { path }) : t("carpet.broken", { path })}</p>
+      {isMissing ? (
+        <ChooseFile model={model} />
+      ) : (
+        <Button onClick={() => goTo("files", path)}>{t("carpet.toFiles")}</Button>
+      )}
+    </div>
+  );
+}
 
-function Side({ model, onRow }: { model: CarpetModel; onRow: (row: number) => void }) {
+type SideTab = "settings" | "yarns" | "edits" | "bill";
+
+function Side({ model, onWeave }: { model: CarpetModel; onWeave: (row: number) => void }) {
   const [tab, setTab] = useState<SideTab>("settings");
   return (
     <div class="carpet-side">
@@ -106,14 +129,17 @@ function Side({ model, onRow }: { model: CarpetModel; onRow: (row: number) => vo
         tabs={[
           { value: "settings", label: t("carpet.settings") },
           { value: "yarns", label: t("carpet.yarns") },
+          { value: "edits", label: t("carpet.editTab", { count: model.edits().length }) },
           { value: "bill", label: t("carpet.result") },
         ]}
         onChange={setTab}
       >
         {tab === "settings" && <Settings model={model} />}
         {tab === "yarns" && <Yarns model={model} />}
-        {tab === "bill" && <Bill model={model} onRow={onRow} />}
+        {tab === "edits" && <Edits model={model} />}
+        {tab === "bill" && <Bill model={model} onWeave={onWeave} />}
       </Tabs>
+      <FileCommand kind="carpet" path={model.path} />
     </div>
   );
 }
@@ -149,16 +175,16 @@ function Problem({ model }: { model: CarpetModel }) {
   const problem = model.problem.value;
   // What the file's reader reports already is not said twice.
   const reported = model.document.error.value?.given.replace(/, line \d+/, "");
-  const ofEdit = problem?.given.includes("edits.") && model.edits().length > 0;
-  if (problem === null || (reported === problem.given && !ofEdit)) return null;
+  const edit = /edits\.(\d+)/.exec(problem?.given ?? "")?.[1];
+  if (problem === null || (reported === problem.given && edit === undefined)) return null;
   return (
     <div class="ui-callout bad carpet-problem" role="alert">
       <strong>{problem.given}</strong>
       {problem.allowed && <p>{t("carpet.allowed", { allowed: problem.allowed })}</p>}
       {problem.do && <p>{problem.do}</p>}
-      {ofEdit && (
-        <Button size="small" onClick={() => model.set({ edits: model.edits().slice(0, -1) })}>
-          {t("carpet.dropEdit")}
+      {edit !== undefined && (
+        <Button size="small" onClick={() => model.dropEdit(Number(edit))}>
+          {t("carpet.dropEdit", { number: Number(edit) + 1 })}
         </Button>
       )}
     </div>

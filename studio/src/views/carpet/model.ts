@@ -1,7 +1,8 @@
 /** The state of the view: the recipe's document, its chart, the tool in hand. */
 import { computed, effect, type ReadonlySignal, signal } from "@preact/signals";
+import { connection } from "../../api/connection";
 import { type Latest, latest } from "../../api/latest";
-import type { ChartAnswer } from "../../api/messages";
+import type { ChartAnswer, ChartYarn, ListedYarn } from "../../api/messages";
 import { ApiError, type Packed, postPacked } from "../../api/request";
 import { remember, remembered } from "../../app/settings";
 import { type Document, openDocument } from "../../project";
@@ -48,12 +49,16 @@ export class CarpetModel {
   readonly tile = signal<readonly [Knot, Knot] | null>(null);
   readonly borderWidth = signal(3);
   readonly mirror = signal<"across" | "along" | "both">("across");
-  readonly split = signal(Number(remembered("carpet.split") ?? "1"));
+  readonly split = signal(Number(remembered("carpet.split") ?? "0.5"));
   readonly left = signal<"chart" | "source">("chart");
   readonly weaving = signal(false);
+  /** Row that is to be shown in the chart. */
+  readonly sought = signal<number | null>(null);
   readonly recipe: ReadonlySignal<Recipe | null>;
   readonly yarnIndex: ReadonlySignal<number>;
   readonly #ask: Latest<{ recipe: Recipe; draft: boolean }>;
+  /** A chart waits for the server to be back. */
+  #isWaiting = false;
   #timer: ReturnType<typeof setTimeout> | undefined;
 
   constructor(readonly path: string) {
@@ -77,6 +82,7 @@ export class CarpetModel {
       (error) => {
         this.busy.value = false;
         this.problem.value = error instanceof ApiError ? error : null;
+        this.#isWaiting = !(error instanceof ApiError);
       },
       PATIENCE,
     );
@@ -89,9 +95,16 @@ export class CarpetModel {
       clearTimeout(this.#timer);
       if (recipe !== null) this.#ask({ recipe, draft: true });
     });
+    const back = effect(() => {
+      const recipe = this.recipe.peek();
+      if (connection.value !== "connected" || !this.#isWaiting || recipe === null) return;
+      this.#isWaiting = false;
+      this.#ask({ recipe, draft: true });
+    });
     const kept = effect(() => remember("carpet.split", String(this.split.value)));
     return () => {
       end();
+      back();
       kept();
       clearTimeout(this.#timer);
       this.#ask.cancel();
@@ -144,6 +157,34 @@ export class CarpetModel {
     return Array.isArray(edits) ? (edits as string[]) : [];
   }
 
+  /** Takes an edit out. */
+  dropEdit(at: number): void {
+    const rest = this.edits().filter((_, index) => index !== at);
+    this.set({ edits: rest.length > 0 ? rest : null });
+  }
+
+  /** The yarns of the chart, then those of the list. */
+  yarns(): readonly ListedYarn[] {
+    const about = this.chart.value?.about;
+    return about === undefined ? [] : [...about.yarns, ...about.listed];
+  }
+
+  /** The colour of a yarn by its name. */
+  colourOf(name: string): string {
+    return this.yarns().find((yarn) => yarn.name === name)?.srgb ?? "transparent";
+  }
+
+  /** The yarn of a knot of the chart. */
+  yarnAt(knot: Knot): ChartYarn | undefined {
+    const chart = this.chart.peek();
+    return chart?.about.yarns[chart.knots[knot.line * chart.grid.columns + knot.column] ?? 0];
+  }
+
+  /** Takes the yarn of a knot into the hand. */
+  takeYarn(knot: Knot): void {
+    this.yarn.value = this.yarnAt(knot)?.name ?? this.yarn.peek();
+  }
+
   /** Adds edits to the recipe; undo takes them out again. */
   edit(lines: readonly string[]): void {
     if (lines.length === 0) return;
@@ -159,7 +200,8 @@ const models = new Map<string, CarpetModel>();
 /** The model of a recipe: the same one as long as the page is open. */
 export function modelOf(path: string): CarpetModel {
   const known = models.get(path);
-  if (known !== undefined) return known;
+  // A file that was made or brought back is another document.
+  if (known !== undefined && known.document === openDocument<Recipe>(path)) return known;
   const made = new CarpetModel(path);
   models.set(path, made);
   return made;

@@ -1,9 +1,10 @@
-import { useEffect, useId, useRef, useState } from "preact/hooks";
-import { filesOf, project, uploadPicture } from "../../project";
+import { useEffect, useState } from "preact/hooks";
+import { filesOf } from "../../project";
 import { formatNumber, t } from "../../text";
-import { Button, Select, Slider, toast } from "../../ui";
+import { Button, Select, Slider } from "../../ui";
 import { Field } from "../../ui/field";
 import type { CarpetModel } from "./model";
+import { Picture } from "./picture";
 import { SourceDialog } from "./source";
 
 /** What the carpet is made of and how its picture is read: the keys of the recipe. */
@@ -65,62 +66,6 @@ function fitText(model: CarpetModel): string {
   const fit = model.chart.value?.about.fit ?? "";
   const notes = [model.text("crop") && t("carpet.isCropped"), model.text("corners") && t("carpet.isStraightened")];
   return [fit, ...notes].filter(Boolean).join("; ");
-}
-
-/** The picture: one of the project, or a file that is dropped or chosen. */
-function Picture({ model }: { model: CarpetModel }) {
-  const input = useRef<HTMLInputElement>(null);
-  const pictures = project.value?.pictures ?? [];
-  const chosen = model.text("picture");
-  const known = pictures.map((one) => one.path);
-  const choices = [...new Set([chosen, ...known])].map((path) => ({
-    value: path,
-    label: path || t("carpet.noPicture"),
-  }));
-  return (
-    <div class="ui-stack">
-      <Select
-        label={t("carpet.picture")}
-        value={chosen}
-        choices={choices}
-        onChange={(picture) => choosePicture(model, picture)}
-      />
-      <div class="ui-row">
-        <Button icon="upload" onClick={() => input.current?.click()}>
-          {t("carpet.choosePicture")}
-        </Button>
-        <span class="ui-muted">{t("carpet.dropHint")}</span>
-      </div>
-      <input
-        ref={input}
-        class="visually-hidden"
-        type="file"
-        accept="image/*,.oxs"
-        tabIndex={-1}
-        aria-label={t("carpet.choosePicture")}
-        onChange={(event) => {
-          const file = event.currentTarget.files?.[0];
-          if (file !== undefined) void takePicture(model, file);
-          event.currentTarget.value = "";
-        }}
-      />
-    </div>
-  );
-}
-
-/** Another picture: what held of the one before only is taken out. */
-function choosePicture(model: CarpetModel, picture: string): void {
-  if (picture === "" || picture === model.text("picture")) return;
-  model.set({ picture, plain: "", repeat: null, crop: "", corners: "", turn: "", edits: null });
-}
-
-/** Puts a file into the project and makes it the recipe's picture. */
-export async function takePicture(model: CarpetModel, file: File): Promise<void> {
-  try {
-    choosePicture(model, (await uploadPicture(file)).path);
-  } catch (error) {
-    toast(t("carpet.notTaken", { name: file.name }), "bad", error instanceof Error ? error.message : "");
-  }
 }
 
 interface SettingProps {
@@ -223,7 +168,6 @@ function Turn({ model }: { model: CarpetModel }) {
     const rounded = Math.round(10 * value) / 10;
     model.set({ turn: rounded === 0 ? "" : `${rounded}deg` });
   };
-  const id = useId();
   return (
     <div class="carpet-turn">
       <Slider
@@ -235,7 +179,7 @@ function Turn({ model }: { model: CarpetModel }) {
         text={`${formatNumber(degrees)}°`}
         onInput={give}
       />
-      <Button size="small" id={id} onClick={() => give(((degrees + 90 + 180) % 360) - 180)}>
+      <Button size="small" onClick={() => give(((degrees + 90 + 180) % 360) - 180)}>
         {t("carpet.quarter")}
       </Button>
     </div>

@@ -74,17 +74,23 @@ vec3 chartColour(vec3 c, vec2 within, vec2 knot, float px) {
   return c;
 }
 
+float lot(float at) {
+  return mix(hash(vec2(floor(at), 7.0)), hash(vec2(floor(at) + 1.0, 7.0)), smoothstep(0.0, 1.0, fract(at))) - 0.5;
+}
+
 vec3 carpetColour(vec3 c, vec2 within, vec2 knot, float px) {
   float near = clamp((px / u_ratio - 2.0) / 6.0, 0.0, 1.0);
   float grain = hash(knot) - 0.5;
-  c *= 1.0 + 0.07 * near * grain;
+  // Hand-dyed lots follow each other along the carpet; pile is darker than flat yarn.
+  float row = knot.y + within.y;
+  c *= 1.0 + 0.07 * near * grain + 0.09 * lot(row / 11.0) + 0.05 * lot(row / 3.0 + 40.0);
   vec2 p = 2.0 * within - 1.0;
   float side = 1.0 - abs(p.x);
   // A knot shows the ends of its yarn as two tufts side by side, the nap towards the lower edge.
   float tuft = 1.0 - 0.55 * pow(abs(abs(p.x) - 0.48) / 0.52, 2.0);
   float nap = 1.04 - 0.30 * smoothstep(0.25, 1.0, p.y) - 0.16 * smoothstep(0.4, 1.0, -p.y);
   float fibre = 0.05 * sin(40.0 * p.x + 6.0 * grain + 3.0 * p.y);
-  return c * mix(1.0, clamp(tuft, 0.0, 1.0) * nap * (1.0 + fibre) * (0.86 + 0.14 * smoothstep(0.0, 0.3, side)), near);
+  return c * mix(0.86, 1.1 * clamp(tuft, 0.0, 1.0) * nap * (1.0 + fibre) * (0.86 + 0.14 * smoothstep(0.0, 0.3, side)), near);
 }
 
 void main() {

@@ -7,11 +7,8 @@ import { applyToWhole } from "./use-hand";
 /** The tools of the chart, and what the one in hand needs. */
 export function Tools({ model }: { model: CarpetModel }) {
   const tool = model.tool.value;
-  const listed = model.chart.value?.about.listed ?? [];
-  const inChart = model.chart.value?.about.yarns ?? [];
-  const names = [...new Set([...inChart.map((yarn) => yarn.name), ...listed.map((yarn) => yarn.name)])];
+  const names = [...new Set(model.yarns().map((yarn) => yarn.name))];
   const gives = tool === "pencil" || tool === "line" || tool === "fill" || tool === "border";
-  const edits = model.edits();
   return (
     <div class="carpet-tools">
       <Segments
@@ -24,6 +21,9 @@ export function Tools({ model }: { model: CarpetModel }) {
           model.tile.value = null;
         }}
       />
+      {gives && (
+        <span class="carpet-swatch" style={{ background: model.colourOf(model.yarn.value) }} aria-hidden="true" />
+      )}
       {gives && (
         <Select
           label={t("carpet.yarn")}
@@ -70,7 +70,6 @@ export function Tools({ model }: { model: CarpetModel }) {
           {tool === "repeat" && model.tile.value !== null ? t("carpet.repeatPart") : t(`carpet.${tool}Help`)}
         </p>
       )}
-      {edits.length > 0 && <span class="ui-muted">{t("carpet.editCount", { count: edits.length })}</span>}
     </div>
   );
 }

@@ -5,6 +5,7 @@ import {
   heldKnot,
   type Knot,
   knotAt,
+  middleKnot,
   nearestKnot,
   panned,
   type Size,
@@ -116,9 +117,13 @@ export function useHand(stage: Stage) {
       panning.current = true;
       return;
     }
+    const knot = nearestKnot(view.peek(), own, size.peek(), at.x, at.y);
+    if (event.altKey) {
+      model.takeYarn(knot);
+      return;
+    }
     panning.current = model.tool.peek() === "pan" || event.button !== 0;
     if (panning.current) return;
-    const knot = nearestKnot(view.peek(), own, size.peek(), at.x, at.y);
     stroke.current = [knot];
     cursor.value = null;
     if (model.tool.peek() === "pencil") preview([knot]);
@@ -199,8 +204,7 @@ export function useHand(stage: Stage) {
       PageDown: [0, LEAP],
     };
     const by = moves[event.key];
-    const middle = { column: Math.floor(view.peek().x), line: Math.floor(view.peek().y) };
-    const at = heldKnot(cursor.peek() ?? middle, own);
+    const at = heldKnot(cursor.peek() ?? middleKnot(view.peek()), own);
     if (by !== undefined) {
       const fresh = cursor.peek() === null;
       const to = fresh ? at : heldKnot({ column: at.column + by[0], line: at.line + by[1] }, own);
@@ -209,6 +213,7 @@ export function useHand(stage: Stage) {
       view.value = showing(view.peek(), own, size.peek(), to);
       if (anchor.current !== null) show([anchor.current, to]);
     } else if (event.key === "Enter" || event.key === " ") press(at);
+    else if (event.key === "p") model.takeYarn(at);
     else if (event.key === "Escape") {
       anchor.current = null;
       stroke.current = null;

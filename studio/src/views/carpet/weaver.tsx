@@ -1,7 +1,7 @@
 import { useSignal, useSignalEffect } from "@preact/signals";
 import { useEffect, useMemo, useRef } from "preact/hooks";
 import { latest } from "../../api/latest";
-import type { RowAnswer, RowRun } from "../../api/messages";
+import type { ChartYarn, RowAnswer, RowRun } from "../../api/messages";
 import { post } from "../../api/request";
 import { remember, remembered } from "../../app/settings";
 import { t } from "../../text";
@@ -118,7 +118,20 @@ export function Weaver({ model, onClose }: { model: CarpetModel; onClose: () => 
         </Button>
       </div>
       <p class="carpet-now" role="status">
-        {now !== undefined && found !== null && <RunText run={now} answer={found} rightward={rightward} />}
+        {now !== undefined && found !== null && (
+          <>
+            <Swatch yarn={found.yarns[now.yarn]} />
+            <span>{t("carpet.runNow", { knots: countText(now), yarn: yarnText(now, found, rightward) })}</span>
+            <small>
+              {t("carpet.runPosition", {
+                run: at + 1,
+                runs: runs.length,
+                columns: found.columns,
+                ...cellsOf(now, found, rightward),
+              })}
+            </small>
+          </>
+        )}
       </p>
       <div class="carpet-strip" tabIndex={0} role="region" aria-label={t("carpet.runs")}>
         <ol class="carpet-runs">
@@ -159,12 +172,25 @@ export function countText(run: RowRun): string {
   return `${run.knots}${run.mark === HALF ? "½" : run.mark === JUFTI ? "j" : ""}`;
 }
 
-function RunText({ run, answer, rightward }: { run: RowRun; answer: RowAnswer; rightward: boolean }) {
-  const first = rightward ? run.first : answer.columns - run.first - run.cells + 2;
-  const last = first + run.cells - 1;
+/** First and last cell of a run, from 1 in the direction of reading. */
+export function cellsOf(run: RowRun, { columns }: { columns: number }, rightward: boolean) {
+  const first = rightward ? run.first : columns - run.first - run.cells + 2;
+  return { first, last: first + run.cells - 1 };
+}
+
+/** The yarn of a run, of half knots both in the direction of reading. */
+function yarnText(run: RowRun, answer: RowAnswer, rightward: boolean): string {
   const pair = [answer.yarns[run.yarn]?.name ?? "", answer.yarns[run.second]?.name ?? ""];
-  const yarn = run.mark === HALF ? (rightward ? pair : pair.reverse()).join(" + ") : (pair[0] ?? "");
-  return <>{t("carpet.runNow", { knots: countText(run), yarn, first, last })}</>;
+  return run.mark === HALF ? (rightward ? pair : pair.reverse()).join(" + ") : (pair[0] ?? "");
+}
+
+function Swatch({ yarn }: { yarn: ChartYarn | undefined }) {
+  const srgb = yarn?.srgb ?? "#888888";
+  return (
+    <span class="carpet-swatch large" style={{ background: srgb }} aria-hidden="true">
+      <span class={isLight(srgb) ? "on-light" : "on-dark"}>{yarn?.symbol}</span>
+    </span>
+  );
 }
 
 function RunCell({ run, answer, now }: { run: RowRun; answer: RowAnswer; now: boolean }) {
@@ -173,12 +199,9 @@ function RunCell({ run, answer, now }: { run: RowRun; answer: RowAnswer; now: bo
     if (now) item.current?.scrollIntoView({ block: "nearest", inline: "center" });
   }, [now]);
   const yarn = answer.yarns[run.yarn];
-  const srgb = yarn?.srgb ?? "#888888";
   return (
     <li ref={item} class={now ? "now" : ""} aria-current={now ? "step" : undefined}>
-      <span class="carpet-swatch large" style={{ background: srgb }} aria-hidden="true">
-        <span class={isLight(srgb) ? "on-light" : "on-dark"}>{yarn?.symbol}</span>
-      </span>
+      <Swatch yarn={yarn} />
       <strong>{countText(run)}</strong>
       <span>{yarn?.name}</span>
     </li>

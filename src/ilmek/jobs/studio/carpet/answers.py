@@ -60,7 +60,8 @@ class ChartYarn:
     """A yarn of the chart, in the order of its indices, and what is needed of it.
 
     srgb    `#rrggbb`              symbol  as on the printed chart and in rows.txt
-    length, mass  [m], [kg]; 0 where no knot has it      price  of what is to buy; None: not known
+    length, mass  [m], [kg]; 0 where no knot has it      to_buy  mass with the reserve [kg]
+    price         of what is to buy; None: not known     hanks   to buy, whole ones
     """
 
     name: str
@@ -69,19 +70,21 @@ class ChartYarn:
     knots: int = 0
     length: float = 0.0
     mass: float = 0.0
+    to_buy: float = 0.0
     price: float | None = None
-    count: str = ""
     hanks: int = 0
 
 
 @dataclass(frozen=True, slots=True)
 class GroundNeed:
-    """A yarn of the ground: name, use, length [m], mass [kg], price."""
+    """A yarn of the ground: name, use, length [m], mass and mass to buy [kg], hanks to buy, price."""
 
     name: str
     use: str
     length: float
     mass: float
+    to_buy: float
+    hanks: int
     price: float | None
 
 

@@ -175,7 +175,7 @@ def _plain_errors(context: Context) -> Iterator[None]:
 
 
 def _source(shown: Rgb | None, known: str) -> tuple[SourcePicture | None, tuple[bytes, ...]]:
-    """What is said of the fitted picture, and its pixels where they are sent."""
+    """Key and sides of the fitted picture, and its pixels where the caller lacks them."""
     if shown is None:
         return None, ()
     pixels = shown.tobytes()
@@ -198,8 +198,8 @@ def _needed(made: ChartResult) -> tuple[ChartYarn, ...]:
             knots=need.knots,
             length=need.length,
             mass=need.mass,
+            to_buy=need.to_buy,
             price=need.price,
-            count=need.count,
             hanks=need.hanks,
         )
     return tuple(yarns)
@@ -218,7 +218,10 @@ def _answer(made: ChartResult, draft: bool, seconds: float) -> ChartAnswer:
         reason=reading.reason,
         fit=reading.fit.words,
         yarns=_needed(made),
-        ground=tuple(GroundNeed(one.name, one.use, one.length, one.mass, one.price) for one in bill.ground),
+        ground=tuple(
+            GroundNeed(one.name, one.use, one.length, one.mass, one.to_buy, one.hanks, one.price)
+            for one in bill.ground
+        ),
         listed=tuple(ListedYarn(yarn.name, yarn.hex) for yarn in made.order.yarns),
         hardest=tuple(HardRow(number, made.statistics.of_row(number)) for number in made.statistics.hardest),
         mean_changes=made.statistics.mean_changes,
