@@ -3,6 +3,7 @@
 import re
 import subprocess
 import sys
+import time
 from io import BytesIO
 from pathlib import Path
 
@@ -57,6 +58,17 @@ def _status(page: Page, text: str | re.Pattern[str]) -> str:
 def _edits(running: Studio) -> list[str]:
     found: list[str] = data_of(running.project, "carpet.toml").get("edits", [])
     return found
+
+
+def _until_drawn(page: Page) -> None:
+    """Wait until the canvas shows more than its ground."""
+    until = time.monotonic() + PATIENCE / 1000
+    while True:
+        picture = Image.open(BytesIO(page.locator(".carpet-surface canvas").screenshot())).convert("RGB")
+        if len(picture.reduce(8).getcolors(100_000) or ()) > 10:
+            return
+        assert time.monotonic() < until, "the chart was never drawn"
+        time.sleep(0.1)
 
 
 @pytest.fixture
@@ -135,3 +147,4 @@ def test_the_weaver_goes_on_where_the_page_was_left(carpet: Page, running: Studi
     expect(weaver).to_be_focused()
     carpet.keyboard.press("Escape")
     expect(carpet.locator(".carpet-surface")).to_be_visible()
+    _until_drawn(carpet)

@@ -150,11 +150,11 @@ export function ChartCanvas({ model }: { model: CarpetModel }) {
         </div>
         {chart !== null && <CompareLine model={model} />}
         <div class="carpet-zoom">
-          <IconButton icon="plus" label={t("carpet.zoomIn")} onClick={() => zoom(ZOOM)} />
-          <IconButton icon="minus" label={t("carpet.zoomOut")} onClick={() => zoom(1 / ZOOM)} />
+          <IconButton icon="plus" label={t("ui.zoomIn")} onClick={() => zoom(ZOOM)} />
+          <IconButton icon="minus" label={t("ui.zoomOut")} onClick={() => zoom(1 / ZOOM)} />
           <IconButton
             icon="fit"
-            label={t("carpet.zoomWhole")}
+            label={t("ui.zoomFit")}
             onClick={() => {
               if (chart !== null) view.value = wholeView(chart.grid, size.peek());
             }}

@@ -63,6 +63,7 @@ function RecipeView({ path }: { path: string }) {
         <SaveState document={document as never} />
         <Timing model={model} />
         <Button
+          disabled={!isRead}
           pressed={model.weaving.value}
           onClick={() => {
             model.weaving.value = !model.weaving.peek();

@@ -219,8 +219,7 @@ def _answer(made: ChartResult, draft: bool, seconds: float) -> ChartAnswer:
         fit=reading.fit.words,
         yarns=_needed(made),
         ground=tuple(
-            GroundNeed(one.name, one.use, one.length, one.mass, one.to_buy, one.hanks, one.price)
-            for one in bill.ground
+            GroundNeed(one.name, one.use, one.length, one.mass, one.to_buy, one.hanks, one.price) for one in bill.ground
         ),
         listed=tuple(ListedYarn(yarn.name, yarn.hex) for yarn in made.order.yarns),
         hardest=tuple(HardRow(number, made.statistics.of_row(number)) for number in made.statistics.hardest),
