@@ -31,12 +31,39 @@ FLAGS = (
     "--disable-background-networking",
     "--disable-component-update",
     "--disable-sync",
+    "--disable-gpu-rasterization",  # without a graphics card it takes seconds for a picture of many curves
     "--use-angle=swiftshader",
     "--enable-unsafe-swiftshader",
 )
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 PATIENCE = 30_000
 """Longest wait for something to appear [ms]; machines with other work are slow."""
+
+COUNT_REQUESTS = """
+window.requestsUnderWay = 0;
+const plainFetch = window.fetch;
+window.fetch = async (...given) => {
+  window.requestsUnderWay += 1;
+  try {
+    const answer = await plainFetch(...given);
+    await answer.clone().arrayBuffer();
+    return answer;
+  } finally {
+    window.requestsUnderWay -= 1;
+  }
+};
+"""
+AT_REST = """
+async (patience) => {
+  const end = performance.now() + patience;
+  const isQuiet = () => window.requestsUnderWay === 0 && document.querySelector("main[data-ready='true']") !== null;
+  await document.fonts.ready;
+  for (let quiet = 0; quiet < 4; quiet = isQuiet() ? quiet + 1 : 0) {
+    if (performance.now() > end) throw new Error("the page did not come to rest");
+    await new Promise((done) => requestAnimationFrame(() => setTimeout(done, 25)));
+  }
+}
+"""
 
 
 def browser_path() -> str | None:
@@ -136,9 +163,10 @@ class Seen:
             self.faults.append(f"{response.status} for {response.url}")
 
 
-def violations(page: Page) -> list[str]:
-    """What axe-core finds on a page: rule, and the elements concerned."""
-    found = Axe().run(page, options={"resultTypes": ["violations"]}).response["violations"]
+def violations(page: Page, *rules: str) -> list[str]:
+    """What axe-core finds on a page: its own rules and targets of 24 px, or some rules; with the elements concerned."""
+    chosen = {"runOnly": list(rules)} if rules else {"rules": {"target-size": {"enabled": True}}}
+    found = Axe().run(page, options={"resultTypes": ["violations"], **chosen}).response["violations"]
     return [f"{one['id']}: {[node['target'] for node in one['nodes']][:4]}" for one in found]
 
 
@@ -151,20 +179,21 @@ def open_view(page: Page, running: Studio, view: str) -> None:
     page.wait_for_selector(f"main[data-view='{name}'][data-ready='true']", timeout=PATIENCE)
 
 
-def settled(page: Page, quiet: float = 0.3) -> None:
-    """Wait until no request is on its course for a moment."""
-    page.wait_for_load_state("networkidle", timeout=PATIENCE)
-    time.sleep(quiet)
+def settled(page: Page) -> None:
+    """Wait until the page is at rest: its fonts loaded, and no request under way in four pictures on end."""
+    page.evaluate(AT_REST, PATIENCE)
 
 
 def context_of(browser: Browser, *, width: int = 1400, height: int = 900, dark: bool = False) -> BrowserContext:
     """A fresh visitor with a window of a size [px]."""
-    return browser.new_context(
+    context = browser.new_context(
         viewport={"width": width, "height": height},
         color_scheme="dark" if dark else "light",
         reduced_motion="reduce",
         locale="en-GB",
     )
+    context.add_init_script(COUNT_REQUESTS)
+    return context
 
 
 def data_of(project: Path, path: str) -> dict[str, Any]:
