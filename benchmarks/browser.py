@@ -17,6 +17,7 @@ import subprocess
 import tempfile
 import time
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 from types import TracebackType
 from typing import Any
@@ -38,7 +39,7 @@ def installed() -> str | None:
 class Browser:
     """A running browser; the messages of all its consoles are in `errors`."""
 
-    def __init__(self) -> None:
+    def __init__(self, *options: str) -> None:
         name = installed()
         assert name is not None, "no Chromium is installed"
         self.errors: list[str] = []
@@ -50,7 +51,7 @@ class Browser:
 
         moved = f'exec "$0" "$@" 3<&{theirs_in} 4>&{theirs_out}'
         self._process = subprocess.Popen(
-            ["bash", "-c", moved, name, *OPTIONS, f"--user-data-dir={self._folder.name}", "about:blank"],
+            ["bash", "-c", moved, name, *OPTIONS, *options, f"--user-data-dir={self._folder.name}", "about:blank"],
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
             pass_fds=(theirs_in, theirs_out),
@@ -65,6 +66,21 @@ class Browser:
         self.send("Browser.close")
         self._process.wait(PATIENCE)
         self._folder.cleanup()
+
+    @property
+    def processor_time(self) -> float:
+        """Processor time of the browser with all its processes that run [s]; Linux."""
+        parents, times = {}, {}
+        for stat in Path("/proc").glob("[0-9]*/stat"):
+            with suppress(OSError):
+                fields = stat.read_text().rpartition(")")[2].split()
+                parents[int(stat.parent.name)] = int(fields[1])
+                times[int(stat.parent.name)] = (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+        own, found = {self._process.pid}, 0
+        while len(own) > found:
+            found = len(own)
+            own |= {child for child, parent in parents.items() if parent in own}
+        return sum(times.get(one, 0.0) for one in own)
 
     def open(self, path: Path, width: int, height: int, *, phone: bool = False) -> "Page":
         """A new page with a file in it, loaded."""

@@ -5,21 +5,25 @@ import gzip
 import json
 from pathlib import Path
 
+import ezdxf
 import numpy as np
 import pytest
+from ezdxf import bbox
 
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import Yarn
 from ilmek.errors import IlmekError
+from ilmek.io.dxf import write_dxf
 from ilmek.jobs import loom_space
 from ilmek.jobs.loom_space import loom_in_space, scene_answer
 from ilmek.jobs.studio.answers import Binary, Context
 from ilmek.jobs.studio.loom.scene import LoomRequest, PlateRequest, glb, plate, project_loom, scene
 from ilmek.plane.contours import area
+from ilmek.plane.solids import bounds
 from ilmek.report import Contour
-from ilmek.units import turn
+from ilmek.units import mm, turn
 from ilmek.viz.loom_page import LoomPage, loom_page
 from ilmek.viz.scene_data import needed_samples
 
@@ -81,6 +85,19 @@ def test_a_plates_drawing_encloses_its_area(project: Path) -> None:
     assert len(drawn.holes) == len(known.holes)
     with pytest.raises(IlmekError, match="no plate"):
         plate(PlateRequest("wheel", "machines/loom.toml"), context)
+
+
+@pytest.mark.parametrize("name", ["beat-up-crank", "beat-up-rocker", "shedding-shedding-cam", "weaver-pile-handler"])
+def test_a_part_of_the_scene_is_as_large_as_its_workshop_file(project: Path, tmp_path: Path, name: str) -> None:
+    loom = project_loom(project, "machines/loom.toml")
+    part = next(one for one in loom.scene.parts if one.plate == name)
+    made = next(one for one in loom.report.all_plates if one.name == name)
+    write_dxf(tmp_path / "part.dxf", made)
+    drawn = ezdxf.readfile(tmp_path / "part.dxf").modelspace().query('LWPOLYLINE[layer=="PROFILE"]')
+    low, high = bounds(part.solids[0])
+    # a plate's x and y lie to the front and up, its thickness across
+    sizes = np.array([made.thickness, bbox.extents(drawn).size.y * mm, bbox.extents(drawn).size.x * mm])
+    assert high - low == pytest.approx(sizes, abs=2 * part.deviations[0])
 
 
 def test_a_file_that_is_no_loom_is_refused(project: Path) -> None:

@@ -73,6 +73,9 @@ export function Workbench({ model, above, below, running, drawing, live = null }
     stage.current?.turn(live.angles);
   }, [live]);
   const byHand = live?.going !== true;
+  useEffect(() => {
+    if (live?.going) setTab("run");
+  }, [live?.going]);
   const onKey = (event: KeyboardEvent) => {
     const next = neighbour(about.parts, chosen, event.key);
     if (next !== null) pick(next);
