@@ -146,6 +146,20 @@ def test_a_change_of_another_program_is_not_overwritten(folder: Path, context: C
     assert undo(PathRequest("carpet.toml"), context).data == {"plain": "camel"}
 
 
+def test_a_state_that_is_set_aside_is_brought_back_by_undo(folder: Path, context: Context) -> None:
+    theirs = 'plain = "camel"\n'
+    (folder / "carpet.toml").write_text(theirs)
+    answer = save_file(SaveRequest("carpet.toml", "", text="plain = 'red'\n", aside=True), context)
+    assert (folder / "carpet.toml").read_text() == answer.file.text == theirs
+    assert undo(PathRequest("carpet.toml"), context).data == {"plain": "red"}
+    assert redo(PathRequest("carpet.toml"), context).text == theirs
+    (folder / "carpet.toml").unlink()
+    answer = save_file(SaveRequest("carpet.toml", "", text="plain = 'blue'\n", aside=True), context)
+    assert (answer.file.digest, answer.file.undo) == ("", True)
+    assert not (folder / "carpet.toml").exists()
+    assert undo(PathRequest("carpet.toml"), context).data == {"plain": "blue"}
+
+
 def test_undo_and_redo_go_through_restarts(context: Context) -> None:
     for size in ("70x90cm", "80x90cm", "90x90cm"):
         save(context, f'plain = "ivory"\nsize = "{size}"\n')

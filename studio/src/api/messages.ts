@@ -1944,6 +1944,7 @@ export interface RunRequest {
  *
  *     data    its plain data; comments and order of the text are kept      text  or the whole text
  *     base    digest of the state that was changed; "": the file is new
+ *     aside   into the history alone: the file stays as it is, and undo brings this state back
  *
  * This interface was referenced by `Messages`'s JSON-Schema
  * via the `definition` "SaveRequest".
@@ -1953,6 +1954,7 @@ export interface SaveRequest {
   base: string;
   data?: {} | null;
   text?: string | null;
+  aside?: boolean;
 }
 /**
  * The answer to a change.

@@ -10,10 +10,15 @@ export interface State {
   text?: string;
 }
 
+/** A state and where it goes; `aside`: into the file's history alone. */
+export interface SavedState extends State {
+  aside?: boolean;
+}
+
 export interface ProjectApi {
   project(checked: boolean): Promise<ProjectSummary>;
   read(path: string): Promise<FileContent>;
-  save(path: string, base: string, state: State): Promise<SavedFile>;
+  save(path: string, base: string, state: SavedState): Promise<SavedFile>;
   undo(path: string): Promise<FileContent>;
   redo(path: string): Promise<FileContent>;
 }

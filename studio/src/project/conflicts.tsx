@@ -1,5 +1,4 @@
 import { signal } from "@preact/signals";
-import { useState } from "preact/hooks";
 import { t } from "../text";
 import { Button, Dialog } from "../ui";
 import { differences } from "./differences";
@@ -25,7 +24,6 @@ export function Conflicts() {
 }
 
 function Question({ document, conflict }: { document: Document<object>; conflict: Conflict }) {
-  const [shown, setShown] = useState(false);
   const gone = conflict.theirs.digest === "";
   return (
     <Dialog
@@ -37,7 +35,6 @@ function Question({ document, conflict }: { document: Document<object>; conflict
       }}
       actions={
         <>
-          {!shown && !gone && <Button onClick={() => setShown(true)}>{t("project.showDifference")}</Button>}
           <Button onClick={() => void document.resolve("theirs")}>{t("project.takeTheirs")}</Button>
           <Button kind="primary" onClick={() => void document.resolve("mine")}>
             {t("project.keepMine")}
@@ -46,7 +43,12 @@ function Question({ document, conflict }: { document: Document<object>; conflict
       }
     >
       <p>{gone ? t("project.conflictGone") : t("project.conflictHelp")}</p>
-      {shown && <Differences conflict={conflict} />}
+      {document.problem.value !== "" && (
+        <p class="ui-callout bad" role="alert">
+          {document.problem.value}
+        </p>
+      )}
+      {!gone && <Differences conflict={conflict} />}
     </Dialog>
   );
 }

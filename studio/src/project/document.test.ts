@@ -1,6 +1,6 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { ServerLost } from "../api/request";
-import { ApiError, type FileContent, type ProjectApi, type State } from "./api";
+import { ApiError, type FileContent, type ProjectApi, type SavedState } from "./api";
 import { Document, PAUSE } from "./document";
 import { type Drafts, storedDrafts } from "./drafts";
 
@@ -11,6 +11,7 @@ class FakeServer implements ProjectApi {
   lost = false;
   refuse: ApiError | null = null;
   saves = 0;
+  aside: unknown[] = [];
 
   get text(): string {
     return this.states[this.at] ?? "";
@@ -43,8 +44,12 @@ class FakeServer implements ProjectApi {
     return this.file();
   }
 
-  async save(_path: string, base: string, state: State): Promise<{ saved: boolean; file: FileContent }> {
+  async save(_path: string, base: string, state: SavedState): Promise<{ saved: boolean; file: FileContent }> {
     this.check();
+    if (state.aside) {
+      this.aside.push(state.data);
+      return { saved: true, file: this.file() };
+    }
     if (base !== `#${this.text}`) return { saved: false, file: this.file() };
     this.saves += 1;
     const text = state.text ?? JSON.stringify(state.data);
@@ -258,7 +263,7 @@ describe("another program or tab", () => {
     expect(document.data.value).toEqual({ size: "80x120cm" });
   });
 
-  it("theirs is taken on request, and nothing is sent before", async () => {
+  it("theirs is taken on request, mine goes into the history, and nothing is sent before", async () => {
     const document = await opened();
     server.write({ size: "80x120cm" });
     document.update(() => ({ colours: 1 }));
@@ -268,7 +273,20 @@ describe("another program or tab", () => {
     expect(document.saved.value).toBe("conflict");
     await document.resolve("theirs");
     expect([document.data.value, document.saved.value, server.saves]).toEqual([{ size: "80x120cm" }, "saved", 0]);
-    expect(drafts.kept.size).toBe(0);
+    expect([server.aside, document.conflict.value, drafts.kept.size]).toEqual([[{ colours: 2 }], null, 0]);
+  });
+
+  it("stays open where the server does not keep mine", async () => {
+    const document = await opened();
+    server.write({ size: "80x120cm" });
+    document.update(() => ({ colours: 1 }));
+    await document.flush();
+    server.refuse = new ApiError(422, "no space");
+    await document.resolve("theirs");
+    expect([document.saved.value, document.problem.value, drafts.kept.size]).toEqual(["conflict", "no space", 1]);
+    server.refuse = null;
+    await document.resolve("theirs");
+    expect([document.saved.value, document.problem.value]).toEqual(["saved", ""]);
   });
 
   it("is no conflict where both made the same change", async () => {

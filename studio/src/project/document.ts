@@ -148,15 +148,27 @@ export class Document<T extends object = Record<string, unknown>> {
     });
   }
 
-  /** Ends a conflict: keeps this state, or takes the one on the disc. */
+  /** Ends a conflict: keeps this state, or takes the one on the disc; undo brings the other one back. */
   resolve(choice: "mine" | "theirs"): Promise<void> {
     const conflict = this.#conflict.peek();
     if (conflict === null) return Promise.resolve();
+    const mine = this.#pending ?? conflict.mine;
+    if (choice === "theirs") return this.#next(() => this.#setAside(mine));
     this.#conflict.value = null;
     this.#base = conflict.theirs.digest;
-    this.#pending = choice === "mine" ? (this.#pending ?? conflict.mine) : null;
-    if (this.#pending === null) this.#take(conflict.theirs);
+    this.#pending = mine;
     return this.flush();
+  }
+
+  /** Takes the state on the disc, once the server has this one in the file's history. */
+  async #setAside(mine: State): Promise<void> {
+    try {
+      const { file } = await this.#around.api.save(this.path, "", { ...mine, aside: true });
+      this.#conflict.value = null;
+      this.#take(file);
+    } catch (error) {
+      this.#problem.value = problemOf(error);
+    }
   }
 
   #edit(state: State): void {

@@ -15,7 +15,6 @@ export default {
   conflictHelp:
     "Another program or another tab changed this file after you opened it. Nothing was overwritten. Choose which state to keep; undo brings the other one back.",
   conflictGone: "Another program deleted or renamed this file. Keep your state to write the file again.",
-  showDifference: "Show the difference",
   takeTheirs: "Take theirs",
   keepMine: "Keep mine",
   difference: "Difference",

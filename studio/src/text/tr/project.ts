@@ -19,7 +19,6 @@ export default {
     "Siz açtıktan sonra başka bir program ya da sekme bu dosyayı değiştirdi. Hiçbir şeyin üzerine yazılmadı. Hangi durumun kalacağını seçin; geri alma ötekini getirir.",
   conflictGone:
     "Başka bir program bu dosyayı sildi ya da adını değiştirdi. Dosyayı yeniden yazmak için kendi durumunuzu tutun.",
-  showDifference: "Farkı göster",
   takeTheirs: "Ötekini al",
   keepMine: "Benimkini tut",
   difference: "Fark",

@@ -1,4 +1,4 @@
-import { useState } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
 import { address } from "../../app/routes";
 import { type FileSummary, fileAddress, SaveState, useDocument } from "../../project";
 import { t } from "../../text";
@@ -90,6 +90,8 @@ function Actions({ file: { path, kind }, onChoose }: SideProps) {
 
 function Rename(props: { path: string; onClose: () => void; onRename: (stem: string) => Promise<void> }) {
   const [stem, setStem] = useState(stemOf(props.path));
+  const form = useRef<HTMLFormElement>(null);
+  useEffect(() => form.current?.querySelector("input")?.select(), []);
   return (
     <Dialog
       open
@@ -105,6 +107,7 @@ function Rename(props: { path: string; onClose: () => void; onRename: (stem: str
       }
     >
       <form
+        ref={form}
         onSubmit={(event) => {
           event.preventDefault();
           void props.onRename(stem);

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from ilmek.errors import OutputError
 from ilmek.io.output import disk
-from ilmek.jobs.studio.project.folder import KINDS, OWN, SUFFIX, cannot, write_bytes
+from ilmek.jobs.studio.project.folder import KINDS, OUT, OWN, SUFFIX, cannot, write_bytes
 
 EXAMPLE = "example_project"
 """The example below ilmek.data."""
@@ -39,6 +39,7 @@ def open_project(path: Path) -> Path:
             do = f"give an empty or a new folder, or put a recipe, carpet{SUFFIX}, into it"
             raise OutputError(f"{path} is no project: it has other files", do=do)
         own.mkdir(mode=0o700, exist_ok=True)
+        (folder / OUT).mkdir(exist_ok=True)  # commands that are shown write into it
         if not (own / ".gitignore").exists():
             (own / ".gitignore").write_text("*\n", encoding="utf-8")
         _check_writable(own)

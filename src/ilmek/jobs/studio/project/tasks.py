@@ -49,12 +49,14 @@ class SaveRequest:
 
     data    its plain data; comments and order of the text are kept      text  or the whole text
     base    digest of the state that was changed; "": the file is new
+    aside   into the history alone: the file stays as it is, and undo brings this state back
     """
 
     path: str
     base: str
     data: dict[str, Any] | None = None
     text: str | None = None
+    aside: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -186,12 +188,23 @@ def save_file(request: SaveRequest, context: Context) -> SavedFile:
     path = folder.text_path(request.path)
     with folder.locked():
         old = read_bytes(path)
+        if request.aside:
+            return _set_aside(folder, request, old)
         if (digest_of(old) if old is not None else "") != request.base:
             return SavedFile(False, _content(folder, request.path))
         content = _new_content(request, old or b"")
         if content != old:
             _change(folder, request.path, content)
         return SavedFile(True, _content(folder, request.path))
+
+
+def _set_aside(folder: ProjectFolder, request: SaveRequest, old: bytes | None) -> SavedFile:
+    """Put a state into the history, before the file as it is; the caller holds the lock."""
+    history = _history(folder, request.path)
+    current = history.current
+    history.add(_text(_new_content(request, old or b"")))
+    history.add(current)
+    return SavedFile(True, _content(folder, request.path))
 
 
 def _new_content(request: SaveRequest, old: bytes) -> bytes:
