@@ -49,3 +49,28 @@ def test_the_solver_names_what_binds_and_its_solution_is_taken(page: Page, runni
 def test_an_end_is_moved_by_keys(page: Page, running: Studio, press: str) -> None:
     page.get_by_role("button", name=re.compile("^End of ejector, back at")).press("ArrowRight")
     until_file(running.project, press, "336deg")
+
+
+def test_a_cyclogram_is_built_from_nothing(page: Page, running: Studio) -> None:
+    open_view(page, running, "cyclogram")
+    page.get_by_role("button", name="New", exact=True).click()
+    page.wait_for_url(re.compile("#cyclogram/cyclogram$"), timeout=PATIENCE)
+    path = "cyclograms/cyclogram.toml"
+    page.get_by_role("button", name="Add a track").click()
+    second = page.locator("details[open]", has_text="track 2")
+    second.get_by_role("button", name="Add a motion and its return").click()
+    page.get_by_role("button", name="Add a relation").click()
+    rules = page.locator(".cyclogram-rules")
+    expect(rules.get_by_text("track 2: motion 1 starts after track 1: out ends")).to_be_visible(timeout=PATIENCE)
+    rules.get_by_label("Gap at least").fill("90deg")
+    expect(rules.get_by_text(re.compile("missing$"))).to_be_visible(timeout=PATIENCE)
+    assert violations(page) == []
+    second.get_by_label("Name", exact=True).first.fill("slide")
+    page.keyboard.press("Enter")
+    until_data(running.project, path, lambda data: "slide" in data["tracks"])
+    made = data_of(running.project, path)
+    assert made["relations"] == [
+        {"then": {"track": "slide", "starts": "motion 1"}, "first": {"track": "track 1", "ends": "out"}, "gap": "90deg"}
+    ]
+    page.locator("details[open]", has_text="slide").get_by_role("button", name="Remove the track").click()
+    until_data(running.project, path, lambda data: list(data["tracks"]) == ["track 1"] and "relations" not in data)

@@ -23,7 +23,7 @@
     second = { track = "feeder", above = "50mm" }
     gap = "2deg"
 
-Numbers are SI and radians; text has its unit. Written files are read again without loss, every number to its last bit:
+Motions may stand in any order. Numbers are SI and radians; text has its unit. Written files are read again without loss, every number to its last bit:
 an angle or a position is written in its unit if that gives the same number again, else in SI.
 """
 
@@ -201,7 +201,8 @@ def _track(name: str, entry: CyclogramEntry) -> Track:
     with entry.located():
         unit = entry.text("unit", "mm")
         parse_unit(unit)
-        parts = tuple(_motion(part, one, unit) for part, one in entry.table("motions").entries())
+        given = (_motion(part, one, unit) for part, one in entry.table("motions").entries())
+        parts = tuple(sorted(given, key=lambda part: part.start))
         bare = Track(name, entry.text("actuator", ""), parts, (), unit, entry.quantity("revolves", unit, 0.0))
         events = tuple(_event(bare, event, one) for event, one in entry.table("events").entries())
         limits = _limits(entry.table("limits"), unit)

@@ -7,10 +7,13 @@ import { formatNumber, t } from "../../text";
 import { formatQuantity, QuantityField, quantityText, Segments, Slider } from "../../ui";
 import { type Curve, QUANTITIES } from "./curves";
 import { Lanes } from "./lanes";
-import { type CyclogramData, DEGREE, dragged, type Grip, TURN, withLevel, withSpan } from "./model";
+import { type CyclogramData, DEGREE, dragged, type Grip, levelStep, TURN, withLevel, withSpan } from "./model";
+import { MotionForm } from "./motion-form";
+import { Readings } from "./readings";
+import { countOf, Rules } from "./rules";
 import { Solve } from "./solution";
 import { CyclogramStore, type Fault } from "./store";
-import { countOf, Motions, Readings, Rules } from "./tables";
+import { Tracks } from "./tracks";
 
 /** One cyclogram: its lanes, the cursor, its rules, its solutions, and its values typed. */
 export function CyclogramEditor({ path, head }: { path: string; head: ComponentChildren }) {
@@ -19,6 +22,7 @@ export function CyclogramEditor({ path, head }: { path: string; head: ComponentC
   const [draft, setDraft] = useState<CyclogramData | null>(null);
   const [curve, setCurve] = useState<Curve>("position");
   const [cursor, setCursor] = useState(0);
+  const [chosen, setChosen] = useState({ track: "", motion: "" });
   const base = useRef<{ data: CyclogramData; track: ShownTrack } | null>(null);
   const last = useRef<CyclogramData | null>(null);
   const saved = file.data.value;
@@ -29,6 +33,8 @@ export function CyclogramEditor({ path, head }: { path: string; head: ComponentC
   }, [data]);
   const shown = store.shown.value;
   const compared = store.compared.value;
+  const track = shown?.about.tracks.find((one) => one.name === chosen.track);
+  const part = track?.motions.find((one) => one.name === chosen.motion);
   useReady(shown !== null || store.fault.value !== null || file.saved.value === "missing");
   const change = (next: CyclogramData) => {
     setDraft(null);
@@ -48,7 +54,7 @@ export function CyclogramEditor({ path, head }: { path: string; head: ComponentC
     });
   const onLevel = (track: ShownTrack, motion: string, level: number) =>
     drag(track, (from, own) => {
-      const step = niceLevel(own);
+      const step = levelStep(own);
       return withLevel(from, own, motion, Math.round(level / step) * step);
     });
   const onEnd = () => {
@@ -97,6 +103,8 @@ export function CyclogramEditor({ path, head }: { path: string; head: ComponentC
                 onSpan={onSpan}
                 onLevel={onLevel}
                 onEnd={onEnd}
+                chosen={chosen}
+                onChoose={setChosen}
               />
             </div>
             <Slider
@@ -109,6 +117,17 @@ export function CyclogramEditor({ path, head }: { path: string; head: ComponentC
               onInput={setCursor}
             />
             <Readings shown={shown} cursor={cursor} />
+            {track && part && compared === null && (
+              <div class="cyclogram-chosen">
+                <MotionForm data={data} track={track} part={part} laws={shown.about.laws} onChange={change} />
+              </div>
+            )}
+            {compared === null && (
+              <>
+                <h2>{t("cyclogram.tracks")}</h2>
+                <Tracks data={data} shown={shown} onChange={change} />
+              </>
+            )}
           </div>
           <div class="ui-stack cyclogram-side">
             <div class="cyclogram-period">
@@ -123,25 +142,13 @@ export function CyclogramEditor({ path, head }: { path: string; head: ComponentC
             </div>
             <Solve store={store} data={data} onTake={change} />
             <h2>{t("cyclogram.rules")}</h2>
-            <Rules shown={shown} />
-            {compared === null && (
-              <>
-                <h2>{t("cyclogram.motions")}</h2>
-                <Motions data={data} shown={shown} onChange={change} />
-              </>
-            )}
+            <Rules data={data} shown={shown} locked={compared !== null} onChange={change} />
             <FileCommand kind="cyclogram" path={path} options={compared ? { solve: compared.solution.goal } : {}} />
           </div>
         </div>
       )}
     </>
   );
-}
-
-/** A round step of the levels of a track: about a hundredth of its stroke [SI]. */
-function niceLevel(track: ShownTrack): number {
-  const stroke = Math.max(track.high - track.low, 1e-6) * track.factor;
-  return 10 ** Math.floor(Math.log10(stroke / 50)) / track.factor;
 }
 
 function Verdict({ all, bad }: { all: number; bad: number }) {

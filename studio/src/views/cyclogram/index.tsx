@@ -7,7 +7,19 @@ import { filesOf, freePath, newFile, project, refreshProject } from "../../proje
 import { t } from "../../text";
 import { Button, Dialog, Progress, Select, toast } from "../../ui";
 import { CyclogramEditor } from "./editor";
+import { NEW_CYCLOGRAM } from "./structure";
 import "./cyclogram.css";
+
+/** Creates a cyclogram to begin with, and opens it. */
+async function create(): Promise<void> {
+  const path = freePath(FOLDER, "cyclogram");
+  try {
+    await newFile(path, { text: NEW_CYCLOGRAM });
+    goTo("cyclogram", stemOf(path));
+  } catch (error) {
+    toast(t("cyclogram.notCreated"), "bad", error instanceof Error ? error.message : String(error));
+  }
+}
 
 const FOLDER = "cyclograms";
 
@@ -35,7 +47,10 @@ export default function Cyclogram({ name }: ViewProps) {
           onChange={(to) => goTo("cyclogram", to)}
         />
       )}
-      <Button icon="add" onClick={() => setOpening(true)}>
+      <Button icon="add" onClick={create}>
+        {t("cyclogram.new")}
+      </Button>
+      <Button icon="machine" onClick={() => setOpening(true)}>
         {t("cyclogram.ofMachine")}
       </Button>
     </>

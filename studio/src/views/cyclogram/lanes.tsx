@@ -3,7 +3,7 @@ import type { ShownRelation, ShownTrack } from "../../api/messages";
 import { formatNumber, t } from "../../text";
 import { formatQuantity, useSize } from "../../ui";
 import { type Curve, pathOf, type Range, rangeOf, type Shown, type TrackCurves, unitOf, withinTurn } from "./curves";
-import { DEGREE, type Grip, type Span, TURN } from "./model";
+import { DEGREE, type Grip, levelStep, type Span, TURN } from "./model";
 
 interface LanesProps {
   shown: Shown;
@@ -13,9 +13,12 @@ interface LanesProps {
   cursor: number;
   locked: boolean;
   onCursor: (angle: number) => void;
-  onSpan: (track: ShownTrack, motion: string, grip: Grip, by: number, settled: boolean) => void;
-  onLevel: (track: ShownTrack, motion: string, level: number, settled: boolean) => void;
+  onSpan: (track: ShownTrack, motion: string, grip: Grip, by: number) => void;
+  onLevel: (track: ShownTrack, motion: string, level: number) => void;
   onEnd: () => void;
+  /** The motion whose values are shown beside the lanes. */
+  chosen: { track: string; motion: string };
+  onChoose: (motion: { track: string; motion: string }) => void;
 }
 
 /** Height of a lane, of its head, and of the axis below all [px]. */
@@ -75,8 +78,8 @@ export function Lanes(props: LanesProps) {
         props.onCursor(Math.min(Math.max(scale.angle(to.x), 0), TURN));
       return;
     }
-    if (now.grip === "level") props.onLevel(now.track, now.motion, levelScale(now.lane, now.range).value(to.y), false);
-    else props.onSpan(now.track, now.motion, now.grip, scale.angle(to.x) - scale.angle(now.from.x), false);
+    if (now.grip === "level") props.onLevel(now.track, now.motion, levelScale(now.lane, now.range).value(to.y));
+    else props.onSpan(now.track, now.motion, now.grip, scale.angle(to.x) - scale.angle(now.from.x));
   };
   const up = () => {
     if (drag.current !== null) props.onEnd();
@@ -86,6 +89,7 @@ export function Lanes(props: LanesProps) {
     (lane: number, track: ShownTrack, motion: string, grip: Drag["grip"], range: Range) => (event: PointerEvent) => {
       if (event.button !== 0 || props.locked) return;
       event.stopPropagation();
+      props.onChoose({ track: track.name, motion });
       drag.current = { track, motion, grip, from: at(event), lane, range };
       svg.current?.setPointerCapture(event.pointerId);
     };
@@ -195,6 +199,13 @@ function Lane(props: LaneProps) {
   const level = levelScale(lane, range);
   const top = lane * LANE;
   const unit = unitOf(track.unit, curve);
+  const pressLevel = (part: ShownTrack["motions"][number]) => (event: KeyboardEvent) => {
+    const by = { ArrowUp: 1, ArrowDown: -1 }[event.key];
+    if (by === undefined || props.locked) return;
+    event.preventDefault();
+    props.onLevel(track, part.name, part.finish + by * (event.shiftKey ? 10 : 1) * levelStep(track));
+    props.onEnd();
+  };
   return (
     <g class="lane">
       <line class="lane-line" x1={0} x2={scale.width} y1={top} y2={top} />
@@ -218,7 +229,14 @@ function Lane(props: LaneProps) {
               cx={scale.x(part.end % TURN || part.end)}
               cy={level.y(part.finish)}
               r={5.5}
+              tabindex={0}
+              role="button"
+              aria-label={t("cyclogram.levelAfter", {
+                name: `${track.name}, ${part.name}`,
+                level: formatQuantity(part.finish, track.unit),
+              })}
               onPointerDown={props.take(lane, track, part.name, "level", range)}
+              onKeyDown={pressLevel(part)}
             >
               <title>{t("cyclogram.levelHint")}</title>
             </circle>
@@ -239,21 +257,25 @@ function joined(one: Range, other: Range | undefined): Range {
   return other === undefined ? one : { low: Math.min(one.low, other.low), high: Math.max(one.high, other.high) };
 }
 
-interface BlockProps extends Pick<LaneProps, "lane" | "track" | "scale" | "take" | "onSpan" | "onEnd" | "locked"> {
+interface BlockProps
+  extends Pick<LaneProps, "lane" | "track" | "scale" | "take" | "onSpan" | "onEnd" | "locked" | "chosen" | "onChoose"> {
   motion: string;
   span: Span;
   range: Range;
 }
 
 /** The bar of a motion: its middle moves it, its ends change it; arrow keys do the same. */
-function Blocks({ lane, track, scale, motion, span, range, take, onSpan, onEnd, locked }: BlockProps) {
+function Blocks(props: BlockProps) {
+  const { lane, track, scale, motion, span, range, take, onSpan, onEnd, locked } = props;
+  const chosen = props.chosen.track === track.name && props.chosen.motion === motion;
+  const choose = () => props.onChoose({ track: track.name, motion });
   const y = lane * LANE + 18;
   const pieces = withinTurn([[span.start, span.end]]);
   const press = (grip: Grip) => (event: KeyboardEvent) => {
     const by = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
     if (by === undefined || locked) return;
     event.preventDefault();
-    onSpan(track, motion, grip, by * (event.shiftKey ? 10 : 1) * DEGREE, false);
+    onSpan(track, motion, grip, by * (event.shiftKey ? 10 : 1) * DEGREE);
     onEnd();
   };
   const name = `${track.name}, ${motion}`;
@@ -265,7 +287,8 @@ function Blocks({ lane, track, scale, motion, span, range, take, onSpan, onEnd, 
         return (
           <g key={index} class="block">
             <rect
-              class="bar"
+              class={`bar ${chosen ? "chosen" : ""}`}
+              onFocus={choose}
               x={left}
               y={y}
               width={width}

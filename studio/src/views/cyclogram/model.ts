@@ -95,7 +95,7 @@ export function withSpan(data: CyclogramData, track: string, motion: string, spa
     name,
     event.on === motion ? withoutAngle(event) : event,
   ]);
-  return withTrack(next, track, { events: Object.fromEntries(freed) as Record<string, EventData> });
+  return withEntries(next, track, { events: Object.fromEntries(freed) as Record<string, EventData> });
 }
 
 function withoutAngle(event: EventData): EventData {
@@ -113,16 +113,29 @@ export function withMotion(
   const motions = data.tracks?.[track]?.motions;
   const part = motions?.[motion];
   if (part === undefined) return data;
-  return withTrack(data, track, { motions: { ...motions, [motion]: { ...part, ...change } } });
+  return withEntries(data, track, { motions: { ...motions, [motion]: { ...part, ...change } } });
 }
 
-function withTrack(data: CyclogramData, track: string, change: Partial<TrackData>): CyclogramData {
-  return { ...data, tracks: { ...data.tracks, [track]: { ...data.tracks?.[track], ...change } } };
+/** The data with entries of a track changed; undefined leaves an entry out. */
+export function withEntries(data: CyclogramData, track: string, change: Record<string, unknown>): CyclogramData {
+  const own = data.tracks?.[track];
+  return own === undefined ? data : { ...data, tracks: { ...data.tracks, [track]: without({ ...own, ...change }) } };
+}
+
+/** A table without the entries that are undefined. */
+export function without<T extends object>(table: T): T {
+  return Object.fromEntries(Object.entries(table).filter(([, value]) => value !== undefined)) as T;
 }
 
 /** A position as a file holds it. */
 export function positionText(si: number, unit: string): Quantity {
   return unit === "" ? Number(si.toPrecision(6)) : quantityText(si, unit);
+}
+
+/** A round step of the levels of a track: about a hundredth of its stroke [SI]. */
+export function levelStep(track: ShownTrack): number {
+  const stroke = Math.max(track.high - track.low, 1e-6) * track.factor;
+  return 10 ** Math.floor(Math.log10(stroke / 50)) / track.factor;
 }
 
 /** The data with the level after a motion changed: its end, and the begin of the next one, where they join. */
