@@ -23,8 +23,9 @@
     second = { track = "feeder", above = "50mm" }
     gap = "2deg"
 
-Motions may stand in any order. Numbers are SI and radians; text has its unit. Written files are read again without loss, every number to its last bit:
-an angle or a position is written in its unit if that gives the same number again, else in SI.
+Motions may stand in any order. Numbers are SI and radians; text has its unit. Written files are read again without
+loss, every number to its last bit: an angle or a position is written in its unit if that gives the same number again,
+else in SI.
 """
 
 import copy
