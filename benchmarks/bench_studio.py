@@ -103,15 +103,15 @@ def cold_start(folder: Path) -> None:
 
 
 def usable(project: Path) -> float:
-    """Time from the command until a view shows content in a browser that is open already [s]."""
+    """Time from the command until the first view shows its carpet in a browser that is open already [s]."""
     with Browser() as browser:
         page = browser.open(Path(__file__).with_name("browser.py"), 1400, 900)
         began = time.perf_counter()
         with studio(project) as address:
             page.visit(address)
             page.evaluate(
-                "new Promise(done => { const look = () => document.querySelector('main h1, main h2, .view')"
-                " && document.querySelector('.app-state.connected') ? done() : setTimeout(look, 10); look(); })"
+                "new Promise(done => { const look = () => document.querySelector('main[data-ready=true]')"
+                " ? done() : setTimeout(look, 10); look(); })"
             )
             return time.perf_counter() - began
 

@@ -104,5 +104,5 @@ ENDPOINTS = (
 
 if __name__ == "__main__":
     sys.modules["ilmek.jobs.studio_tasks"] = sys.modules["__main__"]
-    sys.modules["ilmek.jobs.studio.warm_up"] = SimpleNamespace(warm_up=tuple, preparations=tuple)  # type: ignore[assignment]
+    sys.modules["ilmek.jobs.studio.warm_up"] = SimpleNamespace(preparations=tuple, preparations_for=tuple)  # type: ignore[assignment]
     worker.main()

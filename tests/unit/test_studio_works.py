@@ -2,13 +2,17 @@
 
 import asyncio
 from dataclasses import dataclass, field
+from functools import partial
+from io import BytesIO
 from typing import Any
 
 import pytest
 
+from ilmek.web import worker as workers
 from ilmek.web.events import EventHub
-from ilmek.web.framing import JSON, Reply
+from ilmek.web.framing import JSON, Ask, Ready, Reply, read_message
 from ilmek.web.pool import Pool, PoolFull
+from ilmek.web.worker import Worker
 from ilmek.web.works import MOST_KEPT, MOST_KEPT_BYTES, MOST_RUNNING, Works
 
 
@@ -84,3 +88,28 @@ def test_too_many_works_are_refused() -> None:
         await running.close()
 
     asyncio.run(scenario())
+
+
+def test_a_worker_prepares_until_its_first_request_comes(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(workers, "IDLE", 0.01)
+    done: list[int] = []
+    answers = BytesIO()
+    worker = Worker(BytesIO(), answers)
+
+    def step(number: int) -> None:
+        done.append(number)
+        if number == 2:
+            worker._queue.put(Ask(1, "none:none", b"{}", "."))
+        raise RuntimeError("what fails while preparing is reported later")
+
+    def end() -> None:
+        raise SystemExit
+
+    with pytest.raises(SystemExit):
+        worker.run([partial(step, number) for number in range(5)], [end])
+    assert done == [0, 1, 2]
+    answers.seek(0)
+    assert isinstance(read_message(answers), Ready)
+    answer = read_message(answers)
+    assert isinstance(answer, Reply)
+    assert answer.status == 500

@@ -18,7 +18,7 @@ from starlette.websockets import WebSocket
 from ilmek import __version__
 from ilmek.jobs.studio.project.watch import INTERVAL, ProjectWatch
 from ilmek.web.api_page import api_page
-from ilmek.web.endpoints import ENDPOINTS, Endpoint
+from ilmek.web.endpoints import ENDPOINTS, FIRST, Endpoint
 from ilmek.web.events import EventHub
 from ilmek.web.framing import JSON, News, Reply, StepMessage, error_body
 from ilmek.web.login import login_routes
@@ -45,7 +45,7 @@ def studio_app(
     project    folder      access, cookie_name  who may use it      pool  default: one of its own
     endpoints  the API; default: all of it
     """
-    pool = pool or Pool(project)
+    pool = pool or Pool(project, first=FIRST)
     hub = EventHub({"version": __version__, "start": time.time_ns() // 1_000_000}, lambda page: works.page_left(page))  # noqa: PLW0108 - works follows
     works = Works(pool, hub)
 

@@ -13,6 +13,9 @@ from ilmek.jobs.studio.answers import PACKED
 SECOND = 1.0
 HOUR = 3600.0
 
+FIRST = "carpet"
+"""Affinity of the view that opens first."""
+
 PICTURE_TYPES = (
     *(
         f"image/{kind}"

@@ -73,6 +73,7 @@ class Pool:
 
     project  folder of the project      size  most workers at a time      memory  of a worker [bytes]
     command  starts a worker            grace  see GRACE
+    first    affinity of the requests that come first: a worker prepares for them from the start
     """
 
     project: str
@@ -80,6 +81,7 @@ class Pool:
     memory: int = MEMORY
     command: tuple[str, ...] = (sys.executable, "-m", "ilmek.web.worker")
     grace: float = GRACE
+    first: str = ""
     _workers: list[_Worker] = field(default_factory=list)
     _waiting: deque[Request] = field(default_factory=deque)
     _numbers: "itertools.count[int]" = field(default_factory=lambda: itertools.count(1))
@@ -88,11 +90,11 @@ class Pool:
     _closed: bool = False
     _tasks: set[asyncio.Task[None]] = field(default_factory=set)
 
-    async def start(self, workers: int = 2) -> None:
+    async def start(self) -> None:
         """Start the first workers; they get ready while the page loads."""
-        workers = min(workers, self.size)
-        self._starting += workers
-        await asyncio.gather(*(self._add() for _ in range(workers)))
+        affinities = ("", self.first)[: self.size]
+        self._starting += len(affinities)
+        await asyncio.gather(*map(self._add, affinities))
 
     async def close(self) -> None:
         """End all workers; what they do is lost."""
@@ -189,12 +191,13 @@ class Pool:
             _kill(worker)
             self._finish(worker, _failed(worker.request, 503, given))
 
-    async def _add(self) -> None:
-        """Start a worker that is counted in `_starting` already."""
+    async def _add(self, affinity: str = "") -> None:
+        """Start a worker that is counted in `_starting` already; it prepares for requests of an affinity."""
         try:
             process = await asyncio.create_subprocess_exec(
                 *self.command,
                 str(self.memory),
+                *([affinity] if affinity else ()),
                 stdin=asyncio.subprocess.PIPE,
                 stdout=asyncio.subprocess.PIPE,
                 limit=2**24,
@@ -206,7 +209,7 @@ class Pool:
             return
         finally:
             self._starting -= 1
-        worker = _Worker(process)
+        worker = _Worker(process, affinity=affinity)
         if self._closed:
             _kill(worker)
         self._workers.append(worker)

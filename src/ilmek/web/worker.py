@@ -1,7 +1,8 @@
 """A worker process of the studio: answers one request after the other.
 
-    python -m ilmek.web.worker MEMORY
+    python -m ilmek.web.worker MEMORY [AFFINITY]
 
+With an AFFINITY the worker prepares for requests of that name at once, without one when it is idle.
 Requests come by standard input, answers leave by standard output (see `framing`). What a library prints goes to the
 error stream. Memory beyond MEMORY bytes is refused by the system, and the request ends with an error. At the end of
 standard input, which is the end of the server however it came, the worker ends at once with all its own processes.
@@ -47,6 +48,9 @@ IDLE = 1.5
 """Time without a request after which a worker prepares for the next [s]."""
 
 
+Steps = Iterable[Callable[[], object]]
+
+
 class Worker:
     """Reads requests in a thread, so that a cancellation arrives while a request is answered."""
 
@@ -56,10 +60,16 @@ class Worker:
         self._cancelled: set[int] = set()
         self._writing = threading.Lock()
 
-    def run(self, preparations: Iterable[Callable[[], object]] = ()) -> None:
-        """Answer requests until the process ends; without requests, prepare for those to come, step by step."""
+    def run(self, first: Steps = (), later: Steps = ()) -> None:
+        """Answer requests until the process ends.
+
+        first  steps that prepare for the requests to come, done until the first comes      later  while none comes
+        """
         self._send(Ready())
-        steps = iter(preparations)
+        for step in first:
+            if self._queue.empty():
+                _tried(step)
+        steps = iter(later)
         while True:
             ask = self._next(steps)
             began = time.perf_counter()
@@ -76,8 +86,7 @@ class Worker:
                 step = next(steps, None)
             if step is None:
                 return self._queue.get()
-            with contextlib.suppress(Exception):  # what fails here is reported where a request needs it
-                step()
+            _tried(step)
 
     def listen(self) -> None:
         """Read requests from now on."""
@@ -126,6 +135,12 @@ class Worker:
         if isinstance(answer, Binary):
             return 200, answer.kind, answer.body
         return 200, JSON, encoded_json(answer)
+
+
+def _tried(step: Callable[[], object]) -> None:
+    """Do a step that prepares; what fails is reported where a request needs it."""
+    with contextlib.suppress(Exception):
+        step()
 
 
 def _refused(error: Exception) -> tuple[int, str, bytes]:
@@ -207,8 +222,7 @@ def main() -> None:
     worker = Worker(sys.stdin.buffer, answers)
     worker.listen()
     warm = import_module("ilmek.jobs.studio.warm_up")
-    warm.warm_up()
-    worker.run(warm.preparations())
+    worker.run(warm.preparations_for(*sys.argv[2:]), warm.preparations())
 
 
 if __name__ == "__main__":
