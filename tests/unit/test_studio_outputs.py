@@ -4,7 +4,8 @@ import contextlib
 import os
 import shlex
 import shutil
-from io import BytesIO
+from io import BytesIO, StringIO
+from itertools import islice
 from pathlib import Path
 from zipfile import ZipFile
 
@@ -13,6 +14,8 @@ from click.testing import CliRunner
 
 from ilmek.cli import main
 from ilmek.errors import IlmekError, ParameterError
+from ilmek.jobs import animation
+from ilmek.jobs.animation import pictures
 from ilmek.jobs.studio.answers import Context
 from ilmek.jobs.studio.outputs import OutputRequest, write_product
 from ilmek.jobs.studio.project.folder import ProjectFolder
@@ -49,6 +52,13 @@ def contents(path: Path) -> dict[str, bytes]:
     }  # OCC counts its products
 
 
+def remove(path: Path) -> None:
+    if path.is_dir():
+        shutil.rmtree(path)
+    else:
+        path.unlink()
+
+
 @pytest.mark.parametrize(
     ("path", "names"),
     [
@@ -59,7 +69,10 @@ def contents(path: Path) -> dict[str, bytes]:
         ("cyclograms/press.toml", ("page", "table", "data")),
     ],
 )
-def test_a_product_is_what_its_command_writes(folder: Path, path: str, names: tuple[str, ...]) -> None:
+def test_a_product_is_what_its_command_and_its_python_write(
+    folder: Path, path: str, names: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(animation, "pictures", lambda *given: islice(pictures(*given), 2))  # all of them take 10 s
     context = Context(str(folder))
     found = {one.name: one for one in products(PathRequest(path), context).products}
     for name in names:
@@ -68,7 +81,11 @@ def test_a_product_is_what_its_command_writes(folder: Path, path: str, names: tu
         by_studio = contents(folder / done.target)
         with contextlib.chdir(folder):
             result = CliRunner().invoke(main, shlex.split(found[name].command)[1:])
-        assert result.exit_code == 0, result.output
+            assert result.exit_code == 0, result.output
+            assert contents(folder / done.target) == by_studio
+            remove(Path(done.target))
+            with contextlib.redirect_stdout(StringIO()):
+                exec(compile(found[name].python, "shown", "exec"), {})
         assert contents(folder / done.target) == by_studio
     entries = written(ProjectRequest(), context).entries
     assert {entry.path for entry in entries} == {found[name].target for name in names}

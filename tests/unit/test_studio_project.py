@@ -160,6 +160,18 @@ def test_a_state_that_is_set_aside_is_brought_back_by_undo(folder: Path, context
     assert undo(PathRequest("carpet.toml"), context).data == {"plain": "blue"}
 
 
+def test_a_file_that_has_gone_is_brought_back_by_undo(folder: Path, context: Context) -> None:
+    with pytest.raises(ParameterError, match="not there"):
+        content(context, "machines/never.toml")
+    save(context, 'plain = "camel"\n')
+    for remove in (lambda: delete_file(PathRequest("carpet.toml"), context), (folder / "carpet.toml").unlink):
+        remove()
+        found = content(context)
+        assert (found.digest, found.undo) == ("", True)
+        assert "undo brings it back" in found.error.do
+        assert undo(PathRequest("carpet.toml"), context).data == {"plain": "camel"}
+
+
 def test_undo_and_redo_go_through_restarts(context: Context) -> None:
     for size in ("70x90cm", "80x90cm", "90x90cm"):
         save(context, f'plain = "ivory"\nsize = "{size}"\n')

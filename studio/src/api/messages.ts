@@ -1728,7 +1728,7 @@ export interface PlateRequest {
   file?: string;
 }
 /**
- * What can be written of a file: name, file or folder below out/, and the command line.
+ * What can be written of a file: name, file or folder below out/, and the command line and Python that write it.
  *
  * This interface was referenced by `Messages`'s JSON-Schema
  * via the `definition` "Product".
@@ -1737,6 +1737,7 @@ export interface Product {
   name: string;
   target: string;
   command: string;
+  python: string;
 }
 /**
  * What can be written of a file.

@@ -305,6 +305,29 @@ describe("another program or tab", () => {
     expect(document.data.value).toEqual({ size: "60x90cm" });
   });
 
+  it("a file that has gone keeps its data in the page, and undo brings it back", async () => {
+    const document = await opened();
+    const file = server.file();
+    server.file = () => ({
+      ...file,
+      digest: "",
+      data: null,
+      text: "",
+      undo: true,
+      error: { given: "gone", allowed: "", do: "", line: null },
+    });
+    await document.refresh();
+    expect([document.saved.value, document.error.value?.given, document.canUndo.value, document.data.value]).toEqual([
+      "missing",
+      "gone",
+      true,
+      { size: "60x90cm" },
+    ]);
+    server.file = () => file;
+    await document.undo();
+    expect([document.saved.value, document.error.value ?? null]).toEqual(["saved", null]);
+  });
+
   it("a file that is gone is reported", async () => {
     const document = await opened();
     server.refuse = new ApiError(422, "carpet.toml is not there");

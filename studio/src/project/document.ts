@@ -208,12 +208,14 @@ export class Document<T extends object = Record<string, unknown>> {
     }
   }
 
-  /** Takes a state of the disc; `own`: it is what was sent, whose data is here already. */
+  /** Takes a state of the disc, data and text of a file that has gone aside; `own`: it is what was sent. */
   #take(file: FileContent, own = false): void {
     this.#pending = null;
     this.#base = file.digest;
-    if (!own || !isSame(this.#data.peek(), file.data)) this.#data.value = (file.data ?? null) as T | null;
-    this.#text.value = file.text;
+    if (file.digest !== "") {
+      if (!own || !isSame(this.#data.peek(), file.data)) this.#data.value = (file.data ?? null) as T | null;
+      this.#text.value = file.text;
+    }
     this.#error.value = file.error ?? null;
     this.#history.value = { undo: file.undo ?? false, redo: file.redo ?? false };
     this.#problem.value = "";

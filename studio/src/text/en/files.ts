@@ -32,7 +32,7 @@ export default {
   write: "Write",
   writeAll: "Write all {count}",
   writeAgain: "Write again",
-  command: "Command line",
+  command: "Command line and Python",
   writing: "{title} is being written",
   failed: "These checks fail: {names}",
   notes: "{count} note|{count} notes",

@@ -34,7 +34,7 @@ export default {
   write: "Yaz",
   writeAll: "Hepsini yaz ({count})",
   writeAgain: "Yeniden yaz",
-  command: "Komut satırı",
+  command: "Komut satırı ve Python",
   writing: "{title} yazılıyor",
   failed: "Şu denetimler tutmuyor: {names}",
   notes: "{count} not|{count} not",

@@ -91,7 +91,7 @@ function ProductRow({ path, product, entry }: RowProps) {
       {writing !== undefined && <Outcome writing={writing} title={title} />}
       <details class="files-command">
         <summary>{t("files.command")}</summary>
-        <CopyCommand command={product.command} />
+        <CopyCommand command={product.command} python={product.python} />
       </details>
     </li>
   );

@@ -10,17 +10,19 @@ from ilmek.errors import IlmekError
 from ilmek.jobs.design import LOOM
 from ilmek.jobs.studio.answers import Context
 from ilmek.jobs.studio.project.folder import OUT, ProjectFolder, kind_of, read_bytes
+from ilmek.jobs.studio.project.product_python import product_python
 from ilmek.jobs.studio.project.tasks import PathRequest
 from ilmek.machines.catalogue import find_machine
 
 
 @dataclass(frozen=True, slots=True)
 class Product:
-    """What can be written of a file: name, file or folder below out/, and the command line."""
+    """What can be written of a file: name, file or folder below out/, and the command line and Python that write it."""
 
     name: str
     target: str
     command: str
+    python: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,7 +87,7 @@ def product(path: str, name: str) -> Product:
         parts = ("ilmek", "weave" if name == "carpet" else "chart", path, "--out", target, "--force")
     else:
         parts = ("ilmek", _COMMANDS[kind], path, OPTIONS[name], target, "--force")
-    return Product(name, target, shlex.join(parts))
+    return Product(name, target, shlex.join(parts), product_python(kind, path, name, target))
 
 
 def sources(paths: Iterable[str]) -> dict[str, str]:

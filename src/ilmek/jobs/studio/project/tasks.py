@@ -174,11 +174,14 @@ def _summary(folder: ProjectFolder, path: str, *, checked: bool) -> FileSummary:
 
 
 def read_file(request: PathRequest, context: Context) -> FileContent:
-    """A text file: text, data, digest, first error. Raises ParameterError where there is none."""
+    """A text file: text, data, digest, first error.
+
+    Raises ParameterError where there is none and never was one; one that has gone has a digest of "" and can be undone.
+    """
     folder = ProjectFolder(context.folder.resolve())
     found = _content(folder, request.path)
-    if not found.digest:
-        raise ParameterError(f"{request.path} is not there", do="it was deleted or renamed; undo brings it back")
+    if not found.digest and not found.undo:
+        raise ParameterError(f"{request.path} is not there", do="it was deleted or renamed")
     return found
 
 
@@ -326,7 +329,10 @@ def _content(folder: ProjectFolder, path: str) -> FileContent:
     kind = kind_of(path)
     content = read_bytes(folder.text_path(path))
     if content is None:
-        return FileContent(path, kind or "", "", None, "", undo=read_history(folder.base, path).can(-1))
+        gone = FileError(f"{path} is not there", do="it was deleted or renamed; undo brings it back")
+        history = read_history(folder.base, path)
+        can_undo = history.current is not None or history.can(-1)
+        return FileContent(path, kind or "", "", None, "", gone if can_undo else None, undo=can_undo)
     text, digest = _text(content), digest_of(content)
     history = read_history(folder.base, path)
     changed = history.current != text
