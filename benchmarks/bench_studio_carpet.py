@@ -1,9 +1,11 @@
-"""The studio's chart while a setting moves: 1,000 x 1,500 knots, from the request to the bytes of its answer.
+"""The studio's chart: 1,000 x 1,500 knots while a setting moves, and 20 million knots on the screen.
 
-A photograph and a drawing are charted as drafts, as a slider asks for them; each change is a new value of one setting.
+A photograph and a drawing are charted as drafts, as while a slider moves; each change is a new value of one setting.
 Required: 200 ms a change on the clock, pixels on the screen included. The time of the processor is stated beside it:
 other work on the computer lengthens the clock alone. The ratio is to Pillow's quantisation of the picture at the
 chart's size to the same sixteen yarns: what a picture program would need, without a bill, checks or a chart's rules.
+In the browser, without a graphics card: from a step of a slider to the picture of its chart, and pictures a second of
+20 million knots that are moved and zoomed, with the memory of all its processes.
 """
 
 import tempfile
@@ -17,6 +19,8 @@ from typing import Any
 import numpy as np
 from PIL import Image
 
+from benchmarks.bench_studio import studio
+from benchmarks.browser import Browser, Page, installed
 from ilmek.io.yarn_file import default_yarns
 from ilmek.jobs.studio.answers import Context
 from ilmek.jobs.studio.carpet.answers import ChartRequest
@@ -27,6 +31,35 @@ COLUMNS, ROWS = 1000, 1500
 RECIPE = {"picture": "photo.png", "size": "400x600cm", "quality": "25x25/dm"}
 ROUNDS = 5
 LIMIT = 0.2
+BY_PROCESSOR = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader")
+HUGE = {"picture": "photo.png", "size": "1000x1250cm", "quality": "40x40/dm"}
+"""A carpet of 4,000 x 5,000 knots."""
+
+SPAN = 4.0
+"""Time in which pictures are counted [s]."""
+
+PICTURES = "Number(document.querySelector('.carpet-surface canvas')?.dataset.pictures ?? 0)"
+SHOWN = """new Promise(done => { const look = () => document.querySelector('.carpet-status')?.textContent.includes('%s')
+  ? requestAnimationFrame(() => requestAnimationFrame(done)) : setTimeout(look, 10); look(); })"""
+STEP = """new Promise(done => {
+  const slider = document.querySelector('.carpet-side details:last-of-type input[type=range]');
+  const line = document.querySelector('.carpet-timing'), before = line.textContent, began = performance.now();
+  new MutationObserver((_, seen) => {
+    if (line.textContent === before || !line.textContent.includes('×')) return;
+    seen.disconnect();
+    requestAnimationFrame(() => requestAnimationFrame(() => done(performance.now() - began)));
+  }).observe(line, { characterData: true, childList: true, subtree: true });
+  slider.stepUp();
+  slider.dispatchEvent(new Event('input', { bubbles: true }));
+})"""
+MOVE = """(() => {
+  const canvas = document.querySelector('.carpet-surface canvas'), box = canvas.getBoundingClientRect();
+  const at = { clientX: box.x + box.width / 3, clientY: box.y + box.height / 3, bubbles: true, cancelable: true };
+  let turn = 0;
+  const step = () => { turn += 1; window.moving = requestAnimationFrame(step);
+    canvas.dispatchEvent(new WheelEvent('wheel', { ...at, shiftKey: %s, deltaY: turn %% 60 < 30 ? 20 : -20 })); };
+  step(); })()"""
+KNOTS = "[...document.querySelectorAll('.carpet-zoom button')].at(-1).click()"
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,6 +97,43 @@ def run() -> None:
                 f"{change.name:32}{1e3 * processor:12.0f}{1e3 * clock:9.0f}{1e3 * taken[:, 1].max():9.0f}"
                 f"{processor / base[0]:14.2f}"
             )
+        if installed() is not None:
+            on_screen(Path(folder))
+
+
+def on_screen(folder: Path) -> None:
+    """Print what the browser takes for a change, and for 20 million knots."""
+    write(folder, RECIPE)
+    with Browser(*BY_PROCESSOR) as browser, studio(folder) as address:
+        page = browser.open(Path(__file__).with_name("browser.py"), 1400, 900)
+        page.visit(f"{address}#carpet")
+        page.evaluate(SHOWN % "1,500 rows")
+        steps = [page.evaluate(STEP) for _ in range(ROUNDS)]
+        print(f"{'from a step of a slider to its picture':44s}{np.median(steps):9.0f} ms (limit {1e3 * LIMIT:g} ms)")
+        before = browser.memory
+        write(folder, HUGE)
+        page.evaluate(SHOWN % "5,000 rows")
+        print(f"{'20 million knots: memory of the browser':44s}{(browser.memory - before) / 1e6:9.0f} MB more")
+        counted(browser, page, "20 million knots: whole, zoomed", MOVE % "false")
+        page.evaluate(KNOTS)
+        counted(browser, page, "20 million knots: single knots, moved", MOVE % "true")
+
+
+def counted(browser: Browser, page: Page, name: str, begin: str) -> None:
+    """Print pictures a second and processor time of one while the view moves."""
+    page.evaluate(begin)
+    first, began, used = page.evaluate(PICTURES), time.perf_counter(), browser.processor_time
+    page.evaluate(f"new Promise(done => setTimeout(done, {1000 * SPAN}))")
+    shown = page.evaluate(PICTURES) - first
+    took, used = time.perf_counter() - began, browser.processor_time - used
+    page.evaluate("cancelAnimationFrame(window.moving)")
+    print(f"{name:44s}{shown / took:9.1f} pictures a second   processor {1e3 * used / max(shown, 1):6.1f} ms a picture")
+
+
+def write(folder: Path, recipe: dict[str, str]) -> None:
+    """The recipe of the project."""
+    lines = (f'{key} = "{value}"' for key, value in recipe.items())
+    (folder / "carpet.toml").write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
 def times(change: Change, context: Context) -> Iterator[tuple[float, float]]:
@@ -98,14 +168,5 @@ def pictures(folder: Path) -> None:
     noise = np.random.default_rng(1).normal(0, 8, (3000, 2000, 3))
     Image.fromarray((np.stack(waves, axis=-1) + noise).clip(0, 255).astype(np.uint8)).save(folder / "photo.png")
     stripes = (across // 60 + down // 80) % 7 + (across // 9 + down // 11) % 2
-    colours = np.array([yarn.srgb for yarn in default_yarns()][:8]) if False else _colours()
+    colours = np.array([list(bytes.fromhex(yarn.hex[1:])) for yarn in default_yarns()[:8]], dtype=np.uint8)
     Image.fromarray(colours[stripes]).save(folder / "drawing.png")
-
-
-def _colours() -> np.ndarray[Any, np.dtype[np.uint8]]:
-    """Eight colours of the yarns."""
-    return np.array([list(bytes.fromhex(yarn.hex[1:])) for yarn in default_yarns()[:8]], dtype=np.uint8)
-
-
-if __name__ == "__main__":
-    run()

@@ -70,17 +70,24 @@ class Browser:
     @property
     def processor_time(self) -> float:
         """Processor time of the browser with all its processes that run [s]; Linux."""
-        parents, times = {}, {}
+        return sum(int(fields[11]) + int(fields[12]) for fields in self._processes()) / os.sysconf("SC_CLK_TCK")
+
+    @property
+    def memory(self) -> int:
+        """Resident memory of the browser with all its processes that run [byte]; what they share counts in each."""
+        return sum(int(fields[21]) for fields in self._processes()) * os.sysconf("SC_PAGE_SIZE")
+
+    def _processes(self) -> list[list[str]]:
+        """The fields of /proc/N/stat, from the state on, of the browser's processes."""
+        fields = {}
         for stat in Path("/proc").glob("[0-9]*/stat"):
             with suppress(OSError):
-                fields = stat.read_text().rpartition(")")[2].split()
-                parents[int(stat.parent.name)] = int(fields[1])
-                times[int(stat.parent.name)] = (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+                fields[int(stat.parent.name)] = stat.read_text().rpartition(")")[2].split()
         own, found = {self._process.pid}, 0
         while len(own) > found:
             found = len(own)
-            own |= {child for child, parent in parents.items() if parent in own}
-        return sum(times.get(one, 0.0) for one in own)
+            own |= {child for child, values in fields.items() if int(values[1]) in own}
+        return [fields[one] for one in own if one in fields]
 
     def open(self, path: Path, width: int, height: int, *, phone: bool = False) -> "Page":
         """A new page with a file in it, loaded."""

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from PIL import Image
 from playwright.sync_api import Page, expect
-from studio_browser import PATIENCE, Studio, data_of, middle, open_view, until_file, violations
+from studio_browser import PATIENCE, Seen, Studio, data_of, middle, open_view, until_file, violations
 
 from ilmek.io.yarn_file import default_yarns
 
@@ -88,6 +88,16 @@ def test_a_dropped_picture_and_a_size_are_in_the_recipe(carpet: Page, running: S
         {"name": "again.png", "mimeType": "image/png", "buffer": _picture()}
     )
     until_file(running.project, "carpet.toml", "pictures/again.png")
+
+
+def test_what_is_no_picture_is_refused_and_loses_nothing(carpet: Page, running: Studio, seen: Seen) -> None:
+    seen.expected = ("status of 422",)
+    before = (running.project / "carpet.toml").read_text(encoding="utf-8")
+    for name, content in {"empty.png": b"", "letter.pdf": b"%PDF-1.7"}.items():
+        _drop(carpet, name, content)
+        expect(carpet.get_by_role("alert").filter(has_text=f"{name} is no picture")).to_be_visible(timeout=PATIENCE)
+    assert (running.project / "carpet.toml").read_text(encoding="utf-8") == before
+    _status(carpet, re.compile(r"knots across"))
 
 
 def test_a_stroke_is_an_edit_that_undo_takes_out(carpet: Page, running: Studio) -> None:

@@ -43,6 +43,11 @@ def _chart(context: Context, *, draft: bool = False, **more: Any) -> tuple[dict[
     return _parts(chart(ChartRequest({**SMALL, **more}, draft=draft), context))
 
 
+def _lines(recipe: dict[str, Any]) -> str:
+    """The text of a recipe."""
+    return "\n".join(f"{key} = {json.dumps(value)}" for key, value in recipe.items())
+
+
 def _as_file(context: Context, text: str) -> Any:
     (context.folder / "carpet.toml").write_text(text, encoding="utf-8")
     return make_charted(read_order(context.folder / "carpet.toml"))
@@ -51,9 +56,7 @@ def _as_file(context: Context, text: str) -> Any:
 def test_an_unsaved_recipe_has_the_chart_of_its_file(context: Context) -> None:
     edits = ["border 2 ivory", "set 5,5 madder red"]
     about, knots = _chart(context, colours=6, brightness="10%", edits=edits)
-    lines = [f"{key} = {json.dumps(value)}" for key, value in SMALL.items()]
-    text = "\n".join([*lines, "colours = 6", 'brightness = "10%"', f"edits = {json.dumps(edits)}"])
-    made = _as_file(context, text)
+    made = _as_file(context, _lines({**SMALL, "colours": 6, "brightness": "10%", "edits": edits}))
     assert knots == made.chart.knots.tobytes()
     assert [yarn["name"] for yarn in about["yarns"]] == [yarn.name for yarn in made.chart.yarns]
     assert sum(yarn["mass"] for yarn in about["yarns"]) == pytest.approx(made.bill.pile_mass, rel=1e-12)
@@ -101,7 +104,7 @@ def test_the_fitted_picture_is_sent_once(context: Context) -> None:
 
 def test_a_row_is_that_of_rows_txt(context: Context) -> None:
     recipe = {**SMALL, "edits": ["replace ivory by ivory", "jufti 1,1 9,80", "half 10,4 near-black"]}
-    made = _as_file(context, "\n".join(f"{key} = {json.dumps(value)}" for key, value in recipe.items())).chart
+    made = _as_file(context, _lines(recipe)).chart
     lines = b"".join(part for _, part in row_bands(made, "runs", "both")).decode().splitlines()
     for number in (1, 10, 120):
         answer = row(RowRequest(recipe, number), context)
@@ -151,3 +154,38 @@ def test_an_error_names_the_key_and_no_folder(context: Context) -> None:
     assert refused.value.given.startswith("carpet.toml, border.0: ")
     with pytest.raises(CarpetError, match=r"^carpet\.toml, edits\.1: unknown yarn 'mauve'"):
         _chart(context, edits=["set 1,1 ivory", "set 1,1 mauve"])
+
+
+@pytest.mark.parametrize("mode", ["CMYK", "I;16", "P", "RGBA"])
+def test_pictures_of_all_kinds_are_read_as_on_the_command_line(mode: str, context: Context) -> None:
+    photo = Image.open(context.folder / "pictures/photo.png")
+    grey = Image.fromarray(np.asarray(photo.convert("L"), np.uint16) * 257)
+    made = grey if mode == "I;16" else photo.convert(mode)
+    if mode == "RGBA":
+        made.putalpha(128)
+    made.save(context.folder / "pictures/kind.tiff")
+    about, knots = _chart(context, picture="pictures/kind.tiff")
+    file = _as_file(context, _lines({**SMALL, "picture": "pictures/kind.tiff"}))
+    assert knots == file.chart.knots.tobytes()
+    assert about["notes"] == list(file.notes)
+
+
+@pytest.mark.parametrize("content", [b"", b"no picture", b"\x89PNG\r\n\x1a\n broken"], ids=["empty", "text", "broken"])
+def test_what_is_no_picture_is_refused_as_on_the_command_line(content: bytes, context: Context) -> None:
+    (context.folder / "pictures/bad.png").write_bytes(content)
+    with pytest.raises(CarpetError) as of_file:
+        _as_file(context, _lines({**SMALL, "picture": "pictures/bad.png"}))
+    with pytest.raises(CarpetError) as refused:
+        _chart(context, picture="pictures/bad.png")
+    reason = of_file.value.given.rpartition("/pictures/")[2]
+    assert refused.value.given == f"carpet.toml, picture: pictures/{reason}"
+    assert refused.value.do == of_file.value.do
+    with pytest.raises(PictureError):
+        picture(PictureRequest("pictures/bad.png"), context)
+    assert _chart(context)[0]["rows"] == 120
+
+
+def test_a_missing_picture_is_named_as_in_the_project(context: Context) -> None:
+    with pytest.raises(CarpetError, match=r"^carpet\.toml, picture: 'pictures/no\.png' is not there") as refused:
+        _chart(context, picture="pictures/no.png")
+    assert str(context.folder) not in str(refused.value)

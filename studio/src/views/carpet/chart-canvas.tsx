@@ -52,10 +52,8 @@ export function ChartCanvas({ model }: { model: CarpetModel }) {
     const watch = new ResizeObserver(() => {
       const ratio = Math.min(devicePixelRatio, 2);
       const [width, height] = [Math.max(1, element.clientWidth), Math.max(1, element.clientHeight)];
-      element.width = Math.round(width * ratio);
-      element.height = Math.round(height * ratio);
       size.value = { width, height };
-      renderer.current?.draw();
+      renderer.current?.resize(Math.round(width * ratio), Math.round(height * ratio));
     });
     watch.observe(element);
     return () => {

@@ -43,7 +43,7 @@ const CELL = 64;
 /** Time after the last change of the view after which its pixels are averaged finely [ms]. */
 const REST = 120;
 
-/** Time between two frames above which a moving view is drawn more coarsely [ms]. */
+/** Time between two frames above which a moving view is drawn more coarsely, with half as many pixels a side [ms]. */
 const SLOW = 24;
 
 export class Renderer {
@@ -59,10 +59,14 @@ export class Renderer {
   #frame = 0;
   #rest: ReturnType<typeof setTimeout> | undefined;
   #fine = false;
+  #coarse = false;
+  #full = { width: 1, height: 1 };
   /** Mean time between the frames of a movement [ms]; long where there is no graphics hardware. */
   #pace = 16;
   #last = 0;
   #hasSource = false;
+  /** Pictures drawn, stated on the canvas for measurements. */
+  #pictures = 0;
   #signs = "";
 
   /** The renderer of a canvas; null where the browser has no WebGL2. */
@@ -178,6 +182,7 @@ export class Renderer {
   /** Shows a scene in the next frame. */
   show(scene: Scene): void {
     this.#scene = scene;
+    if (this.#fine) this.#coarse = false;
     this.#fine = false;
     this.draw();
     clearTimeout(this.#rest);
@@ -187,6 +192,12 @@ export class Renderer {
     }, REST);
   }
 
+  /** Sets the size of the picture [px]. */
+  resize(width: number, height: number): void {
+    this.#full = { width, height };
+    this.draw();
+  }
+
   draw(): void {
     if (this.#frame === 0) this.#frame = requestAnimationFrame(() => this.#drawNow());
   }
@@ -194,14 +205,18 @@ export class Renderer {
   #drawNow(): void {
     this.#frame = 0;
     const [gl, scene, grid] = [this.#gl, this.#scene, this.#grid];
-    const { width, height } = this.canvas;
+    const now = performance.now();
+    if (!this.#fine && now - this.#last < REST) this.#pace += 0.2 * (now - this.#last - this.#pace);
+    this.#last = now;
+    if (this.#pace > SLOW) this.#coarse = true;
+    const part = this.#coarse && !this.#fine ? 2 : 1;
+    const [width, height] = [Math.ceil(this.#full.width / part), Math.ceil(this.#full.height / part)];
+    if (this.canvas.width !== width) this.canvas.width = width;
+    if (this.canvas.height !== height) this.canvas.height = height;
     gl.viewport(0, 0, width, height);
     gl.clearColor(0, 0, 0, 0);
     gl.clear(gl.COLOR_BUFFER_BIT);
     if (scene === null || grid.rows === 0 || gl.isContextLost()) return;
-    const now = performance.now();
-    if (!this.#fine && now - this.#last < REST) this.#pace += 0.2 * (now - this.#last - this.#pace);
-    this.#last = now;
     const ratio = width / Math.max(1, this.canvas.clientWidth);
     const px = scene.view.scale * ratio;
     const least = px * Math.min(1, grid.aspect);
@@ -220,7 +235,7 @@ export class Renderer {
     gl.uniform2f(this.#at.u_grid, grid.columns, grid.rows);
     gl.uniform1f(this.#at.u_split, scene.split >= 1 ? width + 9 : scene.split * width);
     gl.uniform1i(this.#at.u_left, scene.left === "source" && this.#hasSource ? 1 : 0);
-    gl.uniform1i(this.#at.u_samples, samplesOf(least, this.#fine ? 8 : this.#pace > SLOW ? 1 : 2));
+    gl.uniform1i(this.#at.u_samples, samplesOf(least, this.#fine ? 8 : this.#coarse ? 1 : 2));
     gl.uniform1f(this.#at.u_lines, 10);
     gl.uniform1f(this.#at.u_ratio, ratio);
     gl.activeTexture(gl.TEXTURE0);
@@ -229,6 +244,8 @@ export class Renderer {
       gl.uniform4f(this.#at.u_tile, tile.column, tile.line, tile.columns, tile.rows);
       gl.drawArrays(gl.TRIANGLE_STRIP, 0, 4);
     }
+    this.#pictures += 1;
+    this.canvas.dataset["pictures"] = String(this.#pictures);
   }
 
   /** Gives the graphics memory back. */
