@@ -86,8 +86,8 @@ function Rows({ title, rows }: { title: string; rows: readonly Difference[] }) {
                 {row.machine !== "" && <span class="ui-muted">{row.machine}: </span>}
                 {row.name.replaceAll("_", " ")}
               </th>
-              <td class="number machine-lines">{row.a || "–"}</td>
-              <td class="number machine-lines">{row.b || "–"}</td>
+              <td class="number fig-lines">{row.a || "–"}</td>
+              <td class="number fig-lines">{row.b || "–"}</td>
               <td class="number">{changeText(row.change)}</td>
             </tr>
           ))}

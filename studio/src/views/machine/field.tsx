@@ -153,6 +153,11 @@ function Typed({ id, model, field, setting, force, set, about }: ControlProps & 
     model.drop();
     if (refused === "") setDraft(typed.current);
   };
+  const back = () => {
+    check.cancel();
+    setRefused("");
+    setDraft(typed.current);
+  };
   const shown = typeof force?.value === "number" ? force.value : null;
   return (
     <>
@@ -172,7 +177,7 @@ function Typed({ id, model, field, setting, force, set, about }: ControlProps & 
           aria-describedby={refused === "" ? about : `${id}-error ${about}`}
           onInput={(event) => type(event.currentTarget.value)}
           onChange={end}
-          onKeyDown={(event) => event.key === "Escape" && setDraft(given)}
+          onKeyDown={(event) => event.key === "Escape" && back()}
         />
       </div>
       <Understood field={field} text={draft} />
