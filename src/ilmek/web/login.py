@@ -33,12 +33,12 @@ _PAGE = """<!doctype html>
 class Login:
     """Shows the form and checks passwords, one at a time and slower after each wrong one."""
 
-    def __init__(self, access: Access, cookie_name: str, first_delay: float = FIRST_DELAY) -> None:
-        self._access, self._cookie_name, self._delay = access, cookie_name, first_delay
+    def __init__(self, access: Access, cookie_name: str) -> None:
+        self._access, self._cookie_name = access, cookie_name
         self._wrong = self._waiting = 0
         self._turn = asyncio.Lock()
 
-    async def __call__(self, request: Request) -> Response:
+    async def answer(self, request: Request) -> Response:
         """Answer GET by the form and POST by the studio or the form again."""
         if not self._access.password:
             return RedirectResponse("/", 303)
@@ -66,7 +66,7 @@ class Login:
         if self._access.knows_password(password):
             self._wrong = 0
             return True
-        await asyncio.sleep(min(self._delay * 2**self._wrong, LONGEST_DELAY))
+        await asyncio.sleep(min(FIRST_DELAY * 2**self._wrong, LONGEST_DELAY))
         self._wrong = min(self._wrong + 1, 20)
         return False
 
@@ -80,4 +80,4 @@ def _password(body: bytes) -> str:
 
 def login_routes(access: Access, cookie_name: str) -> list[Route]:
     """The route of the form."""
-    return [Route("/login", Login(access, cookie_name).__call__, methods=["GET", "POST"])]
+    return [Route("/login", Login(access, cookie_name).answer, methods=["GET", "POST"])]

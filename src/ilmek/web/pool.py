@@ -23,7 +23,10 @@ GRACE = 4.0
 """Time that a cancelled request has to end by itself before its worker is ended [s]."""
 
 MEMORY = 8_000_000_000
-"""Memory of a worker [bytes]."""
+"""Most memory of a worker [bytes]; on a smaller computer as much as that has."""
+
+LEAST_MEMORY = 3_000_000_000
+"""Memory that a worker may take on any computer, as libraries reserve much that they do not use [bytes]."""
 
 MOST_WAITING = 200
 """Largest number of requests that wait for a worker."""
@@ -59,6 +62,15 @@ class _Worker:
     limit: asyncio.TimerHandle | None = None
 
 
+def worker_memory() -> int:
+    """Memory that a worker may take: that of the computer, within LEAST_MEMORY and MEMORY [bytes]."""
+    try:
+        there = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    except (AttributeError, ValueError, OSError):  # not on Windows
+        there = MEMORY
+    return max(LEAST_MEMORY, min(MEMORY, there))
+
+
 class PoolFull(Exception):
     """Too many requests wait."""
 
@@ -78,7 +90,7 @@ class Pool:
 
     project: str
     size: int = field(default_factory=lambda: max(3, min(8, os.cpu_count() or 1)))
-    memory: int = MEMORY
+    memory: int = field(default_factory=worker_memory)
     command: tuple[str, ...] = (sys.executable, "-m", "ilmek.web.worker")
     grace: float = GRACE
     first: str = ""
