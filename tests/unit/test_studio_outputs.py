@@ -13,7 +13,7 @@ import pytest
 from click.testing import CliRunner
 
 from ilmek.cli import main
-from ilmek.errors import IlmekError, ParameterError
+from ilmek.errors import IlmekError, OutputError, ParameterError
 from ilmek.jobs import animation
 from ilmek.jobs.animation import pictures
 from ilmek.jobs.studio.answers import Context
@@ -166,3 +166,54 @@ def test_a_folder_is_packed(folder: Path) -> None:
     for path in ("out", "out/nothing", "machines", "../x"):
         with pytest.raises(ParameterError):
             archive(PathRequest(path), Context(str(folder)))
+
+
+def test_a_name_with_spaces_and_turkish_letters_is_written_by_its_command(folder: Path) -> None:
+    (folder / "cyclograms" / "çark ğıİ 2.toml").write_bytes((folder / "cyclograms" / "press.toml").read_bytes())
+    context = Context(str(folder))
+    found = products(PathRequest("cyclograms/çark ğıİ 2.toml"), context).products
+    done = write_product(OutputRequest("cyclograms/çark ğıİ 2.toml", "data"), context)
+    assert done.target == "out/cyclogram-çark ğıİ 2.json"
+    by_studio = contents(folder / done.target)
+    with contextlib.chdir(folder):
+        command = next(one.command for one in found if one.name == "data")
+        assert CliRunner().invoke(main, shlex.split(command)[1:]).exit_code == 0
+    assert contents(folder / done.target) == by_studio
+
+
+@pytest.mark.parametrize("product", ["page", "data", "table"])
+def test_out_that_is_deleted_during_the_work_is_made_again_or_reported(folder: Path, product: str) -> None:
+    context = Context(str(folder), Progress(lambda stage, share: shutil.rmtree(folder / "out", ignore_errors=True)))
+    with contextlib.suppress(OutputError):
+        write_product(OutputRequest("cyclograms/press.toml", product), context)
+    done = write_product(OutputRequest("cyclograms/press.toml", product), Context(str(folder)))
+    assert [entry.path for entry in written(ProjectRequest(), context).entries] == [done.target]
+
+
+def test_a_full_disc_leaves_nothing_half_written(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(*_: object, **__: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    context = Context(str(folder))
+    write_product(OutputRequest("cyclograms/press.toml", "data"), context)
+    before = contents(folder / "out" / "cyclogram-press.json")
+    with monkeypatch.context() as patched:
+        patched.setattr("ilmek.io.output.disk.write", full)
+        with pytest.raises(OutputError, match="No space left"):
+            write_product(OutputRequest("cyclograms/press.toml", "data"), context)
+    assert contents(folder / "out" / "cyclogram-press.json") == before
+    assert [file.name for file in (folder / "out").iterdir()] == ["cyclogram-press.json"]
+
+
+def test_out_that_is_a_link_is_refused(folder: Path) -> None:
+    (folder / "out").symlink_to(folder / "machines")
+    context = Context(str(folder))
+    for task in (
+        lambda: written(ProjectRequest(), context),
+        lambda: write_product(OutputRequest("cyclograms/press.toml", "data"), context),
+        lambda: delete_written(PathRequest("out/cam.toml"), context),
+        lambda: archive(PathRequest("out/cam.toml"), context),
+    ):
+        with pytest.raises(ParameterError, match="is a link"):
+            task()
+    assert [file.name for file in (folder / "machines").iterdir()] == ["cam.toml"]

@@ -1,7 +1,9 @@
 """The files of a project: opened, read, saved, undone, refused; comments kept, nothing lost."""
 
+import os
 import tomllib
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -29,6 +31,7 @@ from ilmek.jobs.studio.project.tasks import (
 )
 from ilmek.jobs.studio.project.watch import ProjectWatch
 
+EXAMPLE = Path(__file__).parents[2] / "src" / "ilmek" / "data" / "example_project"
 RECIPE = 'plain = "ivory"  # the field\nsize = "60x90cm"\n\n# the edge\n[[border]]\nyarn = "dark red"\nwidth = 3\n'
 
 
@@ -102,16 +105,86 @@ def test_a_folder_without_permission_and_a_full_disc_have_clear_errors(
         open_project(folder)
 
 
-def test_a_broken_file_names_its_line_and_the_rest_opens(folder: Path, context: Context) -> None:
-    (folder / "machines" / "cam.toml").write_text('machine = "cam"\n[settings]\nrise = 12 13\n')
-    (folder / "machines" / "x.toml").write_bytes(b'machine = "cam"\n\xff\n')
-    (folder / "machines" / "wide.toml").write_text('machine = "beat-up"\n[settings]\n\nswing = "900deg"\n')
+FOUR_BAR = (EXAMPLE / "linkages" / "four-bar.toml").read_text()
+PRESS = (EXAMPLE / "cyclograms" / "press.toml").read_text()
+
+
+@pytest.mark.parametrize(
+    ("path", "text", "line", "words"),
+    [
+        ("x.toml", 'plain = "ivory"\nsize = "huge"\n', 2, "unknown size"),
+        ("x.toml", 'plain = "ivory"\nsize = "60x90cm"\npattern = 3\n', 3, "unknown key"),
+        ("x.toml", '# mine\npicture = "pictures/none.png"\n', 2, "is not there"),
+        ("machines/x.toml", 'machine = "cam"\n[settings]\nrise = 12 13\n', 3, "column"),
+        ("machines/x.toml", 'machine = "cam"\n\udcff\n', 2, "UTF-8"),
+        ("machines/x.toml", 'machine = "beat-up"\n[settings]\n\nswing = "900deg"\n', 4, "out of bounds"),
+        ("machines/x.toml", 'machine = "cam"\n[settings]\nlift = "12kg"\n', 3, "wrong unit"),
+        ("machines/x.toml", "", None, "is empty"),
+        ("linkages/x.toml", FOUR_BAR.replace("120mm", "abc"), 11, "unknown name"),
+        ("linkages/x.toml", FOUR_BAR.replace("A0.pin", "A0.pni"), 18, "has none of pin"),
+        ("linkages/x.toml", FOUR_BAR + "[joints\n", 22, "column"),
+        ("synthesis/x.toml", 'machine = "path-four-bar"\n\n[settings]\npoints = "(60mm"\n', 4, "no list of points"),
+        ("synthesis/x.toml", 'machine = "path-four-br"\n', 1, "unknown machine"),
+        ("cyclograms/x.toml", PRESS.replace("modified-sine", "modified-sin", 1), 22, "no law"),
+        ("cyclograms/x.toml", PRESS.replace("deg", "dog", 1), 11, "unknown unit"),
+        ("yarns/x.toml", '[[yarn]]\nname = "a"\nsrgb = "#112233"\n[[yarn]]\nname = "b"\nsrgb = "#zz"\n', 4, "srgb"),
+    ],
+)
+def test_a_broken_file_names_its_line_and_the_rest_opens(
+    context: Context, path: str, text: str, line: int | None, words: str
+) -> None:
+    folder = context.folder
+    (folder / path).parent.mkdir(exist_ok=True)
+    (folder / path).write_bytes(text.encode("utf-8", "surrogateescape"))
     files = {file.path: file for file in project(ProjectRequest(), context).files}
-    errors = {path: file.error.line for path, file in files.items() if file.error}
-    assert errors == {"machines/cam.toml": 3, "machines/x.toml": 2, "machines/wide.toml": 4}
-    assert "out of bounds" in files["machines/wide.toml"].error.given
-    assert str(folder) not in files["machines/wide.toml"].error.given
-    assert content(context, "machines/x.toml").data is None
+    error = files.pop(path).error
+    assert error.line == line
+    assert words in error.given
+    assert str(folder) not in error.given
+    assert [file.error for file in files.values()] == [None] * 2
+    found = content(context, path)
+    assert found.error == error
+    assert found.text.encode("utf-8", "replace").decode() == text.encode("utf-8", "replace").decode()
+
+
+def test_a_closed_folder_and_a_linked_one_are_reported_and_the_rest_opens(
+    folder: Path, context: Context, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "elsewhere").mkdir()
+    (tmp_path / "elsewhere" / "secret.toml").write_text("name = 1\n")
+    (folder / "linkages").symlink_to(tmp_path / "elsewhere")
+    scan = os.scandir
+
+    def scandir(path: Path) -> Any:
+        if Path(path).name == "machines":
+            raise PermissionError(13, "Permission denied")
+        return scan(path)
+
+    monkeypatch.setattr(os, "scandir", scandir)
+    found = project(ProjectRequest(), context)
+    assert [file.path for file in found.files] == ["carpet.toml"]
+    assert [words in problem for words, problem in zip(("Permission denied", "is a link"), found.problems, strict=True)]
+    assert ProjectWatch(folder).changes() == ()
+
+
+def test_a_disc_that_fills_between_file_and_history_loses_nothing(
+    folder: Path, context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    save(context, 'plain = "camel"\n')
+    before = history_path(folder, "carpet.toml").read_bytes()
+    base = content(context).digest
+
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    with monkeypatch.context() as patched:
+        patched.setattr("ilmek.jobs.studio.project.history.os.fsync", full)
+        with pytest.raises(OutputError, match="No space left"):
+            save_file(SaveRequest("carpet.toml", base, text='plain = "red"\n'), context)
+    assert history_path(folder, "carpet.toml").read_bytes() == before
+    again = save_file(SaveRequest("carpet.toml", base, text='plain = "red"\n'), context)
+    assert again.file.text == 'plain = "red"\n'  # the page sees its own state there, and takes it as saved
+    assert undo(PathRequest("carpet.toml"), context).data == {"plain": "camel"}
 
 
 def test_data_is_saved_with_comments_and_only_changes_are_written(folder: Path, context: Context) -> None:

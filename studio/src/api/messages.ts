@@ -1762,6 +1762,8 @@ export interface ProjectRequest {
 /**
  * A project: its folder, its text files by kind, and its pictures.
  *
+ *     problems  folders that cannot be read, each with what to do
+ *
  * This interface was referenced by `Messages`'s JSON-Schema
  * via the `definition` "ProjectSummary".
  */
@@ -1770,6 +1772,7 @@ export interface ProjectSummary {
   folder: string;
   files: FileSummary[];
   pictures: PictureSummary[];
+  problems: string[];
 }
 /**
  * The proposed shades.

@@ -32,6 +32,11 @@ export default function Files({ name }: ViewProps) {
         <h1>{t("files.title")}</h1>
         <p class="ui-muted">{found.folder}</p>
         <NoProject />
+        {(found.problems ?? []).map((problem) => (
+          <p key={problem} class="ui-callout bad" role="alert">
+            {problem}
+          </p>
+        ))}
       </header>
       <FileList chosen={chosen?.path ?? ""} onChoose={choose} />
       <div class="files-side">

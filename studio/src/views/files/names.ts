@@ -67,5 +67,5 @@ unit = "mm"
 out = { start = "0deg", end = "90deg", from = "0mm", to = "50mm", law = "modified-sine" }
 back = { start = "180deg", end = "270deg", from = "50mm", to = "0mm", law = "modified-sine" }
 `,
-  yarns: '[[yarn]]\nname = "ivory"\nsrgb = "#efe6d2"\n',
+  yarns: '[[yarn]]\nname = "ivory"\nsrgb = "#efe6d2"\n\n[[yarn]]\nname = "dark red"\nsrgb = "#7a1f24"\n',
 };

@@ -12,9 +12,11 @@ from ilmek.io.mechanism_file import read_mechanism
 from ilmek.io.yarn_file import read_yarns
 from ilmek.jobs.machine_file import read_machine_order
 from ilmek.jobs.order import read_order
-from ilmek.jobs.studio.project.folder import kind_of
+from ilmek.jobs.studio.project.folder import kind_of, read_bytes
 
 _LINE = re.compile(r"\bline (\d+)")
+_YARN = re.compile(r"\byarn (\d+) ")
+_YARN_TABLE = re.compile(r"[ \t]*\[\[[ \t]*yarn[ \t]*\]\]")
 
 READERS: dict[str, Callable[[Path], object]] = {
     "carpet": read_order,
@@ -59,6 +61,16 @@ def _read(base: Path, path: str) -> FileError | None:
         READERS[kind_of(path) or "carpet"](file)
     except IlmekError as error:
         given, allowed, do = (part.replace(f"{base}/", "") for part in (error.given, error.allowed, error.do))
-        line = _LINE.search(given)
-        return FileError(given, allowed, do, int(line[1]) if line else None)
+        return FileError(given, allowed, do, _line_of(given, file))
+    return None
+
+
+def _line_of(given: str, file: Path) -> int | None:
+    """The line that a message names; of a yarn list, whose messages name the yarn, that of its table."""
+    if line := _LINE.search(given):
+        return int(line[1])
+    if file.parent.name == "yarns" and (yarn := _YARN.search(given)):
+        lines = (read_bytes(file) or b"").decode("utf-8", "replace").splitlines()
+        tables = [number for number, one in enumerate(lines, start=1) if _YARN_TABLE.match(one)]
+        return tables[int(yarn[1]) - 1] if int(yarn[1]) <= len(tables) else None
     return None

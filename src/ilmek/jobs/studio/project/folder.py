@@ -101,25 +101,31 @@ class ProjectFolder:
         return path
 
     def texts(self) -> list[str]:
-        """The paths of all text files, in the order of their kinds. Raises OutputError for a folder that is closed."""
-        found: list[str] = []
-        for folder in KINDS:
-            found += [name for name in self._names(folder) if name.endswith(SUFFIX)]
+        """The paths of all text files, in the order of their kinds; those of folders that are closed are left out."""
+        found = [name for folder in KINDS for name in self._names(folder) if name.endswith(SUFFIX)]
         return found[:MOST_FILES]
 
     def pictures(self) -> list[str]:
         """The paths of all pictures."""
         return self._names(PICTURES)[:MOST_FILES]
 
+    def closed(self) -> tuple[str, ...]:
+        """What is wrong with folders of the project that cannot be read, each with what to do."""
+        found = []
+        for folder in (*KINDS, PICTURES):
+            try:
+                _entries(self.base / folder)
+            except IlmekError as error:
+                found.append(str(error))
+        return tuple(found)
+
     def _names(self, folder: str) -> list[str]:
-        """The paths of the regular files of a folder with names that the studio takes."""
+        """The paths of the regular files of a folder with names that the studio takes; none of one that is closed."""
         try:
-            with os.scandir(self.base / folder) as entries:
-                names = [one.name for one in entries if one.is_file(follow_symlinks=False) and _is_taken(one.name)]
-        except FileNotFoundError:
+            entries = _entries(self.base / folder)
+        except IlmekError:
             return []
-        except OSError as error:
-            raise cannot("be read", self.base / folder, error) from None
+        names = [one.name for one in entries if one.is_file(follow_symlinks=False) and _is_taken(one.name)]
         found = [f"{folder}/{name}" if folder else name for name in names]
         return sorted(found, key=lambda path: (path != "carpet.toml", path.casefold(), path))
 
@@ -145,6 +151,19 @@ def kind_of(path: str) -> str | None:
     pure = PurePosixPath(path)
     folder = "" if len(pure.parts) == 1 else "/".join(pure.parts[:-1])
     return KINDS.get(folder) if pure.suffix == SUFFIX and not pure.name.startswith(".") else None
+
+
+def _entries(folder: Path) -> list[os.DirEntry[str]]:
+    """The entries of a folder of the project, if there is one. Raises ParameterError for a link, OutputError."""
+    if folder.is_symlink():
+        raise ParameterError(f"{folder} is a link", do="copy the folder into the project's folder")
+    try:
+        with os.scandir(folder) as entries:
+            return list(entries)
+    except FileNotFoundError:
+        return []
+    except OSError as error:
+        raise cannot("be read", folder, error) from None
 
 
 def _is_taken(name: str) -> bool:

@@ -62,13 +62,13 @@ class OutList:
 def written(request: ProjectRequest, context: Context) -> OutList:
     """The files and folders in out/, what they were written of, and whether that has changed since.
 
-    Raises OutputError for a folder that is closed.
+    Raises ParameterError where out/ is a link, OutputError for a folder that is closed.
     """
     folder = ProjectFolder(context.folder.resolve())
     origins, known = read_origins(folder), sources(folder.texts())
     entries: list[OutEntry] = []
     left = MOST_LISTED
-    for top in _scanned(folder.base / OUT):
+    for top in _scanned(folder.path(OUT)):
         found = list(islice(_files(top, 0), left))
         left -= len(found)
         if found:

@@ -102,12 +102,16 @@ class PictureSummary:
 
 @dataclass(frozen=True, slots=True)
 class ProjectSummary:
-    """A project: its folder, its text files by kind, and its pictures."""
+    """A project: its folder, its text files by kind, and its pictures.
+
+    problems  folders that cannot be read, each with what to do
+    """
 
     name: str
     folder: str
     files: tuple[FileSummary, ...]
     pictures: tuple[PictureSummary, ...]
+    problems: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -150,7 +154,7 @@ class Changed:
 
 
 def project(request: ProjectRequest, context: Context) -> ProjectSummary:
-    """The files of the project, each with its first error. Raises OutputError for a folder that is closed."""
+    """The files of the project, each with its first error; a folder that is closed is reported, the rest opens."""
     folder = ProjectFolder(context.folder.resolve())
     files = []
     paths = folder.texts()
@@ -158,7 +162,7 @@ def project(request: ProjectRequest, context: Context) -> ProjectSummary:
         context.progress(number / len(paths))
         files.append(_summary(folder, path, checked=request.checked))
     pictures = tuple(PictureSummary(path, (folder.base / path).stat().st_size) for path in folder.pictures())
-    return ProjectSummary(folder.base.name, str(folder.base), tuple(files), pictures)
+    return ProjectSummary(folder.base.name, str(folder.base), tuple(files), pictures, folder.closed())
 
 
 def _summary(folder: ProjectFolder, path: str, *, checked: bool) -> FileSummary:

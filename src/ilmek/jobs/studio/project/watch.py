@@ -40,6 +40,8 @@ class ProjectWatch:
         return found
 
     def _folder_stamps(self, folder: str, deep: bool) -> Iterator[tuple[str, Stamp]]:
+        if (self._folder / folder).is_symlink():
+            return
         try:
             entries = list(os.scandir(self._folder / folder))
         except OSError:
