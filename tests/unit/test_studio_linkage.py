@@ -114,6 +114,10 @@ def test_a_drawing_without_a_drive_has_a_structure_and_no_motion() -> None:
     assert answer.structure.degrees_of_freedom == 1
     assert "under-constrained" in (answer.structure.missing.given if answer.structure.missing else "")
     assert shown({}).structure.degrees_of_freedom == 0
+    bars = {f"bar{n}": {"points": {f"P{n}": [0, 0], f"P{n + 1}": ["9mm", 0]}} for n in range(3)}
+    pins = {f"P{n}": {"pin": [f"bar{n - 1}", f"bar{n}"]} for n in (1, 2)}
+    chain = shown({"bodies": bars, "joints": pins}).structure
+    assert (chain.degrees_of_freedom, chain.loops) == (5, 0)
 
 
 def test_branches_of_a_drawing_are_those_that_it_shows() -> None:
@@ -185,20 +189,61 @@ def test_an_impossible_mechanism_is_drawn_up_to_where_it_fails_with_the_reason()
     assert b"null" in msgspec.json.encode(motion)
 
 
+EVERY = {"ground", "crank", "coupler", "rocker"}
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "words", "left"),
+    [
+        (("bodies", "crank"), {"length": 0}, "bodies.crank.length: is 0 m", EVERY - {"crank"}),
+        (("bodies", "crank"), {"points": {"A0": [0, 0], "A": [0, 0]}}, "zero length", EVERY - {"crank"}),
+        (("joints", "A"), {"pin": ["crank", "crank"]}, "joins 'crank' to itself", EVERY - {"coupler"}),
+        (("bodies", "rocker"), {"length": "1mm"}, "300 to 1", EVERY),
+        (("loads",), {"pull": {"force": "1N", "on": ["crank", "Z"]}}, "loads.pull", EVERY),
+        (("branches",), {"Q": 1}, "branches", EVERY),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_read_is_left_out_with_the_reason(
+    path: tuple[str, ...], value: Any, words: str, left: set[str]
+) -> None:
+    data = copy.deepcopy(FOUR_BAR)
+    table = data
+    for key in path[:-1]:
+        table = table[key]
+    table[path[-1]] = value
+    answer = shown(data, steps=4)
+    assert answer.refused is not None
+    assert words in answer.refused.given
+    assert {body.name for body in answer.bodies} == left
+
+
 def test_wrong_entries_are_named_by_their_key() -> None:
     data = copy.deepcopy(FOUR_BAR)
     data["bodies"]["crank"]["length"] = "60 apples"
-    with pytest.raises(MechanismError, match=r"mechanism, bodies.crank.length: "):
-        shown(data)
+    refused = shown(data, drag=DraggedJoint("A", 0, 0)).refused
+    assert refused is not None
+    assert "mechanism, bodies.crank.length: " in refused.given
+    fault = quality(MechanismRequest(data), Context()).fault
+    assert fault is not None
+    assert fault.given == refused.given
     with pytest.raises(ParameterError, match="steps"):
         shown(FOUR_BAR, steps=10**7)
-    with pytest.raises(MechanismError, match="no joint 'Z'"):
-        shown(FOUR_BAR, drag=DraggedJoint("Z", 0, 0))
     deep: Any = []
     for _ in range(30):
         deep = [deep]
     with pytest.raises(MechanismError, match="nested too deeply"):
         mechanism_of_data({"bodies": deep})
+
+
+def test_a_drag_that_makes_a_link_of_no_length_is_refused() -> None:
+    answer = shown(FOUR_BAR, poses=poses_of(shown(FOUR_BAR), 0), drag=DraggedJoint("A", 0, 0))
+    assert answer.refused is not None
+    assert answer.refused.given == "link 'crank' would have no length: A and A0 coincide"
+    assert answer.changes == ()
+    assert answer.motion is not None
+    unknown = shown(FOUR_BAR, drag=DraggedJoint("Z", 0, 0)).refused
+    assert unknown is not None
+    assert "no joint 'Z'" in unknown.given
 
 
 def test_forces_and_rates_come_if_required() -> None:

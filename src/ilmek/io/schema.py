@@ -33,7 +33,9 @@ QuantityReader: TypeAlias = Callable[[Any, Sequence[str]], Measured]
 
 
 class LocatedError(MechanismError):
-    """An error whose message begins with the file and the line."""
+    """An error whose message begins with the file and the line; `path`: the keys of the entry that it concerns."""
+
+    path: Path = ()
 
 
 @record
@@ -50,7 +52,9 @@ class SourceText:
         key = ".".join(str(key) for key in path)
         at = (*([f"line {self.lines[path]}"] if self.lines else []), *([key] if key else []))
         given = f"{', '.join((self.name, *at))}: {error.given}"
-        raise LocatedError(given, allowed=error.allowed, do=error.do) from None
+        located = LocatedError(given, allowed=error.allowed, do=error.do)
+        located.path = path
+        raise located from None
 
     @contextmanager
     def located(self, *path: str | int) -> Iterator[None]:

@@ -1408,6 +1408,7 @@ export interface ShownColumn {
  *     no_motion  why there is no motion
  *     changes  of the file: of a dragged joint, and branches that the drawing shows and the file lacks
  *     values   of the inputs in the dragged pose [rad; m]
+ *     refused  the first entry that cannot be read; it is left out, with those that depend on it
  *
  * This interface was referenced by `Messages`'s JSON-Schema
  * via the `definition` "MechanismAnswer".
@@ -1432,12 +1433,13 @@ export interface MechanismAnswer {
   values: {
     [k: string]: number;
   };
+  refused: LinkageFault | null;
 }
 /**
  * The structure of a mechanism that may be unfinished.
  *
  *     degrees_of_freedom  by count, 3 bodies - 2 joints - couplings      driven  number of inputs
- *     loops    independent loops, joints + couplings - moving bodies
+ *     loops    independent loops, joints + couplings - bodies + connected parts
  *     groups   in the order of solution      left    bodies that no group holds      loose  bodies without a joint
  *     missing  why there are no more groups; None: all bodies are located
  *

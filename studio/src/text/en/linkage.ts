@@ -24,6 +24,7 @@ export default {
   next_drive: "Choose Drive (D), then click the pivot of the crank.",
   next_under: "{count} degrees of freedom, driven: {driven}. Join more links or drive another joint (D).",
   next_over: "Degrees of freedom: {count}, driven: {driven}. Remove a joint or a drive, or add a link.",
+  confirmLengths: "Accept these lengths",
   canvas: "Drawing of the mechanism",
   keys: "Tab goes from joint to joint, arrow keys move the chosen one, Shift ten steps. With a drawing tool the arrow keys move a cross and Enter puts a point. Delete removes what is chosen; Escape ends a tool; plus and minus zoom.",
   tools: "Tools",

@@ -26,6 +26,7 @@ export default {
   next_drive: "Tahrik (D) aracını seçip krankın sabit mafsalına tıklayın.",
   next_under: "{count} serbestlik derecesi, tahrik: {driven}. Kol ekleyin ya da bir mafsal daha tahrik edin (D).",
   next_over: "Serbestlik derecesi: {count}, tahrik: {driven}. Bir mafsalı ya da tahriki silin ya da kol ekleyin.",
+  confirmLengths: "Bu uzunlukları kabul et",
   canvas: "Mekanizmanın çizimi",
   keys: "Sekme tuşu mafsaldan mafsala gider, ok tuşları seçili olanı taşır, Shift ile on adım. Çizim aracında ok tuşları imleci taşır, Enter nokta koyar. Delete seçileni siler; Escape aracı bitirir; artı ve eksi yakınlaştırır.",
   tools: "Araçlar",

@@ -1,7 +1,7 @@
 /** The state of the linkage editor: the document, what the server computed of it, tool, selection, drive, drag. */
 import { computed, effect, signal } from "@preact/signals";
 import { latest } from "../../api/latest";
-import type { MechanismAnswer, QualityAnswer } from "../../api/messages";
+import type { LinkageFault, MechanismAnswer, QualityAnswer } from "../../api/messages";
 import { ApiError, post, ServerLost } from "../../api/request";
 import type { Document } from "../../project";
 import { type Figure, figureAt, range, type Shift, valueNear, wrapped } from "./figure";
@@ -70,14 +70,16 @@ interface Dragging {
 }
 
 const STEPS = 360;
-const QUALITY_PAUSE = 400;
+
+/** Pause after which circuits and checks are computed [ms]. */
+const QUALITY_PAUSE = 300;
 
 export class Editor {
   readonly tool = signal<Tool>("select");
   readonly selection = signal<Selection>(NOTHING);
   readonly answer = signal<MechanismAnswer | null>(null);
   readonly quality = signal<QualityAnswer | null>(null);
-  readonly refused = signal<{ given: string; allowed: string; do: string } | null>(null);
+  readonly refused = signal<LinkageFault | null>(null);
   readonly value = signal(0);
   readonly isPlaying = signal(false);
   readonly camera = signal<Camera>({ centre: vec(0, 0), scale: 1500 });
@@ -274,7 +276,12 @@ export class Editor {
     const dragging = this.#dragging;
     if (request.drag && dragging === null) return;
     this.roundTrip.value = performance.now() - this.#began;
-    this.refused.value = null;
+    this.refused.value = reply.refused ?? null;
+    const ended = dragging?.ended && request.drag?.x === dragging.last.x && request.drag.y === dragging.last.y;
+    if (request.drag && reply.refused) {
+      if (ended) this.#commit();
+      return;
+    }
     this.#poses = this.figure.peek()?.poses ?? {};
     const motion = reply.motion;
     if (motion && request.drag) {
@@ -287,9 +294,9 @@ export class Editor {
     }
     this.answer.value = reply;
     if (request.drag) this.#changes = reply.changes;
-    if (dragging?.ended && request.drag?.x === dragging.last.x && request.drag.y === dragging.last.y) this.#commit();
+    if (ended) this.#commit();
     else if (!request.drag && reply.changes.length > 0) this.#adopt(reply.changes);
-    if (!this.#dragging) this.#judgeLater(request);
+    this.#judgeLater(request);
   }
 
   #commit(): void {
@@ -311,19 +318,20 @@ export class Editor {
     if (request.drag && this.#dragging?.ended) this.#commit();
   }
 
+  /** Circuits and checks take longer than a drag: they follow where it pauses. */
   #judgeLater(request: Request): void {
     clearTimeout(this.#timer);
     this.#judging?.abort();
-    const { drag: _, ...state } = request;
+    const pause = request.drag ? QUALITY_PAUSE / 2 : QUALITY_PAUSE;
     this.#timer = setTimeout(() => {
       const own = new AbortController();
       this.#judging = own;
-      post<QualityAnswer>("/mechanism/quality", { ...state, mechanism: this.data }, own.signal).then(
+      post<QualityAnswer>("/mechanism/quality", request, own.signal).then(
         (found) => {
           this.quality.value = found;
         },
         () => undefined,
       );
-    }, QUALITY_PAUSE);
+    }, pause);
   }
 }

@@ -2,7 +2,7 @@ import { describe, expect, it } from "vitest";
 import type { MechanismAnswer, MotionAnswer } from "../../api/messages";
 import { arrowPath, greatest } from "./arrows";
 import { plotOf } from "./curve";
-import { bodiesAt, figureAt, hitAt, nearestSolved, sampleAt, wrapped } from "./figure";
+import { bodiesAt, figureAt, hitAt, nearestSolved, sampleAt, valueNear, wrapped } from "./figure";
 import { vec } from "./geometry";
 import { inFrame } from "./pointer";
 
@@ -43,6 +43,7 @@ const answer: MechanismAnswer = {
   no_motion: null,
   changes: [],
   values: {},
+  refused: null,
 };
 
 describe("the figure at a value of the drive", () => {
@@ -103,5 +104,49 @@ describe("curves and arrows", () => {
     expect(greatest([{ x: [3, null], y: [4, 1] }])).toBe(5);
     expect(arrowPath(vec(0, 0), vec(1, 1))).toBe("");
     expect(arrowPath(vec(0, 0), vec(20, 0))).toMatch(/^M0 0L20 0M12 /);
+  });
+});
+
+describe("a mechanism that closes nowhere", () => {
+  it("is drawn with its links towards each other, and the gap between them", () => {
+    const bars = [
+      { name: "ground", points: { A: [0, 0], D: [1, 0] }, solved: true },
+      { name: "coupler", points: { A: [0, 0], B: [0.3, 0] }, solved: true },
+      { name: "rocker", points: { D: [0, 0], B: [0, 0.4] }, solved: true },
+    ];
+    const pin = (name: string, bodies: string[]) => ({ name, file_joint: name, kind: "pin", bodies });
+    const nothing = { x: [null, null], y: [null, null], angle: [null, null] };
+    const own = {
+      ...answer,
+      bodies: bars,
+      joints: [pin("A", ["ground", "coupler"]), pin("B", ["coupler", "rocker"]), pin("D", ["ground", "rocker"])],
+      inputs: [],
+      motion: { kind: "rotation", values: [0, 1], status: [1, 1], poses: { coupler: nothing, rocker: nothing } },
+    } as unknown as MechanismAnswer;
+    const figure = figureAt(own, 0);
+    expect(figure.closes).toBe(false);
+    const end = (body: string) =>
+      figure.bodies.find((one) => one.name === body)?.points.find(({ name }) => name === "B");
+    expect(end("coupler")?.at.x).toBeCloseTo(0.3);
+    expect(end("rocker")?.at.x).toBeCloseTo(0.6);
+    expect(end("rocker")?.at.y).toBeCloseTo(0);
+  });
+});
+
+describe("a mechanism moved by hand", () => {
+  it("goes to the nearest position of the grip, not across the turn", () => {
+    const count = 361;
+    const angle = Array.from({ length: count }, (_, index) => (index * Math.PI) / 180);
+    const zeros = angle.map(() => 0);
+    const motion = {
+      kind: "rotation",
+      values: angle,
+      status: zeros,
+      poses: { crank: { x: zeros, y: zeros, angle } },
+    } as unknown as MotionAnswer;
+    expect(valueNear(motion, "crank", vec(1, 0), vec(2, 0.4), 0.1)).toBeCloseTo(0.192, 2);
+    expect(valueNear(motion, "crank", vec(1, 0), vec(2, -0.4), 0.1)).toBeCloseTo(6.091, 2);
+    expect(valueNear(motion, "crank", vec(1, 0), vec(-1, 0.1), 0.1)).toBeLessThan(1.3);
+    expect(valueNear(motion, "rod", vec(1, 0), vec(0, 1), 0.1)).toBe(0.1);
   });
 });

@@ -1,6 +1,19 @@
 /** The mechanism at one value of the drive: poses, points and shapes in the world, and what a pointer hits. */
 import type { MechanismAnswer, MotionAnswer } from "../../api/messages";
-import { distance, hull, isInside, type Pose, plus, STILL, segmentDistance, toWorld, type Vec, vec } from "./geometry";
+import {
+  direction,
+  distance,
+  hull,
+  isInside,
+  minus,
+  type Pose,
+  plus,
+  STILL,
+  segmentDistance,
+  toWorld,
+  type Vec,
+  vec,
+} from "./geometry";
 import { GROUND } from "./mechanism";
 
 /** A place between two samples: index of the first, and share towards the next. */
@@ -152,17 +165,58 @@ export function figureAt(
     const at = sampleAt(motion.values, wrapped(motion, value));
     const solved = nearestSolved(motion, at);
     closes = solved === at;
-    for (const [body, series] of Object.entries(motion.poses)) {
-      if (solved === undefined) continue;
-      const [x, y, angle] = [between(series.x, solved), between(series.y, solved), between(series.angle, solved)];
-      if (x !== null && y !== null && angle !== null) poses[body] = { x, y, angle };
+    const open: string[] = [];
+    for (const [body, { x, y, angle }] of Object.entries(motion.poses)) {
+      const pose = poseOf(x, y, angle, solved ?? { index: at.index, share: 0 });
+      if (pose) poses[body] = pose;
+      else open.push(body);
     }
+    reach(answer, poses, open);
   }
   for (const body of shift?.bodies ?? []) {
     const pose = poses[body];
     if (pose && shift) poses[body] = { ...plus(pose, shift.by), angle: pose.angle };
   }
   return { poses, closes, ...shapes(answer, poses) };
+}
+
+function poseOf(x: Numbers, y: Numbers, angle: Numbers, at: Sample): Pose | undefined {
+  const [across, up, turned] = [between(x, at), between(y, at), between(angle, at)];
+  return across === null || up === null || turned === null ? undefined : { x: across, y: up, angle: turned };
+}
+
+type Numbers = readonly (number | null)[];
+
+/**
+ * Draws bodies of groups that close nowhere: each from its pin on a located body towards the pin of its partner, so
+ * that the gap between the two is seen.
+ */
+function reach(answer: MechanismAnswer, poses: Record<string, Pose>, open: readonly string[]): void {
+  const local = (body: string, point: string) => {
+    const [x, y] = answer.bodies.find((one) => one.name === body)?.points[point] ?? [0, 0];
+    return vec(x, y);
+  };
+  const anchors = open.flatMap((body) =>
+    answer.joints
+      .filter((joint) => joint.kind === "pin" && joint.bodies.includes(body))
+      .flatMap((joint) => {
+        const other = joint.bodies.find((one) => one !== body) ?? GROUND;
+        const pose = poses[other];
+        return open.includes(other) || !pose
+          ? []
+          : [{ body, joint: joint.name, at: toWorld(pose, local(other, joint.name)) }];
+      }),
+  );
+  for (const { body, joint, at } of anchors) {
+    const inner = answer.joints.find(
+      (one) => one.bodies.includes(body) && one.bodies.every((two) => open.includes(two)),
+    );
+    const partner = anchors.find((one) => one.body !== body && inner?.bodies.includes(one.body));
+    if (!inner || !partner) continue;
+    const [from, to] = [local(body, joint), local(body, inner.name)];
+    const angle = direction(at, partner.at) - direction(from, to);
+    poses[body] = { ...minus(at, toWorld({ x: 0, y: 0, angle }, from)), angle };
+  }
 }
 
 function shapes(answer: MechanismAnswer, poses: Readonly<Record<string, Pose>>) {

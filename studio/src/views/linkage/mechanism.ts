@@ -244,6 +244,7 @@ export const REFERRING = ["loads", "springs", "dampers", "couplings", "paths", "
 export function removeAll(data: MechanismData, names: { bodies?: string[]; joints?: string[] }): void {
   const gone = new Set((names.bodies ?? []).filter((body) => body !== GROUND));
   const lost = new Set(names.joints ?? []);
+  keepEnds(data, gone, lost);
   for (const body of gone) delete data.bodies?.[body];
   for (const [name, joint] of Object.entries(joints(data))) {
     const left = bodiesOf(joint).filter((body) => !gone.has(body));
@@ -262,6 +263,19 @@ export function removeAll(data: MechanismData, names: { bodies?: string[]; joint
   for (const body of gone) for (const key of ["pose", "motions"]) dropKey(data, key, body);
   for (const key of REFERRING) dropReferring(data, key, gone, lost);
   dropGroundPoints(data, lost);
+}
+
+/** Names the ends of links that are given by their length, where one of their joints goes. */
+function keepEnds(data: MechanismData, gone: ReadonlySet<string>, lost: ReadonlySet<string>): void {
+  const goes = (name: string) => {
+    const members = bodiesOf(data.joints?.[name]);
+    const left = members.filter((body) => !gone.has(body));
+    return lost.has(name) || left.length < (data.joints?.[name]?.pin ? 2 : members.length);
+  };
+  for (const [body, table] of Object.entries(data.bodies ?? {})) {
+    const ends = jointsOf(data, body).filter((name) => table.points?.[name] === undefined);
+    if (table.length !== undefined && table["between"] === undefined && ends.some(goes)) table["between"] = ends;
+  }
 }
 
 function dropKey(data: MechanismData, key: string, name: string): void {

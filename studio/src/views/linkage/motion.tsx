@@ -1,5 +1,6 @@
 /** The panel of the motion: drive, transmission angle, where it closes, circuits, coupler curves. */
 
+import { Fragment } from "preact";
 import { CursorContext } from "../../draw";
 import { formatNumber, t } from "../../text";
 import { formatQuantity, QuantityField } from "../../ui";
@@ -15,7 +16,6 @@ export function Motion({ editor }: { editor: Editor }) {
   const motion = answer?.motion;
   const turning = motion?.kind !== "displacement";
   const cursors = useDriveCursor(editor);
-  const shown = (value: number) => formatQuantity(value, turning ? "deg" : "mm", 5);
   return (
     <div class="linkage-motion">
       <DriveFields editor={editor} turning={turning} />
@@ -36,26 +36,63 @@ export function Motion({ editor }: { editor: Editor }) {
               series={{ [motion.driving]: motion.forces.effort }}
             />
           )}
-          <dl class="linkage-facts wide">
-            <dt>{t("linkage.closes")}</dt>
-            <dd>{motion.closing.map(([low, high]) => `${shown(low)} … ${shown(high)}`).join(", ") || "–"}</dd>
-            <dt>{t("linkage.deadCentres")}</dt>
-            <dd>
-              {motion.dead_centres.map((one) => `${shown(one.value)} (${one.bodies.join(", ")})`).join(", ") ||
-                t("linkage.noneFound")}
-            </dd>
-            {motion.change_points.length > 0 && (
-              <>
-                <dt>{t("linkage.changePoints")}</dt>
-                <dd>{motion.change_points.map(shown).join(", ")}</dd>
-              </>
-            )}
-          </dl>
+          <MotionFacts editor={editor} />
         </CursorContext.Provider>
       )}
-      <Quality editor={editor} shown={shown} />
+      <Quality editor={editor} shown={(value) => driveText(turning, value)} />
     </div>
   );
+}
+
+function driveText(turning: boolean, value: number): string {
+  return formatQuantity(value, turning ? "deg" : "mm", 5);
+}
+
+/** Where the mechanism closes, its dead centres and least transmission angles: they follow a drag. */
+export function MotionFacts({ editor }: { editor: Editor }) {
+  const motion = editor.answer.value?.motion;
+  if (!motion) return null;
+  const shown = (value: number) => driveText(motion.kind !== "displacement", value);
+  return (
+    <dl class="linkage-facts wide">
+      <dt>{t("linkage.closes")}</dt>
+      <dd>{motion.closing.map(([low, high]) => `${shown(low)} … ${shown(high)}`).join(", ") || "–"}</dd>
+      <dt>{t("linkage.deadCentres")}</dt>
+      <dd>
+        {motion.dead_centres.map((one) => `${shown(one.value)} (${one.bodies.join(", ")})`).join(", ") ||
+          t("linkage.noneFound")}
+      </dd>
+      {motion.change_points.length > 0 && (
+        <>
+          <dt>{t("linkage.changePoints")}</dt>
+          <dd>{motion.change_points.map(shown).join(", ")}</dd>
+        </>
+      )}
+      {Object.entries(motion.transmission).map(([pin, angles]) => {
+        const least = leastOf(angles);
+        return least === null ? null : (
+          <Fragment key={pin}>
+            <dt>{t("linkage.leastTransmission", { pin })}</dt>
+            <dd>
+              {t("linkage.atValue", {
+                angle: formatQuantity(angles[least] ?? 0, "deg"),
+                value: shown(motion.values[least] ?? 0),
+              })}
+            </dd>
+          </Fragment>
+        );
+      })}
+    </dl>
+  );
+}
+
+/** The sample of the least number; null where there is none. */
+function leastOf(numbers: readonly (number | null)[]): number | null {
+  let found: number | null = null;
+  numbers.forEach((one, index) => {
+    if (one !== null && (found === null || one < (numbers[found] ?? 0))) found = index;
+  });
+  return found;
 }
 
 function DriveFields({ editor, turning }: { editor: Editor; turning: boolean }) {
@@ -106,16 +143,6 @@ function Quality({ editor, shown }: { editor: Editor; shown: (value: number) => 
   if (!quality) return null;
   return (
     <>
-      {quality.transmission.length > 0 && (
-        <dl class="linkage-facts wide">
-          {quality.transmission.map((one) => (
-            <>
-              <dt key={one.pin}>{t("linkage.leastTransmission", { pin: one.pin })}</dt>
-              <dd>{t("linkage.atValue", { angle: formatQuantity(one.angle, "deg"), value: shown(one.input) })}</dd>
-            </>
-          ))}
-        </dl>
-      )}
       {quality.circuits.length > 0 && (
         <section>
           <h2>{t("linkage.circuits", { count: quality.circuits.length })}</h2>

@@ -1,10 +1,11 @@
 /** Panels beside the drawing: structure, parts with their numbers, motion, checks. */
 import { useState } from "preact/hooks";
+import type { LinkageFault } from "../../api/messages";
 import { formatNumber, t, textIfKnown } from "../../text";
 import { Button, Icon, IconButton, Tabs } from "../../ui";
 import type { Editor } from "./editor";
 import { Entries } from "./entries";
-import { Motion } from "./motion";
+import { Motion, MotionFacts } from "./motion";
 import { Selected } from "./selected";
 
 type Panel = "structure" | "parts" | "motion" | "checks";
@@ -29,13 +30,7 @@ export function Panels({ editor }: { editor: Editor }) {
   );
 }
 
-interface Reported {
-  given: string;
-  allowed?: string;
-  do?: string;
-}
-
-function Report({ fault, kind }: { fault: Reported; kind: "bad" | "warn" }) {
+function Report({ fault, kind }: { fault: LinkageFault; kind: "bad" | "warn" }) {
   return (
     <div class={`ui-callout ${kind}`} role="status">
       <p>{fault.given}</p>
@@ -49,6 +44,9 @@ function Report({ fault, kind }: { fault: Reported; kind: "bad" | "warn" }) {
   );
 }
 
+/** The key by which a file accepts lengths that differ much, as the reader of files advises it. */
+const CONFIRM = "confirm =";
+
 /** What does not work, and what to do. */
 function Faults({ editor }: { editor: Editor }) {
   const answer = editor.answer.value;
@@ -59,9 +57,23 @@ function Faults({ editor }: { editor: Editor }) {
   return (
     <>
       {refused && <Report fault={refused} kind="bad" />}
+      {refused?.do.includes(CONFIRM) && (
+        <Button
+          size="small"
+          onClick={() =>
+            editor.edit((copy) => {
+              copy["confirm"] = ["lengths"];
+            })
+          }
+        >
+          {t("linkage.confirmLengths")}
+        </Button>
+      )}
       {!refused && motion?.fault && <Report fault={motion.fault} kind="bad" />}
       {!refused && answer?.no_motion && <Report fault={answer.no_motion} kind="warn" />}
-      {motion && motion.no_forces !== "" && <Report fault={{ given: motion.no_forces }} kind="warn" />}
+      {motion && motion.no_forces !== "" && (
+        <Report fault={{ given: motion.no_forces, allowed: "", do: "" }} kind="warn" />
+      )}
     </>
   );
 }
@@ -80,6 +92,7 @@ function StructurePanel({ editor }: { editor: Editor }) {
         <dt>{t("linkage.loops")}</dt>
         <dd>{formatNumber(loops)}</dd>
       </dl>
+      <MotionFacts editor={editor} />
       {editor.quality.value?.mobility && <p class="ui-help">{editor.quality.value.mobility}</p>}
       <h2>{t("linkage.groups")}</h2>
       <ol class="linkage-groups">

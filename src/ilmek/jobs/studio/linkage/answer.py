@@ -84,7 +84,7 @@ class Structure:
     """The structure of a mechanism that may be unfinished.
 
     degrees_of_freedom  by count, 3 bodies - 2 joints - couplings      driven  number of inputs
-    loops    independent loops, joints + couplings - moving bodies
+    loops    independent loops, joints + couplings - bodies + connected parts
     groups   in the order of solution      left    bodies that no group holds      loose  bodies without a joint
     missing  why there are no more groups; None: all bodies are located
     """
@@ -185,6 +185,7 @@ class MechanismAnswer:
     no_motion  why there is no motion
     changes  of the file: of a dragged joint, and branches that the drawing shows and the file lacks
     values   of the inputs in the dragged pose [rad; m]
+    refused  the first entry that cannot be read; it is left out, with those that depend on it
     """
 
     name: str
@@ -198,3 +199,4 @@ class MechanismAnswer:
     no_motion: LinkageFault | None = None
     changes: tuple[FileChange, ...] = ()
     values: dict[str, float] = field(default_factory=dict)
+    refused: LinkageFault | None = None

@@ -8,6 +8,7 @@ from ilmek.dynamics.own_machine import OwnMachine
 from ilmek.errors import IlmekError
 from ilmek.io.mechanism.joints import members_of
 from ilmek.io.mechanism_file import mechanism_of_data
+from ilmek.io.schema import LocatedError
 from ilmek.linkage.branches_in_pose import Pose, branches_in_pose, required_branches
 from ilmek.linkage.groups.group import Step
 from ilmek.linkage.model import GROUND, Mechanism
@@ -44,17 +45,81 @@ def joined_part(data: Mapping[str, Any]) -> tuple[dict[str, Any], tuple[str, ...
     return {key: value for key, value in given.items() if value != {} or key in ("bodies", "joints", "inputs")}, loose
 
 
+MOST_LEFT_OUT = 20
+"""Largest number of wrong entries of a file that are left out to draw the rest."""
+
+
+def sound_part(data: Mapping[str, Any]) -> dict[str, Any] | None:
+    """The data of a file without the entries that cannot be read; None where too much is wrong."""
+    rest: dict[str, Any] | None = dict(data)
+    for _ in range(MOST_LEFT_OUT):
+        if rest is None:
+            return None
+        try:
+            mechanism_of_data(joined_part(rest)[0])
+        except LocatedError as error:
+            rest = _without(rest, error.path)
+        except IlmekError:
+            return None
+        else:
+            return rest
+    return None
+
+
+def _without(data: dict[str, Any], path: tuple[str | int, ...]) -> dict[str, Any] | None:
+    """Data without the body, the joint or another entry at a path, and without the joints that a body has."""
+    table = _table(data, str(path[0])) if path else {}
+    if not path or path[0] not in data:
+        return None
+    if len(path) == 1 or path[1] not in table:
+        return {key: value for key, value in data.items() if key != path[0]}
+    name = str(path[1])
+    if path[0] == "bodies" and name == GROUND:  # its lengths may be right
+        return {**data, "confirm": ["lengths"]} if "confirm" not in data else None
+    made = {**data, path[0]: {key: value for key, value in table.items() if key != name}}
+    if path[0] == "bodies":
+        held = {joint: _without_body(entry, name) for joint, entry in _table(data, "joints").items()}
+        made["joints"] = {joint: entry for joint, entry in held.items() if entry is not None}
+    joints = _table(made, "joints")
+    made["bodies"] = {
+        body: _with_ends(body, entry, _table(data, "joints"), joints) for body, entry in _table(made, "bodies").items()
+    }
+    for key in ("inputs", "branches", "friction", "pins"):
+        if key in made:
+            own = _table(made, key).items()
+            made[key] = {joint: value for joint, value in own if joint in joints and value != name}
+    return made
+
+
+def _with_ends(body: str, table: Any, before: dict[str, Any], after: dict[str, Any]) -> Any:
+    """A body whose length was between two joints, with their names where one of them is gone."""
+    if not isinstance(table, dict) or "length" not in table or "between" in table:
+        return table
+    own = [name for name, joint in before.items() if _names(joint, (body,)) and name not in table.get("points", {})]
+    kept = all(name in after and _names(after[name], (body,)) for name in own)
+    return table if kept or len(own) != 2 else {**table, "between": own}
+
+
+def _without_body(joint: Any, body: str) -> Any | None:
+    """A joint without a body; None where fewer than two are left."""
+    if not isinstance(joint, dict) or not _names(joint, (body,)):
+        return joint
+    left = [one for one in joint.get("pin", ()) if one != body]
+    return {**joint, "pin": left} if len(left) > 1 else None
+
+
 def loose_points(data: Mapping[str, Any], body: str) -> dict[str, tuple[float, float]]:
     """The points of a body without a joint [m]; none where they cannot be read, or follow from its joints alone.
 
     It is read as if its first point were pinned to the ground.
     """
     table = _table(data, "bodies")[body]
-    first = next(iter(table.get("points", {})), None)
+    own = {key: table[key] for key in ("points", "length", "between") if key in table}
+    first = next(iter([*table.get("between", ()), *table.get("points", {})]), None)
     if first is None:
         return {}
     alone = {
-        "bodies": {GROUND: {"points": {first: [0, 0]}}, body: {"points": table["points"]}},
+        "bodies": {GROUND: {"points": {first: [0, 0]}}, body: own},
         "joints": {first: {"pin": [GROUND, body]}},
         "inputs": {},
         **{key: data[key] for key in ("values", "units") if key in data},

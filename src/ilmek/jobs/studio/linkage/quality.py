@@ -104,9 +104,12 @@ class QualityAnswer:
 def quality(request: MechanismRequest, context: Context) -> QualityAnswer:
     """Circuits, mobility, coupler curves, least transmission angles, and the checks of the command line.
 
-    Of an unfinished mechanism its determined part. Raises MechanismError for data that are no mechanism file.
+    Of an unfinished mechanism its determined part.
     """
-    drawn = drawn_mechanism(request)
+    try:
+        drawn = drawn_mechanism(request)
+    except IlmekError as error:
+        return QualityAnswer(fault=fault_of(error))
     part = solved_part(drawn.mechanism, solvable_steps(drawn.mechanism)[0])
     if not part.inputs:
         return QualityAnswer(fault=LinkageFault("nothing is driven", do="add a drive"))

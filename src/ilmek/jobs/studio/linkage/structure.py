@@ -69,12 +69,21 @@ def structure_of(
     return Structure(
         degrees_of_freedom(mechanism),
         len(mechanism.inputs),
-        len(mechanism.joints) + len(mechanism.couplings) - len(mechanism.moving),
+        len(mechanism.joints) + len(mechanism.couplings) - len(mechanism.bodies) + _connected_parts(mechanism),
         tuple(groups),
         tuple(body for body in mechanism.moving if body not in known),
         loose,
         missing,
     )
+
+
+def _connected_parts(mechanism: Mechanism) -> int:
+    """Number of parts of a mechanism that no joint connects."""
+    part = {body.name: body.name for body in mechanism.bodies}
+    for joint in mechanism.joints:
+        old, new = (part[body] for body in joint.bodies)
+        part = {body: new if own == old else own for body, own in part.items()}
+    return len(set(part.values()))
 
 
 def _group(mechanism: Mechanism, step: Step, known: set[str]) -> GroupAnswer:

@@ -10,7 +10,7 @@ from typing import Any
 import msgspec
 
 from ilmek.dynamics.own_machine import OwnMachine
-from ilmek.errors import IlmekError, ParameterError
+from ilmek.errors import IlmekError, MechanismError, ParameterError
 from ilmek.io.mechanism.moved_joint import FileChange, moved_joint
 from ilmek.io.mechanism_file import MechanismFile, mechanism_of_data
 from ilmek.jobs.studio.answers import Context
@@ -23,6 +23,7 @@ from ilmek.jobs.studio.linkage.part import (
     machine_of_part,
     signs_in_pose,
     solved_part,
+    sound_part,
 )
 from ilmek.jobs.studio.linkage.structure import bodies_of, couplings_of, inputs_of, joints_of, structure_of
 from ilmek.linkage.branches_in_pose import Pose
@@ -91,8 +92,21 @@ def mechanism(request: MechanismRequest, context: Context) -> MechanismAnswer:
     """The structure of a mechanism and its motion, from the plain data of a mechanism file.
 
     An unfinished mechanism has a structure that names what is missing, and the motion of the part that is determined.
+    Entries that cannot be read are left out, and the first of them is reported; so is a drag that makes one.
     Raises MechanismError for data that are no mechanism file, with the key.
     """
+    try:
+        return _answer(request, context)
+    except MechanismError as error:
+        rest = sound_part(request.mechanism)
+        if rest is None:
+            raise
+        answer = _answer(dataclasses.replace(request, mechanism=rest, drag=None), context)
+        return dataclasses.replace(answer, changes=(), refused=fault_of(error))
+
+
+def _answer(request: MechanismRequest, context: Context) -> MechanismAnswer:
+    """The answer of a file without a wrong entry."""
     drawn = drawn_mechanism(request)
     steps, reason = solvable_steps(drawn.mechanism)
     part = solved_part(drawn.mechanism, steps)

@@ -1,0 +1,118 @@
+"""The linkage editor in a real browser: a four-bar is drawn, a joint is dragged, what cannot close is reported."""
+
+import json
+import re
+import subprocess
+import sys
+import time
+import tomllib
+from collections.abc import Callable
+
+from playwright.sync_api import Page, expect
+from studio_browser import PATIENCE, Studio, data_of, middle, open_view, until_file, violations
+
+
+def click_at(page: Page, x: float, y: float) -> None:
+    """Click a position given from the middle of the canvas, y upward [px], and wait until it is drawn."""
+    across, up = middle(page, ".linkage-canvas")
+    page.mouse.click(across + x, up - y)
+
+
+def tool(page: Page, letter: str, name: str) -> None:
+    page.keyboard.press(letter)
+    expect(page.get_by_role("button", name=name, exact=True)).to_have_attribute("aria-pressed", "true")
+
+
+def degrees_of_freedom(page: Page, count: int, driven: int) -> None:
+    facts = page.locator(".linkage-facts").first.locator("dd")
+    expect(facts.nth(0)).to_have_text(str(count), timeout=PATIENCE)
+    expect(facts.nth(1)).to_have_text(str(driven), timeout=PATIENCE)
+
+
+def until(done: Callable[[], bool]) -> None:
+    """Wait until something holds."""
+    end = time.monotonic() + 20
+    while not done():
+        assert time.monotonic() < end
+        time.sleep(0.05)
+
+
+def test_a_four_bar_is_drawn_with_the_mouse(page: Page, running: Studio) -> None:
+    open_view(page, running, "linkage")
+    page.get_by_role("button", name="New", exact=True).click()
+    expect(page.locator(".linkage-next")).to_contain_text("Draw the first link", timeout=PATIENCE)
+    tool(page, "l", "Link")
+    bars = (((-200, -100), (-200, 0)), ((-200, 0), (100, 120)), ((100, 120), (150, -100)))
+    for number, ends in enumerate(bars, 1):
+        for end in ends:
+            click_at(page, *end)
+        expect(page.locator(f"[data-body=link{number}]")).to_be_visible(timeout=PATIENCE)
+    degrees_of_freedom(page, 5, 0)
+    tool(page, "o", "Ground pivot")
+    click_at(page, -200, -100)
+    click_at(page, 150, -100)
+    degrees_of_freedom(page, 1, 0)
+    tool(page, "d", "Drive")
+    click_at(page, -200, -100)
+    degrees_of_freedom(page, 1, 1)
+    expect(page.locator(".linkage-groups li")).to_contain_text(["Driven", "Dyad RRR"])
+    tool(page, "t", "Traced point")
+    click_at(page, 0, 70)
+    expect(page.locator(".linkage-path:not(.joint)")).to_have_count(1, timeout=PATIENCE)
+    page.keyboard.press("Escape")
+    path = "linkages/linkage.toml"
+    until(lambda: len(data_of(running.project, path)["bodies"].get("link2", {}).get("points", {})) == 3)
+    until_file(running.project, path, "branches")
+    data = data_of(running.project, path)
+    assert data["inputs"] == {"A": "link1"}
+    assert sorted(sorted(joint["pin"]) for joint in data["joints"].values()) == [
+        ["ground", "link1"],
+        ["ground", "link3"],
+        ["link1", "link2"],
+        ["link2", "link3"],
+    ]
+    command = [sys.executable, "-m", "ilmek", "mechanism", path, "--json", "-"]
+    made = subprocess.run(command, cwd=running.project, capture_output=True, text=True, check=True)
+    assert json.loads(made.stdout)["results"]["mobility"] == "1 degree of freedom by count and by rank"
+
+
+def test_a_joint_is_dragged_and_moved_by_keys(page: Page, running: Studio) -> None:
+    open_view(page, running, "linkage/four-bar")
+    file = running.project / "linkages/four-bar.toml"
+    before, old = file.read_text(encoding="utf-8"), page.locator(".linkage-path:not(.joint)").get_attribute("d")
+    saves: list[str] = []
+    page.on("request", lambda request: saves.append(request.url) if request.method == "PUT" else None)
+    x, y = middle(page, "[data-joint=A] .pin")
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x - 30, y - 10, steps=6)
+    expect(page.locator(".linkage-path:not(.joint)")).not_to_have_attribute("d", str(old), timeout=PATIENCE)
+    assert file.read_text(encoding="utf-8") == before
+    page.mouse.up()
+    until(lambda: file.read_text(encoding="utf-8") != before)
+    expect(page.locator(".project-saved")).to_have_text("Saved", timeout=PATIENCE)
+    assert len(saves) == 1
+    assert violations(page) == []
+    page.keyboard.press("Control+z")
+    until(lambda: file.read_text(encoding="utf-8") == before)
+    expect(page.locator(".linkage-path:not(.joint)")).to_have_attribute("d", str(old), timeout=PATIENCE)
+    page.locator("[data-joint=B0]").focus()
+    page.keyboard.press("ArrowRight")
+    until(lambda: file.read_text(encoding="utf-8") != before)
+    moved, still = data_of(running.project, "linkages/four-bar.toml"), tomllib.loads(before)
+    assert moved["bodies"]["ground"]["points"]["B0"] != still["bodies"]["ground"]["points"]["B0"]
+    assert moved["bodies"]["crank"] == still["bodies"]["crank"]
+
+
+def test_a_mechanism_that_cannot_close_is_drawn_with_the_reason(page: Page, running: Studio) -> None:
+    open_view(page, running, "linkage/watt-six-bar")
+    page.get_by_role("tab", name="Parts").click()
+    page.get_by_role("button", name="coupler", exact=True).click()
+    length = page.get_by_label("length", exact=True)
+    for typed, words, bodies, entry in (("20mm", "cannot close .*lengthen", 5, '"20mm"'), ("0", "above 0", 4, "0\n")):
+        length.fill(typed)
+        length.press("Enter")
+        expect(page.locator(".linkage-panels .ui-callout.bad")).to_have_text(re.compile(words), timeout=PATIENCE)
+        expect(page.locator("[data-body]")).to_have_count(bodies)
+        until_file(running.project, "linkages/watt-six-bar.toml", f"coupler.length = {entry}")
+    assert violations(page) == []
