@@ -62,6 +62,8 @@ export function Canvas({ editor, tools, pointer }: Props) {
       aria-describedby="linkage-keys"
       data-round-trip={editor.roundTrip.value.toFixed(1)}
       onPointerDown={(event) => {
+        const { clientWidth: width, clientHeight: height } = event.currentTarget;
+        if (width > 0) pointer.size = { width, height };
         event.currentTarget.setPointerCapture(event.pointerId);
         const touch = event.pointerType === "touch";
         pointer.down(event.pointerId, position(event, event.currentTarget), touch, event.shiftKey, event.button);

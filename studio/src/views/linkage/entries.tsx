@@ -14,8 +14,8 @@ interface EntryFieldProps {
 export function EntryField({ label, value, onCommit }: EntryFieldProps) {
   const [draft, setDraft] = useState(value);
   useEffect(() => setDraft(value), [value]);
-  const commit = () => {
-    if (draft.trim() !== value && onCommit(draft.trim()) === false) setDraft(value);
+  const commit = (typed: string) => {
+    if (typed.trim() !== value && onCommit(typed.trim()) === false) setDraft(value);
   };
   return (
     <label class="linkage-entry">
@@ -27,9 +27,9 @@ export function EntryField({ label, value, onCommit }: EntryFieldProps) {
         spellcheck={false}
         value={draft}
         onInput={(event) => setDraft(event.currentTarget.value)}
-        onBlur={commit}
+        onBlur={(event) => commit(event.currentTarget.value)}
         onKeyDown={(event) => {
-          if (event.key === "Enter") commit();
+          if (event.key === "Enter") commit(event.currentTarget.value);
           if (event.key === "Escape") setDraft(value);
           event.stopPropagation();
         }}

@@ -1,5 +1,6 @@
 /** Mechanism files: the one that is shown, a new one, one from the user's disc, a copy under another name. */
-import { useRef, useState } from "preact/hooks";
+import { useSignal } from "@preact/signals";
+import { useRef } from "preact/hooks";
 import { rename } from "../../app/routes";
 import { freePath, newFile } from "../../project";
 import { t } from "../../text";
@@ -54,11 +55,11 @@ export async function openFile(file: File): Promise<void> {
 
 export function FileBar({ name, names }: { name: string; names: readonly string[] }) {
   const input = useRef<HTMLInputElement>(null);
-  const [copy, setCopy] = useState<string | null>(null);
+  const copy = useSignal<string | null>(null);
   const choices = [...new Set([name, ...names])].sort().map((one) => ({ value: one, label: one }));
   const save = () => {
-    const stem = (copy ?? "").trim().replace(/\.toml$/, "");
-    setCopy(null);
+    const stem = (copy.peek() ?? "").trim().replace(/\.toml$/, "");
+    copy.value = null;
     if (stem !== "") void create(stem, () => ({ source: pathOf(name) }));
   };
   return (
@@ -82,13 +83,20 @@ export function FileBar({ name, names }: { name: string; names: readonly string[
           event.currentTarget.value = "";
         }}
       />
-      <Button icon="copy" onClick={() => setCopy(`${name}-2`)}>
+      <Button
+        icon="copy"
+        onClick={() => {
+          copy.value = `${name}-2`;
+        }}
+      >
         {t("linkage.saveAs")}
       </Button>
       <Dialog
         title={t("linkage.saveAsTitle")}
-        open={copy !== null}
-        onClose={() => setCopy(null)}
+        open={copy.value !== null}
+        onClose={() => {
+          copy.value = null;
+        }}
         actions={
           <Button kind="primary" onClick={save}>
             {t("linkage.saveCopy")}
@@ -103,9 +111,11 @@ export function FileBar({ name, names }: { name: string; names: readonly string[
         >
           <TextField
             label={t("linkage.newName")}
-            value={copy ?? ""}
+            value={copy.value ?? ""}
             help={t("linkage.newNameHelp", { folder: FOLDER })}
-            onChange={setCopy}
+            onChange={(to) => {
+              copy.value = to;
+            }}
           />
         </form>
       </Dialog>

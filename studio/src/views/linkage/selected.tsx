@@ -1,5 +1,5 @@
 /** What is chosen, with its numbers: name, position, lengths, entries of the file; and what can be done with it. */
-import { useState } from "preact/hooks";
+import { useSignal } from "@preact/signals";
 import { t } from "../../text";
 import { Button, formatQuantity, QuantityField, readQuantity, toast } from "../../ui";
 import type { Editor } from "./editor";
@@ -154,12 +154,12 @@ interface CoordinatesProps {
 
 /** Position in the world, typed: taken over with Enter or on leaving. */
 function Coordinates({ at, onMove }: CoordinatesProps) {
-  const [typed, setTyped] = useState<{ x?: number; y?: number }>({});
+  const typed = useSignal<{ x?: number; y?: number }>({});
   const shown = (value: number) => `${Number((value * 1000).toFixed(4))}mm`;
   const commit = () => {
-    const to = vec(typed.x ?? at.x, typed.y ?? at.y);
+    const to = vec(typed.peek().x ?? at.x, typed.peek().y ?? at.y);
     if (distance(to, at) > 1e-9) onMove(to);
-    setTyped({});
+    typed.value = {};
   };
   return (
     <form
@@ -176,13 +176,17 @@ function Coordinates({ at, onMove }: CoordinatesProps) {
         label="x"
         unit="mm"
         value={shown(at.x)}
-        onChange={(_, x) => x !== null && setTyped({ ...typed, x })}
+        onChange={(_, x) => {
+          if (x !== null) typed.value = { ...typed.peek(), x };
+        }}
       />
       <QuantityField
         label="y"
         unit="mm"
         value={shown(at.y)}
-        onChange={(_, y) => y !== null && setTyped({ ...typed, y })}
+        onChange={(_, y) => {
+          if (y !== null) typed.value = { ...typed.peek(), y };
+        }}
       />
       <button type="submit" class="visually-hidden">
         {t("linkage.set")}

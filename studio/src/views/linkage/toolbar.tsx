@@ -1,5 +1,6 @@
 /** The tools of the drawing, and what is shown; a bar of icons, with a letter each. */
 
+import { useSignal } from "@preact/signals";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { t } from "../../text";
 import { Button, formatQuantity, IconButton, QuantityField, Toggle } from "../../ui";
@@ -114,30 +115,30 @@ const ON_PARTS: ReadonlySet<Tool> = new Set(["gears", "drive", "force"]);
 
 /** The next spot typed: its coordinates, or length and direction from the last one. */
 export function TypedSpot({ tools, onDone }: { tools: Tools; onDone: () => void }) {
-  const [typed, setTyped] = useState({ x: "", y: "" });
-  const [at, setAt] = useState<{ x: number | null; y: number | null }>({ x: null, y: null });
+  const typed = useSignal({ x: "", y: "" });
+  const at = useSignal<{ x: number | null; y: number | null }>({ x: null, y: null });
   const [byLine, setByLine] = useState(true);
   const { spots, next } = tools.draft.value;
   const last = spots.at(-1);
   const line = byLine && last !== undefined;
   const tool = tools.editor.tool.value;
   const clear = () => {
-    setTyped({ x: "", y: "" });
-    setAt({ x: null, y: null });
+    typed.value = { x: "", y: "" };
+    at.value = { x: null, y: null };
     tools.typed.value = { length: null, angle: null };
   };
   useEffect(clear, [spots.length, tool, byLine]);
   if (tool === "select") return null;
   const type = (key: "x" | "y", text: string, si: number | null) => {
-    const now = { ...at, [key]: si };
-    setTyped({ ...typed, [key]: text });
-    setAt(now);
-    if (line) tools.typed.value = { length: now.x, angle: now.y };
+    typed.value = { ...typed.peek(), [key]: text };
+    at.value = { ...at.peek(), [key]: si };
+    if (line) tools.typed.value = { length: at.peek().x, angle: at.peek().y };
   };
   const put = () => {
+    const { x, y } = at.peek();
     const near = next?.at ?? last?.at ?? vec(0, 0);
     if (line) tools.putLine();
-    else if (at.x !== null || at.y !== null) tools.putAt(vec(at.x ?? near.x, at.y ?? near.y));
+    else if (x !== null || y !== null) tools.putAt(vec(x ?? near.x, y ?? near.y));
   };
   const isTyped = !ON_PARTS.has(tool);
   const from = last?.at ?? vec(0, 0);
@@ -164,7 +165,7 @@ export function TypedSpot({ tools, onDone }: { tools: Tools; onDone: () => void 
             unit={line && index === 1 ? "deg" : "mm"}
             optional
             placeholder={shown[index] ?? ""}
-            value={typed[key]}
+            value={typed.value[key]}
             onChange={(text, si) => type(key, text, si)}
           />
         ))}
