@@ -12,7 +12,7 @@ from ilmek.cli import main
 PAGE = Path(__file__).parents[2] / "docs/reference/limits.md"
 ROW = re.compile(r"^\| (?P<what>[^|]+) \| (?P<limit>[^|]+) \| `(?P<constant>[\w.]+)` \|$", re.MULTILINE)
 ROWS = [found.group("limit", "constant") for found in ROW.finditer(PAGE.read_text(encoding="utf-8"))]
-UNITS = {"kB": 1e3, "MB": 1e6, "characters": 1.0, "pixels": 1.0, "": 1.0}
+UNITS = {"kB": 1e3, "MB": 1e6, "s": 1.0, "characters": 1.0, "pixels": 1.0, "": 1.0}
 
 
 def test_the_page_has_limits() -> None:
