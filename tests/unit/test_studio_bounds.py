@@ -5,9 +5,11 @@ import json
 import os
 import socket
 import struct
+import sys
 import time
 import zlib
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -264,9 +266,29 @@ def test_a_page_that_reads_nothing_is_forgotten(monkeypatch: pytest.MonkeyPatch)
     assert queue.qsize() == 4
 
 
-@pytest.mark.skipif(os.name != "posix", reason="limits of memory are those of POSIX")
 def test_a_worker_that_is_killed_ends_its_request_alone(server: Studio) -> None:
     pid = server.send("POST", "/api/sleep", {}).json["pid"]
-    os.kill(pid, 9)
-    answers = [server.send("POST", "/api/sleep", {}).status for _ in range(3)]
-    assert answers[1:] == [200, 200]
+    with ThreadPoolExecutor(1) as one:
+        going = one.submit(server.send, "POST", "/api/sleep", {"seconds": 20.0})
+        time.sleep(0.3)
+        os.kill(pid, 9)
+        answer = going.result()
+    assert (answer.status, "ended while it answered" in answer.given) == (507, True)
+    assert [server.send("POST", "/api/sleep", {}).status for _ in range(3)] == [200, 200, 200]
+
+
+def test_where_nothing_can_be_written_an_error_says_what_to_do_and_all_stays(project: Path) -> None:
+    """As on a full disc: the system refuses every byte that a worker writes to a file."""
+    command = ("/bin/sh", "-c", 'ulimit -f 0; exec "$0" -m ilmek.web.worker "$@"', sys.executable)
+    before = files_of(project)
+    with studio(project, size=1, real=True, command=command) as served:
+        base = served.send("GET", "/api/project/files/carpet.toml").json["digest"]
+        for method, path, body in (
+            ("PUT", "files/carpet.toml", {"base": base, "text": "size = '1x1m'"}),
+            ("POST", "new", {"path": "machines/new.toml", "text": "machine = 'cam'"}),
+            ("POST", "delete", {"path": "carpet.toml", "base": base}),
+        ):
+            answer = served.send(method, f"/api/project/{path}", body)
+            assert (answer.status, "cannot be written" in answer.given) == (422, True), answer.body
+            assert answer.json["error"]["do"]
+    assert files_of(project) == before

@@ -76,8 +76,8 @@ def test_a_page_is_known_after_the_server_was_killed_and_started_again(tmp_path:
         assert get(port, "/api", Cookie=cookie)[0] == 200
         workers = children(process.pid)
         process.send_signal(signal.SIGINT)
-        _, errors = process.communicate(timeout=5)
-        assert process.returncode == 130
+        further, errors = process.communicate(timeout=5)
+        assert (process.returncode, further) == (130, "")
         assert errors == f"ilmek: interrupted; the studio is closed; the project is in {tmp_path / 'carpets'}\n"
         assert_ended(workers)
 
