@@ -135,6 +135,7 @@ def test_the_picture_is_turned_scrubbed_and_worked_by_keys(page: Page, running: 
     assert changed(whole, cut := picture(page)) > 0.05
     page.get_by_label("Explode").fill("0.6")
     assert changed(cut, picture(page)) > 0.05
+    page.wait_for_timeout(600)  # a coarse picture is drawn finely
     drawn = canvas.get_attribute("data-pictures")
     page.wait_for_timeout(300)
     assert canvas.get_attribute("data-pictures") == drawn, "pictures are drawn though nothing changes"

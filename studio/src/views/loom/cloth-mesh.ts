@@ -1,15 +1,44 @@
 /** The carpet as a mesh: its texture moves down as rows are woven, and nothing is drawn beyond the first row. */
 import * as three from "three";
 import { chartPixels, ribbon } from "./cloth";
+import { LIT, type Light } from "./light";
 import type { SceneModel } from "./scene";
+
+const VERTEX = `
+#include <clipping_planes_pars_vertex>
+uniform float woven;
+varying vec2 knot;
+varying vec3 at;
+void main() {
+  vec4 mvPosition = modelViewMatrix * vec4(position, 1.0);
+  knot = uv + vec2(0.0, woven);
+  at = mvPosition.xyz;
+  #include <clipping_planes_vertex>
+  gl_Position = projectionMatrix * mvPosition;
+}`;
+
+const FRAGMENT = `
+#include <clipping_planes_pars_fragment>
+uniform sampler2D chart;
+varying vec2 knot;
+varying vec3 at;
+${LIT}
+void main() {
+  #include <clipping_planes_fragment>
+  if (knot.y < 0.0) discard;
+  gl_FragColor = vec4(lit(texture2D(chart, knot).rgb, flatNormal(at)), 1.0);
+}`;
 
 export class Cloth {
   readonly mesh: three.Mesh;
-  readonly material: three.MeshLambertMaterial;
+  readonly material: three.ShaderMaterial;
   private readonly texture: three.DataTexture;
   private readonly woven = { value: 0 };
 
-  constructor(private readonly model: SceneModel) {
+  constructor(
+    private readonly model: SceneModel,
+    light: Light,
+  ) {
     const { carpet, chart } = model.about;
     const made = ribbon(model, carpet.pile / 2);
     const geometry = new three.BufferGeometry();
@@ -17,26 +46,18 @@ export class Cloth {
     const uv = made.uv.map((value, k) => (k % 2 === 0 ? value : -value / (carpet.rows * carpet.rowPitch)));
     geometry.setAttribute("uv", new three.BufferAttribute(uv, 2));
     geometry.setIndex(new three.BufferAttribute(made.triangles, 1));
-    geometry.computeVertexNormals();
     this.texture = new three.DataTexture(chartPixels(model), chart?.columns ?? 1, chart?.rows ?? 1, three.RGBAFormat);
-    this.texture.colorSpace = three.SRGBColorSpace;
     this.texture.generateMipmaps = true;
     this.texture.minFilter = three.LinearMipmapLinearFilter;
     this.texture.magFilter = three.NearestFilter;
     this.texture.needsUpdate = true;
-    this.material = new three.MeshLambertMaterial({ map: this.texture, side: three.DoubleSide });
-    this.material.onBeforeCompile = (shader) => {
-      shader.uniforms["woven"] = this.woven;
-      shader.vertexShader = shader.vertexShader.replace(
-        "#include <uv_vertex>",
-        "#include <uv_vertex>\nvMapUv.y += woven;",
-      );
-      shader.vertexShader = `uniform float woven;\n${shader.vertexShader}`;
-      shader.fragmentShader = shader.fragmentShader.replace(
-        "#include <map_fragment>",
-        "if (vMapUv.y < 0.0) discard;\n#include <map_fragment>",
-      );
-    };
+    this.material = new three.ShaderMaterial({
+      vertexShader: VERTEX,
+      fragmentShader: FRAGMENT,
+      uniforms: { ...light.uniforms, woven: this.woven, chart: { value: this.texture } },
+      side: three.DoubleSide,
+      clipping: true,
+    });
     this.mesh = new three.Mesh(geometry, this.material);
     this.mesh.frustumCulled = false;
     this.weave(carpet.rows);

@@ -12,6 +12,8 @@ it("neighbours nearer than some pixels are drawn as one, an odd number of them",
 
 it("each stands in the middle of its neighbours and is as wide; those out of the picture are left out", () => {
   const into = new Float32Array(16 * 9);
-  expect(thinned(matrices, 9, 3, into, (x) => x < 5)).toBe(2);
+  expect(thinned(matrices, 9, 3, false, into, (x) => x < 5)).toBe(2);
   expect([into[12], into[28], into[0], into[16], into[5]]).toEqual([1, 4, 3, 3, 1]);
+  expect(thinned(matrices, 9, 3, true, into, (x) => x < 5)).toBe(2);
+  expect([into[12], into[28]]).toEqual([4, 1]);
 });

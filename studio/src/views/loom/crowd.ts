@@ -24,18 +24,20 @@ export function spacingOf(matrices: Float32Array, count: number): number {
 /**
  * Copies every `stride`-th matrix that is seen, as many times wider; the number of copies.
  *
- * seen  whether a sphere at (x, y, z) is in the picture
+ * backwards  the last one first        seen  whether a sphere at (x, y, z) is in the picture
  */
 export function thinned(
   from: Float32Array,
   count: number,
   stride: number,
+  backwards: boolean,
   into: Float32Array,
   seen: (x: number, y: number, z: number) => boolean,
 ): number {
   let drawn = 0;
-  for (let k = stride >> 1; k < count; k += stride) {
-    const at = 16 * k;
+  const steps = Math.ceil((count - (stride >> 1)) / stride);
+  for (let step = 0; step < steps; step++) {
+    const at = 16 * ((stride >> 1) + stride * (backwards ? steps - 1 - step : step));
     if (!seen(from[at + 12] ?? 0, from[at + 13] ?? 0, from[at + 14] ?? 0)) continue;
     const to = 16 * drawn++;
     for (let n = 0; n < 16; n++) into[to + n] = from[at + n] ?? 0;

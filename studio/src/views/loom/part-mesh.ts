@@ -1,9 +1,11 @@
 /** A part in the picture: its copies as instances, as fine as the picture needs. */
 import * as three from "three";
 import { spacingOf, strideFor, thinned } from "./crowd";
+import { type Light, screenColour } from "./light";
 import { colourOf, type Look } from "./look";
 import type { Placed } from "./motion";
 import { failures, type SceneModel, type ScenePart } from "./scene";
+import { solidMaterial } from "./solid-material";
 import { levelFor } from "./views";
 
 /** Copies of a part from which on only those that are needed are drawn. */
@@ -16,7 +18,7 @@ const COARSE = 1.3;
 const MOST_BOXED = 9;
 
 export class PartMesh {
-  readonly mesh: three.InstancedMesh<three.BufferGeometry, three.MeshLambertMaterial>;
+  readonly mesh: three.InstancedMesh<three.BufferGeometry, three.ShaderMaterial>;
   /** Where the part is moved when the loom is exploded, for the factor 1 [m]. */
   readonly apart = new three.Vector3();
   private readonly levels: three.BufferGeometry[];
@@ -30,6 +32,7 @@ export class PartMesh {
     readonly part: ScenePart,
     readonly placed: Placed,
     model: SceneModel,
+    light: Light,
   ) {
     this.levels = part.solids.map((solid) => {
       const geometry = new three.BufferGeometry();
@@ -39,9 +42,7 @@ export class PartMesh {
       geometry.computeBoundingBox();
       return geometry;
     });
-    const material = new three.MeshLambertMaterial({ flatShading: true });
-    if (part.envelope) Object.assign(material, { transparent: true, depthWrite: false });
-    this.mesh = new three.InstancedMesh(this.finest, material, placed.count);
+    this.mesh = new three.InstancedMesh(this.finest, solidMaterial(light, part.envelope), placed.count);
     this.mesh.name = part.name;
     this.mesh.frustumCulled = false;
     this.sphere = this.finest.boundingSphere ?? new three.Sphere();
@@ -70,8 +71,12 @@ export class PartMesh {
     this.changed();
   }
 
-  /** Takes the coarsest solid that deviates by less than a pixel, a size in metres; of a crowd the copies in view. */
-  detail(pixel: number, view: three.Frustum): void {
+  /**
+   * Takes the coarsest solid that deviates by less than a pixel, and of a crowd the copies in view, the nearest first.
+   *
+   * pixel  size of one where the camera looks [m]        right  the camera stands on the right
+   */
+  detail(pixel: number, view: three.Frustum, right: boolean): void {
     const deviations = this.part.solids.map((solid) => solid.deviation);
     this.mesh.geometry = this.levels[levelFor(deviations, COARSE * pixel)] ?? this.finest;
     if (!this.isCrowd) return;
@@ -79,7 +84,7 @@ export class PartMesh {
     const reach = this.sphere.radius + this.sphere.center.length() + stride * this.spacing;
     const seen = new three.Sphere(new three.Vector3(), reach);
     const into = this.mesh.instanceMatrix.array as Float32Array;
-    this.mesh.count = thinned(this.all, this.placed.count, stride, into, (x, y, z) => {
+    this.mesh.count = thinned(this.all, this.placed.count, stride, right, into, (x, y, z) => {
       seen.center.set(x, y, z);
       return view.intersectsSphere(seen);
     });
@@ -87,9 +92,9 @@ export class PartMesh {
   }
 
   paint(look: Look, chosen: boolean): void {
-    const { material } = this.mesh;
-    material.color.set(chosen ? look.chosen : this.failed ? look.failed : colourOf(this.part, look));
-    if (this.part.envelope) material.opacity = chosen || this.failed ? 0.55 : 0.25;
+    const { colour, opacity } = this.mesh.material.uniforms;
+    screenColour(chosen ? look.chosen : this.failed ? look.failed : colourOf(this.part, look), colour?.value);
+    if (this.part.envelope && opacity) opacity.value = chosen || this.failed ? 0.55 : 0.25;
   }
 
   /** The box of the copies, into `box`. */

@@ -2,16 +2,21 @@
 import * as three from "three";
 import { Camera } from "./camera";
 import { Cloth } from "./cloth-mesh";
+import { Light } from "./light";
 import { type Look, look } from "./look";
 import { type Angles, Frames } from "./motion";
+import { Pace } from "./pace";
 import { PartMesh } from "./part-mesh";
 import type { Drive, SceneModel } from "./scene";
-import { floorGrid, graphics, lights } from "./surroundings";
+import { floorGrid, graphics } from "./surroundings";
 import { Threads } from "./threads";
 import { DIRECTIONS, type ViewName } from "./views";
 
 /** What an exploded machine is moved to the front beside, for the factor 1 [m]. */
 const FORWARD: Record<string, number> = { weaver: 0.35, shedding: -0.3 };
+
+/** Time without a change after which a coarse picture is drawn finely [ms]. */
+const REST = 200;
 
 export type SectionAxis = "x" | "y" | "z";
 
@@ -22,6 +27,8 @@ export class Stage {
   private readonly scene = new three.Scene();
   private readonly camera: Camera;
   private readonly renderer: three.WebGLRenderer;
+  private readonly light = new Light();
+  private readonly pace = new Pace();
   private readonly frames: Frames;
   private readonly parts: PartMesh[] = [];
   private readonly cloth: Cloth;
@@ -30,6 +37,8 @@ export class Stage {
   private readonly box = new three.Box3();
   private look: Look = look(null);
   private waiting = 0;
+  private resting: ReturnType<typeof setTimeout> | undefined;
+  private size: [width: number, height: number] = [1, 1];
   private pictures = 0;
   private angles: Angles = { row: 0, knot: 0 };
   private followed: number | null = null;
@@ -51,12 +60,12 @@ export class Stage {
     this.frames.update(this.angles);
     for (const part of model.about.parts) {
       const placed = this.frames.byName.get(part.frame);
-      if (placed !== undefined) this.parts.push(new PartMesh(part, placed, model));
+      if (placed !== undefined) this.parts.push(new PartMesh(part, placed, model, this.light));
     }
-    this.cloth = new Cloth(model);
+    this.cloth = new Cloth(model, this.light);
     this.threads = new Threads(model, this.frames);
     this.scene.add(...this.parts.map((one) => one.mesh), this.cloth.mesh, this.threads.group);
-    this.scene.add(floorGrid(model.about.floor), ...lights());
+    this.scene.add(floorGrid(model.about.floor));
     for (const one of this.parts) one.arrange(0);
     this.measure();
     this.camera = new Camera(canvas, this.invalidate);
@@ -66,6 +75,7 @@ export class Stage {
   /** Frees everything of the graphics processor. */
   dispose(): void {
     cancelAnimationFrame(this.waiting);
+    clearTimeout(this.resting);
     this.canvas.removeEventListener("webglcontextrestored", this.invalidate);
     this.camera.dispose();
     this.scene.traverse((one) => {
@@ -81,14 +91,19 @@ export class Stage {
 
   /** Draws a picture as soon as the browser is ready, once for all changes. */
   readonly invalidate = (): void => {
-    if (this.waiting === 0) this.waiting = requestAnimationFrame(this.draw);
+    if (this.waiting !== 0) return;
+    this.pace.wanted(performance.now());
+    this.waiting = requestAnimationFrame(this.draw);
   };
 
   private readonly draw = (): void => {
     this.waiting = 0;
+    this.sharpen(this.pace.drawn(performance.now()));
     const pixel = Camera.pixelAtOne(this.canvas.height) * this.camera.distance;
     const view = this.camera.view();
-    for (const one of this.parts) one.detail(pixel, view);
+    const right = this.camera.lens.position.x > 0;
+    for (const one of this.parts) one.detail(pixel, view, right);
+    this.light.update(this.camera.lens);
     this.renderer.render(this.scene, this.camera.lens);
     this.pictures += 1;
     this.canvas.dataset["pictures"] = String(this.pictures);
@@ -98,11 +113,21 @@ export class Stage {
   /** Fits the picture to the size of the canvas [px]. */
   resize(width: number, height: number): void {
     if (width < 1 || height < 1) return;
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-    this.renderer.setSize(width, height, false);
+    this.size = [width, height];
     this.camera.setAspect(width / height);
-    this.threads.setPixel(Camera.pixelAtOne(this.canvas.height));
     this.invalidate();
+  }
+
+  /** Draws with a share of the screen's pixels; where that is less than all, with all of them when nothing moves. */
+  private sharpen(share: number): void {
+    clearTimeout(this.resting);
+    if (share < 1) this.resting = setTimeout(this.invalidate, REST);
+    const ratio = share * Math.min(devicePixelRatio, 2);
+    const [width, height] = this.size.map((one) => Math.floor(one * ratio)) as [number, number];
+    if (this.canvas.width === width && this.canvas.height === height) return;
+    this.renderer.setPixelRatio(ratio);
+    this.renderer.setSize(...this.size, false);
+    this.threads.setPixel(Camera.pixelAtOne(height));
   }
 
   setTheme(theme: string | null): void {
@@ -174,7 +199,6 @@ export class Stage {
     for (const { mesh } of this.parts) {
       mesh.material.clippingPlanes = planes;
       mesh.material.side = planes.length > 0 ? three.DoubleSide : three.FrontSide;
-      mesh.material.needsUpdate = true;
     }
     for (const material of [this.cloth.material, ...this.threads.materials]) material.clippingPlanes = planes;
     this.invalidate();

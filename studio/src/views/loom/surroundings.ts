@@ -1,14 +1,5 @@
-/** Lights and floor of the picture, and what draws it. */
+/** The floor of the picture, and what draws it. */
 import * as three from "three";
-
-/** Light from the sky, from the weaver's side, and a little from behind. */
-export function lights(): three.Light[] {
-  const sun = new three.DirectionalLight(0xffffff, 1.7);
-  sun.position.set(1.2, 2, 2.5);
-  const back = new three.DirectionalLight(0xffffff, 0.6);
-  back.position.set(-2, 1, -1.5);
-  return [new three.HemisphereLight(0xffffff, 0x8a8f96, 1.6), sun, back];
-}
 
 /** Squares of a quarter of a metre on the floor at a height [m]. */
 export function floorGrid(height: number): three.Object3D {

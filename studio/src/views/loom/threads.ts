@@ -1,5 +1,6 @@
 /** Warps, wefts and yarns of knots: ribbons as wide as the thread, a pixel at least, that face the camera. */
 import * as three from "three";
+import { screenColour } from "./light";
 import type { Look } from "./look";
 import { type Angles, type Frames, type Placed, warpShares, yarnPoints } from "./motion";
 import type { Drive, SceneModel } from "./scene";
@@ -15,7 +16,7 @@ uniform float radius;
 uniform float pixel;
 uniform vec2 shares;
 varying float across;
-varying float round;
+varying float thick;
 void main() {
   vec3 lift = vec3(0.0, 0.0, mix(shares.x, shares.y, odd));
   vec3 begin = (modelViewMatrix * vec4(from + lifts.x * lift, 1.0)).xyz;
@@ -24,7 +25,7 @@ void main() {
   float least = 0.5 * pixel * max(-mvPosition.z, 0.0);
   mvPosition.xyz += normalize(cross(end - begin, mvPosition.xyz)) * max(radius, least) * position.x;
   across = position.x;
-  round = clamp(radius / least - 1.0, 0.0, 1.0);
+  thick = clamp(radius / least - 1.0, 0.0, 1.0);
   #include <clipping_planes_vertex>
   gl_Position = projectionMatrix * mvPosition;
 }`;
@@ -33,12 +34,11 @@ const FRAGMENT = `
 #include <clipping_planes_pars_fragment>
 uniform vec3 colour;
 varying float across;
-varying float round;
+varying float thick;
 void main() {
   #include <clipping_planes_fragment>
   float lit = mix(0.45, 1.15, sqrt(max(0.0, 1.0 - across * across)));
-  gl_FragColor = vec4(colour * mix(1.0, lit, round), 1.0);
-  #include <colorspace_fragment>
+  gl_FragColor = vec4(colour * mix(1.0, lit, thick), 1.0);
 }`;
 
 interface ShownYarn {
@@ -90,9 +90,9 @@ export class Threads {
   }
 
   paint(look: Look): void {
-    this.warps.uniforms["colour"]?.value.set(look.warp);
+    screenColour(look.warp, this.warps.uniforms["colour"]?.value);
     for (const { drive, material } of this.yarns)
-      material.uniforms["colour"]?.value.set(drive === "knot" ? look.pile : look.weft);
+      screenColour(drive === "knot" ? look.pile : look.weft, material.uniforms["colour"]?.value);
   }
 
   /** Size of a pixel at a distance of 1. */
