@@ -45,7 +45,8 @@ interface ShownYarn {
   number: number;
   drive: Drive;
   placed: Placed;
-  points: three.InstancedInterleavedBuffer;
+  points: Float32Array;
+  geometry: three.BufferGeometry;
   meshes: three.Mesh[];
   material: three.ShaderMaterial;
 }
@@ -65,11 +66,12 @@ export class Threads {
     yarns.forEach((yarn, number) => {
       const placed = frames.byName.get(yarn.frame);
       if (placed === undefined) return;
-      const points = new three.InstancedInterleavedBuffer(new Float32Array(3 * yarn.number), 3);
-      const [geometry, material] = [yarnSegments(points), threadMaterial(yarn.diameter)];
+      const points = new Float32Array(3 * yarn.number);
+      const geometry = ribbons({ from: [[], 3], to: [[], 3] }, yarn.number - 1);
+      const material = threadMaterial(yarn.diameter);
       const meshes = Array.from({ length: placed.count }, () => threadMesh(geometry, material));
       this.group.add(...meshes);
-      this.yarns.push({ number, drive: yarn.drive, placed, points, meshes, material });
+      this.yarns.push({ number, drive: yarn.drive, placed, points, geometry, meshes, material });
     });
     this.update({ row: 0, knot: 0 });
   }
@@ -80,9 +82,10 @@ export class Threads {
 
   update(angles: Angles): void {
     this.warps.uniforms["shares"]?.value.set(...warpShares(this.model, angles.row));
-    for (const { number, drive, placed, points, meshes } of this.yarns) {
-      yarnPoints(this.model, number, angles[drive], points.array as Float32Array);
-      points.needsUpdate = true;
+    for (const { number, drive, placed, points, geometry, meshes } of this.yarns) {
+      yarnPoints(this.model, number, angles[drive], points);
+      spread(points, 3, geometry.getAttribute("from") as three.BufferAttribute);
+      spread(points, 3, geometry.getAttribute("to") as three.BufferAttribute, 3);
       meshes.forEach((mesh, copy) => {
         mesh.matrix.fromArray(placed.matrices, 16 * copy);
       });
@@ -123,29 +126,41 @@ function threadMesh(geometry: three.BufferGeometry, material: three.Material): t
   return mesh;
 }
 
-/** A ribbon for each segment: x from edge to edge, y from its beginning to its end. */
-function ribbons(segments: number): three.InstancedBufferGeometry {
-  const geometry = new three.InstancedBufferGeometry();
-  geometry.setAttribute("position", new three.Float32BufferAttribute([-1, 0, 0, 1, 0, 0, -1, 1, 0, 1, 1, 0], 3));
-  geometry.setIndex([0, 1, 2, 2, 1, 3]);
-  geometry.instanceCount = segments;
+const CORNERS = 4;
+
+/**
+ * Ribbons, four corners for each segment: x from edge to edge, y from its beginning to its end.
+ *
+ * They are no instances: a processor that draws takes as long for each instance as for a picture of its own.
+ */
+function ribbons(attributes: Record<string, [values: number[], size: number]>, segments: number): three.BufferGeometry {
+  const geometry = new three.BufferGeometry();
+  const corner = [-1, 0, 0, 1, 0, 0, -1, 1, 0, 1, 1, 0];
+  const all = Array.from({ length: segments }, () => corner).flat();
+  geometry.setAttribute("position", new three.Float32BufferAttribute(all, 3));
+  geometry.setIndex(Array.from({ length: segments }, (_, k) => [0, 1, 2, 2, 1, 3].map((n) => CORNERS * k + n)).flat());
+  for (const [name, [values, size]] of Object.entries(attributes)) {
+    const attribute = new three.BufferAttribute(new Float32Array(CORNERS * segments * size), size);
+    spread(values, size, attribute);
+    geometry.setAttribute(name, attribute);
+  }
   return geometry;
 }
 
-/** The segments between points that follow each other. */
-function yarnSegments(points: three.InstancedInterleavedBuffer): three.BufferGeometry {
-  const geometry = ribbons(points.count - 1);
-  geometry.setAttribute("from", new three.InterleavedBufferAttribute(points, 3, 0));
-  geometry.setAttribute("to", new three.InterleavedBufferAttribute(points, 3, 3));
-  return geometry;
+/** Gives the values of each segment to its corners. */
+function spread(values: ArrayLike<number>, size: number, into: three.BufferAttribute, begin = 0): void {
+  const array = into.array as Float32Array;
+  for (let k = 0; k < array.length; k++)
+    array[k] = values[begin + size * Math.floor(k / (CORNERS * size)) + (k % size)] ?? 0;
+  into.needsUpdate = true;
 }
 
 /** Every warp's line as segments, with the lifts of their ends [m] and the parity of the warp. */
-export function warpSegments(model: SceneModel): three.InstancedBufferGeometry {
+export function warpSegments(model: SceneModel): three.BufferGeometry {
   const { warps } = model.about;
   const [x, line] = [model.floats(warps.x), model.floats(warps.line)];
   const [shaft, odd] = [model.integers(warps.shaft), model.integers(warps.odd)];
-  const made: Record<string, number[]> = { from: [], to: [], lifts: [], odd: [] };
+  const [from, to, lifts, parity] = [[], [], [], []] as [number[], number[], number[], number[]];
   const point = (warp: number, k: number) => [x[warp] ?? 0, line[2 * k + 1] ?? 0, line[2 * k] ?? 0];
   for (let warp = 0; warp < x.length; warp++) {
     const own = shaft[warp] ?? 0;
@@ -154,15 +169,11 @@ export function warpSegments(model: SceneModel): three.InstancedBufferGeometry {
     const lift = (k: number) => (warps.lifted[own] === k ? (warps.lifts[own] ?? 0) : 0);
     for (const [n, k] of path.slice(0, -1).entries()) {
       const next = path[n + 1] ?? k;
-      made["from"]?.push(...point(warp, k));
-      made["to"]?.push(...point(warp, next));
-      made["lifts"]?.push(lift(k), lift(next));
-      made["odd"]?.push(odd[warp] ?? 0);
+      from.push(...point(warp, k));
+      to.push(...point(warp, next));
+      lifts.push(lift(k), lift(next));
+      parity.push(odd[warp] ?? 0);
     }
   }
-  const segments = made["odd"]?.length ?? 0;
-  const geometry = ribbons(segments);
-  for (const [name, values] of Object.entries(made))
-    geometry.setAttribute(name, new three.InstancedBufferAttribute(new Float32Array(values), values.length / segments));
-  return geometry;
+  return ribbons({ from: [from, 3], to: [to, 3], lifts: [lifts, 2], odd: [parity, 1] }, parity.length);
 }
