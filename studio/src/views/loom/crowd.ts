@@ -2,8 +2,12 @@
 
 /** The odd number of neighbours that one stands for, where neighbours are nearer than so many metres of a pixel. */
 export function strideFor(spacing: number, pixel: number): number {
-  const needed = (APART * pixel) / Math.max(spacing, 1e-9);
-  return needed <= 1 ? 1 : 2 * Math.floor(needed / 2) + 1;
+  return oddFrom((APART * pixel) / Math.max(spacing, 1e-9));
+}
+
+/** The odd number at or next above a number, 1 at least. */
+export function oddFrom(needed: number): number {
+  return needed <= 1 ? 1 : 2 * Math.ceil((needed - 1) / 2) + 1;
 }
 
 /** Distance of neighbours that are drawn each [px]. */

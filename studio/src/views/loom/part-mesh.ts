@@ -1,6 +1,6 @@
 /** A part in the picture: its copies as instances, as fine as the picture needs. */
 import * as three from "three";
-import { spacingOf, strideFor, thinned } from "./crowd";
+import { oddFrom, spacingOf, strideFor, thinned } from "./crowd";
 import { type Light, screenColour } from "./light";
 import { colourOf, type Look } from "./look";
 import type { Placed } from "./motion";
@@ -75,19 +75,24 @@ export class PartMesh {
    * Takes the coarsest solid that deviates by less than a pixel, and of a crowd the copies in view, the nearest first.
    *
    * pixel  size of one where the camera looks [m]        right  the camera stands on the right
+   * most   copies of a crowd that are drawn; of more, some are drawn wider in their stead
    */
-  detail(pixel: number, view: three.Frustum, right: boolean): void {
+  detail(pixel: number, view: three.Frustum, right: boolean, most: number): void {
     const deviations = this.part.solids.map((solid) => solid.deviation);
     this.mesh.geometry = this.levels[levelFor(deviations, COARSE * pixel)] ?? this.finest;
     if (!this.isCrowd) return;
-    const stride = strideFor(this.spacing, pixel);
-    const reach = this.sphere.radius + this.sphere.center.length() + stride * this.spacing;
-    const seen = new three.Sphere(new three.Vector3(), reach);
     const into = this.mesh.instanceMatrix.array as Float32Array;
-    this.mesh.count = thinned(this.all, this.placed.count, stride, right, into, (x, y, z) => {
-      seen.center.set(x, y, z);
-      return view.intersectsSphere(seen);
-    });
+    const draw = (stride: number) => {
+      const reach = this.sphere.radius + this.sphere.center.length() + stride * this.spacing;
+      const seen = new three.Sphere(new three.Vector3(), reach);
+      return thinned(this.all, this.placed.count, stride, right, into, (x, y, z) => {
+        seen.center.set(x, y, z);
+        return view.intersectsSphere(seen);
+      });
+    };
+    const stride = strideFor(this.spacing, pixel);
+    this.mesh.count = draw(stride);
+    if (this.mesh.count > most) this.mesh.count = draw(oddFrom((stride * this.mesh.count) / most));
     this.changed();
   }
 

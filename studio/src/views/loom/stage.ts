@@ -18,6 +18,9 @@ const FORWARD: Record<string, number> = { weaver: 0.35, shedding: -0.3 };
 /** Time without a change after which a coarse picture is drawn finely [ms]. */
 const REST = 200;
 
+/** Copies of a part that are drawn at most while pictures are coarse. */
+const FEW = 40;
+
 export type SectionAxis = "x" | "y" | "z";
 
 export class Stage {
@@ -98,11 +101,12 @@ export class Stage {
 
   private readonly draw = (): void => {
     this.waiting = 0;
-    this.sharpen(this.pace.drawn(performance.now()));
+    const share = this.pace.drawn(performance.now());
+    this.sharpen(share);
     const pixel = Camera.pixelAtOne(this.canvas.height) * this.camera.distance;
     const view = this.camera.view();
     const right = this.camera.lens.position.x > 0;
-    for (const one of this.parts) one.detail(pixel, view, right);
+    for (const one of this.parts) one.detail(pixel, view, right, share < 1 ? FEW : Number.POSITIVE_INFINITY);
     this.light.update(this.camera.lens);
     this.renderer.render(this.scene, this.camera.lens);
     this.pictures += 1;
