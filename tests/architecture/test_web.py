@@ -1,6 +1,7 @@
 """The studio's server: what it must not import or call, and types that agree with the client's."""
 
 import ast
+import inspect
 import json
 import re
 import subprocess
@@ -15,6 +16,7 @@ from ilmek.jobs.studio.answers import Binary
 from ilmek.web.api_page import with_table
 from ilmek.web.endpoints import ENDPOINTS, Endpoint
 from ilmek.web.openapi import openapi
+from ilmek.web.safety import Access
 from ilmek.web.schema import answer_type, messages
 
 ROOT = Path(__file__).parents[2]
@@ -59,6 +61,13 @@ def test_no_pickle_no_shell_no_code(path: Path) -> None:
             found |= {name} & UNSAFE_CALLS if not allowed else set()
             found |= {"shell"} & {keyword.arg for keyword in node.keywords}
     assert found == set()
+
+
+@pytest.mark.parametrize("name", ["knows_token", "knows_browser_token", "knows_password", "knows_cookie"])
+def test_secrets_are_compared_in_constant_time(name: str) -> None:
+    source = inspect.getsource(getattr(Access, name))
+    assert "compare_digest" in source
+    assert "==" not in source
 
 
 def test_the_server_imports_no_engineering() -> None:

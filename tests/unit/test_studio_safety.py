@@ -221,6 +221,7 @@ def test_a_password_is_required_and_no_token_replaces_it(guarded: Studio) -> Non
         .headers["set-cookie"]
         .startswith(guarded.cookie["cookie"])
     )
+    assert guarded.send("POST", "/login", b"password=right%20horse%0A", {}).status == 303  # from a file
     assert guarded.send("GET", "/api").status == 200
     assert guarded.send("POST", "/login", b"x" * 5000, {}).status == 413
 

@@ -72,8 +72,10 @@ class Login:
 
 
 def _password(body: bytes) -> str:
+    """The password of a form; the end of a line behind it is that of a file."""
     try:
-        return parse_qs(body.decode("ascii"), max_num_fields=4, encoding="utf-8").get("password", [""])[0]
+        found = parse_qs(body.decode("ascii"), max_num_fields=4, encoding="utf-8").get("password", [""])[0]
+        return found.rstrip("\r\n")
     except ValueError:
         return ""
 
