@@ -8,6 +8,7 @@ at the crank angle beta, is the beat.
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -42,6 +43,9 @@ from ilmek.synthesis.crank_rocker.selection import member
 from ilmek.units import format_quantity, minute, turn
 
 PINS = ("A", "B", "C", "D")
+
+USE = ("beat_force", "interval", "strength", "start", "travel")
+"""Parameters of its use: they change neither motion nor forces."""
 
 SAMPLES = 720
 """Samples over a turn: half a degree."""
@@ -161,28 +165,50 @@ class BeatUp:
 
     def family(self) -> FamilyResult:
         """All crank-rockers with its dead centres."""
-        return family_of(self.params, self.links, self.dead_centres)
+        return _family(in_motion(self.params))
 
     def motor_run(self) -> MotorRun:
         """Its run by the motor, from rest with the beater farthest from the fell."""
-        params = self.params
-        task = MotorTask(
-            params.speed, params.slip, params.fluctuation, self.back_angle, params.motor_torque, params.flywheel
-        )
-        return motor_run(self.plan, self.bodies, params.gravity_vector, lambda at: self.state_at(at).torque, task)
+        return _run(in_motion(self.params))
 
     def state_at(self, angle: FloatArray) -> BeatUpState:
         """Motion and forces at crank angles [rad]."""
         return evaluate(self.params, self.plan, self.bodies, angle)
 
 
+def in_motion(params: BeatUpParams) -> BeatUpParams:
+    """The parameters from which motion, forces, run and family follow: those of its use have their defaults."""
+    usual = BeatUpParams()
+    return replace(params, **{name: getattr(usual, name) for name in USE})
+
+
 @lru_cache(maxsize=16)
 def design(params: BeatUpParams) -> BeatUp:
-    """Size, move and load a beat-up mechanism.
+    """Size, move and load a beat-up mechanism. What its use does not change is computed once.
 
     Raises ParameterError where the family of crank-rockers has no such member or none within the limits, and
     MechanismError where given lengths do not turn or do not swing.
     """
+    return replace(_moved(in_motion(params)), params=params)
+
+
+@lru_cache(maxsize=4)
+def _family(params: BeatUpParams) -> FamilyResult:
+    made = _moved(params)
+    return family_of(params, made.links, made.dead_centres)
+
+
+@lru_cache(maxsize=4)
+def _run(params: BeatUpParams) -> MotorRun:
+    made = _moved(params)
+    task = MotorTask(
+        params.speed, params.slip, params.fluctuation, made.back_angle, params.motor_torque, params.flywheel
+    )
+    return motor_run(made.plan, made.bodies, params.gravity_vector, lambda at: made.state_at(at).torque, task)
+
+
+@lru_cache(maxsize=16)
+def _moved(params: BeatUpParams) -> BeatUp:
     links = _links(params)
     lengths = _lengths(params, links)
     planned = plan(mechanism(lengths))
