@@ -45,7 +45,7 @@ export function Canvas({ editor, tools, pointer }: Props) {
   useSignalEffect(() => {
     const answer = editor.answer.value;
     const figure = editor.figure.value;
-    if (fit.current || answer === null || figure === null) return;
+    if (fit.current || pointer.hasPointed || answer === null || figure === null) return;
     fit.current = true;
     pointer.fit();
   });

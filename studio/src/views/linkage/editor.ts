@@ -69,6 +69,9 @@ interface Dragging {
   ended: boolean;
 }
 
+/** Name of the browser's measures of a drag. */
+const MEASURE = "linkage-drag";
+
 const STEPS = 360;
 
 /** Pause after which circuits and checks are computed [ms]. */
@@ -92,7 +95,7 @@ export class Editor {
     forces: false,
     grid: true,
   });
-  /** Time from the newest state of a drag to its answer [ms]. */
+  /** Time from the pointer's event to the painted drawing, of the newest state of a drag [ms]. */
   readonly roundTrip = signal(0);
   readonly isDragging = signal(false);
   /** Bodies that are being moved as a whole. */
@@ -107,13 +110,10 @@ export class Editor {
   #changes: readonly { path: readonly string[]; value?: unknown }[] = [];
   #timer: ReturnType<typeof setTimeout> | undefined;
   #judging: AbortController | undefined;
-  #began = 0;
+  readonly #begun = new WeakMap<Request, number>();
   readonly #stop: () => void;
   readonly #send = latest<Request, MechanismAnswer>(
-    (request, signal) => {
-      this.#began = performance.now();
-      return post<MechanismAnswer>("/mechanism", request, signal);
-    },
+    (request, signal) => post<MechanismAnswer>("/mechanism", request, signal),
     (reply, request) => this.#take(reply, request),
     (error, request) => this.#fail(error, request),
   );
@@ -193,6 +193,7 @@ export class Editor {
   /** Begins to drag a joint of the file. */
   beginDrag(joint: string): void {
     this.isPlaying.value = false;
+    performance.clearMeasures(MEASURE);
     this.#changes = [];
     this.#dragging = {
       joint,
@@ -209,7 +210,9 @@ export class Editor {
     const dragging = this.#dragging;
     if (dragging === null || dragging.ended) return;
     dragging.last = to;
-    this.#send(this.#dragRequest(dragging));
+    const request = this.#dragRequest(dragging);
+    this.#begun.set(request, performance.now());
+    this.#send(request);
   }
 
   /** Ends the drag: what changed goes into the document when the last answer is here. */
@@ -275,7 +278,7 @@ export class Editor {
   #take(reply: MechanismAnswer, request: Request): void {
     const dragging = this.#dragging;
     if (request.drag && dragging === null) return;
-    this.roundTrip.value = performance.now() - this.#began;
+    this.#measure(request);
     this.refused.value = reply.refused ?? null;
     const ended = dragging?.ended && request.drag?.x === dragging.last.x && request.drag.y === dragging.last.y;
     if (request.drag && reply.refused) {
@@ -297,6 +300,20 @@ export class Editor {
     if (ended) this.#commit();
     else if (!request.drag && reply.changes.length > 0) this.#adopt(reply.changes);
     this.#judgeLater(request);
+  }
+
+  /** Measures a drag when the frame with its answer is painted. */
+  #measure(request: Request): void {
+    const start = this.#begun.get(request);
+    if (start === undefined) return;
+    requestAnimationFrame(() => {
+      const painted = new MessageChannel();
+      painted.port1.onmessage = () => {
+        this.roundTrip.value = performance.measure(MEASURE, { start, end: performance.now() }).duration;
+        painted.port1.close();
+      };
+      painted.port2.postMessage(null);
+    });
   }
 
   #commit(): void {

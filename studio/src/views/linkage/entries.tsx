@@ -1,5 +1,5 @@
 /** Numbers and texts of the file as fields: each is written as the file has it, and taken over with Enter or on leaving. */
-import { useEffect, useState } from "preact/hooks";
+import { useState } from "preact/hooks";
 import type { Editor } from "./editor";
 import { apply, type Table } from "./mechanism";
 
@@ -12,10 +12,10 @@ interface EntryFieldProps {
 
 /** A text that is taken over with Enter or on leaving; Escape brings the old one back. */
 export function EntryField({ label, value, onCommit }: EntryFieldProps) {
-  const [draft, setDraft] = useState(value);
-  useEffect(() => setDraft(value), [value]);
+  const [draft, setDraft] = useState({ of: value, text: value });
+  const reset = () => setDraft({ of: value, text: value });
   const commit = (typed: string) => {
-    if (typed.trim() !== value && onCommit(typed.trim()) === false) setDraft(value);
+    if (typed.trim() !== value && onCommit(typed.trim()) === false) reset();
   };
   return (
     <label class="linkage-entry">
@@ -25,12 +25,12 @@ export function EntryField({ label, value, onCommit }: EntryFieldProps) {
         type="text"
         autocomplete="off"
         spellcheck={false}
-        value={draft}
-        onInput={(event) => setDraft(event.currentTarget.value)}
+        value={draft.of === value ? draft.text : value}
+        onInput={(event) => setDraft({ of: value, text: event.currentTarget.value })}
         onBlur={(event) => commit(event.currentTarget.value)}
         onKeyDown={(event) => {
           if (event.key === "Enter") commit(event.currentTarget.value);
-          if (event.key === "Escape") setDraft(value);
+          if (event.key === "Escape") reset();
           event.stopPropagation();
         }}
       />

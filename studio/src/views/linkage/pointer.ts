@@ -43,6 +43,8 @@ export class Pointer {
   /** Position of the keys' cross in the world; null while the pointer is used. */
   readonly cross = signal<Vec | null>(null);
   size: Size = { width: 600, height: 400 };
+  /** Whether the user has pointed at the drawing, which must stay where it is from then on. */
+  hasPointed = false;
   #press: Press | null = null;
   #from: Vec = vec(0, 0);
   #fingers = new Map<number, Vec>();
@@ -57,6 +59,7 @@ export class Pointer {
   }
 
   down(id: number, screen: Vec, touch: boolean, shift: boolean, button: number): void {
+    this.hasPointed = true;
     this.cross.value = null;
     this.#fingers.set(id, screen);
     if (this.#fingers.size > 1) {
