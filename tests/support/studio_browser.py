@@ -56,7 +56,9 @@ window.fetch = async (...given) => {
 AT_REST = """
 async (patience) => {
   const end = performance.now() + patience;
-  const isQuiet = () => window.requestsUnderWay === 0 && document.querySelector("main[data-ready='true']") !== null;
+  const found = (selector) => document.querySelector(selector) !== null;
+  const isQuiet = () =>
+    window.requestsUnderWay === 0 && found("main[data-ready='true']") && !found("main [role='progressbar']");
   await document.fonts.ready;
   for (let quiet = 0; quiet < 4; quiet = isQuiet() ? quiet + 1 : 0) {
     if (performance.now() > end) throw new Error("the page did not come to rest");
@@ -180,7 +182,7 @@ def open_view(page: Page, running: Studio, view: str) -> None:
 
 
 def settled(page: Page) -> None:
-    """Wait until the page is at rest: its fonts loaded, and no request under way in four pictures on end."""
+    """Wait until the page is at rest: its fonts loaded, no progress shown, no request under way."""
     page.evaluate(AT_REST, PATIENCE)
 
 
