@@ -5,6 +5,7 @@ import { Conflicts } from "../project";
 import { t } from "../text";
 import { Icon, IconButton, toast } from "../ui";
 import { Toasts } from "../ui/toast";
+import { HelpDialog, listenForHelp } from "./help-dialog";
 import icon from "./icon.svg";
 import { address, route, VIEWS } from "./routes";
 import { SettingsDialog } from "./settings-dialog";
@@ -13,7 +14,9 @@ import { CurrentView } from "./view";
 /** The frame: navigation, connection, messages, and the view of the address. */
 export function App() {
   const [settings, setSettings] = useState(false);
+  const [help, setHelp] = useState(false);
   useEffect(reportReturn, []);
+  useEffect(() => listenForHelp(() => setHelp(true)), []);
   return (
     <div class="app">
       <a class="app-skip" href="#content" onClick={skip}>
@@ -27,6 +30,7 @@ export function App() {
         <Navigation />
         <div class="app-foot">
           <State />
+          <IconButton class="app-help" icon="help" label={`${t("app.help")} (?)`} onClick={() => setHelp(true)} />
           <IconButton icon="settings" label={t("app.settings")} onClick={() => setSettings(true)} />
         </div>
       </header>
@@ -36,7 +40,15 @@ export function App() {
       </div>
       <Toasts />
       <Conflicts />
-      <SettingsDialog open={settings} onClose={() => setSettings(false)} />
+      <SettingsDialog
+        open={settings}
+        onClose={() => setSettings(false)}
+        onHelp={() => {
+          setSettings(false);
+          setHelp(true);
+        }}
+      />
+      <HelpDialog view={route.value.view} open={help} onClose={() => setHelp(false)} />
     </div>
   );
 }

@@ -1,8 +1,14 @@
 import { LANGUAGES, type Language, language, t } from "../text";
-import { Dialog, Segments } from "../ui";
+import { Button, Dialog, Segments } from "../ui";
 import { chooseLanguage, chooseTheme, THEMES, theme } from "./settings";
 
-export function SettingsDialog({ open, onClose }: { open: boolean; onClose: () => void }) {
+interface SettingsProps {
+  open: boolean;
+  onClose: () => void;
+  onHelp: () => void;
+}
+
+export function SettingsDialog({ open, onClose, onHelp }: SettingsProps) {
   const names = { auto: t("app.themeAuto"), light: t("app.themeLight"), dark: t("app.themeDark") };
   return (
     <Dialog title={t("app.settings")} open={open} onClose={onClose}>
@@ -19,6 +25,11 @@ export function SettingsDialog({ open, onClose }: { open: boolean; onClose: () =
           choices={Object.entries(LANGUAGES).map(([value, label]) => ({ value: value as Language, label }))}
           onChange={(chosen) => void chooseLanguage(chosen)}
         />
+        <div>
+          <Button icon="help" onClick={onHelp}>
+            {t("app.help")}
+          </Button>
+        </div>
       </div>
     </Dialog>
   );

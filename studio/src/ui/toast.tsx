@@ -1,5 +1,6 @@
 /** Short messages at the edge of the page. */
 import { signal } from "@preact/signals";
+import { useEffect, useState } from "preact/hooks";
 import { t } from "../text";
 import { IconButton } from "./button";
 import { Icon } from "./icons";
@@ -16,8 +17,8 @@ interface Toast {
 const toasts = signal<readonly Toast[]>([]);
 let count = 0;
 
-const SHOWN = 6000;
 const MOST = 4;
+const ICONS = { info: "info", good: "good", warn: "warning", bad: "error" } as const;
 
 /** Shows a message; those that report nothing bad go by themselves. Returns what takes it away. */
 export function toast(text: string, kind: ToastKind = "info", more = ""): () => void {
@@ -25,37 +26,67 @@ export function toast(text: string, kind: ToastKind = "info", more = ""): () => 
   const id = count;
   const others = toasts.peek().filter((one) => one.text !== text);
   toasts.value = [...others, { id, kind, text, more }].slice(-MOST);
-  const dismiss = () => {
-    toasts.value = toasts.peek().filter((one) => one.id !== id);
-  };
-  if (kind === "info" || kind === "good") setTimeout(dismiss, SHOWN);
-  return dismiss;
+  return () => dismiss(id);
 }
 
-const ICONS = { info: "info", good: "good", warn: "warning", bad: "error" } as const;
+function dismiss(id: number): void {
+  toasts.value = toasts.peek().filter((one) => one.id !== id);
+}
 
+/** Time in which a message can be read, by a slow reader [ms]. */
+function readingTime({ text, more }: Toast): number {
+  return 5000 + 80 * (text.length + more.length);
+}
+
+function isUrgent({ kind }: Toast): boolean {
+  return kind === "bad" || kind === "warn";
+}
+
+/** All messages: two regions that are always there, so that a screen reader reads each message once. */
 export function Toasts() {
+  const all = toasts.value;
   return (
-    <section class="ui-toasts" aria-label={t("app.messages")} aria-live="polite" aria-relevant="additions">
-      {toasts.value.map((one) => (
-        <div key={one.id} class={`ui-toast ${one.kind}`} role={one.kind === "bad" ? "alert" : undefined}>
-          <div>
-            <p class="ui-row">
-              <Icon name={ICONS[one.kind]} />
-              <span class="ui-grow">{one.text}</span>
-            </p>
-            {one.more && <p class="ui-help">{one.more}</p>}
-          </div>
-          <IconButton
-            icon="close"
-            size="small"
-            label={t("app.dismiss")}
-            onClick={() => {
-              toasts.value = toasts.peek().filter((other) => other.id !== one.id);
-            }}
-          />
-        </div>
-      ))}
+    <section class="ui-toasts" aria-label={t("app.messages")}>
+      <div role="alert">
+        {all.filter(isUrgent).map((one) => (
+          <Message key={one.id} one={one} />
+        ))}
+      </div>
+      <div role="status">
+        {all
+          .filter((one) => !isUrgent(one))
+          .map((one) => (
+            <Message key={one.id} one={one} />
+          ))}
+      </div>
     </section>
+  );
+}
+
+/** A message; it stays while the pointer or the focus is on it. */
+function Message({ one }: { one: Toast }) {
+  const [held, setHeld] = useState(false);
+  useEffect(() => {
+    if (held || isUrgent(one)) return undefined;
+    const timer = setTimeout(() => dismiss(one.id), readingTime(one));
+    return () => clearTimeout(timer);
+  }, [held, one]);
+  return (
+    <div
+      class={`ui-toast ${one.kind}`}
+      onPointerEnter={() => setHeld(true)}
+      onPointerLeave={() => setHeld(false)}
+      onFocusIn={() => setHeld(true)}
+      onFocusOut={() => setHeld(false)}
+    >
+      <div>
+        <p class="ui-row">
+          <Icon name={ICONS[one.kind]} />
+          <span class="ui-grow">{one.text}</span>
+        </p>
+        {one.more && <p class="ui-help">{one.more}</p>}
+      </div>
+      <IconButton icon="close" size="small" label={t("app.dismiss")} onClick={() => dismiss(one.id)} />
+    </div>
   );
 }

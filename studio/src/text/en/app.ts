@@ -17,6 +17,32 @@ export default {
   cyclogramHint: "Motions over the master angle",
   loomHint: "The loom in 3-D, and its run",
   filesHint: "The project, and everything out",
+  carpetHelp:
+    "Drop a picture on the page: it becomes a knot chart in the yarns of the list. Set size and quality, replace yarns, draw over single knots. The tabs at the left have the picture, the yarns and what the carpet needs and costs.",
+  machineHelp:
+    "Choose a machine of the catalogue and move its parameters: drawing, curves and checks follow. A check that fails turns red and says by how much. Keep a state as B to compare it.",
+  linkageHelp:
+    "Choose a tool and draw links, pins, slides and drives; drag a joint, and every path, the transmission angle and the dead centres follow. The panel tells what is missing until it moves.",
+  synthesisHelp:
+    "Click points, poses or a function that a four-bar is to follow. The candidates stand beside it, the best first, with the reasons for those left out; one click takes a candidate to the linkage editor.",
+  cyclogramHelp:
+    "Each lane is a motion over the master angle. Drag beginnings, ends and levels; relations that do not hold turn red. The buttons find the least acceleration or the shortest turn.",
+  loomHelp:
+    "The loom of the carpet, with its real parts. Turn it with the mouse or a finger, play its row, cut it open, click a part for its numbers, and weave the carpet by the twin.",
+  filesHelp:
+    "All files of the project, as the command line reads them. Write charts, drawings, tables and programmes of them into the folder out/, and open or download these.",
+  help: "Help and keys",
+  keysHere: "Keys of this view",
+  keysEverywhere: "Keys everywhere",
+  keysSlider: "On a slider the arrow keys move a step, Page Up and Page Down ten, Home and End go to its ends.",
+  keysMotion: "On a motion, a beginning or an end the arrow keys move it by a degree, with Shift by ten.",
+  keysFiles: "Tab goes through files and buttons; Enter or Space chooses.",
+  keyUndo: "undo in the file of this view",
+  keyRedo: "redo",
+  keySave: "save now; the studio saves by itself",
+  keyNext: "to the next control; with Shift to the one before",
+  keyEscape: "ends a tool or a dialog",
+  keyHelp: "this help",
   settings: "Settings",
   theme: "Theme",
   themeAuto: "As the system",
