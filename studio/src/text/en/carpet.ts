@@ -167,6 +167,7 @@ export default {
   rowBefore: "Row below",
   nextRow: "Row above",
   runs: "Runs of the row, in the direction of reading",
+  surroundings: "The chart around the run",
   rowsText: "The row as in rows.txt, in both directions",
   weaverKeys: "Right and left arrow: next run and run before. Up and down arrow: row above and below. Escape: back.",
 } as const;

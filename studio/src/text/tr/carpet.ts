@@ -169,6 +169,7 @@ export default {
   rowBefore: "Alttaki sıra",
   nextRow: "Üstteki sıra",
   runs: "Sıranın dizileri, okuma yönünde",
+  surroundings: "Dizinin çevresindeki desen",
   rowsText: "rows.txt dosyasındaki gibi sıra, iki yönde",
   weaverKeys: "Sağ ve sol ok: sonraki ve önceki dizi. Yukarı ve aşağı ok: üstteki ve alttaki sıra. Escape: geri.",
 } satisfies Same<typeof en>;

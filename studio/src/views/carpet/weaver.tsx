@@ -7,6 +7,7 @@ import { remember, remembered } from "../../app/settings";
 import { t } from "../../text";
 import { Button, NumberField, Segments } from "../../ui";
 import type { CarpetModel, Recipe } from "./model";
+import { Surroundings } from "./surroundings";
 import { isLight } from "./yarns";
 
 type Direction = "right" | "left" | "alternate";
@@ -36,6 +37,8 @@ export function Weaver({ model, onClose }: { model: CarpetModel; onClose: () => 
   const place = useSignal<Place>(placeOf(remembered(name)));
   const answer = useSignal<RowAnswer | null>(null);
   const box = useRef<HTMLElement>(null);
+  /** The run shown last, until that of another row is read. */
+  const seen = useRef({ first: 1, cells: 1 });
   const ask = useMemo(
     () =>
       latest(
@@ -90,6 +93,7 @@ export function Weaver({ model, onClose }: { model: CarpetModel; onClose: () => 
     event.preventDefault();
   };
   const now = runs[at];
+  if (now !== undefined) seen.current = now;
   return (
     <section class="carpet-weaver" ref={box} tabIndex={-1} aria-label={t("carpet.weaver")} onKeyDown={key}>
       <div class="ui-row">
@@ -139,6 +143,9 @@ export function Weaver({ model, onClose }: { model: CarpetModel; onClose: () => 
             runs.map((run, index) => <RunCell key={index} run={run} answer={found} now={index === at} />)}
         </ol>
       </div>
+      {model.chart.value !== null && (
+        <Surroundings model={model} row={row} first={seen.current.first - 1} cells={seen.current.cells} />
+      )}
       <pre class="carpet-line" tabIndex={0} role="region" aria-label={t("carpet.rowsText")}>
         {found === null ? "" : `${found.rightward}\n${found.leftward}`}
       </pre>
