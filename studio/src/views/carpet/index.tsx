@@ -174,7 +174,7 @@ function Timing({ model }: { model: CarpetModel }) {
 
 function Problem({ model }: { model: CarpetModel }) {
   const problem = model.problem.value;
-  // What the file's reader reports already is not said twice.
+  // What the file's reader reports already is not reported twice.
   const reported = model.document.error.value?.given.replace(/, line \d+/, "");
   const edit = /edits\.(\d+)/.exec(problem?.given ?? "")?.[1];
   if (problem === null || (reported === problem.given && edit === undefined)) return null;

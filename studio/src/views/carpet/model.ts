@@ -56,7 +56,7 @@ export class CarpetModel {
   readonly sought = signal<number | null>(null);
   readonly recipe: ReadonlySignal<Recipe | null>;
   readonly yarnIndex: ReadonlySignal<number>;
-  readonly #ask: Latest<{ recipe: Recipe; draft: boolean }>;
+  readonly #send: Latest<{ recipe: Recipe; draft: boolean }>;
   /** A chart waits for the server to be back. */
   #isWaiting = false;
   #timer: ReturnType<typeof setTimeout> | undefined;
@@ -68,7 +68,7 @@ export class CarpetModel {
       () => this.chart.value?.about.yarns.findIndex((yarn) => yarn.name === this.yarn.value) ?? -1,
     );
     let began = 0;
-    this.#ask = latest(
+    this.#send = latest(
       ({ recipe, draft }: { recipe: Recipe; draft: boolean }, abort) => {
         this.busy.value = true;
         began = performance.now();
@@ -93,13 +93,13 @@ export class CarpetModel {
     const end = effect(() => {
       const recipe = this.recipe.value;
       clearTimeout(this.#timer);
-      if (recipe !== null) this.#ask({ recipe, draft: true });
+      if (recipe !== null) this.#send({ recipe, draft: true });
     });
     const back = effect(() => {
       const recipe = this.recipe.peek();
       if (connection.value !== "connected" || !this.#isWaiting || recipe === null) return;
       this.#isWaiting = false;
-      this.#ask({ recipe, draft: true });
+      this.#send({ recipe, draft: true });
     });
     const kept = effect(() => remember("carpet.split", String(this.split.value)));
     return () => {
@@ -107,7 +107,7 @@ export class CarpetModel {
       back();
       kept();
       clearTimeout(this.#timer);
-      this.#ask.cancel();
+      this.#send.cancel();
       this.busy.value = false;
     };
   }
@@ -128,7 +128,7 @@ export class CarpetModel {
     // A draft differs from the chart where the picture was read as a photo.
     if (about.draft && about.reading === "photo") {
       this.#timer = setTimeout(() => {
-        if (this.recipe.peek() === recipe) this.#ask({ recipe, draft: false });
+        if (this.recipe.peek() === recipe) this.#send({ recipe, draft: false });
       }, PAUSE);
     }
   }

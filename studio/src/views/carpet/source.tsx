@@ -142,12 +142,12 @@ function Handle({ at, point, about, onMove }: HandleProps) {
     event.preventDefault();
     onMove(at, { x: point.x + (by[0] ?? 0), y: point.y + (by[1] ?? 0) });
   };
-  const place = { left: `${(100 * point.x) / about.width}%`, top: `${(100 * point.y) / about.height}%` };
+  const position = { left: `${(100 * point.x) / about.width}%`, top: `${(100 * point.y) / about.height}%` };
   return (
     <button
       type="button"
       class="carpet-handle"
-      style={place}
+      style={position}
       aria-label={`${names[at] ?? ""}: ${Math.round(point.x)}, ${Math.round(point.y)}`}
       onPointerDown={(event) => event.currentTarget.setPointerCapture(event.pointerId)}
       onPointerMove={drag}

@@ -1,16 +1,16 @@
 import { describe, expect, it } from "vitest";
 import type { RowRun } from "../../api/messages";
 import { namesOf } from "./model";
-import { countText, isRightward, placeOf } from "./weaver";
+import { countText, isRightward, positionOf } from "./weaver";
 import { isLight } from "./yarns";
 
 const RUN: RowRun = { first: 1, cells: 4, knots: 4, yarn: 0, mark: 0, second: 0 };
 
-describe("the weaver's place", () => {
+describe("the weaver's position", () => {
   it("is remembered as a text", () => {
-    expect(placeOf("12 3 left")).toEqual({ row: 12, run: 3, direction: "left" });
-    expect(placeOf(null)).toEqual({ row: 1, run: 0, direction: "alternate" });
-    expect(placeOf("-4 x up")).toEqual({ row: 1, run: 0, direction: "alternate" });
+    expect(positionOf("12 3 left")).toEqual({ row: 12, run: 3, direction: "left" });
+    expect(positionOf(null)).toEqual({ row: 1, run: 0, direction: "alternate" });
+    expect(positionOf("-4 x up")).toEqual({ row: 1, run: 0, direction: "alternate" });
   });
 
   it("is read to and fro", () => {

@@ -13,14 +13,14 @@ import { isLight } from "./yarns";
 type Direction = "right" | "left" | "alternate";
 
 /** Where the weaver is: row from the lower edge, run in the direction of reading from 0. */
-export interface Place {
+export interface Position {
   row: number;
   run: number;
   direction: Direction;
 }
 
-/** The place that a text holds, as this browser remembers it; the first row where it holds none. */
-export function placeOf(text: string | null): Place {
+/** The position that a text holds, as this browser remembers it; the first row where it holds none. */
+export function positionOf(text: string | null): Position {
   const [row, run, direction] = (text ?? "").split(" ");
   const known = (["right", "left", "alternate"] as const).find((one) => one === direction);
   return { row: Math.max(1, Number(row) || 1), run: Math.max(0, Number(run) || 0), direction: known ?? "alternate" };
@@ -34,12 +34,12 @@ export function isRightward(row: number, direction: Direction): boolean {
 /** One row at a time, large: the runs to tie, in the direction of reading. */
 export function Weaver({ model, onClose }: { model: CarpetModel; onClose: () => void }) {
   const name = `weaver.${model.path}`;
-  const place = useSignal<Place>(placeOf(remembered(name)));
+  const position = useSignal<Position>(positionOf(remembered(name)));
   const answer = useSignal<RowAnswer | null>(null);
   const box = useRef<HTMLElement>(null);
   /** The run shown last, until that of another row is read. */
   const seen = useRef({ first: 1, cells: 1 });
-  const ask = useMemo(
+  const read = useMemo(
     () =>
       latest(
         ({ recipe, row }: { recipe: Recipe; row: number }, signal) =>
@@ -54,31 +54,31 @@ export function Weaver({ model, onClose }: { model: CarpetModel; onClose: () => 
   );
   useEffect(() => {
     box.current?.focus();
-    return () => ask.cancel();
+    return () => read.cancel();
   }, []);
   useSignalEffect(() => {
     const [recipe, chart] = [model.recipe.value, model.chart.value];
-    const { row, run, direction } = place.value;
+    const { row, run, direction } = position.value;
     if (chart === null || recipe === null) return;
     if (row > chart.grid.rows) {
-      place.value = { row: chart.grid.rows, run: 0, direction };
+      position.value = { row: chart.grid.rows, run: 0, direction };
       return;
     }
     remember(name, `${row} ${run} ${direction}`);
-    ask({ recipe, row });
+    read({ recipe, row });
   });
 
   const found = answer.value;
-  const { row, direction } = place.value;
+  const { row, direction } = position.value;
   const rows = model.chart.value?.grid.rows ?? 1;
   const rightward = isRightward(row, direction);
   const runs = found === null || found.row !== row ? [] : rightward ? found.runs : [...found.runs].reverse();
-  const at = Math.min(place.value.run, Math.max(0, runs.length - 1));
+  const at = Math.min(position.value.run, Math.max(0, runs.length - 1));
   const goTo = (to: number, run = 0) => {
-    place.value = { row: Math.min(Math.max(to, 1), rows), run, direction };
+    position.value = { row: Math.min(Math.max(to, 1), rows), run, direction };
   };
   const step = (by: number) => {
-    if (at + by >= 0 && at + by < runs.length) place.value = { row, run: at + by, direction };
+    if (at + by >= 0 && at + by < runs.length) position.value = { row, run: at + by, direction };
     else if (by > 0 && row < rows) goTo(row + 1);
     else if (by < 0 && row > 1) goTo(row - 1, Number.MAX_SAFE_INTEGER);
   };
@@ -114,7 +114,7 @@ export function Weaver({ model, onClose }: { model: CarpetModel; onClose: () => 
             { value: "left", label: t("carpet.leftward") },
           ]}
           onChange={(chosen) => {
-            place.value = { row, run: 0, direction: chosen };
+            position.value = { row, run: 0, direction: chosen };
           }}
         />
         <Button icon="close" onClick={onClose}>
@@ -143,12 +143,6 @@ export function Weaver({ model, onClose }: { model: CarpetModel; onClose: () => 
             runs.map((run, index) => <RunCell key={index} run={run} answer={found} now={index === at} />)}
         </ol>
       </div>
-      {model.chart.value !== null && (
-        <Surroundings model={model} row={row} first={seen.current.first - 1} cells={seen.current.cells} />
-      )}
-      <pre class="carpet-line" tabIndex={0} role="region" aria-label={t("carpet.rowsText")}>
-        {found === null ? "" : `${found.rightward}\n${found.leftward}`}
-      </pre>
       <div class="ui-row carpet-steps">
         <Button icon="left" disabled={row === 1 && at === 0} onClick={() => step(-1)}>
           {t("carpet.runBefore")}
@@ -163,6 +157,12 @@ export function Weaver({ model, onClose }: { model: CarpetModel; onClose: () => 
           {t("carpet.nextRow")}
         </Button>
       </div>
+      {model.chart.value !== null && (
+        <Surroundings model={model} row={row} first={seen.current.first - 1} cells={seen.current.cells} />
+      )}
+      <pre class="carpet-line" tabIndex={0} role="region" aria-label={t("carpet.rowsText")}>
+        {found === null ? "" : `${found.rightward}\n${found.leftward}`}
+      </pre>
       <p class="ui-help">{t("carpet.weaverKeys")}</p>
     </section>
   );
