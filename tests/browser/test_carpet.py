@@ -21,6 +21,13 @@ DROP = """([name, bytes]) => {
   for (const kind of ['dragover', 'drop'])
     view.dispatchEvent(new DragEvent(kind, { dataTransfer: data, bubbles: true, cancelable: true }));
 }"""
+LOSE = """new Promise(done => {
+  const canvas = document.querySelector('.carpet-surface canvas');
+  const context = canvas.getContext('webgl2').getExtension('WEBGL_lose_context');
+  canvas.addEventListener('webglcontextlost', () => setTimeout(() => context.restoreContext()));
+  canvas.addEventListener('webglcontextrestored', () => done());
+  context.loseContext();
+})"""
 AT_KNOT = re.compile(r"Row (\d+) from below, knot (\d+) from the left: (.+) \((.)\)")
 
 
@@ -157,4 +164,6 @@ def test_the_weaver_goes_on_where_the_page_was_left(carpet: Page, running: Studi
     expect(weaver).to_be_focused()
     carpet.keyboard.press("Escape")
     expect(carpet.locator(".carpet-surface")).to_be_visible()
+    _until_drawn(carpet)
+    carpet.evaluate(LOSE)
     _until_drawn(carpet)

@@ -1,5 +1,5 @@
 import { useSignal, useSignalEffect } from "@preact/signals";
-import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
+import { useRef } from "preact/hooks";
 import { t } from "../../text";
 import { Button, IconButton } from "../../ui";
 import { Compare, CompareLine } from "./compare";
@@ -18,52 +18,20 @@ import {
   zoomed,
 } from "./geometry";
 import type { CarpetModel } from "./model";
-import { Renderer } from "./renderer";
 import { handOf, useHand } from "./use-hand";
+import { useRenderer } from "./use-renderer";
 
 const ZOOM = 1.4;
 
 /** The chart: zoom from the whole carpet to single knots, tools, row and knot under the pointer or the cursor. */
 export function ChartCanvas({ model }: { model: CarpetModel }) {
-  const canvas = useRef<HTMLCanvasElement>(null);
-  const renderer = useRef<Renderer | null>(null);
+  const { canvas, renderer, size, restored, missing } = useRenderer(model);
   const view = useSignal<View>({ x: 0, y: 0, scale: 0 });
-  const size = useSignal<Size>({ width: 1, height: 1 });
   const cursor = useSignal<Knot | null>(null);
   const hover = useSignal<Knot | null>(null);
-  const [missing, setMissing] = useState(false);
-  const [restored, setRestored] = useState(0);
   const shape = useRef("");
   /** The view of the whole carpet, which stays whole while the page changes its size. */
   const whole = useRef<View | null>(null);
-
-  useLayoutEffect(() => {
-    const element = canvas.current;
-    if (element === null) return undefined;
-    renderer.current = Renderer.of(element);
-    if (renderer.current === null) {
-      setMissing(true);
-      return undefined;
-    }
-    const lost = (event: Event) => event.preventDefault();
-    const back = () => setRestored((count) => count + 1);
-    element.addEventListener("webglcontextlost", lost);
-    element.addEventListener("webglcontextrestored", back);
-    const watch = new ResizeObserver(() => {
-      const ratio = Math.min(devicePixelRatio, 2);
-      const [width, height] = [Math.max(1, element.clientWidth), Math.max(1, element.clientHeight)];
-      size.value = { width, height };
-      renderer.current?.resize(Math.round(width * ratio), Math.round(height * ratio));
-    });
-    watch.observe(element);
-    return () => {
-      watch.disconnect();
-      element.removeEventListener("webglcontextlost", lost);
-      element.removeEventListener("webglcontextrestored", back);
-      renderer.current?.end();
-      renderer.current = null;
-    };
-  }, [restored]);
 
   useSignalEffect(() => {
     const chart = model.chart.value;
@@ -79,12 +47,6 @@ export function ChartCanvas({ model }: { model: CarpetModel }) {
     else view.value = heldView(old, chart.grid, held);
     shape.current = key;
   });
-  useSignalEffect(() => {
-    const chart = model.chart.value;
-    if (chart === null) return;
-    renderer.current?.setYarns(chart.about.yarns);
-    renderer.current?.setChart(chart.grid, chart.knots);
-  });
   // A row that is looked up is shown with the cursor on it.
   useSignalEffect(() => {
     const [row, chart] = [model.sought.value, model.chart.peek()];
@@ -96,26 +58,16 @@ export function ChartCanvas({ model }: { model: CarpetModel }) {
     view.value = closeTo(cursor.value, chart.grid, size.peek());
   });
   useSignalEffect(() => {
+    restored.value;
     const source = model.source.value;
     if (source !== null) renderer.current?.setSource(source.width, source.height, source.pixels);
   });
   useSignalEffect(() => {
+    restored.value;
     const seen = view.value;
     if (seen.scale > 0 && size.value.width > 1)
       renderer.current?.show({ view: seen, split: model.split.value, left: model.left.value });
   });
-  // What was sent to a lost context is sent again.
-  useEffect(() => {
-    if (restored === 0) return;
-    const [chart, source] = [model.chart.peek(), model.source.peek()];
-    if (chart !== null) {
-      renderer.current?.setYarns(chart.about.yarns);
-      renderer.current?.setChart(chart.grid, chart.knots);
-    }
-    if (source !== null) renderer.current?.setSource(source.width, source.height, source.pixels);
-    renderer.current?.show({ view: view.peek(), split: model.split.peek(), left: model.left.peek() });
-  }, [restored]);
-
   const hand = useHand({ model, canvas, renderer, view, size, cursor, hover });
   const chart = model.chart.value;
   const zoom = (factor: number) => {

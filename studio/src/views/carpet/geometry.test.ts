@@ -3,9 +3,11 @@ import {
   CLOSEST,
   canvasPoint,
   chartPoint,
+  closeTo,
   type Grid,
   heldView,
   knotAt,
+  middleKnot,
   nearestKnot,
   panned,
   showing,
@@ -20,6 +22,13 @@ const GRID: Grid = { rows: 300, columns: 200, aspect: 1.25 };
 const SIZE = { width: 500, height: 400 };
 
 describe("the view of a chart", () => {
+  it("of single knots has a knot in its middle", () => {
+    const knot = { column: 150, line: 20 };
+    const view = closeTo(knot, GRID, SIZE);
+    expect(knotAt(view, GRID, SIZE, SIZE.width / 2, SIZE.height / 2)).toEqual(knot);
+    expect(middleKnot(view)).toEqual(knot);
+  });
+
   it("shows the whole carpet", () => {
     const view = wholeView(GRID, SIZE);
     const first = canvasPoint(view, GRID, SIZE, 0, 0);

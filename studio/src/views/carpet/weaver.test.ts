@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import type { RowRun } from "../../api/messages";
 import { namesOf } from "./model";
-import { countText, isRightward, positionOf } from "./weaver";
+import { cellsOf, countText, isRightward, positionOf } from "./weaver";
 import { isLight } from "./yarns";
 
 const RUN: RowRun = { first: 1, cells: 4, knots: 4, yarn: 0, mark: 0, second: 0 };
@@ -17,6 +17,11 @@ describe("the weaver's position", () => {
     expect([1, 2, 3].map((row) => isRightward(row, "alternate"))).toEqual([true, false, true]);
     expect(isRightward(2, "right")).toBe(true);
     expect(isRightward(1, "left")).toBe(false);
+  });
+
+  it("counts cells in the direction of reading", () => {
+    expect(cellsOf({ ...RUN, first: 3 }, { columns: 10 }, true)).toEqual({ first: 3, last: 6 });
+    expect(cellsOf({ ...RUN, first: 3 }, { columns: 10 }, false)).toEqual({ first: 5, last: 8 });
   });
 
   it("counts knots as they are called", () => {
