@@ -124,6 +124,48 @@ def test_a_stroke_is_an_edit_that_undo_takes_out(carpet: Page, running: Studio) 
     assert _edits(running) == before
 
 
+def test_each_tool_works_by_keys_and_each_edit_is_taken_out(carpet: Page, running: Studio) -> None:
+    surface = carpet.locator(".carpet-surface")
+    to_whole = carpet.get_by_role("button", name="On the whole carpet")
+    two_ends = ("ArrowUp", "Enter", "Shift+ArrowUp", "Shift+ArrowLeft", "Enter")
+    for tool, keys, whole, edit in (
+        ("Line", two_ends, False, r"line \d+,\d+ \d+,\d+ \S+"),
+        ("Fill", ("Enter",), False, r"fill \d+,\d+ \S+"),
+        ("Mirror", two_ends, False, r"mirror across in \d+,\d+ \d+,\d+"),
+        ("Repeat", two_ends, True, r"repeat \d+,\d+ \d+,\d+"),
+        ("Border", (), True, r"border 3 \S+"),
+    ):
+        _tool(carpet, tool)
+        for key in keys:
+            surface.press(key)
+        if whole:
+            to_whole.click()
+        tab = carpet.get_by_role("tab", name=re.compile("^Edits"))
+        tab.click()
+        expect(carpet.locator(".carpet-edits code").first).to_have_text(re.compile(f"^{edit}"), timeout=PATIENCE)
+    until_file(running.project, "carpet.toml", "border 3")
+    assert len(_edits(running)) == 5
+    carpet.get_by_role("button", name="Take edit 2 out").click()
+    expect(carpet.locator(".carpet-edits li")).to_have_count(4)
+    assert violations(carpet) == []
+    carpet.get_by_role("button", name="Take all edits out").click()
+    expect(tab).to_have_text("Edits (0)")
+    expect(carpet.locator(".project-saved.saved")).to_be_visible(timeout=PATIENCE)
+    assert _edits(running) == []
+
+
+def test_the_crop_is_set_by_keys(carpet: Page, running: Studio) -> None:
+    carpet.get_by_role("button", name="Crop the picture").click()
+    corner = carpet.get_by_role("button", name=re.compile("^Lower right corner"))
+    for key in ("Shift+ArrowLeft", "Shift+ArrowUp"):
+        corner.press(key)
+    assert violations(carpet) == []
+    carpet.get_by_role("button", name="Apply").click()
+    until_file(running.project, "carpet.toml", "crop = ")
+    carpet.keyboard.press("Control+z")
+    expect(carpet.locator(".carpet-side")).to_contain_text("whole picture", timeout=PATIENCE)
+
+
 def test_a_knot_is_that_of_the_command_line(carpet: Page, running: Studio, tmp_path: Path) -> None:
     recipe, out = running.project / "carpet.toml", tmp_path / "chart"
     command = ("chart", str(recipe), "--no-pdf", "--rows", "none", "--out", str(out))
