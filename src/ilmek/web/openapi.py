@@ -2,8 +2,8 @@
 
 import inspect
 import re
-from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 from ilmek import __version__
@@ -69,9 +69,9 @@ def openapi_answer(request: OpenApiRequest, context: Context) -> dict[str, Any]:
     return openapi()
 
 
-def openapi(endpoints: Iterable[Endpoint] = ENDPOINTS) -> dict[str, Any]:
+@cache
+def openapi(endpoints: tuple[Endpoint, ...] = ENDPOINTS) -> dict[str, Any]:
     """The API as OpenAPI 3.1."""
-    endpoints = tuple(endpoints)
     schemas, components = record_schemas(endpoints, "#/components/schemas/{name}")
     paths: dict[str, Any] = {}
     for endpoint in endpoints:
