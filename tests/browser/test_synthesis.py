@@ -46,3 +46,24 @@ def test_a_candidate_goes_to_the_editor(page: Page, running: Studio) -> None:
     page.get_by_role("button", name="To the linkage editor").click()
     page.wait_for_url(re.compile("#linkage/square"), timeout=PATIENCE)
     assert data_of(running.project, "linkages/square.toml")["inputs"] == {"A0": "crank"}
+
+
+def test_a_path_is_clicked_on_an_empty_plane(page: Page, running: Studio) -> None:
+    open_view(page, running, "synthesis")
+    page.get_by_role("button", name="New task").click()
+    page.get_by_role("button", name="Create").click()
+    page.wait_for_url(re.compile("#synthesis/path$"), timeout=PATIENCE)
+    expect(page.get_by_text("4 more points are needed")).to_be_visible(timeout=PATIENCE)
+    box = page.get_by_role("group", name="Plane of the task").bounding_box()
+    assert box is not None
+    for number, (x, y) in enumerate([(0.3, 0.6), (0.4, 0.45), (0.55, 0.4), (0.68, 0.48), (0.75, 0.62)], 1):
+        page.mouse.click(box["x"] + x * box["width"], box["y"] + y * box["height"])
+        expect(page.get_by_role("button", name=re.compile(f"^Point {number} at"))).to_be_attached(timeout=PATIENCE)
+    full_search_ended(page)
+    assert violations(page) == []
+    points = data_of(running.project, "synthesis/path.toml")["settings"]["points"]
+    assert points.count("(") == 5
+    page.get_by_role("button", name="Remove all").click()
+    expect(page.get_by_text("4 more points are needed")).to_be_visible(timeout=PATIENCE)
+    page.get_by_label("Undo (Ctrl+Z)").click()
+    until_file(running.project, "synthesis/path.toml", points)

@@ -35,7 +35,7 @@ export default {
   timesLess: "{times} times less",
   comparedHelp: "Dashed: as it was. Nothing is changed until you take the solution; undo brings the old one back.",
   take: "Take the solution",
-  discard: "Leave it",
+  discard: "Discard",
   binds: "What binds, in the order of the turn",
   rules: "Relations, exclusions, limits",
   new: "New",

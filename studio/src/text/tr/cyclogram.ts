@@ -37,7 +37,7 @@ export default {
   timesLess: "{times} kat az",
   comparedHelp: "Kesikli: önceki hali. Çözümü alana kadar hiçbir şey değişmez; geri alma eskisini getirir.",
   take: "Çözümü al",
-  discard: "Bırak",
+  discard: "Vazgeç",
   binds: "Sınırlayanlar, tur sırasıyla",
   rules: "Bağıntılar, dışlamalar, sınırlar",
   new: "Yeni",

@@ -3,7 +3,17 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import { t } from "../../text";
 import { IconButton, useSize } from "../../ui";
 import { type At, type Camera, fitted, gridLines, type Size, toPlane, toScreen, zoomed } from "./camera";
-import { dragged, type Handle, handleAt, handlesOf, nearest, nudged, type RegionKind, type Scene } from "./handles";
+import {
+  dragged,
+  type Handle,
+  handleAt,
+  handlesOf,
+  nearest,
+  nudged,
+  type RegionKind,
+  type Scene,
+  snappedToPlane,
+} from "./handles";
 import { rectangle } from "./task";
 
 interface CanvasProps {
@@ -45,7 +55,8 @@ export function Canvas(props: CanvasProps) {
   const svg = useRef<SVGSVGElement>(null);
   const size = useSize(svg);
   const drag = useRef<Drag | null>(null);
-  const [camera, setCamera] = useCamera(props, size, drag);
+  const [isUnderMouse, setUnderMouse] = useState(false);
+  const [camera, setCamera] = useCamera(props, size, isUnderMouse, drag);
   const at = (event: PointerEvent | WheelEvent): At => {
     const box = svg.current?.getBoundingClientRect();
     return { x: event.clientX - (box?.left ?? 0), y: event.clientY - (box?.top ?? 0) };
@@ -74,7 +85,7 @@ export function Canvas(props: CanvasProps) {
     if (now === null) return;
     if (now.moved && (now.handle || props.drawing)) onScene(scene, true);
     else if (!now.moved && !now.handle && !props.drawing && props.canAdd && event.type === "pointerup")
-      props.onAdd(toPlane(camera, now.from));
+      props.onAdd(snappedToPlane(camera, now.from));
   };
   const wheel = (event: WheelEvent) => {
     event.preventDefault();
@@ -93,6 +104,8 @@ export function Canvas(props: CanvasProps) {
         role="group"
         aria-label={props.label}
         class={props.drawing ? "drawing" : ""}
+        onPointerEnter={(event) => setUnderMouse(event.pointerType === "mouse")}
+        onPointerLeave={() => setUnderMouse(false)}
         onPointerDown={down}
         onPointerMove={move}
         onPointerUp={up}
@@ -104,15 +117,11 @@ export function Canvas(props: CanvasProps) {
         <Handles {...props} camera={camera} />
       </svg>
       <div class="synthesis-zoom">
-        <IconButton icon="plus" label={t("synthesis.closer")} onClick={() => setCamera(zoomed(camera, 1.3, middle))} />
-        <IconButton
-          icon="minus"
-          label={t("synthesis.farther")}
-          onClick={() => setCamera(zoomed(camera, 1 / 1.3, middle))}
-        />
+        <IconButton icon="plus" label={t("ui.zoomIn")} onClick={() => setCamera(zoomed(camera, 1.3, middle))} />
+        <IconButton icon="minus" label={t("ui.zoomOut")} onClick={() => setCamera(zoomed(camera, 1 / 1.3, middle))} />
         <IconButton
           icon="fit"
-          label={t("synthesis.fit")}
+          label={t("ui.zoomFit")}
           onClick={() => setCamera(fitted(props.content, size, 44, props.stretched))}
         />
       </div>
@@ -132,26 +141,31 @@ function withRegion(scene: Scene, kind: RegionKind, camera: Camera, from: At, to
   return { ...scene, regions: { ...scene.regions, [kind]: rectangle(one, other) } };
 }
 
-/** The camera: fitted anew where the content leaves the drawing, or fills little of it, but never during a drag. */
-function useCamera(props: CanvasProps, size: Size, drag: RefObject<Drag | null>) {
-  const { content, stretched = false } = props;
+/**
+ * The camera: fitted anew where the content leaves the drawing, or fills little of it, but never during a drag, and not
+ * under a mouse, so that the plane stands still while points are clicked.
+ */
+function useCamera(props: CanvasProps, size: Size, isBusy: boolean, drag: RefObject<Drag | null>) {
+  const { content, scene, stretched = false } = props;
   const [camera, setCamera] = useState<Camera>(() => fitted(content, size, 44, stretched));
   const lastSize = useRef(size);
   useEffect(() => {
-    if (drag.current !== null) return;
     const resized = lastSize.current !== size;
+    if (drag.current !== null || (isBusy && !resized)) return;
     lastSize.current = size;
-    if (resized || !inSight(camera, content, size)) setCamera(fitted(content, size, 44, stretched));
-  }, [content, size, stretched]);
+    const isBare = content.length === scene.points.length;
+    if (resized || !inSight(camera, content, size, isBare ? 0 : 0.4)) setCamera(fitted(content, size, 44, stretched));
+  }, [content, size, stretched, isBusy]);
   return [camera, setCamera] as const;
 }
 
-function inSight(camera: Camera, content: readonly At[], size: Size): boolean {
+function inSight(camera: Camera, content: readonly At[], size: Size, least: number): boolean {
+  if (content.length === 0) return true;
   const all = content.map((one) => toScreen(camera, one));
   const [xs, ys] = [all.map((one) => one.x), all.map((one) => one.y)];
   const [left, right, high, low] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
   const filled = Math.max((right - left) / size.width, (low - high) / size.height);
-  return left >= 0 && high >= 0 && right <= size.width && low <= size.height && filled > 0.4;
+  return left >= 0 && high >= 0 && right <= size.width && low <= size.height && filled >= least;
 }
 
 function Grid({ camera, size, axes }: { camera: Camera; size: Size; axes: CanvasProps["axes"] }) {

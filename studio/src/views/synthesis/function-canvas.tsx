@@ -7,7 +7,7 @@ import { Canvas } from "./canvas";
 import { reach, rowPath } from "./drawing";
 import { generatedRow, requiredRow, samplesOf } from "./function-scene";
 import type { Handle, Scene } from "./handles";
-import { LISTS, type SynthesisData, type TaskPoint, withPoints, withSetting } from "./task";
+import { isRemovable, LISTS, type SynthesisData, type TaskPoint, withPoints, withSetting } from "./task";
 import { MovingLinks } from "./thumbnail";
 
 interface FunctionProps {
@@ -47,11 +47,10 @@ export function FunctionCanvas(props: FunctionProps) {
     if (answer) onChange(withPoints(free, samplesOf(answer)), true);
   };
   const add = (at: At) => {
-    const made = { x: Number(at.x.toPrecision(4)), y: Number(at.y.toPrecision(4)) };
-    if (!points.some((one) => one.x === made.x)) onChange(withPoints(data, [...points, made]), true);
+    if (!points.some((one) => one.x === at.x)) onChange(withPoints(data, [...points, at]), true);
   };
   const remove = (handle: Handle) => {
-    if (points.length > list.least)
+    if (isRemovable("function-four-bar", points.length))
       onChange(
         withPoints(
           data,

@@ -7,13 +7,15 @@ import { StillThumbnail, Thumbnail } from "./thumbnail";
 
 interface GalleryProps {
   answer: SynthesisAnswer;
+  /** Whether the answer is that of the full search for the task as it is now. */
+  isFull: boolean;
   chosen: number;
   onChoose: (number: number) => void;
   onLoosen: (name: string, value: string) => void;
 }
 
 /** The candidates, moving, in the order of their rank; filters; those left out with their reasons. */
-export function Gallery({ answer, chosen, onChoose, onLoosen }: GalleryProps) {
+export function Gallery({ answer, isFull, chosen, onChoose, onLoosen }: GalleryProps) {
   const [filter, setFilter] = useState<Filter>(NO_FILTER);
   const [order, setOrder] = useState<Order>("rank");
   const shown = ordered(
@@ -24,9 +26,9 @@ export function Gallery({ answer, chosen, onChoose, onLoosen }: GalleryProps) {
   return (
     <section class="ui-stack" aria-label={t("synthesis.gallery")}>
       <div class="ui-row synthesis-gallery-head">
-        <h2 class="ui-grow">{t("synthesis.gallery")}</h2>
-        <span class={`ui-badge ${answer.quick ? "warn" : "good"}`}>
-          {t(answer.quick ? "synthesis.shortSearch" : "synthesis.fullSearch")}
+        <h2>{t("synthesis.gallery")}</h2>
+        <span class={`ui-badge ${isFull ? "good" : "warn"}`}>
+          {t(isFull ? "synthesis.fullSearch" : "synthesis.shortSearch")}
         </span>
         <span class="ui-muted">{t("synthesis.found", { count: answer.found })}</span>
       </div>
@@ -149,33 +151,35 @@ function Filters({ filter, order, onFilter, onOrder }: FiltersProps) {
 }
 
 function NoAnswer({ answer, onLoosen }: { answer: SynthesisAnswer; onLoosen: (name: string, value: string) => void }) {
+  const settable = answer.loosened.filter((one) => one.name && one.value);
+  const remarks = answer.loosened.filter((one) => !settable.includes(one));
   return (
     <div class="ui-callout warn" role="status">
       <strong>{t("synthesis.noAnswer")}</strong>
-      <p>{answer.sieve}</p>
-      {answer.loosened.length > 0 && <p>{t("synthesis.loosenHelp")}</p>}
+      {[...answer.no_four_bar, ...remarks.map((one) => one.words)].map((words) => (
+        <p key={words}>{words}</p>
+      ))}
+      {settable.length > 0 && <p>{t("synthesis.loosenHelp")}</p>}
       <ul class="synthesis-loosened">
-        {answer.loosened.map((one) => (
+        {settable.map((one) => (
           <li key={one.words}>
             <span>{one.words}</span>
-            {one.name && one.value && (
-              <Button size="small" onClick={() => onLoosen(one.name ?? "", one.value ?? "")}>
-                {t("synthesis.setTo", { name: one.name, value: one.value })}
-              </Button>
-            )}
+            <Button size="small" onClick={() => onLoosen(one.name ?? "", one.value ?? "")}>
+              {t("synthesis.setTo", { name: one.name ?? "", value: one.value ?? "" })}
+            </Button>
           </li>
         ))}
       </ul>
-      {answer.quick && <p>{t("synthesis.causesFollow")}</p>}
+      <p>{answer.quick ? t("synthesis.causesFollow") : t("synthesis.changeTask")}</p>
     </div>
   );
 }
 
 function LeftOut({ answer }: { answer: SynthesisAnswer }) {
-  if (answer.left_out.length === 0 && answer.no_four_bar.length === 0) return null;
+  if (answer.left_out.length === 0) return null;
   const most = Math.max(1, ...answer.left_out.map((one) => one.count));
   return (
-    <details class="ui-details">
+    <details class="ui-details" open={answer.candidates.length === 0}>
       <summary>{t("synthesis.leftOut")}</summary>
       <p class="ui-help">{t("synthesis.leftOutHelp")}</p>
       <ul class="synthesis-reasons">
@@ -187,13 +191,6 @@ function LeftOut({ answer }: { answer: SynthesisAnswer }) {
           </li>
         ))}
       </ul>
-      {answer.no_four_bar.length > 0 && (
-        <ul>
-          {answer.no_four_bar.map((words) => (
-            <li key={words}>{words}</li>
-          ))}
-        </ul>
-      )}
       <ul class="synthesis-removed">
         {answer.removed.map((one, index) => (
           <li key={index}>

@@ -73,9 +73,13 @@ export function dragged(scene: Scene, camera: Camera, handle: Handle, to: At): S
     const angle = Math.atan2(at.y - to.y, to.x - at.x);
     return withAngle(scene, handle.index, nearTurn(snapped(angle / DEGREE, 1) * DEGREE, point.angle ?? 0));
   }
-  const step = steps(camera);
-  const plane = toPlane(camera, to);
-  return movedTo(scene, handle, { x: snapped(plane.x, step.x), y: snapped(plane.y, step.y) });
+  return movedTo(scene, handle, snappedToPlane(camera, to));
+}
+
+/** A position of the screen in the plane, rounded. */
+export function snappedToPlane(camera: Camera, at: At): At {
+  const [step, plane] = [steps(camera), toPlane(camera, at)];
+  return { x: snapped(plane.x, step.x), y: snapped(plane.y, step.y) };
 }
 
 /** The same angle, less than half a turn from another one. */

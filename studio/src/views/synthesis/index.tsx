@@ -4,7 +4,7 @@ import { goTo, type ViewProps } from "../../app/routes";
 import { filesOf, freePath, newFile, project, refreshProject } from "../../project";
 import { t } from "../../text";
 import { Button, Dialog, Segments, Select, toast } from "../../ui";
-import { DEFAULTS, LISTS, MACHINES, type Machine } from "./task";
+import { LISTS, MACHINES, type Machine } from "./task";
 import { TaskView } from "./task-view";
 import "./synthesis.css";
 
@@ -61,9 +61,10 @@ const STEMS: Record<Machine, string> = {
   "function-four-bar": "function",
 };
 
+/** A task to begin with: no points yet; a function by its name. */
 function textOf(machine: Machine): string {
-  const list = DEFAULTS[machine] && `${LISTS[machine].setting} = "${DEFAULTS[machine]}"\n`;
-  return `machine = "${machine}"\n\n[settings]\n${list}`;
+  const list = machine === "function-four-bar" ? 'function = "x^2"' : `${LISTS[machine].setting} = ""`;
+  return `machine = "${machine}"\n\n[settings]\n${list}\n`;
 }
 
 function NewTask({ open, onClose }: { open: boolean; onClose: () => void }) {

@@ -49,14 +49,14 @@ export function PlaneCanvas(props: PlaneProps) {
   };
   const add = (at: At) => {
     const last = points.at(-1)?.angle ?? 0;
-    const made: TaskPoint = { x: rounded(at.x), y: rounded(at.y), ...(poses ? { angle: last } : {}) };
+    const made: TaskPoint = { x: at.x, y: at.y, ...(poses ? { angle: last } : {}) };
     onChange(withPoints(data, [...points, made]), true);
     props.onPoint(points.length);
   };
   const remove = (handle: Handle) => {
     if (handle.kind === "corner")
       onChange(withScene(data, { ...scene, regions: { ...scene.regions, [handle.region]: undefined } }), true);
-    else if (points.length > LISTS[machine].least)
+    else
       onChange(
         withPoints(
           data,
@@ -110,10 +110,6 @@ export function PlaneCanvas(props: PlaneProps) {
       />
     </div>
   );
-}
-
-function rounded(value: number): number {
-  return Math.round(value * 1e4) / 1e4;
 }
 
 function Behind({

@@ -1,6 +1,6 @@
 import { t } from "../../text";
 import { Button, IconButton, QuantityField, quantityText } from "../../ui";
-import { LISTS, type Machine, type TaskPoint } from "./task";
+import { isRemovable, LISTS, type Machine, type TaskPoint } from "./task";
 
 interface PointsProps {
   machine: Machine;
@@ -14,7 +14,7 @@ const FIELDS = ["x", "y", "angle"] as const;
 
 /** The points of the task as typed values: what the canvas shows, for the keyboard. */
 export function PointsTable({ machine, points, chosen, onChoose, onChange }: PointsProps) {
-  const { units, least, most } = LISTS[machine];
+  const { units, most } = LISTS[machine];
   const fields = FIELDS.slice(0, units.length);
   const change = (index: number, field: (typeof FIELDS)[number], si: number | null) => {
     if (si !== null) onChange(points.map((one, at) => (at === index ? { ...one, [field]: si } : one)));
@@ -67,7 +67,7 @@ export function PointsTable({ machine, points, chosen, onChoose, onChange }: Poi
                 icon="remove"
                 size="small"
                 label={t("synthesis.removePoint", { number: index + 1 })}
-                disabled={points.length <= least}
+                disabled={!isRemovable(machine, points.length)}
                 onClick={() => onChange(points.filter((_, at) => at !== index))}
               />
             </div>
@@ -78,6 +78,11 @@ export function PointsTable({ machine, points, chosen, onChoose, onChange }: Poi
         <Button icon="add" disabled={points.length >= most} onClick={add}>
           {t(machine === "motion-four-bar" ? "synthesis.addPose" : "synthesis.addPoint")}
         </Button>
+        {machine !== "function-four-bar" && (
+          <Button icon="remove" disabled={points.length === 0} onClick={() => onChange([])}>
+            {t("synthesis.removeAll")}
+          </Button>
+        )}
         <span class="ui-muted">{t("synthesis.pointsOf", { count: points.length, most })}</span>
       </div>
     </div>

@@ -12,8 +12,8 @@ export type SearchState = "idle" | "quick" | "full" | "done" | "stopped" | "fail
 /** Pause after the last change before the full search begins [ms]. */
 export const PAUSE = 500;
 
-/** Time after which a short search is given up for a newer state [ms]. */
-const PATIENCE = 2000;
+/** Time after which a short search is given up for a newer state [ms]: nine points met exactly take seconds. */
+const PATIENCE = 15_000;
 
 export interface SearchError {
   given: string;
@@ -92,6 +92,14 @@ export class CandidateSearch {
   stop(): void {
     this.#stopFull();
     this.state.value = "stopped";
+  }
+
+  /** Ends everything and forgets the answer: the task cannot be searched yet. */
+  clear(): void {
+    this.close();
+    this.answer.value = null;
+    this.error.value = null;
+    this.state.value = "idle";
   }
 
   /** Ends everything. */

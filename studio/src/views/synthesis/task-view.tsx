@@ -15,7 +15,15 @@ import { Limits } from "./limits";
 import { PlaneCanvas } from "./plane-canvas";
 import { PointsTable } from "./points-table";
 import { CandidateSearch } from "./search";
-import { isMachine, pointsOf, type SynthesisData, type TaskPoint, withPoints, withSetting } from "./task";
+import {
+  isMachine,
+  missingPoints,
+  pointsOf,
+  type SynthesisData,
+  type TaskPoint,
+  withPoints,
+  withSetting,
+} from "./task";
 
 interface TaskProps {
   path: string;
@@ -31,9 +39,12 @@ export function TaskView({ path, stem, head }: TaskProps) {
   const [point, setPoint] = useState(-1);
   const saved = file.data.value;
   const data = draft ?? saved;
+  const missing = data === null ? 0 : missingPoints(data);
   useEffect(() => () => search.close(), []);
   useEffect(() => {
-    if (data !== null && isMachine(data.machine)) search.follow(withSetting(data, "chosen", undefined), draft === null);
+    if (data === null || !isMachine(data.machine)) return;
+    if (missing > 0) search.clear();
+    else search.follow(withSetting(data, "chosen", undefined), draft === null);
   }, [data, draft === null]);
   /** Shows a change at once; saves it when the drag has ended. */
   const change = (next: SynthesisData, settled: boolean) => {
@@ -41,7 +52,7 @@ export function TaskView({ path, stem, head }: TaskProps) {
     setDraft(settled ? null : next);
   };
   const answer = search.answer.value;
-  useReady(answer !== null || search.error.value !== null || file.saved.value === "missing");
+  useReady(answer !== null || missing > 0 || search.error.value !== null || file.saved.value === "missing");
   const number = Math.min(Math.max(Number(data?.settings?.["chosen"] ?? 1), 1), answer?.candidates.length ?? 1);
   const chosen = answer?.candidates.find((one) => one.number === number) ?? null;
   return (
@@ -60,6 +71,13 @@ export function TaskView({ path, stem, head }: TaskProps) {
         <div class="synthesis-columns">
           <div class="synthesis-main ui-stack">
             <Editor data={data} answer={answer} chosen={chosen} point={point} onPoint={setPoint} onChange={change} />
+            {missing > 0 && (
+              <p class="ui-callout" role="status">
+                {t(data.machine === "motion-four-bar" ? "synthesis.morePoses" : "synthesis.morePoints", {
+                  count: missing,
+                })}
+              </p>
+            )}
             <Status search={search} data={data} />
             {chosen && <Taken one={chosen} stem={stem} />}
           </div>
@@ -67,6 +85,7 @@ export function TaskView({ path, stem, head }: TaskProps) {
             {answer && (
               <Gallery
                 answer={answer}
+                isFull={search.state.value === "done"}
                 chosen={number}
                 onChoose={(to) => change(withSetting(data, "chosen", to === 1 ? undefined : to), true)}
                 onLoosen={(name, value) => change(withSetting(data, name, loosened(value)), true)}
@@ -147,6 +166,7 @@ function Status({ search, data }: { search: CandidateSearch; data: SynthesisData
       )}
       {answer !== null &&
         !answer.quick &&
+        answer.candidates.length > 0 &&
         answer.warnings.map((words) => (
           <p key={words} class="ui-callout warn">
             {words}

@@ -24,7 +24,7 @@ export interface TaskPoint {
   angle?: number;
 }
 
-/** Which setting holds the points, and the units of a point's numbers. */
+/** Which setting holds the points, the units of a point's numbers, and how many are searched. */
 export interface PointList {
   setting: "points" | "poses" | "samples";
   units: readonly string[];
@@ -33,7 +33,7 @@ export interface PointList {
 }
 
 export const LISTS: Record<Machine, PointList> = {
-  "path-four-bar": { setting: "points", units: ["mm", "mm"], least: 3, most: 200 },
+  "path-four-bar": { setting: "points", units: ["mm", "mm"], least: 4, most: 200 },
   "motion-four-bar": { setting: "poses", units: ["mm", "mm", "deg"], least: 3, most: 5 },
   "function-four-bar": { setting: "samples", units: ["", ""], least: 2, most: 60 },
 };
@@ -82,6 +82,20 @@ export function pointsOf(data: SynthesisData): TaskPoint[] | null {
   const text = data.settings?.[list.setting] ?? DEFAULTS[data.machine];
   const rows = typeof text === "string" ? readList(text, list.units) : null;
   return rows?.map(([x = 0, y = 0, angle]) => (angle === undefined ? { x, y } : { x, y, angle })) ?? null;
+}
+
+/** How many points are missing before a search can begin; three that are met exactly are enough for a path. */
+export function missingPoints(data: SynthesisData): number {
+  if (!isMachine(data.machine)) return 0;
+  const { least } = LISTS[data.machine];
+  const points = pointsOf(data)?.length ?? least;
+  if (data.machine === "function-four-bar" && points === 0) return 0;
+  return Math.max(0, (isOn(data.settings?.["exact"]) ? 3 : least) - points);
+}
+
+/** Whether a point may be removed: of a function two have to stay, others are clicked anew. */
+export function isRemovable(machine: Machine, count: number): boolean {
+  return machine !== "function-four-bar" || count > LISTS[machine].least;
 }
 
 /** The data with other points; those of a function are sorted by x. */
