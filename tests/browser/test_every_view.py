@@ -113,6 +113,16 @@ def test_the_tab_key_goes_through_everything(opened: Page) -> None:
     assert len(back) <= 1, f"in no order of reading: {back}"
 
 
+def test_its_help_lists_the_keys(opened: Page) -> None:
+    opened.locator("main").focus()
+    opened.keyboard.press("?")
+    help_dialog = opened.get_by_role("dialog")
+    assert help_dialog.locator("kbd").count() > 4
+    assert violations(opened) == []
+    opened.keyboard.press("Escape")
+    help_dialog.wait_for(state="hidden")
+
+
 def test_the_project_is_one_that_the_command_line_reads(running: Studio) -> None:
     assert (running.project / "carpet.toml").is_file()
     assert list(Path(running.project / "linkages").glob("*.toml"))

@@ -68,10 +68,6 @@ export async function upload<T>(path: string, file: Blob, signal?: AbortSignal):
   return (await answered("POST", path, { body: file, type: "application/octet-stream" }, signal)).json() as Promise<T>;
 }
 
-export async function getPacked<T>(path: string, signal?: AbortSignal): Promise<Packed<T>> {
-  return unpacked<T>(await (await answered("GET", path, undefined, signal)).arrayBuffer());
-}
-
 export async function postPacked<T>(path: string, body: unknown, signal?: AbortSignal): Promise<Packed<T>> {
   return unpacked<T>(await (await answered("POST", path, json(body), signal)).arrayBuffer());
 }

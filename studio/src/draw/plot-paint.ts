@@ -195,7 +195,7 @@ function paintMarkers(
   }
 }
 
-export function fillMarker(
+function fillMarker(
   context: CanvasRenderingContext2D,
   look: number,
   x: number,
@@ -231,11 +231,11 @@ export function paintCursor(context: CanvasRenderingContext2D, plot: ShownPlot, 
   }
 }
 
-export function toX(layout: Layout, value: number): number {
+function toX(layout: Layout, value: number): number {
   return layout.left + ((value - layout.x.low) / (layout.x.high - layout.x.low)) * (layout.right - layout.left);
 }
 
-export function toY(layout: Layout, value: number): number {
+function toY(layout: Layout, value: number): number {
   return layout.bottom - ((value - layout.y.low) / (layout.y.high - layout.y.low)) * (layout.bottom - layout.top);
 }
 

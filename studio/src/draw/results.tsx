@@ -3,7 +3,7 @@ import { formatNumber, t } from "../text";
 import { Button, TextField } from "../ui";
 
 /** A result as the server shows it. */
-export interface ResultShown {
+interface ResultShown {
   name: string;
   machine?: string;
   text: string;
@@ -59,7 +59,7 @@ export function ResultTable({ results }: { results: readonly ResultShown[] }) {
 }
 
 /** A choice of a design as the server shows it. */
-export interface ChoiceShown {
+interface ChoiceShown {
   name: string;
   chosen: string;
   decided_by: string;

@@ -20,7 +20,7 @@ export function placed(points: Numbers, map: Map2D): Float64Array {
 }
 
 /** A polyline with gaps, ready to be stroked or filled. */
-export function trace(context: Context, points: Float64Array, closed: boolean): void {
+function trace(context: Context, points: Float64Array, closed: boolean): void {
   context.beginPath();
   let open = false;
   for (let k = 0; k + 1 < points.length; k += 2) {

@@ -13,7 +13,7 @@ export interface FieldProps {
   aside?: string | undefined;
 }
 
-export interface Tied {
+interface Tied {
   id: string;
   "aria-invalid": boolean | undefined;
   "aria-describedby": string | undefined;

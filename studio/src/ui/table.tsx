@@ -98,13 +98,13 @@ function isNumeric(cell: Cell | undefined): boolean {
 }
 
 /** A heading with its unit in brackets. */
-export function headingText(column: TableColumn): string {
+function headingText(column: TableColumn): string {
   const unit = shownUnit(column.unit ?? "");
   return unit === "" ? column.heading : `${column.heading} [${unit}]`;
 }
 
 /** A cell as it is shown: SI numbers in the unit of the column. */
-export function cellText(cell: Cell, column: TableColumn): string {
+function cellText(cell: Cell, column: TableColumn): string {
   if (cell === null) return "–";
   if (typeof cell === "boolean") return cell ? t("ui.yes") : t("ui.no");
   return typeof cell === "string" ? cell : formatNumber(fromSi(cell, column.unit ?? ""), column.digits ?? 4);

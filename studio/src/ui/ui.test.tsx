@@ -3,7 +3,8 @@ import { act } from "preact/test-utils";
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { Boundary } from "../app/boundary";
 import { address, parseRoute } from "../app/routes";
-import { NumberField, QuantityField, Segments, Slider, Table, Tabs } from ".";
+import { NumberField, QuantityField, Segments, Slider, Table, Tabs, toast } from ".";
+import { Toasts } from "./toast";
 
 let page: HTMLElement;
 beforeEach(() => {
@@ -158,5 +159,33 @@ describe("addresses", () => {
     expect(parseRoute("#nowhere")).toEqual({ view: "carpet", name: "" });
     expect(parseRoute("#files/%E0%A4%A")).toEqual({ view: "files", name: "%E0%A4%A" });
     expect(parseRoute(address("linkage", "a/b ç"))).toEqual({ view: "linkage", name: "a/b ç" });
+  });
+});
+
+describe("a message", () => {
+  it("is in one region, stays under the pointer, and goes by itself only where it is not urgent", () => {
+    vi.useFakeTimers();
+    const point = (type: string) =>
+      act(() => {
+        one(".ui-toast.good").dispatchEvent(new Event(type));
+      });
+    const wait = () =>
+      act(() => {
+        vi.advanceTimersByTime(60_000);
+      });
+    show(<Toasts />);
+    act(() => {
+      toast("Written", "good");
+      toast("Not written", "bad");
+    });
+    expect(one("[role=status]").textContent).toBe("Written");
+    expect(one("[role=alert]").textContent).toBe("Not written");
+    point("pointerenter");
+    wait();
+    expect(page.querySelectorAll(".ui-toast").length).toBe(2);
+    point("pointerleave");
+    wait();
+    expect(page.querySelectorAll(".ui-toast").length).toBe(1);
+    vi.useRealTimers();
   });
 });

@@ -9,7 +9,7 @@ export default {
   machine: "Makine",
   linkage: "Mekanizma",
   synthesis: "Sentez",
-  cyclogram: "Siklogram",
+  cyclogram: "Çevrim",
   loom: "Tezgâh",
   files: "Dosyalar",
   carpetHint: "Resimden düğüm desenine ve ipliğe",

@@ -107,7 +107,7 @@ export default {
   apart: "{apart} ayrık, en az {gap}",
   limit: "{value}, sınır {limit}",
   holds: "sağlanıyor",
-  violated: "çiğneniyor",
-  failing: "{all} kuraldan {count} tanesi çiğneniyor",
+  violated: "sağlanmıyor",
+  failing: "{all} kuraldan {count} tanesi sağlanmıyor",
   allHold: "Hepsi sağlanıyor",
 } as const satisfies Same<typeof en>;

@@ -1,7 +1,6 @@
 import type { Same } from "..";
 import type en from "../en/project";
 
-/** Proje dosyalarıyla ilgili metinler. */
 export default {
   undo: "Geri al (Ctrl+Z)",
   redo: "Yinele (Ctrl+Shift+Z)",

@@ -89,11 +89,6 @@ export function withRules(
   return made;
 }
 
-/** Number of relations and exclusions. */
-export function countOfRules(data: CyclogramData): number {
-  return relationsOf(data).length + exclusionsOf(data).length;
-}
-
 /** The first of "NAME 1", "NAME 2", … that is not taken. */
 export function freeName(stem: string, taken: readonly string[]): string {
   let number = 1;

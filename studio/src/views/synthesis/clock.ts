@@ -42,9 +42,3 @@ export function setPlaying(on: boolean): void {
   before = performance.now();
   schedule();
 }
-
-/** Moves everything to a phase, 0 to 1. */
-export function setPhase(to: number): void {
-  phase = to;
-  for (const frame of frames) frame(phase);
-}
