@@ -195,13 +195,7 @@ function paintMarkers(
   }
 }
 
-function fillMarker(
-  context: CanvasRenderingContext2D,
-  look: number,
-  x: number,
-  y: number,
-  radius: number,
-): void {
+function fillMarker(context: CanvasRenderingContext2D, look: number, x: number, y: number, radius: number): void {
   context.beginPath();
   for (const [dx, dy] of markerOf(look)) context.lineTo(x + radius * dx, y + radius * dy);
   context.closePath();
