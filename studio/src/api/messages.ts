@@ -603,14 +603,15 @@ export interface DesignView {
   seconds: number;
 }
 /**
- * Why the machine does not do its work, and what would cure it.
+ * Why the machine does not do its work, and what would cure it; texts as of a check.
  *
  * This interface was referenced by `Messages`'s JSON-Schema
  * via the `definition` "ShownReason".
  */
 export interface ShownReason {
   name: string;
-  text: string;
+  value_text: string;
+  limit_text: string;
   cure: string;
 }
 /**

@@ -27,13 +27,12 @@ export function Compare({ model }: { model: MachineModel }) {
   const found = model.comparison.value;
   return (
     <div class="ui-stack">
-      <CompareButtons model={model} />
       {model.b.value === null && <p class="ui-muted">{t("machine.noB")}</p>}
       {found !== null && (
         <>
           <p class="ui-row">
-            <Count good={found.a_failed === 0} text={t("machine.aFails", { count: found.a_failed })} />
-            <Count good={found.b_failed === 0} text={t("machine.bFails", { count: found.b_failed })} />
+            <Count name={t("machine.a")} failed={found.a_failed} />
+            <Count name={t("machine.b")} failed={found.b_failed} />
           </p>
           {found.parameters.length + found.results.length + found.checks.length === 0 && <p>{t("machine.same")}</p>}
           <Rows title={t("machine.parameters")} rows={found.parameters} />
@@ -45,11 +44,11 @@ export function Compare({ model }: { model: MachineModel }) {
   );
 }
 
-function Count({ good, text }: { good: boolean; text: string }) {
+function Count({ name, failed }: { name: string; failed: number }) {
   return (
-    <span class={`ui-badge ${good ? "good" : "bad"}`}>
-      <Icon name={good ? "good" : "error"} />
-      {text}
+    <span class={`ui-badge ${failed === 0 ? "good" : "bad"}`}>
+      <Icon name={failed === 0 ? "good" : "error"} />
+      {name}: {failed === 0 ? t("machine.holds") : t("machine.fails", { count: failed })}
     </span>
   );
 }

@@ -32,7 +32,8 @@ function Reasons({ view }: { view: DesignView }) {
     <div class="ui-callout bad">
       {view.reasons.slice(0, MOST_REASONS).map((reason) => (
         <p key={reason.name}>
-          <b>{reason.name}</b>: {reason.text}
+          <b>{reason.name}</b>: {reason.value_text}
+          {reason.limit_text !== "" && t("machine.mustBe", { limit: reason.limit_text })}
           {reason.cure !== "" && <span class="ui-muted"> — {reason.cure}</span>}
         </p>
       ))}

@@ -66,10 +66,11 @@ class ShownChoice:
 
 @dataclass(frozen=True, slots=True)
 class ShownReason:
-    """Why the machine does not do its work, and what would cure it."""
+    """Why the machine does not do its work, and what would cure it; texts as of a check."""
 
     name: str
-    text: str
+    value_text: str
+    limit_text: str
     cure: str
 
 
@@ -168,7 +169,7 @@ def shown(report: Report, params: Params, seconds: float) -> DesignView:
         title=report.title,
         holds=not report.failed,
         failed=sum(not one.ok for one in checks),
-        reasons=tuple(ShownReason(one.name, " ".join(printed(one)).strip(), one.cure) for one in report.reasons),
+        reasons=tuple(ShownReason(one.name, *printed(one), one.cure) for one in report.reasons),
         checks=checks,
         results=tuple(_results(report, "")),
         choices=tuple(ShownChoice(**one.as_json()) for one in report.all_choices),
