@@ -103,3 +103,13 @@ export function valueAt(x: Numbers, y: Numbers, at: number): number | null {
   if (at < Math.min(x0, x1) - slack || at > Math.max(x0, x1) + slack) return null;
   return x0 === x1 ? y1 : y0 + (y1 - y0) * Math.min(Math.max((at - x0) / (x1 - x0), 0), 1);
 }
+
+/** The greatest magnitude of curves. */
+export function greatestOf(curves: readonly Numbers[]): number {
+  return curves.flat().reduce((most: number, one) => Math.max(most, Math.abs(one ?? 0)), 0);
+}
+
+/** A value, 0 where it is rounding noise beside the greatest of its figure. */
+export function quiet(value: number, greatest: number): number {
+  return Math.abs(value) < 1e-7 * greatest ? 0 : value;
+}

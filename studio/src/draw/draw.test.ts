@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { isAngle, keyed, keyStep, valueAt, within } from "./cursor";
+import { greatestOf, isAngle, keyed, keyStep, quiet, valueAt, within } from "./cursor";
 import { anchorsOf } from "./drawing";
 import type { ShownAnimation } from "./figures";
 import { dashesOf, markerOf } from "./looks";
@@ -58,6 +58,13 @@ describe("the shared cursor", () => {
     expect(valueAt([2, 1, 0], [30, 10, 0], 1.5)).toBe(20);
     expect(valueAt([0, 1, 2], [0, null, 30], 1.5)).toBeNull();
     expect(valueAt([0, 1], [0, 1], 1.5)).toBeNull();
+  });
+  it("shows rounding noise beside the greatest of the figure as 0", () => {
+    const greatest = greatestOf([
+      [1, null, -20],
+      [1e-18, 0],
+    ]);
+    expect([quiet(1.48e-20, greatest), quiet(1e-3, greatest), quiet(2, 0)]).toEqual([0, 1e-3, 2]);
     expect(valueAt([], [], 1)).toBeNull();
   });
 });

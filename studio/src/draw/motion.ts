@@ -32,12 +32,6 @@ export function between(values: Numbers, frame: number, frames: number, width: n
   return a + share * (b - a);
 }
 
-/** A value, 0 where it is rounding noise beside the greatest of its curve. */
-export function quiet(value: number, values: Numbers): number {
-  const greatest = values.reduce((most: number, one) => Math.max(most, Math.abs(one ?? 0)), 0);
-  return Math.abs(value) < 1e-7 * greatest ? 0 : value;
-}
-
 /** All positions that an animation reaches. */
 export function reachOf(animation: ShownAnimation): Extent {
   const extent = extentOf(animation.still);

@@ -3,10 +3,10 @@ import { useEffect, useMemo, useState } from "preact/hooks";
 import { formatNumber, t } from "../text";
 import { formatQuantity, IconButton, parseUnit, Slider } from "../ui";
 import { useCanvas } from "./canvas";
-import { type Cursor, isAngle, keyStep, moveTo, useCursor, within } from "./cursor";
+import { type Cursor, greatestOf, isAngle, keyStep, moveTo, quiet, useCursor, within } from "./cursor";
 import { namesOf, paintDrawing } from "./drawing";
 import type { ShownAnimation } from "./figures";
-import { between, frameAt, phaseAt, quiet, rangeOf, reachOf, shapeAt, shareAt, stepsOf } from "./motion";
+import { between, frameAt, phaseAt, rangeOf, reachOf, shapeAt, shareAt, stepsOf } from "./motion";
 import { type Named, paintNames } from "./names";
 import { paintScaleBar, Stage } from "./stage";
 import { byRole, paintDot, paintStroke } from "./strokes";
@@ -162,7 +162,7 @@ function Readings({ animation, at }: { animation: ShownAnimation; at: number }) 
           <dt>{reading.label}</dt>
           <dd>
             {formatQuantity(
-              quiet(between(reading.values, frame, animation.at.length, 1, 0), reading.values),
+              quiet(between(reading.values, frame, animation.at.length, 1, 0), greatestOf([reading.values])),
               reading.unit,
             )}
           </dd>

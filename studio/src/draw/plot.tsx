@@ -2,7 +2,7 @@ import { useMemo, useRef } from "preact/hooks";
 import { t } from "../text";
 import { formatQuantity, shownUnit } from "../ui";
 import { useCanvas } from "./canvas";
-import { isAngle, keyed, moveTo, useCursor, valueAt, within } from "./cursor";
+import { greatestOf, isAngle, keyed, moveTo, quiet, useCursor, valueAt, within } from "./cursor";
 import type { ShownPlot } from "./figures";
 import { Swatch } from "./legend";
 import { fromX, type Layout, paintCursor, paintPlot, type Ranges, rangesOf, shownValue } from "./plot-paint";
@@ -47,7 +47,11 @@ export function Plot({ plot, title, height = 210, ranges }: PlotProps) {
   };
   const at = inside(cursor.at.value);
   const reading = at === null ? "" : formatQuantity(at, plot.x.unit);
-  const values = at === null ? [] : plot.curves.map((curve) => valueAt(curve.x, curve.y, at));
+  const greatest = useMemo(() => greatestOf(plot.curves.map((curve) => curve.y)), [plot]);
+  const values = plot.curves.map((curve) => {
+    const value = at === null ? null : valueAt(curve.x, curve.y, at);
+    return value === null ? null : quiet(value, greatest);
+  });
   const spoken = plot.curves.map(
     (curve, k) => `${curve.label} ${shownValue(values[k] ?? null, plot.y.unit)} ${shownUnit(plot.y.unit)}`,
   );
