@@ -14,6 +14,8 @@ from playwright.sync_api import Locator, Page, expect
 from studio_browser import PATIENCE, Seen, Studio, open_view, until_file
 
 from ilmek.cli import main
+from ilmek.jobs.studio.answers import Context
+from ilmek.jobs.studio.project.tasks import PathRequest, read_file
 
 RECIPE = 'plain = "ivory"\nsize = "20x30cm"\npdf = false\n\n[[border]]\nyarn = "dark red"\nwidth = 3\n'
 
@@ -112,6 +114,15 @@ def test_files_come_and_go_by_keys_alone(page: Page, running: Studio) -> None:
     press(page, "Bring it back")
     expect(heading).to_have_text("çağrı 2", timeout=PATIENCE)
     assert (linkages / "çağrı 2.toml").read_text() == (linkages / "new.toml").read_text()
+
+
+def test_a_new_file_of_each_kind_can_be_used(page: Page, running: Studio) -> None:
+    open_view(page, running, "files")
+    for kind, folder in (("Machines", "machines"), ("Syntheses", "synthesis"), ("Yarn lists", "yarns")):
+        page.get_by_role("button", name=f"New file: {kind}").click()
+        path = f"{folder}/new.toml"
+        expect(page.locator("#files-chosen + span")).to_contain_text(path, timeout=PATIENCE)
+        assert read_file(PathRequest(path), Context(str(running.project))).error is None
 
 
 def test_a_broken_file_is_mended_at_its_line(page: Page, running: Studio) -> None:

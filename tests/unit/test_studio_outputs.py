@@ -183,7 +183,7 @@ def test_a_name_with_spaces_and_turkish_letters_is_written_by_its_command(folder
 
 @pytest.mark.parametrize("product", ["page", "data", "table"])
 def test_out_that_is_deleted_during_the_work_is_made_again_or_reported(folder: Path, product: str) -> None:
-    context = Context(str(folder), Progress(lambda stage, share: shutil.rmtree(folder / "out", ignore_errors=True)))
+    context = Context(str(folder), Progress(lambda *_: shutil.rmtree(folder / "out", ignore_errors=True)))
     with contextlib.suppress(OutputError):
         write_product(OutputRequest("cyclograms/press.toml", product), context)
     done = write_product(OutputRequest("cyclograms/press.toml", product), Context(str(folder)))

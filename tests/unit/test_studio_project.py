@@ -2,6 +2,7 @@
 
 import os
 import tomllib
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -255,6 +256,38 @@ def test_undo_and_redo_go_through_restarts(context: Context) -> None:
     assert content(context).redo
     save(context, RECIPE)
     assert not content(context).redo
+
+
+def test_two_tabs_that_save_at_once_lose_nothing(context: Context) -> None:
+    def tab(name: str) -> int:
+        conflicts = 0
+        for number in range(10):
+            text = f'plain = "ivory"  # {name} {number}\n'
+            base = content(context).digest
+            while not (answer := save_file(SaveRequest("carpet.toml", base, text=text), context)).saved:
+                base = answer.file.digest
+                conflicts += 1
+        return conflicts
+
+    with ThreadPoolExecutor(2) as tabs:
+        assert all(conflicts < 11 for conflicts in tabs.map(tab, "ab"))
+    seen = [content(context).text]
+    while content(context).undo:
+        seen.append(undo(PathRequest("carpet.toml"), context).text)
+    assert seen[-1] == RECIPE
+    for name in "ab":
+        assert [text for text in reversed(seen) if f"# {name}" in text] == [
+            f'plain = "ivory"  # {name} {number}\n' for number in range(10)
+        ]
+
+
+def test_an_undo_of_one_tab_is_a_change_for_the_other(context: Context) -> None:
+    first = save(context, 'plain = "camel"\n')
+    undone = undo(PathRequest("carpet.toml"), context)
+    answer = save_file(SaveRequest("carpet.toml", first.digest, text='plain = "red"\n'), context)
+    assert (answer.saved, answer.file.text) == (False, RECIPE)
+    assert redo(PathRequest("carpet.toml"), context).text == first.text
+    assert undo(PathRequest("carpet.toml"), context).digest == undone.digest
 
 
 def test_a_history_cut_off_at_any_byte_loses_nothing_saved(folder: Path, context: Context) -> None:

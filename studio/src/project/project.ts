@@ -1,15 +1,25 @@
 /** The project: its files as the server lists them, and the documents that are open. */
 import { computed, signal } from "@preact/signals";
-import { type FileSummary, type PictureSummary, type ProjectSummary, post, problemOf, serverApi, upload } from "./api";
+import {
+  type FileError,
+  type FileSummary,
+  type PictureSummary,
+  type ProjectSummary,
+  post,
+  problemOf,
+  serverApi,
+  upload,
+} from "./api";
 import { Document } from "./document";
 import { type Drafts, storedDrafts } from "./drafts";
 
-const summary = signal<ProjectSummary | null>(null);
+const list = signal<ProjectSummary | null>(null);
+const errors = signal<ReadonlyMap<string, FileError>>(new Map());
 const documents = new Map<string, Document<object>>();
 const opened = signal<readonly Document<object>[]>([]);
 
-/** The files of the project; null before they are read. */
-export const project = computed(() => summary.value);
+/** The files of the project, each with its first error as far as it is known; null before they are read. */
+export const project = computed(() => list.value && { ...list.value, files: list.value.files.map(withError) });
 
 /** The documents that were opened, in the order of opening. */
 export const openDocuments = computed(() => opened.value);
@@ -17,42 +27,71 @@ export const openDocuments = computed(() => opened.value);
 /** The document that the keys for undo, redo and save act on. */
 export const activeDocument = signal<Document<object> | null>(null);
 
-/** Time after the first list until the files are checked [ms]: the first view comes before. */
-const CHECK_AFTER = 1500;
-
 /** Why the project's files could not be listed; "": they could. A server that does not answer is no reason. */
 export const projectProblem = signal("");
 
-let reading: Promise<void> | null = null;
+/** Time after the first list, and after a later one, until the files are checked [ms]: the first view comes before. */
+const [CHECK_FIRST, CHECK_LATER] = [1500, 300] as const;
+
+let next: Promise<void> | null = null;
+let last: Promise<void> = Promise.resolve();
+let checkTimer: ReturnType<typeof setTimeout> | undefined;
+let checking = false;
 
 /**
- * Reads the list of files again; several calls while it is read are one. The first list comes without the errors of the
- * files, which follow: a check of all files takes longer than a page may.
+ * Reads the list of files again; calls before that begins are one. The list comes at once, and the errors of the files
+ * follow: a check of all files takes seconds.
  */
 export function refreshProject(): Promise<void> {
-  const first = summary.peek() === null;
-  reading ??= serverApi
-    .project(!first)
-    .then(
-      (found) => {
-        summary.value = found;
-        projectProblem.value = "";
-      },
-      (error: unknown) => {
-        projectProblem.value = problemOf(error);
-        throw error;
-      },
-    )
-    .finally(() => {
-      reading = null;
-      if (first && summary.peek() !== null) setTimeout(() => void refreshProject().catch(() => undefined), CHECK_AFTER);
-    });
-  return reading;
+  next ??= last.then(() => {
+    next = null;
+    return readList();
+  });
+  last = next.catch(() => undefined);
+  return next;
+}
+
+async function readList(): Promise<void> {
+  const pause = list.peek() === null ? CHECK_FIRST : CHECK_LATER;
+  try {
+    list.value = await serverApi.project(false);
+    projectProblem.value = "";
+    checkAfter(pause);
+  } catch (error) {
+    projectProblem.value = problemOf(error);
+    throw error;
+  }
+}
+
+function checkAfter(pause: number): void {
+  clearTimeout(checkTimer);
+  checkTimer = setTimeout(() => void checkFiles(), pause);
+}
+
+async function checkFiles(): Promise<void> {
+  if (checking) return checkAfter(CHECK_FIRST);
+  checking = true;
+  try {
+    const { files } = await serverApi.project(true);
+    errors.value = new Map(files.flatMap((file) => (file.error ? [[stateOf(file), file.error]] : [])));
+  } catch {
+    // the list reports what is wrong; the next one is checked again
+  } finally {
+    checking = false;
+  }
+}
+
+function withError(file: FileSummary): FileSummary {
+  return { ...file, error: file.error ?? errors.value.get(stateOf(file)) ?? null };
+}
+
+function stateOf({ path, digest }: FileSummary): string {
+  return `${digest} ${path}`;
 }
 
 /** The text files of a kind: "carpet", "machine", "linkage", "synthesis", "cyclogram", "yarns". */
 export function filesOf(kind: string): readonly FileSummary[] {
-  return summary.value?.files.filter((file) => file.kind === kind) ?? [];
+  return project.value?.files.filter((file) => file.kind === kind) ?? [];
 }
 
 // The drafts of different projects are kept apart, so that their names wait for the project's.
@@ -63,7 +102,7 @@ const drafts: Drafts = {
 };
 
 function ownDrafts(): Drafts {
-  return storedDrafts(summary.peek()?.folder ?? "");
+  return storedDrafts(list.peek()?.folder ?? "");
 }
 
 /** The document of a text file: the same one for every view that opens it. */
@@ -73,7 +112,7 @@ export function openDocument<T extends object = Record<string, unknown>>(path: s
   const made = new Document<T>(path, { api: serverApi, drafts });
   documents.set(path, made as unknown as Document<object>);
   opened.value = [...documents.values()];
-  const ready = summary.peek() === null ? refreshProject().catch(() => undefined) : Promise.resolve();
+  const ready = list.peek() === null ? refreshProject().catch(() => undefined) : Promise.resolve();
   void ready.then(() => made.load());
   return made;
 }
@@ -152,7 +191,7 @@ export async function uploadPicture(file: File): Promise<PictureSummary> {
 
 /** A name that no file of the folder has yet: "cam", "cam-2". */
 export function freePath(folder: string, stem: string): string {
-  const taken = new Set(summary.peek()?.files.map((file) => file.path));
+  const taken = new Set(list.peek()?.files.map((file) => file.path));
   const path = (number: number) => `${folder === "" ? "" : `${folder}/`}${stem}${number > 1 ? `-${number}` : ""}.toml`;
   let number = 1;
   while (taken.has(path(number))) number += 1;

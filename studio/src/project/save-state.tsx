@@ -1,3 +1,4 @@
+import { address, route } from "../app/routes";
 import { t } from "../text";
 import { Button, Icon, IconButton } from "../ui";
 import { decide } from "./conflicts";
@@ -54,7 +55,15 @@ export function SaveState({ document }: { document: AnyDocument }) {
         </p>
       )}
       {error !== null && (
-        <p class="ui-callout bad">{[error.given, error.allowed, error.do].filter(Boolean).join("; ")}</p>
+        <p class="ui-callout bad">
+          {[error.given, error.allowed, error.do].filter(Boolean).join("; ")}
+          {route.value.view !== "files" && state !== "missing" && (
+            <>
+              {" "}
+              <a href={address("files", document.path)}>{t("project.editText")}</a>
+            </>
+          )}
+        </p>
       )}
     </div>
   );

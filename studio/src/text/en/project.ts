@@ -10,6 +10,7 @@ export default {
   refused: "Not saved",
   conflict: "Changed by two",
   missing: "Not there",
+  editText: "Edit its text",
   decide: "Decide",
   conflictTitle: "{path} was changed twice",
   conflictHelp:

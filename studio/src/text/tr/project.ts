@@ -12,6 +12,7 @@ export default {
   refused: "Kaydedilmedi",
   conflict: "İki yerden değişti",
   missing: "Bulunamadı",
+  editText: "Metnini düzenle",
   decide: "Karar ver",
   conflictTitle: "{path} iki kez değiştirildi",
   conflictHelp:
