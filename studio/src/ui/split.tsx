@@ -15,10 +15,15 @@ interface SplitProps {
 const LEAST = 220;
 const STEP = 24;
 
+/** Factor of the side columns in a window of this width. */
+function unit(): number {
+  return parseFloat(getComputedStyle(document.documentElement).getPropertyValue("--unit")) || 1;
+}
+
 /** Two sides and a bar between them that is dragged, or moved by arrow keys; on a phone one below the other. */
 export function Split({ name, first, second, width = 380 }: SplitProps) {
   const box = useRef<HTMLDivElement>(null);
-  const [wide, setWide] = useState(() => Number(remembered(`split.${name}`)) || width);
+  const [wide, setWide] = useState(() => Number(remembered(`split.${name}`)) || Math.round(width * unit()));
   const most = () => Math.max(LEAST, (box.current?.clientWidth ?? 2000) - LEAST);
   const move = (to: number) => {
     const held = Math.round(Math.min(Math.max(to, LEAST), most()));
