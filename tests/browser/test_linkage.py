@@ -96,7 +96,10 @@ def test_a_joint_is_dragged_and_moved_by_keys(page: Page, running: Studio) -> No
     page.keyboard.press("Control+z")
     until(lambda: file.read_text(encoding="utf-8") == before)
     expect(page.locator(".linkage-path:not(.joint)")).to_have_attribute("d", str(old), timeout=PATIENCE)
-    page.locator("[data-joint=B0]").focus()
+    page.locator(".linkage-canvas").focus()
+    for joint in ("A0", "A", "B", "B0"):
+        page.keyboard.press("Tab")
+        expect(page.locator(f"[data-joint={joint}]")).to_be_focused()
     page.keyboard.press("ArrowRight")
     until(lambda: file.read_text(encoding="utf-8") != before)
     moved, still = data_of(running.project, "linkages/four-bar.toml"), tomllib.loads(before)
@@ -115,4 +118,6 @@ def test_a_mechanism_that_cannot_close_is_drawn_with_the_reason(page: Page, runn
         expect(page.locator(".linkage-panels .ui-callout.bad")).to_have_text(re.compile(words), timeout=PATIENCE)
         expect(page.locator("[data-body]")).to_have_count(bodies)
         until_file(running.project, "linkages/watt-six-bar.toml", f"coupler.length = {entry}")
+    page.get_by_role("button", name="Save as…").click()
+    expect(page.get_by_role("dialog")).to_be_visible()
     assert violations(page) == []

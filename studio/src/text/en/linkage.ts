@@ -26,7 +26,7 @@ export default {
   next_over: "Degrees of freedom: {count}, driven: {driven}. Remove a joint or a drive, or add a link.",
   confirmLengths: "Accept these lengths",
   canvas: "Drawing of the mechanism",
-  keys: "Tab goes from joint to joint, arrow keys move the chosen one, Shift ten steps. With a drawing tool the arrow keys move a cross and Enter puts a point. Delete removes what is chosen; Escape ends a tool; plus and minus zoom.",
+  keys: "Tab goes from joint to joint, arrow keys move the chosen one, Shift ten steps. With a drawing tool the arrow keys move a cross, Enter puts a point, and digits type its length or position. Control A chooses everything, Delete removes what is chosen, Escape ends a tool, plus and minus zoom, Home shows everything.",
   tools: "Tools",
   tool_select: "Select",
   tool_link: "Link",

@@ -28,7 +28,7 @@ export default {
   next_over: "Serbestlik derecesi: {count}, tahrik: {driven}. Bir mafsalı ya da tahriki silin ya da uzuv ekleyin.",
   confirmLengths: "Bu uzunlukları kabul et",
   canvas: "Mekanizmanın çizimi",
-  keys: "Sekme tuşu mafsaldan mafsala gider, ok tuşları seçili olanı taşır, Shift ile on adım. Çizim aracında ok tuşları imleci taşır, Enter nokta koyar. Delete seçileni siler; Escape aracı bitirir; artı ve eksi yakınlaştırır.",
+  keys: "Sekme tuşu mafsaldan mafsala gider, ok tuşları seçili olanı taşır, Shift ile on adım. Çizim aracında ok tuşları imleci taşır, Enter nokta koyar, rakamlar uzunluğu ya da konumu yazar. Ctrl A her şeyi seçer, Delete seçileni siler, Escape aracı bitirir, artı ve eksi yakınlaştırır, Home her şeyi gösterir.",
   tools: "Araçlar",
   tool_select: "Seç",
   tool_link: "Uzuv",

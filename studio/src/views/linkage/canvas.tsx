@@ -56,7 +56,7 @@ export function Canvas({ editor, tools, pointer }: Props) {
     <svg
       ref={box}
       class={`linkage-canvas tool-${editor.tool.value}`}
-      tabIndex={0}
+      tabindex={0}
       role="application"
       aria-label={t("linkage.canvas")}
       aria-describedby="linkage-keys"
@@ -286,7 +286,7 @@ function JointShape({ pointer, joint, at, chosen, named }: JointProps) {
       class={`linkage-joint ${joint.kind}${chosen ? " chosen" : ""}${joint.driven ? " driven" : ""}`}
       transform={`translate(${x.toFixed(2)} ${y.toFixed(2)})`}
       role="button"
-      tabIndex={0}
+      tabindex={0}
       aria-label={`${kind}; ${where}${joint.driven ? `; ${t("linkage.driven")}` : ""}`}
       aria-pressed={chosen}
       data-joint={joint.name}
