@@ -140,7 +140,7 @@ export default {
   juftiKnots: "Cüfti düğümler",
   edited: "Düzenlemelerle değişen ilmek",
   bill: "Alınacak iplik",
-  length: "Uzunluk",
+  length: "Boy",
   massShort: "Kütle",
   toBuy: "Alınacak",
   price: "Fiyat [{currency}]",
