@@ -187,7 +187,7 @@ class Pool:
         return min(free, key=lambda worker: (worker.affinity != affinity, worker.affinity != ""), default=None)
 
     def _give(self, worker: _Worker, request: Request) -> None:
-        worker.request, worker.affinity = request, request.affinity
+        worker.request, worker.affinity = request, request.affinity or worker.affinity
         self._limit(worker, request.limit)
         self._later(_write(worker, request.ask))
 
