@@ -12,6 +12,10 @@ from PIL import Image
 from playwright.sync_api import Browser, Locator, Page, Route, expect
 from studio_browser import PATIENCE, Seen, Studio, context_of, open_view, studio, violations
 
+from ilmek.jobs.loom_space import loom_in_space
+from ilmek.jobs.studio.loom.scene import project_loom
+from ilmek.viz.loom_page import LoomPage, loom_page
+
 LOOM = 'machine = "automated-loom"\n\n[settings]\nwidth = "0.3 m"\nlength = "0.4 m"\nbeat = "travelling"\n'
 RECIPE = 'picture = "pictures/small.png"\nsize = "20x30cm"\nquality = "20x20/dm"\ncolours = 2\n'
 FAILED = "weft: opening of the shed for the carrier"
@@ -131,6 +135,13 @@ def test_the_picture_is_turned_scrubbed_and_worked_by_keys(page: Page, running: 
     first = page.locator(".loom-parts option").first
     assert listed(page).input_value() == first.get_attribute("value")
     page.get_by_role("tab", name="Picture").click()
+    page.get_by_text("Names in the picture").click()
+    label = page.locator(".loom-labels span").filter(has_text="upper cylinder")
+    box = label.bounding_box()
+    assert box is not None
+    page.mouse.click(box["x"] - 6, box["y"] + 10)  # the point that the label names
+    expect(page.get_by_role("heading", name="upper cylinder")).to_be_visible()
+    page.get_by_role("tab", name="Picture").click()
     page.get_by_label("Section").select_option("x")
     assert changed(whole, cut := picture(page)) > 0.05
     page.get_by_label("Explode").fill("0.6")
@@ -186,6 +197,27 @@ def test_a_view_that_was_left_keeps_no_memory(page: Page, running: Studio) -> No
         open_view(page, running, "loom")
     assert sizes[-1] - sizes[2] < 2.0, sizes
     assert [one for one in said if "WebGL" in one] == []
+
+
+def test_the_page_of_a_loom_needs_no_server(browser: Browser, running: Studio, tmp_path: Path) -> None:
+    loom = project_loom(running.project, "machines/loom.toml")
+    space = loom_in_space(loom.design, loom.report, None)
+    assert space is not None
+    file = tmp_path / "loom.html"
+    file.write_text(loom_page(LoomPage("Loom", "1 m", "report.html", space=space)))
+    seen = Seen()
+    with context_of(browser, width=390, height=844, dark=True) as context:
+        page = context.new_page()
+        seen.watch(page, file.as_uri())
+        page.goto(file.as_uri())
+        page.get_by_role("button", name="Show the loom in space").click()
+        expect(page.locator(".loom canvas")).to_have_attribute("data-pictures", re.compile(r"\d"), timeout=PATIENCE)
+        page.get_by_role("tab", name="Parts").click()
+        listed(page).select_option("beat-up crank")
+        assert fact(page, "Material") == "structural steel"
+        assert page.evaluate("document.documentElement.scrollWidth") <= 390
+        assert violations(page) == []
+    assert seen.faults == []
 
 
 def test_without_webgl_the_parts_are_listed(browser: Browser, running: Studio, seen: Seen) -> None:
