@@ -4,7 +4,7 @@ import re
 
 import pytest
 from playwright.sync_api import Page, expect
-from studio_browser import PATIENCE, Studio, data_of, middle, open_view, until_data, until_file, violations
+from studio_browser import PATIENCE, Seen, Studio, data_of, middle, open_view, until_data, until_file, violations
 
 
 @pytest.fixture
@@ -74,3 +74,16 @@ def test_a_cyclogram_is_built_from_nothing(page: Page, running: Studio) -> None:
     ]
     page.locator("details[open]", has_text="slide").get_by_role("button", name="Remove the track").click()
     until_data(running.project, path, lambda data: list(data["tracks"]) == ["track 1"] and "relations" not in data)
+
+
+def test_a_broken_file_states_its_line_and_keeps_the_view(page: Page, running: Studio, seen: Seen) -> None:
+    seen.expected = ("422",)
+    text = (running.project / "cyclograms/press.toml").read_text(encoding="utf-8")
+    (running.project / "cyclograms/no-toml.toml").write_text('period = "1s"\nperiod = = 3\n', encoding="utf-8")
+    (running.project / "cyclograms/overlap.toml").write_text(text.replace('"85deg"', '"70deg"'), encoding="utf-8")
+    open_view(page, running, "cyclogram/overlap")
+    expect(page.get_by_text("out starts at 70 deg, before in ends at 80 deg")).to_be_visible(timeout=PATIENCE)
+    open_view(page, running, "cyclogram/no-toml")
+    expect(page.get_by_text("no-toml.toml, line 2")).to_be_visible(timeout=PATIENCE)
+    page.get_by_role("button", name="Open Files").click()
+    page.wait_for_url(re.compile("#files/cyclograms/no-toml.toml"), timeout=PATIENCE)

@@ -2,6 +2,7 @@
 export { Button, IconButton } from "./button";
 export { CopyCommand, copyText } from "./copy";
 export { Dialog } from "./dialog";
+export { FaultNote } from "./fault-note";
 export { Icon, type IconName } from "./icons";
 export { NumberField } from "./number";
 export { Progress } from "./progress";

@@ -26,6 +26,7 @@ export default {
   speed: "Speed",
   perRun: "{seconds} s a run",
   realSpeed: "real speed",
+  toFiles: "Open Files",
   zoomIn: "Zoom in",
   zoomOut: "Zoom out",
   zoomFit: "Show all",

@@ -28,6 +28,7 @@ export default {
   speed: "Hız",
   perRun: "çevrim {seconds} s",
   realSpeed: "gerçek hız",
+  toFiles: "Dosyaları aç",
   zoomIn: "Yakınlaştır",
   zoomOut: "Uzaklaştır",
   zoomFit: "Tümünü göster",

@@ -2,9 +2,10 @@ import type { ComponentChildren } from "preact";
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import type { ShownTrack } from "../../api/messages";
 import { useReady } from "../../app/ready";
+import { goTo } from "../../app/routes";
 import { FileCommand, SaveState, useDocument } from "../../project";
 import { formatNumber, t } from "../../text";
-import { formatQuantity, QuantityField, quantityText, Segments, Slider } from "../../ui";
+import { Button, FaultNote, formatQuantity, QuantityField, quantityText, Segments, Slider } from "../../ui";
 import { type Curve, QUANTITIES } from "./curves";
 import { Lanes } from "./lanes";
 import { type CyclogramData, DEGREE, dragged, type Grip, levelStep, TURN, withLevel, withSpan } from "./model";
@@ -12,7 +13,7 @@ import { MotionForm } from "./motion-form";
 import { Readings } from "./readings";
 import { countOf, Rules } from "./rules";
 import { Solve } from "./solution";
-import { CyclogramStore, type Fault } from "./store";
+import { CyclogramStore } from "./store";
 import { Tracks } from "./tracks";
 
 /** One cyclogram: its lanes, the cursor, its rules, its solutions, and its values typed. */
@@ -35,7 +36,7 @@ export function CyclogramEditor({ path, head }: { path: string; head: ComponentC
   const compared = store.compared.value;
   const track = shown?.about.tracks.find((one) => one.name === chosen.track);
   const part = track?.motions.find((one) => one.name === chosen.motion);
-  useReady(shown !== null || store.fault.value !== null || file.saved.value === "missing");
+  useReady(shown !== null || file.error.value !== null || store.fault.value !== null || file.saved.value === "missing");
   const change = (next: CyclogramData) => {
     setDraft(null);
     file.update(() => next);
@@ -73,7 +74,13 @@ export function CyclogramEditor({ path, head }: { path: string; head: ComponentC
         <div class="ui-row cyclogram-files">{head}</div>
         <SaveState document={file as never} />
       </header>
-      <FaultNote fault={store.fault.value} />
+      {/* The error of the file is shown beside its state. */}
+      <FaultNote fault={file.error.value === null ? store.fault.value : null} />
+      {shown === null && file.error.value !== null && (
+        <div>
+          <Button onClick={() => goTo("files", path)}>{t("ui.toFiles")}</Button>
+        </div>
+      )}
       {data === null && file.saved.value === "missing" && (
         <p class="ui-callout warn" role="alert">
           {t("cyclogram.missingFile")}
@@ -156,16 +163,5 @@ function Verdict({ all, bad }: { all: number; bad: number }) {
     <span class={`ui-badge ${bad ? "bad" : "good"}`} role="status">
       {bad ? t("cyclogram.failing", { count: bad, all: formatNumber(all) }) : t("cyclogram.allHold")}
     </span>
-  );
-}
-
-function FaultNote({ fault }: { fault: Fault | null }) {
-  if (fault === null) return null;
-  return (
-    <div class="ui-callout bad" role="alert">
-      <strong>{fault.given}</strong>
-      {fault.allowed && <p>{fault.allowed}</p>}
-      {fault.do && <p>{fault.do}</p>}
-    </div>
   );
 }

@@ -224,11 +224,8 @@ function Lane(props: LaneProps) {
         <g key={part.name}>
           <Blocks {...props} motion={part.name} span={part} range={range} />
           {curve === "position" && (
-            <circle
+            <g
               class="level"
-              cx={scale.x(part.end % TURN || part.end)}
-              cy={level.y(part.finish)}
-              r={5.5}
               tabindex={0}
               role="button"
               aria-label={t("cyclogram.levelAfter", {
@@ -239,7 +236,9 @@ function Lane(props: LaneProps) {
               onKeyDown={pressLevel(part)}
             >
               <title>{t("cyclogram.levelHint")}</title>
-            </circle>
+              <circle class="reach" cx={scale.x(part.end % TURN || part.end)} cy={level.y(part.finish)} r={12} />
+              <circle cx={scale.x(part.end % TURN || part.end)} cy={level.y(part.finish)} r={5.5} />
+            </g>
           )}
         </g>
       ))}

@@ -1,7 +1,7 @@
 import type { ShownTrack } from "../../api/messages";
 import { t } from "../../text";
 import { formatQuantity } from "../../ui";
-import { type Curve, QUANTITIES, type Shown, unitOf, valueAt } from "./curves";
+import { type Curve, QUANTITIES, rangeOf, type Shown, unitOf, valueAt } from "./curves";
 import { TURN } from "./model";
 
 /** What every track does at the cursor, with units; beside it the largest values of the turn. */
@@ -45,7 +45,11 @@ export function Readings({ shown, cursor }: { shown: Shown; cursor: number }) {
 
 function reading(shown: Shown, index: number, unit: string, curve: Curve, cursor: number): string {
   const curves = shown.curves[index];
-  return curves === undefined ? "–" : formatQuantity(valueAt(curves, curve, cursor), unitOf(unit, curve), 4);
+  if (curves === undefined) return "–";
+  const { low, high } = rangeOf(curves[curve], curve);
+  const value = valueAt(curves, curve, cursor);
+  const isNoise = Math.abs(value) < 1e-6 * (high - low);
+  return formatQuantity(isNoise ? 0 : value, unitOf(unit, curve), 4);
 }
 
 const PEAKS = { velocity: "speed", acceleration: "acceleration", jerk: "jerk" } as const;

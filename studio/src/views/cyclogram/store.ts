@@ -1,17 +1,12 @@
 /** A cyclogram as it is shown: asked for with each change, solved as work. */
 import { computed, signal } from "@preact/signals";
+import { type Fault, faultOf } from "../../api/fault";
 import { latest } from "../../api/latest";
 import type { CyclogramSolution, CyclogramView } from "../../api/messages";
-import { ApiError, postPacked, ServerLost } from "../../api/request";
+import { postPacked } from "../../api/request";
 import { runWork } from "../../api/work";
 import { type Shown, unpack } from "./curves";
 import type { CyclogramData } from "./model";
-
-export interface Fault {
-  given: string;
-  allowed: string;
-  do: string;
-}
 
 export type Goal = "acceleration" | "period";
 
@@ -20,13 +15,6 @@ export interface Compared {
   solution: CyclogramSolution;
   before: Shown;
   after: Shown;
-}
-
-function faultOf(error: unknown): Fault | null {
-  if (error instanceof DOMException && error.name === "AbortError") return null;
-  if (error instanceof ServerLost) return null;
-  if (error instanceof ApiError) return { given: error.given, allowed: error.allowed, do: error.do };
-  return { given: error instanceof Error ? error.message : String(error), allowed: "", do: "" };
 }
 
 /** The state of one view. */

@@ -1,8 +1,9 @@
 /** The candidates of a task: a short search while it is dragged, the full one as work once it rests. */
 import { signal } from "@preact/signals";
+import { type Fault, faultOf } from "../../api/fault";
 import { latest } from "../../api/latest";
 import type { SynthesisAnswer } from "../../api/messages";
-import { ApiError, post, ServerLost } from "../../api/request";
+import { post } from "../../api/request";
 import { runWork } from "../../api/work";
 import type { SynthesisData } from "./task";
 
@@ -15,17 +16,11 @@ export const PAUSE = 500;
 /** Time after which a short search is given up for a newer state [ms]: nine points met exactly take seconds. */
 const PATIENCE = 15_000;
 
-export interface SearchError {
-  given: string;
-  allowed: string;
-  do: string;
-}
-
 /** The search of one view. */
 export class CandidateSearch {
   readonly state = signal<SearchState>("idle");
   readonly answer = signal<SynthesisAnswer | null>(null);
-  readonly error = signal<SearchError | null>(null);
+  readonly error = signal<Fault | null>(null);
   readonly share = signal(0);
   /** Time of the last short search, from the request to the answer [ms]. */
   readonly quickTime = signal<number | null>(null);
@@ -124,14 +119,8 @@ export class CandidateSearch {
   #fail(error: unknown): void {
     if (error instanceof DOMException && error.name === "AbortError") return;
     this.#key = "";
-    if (error instanceof ServerLost) {
-      this.state.value = "stopped";
-      return;
-    }
-    this.state.value = "failed";
-    this.error.value =
-      error instanceof ApiError
-        ? { given: error.given, allowed: error.allowed, do: error.do }
-        : { given: error instanceof Error ? error.message : String(error), allowed: "", do: "" };
+    const fault = faultOf(error);
+    this.state.value = fault === null ? "stopped" : "failed";
+    if (fault !== null) this.error.value = fault;
   }
 }

@@ -4,9 +4,9 @@ import type { MechanismDocument, ShownFourBar, SynthesisAnswer } from "../../api
 import { post } from "../../api/request";
 import { useReady } from "../../app/ready";
 import { goTo } from "../../app/routes";
-import { FileCommand, freePath, newFile, SaveState, useDocument } from "../../project";
+import { type Document, FileCommand, freePath, newFile, SaveState, useDocument } from "../../project";
 import { t } from "../../text";
-import { Button, Progress, Segments, toast } from "../../ui";
+import { Button, FaultNote, Progress, Segments, toast } from "../../ui";
 import { playing, setPlaying } from "./clock";
 import { Details } from "./details";
 import { FunctionCanvas } from "./function-canvas";
@@ -52,7 +52,8 @@ export function TaskView({ path, stem, head }: TaskProps) {
     setDraft(settled ? null : next);
   };
   const answer = search.answer.value;
-  useReady(answer !== null || missing > 0 || search.error.value !== null || file.saved.value === "missing");
+  const isUnreadable = data === null ? file.saved.value !== "loading" : !isMachine(data.machine);
+  useReady(answer !== null || missing > 0 || search.error.value !== null || isUnreadable);
   const number = Math.min(Math.max(Number(data?.settings?.["chosen"] ?? 1), 1), answer?.candidates.length ?? 1);
   const chosen = answer?.candidates.find((one) => one.number === number) ?? null;
   return (
@@ -66,7 +67,7 @@ export function TaskView({ path, stem, head }: TaskProps) {
         <SaveState document={file as never} />
       </header>
       {data === null || !isMachine(data.machine) ? (
-        <Unreadable missing={file.saved.value === "missing"} empty={data === null && file.saved.value === "loading"} />
+        <Unreadable file={file} />
       ) : (
         <div class="synthesis-columns">
           <div class="synthesis-main ui-stack">
@@ -78,7 +79,7 @@ export function TaskView({ path, stem, head }: TaskProps) {
                 })}
               </p>
             )}
-            <Status search={search} data={data} />
+            <Status search={search} data={data} isReported={file.error.value !== null} />
             {chosen && <Taken one={chosen} stem={stem} />}
           </div>
           <div class="synthesis-gallery">
@@ -103,13 +104,15 @@ function loosened(value: string): string | boolean {
   return value === "no" ? false : value;
 }
 
-function Unreadable({ missing, empty }: { missing: boolean; empty: boolean }) {
-  if (empty) return <p class="ui-muted">{t("app.loading")}</p>;
+/** A file that is not there, that cannot be read, or that states no task. */
+function Unreadable({ file }: { file: Document<SynthesisData> }) {
+  const state = file.saved.value;
+  if (file.data.value === null && state === "loading") return <p class="ui-muted">{t("app.loading")}</p>;
+  const given = t(state === "missing" ? "synthesis.missing" : "synthesis.unreadable");
   return (
-    <div class="ui-callout warn" role="alert">
-      <strong>{t(missing ? "synthesis.missing" : "synthesis.unreadable")}</strong>
-      <p>{t("synthesis.unreadableHelp")}</p>
-    </div>
+    <FaultNote fault={{ given, allowed: "", do: t("synthesis.unreadableHelp") }}>
+      {state !== "missing" && <Button onClick={() => goTo("files", file.path)}>{t("ui.toFiles")}</Button>}
+    </FaultNote>
   );
 }
 
@@ -129,10 +132,16 @@ function Editor(props: EditorProps) {
   return <PlaneCanvas {...props} points={points} />;
 }
 
+interface StatusProps {
+  search: CandidateSearch;
+  data: SynthesisData;
+  /** The error of the file is shown beside its state. */
+  isReported: boolean;
+}
+
 /** What the search does, and how to have it begin or end. */
-function Status({ search, data }: { search: CandidateSearch; data: SynthesisData }) {
+function Status({ search, data, isReported }: StatusProps) {
   const state = search.state.value;
-  const error = search.error.value;
   const answer = search.answer.value;
   return (
     <div class="ui-stack">
@@ -157,13 +166,7 @@ function Status({ search, data }: { search: CandidateSearch; data: SynthesisData
       {state === "full" && (
         <Progress label={t("synthesis.searching")} share={search.share.value} onCancel={() => search.stop()} />
       )}
-      {error && (
-        <div class="ui-callout bad" role="alert">
-          <strong>{error.given}</strong>
-          {error.allowed && <p>{error.allowed}</p>}
-          {error.do && <p>{error.do}</p>}
-        </div>
-      )}
+      <FaultNote fault={isReported ? null : search.error.value} />
       {answer !== null &&
         !answer.quick &&
         answer.candidates.length > 0 &&
