@@ -58,6 +58,14 @@ def test_the_first_load_is_small() -> None:
     assert sum(sizes) <= LARGEST_FIRST_LOAD
 
 
+def test_each_view_is_loaded_when_it_is_opened() -> None:
+    index = (CLIENT / "index.html").read_text(encoding="utf-8")
+    views = [path.name for path in (STUDIO / "src/views").iterdir() if path.is_dir()]
+    for view in views:
+        assert list((CLIENT / "assets").glob(f"{view}-*.js")), f"no file of its own for {view}"
+        assert f"assets/{view}-" not in index
+
+
 def test_the_page_has_no_inline_script_or_style() -> None:
     index = (CLIENT / "index.html").read_text(encoding="utf-8")
     assert re.search(r"<script(?![^>]*\bsrc=)|<style|\sstyle=|\son\w+=", index) is None

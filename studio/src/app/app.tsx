@@ -35,7 +35,7 @@ export function App() {
         </div>
       </header>
       <div class="app-main">
-        {connection.value === "lost" && <Lost />}
+        <div role="status">{connection.value === "lost" && <Lost />}</div>
         <CurrentView />
       </div>
       <Toasts />
@@ -89,7 +89,7 @@ function Navigation() {
 function State() {
   const state = connection.value;
   return (
-    <div class={`app-state ${state}`} role="status">
+    <div class={`app-state ${state}`}>
       <Icon name={state} />
       <span>{state === "lost" ? t("app.lost") : state === "connected" ? t("app.connected") : t("app.connecting")}</span>
     </div>
@@ -98,7 +98,7 @@ function State() {
 
 function Lost() {
   return (
-    <div class="app-lost" role="alert">
+    <div class="app-lost">
       <Icon name="lost" />
       <p>{t("app.lostHelp")}</p>
     </div>
