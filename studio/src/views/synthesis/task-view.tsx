@@ -5,7 +5,7 @@ import { post } from "../../api/request";
 import { useReady } from "../../app/ready";
 import { goTo } from "../../app/routes";
 import { type Document, FileCommand, freePath, newFile, SaveState, useDocument } from "../../project";
-import { t } from "../../text";
+import { formatNumber, t } from "../../text";
 import { Button, FaultNote, Progress, Segments, toast } from "../../ui";
 import { playing, setPlaying } from "./clock";
 import { Details } from "./details";
@@ -70,6 +70,7 @@ export function TaskView({ path, stem, head }: TaskProps) {
         <Unreadable file={file} />
       ) : (
         <div class="synthesis-columns">
+          <TaskPanel data={data} path={path} point={point} onPoint={setPoint} onChange={change} />
           <div class="synthesis-main ui-stack">
             <Editor data={data} answer={answer} chosen={chosen} point={point} onPoint={setPoint} onChange={change} />
             {missing > 0 && (
@@ -93,7 +94,6 @@ export function TaskView({ path, stem, head }: TaskProps) {
               />
             )}
           </div>
-          <TaskPanel data={data} path={path} point={point} onPoint={setPoint} onChange={change} />
         </div>
       )}
     </>
@@ -132,6 +132,11 @@ function Editor(props: EditorProps) {
   return <PlaneCanvas {...props} points={points} />;
 }
 
+/** A sentence with its whole numbers in groups of digits. */
+function grouped(words: string): string {
+  return words.replace(/\d+/g, (digits) => formatNumber(Number(digits), 9));
+}
+
 interface StatusProps {
   search: CandidateSearch;
   data: SynthesisData;
@@ -155,7 +160,7 @@ function Status({ search, data, isReported }: StatusProps) {
           {t("synthesis.move")}
         </Button>
         <span class="ui-grow ui-muted synthesis-sieve" role="status">
-          {state === "failed" ? t("synthesis.failed") : (answer?.sieve ?? "")}
+          {state === "failed" ? t("synthesis.failed") : grouped(answer?.sieve ?? "")}
         </span>
         {(state === "stopped" || state === "failed") && (
           <Button size="small" icon="search" onClick={() => void search.search(withSetting(data, "chosen", undefined))}>
