@@ -12,6 +12,7 @@ import tempfile
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from itertools import count
 from pathlib import Path
 from typing import Any
@@ -143,7 +144,7 @@ def times(change: Change, context: Context) -> Iterator[tuple[float, float]]:
     chart(ChartRequest(recipe, draft=True), context)
     for _, values in zip(range(ROUNDS), change.values(), strict=False):
         request = ChartRequest({**recipe, **values}, draft=True)
-        yield timed(lambda request=request: chart(request, context))
+        yield timed(partial(chart, request, context))
 
 
 def timed(action: Callable[[], object]) -> tuple[float, float]:

@@ -85,7 +85,7 @@ def shown_figure(figure: Figure, looks: Mapping[str, int]) -> ShownFigure:
 def shown_table(table: Table) -> ShownTable:
     """A table, without rounding noise."""
     heads = [ShownColumn(one.heading, one.unit, one.digits) for one in table.columns]
-    return ShownTable(table.name, table.title, heads, quiet_rows(table))
+    return ShownTable(table.name, table.title, heads, [list(row) for row in quiet_rows(table)])
 
 
 def rounded_numbers(values: FloatArray) -> Numbers:
