@@ -6,6 +6,7 @@ change of beat-up, cams, tufting and knotting machines within 100 ms, of the loo
 processor is stated beside the time on the clock: other work on the computer lengthens the latter alone.
 """
 
+import gc
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -67,6 +68,8 @@ def run() -> None:
 def changes(name: str) -> list[Taken]:
     """The changes of every parameter that has a number and can be moved."""
     begin = view(DesignRequest(name), HERE)
+    gc.collect()
+    gc.freeze()  # as a worker does that has prepared itself
     known = figures(FiguresRequest(name, names=()), HERE).known
     moving = [one.name for one in known if one.kind == "animation"][:1]
     chosen = (*moving, *[one.name for one in known if one.kind == "plot"][:2])

@@ -9,6 +9,7 @@ standard input, which is the end of the server however it came, the worker ends 
 """
 
 import contextlib
+import gc
 import os
 import signal
 import sys
@@ -68,7 +69,7 @@ class Worker:
         self._send(Ready())
         for step in first:
             if self._queue.empty():
-                _tried(step)
+                _prepared(step)
         steps = iter(later)
         while True:
             ask = self._next(steps)
@@ -86,7 +87,7 @@ class Worker:
                 step = next(steps, None)
             if step is None:
                 return self._queue.get()
-            _tried(step)
+            _prepared(step)
 
     def listen(self) -> None:
         """Read requests from now on."""
@@ -137,10 +138,15 @@ class Worker:
         return 200, JSON, encoded_json(answer)
 
 
-def _tried(step: Callable[[], object]) -> None:
-    """Do a step that prepares; what fails is reported where a request needs it."""
+def _prepared(step: Callable[[], object]) -> None:
+    """Do a step that prepares; what fails is reported where a request needs it.
+
+    What a worker has by then it keeps: later collections of garbage, of 0.1 s each with it, leave it out.
+    """
     with contextlib.suppress(Exception):
         step()
+    gc.collect()
+    gc.freeze()
 
 
 def _refused(error: Exception) -> tuple[int, str, bytes]:

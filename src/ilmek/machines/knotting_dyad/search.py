@@ -98,13 +98,15 @@ def _tried(params: KnottingDyadParams, section: WarpSection, at: Float[np.ndarra
     with np.errstate(invalid="ignore", divide="ignore"):
         bent = _bent(np.abs(pivot - gap), first, r0, r1)
         there = (side == np.sign(cross(pivot - gap, E1 - gap))) & (r1 > 0) & (bent > 0)
+        own_side = np.zeros(len(at), dtype=bool)
+        own_side[there] = _own_side(section, *(one[there] for one in (pivot, first, second, side)))
         limits = (
             np.abs(tilt) <= section.tilt,
             np.maximum(first, second) <= params.link_limit,
             second >= section.needle_length + params.link_width,
             bent >= np.sin(params.bend_limit),
             _pivot_clear(params, section, pivot),
-            _own_side(section, pivot, first, second, side),
+            own_side,
         )
         missed = sum(~one for one in limits)
         turns = np.abs(np.angle((E1 - pivot) / (E0 - pivot))) + np.abs(tilt - section.tilt)

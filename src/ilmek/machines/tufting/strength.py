@@ -7,6 +7,8 @@ driven shaft. Each mechanism has two bearings on either shaft, one beside each f
     M = F/2 lever,   T from its least to its greatest value over the turn;   safety after Goodman, feather keyway
 """
 
+from functools import lru_cache
+
 import numpy as np
 
 from ilmek.dynamics.inverse_run import rms
@@ -92,6 +94,7 @@ def link_sections(params: TuftingParams) -> dict[str, tuple[float, float]]:
     return found
 
 
+@lru_cache(maxsize=8)
 def needle_strength(design: Tufting) -> NeedleStrength:
     """Stresses, safeties and lives over a turn at the speed."""
     params, limits = design.params, design.params.strength

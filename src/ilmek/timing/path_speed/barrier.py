@@ -12,6 +12,7 @@ same points, so w cannot vanish at one of them.
 """
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 import scipy
@@ -82,6 +83,7 @@ def clamped(knots: FloatArray) -> FloatArray:
     return np.pad(knots, ORDER - 1, mode="edge")
 
 
+@lru_cache(maxsize=8)
 def _seen(intervals: int, points: int) -> IntArray:
     return np.repeat(np.arange(intervals), points)[:, None] + np.arange(ORDER)
 
