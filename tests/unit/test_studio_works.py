@@ -5,13 +5,14 @@ from dataclasses import dataclass, field
 from functools import partial
 from io import BytesIO
 from typing import Any
+from unittest.mock import AsyncMock, Mock
 
 import pytest
 
 from ilmek.web import worker as workers
 from ilmek.web.events import EventHub
-from ilmek.web.framing import JSON, Ask, Ready, Reply, read_message
-from ilmek.web.pool import Pool, PoolFull
+from ilmek.web.framing import JSON, Ask, Prepared, Ready, Reply, read_message
+from ilmek.web.pool import Pool, PoolFull, _Worker
 from ilmek.web.worker import Worker
 from ilmek.web.works import MOST_KEPT, MOST_KEPT_BYTES, MOST_RUNNING, Works
 
@@ -110,6 +111,23 @@ def test_a_worker_prepares_until_its_first_request_comes(monkeypatch: pytest.Mon
     assert done == [0, 1, 2]
     answers.seek(0)
     assert isinstance(read_message(answers), Ready)
+    assert isinstance(read_message(answers), Prepared)
     answer = read_message(answers)
     assert isinstance(answer, Reply)
     assert answer.status == 500
+
+
+def test_the_worker_of_the_first_view_takes_no_other_request_until_it_is_prepared() -> None:
+    async def scenario() -> None:
+        pool, process = Pool("."), Mock(stdin=Mock(drain=AsyncMock()))
+        files, first = (_Worker(process, ready=True, affinity=name, reserved=name != "") for name in ("", "carpet"))
+        pool._workers += [files, first]
+        files.request = Mock(long=False)
+        assert pool._free("") is None
+        assert pool._free("carpet") is first
+        pool._serve()
+        assert pool._starting == 0, "no further worker starts before the first view is there"
+        pool._receive(first, Prepared())
+        assert pool._free("") is first
+
+    asyncio.run(scenario())

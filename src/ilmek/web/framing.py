@@ -14,6 +14,10 @@ class Ready(msgspec.Struct, tag="ready", array_like=True):
     """The worker has started and takes requests."""
 
 
+class Prepared(msgspec.Struct, tag="prepared", array_like=True):
+    """The worker has prepared for the requests of its affinity."""
+
+
 class Ask(msgspec.Struct, tag="ask", array_like=True):
     """A request for a worker.
 
@@ -67,7 +71,7 @@ class Reply(msgspec.Struct, tag="answer", array_like=True):
     time: float
 
 
-Message = Ready | Ask | Cancel | StepMessage | News | Reply
+Message = Ready | Prepared | Ask | Cancel | StepMessage | News | Reply
 
 _ENCODER = msgspec.msgpack.Encoder()
 _DECODER: msgspec.msgpack.Decoder[Message] = msgspec.msgpack.Decoder(Message)

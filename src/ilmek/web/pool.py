@@ -1,7 +1,8 @@
 """The pool of worker processes: gives them requests, follows their progress, ends those that take too long.
 
 A worker answers one request at a time. A request waits until a worker is free; one with an affinity takes the worker
-that served the same affinity last where that worker is free, else any. Works that go on for long leave at least one
+that served the same affinity last where that worker is free, else any; while the first view is prepared, its worker
+takes no other requests, and none is started for later. Works that go on for long leave at least one
 worker to the requests of people who wait, and a worker that ends is replaced.
 """
 
@@ -17,7 +18,20 @@ from dataclasses import dataclass, field
 
 import msgspec
 
-from ilmek.web.framing import JSON, Ask, Cancel, Message, News, Ready, Reply, StepMessage, decoded, encoded, error_body
+from ilmek.web.framing import (
+    JSON,
+    Ask,
+    Cancel,
+    Message,
+    News,
+    Prepared,
+    Ready,
+    Reply,
+    StepMessage,
+    decoded,
+    encoded,
+    error_body,
+)
 
 GRACE = 4.0
 """Time that a cancelled request has to end by itself before its worker is ended [s]."""
@@ -57,6 +71,8 @@ class _Worker:
     process: asyncio.subprocess.Process
     started: bool = False
     ready: bool = False
+    reserved: bool = False
+    """It prepares for its affinity, or answers the first request of it, and takes no others."""
     request: Request | None = None
     affinity: str = ""
     limit: asyncio.TimerHandle | None = None
@@ -176,14 +192,19 @@ class Pool:
             long += request.long
             self._give(worker, request)
         coming = self._starting + sum(1 for worker in self._workers if not worker.ready)
-        spare = bool(self._workers) and self._free("") is None and self._failed_starts == 0
+        prepared = bool(self._workers) and not any(worker.reserved for worker in self._workers)
+        spare = prepared and self._free("") is None and self._failed_starts == 0
         wanted = len(self._waiting) or int(spare)
         for _ in range(min(wanted - coming, self.size - len(self._workers) - self._starting)):
             self._starting += 1
             self._later(self._add())
 
     def _free(self, affinity: str) -> _Worker | None:
-        free = [worker for worker in self._workers if worker.ready and worker.request is None]
+        free = [
+            worker
+            for worker in self._workers
+            if worker.ready and worker.request is None and (not worker.reserved or worker.affinity == affinity)
+        ]
         return min(free, key=lambda worker: (worker.affinity != affinity, worker.affinity != ""), default=None)
 
     def _give(self, worker: _Worker, request: Request) -> None:
@@ -221,7 +242,7 @@ class Pool:
             return
         finally:
             self._starting -= 1
-        worker = _Worker(process, affinity=affinity)
+        worker = _Worker(process, affinity=affinity, reserved=affinity != "")
         if self._closed:
             _kill(worker)
         self._workers.append(worker)
@@ -253,6 +274,10 @@ class Pool:
             self._serve()
             return
         request = worker.request
+        if isinstance(message, Prepared):
+            worker.reserved = worker.reserved and request is not None
+            self._serve()
+            return
         if request is None or isinstance(message, Ask | Cancel) or message.number != request.ask.number:
             return
         if isinstance(message, Reply):
@@ -262,7 +287,7 @@ class Pool:
             request.follow(message)
 
     def _finish(self, worker: _Worker, answer: Reply) -> None:
-        request, worker.request = worker.request, None
+        request, worker.request, worker.reserved = worker.request, None, False
         if worker.limit is not None:
             worker.limit.cancel()
         if request is not None and not request.answer.done():

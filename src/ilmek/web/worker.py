@@ -33,6 +33,7 @@ from ilmek.web.framing import (
     Cancel,
     Message,
     News,
+    Prepared,
     Ready,
     Reply,
     StepMessage,
@@ -70,6 +71,7 @@ class Worker:
         for step in first:
             if self._queue.empty():
                 _prepared(step)
+        self._send(Prepared())
         steps = iter(later)
         while True:
             ask = self._next(steps)

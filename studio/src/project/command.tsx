@@ -1,6 +1,7 @@
 import { useEffect, useState } from "preact/hooks";
 import type { ShownCommand } from "../api/messages";
 import { post } from "../api/request";
+import { ready } from "../app/ready";
 import { CopyCommand } from "../ui";
 
 interface FileCommandProps {
@@ -9,14 +10,16 @@ interface FileCommandProps {
   options?: Record<string, string>;
 }
 
-/** What is done with a file of the project, as command line and as Python. */
+/** What is done with a file of the project, as command line and as Python; after the view's first content. */
 export function FileCommand({ kind, path, options = {} }: FileCommandProps) {
   const [shown, setShown] = useState<ShownCommand | null>(null);
   const key = JSON.stringify(options);
+  const isReady = ready.value;
   useEffect(() => {
+    if (!isReady) return;
     const abort = new AbortController();
     post<ShownCommand>("/commands", { kind, path, options }, abort.signal).then(setShown, () => undefined);
     return () => abort.abort();
-  }, [kind, path, key]);
+  }, [kind, path, key, isReady]);
   return shown && <CopyCommand command={shown.command} python={shown.python} />;
 }

@@ -1,5 +1,6 @@
 /** The project: its files as the server lists them, and the documents that are open. */
 import { computed, signal } from "@preact/signals";
+import { ready } from "../app/ready";
 import {
   type FileError,
   type FileSummary,
@@ -30,7 +31,7 @@ export const activeDocument = signal<Document<object> | null>(null);
 /** Why the project's files could not be listed; "": they could. A server that does not answer is no reason. */
 export const projectProblem = signal("");
 
-/** Time after the first list, and after a later one, until the files are checked [ms]: the first view comes before. */
+/** Time after the first list, and after a later one, until the files are checked [ms], after the view's first content. */
 const [CHECK_FIRST, CHECK_LATER] = [1500, 300] as const;
 
 let next: Promise<void> | null = null;
@@ -69,7 +70,7 @@ function checkAfter(pause: number): void {
 }
 
 async function checkFiles(): Promise<void> {
-  if (checking) return checkAfter(CHECK_FIRST);
+  if (checking || !ready.peek()) return checkAfter(CHECK_FIRST);
   checking = true;
   try {
     const { files } = await serverApi.project(true);

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 from typing import Any
 
-from ilmek.jobs.studio.machine.view import ShownCheck
+from ilmek.jobs.studio.checks import ShownCheck
 
 RECIPE = "carpet.toml"
 """The recipe of a project."""

@@ -48,7 +48,7 @@ from ilmek.jobs.studio.carpet.answers import (
     SourcePicture,
 )
 from ilmek.jobs.studio.carpet.stages import KeptStages
-from ilmek.jobs.studio.machine.view import shown_check
+from ilmek.jobs.studio.checks import shown_check
 from ilmek.jobs.studio.project.folder import ProjectFolder
 from ilmek.jobs.yarn_choice import proposed_shades
 

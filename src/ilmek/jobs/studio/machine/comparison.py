@@ -3,7 +3,8 @@
 from dataclasses import dataclass, field
 
 from ilmek.jobs.studio.answers import Context
-from ilmek.jobs.studio.machine.view import DesignView, ShownCheck, judged, shown
+from ilmek.jobs.studio.checks import ShownCheck
+from ilmek.jobs.studio.machine.view import DesignView, judged, shown
 from ilmek.params import Setting
 
 ROUNDING = 1e-9

@@ -6,8 +6,9 @@ from typing import Any
 
 from ilmek.errors import IlmekError
 from ilmek.jobs.studio.answers import Context
+from ilmek.jobs.studio.checks import ratio_of
 from ilmek.jobs.studio.machine.tasks import parameters_of, value_text
-from ilmek.jobs.studio.machine.view import judged, ratio_of, report_for
+from ilmek.jobs.studio.machine.view import judged, report_for
 from ilmek.params import Parameter, Params, Setting, Value
 from ilmek.report import Check, Report
 from ilmek.units import format_quantity, parse_unit

@@ -3,7 +3,6 @@
 The numbers are those of `design_machine`; tables and figures are left out, so that it follows a slider that moves.
 """
 
-import math
 import time
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
@@ -11,34 +10,13 @@ from typing import Any
 
 from ilmek.jobs.nearest import with_nearest
 from ilmek.jobs.studio.answers import Context
+from ilmek.jobs.studio.checks import ShownCheck, finite, printed, shown_check
 from ilmek.jobs.studio.machine.tasks import DesignRequest, parameters_of, value_text
 from ilmek.machines.catalogue import find_machine
 from ilmek.params import Params, Setting, Value
 from ilmek.progress import SILENT, Progress
-from ilmek.report import Check, Reason, Report, result_text
-from ilmek.viz.number_format import beside, compared, quantity
-
-
-@dataclass(frozen=True, slots=True)
-class ShownCheck:
-    """A check: `value` against `limit` [SI], both as texts too.
-
-    machine     the machine in it that the check is of, "" for its own
-    limit_text  with its relation: "≤ 5 mm"; "" of a plain yes or no
-    ratio       value over limit; null of a plain yes or no, where the limit is 0, or one of them is no number
-    """
-
-    name: str
-    machine: str
-    ok: bool
-    value: float | None
-    limit: float | None
-    relation: str
-    value_text: str
-    limit_text: str
-    ratio: float | None
-    source: str
-    cure: str
+from ilmek.report import Report, result_text
+from ilmek.viz.number_format import quantity
 
 
 @dataclass(frozen=True, slots=True)
@@ -197,36 +175,6 @@ def _of_machines(report: Report) -> dict[str, Any]:
     return {f"{child.machine}.{name}": value for child in report.children for name, value in child.parameters.items()}
 
 
-def printed(check: Check | Reason) -> tuple[str, str]:
-    """Value and limit with their unit, the limit with its relation; of a plain yes or no, the limit is left out.
-
-    >>> from ilmek.report import at_most, must
-    >>> printed(at_most("angle", 0.1, 0.2, "deg", "")), printed(must("knot tied", False, ""))
-    (('5.73°', '≤ 11.46°'), ('no', ''))
-    """
-    value, limit = compared(check)
-    unit = beside(check)
-    return value + unit, "" if limit == "yes" else limit + unit
-
-
-def shown_check(check: Check, machine: str = "") -> ShownCheck:
-    """A check as it is shown; machine: in it that the check is of."""
-    value, limit = printed(check)
-    return ShownCheck(
-        name=check.name,
-        machine=machine,
-        ok=check.ok,
-        value=_number(check.value),
-        limit=_number(check.limit),
-        relation=check.relation,
-        value_text=value,
-        limit_text=limit,
-        ratio=ratio_of(check) if limit else None,
-        source=check.source,
-        cure=check.cure,
-    )
-
-
 def _checks(report: Report, machine: str) -> Iterator[ShownCheck]:
     yield from (shown_check(one, machine) for one in report.checks)
     for child in report.children:
@@ -238,15 +186,6 @@ def _results(report: Report, machine: str) -> Iterator[ShownResult]:
         if one.shown:
             number = one.value if isinstance(one.value, int | float) and not isinstance(one.value, bool) else None
             text = quantity(number, one.unit) if number is not None else result_text(one.value, one.unit)
-            yield ShownResult(one.name, machine, text, one.unit, one.meaning, _number(number))
+            yield ShownResult(one.name, machine, text, one.unit, one.meaning, finite(number))
     for child in report.children:
         yield from _results(child, f"{machine}: {child.machine}" if machine else child.machine)
-
-
-def ratio_of(check: Check) -> float | None:
-    """Value over limit of a check; None where that is no number."""
-    return _number(check.value / check.limit) if check.limit and math.isfinite(check.limit) else None
-
-
-def _number(value: float | None) -> float | None:
-    return None if value is None or not math.isfinite(value) else float(value)

@@ -1,32 +1,17 @@
 """The first error of a project's text file, found by the reader of the command line."""
 
 import re
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
+from importlib import import_module
 from pathlib import Path
 
 from ilmek.errors import IlmekError
-from ilmek.io.cyclogram_file import read_cyclogram
-from ilmek.io.mechanism_file import read_mechanism
-from ilmek.io.yarn_file import read_yarns
-from ilmek.jobs.machine_file import read_machine_order
-from ilmek.jobs.order import read_order
 from ilmek.jobs.studio.project.folder import kind_of, read_bytes
 
 _LINE = re.compile(r"\bline (\d+)")
 _YARN = re.compile(r"\byarn (\d+) ")
 _YARN_TABLE = re.compile(r"[ \t]*\[\[[ \t]*yarn[ \t]*\]\]")
-
-READERS: dict[str, Callable[[Path], object]] = {
-    "carpet": read_order,
-    "machine": lambda path: read_machine_order(str(path), {}),
-    "linkage": lambda path: read_mechanism(path).plan(),
-    "synthesis": lambda path: read_machine_order(str(path), {}),
-    "cyclogram": read_cyclogram,
-    "yarns": read_yarns,
-}
-"""The reader of each kind of text file."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,11 +43,26 @@ def _kept(base: Path, path: str, digest: str) -> FileError | None:
 def _read(base: Path, path: str) -> FileError | None:
     file = base / path
     try:
-        READERS[kind_of(path) or "carpet"](file)
+        _use_reader(kind_of(path) or "carpet", file)
     except IlmekError as error:
         given, allowed, do = (part.replace(f"{base}/", "") for part in (error.given, error.allowed, error.do))
         return FileError(given, allowed, do, _line_of(given, file))
     return None
+
+
+def _use_reader(kind: str, file: Path) -> None:
+    """Read a file as the command line does. The reader is imported here: the list of files comes without any."""
+    match kind:
+        case "carpet":
+            import_module("ilmek.jobs.order").read_order(file)
+        case "machine" | "synthesis":
+            import_module("ilmek.jobs.machine_file").read_machine_order(str(file), {})
+        case "linkage":
+            import_module("ilmek.io.mechanism_file").read_mechanism(file).plan()
+        case "cyclogram":
+            import_module("ilmek.io.cyclogram_file").read_cyclogram(file)
+        case "yarns":
+            import_module("ilmek.io.yarn_file").read_yarns(file)
 
 
 def _line_of(given: str, file: Path) -> int | None:
