@@ -237,8 +237,7 @@ def _samples_in_step(
         at.append(until)
     if not at:
         return []
-    dense = solver.dense_output()
-    return [(time, dense(time)) for time in at]
+    return list(zip(at, solver.dense_output()(np.array(at)).T, strict=True))
 
 
 def _events_in_step(

@@ -83,11 +83,11 @@ class SwivelledArm:
 
     def elbow(self, s: FloatArray) -> ComplexArray:
         """Positions of the elbow [m]; NaN where the arm cannot close."""
-        return np.asarray(self.pivot + self.first * unit(self._first(s)[0]))
+        return np.asarray(self.pivot + self.first * unit(self._angle(self._first_cosine(s), -self.side)))
 
     def tip(self, s: FloatArray) -> ComplexArray:
         """Positions of the tip P [m]; NaN where the arm cannot close."""
-        return np.asarray(self.swivel + self.beyond(s) * unit(self._second(s)[0]))
+        return np.asarray(self.swivel + self.beyond(s) * unit(self._angle(self._second_cosine(s), self.side)))
 
     def tilt(self, s: FloatArray) -> FloatArray:
         """Angle of link 2 from upright [rad], positive for a tip on the right of the elbow."""
@@ -123,10 +123,23 @@ class SwivelledArm:
         both = zip(self._first(s), self._second(s), strict=True)
         return ArmPath(s, *(np.stack(np.broadcast_arrays(*pair), axis=-1) for pair in both))
 
+    def _angle(self, cosine: FloatArray, side: int) -> FloatArray:
+        """th1 or th2 by its cosine to G."""
+        with np.errstate(invalid="ignore"):
+            return np.asarray(float(np.angle(self.swivel - self.pivot)) + side * np.arccos(cosine))
+
+    def _first_cosine(self, s: FloatArray) -> FloatArray:
+        r = self.second - self.beyond(s)
+        return np.asarray((self.first**2 + self.base**2 - r**2) / (2 * self.first * self.base))
+
+    def _second_cosine(self, s: FloatArray) -> FloatArray:
+        r = self.second - self.beyond(s)
+        return np.asarray((r + (self.base**2 - self.first**2) / r) / (2 * self.base))
+
     def _first(self, s: FloatArray) -> Jet:
         """th1 and its derivatives."""
         r, fall, double = self.second - self.beyond(s), -self.stroke, 2 * self.first * self.base
-        cosine = (self.first**2 + self.base**2 - r**2) / double, -2 * r * fall / double
+        cosine = self._first_cosine(s), -2 * r * fall / double
         jet = _arccosine((*cosine, np.full_like(r, -2 * fall**2 / double), np.zeros_like(r)))
         return _turned(jet, float(np.angle(self.swivel - self.pivot)), -self.side)
 
@@ -134,7 +147,7 @@ class SwivelledArm:
         """th2 and its derivatives."""
         r, fall, excess = self.second - self.beyond(s), -self.stroke, self.base**2 - self.first**2
         cosine = (
-            (r + excess / r) / (2 * self.base),
+            self._second_cosine(s),
             fall * (1 - excess / r**2) / (2 * self.base),
             fall**2 * excess / (self.base * r**3),
             -3 * fall**3 * excess / (self.base * r**4),

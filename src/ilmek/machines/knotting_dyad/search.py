@@ -38,7 +38,11 @@ SAMPLES = 17
 
 @dataclass(frozen=True, slots=True)
 class _Tried:
-    """Arms of a grid, each by its number; `cost` has MISSED for each limit missed, and is infinite where none is."""
+    """Arms of a grid, each by its number.
+
+    cost  with MISSED for each limit missed, infinite where no arm is; the own side counts for those alone that may be
+          the best
+    """
 
     pivot: ComplexArray
     first: FloatArray
@@ -98,19 +102,20 @@ def _tried(params: KnottingDyadParams, section: WarpSection, at: Float[np.ndarra
     with np.errstate(invalid="ignore", divide="ignore"):
         bent = _bent(np.abs(pivot - gap), first, r0, r1)
         there = (side == np.sign(cross(pivot - gap, E1 - gap))) & (r1 > 0) & (bent > 0)
-        own_side = np.zeros(len(at), dtype=bool)
-        own_side[there] = _own_side(section, *(one[there] for one in (pivot, first, second, side)))
         limits = (
             np.abs(tilt) <= section.tilt,
             np.maximum(first, second) <= params.link_limit,
             second >= section.needle_length + params.link_width,
             bent >= np.sin(params.bend_limit),
             _pivot_clear(params, section, pivot),
-            own_side,
         )
-        missed = sum(~one for one in limits)
+        missed = np.sum([~one for one in limits], axis=0)
         turns = np.abs(np.angle((E1 - pivot) / (E0 - pivot))) + np.abs(tilt - section.tilt)
-    cost = np.where(there, (first**2 + second**2) * turns + MISSED * missed, np.inf)
+        effort = (first**2 + second**2) * turns
+        before = np.where(there, effort + MISSED * missed, np.inf)
+        near = there & (before <= np.min(before) + MISSED)  # no other can be the best
+        missed[near] += ~_own_side(section, *(one[near] for one in (pivot, first, second, side)))
+    cost = np.where(there, effort + MISSED * missed, np.inf)
     return _Tried(pivot, first, second, side, cost)
 
 

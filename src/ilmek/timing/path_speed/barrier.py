@@ -36,6 +36,7 @@ class SpeedTask:
 
     knots   of u, ascending [-]    basis  values of the four B-splines at the points
     weight  of the integral        rows   R by coefficient        constant, root   c and k
+    by_root  number of the first constraint whose k is not 0
     """
 
     knots: Float[np.ndarray, " knots"]
@@ -44,6 +45,7 @@ class SpeedTask:
     rows: Float[np.ndarray, "points constraints 4"]
     constant: Float[np.ndarray, "points constraints"]
     root: Float[np.ndarray, "points constraints"]
+    by_root: int
 
     @property
     def seen(self) -> IntArray:
@@ -73,9 +75,10 @@ def local_basis(knots: FloatArray, share: FloatArray, order: int = 0) -> FloatAr
     """The four B-splines, or their derivative of an order, at shares [-] of every interval, (points, 4)."""
     width = np.diff(knots)[:, None]
     u = (knots[:-1, None] + width * share).ravel()
-    every = np.eye(len(knots) + ORDER - 2)
-    values = scipy.interpolate.BSpline(clamped(knots), every, ORDER - 1)(u, nu=order)
-    return np.asarray(np.take_along_axis(values, _seen(len(knots) - 1, len(share)), 1))
+    apart = ORDER + 1  # of a column's B-splines; one more than act at a point, as a rounded point may be beside a knot
+    columns = np.eye(apart)[np.arange(len(knots) + ORDER - 2) % apart]
+    values = scipy.interpolate.BSpline(clamped(knots), columns, ORDER - 1)(u, nu=order)
+    return np.asarray(np.take_along_axis(values, _seen(len(knots) - 1, len(share)) % apart, 1))
 
 
 def clamped(knots: FloatArray) -> FloatArray:
@@ -127,8 +130,10 @@ def _newton(
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Step of the coefficients, and the changes of slacks and multipliers with it."""
     intervals, seen = len(task.knots) - 1, task.seen
-    bent = -0.5 * task.root / state.w[:, None] ** 1.5
-    gradients = task.rows + bent[..., None] * task.basis[:, None]
+    first = task.by_root
+    bent = -0.5 * task.root[:, first:] / state.w[:, None] ** 1.5
+    gradients = task.rows.copy()
+    gradients[:, first:] += bent[..., None] * task.basis[:, None]
     slope = _summed(seen, (-0.5 * task.weight * state.w**-1.5)[:, None] * task.basis, len(state.x))
     slope += _summed(seen, -((mean / state.slack)[:, None] @ gradients)[:, 0], len(state.x))
     curvature = _blocks((0.75 * task.weight * state.w**-2.5)[:, None] * task.basis, task.basis, intervals)
@@ -163,8 +168,9 @@ def _banded(blocks: FloatArray) -> FloatArray:
 
 def _to_wall(values: FloatArray, change: FloatArray) -> float:
     """Share of a change that reduces a positive value nearly to 0."""
-    falling = change < 0
-    return float(_TO_WALL * np.min(-values[falling] / change[falling], initial=np.inf))
+    with np.errstate(divide="ignore"):
+        shares = np.where(change < 0, -values / change, np.inf)
+    return float(_TO_WALL * np.min(shares))
 
 
 def _moved(task: SpeedTask, state: _State, step: FloatArray, change: FloatArray) -> tuple[_State, float]:

@@ -165,10 +165,11 @@ def _task(path: JointPath, limits: AxesLimits, knots: FloatArray) -> SpeedTask:
     bend = (q2 * b0[:, None] + q1 * b1[:, None] / 2) / limits.acceleration[:, None]
     jerk = (q3 * b0[:, None] + 1.5 * q2 * b1[:, None] + q1 * b2[:, None] / 2) / limits.jerk[:, None]
     rows = np.concatenate([-quick, -bend, bend, -jerk, jerk], axis=1)
-    by_root = np.arange(rows.shape[1]) > 2 * len(limits.jerk)
+    first = 2 * len(limits.jerk) + 1
+    by_root = np.arange(rows.shape[1]) >= first
     constant = np.broadcast_to(np.where(by_root, 0.0, 1.0), rows.shape[:2])
     weight = (np.diff(knots)[:, None] * _SHARES).ravel()  # Simpson's second rule
-    return SpeedTask(knots, b0, weight, rows, constant, 1.0 - constant)
+    return SpeedTask(knots, b0, weight, rows, constant, 1.0 - constant, first)
 
 
 def _overstep(
