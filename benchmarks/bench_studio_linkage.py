@@ -1,6 +1,6 @@
 """The linkage editor: a joint dragged, each state answered at 360 positions; the share of the server.
 
-    python -m benchmarks.bench_studio_linkage
+    python -m benchmarks studio_linkage
 
 Processor time of the engine's part is printed beside the round trip, which others on the computer lengthen.
 """
@@ -68,7 +68,7 @@ def answered(request: MechanismRequest) -> bytes:
     return msgspec.json.encode(mechanism(request, Context()))
 
 
-def main() -> None:
+def run() -> None:
     """Drag joints of four linkages by the API."""
     with tempfile.TemporaryDirectory() as folder, studio(Path(folder) / "project") as address:
         client = Client(address)
@@ -84,7 +84,3 @@ def main() -> None:
             later = processor(partial(quality, MechanismRequest(data), Context()))
             print(f"{name + ': circuits, quality, checks at rest':44s} once   {1000 * later:8.1f} ms")
         client.close()
-
-
-if __name__ == "__main__":
-    main()

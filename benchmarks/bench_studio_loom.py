@@ -1,6 +1,6 @@
 """The loom in space: time to its first picture, and pictures a second drawn by the processor, without a graphics card.
 
-    python -m benchmarks.bench_studio_loom
+    python -m benchmarks studio_loom
 
 Processor time of the browser is printed beside the clock, which others on the computer lengthen.
 """
@@ -64,7 +64,7 @@ def shown(browser: Browser, page: Page, address: str, name: str) -> None:
         counted(browser, page, f"{name}, {view}: turned", TURN, STILL)
 
 
-def main() -> None:
+def run() -> None:
     """Show the loom of the example, and one with 1,200 warps."""
     with tempfile.TemporaryDirectory() as folder, Browser(*BY_PROCESSOR) as browser:
         project = Path(folder) / "project"
@@ -76,7 +76,3 @@ def main() -> None:
             shown(browser, page, f"{address}#loom/machines/wide-loom.toml", "loom with 1,200 warps")
         errors = [one for one in browser.errors if "GPU stall" not in one]  # a processor draws
         assert errors == [], errors
-
-
-if __name__ == "__main__":
-    main()

@@ -1,6 +1,6 @@
 """Synthesis and cyclogram of the studio: a point or a motion dragged, each state answered; the search after it.
 
-    python -m benchmarks.bench_studio_synthesis
+    python -m benchmarks studio_synthesis
 
 Processor time of the engine's part is printed beside the round trip, which others on the computer lengthen.
 """
@@ -76,7 +76,7 @@ def drag_points(address: str, name: str, data: dict[str, Any]) -> None:
     print(f"{name + ': processor time of the full search':44s} once   {1000 * full:8.1f} ms")
 
 
-def main() -> None:
+def run() -> None:
     """Drag three tasks and a cyclogram by the API; solve the cyclogram for both goals."""
     with tempfile.TemporaryDirectory() as folder, studio(Path(folder) / "project") as address:
 
@@ -96,7 +96,3 @@ def main() -> None:
         for goal in ("acceleration", "period"):
             once = processor(partial(solved, SolveRequest(press, goal), Context()))
             print(f"{f'press: processor time of least {goal}':44s} once   {1000 * once:8.1f} ms")
-
-
-if __name__ == "__main__":
-    main()
