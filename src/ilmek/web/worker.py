@@ -70,7 +70,9 @@ class Worker:
         self._send(Ready())
         for step in first:
             if self._queue.empty():
-                _prepared(step)
+                _tried(step)
+        gc.freeze()
+        gc.enable()
         self._send(Prepared())
         steps = iter(later)
         while True:
@@ -140,13 +142,18 @@ class Worker:
         return 200, JSON, encoded_json(answer)
 
 
+def _tried(step: Callable[[], object]) -> None:
+    """Do a step that prepares; what fails is reported where a request needs it."""
+    with contextlib.suppress(Exception):
+        step()
+
+
 def _prepared(step: Callable[[], object]) -> None:
-    """Do a step that prepares; what fails is reported where a request needs it.
+    """Do a step that prepares while no request comes.
 
     What a worker has by then it keeps: later collections of garbage, of 0.1 s each with it, leave it out.
     """
-    with contextlib.suppress(Exception):
-        step()
+    _tried(step)
     gc.collect()
     gc.freeze()
 
@@ -223,6 +230,7 @@ def widen_pipe(handle: int) -> None:
 
 def main() -> None:
     """Answer the requests of standard input on standard output."""
+    gc.disable()  # until the first steps are done: what they import stays
     limit_memory(int(sys.argv[1]))
     widen_pipe(1)
     answers = os.fdopen(os.dup(1), "wb")
