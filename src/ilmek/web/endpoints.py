@@ -181,7 +181,13 @@ ENDPOINTS: tuple[Endpoint, ...] = (
         "A command to the run: hold, resume, stop, acknowledge, yes, no.",
     ),
     Endpoint("GET", "/project", "studio.project.tasks:project", "The files of the project, each with its first error."),
-    Endpoint("GET", "/project/files/{path:path}", "studio.project.tasks:read_file", "A text file of the project."),
+    Endpoint(
+        "GET",
+        "/project/files/{path:path}",
+        "studio.project.tasks:read_file",
+        "A text file of the project.",
+        affinity=FIRST,  # its check needs what the chart needs: imported once
+    ),
     Endpoint(
         "PUT",
         "/project/files/{path:path}",

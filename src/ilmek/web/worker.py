@@ -69,8 +69,9 @@ class Worker:
         """
         self._send(Ready())
         for step in first:
-            if self._queue.empty():
-                _tried(step)
+            if not self._queue.empty():
+                break
+            _tried(step)
         gc.freeze()
         gc.enable()
         self._send(Prepared())

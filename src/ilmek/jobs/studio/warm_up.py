@@ -14,9 +14,7 @@ DESIGNS = ("beat-up", "cam")
 
 def preparations_for(affinity: str = "") -> Iterator[Callable[[], object]]:
     """What a worker does at once that will answer requests of an affinity; "": those of the project's files."""
-    if affinity == "":
-        yield partial(import_module, "ilmek.jobs.studio.project.tasks")
-        yield partial(import_module, "ilmek.jobs.order")
+    yield partial(import_module, "ilmek.jobs.studio.project.tasks")
     if affinity == "carpet":
         yield partial(import_module, "ilmek.jobs.studio.carpet.tasks")
         yield partial(import_module, "ilmek.num.machine_code")
