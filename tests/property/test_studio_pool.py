@@ -44,7 +44,7 @@ CASES = st.builds(
 def runner() -> Iterator[tuple[asyncio.Runner, Pool]]:
     with asyncio.Runner() as loop:
         pool = Pool(".", size=SIZE, command=studio_tasks.COMMAND, grace=0.1)
-        loop.run(pool.start(SIZE))
+        loop.run(pool.start())
         yield loop, pool
         loop.run(pool.close())
         assert pool.processes() == []

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from ilmek.cams.laws import LAWS, SMOOTH_LAWS, law_of
@@ -47,6 +47,7 @@ def test_continuity_not_met_names_place_angle_and_derivative() -> None:
     speed=st.floats(1e-3, 0.03),
     start=st.floats(-4, 4),
 )
+@example(order=1, spans=[1.0, 1.0, 1.0], speed=0.015625, start=0.0)
 def test_blends_reach_the_asked_order(order, spans, speed, start) -> None:
     """Constant speed, blended into a dwell and back: no derivative up to the order steps at an edge."""
     feed, first, still = spans

@@ -73,9 +73,8 @@ class Piecewise:
         if slopes.shape[1] > 1 and np.all(slopes[:, [0, -1]] != 0.0):
             roots = _roots(slopes)
             near = np.clip(np.where(np.abs(roots.imag) < _REAL, roots.real, 0.0), 0.0, 1.0)
-            values = np.asarray(
-                _horner(self.rows.T[:, :, None], np.pad(near, ((0, 0), (0, 2)), constant_values=(0.0, 1.0)))
-            )
+            with_ends = np.pad(near, ((0, 0), (1, 1)), constant_values=(0.0, 1.0))
+            values = np.asarray(_horner(self.rows.T[:, :, None], with_ends))
         else:
             values = np.concatenate([_extremes(row) for row in self.rows])
         return float(values.min()), float(values.max())
