@@ -178,8 +178,8 @@ def test_a_run_is_held_found_again_after_a_reload_and_stopped(page: Page, runnin
 
 
 def test_a_view_that_was_left_keeps_no_memory(page: Page, running: Studio) -> None:
-    said: list[str] = []
-    page.on("console", lambda message: said.append(message.text))
+    printed: list[str] = []
+    page.on("console", lambda message: printed.append(message.text))
     open_view(page, running, "loom")
     protocol = page.context.new_cdp_session(page)
 
@@ -195,7 +195,7 @@ def test_a_view_that_was_left_keeps_no_memory(page: Page, running: Studio) -> No
         sizes.append(used())
         open_view(page, running, "loom")
     assert sizes[-1] - sizes[2] < 2.0, sizes
-    assert [one for one in said if "WebGL" in one] == []
+    assert [one for one in printed if "WebGL" in one] == []
 
 
 def test_the_page_of_a_loom_needs_no_server(browser: Browser, running: Studio, tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""A scene as data for a page: what is said of it as JSON, its numbers in one block of floats and one of integers."""
+"""A scene as data for a page: its description as JSON, its numbers in one block of floats and one of integers."""
 
 import math
 from collections.abc import Iterable

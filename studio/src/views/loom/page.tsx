@@ -9,7 +9,7 @@ import { Workbench } from "./workbench";
 const PAGE =
   ":host{display:block;height:min(86vh,900px);border:1px solid var(--line);color:var(--ink);font:14px/1.45 system-ui,sans-serif}.loom-host{height:100%}";
 
-/** Styles of a whole page for an element of another page: what is said of the root holds for the element. */
+/** Styles of a whole page for an element of another page: rules of the root hold for the element. */
 export function hosted(css: string): string {
   return css.replace(/:root(\[[^\]]*\])/g, ":host($1)").replaceAll(":root", ":host");
 }

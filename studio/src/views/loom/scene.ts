@@ -1,4 +1,4 @@
-/** A loom in space as the server sends it: what is said of it, and typed arrays of its numbers. */
+/** A loom in space as the server sends it: its description, and typed arrays of its numbers. */
 import type { Packed } from "../../api/request";
 
 export type Range = [first: number, count: number];

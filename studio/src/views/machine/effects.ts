@@ -5,7 +5,7 @@ export interface Bar {
   effect: Effect;
   /** Length, 0 to 1, on a logarithmic scale: 0.01 % to 10 % of the check for 1 % of the parameter. */
   length: number;
-  /** Whether a rise of the parameter brings the check away from its limit; null where that cannot be said. */
+  /** Whether a rise of the parameter brings the check away from its limit; null where that is not known. */
   better: boolean | null;
 }
 

@@ -184,7 +184,7 @@ function Status({ search, data, isReported }: StatusProps) {
   );
 }
 
-/** The chosen candidate, and its way into the editor of linkages. */
+/** The chosen candidate, and its transfer to the editor of linkages. */
 function Taken({ one, stem }: { one: ShownFourBar; stem: string }) {
   const [busy, setBusy] = useState(false);
   const take = async () => {
