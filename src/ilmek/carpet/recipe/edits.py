@@ -24,7 +24,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ilmek.arrays import Indices, Int64
+from ilmek.arrays import Indices, Int64, UInt8
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.colour_difference import nearest
 from ilmek.carpet.design import bands
@@ -175,17 +175,17 @@ def apply_edit(knots: Indices, edit: Edit, yarns: tuple[int, ...], progress: Pro
     if edit.kind in _APPLY:  # half and jufti knots are marks beside the knots
         _APPLY[edit.kind](knots, at, yarns, progress)
     elif edit.kind == "mirror":
-        complete(area_of(knots, at), edit.direction)
+        complete(knots_between(knots, at), edit.direction)
     elif edit.kind == "repeat":
         _repeat(knots, at)
     elif edit.kind == "border":
-        part = area_of(knots, at)
+        part = knots_between(knots, at)
         rows, columns = part.shape
         for side in edges(rows, columns, (min(edit.width, rows), min(edit.width, columns))):
             part[side] = yarns[0]
 
 
-def area_of(knots: Indices, corners: list[Knot]) -> Indices:
+def knots_between(knots: Indices, corners: list[Knot]) -> UInt8[np.ndarray, "high wide"]:
     """The part of the knots between two opposite corners, whose knots belong to it; the whole without corners."""
     if not corners:
         return knots
@@ -195,10 +195,10 @@ def area_of(knots: Indices, corners: list[Knot]) -> Indices:
 
 def _repeat(knots: Indices, at: list[Knot]) -> None:
     """Repeat the part between the first two knots over that between the next two, or the whole; it stays in place."""
-    (top, left), tile = (min(row for row, _ in at[:2]), min(column for _, column in at[:2])), area_of(knots, at[:2])
-    tile = tile.copy()
+    top, left = min(row for row, _ in at[:2]), min(column for _, column in at[:2])
+    tile = knots_between(knots, at[:2]).copy()
     first = (min(row for row, _ in at[2:]), min(column for _, column in at[2:])) if at[2:] else (0, 0)
-    part = area_of(knots, at[2:])
+    part = knots_between(knots, at[2:])
     rows = (np.arange(len(part)) + first[0] - top) % len(tile)
     columns = (np.arange(part.shape[1]) + first[1] - left) % tile.shape[1]
     for band in bands(*part.shape):
@@ -233,7 +233,7 @@ def line_knots(begin: Knot, end: Knot) -> tuple[Int64[np.ndarray, " knots"], Int
 
 
 def _replace(knots: Indices, at: list[Knot], yarns: tuple[int, ...], progress: Progress) -> None:
-    knots = area_of(knots, at)
+    knots = knots_between(knots, at)
     for band in bands(*knots.shape):
         part = knots[band]
         part[part == yarns[0]] = yarns[1]
