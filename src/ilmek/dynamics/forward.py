@@ -5,8 +5,8 @@
 With p = √J q' the kinetic energy is p^2 / 2, J' is not needed, and p stays finite where J does not: at a dead centre.
 
 Start-up, running, coasting and stopping are consecutive runs; each starts at the end of the previous one. A run ends at
-its duration, at a terminal event, at a dead centre, or where the mechanism cannot close. The end is reported with time,
-state and reason. The integrator is the Dormand-Prince method of order 8 with error control [Hairer, Norsett and Wanner,
+its duration, at a terminal event, at a dead centre, where the mechanism cannot close, or after its most steps. What it
+reached is kept, and its end is reported with time, state and reason. The integrator is the Dormand-Prince method of order 8 with error control [Hairer, Norsett and Wanner,
 Solving Ordinary Differential Equations I, section II.10]. The work of drive and loads is integrated as well, for the
 energy balance.
 """
@@ -91,8 +91,9 @@ def forward(
     most_steps  of the integrator
 
     A machine whose input rotates fully is run on its Fourier table (see `fourier_terms`), any other on the mechanism's
-    equations. Raises MechanismError for a start at which the mechanism does not close, a state, duration or effort that
-    is not finite, a tolerance outside its range, and a run that needs more steps than allowed.
+    equations. A run that ends early, also after its most steps, keeps what it reached: see `ForwardRun.end`. Raises
+    MechanismError for a start at which the mechanism does not close, a state, duration or effort that is not finite, and
+    a tolerance outside its range.
     """
     _check(duration, every, rtol)
     equation = _Equation(reduced, tabulate(reduced), drive)
@@ -192,7 +193,7 @@ def _advance(
     every: float | None,
     most_steps: int,
 ) -> _Integration:
-    """Integrate to the end of the run; the last sample is the end. Raises MechanismError beyond `most_steps`."""
+    """Integrate to the end of the run; the last sample is the end."""
     samples: list[tuple[float, Row]] = [(float(solver.t), np.array(solver.y))]
     happened: list[EventRecord[ForwardState]] = []
     before = _values(events, equation.state(solver.t, solver.y))
@@ -202,7 +203,8 @@ def _advance(
                 break
             solver.step()
             if solver.status == "failed" or _stopped_at_limit(solver, equation):
-                samples.append((float(solver.t), np.array(solver.y)))
+                if samples[-1][0] < solver.t:
+                    samples.append((float(solver.t), np.array(solver.y)))
                 return _Integration(samples, happened, _failure(solver, equation))
             now = _values(events, equation.state(solver.t, solver.y)) if events else []
             happened += _events_in_step(solver, equation, events, before, now)
@@ -217,10 +219,10 @@ def _advance(
                 return _Integration(samples, happened, RunEnd(EndKind.EVENT, hit.state, hit.name))
             before = now
     if solver.status == "running":
-        raise MechanismError(
-            f"the run needs more than {most_steps} steps: it has reached {solver.t:.4g} s of {solver.t_bound:.4g} s",
-            do="make the drive softer (less torque, more slip), or the run shorter",
-        )
+        if samples[-1][0] < solver.t:
+            samples.append((float(solver.t), np.array(solver.y)))
+        reason = f"{most_steps} steps of the integrator reached {solver.t:.4g} s of {solver.t_bound:.4g} s"
+        return _Integration(samples, happened, RunEnd(EndKind.STEPS, equation.state(*samples[-1]), reason))
     return _Integration(
         samples, happened, RunEnd(EndKind.TIME, equation.state(*samples[-1]), "its duration was reached")
     )

@@ -35,6 +35,7 @@ class EndKind(Enum):
     DEAD_CENTRE    links in line: the motion of the input does not determine theirs
     CANNOT_CLOSE   end of the input's range        NOT_CONVERGED  Newton's method found no further pose
     STEP           an effort that is not finite, or not smooth enough for the requested error
+    STEPS          the most steps of the integrator were made
     """
 
     TIME = "time"
@@ -43,6 +44,12 @@ class EndKind(Enum):
     CANNOT_CLOSE = "cannot close"
     NOT_CONVERGED = "not converged"
     STEP = "step"
+    STEPS = "steps"
+
+    @property
+    def early(self) -> bool:
+        """Whether the run ended before its duration, and not at an event."""
+        return self not in (EndKind.TIME, EndKind.EVENT)
 
 
 @dataclass(frozen=True, slots=True)

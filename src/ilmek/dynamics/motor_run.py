@@ -124,8 +124,8 @@ def motor_run(
     task      motor and flywheel
 
     The start lasts at most 4 J omega_0 / M_0, with J the greatest inertia over a turn, and at most 100 turns at the
-    speed. A machine that has not reached 95 % of its speed by then does not start. Raises MechanismError for
-    a motor so strong, or a slip so small, that the run needs more than MOST_STEPS steps.
+    speed. A machine that has not reached 95 % of its speed by then, or within MOST_STEPS steps of the integrator, does
+    not start; there is no last turn where the turns at speed end early.
     """
     speed, wheel = task.speed, task.flywheel
     required = cyclic_torque(lambda angle, _: torque(angle))
@@ -155,4 +155,4 @@ def motor_run(
     at_speed_from = ForwardState(last.position, last.speed)
     steady = run(at_speed_from, STEADY_TURNS * period, period / STEADY_SAMPLES, reach=False)
     final = LastTurn(steady.speed[-STEADY_SAMPLES:], steady.effort[-STEADY_SAMPLES:])
-    return MotorRun(required, wheel, most, start, True, steady, final)
+    return MotorRun(required, wheel, most, start, True, steady, None if steady.end.kind.early else final)

@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from ilmek.dynamics.forward import RunEvent, forward
-from ilmek.dynamics.forward_run import Drive, ForwardRun, ForwardState
+from ilmek.dynamics.forward_run import Drive, EndKind, ForwardRun, ForwardState
 from ilmek.dynamics.inverse import Forces
 from ilmek.dynamics.inverse_run import InverseRun, all_loads, greatest, inverse_run
 from ilmek.dynamics.own_machine import ForwardTask, MotorDrive, OwnMachine, StopEvent
@@ -20,6 +20,7 @@ from ilmek.errors import MechanismError
 from ilmek.linkage.model import Rotation
 from ilmek.linkage.structure import Plan
 from ilmek.records import computed, record
+from ilmek.report import Check, at_least
 
 SAMPLES = 600
 """Samples of a run that are reported."""
@@ -30,11 +31,16 @@ RTOL, MOST_STEPS = 1e-8, 20_000
 
 @record
 class OwnForward:
-    """A forward run and the forces over it; `wheel` is the inertia of rotor and flywheel on the input [kg m²; kg]."""
+    """A forward run and the forces over it, as far as it came.
+
+    wheel     inertia of rotor and flywheel on the input [kg m²; kg]
+    duration  of the task [s]
+    """
 
     run: ForwardRun
     inverse: InverseRun
     wheel: float
+    duration: float
 
     @property
     def forces(self) -> Forces:
@@ -47,6 +53,16 @@ class OwnForward:
         required = self.forces.effort(str(self.inverse.driving)) + self.wheel * self.run.acceleration
         size = greatest(required)
         return greatest(required - self.run.effort) / size if size > 0 else 0.0
+
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """Of a run that ended early: that it did not reach its duration."""
+        end = self.run.end
+        if not end.kind.early:
+            return ()
+        soft = "make the drive softer (less torque, more slip), or the run shorter"
+        cure = soft if end.kind in (EndKind.STEPS, EndKind.STEP) else "change the links, or end the run at an event"
+        return (at_least("forward run: time reached", end.state.time, self.duration, "s", end.reason, cure=cure),)
 
     forward_end = computed("", "why the forward run ended", lambda it: it.run.end.reason)
     forward_time = computed("s", "time at its end", lambda it: float(it.run.end.state.time))
@@ -80,8 +96,8 @@ class OwnForward:
 def own_forward(machine: OwnMachine, plan: Plan, task: ForwardTask) -> OwnForward:
     """The forward run of a machine with one input, and its joint forces without the friction of joints.
 
-    Raises MechanismError as `reduce` and `forward`: for several inputs, no moving mass, a start at which the mechanism
-    does not close, and a run that needs more than `MOST_STEPS` steps.
+    Raises MechanismError as `reduce` and `forward`: for several inputs, no moving mass, and a start at which the
+    mechanism does not close.
     """
     wheel = task.drive.inertia if task.drive is not None else 0.0
     reduced = reduce(plan, machine.inertias, all_loads(machine), flywheel=wheel)
@@ -97,7 +113,8 @@ def own_forward(machine: OwnMachine, plan: Plan, task: ForwardTask) -> OwnForwar
         most_steps=MOST_STEPS,
     )
     frictionless = replace(machine, frictions=())
-    return OwnForward(run, inverse_run(frictionless, run.motion(), plan.mechanism.inputs[0].name, run.time), wheel)
+    forces = inverse_run(frictionless, run.motion(), plan.mechanism.inputs[0].name, run.time)
+    return OwnForward(run, forces, wheel, task.duration)
 
 
 def _drive(motor: MotorDrive) -> Drive:

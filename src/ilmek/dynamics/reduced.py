@@ -62,6 +62,10 @@ class ReducedMechanism:
 
     def terms(self, position: FloatArray) -> Terms:
         """J, dJ/dq and Q at input values [rad; m], one value per sample."""
+        with np.errstate(invalid="ignore", over="ignore"):  # at a dead centre rates are infinite; `status` says so
+            return self._terms(position)
+
+    def _terms(self, position: FloatArray) -> Terms:
         unit = solve(self.plan, position, 1.0)
         inertia, slope = np.full(len(unit), self.flywheel), np.zeros(len(unit))
         for body, weighed in self.inertias.items():
@@ -81,7 +85,8 @@ class ReducedMechanism:
             return np.zeros(len(position))
         motion = solve(self.plan, position, speed)
         if np.all(speed):  # the power of the loads over the speed: one motion serves both
-            return np.asarray(self._force(motion, motion, self.live) / speed)
+            with np.errstate(invalid="ignore", over="ignore"):
+                return np.asarray(self._force(motion, motion, self.live) / speed)
         return self._force(solve(self.plan, position, 1.0), motion, self.live)
 
     def potential(self, position: Samples) -> Samples:
@@ -96,10 +101,11 @@ class ReducedMechanism:
 
     def _force(self, unit: Motion, motion: Motion, loads: Iterable[Load]) -> Samples:
         force = np.zeros(len(unit))
-        for load in loads:
-            for wrench in load.wrenches(motion, self.inertias):
-                sliding = attached(unit, wrench.body, wrench.at).velocity
-                force = force + dot(wrench.force, sliding) + wrench.torque * unit.omega(wrench.body)
+        with np.errstate(invalid="ignore", over="ignore"):  # as in `terms`
+            for load in loads:
+                for wrench in load.wrenches(motion, self.inertias):
+                    sliding = attached(unit, wrench.body, wrench.at).velocity
+                    force = force + dot(wrench.force, sliding) + wrench.torque * unit.omega(wrench.body)
         return force
 
 

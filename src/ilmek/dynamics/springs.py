@@ -14,6 +14,7 @@ from ilmek.dynamics.attached import attached
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.loads import Wrench
 from ilmek.errors import MechanismError
+from ilmek.linkage.followed import followed_angle
 from ilmek.linkage.motion import Motion
 from ilmek.plane.vectors import dot
 
@@ -61,8 +62,10 @@ class Spring:
 class TorsionSpring:
     """A torsional spring and damper between two bodies: T = -k (theta - theta_0) - c omega on the second.
 
-    theta is the angle of the second body relative to the first. theta - theta_0 is taken within half a turn in either
-    direction: each sample is evaluated by itself, without a count of full turns.
+    theta is the angle of the second body relative to the first, counted through full turns: a function of the inputs'
+    values (`linkage.followed`). Where inputs and couplings alone fix it, it is linear in them: an arm that an input
+    turns about the ground has the angle of the input, at 720° two turns more than at 0°. Any other angle is within half
+    a turn, (-pi, pi], with all inputs at 0, or where the mechanism closes nearest to that, and followed from there.
 
     stiffness  k [N m/rad]     angle  theta_0, unloaded [rad]     damping  c [N m s/rad]
 
@@ -82,8 +85,7 @@ class TorsionSpring:
 
     def wrenches(self, motion: Motion, inertias: Mapping[str, Inertia]) -> Iterable[Wrench]:  # noqa: ARG002
         """The torque on the second body, and the opposite torque on the first, one value per sample."""
-        turned = motion.direction(self.second) * np.conj(motion.direction(self.first))
-        wound = np.angle(turned * np.exp(-1j * self.angle))
+        wound = followed_angle(motion.plan, motion.drives, self.second, self.first) - self.angle
         spin = motion.omega(self.second) - motion.omega(self.first)
         torque = -self.stiffness * wound - self.damping * spin
         return Wrench(self.first, 0j, 0j, -torque), Wrench(self.second, 0j, 0j, torque)

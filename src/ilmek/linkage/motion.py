@@ -9,11 +9,13 @@ from ilmek.arrays import Complex, ComplexField, Float, Int8, RealField
 from ilmek.linkage.body_jerk import STILL_JERK, BodyJerk
 from ilmek.linkage.body_motion import STILL, BodyMotion, PointMotion
 from ilmek.linkage.faults import first_fault
+from ilmek.linkage.followed import followed_angle
 from ilmek.linkage.groups.group import Columns, InputMotion
 from ilmek.linkage.model import GROUND, Mechanism, Pin, Rotation
 from ilmek.linkage.status import Status
 from ilmek.linkage.structure import Plan
 from ilmek.records import record
+from ilmek.units import turn
 
 __all__ = ["Motion", "Status"]
 
@@ -86,16 +88,14 @@ class Motion:
         return self._points(self.body(body).direction)
 
     def angle(self, body: str) -> Reals:
-        """Angle of a body's frame against the world's x [rad], unwrapped along the samples, the first in (-pi, pi].
+        """Angle of a body's frame against the world's x [rad], counted through full turns, the first in (-pi, pi].
 
-        Samples without a position are NaN and left out of the unwrapping. Steps of more than half a turn between
-        samples are ambiguous.
+        Samples may be many turns apart; see `followed`. NaN for samples without a position.
         """
-        direction = self.direction(body)
-        angle = np.full(len(direction), np.nan)
-        solved = np.isfinite(direction)
-        angle[solved] = np.unwrap(np.angle(direction[solved]))
-        return angle
+        angle = np.angle(self.direction(body))
+        turns = np.round((followed_angle(self.plan, self.drives, body, GROUND) - angle) / turn)
+        solved = np.flatnonzero(np.isfinite(turns))
+        return angle + turn * (turns - turns[solved[0]]) if len(solved) else angle
 
     def omega(self, body: str) -> Reals:
         """Angular velocity of a body [rad/s]."""

@@ -46,13 +46,15 @@ class Analysis:
 
     @property
     def checks(self) -> tuple[Check, ...]:
-        """What the machine must do: close, keep moving under friction, carry its forces, have a sufficient servo."""
+        """What the machine must do: close, keep moving under friction, carry its forces, run as long as its task."""
         forces, servo = self.run.forces, self.servo.checks if self.servo else ()
         locked = locking(forces) if forces is not None else ()
         strength = self.strength.checks if self.strength else ()
         started = self.start_strength.transient_checks if self.start_strength else ()
         started = tuple(replace(check, name=f"forward run: {check.name}") for check in started)
-        return (*self._closes, *locked, *strength, *started, *servo, *(test for test in self.self_tests if not test.ok))
+        ended = self.forward.checks if self.forward else ()
+        failed = tuple(test for test in self.self_tests if not test.ok)
+        return (*self._closes, *locked, *strength, *ended, *started, *servo, *failed)
 
     @property
     def _closes(self) -> tuple[Check, ...]:

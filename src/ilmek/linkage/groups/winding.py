@@ -55,10 +55,56 @@ def angles(mechanism: Mechanism) -> dict[str, LinearRelation]:
 
 def linear_relations(mechanism: Mechanism) -> dict[tuple[str, str], LinearRelation]:
     """("angle", body) or ("travel", slide) -> relation, for those determined by inputs and couplings."""
+    system = _system(mechanism)
+    found: dict[tuple[str, str], LinearRelation] = {("angle", GROUND): LinearRelation(0.0, {})}
+    if len(system.left):
+        for one, numbers in _determined(list(system.index), system.left, system.right):
+            found[one] = system.relation(numbers)
+    return found
+
+
+def relation_between(mechanism: Mechanism, body: str, against: str) -> LinearRelation | None:
+    """Relation of a body's angle against another's [rad]; None where inputs and couplings alone do not determine it.
+
+    The difference may be determined where neither angle is: a pin of two moving bodies that is driven. It is the
+    combination y of the system's equations with y left = e_body - e_against. Raises MechanismError for unknown bodies.
+    """
+    system = _system(mechanism)
+    required = np.zeros(len(system.index))
+    for name, sign in ((body, 1.0), (against, -1.0)):
+        if mechanism.body(name).name != GROUND:
+            required[system.index["angle", name]] += sign
+    if not required.any():
+        return LinearRelation(0.0, {})
+    if not len(system.left):
+        return None
+    combined = np.linalg.lstsq(system.left.T, required, rcond=FREE)[0]
+    if np.max(np.abs(combined @ system.left - required)) >= FREE:
+        return None
+    return system.relation([float(number) for number in _rounded(combined @ system.right)])
+
+
+@record
+class _System:
+    """Linear equations  left · unknowns = right · (1, inputs);  index: unknown -> its column."""
+
+    index: Mapping[tuple[str, str], int]
+    inputs: tuple[str, ...]
+    left: FloatArray
+    right: FloatArray
+
+    def relation(self, numbers: list[float]) -> LinearRelation:
+        """The relation of a constant and a factor of each input."""
+        constant, *factors = numbers
+        return LinearRelation(constant, {name: one for name, one in zip(self.inputs, factors, strict=True) if one})
+
+
+def _system(mechanism: Mechanism) -> _System:
+    """The equations of all slides, inputs and couplings."""
     unknown = [("angle", body) for body in mechanism.moving]
     unknown += [("travel", joint.name) for joint in mechanism.joints if isinstance(joint, Slide)]
     index = {one: k for k, one in enumerate(unknown)}
-    names = [entry.name for entry in mechanism.inputs]
+    names = tuple(entry.name for entry in mechanism.inputs)
     rows = list(_rows(mechanism))
     left, right = np.zeros((len(rows), len(unknown))), np.zeros((len(rows), 1 + len(names)))
     for k, (terms, constant, entry) in enumerate(rows):
@@ -68,12 +114,7 @@ def linear_relations(mechanism: Mechanism) -> dict[tuple[str, str], LinearRelati
         right[k, 0] = constant
         if entry:
             right[k, 1 + names.index(entry)] = 1.0
-    found: dict[tuple[str, str], LinearRelation] = {("angle", GROUND): LinearRelation(0.0, {})}
-    if rows:
-        for one, (constant, *factors) in _determined(unknown, left, right):
-            shares = {name: factor for name, factor in zip(names, factors, strict=True) if factor}
-            found[one] = LinearRelation(constant, shares)
-    return found
+    return _System(index, names, left, right)
 
 
 def _determined(
@@ -83,12 +124,16 @@ def _determined(
     _, values, rows = np.linalg.svd(left, full_matrices=True)
     rank = int(np.sum(values > FREE * values[0]))
     loose = np.linalg.norm(rows[rank:], axis=0)
-    solved = np.linalg.lstsq(left, right, rcond=FREE)[0]
-    whole = np.round(solved, 12)
-    solved = np.where(np.abs(solved - whole) < ROUNDING * np.maximum(1, np.abs(solved)), whole, solved)
+    solved = _rounded(np.linalg.lstsq(left, right, rcond=FREE)[0])
     for k, one in enumerate(unknown):
         if loose[k] < FREE:
             yield one, [float(number) for number in solved[k]]
+
+
+def _rounded(numbers: FloatArray) -> FloatArray:
+    """Numbers within rounding of twelve decimals as these."""
+    whole = np.round(numbers, 12)
+    return np.where(np.abs(numbers - whole) < ROUNDING * np.maximum(1, np.abs(numbers)), whole, numbers)
 
 
 Row = tuple[tuple[tuple[tuple[str, str], float], ...], float, str]

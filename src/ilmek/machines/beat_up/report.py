@@ -16,7 +16,7 @@ from ilmek.machines.beat_up.use import BeatUpUse, in_use, use_checks
 from ilmek.machines.beat_up.use_figures import start_plots, stroke_plot
 from ilmek.machines.linkage_strength import equilibrium_test, strength_table
 from ilmek.records import record
-from ilmek.report import Check, Column, Figure, Plate, Table, at_least, at_most, columns, group
+from ilmek.report import Check, Column, Figure, Plate, Table, at_least, at_most, columns, group, must
 from ilmek.synthesis.crank_rocker.dead_centres import grashof_margin
 from ilmek.synthesis.crank_rocker.selection import DEVIATIONS, RATIO_LIMIT
 from ilmek.units import format_quantity
@@ -135,6 +135,7 @@ def criteria(design: BeatUp) -> tuple[Check, ...]:
 
 _LINKS = "set links farther from a toggle"
 _STRONGER = "set a larger motor_torque, or a lower speed"
+_SOFTER = "give less torque, more slip or a larger flywheel"
 _FLYWHEEL = "leave flywheel out, or set a larger one"
 
 
@@ -142,27 +143,15 @@ def _running_checks(params: BeatUpParams, running: MotorRun) -> tuple[Check, ...
     """Whether the motor starts it, and the flywheel is enough."""
     if running.start is None:
         return ()
-    reached = max(float(run.speed.max()) for run in running.runs)
-    last = running.last_turn
-    return (
-        at_least(
-            "speed that the motor reaches",
-            reached,
-            REACHED * params.speed,
-            "rad/s",
-            "forward run, 95 % of it",
-            cure=_STRONGER,
-        ),
-        *(
-            (
-                at_most(
-                    "fluctuation of the speed", last.fluctuation, params.fluctuation, "1", "forward run", cure=_FLYWHEEL
-                ),
-            )
-            if last
-            else ()
-        ),
-    )
+    reached, run, last = max(float(run.speed.max()) for run in running.runs), running.runs[-1], running.last_turn
+    cure = _SOFTER if run.end.kind.early else _STRONGER
+    source = "forward run, 95 % of it"
+    speed = at_least("speed that the motor reaches", reached, REACHED * params.speed, "rad/s", source, cure=cure)
+    if last is None:
+        ended = (must("the run at speed is complete", False, run.end.reason, cure=_SOFTER),) if running.started else ()
+        return (speed, *ended)
+    limit, source = params.fluctuation, "forward run"
+    return (speed, at_most("fluctuation of the speed", last.fluctuation, limit, "1", source, cure=_FLYWHEEL))
 
 
 def warnings(found: BeatUpAnalysis) -> tuple[str, ...]:
@@ -185,6 +174,8 @@ def _running_warnings(running: MotorRun) -> tuple[str, ...]:
         return ("no run by the motor: the linkage is too near a toggle position, or needs no torque",)
     if running.started:
         return ()
+    if running.start.end.kind.early:
+        return (f"the start of the crank by the motor ends early: {running.start.end.reason}; {_SOFTER}",)
     torque, reached = format_quantity(running.torque, "N*m"), format_quantity(float(running.start.speed.max()), "rad/s")
     return (f"the motor does not bring the crank to its speed: with {torque} it reaches {reached}; give more torque",)
 
