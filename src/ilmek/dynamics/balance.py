@@ -41,11 +41,12 @@ def shaking(motion: Motion, inertias: Mapping[str, Inertia], about: complex = 0j
     about     reference point O [m]; default: the ground's origin
     """
     force, moment = np.zeros(len(motion), complex), np.zeros(len(motion))
-    for body, inertia in inertias.items():
-        centre = attached(motion, body, inertia.centre)
-        change = inertia.mass * centre.acceleration
-        force = force - change
-        moment = moment - cross(centre.position - about, change) - inertia.moment * motion.alpha(body)
+    with np.errstate(invalid="ignore", over="ignore"):  # at a dead centre rates are infinite; `status` says so
+        for body, inertia in inertias.items():
+            centre = attached(motion, body, inertia.centre)
+            change = inertia.mass * centre.acceleration
+            force = force - change
+            moment = moment - cross(centre.position - about, change) - inertia.moment * motion.alpha(body)
     return Shaking(force, moment)
 
 
@@ -57,17 +58,11 @@ def on_frame(forces: Forces, about: complex = 0j) -> Shaking:
     motion = forces.motion
     force, moment = np.zeros(len(motion), complex), np.zeros(len(motion))
     for name, joint in pose_block(motion, {}).joints.items():
-        if GROUND not in (joint.on, joint.by):
-            continue
-        sign = 1.0 if joint.on == GROUND else -1.0
-        couple, along = sign * forces.couples.get(name, 0.0), sign * forces.frictions.get(name, 0.0)
-        for entry in forces.mechanism.inputs:
-            if entry.joint == name:
-                driven = joint.on if entry.name in (joint.on, name) else joint.by
-                along = along + (1.0 if driven == GROUND else -1.0) * forces.efforts[entry.name]
-        push = sign * forces.reactions[name] + along * joint.drive.force
-        force = force + push
-        moment = moment + cross(joint.at - about, push) + couple + along * joint.drive.moment
+        if GROUND in (joint.on, joint.by):
+            sign = 1.0 if joint.on == GROUND else -1.0
+            push, turning = forces.acting[name]
+            force = force + sign * push
+            moment = moment + sign * (turning + cross(joint.at - about, push))
     return Shaking(force, moment)
 
 

@@ -138,6 +138,9 @@ def _general_group(poses: PoseBlock, needed: Needs, step: Step, own: Sequence[Jo
 
 def _units(joint: JointPoses, driven: set[str], length: float) -> Iterable[ForceAndMoment]:
     """Unit forces and moments that a joint transmits; moments times the length, for the scale of a force."""
+    if joint.tooth is not None:
+        yield joint.tooth
+        return
     for pull in (*joint.constraint_forces, *([joint.drive] if joint.name in driven else [])):
         yield ForceAndMoment(pull.force, pull.moment * length)
 

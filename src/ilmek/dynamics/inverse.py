@@ -1,26 +1,30 @@
 """Inverse dynamics: joint forces and drive efforts that a given motion requires.
 
-For any planar mechanism with pins and slides. The equations are in `equations`.
+For any planar mechanism with pins, slides and couplings. The equations are in `equations`. What they do not determine,
+such as the tension of a belt, is NaN and named (`undetermined`); all else is computed.
 
 Sign convention: a pin's force acts from its first on its `second` body; a slide's force and couple act from the guide
 on its `body`; an input's effort acts on the driven body. The opposite acts on the other body.
 """
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
 from ilmek.arrays import BoolArray, ComplexArray, FloatArray, Int8, RealField
 from ilmek.dynamics.equations import Needs, joint_pulls, needs
 from ilmek.dynamics.inertia import Inertia
-from ilmek.dynamics.joint_friction import JointFriction, check_joints, frictions, loaded
+from ilmek.dynamics.joint_friction import JointFriction, check_joints, efforts, loaded, parted_teeth
 from ilmek.dynamics.loads import Load, Wrench
 from ilmek.dynamics.pose_block import BLOCK, ForceAndMoment, PoseBlock, cut, part_of, pose_block, receiver
+from ilmek.dynamics.undetermined import Undetermined, undetermined
 from ilmek.errors import MechanismError
 from ilmek.linkage.model import GROUND, Mechanism, Rotation, Slide
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.status import Status
-from ilmek.plane.vectors import dot
+from ilmek.plane.vectors import cross, dot
 from ilmek.records import record
 from ilmek.units import format_quantity
 
@@ -34,24 +38,31 @@ class Forces:
     motion        the given motion
     status        `Status` of each sample: that of the motion, or NOT_CONVERGED where friction locks the mechanism
     reactions     joint -> force on the pin's second body, or across the line on the slide's body [N], complex;
-                  coupling -> force on its second body [N], complex
+                  coupling -> force on its second body [N], complex; NaN where it is not determined
     couples       slide -> couple on the slide's body [N m]
-    efforts       input -> torque [N m] or force along the line [N] on the driven body
+    torques       gears, belt -> torque on the second wheel about its middle [N m]
+    acting        joint or coupling -> all its force [N] and moment [N m] about its point, on the same body: reaction,
+                  couple, effort, friction; with each tension that is not determined at 0
+    efforts       input -> torque [N m] or force along the line [N] on the driven body; NaN where it is not determined
     frictions     joint with friction -> torque [N m] or force along the line [N] on the same body as its reaction
     input_power   Σ effort times input speed [W]
     load_power    power of the loads, including gravity and friction [W]
     kinetic_rate  time derivative of the kinetic energy [W]
+    open          what depends on the tension of belts and chains
     """
 
     motion: Motion
     status: Int8[np.ndarray, " samples"]
     reactions: Mapping[str, ComplexArray]
     couples: Mapping[str, FloatArray]
+    torques: Mapping[str, FloatArray]
+    acting: Mapping[str, ForceAndMoment]
     efforts: Mapping[str, FloatArray]
     frictions: Mapping[str, FloatArray]
     input_power: FloatArray
     load_power: FloatArray
     kinetic_rate: FloatArray
+    open: Undetermined = Undetermined()
 
     @property
     def mechanism(self) -> Mechanism:
@@ -92,9 +103,10 @@ class Forces:
     def tooth(self, coupling: str) -> ComplexArray:
         """Tooth force of gears or a rack [N] on the coupling's second body, at the pitch point; complex, per sample.
 
-        Raises MechanismError for an unknown coupling.
+        Along the pitch line and apart, as the pressure angle has it; NaN for a belt. Raises MechanismError for an
+        unknown coupling.
         """
-        if coupling not in {one.name for one in self.mechanism.couplings}:
+        if coupling not in {known.name for known in self.mechanism.couplings}:
             raise MechanismError(f"{self.mechanism.name} has no coupling {coupling!r}")
         return self.reactions[coupling]
 
@@ -152,66 +164,103 @@ def inverse(
         mechanism.body(body)
     check_joints(mechanism, joint_frictions)
     bodies = {body: inertias.get(body, MASSLESS) for body in mechanism.moving}
-    wrenches = [wrench for load in loads for wrench in load.wrenches(motion, bodies) if wrench.body != GROUND]
-    forces = _empty_forces(motion, joint_frictions)
-    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):  # rates are infinite at a dead centre
+        wrenches = [wrench for load in loads for wrench in load.wrenches(motion, bodies) if wrench.body != GROUND]
+        forces, missing = _empty_forces(motion, joint_frictions), Undetermined()
         for start in range(0, len(motion), BLOCK):
             part = slice(start, start + BLOCK)
             poses = pose_block(part_of(motion, part), bodies)
             acting = [wrench.part(part) for wrench in wrenches]
             needed = needs(poses, bodies, acting)
+            missing |= undetermined(poses, bodies, joint_frictions)
+            laws = [*parted_teeth(mechanism), *(law for law in joint_frictions if law.joint not in missing.joints)]
             forces.load_power[part] += _load_power(poses, acting)
-            if joint_frictions:
-                found, locked = frictions(poses, needed, joint_frictions, cut(side, part))
-                needed = loaded(poses, needed, found)
-                _store_friction(forces, part, poses, found, locked)
+            sizes: dict[str, FloatArray] = {}
+            if laws:
+                sizes, locked = efforts(poses, needed, laws, cut(side, part))
+                needed = loaded(poses, needed, sizes)
+                _store_friction(forces, part, poses, sizes, locked)
             forces.kinetic_rate[part] = _kinetic_rate(poses, bodies)
-            _store_reactions(forces, part, poses, needed)
-    return forces
+            _store_reactions(forces, part, poses, needed, sizes)
+    return _without(forces, missing) if missing else forces
 
 
 def _empty_forces(motion: Motion, joint_frictions: Sequence[JointFriction]) -> Forces:
     """Forces with arrays still to be filled."""
     mechanism, samples = motion.plan.mechanism, len(motion)
+    joined = (*mechanism.joints, *mechanism.couplings)
     return Forces(
         motion,
         motion.status.copy(),
-        reactions={one.name: np.empty(samples, complex) for one in (*mechanism.joints, *mechanism.couplings)},
+        reactions={joint.name: np.empty(samples, complex) for joint in joined},
         couples={joint.name: np.empty(samples) for joint in mechanism.joints if isinstance(joint, Slide)},
+        torques={wheels.name: np.empty(samples) for wheels in mechanism.couplings if wheels.kind != "rack"},
+        acting={joint.name: ForceAndMoment(np.empty(samples, complex), np.empty(samples)) for joint in joined},
         efforts={entry.name: np.empty(samples) for entry in mechanism.inputs},
-        frictions={one.joint: np.empty(samples) for one in joint_frictions},
+        frictions={law.joint: np.zeros(samples) for law in joint_frictions},
         input_power=np.zeros(samples),
         load_power=np.zeros(samples),
         kinetic_rate=np.zeros(samples),
     )
 
 
+def _without(forces: Forces, missing: Undetermined) -> Forces:
+    """The forces with NaN where they are not determined."""
+
+    def shown(arrays: Mapping[str, Any], names: frozenset[str]) -> dict[str, Any]:
+        return {name: np.full_like(array, np.nan) if name in names else array for name, array in arrays.items()}
+
+    return replace(
+        forces,
+        reactions=shown(forces.reactions, missing.couplings | missing.joints),
+        couples=shown(forces.couples, missing.joints),
+        efforts=shown(forces.efforts, missing.inputs),
+        frictions=shown(forces.frictions, missing.joints),
+        input_power=forces.input_power if not missing.inputs else np.full_like(forces.input_power, np.nan),
+        open=missing,
+    )
+
+
 def _store_friction(
-    forces: Forces, part: slice, poses: PoseBlock, found: Mapping[str, FloatArray], locked: BoolArray
+    forces: Forces, part: slice, poses: PoseBlock, sizes: Mapping[str, FloatArray], locked: BoolArray
 ) -> None:
     """Store the friction of a block of samples in the forces."""
     status = forces.status[part]
     status[locked & (status == Status.OK)] = Status.NOT_CONVERGED
-    for name, friction in found.items():
-        forces.frictions[name][part] = friction
-        forces.load_power[part] += friction * poses.rate(poses.joints[name])
+    for name in sizes.keys() & forces.frictions.keys():
+        forces.frictions[name][part] = sizes[name]
+        forces.load_power[part] += sizes[name] * poses.rate(poses.joints[name])
 
 
-def _store_reactions(forces: Forces, part: slice, poses: PoseBlock, needed: Needs) -> None:
+def _store_reactions(
+    forces: Forces, part: slice, poses: PoseBlock, needed: Needs, sizes: Mapping[str, FloatArray]
+) -> None:
     """Solve a block of samples and store the reactions and efforts in the forces."""
     pulls = joint_pulls(poses, needed)
     failed = forces.status[part] != Status.OK
+    driving: dict[str, FloatArray] = {}
     for entry in forces.mechanism.inputs:
         joint = poses.joints[entry.joint]
         pull = pulls[entry.joint]
         effort = np.where(failed, np.nan, joint.generalized_force(pull, joint.at))
         forces.efforts[entry.name][part] = effort if entry.name in (joint.on, joint.name) else -effort
         forces.input_power[part] += effort * poses.rate(joint)
-        pulls[entry.joint] = ForceAndMoment(pull.force - effort * joint.drive.force, pull.moment)
+        driving[joint.name] = effort
+        pulls[joint.name] = ForceAndMoment(pull.force - effort * joint.drive.force, pull.moment)
     for name, pull in pulls.items():
-        forces.reactions[name][part] = np.where(failed, np.nan, pull.force)
+        joint, size = poses.joints[name], sizes.get(name, 0.0)
+        apart = 0.0 if joint.apart is None else size * joint.apart
+        turned = joint.line is None and joint.tooth is None
+        along = driving.get(name, 0.0) + (size if joint.apart is None else 0.0)
+        forces.reactions[name][part] = np.where(failed, np.nan, pull.force + apart)
+        force, moment = pull.force + apart + along * joint.drive.force, along * joint.drive.moment
+        forces.acting[name].force[part] = np.where(failed, np.nan, force)
+        forces.acting[name].moment[part] = np.where(failed, np.nan, moment + (0.0 if turned else pull.moment))
         if name in forces.couples:
             forces.couples[name][part] = np.where(failed, np.nan, pull.moment)
+        if name in forces.torques and joint.middle is not None:
+            torque = pull.moment + cross(joint.at - joint.middle, pull.force)
+            forces.torques[name][part] = np.where(failed, np.nan, torque)
 
 
 def _load_power(poses: PoseBlock, wrenches: Sequence[Wrench]) -> RealField:

@@ -1,15 +1,19 @@
-"""Friction in pins and slides: Coulomb friction, consistent with the joint forces that it changes, and viscous drag.
+"""Efforts in joints that follow from the joint forces: friction in pins and slides, and the force that parts teeth.
 
     pin      T = -mu r |F| sgn(omega) - c omega                        F pin force, r pin radius
     slide    F = -mu (|N_1| + |N_2|) sgn(v) - c v                      N_1, N_2 at the ends of a guide of length b
              N_1,2 = N / 2 +- C / b,   |N_1| + |N_2| = max(|N|, 2 |C| / b)
                                                                        N force across the line, C couple
+    teeth    F_r = |F_t| tan alpha                                     F_t along the pitch line, alpha pressure angle
+
+Friction is consistent with the joint forces that it changes. F_r presses the two bodies apart, whichever flank carries;
+it does no work, but loads bearings and guides, and so their friction.
 
 The joint forces are linear in the friction efforts x: F = F_0 + Σ x_k G_k, with G_k the response to a unit effort. So
 x + sgn mu |F(x)| = 0 is solved by Newton's method, with one unknown per joint with friction. Where it has no solution,
 no drive effort maintains the motion: the mechanism is self-locking. A solution that is not connected to the
 frictionless one as mu grows from 0 (the determinant of the Jacobian has changed its sign) counts as self-locking too.
-[Coulomb's law; the guide's end forces and the criterion are derived here]
+[Coulomb's law; the guide's end forces and the criterion are derived here; teeth: Norton, Design of Machinery, chapter 9]
 """
 
 import math
@@ -19,10 +23,10 @@ from typing import TypeAlias
 
 import numpy as np
 
-from ilmek.arrays import BoolArray, FloatArray, RealField
+from ilmek.arrays import BoolArray, ComplexField, FloatArray, RealField
 from ilmek.dynamics.equations import Needs, add, joint_pulls
 from ilmek.dynamics.friction import OFFSET
-from ilmek.dynamics.pose_block import ForceAndMoment, JointPoses, PoseBlock
+from ilmek.dynamics.pose_block import ForceAndMoment, JointPoses, PoseBlock, has_teeth
 from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import carried_acceleration
 from ilmek.linkage.model import Mechanism, Pin, Slide
@@ -57,9 +61,7 @@ class PinFriction:
 
     def limit_change(self, joint: JointPoses, pull: ForceAndMoment, change: ForceAndMoment) -> RealField:  # noqa: ARG002
         """Derivative of `limit` [N m] in the direction of a change of the joint force."""
-        force = np.abs(pull.force)
-        along = np.divide(dot(pull.force, change.force), force, out=np.zeros_like(force), where=force > 0)
-        return self.coefficient * self.radius * along
+        return self.coefficient * self.radius * _size_change(pull.force, change.force)
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,7 +103,33 @@ class SlideFriction:
         return dot(1j * line, pull.force), 2 * pull.moment / self.breadth
 
 
+@dataclass(frozen=True, slots=True)
+class PartedTeeth:
+    """The force that parts teeth in mesh; joint: name of the coupling, pressure_angle: alpha [rad]."""
+
+    joint: str
+    pressure_angle: float
+    drag: float = 0.0
+
+    def limit(self, joint: JointPoses, pull: ForceAndMoment) -> RealField:  # noqa: ARG002
+        """The force F_r [N] under the force along the pitch line."""
+        return math.tan(self.pressure_angle) * np.abs(pull.force)
+
+    def limit_change(self, joint: JointPoses, pull: ForceAndMoment, change: ForceAndMoment) -> RealField:  # noqa: ARG002
+        """Derivative of `limit` [N] in the direction of a change of the force along the pitch line."""
+        return math.tan(self.pressure_angle) * _size_change(pull.force, change.force)
+
+
 JointFriction: TypeAlias = PinFriction | SlideFriction
+
+EffortLaw: TypeAlias = JointFriction | PartedTeeth
+"""The law of an effort that depends on the forces of its joint."""
+
+
+def parted_teeth(mechanism: Mechanism) -> tuple[PartedTeeth, ...]:
+    """The laws of all teeth in mesh with a pressure angle."""
+    meshes = (one for one in mechanism.couplings if has_teeth(one) and one.pressure_angle)
+    return tuple(PartedTeeth(one.name, one.pressure_angle) for one in meshes)
 
 
 def check_joints(mechanism: Mechanism, joint_frictions: Sequence[JointFriction]) -> None:
@@ -117,34 +145,39 @@ def check_joints(mechanism: Mechanism, joint_frictions: Sequence[JointFriction])
             raise MechanismError(f"friction in joint {one.joint!r} is given twice", do="give it once")
 
 
-def frictions(
-    poses: PoseBlock, needed: Needs, joint_frictions: Sequence[JointFriction], side: RealField
+def efforts(
+    poses: PoseBlock, needed: Needs, laws: Sequence[EffortLaw], side: RealField
 ) -> tuple[dict[str, FloatArray], BoolArray]:
-    """Friction efforts, and the samples at which the mechanism is self-locking.
+    """Efforts of joints by their laws, and the samples at which the mechanism is self-locking.
 
-    poses            the block of samples
-    needed           forces and moments that the bodies require without friction
-    joint_frictions  friction of joints
-    side             at a reversal of a joint: +1 just after it in time, -1 just before; a number or one per sample
+    poses   the block of samples
+    needed  forces and moments that the bodies require without these efforts
+    laws    friction of joints, and parted teeth
+    side    at a reversal of a joint: +1 just after it in time, -1 just before; a number or one per sample
 
-    Returns joint -> torque [N m] or force along the line [N] on its `on` body, one value per sample, NaN where locked;
-    and the locked samples. Raises MechanismError where no input moves.
+    Returns joint -> torque [N m] or force along the line [N] on its `on` body, coupling -> force [N] that parts its
+    teeth, one value per sample, NaN where locked; and the locked samples. Raises MechanismError for friction where no
+    input moves.
     """
     samples = poses.motion.status.shape[0]
-    joints = [poses.joints[one.joint] for one in joint_frictions]
+    joints = [poses.joints[law.joint] for law in laws]
+    parting = np.array([[isinstance(law, PartedTeeth)] for law in laws])
     rates = np.stack([np.broadcast_to(poses.rate(joint), samples) for joint in joints])
-    viscous = -np.array([[one.drag] for one in joint_frictions]) * rates
-    rest = loaded(poses, needed, dict(zip((one.joint for one in joint_frictions), viscous, strict=True)))
-    frictionless = joint_pulls(poses, rest)
+    viscous = -np.array([[law.drag] for law in laws]) * rates
+    rest = loaded(poses, needed, dict(zip((law.joint for law in laws), viscous, strict=True)))
+    unloaded = joint_pulls(poses, rest)
     nothing = {body: ForceAndMoment(0j, 0.0) for body in needed}
     responses = [joint_pulls(poses, loaded(poses, nothing, {joint.name: np.ones(samples)})) for joint in joints]
-    signs = np.sign(rates + _time_offset(poses, side) * np.stack([_second_rate(poses, joint) for joint in joints]))
-    coulomb, locked = _consistent(joints, joint_frictions, signs, frictionless, responses)
-    return {one.joint: found for one, found in zip(joint_frictions, viscous + coulomb, strict=True)}, locked
+    signs = np.full(rates.shape, -1.0)
+    if not parting.all():
+        second = np.stack([_second_rate(poses, joint) for joint in joints])
+        signs = np.where(parting, signs, np.sign(rates + _time_offset(poses, side) * second))
+    sizes, locked = _consistent(joints, laws, signs, unloaded, responses)
+    return {law.joint: size for law, size in zip(laws, viscous + sizes, strict=True)}, locked
 
 
 def loaded(poses: PoseBlock, needed: Needs, efforts: Mapping[str, FloatArray]) -> Needs:
-    """The needs under efforts in joints [N m; N]: on the joint's `on` body, and the opposite on the other.
+    """The needs under efforts in joints [N m; N]: on the joint's `on` body, and the opposite on the other; see `drive`.
 
     Returns needs of the same shapes, [N] and [N m] per sample.
     """
@@ -159,21 +192,21 @@ def loaded(poses: PoseBlock, needed: Needs, efforts: Mapping[str, FloatArray]) -
 
 def _consistent(
     joints: Sequence[JointPoses],
-    joint_frictions: Sequence[JointFriction],
+    laws: Sequence[EffortLaw],
     signs: FloatArray,
-    frictionless: Mapping[str, ForceAndMoment],
+    unloaded: Mapping[str, ForceAndMoment],
     responses: Sequence[Mapping[str, ForceAndMoment]],
 ) -> tuple[FloatArray, BoolArray]:
-    """Coulomb friction efforts, one row per joint, and the locked samples; Newton's method on all samples at once."""
+    """Efforts, one row per joint, and the locked samples; Newton's method on all samples at once."""
     x = np.zeros_like(signs)
     greatest = np.zeros_like(signs)
     for _ in range(MAX_ITERATIONS):
-        pulls = [_sum(frictionless[joint.name], [one[joint.name] for one in responses], x) for joint in joints]
-        rows = list(zip(joint_frictions, joints, pulls, strict=True))
-        limits = np.stack([one.limit(joint, pull) for one, joint, pull in rows])
+        pulls = [_sum(unloaded[joint.name], [unit[joint.name] for unit in responses], x) for joint in joints]
+        rows = list(zip(laws, joints, pulls, strict=True))
+        limits = np.stack([law.limit(joint, pull) for law, joint, pull in rows])
         greatest = np.fmax(greatest, limits)
         residual = x + signs * limits
-        slopes = [[one.limit_change(joint, pull, unit[joint.name]) for unit in responses] for one, joint, pull in rows]
+        slopes = [[law.limit_change(joint, pull, unit[joint.name]) for unit in responses] for law, joint, pull in rows]
         matrix = np.eye(len(joints)) + np.moveaxis(signs[:, None] * np.array(slopes), -1, 0)
         off = np.abs(residual) > TOLERANCE * greatest
         if not off.any():
@@ -189,6 +222,12 @@ def _sum(rest: ForceAndMoment, responses: Sequence[ForceAndMoment], x: FloatArra
     return ForceAndMoment(
         force, rest.moment + sum(size * response.moment for size, response in zip(x, responses, strict=True))
     )
+
+
+def _size_change(force: ComplexField, change: ComplexField) -> RealField:
+    """Derivative of |F| in the direction of a change of F; 0 at F = 0."""
+    size = np.abs(force)
+    return np.divide(dot(force, change), size, out=np.zeros(np.shape(size)), where=size > 0)
 
 
 def _time_offset(poses: PoseBlock, side: RealField) -> RealField:

@@ -139,26 +139,14 @@ def internal_forces(
 
 def _of_joints(forces: Forces, body: str, poses: PoseBlock, back: ComplexArray) -> Iterator[_Acting]:
     """Forces, couples, efforts and friction of the body's joints and couplings."""
-    driven = {entry.joint: entry for entry in forces.mechanism.inputs}
     origin = poses.bodies[body].carry(0j).position
     for name, joint in poses.joints.items():
-        if body not in (joint.on, joint.by):
-            continue
-        force = np.asarray(forces.reactions[name])
-        torque = np.asarray(forces.couples.get(name, np.zeros(force.shape)))
-        along = np.zeros(force.shape)
-        if name in driven:
-            entry = driven[name]
-            along = along + forces.efforts[entry.name] * (1 if entry.name in (joint.on, joint.name) else -1)
-        if name in forces.frictions:
-            along = along + forces.frictions[name]
-        if joint.line is None:
-            torque = torque + along
-        else:
-            force = force + along * joint.line
-        side = 1.0 if body == joint.on else -1.0
-        at = np.asarray(np.broadcast_to(back * (joint.at - origin), force.shape))
-        yield _Acting("" if joint.tooth is not None else name, at, side * back * force, side * torque)
+        if body in (joint.on, joint.by):
+            side, place = (1.0 if body == joint.on else -1.0), joint.place(body)
+            force, moment = forces.acting[name]
+            torque = np.asarray(moment + cross(joint.at - place, force))
+            at = np.asarray(np.broadcast_to(back * (place - origin), torque.shape))
+            yield _Acting("" if joint.tooth is not None else name, at, side * back * force, side * torque)
 
 
 def _of_loads(

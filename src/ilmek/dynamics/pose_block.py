@@ -8,7 +8,6 @@ import numpy as np
 
 from ilmek.arrays import ComplexField, RealField
 from ilmek.dynamics.inertia import Inertia
-from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import STILL, BodyMotion, PointMotion, carried_velocity
 from ilmek.linkage.groups.group import InputMotion
 from ilmek.linkage.model import GROUND, Coupling, Joint, Mechanism, Pin, Slide
@@ -34,9 +33,11 @@ class JointPoses:
     name   of the joint or coupling
     on     the body on which its force is counted; of a coupling its second
     by     the other body
-    at     position [m] of the joint; of gears the pitch point
+    at     position [m] of the joint; of teeth the pitch point; of another coupling the middle of its first wheel
     line   of a slide: unit vector along its line; otherwise None
-    tooth  of a coupling: unit vector of its force on the second body; otherwise None
+    tooth  of a coupling: unit force and moment about `at` that it transmits to the second body; otherwise None
+    apart  of teeth: unit vector in which they press the second body away from the first; otherwise None
+    middle  of the second wheel of a coupling [m]; otherwise None
     """
 
     name: str
@@ -44,7 +45,13 @@ class JointPoses:
     by: str
     at: ComplexField
     line: ComplexField | None
-    tooth: ComplexField | None = None
+    tooth: ForceAndMoment | None = None
+    apart: ComplexField | None = None
+    middle: ComplexField | None = None
+
+    def place(self, body: str) -> ComplexField:
+        """Position [m] at which the force acts on one of the two bodies: without teeth its own middle."""
+        return self.middle if self.middle is not None and self.apart is None and body == self.on else self.at
 
     def generalized_force(self, pull: ForceAndMoment, about: ComplexField) -> RealField:
         """Generalized force of a force and moment on the joint's relative motion; only a drive effort balances it.
@@ -60,14 +67,16 @@ class JointPoses:
 
     @property
     def drive(self) -> ForceAndMoment:
-        """Unit drive effort of the joint: a torque of 1 N m, or a force of 1 N along the line."""
+        """Unit effort of the joint: a torque of 1 N m, a force of 1 N along the line, or of 1 N that parts teeth."""
+        if self.apart is not None:
+            return ForceAndMoment(self.apart, 0.0)
         return ForceAndMoment(0j, 1.0) if self.line is None else ForceAndMoment(self.line, 0.0)
 
     @property
     def constraint_forces(self) -> tuple[ForceAndMoment, ...]:
-        """Unit constraint forces: two forces of a pin; a cross force and a couple of a slide; one force of teeth."""
+        """Unit constraint forces: two forces of a pin; a cross force and a couple of a slide; one of a coupling."""
         if self.tooth is not None:
-            return (ForceAndMoment(self.tooth, 0.0),)
+            return (self.tooth,)
         return (
             (ForceAndMoment(1 + 0j, 0.0), ForceAndMoment(1j, 0.0))
             if self.line is None
@@ -112,7 +121,6 @@ def pose_block(motion: Motion, inertias: Mapping[str, Inertia]) -> PoseBlock:
     """Poses of the mechanism at the samples of a motion; inertias: body -> inertia [kg, m, kg m²].
 
     motion  with accelerations, shape (samples,)
-    Raises MechanismError where the force of a coupling is not determined: a belt, or gears of ratio 1.
     [the pole of gears is derived from the velocities of rolling pitch circles]
     """
     bodies: dict[str, BodyMotion] = {GROUND: STILL}
@@ -141,29 +149,38 @@ def _joint_poses(mechanism: Mechanism, joint: Joint, bodies: Mapping[str, BodyMo
 
 
 def _coupling_poses(mechanism: Mechanism, coupling: Coupling, bodies: Mapping[str, BodyMotion]) -> JointPoses:
-    """Pitch point of a gear pair, the pole of the relative rotation, and the direction of its force.
+    """Force of a coupling on its second body, and where it acts.
 
-        gears  P = O_1 + ratio / (ratio - 1) (O_2 - O_1),   force across O_1 O_2
-        rack   P = O_1 - i ratio f,                         force along f
+        gears  P = O_1 + i / (i - 1) (O_2 - O_1),   force across O_1 O_2     [i ratio; P pole of the relative rotation]
+        rack   P = O_1 - i ratio f,                 force along f
+        other  torque M on the second wheel, -i M on the first, and the force (i - 1) M / |O_1 O_2| across O_1 O_2 on the
+               second that balances both                                     [a belt, a chain, wheels that turn alike]
 
-    The component along the line of centres, due to the pressure angle, does no work and is left out. Raises
-    MechanismError for a belt, because its forces depend on its tension, and for gears with a ratio of 1.
+    Teeth also press their wheels apart: away from the pitch point, an inner wheel towards its own middle. The tension of
+    a belt, along O_1 O_2, does no work: see `undetermined`.
     """
     (first, one), (second, two) = coupling.first, coupling.second
     at = bodies[first].carry(mechanism.point(first, one)).position
     joint = mechanism.joint(two) if coupling.kind == "rack" else None
     if isinstance(joint, Slide):
         line = bodies[joint.guide].direction * unit(joint.along)
-        return JointPoses(coupling.name, second, first, at - 1j * coupling.ratio * line, None, line)
-    if coupling.kind == "belt" or coupling.ratio == 1:
-        raise MechanismError(
-            f"the force of {coupling.kind} {coupling.name!r} of {mechanism.name} is not determined",
-            allowed="gears with a ratio other than 1, or a rack; the force of a belt depends on its tension",
-            do="give gears of the same ratio",
-        )
-    offset = bodies[second].carry(mechanism.point(second, two)).position - at
-    pole = at + coupling.ratio / (coupling.ratio - 1) * offset
-    return JointPoses(coupling.name, second, first, pole, None, 1j * offset / np.abs(offset))
+        arm = -1j * coupling.ratio * line
+        tooth = ForceAndMoment(line, 0.0)
+        return JointPoses(coupling.name, second, first, at + arm, None, tooth, arm / abs(coupling.ratio))
+    ratio, middle = coupling.ratio, bodies[second].carry(mechanism.point(second, two)).position
+    offset = middle - at
+    distance = np.abs(offset)
+    along = offset / distance
+    if has_teeth(coupling):
+        pole, apart = at + ratio / (ratio - 1) * offset, along if ratio < 0 else -along
+        return JointPoses(coupling.name, second, first, pole, None, ForceAndMoment(1j * along, 0.0), apart, middle)
+    tooth = ForceAndMoment((ratio - 1) * 1j * along, ratio * distance)
+    return JointPoses(coupling.name, second, first, at, None, tooth, middle=middle)
+
+
+def has_teeth(coupling: Coupling) -> bool:
+    """Whether a coupling is two bodies in mesh at a pitch point: a rack, or gears with a ratio other than 1."""
+    return coupling.kind == "rack" or (coupling.kind == "gears" and coupling.ratio != 1)
 
 
 def receiver(joint: Joint) -> str:

@@ -128,6 +128,13 @@ class Displacement:
         return self.slide
 
 
+STANDARD_PRESSURE_ANGLE = math.radians(20)
+"""Pressure angle of the basic rack of involute gears [ISO 53] [rad]."""
+
+GREATEST_PRESSURE_ANGLE = math.radians(45)
+"""Greatest pressure angle of a coupling [rad]; teeth have 14.5° to 30°."""
+
+
 @dataclass(frozen=True, slots=True)
 class Coupling:
     """A fixed ratio between the motions of two bodies on one carrier: gears, a belt or chain, a rack and its pinion.
@@ -141,6 +148,7 @@ class Coupling:
              rack: travel per radian of the pinion [m/rad], the signed pitch radius
     first_at, second_at   both q in the assembled position: the mesh is given, never assumed
     carrier  the body that carries both wheels; it may move (planetary gears); for a rack the slide's guide
+    pressure_angle   of gears and racks: of their teeth at the pitch point [rad]; a belt has none
 
     Angles determined by inputs and ratios alone count full turns. Any other angle of `first` (or `second`) is assumed
     to be within half a turn of `first_at` (`second_at`).
@@ -154,6 +162,7 @@ class Coupling:
     first_at: float
     second_at: float
     carrier: str = GROUND
+    pressure_angle: float = STANDARD_PRESSURE_ANGLE
 
     @property
     def bodies(self) -> tuple[str, str, str]:
@@ -311,6 +320,9 @@ def _check_coupling(mechanism: Mechanism, coupling: Coupling) -> None:
     if not all(math.isfinite(number) for number in numbers) or coupling.ratio == 0:
         given = f"{subject} has ratio {coupling.ratio:g}, assembled at {coupling.first_at:g} and {coupling.second_at:g}"
         raise MechanismError(given, allowed="finite numbers, the ratio not 0")
+    if not 0 <= coupling.pressure_angle <= GREATEST_PRESSURE_ANGLE:
+        given = f"{subject} has a pressure angle of {coupling.pressure_angle:g} rad"
+        raise MechanismError(given, allowed="0 to 45deg", do="teeth have 20deg, as a rule")
     if coupling.kind == "rack":
         slide = mechanism.joint(coupling.second[1])
         if not isinstance(slide, Slide) or slide.bodies != (coupling.second[0], coupling.carrier):

@@ -1,0 +1,186 @@
+"""Forces that the equations of motion do not determine: those that depend on the tension of a belt or chain.
+
+A belt pulls its two wheels together along their line of centres, by its tension. Gears with a ratio of 1 stand for
+wheels that turn alike through an idler or a chain, whose forces on the wheels' middles are open in both directions. Such
+a force T does no work: any T fulfils the equations, with the joint forces F_0 + T G, and G the response to a unit of it.
+What has G = 0 is determined. The friction of a joint whose force is open is open too, and so is what responds to it.
+                                                                                       [null space of the equations]
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from ilmek.arrays import BoolArray, ComplexField
+from ilmek.dynamics.equations import Needs, add, joint_pulls
+from ilmek.dynamics.inertia import Inertia
+from ilmek.dynamics.joint_friction import JointFriction, loaded
+from ilmek.dynamics.pose_block import ForceAndMoment, JointPoses, PoseBlock, has_teeth
+from ilmek.linkage.model import GROUND, Coupling
+from ilmek.linkage.status import Status
+from ilmek.plane.vectors import cross
+from ilmek.records import record
+
+RESPONSE = 1e-6
+"""Greatest response to a unit force, or to a unit torque over the mechanism's length, that counts as none."""
+
+
+@record
+class Undetermined:
+    """What depends on the tension of belts and chains.
+
+    couplings  whose force is open      joints  with an open force      inputs  with an open effort
+    bodies     with open forces within, as the strength of a link needs them
+    """
+
+    couplings: frozenset[str] = frozenset()
+    joints: frozenset[str] = frozenset()
+    inputs: frozenset[str] = frozenset()
+    bodies: frozenset[str] = frozenset()
+
+    def __or__(self, other: "Undetermined") -> "Undetermined":
+        pairs = ((getattr(self, field), getattr(other, field)) for field in ("couplings", "joints", "inputs", "bodies"))
+        return Undetermined(*(one | another for one, another in pairs))
+
+    def __bool__(self) -> bool:
+        return bool(self.couplings)
+
+    @property
+    def names(self) -> frozenset[str]:
+        """The joints and couplings with an open force, and the inputs with an open effort."""
+        return self.couplings | self.joints | self.inputs
+
+
+class _Acting(NamedTuple):
+    """A force and moment about `at` on a body."""
+
+    body: str
+    pull: ForceAndMoment
+    at: ComplexField
+
+
+def undetermined(
+    poses: PoseBlock, inertias: Mapping[str, Inertia], joint_frictions: Sequence[JointFriction]
+) -> Undetermined:
+    """What depends on the tension of the mechanism's belts and chains, over a block of samples.
+
+    poses     the block of samples      inertias  body -> inertia, of all moving bodies
+    joint_frictions  friction of joints
+    """
+    mechanism = poses.motion.plan.mechanism
+    open_couplings = [one for one in mechanism.couplings if not has_teeth(one)]
+    if not open_couplings:
+        return Undetermined()
+    nothing = {body: ForceAndMoment(0j, 0.0) for body in inertias}
+    units = [unit for coupling in open_couplings for unit in _tensions(poses, coupling)]
+    joints, inputs, bodies = set[str](), set[str](), set[str]()
+    rubbing = {law.joint for law in joint_frictions}
+    while units:
+        acting = units.pop()
+        pulls = joint_pulls(poses, _needs_of(poses, nothing, acting))
+        response = _Response(poses, acting, pulls)
+        responding = response.joints()
+        units += [_friction(poses.joints[name]) for name in sorted(rubbing & responding)]
+        rubbing -= responding
+        joints |= responding
+        inputs |= response.inputs()
+        bodies |= response.bodies()
+    return Undetermined(frozenset(one.name for one in open_couplings), *map(frozenset, (joints, inputs, bodies)))
+
+
+def _tensions(poses: PoseBlock, coupling: Coupling) -> Iterator[list[_Acting]]:
+    """The open unit forces of a coupling: along the line of centres of a belt; else any, against the carrier."""
+    joint = poses.joints[coupling.name]
+    ends = ((joint.on, joint.place(joint.on)), (joint.by, joint.at))
+    if coupling.kind == "belt":
+        offset = ends[0][1] - ends[1][1]
+        pull = offset / np.abs(offset)
+        yield [_Acting(body, ForceAndMoment(sign * pull, 0.0), at) for (body, at), sign in zip(ends, (-1, 1), strict=True)]
+        return
+    for body, at in ends:
+        for force in (1 + 0j, 1j):
+            other = _Acting(coupling.carrier, ForceAndMoment(-force, 0.0), at)
+            yield [_Acting(body, ForceAndMoment(force, 0.0), at), other]
+
+
+def _friction(joint: JointPoses) -> list[_Acting]:
+    """A unit of friction in a joint, on both of its bodies."""
+    effort = joint.drive
+    return [
+        _Acting(body, ForceAndMoment(sign * effort.force, sign * effort.moment), joint.at)
+        for body, sign in ((joint.on, 1), (joint.by, -1))
+    ]
+
+
+def _needs_of(poses: PoseBlock, nothing: Needs, acting: Sequence[_Acting]) -> Needs:
+    needed = dict(nothing)
+    for body, pull, at in acting:
+        add(needed, poses, body, ForceAndMoment(-pull.force, -pull.moment), at)
+    return needed
+
+
+@record
+class _Response:
+    """The response of the joints to unit forces."""
+
+    poses: PoseBlock
+    acting: Sequence[_Acting]
+    pulls: Mapping[str, ForceAndMoment]
+
+    def inputs(self) -> set[str]:
+        """The inputs whose effort responds."""
+        efforts = {name: effort for name, effort in self._efforts().items() if self._responds(effort)}
+        return {entry.name for entry in self.poses.motion.plan.mechanism.inputs if entry.joint in efforts}
+
+    def joints(self) -> set[str]:
+        """The joints and couplings whose force responds, the effort of a drive aside."""
+        return {name for name, pull in self._without_efforts().items() if self._responds(pull)}
+
+    def bodies(self) -> set[str]:
+        """The moving bodies on which something is left at a place: the forces within depend on it."""
+        by_body: dict[str, list[_Acting]] = {}
+        for body, pull, at in self.acting:
+            by_body.setdefault(body, []).append(_Acting(body, pull, at))
+        for name, pull in self.pulls.items():
+            joint = self.poses.joints[name]
+            for body, sign in ((joint.on, 1), (joint.by, -1)):
+                moment = sign * (pull.moment + cross(joint.at - joint.place(body), pull.force))
+                acting = _Acting(body, ForceAndMoment(sign * pull.force, moment), joint.place(body))
+                by_body.setdefault(body, []).append(acting)
+        return {body for body, rows in by_body.items() if body != GROUND and self._left(rows)}
+
+    def _left(self, rows: list[_Acting]) -> bool:
+        """Whether forces at one place do not cancel, for any of the places."""
+        while rows:
+            at = rows[0].at
+            here = [row for row in rows if not self._any(np.abs(row.at - at) > RESPONSE * self.poses.length)]
+            rows = [row for row in rows if all(row is not other for other in here)]
+            force, moment = sum(row.pull.force for row in here), sum(row.pull.moment for row in here)
+            if self._responds(ForceAndMoment(np.asarray(force), np.asarray(moment))):
+                return True
+        return False
+
+    def _efforts(self) -> dict[str, ForceAndMoment]:
+        """The efforts of the drives, by joint."""
+        found = {}
+        for entry in self.poses.motion.plan.mechanism.inputs:
+            joint = self.poses.joints[entry.joint]
+            effort = joint.generalized_force(self.pulls[entry.joint], joint.at)
+            found[entry.joint] = ForceAndMoment(effort * joint.drive.force, effort * joint.drive.moment)
+        return found
+
+    def _without_efforts(self) -> dict[str, ForceAndMoment]:
+        efforts = self._efforts()
+        none = ForceAndMoment(0j, 0.0)
+        return {
+            name: ForceAndMoment(pull.force - efforts.get(name, none).force, pull.moment - efforts.get(name, none).moment)
+            for name, pull in self.pulls.items()
+        }
+
+    def _responds(self, pull: ForceAndMoment) -> bool:
+        return self._any((np.abs(pull.force) > RESPONSE) | (np.abs(pull.moment) > RESPONSE * self.poses.length))
+
+    def _any(self, samples: BoolArray) -> bool:
+        """Whether a comparison holds at any sample that is solved."""
+        return bool(np.any(np.asarray(samples) & (self.poses.motion.status == Status.OK)))
