@@ -10,9 +10,10 @@ from hypothesis import strategies as st
 from ilmek.elements.belts import BELTS, BeltDrive, belt_at, belt_length, find_belt
 from ilmek.elements.gear_pair import GearPair, pair_at, smallest_pair
 from ilmek.elements.gears import EqualGears, lewis
-from ilmek.elements.involute import PRESSURE_ANGLE, Gear, involute, involute_angle, least_shift, outline
+from ilmek.elements.involute import Gear, involute, involute_angle, least_shift, outline
 from ilmek.elements.materials import MATERIALS
 from ilmek.errors import ParameterError
+from ilmek.plane.teeth import PRESSURE_ANGLE
 from ilmek.units import deg, mm
 
 INCH = 0.0254

@@ -6,7 +6,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from ilmek.elements.gears import LEAST_TEETH, MODULES, PRESSURE_ANGLE, EqualGears, equal_gears, lewis
+from ilmek.elements.gears import LEAST_TEETH, MODULES, EqualGears, equal_gears, lewis
 from ilmek.errors import IlmekError, ParameterError
 from ilmek.linkage.clearance import OutlinedBody, distances
 from ilmek.linkage.configuration_path import InputPath
@@ -15,6 +15,7 @@ from ilmek.linkage.model import degrees_of_freedom
 from ilmek.linkage.one_input import one_input
 from ilmek.machines.knotting_four_bar import MACHINE, KnottingFourBar, KnottingFourBarParams, design
 from ilmek.machines.knotting_four_bar.sides import KnottingSides, clearances, hands, outlines
+from ilmek.plane.teeth import PRESSURE_ANGLE
 from ilmek.report import Animation, Drawing, Report
 from ilmek.units import MPa, mm
 from ilmek.weaving.knots.two_hands import knot_of_hands, pitch_range

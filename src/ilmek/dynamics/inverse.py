@@ -16,7 +16,7 @@ import numpy as np
 from ilmek.arrays import BoolArray, ComplexArray, FloatArray, Int8, RealField
 from ilmek.dynamics.equations import Needs, joint_pulls, needs
 from ilmek.dynamics.inertia import Inertia
-from ilmek.dynamics.joint_friction import JointFriction, check_joints, efforts, loaded, parted_teeth
+from ilmek.dynamics.joint_friction import JointFriction, check_joints, efforts, loaded, tooth_separations
 from ilmek.dynamics.loads import Load, Wrench
 from ilmek.dynamics.pose_block import BLOCK, ForceAndMoment, PoseBlock, cut, part_of, pose_block, receiver
 from ilmek.dynamics.undetermined import Undetermined, undetermined
@@ -48,7 +48,7 @@ class Forces:
     input_power   Σ effort times input speed [W]
     load_power    power of the loads, including gravity and friction [W]
     kinetic_rate  time derivative of the kinetic energy [W]
-    open          what depends on the tension of belts and chains
+    undetermined  what depends on the tension of belts and chains
     """
 
     motion: Motion
@@ -62,7 +62,7 @@ class Forces:
     input_power: FloatArray
     load_power: FloatArray
     kinetic_rate: FloatArray
-    open: Undetermined = Undetermined()
+    undetermined: Undetermined = Undetermined()
 
     @property
     def mechanism(self) -> Mechanism:
@@ -103,8 +103,7 @@ class Forces:
     def tooth(self, coupling: str) -> ComplexArray:
         """Tooth force of gears or a rack [N] on the coupling's second body, at the pitch point; complex, per sample.
 
-        Along the pitch line and apart, as the pressure angle has it; NaN for a belt. Raises MechanismError for an
-        unknown coupling.
+        Along the line of action, at the pressure angle; NaN for a belt. Raises MechanismError for an unknown coupling.
         """
         if coupling not in {known.name for known in self.mechanism.couplings}:
             raise MechanismError(f"{self.mechanism.name} has no coupling {coupling!r}")
@@ -173,7 +172,7 @@ def inverse(
             acting = [wrench.part(part) for wrench in wrenches]
             needed = needs(poses, bodies, acting)
             missing |= undetermined(poses, bodies, joint_frictions)
-            laws = [*parted_teeth(mechanism), *(law for law in joint_frictions if law.joint not in missing.joints)]
+            laws = [*tooth_separations(mechanism), *(law for law in joint_frictions if law.joint not in missing.joints)]
             forces.load_power[part] += _load_power(poses, acting)
             sizes: dict[str, FloatArray] = {}
             if laws:
@@ -217,7 +216,7 @@ def _without(forces: Forces, missing: Undetermined) -> Forces:
         efforts=shown(forces.efforts, missing.inputs),
         frictions=shown(forces.frictions, missing.joints),
         input_power=forces.input_power if not missing.inputs else np.full_like(forces.input_power, np.nan),
-        open=missing,
+        undetermined=missing,
     )
 
 
@@ -249,11 +248,11 @@ def _store_reactions(
         pulls[joint.name] = ForceAndMoment(pull.force - effort * joint.drive.force, pull.moment)
     for name, pull in pulls.items():
         joint, size = poses.joints[name], sizes.get(name, 0.0)
-        apart = 0.0 if joint.apart is None else size * joint.apart
+        radial = 0.0 if joint.separation is None else size * joint.separation
         turned = joint.line is None and joint.tooth is None
-        along = driving.get(name, 0.0) + (size if joint.apart is None else 0.0)
-        forces.reactions[name][part] = np.where(failed, np.nan, pull.force + apart)
-        force, moment = pull.force + apart + along * joint.drive.force, along * joint.drive.moment
+        along = driving.get(name, 0.0) + (size if joint.separation is None else 0.0)
+        forces.reactions[name][part] = np.where(failed, np.nan, pull.force + radial)
+        force, moment = pull.force + radial + along * joint.drive.force, along * joint.drive.moment
         forces.acting[name].force[part] = np.where(failed, np.nan, force)
         forces.acting[name].moment[part] = np.where(failed, np.nan, moment + (0.0 if turned else pull.moment))
         if name in forces.couples:

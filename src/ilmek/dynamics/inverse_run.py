@@ -101,6 +101,14 @@ class InverseRun:
     def tooth_forces_max(self) -> dict[str, float]:
         return {one.name: greatest(self.forces.tooth(one.name)) for one in self.forces.mechanism.couplings}
 
+    @computed("N*m", "greatest torque of gears and belts on the second wheel", shown=False)
+    def coupling_torques_max(self) -> dict[str, float]:
+        return {name: greatest(torque) for name, torque in self.forces.torques.items()}
+
+    @computed("", "forces and drives that depend on the tension of a belt or chain: not determined", shown=False)
+    def undetermined(self) -> list[str]:
+        return sorted(self.forces.undetermined.names)
+
     drive_torque_max = computed(
         "N*m",
         "greatest torque of the drive",
@@ -157,7 +165,7 @@ def inverse_run(machine: OwnMachine, motion: Motion, driving: str | None, time: 
     motion   with speeds and accelerations      driving  name of the driving input; None: all inputs are fixed
     time     of the samples [s], ascending; None: the inputs stand still, and the friction of joints is left out
 
-    Raises MechanismError as `inverse`: for a belt, whose force is not determined, and for unknown bodies or joints.
+    Raises MechanismError as `inverse`, for unknown bodies or joints.
     """
     loads = all_loads(machine)
     moves = any(np.any(np.asarray(drive.speed) != 0) for drive in motion.drives.values())
@@ -206,8 +214,8 @@ def _misfit(
                     turning = cross(at - ABOUT, np.asarray(wrench.force)) + wrench.torque
                     force, moment = force + wrench.force, moment + turning
                     size, turn_size = size + np.abs(wrench.force), turn_size + np.abs(turning)
-        for reaction in forces.reactions.values():
-            size = size + np.abs(reaction)
+        for force_of_joint, _ in forces.acting.values():
+            size = size + np.abs(force_of_joint)
         reach = max(abs(point) for body in mechanism.bodies for point in body.points.values()) or 1.0
         sizes = np.array([greatest(size), greatest(turn_size) + reach * greatest(size)])
         gaps = np.array([greatest(frame.force - force), greatest(frame.moment - moment)])

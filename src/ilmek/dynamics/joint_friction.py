@@ -1,4 +1,4 @@
-"""Efforts in joints that follow from the joint forces: friction in pins and slides, and the force that parts teeth.
+"""Efforts in joints that follow from the joint forces: friction in pins and slides, separation of teeth.
 
     pin      T = -mu r |F| sgn(omega) - c omega                        F pin force, r pin radius
     slide    F = -mu (|N_1| + |N_2|) sgn(v) - c v                      N_1, N_2 at the ends of a guide of length b
@@ -6,7 +6,7 @@
                                                                        N force across the line, C couple
     teeth    F_r = |F_t| tan alpha                                     F_t along the pitch line, alpha pressure angle
 
-Friction is consistent with the joint forces that it changes. F_r presses the two bodies apart, whichever flank carries;
+Friction is consistent with the joint forces that it changes. F_r separates the two bodies, whichever flank carries;
 it does no work, but loads bearings and guides, and so their friction.
 
 The joint forces are linear in the friction efforts x: F = F_0 + Σ x_k G_k, with G_k the response to a unit effort. So
@@ -104,8 +104,8 @@ class SlideFriction:
 
 
 @dataclass(frozen=True, slots=True)
-class PartedTeeth:
-    """The force that parts teeth in mesh; joint: name of the coupling, pressure_angle: alpha [rad]."""
+class ToothSeparation:
+    """The force that separates teeth in mesh; joint: name of the coupling, pressure_angle: alpha [rad]."""
 
     joint: str
     pressure_angle: float
@@ -122,14 +122,14 @@ class PartedTeeth:
 
 JointFriction: TypeAlias = PinFriction | SlideFriction
 
-EffortLaw: TypeAlias = JointFriction | PartedTeeth
+EffortLaw: TypeAlias = JointFriction | ToothSeparation
 """The law of an effort that depends on the forces of its joint."""
 
 
-def parted_teeth(mechanism: Mechanism) -> tuple[PartedTeeth, ...]:
+def tooth_separations(mechanism: Mechanism) -> tuple[ToothSeparation, ...]:
     """The laws of all teeth in mesh with a pressure angle."""
     meshes = (one for one in mechanism.couplings if has_teeth(one) and one.pressure_angle)
-    return tuple(PartedTeeth(one.name, one.pressure_angle) for one in meshes)
+    return tuple(ToothSeparation(one.name, one.pressure_angle) for one in meshes)
 
 
 def check_joints(mechanism: Mechanism, joint_frictions: Sequence[JointFriction]) -> None:
@@ -152,16 +152,16 @@ def efforts(
 
     poses   the block of samples
     needed  forces and moments that the bodies require without these efforts
-    laws    friction of joints, and parted teeth
+    laws    friction of joints, and separation of teeth
     side    at a reversal of a joint: +1 just after it in time, -1 just before; a number or one per sample
 
-    Returns joint -> torque [N m] or force along the line [N] on its `on` body, coupling -> force [N] that parts its
-    teeth, one value per sample, NaN where locked; and the locked samples. Raises MechanismError for friction where no
+    Returns joint -> torque [N m] or force along the line [N] on its `on` body, coupling -> force [N] that separates
+    its teeth, one value per sample, NaN where locked; and the locked samples. Raises MechanismError for friction where no
     input moves.
     """
     samples = poses.motion.status.shape[0]
     joints = [poses.joints[law.joint] for law in laws]
-    parting = np.array([[isinstance(law, PartedTeeth)] for law in laws])
+    separating = np.array([[isinstance(law, ToothSeparation)] for law in laws])
     rates = np.stack([np.broadcast_to(poses.rate(joint), samples) for joint in joints])
     viscous = -np.array([[law.drag] for law in laws]) * rates
     rest = loaded(poses, needed, dict(zip((law.joint for law in laws), viscous, strict=True)))
@@ -169,9 +169,9 @@ def efforts(
     nothing = {body: ForceAndMoment(0j, 0.0) for body in needed}
     responses = [joint_pulls(poses, loaded(poses, nothing, {joint.name: np.ones(samples)})) for joint in joints]
     signs = np.full(rates.shape, -1.0)
-    if not parting.all():
+    if not separating.all():
         second = np.stack([_second_rate(poses, joint) for joint in joints])
-        signs = np.where(parting, signs, np.sign(rates + _time_offset(poses, side) * second))
+        signs = np.where(separating, signs, np.sign(rates + _time_offset(poses, side) * second))
     sizes, locked = _consistent(joints, laws, signs, unloaded, responses)
     return {law.joint: size for law, size in zip(laws, viscous + sizes, strict=True)}, locked
 

@@ -1,6 +1,7 @@
-"""Check of an own machine over an inverse run: its drive keeps it moving."""
+"""Checks of an own machine over an inverse run: its drive keeps it moving, and what is judged is determined."""
 
 from ilmek.dynamics.inverse_run import InverseRun
+from ilmek.dynamics.own_machine import OwnMachine
 from ilmek.report import Check, must
 from ilmek.units import format_quantity
 
@@ -20,3 +21,17 @@ def locking(run: InverseRun) -> tuple[Check, ...]:
     source = f"the drive keeps it moving against the friction of its joints{where}"
     cure = "lower the friction, lengthen the guides, or improve the transmission angle there"
     return (must("not self-locking", not run.locked.any(), source, cure=cure),)
+
+
+def determined(machine: OwnMachine, run: InverseRun) -> tuple[Check, ...]:
+    """That the forces of pins and links with a strength, and the drives, do not depend on the tension of a belt."""
+    unknown = run.forces.undetermined
+    tension = f"depends on the tension of {', '.join(sorted(unknown.couplings))}, which is not given"
+    cure = "leave it out of the strength, or give gears of another ratio in place of the belt"
+    names = [f"pin {name}: force is determined" for name in machine.pins if name in unknown.joints]
+    names += [f"{name}: forces are determined" for name in machine.members if name in unknown.bodies]
+    drives = [f"drive of {name} is determined" for name in sorted(unknown.inputs)]
+    alone = "leave out the friction of the bearings that the belt loads"
+    return tuple(must(name, False, tension, cure=cure) for name in names) + tuple(
+        must(name, False, tension, cure=alone) for name in drives
+    )

@@ -119,7 +119,7 @@ class MachineStrength:
 
 
 def machine_strength(machine: OwnMachine, run: InverseRun) -> MachineStrength | None:
-    """Strength of a machine's links and pins over a run; None where it has no members and pins.
+    """Strength of a machine's links and pins over a run, as far as their forces are determined; None without any.
 
     Raises MechanismError for a member or pin of an unknown body or joint; ParameterError for an unknown material or
     bearing.
@@ -128,19 +128,21 @@ def machine_strength(machine: OwnMachine, run: InverseRun) -> MachineStrength | 
         return None
     forces, loads = run.forces, all_loads(machine)
     links, balance = {}, 0.0
+    unknown = forces.undetermined
+    known_pins = {joint: pin for joint, pin in machine.pins.items() if joint not in unknown.joints}
     for body, member in machine.members.items():
-        if body != GROUND:
+        if body != GROUND and body not in unknown.bodies:
             section, material = _section(machine, body, member), find_material(member.material)
             line_mass = section.line_mass(material.density)
             inner = internal_forces(forces, body, machine.inertias, loads, line_mass=line_mass)
             links[body] = link_strength(inner, section, material)
             balance = max(balance, inner.equilibrium_error)
     times = None if run.time is None else np.abs(run.time - run.time[0])
-    duties = {joint: pin_duty(forces, joint, times) for joint in machine.pins}
-    pins = {joint: _pin(machine.pins[joint], duty) for joint, duty in duties.items()}
+    duties = {joint: pin_duty(forces, joint, times) for joint in known_pins}
+    pins = {joint: _pin(known_pins[joint], duty) for joint, duty in duties.items()}
     lives = {
         joint: bearing_life(duties[joint], find_bearing(str(pin.bearing)))
-        for joint, pin in machine.pins.items()
+        for joint, pin in known_pins.items()
         if pin.bearing is not None
     }
     return MachineStrength(machine, links, pins, lives, _speed(run), balance)

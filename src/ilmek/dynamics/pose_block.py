@@ -36,8 +36,8 @@ class JointPoses:
     at     position [m] of the joint; of teeth the pitch point; of another coupling the middle of its first wheel
     line   of a slide: unit vector along its line; otherwise None
     tooth  of a coupling: unit force and moment about `at` that it transmits to the second body; otherwise None
-    apart  of teeth: unit vector in which they press the second body away from the first; otherwise None
-    middle  of the second wheel of a coupling [m]; otherwise None
+    separation  of teeth: unit vector in which they press the second body; otherwise None
+    middle      of the second wheel of a coupling [m]; otherwise None
     """
 
     name: str
@@ -46,12 +46,12 @@ class JointPoses:
     at: ComplexField
     line: ComplexField | None
     tooth: ForceAndMoment | None = None
-    apart: ComplexField | None = None
+    separation: ComplexField | None = None
     middle: ComplexField | None = None
 
     def place(self, body: str) -> ComplexField:
         """Position [m] at which the force acts on one of the two bodies: without teeth its own middle."""
-        return self.middle if self.middle is not None and self.apart is None and body == self.on else self.at
+        return self.middle if self.middle is not None and self.separation is None and body == self.on else self.at
 
     def generalized_force(self, pull: ForceAndMoment, about: ComplexField) -> RealField:
         """Generalized force of a force and moment on the joint's relative motion; only a drive effort balances it.
@@ -67,9 +67,9 @@ class JointPoses:
 
     @property
     def drive(self) -> ForceAndMoment:
-        """Unit effort of the joint: a torque of 1 N m, a force of 1 N along the line, or of 1 N that parts teeth."""
-        if self.apart is not None:
-            return ForceAndMoment(self.apart, 0.0)
+        """Unit effort of the joint: a torque of 1 N m, a force of 1 N along the line, or one that separates teeth."""
+        if self.separation is not None:
+            return ForceAndMoment(self.separation, 0.0)
         return ForceAndMoment(0j, 1.0) if self.line is None else ForceAndMoment(self.line, 0.0)
 
     @property
@@ -156,8 +156,8 @@ def _coupling_poses(mechanism: Mechanism, coupling: Coupling, bodies: Mapping[st
         other  torque M on the second wheel, -i M on the first, and the force (i - 1) M / |O_1 O_2| across O_1 O_2 on the
                second that balances both                                     [a belt, a chain, wheels that turn alike]
 
-    Teeth also press their wheels apart: away from the pitch point, an inner wheel towards its own middle. The tension of
-    a belt, along O_1 O_2, does no work: see `undetermined`.
+    Teeth also separate their wheels, away from the pitch point; an inner wheel is pressed towards the middle of the ring.
+    The tension of a belt, along O_1 O_2, does no work: see `undetermined`.
     """
     (first, one), (second, two) = coupling.first, coupling.second
     at = bodies[first].carry(mechanism.point(first, one)).position
@@ -172,8 +172,8 @@ def _coupling_poses(mechanism: Mechanism, coupling: Coupling, bodies: Mapping[st
     distance = np.abs(offset)
     along = offset / distance
     if has_teeth(coupling):
-        pole, apart = at + ratio / (ratio - 1) * offset, along if ratio < 0 else -along
-        return JointPoses(coupling.name, second, first, pole, None, ForceAndMoment(1j * along, 0.0), apart, middle)
+        pole, separation = at + ratio / (ratio - 1) * offset, along if ratio < 0 else -along
+        return JointPoses(coupling.name, second, first, pole, None, ForceAndMoment(1j * along, 0.0), separation, middle)
     tooth = ForceAndMoment((ratio - 1) * 1j * along, ratio * distance)
     return JointPoses(coupling.name, second, first, at, None, tooth, middle=middle)
 

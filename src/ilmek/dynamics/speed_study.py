@@ -37,7 +37,7 @@ class SpeedPoint:
     @property
     def pin_force(self) -> tuple[str, float]:
         """The pin with the greatest force, and this force [N]."""
-        forces = self.run.pin_forces_max
+        forces = {name: force for name, force in self.run.pin_forces_max.items() if math.isfinite(force)}
         return max(forces.items(), key=lambda item: item[1], default=("", math.nan))
 
     @property

@@ -13,9 +13,10 @@ import math
 from dataclasses import dataclass
 
 from ilmek.elements.gears import MODULES, lewis
-from ilmek.elements.involute import PRESSURE_ANGLE, Gear, involute, involute_angle
+from ilmek.elements.involute import Gear, involute, involute_angle
 from ilmek.elements.materials import Material
 from ilmek.errors import ParameterError
+from ilmek.plane.teeth import PRESSURE_ANGLE
 
 
 @dataclass(frozen=True, slots=True)

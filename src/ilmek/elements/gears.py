@@ -14,8 +14,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ilmek.elements.involute import PRESSURE_ANGLE, involute
+from ilmek.elements.involute import involute
 from ilmek.errors import IlmekError
+from ilmek.plane.teeth import PRESSURE_ANGLE
 from ilmek.units import format_quantity, mm
 
 MODULES = tuple(module * mm for module in (0.5, 0.6, 0.8, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0))

@@ -13,9 +13,8 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray, RealField
 from ilmek.errors import ParameterError
-from ilmek.units import deg
+from ilmek.plane.teeth import PRESSURE_ANGLE
 
-PRESSURE_ANGLE = 20 * deg
 DEDENDUM = 1.25
 
 

@@ -3,6 +3,7 @@
 import math
 
 from ilmek.linkage.model import GROUND, Body, Coupling, Mechanism, Pin, Rotation
+from ilmek.plane.teeth import PRESSURE_ANGLE
 
 GEARS = "gears"
 """Name of the coupling of both cranks."""
@@ -35,8 +36,10 @@ def mirrored(mechanism: Mechanism, mirror: float) -> Mechanism:
     )
 
 
-def coupled(mechanism: Mechanism, mirror: float) -> Mechanism:
+def coupled(mechanism: Mechanism, mirror: float, pressure_angle: float = PRESSURE_ANGLE) -> Mechanism:
     """Both sides, mirrored in x = mirror [m], as one mechanism: equal gears drive the second crank from the first.
+
+    pressure_angle  of the gears' teeth at the pitch point [rad]
 
     The first crank at 0 meets the second at half a turn: mirror images of one another at every angle.
     """
@@ -45,7 +48,7 @@ def coupled(mechanism: Mechanism, mirror: float) -> Mechanism:
     moving = [body for side in (mechanism, image) for body in side.bodies if body.name != GROUND]
     (crank,) = _cranks(mechanism)
     second = other(crank.body), other(crank.about)
-    mesh = Coupling(GEARS, "gears", (crank.body, crank.about), second, -1.0, 0.0, math.pi)
+    mesh = Coupling(GEARS, "gears", (crank.body, crank.about), second, -1.0, 0.0, math.pi, GROUND, pressure_angle)
     return Mechanism(
         name=f"{mechanism.name} of two sides",
         bodies=(Body(GROUND, ground), *moving),

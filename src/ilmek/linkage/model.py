@@ -19,7 +19,9 @@ from dataclasses import dataclass, field
 from typing import TypeAlias, TypeVar
 
 from ilmek.errors import MechanismError, did_you_mean
+from ilmek.plane.teeth import PRESSURE_ANGLE
 from ilmek.records import brief
+from ilmek.units import deg
 
 GROUND = "ground"
 """The fixed body; its frame is the world."""
@@ -128,10 +130,7 @@ class Displacement:
         return self.slide
 
 
-STANDARD_PRESSURE_ANGLE = math.radians(20)
-"""Pressure angle of the basic rack of involute gears [ISO 53] [rad]."""
-
-GREATEST_PRESSURE_ANGLE = math.radians(45)
+GREATEST_PRESSURE_ANGLE = 45 * deg
 """Greatest pressure angle of a coupling [rad]; teeth have 14.5° to 30°."""
 
 
@@ -162,7 +161,7 @@ class Coupling:
     first_at: float
     second_at: float
     carrier: str = GROUND
-    pressure_angle: float = STANDARD_PRESSURE_ANGLE
+    pressure_angle: float = PRESSURE_ANGLE
 
     @property
     def bodies(self) -> tuple[str, str, str]:

@@ -8,6 +8,7 @@ from ilmek.io.mechanism.joints import joints_of, members_of
 from ilmek.io.mechanism.points import check_lengths, complex_of, points_of
 from ilmek.io.schema import SourceText
 from ilmek.linkage.model import GROUND, KINDS, Body, Coupling, Displacement, Input, Joint, Mechanism, Rotation, Slide
+from ilmek.plane.teeth import PRESSURE_ANGLE
 
 
 def mechanism_of(data: Mapping[str, Any], source: SourceText) -> Mechanism:
@@ -87,4 +88,5 @@ def _coupling(name: str, table: Mapping[str, Any]) -> Coupling:
     kind = next(kind for kind in KINDS if kind in table)
     first, second = (tuple(end) for end in table[kind])
     carrier = table.get("carrier", GROUND)
-    return Coupling(name, kind, first, second, table["ratio"], table["first_at"], table["second_at"], carrier)
+    angle = table.get("pressure_angle", PRESSURE_ANGLE)
+    return Coupling(name, kind, first, second, table["ratio"], table["first_at"], table["second_at"], carrier, angle)

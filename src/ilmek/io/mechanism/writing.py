@@ -126,6 +126,8 @@ class _Writer:
     def coupling(self, one: Coupling) -> dict[str, Any]:
         rack = one.kind == "rack"
         units = {"ratio": "mm/rad" if rack else "1", "first_at": "deg", "second_at": "mm" if rack else "deg"}
+        if one.kind != "belt":
+            units["pressure_angle"] = "deg"
         numbers = {key: self.quantity(float(getattr(one, key)), unit) for key, unit in units.items()}
         return {one.kind: [list(one.first), list(one.second)], "carrier": one.carrier, **numbers}
 

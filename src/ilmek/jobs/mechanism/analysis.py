@@ -4,9 +4,12 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from ilmek.dynamics.inverse_run import InverseRun
-from ilmek.dynamics.machine_checks import locking
+from ilmek.dynamics.machine_checks import determined, locking
 from ilmek.dynamics.machine_strength import MachineStrength, machine_strength
+from ilmek.dynamics.own_machine import OwnMachine
 from ilmek.dynamics.servo_choice import ServoChoice, servo_choice
 from ilmek.dynamics.speed_study import StudyOfSpeeds, speed_study
 from ilmek.errors import MechanismError
@@ -48,7 +51,7 @@ class Analysis:
     def checks(self) -> tuple[Check, ...]:
         """What the machine must do: close, keep moving under friction, carry its forces, run as long as its task."""
         forces, servo = self.run.forces, self.servo.checks if self.servo else ()
-        locked = locking(forces) if forces is not None else ()
+        locked = (*locking(forces), *determined(self.run.machine, forces)) if forces is not None else ()
         strength = self.strength.checks if self.strength else ()
         started = self.start_strength.transient_checks if self.start_strength else ()
         started = tuple(replace(check, name=f"forward run: {check.name}") for check in started)
@@ -99,6 +102,10 @@ class Analysis:
             yield f"two assemblies meet at {run.shown(value)}: the motion is uncertain there"
         if run.left_out:
             yield run.left_out
+        unknown = run.forces.forces.undetermined if run.forces is not None else None
+        if unknown:
+            names = ", ".join(sorted(unknown.joints | unknown.inputs)) or "none but its own"
+            yield f"not determined without the tension of {', '.join(sorted(unknown.couplings))}: the forces of {names}"
         if not run.machine.has_forces:
             yield HINT
         if run.assumed and run.forces is not None:
@@ -126,10 +133,14 @@ def analysis(run: MechanismRun, progress: Progress = SILENT) -> Analysis:
         forward = own_forward(machine, run.plan, machine.forward)
         started = machine_strength(machine, forward.inverse)
     progress(0.5)
-    servo = None
-    if machine.servo and forces is not None and forces.time is not None and not forces.locked.all():
-        servo = servo_choice(machine, forces)
+    servo = _servo(machine, forces) if machine.servo and forces is not None and forces.time is not None else None
     return Analysis(run, angles, servo, strength, forward, _study(run, progress.part(0.5, 1.0, "study")), started)
+
+
+def _servo(machine: OwnMachine, forces: InverseRun) -> ServoChoice | None:
+    """The servo of a machine; None where its effort is known at no sample."""
+    effort = forces.forces.efforts.get(str(machine.servo))
+    return servo_choice(machine, forces) if effort is None or np.isfinite(effort).any() else None
 
 
 def _study(run: MechanismRun, progress: Progress) -> StudyOfSpeeds | None:

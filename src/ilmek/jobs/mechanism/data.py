@@ -56,6 +56,8 @@ def _force_histories(run: MechanismRun) -> dict[str, Any]:
     joints: dict[str, dict[str, object]] = {name: {"force": force} for name, force in forces.reactions.items()}
     for name, couple in forces.couples.items():
         joints[name]["couple"] = couple
+    for name, torque in forces.torques.items():
+        joints[name]["torque"] = torque
     for name, friction in forces.frictions.items():
         joints[name]["friction"] = friction
     return {

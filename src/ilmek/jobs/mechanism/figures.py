@@ -177,7 +177,7 @@ def _groups(  # noqa: PLR0917 - two axes, the abscissae, the curves
     name: str, title: str, x: Axis, y: Axis, at: FloatArray, curves: Mapping[str, FloatArray]
 ) -> Iterator[Plot]:
     """Plots of at most `CURVES` curves each."""
-    series = [Series(label, at, values) for label, values in curves.items()]
+    series = [Series(label, at, values) for label, values in curves.items() if np.isfinite(values).any()]
     for start in range(0, len(series), CURVES):
         number = start // CURVES + 1
         yield Plot(f"{name}-{number}", title, x, y, tuple(series[start : start + CURVES]))
@@ -185,7 +185,7 @@ def _groups(  # noqa: PLR0917 - two axes, the abscissae, the curves
 
 def _hodographs(name: str, title: str, forces: Mapping[str, np.ndarray]) -> Iterator[Plot]:
     """Ends of force vectors over the run, Fy over Fx."""
-    series = [Series(label, force.real, force.imag) for label, force in forces.items()]
+    series = [Series(label, force.real, force.imag) for label, force in forces.items() if np.isfinite(force).any()]
     for start in range(0, len(series), CURVES):
         x, y = Axis("Fx", "N"), Axis("Fy", "N")
         yield Plot(f"{name}-{start // CURVES + 1}", title, x, y, tuple(series[start : start + CURVES]))

@@ -112,6 +112,10 @@ def _force_rows(run: MechanismRun) -> Iterator[Row]:
         couple = greatest(forces.couples[one.name]) if one.name in forces.couples else ""
         on = one.bodies[1] if not isinstance(one, Slide) else one.body
         name = f"{one.name} ({kind})"
+        if one.name in forces.undetermined.names:
+            couple = greatest(forces.torques[one.name]) if one.name in forces.torques else ""
+            yield name, f"on {on}", "not determined", "", "", "", "", "", couple
+            continue
         yield (
             name,
             f"on {on}",

@@ -84,8 +84,8 @@ class KnottingSides:
 
     @computed(
         "",
-        "of both cranks, equal, SI; torque and pins contain the force along the pitch circle, not the force that "
-        "presses the gears apart, friction or play",
+        "of both cranks, equal, SI; the pins contain the force of the teeth, along the pitch circle and apart, but no "
+        "friction or play",
         name="gears",
         shown=False,
     )
@@ -178,7 +178,7 @@ def both_sides(
     least = 2 * _reach(params, moving.motion, start, facing) + params.side_clearance
     gears = _gears(params, least, max(moving.torque_max, standing.torque_max))
     mirror = start.real + facing * gears.distance / 2
-    image, planned = plan(mirrored(one.mechanism, mirror)), plan(coupled(one.mechanism, mirror))
+    image, planned = plan(mirrored(one.mechanism, mirror)), plan(coupled(one.mechanism, mirror, gears.pressure_angle))
     run = partial(_coupled_run, params, (one, image, planned), wheel(params, gears), angles)
     return KnottingSides(
         mirror=mirror,
@@ -259,7 +259,9 @@ def _coupled_run(
     motion = solve(both, angles, speed, acceleration).require()
     forces = inverse(motion, {**bodies, **images}, (weight, pull, mirrored_pull))
     alone = first.effort("crank"), second.effort(other("crank"))
-    return Coupled(angles, motion, forces, forces.effort("crank"), np.abs(forces.tooth(GEARS)), alone)
+    (mesh,) = both.mechanism.couplings
+    along = np.abs(forces.tooth(GEARS)) * math.cos(mesh.pressure_angle)
+    return Coupled(angles, motion, forces, forces.effort("crank"), along, alone)
 
 
 def clearances(params: KnottingFourBarParams, sides: KnottingSides) -> dict[str, Clearance]:
