@@ -19,7 +19,7 @@ from ilmek.dynamics.loads import PointForce, Torque
 from ilmek.dynamics.own_machine import NamedLoad, OwnMachine
 from ilmek.io.mechanism_file import read_mechanism
 from ilmek.linkage.fourbar import slider_crank
-from ilmek.linkage.model import Mechanism, Pin
+from ilmek.linkage.model import Body, Coupling, Mechanism, Pin, Rotation, Slide
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
 from ilmek.plane.vectors import cross, dot
@@ -118,9 +118,12 @@ Place = tuple[complex, complex]
 
 
 def transmitted(
-    mechanism: Mechanism, place: Mapping[str, Place]
+    mechanism: Mechanism, place: Mapping[str, Place], flanks: Mapping[str, int]
 ) -> Iterator[tuple[str, str, str, complex, complex, float]]:
-    """Name, body, other body, position, unit force and unit couple of all that joints, teeth and the drive transmit."""
+    """Name, body, other body, position, unit force and unit couple of all that joints, teeth and the drive transmit.
+
+    flanks  coupling -> +1 or -1, the flank of its teeth that carries; default: +1
+    """
 
     def at(body: str, point: str) -> complex:
         return complex(place[body][0] + place[body][1] * mechanism.point(body, point))
@@ -136,15 +139,27 @@ def transmitted(
         yield from ((joint.name, on, by, at(on, joint.name), *unit) for unit in units)
         if any(entry.joint == joint.name for entry in mechanism.inputs):
             yield "drive", on, by, at(on, joint.name), *drive
-    for gears in mechanism.couplings:
-        start, end = at(*gears.first), at(*gears.second)
-        pole = start + gears.ratio / (gears.ratio - 1) * (end - start)  # where both rims have the same velocity
-        yield gears.name, gears.second[0], gears.first[0], pole, 1j * (end - start) / abs(end - start), 0.0
+    for mesh in mechanism.couplings:
+        start, end = at(*mesh.first), at(*mesh.second)
+        if mesh.kind == "rack":
+            along = place[mesh.carrier][1] * np.exp(1j * mechanism.joint(mesh.second[1]).along)
+            pole, from_teeth = start - 1j * mesh.ratio * along, -1j * np.sign(mesh.ratio) * along
+        else:
+            pole = start + mesh.ratio / (mesh.ratio - 1) * (end - start)  # where both rims have the same velocity
+            along, small = 1j * (end - start) / abs(end - start), abs(end - pole) < abs(start - pole)
+            # Teeth press a wheel towards its own middle; of a ring and a wheel in it the wheel, and the ring outward.
+            from_teeth = -(start - pole) / abs(start - pole) if mesh.ratio > 0 and not small else end - pole
+            from_teeth = from_teeth / abs(from_teeth)
+        side = flanks.get(mesh.name, 1) * np.tan(mesh.pressure_angle)
+        yield mesh.name, mesh.second[0], mesh.first[0], pole, along + side * from_teeth, 0.0
 
 
-def all_at_once(machine: OwnMachine, run: InverseRun, k: int) -> dict[str, tuple[complex, float]]:
+def all_at_once(
+    machine: OwnMachine, run: InverseRun, k: int, flanks: Mapping[str, int] | None = None
+) -> dict[str, tuple[complex, float]]:
     """Force and couple of each joint and coupling, and the drive's effort, of one sample: three equations of each body
-    in world coordinates, solved as one system. Pins have two unknowns, slides a cross force and a couple, gears one.
+    in world coordinates, solved as one system. Pins have two unknowns, slides a cross force and a couple, teeth one
+    along their line of action; where that pulls, the other flank carries.
     """
     mechanism, motion = machine.mechanism, run.forces.motion
     bodies, load = mechanism.moving, {body: np.zeros(3) for body in mechanism.moving}
@@ -162,7 +177,7 @@ def all_at_once(machine: OwnMachine, run: InverseRun, k: int) -> dict[str, tuple
                 force, torque = (np.broadcast_to(each, len(motion))[k] for each in (wrench.force, wrench.torque))
                 at = place[wrench.body][0] + place[wrench.body][1] * wrench.at
                 load[wrench.body] += acting(wrench.body, at, force, torque)
-    units = list(transmitted(mechanism, place))
+    units = list(transmitted(mechanism, place, flanks or {}))
     m, y = np.zeros((3 * len(bodies), len(units))), np.zeros(3 * len(bodies))
     for row, body in enumerate(bodies):
         rates = 1j * motion.alpha(body)[k] - motion.omega(body)[k] ** 2
@@ -176,6 +191,10 @@ def all_at_once(machine: OwnMachine, run: InverseRun, k: int) -> dict[str, tuple
     assert m.shape[0] == m.shape[1]
     scale = np.tile([1.0, 1.0, 10.0], len(bodies))
     sizes = np.linalg.solve(m * scale[:, None], y * scale)
+    if flanks is None and mechanism.couplings:
+        pulling = {unit[0] for size, unit in zip(sizes, units, strict=True) if size < 0}
+        return all_at_once(machine, run, k, {mesh.name: -1 if mesh.name in pulling else 1 for mesh in mechanism.couplings})
+    assert all(size * flank >= 0 for size, unit in zip(sizes, units, strict=True) if (flank := (flanks or {}).get(unit[0])))
     found: dict[str, tuple[complex, float]] = {}
     for size, (name, _, _, _, force, couple) in zip(sizes, units, strict=True):
         before = found.get(name, (0j, 0.0))
@@ -225,3 +244,70 @@ def test_every_example_has_the_forces_of_all_equations_at_once(path: Path) -> No
     """Without the friction of joints: six-bars, quick return, Klann's and Jansen's legs, gears, class III, springs."""
     machine = dataclasses.replace(read_mechanism(path).machine, frictions=())
     compare(machine, np.linspace(0.1, 6.2, 9), 5.0)
+
+
+def geared(kind: str) -> Mechanism:
+    """A driven wheel in mesh with a second one, which drives a slider by a rod; or a pinion whose rack does."""
+    ratio, middle = {"external": (-0.4, 0.7), "in a ring": (3.0, 0.4), "ring around": (0.4, 0.3j - 0.2)}[kind]
+    wheels = Coupling("mesh", "gears", ("wheel", "O"), ("second", "Q"), ratio, 0.2, 1.0)
+    return Mechanism(
+        bodies=(
+            Body("ground", {"O": 0, "Q": middle, "way": 0.4j}),
+            Body("wheel", {"O": 0.01}),
+            Body("second", {"Q": 0, "R": 0.2}),
+            Body("rod", {"R": 0, "P": 1.1}),
+            Body("slider", {"P": 0.02j, "way": -0.1}),
+        ),
+        joints=(
+            Pin("O", "ground", "wheel"),
+            Pin("Q", "ground", "second"),
+            Pin("R", "second", "rod"),
+            Pin("P", "rod", "slider"),
+            Slide("way", "slider", "ground", along=0.3),
+        ),
+        inputs=(Rotation("wheel", "O"),),
+        branches={"P": 1},
+        couplings=(wheels,),
+    )
+
+
+def racked(ratio: float) -> Mechanism:
+    """A driven pinion on either side of its rack, which slides on a slope and pushes a rocker by a rod."""
+    return Mechanism(
+        bodies=(
+            Body("ground", {"O": 0.1, "way": 0.2 - 0.1j, "S": 1.0 + 0.3j}),
+            Body("pinion", {"O": 0.01j}),
+            Body("bar", {"way": 0, "R": 0.3}),
+            Body("rod", {"R": 0, "T": 0.5}),
+            Body("rocker", {"T": 0.4, "S": 0}),
+        ),
+        joints=(
+            Pin("O", "ground", "pinion"),
+            Slide("way", "bar", "ground", along=0.4, turned=0.1),
+            Pin("R", "bar", "rod"),
+            Pin("T", "rod", "rocker"),
+            Pin("S", "ground", "rocker"),
+        ),
+        inputs=(Rotation("pinion", "O"),),
+        branches={"T": -1},
+        couplings=(Coupling("mesh", "rack", ("pinion", "O"), ("bar", "way"), ratio, 0.0, 0.05),),
+    )
+
+
+@pytest.mark.parametrize("angle", [0.0, 20.0, 28.0])
+@pytest.mark.parametrize(
+    "mechanism",
+    [geared("external"), geared("in a ring"), geared("ring around"), racked(0.15), racked(-0.15)],
+    ids=["external", "in a ring", "ring around", "rack", "rack on the other side"],
+)
+def test_teeth_have_the_forces_of_all_equations_at_once(mechanism: Mechanism, angle: float) -> None:
+    """Both flanks carry within a turn; with a pressure angle every bearing takes the force that separates the teeth."""
+    mesh = dataclasses.replace(mechanism.couplings[0], pressure_angle=np.radians(angle))
+    mechanism = dataclasses.replace(mechanism, couplings=(mesh,))
+    inertias = {body: Inertia(1.0 + k, 0.05 - 0.02j * k, 0.02 * (k + 1)) for k, body in enumerate(mechanism.moving)}
+    values = np.linspace(-0.7, 0.7, 15)
+    machine = OwnMachine(mechanism, inertias, gravity=GRAVITY)
+    compare(machine, values, 6.0)
+    along = moved(machine, values, 6.0).forces.reactions["mesh"] * np.cos(mesh.pressure_angle)
+    bare = OwnMachine(dataclasses.replace(mechanism, couplings=(dataclasses.replace(mesh, pressure_angle=0.0),)), inertias, GRAVITY)
+    np.testing.assert_allclose(np.abs(along), np.abs(moved(bare, values, 6.0).forces.reactions["mesh"]), rtol=1e-9)

@@ -7,6 +7,7 @@ import pytest
 
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.inverse import inverse
+from ilmek.dynamics.joint_friction import PinFriction
 from ilmek.dynamics.loads import Gravity, Torque
 from ilmek.dynamics.multibody.model import from_motion
 from ilmek.errors import MechanismError
@@ -28,10 +29,12 @@ def gear_pair(ratio=-0.5, kind="gears") -> Mechanism:
 def test_a_gear_pair_passes_its_torque_on_through_the_teeth():
     motion = solve(plan(gear_pair()), np.linspace(0, 5, 7), 10.0)
     forces = inverse(motion, {}, (Torque("large", -8.0),)).require()
-    np.testing.assert_allclose(forces.tooth("teeth"), -200j, atol=1e-10)  # 8 N m over 40 mm, on the left of the wheel
-    np.testing.assert_allclose(forces.pin("B"), 200j, atol=1e-10)
-    np.testing.assert_allclose(forces.pin("A"), -200j, atol=1e-10)
+    apart = 200 * np.tan(np.radians(20))  # 8 N m over 40 mm, on the left of the wheel, and away from the other
+    np.testing.assert_allclose(forces.tooth("teeth"), -200j + apart, atol=1e-10)
+    np.testing.assert_allclose(forces.pin("B"), 200j - apart, atol=1e-10)
+    np.testing.assert_allclose(forces.pin("A"), -200j + apart, atol=1e-10)
     np.testing.assert_allclose(forces.effort("small"), -4.0, atol=1e-12)
+    np.testing.assert_allclose(forces.torques["teeth"], 8.0, atol=1e-12)
     assert forces.power_error < 1e-13
 
 
@@ -117,15 +120,30 @@ def test_planetary_arm_carries_both_teeth_forces():
     motion = solve(plan(planetary("sun")), np.array([0.7]), 1.0)
     forces = inverse(motion, {}, (Torque("arm", -7.0),)).require()
     np.testing.assert_allclose(forces.effort("sun"), 7.0 * 24 / 84, rtol=1e-12)
-    np.testing.assert_allclose(np.abs(forces.tooth("outside")), 7.0 / 0.042 / 2, rtol=1e-12)
-    np.testing.assert_allclose(forces.tooth("outside"), forces.tooth("inside"), rtol=1e-12)
+    along, line = 1j * motion.direction("arm"), np.cos(np.radians(20))
+    outside, inside = forces.tooth("outside"), forces.tooth("inside")
+    np.testing.assert_allclose(np.abs(outside), 7.0 / 0.042 / 2 / line, rtol=1e-12)
+    np.testing.assert_allclose(outside + inside, 7.0 / 0.042 * along, rtol=1e-12)  # sun and ring press one another away
 
 
-@pytest.mark.parametrize(("ratio", "kind"), [(-0.5, "belt"), (1.0, "gears")])
-def test_a_force_that_is_not_determined_is_refused(ratio, kind):
-    motion = solve(plan(gear_pair(ratio, kind)), np.zeros(1), 1.0)
-    with pytest.raises(MechanismError, match="the force of .* 'teeth' of mechanism is not determined"):
-        inverse(motion, {})
+@pytest.mark.parametrize(("ratio", "kind"), [(-0.5, "belt"), (2.0, "belt"), (1.0, "belt"), (1.0, "gears")])
+def test_a_belt_passes_its_torque_on_and_leaves_its_bearings_open(ratio, kind):
+    motion = solve(plan(gear_pair(ratio, kind)), np.zeros(3), 1.0, 5.0)
+    forces = inverse(motion, {"large": Inertia(1.0, 0j, 0.2)}, (Torque("large", -8.0),)).require()
+    np.testing.assert_allclose(forces.torques["teeth"], 8.0 + 0.2 * 5.0 * ratio, rtol=1e-12)
+    np.testing.assert_allclose(forces.effort("small"), ratio * (8.0 + 0.2 * 5.0 * ratio), rtol=1e-12)
+    assert forces.undetermined.names == {"A", "B", "teeth"}
+    assert np.isnan([forces.pin("A"), forces.pin("B"), forces.tooth("teeth")]).all()
+    assert forces.power_error < 1e-13
+
+
+def test_friction_in_a_bearing_that_a_belt_loads_leaves_the_drive_open():
+    motion = solve(plan(gear_pair(-0.5, "belt")), np.zeros(3), 1.0)
+    rubbing = inverse(motion, {}, (Torque("large", -8.0),), (PinFriction("A", 0.005, 0.1),))
+    assert rubbing.undetermined.inputs == {"small"}
+    assert np.isnan(rubbing.effort("small")).all()
+    viscous = inverse(motion, {}, (Torque("large", -8.0),), (PinFriction("A", 0.0, 0.0, drag=0.1),))
+    np.testing.assert_allclose(viscous.effort("small"), -4.0 + 0.1, rtol=1e-12)  # drag does not depend on the tension
 
 
 def test_unknown_coupling_is_refused():

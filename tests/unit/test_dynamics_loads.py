@@ -51,11 +51,14 @@ def test_a_damper_takes_the_power_that_the_drive_gives() -> None:
     assert forces.power_error < 1e-14
 
 
-@pytest.mark.parametrize("turns", [0.0, 2 * np.pi, -4 * np.pi])
-def test_a_torsion_spring_is_wound_from_its_own_angle(turns: float) -> None:
-    motion = arm(np.array([0.5, 1.5]) + turns, 3.0)
-    forces = inverse(motion, {}, (TorsionSpring(GROUND, "arm", 40.0, angle=1.0, damping=0.5),))
-    np.testing.assert_allclose(forces.effort("arm"), [40.0 * -0.5 + 1.5, 40.0 * 0.5 + 1.5], rtol=1e-12)
+@pytest.mark.parametrize("turns", [0.0, 2 * np.pi, -4 * np.pi, 2000 * np.pi])
+def test_a_torsion_spring_counts_the_turns_of_the_input(turns: float) -> None:
+    spring = TorsionSpring(GROUND, "arm", 40.0, angle=1.0, damping=0.5)
+    wound = np.array([-0.5, 0.5]) + turns
+    both = inverse(arm(np.array([0.5, 1.5]) + turns, 3.0), {}, (spring,))
+    np.testing.assert_allclose(both.effort("arm"), 40.0 * wound + 1.5, rtol=1e-12)
+    alone = inverse(arm(np.array([1.5 + turns]), 3.0), {}, (spring,))  # a single pose has the same turn
+    np.testing.assert_allclose(alone.effort("arm"), 40.0 * wound[1:] + 1.5, rtol=1e-12)
 
 
 def test_a_spring_between_moving_bodies_balances_within() -> None:

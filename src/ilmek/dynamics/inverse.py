@@ -172,7 +172,7 @@ def inverse(
             acting = [wrench.part(part) for wrench in wrenches]
             needed = needs(poses, bodies, acting)
             missing |= undetermined(poses, bodies, joint_frictions)
-            laws = [*tooth_separations(mechanism), *(law for law in joint_frictions if law.joint not in missing.joints)]
+            laws = [*tooth_separations(mechanism), *(law for law in joint_frictions if law.joint not in missing.frictions)]
             forces.load_power[part] += _load_power(poses, acting)
             sizes: dict[str, FloatArray] = {}
             if laws:
@@ -214,7 +214,7 @@ def _without(forces: Forces, missing: Undetermined) -> Forces:
         reactions=shown(forces.reactions, missing.couplings | missing.joints),
         couples=shown(forces.couples, missing.joints),
         efforts=shown(forces.efforts, missing.inputs),
-        frictions=shown(forces.frictions, missing.joints),
+        frictions=shown(forces.frictions, missing.frictions),
         input_power=forces.input_power if not missing.inputs else np.full_like(forces.input_power, np.nan),
         undetermined=missing,
     )

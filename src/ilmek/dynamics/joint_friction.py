@@ -55,6 +55,11 @@ class PinFriction:
     def __post_init__(self) -> None:
         _require(self.joint, radius=self.radius, coefficient=self.coefficient, drag=self.drag)
 
+    @property
+    def dry(self) -> bool:
+        """Whether it depends on the force of its joint."""
+        return self.coefficient * self.radius > 0
+
     def limit(self, joint: JointPoses, pull: ForceAndMoment) -> RealField:  # noqa: ARG002
         """Greatest torque of Coulomb friction [N m] under the pin force: mu r |F|."""
         return self.coefficient * self.radius * np.abs(pull.force)
@@ -84,6 +89,11 @@ class SlideFriction:
         _require(self.joint, coefficient=self.coefficient, drag=self.drag)
         if not (math.isfinite(self.breadth) and self.breadth > 0):
             raise MechanismError(f"breadth of slide {self.joint!r} is {self.breadth:g} m", allowed="finite and above 0")
+
+    @property
+    def dry(self) -> bool:
+        """Whether it depends on the force of its joint."""
+        return self.coefficient > 0
 
     def limit(self, joint: JointPoses, pull: ForceAndMoment) -> RealField:
         """Greatest force of Coulomb friction [N] under the slide's force and couple: mu max(|N|, 2 |C| / b)."""

@@ -31,17 +31,23 @@ class Undetermined:
     """What depends on the tension of belts and chains.
 
     couplings  whose force is open      joints  with an open force      inputs  with an open effort
-    bodies     with open forces within, as the strength of a link needs them
+    frictions  joints with an open friction      bodies  with open forces within, as the strength of a link needs them
     """
 
     couplings: frozenset[str] = frozenset()
     joints: frozenset[str] = frozenset()
     inputs: frozenset[str] = frozenset()
+    frictions: frozenset[str] = frozenset()
     bodies: frozenset[str] = frozenset()
 
     def __or__(self, other: "Undetermined") -> "Undetermined":
-        pairs = ((getattr(self, field), getattr(other, field)) for field in ("couplings", "joints", "inputs", "bodies"))
-        return Undetermined(*(one | another for one, another in pairs))
+        return Undetermined(
+            self.couplings | other.couplings,
+            self.joints | other.joints,
+            self.inputs | other.inputs,
+            self.frictions | other.frictions,
+            self.bodies | other.bodies,
+        )
 
     def __bool__(self) -> bool:
         return bool(self.couplings)
@@ -75,7 +81,7 @@ def undetermined(
     nothing = {body: ForceAndMoment(0j, 0.0) for body in inertias}
     units = [unit for coupling in open_couplings for unit in _tensions(poses, coupling)]
     joints, inputs, bodies = set[str](), set[str](), set[str]()
-    rubbing = {law.joint for law in joint_frictions}
+    rubbing = {law.joint for law in joint_frictions if law.dry}
     while units:
         acting = units.pop()
         pulls = joint_pulls(poses, _needs_of(poses, nothing, acting))
@@ -86,7 +92,9 @@ def undetermined(
         joints |= responding
         inputs |= response.inputs()
         bodies |= response.bodies()
-    return Undetermined(frozenset(one.name for one in open_couplings), *map(frozenset, (joints, inputs, bodies)))
+    frictions = joints & {law.joint for law in joint_frictions if law.dry}
+    names = (one.name for one in open_couplings)
+    return Undetermined(*map(frozenset, (names, joints, inputs, frictions, bodies)))
 
 
 def _tensions(poses: PoseBlock, coupling: Coupling) -> Iterator[list[_Acting]]:
