@@ -197,3 +197,19 @@ def test_a_machine_that_cannot_be_reduced_is_refused() -> None:
         forward(rotor(), ForwardState(0.0, 1.0), 1.0, events=(RunEvent("x", lambda _state: math.nan),))
     with pytest.raises(MechanismError, match="by sample"):
         reduce(CRANK_ROCKER, BARS, (Torque("crank", np.ones(3)),))
+
+
+def test_a_run_beyond_its_most_steps_keeps_what_it_reached() -> None:
+    """Constant torque on a rotor: q = M t² / 2 J holds at every sample that was reached."""
+    whole = forward(rotor(), ForwardState(0.0), 2.0, drive=lambda _t, _q, _w: 1.0)
+    steps = len(whole.time) - 1
+    for every in (None, 0.001):
+        run = forward(rotor(), ForwardState(0.0), 2.0, drive=lambda _t, _q, _w: 1.0, every=every, most_steps=steps - 3)
+        assert run.end.kind is EndKind.STEPS
+        assert run.end.kind.early
+        assert 0 < run.time[-1] < 2.0
+        assert run.end.state.time == run.time[-1]
+        assert f"{steps - 3} steps of the integrator reached" in run.end.reason
+        assert np.all(np.diff(run.time) > 0)
+        np.testing.assert_allclose(run.position, run.time**2 / (2 * J), rtol=1e-8, atol=1e-12)
+    assert not whole.end.kind.early

@@ -13,6 +13,7 @@ from click.testing import CliRunner, Result
 from tests.support.mechanisms import pushed_slider_crank, two_motors
 
 from ilmek.cli import main
+from ilmek.dynamics import own_forward
 from ilmek.dynamics.inertia import Inertia, bar, point_mass
 from ilmek.dynamics.inverse_run import inverse_run
 from ilmek.dynamics.joint_friction import SlideFriction
@@ -329,3 +330,106 @@ def test_a_mechanism_without_masses_says_what_to_add() -> None:
     made = report(found)
     assert made["pin_forces_max"] is None
     assert made.warnings == ("motion only: for forces give bodies a mass (mass, centre, moment), or the machine loads",)
+
+
+FAST = """
+inputs = { A = "crank" }
+branches = { C = 1 }
+[bodies]
+ground.points = { A = [0, 0], D = ["300mm", 0] }
+crank = { length = "60mm", mass = "0.2kg" }
+coupler = { length = "250mm", mass = "0.6kg" }
+rocker = { length = "200mm", mass = "0.5kg" }
+[joints]
+A.pin = ["ground", "crank"]
+B.pin = ["crank", "coupler"]
+C.pin = ["coupler", "rocker"]
+D.pin = ["ground", "rocker"]
+[forward]
+duration = "0.5s"
+motor = { torque = "300N*m" }
+"""
+
+
+def test_a_forward_run_beyond_its_steps_is_reported_as_far_as_it_came(tmp_path, monkeypatch):
+    monkeypatch.setattr(own_forward, "MOST_STEPS", 400)
+    path = tmp_path / "fast.toml"
+    path.write_text(FAST, encoding="utf-8")
+    result = CliRunner().invoke(main, ["mechanism", str(path), "--json", "-"])
+    assert result.exit_code == 3
+    data = json.loads(result.stdout)
+    (check,) = [one for one in data["checks"] if not one["ok"]]
+    assert check["name"] == "forward run: time reached"
+    assert check["limit"] == 0.5
+    assert 0 < check["value"] == data["results"]["forward_time"] == data["forward"]["time"][-1] < 0.5
+    assert "400 steps of the integrator reached" in data["results"]["forward_end"]
+    assert data["results"]["forward_turns"] > 1
+
+
+def test_a_forward_run_into_the_end_of_its_range_is_a_failed_check():
+    """The rocker drives: it swings down by its weight and stops where crank and coupler are in line."""
+    text = FAST.replace('{ A = "crank" }', '{ D = "rocker" }').replace("C = 1", "B = 1").replace('motor = { torque = "300N*m" }', "")
+    text = text.replace("[forward]", '[forward]\nposition = "60deg"').replace('inputs', 'gravity = "9.81m/s^2"\ninputs', 1)
+    found = analysis(run(MechanismFile(parse_mechanism(text, toml=True).machine), MotionRequest({"rocker": "60deg"}, "", "")))
+    assert found.forward is None  # a pose alone
+    found = analysis(run(MechanismFile(parse_mechanism(text, toml=True).machine), MotionRequest({}, "40deg..70deg", "")))
+    assert found.forward is not None
+    end = found.forward.run.end
+    assert end.kind.early
+    failed = {check.name: check.value for check in found.checks if not check.ok}
+    assert failed == {"forward run: time reached": end.state.time}
+    assert len(found.forward.run.time) > 2
+
+
+BELT = """
+inputs = { O = "motor" }
+motions = { O = "60rpm" }
+links = { width = "30mm", thickness = "8mm", material = "structural steel" }
+[bodies]
+ground.points = { O = [0, 0], Q = ["300mm", 0] }
+motor.points = { O = [0, 0] }
+wheel = { points = { Q = [0, 0], T = ["100mm", 0] } }
+[joints]
+O.pin = ["ground", "motor"]
+Q.pin = ["ground", "wheel"]
+[couplings]
+chain = { belt = [["motor", "O"], ["wheel", "Q"]], ratio = 1, first_at = 0, second_at = 0 }
+[loads]
+work = { torque = "-12N*m", on = "wheel" }
+[pins]
+Q = { diameter = "12mm", length = "16mm" }
+"""
+
+
+def test_what_depends_on_the_tension_of_a_chain_is_named_and_all_else_is_computed():
+    found = analysis(run(MechanismFile(parse_mechanism(BELT, toml=True).machine), MotionRequest({}, "", "")))
+    results = report(found)
+    assert results["drive_torque_max"] == pytest.approx(12.0)
+    assert results["coupling_torques_max"] == pytest.approx({"chain": 12.0})
+    assert results["undetermined"] == ["O", "Q", "chain"]
+    assert "not determined without the tension of chain: the forces of O, Q" in found.warnings
+    assert [check.name for check in found.checks if not check.ok] == ["pin Q: force is determined"]
+    assert found.strength is not None
+    assert not found.strength.pins
+    forces = next(table for table in results.tables if table.name == "forces")
+    assert {row[0]: row[2] for row in forces.rows} == dict.fromkeys(
+        ("O (pin)", "Q (pin)", "chain (belt)"), "not determined"
+    )
+
+
+@pytest.mark.parametrize(("angle", "press"), [("", 90.99255856655058), ('pressure_angle = "25deg", ', 116.57691453), ("pressure_angle = 0, ", 0.0)])
+def test_a_rack_presses_on_its_guide_by_its_pressure_angle(angle, press):
+    text = BELT.replace("[pins]\nQ = { diameter = \"12mm\", length = \"16mm\" }\n", "")
+    text = text.replace("Q.pin = [\"ground\", \"wheel\"]", 'Q = { slide = ["wheel", "ground"] }')
+    text = text.replace('work = { torque = "-12N*m", on = "wheel" }', 'work = { force = ["-250N", 0], on = ["wheel", "Q"] }')
+    text = text.replace('chain = { belt = [["motor", "O"], ["wheel", "Q"]], ratio = 1,', 'mesh = { ' + angle + 'rack = [["motor", "O"], ["wheel", "Q"]], ratio = "20mm/rad",')
+    forces = analysis(run(MechanismFile(parse_mechanism(text, toml=True).machine), MotionRequest({}, "", ""))).run.forces
+    assert forces is not None
+    assert forces.slide_forces_max["Q"] == pytest.approx(press, rel=1e-8, abs=1e-9)  # 250 N tan alpha
+    assert forces.pin_forces_max["O"] == pytest.approx(math.hypot(250.0, press), rel=1e-8)
+    assert forces.drive_torque_max == pytest.approx(5.0)
+
+
+def test_a_belt_has_no_pressure_angle():
+    with pytest.raises(MechanismError, match="pressure_angle"):
+        parse_mechanism(BELT.replace("ratio = 1,", 'ratio = 1, pressure_angle = "20deg",'), toml=True)

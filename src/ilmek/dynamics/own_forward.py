@@ -49,10 +49,14 @@ class OwnForward:
 
     @property
     def effort_error(self) -> float:
-        """Greatest difference between the drive's effort and the effort for the accelerations, relative [1]."""
+        """Greatest difference between the drive's effort and the effort for the accelerations, relative [1].
+
+        Relative to the greatest of that effort and of the effort J q'' of the inertia: a machine may coast.
+        """
         required = self.forces.effort(str(self.inverse.driving)) + self.wheel * self.run.acceleration
-        size = greatest(required)
-        return greatest(required - self.run.effort) / size if size > 0 else 0.0
+        inertia = self.run.reduced.terms(self.run.position).inertia
+        size = np.fmax(greatest(required), greatest(inertia * self.run.acceleration))
+        return greatest(required - self.run.effort) / float(size) if size > 0 else 0.0
 
     @property
     def checks(self) -> tuple[Check, ...]:

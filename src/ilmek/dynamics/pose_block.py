@@ -123,6 +123,11 @@ def pose_block(motion: Motion, inertias: Mapping[str, Inertia]) -> PoseBlock:
     motion  with accelerations, shape (samples,)
     [the pole of gears is derived from the velocities of rolling pitch circles]
     """
+    with np.errstate(invalid="ignore", over="ignore"):  # at a dead centre rates are infinite; `status` says so
+        return _poses(motion, inertias)
+
+
+def _poses(motion: Motion, inertias: Mapping[str, Inertia]) -> PoseBlock:
     bodies: dict[str, BodyMotion] = {GROUND: STILL}
     for step in motion.plan.steps:
         bodies.update(step.locate(bodies, {body: motion.columns[body] for body in step.bodies}))

@@ -113,7 +113,9 @@ class OutputHistory:
 def output_history(motion: Motion, output: Output) -> OutputHistory:
     """Value [m or rad] and rates [by s, s²] of an output over a motion, (samples,); NaN where it does not close."""
     mechanism = motion.plan.mechanism
-    return output_history_of_bodies(mechanism, {body.name: motion.body(body.name) for body in mechanism.bodies}, output)
+    bodies = {body.name: motion.body(body.name) for body in mechanism.bodies}
+    with np.errstate(invalid="ignore", over="ignore"):  # at a dead centre rates are infinite; `status` says so
+        return output_history_of_bodies(mechanism, bodies, output)
 
 
 def output_history_of_bodies(mechanism: Mechanism, bodies: Known, output: Output) -> OutputHistory:
