@@ -52,7 +52,10 @@ def loads_of(mechanism: Mechanism, chosen: int, size: float, angle: float) -> li
         Friction(follower, "B", abs(size), crank),
         TorsionSpring("ground", mechanism.moving[1], abs(size), angle, 0.1),
     ]
-    return [Spring("ground", fixed, crank, "A", 10.0, 0.05, 0.1), *(load for k, load in enumerate(every) if chosen >> k & 1)]
+    return [
+        Spring("ground", fixed, crank, "A", 10.0, 0.05, 0.1),
+        *(load for k, load in enumerate(every) if chosen >> k & 1),
+    ]
 
 
 @settings(max_examples=15, deadline=None)
@@ -71,7 +74,11 @@ def test_random_machines_give_no_warnings(design: Numbers) -> None:
     solved = forces.status == Status.OK
     assert np.isfinite(forces.effort("crank")[solved]).all()
     assert all(np.isfinite(force[solved]).all() for force in forces.reactions.values())
-    coasting = ilmek.simulate(mechanism, inertias, 0.05, position=0.4, speed=6.0, loads=loads, every=0.01) if motion.ok else None
+    coasting = (
+        ilmek.simulate(mechanism, inertias, 0.05, position=0.4, speed=6.0, loads=loads, every=0.01)
+        if motion.ok
+        else None
+    )
     assert coasting is None or np.isfinite(coasting.position).all()
     if not solved[::3].any():  # it may close nowhere: an error of its own
         return

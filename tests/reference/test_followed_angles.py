@@ -20,13 +20,13 @@ DRAG_LINK = (0.1, 0.25, 0.3, 0.22)
 
 
 def rocker_angle(lengths: tuple[float, float, float, float], crank: np.ndarray) -> np.ndarray:
-    """Rocker of a four-bar in one turn of its crank from 0, the pin left of crank pin -> pivot: triangles, in (-pi, pi]."""
+    """Rocker of a four-bar at crank angles, the pin left of crank pin -> pivot, by two triangles; in (-pi, pi]."""
     ground, a, b, c = lengths
     offset = ground - a * np.exp(1j * crank)
     base = np.angle(offset)
     inner = np.arccos((b**2 + np.abs(offset) ** 2 - c**2) / (2 * b * np.abs(offset)))
     pin = a * np.exp(1j * crank) + b * np.exp(1j * (base + inner))
-    return np.angle(pin - ground)
+    return np.asarray(np.angle(pin - ground))
 
 
 def counted(lengths: tuple[float, float, float, float], crank: float) -> float:
@@ -91,7 +91,9 @@ def test_a_spring_on_the_rocker_needs_the_torque_of_virtual_work() -> None:
     step = 1e-5
     energy = [[k * (counted(DRAG_LINK, v + d) - start) ** 2 / 2 for v in values] for d in (-step, step)]
     np.testing.assert_allclose(forces.effort("crank"), np.diff(energy, axis=0)[0] / (2 * step), rtol=1e-6)
-    alone = [inverse(solve(planned, np.array([v]), 2.0), {}, (TorsionSpring(GROUND, "rocker", k, start),)) for v in values]
+    alone = [
+        inverse(solve(planned, np.array([v]), 2.0), {}, (TorsionSpring(GROUND, "rocker", k, start),)) for v in values
+    ]
     np.testing.assert_allclose([one.effort("crank")[0] for one in alone], forces.effort("crank"), rtol=1e-12)
 
 
@@ -122,7 +124,8 @@ def test_two_moving_inputs_are_followed_from_sample_to_sample() -> None:
             Body("two", {"C": 0, "E": 0.5}),
             Body("right", {"D": 0, "E": 0.05}),
         ),
-        (Pin("A", GROUND, "left"), Pin("D", GROUND, "right"), Pin("B", "left", "one"), Pin("C", "one", "two"), Pin("E", "two", "right")),
+        (Pin("A", GROUND, "left"), Pin("D", GROUND, "right"), Pin("B", "left", "one"), Pin("C", "one", "two"),
+         Pin("E", "two", "right")),
         (Rotation("left", "A"), Rotation("right", "D")),
         {"C": 1},
     )  # fmt: skip
@@ -146,7 +149,8 @@ def test_gears_whose_mechanism_repeats_after_several_turns() -> None:
             Body("two", {"C": 0, "E": 1.1}),
             Body("right", {"D": 0, "E": 0.25}),
         ),
-        (Pin("A", GROUND, "left"), Pin("D", GROUND, "right"), Pin("B", "left", "one"), Pin("E", "right", "two"), Pin("C", "one", "two")),
+        (Pin("A", GROUND, "left"), Pin("D", GROUND, "right"), Pin("B", "left", "one"), Pin("E", "right", "two"),
+         Pin("C", "one", "two")),
         (Rotation("left", "A"),),
         {"C": 1},
         couplings=(wheels,),
@@ -190,8 +194,10 @@ def test_an_unknown_body_is_refused() -> None:
 
 
 def test_a_spring_wound_three_turns_swings_its_arm_as_a_harmonic() -> None:
-    """J theta'' = -k (theta - theta_0): theta - theta_0 = 6 pi cos(sqrt(k / J) t), through both turns of the amplitude."""
-    arm = Mechanism((Body(GROUND, {"O": 0}), Body("arm", {"O": 0})), (Pin("O", GROUND, "arm"),), (Rotation("arm", "O"),))
+    """J theta'' = -k (theta - theta_0): theta - theta_0 = -6 pi cos(sqrt(k / J) t): six turns from end to end."""
+    arm = Mechanism(
+        (Body(GROUND, {"O": 0}), Body("arm", {"O": 0})), (Pin("O", GROUND, "arm"),), (Rotation("arm", "O"),)
+    )
     inertia, k, start = 0.02, 0.05, 6 * np.pi
     reduced = reduce(plan(arm), {"arm": Inertia(1.0, 0j, inertia)}, (TorsionSpring(GROUND, "arm", k, start),))
     run = forward(reduced, ForwardState(0.0), 4.0, every=0.01, rtol=1e-10)

@@ -142,7 +142,8 @@ def transmitted(
     for mesh in mechanism.couplings:
         start, end = at(*mesh.first), at(*mesh.second)
         if mesh.kind == "rack":
-            along = place[mesh.carrier][1] * np.exp(1j * mechanism.joint(mesh.second[1]).along)
+            (way,) = (joint for joint in mechanism.joints if isinstance(joint, Slide) and joint.name == mesh.second[1])
+            along = place[mesh.carrier][1] * np.exp(1j * way.along)
             pole, from_teeth = start - 1j * mesh.ratio * along, -1j * np.sign(mesh.ratio) * along
         else:
             pole = start + mesh.ratio / (mesh.ratio - 1) * (end - start)  # where both rims have the same velocity
@@ -193,8 +194,12 @@ def all_at_once(
     sizes = np.linalg.solve(m * scale[:, None], y * scale)
     if flanks is None and mechanism.couplings:
         pulling = {unit[0] for size, unit in zip(sizes, units, strict=True) if size < 0}
-        return all_at_once(machine, run, k, {mesh.name: -1 if mesh.name in pulling else 1 for mesh in mechanism.couplings})
-    assert all(size * flank >= 0 for size, unit in zip(sizes, units, strict=True) if (flank := (flanks or {}).get(unit[0])))
+        return all_at_once(
+            machine, run, k, {mesh.name: -1 if mesh.name in pulling else 1 for mesh in mechanism.couplings}
+        )
+    assert all(
+        size * flank >= 0 for size, unit in zip(sizes, units, strict=True) if (flank := (flanks or {}).get(unit[0]))
+    )
     found: dict[str, tuple[complex, float]] = {}
     for size, (name, _, _, _, force, couple) in zip(sizes, units, strict=True):
         before = found.get(name, (0j, 0.0))
@@ -309,90 +314,7 @@ def test_teeth_have_the_forces_of_all_equations_at_once(mechanism: Mechanism, an
     machine = OwnMachine(mechanism, inertias, gravity=GRAVITY)
     compare(machine, values, 6.0)
     along = moved(machine, values, 6.0).forces.reactions["mesh"] * np.cos(mesh.pressure_angle)
-    bare = OwnMachine(dataclasses.replace(mechanism, couplings=(dataclasses.replace(mesh, pressure_angle=0.0),)), inertias, GRAVITY)
+    bare = OwnMachine(
+        dataclasses.replace(mechanism, couplings=(dataclasses.replace(mesh, pressure_angle=0.0),)), inertias, GRAVITY
+    )
     np.testing.assert_allclose(np.abs(along), np.abs(moved(bare, values, 6.0).forces.reactions["mesh"]), rtol=1e-9)
-
-
-def belted(kind: str, ratio: float, carrier: str = "ground") -> Mechanism:
-    """A wheel on the ground, or on a driven arm, that turns a second one by a belt, with a slider-crank behind it."""
-    arm = carrier != "ground"
-    bodies = [
-        Body("ground", {"O": 0, "way": 0.1j}),
-        Body("wheel", {"O": 0} if not arm else {"W": 0}),
-        Body("second", {"Q": 0, "R": 0.2}),
-        Body("rod", {"R": 0, "P": 0.9}),
-        Body("slider", {"P": 0, "way": 0.05}),
-    ]
-    joints = [Pin("R", "second", "rod"), Pin("P", "rod", "slider"), Slide("way", "slider", "ground")]
-    if arm:
-        bodies.append(Body("arm", {"O": 0, "W": 0.1j, "Q": 0.5}))
-        joints += [Pin("O", "ground", "arm"), Pin("W", "arm", "wheel"), Pin("Q", "arm", "second")]
-        inputs: tuple[Rotation, ...] = (Rotation("wheel", "W"), Rotation("arm", "O"))
-    else:
-        bodies[0] = Body("ground", {"O": 0, "Q": 0.5 + 0.1j, "way": 0.1j})
-        joints += [Pin("O", "ground", "wheel"), Pin("Q", "ground", "second")]
-        inputs = (Rotation("wheel", "O"),)
-    ends = ("wheel", "W" if arm else "O"), ("second", "Q")
-    return Mechanism(tuple(bodies), tuple(joints), inputs, {"P": 1}, couplings=(Coupling("drive", kind, *ends, ratio, 0.0, 0.4, carrier),))
-
-
-@pytest.mark.parametrize("kind", ["belt", "gears"])
-@pytest.mark.parametrize("carrier", ["ground", "arm"])
-def test_what_a_belt_leaves_open_is_the_null_space_of_all_equations(kind: str, carrier: str) -> None:
-    """A massless belt: any force F on the second wheel, -F on the first, and the torques of its pulls about both
-    middles, in balance. Wheels that turn alike by other means: any force on either, against the carrier.
-    """
-    ratio = 1.0 if kind == "gears" else 0.6
-    mechanism = belted(kind, ratio, carrier)
-    inertias = {body: Inertia(1.0 + k, 0.05 - 0.02j * k, 0.02 * (k + 1)) for k, body in enumerate(mechanism.moving)}
-    values = {entry.name: np.linspace(0.2, 0.5 + k, 5) for k, entry in enumerate(mechanism.inputs)}
-    motion = solve(plan(mechanism), values, {name: 4.0 for name in values}).require()
-    machine = OwnMachine(mechanism, inertias, gravity=GRAVITY)
-    run = inverse_run(machine, motion, mechanism.inputs[0].name, np.arange(5.0))
-    forces, bodies = run.forces, mechanism.moving
-    for k in range(5):
-        place = {body: (motion.origin(body)[k], motion.direction(body)[k]) for body in bodies} | {"ground": (0j, 1 + 0j)}
-        centre = {body: place[body][0] + place[body][1] * inertias[body].centre for body in bodies}
-        start, end = (place[body][0] + place[body][1] * mechanism.point(body, point) for body, point in mechanism_ends(mechanism))
-        units = list(transmitted(dataclasses.replace(mechanism, couplings=()), place, {}))
-        columns = [(name, [(on, at, force, couple), (by, at, -force, -couple)]) for name, on, by, at, force, couple in units]
-        columns.append(("torque", [("second", end, 0j, 1.0), ("wheel", start, 0j, -ratio)] + ([(carrier, start, 0j, ratio - 1)] if kind == "gears" else [])))
-        for force in (1 + 0j, 1j):
-            if kind == "belt":
-                columns.append(("tension", [("second", end, force, 0.0), ("wheel", start, -force, 0.0)]))
-            else:
-                columns += [("tension", [(body, at, force, 0.0), (carrier, at, -force, 0.0)]) for body, at in (("second", end), ("wheel", start))]
-        m, y = np.zeros((3 * len(bodies) + 1, len(columns))), np.zeros(3 * len(bodies) + 1)
-        for row, body in enumerate(bodies):
-            rates = 1j * motion.alpha(body)[k] - motion.omega(body)[k] ** 2
-            acceleration = motion.acceleration_of_origin(body)[k] + rates * (centre[body] - place[body][0])
-            change = inertias[body].mass * (acceleration - GRAVITY)
-            y[3 * row : 3 * row + 3] = change.real, change.imag, inertias[body].moment * motion.alpha(body)[k]
-            for column, (_, ends) in enumerate(columns):
-                for who, at, force, couple in ends:
-                    if who == body:
-                        m[3 * row : 3 * row + 3, column] += force.real, force.imag, cross(at - centre[body], force) + couple
-        if kind == "belt":  # the belt itself: its torques and its pulls on both wheels balance
-            m[-1, [name == "torque" for name, _ in columns]] = 1 - ratio
-            m[-1, [name == "tension" for name, _ in columns]] = [cross(end - start, force) for force in (1 + 0j, 1j)]
-        sizes = np.linalg.lstsq(m, y)[0]
-        np.testing.assert_allclose(m @ sizes, y, atol=1e-9 * np.abs(y).max())
-        loose = np.linalg.norm(np.linalg.svd(m)[2][np.linalg.matrix_rank(m) :], axis=0) > 1e-9
-        open_names = {name for (name, _), free in zip(columns, loose, strict=True) if free} - {"tension"}
-        assert open_names == set(forces.undetermined.joints)
-        found: dict[str, complex] = {}
-        for size, (name, _, _, _, force, couple) in zip(sizes, units, strict=False):
-            found[name] = found.get(name, 0j) + size * (force if name != "drive" else couple)
-        for name, force in forces.reactions.items():
-            assert np.isnan(force[k]) if name in open_names or name == "drive" else force[k] == pytest.approx(found[name], abs=1e-8)
-        assert forces.torques["drive"][k] == pytest.approx(sizes[[name for name, _ in columns].index("torque")], abs=1e-8)
-    assert forces.undetermined.joints
-    assert not forces.undetermined.inputs
-    assert run.power_residual < 1e-11
-    assert run.balance < 1e-11
-
-
-def mechanism_ends(mechanism: Mechanism) -> tuple[tuple[str, str], tuple[str, str]]:
-    """First and second wheel of its only coupling, with their middles."""
-    (mesh,) = mechanism.couplings
-    return mesh.first, mesh.second

@@ -368,11 +368,21 @@ def test_a_forward_run_beyond_its_steps_is_reported_as_far_as_it_came(tmp_path, 
 
 def test_a_forward_run_into_the_end_of_its_range_is_a_failed_check():
     """The rocker drives: it swings down by its weight and stops where crank and coupler are in line."""
-    text = FAST.replace('{ A = "crank" }', '{ D = "rocker" }').replace("C = 1", "B = 1").replace('motor = { torque = "300N*m" }', "")
-    text = text.replace("[forward]", '[forward]\nposition = "60deg"').replace('inputs', 'gravity = "9.81m/s^2"\ninputs', 1)
-    found = analysis(run(MechanismFile(parse_mechanism(text, toml=True).machine), MotionRequest({"rocker": "60deg"}, "", "")))
+    text = (
+        FAST.replace('{ A = "crank" }', '{ D = "rocker" }')
+        .replace("C = 1", "B = 1")
+        .replace('motor = { torque = "300N*m" }', "")
+    )
+    text = text.replace("[forward]", '[forward]\nposition = "60deg"').replace(
+        "inputs", 'gravity = "9.81m/s^2"\ninputs', 1
+    )
+    found = analysis(
+        run(MechanismFile(parse_mechanism(text, toml=True).machine), MotionRequest({"rocker": "60deg"}, "", ""))
+    )
     assert found.forward is None  # a pose alone
-    found = analysis(run(MechanismFile(parse_mechanism(text, toml=True).machine), MotionRequest({}, "40deg..70deg", "")))
+    found = analysis(
+        run(MechanismFile(parse_mechanism(text, toml=True).machine), MotionRequest({}, "40deg..70deg", ""))
+    )
     assert found.forward is not None
     end = found.forward.run.end
     assert end.kind.early
@@ -417,13 +427,23 @@ def test_what_depends_on_the_tension_of_a_chain_is_named_and_all_else_is_compute
     )
 
 
-@pytest.mark.parametrize(("angle", "press"), [("", 90.99255856655058), ('pressure_angle = "25deg", ', 116.57691453), ("pressure_angle = 0, ", 0.0)])
+@pytest.mark.parametrize(
+    ("angle", "press"),
+    [("", 90.99255856655058), ('pressure_angle = "25deg", ', 116.57691453), ("pressure_angle = 0, ", 0.0)],
+)
 def test_a_rack_presses_on_its_guide_by_its_pressure_angle(angle, press):
-    text = BELT.replace("[pins]\nQ = { diameter = \"12mm\", length = \"16mm\" }\n", "")
-    text = text.replace("Q.pin = [\"ground\", \"wheel\"]", 'Q = { slide = ["wheel", "ground"] }')
-    text = text.replace('work = { torque = "-12N*m", on = "wheel" }', 'work = { force = ["-250N", 0], on = ["wheel", "Q"] }')
-    text = text.replace('chain = { belt = [["motor", "O"], ["wheel", "Q"]], ratio = 1,', 'mesh = { ' + angle + 'rack = [["motor", "O"], ["wheel", "Q"]], ratio = "20mm/rad",')
-    forces = analysis(run(MechanismFile(parse_mechanism(text, toml=True).machine), MotionRequest({}, "", ""))).run.forces
+    text = BELT.replace('[pins]\nQ = { diameter = "12mm", length = "16mm" }\n', "")
+    text = text.replace('Q.pin = ["ground", "wheel"]', 'Q = { slide = ["wheel", "ground"] }')
+    text = text.replace(
+        'work = { torque = "-12N*m", on = "wheel" }', 'work = { force = ["-250N", 0], on = ["wheel", "Q"] }'
+    )
+    text = text.replace(
+        'chain = { belt = [["motor", "O"], ["wheel", "Q"]], ratio = 1,',
+        "mesh = { " + angle + 'rack = [["motor", "O"], ["wheel", "Q"]], ratio = "20mm/rad",',
+    )
+    forces = analysis(
+        run(MechanismFile(parse_mechanism(text, toml=True).machine), MotionRequest({}, "", ""))
+    ).run.forces
     assert forces is not None
     assert forces.slide_forces_max["Q"] == pytest.approx(press, rel=1e-8, abs=1e-9)  # 250 N tan alpha
     assert forces.pin_forces_max["O"] == pytest.approx(math.hypot(250.0, press), rel=1e-8)

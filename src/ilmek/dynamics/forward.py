@@ -6,9 +6,9 @@ With p = √J q' the kinetic energy is p^2 / 2, J' is not needed, and p stays fi
 
 Start-up, running, coasting and stopping are consecutive runs; each starts at the end of the previous one. A run ends at
 its duration, at a terminal event, at a dead centre, where the mechanism cannot close, or after its most steps. What it
-reached is kept, and its end is reported with time, state and reason. The integrator is the Dormand-Prince method of order 8 with error control [Hairer, Norsett and Wanner,
-Solving Ordinary Differential Equations I, section II.10]. The work of drive and loads is integrated as well, for the
-energy balance.
+reached is kept, and its end is reported with time, state and reason. The integrator is the Dormand-Prince method of
+order 8 with error control [Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, section II.10]. The
+work of drive and loads is integrated as well, for the energy balance.
 """
 
 import math
@@ -92,8 +92,8 @@ def forward(
 
     A machine whose input rotates fully is run on its Fourier table (see `fourier_terms`), any other on the mechanism's
     equations. A run that ends early, also after its most steps, keeps what it reached: see `ForwardRun.end`. Raises
-    MechanismError for a start at which the mechanism does not close, a state, duration or effort that is not finite, and
-    a tolerance outside its range.
+    MechanismError for a start at which the mechanism does not close, a state, duration or effort that is not finite,
+    and a tolerance outside its range.
     """
     _check(duration, every, rtol)
     equation = _Equation(reduced, tabulate(reduced), drive)

@@ -9,7 +9,7 @@ on its `body`; an input's effort acts on the driven body. The opposite acts on t
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -29,6 +29,13 @@ from ilmek.records import record
 from ilmek.units import format_quantity
 
 MASSLESS = Inertia(0.0, 0j, 0.0)
+
+
+class WholeForce(NamedTuple):
+    """All force [N] and moment [N m] of a joint or coupling, one value per sample."""
+
+    force: ComplexArray
+    moment: FloatArray
 
 
 @record
@@ -56,7 +63,7 @@ class Forces:
     reactions: Mapping[str, ComplexArray]
     couples: Mapping[str, FloatArray]
     torques: Mapping[str, FloatArray]
-    acting: Mapping[str, ForceAndMoment]
+    acting: Mapping[str, WholeForce]
     efforts: Mapping[str, FloatArray]
     frictions: Mapping[str, FloatArray]
     input_power: FloatArray
@@ -172,7 +179,10 @@ def inverse(
             acting = [wrench.part(part) for wrench in wrenches]
             needed = needs(poses, bodies, acting)
             missing |= undetermined(poses, bodies, joint_frictions)
-            laws = [*tooth_separations(mechanism), *(law for law in joint_frictions if law.joint not in missing.frictions)]
+            laws = [
+                *tooth_separations(mechanism),
+                *(law for law in joint_frictions if law.joint not in missing.frictions),
+            ]
             forces.load_power[part] += _load_power(poses, acting)
             sizes: dict[str, FloatArray] = {}
             if laws:
@@ -194,7 +204,7 @@ def _empty_forces(motion: Motion, joint_frictions: Sequence[JointFriction]) -> F
         reactions={joint.name: np.empty(samples, complex) for joint in joined},
         couples={joint.name: np.empty(samples) for joint in mechanism.joints if isinstance(joint, Slide)},
         torques={wheels.name: np.empty(samples) for wheels in mechanism.couplings if wheels.kind != "rack"},
-        acting={joint.name: ForceAndMoment(np.empty(samples, complex), np.empty(samples)) for joint in joined},
+        acting={joint.name: WholeForce(np.empty(samples, complex), np.empty(samples)) for joint in joined},
         efforts={entry.name: np.empty(samples) for entry in mechanism.inputs},
         frictions={law.joint: np.zeros(samples) for law in joint_frictions},
         input_power=np.zeros(samples),
@@ -253,8 +263,9 @@ def _store_reactions(
         along = driving.get(name, 0.0) + (size if joint.separation is None else 0.0)
         forces.reactions[name][part] = np.where(failed, np.nan, pull.force + radial)
         force, moment = pull.force + radial + along * joint.drive.force, along * joint.drive.moment
-        forces.acting[name].force[part] = np.where(failed, np.nan, force)
-        forces.acting[name].moment[part] = np.where(failed, np.nan, moment + (0.0 if turned else pull.moment))
+        whole = forces.acting[name]
+        whole.force[part] = np.where(failed, np.nan, force)
+        whole.moment[part] = np.where(failed, np.nan, moment + (0.0 if turned else pull.moment))
         if name in forces.couples:
             forces.couples[name][part] = np.where(failed, np.nan, pull.moment)
         if name in forces.torques and joint.middle is not None:

@@ -13,7 +13,7 @@ The joint forces are linear in the friction efforts x: F = F_0 + Σ x_k G_k, wit
 x + sgn mu |F(x)| = 0 is solved by Newton's method, with one unknown per joint with friction. Where it has no solution,
 no drive effort maintains the motion: the mechanism is self-locking. A solution that is not connected to the
 frictionless one as mu grows from 0 (the determinant of the Jacobian has changed its sign) counts as self-locking too.
-[Coulomb's law; the guide's end forces and the criterion are derived here; teeth: Norton, Design of Machinery, chapter 9]
+[Coulomb's law; the guide's end forces and the criterion are derived here; teeth: Shigley, chapter 13]
 """
 
 import math
@@ -166,8 +166,8 @@ def efforts(
     side    at a reversal of a joint: +1 just after it in time, -1 just before; a number or one per sample
 
     Returns joint -> torque [N m] or force along the line [N] on its `on` body, coupling -> force [N] that separates
-    its teeth, one value per sample, NaN where locked; and the locked samples. Raises MechanismError for friction where no
-    input moves.
+    its teeth, one value per sample, NaN where locked; and the locked samples. Raises MechanismError for friction where
+    no input moves.
     """
     samples = poses.motion.status.shape[0]
     joints = [poses.joints[law.joint] for law in laws]

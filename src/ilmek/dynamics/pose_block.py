@@ -158,10 +158,10 @@ def _coupling_poses(mechanism: Mechanism, coupling: Coupling, bodies: Mapping[st
 
         gears  P = O_1 + i / (i - 1) (O_2 - O_1),   force across O_1 O_2     [i ratio; P pole of the relative rotation]
         rack   P = O_1 - i ratio f,                 force along f
-        other  torque M on the second wheel, -i M on the first, and the force (i - 1) M / |O_1 O_2| across O_1 O_2 on the
-               second that balances both                                     [a belt, a chain, wheels that turn alike]
+        other  torque M on the second wheel, -i M on the first, and the force (i - 1) M / |O_1 O_2| across O_1 O_2 on
+               the second that balances both                                 [a belt, a chain, wheels that turn alike]
 
-    Teeth also separate their wheels, away from the pitch point; an inner wheel is pressed towards the middle of the ring.
+    Teeth also separate their wheels, away from the pitch point: a wheel in a ring is pressed to the middle of the ring.
     The tension of a belt, along O_1 O_2, does no work: see `undetermined`.
     """
     (first, one), (second, two) = coupling.first, coupling.second

@@ -1,9 +1,9 @@
 """Forces that the equations of motion do not determine: those that depend on the tension of a belt or chain.
 
 A belt pulls its two wheels together along their line of centres, by its tension. Gears with a ratio of 1 stand for
-wheels that turn alike through an idler or a chain, whose forces on the wheels' middles are open in both directions. Such
-a force T does no work: any T fulfils the equations, with the joint forces F_0 + T G, and G the response to a unit of it.
-What has G = 0 is determined. The friction of a joint whose force is open is open too, and so is what responds to it.
+wheels that turn alike through an idler or a chain, whose forces on the wheels' middles are open in both directions.
+Such a force T does no work: any T fulfils the equations, with the joint forces F_0 + T G and the response G to a unit
+of it. What has G = 0 is determined. Friction of a joint whose force is open is open too, and what responds to it.
                                                                                        [null space of the equations]
 """
 
@@ -15,7 +15,7 @@ import numpy as np
 from ilmek.arrays import BoolArray, ComplexField
 from ilmek.dynamics.equations import Needs, add, joint_pulls
 from ilmek.dynamics.inertia import Inertia
-from ilmek.dynamics.joint_friction import JointFriction, loaded
+from ilmek.dynamics.joint_friction import JointFriction
 from ilmek.dynamics.pose_block import ForceAndMoment, JointPoses, PoseBlock, has_teeth
 from ilmek.linkage.model import GROUND, Coupling
 from ilmek.linkage.status import Status
@@ -104,7 +104,9 @@ def _tensions(poses: PoseBlock, coupling: Coupling) -> Iterator[list[_Acting]]:
     if coupling.kind == "belt":
         offset = ends[0][1] - ends[1][1]
         pull = offset / np.abs(offset)
-        yield [_Acting(body, ForceAndMoment(sign * pull, 0.0), at) for (body, at), sign in zip(ends, (-1, 1), strict=True)]
+        yield [
+            _Acting(body, ForceAndMoment(sign * pull, 0.0), at) for (body, at), sign in zip(ends, (-1, 1), strict=True)
+        ]
         return
     for body, at in ends:
         for force in (1 + 0j, 1j):
@@ -182,7 +184,9 @@ class _Response:
         efforts = self._efforts()
         none = ForceAndMoment(0j, 0.0)
         return {
-            name: ForceAndMoment(pull.force - efforts.get(name, none).force, pull.moment - efforts.get(name, none).moment)
+            name: ForceAndMoment(
+                pull.force - efforts.get(name, none).force, pull.moment - efforts.get(name, none).moment
+            )
             for name, pull in self.pulls.items()
         }
 

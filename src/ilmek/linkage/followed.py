@@ -5,7 +5,7 @@
 Any other angle is followed on the mechanism itself, along a way through the values of the inputs, so that two samples
 may be many turns of the inputs apart. A way is divided until the angle in each cell agrees with the rate in its middle:
 
-    |theta(m) - theta(a)|, |theta(b) - theta(m)|, |theta(b) - theta(a) - (b - a) theta'(m)| <= LARGEST     [midpoint rule]
+    |theta(m) - theta(a)|, |theta(b) - theta(m)|, |theta(b) - theta(a) - (b - a) theta'(m)| <= LARGEST   [midpoint rule]
 
 The turn that counts: with all inputs at 0 the angle is within half a turn, (-pi, pi]. Where the mechanism does not
 close on the way from there, it is within half a turn at the place nearest to it at which the mechanism closes. The way
@@ -23,7 +23,7 @@ import numpy as np
 from ilmek.arrays import ComplexArray, FloatArray, IntArray
 from ilmek.errors import MechanismError
 from ilmek.linkage.groups.group import InputMotion
-from ilmek.linkage.groups.winding import linear_relations, relation_between
+from ilmek.linkage.groups.winding import LinearRelation, linear_relations, relation_between
 from ilmek.linkage.model import Mechanism, Rotation
 from ilmek.linkage.solution import local_starts, solved_steps
 from ilmek.linkage.structure import Plan
@@ -145,7 +145,8 @@ class _Followed:
         """The angle [rad] at values of the way's input, where the direction is as given."""
         whole = np.floor((values - self.at[0]) / self.period) if self.period else np.zeros(len(values))
         near = self._nearest(values - whole * self.period)
-        return self.angle[near] + np.angle(direction * np.conj(self.direction[near])) + turn * self.turns * whole
+        beside = np.angle(direction * np.conj(self.direction[near]))
+        return np.asarray(self.angle[near] + beside + turn * self.turns * whole)
 
     def _nearest(self, values: FloatArray) -> IntArray:
         """The place nearest to each value at which the mechanism closes."""
@@ -182,7 +183,7 @@ def followed_angle(plan: Plan, drives: Drives, body: str, against: str) -> Float
 
 
 @lru_cache(maxsize=64)
-def _relation(mechanism: Mechanism, body: str, against: str):  # noqa: ANN202 - as `relation_between`
+def _relation(mechanism: Mechanism, body: str, against: str):
     return relation_between(mechanism, body, against)
 
 
@@ -219,7 +220,9 @@ def _cycle(pair: _Pair, name: str, held: tuple[tuple[str, float], ...], periods:
     at, direction, change = length * trace.at, trace.direction, trace.change
     gaps = np.flatnonzero(np.isnan(change))
     if not len(gaps):
-        return _Followed(at, direction, trace.angles(at) + _base(pair, name, held), length, round(np.sum(change) / turn))
+        return _Followed(
+            at, direction, trace.angles(at) + _base(pair, name, held), length, round(np.sum(change) / turn)
+        )
     first = gaps[0] + 1
     at = np.append(at[first:-1], at[:first] + length)
     direction = np.append(direction[first:-1], direction[:first])
@@ -238,9 +241,7 @@ def _both_ways(pair: _Pair, name: str, held: tuple[tuple[str, float], ...], reac
     return _Followed(at, trace.direction, trace.angles(np.abs(at)) + _base(pair, name, held))
 
 
-def _line_trace(
-    pair: _Pair, name: str, held: tuple[tuple[str, float], ...], ends: FloatArray, cells: int
-) -> _Trace:
+def _line_trace(pair: _Pair, name: str, held: tuple[tuple[str, float], ...], ends: FloatArray, cells: int) -> _Trace:
     stops = {other: np.full(2, value) for other, value in held} | {name: ends}
     return _traced(_Way(pair, stops), np.linspace(0.0, 1.0, cells + 1))
 
@@ -272,7 +273,7 @@ def _traced(way: _Way, grid: FloatArray) -> _Trace:
         cells.append(tuple(one[~split] for one in (a, middle, start, passed.direction, first, second)))
         if not split.any():
             break
-        _check_cells(way.pair, len(grid) + 2 * np.count_nonzero(split))
+        _check_cells(way.pair, len(grid) + 2 * int(np.count_nonzero(split)))
         a, b = np.append(a[split], middle[split]), np.append(middle[split], b[split])
         start, end = (
             np.append(start[split], passed.direction[split]),

@@ -95,7 +95,7 @@ class Motion:
         angle = np.angle(self.direction(body))
         turns = np.round((followed_angle(self.plan, self.drives, body, GROUND) - angle) / turn)
         solved = np.flatnonzero(np.isfinite(turns))
-        return angle + turn * (turns - turns[solved[0]]) if len(solved) else angle
+        return np.asarray(angle + turn * (turns - turns[solved[0]])) if len(solved) else angle
 
     def omega(self, body: str) -> Reals:
         """Angular velocity of a body [rad/s]."""
