@@ -142,7 +142,7 @@ def _of_joints(forces: Forces, body: str, poses: PoseBlock, back: ComplexArray) 
     origin = poses.bodies[body].carry(0j).position
     for name, joint in poses.joints.items():
         if body in (joint.on, joint.by):
-            side, place = (1.0 if body == joint.on else -1.0), joint.place(body)
+            side, place = (1.0 if body == joint.on else -1.0), joint.point_on(body)
             force, moment = forces.acting[name]
             torque = np.asarray(moment + cross(joint.at - place, force))
             at = np.asarray(np.broadcast_to(back * (place - origin), torque.shape))

@@ -49,7 +49,7 @@ class JointPoses:
     separation: ComplexField | None = None
     middle: ComplexField | None = None
 
-    def place(self, body: str) -> ComplexField:
+    def point_on(self, body: str) -> ComplexField:
         """Position [m] at which the force acts on one of the two bodies: without teeth its own middle."""
         return self.middle if self.middle is not None and self.separation is None and body == self.on else self.at
 

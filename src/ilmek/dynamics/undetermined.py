@@ -100,7 +100,7 @@ def undetermined(
 def _tensions(poses: PoseBlock, coupling: Coupling) -> Iterator[list[_Acting]]:
     """The open unit forces of a coupling: along the line of centres of a belt; else any, against the carrier."""
     joint = poses.joints[coupling.name]
-    ends = ((joint.on, joint.place(joint.on)), (joint.by, joint.at))
+    ends = ((joint.on, joint.point_on(joint.on)), (joint.by, joint.at))
     if coupling.kind == "belt":
         offset = ends[0][1] - ends[1][1]
         pull = offset / np.abs(offset)
@@ -155,8 +155,8 @@ class _Response:
         for name, pull in self.pulls.items():
             joint = self.poses.joints[name]
             for body, sign in ((joint.on, 1), (joint.by, -1)):
-                moment = sign * (pull.moment + cross(joint.at - joint.place(body), pull.force))
-                acting = _Acting(body, ForceAndMoment(sign * pull.force, moment), joint.place(body))
+                moment = sign * (pull.moment + cross(joint.at - joint.point_on(body), pull.force))
+                acting = _Acting(body, ForceAndMoment(sign * pull.force, moment), joint.point_on(body))
                 by_body.setdefault(body, []).append(acting)
         return {body for body, rows in by_body.items() if body != GROUND and self._left(rows)}
 

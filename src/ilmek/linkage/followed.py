@@ -183,7 +183,7 @@ def followed_angle(plan: Plan, drives: Drives, body: str, against: str) -> Float
 
 
 @lru_cache(maxsize=64)
-def _relation(mechanism: Mechanism, body: str, against: str):
+def _relation(mechanism: Mechanism, body: str, against: str) -> LinearRelation | None:
     return relation_between(mechanism, body, against)
 
 
