@@ -7,7 +7,7 @@ import cmath
 import dataclasses
 from collections.abc import Sequence
 from itertools import pairwise
-from math import pi, radians
+from math import pi, radians, tan
 from pathlib import Path
 
 import numpy as np
@@ -305,9 +305,10 @@ def test_a_machine_of_a_file_has_the_forces_of_lagranges_multipliers(name: str) 
         if case.gear:
             _, _, ratio, _, apart = case.gear
             tooth = -force[-2] / (apart / (1 - ratio))  # at the pitch point; the bearings take what the teeth apply
+            outward = abs(tooth) * tan(radians(20))  # teeth separate their wheels, along the line of centres
             compare("tooth", table["mesh Fy"][k], tooth, np.abs(table["mesh Fy"]).max())
-            force[1] += tooth
-            force[3] -= tooth
+            compare("tooth", table["mesh Fx"][k], outward, np.abs(table["mesh Fy"]).max())
+            force[:4] += outward, tooth, -outward, -tooth
         size = max(np.abs(table[f"{pin[0]} Fx"]).max() + np.abs(table[f"{pin[0]} Fy"]).max() for pin in case.pins)
         for number, (pin, *_) in enumerate(case.pins):
             compare("pin", table[f"{pin} Fx"][k], force[2 * number], size)
