@@ -311,10 +311,16 @@ def test_teeth_have_the_forces_of_all_equations_at_once(mechanism: Mechanism, an
     mechanism = dataclasses.replace(mechanism, couplings=(mesh,))
     inertias = {body: Inertia(1.0 + k, 0.05 - 0.02j * k, 0.02 * (k + 1)) for k, body in enumerate(mechanism.moving)}
     values = np.linspace(-0.7, 0.7, 15)
-    machine = OwnMachine(mechanism, inertias, gravity=GRAVITY)
-    compare(machine, values, 6.0)
-    along = moved(machine, values, 6.0).forces.reactions["mesh"] * np.cos(mesh.pressure_angle)
-    bare = OwnMachine(
-        dataclasses.replace(mechanism, couplings=(dataclasses.replace(mesh, pressure_angle=0.0),)), inertias, GRAVITY
-    )
-    np.testing.assert_allclose(np.abs(along), np.abs(moved(bare, values, 6.0).forces.reactions["mesh"]), rtol=1e-9)
+    bare = dataclasses.replace(mechanism, couplings=(dataclasses.replace(mesh, pressure_angle=0.0),))
+    flanks = []
+    for size in (400.0, -400.0):
+        push = PointForce("bar", "R", size * np.exp(0.4j)) if mesh.kind == "rack" else Torque("second", size)
+        loads = (NamedLoad("push", push),)
+        compare(OwnMachine(mechanism, inertias, gravity=GRAVITY, loads=loads), values, 6.0)
+        along, tooth = (
+            moved(OwnMachine(own, inertias, gravity=GRAVITY, loads=loads), values, 6.0).forces.tooth("mesh")
+            for own in (bare, mechanism)
+        )
+        np.testing.assert_allclose(np.abs(tooth) * np.cos(mesh.pressure_angle), np.abs(along), rtol=1e-9)
+        flanks.append(along)
+    assert np.all(dot(*flanks) < 0)  # one flank carries, then the other

@@ -29,10 +29,10 @@ def gear_pair(ratio=-0.5, kind="gears") -> Mechanism:
 def test_a_gear_pair_passes_its_torque_on_through_the_teeth():
     motion = solve(plan(gear_pair()), np.linspace(0, 5, 7), 10.0)
     forces = inverse(motion, {}, (Torque("large", -8.0),)).require()
-    apart = 200 * np.tan(np.radians(20))  # 8 N m over 40 mm, on the left of the wheel, and away from the other
-    np.testing.assert_allclose(forces.tooth("teeth"), -200j + apart, atol=1e-10)
-    np.testing.assert_allclose(forces.pin("B"), 200j - apart, atol=1e-10)
-    np.testing.assert_allclose(forces.pin("A"), -200j + apart, atol=1e-10)
+    outward = 200 * np.tan(np.radians(20))  # 8 N m over 40 mm, on the left of the wheel, and away from the other
+    np.testing.assert_allclose(forces.tooth("teeth"), -200j + outward, atol=1e-10)
+    np.testing.assert_allclose(forces.pin("B"), 200j - outward, atol=1e-10)
+    np.testing.assert_allclose(forces.pin("A"), -200j + outward, atol=1e-10)
     np.testing.assert_allclose(forces.effort("small"), -4.0, atol=1e-12)
     np.testing.assert_allclose(forces.torques["teeth"], 8.0, atol=1e-12)
     assert forces.power_error < 1e-13

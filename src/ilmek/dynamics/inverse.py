@@ -112,7 +112,7 @@ class Forces:
 
         Along the line of action, at the pressure angle; NaN for a belt. Raises MechanismError for an unknown coupling.
         """
-        if coupling not in {known.name for known in self.mechanism.couplings}:
+        if coupling not in {mesh.name for mesh in self.mechanism.couplings}:
             raise MechanismError(f"{self.mechanism.name} has no coupling {coupling!r}")
         return self.reactions[coupling]
 

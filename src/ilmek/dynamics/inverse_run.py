@@ -56,13 +56,13 @@ class InverseRun:
     @property
     def locked(self) -> np.ndarray:
         """Samples at which friction locks the mechanism."""
-        found: np.ndarray = (self.forces.status != Status.OK) & (self.forces.motion.status == Status.OK)
-        return found
+        return np.asarray((self.forces.status != Status.OK) & (self.forces.motion.status == Status.OK))
 
     @property
     def turning(self) -> bool:
         """Whether the driving input turns."""
-        return any(isinstance(one, Rotation) for one in self.forces.mechanism.inputs if one.name == self.driving)
+        inputs = self.forces.mechanism.inputs
+        return any(isinstance(entry, Rotation) for entry in inputs if entry.name == self.driving)
 
     @property
     def effort(self) -> FloatArray | None:
@@ -81,12 +81,12 @@ class InverseRun:
             return None
         if kind == "peak":
             return greatest(effort)
-        found = rms(effort, self.time) if kind == "rms" else mean(effort, self.time)
-        return 0.0 if abs(found) <= ROUNDING * greatest(effort) else found
+        value = rms(effort, self.time) if kind == "rms" else mean(effort, self.time)
+        return 0.0 if abs(value) <= ROUNDING * greatest(effort) else value
 
     @computed("N", "greatest force of each pin", shown=False)
     def pin_forces_max(self) -> dict[str, float]:
-        pins = (one.name for one in self.forces.mechanism.joints if isinstance(one, Pin))
+        pins = (joint.name for joint in self.forces.mechanism.joints if isinstance(joint, Pin))
         return {name: greatest(self.forces.reactions[name]) for name in pins}
 
     @computed("N", "greatest force of each slide across its line", shown=False)
@@ -99,7 +99,7 @@ class InverseRun:
 
     @computed("N", "greatest tooth force of each coupling", shown=False)
     def tooth_forces_max(self) -> dict[str, float]:
-        return {one.name: greatest(self.forces.tooth(one.name)) for one in self.forces.mechanism.couplings}
+        return {mesh.name: greatest(self.forces.tooth(mesh.name)) for mesh in self.forces.mechanism.couplings}
 
     @computed("N*m", "greatest torque of gears and belts on the second wheel", shown=False)
     def coupling_torques_max(self) -> dict[str, float]:

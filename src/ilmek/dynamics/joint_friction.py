@@ -138,21 +138,21 @@ EffortLaw: TypeAlias = JointFriction | ToothSeparation
 
 def tooth_separations(mechanism: Mechanism) -> tuple[ToothSeparation, ...]:
     """The laws of all teeth in mesh with a pressure angle."""
-    meshes = (one for one in mechanism.couplings if has_teeth(one) and one.pressure_angle)
-    return tuple(ToothSeparation(one.name, one.pressure_angle) for one in meshes)
+    meshes = (mesh for mesh in mechanism.couplings if has_teeth(mesh) and mesh.pressure_angle)
+    return tuple(ToothSeparation(mesh.name, mesh.pressure_angle) for mesh in meshes)
 
 
 def check_joints(mechanism: Mechanism, joint_frictions: Sequence[JointFriction]) -> None:
     """Raise MechanismError for friction in a joint that is unknown, of the other kind, or given twice."""
-    for one in joint_frictions:
-        joint, required = mechanism.joint(one.joint), Pin if isinstance(one, PinFriction) else Slide
+    for law in joint_frictions:
+        joint, required = mechanism.joint(law.joint), Pin if isinstance(law, PinFriction) else Slide
         if not isinstance(joint, required):
             raise MechanismError(
-                f"{type(one).__name__} is given for {one.joint!r}, a {type(joint).__name__.lower()}",
+                f"{type(law).__name__} is given for {law.joint!r}, a {type(joint).__name__.lower()}",
                 allowed=f"it is for a {required.__name__.lower()}",
             )
-        if sum(other.joint == one.joint for other in joint_frictions) > 1:
-            raise MechanismError(f"friction in joint {one.joint!r} is given twice", do="give it once")
+        if sum(other.joint == law.joint for other in joint_frictions) > 1:
+            raise MechanismError(f"friction in joint {law.joint!r} is given twice", do="give it once")
 
 
 def efforts(

@@ -15,7 +15,7 @@ def locking(run: InverseRun) -> tuple[Check, ...]:
     if run.locked.any() and run.driving is not None:
         values = forces.motion.drives[run.driving].value[run.locked]  # type: ignore[index]
         first, last = (
-            format_quantity(float(one), "deg" if run.turning else "mm") for one in (values.min(), values.max())
+            format_quantity(float(end), "deg" if run.turning else "mm") for end in (values.min(), values.max())
         )
         where = f"; it locks at {run.driving} from {first} to {last}"
     source = f"the drive keeps it moving against the friction of its joints{where}"

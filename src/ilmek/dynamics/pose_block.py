@@ -164,15 +164,15 @@ def _coupling_poses(mechanism: Mechanism, coupling: Coupling, bodies: Mapping[st
     Teeth also separate their wheels, away from the pitch point: a wheel in a ring is pressed to the middle of the ring.
     The tension of a belt, along O_1 O_2, does no work: see `undetermined`.
     """
-    (first, one), (second, two) = coupling.first, coupling.second
-    at = bodies[first].carry(mechanism.point(first, one)).position
-    joint = mechanism.joint(two) if coupling.kind == "rack" else None
+    (first, first_middle), (second, second_middle) = coupling.first, coupling.second
+    at = bodies[first].carry(mechanism.point(first, first_middle)).position
+    joint = mechanism.joint(second_middle) if coupling.kind == "rack" else None
     if isinstance(joint, Slide):
         line = bodies[joint.guide].direction * unit(joint.along)
         arm = -1j * coupling.ratio * line
         tooth = ForceAndMoment(line, 0.0)
         return JointPoses(coupling.name, second, first, at + arm, None, tooth, arm / abs(coupling.ratio))
-    ratio, middle = coupling.ratio, bodies[second].carry(mechanism.point(second, two)).position
+    ratio, middle = coupling.ratio, bodies[second].carry(mechanism.point(second, second_middle)).position
     offset = middle - at
     distance = np.abs(offset)
     along = offset / distance

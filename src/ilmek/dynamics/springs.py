@@ -49,12 +49,12 @@ class Spring:
         mechanism = motion.plan.mechanism
         ends = (mechanism.point(self.first, self.first_point), mechanism.point(self.second, self.second_point))
         start, end = attached(motion, self.first, ends[0]), attached(motion, self.second, ends[1])
-        apart = end.position - start.position
-        length = np.abs(apart)
+        line = end.position - start.position
+        length = np.abs(line)
         with np.errstate(invalid="ignore", divide="ignore"):
-            along = apart / length
-        parting = dot(along, end.velocity - start.velocity)
-        pull = (self.stiffness * (length - self.length) + self.damping * parting) * along
+            along = line / length
+        rate = dot(along, end.velocity - start.velocity)
+        pull = (self.stiffness * (length - self.length) + self.damping * rate) * along
         return Wrench(self.first, pull, ends[0]), Wrench(self.second, -pull, ends[1])
 
 

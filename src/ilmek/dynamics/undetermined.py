@@ -75,7 +75,7 @@ def undetermined(
     joint_frictions  friction of joints
     """
     mechanism = poses.motion.plan.mechanism
-    open_couplings = [one for one in mechanism.couplings if not has_teeth(one)]
+    open_couplings = [coupling for coupling in mechanism.couplings if not has_teeth(coupling)]
     if not open_couplings:
         return Undetermined()
     nothing = {body: ForceAndMoment(0j, 0.0) for body in inertias}
@@ -93,7 +93,7 @@ def undetermined(
         inputs |= response.inputs()
         bodies |= response.bodies()
     frictions = joints & {law.joint for law in joint_frictions if law.dry}
-    names = (one.name for one in open_couplings)
+    names = (coupling.name for coupling in open_couplings)
     return Undetermined(*map(frozenset, (names, joints, inputs, frictions, bodies)))
 
 
@@ -173,12 +173,12 @@ class _Response:
 
     def _efforts(self) -> dict[str, ForceAndMoment]:
         """The efforts of the drives, by joint."""
-        found = {}
+        efforts = {}
         for entry in self.poses.motion.plan.mechanism.inputs:
             joint = self.poses.joints[entry.joint]
             effort = joint.generalized_force(self.pulls[entry.joint], joint.at)
-            found[entry.joint] = ForceAndMoment(effort * joint.drive.force, effort * joint.drive.moment)
-        return found
+            efforts[entry.joint] = ForceAndMoment(effort * joint.drive.force, effort * joint.drive.moment)
+        return efforts
 
     def _without_efforts(self) -> dict[str, ForceAndMoment]:
         efforts = self._efforts()

@@ -232,7 +232,7 @@ def _cycle(pair: _Pair, name: str, held: tuple[tuple[str, float], ...], periods:
     return _Followed(at, direction, angle, length)
 
 
-@lru_cache(maxsize=64)
+@lru_cache(maxsize=4)
 def _both_ways(pair: _Pair, name: str, held: tuple[tuple[str, float], ...], reach: float) -> _Followed:
     """The line of an input from -reach to reach [rad; m]."""
     cells = 2 * CELLS * max(round(reach / _units(pair.plan.mechanism)[name]), 1)

@@ -56,11 +56,11 @@ def angles(mechanism: Mechanism) -> dict[str, LinearRelation]:
 def linear_relations(mechanism: Mechanism) -> dict[tuple[str, str], LinearRelation]:
     """("angle", body) or ("travel", slide) -> relation, for those determined by inputs and couplings."""
     system = _system(mechanism)
-    found: dict[tuple[str, str], LinearRelation] = {("angle", GROUND): LinearRelation(0.0, {})}
+    relations: dict[tuple[str, str], LinearRelation] = {("angle", GROUND): LinearRelation(0.0, {})}
     if len(system.left):
-        for one, numbers in _determined(list(system.index), system.left, system.right):
-            found[one] = system.relation(numbers)
-    return found
+        for key, numbers in _determined(list(system.index), system.left, system.right):
+            relations[key] = system.relation(numbers)
+    return relations
 
 
 def relation_between(mechanism: Mechanism, body: str, against: str) -> LinearRelation | None:
@@ -96,21 +96,23 @@ class _System:
     def relation(self, numbers: list[float]) -> LinearRelation:
         """The relation of a constant and a factor of each input."""
         constant, *factors = numbers
-        return LinearRelation(constant, {name: one for name, one in zip(self.inputs, factors, strict=True) if one})
+        return LinearRelation(
+            constant, {name: factor for name, factor in zip(self.inputs, factors, strict=True) if factor}
+        )
 
 
 def _system(mechanism: Mechanism) -> _System:
     """The equations of all slides, inputs and couplings."""
     unknown = [("angle", body) for body in mechanism.moving]
     unknown += [("travel", joint.name) for joint in mechanism.joints if isinstance(joint, Slide)]
-    index = {one: k for k, one in enumerate(unknown)}
+    index = {key: k for k, key in enumerate(unknown)}
     names = tuple(entry.name for entry in mechanism.inputs)
     rows = list(_rows(mechanism))
     left, right = np.zeros((len(rows), len(unknown))), np.zeros((len(rows), 1 + len(names)))
     for k, (terms, constant, entry) in enumerate(rows):
-        for one, factor in terms:
-            if one in index:
-                left[k, index[one]] += factor
+        for key, factor in terms:
+            if key in index:
+                left[k, index[key]] += factor
         right[k, 0] = constant
         if entry:
             right[k, 1 + names.index(entry)] = 1.0
@@ -125,9 +127,9 @@ def _determined(
     rank = int(np.sum(values > FREE * values[0]))
     loose = np.linalg.norm(rows[rank:], axis=0)
     solved = _rounded(np.linalg.lstsq(left, right, rcond=FREE)[0])
-    for k, one in enumerate(unknown):
+    for k, key in enumerate(unknown):
         if loose[k] < FREE:
-            yield one, [float(number) for number in solved[k]]
+            yield key, [float(number) for number in solved[k]]
 
 
 def _rounded(numbers: FloatArray) -> FloatArray:
@@ -151,15 +153,15 @@ def _rows(mechanism: Mechanism) -> Iterator[Row]:
             yield ((("angle", entry.body), 1.0), (("angle", other), -1.0)), 0.0, entry.name
         else:
             yield ((("travel", entry.slide), 1.0),), 0.0, entry.name
-    for one in mechanism.couplings:
-        yield _coupled(one), one.second_at - one.ratio * one.first_at, ""
+    for coupling in mechanism.couplings:
+        yield _coupled(coupling), coupling.second_at - coupling.ratio * coupling.first_at, ""
 
 
-def _coupled(one: Coupling) -> tuple[tuple[tuple[str, str], float], ...]:
-    first, carrier = (("angle", one.first[0]), -one.ratio), ("angle", one.carrier)
-    if one.kind == "rack":
-        return (("travel", one.second[1]), 1.0), first, (carrier, one.ratio)
-    return (("angle", one.second[0]), 1.0), first, (carrier, one.ratio - 1)
+def _coupled(coupling: Coupling) -> tuple[tuple[tuple[str, str], float], ...]:
+    first, carrier = (("angle", coupling.first[0]), -coupling.ratio), ("angle", coupling.carrier)
+    if coupling.kind == "rack":
+        return (("travel", coupling.second[1]), 1.0), first, (carrier, coupling.ratio)
+    return (("angle", coupling.second[0]), 1.0), first, (carrier, coupling.ratio - 1)
 
 
 def first_angle(
