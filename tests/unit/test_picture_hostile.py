@@ -247,6 +247,28 @@ SEEDS = {
 }
 
 
+CODINGS = {
+    "usual": saved("JPEG"),
+    "of best quality": saved("JPEG", quality=100, subsampling=0),
+    "grey": saved("JPEG", SMOOTH.convert("L")),
+    "of four inks": saved("JPEG", SMOOTH.convert("CMYK")),
+    "progressive": saved("JPEG", progressive=True),
+    "with restart markers": saved("JPEG", restart_marker_blocks=5),
+}
+
+
+@pytest.mark.parametrize("coding", CODINGS)
+def test_a_jpeg_cut_short_anywhere_is_refused(tmp_path: Path, coding: str) -> None:
+    data, file = CODINGS[coding], tmp_path / "a.jpg"
+    file.write_bytes(data)
+    assert read_picture(file).rgb.shape[2] == 3
+    for stop in sorted({*np.linspace(4, len(data) - 1, 40).astype(int).tolist(), *range(len(data) - 6, len(data) - 1)}):
+        for ending in (b"", bytes(64)):  # nothing, or the zeros of a full disc
+            file.write_bytes(data[:stop] + ending)
+            with pytest.raises(PictureError, match="damaged or truncated|cannot be read"):
+                read_picture(file)
+
+
 def mutant(data: bytes, chance: random.Random) -> bytes:
     changed = bytearray(data)
     for _ in range(chance.choice((1, 1, 2, 5))):

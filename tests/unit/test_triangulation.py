@@ -10,7 +10,18 @@ from hypothesis import strategies as st
 from ilmek.errors import IlmekError
 from ilmek.plane.contours import area, bounds, circle, rounded_hull
 from ilmek.plane.solids import bounds as box_of
-from ilmek.plane.solids import box, is_closed, lengthwise, plate_solid, square_tube, thinned, tube, upright, volume
+from ilmek.plane.solids import (
+    box,
+    is_closed,
+    lengthwise,
+    plate_solid,
+    prism,
+    square_tube,
+    thinned,
+    tube,
+    upright,
+    volume,
+)
 from ilmek.plane.triangulation import triangles
 from ilmek.plane.vectors import cross
 from ilmek.report import Hole, Plate
@@ -34,6 +45,62 @@ def test_triangles_of_a_star_shaped_polygon_with_a_hole_have_its_area(number: in
     twice = [float(np.sum(cross(one, np.roll(one, -1)))) for one in (outline, hole)]
     assert _area(points, found) == pytest.approx(sum(twice) / 2, rel=1e-9)
     assert len(found) == len(points)  # corners + 2 holes - 2
+
+
+def _rectangle(low: complex, high: complex, pieces: int) -> np.ndarray:
+    """Corners and, on each side, points in line with them; counter-clockwise."""
+    corners = np.array([low, complex(high.real, low.imag), high, complex(low.real, high.imag)])
+    return np.concatenate([np.linspace(begin, end, pieces, endpoint=False) for begin, end in pairwise_ring(corners)])
+
+
+def pairwise_ring(corners: np.ndarray) -> zip:
+    return zip(corners, np.roll(corners, -1), strict=True)
+
+
+@given(st.integers(1, 4), st.integers(1, 4), st.integers(1, 3), st.integers(0, 10**6))
+def test_a_grid_of_aligned_holes_is_closed_and_has_its_volume(wide: int, high: int, pieces: int, seed: int) -> None:
+    """Corners in line with others, which ear clipping alone leaves out, are corners of triangles too."""
+    random = np.random.default_rng(seed)
+    cells = [complex(x, y) for x in range(wide) for y in range(high) if random.random() < 0.8]
+    sides = random.choice([0.25, 0.5], len(cells))
+    outline = _rectangle(0, complex(wide, high), pieces)
+    holes = [
+        _rectangle(cell + 0.125 + 0.125j, cell + 0.125 + 0.125j + side * (1 + 1j), pieces)[::-1]
+        for cell, side in zip(cells, sides, strict=True)
+    ]
+    points = np.concatenate([outline, *holes])
+    exact = wide * high - float(np.sum(sides**2))
+    assert _area(points, triangles(outline, holes)) == pytest.approx(exact, rel=1e-12)
+    plate = prism(outline, 0.0, 2.0, holes)
+    assert is_closed(plate)
+    assert volume(plate) == pytest.approx(2 * exact, rel=1e-12)
+
+
+@given(st.integers(3, 40), st.integers(0, 10**6))
+def test_no_triangle_lies_outside_or_in_a_hole(number: int, seed: int) -> None:
+    """The middle of each triangle is inside by the even-odd rule, counted on rays that the triangles know nothing of."""
+    random = np.random.default_rng(seed)
+    outline = random.uniform(1.0, 3.0, number + 3) * np.exp(2j * math.pi * np.arange(number + 3) / (number + 3))
+    hole = random.uniform(0.1, 0.4, number) * np.exp(-2j * math.pi * np.arange(number) / number)
+    try:
+        found = triangles(outline, [hole])
+    except IlmekError:
+        return  # the outline of few corners passes through the hole
+    middles = np.concatenate([outline, hole])[found].mean(axis=1)
+    crossings = np.zeros(len(middles), int)
+    for ring in (outline, hole):
+        for begin, end in pairwise_ring(ring):
+            spans = (begin.imag > middles.imag) != (end.imag > middles.imag)
+            if end.imag != begin.imag:
+                slope = (end.real - begin.real) / (end.imag - begin.imag)
+                crossings += spans & (middles.real < begin.real + slope * (middles.imag - begin.imag))
+    assert (crossings % 2 == 1).all()
+
+
+@pytest.mark.parametrize("hole", [5 + 5j, 1.9 + 1j])
+def test_a_hole_outside_of_its_outline_or_across_it_is_refused(hole: complex) -> None:
+    with pytest.raises(IlmekError, match="crosses itself"):
+        triangles(_rectangle(0, 2 + 2j, 1), [_rectangle(hole, hole + 0.5 + 0.5j, 1)[::-1]])
 
 
 def test_an_outline_that_crosses_itself_is_refused() -> None:

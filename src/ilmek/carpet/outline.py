@@ -23,6 +23,7 @@ from ilmek.carpet.design import resampled
 from ilmek.carpet.picture_points import Points
 from ilmek.carpet.projection import MadeRgb
 from ilmek.errors import PictureError
+from ilmek.plane.curves import hull
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 
@@ -163,47 +164,34 @@ def _region(difference: FloatArray, step: int) -> BoolArray:
     areas = np.bincount(labels.ravel())[1:]
     if areas.max() < _LEAST_AREA * mask.size:
         raise _unclear("what differs from the margin of the picture is too small")
-    found: BoolArray = scipy.ndimage.binary_fill_holes(labels == areas.argmax() + 1)
-    return found
+    largest: BoolArray = scipy.ndimage.binary_fill_holes(labels == areas.argmax() + 1)
+    return largest
 
 
 def _hull(region: BoolArray) -> Points:
-    """Corners of the convex hull of a region, clockwise in the picture [Andrew's monotone chain]."""
+    """Corners of the convex hull of a region, clockwise in the picture, whose y points down."""
     rows = np.flatnonzero(region.any(axis=1))
     left, right = region.argmax(axis=1)[rows], region.shape[1] - region[:, ::-1].argmax(axis=1)[rows]
-    points = sorted(
-        {(float(x), float(y + dy)) for y, a, b in zip(rows, left, right, strict=True) for x in (a, b) for dy in (0, 1)}
-    )
-
-    def half(ordered: list[tuple[float, float]]) -> list[tuple[float, float]]:
-        chain: list[tuple[float, float]] = []
-        for x, y in ordered:
-            while len(chain) > 1:
-                (ax, ay), (bx, by) = chain[-2:]
-                if (bx - ax) * (y - ay) - (by - ay) * (x - ax) > 0:
-                    break
-                chain.pop()
-            chain.append((x, y))
-        return chain[:-1]
-
-    return np.array(half(points) + half(points[::-1]))
+    upper = np.concatenate([left, right]) + 1j * np.concatenate([rows, rows])
+    corners = hull(np.concatenate([upper, upper + 1j]))
+    return np.stack([corners.real, corners.imag], axis=1)
 
 
-def _largest_quadrilateral(hull: Points) -> Float[np.ndarray, "4 2"]:
+def _largest_quadrilateral(polygon: Points) -> Float[np.ndarray, "4 2"]:
     """The largest quadrilateral with corners among those of a convex polygon, clockwise from the upper left."""
-    if len(hull) < 4:
+    if len(polygon) < 4:
         raise _unclear("what differs from the margin of the picture has no four corners")
-    hull = hull[:: -(-len(hull) // 120)] if len(hull) > 120 else hull
-    x, y = hull.T
-    best, corners = -1.0, (0, 1, 2, 3)
-    for one, other in itertools.combinations(range(len(hull)), 2):
-        side = (x[other] - x[one]) * (y - y[one]) - (y[other] - y[one]) * (x - x[one])
-        if (area := float(side.max() - side.min())) > best:
-            best, corners = area, (one, int(side.argmin()), other, int(side.argmax()))
-    found = hull[list(corners)]
-    centre = found.mean(axis=0)
-    found = found[np.argsort(np.arctan2(*(found - centre).T[::-1]), kind="stable")]
-    return np.asarray(np.roll(found, -int(found.sum(axis=1).argmin()), axis=0))
+    polygon = polygon[:: -(-len(polygon) // 120)] if len(polygon) > 120 else polygon
+    x, y = polygon.T
+    largest, corners = -1.0, (0, 1, 2, 3)
+    for begin, end in itertools.combinations(range(len(polygon)), 2):
+        side = (x[end] - x[begin]) * (y - y[begin]) - (y[end] - y[begin]) * (x - x[begin])
+        if (area := float(side.max() - side.min())) > largest:
+            largest, corners = area, (begin, int(side.argmin()), end, int(side.argmax()))
+    chosen = polygon[list(corners)]
+    centre = chosen.mean(axis=0)
+    chosen = chosen[np.argsort(np.arctan2(*(chosen - centre).T[::-1]), kind="stable")]
+    return np.asarray(np.roll(chosen, -int(chosen.sum(axis=1).argmin()), axis=0))
 
 
 def _common_share(region: BoolArray, corners: Points) -> float:
@@ -239,8 +227,8 @@ def _strip(lab: FloatArray, floor: _Floor, start: FloatArray, end: FloatArray, a
     along = (end - start) / np.hypot(*(end - start))
     share = np.linspace(_ENDS, 1 - _ENDS, _SAMPLES)[:, None, None]
     points = start + share * (end - start) + across[:, None] * np.array([along[1], -along[0]]) - 0.5
-    at = points[..., 1], points[..., 0]
-    seen = [scipy.ndimage.map_coordinates(lab[..., axis], at, order=1, mode="nearest") for axis in range(3)]
+    pixels = points[..., 1], points[..., 0]
+    seen = [scipy.ndimage.map_coordinates(lab[..., axis], pixels, order=1, mode="nearest") for axis in range(3)]
     smoothed = scipy.ndimage.uniform_filter1d(np.stack(seen, axis=-1), _SMOOTHED, axis=1, mode="nearest")
     return floor.difference(smoothed)
 
@@ -255,13 +243,13 @@ def _refined(lab: FloatArray, floor: _Floor, corners: Points, reach: float) -> t
     """Corners as intersections of lines fitted to the sides, and for each side the share of points on its line."""
     sides = [_side(lab, floor, a, b, reach) for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True)]
     lines = [line for line, _ in sides]
-    found = []
+    crossings = []
     for (a, b, c), (d, e, f) in zip(np.roll(lines, 1, axis=0).tolist(), [line.tolist() for line in lines], strict=True):
         determinant = a * e - b * d
         if abs(determinant) < 1e-6:
             raise _unclear("two sides that meet are parallel")
-        found.append(((c * e - b * f) / determinant, (a * f - c * d) / determinant))
-    return np.array(found), tuple(share for _, share in sides)
+        crossings.append(((c * e - b * f) / determinant, (a * f - c * d) / determinant))
+    return np.array(crossings), tuple(share for _, share in sides)
 
 
 def _side(lab: FloatArray, floor: _Floor, start: FloatArray, end: FloatArray, reach: float) -> tuple[FloatArray, float]:
@@ -296,9 +284,14 @@ def _edge(line: FloatArray, across: FloatArray) -> float:
 
 
 def _fitted_line(  # noqa: PLR0917
-    start: FloatArray, along: FloatArray, outwards: FloatArray, at: FloatArray, offsets: FloatArray, tolerance: float
+    start: FloatArray,
+    along: FloatArray,
+    outwards: FloatArray,
+    positions: FloatArray,
+    offsets: FloatArray,
+    tolerance: float,
 ) -> tuple[FloatArray, float]:
-    """The line through points at distances `at` along a side and `offsets` outwards, by least squares without outliers.
+    """The line through points along a side and `offsets` outwards [pixels], by least squares without outliers.
 
     The first line is that of the pair of points, a third of the side apart, with the most points within the tolerance;
     every fifth point is tried with every tenth.
@@ -306,13 +299,13 @@ def _fitted_line(  # noqa: PLR0917
     seen = np.flatnonzero(np.isfinite(offsets))
     if len(seen) < 0.3 * len(offsets):
         raise _unclear("a side is not found")
-    x, y = at[seen], offsets[seen]
+    x, y = positions[seen], offsets[seen]
     third = len(seen) // 3
     best, on = -1, np.ones(len(seen), dtype=bool)
-    for one in range(0, len(seen) - third, 5):
-        for other in range(one + third, len(seen), 10):
-            slope = (y[other] - y[one]) / (x[other] - x[one])
-            near = np.abs(y - y[one] - slope * (x - x[one])) <= tolerance
+    for first in range(0, len(seen) - third, 5):
+        for other in range(first + third, len(seen), 10):
+            slope = (y[other] - y[first]) / (x[other] - x[first])
+            near = np.abs(y - y[first] - slope * (x - x[first])) <= tolerance
             if (count := int(np.count_nonzero(near))) > best:
                 best, on = count, near
     for _ in range(3):

@@ -21,7 +21,6 @@ import numpy as np
 from PIL import Image, ImageFile
 
 from ilmek.errors import PictureError
-from ilmek.io.jpeg_scan import JpegTables
 from ilmek.io.regular_file import open_regular
 from ilmek.progress import SILENT, Progress
 
@@ -150,7 +149,7 @@ def check_structure(data: bytes, progress: Progress = SILENT) -> None:
     if data.startswith(b"\x89PNG\r\n\x1a\n"):
         _check_png(data, progress)
     elif data.startswith(b"\xff\xd8\xff"):
-        _check_jpeg(data, progress)
+        _check_jpeg(data)
     elif data[:4] in (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"):
         _check_tiff(data)
 
@@ -178,13 +177,11 @@ _AFTER_A_SCAN = frozenset((0xC4, 0xD9, 0xDA, 0xDB, 0xDC, 0xDD, 0xFE, *range(0xE0
 """JPEG markers that may end a scan: tables, end, next scan, number of lines, restart interval, comment, application."""
 
 
-def _check_jpeg(data: bytes, progress: Progress) -> None:
+def _check_jpeg(data: bytes) -> None:
     """Raise DamagedError for a JPEG without end or with markers inside a scan that cannot be there, or whose restart
-    markers are out of order; and for EXIF data above MOST_EXIF, which Pillow reads unasked.
-
-    The coded bytes are checked as far as `jpeg_scan` can.    [ITU-T T.81, B.1.1]
+    markers are out of order; and for EXIF data above MOST_EXIF, which Pillow reads unasked.    [ITU-T T.81, B.1.1]
     """
-    at, exif, tables = 2, 0, JpegTables()
+    at, exif = 2, 0
     while True:
         while data[at : at + 2] == b"\xff\xff":
             at += 1
@@ -199,15 +196,9 @@ def _check_jpeg(data: bytes, progress: Progress) -> None:
         exif += length if marker == 0xE1 and data[at + 4 : at + 8] == b"Exif" else 0
         if exif > MOST_EXIF + 2:
             raise DamagedError(f"more than {MOST_EXIF} bytes of EXIF data")
-        segment = data[at + 4 : at + 2 + length]
         at += 2 + length
-        try:
-            tables.read(marker, segment)
-            if marker == 0xDA:
-                start, at = at, _end_of_scan(data, at)
-                tables.check_scan(segment, data, start, at, progress)
-        except ValueError as error:
-            raise DamagedError(str(error)) from None
+        if marker == 0xDA:
+            at = _end_of_scan(data, at)
 
 
 def _end_of_scan(data: bytes, start: int) -> int:
