@@ -26,7 +26,7 @@ CSV = {
     "tabs": "Name\tsRGB\tlab\tNm\tply\tprice\nred\t93272C\t\t2.5\t2\t20\n\nwhite\t\t[90 1 12]\t4\t\t\n",
     "byte order mark": "\ufeffname,srgb,lab,nm,ply,price\r\nred,#93272c,,2.5,2,20\r\nwhite,,90/1/12,4,,\r\n",
     "old line ends": "name,srgb,lab,nm,ply,price\rred,#93272c,,2.5,2,20\rwhite,,90/1/12,4,,",
-    "remarks": "\n# my wool\nname,srgb,lab,nm,ply,price\n#\nred,#93272c,,2.5,2,20\n\n# pale\nwhite,,90 1 12,4,,\n\n",
+    "remarks": "\n# my wool\n #\nname,srgb,lab,nm,ply,price\n\nred,#93272c,,2.5,2,20\n,,,\n\nwhite,,90 1 12,4,,\n\n",
 }
 
 
@@ -73,6 +73,15 @@ BAD = {
     "near column": ("a.csv", "nane,srgb,nm\nred,#800000,2\n", "did you mean 'name'"),
     "column twice": ("a.csv", "name,nm,nm\nred,2,2\n", "'nm' is given twice"),
     "too many cells": ("a.csv", "name,srgb,nm\nred,#800000,2,5\n", "line 2 has 4 cells"),
+    "comment below the headings": ("a.csv", "name,srgb\nred,#800000\n# pale\nblue,#000080\n", "line 3 is a comment"),
+    "row without a colour": ("a.csv", "name,srgb\nred,#800000\n#3 indigo\n\nblue,\n", "line 3 is a comment"),
+    "row without a name": ("a.csv", "srgb,name\n#800000,red\n\n#000080,\n", "line 4: yarn 2 has no name"),
+    "row without a code": (
+        "a.csv",
+        "# wool\nname,srgb\nred,#800000\n#3 indigo,\n",
+        r"line 4: yarn 2 \(#3 indigo\) has no col",
+    ),
+    "same name": ("a.csv", "name,srgb\n\nred,#800000\nred,#000080\n", "lines 3 and 4: yarns 1 and 2 are both named"),
     "not a number": ("a.csv", "name,srgb,nm\nred,#800000,2\nblue,#000080,two\n", "line 3: nm 'two' is not a number"),
     "open quote": ("a.csv", 'name,srgb,nm\n"red,#800000,2\n', "line"),
     "missing nm": ("a.csv", "name,srgb,nm\nred,#800000,2\nblue,#000080,\n", r"yarn 2 \(blue\) has no nm"),

@@ -78,7 +78,7 @@ def test_a_grid_of_aligned_holes_is_closed_and_has_its_volume(wide: int, high: i
 
 @given(st.integers(3, 40), st.integers(0, 10**6))
 def test_no_triangle_lies_outside_or_in_a_hole(number: int, seed: int) -> None:
-    """The middle of each triangle is inside by the even-odd rule, counted on rays that the triangles know nothing of."""
+    """The middle of each triangle is inside by the even-odd rule."""
     random = np.random.default_rng(seed)
     outline = random.uniform(1.0, 3.0, number + 3) * np.exp(2j * math.pi * np.arange(number + 3) / (number + 3))
     hole = random.uniform(0.1, 0.4, number) * np.exp(-2j * math.pi * np.arange(number) / number)

@@ -8,7 +8,8 @@
     price = 14.5              # per kilogram; optional
 
 A CSV file has the columns name, srgb or lab ("31.5 45 27"), nm, ply, price; separated by commas, semicolons or tabs.
-Empty lines and lines that begin with # are ignored.
+They stand in any order. Empty lines are ignored, and lines that begin with # above the header; below it every line is a
+yarn.
 
 A palette of GIMP (.gpl) has a colour and a name on each line. Names are made unique by a number; the metric
 count follows from the quality of the carpet.
@@ -49,13 +50,12 @@ _MISSING = "check the path, or leave out --yarns to use the built-in wool list"
 
 def read_yarns(path: Path) -> tuple[Yarn, ...]:
     """The yarns of a TOML, CSV or GPL file. Raises YarnError, naming the file and the line or yarn."""
-    readers = {".toml": _toml_records, ".csv": _csv_records, ".gpl": _gpl_records}
-    reader = readers.get(path.suffix.lower())
+    reader = _READERS.get(path.suffix.lower())
     try:
         if reader is None and path.is_file():
             raise YarnError(f"ends in {path.suffix!r}", allowed="a yarn list is a .toml, .csv or .gpl file")
         text = read_text(path, noun="yarn list, .toml, .csv or .gpl", largest=LARGEST, error=YarnError, do=_MISSING)
-        return yarns_from_records((reader or _toml_records)(text))
+        return (reader or _toml_yarns)(text)
     except YarnError as error:
         raise YarnError(f"yarn list {path}: {error.given}", allowed=error.allowed, do=error.do) from None
 
@@ -63,10 +63,10 @@ def read_yarns(path: Path) -> tuple[Yarn, ...]:
 def default_yarns() -> tuple[Yarn, ...]:
     """The sixteen wool yarns that come with ilmek."""
     text = resources.files("ilmek.data").joinpath("wool16.toml").read_text(encoding="utf-8")
-    return yarns_from_records(_toml_records(text))
+    return _toml_yarns(text)
 
 
-def _toml_records(text: str) -> Sequence[Record]:
+def _toml_yarns(text: str) -> tuple[Yarn, ...]:
     data = parse_data(text, name="TOML", toml=True, error=YarnError).data
     unknown = [key for key in data if key != "yarn"]
     if unknown:
@@ -74,7 +74,7 @@ def _toml_records(text: str) -> Sequence[Record]:
     records = data.get("yarn", [])
     if not isinstance(records, list) or not all(isinstance(record, dict) for record in records):
         raise YarnError("'yarn' is not a list of tables", do="write each yarn as a [[yarn]] table")
-    return records
+    return yarns_from_records(records)
 
 
 def _check_columns(names: Sequence[str], line: int) -> None:
@@ -86,22 +86,15 @@ def _check_columns(names: Sequence[str], line: int) -> None:
             raise YarnError(f"line {line}: the column {name!r} is given twice", do="give each column once")
 
 
-def _csv_records(text: str) -> Sequence[Record]:
+def _csv_yarns(text: str) -> tuple[Yarn, ...]:
     delimiter, (first, header), lines = csv_lines(text, YarnError)
     names = [name.lower() for name in header]
     _check_columns(names, first)
-    return [_csv_record(names, cells, line, delimiter) for line, cells in lines]
-
-
-def _csv_record(names: Sequence[str], cells: Sequence[str], line: int, delimiter: str) -> Record:
-    if len(cells) > len(names):
-        raise YarnError(
-            f"line {line} has {len(cells)} cells",
-            allowed=f"{len(names)} columns",
-            do="put quotes around a cell with a comma",
-        )
-    filled = {name: cell for name, cell in zip(names, cells, strict=False) if cell}
-    return {name: _csv_value(name, cell, line, delimiter) for name, cell in filled.items()}
+    records: dict[int, Record] = {}
+    for line, cells in lines:
+        filled = {name: cell for name, cell in zip(names, cells, strict=False) if cell}
+        records[line] = {name: _csv_value(name, cell, line, delimiter) for name, cell in filled.items()}
+    return yarns_from_records(list(records.values()), list(records))
 
 
 def _csv_value(name: str, cell: str, line: int, delimiter: str) -> object:
@@ -119,7 +112,7 @@ def _csv_value(name: str, cell: str, line: int, delimiter: str) -> object:
     return int(values[0]) if name == "ply" and values[0].is_integer() else values[0]
 
 
-def _gpl_records(text: str) -> Sequence[Record]:
+def _gpl_yarns(text: str) -> tuple[Yarn, ...]:
     lines = text.removeprefix("\ufeff").splitlines()
     if not lines or lines[0].strip() != GPL_HEADING:
         raise YarnError("line 1 is not that of a GIMP palette", allowed=f"{GPL_HEADING!r}", do="export it from GIMP")
@@ -128,66 +121,75 @@ def _gpl_records(text: str) -> Sequence[Record]:
     for number, line in enumerate(lines[1:], start=2):
         if not line.strip() or line.lstrip().startswith("#") or re.match(r"(Name|Columns):", line):
             continue
-        found = _GPL_COLOUR.fullmatch(line)
-        codes = [int(code) for code in found.groups()[:3]] if found else []
-        if found is None or max(codes) > 255:
+        matched = _GPL_COLOUR.fullmatch(line)
+        codes = [int(code) for code in matched.groups()[:3]] if matched else []
+        if matched is None or max(codes) > 255:
             raise YarnError(f"line {number} {shortened(line)!r} is no colour", allowed="red, green and blue, 0 to 255")
         if len(records) == MOST_YARNS:
             raise YarnError(f"line {number}: the palette has more than {MOST_YARNS} colours", do="leave some out")
         srgb = hex_colour(codes)
-        records.append({"name": _unique(_gpl_name(found[4], srgb), seen), "srgb": srgb})
-    return records
+        records.append({"name": _unique(_gpl_name(matched[4], srgb), seen), "srgb": srgb})
+    return yarns_from_records(records)
 
 
-def _gpl_name(given: str | None, srgb: str) -> str:
+_READERS = {".toml": _toml_yarns, ".csv": _csv_yarns, ".gpl": _gpl_yarns}
+
+
+def _gpl_name(text: str | None, srgb: str) -> str:
     """The name of a colour; its code where it has none."""
-    name = (given or "").strip()
+    name = (text or "").strip()
     return srgb if not name or name.casefold() == "untitled" else name
 
 
 def _unique(name: str, seen: dict[str, int]) -> str:
     """The name with the next free number where it was seen before."""
-    made, number = name, seen.get(name.casefold(), 1)
-    while made.casefold() in seen:
+    free, number = name, seen.get(name.casefold(), 1)
+    while free.casefold() in seen:
         number += 1
-        made = f"{name} {number}"
+        free = f"{name} {number}"
     seen[name.casefold()] = number
-    seen.setdefault(made.casefold(), 1)
-    return made
+    seen.setdefault(free.casefold(), 1)
+    return free
 
 
-def yarns_from_records(records: Sequence[Record]) -> tuple[Yarn, ...]:
-    """The yarns of a list, checked. Raises YarnError, naming the yarn and the field."""
+def yarns_from_records(records: Sequence[Record], lines: Sequence[int] = ()) -> tuple[Yarn, ...]:
+    """The yarns of a list, checked. Raises YarnError, naming the yarn and the field.
+
+    lines  of the file on which the records stand, for messages; default: not known
+    """
     if not 2 <= len(records) <= MOST_YARNS:
         count = "no yarn" if not records else "one yarn only" if len(records) == 1 else f"{len(records)} yarns"
         raise YarnError(
             f"the yarn list has {count}", allowed=f"2 to {MOST_YARNS} yarns", do="a design needs two colours"
         )
-    yarns = tuple(_yarn(record, number) for number, record in enumerate(records, start=1))
+    called = [f"line {line}: yarn {number}" for number, line in enumerate(lines, start=1)]
+    called = called or [f"yarn {number}" for number in range(1, len(records) + 1)]
+    yarns = tuple(_yarn(record, name) for record, name in zip(records, called, strict=True))
     counted = any(yarn.metric_count is not None for yarn in yarns)
     seen: dict[str, int] = {}
     for number, yarn in enumerate(yarns, start=1):
         if counted and yarn.metric_count is None:
-            raise _no_count(f"yarn {number} ({shortened(yarn.name)})")
+            raise _no_count(f"{called[number - 1]} ({shortened(yarn.name)})")
         first = seen.setdefault(yarn.name.casefold(), number)
         if first != number:
+            both = f"lines {lines[first - 1]} and {lines[number - 1]}: yarns" if lines else "yarns"
             raise YarnError(
-                f"yarns {first} and {number} are both named {yarn.name!r}", do="give each yarn its own name"
+                f"{both} {first} and {number} are both named {yarn.name!r}", do="give each yarn its own name"
             )
     return yarns
 
 
-def _yarn(record: Record, number: int) -> Yarn:
-    """The yarn of a record; `number` counts from 1."""
+def _yarn(record: Record, numbered: str) -> Yarn:
+    """The yarn of a record, which is `numbered` in messages: "yarn 3"."""
     name = str(record.get("name") or "").strip()
-    called = f"yarn {number} ({shortened(name)})" if name else f"yarn {number}"
+    called = f"{numbered} ({shortened(name)})" if name else numbered
     for _, error in key_faults(record, FIELDS, noun="field"):
         raise YarnError(f"{called}: {error.given}", allowed=error.allowed, do=error.do)
     if not name:
         raise YarnError(f"{called} has no name", do='give it one, like name = "madder red"')
     if not name.isprintable() or len(name) > LONGEST_NAME:
         allowed = f"at most {LONGEST_NAME} letters, digits and signs on one line"
-        raise YarnError(f"yarn {number} has the name {shortened(ascii(name))}", allowed=allowed)
+        raise YarnError(f"{numbered} has the name {shortened(ascii(name))}", allowed=allowed)
     srgb, lab = _colour(record, called)
     count = _number(record, "nm", called)
     ply = _number(record, "ply", called)
@@ -211,13 +213,13 @@ _BOUNDS: Mapping[str, tuple[float, float]] = {"nm": COUNTS, "ply": PLIES, "price
 
 def _number(record: Record, field: str, called: str) -> float | None:
     """A number of the record within its bounds; None if it is missing or empty."""
-    given = record.get(field)
-    if given is None or (isinstance(given, str) and not given.strip()):
+    written = record.get(field)
+    if written is None or (isinstance(written, str) and not written.strip()):
         return None
     low, high = _BOUNDS[field]
-    value = finite_number(given)
+    value = finite_number(written)
     if value is None or not low <= value <= high:
-        raise YarnError(f"{called}: {field} {given!r} cannot be used", allowed=f"a number, {low:g} to {high:g}")
+        raise YarnError(f"{called}: {field} {written!r} cannot be used", allowed=f"a number, {low:g} to {high:g}")
     return value
 
 
@@ -229,8 +231,8 @@ def _colour(record: Record, called: str) -> tuple[_Srgb, _Lab]:
     """The colour of a record as sRGB codes and as CIELAB; the record gives one of them."""
     coded, measured = record.get("srgb") or None, record.get("lab") or None
     if (coded is None) == (measured is None):
-        given = "no colour" if coded is None else "both srgb and lab"
-        raise YarnError(f"{called} has {given}", allowed="one of srgb and lab", do='like srgb = "#8b1a1a"')
+        colours = "no colour" if coded is None else "both srgb and lab"
+        raise YarnError(f"{called} has {colours}", allowed="one of srgb and lab", do='like srgb = "#8b1a1a"')
     if coded is not None:
         srgb = _srgb(coded, called)
         lightness, a, b = srgb_to_lab(np.array(srgb, dtype=np.uint8)).tolist()
@@ -240,17 +242,17 @@ def _colour(record: Record, called: str) -> tuple[_Srgb, _Lab]:
     return (red, green, blue), lab
 
 
-def _srgb(given: object, called: str) -> _Srgb:
+def _srgb(code: object, called: str) -> _Srgb:
     """Codes of `#8b1a1a`, also without #, or of the short form `#811` (each digit doubled)."""
-    written = re.sub(r"^#(.)(.)(.)$", r"#\1\1\2\2\3\3", str(given).strip())
+    written = re.sub(r"^#(.)(.)(.)$", r"#\1\1\2\2\3\3", str(code).strip())
     matched = re.fullmatch(r"#?([0-9a-fA-F]{2})([0-9a-fA-F]{2})([0-9a-fA-F]{2})", written)
     if matched is None:
-        raise YarnError(f"{called}: srgb {given!r} is no colour", allowed="six hexadecimal digits", do='like "#8b1a1a"')
+        raise YarnError(f"{called}: srgb {code!r} is no colour", allowed="six hexadecimal digits", do='like "#8b1a1a"')
     return int(matched[1], 16), int(matched[2], 16), int(matched[3], 16)
 
 
-def _lab(given: object, called: str) -> _Lab:
-    parts = re.split(r"[\s,;]+", given.strip(" ()[]")) if isinstance(given, str) else given
+def _lab(colour: object, called: str) -> _Lab:
+    parts = re.split(r"[\s,;]+", colour.strip(" ()[]")) if isinstance(colour, str) else colour
     read = [finite_number(part) for part in parts] if isinstance(parts, list | tuple) else []
     numbers = [number for number in read if number is not None]
     if len(read) == len(numbers) == 3:
@@ -258,5 +260,7 @@ def _lab(given: object, called: str) -> _Lab:
         if 0 <= lightness <= 100 and max(abs(a), abs(b)) <= 160:
             return lightness, a, b
     raise YarnError(
-        f"{called}: lab {given!r} is no colour", allowed="L 0 to 100, a and b -160 to 160", do="like lab = [35, 50, 30]"
+        f"{called}: lab {colour!r} is no colour",
+        allowed="L 0 to 100, a and b -160 to 160",
+        do="like lab = [35, 50, 30]",
     )
