@@ -13,6 +13,7 @@ True
 
 import difflib
 import math
+import numbers
 import re
 from dataclasses import dataclass
 from functools import lru_cache
@@ -152,6 +153,17 @@ def read_number(text: str) -> float | None:
     return number if in_bounds(number) else None
 
 
+def real_number(value: object) -> float | None:
+    """A number of Python or NumPy as a float; None for any other value, a truth value, and a number out of bounds.
+
+    >>> real_number(2), real_number("2"), real_number(True), real_number(math.nan)
+    (2.0, None, None, None)
+    """
+    if isinstance(value, bool) or not isinstance(value, numbers.Real) or not in_bounds(float(value)):
+        return None
+    return float(value)
+
+
 def in_bounds(value: float) -> bool:
     """Whether a number has a magnitude of at most `GREATEST`; false for infinity and NaN.
 
@@ -193,6 +205,15 @@ def format_quantity(value: float, unit: str, digits: int = 4) -> str:
     number = format_number(from_si(value, unit), digits)
     printed = printed_unit(unit)
     return f"{number}{' ' if printed[:1].isalpha() else ''}{printed}"
+
+
+def counted(number: int, noun: str, plural: str = "") -> str:
+    """A number with its noun, in the plural where it is not one; default: with an s.
+
+    >>> counted(1, "knot"), counted(2100, "knot"), counted(0, "patch", "patches")
+    ('1 knot', '2,100 knots', '0 patches')
+    """
+    return f"{number:,} {noun if number == 1 else plural or f'{noun}s'}"
 
 
 def format_number(value: float, digits: int = 4) -> str:

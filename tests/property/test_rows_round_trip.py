@@ -33,9 +33,8 @@ def random_chart(seed: int, grid: tuple[int, int], yarns: int, share: float, mar
     at = np.maximum.accumulate(np.where(begins, np.arange(columns), 0), axis=1)
     knots = np.take_along_axis(rng.integers(0, yarns, (rows, columns)).astype(np.uint8), at, axis=1)
     threads = tuple(Yarn(f"yarn {n}", (n, 255 - n, n // 2), (0.0, 0.0, 0.0), 4.0) for n in range(yarns))
-    chart = Chart(
-        knots, threads, CarpetSize(columns / 1000 + 0.01, rows / 1000 + 0.01), Quality(100.0, 100.0), "symmetric"
-    )
+    quality = Quality(max(100.0, columns / 40), 100.0)
+    chart = Chart(knots, threads, CarpetSize(columns / quality.across, rows / quality.along), quality, "symmetric")
     return replace(chart, overlay=overlay_of(random_marks(rng, knots, yarns, marks)))
 
 
@@ -61,7 +60,7 @@ def random_marks(rng: np.random.Generator, knots: np.ndarray, yarns: int, number
 
 charts = st.tuples(
     st.integers(0, 2**32 - 1),
-    st.tuples(st.integers(1, 7), st.integers(1, 40)),
+    st.tuples(st.integers(2, 7), st.integers(2, 40)),
     st.sampled_from([2, 3, 40, 255]),
     st.sampled_from([0.05, 0.4, 1.0]),
     st.integers(0, 30),

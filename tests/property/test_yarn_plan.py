@@ -19,7 +19,7 @@ from ilmek.carpet.yarn import Yarn
 from ilmek.carpet.yarn_plan import YarnPlanParams, parse_count, parse_hank, write_count
 from ilmek.units import mm
 
-KNOTS = arrays(np.uint8, st.tuples(st.integers(2, 60), st.integers(2, 20)), elements=st.integers(0, 2))
+KNOTS = arrays(np.uint8, st.tuples(st.integers(15, 60), st.integers(15, 20)), elements=st.integers(0, 2))
 DENSITY = st.floats(100.0, 1500.0)
 KIND = st.sampled_from(sorted(USUAL_FILL))
 HANKS = st.one_of(st.floats(1.0, 5000.0).map("{:.3f} g".format), st.floats(0.1, 9000.0).map("{:.3f}m".format))
@@ -29,7 +29,7 @@ def carpet(knots: Indices, density: float, kind: str = "symmetric") -> Chart:
     """A chart of three wools, as large as its knots at the density."""
     quality = Quality(density, density)
     wools = with_counts((Yarn(str(n), (n, n, n), (float(n), 0.0, 0.0)) for n in range(3)), quality, kind)
-    length, width = (max(side / density, 0.01) for side in knots.shape)
+    length, width = (side / density for side in knots.shape)
     return Chart(knots, wools, CarpetSize(width, length), quality, kind)
 
 

@@ -20,7 +20,7 @@ def chart(yarns: int, rows: int = 37, columns: int = 23) -> Chart:
     colours = rng.integers(0, 256, (yarns, 3)).tolist()
     threads = tuple(Yarn(f"kök kırmızı № {n}", (r, g, b), (0.0, 0.0, 0.0), 4.0) for n, (r, g, b) in enumerate(colours))
     knots = rng.integers(0, yarns, (rows, columns), dtype=np.uint8)
-    return Chart(knots, threads, CarpetSize(1.2, 1.8), Quality(250.0, 330.0), "asymmetric")
+    return Chart(knots, threads, CarpetSize(columns / 250, rows / 330), Quality(250.0, 330.0), "asymmetric")
 
 
 def read_back(folder: Path, made: Chart) -> bool:

@@ -1,11 +1,13 @@
 """Orders, places and progress of the jobs."""
 
 import threading
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from ilmek.errors import CarpetError, LoomError, ParameterError, YarnError
+from ilmek.io.chart.formats import FORMATS
 from ilmek.jobs.chart import make_charted
 from ilmek.jobs.design import design_machine
 from ilmek.jobs.inspect import inspect_programme
@@ -151,7 +153,7 @@ def test_a_job_goes_on_without_what_cannot_be_drawn(tmp_path: Path, monkeypatch:
 
     monkeypatch.delenv(SWITCH)
     monkeypatch.setattr("ilmek.jobs.weave.carpet_page", failing)
-    monkeypatch.setattr("ilmek.jobs.chart.write_chart_pdf", failing)
+    monkeypatch.setitem(FORMATS, "pdf", replace(FORMATS["pdf"], write=failing))
     order = read_order(MEDALLION, size="20x30cm", quality="10x10/dm")
     woven = weave(order, read_loom_order(order), tmp_path / "out")
     warnings = ("chart.pdf is left out: no picture", "report.html is left out: no picture")

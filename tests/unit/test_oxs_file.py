@@ -13,7 +13,8 @@ from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import Yarn
 from ilmek.cli import main
 from ilmek.errors import CarpetError, PictureError
-from ilmek.io.chart.oxs import MOST_OXS_KNOTS, require_oxs, write_chart_oxs
+from ilmek.io.chart.formats import FORMATS
+from ilmek.io.chart.oxs import MOST_OXS_KNOTS, write_chart_oxs
 from ilmek.io.chart.oxs_reading import DEEPEST_OXS, read_chart_oxs
 from ilmek.jobs.chart import make_charted
 from ilmek.jobs.order import read_order
@@ -61,7 +62,7 @@ def test_stitches_that_are_no_knots_are_counted_and_left_out(tmp_path: Path) -> 
     more += '<ornaments_inc_knots_and_beads><object x1="1" y1="1" palindex="1" objecttype="bead"/>'
     more += '<object x1="1" y1="0" palindex="1" objecttype="knot"/></ornaments_inc_knots_and_beads>'
     _, notes = read(tmp_path, oxs(more=more))
-    assert notes[0] == ("left out of the chart: 1 back stitches, 2 knots, beads and other ornaments, 1 part stitches")
+    assert notes[0] == ("left out of the chart: 1 back stitch, 2 knots, beads and other ornaments, 1 part stitch")
 
 
 def test_programs_that_count_from_1_are_understood(tmp_path: Path) -> None:
@@ -140,11 +141,11 @@ def test_a_bad_file_is_refused_in_one_line(tmp_path: Path, name: str) -> None:
 def test_a_palette_of_one_colour_is_refused(tmp_path: Path) -> None:
     one = '<palette_item index="1" number="1" name="Black" color="000000"/>'
     every = "".join(f'<stitch x="{x}" y="{y}" palindex="1"/>' for x in range(3) for y in range(2))
-    with pytest.raises(PictureError, match="its palette has 1 colours"):
+    with pytest.raises(PictureError, match="its palette has 1 colour;"):
         read(tmp_path, oxs(every, palette=one))
 
 
 def test_too_many_knots_are_refused_before_any_work() -> None:
-    require_oxs(MOST_OXS_KNOTS)
+    FORMATS["oxs"].require(MOST_OXS_KNOTS)
     with pytest.raises(CarpetError, match="--oxs"):
         read_order(Path("nowhere.png"), size="10x10m", quality="40x40/dm", oxs=True)

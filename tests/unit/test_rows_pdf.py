@@ -77,8 +77,8 @@ def test_480_knots_are_one_line_of_one_page(tmp_path: Path) -> None:
 def test_labels_never_meet(seed: int) -> None:
     """On the levels that a page has space for, no two labels are closer than their gap, and each is over its run."""
     rng = np.random.default_rng(seed)
-    marks = [KnotMark(0, column, HALF if rng.random() < 0.5 else JUFTI, 1) for column in range(0, 478, 3 + seed)]
-    made = chart(1, 480 if seed < 4 else 1200, 3, tuple(marks) if seed % 2 else (), seed)
+    marks = [KnotMark(1, column, HALF if rng.random() < 0.5 else JUFTI, 1) for column in range(0, 478, 3 + seed)]
+    made = chart(2, 480 if seed < 4 else 1200, 3, tuple(marks) if seed % 2 else (), seed)
     plan = chart_rows_layout(made)
     inks = Inks.of(made.yarns, symbols(3))
     for part in range(plan.parts):
@@ -117,8 +117,8 @@ def test_counts_marks_and_knots_of_each_yarn_are_printed(tmp_path: Path) -> None
 
 
 def test_a_run_over_the_end_of_a_strip_has_its_whole_count(tmp_path: Path) -> None:
-    made = chart(1, 1000, 2)
-    made = replace(made, knots=np.zeros((1, 1000), dtype=np.uint8))
+    made = chart(2, 1000, 2)
+    made = replace(made, knots=np.zeros((2, 1000), dtype=np.uint8))
     plan = chart_rows_layout(made)
     inks = Inks.of(made.yarns, symbols(2))
     counts = [

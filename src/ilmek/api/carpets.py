@@ -1,25 +1,20 @@
 """Carpets: picture to knot chart, chart to files, the whole job."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
-
-import numpy as np
 
 from ilmek.arrays import Rgb
 from ilmek.carpet import chart as charting
 from ilmek.carpet.chart import Chart
-from ilmek.carpet.quality import Quality, parse_quality
-from ilmek.carpet.sizes import CarpetSize, parse_size
-from ilmek.carpet.yarn import Yarn
-from ilmek.errors import OutputError, PictureError
+from ilmek.carpet.quality import Quality, carpet_quality
+from ilmek.carpet.sizes import CarpetSize, carpet_size
+from ilmek.carpet.yarn import Yarn, yarn_list
+from ilmek.elements.knot_kinds import parse_knot
+from ilmek.errors import CarpetError, shortened
 from ilmek.io import picture as pictures
 from ilmek.io import yarn_file
-from ilmek.io.chart.bmp import write_chart_bmp
-from ilmek.io.chart.oxs import write_chart_oxs
-from ilmek.io.chart.oxs_reading import is_oxs, read_chart_oxs
-from ilmek.io.chart.pdf import write_chart_pdf
-from ilmek.io.chart.png import read_chart_png, write_chart_png
+from ilmek.io.chart import formats
 from ilmek.io.output import Outputs
 from ilmek.io.picture import Picture
 from ilmek.jobs import weave as weaving
@@ -28,8 +23,6 @@ from ilmek.jobs.order import read_groups, read_order
 from ilmek.jobs.weave import WeaveResult
 from ilmek.params import Setting
 from ilmek.progress import SILENT, Progress
-
-PNG_CHANNELS = 3
 
 
 def read_picture(path: str | Path) -> Picture:
@@ -66,11 +59,11 @@ def make_chart(
     Raises PictureError, CarpetError or YarnError; Cancelled.
     """
     groups = read_groups(settings)
-    density = parse_quality(quality) if isinstance(quality, str) else quality
-    listed = read_yarns(yarns) if yarns is None or isinstance(yarns, str | Path) else tuple(yarns)
+    density, knot = carpet_quality(quality), parse_knot(knot)
+    listed = read_yarns(yarns) if yarns is None or isinstance(yarns, str | Path) else yarn_list(yarns, 2)
     chart = charting.make_chart(
         _pixels(picture),
-        parse_size(size) if isinstance(size, str) else size,
+        carpet_size(size),
         density,
         groups["plan"].counted(listed, density, knot),
         knot=knot,
@@ -85,45 +78,31 @@ def make_chart(
 def _pixels(picture: str | Path | Picture | Rgb) -> Rgb:
     if isinstance(picture, str | Path):
         return read_picture(picture).rgb
-    if isinstance(picture, Picture):
-        return picture.rgb
-    if not (isinstance(picture, np.ndarray) and picture.ndim == 3 and picture.shape[2] == PNG_CHANNELS):
-        given = f"{picture.shape} pixels" if isinstance(picture, np.ndarray) else f"a {type(picture).__name__}"
-        raise PictureError(f"{given} given for a picture", allowed="a path, a picture, or rows x columns x 3 bytes")
-    if picture.dtype != np.uint8:
-        raise PictureError(
-            f"pixels of type {picture.dtype}", allowed="uint8, 0 to 255", do="(255 * rgb).astype('uint8')"
-        )
-    return picture
+    return picture.rgb if isinstance(picture, Picture) else pictures.pixels_of(picture)
 
 
 def write_chart(path: str | Path, chart: Chart) -> None:
-    """Write a chart as .png (one pixel one knot), .bmp (the same, without its facts), .oxs (for cross-stitch programs)
-    or .pdf (with symbols and row numbers).
+    """Write a chart in the format of the ending: .png (one pixel one knot, with all facts), .pdf (with symbols and row
+    numbers), or one for other programs; another ending is an error that names them all.
 
     An existing file is replaced, whole or not at all.
-    Raises OutputError for another ending, and if the file cannot be written.
+    Raises OutputError for another ending, and if the file cannot be written; CarpetError for what is no chart, and for
+    more knots than the format has.
     """
     path = Path(path)
-    writers: dict[str, Callable[[Path, Chart], None]] = {
-        ".png": write_chart_png,
-        ".bmp": write_chart_bmp,
-        ".oxs": write_chart_oxs,
-        ".pdf": write_chart_pdf,
-    }
-    if path.suffix.lower() not in writers:
-        raise OutputError(f"chart {path} ends in {path.suffix!r}", allowed=f"one of {', '.join(writers)}")
+    if not isinstance(chart, Chart):
+        raise CarpetError(f"the chart is {shortened(repr(chart))}", allowed="a Chart")
+    chosen = formats.format_by_ending(path)
     with Outputs(force=True) as outputs, outputs.file(path) as work:
-        writers[path.suffix.lower()](work, chart)
+        chosen.save(work, chart)
 
 
 def read_chart(path: str | Path) -> Chart:
-    """The chart of a .png or .oxs written by `write_chart` or a job, as it was; an .oxs may be of another program.
+    """The chart of a file that `write_chart` or a job wrote with all facts, as it was, or of a chart program.
 
-    Raises PictureError, and CarpetError for an .oxs that no carpet of the usual quality has the grid of.
+    Raises PictureError for what is no chart, and CarpetError for a grid that no carpet of the usual quality has.
     """
-    path = Path(path)
-    return read_chart_oxs(path)[0] if is_oxs(path) else read_chart_png(path)
+    return formats.read_chart(Path(path))[0]
 
 
 def weave(

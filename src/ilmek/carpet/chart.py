@@ -11,8 +11,9 @@ from dataclasses import field, fields, replace
 import numpy as np
 
 from ilmek.arrays import BoolArray, FloatArray, Indices, Rgb
+from ilmek.carpet.codes import eight_bits
 from ilmek.carpet.confetti import merge_patches
-from ilmek.carpet.design import bands
+from ilmek.carpet.design import bands, knot_grid
 from ilmek.carpet.differences import YarnDifference, differences
 from ilmek.carpet.fitted import fitted_design, unfitted_design
 from ilmek.carpet.fitting import Fit, FitParams, prepare_picture
@@ -22,16 +23,17 @@ from ilmek.carpet.overlay import Overlay, TiedKnots, no_overlay, require_fit, ti
 from ilmek.carpet.palette import Colours, distinct_colours, nearest_yarns, paint
 from ilmek.carpet.palette_rules import Palette, PaletteParams, choose_yarns
 from ilmek.carpet.proposal import ProposedShade, propose_shades
-from ilmek.carpet.quality import Quality
+from ilmek.carpet.quality import Quality, carpet_quality
 from ilmek.carpet.reading import Design, ReadParams
-from ilmek.carpet.sizes import CarpetSize
+from ilmek.carpet.sizes import CarpetSize, carpet_size
 from ilmek.carpet.tally import Tally, tally_of
 from ilmek.carpet.usual_pile import with_counts
-from ilmek.carpet.yarn import MOST_YARNS, Yarn, yarn_labs
+from ilmek.carpet.yarn import Yarn, yarn_labs, yarn_list
 from ilmek.elements.knot_kinds import parse_knot
-from ilmek.errors import PictureError, YarnError
+from ilmek.errors import CarpetError, PictureError
 from ilmek.progress import SILENT, Progress
 from ilmek.records import brief, record
+from ilmek.units import counted
 
 
 @record
@@ -67,13 +69,17 @@ class ChartReading:
 
 @record
 class Chart:
-    """A knot chart.
+    """A knot chart; what is given is checked, and converted where nothing is lost.
 
-    knots    index in `yarns` of each knot's yarn, (rows, columns); row 0 is the top of the picture
-    knot     symmetric or asymmetric
+    knots    index in `yarns` of each knot's yarn, (rows, columns); row 0 is the top of the picture. Any integers,
+             booleans (0 and 1) and whole floats become uint8; an array that is so already is kept, not copied
+    yarns    1 to 255
+    size, quality  of the carpet, which has length · along rows and width · across columns; also texts: "30x40cm"
+    knot     symmetric or asymmetric, also by a trade name (`parse_knot`): senneh is asymmetric
     reading  how the picture was read
     overlay  half knots and jufti knots; default: none
-    Raises CarpetError for an overlay that does not fit the knots.
+    Raises CarpetError for knots that are no such indices or not those of the size and quality, for an unknown knot, and
+    for an overlay that does not fit; YarnError for a list of no or too many yarns.
     """
 
     knots: Indices
@@ -87,10 +93,22 @@ class Chart:
     """The tally, once it is made: many results need it."""
 
     def __post_init__(self) -> None:
-        require_fit(self.overlay, self.knots, len(self.yarns))
+        yarns, size, quality = yarn_list(self.yarns), carpet_size(self.size), carpet_quality(self.quality)
+        meaning = f"the index in a list of {counted(len(yarns), 'yarn')}"
+        checked = {
+            "yarns": yarns,
+            "size": size,
+            "quality": quality,
+            "knot": parse_knot(self.knot),
+            "knots": eight_bits(self.knots, "knots", len(yarns) - 1, meaning, CarpetError),
+        }
+        for name, value in checked.items():
+            object.__setattr__(self, name, value)
+        _require_grid(self.knots, size, quality)
+        require_fit(self.overlay, self.knots, len(yarns))
 
     def __repr__(self) -> str:
-        return brief(self, (one.name for one in fields(self) if one.init))
+        return brief(self, (part.name for part in fields(self) if part.init))
 
     @property
     def rows(self) -> int:
@@ -145,6 +163,17 @@ class Chart:
         return self.tally().changes / self.knots.size
 
 
+def _require_grid(knots: Indices, size: CarpetSize, quality: Quality) -> None:
+    """Raise CarpetError unless the knots are those of a carpet of this size and quality."""
+    grid = knot_grid(size, quality)
+    if knots.shape != grid:
+        raise CarpetError(
+            f"knots of the shape {knots.shape}",
+            allowed=f"{grid}, rows and columns of {size} at {quality}",
+            do="give the size and quality that these knots have",
+        )
+
+
 def used_first(chart: Chart) -> Chart:
     """The chart with the yarns that it uses first, else in their order; the chart itself where they are.
 
@@ -159,16 +188,16 @@ def used_first(chart: Chart) -> Chart:
     knots = np.empty_like(chart.knots)
     for band in bands(chart.rows, chart.columns):
         knots[band] = moved[chart.knots[band]]
-    found, tally = chart.reading, chart.tally()
+    tally, differences_of = chart.tally(), chart.reading.differences
     reading = replace(
-        found,
-        differences=tuple(found.differences[yarn] for yarn in order) if found.differences else (),
-        matches=tuple(match._replace(yarn=int(moved[match.yarn])) for match in found.matches),
+        chart.reading,
+        differences=tuple(differences_of[yarn] for yarn in order) if differences_of else (),
+        matches=tuple(match._replace(yarn=int(moved[match.yarn])) for match in chart.reading.matches),
     )
     yarns = tuple(chart.yarns[yarn] for yarn in order)
-    made = replace(chart, knots=knots, yarns=yarns, reading=reading, overlay=chart.overlay.with_yarns(moved))
-    made._tallies.append(replace(tally, counts=tuple(tally.counts[yarn] for yarn in order)))
-    return made
+    ordered = replace(chart, knots=knots, yarns=yarns, reading=reading, overlay=chart.overlay.with_yarns(moved))
+    ordered._tallies.append(replace(tally, counts=tuple(tally.counts[yarn] for yarn in order)))
+    return ordered
 
 
 def make_chart(
@@ -191,16 +220,16 @@ def make_chart(
     """
     if rgb.size == 0:
         raise PictureError("the picture is empty", allowed="at least 1 × 1 pixels")
-    _check_yarns(yarns)
+    yarns = yarn_list(yarns, 2)
     parse_knot(knot)
     fitting, read = fit or FitParams(), reading or ReadParams()
-    prepared, done = prepare_picture(rgb, fitting, progress.part(0.0, 0.1), size=size)
+    prepared, fitted = prepare_picture(rgb, fitting, progress.part(0.0, 0.1), size=size)
     exact = unfitted_design(prepared, size, quality, fitting=fitting, reading=read, progress=progress.part(0.1, 0.2))
     if exact is not None:
         design = exact[0]
     else:
-        design, _, done = fitted_design(
-            prepared, done, size, quality, fitting=fitting, reading=read, progress=progress.part(0.2, 0.4)
+        design, _, fitted = fitted_design(
+            prepared, fitted, size, quality, fitting=fitting, reading=read, progress=progress.part(0.2, 0.4)
         )
     return chart_of_design(
         design,
@@ -208,7 +237,7 @@ def make_chart(
         quality,
         yarns,
         knot=knot,
-        fit=done,
+        fit=fitted,
         reading=reading,
         palette=palette,
         progress=progress.part(0.4, 1.0),
@@ -231,7 +260,7 @@ def chart_of_design(
 
     Yarns without a count take the usual one of the quality.
     """
-    _check_yarns(yarns)
+    yarns = yarn_list(yarns, 2)
     kind, reading, rules = parse_knot(knot), reading or ReadParams(), palette or PaletteParams()
     distinct = distinct_colours(design.colours, progress.part(0.0, 0.2))
     chosen = choose_yarns(distinct, with_counts(yarns, quality, kind), rules, progress.part(0.2, 0.35))
@@ -242,23 +271,23 @@ def chart_of_design(
     knots, drawn = _halftone(painted, design, labs, reading.halftone, progress.part(0.7, 0.8))
     least = reading.least_patch_of(design.kind)
     knots, changed = merge_patches(knots, design.colours, labs, least, kept=drawn, progress=progress.part(0.8, 0.9))
-    found = differences(
+    to_design = differences(
         design.colours, distinct, (yarn_of, difference), (painted, knots), labs, progress.part(0.9, 0.95)
     )
-    made = ChartReading(
+    read = ChartReading(
         design.kind,
         design.reason if drawn is None else f"{design.reason}; patterns on {drawn.mean():.1%} of it",
-        found.mean,
-        found.least,
+        to_design.mean,
+        to_design.least,
         changed,
         design.foreign,
         fit or Fit(),
-        found.of_yarns,
+        to_design.of_yarns,
         matches=() if design.kind == "photo" else colour_matches(distinct, yarn_of, difference),
         palette=chosen,
         proposed=proposed,
     )
-    chart = Chart(knots, chosen.yarns, size, quality, kind, made)
+    chart = Chart(knots, chosen.yarns, size, quality, kind, read)
     chart.tally(progress.part(0.95, 1.0))
     return chart
 
@@ -280,8 +309,3 @@ def _halftone(
 
 def _proposed(distinct: Colours, design: Design, count: int, progress: Progress) -> tuple[ProposedShade, ...]:
     return propose_shades(distinct, count, drawn=design.kind != "photo", progress=progress)
-
-
-def _check_yarns(yarns: Sequence[Yarn]) -> None:
-    if not 2 <= len(yarns) <= MOST_YARNS:
-        raise YarnError(f"the yarn list has {len(yarns)} yarns", allowed=f"2 to {MOST_YARNS} yarns")

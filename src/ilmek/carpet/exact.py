@@ -33,6 +33,7 @@ from ilmek.errors import CarpetError
 from ilmek.num.compiled import compiled
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
+from ilmek.units import counted
 
 USUAL = Quality(250.0, 250.0)
 """Quality of a carpet whose grid is known, where neither size nor quality is given."""
@@ -152,7 +153,7 @@ def _of_its_own_grid(
         return None
     if not (details.drawn and _usual(quality)):
         return None
-    share = f"{len(few.palette)} colours, {details.fine:.1%} of the knots in details of one knot"
+    share = f"{counted(len(few.palette), 'colour')}, {details.fine:.1%} of the knots in details of one knot"
     return KnotDrawing(_reduced(rgb, scale), size, quality, f"drawn knot by knot{_in_words(grid, scale)}: {share}")
 
 
@@ -181,10 +182,10 @@ def _of_the_grid(
     if scale and rgb.shape[:2] == (rows * scale, columns * scale):
         few = few_colours(rgb, MOST_YARNS, progress)
         if scale == 1 and (drawn or few is not None):
-            found = "its colours" if few is None else f"{len(few.palette)} colours"
+            found = "its colours" if few is None else counted(len(few.palette), "colour")
             return KnotDrawing(rgb, size, quality, f"its pixels are the {columns} × {rows} knots, in {found}")
         if few is not None and enlargement(few.numbers) % scale == 0:
-            found = f"{len(few.palette)} colours"
+            found = counted(len(few.palette), "colour")
             return KnotDrawing(
                 _reduced(rgb, scale), size, quality, f"drawn knot by knot{_in_words(grid, scale)}: {found}"
             )

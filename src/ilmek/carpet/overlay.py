@@ -74,7 +74,7 @@ class Overlay:
     def __iter__(self) -> Iterator[KnotMark]:
         """The marks in order."""
         arrays = (self.rows, self.columns, self.kinds, self.seconds)
-        return (KnotMark(*one) for one in zip(*(array.tolist() for array in arrays), strict=True))
+        return (KnotMark(*mark) for mark in zip(*(array.tolist() for array in arrays), strict=True))
 
     def with_yarns(self, moved: UInt8[np.ndarray, " yarns"]) -> "Overlay":
         """The same marks with other numbers of the yarns: `moved` has the new number of each."""
@@ -136,11 +136,12 @@ def require_fit(overlay: Overlay, knots: Indices, yarns: int) -> None:
     Every mark is inside the chart and each cell has at most one; both cells of a jufti knot have one yarn; the second
     yarn of a half knot is of the list and differs from that of its cell.
     """
+    _require_arrays(overlay)
     if not len(overlay):
         return
     rows, columns, jufti = overlay.rows.astype(np.int64), overlay.columns.astype(np.int64), overlay.kinds == JUFTI
     width = knots.shape[1]
-    outside = (rows >= knots.shape[0]) | (columns + jufti >= width)
+    outside = (rows < 0) | (rows >= knots.shape[0]) | (columns < 0) | (columns + jufti >= width)
     _refuse(overlay, outside, knots, "is outside of the chart", f"{knots.shape[0]} rows of {width} knots")
     cells = rows * width + columns
     near = np.diff(cells) < np.where(jufti[:-1], 2, 1)
@@ -152,12 +153,28 @@ def require_fit(overlay: Overlay, knots: Indices, yarns: int) -> None:
     _refuse(overlay, second, knots, "has no second yarn of its own", "another yarn of the list on its right warp")
 
 
+def _require_arrays(overlay: object) -> None:
+    """Raise CarpetError unless the arrays of an overlay are of its types, one long, and of marks of the two kinds."""
+    if not isinstance(overlay, Overlay):
+        raise CarpetError(
+            f"the overlay is a {type(overlay).__name__}", allowed="an Overlay", do="`overlay_of` makes it"
+        )
+    types = {"rows": np.int32, "columns": np.int32, "kinds": np.uint8, "seconds": np.uint8}
+    for name, expected in types.items():
+        array = getattr(overlay, name)
+        if not isinstance(array, np.ndarray) or array.dtype != expected or array.shape != overlay.kinds.shape:
+            allowed = f"one {np.dtype(expected)} for each mark"
+            raise CarpetError(f"{name} of the overlay cannot be used", allowed=allowed, do="`overlay_of` makes it")
+    if overlay.kinds.ndim != 1 or not np.isin(overlay.kinds, (HALF, JUFTI)).all():
+        raise CarpetError("a mark of the overlay has no kind", allowed=f"{HALF} (half) or {JUFTI} (jufti)")
+
+
 def _refuse(overlay: Overlay, bad: np.ndarray, knots: Indices, what: str, allowed: str) -> None:
     """Raise CarpetError for the first mark that is bad; rows are counted from the bottom, knots from the left."""
     if bad.any():
-        at = int(np.argmax(bad))
-        name = "half knot" if overlay.kinds[at] == HALF else "jufti knot"
-        row, column = len(knots) - int(overlay.rows[at]), int(overlay.columns[at]) + 1
+        mark = int(np.argmax(bad))
+        name = "half knot" if overlay.kinds[mark] == HALF else "jufti knot"
+        row, column = len(knots) - int(overlay.rows[mark]), int(overlay.columns[mark]) + 1
         raise CarpetError(f"the {name} at row {row}, knot {column} {what}", allowed=allowed)
 
 

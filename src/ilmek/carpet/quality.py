@@ -21,12 +21,13 @@ Quality(across=400.0, along=400.0)
 """
 
 import math
+import numbers
 import re
 from dataclasses import dataclass
 from decimal import Context
 from fractions import Fraction
 
-from ilmek.errors import CarpetError
+from ilmek.errors import CarpetError, shortened
 from ilmek.units import LONGEST, format_number, format_quantity
 
 COARSEST, FINEST = 10.0, 5000.0
@@ -41,7 +42,10 @@ class Quality:
     along: float
 
     def __post_init__(self) -> None:
-        for count in (self.across, self.along):
+        for name, count in (("across", self.across), ("along", self.along)):
+            if not isinstance(count, numbers.Real) or isinstance(count, bool):
+                raise CarpetError(f"a quality of {count!r} {name}", allowed="a number of knots per metre", do=EXAMPLE)
+            object.__setattr__(self, name, float(count))
             if not math.isfinite(count) or count < COARSEST:
                 raise CarpetError(
                     f"a quality of {format_number(count / 10)} knots per dm is too coarse",
@@ -126,6 +130,19 @@ NOTATIONS: dict[str, Notation] = {
     "dm2": _area("dm", Fraction(1, 10)),
     "cm2": _area("cm", Fraction(1, 100)),
 }
+
+
+def carpet_quality(quality: object) -> Quality:
+    """A quality, or that of a text. Raises CarpetError for anything else.
+
+    >>> carpet_quality("40x40/dm") == carpet_quality(Quality(400, 400))
+    True
+    """
+    if isinstance(quality, str):
+        return parse_quality(quality)
+    if not isinstance(quality, Quality):
+        raise CarpetError(f"the quality is {shortened(repr(quality))}", allowed="a text or a Quality", do=EXAMPLE)
+    return quality
 
 
 def parse_quality(text: str) -> Quality:

@@ -9,13 +9,13 @@ True
 """
 
 import difflib
-import math
+import numbers
 import re
 import unicodedata
 from dataclasses import dataclass
 from fractions import Fraction
 
-from ilmek.errors import CarpetError
+from ilmek.errors import CarpetError, shortened
 from ilmek.units import LONGEST, cm, format_number, format_quantity
 
 
@@ -31,8 +31,11 @@ class CarpetSize:
     name: str = ""
 
     def __post_init__(self) -> None:
-        for side in (self.width, self.length):
-            if not math.isfinite(side) or not SMALLEST <= side <= LARGEST:
+        for name, side in (("width", self.width), ("length", self.length)):
+            if not isinstance(side, numbers.Real) or isinstance(side, bool):
+                raise CarpetError(f"the {name} {side!r} of a carpet", allowed="a number in metres", do=EXAMPLE)
+            object.__setattr__(self, name, float(side))
+            if not SMALLEST <= side <= LARGEST:
                 raise CarpetError(
                     f"a carpet side of {format_quantity(side, 'cm')} cannot be woven",
                     allowed=f"a side is {format_quantity(SMALLEST, 'cm')} to {format_quantity(LARGEST, 'm')}",
@@ -81,6 +84,19 @@ _UNITS = {
 }
 _NUMBER = r"([+-]?(?:[0-9]{1,15}(?:\.[0-9]{0,40})?|\.[0-9]{1,40}))"
 _SIDES = re.compile(rf"\s*{_NUMBER}\s*([^\d\s.×x*]*)\s*[x×*]\s*{_NUMBER}\s*(\S*?)\s*", re.IGNORECASE)
+
+
+def carpet_size(size: object) -> CarpetSize:
+    """A size, or that of a text. Raises CarpetError for anything else.
+
+    >>> carpet_size("1x2m") == CarpetSize(1.0, 2.0) == carpet_size(CarpetSize(1, 2))
+    True
+    """
+    if isinstance(size, str):
+        return parse_size(size)
+    if not isinstance(size, CarpetSize):
+        raise CarpetError(f"the size is {shortened(repr(size))}", allowed="a text or a CarpetSize", do=EXAMPLE)
+    return size
 
 
 def parse_size(text: str) -> CarpetSize:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.arrays import Indices, IntArray
+from ilmek.carpet.codes import CODES
 from ilmek.carpet.confetti import is_lone
 from ilmek.carpet.design import PART, bands
 from ilmek.carpet.patches import count_patches
@@ -47,9 +48,9 @@ def tally_of(knots: Indices, yarns: int, progress: Progress = SILENT) -> Tally:
     knots = np.ascontiguousarray(knots)
 
     def count(band: slice) -> tuple[IntArray, int, int]:
-        counts = np.zeros(yarns, dtype=np.int64)
+        counts = np.zeros(CODES, dtype=np.int64)  # every uint8 is inside
         changes, lone = _count(knots, band.start, band.stop, counts)
-        return counts, int(changes), int(lone)
+        return counts[:yarns], int(changes), int(lone)
 
     counts, changes, lone = np.zeros(yarns, dtype=np.int64), 0, 0
     for band, (some, changed, alone) in in_threads(count, bands(knots.shape[0], knots.shape[1], PART)):

@@ -38,21 +38,22 @@ Limits: picture file 500 MB; 200,000,000 knots.
     help="Read rows to the right, to the left, or odd rows right and even rows left; default: right.",
 )
 def command(chart: Path, from_row: int | None, by: str, direction: str) -> int:
-    """Call the rows of CHART, a chart.png or .oxs file, step by step with large figures.
+    """Call the rows of CHART, a file of a knot chart, step by step with large figures.
 
     Enter, space or → goes to the next step, b or ← back, n to the next row, p to the row before, q ends. Where it
     stopped is kept after every step, also for a computer that loses power, and the next call goes on there. Without a
     terminal the rows are printed, one a line.
     """
     from ilmek.cli.call_screen import print_rows, step_on_terminal
-    from ilmek.jobs.call import DIRECTIONS, begin_calling, read_called_chart
+    from ilmek.io.chart.formats import read_chart
+    from ilmek.jobs.call import DIRECTIONS, begin_calling
 
     for option, value, choices in (("--by", by, BY), ("--direction", direction, DIRECTIONS)):
         if value not in choices:
             hint = did_you_mean(value, choices)
             raise ParameterError(f"{option} {value!r}", allowed=", ".join(choices), do=hint)
     on_terminal = sys.stdout.isatty()
-    read, notes = read_called_chart(chart)
+    read, notes = read_chart(chart)
     calling = begin_calling(read, by, direction, from_row, keep=on_terminal)
     if on_terminal:
         step_on_terminal(calling)

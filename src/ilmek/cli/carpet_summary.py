@@ -5,7 +5,7 @@ from ilmek.carpet.chart import Chart
 from ilmek.carpet.tally import SMALL_PATCH
 from ilmek.cli.terminal import show_table
 from ilmek.jobs.chart import ChartResult
-from ilmek.units import format_number, format_quantity, g
+from ilmek.units import counted, format_number, format_quantity, g
 
 
 def carpet_pairs(charted: ChartResult) -> list[tuple[str, str]]:
@@ -28,22 +28,21 @@ def carpet_pairs(charted: ChartResult) -> list[tuple[str, str]]:
 def overlay_in_words(chart: Chart) -> str:
     """The half knots and jufti knots of a chart, and all its knots: a half cell has two, two jufti cells one."""
     tied = chart.tied
-    return f"{sum(tied.half):,} half knots, {sum(tied.jufti):,} jufti knots; {tied.total:,} knots to tie"
+    half, jufti = counted(sum(tied.half), "half knot"), counted(sum(tied.jufti), "jufti knot")
+    return f"{half}, {jufti}; {counted(tied.total, 'knot')} to tie"
 
 
 def changes_in_words(chart: Chart) -> str:
     """Knots that the reading and a recipe changed, knots of a foreign colour, small patches."""
-    made = chart.reading
-    parts = [f"{made.changed:,} knots changed" if made.changed else "no knot changed"]
-    if made.edited:
-        parts.append(f"{made.edited:,} edited")
-    if made.foreign is not None:
+    reading = chart.reading
+    parts = [f"{counted(reading.changed, 'knot')} changed" if reading.changed else "no knot changed"]
+    if reading.edited:
+        parts.append(f"{reading.edited:,} edited")
+    if reading.foreign is not None:
         parts.append(
-            f"{made.foreign:,} of a colour foreign to its cell" if made.foreign else "none foreign to its cell"
+            f"{reading.foreign:,} of a colour foreign to its cell" if reading.foreign else "none foreign to its cell"
         )
-    parts.append(
-        f"{chart.small_patches:,} {'patch' if chart.small_patches == 1 else 'patches'} of at most {SMALL_PATCH} knots"
-    )
+    parts.append(f"{counted(chart.small_patches, 'patch', 'patches')} of at most {SMALL_PATCH} knots")
     return ", ".join(parts)
 
 

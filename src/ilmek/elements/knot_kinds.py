@@ -91,7 +91,7 @@ def parse_knot(text: str) -> str:
     >>> parse_knot("Ghiordes"), parse_knot("persian")
     ('symmetric', 'asymmetric')
     """
-    name = text.strip().casefold()
+    name = str(text).strip().casefold()
     if name in WRAPS:
         return name
     if name in _OTHER_NAMES:

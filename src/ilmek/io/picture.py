@@ -10,12 +10,15 @@ formats `WHOLE`), and some 50 MB. The result has 3 bytes a pixel.
 import contextlib
 import re
 import threading
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from PIL import Image, UnidentifiedImageError
 
 from ilmek.arrays import Rgb
+from ilmek.carpet.codes import eight_bits
 from ilmek.errors import PictureError
 from ilmek.io.native_messages import native_messages
 from ilmek.io.picture_file import (
@@ -83,12 +86,34 @@ _OF_A_CODEC = re.compile(
 class Picture:
     """A picture as sRGB with 8 bits per channel, row 0 on top; notes on the conversions.
 
+    rgb      rows x columns x 3, whole numbers 0 to 255; other integers become uint8. Raises PictureError for others
     density  pixels per metre across and along, as the file states them; None: it does not
     """
 
     rgb: Rgb
     notes: tuple[str, ...] = ()
     density: tuple[float, float] | None = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "rgb", pixels_of(self.rgb))
+
+
+def pixels_of(rgb: object) -> Rgb:
+    """The pixels of a picture as uint8. Raises PictureError for an array that is none, and for floats, 0 to 1 or 255.
+
+    >>> pixels_of(np.zeros((8, 8, 3), dtype=int)).dtype
+    dtype('uint8')
+    """
+    if not isinstance(rgb, np.ndarray | Sequence) or isinstance(rgb, str):
+        given = f"a {type(rgb).__name__} given for a picture"
+        raise PictureError(given, allowed="a path, a picture, or rows x columns x 3 bytes")
+    if isinstance(rgb, np.ndarray) and rgb.dtype.kind == "f":
+        scaled = "(255 * rgb).round()" if rgb.size and np.nanmax(rgb) <= 1.0 else "rgb.round()"
+        raise PictureError(f"pixels of type {rgb.dtype}", allowed="uint8, 0 to 255", do=f"{scaled}.astype('uint8')")
+    pixels = eight_bits(rgb, "rgb", 255, "a code of red, green or blue", PictureError, kinds="iu")
+    if pixels.ndim != 3 or pixels.shape[2] != 3:
+        raise PictureError(f"pixels of the shape {pixels.shape}", allowed="rows x columns x 3")
+    return pixels
 
 
 def read_picture(path: Path, progress: Progress = SILENT, *, smallest: int = SMALLEST) -> Picture:

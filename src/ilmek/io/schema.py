@@ -13,7 +13,7 @@ from typing import Any, NamedTuple, NoReturn, TypeAlias
 from ilmek.errors import IlmekError, MechanismError, ParameterError, did_you_mean, shortened
 from ilmek.io.line_numbers import KeyLines, Path
 from ilmek.records import record
-from ilmek.units import GREATEST, in_bounds, parse_quantity, read_number
+from ilmek.units import GREATEST, parse_quantity, read_number, real_number
 
 Schema: TypeAlias = Mapping[str, Any]
 
@@ -209,11 +209,7 @@ def finite_number(value: Any) -> float | None:
     >>> finite_number(2), finite_number(" 2.5"), finite_number("two"), finite_number(True), finite_number(1e999)
     (2.0, 2.5, None, None, None)
     """
-    if isinstance(value, bool) or not isinstance(value, int | float | str):
-        return None
-    if isinstance(value, str):
-        return read_number(value)
-    return float(value) if in_bounds(value) else None
+    return read_number(value) if isinstance(value, str) else real_number(value)
 
 
 def shown(value: Any) -> str:

@@ -34,6 +34,7 @@ from ilmek.io.csv_lines import csv_lines, decimal_points
 from ilmek.io.data_text import LONGEST_NAME, parse_data
 from ilmek.io.schema import finite_number, key_faults
 from ilmek.io.text_file import read_text
+from ilmek.units import counted
 
 LARGEST = 250_000
 """Largest size of a yarn list [bytes]; 255 yarns need far less."""
@@ -158,17 +159,17 @@ def yarns_from_records(records: Sequence[Record], lines: Sequence[int] = ()) -> 
     lines  of the file on which the records stand, for messages; default: not known
     """
     if not 2 <= len(records) <= MOST_YARNS:
-        count = "no yarn" if not records else "one yarn only" if len(records) == 1 else f"{len(records)} yarns"
+        count = "no yarn" if not records else "one yarn only" if len(records) == 1 else counted(len(records), "yarn")
         raise YarnError(
             f"the yarn list has {count}", allowed=f"2 to {MOST_YARNS} yarns", do="a design needs two colours"
         )
     called = [f"line {line}: yarn {number}" for number, line in enumerate(lines, start=1)]
     called = called or [f"yarn {number}" for number in range(1, len(records) + 1)]
     yarns = tuple(_yarn(record, name) for record, name in zip(records, called, strict=True))
-    counted = any(yarn.metric_count is not None for yarn in yarns)
+    has_counts = any(yarn.metric_count is not None for yarn in yarns)
     seen: dict[str, int] = {}
     for number, yarn in enumerate(yarns, start=1):
-        if counted and yarn.metric_count is None:
+        if has_counts and yarn.metric_count is None:
             raise _no_count(f"{called[number - 1]} ({shortened(yarn.name)})")
         first = seen.setdefault(yarn.name.casefold(), number)
         if first != number:

@@ -7,9 +7,6 @@ from ilmek.carpet.calling import CallStep, row_steps
 from ilmek.carpet.chart import Chart
 from ilmek.errors import ParameterError
 from ilmek.io.call_state import CallState, DamagedStateError, read_state, state_file, write_state
-from ilmek.io.chart.oxs_reading import is_oxs, read_chart_oxs
-from ilmek.io.chart.png import read_chart_png
-from ilmek.progress import SILENT, Progress
 
 DIRECTIONS = ("right", "left", "alternate")
 
@@ -80,13 +77,6 @@ class Calling:
         except OSError as error:
             self.notes.append(f"{self._file.parent} cannot be written ({error.strerror}): the row is not remembered")
             self._file = None
-
-
-def read_called_chart(path: Path, progress: Progress = SILENT) -> tuple[Chart, tuple[str, ...]]:
-    """The chart of a file, chart.png or OXS, and notes on what of it is left out. Raises PictureError for any other."""
-    if is_oxs(path):
-        return read_chart_oxs(path, progress=progress)
-    return read_chart_png(path, progress), ()
 
 
 def begin_calling(chart: Chart, by: str, direction: str, from_row: int | None = None, *, keep: bool = True) -> Calling:

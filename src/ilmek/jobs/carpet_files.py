@@ -1,9 +1,11 @@
 """The files of a carpet's folder: what they are, and what is set for them."""
 
 from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, make_dataclass
+from typing import TYPE_CHECKING, TypeAlias
 
 from ilmek.carpet.rows import DIRECTIONS, SPLITS
+from ilmek.io.chart.formats import FORMATS, ChartFormat
 from ilmek.params import Params, kind, param
 from ilmek.viz.carpet_picture import NARROWEST, WIDEST
 from ilmek.viz.page_parts import FileNote
@@ -13,10 +15,7 @@ FILES = (
     FileNote("loom.html", "the loom: its machines, choices and checks"),
     FileNote("report.json", "the same results as data, SI"),
     FileNote("carpet.png", "the simulated carpet, to show"),
-    FileNote("chart.png", "the knot chart, one pixel one knot; weave and chart read it again"),
-    FileNote("chart.bmp", "the knot chart as indexed BMP, for carpet CAD programs"),
-    FileNote("chart.oxs", "the knot chart for cross-stitch programs; weave and chart read it again"),
-    FileNote("chart.pdf", "the knot chart to weave from, with symbols and row numbers"),
+    *(FileNote(row.file, row.note) for row in FORMATS.values()),
     FileNote("wall.pdf", "the whole knot chart on one large sheet"),
     FileNote("rows.pdf", "the rows to weave by, to print and tick off"),
     FileNote("rows.txt", "the rows to weave by as text"),
@@ -30,7 +29,7 @@ FILES = (
 
 
 @dataclass(frozen=True, slots=True)
-class FileParams(Params):
+class _FileParams(Params):
     """What is set for the files of a carpet."""
 
     carpet_width: int | None = kind.count(
@@ -51,8 +50,30 @@ class FileParams(Params):
         doc="direction in which rows are read: to the right, to the left, both, or odd rows right and even rows left",
     )
     wall: bool = param(False, doc="draw the whole chart on one large sheet, wall.pdf")
-    bmp: bool = kind.flag(False, doc="write chart.bmp, an indexed BMP of one pixel a knot, for carpet CAD programs")
-    oxs: bool = kind.flag(False, doc="write chart.oxs, the open XML chart of cross-stitch programs")
+
+    @property
+    def formats(self) -> tuple[ChartFormat, ...]:
+        """The formats of the chart that are written whatever its size, in the order of the table."""
+        return tuple(row for row in FORMATS.values() if row.always or (row.by_option and getattr(self, row.name)))
+
+
+# With a flag for each format of the chart that an option writes.
+if TYPE_CHECKING:
+    FileParams: TypeAlias = _FileParams
+else:
+    FileParams = make_dataclass(
+        "FileParams",
+        [
+            (row.name, bool, kind.flag(False, doc=f"write {row.file}, {row.doc}"))
+            for row in FORMATS.values()
+            if row.by_option
+        ],
+        bases=(_FileParams,),
+        namespace={"__doc__": _FileParams.__doc__},
+        frozen=True,
+        slots=True,
+    )
+    FileParams.__module__ = __name__  # where it is found when it is unpickled
 
 
 def file_notes(written: Collection[str]) -> tuple[FileNote, ...]:

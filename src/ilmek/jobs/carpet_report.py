@@ -9,6 +9,7 @@ from ilmek.carpet.statistics import ChartStatistics
 from ilmek.io.chart.symbols import symbols
 from ilmek.jobs.carpet_files import file_notes
 from ilmek.jobs.yarn_choice import proposed_shades
+from ilmek.units import counted
 from ilmek.viz.carpet_page import CarpetPage
 from ilmek.viz.number_format import count, share
 from ilmek.viz.page_parts import Fact
@@ -51,14 +52,14 @@ def reading_lines(chart: Chart) -> tuple[Fact, ...]:
         lines.append(Fact("Knots of a colour that is not in their cell", *_part(made.foreign, knots)))
     exact = sum(one.worst == 0 for one, cells in zip(made.differences, chart.counts, strict=False) if cells)
     if made.differences:
-        matched = f"{exact} of {chart.colours} yarns are exactly a colour of the picture"
+        matched = f"exactly a colour of the picture: {exact} of {counted(chart.colours, 'yarn')}"
         lines.append(Fact("Mean ΔE of the yarns to the picture", f"{made.mean_delta_e:.2f}", matched))
     if made.matches:
         worst = max(made.matches, key=lambda match: match.delta_e)
         far = (
             f"{worst.hex}, {worst.delta_e:.1f} from {chart.yarns[worst.yarn].name}" if worst.delta_e >= 0.05 else "none"
         )
-        lines.append(Fact("Colour farthest from its yarn", far, f"of {count(len(made.matches))} colours"))
+        lines.append(Fact("Colour farthest from its yarn", far, f"of {counted(len(made.matches), 'colour')}"))
     return tuple(lines)
 
 

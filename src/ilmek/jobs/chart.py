@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import fields, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -13,10 +14,8 @@ from ilmek.carpet.matches import shared_yarns
 from ilmek.carpet.pile import PileParams, fill_check, pile_fill
 from ilmek.carpet.statistics import ChartStatistics, chart_statistics
 from ilmek.carpet.yarn import Yarn
-from ilmek.io.chart.bmp import write_chart_bmp
-from ilmek.io.chart.oxs import write_chart_oxs
-from ilmek.io.chart.pdf import chart_cut, write_chart_pdf
-from ilmek.io.chart.png import write_chart_png
+from ilmek.io.chart.formats import FORMATS, ChartFormat
+from ilmek.io.chart.pdf import chart_cut
 from ilmek.io.json_file import write_json
 from ilmek.io.output import Outputs, joined
 from ilmek.io.yarn_csv import write_yarn_csv
@@ -33,8 +32,11 @@ from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 from ilmek.report import Check, plain, verdict_json
 from ilmek.report.left_out import made_or_left_out
+from ilmek.units import counted
 from ilmek.viz.carpet_page import CarpetPage, carpet_page
 from ilmek.viz.carpet_picture import DrawnCarpet, check_carpet_width, draw_carpet
+
+CARPET_PICTURE, YARN_TABLE = "carpet.png", "yarn.csv"
 
 MOST_SHARED = 5
 """Largest number of yarns with two or more colours that are named."""
@@ -70,21 +72,18 @@ class ChartResult:
     @property
     def files(self) -> tuple[str, ...]:
         """Names of the files that `write_chart` writes."""
+        charts = (row.file for row in self.order.order.files.formats)
+        printed = (row.file for row in self.printed)
         rows = rows_plan(self.chart, self.order.order).names
         proposed = (PROPOSED,) if self.chart.reading.proposed else ()
-        printed = ("chart.pdf",) if self._printed else ()
-        return ("chart.png", *self._exchanged, "carpet.png", *printed, *rows, "yarn.csv", *proposed)
+        return (*charts, CARPET_PICTURE, *printed, *rows, YARN_TABLE, *proposed)
 
     @property
-    def _exchanged(self) -> tuple[str, ...]:
-        """The charts for other programs."""
-        files = self.order.order.files
-        return tuple(name for name, wanted in (("chart.bmp", files.bmp), ("chart.oxs", files.oxs)) if wanted)
-
-    @property
-    def _printed(self) -> bool:
-        """Whether chart.pdf is written; default: if it has at most MOST_SHEETS sheets."""
-        return chart_cut(self.chart).count <= MOST_SHEETS if self.order.order.pdf is None else self.order.order.pdf
+    def printed(self) -> tuple[ChartFormat, ...]:
+        """The printed formats that are written; default: if they have at most MOST_SHEETS sheets."""
+        pdf = self.order.order.pdf
+        wanted = chart_cut(self.chart).count <= MOST_SHEETS if pdf is None else pdf
+        return tuple(row for row in FORMATS.values() if row.printed and wanted)
 
     @property
     def thickest(self) -> Yarn:
@@ -174,12 +173,13 @@ def _shared_yarns(chart: Chart) -> tuple[str, ...]:
     """A warning for each yarn that two or more colours of the drawing have, at most MOST_SHARED."""
     shared = shared_yarns(chart.reading.matches)
     warnings = [
-        f"the colours {' and '.join(sorted(match.hex for match in found))} have the same yarn, "
-        f"{chart.yarns[found[0].yarn].name!r}"
-        for found in shared[:MOST_SHARED]
+        f"the colours {' and '.join(sorted(match.hex for match in matches))} have the same yarn, "
+        f"{chart.yarns[matches[0].yarn].name!r}"
+        for matches in shared[:MOST_SHARED]
     ]
     more = len(shared) - MOST_SHARED
-    return (*warnings, *((f"{more} more yarns have two or more colours each",) if more > 0 else ()))
+    further = f"{counted(more, 'more yarn')} with two or more colours each"
+    return (*warnings, *((further,) if more > 0 else ()))
 
 
 def _left_out(order: CarpetOrder, chart: Chart) -> tuple[str, ...]:
@@ -265,27 +265,34 @@ def write_chart(
     Raises OSError, and CarpetError for a carpet.png of too many pixels.
     """
     chart, width = charted.chart, charted.order.order.files.carpet_width
-    write_chart_png(folder / "chart.png", chart, progress.part(0.0, 0.1, "chart.png"))
-    if "chart.bmp" in charted.files:
-        write_chart_bmp(folder / "chart.bmp", chart, progress.part(0.1, 0.15, "chart.bmp"))
-    if "chart.oxs" in charted.files:
-        write_chart_oxs(folder / "chart.oxs", chart, progress.part(0.15, 0.2, "chart.oxs"))
-    drawn = draw_carpet(chart, width, progress=progress.part(0.2, 0.4, "carpet.png"))
-    drawn.write_png(folder / "carpet.png")
+    formats = charted.order.order.files.formats
+    for number, row in enumerate(formats):
+        share = 0.2 / len(formats)
+        row.save(folder / row.file, chart, progress.part(number * share, (number + 1) * share, row.file))
+    drawn = draw_carpet(chart, width, progress=progress.part(0.2, 0.4, CARPET_PICTURE))
+    drawn.write_png(folder / CARPET_PICTURE)
     drawn_for_page = drawn.of_page()
-    write_yarn_csv(folder / "yarn.csv", charted.bill, charted.chart.yarns)
-    written = [name for name in charted.files if name in ("chart.png", "chart.bmp", "chart.oxs", "carpet.png")]
-    if "chart.pdf" in charted.files:
-        pdf, before, printing = folder / "chart.pdf", len(left_out), progress.part(0.4, 0.7, "chart.pdf")
-        made_or_left_out("chart.pdf", lambda: write_chart_pdf(pdf, charted.chart, progress=printing), left_out)
-        if len(left_out) > before:
-            pdf.unlink(missing_ok=True)
-        else:
-            written.append("chart.pdf")
+    write_yarn_csv(folder / YARN_TABLE, charted.bill, charted.chart.yarns)
+    printed = _print_chart(charted, folder, left_out, progress.part(0.4, 0.7))
     rows = write_rows(chart, charted.order.order, folder, left_out, progress.part(0.7, 1.0))
-    if shades := proposed_shades(chart):
-        write_proposal(folder / PROPOSED, shades)
-    return (*written, *rows, "yarn.csv", *((PROPOSED,) if shades else ())), drawn_for_page
+    proposed = (PROPOSED,) if chart.reading.proposed else ()
+    if proposed:
+        write_proposal(folder / PROPOSED, proposed_shades(chart))
+    charts = (row.file for row in formats)
+    return (*charts, CARPET_PICTURE, *printed, *rows, YARN_TABLE, *proposed), drawn_for_page
+
+
+def _print_chart(charted: ChartResult, folder: Path, left_out: list[str], progress: Progress) -> list[str]:
+    """Write the printed formats into a folder; returns the names of those that are not left out."""
+    names: list[str] = []
+    for row in charted.printed:
+        file, before, printing = folder / row.file, len(left_out), progress.part(0.0, 1.0, row.file)
+        made_or_left_out(row.file, partial(row.save, file, charted.chart, printing), left_out)
+        if len(left_out) > before:
+            file.unlink(missing_ok=True)
+        else:
+            names.append(row.file)
+    return names
 
 
 def chart_json(charted: ChartResult, files: Sequence[str]) -> dict[str, Any]:

@@ -17,13 +17,13 @@ from ilmek.carpet.reading import Design, ReadParams, toned_design
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import MOST_YARNS
 from ilmek.errors import PictureError
-from ilmek.io.chart.oxs_reading import is_oxs, read_chart_oxs
-from ilmek.io.chart.png import is_chart_png, read_chart_png
+from ilmek.io.chart.formats import format_of
 from ilmek.io.picture import Picture, read_picture
 from ilmek.jobs.order import GROUPS, CarpetOrder, ResolvedOrder, check_sheets
 from ilmek.jobs.stages import ANEW, Stages
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
+from ilmek.units import counted
 
 SHOWN = 1000
 """Largest side of the picture that a page shows [pixels]."""
@@ -196,7 +196,8 @@ def _flattened(chart: Chart) -> tuple[str, ...]:
     """A note on the marks of a chart that is read as a drawing."""
     if not len(chart.overlay):
         return ()
-    return (f"its {chart.overlay.halves:,} half knots and {chart.overlay.juftis:,} jufti knots are left out",)
+    halves, juftis = counted(chart.overlay.halves, "half knot"), counted(chart.overlay.juftis, "jufti knot")
+    return (f"without its {halves} and {juftis}",)
 
 
 def _is_part(prepared: Rgb, chart: Chart) -> bool:
@@ -206,17 +207,15 @@ def _is_part(prepared: Rgb, chart: Chart) -> bool:
 
 def _own_chart(order: CarpetOrder, progress: Progress) -> tuple[Chart | None, tuple[str, ...]]:
     """The chart in the order's file, if it is one, and notes, also where the data of a chart cannot be used."""
-    if is_oxs(order.picture):
-        return read_chart_oxs(order.picture, order.size, order.quality, progress)
-    if not is_chart_png(order.picture):
+    chosen = format_of(order.picture)
+    if chosen is None or chosen.read is None:
         return None, ()
     try:
-        chart = read_chart_png(order.picture, progress)
-        if not has_grid((chart.rows, chart.columns), chart.size, chart.quality):
-            raise PictureError(f"{order.picture} is no knot chart (it does not have the knots of its size and quality)")
+        return chosen.read(order.picture, order.size, order.quality, progress)
     except PictureError as error:
+        if not chosen.picture:
+            raise
         return None, (f"{error.given}: it is read as a picture",)
-    return chart, ()
 
 
 def _on_the_chart(order: CarpetOrder, chart: Chart) -> CarpetOrder:

@@ -22,7 +22,6 @@ from ilmek.carpet.yarn import Yarn
 from ilmek.carpet.yarn_plan import YarnPlanParams
 from ilmek.elements.knot_kinds import parse_knot
 from ilmek.errors import CarpetError, ParameterError, did_you_mean
-from ilmek.io.chart.oxs import require_oxs
 from ilmek.io.chart.sheets import cut, require_wall
 from ilmek.io.recipe_file import LoomKeys, RecipeFile, read_recipe, recipe_of_data
 from ilmek.io.yarn_file import default_yarns, read_yarns
@@ -230,5 +229,5 @@ def check_sheets(size: CarpetSize, quality: Quality, order: CarpetOrder) -> None
         )
     if order.files.wall:
         require_wall(rows * columns)
-    if order.files.oxs:
-        require_oxs(rows * columns)
+    for written in order.files.formats:
+        written.require(rows * columns)

@@ -16,7 +16,7 @@ from ilmek.carpet.recipe.recipe import Recipe
 from ilmek.carpet.usual_pile import with_counts
 from ilmek.carpet.yarn import Yarn
 from ilmek.errors import CarpetError, IlmekError, PictureError
-from ilmek.io.chart.oxs_reading import is_oxs, read_chart_oxs
+from ilmek.io.chart.formats import format_of, read_chart
 from ilmek.io.picture import SMALLEST, read_picture
 from ilmek.io.recipe_file import LoomKeys, RecipeFile
 from ilmek.io.recipe_text import recipe_text
@@ -149,11 +149,12 @@ def _pictures(recipe: Recipe, progress: Progress, stages: Stages) -> tuple[Mappi
 
 
 def picture_pixels(path: Path, smallest: int, progress: Progress) -> tuple[Pixels, tuple[str, ...]]:
-    """The pixels of a picture or of an OXS chart, which has its yarns' colours, and notes."""
-    if not is_oxs(path):
+    """The pixels of a picture, or of a chart that is none, which has its yarns' colours; and notes."""
+    chosen = format_of(path)
+    if chosen is None or chosen.picture:
         picture = read_picture(path, progress, smallest=smallest)
         return picture.rgb, picture.notes
-    chart, notes = read_chart_oxs(path, progress=progress)
+    chart, notes = read_chart(path, progress=progress)
     return drawn_chart(chart), notes
 
 

@@ -41,9 +41,9 @@ def currency_warning(currency: str, loom_prices: str | None) -> str:
 
 
 def mass_warning(bill: YarnBill, quality: Quality) -> str:
-    """What to do where the carpet's mass is outside the published band; "" where it is within or none is published."""
+    """What to do where a carpet's mass is outside the published band; "" where none is published, and of a swatch."""
     band = bill.band
-    if band is None or bill.mass_per_area in band:
+    if band is None or bill.mass_per_area in band or bill.area < SMALLEST_CARPET:
         return ""
     light = bill.mass_per_area < band.least
     mass = format_quantity(bill.mass_per_area, "kg/m^2", 3)
@@ -67,6 +67,11 @@ def lot_warning(bill: YarnBill) -> str:
         f"{more} from the lower edge; blend there, row by row, or find a larger lot (--lot)"
     )
 
+
+SMALLEST_CARPET = 0.1
+"""Area [m²] below which a piece is a swatch: selvedges, ends and fringe add more than 8 % to the mass of the field, and
+the published masses are those of carpets. The smallest standard size, küçük yastık, has this area.
+"""
 
 _MOST_ROWS = 8
 """Largest number of rows that a warning lists."""

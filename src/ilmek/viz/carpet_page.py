@@ -10,6 +10,7 @@ from ilmek.carpet.statistics import ChartStatistics, PatchGroup
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 from ilmek.report import Axis, Check, Plot, Series, reasons
+from ilmek.units import counted
 from ilmek.viz.carpet_picture import DrawnCarpet
 from ilmek.viz.number_format import count, fixed
 from ilmek.viz.page import render
@@ -117,7 +118,7 @@ def _statistic_lines(found: ChartStatistics) -> list[Fact]:
 
 def _sizes(group: PatchGroup) -> str:
     if group.least == group.most:
-        return f"{group.most} knot{'s' if group.most > 1 else ''}"
+        return counted(group.most, "knot")
     return f"{group.least} to {group.most} knots"
 
 

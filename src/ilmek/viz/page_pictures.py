@@ -21,6 +21,7 @@ from ilmek.carpet.overlay import HALF, JUFTI
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 from ilmek.report.left_out import made_or_left_out
+from ilmek.units import counted
 from ilmek.viz.carpet_picture import WHOLE, DrawnCarpet, Pile, close_up, draw_carpet
 
 LARGEST = 1600
@@ -193,7 +194,7 @@ def _proportions(chart: Chart) -> tuple[int, int]:
 
 
 def _knots(chart: Chart) -> str:
-    return f"{chart.columns} by {chart.rows} knots in {chart.colours} colours"
+    return f"{chart.columns} by {chart.rows} knots in {counted(chart.colours, 'colour')}"
 
 
 def _size(picture: bytes) -> tuple[int, int]:

@@ -207,7 +207,7 @@ ENDPOINTS: tuple[Endpoint, ...] = (
         "POST",
         "/project/pictures",
         "studio.project.pictures:upload_picture",
-        "Put a picture, or a chart (.oxs), into the project.",
+        "Put a picture, or a knot chart in a format that is read, into the project.",
         upload=PICTURE_TYPES,
     ),
     Endpoint(

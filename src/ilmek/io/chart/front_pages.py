@@ -10,7 +10,7 @@ from ilmek.carpet.chart import Chart
 from ilmek.io.chart.inks import Inks
 from ilmek.io.chart.sheets import SheetLayout
 from ilmek.io.chart.symbols import SIGNS, STRONG, TEXT
-from ilmek.units import format_number
+from ilmek.units import counted, format_number
 
 _LEFT, _TOP, _WIDTH, _HEIGHT = 54.0, 800.0, 487.0, 620.0
 _GREY = (0.36, 0.40, 0.44)
@@ -45,13 +45,14 @@ def _facts(chart: Chart, plan: SheetLayout) -> tuple[str, ...]:
     size, quality = chart.size, chart.quality
     lengths = f"{format_number(size.width * 100)} × {format_number(size.length * 100)} cm (width × length)"
     density = f"{format_number(quality.across / 10)} × {format_number(quality.along / 10)} knots per dm"
-    knots = f"{chart.columns} knots × {chart.rows} rows = {_count(chart.knots.size)} knots in {chart.colours} colours"
+    cells = f"{chart.columns} knots × {chart.rows} rows = {_count(chart.knots.size)} knots"
+    knots = f"{cells} in {counted(chart.colours, 'colour')}"
     sheets = f" on {_count(plan.count)} sheets of {plan.sheet_columns} knots × {plan.sheet_rows} rows"
-    counted = "Rows are counted from the bottom, knots from the left."
+    order = "Rows are counted from the bottom, knots from the left."
     return (
         f"{lengths}, {density}, {chart.knot} knots",
         knots + (sheets if plan.count > 1 else " on one sheet"),
-        counted + (" Shaded knots belong to the next sheet." if plan.count > 1 else ""),
+        order + (" Shaded knots belong to the next sheet." if plan.count > 1 else ""),
     )
 
 
@@ -97,7 +98,7 @@ def draw_legend(canvas: Any, chart: Chart, inks: Inks) -> None:
     for first in range(0, len(used), 2 * _LINES):
         canvas.setFillColorRGB(0.1, 0.1, 0.1)
         canvas.setFont(STRONG, 13)
-        canvas.drawString(_LEFT, _TOP, f"Legend: {len(used)} colours, {_count(total)} knots")
+        canvas.drawString(_LEFT, _TOP, f"Legend: {counted(len(used), 'colour')}, {_count(total)} knots")
         columns = 1 if len(used) <= _LINES else 2
         for line, index in enumerate(used[first : first + 2 * _LINES]):
             column, down = divmod(line, _LINES)

@@ -17,7 +17,6 @@ from pathlib import Path
 from xml.sax.saxutils import quoteattr
 
 from ilmek.carpet.chart import Chart
-from ilmek.errors import CarpetError
 from ilmek.io.carpet_facts import chart_facts
 from ilmek.io.overlay_text import overlay_text
 from ilmek.io.picture import METRE
@@ -27,19 +26,8 @@ MOST_OXS_KNOTS = 4_000_000
 """Largest number of knots of an OXS file: 160 MB."""
 
 
-def require_oxs(knots: int) -> None:
-    """Raise CarpetError for more knots than an OXS file can have."""
-    if knots > MOST_OXS_KNOTS:
-        raise CarpetError(
-            f"--oxs: the chart has {knots:,} knots",
-            allowed=f"at most {MOST_OXS_KNOTS:,}",
-            do="chart.png has everything, and --bmp any number of knots",
-        )
-
-
 def write_chart_oxs(path: Path, chart: Chart, progress: Progress = SILENT) -> None:
-    """Write the chart to `path`. Raises OSError, and CarpetError for a chart of too many knots."""
-    require_oxs(chart.knots.size)
+    """Write the chart, of at most MOST_OXS_KNOTS knots, to `path`. Raises OSError."""
     with path.open("w", encoding="utf-8", newline="\n") as file:
         for number, text in enumerate(_lines(chart)):
             file.write(text)

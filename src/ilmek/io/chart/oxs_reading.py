@@ -16,7 +16,7 @@ import numpy as np
 from ilmek.arrays import Indices, Int
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.colour import srgb_to_lab
-from ilmek.carpet.exact import of_grid
+from ilmek.carpet.exact import has_grid, of_grid
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import MOST_YARNS, Yarn
@@ -27,6 +27,7 @@ from ilmek.io.data_text import LONGEST_NAME
 from ilmek.io.overlay_text import read_overlay
 from ilmek.io.regular_file import open_regular
 from ilmek.progress import SILENT, Progress
+from ilmek.units import counted
 
 LARGEST_OXS = 300_000_000
 """Largest size of an OXS file [bytes]."""
@@ -44,23 +45,16 @@ _BEGIN = 4096
 _WHOLE = re.compile(r"\s*([0-9]{1,7})(?:\.0{1,9})?\s*")
 _COLOUR = re.compile(r"\s*#?([0-9a-fA-F]{6})\s*")
 _LEFT_OUT = {
-    "partstitch": "part stitches",
-    "backstitch": "back stitches",
-    "object": "knots, beads and other ornaments",
-    "commentbox": "comments",
+    "partstitch": ("part stitch", "part stitches"),
+    "backstitch": ("back stitch", "back stitches"),
+    "object": ("knot, bead or other ornament", "knots, beads and other ornaments"),
+    "commentbox": ("comment", "comments"),
 }
 
 
-def is_oxs(path: Path) -> bool:
-    """Whether a file is named or begins as an OXS chart; False if it cannot be read."""
-    if path.suffix.lower() == ".oxs":
-        return True
-    try:
-        file, _ = open_regular(path)
-        with file:
-            begin = file.read(_BEGIN)
-    except OSError:
-        return False
+def begins_oxs(begin: bytes) -> bool:
+    """Whether a file that begins with these bytes is an OXS chart."""
+    begin = begin[:_BEGIN]
     return begin.lstrip(b"\xef\xbb\xbf \t\r\n").startswith((b"<?xml", b"<chart")) and b"<chart" in begin
 
 
@@ -100,7 +94,7 @@ class _Reader:
     def __init__(self) -> None:
         self.depth = 0
         self.palette: dict[int, tuple[str, str]] = {}  # name and colour by index
-        self.left_out: Counter[str] = Counter()
+        self.left_out: Counter[tuple[str, str]] = Counter()
         self.facts = self.overlay = self.software = ""
         self._stitches: Int[np.ndarray, "rows columns"] | None = None
         self._parser: Any = expat.ParserCreate()
@@ -212,7 +206,7 @@ def _chart(
     size: CarpetSize | None,
     quality: Quality | None,
 ) -> tuple[Chart, tuple[str, ...]]:
-    left_out = [f"{count:,} {name}" for name, count in sorted(reader.left_out.items())]
+    left_out = [counted(count, *names) for names, count in sorted(reader.left_out.items())]
     if left_out:
         notes = (*notes, f"left out of the chart: {', '.join(left_out)}")
     if reader.facts:
@@ -221,7 +215,9 @@ def _chart(
         except IlmekError as error:
             notes = (*notes, f"its data of ilmek cannot be used ({error.given}); it is read as that of another program")
     yarns, knots = _yarns(reader, stitches)
-    size, quality = of_grid((int(knots.shape[0]), int(knots.shape[1])), size, quality)
+    grid = (int(knots.shape[0]), int(knots.shape[1]))
+    if size is None or quality is None or not has_grid(grid, size, quality):
+        size, quality = of_grid(grid, None if quality else size, quality)
     facts = ChartFacts(size, quality, "symmetric", yarns)
     return chart_of_facts(knots, facts, "an OXS chart"), (*notes, "its palette is the yarn list")
 
@@ -245,7 +241,7 @@ def _yarns(reader: _Reader, stitches: Int[np.ndarray, "rows columns"]) -> tuple[
     if len(listed) > MOST_YARNS:
         listed = [index for index in listed if index in seen]
     if not 2 <= len(listed) <= MOST_YARNS:
-        raise _FaultError(f"its palette has {len(listed)} colours", allowed=f"2 to {MOST_YARNS}")
+        raise _FaultError(f"its palette has {counted(len(listed), 'colour')}", allowed=f"2 to {MOST_YARNS}")
     names: set[str] = set()
     yarns = []
     for index in listed:

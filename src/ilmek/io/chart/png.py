@@ -31,15 +31,11 @@ from ilmek.io.picture_file import (
     read_bytes,
     shortened,
 )
-from ilmek.io.regular_file import open_regular
 from ilmek.progress import SILENT, Cancelled, Progress
 
 KEY, OVERLAY_KEY = "ilmek-chart", "ilmek-overlay"
 _CHUNKS = 1_000_000
 """Reads allowed of a chart: Pillow writes 64 kB in a chunk, and reads it in four pieces."""
-
-_BEGIN = 65_536
-"""Bytes in which the data of a chart begin."""
 
 
 class CountedFile(io.FileIO):
@@ -79,14 +75,8 @@ def write_chart_png(path: Path, chart: Chart, progress: Progress = SILENT) -> No
         chart_picture(chart).save(file, format="PNG", pnginfo=info, dpi=dots)
 
 
-def is_chart_png(path: Path) -> bool:
-    """Whether a file begins as a PNG file with the data of a chart; False if it cannot be read."""
-    try:
-        file, _ = open_regular(path)
-        with file:
-            begin = file.read(_BEGIN)
-    except OSError:
-        return False
+def begins_chart_png(begin: bytes) -> bool:
+    """Whether a file that begins with these bytes is a PNG file with the data of a chart."""
     return begin.startswith(b"\x89PNG") and b"iTXt" + KEY.encode() + b"\0" in begin
 
 
@@ -111,6 +101,7 @@ def read_chart_png(path: Path, progress: Progress = SILENT) -> Chart:
                 knots = np.array(picture, dtype=np.uint8)
         _require_yarns(knots, palette, facts.yarns)
         overlay = read_overlay(str(texts.get(OVERLAY_KEY, "")), knots, len(facts.yarns))
+        chart = replace(chart_of_facts(knots, facts, "a knot chart of ilmek"), overlay=overlay)
     except (MemoryError, Cancelled):
         raise
     except UnidentifiedImageError as error:
@@ -120,7 +111,7 @@ def read_chart_png(path: Path, progress: Progress = SILENT) -> Chart:
             f"{path} is no knot chart ({shortened(error)})", allowed="a chart.png written by ilmek"
         ) from error
     progress(1.0)
-    return replace(chart_of_facts(knots, facts, "a knot chart of ilmek"), overlay=overlay)
+    return chart
 
 
 def _require_yarns(knots: Indices, palette: list[int], yarns: Sequence[Yarn]) -> None:

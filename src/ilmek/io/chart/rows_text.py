@@ -18,6 +18,7 @@ import numpy as np
 
 from ilmek.arrays import Int32, UInt8
 from ilmek.carpet.chart import Chart
+from ilmek.carpet.codes import CODES
 from ilmek.carpet.rows import DIRECTIONS, HALF_CODE, JUFTI_CODE, row_codes
 from ilmek.errors import printable
 from ilmek.io.chart.symbols import symbols
@@ -292,7 +293,7 @@ def _write_colours(  # noqa: PLR0917
     """Write rows from number `first` by colours; returns the number of bytes."""
     at = 0
     spans = np.empty((2 * codes.shape[1], 4), dtype=np.int32)
-    heads = np.empty((glyphs.shape[0], 2), dtype=np.int32)
+    heads = np.empty((CODES, 2), dtype=np.int32)
     for row in range(codes.shape[0]):
         for leftward in range(2):
             if not _read_in(mode, first + row, leftward):

@@ -38,7 +38,6 @@ export function ChooseFile({ model }: { model: CarpetModel }) {
         ref={input}
         class="visually-hidden"
         type="file"
-        accept="image/*,.oxs"
         tabIndex={-1}
         aria-label={t("carpet.choosePicture")}
         onChange={(event) => {

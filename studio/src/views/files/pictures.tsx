@@ -37,7 +37,6 @@ export function Pictures() {
           {t("files.upload")}
           <input
             type="file"
-            accept="image/*,.oxs"
             multiple
             onChange={(event) => {
               add(event.currentTarget.files);

@@ -30,10 +30,11 @@ BEGINS = {
     b"\x0a\x05\x01": (".pcx",),
     b"\x0a\x03\x01": (".pcx",),
     b"qoif": (".qoi",),
-    b"<?xml": (".oxs",),
-    b"<chart": (".oxs",),
 }
-"""Begins of the files that are taken, and the endings of their names."""
+"""Begins of the pictures that are taken, and the endings of their names."""
+
+CHART_BEGIN = 65_536
+"""Bytes by which a chart that is no picture is recognised."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,12 +82,13 @@ def _endings(content: bytes) -> tuple[str, ...]:
         return (".avif",)
     if content.startswith(b"\0\0\0\x0cjP  \r\n\x87\n"):
         return (".jp2",)
-    text = content[:400].lstrip(b"\xef\xbb\xbf \r\n\t")
     for begin, endings in BEGINS.items():
-        if (text if begin.startswith(b"<") else content).startswith(begin):
-            is_chart = begin != b"<?xml" or b"<chart" in content[:4000]
-            return endings if is_chart else ()
-    return ()
+        if content.startswith(begin):
+            return endings
+    from ilmek.io.chart.formats import FORMATS  # not before a picture of another type comes
+
+    charts = (row for row in FORMATS.values() if row.read is not None and row.begins(content[:CHART_BEGIN]))
+    return tuple(row.suffix for row in charts)[:1]
 
 
 def delete_picture(request: PathRequest, context: Context) -> Changed:
