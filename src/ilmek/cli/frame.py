@@ -1,10 +1,10 @@
 """The frame of every command: lazy loading, and error messages of one line.
 
     exit 0    done, and every check holds
-    exit 1    the reader of the output closed it
     exit 2    bad input, or an output that cannot be written: one line on the error stream, nothing written
     exit 3    done, but a check fails: results and outputs are complete (ilmek.cli.verdict)
     exit 130  Ctrl-C (129: the terminal closed; 143: terminated): one line that states what has been written
+    exit 141  the reader of the output closed it, as `head` does: nothing more is printed
 
 Errors of ilmek (IlmekError) and of click are shown alike. A defect of the program keeps its traceback.
 """
@@ -20,6 +20,10 @@ import click
 
 from ilmek.cli.interrupts import interrupted, leave, supervised
 from ilmek.errors import IlmekError, did_you_mean
+
+
+CLOSED = 128 + 13
+"""Status of a program that SIGPIPE ends."""
 
 
 class LazyGroup(click.Group):
@@ -79,6 +83,8 @@ class LazyGroup(click.Group):
             status = supervised(lambda: _flushed(run()))
         except (KeyboardInterrupt, click.Abort):
             interrupted()
+        except SystemExit as end:  # click and rich end with 1 where a pipe is closed, and nothing else does
+            sys.exit(CLOSED if end.code == 1 else end.code)
         except click.ClickException as error:
             leave(_usage(error), 2)
         except IlmekError as error:
@@ -145,10 +151,10 @@ def _write_any_character() -> None:
 
 
 def _flushed(status: object) -> object:
-    """Flush standard output; returns `status`. If its reader has closed it, discard the rest and exit with 1."""
+    """Flush standard output; returns `status`. If its reader has closed it, discard the rest and end."""
     try:
         sys.stdout.flush()
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        sys.exit(1)
+        sys.exit(CLOSED)
     return status
