@@ -17,6 +17,7 @@ import numbers
 import re
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any
 from typing import TypeAlias
 
 from ilmek.errors import UnitError
@@ -159,9 +160,8 @@ def real_number(value: object) -> float | None:
     >>> real_number(2), real_number("2"), real_number(True), real_number(math.nan)
     (2.0, None, None, None)
     """
-    if isinstance(value, bool) or not isinstance(value, numbers.Real) or not in_bounds(float(value)):
-        return None
-    return float(value)
+    number: Any = value if isinstance(value, numbers.Real) and not isinstance(value, bool) else math.nan
+    return float(number) if in_bounds(number) else None
 
 
 def in_bounds(value: float) -> bool:

@@ -21,14 +21,13 @@ Quality(across=400.0, along=400.0)
 """
 
 import math
-import numbers
 import re
 from dataclasses import dataclass
 from decimal import Context
 from fractions import Fraction
 
 from ilmek.errors import CarpetError, shortened
-from ilmek.units import LONGEST, format_number, format_quantity
+from ilmek.units import LONGEST, format_number, format_quantity, real_number
 
 COARSEST, FINEST = 10.0, 5000.0
 """Limits of knots per metre: 1 per decimetre, and 50 per centimetre (the finest known carpet has 33)."""
@@ -42,11 +41,13 @@ class Quality:
     along: float
 
     def __post_init__(self) -> None:
-        for name, count in (("across", self.across), ("along", self.along)):
-            if not isinstance(count, numbers.Real) or isinstance(count, bool):
-                raise CarpetError(f"a quality of {count!r} {name}", allowed="a number of knots per metre", do=EXAMPLE)
-            object.__setattr__(self, name, float(count))
-            if not math.isfinite(count) or count < COARSEST:
+        for name in ("across", "along"):
+            count = real_number(getattr(self, name))
+            if count is None:
+                given = f"a quality of {getattr(self, name)!r} {name}"
+                raise CarpetError(given, allowed="a number of knots per metre", do=EXAMPLE)
+            object.__setattr__(self, name, count)
+            if count < COARSEST:
                 raise CarpetError(
                     f"a quality of {format_number(count / 10)} knots per dm is too coarse",
                     allowed="at least 1 knot per dm",

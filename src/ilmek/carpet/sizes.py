@@ -9,14 +9,13 @@ True
 """
 
 import difflib
-import numbers
 import re
 import unicodedata
 from dataclasses import dataclass
 from fractions import Fraction
 
 from ilmek.errors import CarpetError, shortened
-from ilmek.units import LONGEST, cm, format_number, format_quantity
+from ilmek.units import LONGEST, cm, format_number, format_quantity, real_number
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,10 +30,12 @@ class CarpetSize:
     name: str = ""
 
     def __post_init__(self) -> None:
-        for name, side in (("width", self.width), ("length", self.length)):
-            if not isinstance(side, numbers.Real) or isinstance(side, bool):
-                raise CarpetError(f"the {name} {side!r} of a carpet", allowed="a number in metres", do=EXAMPLE)
-            object.__setattr__(self, name, float(side))
+        for name in ("width", "length"):
+            side = real_number(getattr(self, name))
+            if side is None:
+                given = f"the {name} {getattr(self, name)!r} of a carpet"
+                raise CarpetError(given, allowed="a number in metres", do=EXAMPLE)
+            object.__setattr__(self, name, side)
             if not SMALLEST <= side <= LARGEST:
                 raise CarpetError(
                     f"a carpet side of {format_quantity(side, 'cm')} cannot be woven",

@@ -1,6 +1,5 @@
 """Pile yarn: name, colour, count and price."""
 
-import numbers
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
@@ -42,19 +41,19 @@ class Yarn:
     def __post_init__(self) -> None:
         codes = [code for code in _three(self.srgb) if code == round(code) and 0 <= code <= 255]
         lab = [number for number in _three(self.lab) if abs(number) <= LARGEST_LAB]
-        count, price = real_number(self.metric_count), real_number(self.price)
+        count, ply, price = map(real_number, (self.metric_count, self.ply, self.price))
         faults = {
             f"the name {self.name!r}": not isinstance(self.name, str),
             f"srgb {self.srgb!r}: three codes 0 to 255": len(codes) != 3,
             f"lab {self.lab!r}: three numbers L, a, b": len(lab) != 3,
             f"metric_count {self.metric_count!r}: above 0": self.metric_count is not None and not (count and count > 0),
-            f"ply {self.ply!r}: a whole number above 0": not isinstance(self.ply, numbers.Integral) or self.ply < 1,
+            f"ply {self.ply!r}: a whole number above 0": ply is None or ply < 1 or ply != round(ply),
             f"price {self.price!r}: 0 or above": self.price is not None and (price is None or price < 0),
         }
         for fault in (fault for fault, holds in faults.items() if holds):
             raise YarnError(f"a yarn with {fault}")
         values = {"srgb": tuple(map(round, codes)), "lab": tuple(lab), "metric_count": count, "price": price}
-        for name, value in {**values, "ply": int(self.ply)}.items():
+        for name, value in {**values, "ply": round(ply or 1)}.items():
             object.__setattr__(self, name, value)
 
     @property

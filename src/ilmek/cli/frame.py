@@ -21,7 +21,6 @@ import click
 from ilmek.cli.interrupts import interrupted, leave, supervised
 from ilmek.errors import IlmekError, did_you_mean
 
-
 CLOSED = 128 + 13
 """Status of a program that SIGPIPE ends."""
 

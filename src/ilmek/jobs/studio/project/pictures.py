@@ -5,6 +5,7 @@ from itertools import count
 from pathlib import PurePosixPath
 
 from ilmek.errors import ParameterError, shortened
+from ilmek.io.chart.formats import FORMATS
 from ilmek.io.output import disk
 from ilmek.jobs.studio.answers import Context
 from ilmek.jobs.studio.project.folder import (
@@ -85,8 +86,6 @@ def _endings(content: bytes) -> tuple[str, ...]:
     for begin, endings in BEGINS.items():
         if content.startswith(begin):
             return endings
-    from ilmek.io.chart.formats import FORMATS  # not before a picture of another type comes
-
     charts = (row for row in FORMATS.values() if row.read is not None and row.begins(content[:CHART_BEGIN]))
     return tuple(row.suffix for row in charts)[:1]
 
