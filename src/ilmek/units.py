@@ -17,8 +17,7 @@ import numbers
 import re
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from ilmek.errors import UnitError
 
@@ -160,7 +159,7 @@ def real_number(value: object) -> float | None:
     >>> real_number(2), real_number("2"), real_number(True), real_number(math.nan)
     (2.0, None, None, None)
     """
-    number: Any = value if isinstance(value, numbers.Real) and not isinstance(value, bool) else math.nan
+    number: Any = math.nan if isinstance(value, bool) or not isinstance(value, numbers.Real) else value
     return float(number) if in_bounds(number) else None
 
 
