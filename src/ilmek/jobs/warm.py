@@ -35,8 +35,10 @@ from ilmek.num.installed_kernels import compiler_settings, pack
 from ilmek.num.machine_code import INNER
 from ilmek.num.private_files import ENTRY
 
-
-COLOURS = "#8f1d21 #5c1218 #1f2a52 #3e5c94 #86a8c8 #efe6d0 #23201f #d8b24a #b9862f #77875a #c98a86 #b5613c".split()
+COLOURS = (
+    *("#8f1d21", "#5c1218", "#1f2a52", "#3e5c94", "#86a8c8", "#efe6d0"),
+    *("#23201f", "#d8b24a", "#b9862f", "#77875a", "#c98a86", "#b5613c"),
+)
 """Of the drawing: as many as the example's, so that more yarns than tubes are planned."""
 
 
@@ -90,9 +92,9 @@ def drawing() -> Image.Image:
     return picture
 
 
-def _weave_into(file: Path, picture: Path, size: str, **settings: int) -> None:
-    """Weave a picture into a folder beside it, and write the programme, which the job writes only where the loom weaves."""
-    order = read_order(picture, size=size, quality="10x10/dm", **settings)
+def _weave_into(file: Path, picture: Path, size: str, colours: int | None = None) -> None:
+    """Weave a picture into a folder beside it, and write the programme; the job does so only where the loom weaves."""
+    order = read_order(picture, size=size, quality="10x10/dm", colours=colours)
     loom = weave(order, read_loom_order(order, deadline="100h"), picture.parent / "out").loomed
     assert loom.programme is not None
     assert loom.setup is not None
@@ -119,6 +121,6 @@ if __name__ == "__main__":
     parser.add_argument("--into", type=Path, metavar="ARCHIVE", help="pack the kernels for the wheel")
     options = parser.parse_args()
     if options.into:
-        print(f"{compile_into(options.into)} kernels in {options.into}")
+        sys.stdout.write(f"{compile_into(options.into)} kernels in {options.into}\n")
     else:
         (warm_all if options.all else warm)()

@@ -38,12 +38,12 @@ ARCHIVE = Path(__file__).with_name(f"kernels-{sys.implementation.cache_tag}-{sys
 
 
 def baseline(triple: str) -> Processor | None:
-    """The processor of the installed kernels for a target, such as "x86_64-unknown-linux-gnu"; None if there is none."""
+    """The processor of the installed kernels for a target, such as "x86_64-unknown-linux-gnu"; None without one."""
     return BASELINES.get(triple.partition("-")[0])
 
 
 def compiler_settings(triple: str) -> dict[str, str]:
-    """Variables of the environment with which the compiler serves the baseline processor. Raises KeyError without one."""
+    """Variables of the environment for code of the baseline processor. Raises KeyError without one."""
     return {"NUMBA_CPU_NAME": BASELINES[triple.partition("-")[0]].name, "NUMBA_CPU_FEATURES": ""}
 
 
