@@ -30,13 +30,13 @@ $(BIN)/python:
 
 $(VENV)/.installed: pyproject.toml constraints.txt | $(BIN)/python
 	@echo "installing ilmek into $(VENV) (once; about a minute)"
-	@$(PIP) install --constraint constraints.txt --editable .
+	@ILMEK_KERNELS=no $(PIP) install --constraint constraints.txt --editable .
 	@$(BIN)/python -m ilmek.jobs.warm
 	@touch $@
 
 $(VENV)/.installed-dev: pyproject.toml constraints.txt | $(BIN)/python
 	@echo "installing ilmek and its development tools into $(VENV) (once; about two minutes)"
-	@$(PIP) install --constraint constraints.txt --editable '.[dev]'
+	@ILMEK_KERNELS=no $(PIP) install --constraint constraints.txt --editable '.[dev]'
 	@$(BIN)/python -m ilmek.jobs.warm
 	@touch $(VENV)/.installed $@
 

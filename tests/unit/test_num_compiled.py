@@ -15,7 +15,7 @@ import pytest
 from ilmek.cli import main
 from ilmek.linkage.groups import rrp, rrr
 from ilmek.num import machine_code
-from ilmek.num.compiled import compiled
+from ilmek.num.compiled import COMPILATIONS, compiled
 from ilmek.num.machine_code import discarded
 
 RNG = np.random.default_rng(7)
@@ -90,7 +90,10 @@ def sample(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., dic
         outer, lone = (importlib.import_module(f"sample.{name}") for name in ("outer", "lone"))
         kernels = {"outer": outer.outer, "leaf": outer.module.leaf, "lone": lone.lone}
         assert (outer.outer(3.0), lone.lone(3.0)) == results
-        return {name: bool(kernel.dispatcher.stats.cache_misses) for name, kernel in kernels.items()}
+        return {
+            name: any(calls.stats.cache_misses for calls in (kernel.dispatcher, kernel.inner_dispatcher))
+            for name, kernel in kernels.items()
+        }
 
     return run
 
@@ -102,6 +105,16 @@ def entries(tmp_path: Path) -> list[Path]:
 def test_nothing_is_compiled_twice(sample):
     assert sample() == {"outer": True, "leaf": True, "lone": True}
     assert sample() == {"outer": False, "leaf": False, "lone": False}
+
+
+def test_a_compilation_is_announced_before_it_begins(sample, monkeypatch):
+    numbers: list[int] = []
+    monkeypatch.setattr(COMPILATIONS, "listener", numbers.append)
+    first = COMPILATIONS.number + 1
+    sample()
+    assert numbers == [first, first + 1, first + 2]
+    sample()
+    assert len(numbers) == 3
 
 
 @pytest.mark.parametrize(

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import click
 
 from ilmek.errors import printable
+from ilmek.num.compiled import COMPILATIONS
 from ilmek.progress import SILENT, Progress
 
 if TYPE_CHECKING:
@@ -101,4 +102,11 @@ def progress_bar() -> Iterator[Progress]:
     columns = (TextColumn("{task.description}"), BarColumn(), TimeRemainingColumn())
     with Bar(*columns, console=screen, transient=True) as bar:
         task = bar.add_task("", total=1.0)
-        yield Progress(lambda stage, share: bar.update(task, description=printable(stage), completed=share))
+        # The first run of a kernel that was not installed with the package takes up to half a minute in all.
+        COMPILATIONS.listener = lambda number: bar.update(
+            task, description=f"compiling for this processor, once: kernel {number}"
+        )
+        try:
+            yield Progress(lambda stage, share: bar.update(task, description=printable(stage), completed=share))
+        finally:
+            COMPILATIONS.listener = None

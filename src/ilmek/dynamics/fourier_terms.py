@@ -14,7 +14,6 @@ import numpy as np
 from ilmek.arrays import Complex, Float
 from ilmek.dynamics.reduced import ReducedMechanism
 from ilmek.linkage.model import Rotation
-from ilmek.num.compiled import compiled
 from ilmek.records import record
 from ilmek.units import turn
 
@@ -41,24 +40,10 @@ class FourierTerms:
 
     def __call__(self, position: float) -> tuple[float, float, float]:
         """J [kg m²] and the two Q [N m] at an input angle [rad]."""
-        found: tuple[float, float, float] = evaluate(self.coefficients, position)
-        return found
-
-
-@compiled
-def evaluate(coefficients: np.ndarray, position: float) -> tuple[float, float, float]:
-    """Three series J [kg m²] and both Q [N m] at one angle by Horner's rule in z = e^{iq}.
-
-    coefficients  shape (orders, 3), complex, from order 0 on; the real parts of the sums are returned
-    position      q [rad]
-    """
-    z = complex(np.cos(position), np.sin(position))
-    a, b, c = 0j, 0j, 0j
-    for k in range(coefficients.shape[0] - 1, -1, -1):
-        a = a * z + coefficients[k, 0]
-        b = b * z + coefficients[k, 1]
-        c = c * z + coefficients[k, 2]
-    return a.real, b.real, c.real
+        # NumPy, not a kernel: loading the compiler takes longer than a whole run-up.
+        waves = np.exp(np.arange(len(self.coefficients)) * (1j * position))
+        inertia, weight, push = (waves @ self.coefficients).real.tolist()
+        return inertia, weight, push
 
 
 def tabulate(reduced: ReducedMechanism) -> FourierTerms | None:

@@ -30,13 +30,36 @@ class Kernel:
         """Numba's dispatcher, which compiles the function for each set of argument types."""
         return import_module("ilmek.num.machine_code").dispatcher(self.function)
 
+    @functools.cached_property
+    def inner_dispatcher(self) -> Any:
+        """Numba's dispatcher for calls by other kernels, which need no way through Python."""
+        return import_module("ilmek.num.machine_code").dispatcher(self.function, called_by_kernels=True)
+
     @property
     def _numba_type_(self) -> object:
         """The type of this kernel for the compiler of another one."""
-        return self.dispatcher._numba_type_
+        return self.inner_dispatcher._numba_type_
 
 
 def compiled(function: F) -> F:
     """`function` compiled on its first call: division by zero gives inf, NaN tests hold, multiply-adds may be fused."""
     # Under pytest a type checker may be wrapped around the function; the compiler needs the function itself.
     return cast(F, Kernel(cast(FunctionType, inspect.unwrap(function))))
+
+
+class Compilations:
+    """The compilations of this process: their number, and who is notified of each before it begins."""
+
+    def __init__(self) -> None:
+        self.number = 0
+        self.listener: Callable[[int], object] | None = None
+
+    def begin(self) -> None:
+        """Count a compilation and notify the listener."""
+        self.number += 1
+        if self.listener is not None:
+            self.listener(self.number)
+
+
+COMPILATIONS = Compilations()
+"""Counted by `ilmek.num.machine_code`; a command on a terminal listens, since a first run takes half a minute."""
