@@ -72,24 +72,24 @@ def warm_all() -> None:
 
 
 def drawing() -> Image.Image:
-    """A drawing in flat colours, symmetric about both axes, with stripes, discs, dots and thin lines."""
-    side = 8 * 48
+    """A drawing in flat colours with mixed edges, symmetric about both axes: stripes, discs, dots and thin lines."""
+    side = 16 * 48
     picture = Image.new("RGB", (side, side), COLOURS[0])
     pen = ImageDraw.Draw(picture)
     for index, colour in enumerate(COLOURS[1:]):
-        inset = 14 * index
+        inset = 28 * index
         shape = pen.ellipse if index % 2 else pen.rectangle
-        shape((inset, inset, side - 1 - inset, side - 1 - inset), fill=colour, outline=COLOURS[5], width=5)
+        shape((inset, inset, side - 1 - inset, side - 1 - inset), fill=colour, outline=COLOURS[5], width=10)
     half = picture.crop((0, 0, side // 2, side // 2))
     pen = ImageDraw.Draw(half)
     for step in range(6):
-        pen.line((4, 30 * step, 150, 30 * step + 21), fill=COLOURS[step], width=6)
-        pen.rectangle((30 * step + 9, 150, 30 * step + 16, 157), fill=COLOURS[-1 - step])
+        pen.line((8, 60 * step, 300, 60 * step + 42), fill=COLOURS[step], width=12)
+        pen.rectangle((60 * step + 18, 300, 60 * step + 33, 315), fill=COLOURS[-1 - step])
     for turned in (half, ImageOps.mirror(half)):
         left = 0 if turned is half else side // 2
         picture.paste(turned, (left, 0))
         picture.paste(ImageOps.flip(turned), (left, side // 2))
-    return picture
+    return picture.resize((side // 2, side // 2), Image.Resampling.BOX)
 
 
 def _weave_into(file: Path, picture: Path, size: str, colours: int | None = None) -> None:

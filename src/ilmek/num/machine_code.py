@@ -61,7 +61,7 @@ def dispatcher(function: FunctionType, *, called_by_kernels: bool = False) -> An
 
     called_by_kernels  without the code with which Python calls it, which takes a third of the time to compile
     """
-    kernel = numba.njit(no_cpython_wrapper=called_by_kernels, **OPTIONS)(function)
+    kernel = cast(Any, numba).njit(no_cpython_wrapper=called_by_kernels, **OPTIONS)(function)  # typed without it
     with suppress(TypeError, RecursionError):  # no key: compiled in every run
         key = f"{function.__module__}.{function.__qualname__} {code_key(function)}"
         kernel._cache = KernelCache(private_folder("kernels"), key, INNER if called_by_kernels else ENTRY)
