@@ -47,14 +47,17 @@ discarded: list[Path] = []
 """Entries that were damaged and removed in this run."""
 
 
-def dispatcher(function: FunctionType) -> Any:
-    """Numba's dispatcher of a kernel's function; its machine code is kept if there is a private folder."""
-    made = numba.njit(**OPTIONS)(function)
+def dispatcher(kernel: Kernel) -> Any:
+    """Numba's dispatcher of a kernel; its machine code is kept if there is a private folder."""
+    function = kernel.function
+    inline = {"forceinline": True} if kernel.inline else {}  # without the option a kernel follows its caller
+    compiler_of = numba.njit(**OPTIONS, **inline)(function)
     folder = private_folder("kernels")
     if folder:
         with suppress(TypeError, RecursionError):  # no key: compiled in every run
-            made._cache = KernelCache(folder, f"{function.__module__}.{function.__qualname__} {code_key(function)}")
-    return made
+            key = f"{function.__module__}.{function.__qualname__} {inline} {code_key(function)}"
+            compiler_of._cache = KernelCache(folder, key)
+    return compiler_of
 
 
 class KernelCache(NullCache):
@@ -127,7 +130,8 @@ def _content(value: object, user: FunctionType, names: tuple[str, ...]) -> str:
     """A global value as the compiler sees it in a function that uses these names."""
     match value:
         case Kernel():
-            return value.function.__qualname__ if value.function is user else code_key(value.function)
+            own = value.function.__qualname__ if value.function is user else code_key(value.function)
+            return f"{own} inline" if value.inline else own
         case None | bool() | int() | float() | complex() | str() | bytes() | Enum() | np.generic() | np.dtype():
             return repr(value)
         case tuple() | list():
