@@ -83,9 +83,9 @@ def test_the_motion_is_that_of_the_command_line_to_six_digits() -> None:
 def test_assur_groups_are_named_as_one_draws() -> None:
     structure = shown(FOUR_BAR).structure
     assert (structure.degrees_of_freedom, structure.driven, structure.loops) == (1, 1, 1)
-    assert [(one.kind, one.bodies, one.free) for one in structure.groups] == [
-        ("input", ("crank",), ""),
-        ("RRR", ("coupler", "rocker"), "B"),
+    assert [(group.kind, group.symbol, group.bodies, group.free) for group in structure.groups] == [
+        ("input", "", ("crank",), ""),
+        ("dyad", "RRR", ("coupler", "rocker"), "B"),
     ]
     assert structure.missing is None
 
@@ -134,9 +134,14 @@ def test_branches_of_a_drawing_are_those_that_it_shows() -> None:
             "inputs": FOUR_BAR["inputs"],
         }
         answer = shown(data)
-        assert [(one.path, one.value) for one in answer.changes] == [(("branches", "B"), mirrored)]
+        assert answer.changes == ()  # the coordinates state the branch
+        assert [(group.branch, group.drawn) for group in answer.structure.groups] == [(0, False), (mirrored, True)]
         assert answer.motion is not None
         assert answer.motion.status[0] == 0
+        contrary = shown({**data, "branches": {"B": -mirrored}})
+        assert contrary.refused is not None
+        assert contrary.refused.allowed == f"the drawing has B = {mirrored:+d}"
+        assert contrary.structure.groups[1].branch == mirrored
 
 
 @pytest.mark.parametrize("name", MECHANISMS)
