@@ -276,3 +276,36 @@ def test_quality_has_circuits_dead_centres_curves_and_checks() -> None:
     assert found.transmission[0].pin == "B"
     open_chain = {key: value for key, value in FOUR_BAR.items() if key != "inputs"}
     assert quality(MechanismRequest(open_chain), Context()).fault is not None
+
+
+def in_place(**corners: complex) -> dict[str, Any]:
+    """A four-bar by the coordinates of its pins [m], drawn in one frame."""
+    at = {name: [f"{point.real!r}m", f"{point.imag!r}m"] for name, point in corners.items()}
+    links = {"ground": ("A0", "B0"), "crank": ("A0", "A"), "coupler": ("A", "B"), "rocker": ("B", "B0")}
+    return {
+        "bodies": {body: {"points": {name: at[name] for name in names}} for body, names in links.items()},
+        "joints": FOUR_BAR["joints"],
+        "inputs": FOUR_BAR["inputs"],
+    }
+
+
+DRAWN = in_place(A0=0j, A=0.04 + 0.045j, B=0.22 + 0.21j, B0=0.3 + 0j)
+
+
+@pytest.mark.parametrize("stated", [{}, {"branches": {"B": 1}}])
+def test_a_joint_dragged_to_the_other_side_takes_the_other_branch(stated: dict[str, Any]) -> None:
+    answer = shown(DRAWN | stated, drag=DraggedJoint("B", 0.22, -0.21))
+    changes = {one.path: one.value for one in answer.changes}
+    assert changes.get(("branches", "B")) == (-1 if stated else None)  # what the drawing shows is not written
+    after = mechanism_of_data(changed(DRAWN | stated, list(answer.changes)))
+    assert after.mechanism.branches == {"B": -1}
+    assert answer.refused is None
+
+
+def test_a_joint_dragged_in_another_position_keeps_its_branch() -> None:
+    """In the new frames the coordinates coincide nowhere: the branch is written."""
+    poses = poses_of(shown(DRAWN), 40)
+    answer = shown(DRAWN, poses=poses, drag=DraggedJoint("B", 0.2, 0.19))
+    after = mechanism_of_data(changed(DRAWN, list(answer.changes)))
+    assert after.mechanism.branches == {"B": 1}
+    assert {one.path: one.value for one in answer.changes}[("branches", "B")] == 1

@@ -33,7 +33,7 @@ from ilmek.linkage.groups.turn import DrivenCrank
 from ilmek.linkage.kernels import ALPHA, CARRY, DIRECTION, OMEGA, Instruction
 from ilmek.linkage.model import GROUND, Body
 from ilmek.linkage.motion import Motion
-from ilmek.linkage.solve import InputValues, drives_of, solve
+from ilmek.linkage.solve import InputValues, drives_of, solve, without_infinite
 from ilmek.linkage.status import Status
 from ilmek.linkage.structure import Plan
 from ilmek.linkage.tape import Dimensions, Tape
@@ -119,7 +119,7 @@ def solve_batch(
     doubtful = answer.status[0] == DOUBTFUL
     if doubtful.any():
         answer.status[0, doubtful] = _decided(plan, drives, doubtful)
-    return Motion(plan, drives, columns, answer.status[0])
+    return Motion(plan, drives, without_infinite(columns, answer.status[0]), answer.status[0])
 
 
 def sweep(
