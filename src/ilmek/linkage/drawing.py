@@ -18,7 +18,7 @@ from ilmek.linkage.structure import solvable_steps
 from ilmek.plane.vectors import cross, unit
 
 DRAWN = 1e-3
-"""Greatest distance of a joint's points in its two bodies, relative to the group's size: coordinates are rounded."""
+"""Greatest distance of a joint's points in its two bodies, relative to the mechanism's size: coordinates are rounded."""
 
 CLEARER, LEAST = 10.0, 1e-6
 """The other assembly is farther from the drawing than the nearer one by this factor, and by this part of the size."""
@@ -57,10 +57,10 @@ def branches_as_drawn(mechanism: Mechanism) -> dict[str, int]:
     names = [joint.name for joint in mechanism.joints]
     above, below = (solvable_steps(replace(mechanism, branches=dict.fromkeys(names, sign)))[0] for sign in (+1, -1))
     bodies, drawn = bodies_in_pose(mechanism), {GROUND}
+    size = _size(mechanism, bodies)
     signs: dict[str, int] = {}
     for first, second in zip(above, below, strict=True):
         joints = _joints_of(mechanism, first, drawn)
-        size = _size(mechanism, joints, bodies)
         if not set(first.parents) <= drawn or any(_gap(mechanism, one, bodies) > DRAWN * size for one in joints):
             continue
         drawn.update(first.bodies)
@@ -83,9 +83,9 @@ def _ends(mechanism: Mechanism, joint: Joint, bodies: Known) -> tuple[complex, c
     return first, second
 
 
-def _size(mechanism: Mechanism, joints: list[Joint], bodies: Known) -> float:
+def _size(mechanism: Mechanism, bodies: Known) -> float:
     """The largest distance of two joints as drawn [m]."""
-    at = np.array([end for joint in joints for end in _ends(mechanism, joint, bodies)])
+    at = np.array([end for joint in mechanism.joints for end in _ends(mechanism, joint, bodies)])
     return float(np.max(np.abs(at[:, None] - at), initial=0.0))
 
 
