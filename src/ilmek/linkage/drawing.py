@@ -18,7 +18,7 @@ from ilmek.linkage.structure import solvable_steps
 from ilmek.plane.vectors import cross, unit
 
 DRAWN = 1e-3
-"""Greatest distance of a joint's points in its two bodies, relative to the mechanism's size: coordinates are rounded."""
+"""Greatest distance of a joint's points in its two bodies relative to the mechanism's size: coordinates are rounded."""
 
 CLEARER, LEAST = 10.0, 1e-6
 """The other assembly is farther from the drawing than the nearer one by this factor, and by this part of the size."""
