@@ -75,7 +75,7 @@ def test_the_rate_of_a_yoke_is_least_and_greatest_at_mid_stroke(samples: int) ->
     assert [extreme.greatest for extreme in found] == [False, True]
 
 
-@pytest.mark.parametrize("begin", [0.0, 20 * 2 * np.pi])
+@pytest.mark.parametrize("begin", [0.0, 12 * 2 * np.pi])
 def test_extremes_of_a_rate_that_lie_close_together_keep_their_kind(begin: float) -> None:
     """A point of a gear of ratio 12 on the crank: x = r cos q + e cos 12 q; many extremes, five steps apart."""
     ratio, eccentric = 12.0, 0.004
