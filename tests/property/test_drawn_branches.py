@@ -8,6 +8,7 @@ import pytest
 from benchmarks.random_mechanisms import random_mechanism
 from hypothesis import given
 from hypothesis import strategies as st
+from mechanisms import triad
 
 from ilmek.dynamics.own_machine import OwnMachine
 from ilmek.errors import MechanismError
@@ -135,3 +136,28 @@ def test_a_drawing_at_a_dead_centre_shows_no_branch() -> None:
     with pytest.raises(MechanismError, match="no branch for the free pin 'C'"):
         plan(as_drawn(flat))
     assert as_drawn(replace(flat, branches={"C": -1})).branches == {"C": -1}
+
+
+def other_assembly(drawn: Mechanism) -> dict[str, tuple[complex, float]]:
+    """The poses of a triad's bodies in another assembly at the same crank angle, searched from random starts."""
+    for seed in range(200):
+        draw = np.random.default_rng(seed)
+        rough = {
+            body: (complex(*draw.uniform(-2, 2, 2)), float(draw.uniform(-3, 3)))
+            for body in drawn.moving
+            if body != "crank"
+        }
+        motion = solve(plan(replace(drawn, pose=rough)), 0.0)
+        if motion.ok and abs(motion.direction("plate")[0] - 1) > 0.2:
+            return {body: pose for body, pose in motion.pose().items() if body != "crank"}
+    raise AssertionError("the triad has one assembly")
+
+
+def test_a_pose_of_another_assembly_than_the_drawn_one_is_refused() -> None:
+    drawn = triad()
+    assert as_drawn(drawn) is drawn
+    small = {body: (0.01 - 0.02j, 0.05) for body in drawn.moving if body != "crank"}
+    assert as_drawn(replace(drawn, pose=small)).pose == small  # rough, and of the drawn assembly
+    text = mechanism_toml(OwnMachine(replace(drawn, pose=other_assembly(drawn))))
+    with pytest.raises(MechanismError, match="line .*pose.* contradicts the coordinates as drawn"):
+        parse_mechanism(text)

@@ -6,15 +6,17 @@ then the drawing. Both are computed, and the sign is that of the nearer one; at 
 drawing shows none.
 """
 
+from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
 
 from ilmek.errors import MechanismError
 from ilmek.linkage.groups.group import Known, Step
-from ilmek.linkage.initial_pose import bodies_in_pose
+from ilmek.linkage.initial_pose import bodies_in_pose, inputs_in_pose
 from ilmek.linkage.model import GROUND, Joint, Mechanism, Slide
-from ilmek.linkage.structure import solvable_steps
+from ilmek.linkage.solve import solve
+from ilmek.linkage.structure import Plan, solvable_steps
 from ilmek.plane.vectors import cross, unit
 
 DRAWN = 1e-3
@@ -23,11 +25,14 @@ DRAWN = 1e-3
 CLEARER, LEAST = 10.0, 1e-6
 """The other assembly is farther from the drawing than the nearer one by this factor, and by this part of the size."""
 
+OTHER = 1e-2
+"""Least distance of another assembly from the drawing, relative to the mechanism's size."""
+
 
 def as_drawn(mechanism: Mechanism) -> Mechanism:
     """The mechanism with the branches that its drawing shows and that it does not state.
 
-    Raises MechanismError for a stated branch that contradicts the drawing.
+    Raises MechanismError for a branch, or a pose of a group without a closed form, that contradicts the drawing.
 
     >>> from ilmek.linkage.model import Body, Pin, Rotation
     >>> points = {"A": 0, "B": 1, "C": 4 + 2j, "D": 4}
@@ -47,34 +52,70 @@ def as_drawn(mechanism: Mechanism) -> Mechanism:
                 do="leave the branch out, or draw the other assembly",
                 about=("branches", joint),
             )
-    return (
-        replace(mechanism, branches={**drawn, **mechanism.branches}) if drawn.keys() - mechanism.branches else mechanism
-    )
+    lacking = drawn.keys() - mechanism.branches
+    whole = replace(mechanism, branches={**drawn, **mechanism.branches}) if lacking else mechanism
+    _check_poses(whole)
+    return whole
 
 
 def branches_as_drawn(mechanism: Mechanism) -> dict[str, int]:
     """Joint -> branch that the drawing shows, of the groups that can be solved; others are left out."""
     names = [joint.name for joint in mechanism.joints]
     above, below = (solvable_steps(replace(mechanism, branches=dict.fromkeys(names, sign)))[0] for sign in (+1, -1))
-    bodies, drawn = bodies_in_pose(mechanism), {GROUND}
-    size = _size(mechanism, bodies)
+    bodies, size = bodies_in_pose(mechanism), _size(mechanism)
+    drawn = {step.bodies for step in _drawn_steps(mechanism, above)}
     signs: dict[str, int] = {}
     for first, second in zip(above, below, strict=True):
-        joints = _joints_of(mechanism, first, drawn)
-        if not set(first.parents) <= drawn or any(_gap(mechanism, one, bodies) > DRAWN * size for one in joints):
-            continue
-        drawn.update(first.bodies)
-        if first.free:
-            gaps = [_distance(mechanism, step, joints, bodies, size) for step in (first, second)]
+        if first.free and first.bodies in drawn:
+            gaps = [_distance(mechanism, step, bodies, size) for step in (first, second)]
             if max(gaps) > max(CLEARER * min(gaps), LEAST * size) and min(gaps) < np.inf:
                 signs[first.free] = +1 if gaps[0] < gaps[1] else -1
     return signs
 
 
-def _joints_of(mechanism: Mechanism, step: Step, known: set[str]) -> list[Joint]:
-    """The joints of a step's bodies to one another and to known bodies."""
+def _check_poses(mechanism: Mechanism) -> None:
+    """Raise MechanismError for a stated pose of a group without a closed form whose coordinates show another assembly.
+
+    From the pose the mechanism is moved to the inputs' values of the drawing, all frames in the world's place.
+    """
+    if not mechanism.pose:
+        return
+    steps, _ = solvable_steps(mechanism)
+    flat = replace(mechanism, pose={})
+    posed = [step.bodies for step in steps if step.kind == "general" and mechanism.pose.keys() & set(step.bodies)]
+    shown = [step for step in _drawn_steps(flat, steps) if step.bodies in posed] if posed else []
+    if not shown:
+        return
+    motion = solve(Plan(mechanism, steps), inputs_in_pose(flat))
+    for body in (body for step in shown for body in step.bodies):
+        points = mechanism.body(body).points
+        moved = max(abs(complex(motion.point(body, name).position[0]) - point) for name, point in points.items())
+        if moved > OTHER * _size(flat):
+            raise MechanismError(
+                f"pose of {body} of {mechanism.name} contradicts the coordinates as drawn",
+                allowed="the drawing has all bodies in place: it is assembled with their frames at 0",
+                do="leave the pose out, or draw the other assembly",
+                about=("pose", body),
+            )
+
+
+def _drawn_steps(mechanism: Mechanism, steps: Iterable[Step]) -> list[Step]:
+    """The steps whose joints coincide as drawn, and which are attached to drawn bodies only."""
+    bodies, drawn, size = bodies_in_pose(mechanism), {GROUND}, _size(mechanism)
+    shown = []
+    for step in steps:
+        gaps = (_gap(mechanism, joint, bodies) for joint in _joints_of(mechanism, step))
+        if set(step.parents) <= drawn and all(gap <= DRAWN * size for gap in gaps):
+            drawn.update(step.bodies)
+            shown.append(step)
+    return shown
+
+
+def _joints_of(mechanism: Mechanism, step: Step) -> list[Joint]:
+    """The joints of a step's bodies to one another and to the bodies to which they are attached."""
     own = set(step.bodies)
-    return [joint for joint in mechanism.joints if own & set(joint.bodies) and set(joint.bodies) <= own | known]
+    known = own | set(step.parents)
+    return [joint for joint in mechanism.joints if own & set(joint.bodies) and set(joint.bodies) <= known]
 
 
 def _ends(mechanism: Mechanism, joint: Joint, bodies: Known) -> tuple[complex, complex]:
@@ -83,8 +124,9 @@ def _ends(mechanism: Mechanism, joint: Joint, bodies: Known) -> tuple[complex, c
     return first, second
 
 
-def _size(mechanism: Mechanism, bodies: Known) -> float:
+def _size(mechanism: Mechanism) -> float:
     """The largest distance of two joints as drawn [m]."""
+    bodies = bodies_in_pose(mechanism)
     at = np.array([end for joint in mechanism.joints for end in _ends(mechanism, joint, bodies)])
     return float(np.max(np.abs(at[:, None] - at), initial=0.0))
 
@@ -99,13 +141,13 @@ def _gap(mechanism: Mechanism, joint: Joint, bodies: Known) -> float:
     return np.inf if turned else abs(cross(guide * complex(unit(joint.along)), first - second))
 
 
-def _distance(mechanism: Mechanism, step: Step, joints: list[Joint], bodies: Known, size: float) -> float:
+def _distance(mechanism: Mechanism, step: Step, bodies: Known, size: float) -> float:
     """The largest distance [m] of a step's joints from the drawing, its other bodies as drawn; inf: it cannot close."""
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
         located = dict(bodies) | dict(step.locate(bodies, step.solve(bodies, {}).columns))
     moved = [
         abs(end - drawn)
-        for joint in joints
+        for joint in _joints_of(mechanism, step)
         for end, drawn in zip(_ends(mechanism, joint, located), _ends(mechanism, joint, bodies), strict=True)
     ]
     turned = [size * abs(complex(located[body].direction) - complex(bodies[body].direction)) for body in step.bodies]
