@@ -89,7 +89,7 @@ def _check_poses(mechanism: Mechanism) -> None:
     motion = solve(Plan(mechanism, steps), inputs_in_pose(flat))
     for body in (body for step in shown for body in step.bodies):
         points = mechanism.body(body).points
-        moved = max(abs(complex(motion.point(body, name).position[0]) - point) for name, point in points.items())
+        moved = max(abs(complex(np.ravel(motion.point(body, name).position)[0]) - at) for name, at in points.items())
         if moved > OTHER * _size(flat):
             raise MechanismError(
                 f"pose of {body} of {mechanism.name} contradicts the coordinates as drawn",
@@ -137,19 +137,19 @@ def _gap(mechanism: Mechanism, joint: Joint, bodies: Known) -> float:
     if not isinstance(joint, Slide):
         return abs(first - second)
     body, guide = (complex(bodies[name].direction) for name in joint.bodies)
-    turned = abs(body - guide * unit(joint.turned)) > DRAWN
-    return np.inf if turned else abs(cross(guide * complex(unit(joint.along)), first - second))
+    turned = abs(body - guide * complex(unit(joint.turned))) > DRAWN
+    return np.inf if turned else float(np.abs(cross(guide * complex(unit(joint.along)), first - second)))
 
 
 def _distance(mechanism: Mechanism, step: Step, bodies: Known, size: float) -> float:
     """The largest distance [m] of a step's joints from the drawing, its other bodies as drawn; inf: it cannot close."""
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
         located = dict(bodies) | dict(step.locate(bodies, step.solve(bodies, {}).columns))
-    moved = [
+    moved: list[float] = [
         abs(end - drawn)
         for joint in _joints_of(mechanism, step)
         for end, drawn in zip(_ends(mechanism, joint, located), _ends(mechanism, joint, bodies), strict=True)
     ]
-    turned = [size * abs(complex(located[body].direction) - complex(bodies[body].direction)) for body in step.bodies]
-    gap = max(moved + turned)
+    moved += [size * abs(complex(located[body].direction) - complex(bodies[body].direction)) for body in step.bodies]
+    gap = max(moved)
     return gap if np.isfinite(gap) else np.inf

@@ -42,7 +42,7 @@ GROUPS: tuple[type[Step], ...] = (
     Geared,
     CoupledFollower,
 )
-"""The groups with a closed form, in order of precedence."""
+"""The groups with a closed form, in order of precedence; the driven bodies first."""
 
 
 @value_record
@@ -99,8 +99,8 @@ def _steps(mechanism: Mechanism, closed_forms: bool) -> Iterator[Step]:
             group = _first_group(mechanism, known, assigned.excess)
         else:
             group = _group(mechanism, _next_bodies(mechanism, known, assigned.constraints), known)
-        kinds = GROUPS if closed_forms else (DrivenCrank, DrivenSlider)
-        recognised = (kind.recognise(group) for kind in (*kinds, GeneralGroup))
+        kinds: list[type[Step]] = [*(GROUPS if closed_forms else GROUPS[:2]), GeneralGroup]
+        recognised = (kind.recognise(group) for kind in kinds)
         yield next(step for step in recognised if step is not None)
         known.update(group.bodies)
 

@@ -50,12 +50,12 @@ discarded: list[Path] = []
 def dispatcher(kernel: Kernel) -> Any:
     """Numba's dispatcher of a kernel; its machine code is kept if there is a private folder."""
     function = kernel.function
-    inline = {"forceinline": True} if kernel.inline else {}  # without the option a kernel follows its caller
-    compiler_of = numba.njit(**OPTIONS, **inline)(function)
+    options = OPTIONS | ({"forceinline": True} if kernel.inline else {})  # without it a kernel follows its caller
+    compiler_of = numba.njit(**options)(function)
     folder = private_folder("kernels")
     if folder:
         with suppress(TypeError, RecursionError):  # no key: compiled in every run
-            key = f"{function.__module__}.{function.__qualname__} {inline} {code_key(function)}"
+            key = f"{function.__module__}.{function.__qualname__} {kernel.inline} {code_key(function)}"
             compiler_of._cache = KernelCache(folder, key)
     return compiler_of
 
@@ -130,8 +130,8 @@ def _content(value: object, user: FunctionType, names: tuple[str, ...]) -> str:
     """A global value as the compiler sees it in a function that uses these names."""
     match value:
         case Kernel():
-            own = value.function.__qualname__ if value.function is user else code_key(value.function)
-            return f"{own} inline" if value.inline else own
+            key = value.function.__qualname__ if value.function is user else code_key(value.function)
+            return f"{key} inline" if value.inline else key
         case None | bool() | int() | float() | complex() | str() | bytes() | Enum() | np.generic() | np.dtype():
             return repr(value)
         case tuple() | list():
