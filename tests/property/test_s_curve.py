@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from ilmek.cams.laws import law_of
 from ilmek.errors import ParameterError
-from ilmek.timing.s_curve import AxisLimits, SCurve, move_time, s_curve
+from ilmek.timing.s_curve import AxisLimits, SCurve, move_time, s_curve, travel_time
 
 SIZES = st.floats(1e-3, 1e3)
 
@@ -113,3 +113,32 @@ def test_backwards_a_move_is_the_same_move(distance, speed, acceleration, jerk):
     assert (there.time, there.speed) == (back.time, back.speed)
     time = np.linspace(-0.1, 1.1, 30) * there.time
     np.testing.assert_array_equal(there.at(time), -back.at(time))
+
+
+LIMITS = st.tuples(SIZES, SIZES, st.one_of(SIZES, st.just(math.inf)))
+
+
+@given(st.floats(1e-3, 10.0), st.floats(0.0, 5.0), LIMITS)
+def test_the_time_of_a_further_pitch_is_the_least_that_no_longer_move_exceeds(pitch, window, limits):
+    """Tried for each number of pitches up to where every move has its full speed, and far beyond."""
+    axis = AxisLimits(*limits)
+    room = max(window, move_time(pitch, axis))
+    ramp = axis.acceleration / axis.jerk + (axis.speed / axis.jerk) ** 0.5
+    reach = 4 * axis.speed * (axis.speed / axis.acceleration + ramp)
+    counts = sorted({*range(2, 300), *np.geomspace(2, max(3.0, 4 * reach / pitch), 200).astype(int).tolist()})
+    needed = [(move_time(count * pitch, axis) - room) / (count - 1) for count in counts]
+    least = max(pitch / axis.speed, *needed)
+    further = travel_time(pitch, window, axis)
+    assert further >= least * (1 - 1e-9)  # every move keeps it
+    if max(needed) <= pitch / axis.speed or counts[int(np.argmax(needed))] < 300:
+        assert further == pytest.approx(least, rel=1e-9)  # and none shorter would do
+
+
+def test_the_time_of_a_further_pitch_by_hand():
+    """1 m/s, 2 m/s²: a pitch of 0.1 m takes 2 sqrt(0.1 / 2) s; the worst of the longer moves by trial."""
+    axis = AxisLimits(1.0, 2.0)
+    moves = [2 * math.sqrt(d * 0.1 / 2) if d * 0.1 <= 0.5 else d * 0.1 + 0.5 for d in range(2, 100)]
+    worst = max((move - 2 * math.sqrt(0.05)) / (d - 1) for d, move in enumerate(moves, 2))
+    assert travel_time(0.1, 0.0, axis) == pytest.approx(worst)
+    assert worst == pytest.approx(2 * math.sqrt(0.05) * (math.sqrt(2) - 1))
+    assert travel_time(0.1, 10.0, axis) == 0.1

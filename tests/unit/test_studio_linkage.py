@@ -83,9 +83,9 @@ def test_the_motion_is_that_of_the_command_line_to_six_digits() -> None:
 def test_assur_groups_are_named_as_one_draws() -> None:
     structure = shown(FOUR_BAR).structure
     assert (structure.degrees_of_freedom, structure.driven, structure.loops) == (1, 1, 1)
-    assert [(one.kind, one.bodies, one.free) for one in structure.groups] == [
-        ("input", ("crank",), ""),
-        ("RRR", ("coupler", "rocker"), "B"),
+    assert [(group.kind, group.symbol, group.bodies, group.free) for group in structure.groups] == [
+        ("input", "", ("crank",), ""),
+        ("dyad", "RRR", ("coupler", "rocker"), "B"),
     ]
     assert structure.missing is None
 
@@ -134,9 +134,14 @@ def test_branches_of_a_drawing_are_those_that_it_shows() -> None:
             "inputs": FOUR_BAR["inputs"],
         }
         answer = shown(data)
-        assert [(one.path, one.value) for one in answer.changes] == [(("branches", "B"), mirrored)]
+        assert answer.changes == ()  # the coordinates state the branch
+        assert [(group.branch, group.drawn) for group in answer.structure.groups] == [(0, False), (mirrored, True)]
         assert answer.motion is not None
         assert answer.motion.status[0] == 0
+        contrary = shown({**data, "branches": {"B": -mirrored}})
+        assert contrary.refused is not None
+        assert contrary.refused.allowed == f"the drawing has B = {mirrored:+d}"
+        assert contrary.structure.groups[1].branch == mirrored
 
 
 @pytest.mark.parametrize("name", MECHANISMS)
@@ -271,3 +276,36 @@ def test_quality_has_circuits_dead_centres_curves_and_checks() -> None:
     assert found.transmission[0].pin == "B"
     open_chain = {key: value for key, value in FOUR_BAR.items() if key != "inputs"}
     assert quality(MechanismRequest(open_chain), Context()).fault is not None
+
+
+def in_place(**corners: complex) -> dict[str, Any]:
+    """A four-bar by the coordinates of its pins [m], drawn in one frame."""
+    at = {name: [f"{point.real!r}m", f"{point.imag!r}m"] for name, point in corners.items()}
+    links = {"ground": ("A0", "B0"), "crank": ("A0", "A"), "coupler": ("A", "B"), "rocker": ("B", "B0")}
+    return {
+        "bodies": {body: {"points": {name: at[name] for name in names}} for body, names in links.items()},
+        "joints": FOUR_BAR["joints"],
+        "inputs": FOUR_BAR["inputs"],
+    }
+
+
+DRAWN = in_place(A0=0j, A=0.04 + 0.045j, B=0.22 + 0.21j, B0=0.3 + 0j)
+
+
+@pytest.mark.parametrize("stated", [{}, {"branches": {"B": 1}}])
+def test_a_joint_dragged_to_the_other_side_takes_the_other_branch(stated: dict[str, Any]) -> None:
+    answer = shown(DRAWN | stated, drag=DraggedJoint("B", 0.22, -0.21))
+    changes = {one.path: one.value for one in answer.changes}
+    assert changes.get(("branches", "B")) == (-1 if stated else None)  # what the drawing shows is not written
+    after = mechanism_of_data(changed(DRAWN | stated, list(answer.changes)))
+    assert after.mechanism.branches == {"B": -1}
+    assert answer.refused is None
+
+
+def test_a_joint_dragged_in_another_position_keeps_its_branch() -> None:
+    """In the new frames the coordinates coincide nowhere: the branch is written."""
+    poses = poses_of(shown(DRAWN), 40)
+    answer = shown(DRAWN, poses=poses, drag=DraggedJoint("B", 0.2, 0.19))
+    after = mechanism_of_data(changed(DRAWN, list(answer.changes)))
+    assert after.mechanism.branches == {"B": 1}
+    assert {one.path: one.value for one in answer.changes}[("branches", "B")] == 1

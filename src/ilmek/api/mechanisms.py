@@ -25,6 +25,7 @@ from ilmek.jobs.mechanism.request import STEPS, MotionRequest
 from ilmek.jobs.mechanism.run import run
 from ilmek.linkage import fourbar
 from ilmek.linkage import solve as linkage
+from ilmek.linkage.drawing import as_drawn
 from ilmek.linkage.model import Mechanism, Rotation
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.structure import Plan, plan
@@ -223,7 +224,7 @@ def run_machine(
     if isinstance(machine, str | Path):
         machine = read_mechanism(machine)
     if isinstance(machine, Mechanism):
-        machine = OwnMachine(machine)
+        machine = OwnMachine(as_drawn(machine))
     file = machine if isinstance(machine, MechanismFile) else MechanismFile(machine)
     texts = {name: value if isinstance(value, str) else repr(float(value)) for name, value in (fixed or {}).items()}
     reach = over if isinstance(over, str) else f"{float(over[0])!r}..{float(over[1])!r}"
@@ -239,7 +240,7 @@ def planned_of(mechanism: Solvable) -> Plan:
     if isinstance(mechanism, MechanismFile):
         return mechanism.plan()
     if isinstance(mechanism, Mechanism):
-        return plan(mechanism)
+        return plan(as_drawn(mechanism))
     raise MechanismError(
         f"{type(mechanism).__name__} given for a mechanism",
         allowed="a Mechanism, the result of `read_mechanism`, or a plan",

@@ -47,10 +47,8 @@ class PlateCam(CamCurves):
         A law that overshoots below 0 raises the lower bound.
         """
         least = max(abs(self.offset), self.roller_radius)
-        lowest = self.programme.bounds[0]
-        if lowest >= 0:
-            return least, math.inf
-        return math.hypot(math.sqrt(least**2 - self.offset**2) - lowest, self.offset), math.inf
+        lowest = min(self.programme.bounds[0], 0.0)
+        return max(least, math.hypot(math.sqrt(least**2 - self.offset**2) - lowest, self.offset)), math.inf
 
     def resized(self, prime_radius: float) -> "PlateCam":
         """The same cam with another prime radius [m]."""

@@ -26,16 +26,17 @@ from ilmek.arrays import Bool, Complex, ComplexArray, ComplexField, Float, Float
 from ilmek.errors import MechanismError
 from ilmek.linkage import structure
 from ilmek.linkage.body_motion import PointMotion
-from ilmek.linkage.executor import DOUBTFUL, Statuses, run
+from ilmek.linkage.executor import DOUBTFUL, Statuses, executor
 from ilmek.linkage.groups.group import Columns, InputMotion, Step
 from ilmek.linkage.groups.shift import DrivenSlider
 from ilmek.linkage.groups.turn import DrivenCrank
+from ilmek.linkage.kernels import ALPHA, CARRY, DIRECTION, OMEGA, Instruction
 from ilmek.linkage.model import GROUND, Body
 from ilmek.linkage.motion import Motion
-from ilmek.linkage.solve import InputValues, drives_of, solve
+from ilmek.linkage.solve import InputValues, drives_of, solve, without_infinite
 from ilmek.linkage.status import Status
 from ilmek.linkage.structure import Plan
-from ilmek.linkage.tape import ALPHA, DIRECTION, OMEGA, Dimensions, Tape, is_compiled, tape
+from ilmek.linkage.tape import Dimensions, Tape
 from ilmek.records import record
 
 
@@ -82,7 +83,7 @@ def batch_arrays(plan: Plan, samples: int) -> BatchArrays:
 
     Raises MechanismError for a plan with a group that is not compiled.
     """
-    pairs, singles = _requested(plan, tape(plan, {}, {}))
+    pairs, singles = _requested(plan, _tape(plan, {}, {}))
     return _arrays(1, len(pairs), len(singles), samples)
 
 
@@ -109,16 +110,16 @@ def solve_batch(
     >>> [round(float(solve_batch(planned, angle, w, into=arrays).omega("rocker").max()), 3) for w in (1.0, 2.0)]
     [0.268, 0.536]
     """
-    if not is_compiled(plan):
+    if any(step.instruction is None for step in plan.steps):
         return solve(plan, angle, speed, acceleration)
     drives = drives_of(plan, angle, speed, acceleration)
-    written = tape(plan, {}, {})
+    written = _tape(plan, {}, {})
     answer = _run(written, drives, _requested(plan, written), arrays=into)
     columns = {body: _columns(written, step, body, drives, answer) for step in plan.steps for body in step.bodies}
     doubtful = answer.status[0] == DOUBTFUL
     if doubtful.any():
         answer.status[0, doubtful] = _decided(plan, drives, doubtful)
-    return Motion(plan, drives, columns, answer.status[0])
+    return Motion(plan, drives, without_infinite(columns, answer.status[0]), answer.status[0])
 
 
 def sweep(
@@ -146,7 +147,7 @@ def sweep(
     drives, bodies, points = drives_of(plan, angle, speed, acceleration), tuple(bodies), tuple(points)
     branches = branches or {}
     variants = _variants(plan, dimensions, branches)
-    written = tape(plan, dimensions, branches)
+    written = _tape(plan, dimensions, branches)
     rows = [written.rows[plan.mechanism.body(body).name] for body in bodies]
     pairs, singles = [row + DIRECTION for row in rows], [row + rate for row in rows for rate in (OMEGA, ALPHA)]
     for body, point in points:
@@ -243,9 +244,10 @@ def _run(
     margin = np.full(variants if judged else 0, np.inf)
     answer = _Answer(pairs, singles, arrays.points, arrays.reals, arrays.status, margin)
     lists = np.array(list(pairs), dtype=np.int64), np.array(list(singles), dtype=np.int64)
-    run(
+    instructions = _instructions()
+    executor(instructions)(
         written.height,
-        *written.stack(variants),
+        *written.stack(instructions, variants),
         np.broadcast_to(written.span, variants).astype(float),
         values,
         rates,
@@ -256,6 +258,23 @@ def _run(
         answer.margin,
     )
     return answer
+
+
+def _instructions() -> tuple[Instruction, ...]:
+    """Those of all groups, whatever plan is run: one executor is compiled."""
+    own = [group.instruction for group in structure.GROUPS if group.instruction is not None]
+    return tuple(dict.fromkeys((CARRY, *own)))
+
+
+def _tape(plan: Plan, dimensions: Dimensions, branches: Mapping[str, RealField]) -> Tape:
+    """The plan's steps as instructions; default of `dimensions` and `branches`: the values of the plan.
+
+    Raises MechanismError for a step that has no compiled form, and a link of zero length.
+    """
+    written = Tape(plan.mechanism, dimensions, branches)
+    for step in plan.steps:
+        step.write(written)
+    return written
 
 
 def _requested(plan: Plan, written: Tape) -> tuple[list[int], list[int]]:

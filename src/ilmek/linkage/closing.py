@@ -16,7 +16,6 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.linkage.body_motion import STILL, BodyMotion
 from ilmek.linkage.groups.group import GroupSolution, InputMotion, Known, Step
-from ilmek.linkage.groups.prp import CrossedSliders
 from ilmek.linkage.groups.winding import linear_relations
 from ilmek.linkage.initial_pose import newton_steps
 from ilmek.linkage.model import GROUND
@@ -199,7 +198,7 @@ class _Search:
             ends = np.where(np.isnan(ends), phases[changed], ends)
         edges = [low, *(middle - half * np.cos(ends)).tolist(), high]
         sides = [signs[0], *signs[changed + 1]]
-        both = isinstance(self.plan.steps[number], CrossedSliders)
+        both = self.plan.steps[number].both_sides
         spans = zip(edges[:-1], edges[1:], sides, strict=True)
         kept = [(one, other) for one, other, side in spans if (both or side > 0) and one < other]
         return kept, (middle - half * np.cos(touched)).tolist()
@@ -214,7 +213,7 @@ class _Search:
         if solved.margin is None:
             return np.full(values.shape, np.nan)
         margin = np.broadcast_to(np.asarray(solved.margin, dtype=float) / solved.best, values.shape)
-        if isinstance(step, CrossedSliders):
+        if step.both_sides:
             return margin
         with np.errstate(invalid="ignore", divide="ignore"):
             gap = np.broadcast_to(np.abs(step.gap(known)) / (step.size or 1.0), values.shape)

@@ -1,20 +1,21 @@
 # ruff: noqa: PLR0917 - compiled functions take their arguments by position
-"""The compiled executor: a tape's instructions in order, block by block, variant by variant."""
+"""The compiled executor: a tape's instructions in order, block by block, variant by variant.
 
+It is put together from the instructions of the groups: `choice` makes one kernel of many, which the compiler inlines.
+"""
+
+import functools
 import math
-from typing import TypeAlias
+from collections.abc import Callable, Sequence
+from typing import Any, TypeAlias
 
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray, Int8, IntArray
-from ilmek.linkage.groups import rpr as rpr_group
-from ilmek.linkage.groups import rrp as rrp_group
-from ilmek.linkage.groups import rrr as rrr_group
 from ilmek.linkage.judgement import CLEAR, DOUBT
-from ilmek.linkage.kernels import BLOCK, carry, pair, prp, rpp, rpr, rrp, rrr, slip, turn
+from ilmek.linkage.kernels import BLOCK, BODY, DIRECTION, DRIVE, MARGIN, Instruction, pair
 from ilmek.linkage.status import Status
-from ilmek.linkage.tape import BODY, CARRY, DIRECTION, DRIVE, MARGIN, PRP, RPP, RPR, RRP, RRR, SECOND, SLIP, TURN, ZERO
-from ilmek.num.compiled import compiled
+from ilmek.num.compiled import compiled, inlined
 
 Statuses: TypeAlias = Int8[np.ndarray, "..."]
 
@@ -25,43 +26,6 @@ DOUBTFUL = -1
 
 MAGNITUDE, INFINITE = np.int64(0x7FFFFFFFFFFFFFFF), np.int64(0x7FF0000000000000)
 """Bits of a double without its sign, and those of infinity."""
-
-misfit, too_short, too_near = compiled(rrr_group.misfit), compiled(rrp_group.shortness), compiled(rpr_group.shortness)
-
-
-@compiled
-def _best(code: int, numbers: ComplexArray) -> tuple[float, float]:
-    """Greatest possible margin and shortest length of a dyad, equal to those of its step; 0 for none."""
-    a, b = numbers[0].real, numbers[1].real
-    if code == RRR:
-        return a * b, min(a, b)
-    if code == RRP:
-        return a, a
-    if code == RPR:
-        return numbers[4].real, numbers[4].real
-    return 1.0, 0.0
-
-
-@compiled
-def _gap(code: int, dyad: FloatArray, guide: FloatArray, numbers: ComplexArray, i: int) -> float:
-    """Gap [m] of a dyad without a real margin in sample i; NaN for lines that do not cross."""
-    A, a, b = pair(dyad, i), numbers[0].real, numbers[1].real
-    if code == RRR:
-        return float(misfit(A, pair(dyad, SECOND * BLOCK + i), a, b))
-    if code == RRP:
-        return float(too_short(A, pair(dyad, ZERO * BLOCK + i), pair(guide, DIRECTION * BLOCK + i) * numbers[3], a))
-    if code == RPR:
-        return float(too_near(pair(dyad, SECOND * BLOCK + i) - A, a))
-    return math.nan
-
-
-@compiled
-def _growth(code: int, numbers: ComplexArray, margin: float, size: float) -> float:
-    """Factor by which a dyad increases rounding errors; see `judgement.growths`."""
-    best, shortest = _best(code, numbers)
-    part = margin / best
-    growth = (max(size / shortest, 1.0) if shortest > 0 else 1.0) / abs(part * part * part)
-    return 1.0 if growth < 1.0 else growth  # NaN where the margin is
 
 
 @compiled
@@ -76,54 +40,8 @@ def _smallest(margin: FloatArray, count: int) -> float:
     for i in range(min(count, BLOCK)):
         magnitude = bits[i] & MAGNITUDE
         least, most = min(least, magnitude), max(most, magnitude)
-    found = np.int64(least)
-    return math.nan if most > INFINITE else found.view(np.float64)
-
-
-@compiled
-def _judge(
-    code: IntArray,
-    rows: FloatArray,
-    count: int,
-    numbers: ComplexArray,
-    size: float,
-    growth: FloatArray,
-    status: Statuses,
-) -> None:
-    """Mark a dyad's samples that do not close, and those that `judgement` must decide.
-
-    growth  of the rounding errors in the samples through all dyads so far, written
-    """
-    kind, dyad, guide = code[0], rows[code[1] * BLOCK :], rows[code[2] * BLOCK :]
-    for i in range(count):
-        if status[i] != OK:
-            continue
-        margin = dyad[MARGIN * BLOCK + i]
-        if not math.isnan(margin):
-            growth[i] *= _growth(kind, numbers, margin, size)
-            if not growth[i] <= DOUBT:
-                status[i] = DOUBTFUL
-        elif abs(_gap(kind, dyad, guide, numbers, i)) <= 4 * CLEAR * size * growth[i]:
-            status[i] = DOUBTFUL
-        else:
-            status[i] = CANNOT_CLOSE
-
-
-@compiled
-def _judge_all(
-    codes: IntArray, rows: FloatArray, count: int, numbers: ComplexArray, size: float, status: Statuses
-) -> None:
-    """Mark the samples of a block: first by the smallest margin of each dyad, then, if that does not do, one by one."""
-    growth = 1.0
-    for k in range(len(codes)):
-        if _can_fail(codes[k, 0]):
-            growth *= _growth(codes[k, 0], numbers[k], _smallest(rows[(codes[k, 1] + MARGIN) * BLOCK :], count), size)
-    if growth <= DOUBT:
-        return
-    growths = np.ones(BLOCK)
-    for k in range(len(codes)):
-        if _can_fail(codes[k, 0]):
-            _judge(codes[k], rows, count, numbers[k], size, growths, status)
+    smallest = np.int64(least)
+    return math.nan if most > INFINITE else smallest.view(np.float64)
 
 
 @compiled
@@ -135,31 +53,12 @@ def _least(margin: FloatArray, count: int, best: float, least: float) -> float:
 
 
 @compiled
-def _instruction(rows: FloatArray, code: IntArray, numbers: ComplexArray, count: int) -> None:
-    """One instruction of the tape."""
-    kind, to, of, also = code[0], rows[code[1] * BLOCK :], rows[code[2] * BLOCK :], rows[code[3] * BLOCK :]
-    if kind == CARRY:
-        carry(to, of, count, numbers[0])
-    elif kind == TURN:
-        turn(to, of, also, count, numbers[0].real)
-    elif kind == SLIP:
-        slip(to, of, also, count, numbers[0], numbers[1])
-    elif kind == RRR:
-        rrr(to, count, numbers[0].real, numbers[1].real, numbers[2].real, numbers[3], numbers[4])
-    elif kind == RRP:
-        rrp(to, of, count, numbers[0].real, numbers[1].real, numbers[2], numbers[3])
-    elif kind == RPR:
-        rpr(to, count, numbers[0].real, numbers[1].real, numbers[2], numbers[3])
-    elif kind == PRP:
-        prp(to, of, also, count, numbers[0], numbers[1])
-    elif kind == RPP:
-        rpp(to, of, count, numbers[0], numbers[1], numbers[2])
-
-
-@compiled
-def _can_fail(kind: int) -> bool:
-    """Whether an instruction is a dyad with a margin."""
-    return kind == RRR or kind == RRP or kind == RPR or kind == PRP  # noqa: PLR1714 - for the compiler
+def _growth(scale: tuple[float, float], margin: float, size: float) -> float:
+    """Factor by which a dyad increases rounding errors; see `judgement.growths`."""
+    best, shortest = scale
+    part = margin / best
+    growth = (max(size / shortest, 1.0) if shortest > 0 else 1.0) / abs(part * part * part)
+    return 1.0 if growth < 1.0 else growth  # NaN where the margin is
 
 
 @compiled
@@ -196,31 +95,8 @@ def _copy_out(
 
 
 @compiled
-def run(
-    height: int,
-    still: int,
-    codes: IntArray,
-    numbers: ComplexArray,
-    sizes: FloatArray,
-    values: FloatArray,
-    rates: FloatArray,
-    pairs: IntArray,
-    singles: IntArray,
-    points: ComplexArray,
-    reals: FloatArray,
-    status: Statuses,
-    margin: FloatArray,
-) -> None:
-    """Every variant and sample through the tape.
-
-    height   rows in all                                still, codes, numbers  the tape, see `tape.Tape.stack`
-    values   (inputs, samples)                          rates   (inputs, 2, samples or 1)
-    pairs    rows requested as complex fields           points  (variants, pairs, samples), written
-    singles  rows requested as real fields              reals   (variants, singles, samples), written
-    sizes    (variants,), the mechanisms' sizes [m]
-    status   (variants, samples), written; zero before. DOUBTFUL: `judgement` must decide
-    margin   (variants,), the least margin of all dyads, written; infinite before; empty if not requested
-    """
+def _prepared(height: int, rates: FloatArray) -> FloatArray:
+    """The rows at the start: those of the ground, and the inputs' rates where they are constant."""
     rows = np.zeros(height * BLOCK)
     rows[DIRECTION * BLOCK : (DIRECTION + 1) * BLOCK] = 1.0  # the ground's
     if rates.shape[2] == 1:
@@ -228,18 +104,163 @@ def run(
             for order in range(2):
                 row = (BODY + DRIVE * k + order + 1) * BLOCK
                 rows[row : row + BLOCK] = rates[k, order, 0]
-    variants, samples = status.shape
-    for v in range(variants):
-        for k in range(still):
-            _instruction(rows, codes[k], numbers[v, k], BLOCK)
-        for start in range(0, samples, BLOCK):
-            end = min(start + BLOCK, samples)
-            _drive(rows, values, rates, start, end - start)
-            for k in range(still, len(codes)):
-                _instruction(rows, codes[k], numbers[v, k], end - start)
-                if len(margin) and _can_fail(codes[k, 0]):
-                    best, _ = _best(codes[k, 0], numbers[v, k])
-                    row = (codes[k, 1] + MARGIN) * BLOCK
-                    margin[v] = _least(rows[row:], end - start, best, margin[v])
-            _judge_all(codes, rows, end - start, numbers[v], sizes[v], status[v, start:end])
-            _copy_out(rows, pairs, singles, points[v], reals[v], start, end - start)
+    return rows
+
+
+def _choice(kernels: Sequence[Callable[..., Any] | None]) -> Any:
+    """One kernel of many: its first argument is the index of the one that gets the others. None is never called."""
+    present = [(index, kernel) for index, kernel in enumerate(kernels) if kernel is not None]
+    chosen = _last(present.pop()[1])
+    for index, kernel in reversed(present):
+        chosen = _either(index, kernel, chosen)
+    return chosen
+
+
+def _last(kernel: Callable[..., Any]) -> Any:
+    @inlined
+    def last(_: int, *arguments: Any) -> Any:
+        return kernel(*arguments)
+
+    return last
+
+
+def _either(own: int, kernel: Callable[..., Any], others: Callable[..., Any]) -> Any:
+    @inlined
+    def either(index: int, *arguments: Any) -> Any:
+        if index == own:
+            return kernel(*arguments)
+        return others(index, *arguments)
+
+    return either
+
+
+def _sample_by_sample(growth_of: Any, gap_of: Any) -> Any:
+    """The kernel that judges the samples of one dyad."""
+
+    @compiled
+    def mark(
+        code: IntArray,
+        rows: FloatArray,
+        count: int,
+        numbers: ComplexArray,
+        size: float,
+        growth: FloatArray,
+        status: Statuses,
+    ) -> None:
+        """The samples of a dyad; `growth` of the rounding errors through all dyads so far is written."""
+        dyad, guide = rows[code[1] * BLOCK :], rows[code[2] * BLOCK :]
+        for i in range(count):
+            if status[i] != OK:
+                continue
+            margin = dyad[MARGIN * BLOCK + i]
+            if not math.isnan(margin):
+                growth[i] *= growth_of(code[0], numbers, margin, size)
+                if not growth[i] <= DOUBT:
+                    status[i] = DOUBTFUL
+            elif abs(gap_of(code[0], dyad, guide, numbers, i)) <= 4 * CLEAR * size * growth[i]:
+                status[i] = DOUBTFUL
+            else:
+                status[i] = CANNOT_CLOSE
+
+    return mark
+
+
+def _judging(growth_of: Any, mark: Any) -> Any:
+    """The kernel that marks the samples of a block that do not close, or that `judgement` must decide."""
+
+    @compiled
+    def judge(
+        codes: IntArray, rows: FloatArray, count: int, numbers: ComplexArray, size: float, status: Statuses
+    ) -> None:
+        """First by the smallest margin of each dyad, then, if that does not do, sample by sample."""
+        growth = 1.0
+        for k in range(len(codes)):
+            if codes[k, 4]:
+                margin = _smallest(rows[(codes[k, 1] + MARGIN) * BLOCK :], count)
+                growth *= growth_of(codes[k, 0], numbers[k], margin, size)
+        if growth <= DOUBT:
+            return
+        growths = np.ones(BLOCK)
+        for k in range(len(codes)):
+            if codes[k, 4]:
+                mark(codes[k], rows, count, numbers[k], size, growths, status)
+
+    return judge
+
+
+@functools.cache
+def executor(instructions: tuple[Instruction, ...]) -> Any:
+    """The kernel that runs a tape of these instructions: every variant and sample.
+
+    Its arguments:
+    height   rows in all                                still, codes, numbers  the tape, see `tape.Tape.stack`
+    sizes    (variants,), the mechanisms' sizes [m]     values  (inputs, samples)
+    rates    (inputs, 2, samples or 1)
+    pairs    rows requested as complex fields           singles  rows requested as real fields
+    points   (variants, pairs, samples), written        reals    (variants, singles, samples), written
+    status   (variants, samples), written; zero before. DOUBTFUL: `judgement` must decide
+    margin   (variants,), the least margin of all dyads, written; infinite before; empty if not requested
+    """
+    write = _choice([one.kernel for one in instructions])
+    scale_of, gap_of = _choice([one.scale for one in instructions]), _choice([one.gap for one in instructions])
+
+    @inlined
+    def growth_of(index: int, numbers: ComplexArray, margin: float, size: float) -> float:
+        return _growth(scale_of(index, numbers), margin, size)
+
+    @inlined
+    def instruct(rows: FloatArray, code: IntArray, count: int, numbers: ComplexArray) -> None:
+        write(code[0], rows[code[1] * BLOCK :], rows[code[2] * BLOCK :], rows[code[3] * BLOCK :], count, numbers)
+
+    @compiled
+    def block(
+        rows: FloatArray, still: int, codes: IntArray, count: int, numbers: ComplexArray, least: float, judged: bool
+    ) -> float:
+        """The lines that differ from sample to sample; the least margin so far."""
+        for k in range(still, len(codes)):
+            instruct(rows, codes[k], count, numbers[k])
+            if judged and codes[k, 4]:
+                best, _ = scale_of(codes[k, 0], numbers[k])
+                least = _least(rows[(codes[k, 1] + MARGIN) * BLOCK :], count, best, least)
+        return least
+
+    return _running(instruct, block, _judging(growth_of, _sample_by_sample(growth_of, gap_of)))
+
+
+def _running(instruct: Any, block: Any, judge: Any) -> Any:
+    """The kernel of `executor`."""
+
+    @compiled
+    def run(
+        height: int,
+        still: int,
+        codes: IntArray,
+        numbers: ComplexArray,
+        sizes: FloatArray,
+        values: FloatArray,
+        rates: FloatArray,
+        pairs: IntArray,
+        singles: IntArray,
+        points: ComplexArray,
+        reals: FloatArray,
+        status: Statuses,
+        margin: FloatArray,
+    ) -> None:
+        rows = _prepared(height, rates)
+        variants, samples = status.shape
+        judged = len(margin) > 0
+        for v in range(variants):
+            for k in range(still):
+                instruct(rows, codes[k], BLOCK, numbers[v, k])
+            least = math.inf
+            for start in range(0, samples, BLOCK):
+                end = min(start + BLOCK, samples)
+                count = end - start
+                _drive(rows, values, rates, start, count)
+                least = block(rows, still, codes, count, numbers[v], least, judged)
+                judge(codes, rows, count, numbers[v], sizes[v], status[v, start:end])
+                _copy_out(rows, pairs, singles, points[v], reals[v], start, count)
+            if judged:
+                margin[v] = least
+
+    return run

@@ -124,10 +124,17 @@ def output_history_of_bodies(mechanism: Mechanism, bodies: Known, output: Output
     equation = output.equation(mechanism, bodies)
     rates = {name: (body.anchor.velocity, body.omega) for name, body in bodies.items()}
     seconds = {name: (body.anchor.acceleration, body.alpha) for name, body in bodies.items()}
-    shape = np.broadcast_shapes(*(np.shape(body.direction) for body in bodies.values()))
+    # A body that only translates has one direction and many positions.
+    shape = np.broadcast_shapes(
+        *(np.shape(field) for body in bodies.values() for field in (body.direction, body.anchor.position))
+    )
     value, rate, second = (
-        np.array(np.broadcast_to(one, shape), dtype=float)
-        for one in (equation.value, contracted(equation.row, rates), contracted(equation.row, seconds) + equation.bias)
+        np.array(np.broadcast_to(field, shape), dtype=float)
+        for field in (
+            equation.value,
+            contracted(equation.row, rates),
+            contracted(equation.row, seconds) + equation.bias,
+        )
     )
     if not equation.length:
         closed = np.isfinite(value)

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ilmek.arrays import RealField
+from ilmek.arrays import Int8, RealField
 from ilmek.errors import MechanismError
 from ilmek.linkage.anchors import anchors
 from ilmek.linkage.groups.general import GeneralGroup
@@ -68,7 +68,16 @@ def solve(
             for body, fields in solved.items():
                 _write(columns[body], fields, part)
             progress(min(1.0, (start + size) / samples))
-    return Motion(plan, drives, columns, status)
+    return Motion(plan, drives, without_infinite(columns, status), status)
+
+
+def without_infinite(columns: Mapping[str, Columns], status: Int8[np.ndarray, " samples"]) -> Mapping[str, Columns]:
+    """The same columns, in place: rates are infinite at a dead centre, and NaN says so without warnings of NumPy."""
+    unsolved = np.flatnonzero(status)
+    for field in (field for fields in columns.values() for field in fields) if len(unsolved) else ():
+        if isinstance(field, np.ndarray) and field.shape == status.shape and field.flags.writeable:
+            field[unsolved[~np.isfinite(field[unsolved])]] = np.nan
+    return columns
 
 
 def _block_size(plan: Plan) -> int:

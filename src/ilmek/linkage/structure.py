@@ -12,28 +12,37 @@ crank turned by the input on ground
 coupler and rocker joined at B (branch +1), attached to crank and ground: RRR
 """
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from itertools import combinations, islice
 
 from ilmek.errors import MechanismError
 from ilmek.linkage.constraint_assignment import Constraints, assigned_constraints
-from ilmek.linkage.groups import follower, geared, general, prp, rpp, rpr, rrp, rrr, shift, turn
+from ilmek.linkage.groups.follower import CoupledFollower
+from ilmek.linkage.groups.geared import Geared
+from ilmek.linkage.groups.general import GeneralGroup
 from ilmek.linkage.groups.group import Group, Step
+from ilmek.linkage.groups.prp import CrossedSliders
+from ilmek.linkage.groups.rpp import CrossSlide
+from ilmek.linkage.groups.rpr import SlidingDyad
+from ilmek.linkage.groups.rrp import SliderDyad
+from ilmek.linkage.groups.rrr import RRRDyad
+from ilmek.linkage.groups.shift import DrivenSlider
+from ilmek.linkage.groups.turn import DrivenCrank
 from ilmek.linkage.model import GROUND, Mechanism, degrees_of_freedom
 from ilmek.records import value_record
 
-CLOSED_FORMS: tuple[Callable[[Group], Step | None], ...] = (
-    turn.recognise,
-    shift.recognise,
-    rrr.recognise,
-    rrp.recognise,
-    rpr.recognise,
-    prp.recognise,
-    rpp.recognise,
-    geared.recognise,
-    follower.recognise,
+GROUPS: tuple[type[Step], ...] = (
+    DrivenCrank,
+    DrivenSlider,
+    RRRDyad,
+    SliderDyad,
+    SlidingDyad,
+    CrossedSliders,
+    CrossSlide,
+    Geared,
+    CoupledFollower,
 )
-"""Recognisers of the groups with a closed form, in order of precedence."""
+"""The groups with a closed form, in order of precedence; the driven bodies first."""
 
 
 @value_record
@@ -90,8 +99,9 @@ def _steps(mechanism: Mechanism, closed_forms: bool) -> Iterator[Step]:
             group = _first_group(mechanism, known, assigned.excess)
         else:
             group = _group(mechanism, _next_bodies(mechanism, known, assigned.constraints), known)
-        recognised = (recognise(group) for recognise in (CLOSED_FORMS if closed_forms else CLOSED_FORMS[:2]))
-        yield next((step for step in recognised if step is not None), None) or general.from_group(group)
+        kinds: list[type[Step]] = [*(GROUPS if closed_forms else GROUPS[:2]), GeneralGroup]
+        recognised = (kind.recognise(group) for kind in kinds)
+        yield next(step for step in recognised if step is not None)
         known.update(group.bodies)
 
 

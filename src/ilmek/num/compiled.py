@@ -17,9 +17,9 @@ F = TypeVar("F", bound=Callable[..., Any])
 class Kernel:
     """A function that is compiled on its first call. Kernels call each other without leaving the machine code."""
 
-    def __init__(self, function: FunctionType) -> None:
+    def __init__(self, function: FunctionType, *, inline: bool = False) -> None:
         functools.update_wrapper(self, function)
-        self.function = function
+        self.function, self.inline = function, inline
 
     def __call__(self, *args: object) -> object:
         """The function's value, computed by machine code."""
@@ -28,12 +28,12 @@ class Kernel:
     @functools.cached_property
     def dispatcher(self) -> Any:
         """Numba's dispatcher, which compiles the function for each set of argument types."""
-        return import_module("ilmek.num.machine_code").dispatcher(self.function)
+        return import_module("ilmek.num.machine_code").dispatcher(self)
 
     @functools.cached_property
     def inner_dispatcher(self) -> Any:
         """Numba's dispatcher for calls by other kernels, which need no way through Python."""
-        return import_module("ilmek.num.machine_code").dispatcher(self.function, called_by_kernels=True)
+        return import_module("ilmek.num.machine_code").dispatcher(self, called_by_kernels=True)
 
     @property
     def _numba_type_(self) -> object:
@@ -45,6 +45,11 @@ def compiled(function: F) -> F:
     """`function` compiled on its first call: division by zero gives inf, NaN tests hold, multiply-adds may be fused."""
     # Under pytest a type checker may be wrapped around the function; the compiler needs the function itself.
     return cast(F, Kernel(cast(FunctionType, inspect.unwrap(function))))
+
+
+def inlined(function: F) -> F:
+    """As `compiled`, for a small kernel that passes arrays on: its code becomes part of the kernels that call it."""
+    return cast(F, Kernel(cast(FunctionType, inspect.unwrap(function)), inline=True))
 
 
 class Compilations:

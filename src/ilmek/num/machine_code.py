@@ -56,16 +56,18 @@ discarded: list[Path] = []
 """Entries that were damaged and removed in this run."""
 
 
-def dispatcher(function: FunctionType, *, called_by_kernels: bool = False) -> Any:
-    """Numba's dispatcher of a kernel's function; its machine code is kept if there is a private folder.
+def dispatcher(kernel: Kernel, *, called_by_kernels: bool = False) -> Any:
+    """Numba's dispatcher of a kernel; its machine code is kept if there is a private folder.
 
     called_by_kernels  without the code with which Python calls it, which takes a third of the time to compile
     """
-    kernel = cast(Any, numba).njit(no_cpython_wrapper=called_by_kernels, **OPTIONS)(function)  # typed without it
+    function = kernel.function
+    inline = {"forceinline": True} if kernel.inline else {}  # without it a kernel follows its caller
+    compiler_of = cast(Any, numba).njit(no_cpython_wrapper=called_by_kernels, **OPTIONS, **inline)(function)
     with suppress(TypeError, RecursionError):  # no key: compiled in every run
-        key = f"{function.__module__}.{function.__qualname__} {code_key(function)}"
-        kernel._cache = KernelCache(private_folder("kernels"), key, INNER if called_by_kernels else ENTRY)
-    return kernel
+        key = f"{function.__module__}.{function.__qualname__} {kernel.inline} {code_key(function)}"
+        compiler_of._cache = KernelCache(private_folder("kernels"), key, INNER if called_by_kernels else ENTRY)
+    return compiler_of
 
 
 class KernelCache(NullCache):
@@ -161,7 +163,8 @@ def _content(value: object, user: FunctionType, names: tuple[str, ...]) -> str:
     """A global value as the compiler sees it in a function that uses these names."""
     match value:
         case Kernel():
-            return value.function.__qualname__ if value.function is user else code_key(value.function)
+            key = value.function.__qualname__ if value.function is user else code_key(value.function)
+            return f"{key} inline" if value.inline else key
         case None | bool() | int() | float() | complex() | str() | bytes() | Enum() | np.generic() | np.dtype():
             return repr(value)
         case tuple() | list():

@@ -854,20 +854,23 @@ export interface GeneratedFunction {
 /**
  * An Assur group, or a driven body.
  *
- *     kind    "input", "gears", "general", or the joints of a dyad: "RRR", "RRP", "RPR", "PRP", "RPP"
+ *     kind    "input", "gears", "dyad" or "general"      symbol  of a dyad its joints, R turning, P sliding, like "RRP"
  *     bodies, joints  its members; joints to known bodies are among them
  *     branch  sign of a dyad that has two assemblies; 0: it has one      free  the joint of that sign
+ *     drawn   whether the coordinates as drawn fix that sign
  *
  * This interface was referenced by `Messages`'s JSON-Schema
  * via the `definition` "GroupAnswer".
  */
 export interface GroupAnswer {
   kind: string;
+  symbol: string;
   bodies: string[];
   joints: string[];
   description: string;
   branch: number;
   free: string;
+  drawn: boolean;
 }
 /**
  * An input: name in `fixed` and `over`, driven joint of the file, kind "rotation" or "displacement".

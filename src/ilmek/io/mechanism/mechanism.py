@@ -7,6 +7,7 @@ from ilmek.errors import MechanismError, did_you_mean
 from ilmek.io.mechanism.joints import joints_of, members_of
 from ilmek.io.mechanism.points import check_lengths, complex_of, points_of
 from ilmek.io.schema import SourceText
+from ilmek.linkage.drawing import as_drawn
 from ilmek.linkage.model import GROUND, KINDS, Body, Coupling, Displacement, Input, Joint, Mechanism, Rotation, Slide
 from ilmek.plane.teeth import PRESSURE_ANGLE
 
@@ -32,6 +33,7 @@ def mechanism_of(data: Mapping[str, Any], source: SourceText) -> Mechanism:
         )
         for entry in mechanism.inputs:
             _check_driven(mechanism, entry, data["inputs"])
+        mechanism = as_drawn(mechanism)
     if "lengths" not in data.get("confirm", ()):
         check_lengths(points, members, source)
     return mechanism

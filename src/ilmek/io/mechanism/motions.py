@@ -68,15 +68,15 @@ class MotionSequence:
         within, further = _wrapped(time, ends[-1] if self.repeats else None, self.steps[-1].to - self.start)
         value, speed, acceleration = (np.zeros_like(within) for _ in range(3))
         value += np.where(within < 0, self.start, self.steps[-1].to)
-        begins = (self.start, *(step.to for step in self.steps[:-1]))
-        for step, begin, end in zip(self.steps, begins, ends, strict=True):
-            inside = (within >= end - step.time) & (within < end)
-            u = np.clip((within[inside] - (end - step.time)) / step.time, 0.0, 1.0)
-            found = step.law.motion(u)
-            rise = step.to - begin
-            value[inside] = begin + rise * found.s
-            speed[inside] = rise / step.time * found.v
-            acceleration[inside] = rise / step.time**2 * found.a
+        levels = (self.start, *(step.to for step in self.steps[:-1]))
+        begins = (0.0, *self.ends[:-1])  # `end - step.time` may be a rounding later, and no step has what lies between
+        for step, level, begin, end in zip(self.steps, levels, begins, ends, strict=True):
+            inside = (within >= begin) & (within < end)
+            curve = step.law.motion(np.clip((within[inside] - begin) / step.time, 0.0, 1.0))
+            rise = step.to - level
+            value[inside] = level + rise * curve.s
+            speed[inside] = rise / step.time * curve.v
+            acceleration[inside] = rise / step.time**2 * curve.a
         return value + further, speed, acceleration
 
 

@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 BALANCE, ENERGY = 1e-9, 1e-6
 """Greatest relative residual of the balances of power and forces, and of the energy of a forward run."""
 
+SHOWN = 4
+"""Number of dead centres listed in a check."""
 
 HINT = "motion only: for forces give bodies a mass (mass, centre, moment), or the machine loads"
 
@@ -57,7 +59,7 @@ class Analysis:
         started = tuple(replace(check, name=f"forward run: {check.name}") for check in started)
         ended = self.forward.checks if self.forward else ()
         failed = tuple(test for test in self.self_tests if not test.ok)
-        return (*self._closes, *locked, *strength, *ended, *started, *servo, *failed)
+        return (*self._closes, *self._defined, *locked, *strength, *ended, *started, *servo, *failed)
 
     @property
     def _closes(self) -> tuple[Check, ...]:
@@ -66,6 +68,19 @@ class Analysis:
             return ()
         cure = "change a link's length, or the range: --over FROM..TO"
         return (at_least("closes over its range", self.run.closed_share, 1.0, "%", "range of the drive", cure=cure),)
+
+    @property
+    def _defined(self) -> tuple[Check, ...]:
+        """Whether velocities and forces exist at every value of the drive at which it closes."""
+        if self.run.running is None:
+            return ()
+        values = self.run.undefined
+        listed = ", ".join(self.run.shown(value) for value in values[:SHOWN])
+        more = f" and {len(values) - SHOWN} further" if len(values) > SHOWN else ""
+        where = f"; not at {self.run.running.name} = {listed}{more}" if values else ""
+        source = f"velocities and forces exist where the drive determines the motion{where}"
+        cure = "change a link's length, drive another body, or keep away from it: --over FROM..TO"
+        return (at_most("dead centres in its range", len(values), 0, "1", source, cure=cure),)
 
     @property
     def self_tests(self) -> tuple[Check, ...]:

@@ -25,6 +25,9 @@ MOST_RANGES = 100
 """Largest number of ranges in which a mechanism closes; the ends of each are located."""
 
 
+SAME = 1e-6
+"""Distance of two values of the driving input, relative to its range, that are one dead centre."""
+
 MOST_BODIES = 20
 """Largest number of bodies of a group that is solved by Newton's method: its equations are solved for every sample."""
 
@@ -127,6 +130,24 @@ class MechanismRun:
         if self.closed is None:
             return float(np.mean(self.motion.status == Status.OK))
         return min(sum(abs(stop - start) for start, stop in self.closing) / whole, 1.0)
+
+    @property
+    def undefined(self) -> tuple[float, ...]:
+        """Values of the driving input [rad; m] at which links are in line, so that velocities and forces do not exist.
+
+        Those where two assemblies meet, and samples at a dead centre. An end of a range in which the mechanism closes
+        counts only if the whole range is required.
+        """
+        closed = self.closed
+        ends = [value for value, _ in closed.dead_centres] if closed is not None and not self.required else []
+        samples = [float(value) for value in self.values[self.motion.status == Status.DEAD_CENTRE]]
+        values = [*closed.change_points, *samples] if closed is not None else samples
+        near = SAME * float(np.ptp(self.values))
+        kept: list[float] = []
+        for value in sorted(values):
+            if all(abs(value - other) > near for other in (*ends, *kept[-1:])):
+                kept.append(value)
+        return tuple(kept)
 
     @property
     def samples_that_close(self) -> list[tuple[int, int]]:

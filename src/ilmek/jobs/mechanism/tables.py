@@ -152,9 +152,7 @@ def _transmission_table(found: Analysis) -> Table:
         Column("greatest", "deg"),
     )
     rows = []
-    open_samples = found.run.motion.status != Status.OK
-    for pin, every in found.transmission.items():
-        angle = np.where(open_samples, np.nan, every)
+    for pin, angle in found.transmission.items():  # at a dead centre it is 0
         least, most = _ends(angle)
         moves = found.run.running is not None and np.isfinite(angle).any()
         rows.append((pin, least, float(found.run.abscissa[int(np.nanargmin(angle))]) if moves else "", most))

@@ -8,6 +8,7 @@ within half a turn of `source_at`. [Willis, Principles of Mechanism: relative an
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import ClassVar, Self
 
 import numpy as np
 
@@ -29,6 +30,8 @@ class CoupledFollower(Step):
     slide   for a rack as source: its point in its own frame [m]; the slide's point [m] and direction in the guide's
             frame
     """
+
+    kind: ClassVar[str] = "gears"
 
     attachment: Attachment
     carrier: str
@@ -109,24 +112,24 @@ class CoupledFollower(Step):
             np.real((p.acceleration - g.acceleration - 2j * w * gain - spin) * back),
         )
 
-
-def recognise(group: Group) -> CoupledFollower | None:
-    """The group as one body driven by another through a coupling, or None; None for a driven carrier too."""
-    attached = find_attachments(group) if len(group.couplings) == 1 and not group.inputs else None
-    if attached is None or len(attached) != 1:
-        return None
-    (one,), (coupling,) = attached, group.couplings
-    (first, _), (second, _) = coupling.first, coupling.second
-    if one.body == second:
-        if (coupling.kind == "rack") != (one.track is not None):
+    @classmethod
+    def recognise(cls, group: Group) -> Self | None:
+        """The group as one body driven by another through a coupling, or None; None for a driven carrier too."""
+        attached = find_attachments(group) if len(group.couplings) == 1 and not group.inputs else None
+        if attached is None or len(attached) != 1:
             return None
-        ends = coupling.first_at, coupling.second_at
-        return CoupledFollower(one, coupling.carrier, first, None, *ends, coupling.ratio, coupling.name)
-    if one.body == first and one.track is None:
-        ends = coupling.second_at, coupling.first_at
-        line = _line(group, coupling)
-        return CoupledFollower(one, coupling.carrier, second, line, *ends, 1 / coupling.ratio, coupling.name)
-    return None
+        (one,), (coupling,) = attached, group.couplings
+        (first, _), (second, _) = coupling.first, coupling.second
+        if one.body == second:
+            if (coupling.kind == "rack") != (one.track is not None):
+                return None
+            ends = coupling.first_at, coupling.second_at
+            return cls(one, coupling.carrier, first, None, *ends, coupling.ratio, coupling.name)
+        if one.body == first and one.track is None:
+            ends = coupling.second_at, coupling.first_at
+            line = _line(group, coupling)
+            return cls(one, coupling.carrier, second, line, *ends, 1 / coupling.ratio, coupling.name)
+        return None
 
 
 def _line(group: Group, coupling: Coupling) -> tuple[complex, complex, complex] | None:

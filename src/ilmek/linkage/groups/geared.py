@@ -6,6 +6,7 @@ Gear trains, belts, racks, planetary gears with any driven member. Angles count 
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import ClassVar, Self
 
 from ilmek.linkage.body_jerk import BodyJerk
 from ilmek.linkage.body_motion import BodyMotion
@@ -18,6 +19,8 @@ from ilmek.plane.vectors import unit
 @dataclass(frozen=True, slots=True)
 class Geared(Step):
     """Bodies on one joint each, with the relation of their angle in the world (pin) or displacement (slide)."""
+
+    kind: ClassVar[str] = "gears"
 
     attachments: tuple[Attachment, ...]
     relations: tuple[LinearRelation, ...]
@@ -68,15 +71,15 @@ class Geared(Step):
             found[one.body] = one.jerk(found[one.on], located[one.body], columns[one.body], third)
         return {body: found[body] for body in self.bodies}
 
-
-def recognise(group: Group) -> Geared | None:
-    """The group as bodies driven by the inputs through couplings, or None."""
-    attached = find_attachments(group) if group.couplings else None
-    if attached is None:
-        return None
-    found = linear_relations(group.mechanism)
-    keys = [("angle", one.body) if one.track is None else ("travel", one.joint) for one in attached]
-    if not all(key in found for key in keys):
-        return None
-    through = tuple(coupling.name for coupling in group.couplings)
-    return Geared(attached, tuple(found[key] for key in keys), through, group.parents)
+    @classmethod
+    def recognise(cls, group: Group) -> Self | None:
+        """The group as bodies driven by the inputs through couplings, or None."""
+        attached = find_attachments(group) if group.couplings else None
+        if attached is None:
+            return None
+        found = linear_relations(group.mechanism)
+        keys = [("angle", one.body) if one.track is None else ("travel", one.joint) for one in attached]
+        if not all(key in found for key in keys):
+            return None
+        through = tuple(coupling.name for coupling in group.couplings)
+        return cls(attached, tuple(found[key] for key in keys), through, group.parents)

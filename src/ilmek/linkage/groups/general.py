@@ -9,6 +9,7 @@ Computer-Aided Analysis of Mechanical Systems, chapter 3].
 
 from collections.abc import Callable, Mapping
 from dataclasses import field, replace
+from typing import ClassVar, Self
 
 import numpy as np
 
@@ -38,6 +39,8 @@ class GeneralGroup(Step):
     relations  of the angles determined by inputs and couplings alone, by body
     anchors    body -> its anchor in its own frame [m]; default: the origin
     """
+
+    kind: ClassVar[str] = "general"
 
     group: Group
     scale: float
@@ -242,17 +245,17 @@ class GeneralGroup(Step):
         acceleration, alpha = a[..., 3 * k] + 1j * a[..., 3 * k + 1], a[..., 3 * k + 2] / self.scale
         return body.direction, body.omega, alpha, body.anchor.position, body.anchor.velocity, acceleration
 
-
-def from_group(group: Group) -> GeneralGroup:
-    """The group as a step for Newton's method, with every body's frame at its anchor."""
-    at = anchors(group.mechanism)
-    bodies = (
-        Body(body.name, {name: point - at[body.name] for name, point in body.points.items()})
-        for body in group.mechanism.bodies
-    )
-    known = angles(group.mechanism) if group.couplings else {}
-    local = replace(group, mechanism=replace(group.mechanism, bodies=tuple(bodies)))
-    return GeneralGroup(local, group.span, known, at)
+    @classmethod
+    def recognise(cls, group: Group) -> Self:
+        """Any group as a step for Newton's method, with every body's frame at its anchor."""
+        at = anchors(group.mechanism)
+        bodies = (
+            Body(body.name, {name: point - at[body.name] for name, point in body.points.items()})
+            for body in group.mechanism.bodies
+        )
+        known = angles(group.mechanism) if group.couplings else {}
+        local = replace(group, mechanism=replace(group.mechanism, bodies=tuple(bodies)))
+        return cls(local, group.span, known, at)
 
 
 def upright(loop_equations: list[Equation]) -> bool:

@@ -6,7 +6,7 @@ A module of this package has one kind of group: its formulas, the step that appl
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Any, ClassVar, Self, TypeAlias
 
 import numpy as np
 
@@ -15,7 +15,9 @@ from ilmek.errors import MechanismError
 from ilmek.linkage.anchors import span
 from ilmek.linkage.body_jerk import BodyJerk
 from ilmek.linkage.body_motion import BodyMotion
+from ilmek.linkage.kernels import Instruction
 from ilmek.linkage.model import Coupling, Input, Joint, Mechanism, Slide
+from ilmek.linkage.tape import Tape
 from ilmek.records import record
 
 Columns: TypeAlias = tuple[Any, ...]
@@ -59,10 +61,30 @@ class GroupSolution:
 class Step(ABC):
     """A group with all numbers for its solution, independent of any motion.
 
-    The defaults are those of a step that cannot fail.
+    A class of steps is a kind of group: one module with its formulas, and one row of `structure.GROUPS`. The defaults
+    are those of a step that cannot fail.
+
+    kind         "input", "gears", "dyad" or "general"
+    symbol       of a dyad: its joints in order, R turning, P sliding
+    instruction  its compiled form; None: it has none
+    both_sides   whether it closes on both sides of its dead centre
     """
 
     __slots__ = ()
+
+    kind: ClassVar[str]
+    symbol: ClassVar[str] = ""
+    instruction: ClassVar[Instruction | None] = None
+    both_sides: ClassVar[bool] = False
+
+    @classmethod
+    @abstractmethod
+    def recognise(cls, group: "Group") -> Self | None:
+        """The group as a step of this kind, or None.
+
+        Raises MechanismError for a group of this kind that cannot be solved: without its branch, with a link of zero
+        length.
+        """
 
     @property
     @abstractmethod
@@ -78,6 +100,11 @@ class Step(ABC):
     @abstractmethod
     def description(self) -> str:
         """Description of the step for users."""
+
+    @property
+    def free(self) -> str:
+        """The joint whose branch it has; "": it has one assembly."""
+        return ""
 
     @abstractmethod
     def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:
@@ -99,6 +126,14 @@ class Step(ABC):
 
         known  jerks of the known bodies         located  the bodies' own motions, from their columns
         """
+
+    def write(self, tape: Tape) -> None:  # noqa: ARG002 - for the steps with a compiled form
+        """Append its instructions to a tape. Raises MechanismError for a step without a compiled form."""
+        raise MechanismError(
+            f"{self.description}: not among the compiled groups",
+            allowed="driven bodies and the dyads that have closed forms",
+            do="use solve",
+        )
 
     @property
     def size(self) -> float:

@@ -10,14 +10,75 @@ guided by two slots. The dyad is at a dead centre where the lines are parallel: 
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import ClassVar, Self
 
-from ilmek.arrays import ComplexField, RealField
+from ilmek.arrays import ComplexArray, ComplexField, FloatArray, RealField
 from ilmek.linkage.body_jerk import BodyJerk, slid_jerk
 from ilmek.linkage.body_motion import BodyMotion, PointMotion
 from ilmek.linkage.groups.group import Columns, Group, GroupSolution, InputMotion, Known, KnownJerks, Step
-from ilmek.linkage.groups.shift import SlideTrack, refuse_parallel, slid_acceleration, slid_velocity, track
+from ilmek.linkage.groups.shift import (
+    SlideTrack,
+    refuse_parallel,
+    slid_acceleration,
+    slid_acceleration_kernel,
+    slid_velocity,
+    slid_velocity_kernel,
+    track,
+)
+from ilmek.linkage.kernels import (
+    ACCELERATION,
+    ALPHA,
+    BLOCK,
+    DIRECTION,
+    LINE,
+    MARGIN,
+    OMEGA,
+    SECOND,
+    TRAVEL,
+    VELOCITY,
+    ZERO,
+    Instruction,
+    cross_kernel,
+    oblique_kernel,
+    pair,
+    unable,
+)
 from ilmek.linkage.model import Pin, Slide
+from ilmek.linkage.tape import Tape
+from ilmek.num.compiled import compiled
 from ilmek.plane.vectors import cross, oblique
+
+
+@compiled
+def _kernel(dyad: FloatArray, first: FloatArray, second: FloatArray, count: int, numbers: ComplexArray) -> None:
+    """Travels and rates of two sliders pinned to one another, and the margin; the lines' zeros are already written.
+
+    first, second  the guides        numbers  the lines' directions in the guides' frames
+    """
+    lead, other_lead, other = numbers[0], numbers[1], ZERO + LINE
+    for i in range(min(count, BLOCK)):
+        e, w, alpha = pair(first, DIRECTION * BLOCK + i) * lead, first[OMEGA * BLOCK + i], first[ALPHA * BLOCK + i]
+        f, v = pair(second, DIRECTION * BLOCK + i) * other_lead, second[OMEGA * BLOCK + i]
+        beta = second[ALPHA * BLOCK + i]
+        r: ComplexField = pair(dyad, other * BLOCK + i) - pair(dyad, ZERO * BLOCK + i)
+        s, z = oblique_kernel(r, e, f), -oblique_kernel(r, f, e)
+        r = pair(dyad, (other + VELOCITY) * BLOCK + i) + slid_velocity_kernel(f, v, z, 0.0)
+        r = r - pair(dyad, (ZERO + VELOCITY) * BLOCK + i) - slid_velocity_kernel(e, w, s, 0.0)
+        ds, dz = oblique_kernel(r, e, f), -oblique_kernel(r, f, e)
+        r = pair(dyad, (other + ACCELERATION) * BLOCK + i) + slid_acceleration_kernel(f, v, beta, z, dz, 0.0)
+        r = r - pair(dyad, (ZERO + ACCELERATION) * BLOCK + i) - slid_acceleration_kernel(e, w, alpha, s, ds, 0.0)
+        dyad[MARGIN * BLOCK + i] = cross_kernel(e, f)
+        dyad[TRAVEL * BLOCK + i] = s
+        dyad[(TRAVEL + 1) * BLOCK + i] = ds
+        dyad[(TRAVEL + 2) * BLOCK + i] = oblique_kernel(r, e, f)
+        dyad[(TRAVEL + LINE) * BLOCK + i] = z
+        dyad[(TRAVEL + LINE + 1) * BLOCK + i] = dz
+        dyad[(TRAVEL + LINE + 2) * BLOCK + i] = -oblique_kernel(r, f, e)
+
+
+@compiled
+def _scale(_numbers: ComplexArray) -> tuple[float, float]:
+    return 1.0, 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,6 +87,11 @@ class CrossedSliders(Step):
 
     reach  slide's point -> pin in the sliders' frames [m]         scale  of its lengths [m]
     """
+
+    kind: ClassVar[str] = "dyad"
+    symbol: ClassVar[str] = "PRP"
+    instruction: ClassVar[Instruction] = Instruction(_kernel, _scale, unable)
+    both_sides: ClassVar[bool] = True
 
     sliders: tuple[str, str]
     on: tuple[str, str]
@@ -48,7 +114,7 @@ class CrossedSliders(Step):
     def description(self) -> str:
         """Description of the step for users."""
         (p, q), (on_p, on_q) = self.sliders, self.on
-        return f"sliders {p} and {q} joined at {self.pin}, on {on_p} and {on_q}: PRP"
+        return f"sliders {p} and {q} joined at {self.pin}, on {on_p} and {on_q}: {self.symbol}"
 
     def line(self, known: Known, which: int) -> tuple[BodyMotion, PointMotion, ComplexField]:
         """A guide, the motion of the pin's point on it at zero travel, and the line's direction."""
@@ -117,28 +183,39 @@ class CrossedSliders(Step):
         (_, _, e), (_, _, f) = self.line(known, 0), self.line(known, 1)
         return 0.0 * cross(e, f)
 
+    @classmethod
+    def recognise(cls, group: Group) -> Self | None:
+        """The group as a PRP dyad, or None. Raises MechanismError where both lines are parallel lines of one guide."""
+        pin, mechanism = group.inner[0] if group.is_dyad else None, group.mechanism
+        if not isinstance(pin, Pin):
+            return None
+        first, second = pin.bodies
+        slides = [joint for body in pin.bodies for joint in group.outer_of(body) if isinstance(joint, Slide)]
+        if len(slides) != 2:
+            return None
+        on = group.beyond(slides[0], first), group.beyond(slides[1], second)
+        tracks = track(mechanism, slides[0], first), track(mechanism, slides[1], second)
+        if on[0] == on[1]:
+            refuse_parallel(mechanism, slides, cross(tracks[0].lead, tracks[1].lead))
+        return cls(
+            sliders=(first, second),
+            on=on,
+            pin=pin.name,
+            reach=(
+                mechanism.point(first, pin.name) - mechanism.point(first, slides[0].name),
+                mechanism.point(second, pin.name) - mechanism.point(second, slides[1].name),
+            ),
+            tracks=tracks,
+            scale=group.span,
+        )
 
-def recognise(group: Group) -> CrossedSliders | None:
-    """The group as a PRP dyad, or None. Raises MechanismError where both lines are parallel lines of one guide."""
-    pin, mechanism = group.inner[0] if group.is_dyad else None, group.mechanism
-    if not isinstance(pin, Pin):
-        return None
-    first, second = pin.bodies
-    slides = [joint for body in pin.bodies for joint in group.outer_of(body) if isinstance(joint, Slide)]
-    if len(slides) != 2:
-        return None
-    on = group.beyond(slides[0], first), group.beyond(slides[1], second)
-    tracks = track(mechanism, slides[0], first), track(mechanism, slides[1], second)
-    if on[0] == on[1]:
-        refuse_parallel(mechanism, slides, cross(tracks[0].lead, tracks[1].lead))
-    return CrossedSliders(
-        sliders=(first, second),
-        on=on,
-        pin=pin.name,
-        reach=(
-            mechanism.point(first, pin.name) - mechanism.point(first, slides[0].name),
-            mechanism.point(second, pin.name) - mechanism.point(second, slides[1].name),
-        ),
-        tracks=tracks,
-        scale=group.span,
-    )
+    def write(self, tape: Tape) -> None:
+        """Both lines' zeros, the dyad, then both sliders on their guides."""
+        to = tape.room(TRAVEL + LINE + 3)
+        lines = tuple(zip(self.sliders, self.on, self.tracks, strict=True))
+        for k, (slider, guide, line) in enumerate(lines):
+            line.write_zero(tape, slider, guide, self.pin, to + ZERO + k * LINE)
+        first, second = (tape.rows[guide] for guide in self.on)
+        tape.add(self.instruction, to, first, second, tuple(line.lead for line in self.tracks))
+        for k, (slider, guide, line) in enumerate(lines):
+            line.write(tape, slider, guide, to + k * SECOND, to + TRAVEL + k * LINE)

@@ -13,15 +13,31 @@ infinite.
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import ClassVar, Self
 
 import numpy as np
 
-from ilmek.arrays import ComplexField, RealField
+from ilmek.arrays import ComplexArray, ComplexField, FloatArray, RealField
 from ilmek.linkage.body_jerk import BodyJerk, slid_jerk
 from ilmek.linkage.groups.group import Columns, Group, GroupSolution, InputMotion, Known, KnownJerks
 from ilmek.linkage.groups.pairs import PinnedPair
 from ilmek.linkage.groups.shift import SlideTrack, track
+from ilmek.linkage.kernels import (
+    ACCELERATION,
+    ALPHA,
+    BLOCK,
+    DIRECTION,
+    MARGIN,
+    OMEGA,
+    SECOND,
+    VELOCITY,
+    Instruction,
+    pair,
+    put,
+)
 from ilmek.linkage.model import Pin, Slide
+from ilmek.linkage.tape import Tape
+from ilmek.num.compiled import compiled
 from ilmek.plane.vectors import dot
 from ilmek.units import format_quantity
 
@@ -94,12 +110,56 @@ def shortness(d: ComplexField, o: RealField) -> RealField:
     return short
 
 
+_sliding_distance, _heading = compiled(sliding_distance), compiled(heading)
+_turn_rate, _sliding_speed = compiled(turn_rate), compiled(sliding_speed)
+_relative_acceleration, _shortness = compiled(relative_acceleration), compiled(shortness)
+
+
+@compiled
+def _kernel(dyad: FloatArray, _of: FloatArray, _also: FloatArray, count: int, numbers: ComplexArray) -> None:
+    """Directions, rates and margin of two bodies that slide on one another; the known pins are already written.
+
+    Numbers: offset, branch, the guide's direction against the line, the second body's against the guide, size.
+    """
+    o, branch, per_lead, twist = numbers[0].real, numbers[1].real, numbers[2], numbers[3]
+    for i in range(min(count, BLOCK)):
+        d = pair(dyad, SECOND * BLOCK + i) - pair(dyad, i)
+        t = _sliding_distance(d, o, branch)
+        e = _heading(d, o, t)
+        r: ComplexField = pair(dyad, (SECOND + VELOCITY) * BLOCK + i) - pair(dyad, VELOCITY * BLOCK + i)
+        w = _turn_rate(e, r, t)
+        d2 = pair(dyad, (SECOND + ACCELERATION) * BLOCK + i) - pair(dyad, ACCELERATION * BLOCK + i)
+        r = _relative_acceleration(d2, d, e, w, _sliding_speed(e, r, w, o))
+        alpha = _turn_rate(e, r, t)
+        direction = e * per_lead
+        put(dyad, DIRECTION * BLOCK + i, direction)
+        put(dyad, (SECOND + DIRECTION) * BLOCK + i, direction * twist)
+        for body in (0, SECOND):
+            dyad[(body + OMEGA) * BLOCK + i] = w
+            dyad[(body + ALPHA) * BLOCK + i] = alpha
+        dyad[MARGIN * BLOCK + i] = t
+
+
+@compiled
+def _scale(numbers: ComplexArray) -> tuple[float, float]:
+    return numbers[4].real, numbers[4].real
+
+
+@compiled
+def _gap(dyad: FloatArray, _of: FloatArray, numbers: ComplexArray, i: int) -> float:
+    return float(_shortness(pair(dyad, SECOND * BLOCK + i) - pair(dyad, i), numbers[0].real))
+
+
 @dataclass(frozen=True, slots=True)
 class SlidingDyad(PinnedPair):
     """Two bodies on known pins, the second sliding on the first.
 
     track  the second body on the first      offset  o [m]      scale  of its lengths [m]
     """
+
+    kind: ClassVar[str] = "dyad"
+    symbol: ClassVar[str] = "RPR"
+    instruction: ClassVar[Instruction] = Instruction(_kernel, _scale, _gap)
 
     slide: str
     branch: int
@@ -111,7 +171,13 @@ class SlidingDyad(PinnedPair):
     def description(self) -> str:
         """Description of the step for users."""
         (p, q), (on_p, on_q) = self.links, self.on
-        return f"{p} and {q} joined by slide {self.slide} (branch {self.branch:+d}), attached to {on_p} and {on_q}: RPR"
+        dyad = f"{p} and {q} joined by slide {self.slide} (branch {self.branch:+d})"
+        return f"{dyad}, attached to {on_p} and {on_q}: {self.symbol}"
+
+    @property
+    def free(self) -> str:
+        """The slide between the bodies."""
+        return self.slide
 
     def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:  # noqa: ARG002 - needs no input
         """Directions of both bodies, their common angular velocity and acceleration."""
@@ -176,30 +242,40 @@ class SlidingDyad(PinnedPair):
             f"reduce the offset of slide {self.slide} by {format_quantity(gap, 'mm')}",
         )
 
+    @classmethod
+    def recognise(cls, group: Group) -> Self | None:
+        """The group as an RPR dyad, or None; None too for a slide without a branch whose bodies have a pose.
 
-def recognise(group: Group) -> SlidingDyad | None:
-    """The group as an RPR dyad, or None; None too for a slide without a branch whose bodies have a pose.
+        Raises MechanismError for a slide with neither.
+        """
+        slide, mechanism = group.inner[0] if group.is_dyad else None, group.mechanism
+        if not isinstance(slide, Slide) or not all(isinstance(joint, Pin) for joint in group.outer):
+            return None
+        if slide.name not in mechanism.branches and mechanism.pose.keys() & set(group.bodies):
+            return None
+        guide, body = slide.guide, slide.body
+        hinges = [group.outer_of(link)[0] for link in (guide, body)]
+        on = [group.beyond(hinge, link) for hinge, link in zip(hinges, (guide, body), strict=True)]
+        at = [mechanism.point(link, hinge.name) for hinge, link in zip(hinges, (guide, body), strict=True)]
+        line = track(mechanism, slide, body)
+        return cls(
+            links=(guide, body),
+            on=(on[0], on[1]),
+            slide=slide.name,
+            branch=group.branch(slide.name),
+            hinges=(mechanism.point(on[0], hinges[0].name), mechanism.point(on[1], hinges[1].name)),
+            at=(at[0], at[1]),
+            track=line,
+            offset=float(offset(at[0], line.root, at[1], line.at, line)),
+            scale=group.span,
+        )
 
-    Raises MechanismError for a slide with neither.
-    """
-    slide, mechanism = group.inner[0] if group.is_dyad else None, group.mechanism
-    if not isinstance(slide, Slide) or not all(isinstance(joint, Pin) for joint in group.outer):
-        return None
-    if slide.name not in mechanism.branches and mechanism.pose.keys() & set(group.bodies):
-        return None
-    guide, body = slide.guide, slide.body
-    hinges = [group.outer_of(link)[0] for link in (guide, body)]
-    on = [group.beyond(hinge, link) for hinge, link in zip(hinges, (guide, body), strict=True)]
-    at = [mechanism.point(link, hinge.name) for hinge, link in zip(hinges, (guide, body), strict=True)]
-    line = track(mechanism, slide, body)
-    return SlidingDyad(
-        links=(guide, body),
-        on=(on[0], on[1]),
-        slide=slide.name,
-        branch=group.branch(slide.name),
-        hinges=(mechanism.point(on[0], hinges[0].name), mechanism.point(on[1], hinges[1].name)),
-        at=(at[0], at[1]),
-        track=line,
-        offset=float(offset(at[0], line.root, at[1], line.at, line)),
-        scale=group.span,
-    )
+    def write(self, tape: Tape) -> None:
+        """Two known pins, then the dyad."""
+        to, (guide, body), line = tape.room(MARGIN + 1), self.links, self.track
+        for link, on, row in zip(self.links, self.on, (to, to + SECOND), strict=True):
+            tape.pinned(link, on, row)
+        root, at = tape.point(guide, self.slide), tape.point(body, self.slide)
+        off = offset(tape.at[guide], root, tape.at[body], at, line)
+        branch = tape.branch(self.slide, self.branch)
+        tape.add(self.instruction, to, numbers=(off, branch, line.lead.conjugate(), line.twist, tape.span))

@@ -11,16 +11,40 @@ infinite.
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import ClassVar, Self
 
 import numpy as np
 
-from ilmek.arrays import ComplexField, RealField
+from ilmek.arrays import ComplexArray, ComplexField, FloatArray, RealField
 from ilmek.linkage.body_jerk import BodyJerk, carried_jerk, slid_jerk
 from ilmek.linkage.body_motion import PointMotion
 from ilmek.linkage.groups.group import Columns, Group, GroupSolution, InputMotion, Known, KnownJerks
 from ilmek.linkage.groups.pairs import SliderPair
-from ilmek.linkage.groups.shift import slid_acceleration, slid_velocity, track
+from ilmek.linkage.groups.shift import (
+    slid_acceleration,
+    slid_acceleration_kernel,
+    slid_velocity,
+    slid_velocity_kernel,
+    track,
+)
+from ilmek.linkage.kernels import (
+    ACCELERATION,
+    ALPHA,
+    BLOCK,
+    DIRECTION,
+    MARGIN,
+    OMEGA,
+    SECOND,
+    TRAVEL,
+    VELOCITY,
+    ZERO,
+    Instruction,
+    pair,
+    put,
+)
 from ilmek.linkage.model import Pin, Slide
+from ilmek.linkage.tape import Tape
+from ilmek.num.compiled import compiled
 from ilmek.units import format_quantity
 
 
@@ -90,12 +114,55 @@ def shortness(A: ComplexField, Q: ComplexField, e: ComplexField, a: RealField) -
     return np.maximum(np.abs(e.real * d.imag - e.imag * d.real) - a, 0)
 
 
+_reach, _link_rate, _slider_rate = compiled(reach), compiled(link_rate), compiled(slider_rate)
+_relative_acceleration, _shortness = compiled(relative_acceleration), compiled(shortness)
+
+
+@compiled
+def _kernel(dyad: FloatArray, guide: FloatArray, _also: FloatArray, count: int, numbers: ComplexArray) -> None:
+    """Direction and rates of the link, margin, travel and rates of the slider; pin and zero are already written.
+
+    Numbers: a, branch, 1/arm, the line's direction in the guide's frame.
+    """
+    a, branch, per_arm, lead = numbers[0].real, numbers[1].real, numbers[2], numbers[3]
+    for i in range(min(count, BLOCK)):
+        e, w, alpha = pair(guide, DIRECTION * BLOCK + i) * lead, guide[OMEGA * BLOCK + i], guide[ALPHA * BLOCK + i]
+        s, u, cosine = _reach(pair(dyad, i) - pair(dyad, ZERO * BLOCK + i), e, a, branch)
+        sliding = pair(dyad, (ZERO + VELOCITY) * BLOCK + i) + slid_velocity_kernel(e, w, s, 0.0)
+        r = sliding - pair(dyad, VELOCITY * BLOCK + i)
+        wa, ds = _link_rate(e, r, cosine), _slider_rate(u, r, cosine)
+        C2 = pair(dyad, (ZERO + ACCELERATION) * BLOCK + i) + slid_acceleration_kernel(e, w, alpha, s, ds, 0.0)
+        r = _relative_acceleration(pair(dyad, ACCELERATION * BLOCK + i), C2, u, wa)
+        put(dyad, DIRECTION * BLOCK + i, u * per_arm)
+        dyad[OMEGA * BLOCK + i] = wa
+        dyad[ALPHA * BLOCK + i] = _link_rate(e, r, cosine)
+        dyad[MARGIN * BLOCK + i] = cosine
+        dyad[TRAVEL * BLOCK + i] = s
+        dyad[(TRAVEL + 1) * BLOCK + i] = ds
+        dyad[(TRAVEL + 2) * BLOCK + i] = _slider_rate(u, r, cosine)
+
+
+@compiled
+def _scale(numbers: ComplexArray) -> tuple[float, float]:
+    return numbers[0].real, numbers[0].real
+
+
+@compiled
+def _gap(dyad: FloatArray, guide: FloatArray, numbers: ComplexArray, i: int) -> float:
+    e = pair(guide, DIRECTION * BLOCK + i) * numbers[3]
+    return float(_shortness(pair(dyad, i), pair(dyad, ZERO * BLOCK + i), e, numbers[0].real))
+
+
 @dataclass(frozen=True, slots=True)
 class SliderDyad(SliderPair):
     """A link of length a [m] on a known body, pinned to a slider on another (or the same) known body.
 
     arm  known pin -> free pin in the link's frame [m]      reach  slide's point -> free pin in the slider's frame [m]
     """
+
+    kind: ClassVar[str] = "dyad"
+    symbol: ClassVar[str] = "RRP"
+    instruction: ClassVar[Instruction] = Instruction(_kernel, _scale, _gap)
 
     pin: str
     branch: int
@@ -108,8 +175,13 @@ class SliderDyad(SliderPair):
         """Description of the step for users."""
         return (
             f"{self.link} and slider {self.slider} joined at {self.pin} (branch {self.branch:+d}), "
-            f"attached to {self.on[0]} and {self.on[1]}: RRP"
+            f"attached to {self.on[0]} and {self.on[1]}: {self.symbol}"
         )
+
+    @property
+    def free(self) -> str:
+        """The pin between link and slider."""
+        return self.pin
 
     def known_line(self, known: Known) -> tuple[PointMotion, PointMotion, ComplexField]:
         """Motions of the known pin and of the free pin's point on the line at zero travel, and the line's direction."""
@@ -182,32 +254,41 @@ class SliderDyad(SliderPair):
             f"lengthen {self.link} by {format_quantity(gap, 'mm')}",
         )
 
+    @classmethod
+    def recognise(cls, group: Group) -> Self | None:
+        """The group as an RRP dyad, or None; raises as all do."""
+        if len(group.bodies) != 2 or group.inputs or len(group.inner) != 1 or len(group.outer) != 2:
+            return None
+        pin, mechanism = group.inner[0], group.mechanism
+        slide = next((joint for joint in group.outer if isinstance(joint, Slide)), None)
+        hinge = next((joint for joint in group.outer if isinstance(joint, Pin)), None)
+        if not isinstance(pin, Pin) or slide is None or hinge is None:
+            return None
+        link = next(body for body in group.bodies if body in hinge.bodies)
+        slider = next(body for body in group.bodies if body in slide.bodies)
+        if link == slider:
+            return None
+        on = group.beyond(hinge, link), group.beyond(slide, slider)
+        arm = group.arm(link, hinge.name, pin.name)
+        return cls(
+            link=link,
+            slider=slider,
+            on=on,
+            pin=pin.name,
+            branch=group.branch(pin.name),
+            hinge=mechanism.point(on[0], hinge.name),
+            at=mechanism.point(link, hinge.name),
+            arm=arm,
+            a=abs(arm),
+            reach=mechanism.point(slider, pin.name) - mechanism.point(slider, slide.name),
+            track=track(mechanism, slide, slider),
+        )
 
-def recognise(group: Group) -> SliderDyad | None:
-    """The group as an RRP dyad, or None. Raises MechanismError for a pin without a branch or a link of zero length."""
-    if len(group.bodies) != 2 or group.inputs or len(group.inner) != 1 or len(group.outer) != 2:
-        return None
-    pin, mechanism = group.inner[0], group.mechanism
-    slide = next((joint for joint in group.outer if isinstance(joint, Slide)), None)
-    hinge = next((joint for joint in group.outer if isinstance(joint, Pin)), None)
-    if not isinstance(pin, Pin) or slide is None or hinge is None:
-        return None
-    link = next(body for body in group.bodies if body in hinge.bodies)
-    slider = next(body for body in group.bodies if body in slide.bodies)
-    if link == slider:
-        return None
-    on = group.beyond(hinge, link), group.beyond(slide, slider)
-    arm = group.arm(link, hinge.name, pin.name)
-    return SliderDyad(
-        link=link,
-        slider=slider,
-        on=on,
-        pin=pin.name,
-        branch=group.branch(pin.name),
-        hinge=mechanism.point(on[0], hinge.name),
-        at=mechanism.point(link, hinge.name),
-        arm=arm,
-        a=abs(arm),
-        reach=mechanism.point(slider, pin.name) - mechanism.point(slider, slide.name),
-        track=track(mechanism, slide, slider),
-    )
+    def write(self, tape: Tape) -> None:
+        """The known pin and the line's zero, the dyad, then the slider on its guide."""
+        to, (on, guide) = tape.room(TRAVEL + 3), self.on
+        arm = tape.arm(self.link, tape.pinned(self.link, on, to), self.pin)
+        self.track.write_zero(tape, self.slider, guide, self.pin, to + ZERO)
+        branch = tape.branch(self.pin, self.branch)
+        tape.add(self.instruction, to, tape.rows[guide], numbers=(np.abs(arm), branch, 1 / arm, self.track.lead))
+        self.track.write(tape, self.slider, guide, to + SECOND, to + TRAVEL)

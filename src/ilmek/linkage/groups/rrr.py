@@ -8,15 +8,31 @@ The dyad is at a dead centre where its links are in line: (C - A) x (C - B) = 0.
 """
 
 from collections.abc import Mapping
+from typing import ClassVar, Self
 
 import numpy as np
 
-from ilmek.arrays import ComplexField, RealField
+from ilmek.arrays import ComplexArray, ComplexField, FloatArray, RealField
 from ilmek.linkage.body_jerk import BodyJerk, carried_jerk
 from ilmek.linkage.groups.group import Columns, Group, GroupSolution, InputMotion, Known, KnownJerks
 from ilmek.linkage.groups.pairs import PinnedPair
+from ilmek.linkage.kernels import (
+    ACCELERATION,
+    ALPHA,
+    BLOCK,
+    DIRECTION,
+    MARGIN,
+    OMEGA,
+    SECOND,
+    VELOCITY,
+    Instruction,
+    pair,
+    put,
+)
 from ilmek.linkage.model import Pin
 from ilmek.linkage.status import TOUCHING
+from ilmek.linkage.tape import Tape
+from ilmek.num.compiled import compiled
 from ilmek.records import value_record
 from ilmek.units import format_quantity
 
@@ -95,12 +111,55 @@ def misfit(A: ComplexField, B: ComplexField, a: RealField, b: RealField) -> Real
     return gap
 
 
+_first_link, _first_rate, _second_rate = compiled(first_link), compiled(first_rate), compiled(second_rate)
+_relative_acceleration, _misfit = compiled(relative_acceleration), compiled(misfit)
+
+
+@compiled
+def _kernel(dyad: FloatArray, _of: FloatArray, _also: FloatArray, count: int, numbers: ComplexArray) -> None:
+    """Directions, rates and margin of two links, whose known pins are already written.
+
+    Numbers: a, b, branch, 1/arm of each link.
+    """
+    a, b, branch, per_a, per_b = numbers[0].real, numbers[1].real, numbers[2].real, numbers[3], numbers[4]
+    for i in range(min(count, BLOCK)):
+        d = pair(dyad, SECOND * BLOCK + i) - pair(dyad, i)
+        u, sine = _first_link(d, a, b, branch)
+        v, per_sine = u - d, 1 / sine
+        r: ComplexField = pair(dyad, (SECOND + VELOCITY) * BLOCK + i) - pair(dyad, VELOCITY * BLOCK + i)
+        wa, wb = _first_rate(v, r, per_sine), _second_rate(u, r, per_sine)
+        A2, B2 = pair(dyad, ACCELERATION * BLOCK + i), pair(dyad, (SECOND + ACCELERATION) * BLOCK + i)
+        r = _relative_acceleration(A2, B2, u, v, wa, wb)
+        put(dyad, DIRECTION * BLOCK + i, u * per_a)
+        put(dyad, (SECOND + DIRECTION) * BLOCK + i, v * per_b)
+        dyad[OMEGA * BLOCK + i] = wa
+        dyad[(SECOND + OMEGA) * BLOCK + i] = wb
+        dyad[ALPHA * BLOCK + i] = _first_rate(v, r, per_sine)
+        dyad[(SECOND + ALPHA) * BLOCK + i] = _second_rate(u, r, per_sine)
+        dyad[MARGIN * BLOCK + i] = sine
+
+
+@compiled
+def _scale(numbers: ComplexArray) -> tuple[float, float]:
+    a, b = numbers[0].real, numbers[1].real
+    return a * b, min(a, b)
+
+
+@compiled
+def _gap(dyad: FloatArray, _of: FloatArray, numbers: ComplexArray, i: int) -> float:
+    return float(_misfit(pair(dyad, i), pair(dyad, SECOND * BLOCK + i), numbers[0].real, numbers[1].real))
+
+
 @value_record
 class RRRDyad(PinnedPair):
     """Two links, of lengths a and b [m], on known bodies and joined by the free pin.
 
     arms  known pin -> free pin in the links' frames [m]
     """
+
+    kind: ClassVar[str] = "dyad"
+    symbol: ClassVar[str] = "RRR"
+    instruction: ClassVar[Instruction] = Instruction(_kernel, _scale, _gap)
 
     pin: str
     known_pins: tuple[str, str]
@@ -113,7 +172,14 @@ class RRRDyad(PinnedPair):
     def description(self) -> str:
         """Description of the step for users."""
         (p, q), (on_p, on_q) = self.links, self.on
-        return f"{p} and {q} joined at {self.pin} (branch {self.branch:+d}), attached to {on_p} and {on_q}: RRR"
+        return (
+            f"{p} and {q} joined at {self.pin} (branch {self.branch:+d}), attached to {on_p} and {on_q}: {self.symbol}"
+        )
+
+    @property
+    def free(self) -> str:
+        """The pin between the links."""
+        return self.pin
 
     def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:  # noqa: ARG002 - needs no input
         """Directions, angular velocities and accelerations of the links."""
@@ -187,35 +253,43 @@ class RRRDyad(PinnedPair):
             f"lengthen {shorter} by {_mm(-gap)}",
         )
 
+    @classmethod
+    def recognise(cls, group: Group) -> Self | None:
+        """The group as an RRR dyad, or None; raises as all do."""
+        if len(group.bodies) != 2 or group.inputs or len(group.inner) != 1 or len(group.outer) != 2:
+            return None
+        pin, mechanism = group.inner[0], group.mechanism
+        if not all(isinstance(joint, Pin) for joint in group.joints):
+            return None
+        links = pin.bodies
+        joints_to_known = [group.outer_of(link) for link in links]
+        if any(len(joints) != 1 for joints in joints_to_known):
+            return None
+        outer = [joints[0] for joints in joints_to_known]
+        on = [group.beyond(joint, link) for joint, link in zip(outer, links, strict=True)]
+        at = [mechanism.point(link, joint.name) for joint, link in zip(outer, links, strict=True)]
+        hinges = [mechanism.point(body, joint.name) for joint, body in zip(outer, on, strict=True)]
+        arms = [group.arm(link, joint.name, pin.name) for joint, link in zip(outer, links, strict=True)]
+        return cls(
+            links=links,
+            on=(on[0], on[1]),
+            pin=pin.name,
+            known_pins=(outer[0].name, outer[1].name),
+            branch=group.branch(pin.name),
+            hinges=(hinges[0], hinges[1]),
+            at=(at[0], at[1]),
+            arms=(arms[0], arms[1]),
+            a=abs(arms[0]),
+            b=abs(arms[1]),
+        )
 
-def recognise(group: Group) -> RRRDyad | None:
-    """The group as an RRR dyad, or None. Raises MechanismError for a pin without a branch or a link of zero length."""
-    if len(group.bodies) != 2 or group.inputs or len(group.inner) != 1 or len(group.outer) != 2:
-        return None
-    pin, mechanism = group.inner[0], group.mechanism
-    if not all(isinstance(joint, Pin) for joint in group.joints):
-        return None
-    links = pin.bodies
-    joints_to_known = [group.outer_of(link) for link in links]
-    if any(len(joints) != 1 for joints in joints_to_known):
-        return None
-    outer = [joints[0] for joints in joints_to_known]
-    on = [group.beyond(joint, link) for joint, link in zip(outer, links, strict=True)]
-    at = [mechanism.point(link, joint.name) for joint, link in zip(outer, links, strict=True)]
-    hinges = [mechanism.point(body, joint.name) for joint, body in zip(outer, on, strict=True)]
-    arms = [group.arm(link, joint.name, pin.name) for joint, link in zip(outer, links, strict=True)]
-    return RRRDyad(
-        links=links,
-        on=(on[0], on[1]),
-        pin=pin.name,
-        known_pins=(outer[0].name, outer[1].name),
-        branch=group.branch(pin.name),
-        hinges=(hinges[0], hinges[1]),
-        at=(at[0], at[1]),
-        arms=(arms[0], arms[1]),
-        a=abs(arms[0]),
-        b=abs(arms[1]),
-    )
+    def write(self, tape: Tape) -> None:
+        """Two known pins, then the dyad."""
+        to = tape.room(MARGIN + 1)
+        (p, q), (on_p, on_q) = self.links, self.on
+        arms = tape.arm(p, tape.pinned(p, on_p, to), self.pin), tape.arm(q, tape.pinned(q, on_q, to + SECOND), self.pin)
+        a, b = np.abs(arms[0]), np.abs(arms[1])
+        tape.add(self.instruction, to, numbers=(a, b, tape.branch(self.pin, self.branch), 1 / arms[0], 1 / arms[1]))
 
 
 def _mm(length: float) -> str:

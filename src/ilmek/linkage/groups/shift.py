@@ -8,15 +8,30 @@ with the term of Coriolis, 2 i w s' e [Norton, Design of Machinery, sections 6.7
 import cmath
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import ClassVar, Self
 
 import numpy as np
 
-from ilmek.arrays import ComplexField, RealField
+from ilmek.arrays import ComplexArray, ComplexField, FloatArray, RealField
 from ilmek.errors import MechanismError
 from ilmek.linkage.body_jerk import BodyJerk, slid_jerk
 from ilmek.linkage.body_motion import BodyMotion, PointMotion
 from ilmek.linkage.groups.group import Columns, Group, GroupSolution, InputMotion, Known, KnownJerks, Step
+from ilmek.linkage.kernels import (
+    ACCELERATION,
+    ALPHA,
+    BLOCK,
+    BODY,
+    DIRECTION,
+    OMEGA,
+    VELOCITY,
+    Instruction,
+    pair,
+    put,
+)
 from ilmek.linkage.model import Displacement, Mechanism, Slide
+from ilmek.linkage.tape import Tape
+from ilmek.num.compiled import compiled
 
 PARALLEL = 1e-12
 """Greatest sine of the angle between lines that count as parallel."""
@@ -41,6 +56,32 @@ def slid_acceleration(  # noqa: PLR0917 - arguments in the order of the equation
     (-38-11j)
     """
     return (dds - omega * omega * s + 1j * (alpha * s + 2 * omega * ds)) * e
+
+
+slid_velocity_kernel, slid_acceleration_kernel = compiled(slid_velocity), compiled(slid_acceleration)
+
+
+@compiled
+def _kernel(body: FloatArray, guide: FloatArray, travel: FloatArray, count: int, numbers: ComplexArray) -> None:
+    """A slider: its anchor, written at the slide's root, moved along the line; its direction and rates.
+
+    Numbers: the line's direction and the slider's, in the guide's frame.
+    """
+    lead, twist = numbers[0], numbers[1]
+    for i in range(min(count, BLOCK)):
+        direction, w, alpha = pair(guide, DIRECTION * BLOCK + i), guide[OMEGA * BLOCK + i], guide[ALPHA * BLOCK + i]
+        s, ds, dds, e = travel[i], travel[BLOCK + i], travel[2 * BLOCK + i], direction * lead
+        v, a = VELOCITY * BLOCK + i, ACCELERATION * BLOCK + i
+        put(body, i, pair(body, i) + s * e)
+        put(body, v, pair(body, v) + slid_velocity_kernel(e, w, s, ds))
+        put(body, a, pair(body, a) + slid_acceleration_kernel(e, w, alpha, s, ds, dds))
+        put(body, DIRECTION * BLOCK + i, direction * twist)
+        body[OMEGA * BLOCK + i] = w
+        body[ALPHA * BLOCK + i] = alpha
+
+
+SLIP = Instruction(_kernel, shifts=True)
+"""A slider on its guide, from the rows of its travel."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,6 +119,19 @@ class SlideTrack:
         anchor = on.carry(self.root) + slid_jerk(e, w, on.motion.alpha, on.beta, s, ds, dds, third)
         return BodyJerk(located, anchor, on.beta)
 
+    def write(self, tape: Tape, body: str, on: str, to: int, travel: int) -> None:
+        """Append the body, whose travel and its rates are in the rows from `travel` on, to a tape."""
+        slide = tape.between(body, on)
+        tape.carry(on, tape.point(on, slide), to)
+        tape.add(SLIP, to, tape.rows[on], travel, (self.lead, self.twist))
+        tape.rows[body], tape.at[body], tape.travel[body] = to, tape.point(body, slide), travel
+
+    def write_zero(self, tape: Tape, body: str, on: str, pin: str, to: int) -> None:
+        """Append the motion of the body's pin at zero travel to a tape."""
+        slide = tape.between(body, on)
+        reach = tape.point(body, pin) - tape.point(body, slide)
+        tape.carry(on, tape.point(on, slide), to, self.twist * reach)
+
 
 def track(mechanism: Mechanism, slide: Slide, body: str) -> SlideTrack:
     """The slide relative to the known body, for the unknown `body`.
@@ -105,6 +159,9 @@ def refuse_parallel(mechanism: Mechanism, slides: Sequence[Slide], sine: RealFie
 @dataclass(frozen=True, slots=True)
 class DrivenSlider(Step):
     """A driven slider on its track on the known body `on`."""
+
+    kind: ClassVar[str] = "input"
+    instruction: ClassVar[Instruction] = SLIP
 
     body: str
     on: str
@@ -147,13 +204,17 @@ class DrivenSlider(Step):
         third = drives[self.entry].jerk
         return {self.body: self.track.jerk(known[self.on], located[self.body], columns[self.body], third)}
 
+    @classmethod
+    def recognise(cls, group: Group) -> Self | None:
+        """The group as a driven slider, or None."""
+        if len(group.bodies) != 1 or len(group.joints) != 1:
+            return None
+        (body,), (joint,) = group.bodies, group.joints
+        entry = next((entry for entry in group.inputs if entry.joint == joint.name), None)
+        if not isinstance(joint, Slide) or not isinstance(entry, Displacement):
+            return None
+        return cls(body, group.beyond(joint, body), entry.name, track(group.mechanism, joint, body))
 
-def recognise(group: Group) -> DrivenSlider | None:
-    """The group as a driven slider, or None."""
-    if len(group.bodies) != 1 or len(group.joints) != 1:
-        return None
-    (body,), (joint,) = group.bodies, group.joints
-    entry = next((entry for entry in group.inputs if entry.joint == joint.name), None)
-    if not isinstance(joint, Slide) or not isinstance(entry, Displacement):
-        return None
-    return DrivenSlider(body, group.beyond(joint, body), entry.name, track(group.mechanism, joint, body))
+    def write(self, tape: Tape) -> None:
+        """The slider, its travel that of the input."""
+        self.track.write(tape, self.body, self.on, tape.room(BODY), tape.drive(self.entry))

@@ -105,11 +105,11 @@ function StructurePanel({ editor }: { editor: Editor }) {
               onClick={() => editor.select({ bodies: group.bodies, joints: group.joints })}
             >
               <span class="swatch" aria-hidden="true" />
-              <b>{textIfKnown(`linkage.group${group.kind}`) ?? group.kind}</b>
+              <b>{textIfKnown(`linkage.group${group.kind}`, { symbol: group.symbol }) ?? group.kind}</b>
               <span>{group.bodies.join(", ")}</span>
               <small>{t("linkage.withJoints", { joints: group.joints.join(", ") })}</small>
             </button>
-            {group.branch !== 0 && (
+            {group.branch !== 0 && !group.drawn && (
               <Button
                 size="small"
                 onClick={() =>

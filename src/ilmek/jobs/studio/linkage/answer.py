@@ -57,17 +57,20 @@ class CouplingAnswer:
 class GroupAnswer:
     """An Assur group, or a driven body.
 
-    kind    "input", "gears", "general", or the joints of a dyad: "RRR", "RRP", "RPR", "PRP", "RPP"
+    kind    "input", "gears", "dyad" or "general"      symbol  of a dyad its joints, R turning, P sliding, like "RRP"
     bodies, joints  its members; joints to known bodies are among them
     branch  sign of a dyad that has two assemblies; 0: it has one      free  the joint of that sign
+    drawn   whether the coordinates as drawn fix that sign
     """
 
     kind: str
+    symbol: str
     bodies: tuple[str, ...]
     joints: tuple[str, ...]
     description: str
     branch: int = 0
     free: str = ""
+    drawn: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,5 +1,6 @@
 """The structure of a mechanism in plain data: bodies, joints, degrees of freedom, Assur groups."""
 
+import dataclasses
 from collections.abc import Mapping
 from typing import Any
 
@@ -13,18 +14,15 @@ from ilmek.jobs.studio.linkage.answer import (
     LinkageFault,
     Structure,
 )
-from ilmek.linkage.groups.general import GeneralGroup
+from ilmek.linkage.drawing import branches_as_drawn
 from ilmek.linkage.groups.group import Step
 from ilmek.linkage.model import GROUND, Joint, Mechanism, Rotation, Slide, degrees_of_freedom
-
-DYADS = ("RRR", "RRP", "RPR", "PRP", "RPP")
-"""Groups of two bodies and three joints, by their joints: R turning, P sliding."""
 
 
 def bodies_of(mechanism: Mechanism, known: set[str]) -> tuple[BodyAnswer, ...]:
     """All bodies; `known` are located."""
     return tuple(
-        BodyAnswer(body.name, {name: (at.real, at.imag) for name, at in body.points.items()}, body.name in known)
+        BodyAnswer(body.name, {name: (xy.real, xy.imag) for name, xy in body.points.items()}, body.name in known)
         for body in mechanism.bodies
     )
 
@@ -46,7 +44,8 @@ def _joint(joint: Joint, file_joints: Mapping[str, Any]) -> JointAnswer:
 def couplings_of(mechanism: Mechanism) -> tuple[CouplingAnswer, ...]:
     """All gears, belts and racks."""
     return tuple(
-        CouplingAnswer(one.name, one.kind, one.first, one.second, one.carrier, one.ratio) for one in mechanism.couplings
+        CouplingAnswer(gear.name, gear.kind, gear.first, gear.second, gear.carrier, gear.ratio)
+        for gear in mechanism.couplings
     )
 
 
@@ -62,9 +61,9 @@ def structure_of(
     mechanism: Mechanism, steps: tuple[Step, ...], loose: tuple[str, ...], missing: LinkageFault | None
 ) -> Structure:
     """Degrees of freedom, loops and groups, in the order of solution."""
-    known, groups = {GROUND}, []
+    known, groups, drawn = {GROUND}, [], branches_as_drawn(mechanism)
     for step in steps:
-        groups.append(_group(mechanism, step, known))
+        groups.append(dataclasses.replace(_group(mechanism, step, known), drawn=step.free in drawn))
         known.update(step.bodies)
     return Structure(
         degrees_of_freedom(mechanism),
@@ -88,21 +87,6 @@ def _connected_parts(mechanism: Mechanism) -> int:
 
 def _group(mechanism: Mechanism, step: Step, known: set[str]) -> GroupAnswer:
     own = set(step.bodies)
-    joints = [one for one in mechanism.joints if own & set(one.bodies) and set(one.bodies) <= own | known]
-    inner = [one.name for one in joints if set(one.bodies) <= own]
-    free = next((name for name in inner if name in mechanism.branches), "")
-    names = tuple(one.name for one in joints)
-    return GroupAnswer(
-        _kind(mechanism, step, names), step.bodies, names, step.description, mechanism.branches.get(free, 0), free
-    )
-
-
-def _kind(mechanism: Mechanism, step: Step, joints: tuple[str, ...]) -> str:
-    """The kind of a group; see `GroupAnswer`."""
-    named = step.description.rpartition(": ")[2]
-    if named in DYADS:
-        return named
-    if isinstance(step, GeneralGroup):
-        return "general"
-    driven = {entry.joint for entry in mechanism.inputs}
-    return "input" if driven & set(joints) else "gears"
+    joints = [joint.name for joint in mechanism.joints if own & set(joint.bodies) and set(joint.bodies) <= own | known]
+    sign = mechanism.branches[step.free] if step.free else 0
+    return GroupAnswer(step.kind, step.symbol, step.bodies, tuple(joints), step.description, sign, step.free)

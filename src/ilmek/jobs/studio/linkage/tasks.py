@@ -156,21 +156,33 @@ def drawn_mechanism(request: MechanismRequest) -> DrawnMechanism:
     pose: dict[str, tuple[complex, float]] = dict(file.mechanism.pose)
     pose |= {body: (complex(x, y), angle) for body, (x, y, angle) in request.poses.items()}
     pose = {body: pose.get(body, (0j, 0.0)) for body in file.mechanism.moving}
-    changes: list[FileChange] = []
-    values: dict[str, float] = {}
-    names: tuple[str, ...] = ()
     if request.drag is not None:
-        to = complex(request.drag.x, request.drag.y)
-        moved = moved_joint(data, file.mechanism, pose, request.drag.joint, to)
-        changes += moved.changes
-        file, pose, names = mechanism_of_data(changed(data, changes)), moved.pose, tuple(file.mechanism.branches)
-        values = inputs_in_pose(dataclasses.replace(file.mechanism, pose=pose))
-    signs = signs_in_pose(file.mechanism, pose, names) if names else {}
-    signs |= drawn_branches(file.mechanism, pose) if solvable_steps(file.mechanism)[1] is not None else {}
-    signs = {name: sign for name, sign in signs.items() if file.mechanism.branches.get(name) != sign}
-    changes += [FileChange(("branches", name), sign) for name, sign in signs.items()]
+        return _dragged(data, file, pose, request.drag, loose)
+    signs = drawn_branches(file.mechanism, pose) if solvable_steps(file.mechanism)[1] is not None else {}
+    changes = tuple(FileChange(("branches", name), sign) for name, sign in signs.items())
+    return DrawnMechanism(_with_branches(file, signs), loose, pose, changes, {})
+
+
+def _dragged(
+    data: dict[str, Any], file: MechanismFile, pose: Pose, drag: DraggedJoint, loose: tuple[str, ...]
+) -> DrawnMechanism:
+    """The mechanism with a joint moved: its branches are those of the new drawing, or else of the new pose."""
+    moved = moved_joint(data, file.mechanism, dict(pose), drag.joint, complex(drag.x, drag.y))
+    before = file.mechanism.branches
+    rest = {key: value for key, value in data.items() if key != "branches"}  # they may contradict the new drawing
+    file = mechanism_of_data(changed(rest, list(moved.changes)))
+    shown = signs_in_pose(file.mechanism, moved.pose, tuple(before)) if before else {}
+    signs = {**before, **drawn_branches(file.mechanism, moved.pose), **shown, **file.mechanism.branches}
+    needless = {**file.mechanism.branches, **{name: before[name] for name in data.get("branches", {})}}
+    changes = [FileChange(("branches", name), sign) for name, sign in signs.items() if needless.get(name) != sign]
+    values = inputs_in_pose(dataclasses.replace(file.mechanism, pose=moved.pose))
+    machine = _with_branches(file, signs)
+    return DrawnMechanism(machine, loose, moved.pose, (*moved.changes, *changes), values)
+
+
+def _with_branches(file: MechanismFile, signs: Mapping[str, int]) -> OwnMachine:
     whole = dataclasses.replace(file.mechanism, branches={**file.mechanism.branches, **signs})
-    return DrawnMechanism(dataclasses.replace(file.machine, mechanism=whole), loose, pose, tuple(changes), values)
+    return dataclasses.replace(file.machine, mechanism=whole)
 
 
 @lru_cache(maxsize=4)
