@@ -20,7 +20,7 @@ from ilmek.plane.contours import area
 from ilmek.records import record
 from ilmek.report import CamTable, Plate, Report
 from ilmek.report.left_out import made_or_left_out
-from ilmek.units import deg, format_quantity, parse_quantity, parse_unit, turn, um
+from ilmek.units import deg, format_quantity, parse_quantity, parse_unit, si_unit, turn, um
 
 _Named = TypeVar("_Named", Plate, CamTable)
 
@@ -93,7 +93,7 @@ class Workshop:
     def _missed(self) -> Iterator[str]:
         for entry in self.entries:
             if not entry.get("kept", True):
-                error, tolerance = (format_quantity(entry[name], entry["unit"]) for name in ("error", "tolerance"))
+                error, tolerance = (format_quantity(entry[name], entry["file_unit"]) for name in ("error", "tolerance"))
                 yield f"{entry['file']}: {entry['points']} points leave an error of {error}; required: {tolerance}"
 
     def _moving(self) -> Iterator[str]:
@@ -255,7 +255,8 @@ def _table_file(table: CamTable, work: Path, file: str, kind: Format, tolerance:
         "kind": kind.name,
         "title": table.title,
         "format": kind.title,
-        "unit": table.unit,
+        "unit": si_unit(table.unit),
+        "file_unit": table.unit,
         "points": len(sampled.nodes.angle),
         "interpolation": sampled.interpolation,
         "error": sampled.error,

@@ -3,7 +3,8 @@
 from collections import Counter
 from collections.abc import Iterable
 
-from ilmek.verification.claim import COUNT, RESIDUAL, VERDICTS, Verdict, read_printed
+from ilmek.verification.claim import COUNT, RESIDUAL, VERDICTS, read_printed
+from ilmek.verification.judgement import Verdict
 
 MORE_DIGITS = 2
 
