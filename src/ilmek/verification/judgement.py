@@ -61,9 +61,14 @@ class Verdict:
         """What the row follows from, and the claim's note, if the computation disagrees; else ""."""
         if self.verdict == REPRODUCED:
             return ""
-        slips = [f"{root}: {SLIPS[root]}" for root in self.roots if root in SLIPS]
-        rounded = [f"from {origin.name} {origin.printed}" for origin in self.origins if self.verdict == ROUNDED_INPUT]
-        return "; ".join(filter(None, (*rounded[:1], *slips[:1], self.claim.note)))
+        return "; ".join(filter(None, (*self.reasons[:1], self.claim.note)))
+
+    @property
+    def reasons(self) -> tuple[str, ...]:
+        """What the row follows from, in words, the largest part first: roots of a misprint, else rounded numbers."""
+        if self.verdict == ROUNDED_INPUT:
+            return tuple(map(rounding_text, self.origins))
+        return tuple(root_text(root) for root in self.roots if root != self.claim.item)
 
     def as_json(self) -> dict[str, object]:
         """Plain data: computed and difference in SI, their unit, the text as printed with its own, verdict, roots ..."""
@@ -87,15 +92,32 @@ class Verdict:
         }
 
     def _origin(self, origin: Origin) -> dict[str, object]:
-        """An origin as plain data; change and bound are of this row [SI], sensitivity in the units as printed."""
+        """An origin as plain data, in SI."""
         factor = self.claim.si_factor
         return {
             "name": origin.name,
             "printed": origin.printed,
             "change": origin.change * factor,
-            "sensitivity": plain(origin.sensitivity),
+            "sensitivity": plain(origin.sensitivity * factor / origin.si_factor),
             "bound": origin.bound * factor,
         }
+
+
+def rounding_text(origin: Origin) -> str:
+    """A rounded number, the sensitivity to it and what its rounding explains, in the units as printed.
+
+    >>> rounding_text(Origin("θs", "125", 0.563, 9.04, 4.52))
+    'from the rounded θs 125: sensitivity 9.04, its rounding explains up to 4.52'
+    """
+    return (
+        f"from the rounded {origin.name} {origin.printed}: sensitivity {origin.sensitivity:.3g}, "
+        f"its rounding explains up to {origin.bound:.3g}"
+    )
+
+
+def root_text(root: str) -> str:
+    """A root of a misprint, with what is wrong there where it has a text of its own."""
+    return f"root: {root}" if root not in SLIPS else f"root: {root} ({SLIPS[root]})"
 
 
 def judge(claim: Claim, sheet: Worksheet | None = None) -> Verdict:

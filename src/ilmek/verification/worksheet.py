@@ -25,6 +25,7 @@ class Origin(NamedTuple):
     sensitivity  change of the other number for a unit of the rounded one, both in their printed units; NaN of a slip
     bound        what rounding explains: sensitivity times half a unit of the last digit, a whole one where the number
                  was truncated; 0 of a slip
+    si_factor    of the rounded number's printed unit; NaN of a slip
     """
 
     name: str
@@ -32,6 +33,7 @@ class Origin(NamedTuple):
     change: float
     sensitivity: float = math.nan
     bound: float = 0.0
+    si_factor: float = math.nan
 
 
 class _Reader(Mapping[str, float]):
@@ -91,7 +93,7 @@ class Worksheet:
         return claim.slips if follows else (*claim.slips, item)
 
     def origins(self, item: str) -> tuple[Origin, ...]:
-        """What a number's miss comes from, the largest part first, and no part below a share of it."""
+        """What a number's miss comes from, the largest part first: its own slips, and no other below a share of it."""
         slipped: dict[str, list[str]] = {}
         for source in (item, *self._before(item)):
             for slip in self.slips(source):
@@ -102,7 +104,8 @@ class Worksheet:
             *(self._rounded(item, source) for source in rounded),
         )
         traced = sorted(sources, key=lambda origin: -abs(origin.change))
-        return tuple(origin for origin in traced if abs(origin.change) > PART * abs(traced[0].change))
+        own, least = self.slips(item), PART * abs(traced[0].change) if traced else 0.0
+        return tuple(origin for origin in traced if abs(origin.change) > least or origin.name in own)
 
     def _change(self, item: str, sources: Iterable[str]) -> float:
         return self.put_right(item, sources) - self.printed(item)
@@ -112,7 +115,7 @@ class Worksheet:
         sensitivity = change / error if error else 0.0
         digit = last_digit(read_printed(claim.printed)[1])
         bound = abs(sensitivity) * digit * (1.0 if abs(error) > 0.5 * digit else 0.5)
-        return Origin(source, claim.printed, change, sensitivity, bound)
+        return Origin(source, claim.printed, change, sensitivity, bound, claim.si_factor)
 
     def _parents_of(self, item: str) -> tuple[str, ...]:
         reader = _Reader(self.printed)
