@@ -59,7 +59,7 @@ def test_there_are_as_many_rows_of_rounded_input_as_were_found_by_hand() -> None
 
 
 def test_the_rounding_of_the_named_inputs_covers_the_miss() -> None:
-    """|d output/d input| times half a unit of the input's last digit (a unit, if truncated) reaches the printed digits."""
+    """|d output/d input| times half a unit of the input's last digit, a unit where it was truncated."""
     for _, verdict in rows(ROUNDED_INPUT):
         covered = sum(origin.bound for origin in verdict.origins)
         assert abs(verdict.difference or 0.0) <= covered + digit(verdict.claim), verdict.claim.item

@@ -35,7 +35,13 @@ def reasons(checks: Iterable[Check]) -> tuple[Reason, ...]:
     failed = sorted((check for check in checks if not check.ok), key=weight, reverse=True)
     return tuple(
         Reason(
-            check.name, check.value, check.limit, check.unit, check.cure or _usual_cure(check), check.source, check.relation
+            check.name,
+            check.value,
+            check.limit,
+            check.unit,
+            check.cure or _usual_cure(check),
+            check.source,
+            check.relation,
         )
         for check in failed
     )

@@ -1,16 +1,16 @@
 """The verdict on a claim, formed when it is computed.
 
-    reproduced        agrees to the last printed digit, by rounding or by truncation; a relation (> 60) holds; a count
-                      is the same; an equation as printed leaves no residual
-    rounding          off by at most one unit of the last printed digit
-    rounded input     off by more: it follows by the paper's own step from numbers that the paper rounded before; the
-                      rounding of these explains it
-    misprint          the computed value is correct: the row has a slip, or follows from one (its roots); the corrected
-                      form of an equation leaves no residual
-    off               a reading of a curve or of the running machine misses by more than its last digit
-    unsound           the paper's reasoning does not hold, whatever its arithmetic
-    not reproducible  nothing can be computed (a curve without numbers, data, a definition), or the printed equation
-                      cannot be corrected; the note has the reason
+reproduced        agrees to the last printed digit, by rounding or by truncation; a relation (> 60) holds; a count
+is the same; an equation as printed leaves no residual
+rounding          off by at most one unit of the last printed digit
+rounded input     off by more: it follows by the paper's own step from numbers that the paper rounded before; the
+rounding of these explains it
+misprint          the computed value is correct: the row has a slip, or follows from one (its roots); the corrected
+form of an equation leaves no residual
+off               a reading of a curve or of the running machine misses by more than its last digit
+unsound           the paper's reasoning does not hold, whatever its arithmetic
+not reproducible  nothing can be computed (a curve without numbers, data, a definition), or the printed equation
+cannot be corrected; the note has the reason
 """
 
 import math
@@ -71,7 +71,7 @@ class Verdict:
         return tuple(root_text(root) for root in self.roots if root != self.claim.item)
 
     def as_json(self) -> dict[str, object]:
-        """Plain data: computed and difference in SI, their unit, the text as printed with its own, verdict, roots ..."""
+        """Plain data: computed and difference in SI with their unit, the printed text with its own, verdict, roots."""
         claim = self.claim
         factor = 1.0 if self.computed is None else claim.si_factor
         return {

@@ -72,9 +72,12 @@ def _equation(
     compute: Computation,
     note: str = "",
     mended: Computation | None = None,
+    *,
     slips: tuple[str, ...] = (),
 ) -> Claim:
-    return Claim("knotting", item, printed, RESIDUAL, compute, "3, kinematic analysis", note, mended=mended, slips=slips)
+    return Claim(
+        "knotting", item, printed, RESIDUAL, compute, "3, kinematic analysis", note, mended=mended, slips=slips
+    )
 
 
 def _diagonal() -> tuple[Claim, ...]:

@@ -209,9 +209,7 @@ def _second() -> Iterator[Claim]:
         slips=("16.7 for 16.07",),
         right=lambda of: of["G2 from O2, x"] * of["weight of link 2, as used"],
     )
-    yield term(
-        REST_2, "481.83", unit, lambda: 15 * to_hand.real - weight(), follows=lambda of: of[YARN] - of[WEIGHT_2]
-    )
+    yield term(REST_2, "481.83", unit, lambda: 15 * to_hand.real - weight(), follows=lambda of: of[YARN] - of[WEIGHT_2])
     yield from vector("O2' from O2", ("15.45", "2.72"), "mm", lambda: to_pin, at)
     yield term(
         SPIN_2,
@@ -234,13 +232,17 @@ def _solution() -> Iterator[Claim]:
 
     sign = ("sign of F2'y",)
     at_rest = partial(numerator, third=lambda of: of[WEIGHT_3], second=lambda of: of[REST_2])
-    mixed = partial(
-        numerator, third=lambda of: of[INERTIA_3], second=lambda of: of[SPIN_2]
-    )
+    mixed = partial(numerator, third=lambda of: of[INERTIA_3], second=lambda of: of[SPIN_2])
     right = partial(numerator, sign=-1, third=moment_3, second=moment_2)
     solved = partial(_claim, source=at)
     yield solved(
-        DENOMINATOR, "392.96", "mm²", below, follows=partial(denominator, sign=1), slips=sign, right=partial(denominator, sign=-1)
+        DENOMINATOR,
+        "392.96",
+        "mm²",
+        below,
+        follows=partial(denominator, sign=1),
+        slips=sign,
+        right=partial(denominator, sign=-1),
     )
     yield solved(
         NUMERATOR_AT_REST,
@@ -290,7 +292,9 @@ def _first() -> Iterator[Claim]:
             unit,
             by_x,
             at,
-            follows=across if of is rest else lambda of: moment_of_x(of, BY_SPEED) + of["link 1: moment of F2x at rest"],
+            follows=across
+            if of is rest
+            else lambda of: moment_of_x(of, BY_SPEED) + of["link 1: moment of F2x at rest"],
             slips=() if of is rest else ("F2x added twice",),
             right=across,
         )

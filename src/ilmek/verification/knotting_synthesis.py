@@ -94,6 +94,7 @@ def _equations() -> tuple[Claim, ...]:
         compute: Computation,
         note: str = "",
         mended: Computation | None = None,
+        *,
         slips: tuple[str, ...] = (),
     ) -> Claim:
         return _claim(item, printed, RESIDUAL, compute, "2, synthesis", note, mended=mended, slips=slips)
@@ -130,7 +131,7 @@ def _equations() -> tuple[Claim, ...]:
             lambda: _residual_of_poses(steps().F, square=1),
             "it spoils all that follows",
             lambda: _residual_of_poses(steps().F, square=-1),
-            SIGN,
+            slips=SIGN,
         ),
         equation("quadratic", "M2 M3 λ² + (l2 M3 + l3 M2 - 1) λ + l2 l3 = 0", of_quadratic),
         equation("first link", "a1 = (P1/(P2 P3) + P2⁻² + P3⁻²)^0.5", partial(of_first, 0.5)),

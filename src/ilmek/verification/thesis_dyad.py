@@ -22,9 +22,12 @@ def _equation(
     compute: Computation,
     note: str = "",
     mended: Computation | None = None,
+    *,
     slips: tuple[str, ...] = (),
 ) -> Claim:
-    return Claim("thesis", f"Eq {number}", printed, RESIDUAL, compute, f"2.1.3, Eq {number}", note, mended=mended, slips=slips)
+    return Claim(
+        "thesis", f"Eq {number}", printed, RESIDUAL, compute, f"2.1.3, Eq {number}", note, mended=mended, slips=slips
+    )
 
 
 def _loop() -> tuple[Claim, ...]:
@@ -109,7 +112,7 @@ def _elimination() -> tuple[Claim, ...]:
             lambda: arm.eq_2_43(4, HALF_TOO_MUCH),
             "l1 m4 + l4 m1 - 1",
             lambda: arm.eq_2_43(4, WHOLE),
-            half,
+            slips=half,
         ),
         _equation(
             "2.44",
@@ -117,7 +120,7 @@ def _elimination() -> tuple[Claim, ...]:
             lambda: arm.eq_2_43(5, HALF_TOO_MUCH),
             "l1 n5 + l5 n1 - 1",
             lambda: arm.eq_2_43(5, WHOLE),
-            half,
+            slips=half,
         ),
         _equation("2.45, A1 to A5", "Eq 2.43 - n4/n5 Eq 2.44 has no λ2²", arm.eq_2_45),
         _equation(
@@ -126,7 +129,7 @@ def _elimination() -> tuple[Claim, ...]:
             lambda: arm.eq_2_46(HALF_TOO_MUCH),
             "... - 1 in A3 and n4/n5 in A4",
             lambda: arm.eq_2_46(WHOLE),
-            half,
+            slips=half,
         ),
         _equation("2.46 f., text", "the coefficient of λ1⁴ becomes zero", arm.quartic),
         Claim("thesis", "solutions of the third-order equation", "3", COUNT, arm.solutions, "2.1.3, text"),

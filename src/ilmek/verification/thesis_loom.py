@@ -292,9 +292,7 @@ def _safety() -> float:
 def _shaft_load() -> tuple[Claim, ...]:
     weight, across = 550 * GRAVITY, 600 * 10 * N
     return (
-        _claim(
-            "weight of cams of 550 kg", "5489", "N", lambda: weight, "3.2", slips=("5489 for 5589",)
-        ),
+        _claim("weight of cams of 550 kg", "5489", "N", lambda: weight, "3.2", slips=("5489 for 5589",)),
         _claim(
             "resultant of weight and 600 warps of 10 N",
             "8200",

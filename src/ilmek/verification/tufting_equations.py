@@ -48,9 +48,12 @@ def _equation(
     compute: Computation,
     note: str = "",
     mended: Computation | None = None,
+    *,
     slips: tuple[str, ...] = (),
 ) -> Claim:
-    return Claim("tufting", f"Eq {number}", printed, RESIDUAL, compute, f"Eq {number}", note, mended=mended, slips=slips)
+    return Claim(
+        "tufting", f"Eq {number}", printed, RESIDUAL, compute, f"Eq {number}", note, mended=mended, slips=slips
+    )
 
 
 @cache

@@ -33,9 +33,12 @@ def _equation(
     compute: Computation,
     note: str = "",
     mended: Computation | None = None,
+    *,
     slips: tuple[str, ...] = (),
 ) -> Claim:
-    return Claim("tufting", f"Eq {number}", printed, RESIDUAL, compute, f"Eq {number}", note, mended=mended, slips=slips)
+    return Claim(
+        "tufting", f"Eq {number}", printed, RESIDUAL, compute, f"Eq {number}", note, mended=mended, slips=slips
+    )
 
 
 def _inertia() -> tuple[Claim, ...]:
@@ -189,6 +192,24 @@ def _columns() -> tuple[Claim, ...]:
 
     note, zeros = "the vector of unknowns has {} entries", ("column of zeros",)
     return (
-        Claim("tufting", "columns of matrix A", "10", COUNT, partial(unknowns, 4, 1), "Eq 30, 31", note.format(9), slips=zeros),
-        Claim("tufting", "columns of matrix C", "9", COUNT, partial(unknowns, 3, 2), "Eq 41, 42", note.format(8), slips=zeros),
+        Claim(
+            "tufting",
+            "columns of matrix A",
+            "10",
+            COUNT,
+            partial(unknowns, 4, 1),
+            "Eq 30, 31",
+            note.format(9),
+            slips=zeros,
+        ),
+        Claim(
+            "tufting",
+            "columns of matrix C",
+            "9",
+            COUNT,
+            partial(unknowns, 3, 2),
+            "Eq 41, 42",
+            note.format(8),
+            slips=zeros,
+        ),
     )

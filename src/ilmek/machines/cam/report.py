@@ -68,9 +68,10 @@ def _shape_checks(design: CamDesign) -> tuple[Check, ...]:
     room = least_surface_radius(design) - design.hub.reach
     if room < math.inf:
         made.append(at_least("wall between keyway and surface", room, params.wall, "mm", "wall"))
-    if params.cutter_radius is not None:
-        hollow = "least hollow of the cam, or the groove"
-        made.append(at_most("radius of the cutter", params.cutter_radius, largest_cutter(design), "mm", hollow))
+    largest = largest_cutter(design)
+    if params.cutter_radius is not None and largest < math.inf:
+        source, cure = "least hollow of the cam, or its groove", "leave cutter_radius out, or set a smaller one"
+        made.append(at_most("radius of the cutter", params.cutter_radius, largest, "mm", source, cure=cure))
     if params.follower == "roller" and params.roller_radius is None:
         cure = "set a larger prime_radius, or a roller_radius of your own"
         made.append(must("a roller of the table fits the cam", design.roller is not None, "roller table", cure=cure))

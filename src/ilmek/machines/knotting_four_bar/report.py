@@ -90,7 +90,7 @@ def _knot_check(params: KnottingFourBarParams, found: SidesAnalysis) -> Check:
     cure = "set other poses: on no distance of the warps is a knot tied"
     if found.knot_pitches is not None:
         least, most = (format_quantity(end, "mm") for end in found.knot_pitches)
-        cure = f"open the warps to {least} to {most} (warp_pitch): there the hands tie a {found.wider}; or set other poses"
+        cure = f"set warp_pitch to {least} to {most}: there the hands tie a {found.wider}; or set other poses"
     return at_least(
         f"knots tied on two warps {format_quantity(params.warp_pitch, 'mm')} apart",
         float(found.proof.tied is not None),
