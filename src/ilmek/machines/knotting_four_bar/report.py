@@ -92,11 +92,11 @@ def _knot_check(params: KnottingFourBarParams, found: SidesAnalysis) -> Check:
         least, most = (format_quantity(end, "mm") for end in found.knot_pitches)
         cure = f"set warp_pitch to {least} to {most}: there the hands tie a {found.wider}; or set other poses"
     return at_least(
-        f"knots tied on two warps {format_quantity(params.warp_pitch, 'mm')} apart",
+        "knots tied on the two warps",
         float(found.proof.tied is not None),
         1.0,
         "1",
-        f"crossings of the yarn: {found.proof.why}",
+        f"{format_quantity(params.warp_pitch, 'mm')} apart; crossings of the yarn: {found.proof.why}",
         cure=cure,
     )
 
