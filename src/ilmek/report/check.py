@@ -52,6 +52,9 @@ def in_si(check: Judged) -> dict[str, str]:
     ({'unit': 'm', 'shown': '3 mm <= 2 mm'}, {'unit': '', 'shown': 'no'})
     """
     value, limit = in_words(check)
+    value, limit = (
+        text if math.isfinite(number) else "–" for text, number in ((value, check.value), (limit, check.limit))
+    )
     return {"unit": si_unit(check.unit), "shown": value if limit == "yes" else f"{value} {check.relation} {limit}"}
 
 
