@@ -35,7 +35,7 @@ from ilmek.verification.claim import (
     read_printed,
 )
 from ilmek.verification.slips import SLIPS
-from ilmek.verification.worksheet import Origin, Worksheet
+from ilmek.verification.worksheet import RowOrigin, Worksheet
 
 KINDS = {COUNT: "count", RESIDUAL: "equation"}
 """What a row is, by its unit; else a number."""
@@ -54,7 +54,7 @@ class Verdict:
     difference: float | None
     verdict: str
     roots: tuple[str, ...] = ()
-    origins: tuple[Origin, ...] = ()
+    origins: tuple[RowOrigin, ...] = ()
 
     @property
     def note(self) -> str:
@@ -91,7 +91,7 @@ class Verdict:
             "source": claim.source,
         }
 
-    def _origin(self, origin: Origin) -> dict[str, object]:
+    def _origin(self, origin: RowOrigin) -> dict[str, object]:
         """An origin as plain data, in SI."""
         factor = self.claim.si_factor
         return {
@@ -103,10 +103,10 @@ class Verdict:
         }
 
 
-def rounding_text(origin: Origin) -> str:
+def rounding_text(origin: RowOrigin) -> str:
     """A rounded number, the sensitivity to it and what its rounding explains, in the units as printed.
 
-    >>> rounding_text(Origin("θs", "125", 0.563, 9.04, 4.52))
+    >>> rounding_text(RowOrigin("θs", "125", 0.563, 9.04, 4.52))
     'from the rounded θs 125: sensitivity 9.04, its rounding explains up to 4.52'
     """
     return (

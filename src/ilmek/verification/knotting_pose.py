@@ -139,6 +139,19 @@ def _speeds() -> tuple[Claim, ...]:
     )
 
 
+def _half(of: Mapping[str, float], item: str) -> complex:
+    return xy(of, item) / 2
+
+
+def _third_arm(of: Mapping[str, float]) -> complex:
+    return complex(KnottingFourBarParams().rocker / mm * np.exp(1j * of["θ3"] * deg))
+
+
+def _second_centre(of: Mapping[str, float]) -> complex:
+    angle_2 = KnottingFourBarParams().stated_coupler_angle
+    return complex(of["mass centre of link 2 from O2"] * np.exp(1j * angle_2))
+
+
 def _places() -> tuple[Claim, ...]:
     """Vectors to joints and mass centres."""
     at = "4, Fig 4"
@@ -146,15 +159,6 @@ def _places() -> tuple[Claim, ...]:
 
     def arm(body: str, length: float) -> Callable[[], complex]:
         return lambda: length * _first(motion().direction(body)) / mm
-
-    def half(of: Mapping[str, float], item: str) -> complex:
-        return xy(of, item) / 2
-
-    def third(of: Mapping[str, float]) -> complex:
-        return complex(params.rocker / mm * np.exp(1j * of["θ3"] * deg))
-
-    def second_centre(of: Mapping[str, float]) -> complex:
-        return complex(of["mass centre of link 2 from O2"] * np.exp(1j * params.stated_coupler_angle))
 
     centre = quoted().inertias["coupler"].centre.real
     return (
@@ -165,7 +169,7 @@ def _places() -> tuple[Claim, ...]:
             "mm",
             arm("crank", params.crank / 2),
             at,
-            follows=partial(half, item="O2 from O1"),
+            follows=partial(_half, item="O2 from O1"),
         ),
         *vector("O3 from O2", ("32.14", "5.67"), "mm", arm("coupler", params.hand), at),
         *vector(
@@ -174,9 +178,9 @@ def _places() -> tuple[Claim, ...]:
             "mm",
             arm("coupler", centre),
             at,
-            follows=partial(half, item="O3 from O2"),
+            follows=partial(_half, item="O3 from O2"),
             slips=("G2 at mid-length",),
-            right=second_centre,
+            right=_second_centre,
         ),
         *vector(
             "O2' from O1'",
@@ -184,7 +188,7 @@ def _places() -> tuple[Claim, ...]:
             "mm",
             arm("rocker", params.rocker),
             at,
-            follows=third,
+            follows=_third_arm,
         ),
         *vector(
             "G3 from O1'",
@@ -192,7 +196,7 @@ def _places() -> tuple[Claim, ...]:
             "mm",
             arm("rocker", params.rocker / 2),
             at,
-            follows=partial(half, item="O2' from O1'"),
+            follows=partial(_half, item="O2' from O1'"),
         ),
     )
 

@@ -87,18 +87,19 @@ def _residual_of_poses(F: Three, square: int = -1) -> float:
     return max(worst)
 
 
-def _equations() -> tuple[Claim, ...]:
-    def equation(
-        item: str,
-        printed: str,
-        compute: Computation,
-        note: str = "",
-        mended: Computation | None = None,
-        *,
-        slips: tuple[str, ...] = (),
-    ) -> Claim:
-        return _claim(item, printed, RESIDUAL, compute, "2, synthesis", note, mended=mended, slips=slips)
+def _equation(
+    item: str,
+    printed: str,
+    compute: Computation,
+    note: str = "",
+    mended: Computation | None = None,
+    *,
+    slips: tuple[str, ...] = (),
+) -> Claim:
+    return _claim(item, printed, RESIDUAL, compute, "2, synthesis", note, mended=mended, slips=slips)
 
+
+def _equations() -> tuple[Claim, ...]:
     def of_quadratic() -> float:
         p, q, r = steps().quadratic
         factor = np.array([1 / (arm.ground * arm.second) for arm in dyads()])
@@ -113,19 +114,19 @@ def _equations() -> tuple[Claim, ...]:
         )
 
     return (
-        equation(
+        _equation(
             "objective function",
             "P1 f1 + P2 f2 + P3 f3 = F - λ f4,  f4 = -ρ²",
             lambda: _residual_of_poses(steps().F),
         ),
-        equation(
+        _equation(
             "F",
             "F = 2 (cos θ2 - θ0)",
             lambda: _residual_of_poses(2 * (np.cos(TH2) - TH0)),
             "F = 2 cos(θ2 - θ0), as the numbers have it",
             lambda: _residual_of_poses(2 * np.cos(TH2 - TH0)),
         ),
-        equation(
+        _equation(
             "numeric form",
             "... + [-ρ]²/(a0 a2) - 2 cos(θ2 - θ0) = 0",
             lambda: _residual_of_poses(steps().F, square=1),
@@ -133,9 +134,9 @@ def _equations() -> tuple[Claim, ...]:
             lambda: _residual_of_poses(steps().F, square=-1),
             slips=SIGN,
         ),
-        equation("quadratic", "M2 M3 λ² + (l2 M3 + l3 M2 - 1) λ + l2 l3 = 0", of_quadratic),
-        equation("first link", "a1 = (P1/(P2 P3) + P2⁻² + P3⁻²)^0.5", partial(of_first, 0.5)),
-        equation(
+        _equation("quadratic", "M2 M3 λ² + (l2 M3 + l3 M2 - 1) λ + l2 l3 = 0", of_quadratic),
+        _equation("first link", "a1 = (P1/(P2 P3) + P2⁻² + P3⁻²)^0.5", partial(of_first, 0.5)),
+        _equation(
             "first link, written again in case 1",
             "a1 = P1/(P2 P3) + P2⁻² + P3⁻²",
             partial(of_first, 1.0),

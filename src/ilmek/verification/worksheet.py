@@ -16,7 +16,7 @@ PART = 0.05
 """A change below this share of the largest one is left out."""
 
 
-class Origin(NamedTuple):
+class RowOrigin(NamedTuple):
     """A slip, or a rounded number, that another number follows from.
 
     name         a key of SLIPS, or the item of a printed number; with the slip all numbers that have it are put right
@@ -92,7 +92,7 @@ class Worksheet:
         follows = near(read_printed(claim.printed)[1], self.by_step(item))
         return claim.slips if follows else (*claim.slips, item)
 
-    def origins(self, item: str) -> tuple[Origin, ...]:
+    def origins(self, item: str) -> tuple[RowOrigin, ...]:
         """What a number's miss comes from, the largest part first: its own slips, and no other below a share of it."""
         slipped: dict[str, list[str]] = {}
         for source in (item, *self._before(item)):
@@ -100,7 +100,7 @@ class Worksheet:
                 slipped.setdefault(slip, []).append(source)
         rounded = (source for source in self._before(item) if not self.slips(source))
         sources = (
-            *(Origin(slip, "", self._change(item, items)) for slip, items in slipped.items()),
+            *(RowOrigin(slip, "", self._change(item, items)) for slip, items in slipped.items()),
             *(self._rounded(item, source) for source in rounded),
         )
         traced = sorted(sources, key=lambda origin: -abs(origin.change))
@@ -110,12 +110,12 @@ class Worksheet:
     def _change(self, item: str, sources: Iterable[str]) -> float:
         return self.put_right(item, sources) - self.printed(item)
 
-    def _rounded(self, item: str, source: str) -> Origin:
+    def _rounded(self, item: str, source: str) -> RowOrigin:
         claim, change, error = self.claims[source], self._change(item, (source,)), self._change(source, (source,))
         sensitivity = change / error if error else 0.0
         digit = last_digit(read_printed(claim.printed)[1])
         bound = abs(sensitivity) * digit * (1.0 if abs(error) > 0.5 * digit else 0.5)
-        return Origin(source, claim.printed, change, sensitivity, bound, claim.si_factor)
+        return RowOrigin(source, claim.printed, change, sensitivity, bound, claim.si_factor)
 
     def _parents_of(self, item: str) -> tuple[str, ...]:
         reader = _Reader(self.printed)

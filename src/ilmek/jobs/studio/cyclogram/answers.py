@@ -158,7 +158,7 @@ class ShownBinding:
 class CyclogramSolution:
     """A solved cyclogram: the file's data with its new timing, and what limits it.
 
-    goal  acceleration or period      measure, shown_unit  description of before and after [SI], and the unit to show them in
+    goal  acceleration or period      measure, shown_unit  of before and after [SI]: description, unit
     """
 
     data: dict[str, Any]
