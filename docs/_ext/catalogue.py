@@ -20,7 +20,7 @@ from ilmek.params import Parameter, listed
 from ilmek.records import declared_results
 from ilmek.units import format_quantity, printed_unit
 from ilmek.verification import PAPERS, TITLES, reproduce
-from ilmek.verification.wording import HEADINGS, row, summary
+from ilmek.verification.wording import HEADINGS, ROOT_HEADINGS, root_rows, row, summary
 from ilmek.viz.page import machine_page
 
 SOURCE = Path(__file__).parents[2] / "src" / "ilmek"
@@ -157,12 +157,14 @@ def verification_section(paper: str) -> str:
     """A paper's claims, those that are not reproduced first."""
     verdicts = reproduce([paper])
     apart = [verdict for verdict in verdicts if verdict.verdict != "reproduced"]
+    roots = root_rows(verdicts)
     return "\n\n".join(
         (
             f"### {paper}",
             f"{TITLES[paper]}. {summary(verdicts)}.",
             "#### Not as printed",
             table(HEADINGS, [row(verdict) for verdict in apart]),
+            *(("#### Slips, and the rows that follow from each", table(ROOT_HEADINGS, roots)) if roots else ()),
             "#### All",
             table(HEADINGS, [row(verdict) for verdict in verdicts]),
         )

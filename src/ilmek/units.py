@@ -15,6 +15,7 @@ import difflib
 import math
 import numbers
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, TypeAlias
@@ -96,28 +97,33 @@ def parse_unit(text: str) -> Unit:
     Raises UnitError with the nearest known unit for an unknown one, and for a text of more than `LONGEST` characters,
     an exponent above `HIGHEST_POWER` or a factor outside `LEAST` to `GREATEST`.
     """
-    factor, dimension, sign = 1.0, _NONE, 1
-    _check_length(text, "unit")
-    written = text.translate(_SIGNS).strip()
-    if not written:
-        return Unit(text, factor, dimension)
-    for part in re.split("([*/])", f"1{written}" if written.startswith("/") else written):
-        if part in ("*", "/"):
-            sign = 1 if part == "*" else -1
-            continue
-        matched = _FACTOR.fullmatch(part.strip())
-        known = UNITS.get(matched[1]) if matched else None
-        if matched is None or known is None:
-            raise UnitError(f"unknown unit {text!r}", allowed=_allowed_units(part))
-        power = sign * int(matched[2] or 1)
-        if abs(power) > HIGHEST_POWER:
-            raise UnitError(f"unit {text!r} has the exponent {matched[2]}", allowed=f"at most {HIGHEST_POWER}")
+    factor, dimension = 1.0, _NONE
+    for name, power in _factors(text):
+        known = UNITS[name]
         factor *= known[0] ** power
         a, b, c, d = (have + power * add for have, add in zip(dimension, known[1], strict=True))
         dimension = (a, b, c, d)
     if not LEAST <= factor <= GREATEST:
         raise UnitError(f"unit {text!r} is {factor:g} in SI", allowed=f"{LEAST:g} to {GREATEST:g}")
     return Unit(text, factor, dimension)
+
+
+def _factors(text: str) -> Iterator[tuple[str, int]]:
+    """The known units in a text and their powers, in its order. Raises UnitError as `parse_unit`."""
+    _check_length(text, "unit")
+    written = text.translate(_SIGNS).strip()
+    sign = 1
+    for part in re.split("([*/])", f"1{written}" if written.startswith("/") else written) if written else ():
+        if part in ("*", "/"):
+            sign = 1 if part == "*" else -1
+            continue
+        matched = _FACTOR.fullmatch(part.strip())
+        if matched is None or matched[1] not in UNITS:
+            raise UnitError(f"unknown unit {text!r}", allowed=_allowed_units(part))
+        power = sign * int(matched[2] or 1)
+        if abs(power) > HIGHEST_POWER:
+            raise UnitError(f"unit {text!r} has the exponent {matched[2]}", allowed=f"at most {HIGHEST_POWER}")
+        yield matched[1], power
 
 
 def parse_quantity(text: str, unit: str) -> float:
@@ -188,6 +194,37 @@ def printed_unit(unit: str) -> str:
         digits = len(power) - len(power.lstrip("-0123456789"))
         head += power[:digits].translate(POWERS) + power[digits:]
     return head.replace("*", "·")
+
+
+def si_unit(unit: str) -> str:
+    """The SI unit of what is written in a unit, with the same powers: the unit of the number that ilmek keeps.
+
+    Its factor is 1. Raises UnitError as `parse_unit`.
+
+    >>> si_unit("mm"), si_unit("rpm"), si_unit("1/dm^2"), si_unit("N*mm"), si_unit("MPa"), si_unit("%"), si_unit("")
+    ('m', 'rad/s', '1/m^2', 'N*m', 'Pa', '1', '')
+    """
+    powers: dict[str, int] = {}
+    for name, power in _factors(unit):
+        for symbol, inner in _si_powers(name):
+            powers[symbol] = powers.get(symbol, 0) + power * inner
+    above = "*".join(_raised(symbol, power) for symbol, power in powers.items() if power > 0)
+    below = "".join(f"/{_raised(symbol, -power)}" for symbol, power in powers.items() if power < 0)
+    return f"{above or '1'}{below}" if unit else ""
+
+
+def _si_powers(name: str) -> tuple[tuple[str, int], ...]:
+    """The SI units of a known unit and their powers; none of a pure number."""
+    factor, dimension = UNITS[name]
+    if dimension == _NONE:
+        return ()
+    if name == "rpm":
+        return (("rad", 1), ("s", -1))
+    return ((name if factor == 1 else next(u for u, known in UNITS.items() if known == (1.0, dimension)), 1),)
+
+
+def _raised(symbol: str, power: int) -> str:
+    return symbol if power == 1 else f"{symbol}^{power}"
 
 
 def from_si(value: float, unit: str) -> float:

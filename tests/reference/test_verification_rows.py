@@ -8,7 +8,7 @@ from scipy.optimize import brentq
 
 from ilmek.verification import Verdict, reproduce
 from ilmek.verification.beat_up_equations import claims as equations_of_beat_up
-from ilmek.verification.claim import judge
+from ilmek.verification.judgement import judge
 
 SWING = math.radians(30)
 

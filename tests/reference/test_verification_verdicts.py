@@ -9,12 +9,14 @@ from decimal import Decimal
 import pytest
 
 from ilmek.verification import PAPERS, reproduce
-from ilmek.verification.claim import Verdict, last_digit
+from ilmek.verification.claim import last_digit
+from ilmek.verification.judgement import Verdict
 
 EXPECTED = {
     "beat-up": {
         "rounding": """φ=160° β=65°: a; φ=160° β=55°: b; φ=180° β=67°: a; φ=180° β=55°: c; φ=200° β=67°: a;
-            φ=210° β=75°: a; φ=210° β=75°: μ_min""",
+            φ=210° β=75°: a""",
+        "rounded input": "φ=210° β=75°: μ_min",
         "misprint": """Eq 9; φ=160° β=55°: c; φ=180° β=35°: c; solutions in all; crank rotation angles tried;
             moment of inertia DC""",
         "off": """crank angle of the greatest acceleration, 'at the beating points';
@@ -55,21 +57,22 @@ EXPECTED = {
             measured torque""",
     },
     # p, q, r are one row there, a misprint; r alone is the product of the rounded 0.0309 and 0.02. Moments of inertia
-    # it calls reproduced; they follow from the report's rounded masses and centre only.
+    # it calls reproduced; they follow from the report's rounded masses and centre only. 51.49 and 51.499 are one slip.
     "knotting": {
-        "rounding": """f3 of pose 2; f3 of pose 3; r; θ3; ω3/ω1; ω2/ω1; α3/ω1²; G1 from O1, x; G1 from O1, y;
+        "rounding": "f3 of pose 3; moment of inertia of link 2, gripper",
+        "rounded input": """r; θ3; ω3/ω1; ω2/ω1; α3/ω1²; G1 from O1, x; G1 from O1, y;
             O2' from O1', x; O2' from O1', y; G3 from O1', x; G3 from O1', y; a of G1, x; a of G1, y; a of G3, x;
             a of G3, y; mass by place of link 2, link; mass by place of link 2, holder;
             mass by place of link 2, gripper; moment of inertia of link 2, link;
             moment of inertia of link 2, link away from the centre;
-            moment of inertia of link 2, holder away from the centre; moment of inertia of link 2, gripper;
+            moment of inertia of link 2, holder away from the centre;
             moment of inertia of link 2, gripper away from the centre; moment of inertia of link 2;
             moment of inertia of link 1; α2: r3 ω3²; α2: r1 cos(θ1-θ3); α2: r2 ω2² cos(θ2-θ3); α2, α3: r3 sin(θ3-θ2);
             α3: r2 ω2²; α3: -r3 ω3² cos(θ3-θ2); a of G3: α3 x R, x; a of G3: α3 x R, y; a of G3: ω3 x (ω3 x R), x;
             a of G3: ω3 x (ω3 x R), y; m3 a of G3, x; m3 a of G3, y; link 3: moment of the weight;
             link 3: moment of the inertia force, by its y; link 3: moment of the inertia force, by its x;
             link 3: -J3 α3""",
-        "misprint": """F; numeric form; first link, written again in case 1; f3 of pose 2, written again;
+        "misprint": """F; numeric form; first link, written again in case 1; f3 of pose 2; f3 of pose 2, written again;
             x of pose 3 in f3; f4 of pose 2; f4 of pose 3; F of pose 1, first written; m2; m3; p; q; Δ; λ1; λ2;
             case 1: p2; case 1: p3; case 1: a0; case 1: a2; case 1: p1 in the root; case 1: p2 p3 in the root;
             case 1: p2² in the root; case 1: p3² in the root; case 1: a1; case 2: p2; case 2: p3; case 2: a0;
@@ -105,7 +108,12 @@ def test_what_is_not_reproduced(paper: str, verdicts: dict[str, tuple[Verdict, .
 
 def test_all_165_numbers_of_the_beat_up_table_are_claims(verdicts: dict[str, tuple[Verdict, ...]]) -> None:
     cells = [verdict for verdict in verdicts["beat-up"] if verdict.claim.source.startswith("Table 1")]
-    assert Counter(verdict.verdict for verdict in cells) == {"reproduced": 156, "rounding": 7, "misprint": 2}
+    assert Counter(verdict.verdict for verdict in cells) == {
+        "reproduced": 156,
+        "rounding": 6,
+        "rounded input": 1,
+        "misprint": 2,
+    }
 
 
 @pytest.mark.parametrize(

@@ -328,10 +328,17 @@ def test_a_bore_that_does_not_fit_is_neither_drawn_nor_taken_off() -> None:
     assert found["mass"] == pytest.approx(found["area"] * 10 * mm * 7850, rel=1e-2)
 
 
-@pytest.mark.parametrize(("kind", "radius", "told"), [("grooved", "7mm", True), ("plate", "7mm", False)])
-def test_a_cutter_too_large_for_a_hollow_is_told(kind: str, radius: str, told: bool) -> None:
-    found = MACHINE.report(made(kind=kind, roller_radius="6.5mm", cutter_radius=radius))
-    assert any("cutter_radius=7 mm" in warning for warning in found.warnings) is told
+@pytest.mark.parametrize(("kind", "radius", "fails"), [("grooved", "7mm", True), ("plate", "7mm", False)])
+def test_a_cutter_too_large_for_a_hollow_fails(kind: str, radius: str, fails: bool) -> None:
+    report = MACHINE.report(made(kind=kind, roller_radius="6.5mm", cutter_radius=radius))
+    assert any(check.name == "radius of the cutter" for check in report.failed) is fails
+
+
+def test_a_cam_that_no_roller_of_the_table_fits_fails() -> None:
+    small = dict(prime_radius="6mm", lift="3mm", rise="150deg", bore="2mm")
+    failed = {check.name for check in MACHINE.report(made(**small)).failed}
+    assert "a roller of the table fits the cam" in failed
+    assert "a roller of the table fits the cam" not in {check.name for check in MACHINE.report(made()).failed}
 
 
 def test_undercut_is_said_with_the_size_that_mends_it() -> None:

@@ -135,7 +135,9 @@ def test_the_published_hands_tie_no_knot_on_warps_2_mm_apart_but_on_opened_ones(
     assert said["knot_tied"] == "no knot"
     assert said["knot_why"].startswith("at every height of the warps: ")
     assert said["knot_pitches"][0] == pytest.approx(said["hand_distance_min"], abs=0.2 * mm)
-    assert any("they tie a symmetric knot" in warning for warning in told().warnings)
+    (failed,) = (check for check in told().failed if check.name == "knots tied on the two warps")
+    assert (failed.value, failed.limit) == (0.0, 1.0)
+    assert "there the hands tie a symmetric knot" in failed.cure
     first, second = (way[made().onward] for way in hands(sides_of(made()).moving.motion))
     assert knot_of_hands(first, second, 20 * mm).name == "symmetric knot over warps 1 and 2"
     assert knot_of_hands(first, second, 15 * mm).tied is None

@@ -2,6 +2,7 @@
 
 import json
 import math
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -9,6 +10,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from ilmek.cli import main
+from ilmek.units import parse_unit
 from ilmek.verification import PAPERS, TITLES, VERDICTS
 from ilmek.verification.claim import (
     COUNT,
@@ -17,12 +19,14 @@ from ilmek.verification.claim import (
     OFF,
     REPRODUCED,
     RESIDUAL,
+    ROUNDED_INPUT,
     ROUNDING,
     UNSOUND,
     Claim,
-    judge,
 )
+from ilmek.verification.judgement import judge
 from ilmek.verification.wording import computed_text
+from ilmek.verification.worksheet import Worksheet
 
 
 def run(*arguments: str) -> Result:
@@ -36,8 +40,9 @@ def everything() -> list[dict[str, Any]]:
     return json.loads(result.stdout)
 
 
-def test_json_has_its_names_and_the_six_verdicts_only(everything: list[dict[str, Any]]) -> None:
-    names = ["paper", "item", "printed", "computed", "unit", "difference", "verdict", "fitted", "note", "source"]
+def test_json_has_its_names_and_the_seven_verdicts_only(everything: list[dict[str, Any]]) -> None:
+    names = ["paper", "item", "kind", "printed", "printed_unit", "computed", "difference", "unit", "verdict", "roots"]
+    names += ["origins", "fitted", "note", "source"]
     assert all(list(found) == names for found in everything)
     assert {found["verdict"] for found in everything} == set(VERDICTS)
     assert {found["paper"] for found in everything} == set(PAPERS) == set(TITLES)
@@ -57,14 +62,14 @@ def test_every_claim_has_its_own_name_and_a_source(everything: list[dict[str, An
 def test_a_number_is_missing_only_where_it_is_said_why(everything: list[dict[str, Any]]) -> None:
     for found in everything:
         assert (found["computed"] is None) <= (found["verdict"] in ("not reproducible", "unsound"))
-        if found["verdict"] in ("misprint", "off", "unsound", "not reproducible"):
+        if found["verdict"] in ("rounded input", "misprint", "off", "unsound", "not reproducible"):
             assert found["note"], found["item"]
         if found["verdict"] == "reproduced":
             assert not found["note"]
 
 
 FACTORS = {
-    **dict.fromkeys(("", "count", "rad", "m", "s", "kg", "N", "N m", "N s²", "m/s²", "kg m²"), 1.0),
+    **dict.fromkeys(("", "rad", "m", "s", "kg", "N", "N m", "N s²", "m/s²", "kg m²"), 1.0),
     **dict.fromkeys(("mm", "mm/s²", "mN", "N mm", "N mm s²", "g"), 1e-3),
     **dict.fromkeys(("mm²", "mN mm", "g mm", "N mm²", "N mm² s²"), 1e-6),
     "mm³": 1e-9,
@@ -77,12 +82,29 @@ FACTORS = {
 
 
 def test_computed_and_difference_are_in_si(everything: list[dict[str, Any]]) -> None:
-    """The difference is computed minus printed; `unit` is that of the printed text alone."""
-    numbers = [found for found in everything if found["computed"] is not None and found["unit"] != RESIDUAL]
+    """The difference is computed minus printed; `printed_unit` is that of the printed text alone."""
+    numbers = [found for found in everything if found["computed"] is not None and found["kind"] != "equation"]
     assert len(numbers) > 400
     for found in numbers:
-        printed = float(found["printed"].strip("<> ")) * FACTORS[found["unit"]]
+        printed = float(found["printed"].strip("<> ")) * FACTORS[found["printed_unit"]]
         assert found["difference"] == pytest.approx(found["computed"] - printed, rel=1e-9, abs=1e-12 * abs(printed))
+
+
+def test_units_are_si_units_of_their_numbers(everything: list[dict[str, Any]]) -> None:
+    """A factor of 1, and the dimension of the unit as printed."""
+    for found in everything:
+        assert parse_unit(found["unit"]).factor == 1.0, found
+        if found["computed"] is not None:
+            printed = parse_unit(found["printed_unit"].replace(" ", "*"))
+            assert parse_unit(found["unit"]).dimension == printed.dimension
+
+
+def test_the_sensitivity_is_in_si(everything: list[dict[str, Any]]) -> None:
+    """ω3/ω1 changes by 0.563 where θs changes by 0.0622499°."""
+    row = next(found for found in everything if found["item"] == "ω3/ω1")
+    (origin,) = row["origins"]
+    assert origin["change"] == pytest.approx(0.563, rel=1e-3)
+    assert origin["sensitivity"] == pytest.approx(0.563 / math.radians(0.0622499), rel=1e-3)
 
 
 @pytest.mark.parametrize(
@@ -145,6 +167,7 @@ def claim(printed: str, value: float | None, unit: str = "", **more: Any) -> Cla
         ("0.2340", 0.234099, REPRODUCED),  # truncated
         ("0.2340", 0.233951, REPRODUCED),
         ("0.2340", 0.233930, ROUNDING),
+        ("0.2340", 0.233895, MISPRINT),
         ("0.2340", 0.233849, MISPRINT),
         ("-7.89", -7.6778, MISPRINT),
         ("-0.585", 0.5867, MISPRINT),
@@ -185,9 +208,29 @@ def test_a_count_off_by_one_is_wrong() -> None:
 
 
 def test_numbers_that_follow_from_rounded_ones_are_rounding() -> None:
+    """θ3 = θs + 67.52367°: from 125.06223° it is 192.5859°, from the printed 125° the printed 192.524°."""
+    angle = replace(claim("125", 125.06223), item="angle")
     assert judge(claim("192.524", 192.5859)).verdict == MISPRINT
-    assert judge(claim("192.524", 192.5859, follows=lambda: 192.52367)).verdict == ROUNDING
-    assert judge(claim("192.524", 192.5859, follows=lambda: 192.6)).verdict == MISPRINT
+    for shift, verdict in ((67.52367, ROUNDED_INPUT), (67.6, MISPRINT)):
+        row = claim("192.524", 192.5859, follows=lambda of, shift=shift: of["angle"] + shift)
+        found = judge(row, Worksheet((angle, row)))
+        assert found.verdict == verdict
+    row = claim("192.524", 192.5859, follows=lambda of: of["angle"] + 67.52367)
+    (origin,) = judge(row, Worksheet((angle, row))).origins
+    assert (origin.name, origin.printed) == ("angle", "125")
+    assert (origin.change, origin.sensitivity, origin.bound) == pytest.approx((0.06223, 1.0, 0.5))
+
+
+def test_a_misprint_names_the_slip_that_it_follows_from() -> None:
+    """The area of a square of 3.2: a slip in the side, or in the step."""
+    side, area = replace(claim("2.3", 3.2), item="side"), claim("5.29", 10.24, follows=lambda of: of["side"] ** 2)
+    assert judge(area, Worksheet((side, area))).roots == ("side",)
+    side = replace(side, printed="3.2")
+    row = replace(area, printed="6.4", slips=("mN as N",), follows=lambda of: 2 * of["side"])
+    row = replace(row, right=lambda of: of["side"] ** 2)
+    found = judge(row, Worksheet((side, row)))
+    assert (found.verdict, found.roots) == (MISPRINT, ("mN as N",))
+    assert found.origins[0].change == pytest.approx(3.2**2 - 6.4)
 
 
 def test_a_printed_equation_is_a_misprint_only_where_the_mended_one_holds() -> None:

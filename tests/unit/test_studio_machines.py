@@ -47,7 +47,7 @@ def test_field_has_unit_bounds_and_the_machine_it_belongs_to() -> None:
     fields = {one.name: one for one in form(MachineName("automated-loom"), HERE).fields}
     swing = fields["beat-up.swing"]
     assert fields["width"].default_text == "1.2 m"
-    assert (swing.machine, swing.group, swing.kind, swing.unit) == ("beat-up", "beat-up", "quantity", "deg")
+    assert (swing.machine, swing.group, swing.kind, swing.shown_unit) == ("beat-up", "beat-up", "quantity", "deg")
     assert fields["width"].machine == ""
     assert "at least" in fields["width"].allowed
 

@@ -60,9 +60,13 @@ def test_forces_at_a_jump_are_the_limit_after_it() -> None:
     assert before < 1 < at
 
 
-def test_a_window_that_misses_the_lowest_place_is_told() -> None:
-    said = answer(entry="200deg", exit="300deg")
-    assert any("lowest" in warning for warning in said.warnings)
+def test_a_window_that_misses_the_lowest_position_fails() -> None:
+    def failed(**settings: str) -> bool:
+        return "needle lowest between entry and exit" in {check.name for check in answer(**settings).failed}
+
+    assert failed(entry="200deg", exit="300deg")
+    assert not failed()
+    assert not failed(entry="200deg", exit="300deg", friction="always")
 
 
 def test_bars_in_step_add_up_and_bars_out_of_step_smooth_the_torque() -> None:

@@ -43,10 +43,11 @@ def test_no_tool_exceeds_its_limits_at_the_shortest_cycle(law: str, limit: float
     assert largest == pytest.approx(1.0, abs=2e-3)
 
 
-def test_a_cycle_that_is_too_short_is_reported() -> None:
-    made = MACHINE.report(design(WeaverParams(cycle=0.5)))
-    assert made.failed == ()
-    assert "not the required 0.5 s" in made.warnings[0]
+def test_a_cycle_that_is_too_short_fails() -> None:
+    weaver = design(WeaverParams(cycle=0.5))
+    (failed,) = MACHINE.report(weaver).failed
+    assert (failed.name, failed.value, failed.limit) == ("knot cycle, as required", weaver.cycle, 0.5)
+    assert "limits of the sley allow no less" in failed.source
 
 
 def test_a_slow_head_fails_against_the_hand() -> None:

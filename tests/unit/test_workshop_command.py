@@ -94,7 +94,13 @@ def test_notes_tell_of_missed_tolerances_and_of_slaves_that_move_at_the_start(tm
     )
     made = write_workshop(report(plates=(crank(),), tables=(wobble,)), tmp_path / "out", Tolerance(share=1e-6))
     said = "\n".join(made.notes)
-    assert "wobble.codesys.st: 128 points leave an error of" in said
+    complete, *failed = made.checks
+    assert (complete.name, complete.ok, complete.value) == ("parts without files", True, 0)
+    assert not any(check.ok for check in failed)
+    of_codesys = next(check for check in failed if check.name == "wobble.codesys.st: error of the motion")
+    assert of_codesys.source == "tolerance; 128 points"
+    assert of_codesys.value > of_codesys.limit == pytest.approx(1e-6 * 0.02, rel=1e-3)
+    assert set(failed) <= set(made.judged(report()).failed)
     assert "wobble moves at master angle 0: couple it while the master stands still, or ramp in" in said
     assert ("pip install 'ilmek[step]'" in said) is not with_step()
     assert made.summary.startswith(f"{tmp_path / 'out'}: 1 DXF, ")

@@ -112,6 +112,8 @@ def command(
         if write_parts is not None:
             found_report = with_parts(found_report, moved.machine)
         workshop = None if write_parts is None else write_parts(found_report)
+        if workshop is not None:
+            found_report = workshop.judged(found_report)
         call.give_page("--report", found_report)
         call.give_animation("--animation", found_report)
         files_of = {} if workshop is None else {"files": workshop.files}

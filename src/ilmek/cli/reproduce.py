@@ -10,10 +10,10 @@ from ilmek.cli.options import force_option, json_option
 from ilmek.cli.terminal import say, show_table
 from ilmek.jobs.reproduce import reproduce_papers
 from ilmek.verification import PAPERS, TITLES, VERDICTS, Verdict
-from ilmek.verification.claim import MISPRINT, NOT_REPRODUCIBLE, OFF, REPRODUCED, ROUNDING, UNSOUND
-from ilmek.verification.wording import HEADINGS, row, summary
+from ilmek.verification.claim import MISPRINT, NOT_REPRODUCIBLE, OFF, REPRODUCED, ROUNDED_INPUT, ROUNDING, UNSOUND
+from ilmek.verification.wording import HEADINGS, ROOT_HEADINGS, root_rows, row, summary
 
-ORDER = (UNSOUND, MISPRINT, OFF, NOT_REPRODUCIBLE, ROUNDING, REPRODUCED)
+ORDER = (UNSOUND, MISPRINT, OFF, NOT_REPRODUCIBLE, ROUNDED_INPUT, ROUNDING, REPRODUCED)
 """The verdicts, worst first."""
 
 EXAMPLES = """\b
@@ -25,8 +25,9 @@ Examples:
 \b
 Verdicts, and what is fitted:
   reproduced        agrees to the last printed digit; no residual
-  rounding          within 1.5 units of the last printed digit
-  misprint          the computed number is right
+  rounding          within one unit of the last printed digit
+  rounded input     follows from a rounded number, which is named
+  misprint          the computed number is right; its root is named
   off               a reading of a curve or of the machine misses
   unsound           the reasoning does not hold
   not reproducible  nothing can be computed
@@ -62,10 +63,15 @@ def command(papers: tuple[str, ...], force: bool, json_to: str | None) -> None:
 
 
 def show_paper(paper: str, verdicts: Sequence[Verdict]) -> None:
-    """Print the claims of one paper, those that are not reproduced first."""
+    """Print the claims of one paper, those that are not reproduced first, misprints by their roots; then the roots."""
     say(f"{paper}: {TITLES[paper]}")
-    groups = [[row(verdict) for verdict in verdicts if verdict.verdict == name] for name in ORDER]
+    roots = [root for root, *_ in root_rows(verdicts)]
+    by_root = sorted(verdicts, key=lambda verdict: roots.index(verdict.roots[0]) if verdict.roots else 0)
+    groups = [[row(verdict) for verdict in by_root if verdict.verdict == name] for name in ORDER]
     show_table(HEADINGS, *filter(None, groups), right=(2,), wide=(1, 2, 3))
+    if any(verdict.roots for verdict in verdicts):
+        say(f"{paper}: the slips, and the rows that follow from each")
+        show_table(ROOT_HEADINGS, root_rows(verdicts), right=(1,))
     say(f"{paper}: {summary(verdicts)}\n")
 
 

@@ -102,7 +102,8 @@ def design_machine(
         linkage = None if machine.mechanism is None else machine.mechanism(designed)
         made_of_links = machine.mechanism is None or linkage is not None  # without a solution there is nothing to make
         loom = designed if machine.name == LOOM else None
-        return DesignResult(report, write(report) if write is not None and made_of_links else None, linkage, loom)
+        files = write(report) if write is not None and made_of_links else None
+        return DesignResult(report if files is None else files.judged(report), files, linkage, loom)
 
 
 def _with_nearest(report: Report, params: Params, progress: Progress) -> Report:

@@ -4,12 +4,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from ilmek.machines import SUMMARIES
+from ilmek.units import si_unit
 
 if TYPE_CHECKING:
     from ilmek.params import Parameter
 
-FIELDS = ("name", "default", "unit", "above", "at_least", "below", "at_most", "choices", "doc", "symbol", "alias")
-"""Entries of a parameter in JSON."""
+FIELDS = ("name", "default", "above", "at_least", "below", "at_most", "choices", "doc", "symbol", "alias")
+"""Entries of a parameter in JSON, beside its units."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,8 +26,12 @@ class MachineForm:
     machines: tuple[str, ...] = ()
 
     def as_json(self) -> dict[str, Any]:
-        """The parameters as plain data: default and bounds in SI, and the unit in which they are shown."""
-        parameters = [{name: getattr(parameter, name) for name in FIELDS} for parameter in self.parameters]
+        """The parameters as plain data: default and bounds in SI, their unit, and the unit in which they are shown."""
+        parameters = [
+            {name: getattr(parameter, name) for name in FIELDS}
+            | {"unit": si_unit(parameter.unit), "shown_unit": parameter.unit}
+            for parameter in self.parameters
+        ]
         return {
             "machine": self.machine,
             "summary": self.summary,

@@ -18,9 +18,9 @@ from ilmek.io.output import Outputs, joined
 from ilmek.io.plate_shape import PlateShape
 from ilmek.plane.contours import area
 from ilmek.records import record
-from ilmek.report import CamTable, Plate, Report
+from ilmek.report import CamTable, Check, Plate, Report, at_most
 from ilmek.report.left_out import made_or_left_out
-from ilmek.units import deg, format_quantity, parse_quantity, parse_unit, turn, um
+from ilmek.units import deg, format_quantity, parse_quantity, parse_unit, si_unit, turn, um
 
 _Named = TypeVar("_Named", Plate, CamTable)
 
@@ -87,14 +87,25 @@ class Workshop:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Notes: parts left out, tolerances not met, axes that move at master angle 0, STEP not installed."""
-        return (*self.left_out, *self._missed(), *self._moving(), *self._without_step())
+        """Notes: why parts are left out, axes that move at master angle 0, STEP not installed."""
+        return (*self.left_out, *self._moving(), *self._without_step())
 
-    def _missed(self) -> Iterator[str]:
-        for entry in self.entries:
-            if not entry.get("kept", True):
-                error, tolerance = (format_quantity(entry[name], entry["unit"]) for name in ("error", "tolerance"))
-                yield f"{entry['file']}: {entry['points']} points leave an error of {error}; required: {tolerance}"
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """Whether every part has its files, and every cam table its tolerance: that of the worst, and all that miss."""
+        cure = "see the notes: change the part, or order it otherwise"
+        complete = at_most("parts without files", len(self.left_out), 0, "1", "plates and motions", cure=cure)
+        tables = sorted(
+            (entry for entry in self.entries if "tolerance" in entry),
+            key=lambda entry: entry["error"] / entry["tolerance"],
+            reverse=True,
+        )
+        missed = sum(not entry["kept"] for entry in tables)
+        return (complete, *(_table_check(entry) for entry in tables[: max(missed, 1)]))
+
+    def judged(self, report: Report) -> Report:
+        """A report with the checks of the files that were written for it."""
+        return replace(report, checks=(*report.checks, *self.checks))
 
     def _moving(self) -> Iterator[str]:
         moving = sorted({entry["of"] for entry in self.entries if abs(entry.get("start_speed", 0.0)) > _STILL})
@@ -237,6 +248,12 @@ def _step() -> tuple[Callable[[Path, Plate, PlateShape], None], Callable[[Path],
     return adapter.write_step, adapter.read_step_volume
 
 
+def _table_check(entry: Mapping[str, Any]) -> Check:
+    name, points = f"{entry['file']}: error of the motion", f"tolerance; {entry['points']} points"
+    cure = "set a larger --tolerance, or take a controller with more points"
+    return at_most(name, entry["error"], entry["tolerance"], entry["file_unit"], points, cure=cure)
+
+
 def _table_files(table: CamTable, work: Path, name: str, tolerance: Tolerance) -> Iterator[dict[str, Any]]:
     named = replace(table, name=name)
     for kind in FORMATS.values():
@@ -255,7 +272,8 @@ def _table_file(table: CamTable, work: Path, file: str, kind: Format, tolerance:
         "kind": kind.name,
         "title": table.title,
         "format": kind.title,
-        "unit": table.unit,
+        "unit": si_unit(table.unit),
+        "file_unit": table.unit,
         "points": len(sampled.nodes.angle),
         "interpolation": sampled.interpolation,
         "error": sampled.error,

@@ -7,7 +7,7 @@ from typing import Any, Protocol, runtime_checkable
 from ilmek.records import value_record
 from ilmek.report.json import plain
 from ilmek.report.rounding import without_noise
-from ilmek.units import format_quantity
+from ilmek.units import format_quantity, si_unit
 
 ROUNDING = 1e-9
 """Relative difference to a limit that counts as rounding: a part made for exactly its limit keeps it."""
@@ -27,8 +27,8 @@ class Check:
     cure: str = ""
 
     def as_json(self) -> dict[str, Any]:
-        """The check as plain data: name, value, limit, unit (to show it in), ok, source, relation, cure."""
-        return {one.name: plain(getattr(self, one.name)) for one in fields(self)}
+        """The check as plain data: name, value and limit [SI], their unit, ok, source, relation, cure, shown."""
+        return {field.name: plain(getattr(self, field.name)) for field in fields(self)} | in_si(self)
 
 
 @runtime_checkable
@@ -41,6 +41,21 @@ class Judged(Protocol):
     def limit(self) -> float: ...  # noqa: D102
     @property
     def unit(self) -> str: ...  # noqa: D102
+    @property
+    def relation(self) -> str: ...  # noqa: D102
+
+
+def in_si(check: Judged) -> dict[str, str]:
+    """The unit of value and limit as they are, and both in words in the unit for people.
+
+    >>> in_si(at_most("sag", 0.003, 0.002, "mm", "given")), in_si(must("knot tied", False, "its path"))
+    ({'unit': 'm', 'shown': '3 mm <= 2 mm'}, {'unit': '', 'shown': 'no'})
+    """
+    value, limit = in_words(check)
+    value, limit = (
+        text if math.isfinite(number) else "–" for text, number in ((value, check.value), (limit, check.limit))
+    )
+    return {"unit": si_unit(check.unit), "shown": value if limit == "yes" else f"{value} {check.relation} {limit}"}
 
 
 def at_most(name: str, value: float, limit: float, unit: str, source: str, *, cure: str = "") -> Check:

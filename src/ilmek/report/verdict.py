@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from ilmek.report.check import Check
+from ilmek.report.check import Check, in_si
 from ilmek.report.json import plain
 
 
@@ -26,16 +26,24 @@ class Reason:
     relation: str
 
     def as_json(self) -> dict[str, Any]:
-        """The reason as plain data: name, value, limit, unit, cure."""
-        return {name: plain(getattr(self, name)) for name in ("name", "value", "limit", "unit", "cure")}
+        """The reason as plain data: name, value and limit [SI], their unit, cure, shown."""
+        return {name: plain(getattr(self, name)) for name in ("name", "value", "limit", "unit", "cure")} | in_si(self)
 
 
 def reasons(checks: Iterable[Check]) -> tuple[Reason, ...]:
     """The failed checks, the heaviest first; equal ones in their order. A check without a cure refers to its limit."""
     failed = sorted((check for check in checks if not check.ok), key=weight, reverse=True)
     return tuple(
-        Reason(one.name, one.value, one.limit, one.unit, one.cure or _usual_cure(one), one.source, one.relation)
-        for one in failed
+        Reason(
+            check.name,
+            check.value,
+            check.limit,
+            check.unit,
+            check.cure or _usual_cure(check),
+            check.source,
+            check.relation,
+        )
+        for check in failed
     )
 
 

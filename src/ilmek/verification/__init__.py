@@ -3,7 +3,7 @@
 A paper is one entry of `PAPERS`: the function that lists its claims. Nothing is computed before `reproduce` is called.
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 
 from ilmek.verification import (
     beat_up,
@@ -18,7 +18,9 @@ from ilmek.verification import (
     thesis_loom,
     tufting,
 )
-from ilmek.verification.claim import VERDICTS, Claim, Verdict, judge
+from ilmek.verification.claim import VERDICTS, Claim
+from ilmek.verification.judgement import Verdict, judge
+from ilmek.verification.worksheet import Worksheet
 
 __all__ = ["PAPERS", "TITLES", "VERDICTS", "Claim", "Verdict", "reproduce"]
 
@@ -52,4 +54,9 @@ TITLES = {
 
 def reproduce(papers: Iterable[str] = tuple(PAPERS)) -> tuple[Verdict, ...]:
     """The verdicts on all claims of the papers, in the order of the papers and of their pages."""
-    return tuple(judge(claim) for paper in papers for claim in PAPERS[paper]())
+    return tuple(verdict for paper in papers for verdict in _judged(PAPERS[paper]()))
+
+
+def _judged(claims: tuple[Claim, ...]) -> Iterator[Verdict]:
+    sheet = Worksheet(claims)
+    return (judge(claim, sheet) for claim in claims if not claim.repeated)

@@ -1,5 +1,6 @@
 """Table 1 of the beat-up paper: 33 crank-rockers for a swing of 30 deg, 165 numbers."""
 
+from collections.abc import Mapping
 from functools import cache, partial
 from typing import NamedTuple
 
@@ -59,7 +60,6 @@ CASES = dict(zip(PRINTED, ("I", "II", "III", "IV", "V"), strict=True))
 NOTES = {
     (160, 55, "c"): "Eq 3 gives 0.8215: one digit is wrong",
     (180, 35, "c"): "Eq 17, sin β/cos(ψ/2), gives 0.5938",
-    (210, 75, "μ_min"): "follows from the rounded a = 0.259",
 }
 
 
@@ -83,9 +83,18 @@ def computed(phi: int, beta: int) -> TableRow:
         else links_of_beta(SWING, phi * deg, beta * deg)
     )
     a, b, c = (float(link) for link in found)
+    return TableRow(a, b, c, a / b, _mu_min(a, b, c))
+
+
+def _mu_min(a: float, b: float, c: float) -> float:
+    """Least transmission angle [deg]."""
     # Rounded, because at the change points the last bit decides between a toggle and no linkage.
-    mu_min = float(transmission_angle_min(LinkRatios(round(a, 12), round(b, 12), round(c, 12)))) / deg
-    return TableRow(a, b, c, a / b, mu_min)
+    return float(transmission_angle_min(LinkRatios(round(a, 12), round(b, 12), round(c, 12)))) / deg
+
+
+def _mu_min_of_case_5(of: Mapping[str, float]) -> float:
+    """The same of the links as printed."""
+    return _mu_min(*(of[f"φ=210° β=75°: {link}"] for link in "abc"))
 
 
 def rows() -> list[tuple[int, int, tuple[str, ...]]]:
@@ -106,6 +115,7 @@ def claims() -> tuple[Claim, ...]:
             compute=partial(_cell, phi, beta, index),
             source=f"Table 1, Case {CASES[phi]}",
             note=NOTES.get((phi, beta, column), ""),
+            follows=_mu_min_of_case_5 if (phi, column) == (210, "μ_min") else None,
         )
         for phi, beta, numbers in rows()
         for index, (column, text) in enumerate(zip(columns, numbers, strict=True))

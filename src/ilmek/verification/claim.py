@@ -1,24 +1,12 @@
-"""A printed number, equation or statement, and the verdict of a computation on it.
+"""A printed number, equation or statement of a paper, and its computation.
 
-A claim has the printed text, the function that computes the same, and a note, which is shown only if the computation
-disagrees. The verdict is formed on request:
-
-    reproduced        agrees to the last printed digit, by rounding or by truncation; a relation (> 60) holds; a count
-                      is the same; an equation as printed leaves no residual
-    rounding          off by at most 1.5 units of the last printed digit, or follows from the paper's rounded numbers
-    misprint          neither: the computed value is correct; the corrected form of an equation leaves no residual
-    off               a reading of a curve or of the running machine misses by more than its last digit
-    unsound           the paper's reasoning does not hold, whatever its arithmetic
-    not reproducible  nothing can be computed (a curve without numbers, data, a definition), or the printed equation
-                      cannot be corrected; the note has the reason
-
-A constant that the paper does not state, and that is chosen so that a number fits, is named in `fitted`. Claims and
-verdicts hold numbers in the unit as printed, so that they can be compared with the paper; `as_json` gives them in SI.
+A claim has the printed text, the function that computes the same, the step by which the paper gets the number from
+numbers that it printed before, and a note, which is shown only if the computation disagrees. Numbers are in the unit
+as printed, so that they can be compared with the paper. `ilmek.verification.judgement` forms the verdict.
 """
 
-import math
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from decimal import Decimal
 from typing import TypeAlias
@@ -28,9 +16,10 @@ import numpy as np
 from ilmek.arrays import ComplexField, RealField
 from ilmek.units import parse_unit
 
-REPRODUCED, ROUNDING, MISPRINT, OFF, UNSOUND, NOT_REPRODUCIBLE = VERDICTS = (
+REPRODUCED, ROUNDING, ROUNDED_INPUT, MISPRINT, OFF, UNSOUND, NOT_REPRODUCIBLE = VERDICTS = (
     "reproduced",
     "rounding",
+    "rounded input",
     "misprint",
     "off",
     "unsound",
@@ -46,10 +35,10 @@ RESIDUAL = "residual"
 NO_RESIDUAL = 1e-9
 """Largest residual of a correct equation."""
 
-UNITS_OF_ROUNDING = 1.5
-"""Units of the last printed digit that rounding of intermediate results explains."""
-
 Computation: TypeAlias = Callable[[], float | int | None]
+
+Step: TypeAlias = Callable[[Mapping[str, float]], float]
+"""A number from other printed numbers of the paper by their items, all in their printed units."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,10 +52,13 @@ class Claim:
     compute  the number, or the equation's residual; None if it cannot be computed
     source   section, equation, table
     note     reason of a disagreement, with the correct form of an equation
-    follows  the number from the paper's rounded numbers, if they decide
+    follows  the paper's step to the number from numbers that it printed before, with its slips
+    slips    keys of SLIPS: what is wrong in this step, or in the equation
+    right    the same step without its slips
     mended   residual of the equation in its correct form
     fitted   constants that the paper does not state, chosen to make the row fit
     missed   verdict of a disagreement: MISPRINT, OFF of a reading, UNSOUND of the paper's reasoning
+    repeated whether the number was judged before; as written again it is a part of other steps, and no row
     """
 
     paper: str
@@ -76,10 +68,13 @@ class Claim:
     compute: Computation
     source: str
     note: str = ""
-    follows: Computation | None = None
+    follows: Step | None = None
+    slips: tuple[str, ...] = ()
+    right: Step | None = None
     mended: Computation | None = None
     fitted: str = ""
     missed: str = MISPRINT
+    repeated: bool = False
 
     @property
     def si_factor(self) -> float:
@@ -89,57 +84,10 @@ class Claim:
         return parse_unit(self.unit.replace(" ", "*")).factor
 
 
-@dataclass(frozen=True, slots=True)
-class Verdict:
-    """A computed claim; `difference` is computed minus printed, of an equation its residual."""
-
-    claim: Claim
-    computed: float | int | None
-    difference: float | None
-    verdict: str
-
-    @property
-    def note(self) -> str:
-        """The claim's note if the computation disagrees, else ""."""
-        return "" if self.verdict == REPRODUCED else self.claim.note
-
-    def as_json(self) -> dict[str, object]:
-        """Plain data: paper, item, printed (text), computed and difference (SI), unit (of the printed text), ..."""
-        claim = self.claim
-        factor = 1.0 if self.computed is None else claim.si_factor
-        return {
-            "paper": claim.paper,
-            "item": claim.item,
-            "printed": claim.printed,
-            "computed": None if self.computed is None else self.computed * factor,
-            "unit": claim.unit,
-            "difference": None if self.difference is None else self.difference * factor,
-            "verdict": self.verdict,
-            "fitted": claim.fitted,
-            "note": self.note,
-            "source": claim.source,
-        }
-
-
 def residual(left: RealField | ComplexField, right: RealField | ComplexField) -> float:
     """Greatest difference of two sides, relative to the larger magnitude; 0 if both vanish, NaN if one is NaN."""
     gap, size = np.max(np.abs(np.subtract(left, right))), np.max(np.maximum(np.abs(left), np.abs(right)))
     return float(gap / size) if size != 0 else 0.0
-
-
-def judge(claim: Claim) -> Verdict:
-    """Compute a claim and its verdict."""
-    value = claim.compute()
-    if value is None or not math.isfinite(value):
-        return Verdict(claim, None, None, UNSOUND if claim.missed == UNSOUND else NOT_REPRODUCIBLE)
-    if claim.unit == RESIDUAL:
-        return Verdict(claim, value, value, _of_equation(claim, value))
-    relation, number = read_printed(claim.printed)
-    difference = value - float(number)
-    if relation:
-        holds = difference > 0 if relation == ">" else difference < 0
-        return Verdict(claim, value, difference, REPRODUCED if holds else claim.missed)
-    return Verdict(claim, value, difference, _of_number(claim, number, value))
 
 
 def read_printed(text: str) -> tuple[str, Decimal]:
@@ -166,6 +114,15 @@ def agrees(number: Decimal, value: float) -> bool:
     return 0 <= abs(value) - abs(shown) < unit and (shown == 0 or value * shown > 0)
 
 
+def near(number: Decimal, value: float) -> bool:
+    """Whether a value rounds or truncates to the printed number, or to its neighbour.
+
+    >>> near(Decimal("0.2340"), 0.23393), near(Decimal("0.2340"), 0.23388)
+    (True, False)
+    """
+    return agrees(number, value) or abs(value - float(number)) <= last_digit(number) * (1 + 1e-6)
+
+
 def last_digit(number: Decimal) -> float:
     """One unit of the last printed digit.
 
@@ -173,25 +130,3 @@ def last_digit(number: Decimal) -> float:
     1e-08
     """
     return float(Decimal(1).scaleb(int(number.as_tuple().exponent)))
-
-
-def _of_equation(claim: Claim, residual: float) -> str:
-    if residual <= NO_RESIDUAL:
-        return REPRODUCED
-    if claim.missed != MISPRINT:
-        return claim.missed
-    mended = claim.mended() if claim.mended else None
-    return MISPRINT if mended is not None and mended <= NO_RESIDUAL else NOT_REPRODUCIBLE
-
-
-def _of_number(claim: Claim, number: Decimal, value: float) -> str:
-    if claim.unit == COUNT:
-        return REPRODUCED if value == number else claim.missed
-    if agrees(number, value):
-        return REPRODUCED
-    if claim.missed != MISPRINT:
-        return claim.missed
-    if abs(value - float(number)) <= UNITS_OF_ROUNDING * last_digit(number):
-        return ROUNDING
-    carried = claim.follows() if claim.follows else None
-    return ROUNDING if carried is not None and agrees(number, carried) else MISPRINT

@@ -67,9 +67,17 @@ def claims() -> tuple[Claim, ...]:
 
 
 def _equation(
-    item: str, printed: str, compute: Computation, note: str = "", mended: Computation | None = None
+    item: str,
+    printed: str,
+    compute: Computation,
+    note: str = "",
+    mended: Computation | None = None,
+    *,
+    slips: tuple[str, ...] = (),
 ) -> Claim:
-    return Claim("knotting", item, printed, RESIDUAL, compute, "3, kinematic analysis", note, mended=mended)
+    return Claim(
+        "knotting", item, printed, RESIDUAL, compute, "3, kinematic analysis", note, mended=mended, slips=slips
+    )
 
 
 def _diagonal() -> tuple[Claim, ...]:
@@ -159,8 +167,8 @@ def _speed() -> tuple[Claim, ...]:
             "acceleration of r2, in numbers",
             "α2 = (...)/(r3 sin(θ3-θ2))",
             lambda: residual(a2, top2 / (r3 * np.sin(t3 - t2))),
-            "the denominator is r2 sin(θ2-θ3), as derived before",
-            lambda: residual(a2, top2 / (r2 * np.sin(t2 - t3))),
+            mended=lambda: residual(a2, top2 / (r2 * np.sin(t2 - t3))),
+            slips=("denominator of α2",),
         ),
         _equation(
             "acceleration of r3",

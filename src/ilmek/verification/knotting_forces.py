@@ -10,6 +10,8 @@ from functools import partial
 from ilmek.machines.knotting_four_bar.model import KnottingState
 from ilmek.units import mm
 from ilmek.verification.claim import Claim
+from ilmek.verification.knotting_force_steps import AT_REST, BY_SPEED, JOINTS
+from ilmek.verification.knotting_force_steps import torque as from_moments
 from ilmek.verification.knotting_pose import quoted, vector
 
 SIGNS = {"F2'": ("O2'", 1 - 1j), "F2": ("O2", -1 - 1j), "F1'": ("O1'", 1 + 1j), "F1": ("O1", -1 + 1j)}
@@ -41,11 +43,6 @@ def joint(name: str) -> Callable[[KnottingState], complex]:
 
 def claims() -> tuple[Claim, ...]:
     """The forces, joint by joint, and the torque."""
-    note = (
-        "mN added to N, +F2'y for -F2'y in the moment of link 2, m2 a_G2 left out of it, and the wrong α2; "
-        "the pose is at a dead point, where any load asks for large forces"
-    )
-
     static = {"F2'": ("78.34", "-17.4"), "F2": ("78.34", "32.4"), "F1'": ("-78.34", "17.4"), "F1": ("78.34", "-32.36")}
     moving = {
         "F2'": ("7888.8", "1378.7"),
@@ -58,18 +55,37 @@ def claims() -> tuple[Claim, ...]:
     def torque(state: KnottingState) -> complex:
         return complex(state.torque[0]) / mm
 
-    joints = {name: joint(name) for name in SIGNS}
+    rows = ((AT_REST, "N", rest, static), (BY_SPEED, "N s²", swing, moving))
     return (
         *(
-            c
-            for name, of in joints.items()
-            for c in vector(f"{name} at rest", static[name], "N", partial(rest, of), at, note=note)
+            component
+            for what, unit, part, printed in rows
+            for name in SIGNS
+            for component in vector(
+                f"{name} {what}",
+                printed[name],
+                unit,
+                partial(part, joint(name)),
+                at,
+                **JOINTS[f"{name} {what}"].of_claim(),
+            )
         ),
-        *(
-            c
-            for name, of in joints.items()
-            for c in vector(f"{name} by ω1²", moving[name], "N s²", partial(swing, of), at, note=note)
+        _claim(
+            "M1 at rest",
+            "6448.4",
+            "N mm",
+            lambda: rest(torque).real,
+            at,
+            follows=partial(from_moments, what=AT_REST),
+            slips=("moment of weight lost",),
+            right=lambda of: from_moments(of, AT_REST) - of["link 1: moment of the weight"],
         ),
-        _claim("M1 at rest", "6448.4", "N mm", lambda: rest(torque).real, at, note),
-        _claim("M1 by ω1²", "484714.7", "N mm s²", lambda: swing(torque).real, at, note),
+        _claim(
+            "M1 by ω1²",
+            "484714.7",
+            "N mm s²",
+            lambda: swing(torque).real,
+            at,
+            follows=partial(from_moments, what=BY_SPEED),
+        ),
     )

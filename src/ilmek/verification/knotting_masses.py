@@ -1,5 +1,6 @@
 """Knotting report, section 5: volumes, masses, centres and moments of inertia of the links, against the machine."""
 
+from collections.abc import Mapping
 from functools import cache, partial
 
 from ilmek.dynamics.inertia import Inertia, bar_moment
@@ -14,9 +15,7 @@ LINKS = {"1": "crank", "2": "coupler", "3": "rocker"}
 PARTS = {"link": "coupler bar", "holder": "holder", "gripper": "gripper"}
 
 NANO = 1e-9
-CENTRE = 19.30
-"""Mass centre of link 2 in the report's further computation [mm]."""
-
+CENTRE = "mass centre of link 2 from O2"
 AT = "5, masses"
 _claim = partial(Claim, "knotting")
 
@@ -44,6 +43,13 @@ def _link_2() -> tuple[Claim, ...]:
         "gripper": ("100", "0.142", "5.27"),
     }
     cubic = PARAMS.density * mm**3
+
+    def by_place(of: Mapping[str, float], name: str) -> float:
+        return of[f"mass of link 2, {name}"] * part(name).centre.real / mm
+
+    def centre(of: Mapping[str, float]) -> float:
+        return sum(of[f"mass by place of link 2, {name}"] for name in printed) / of["mass of link 2"]
+
     return (
         *(
             _claim(f"volume of link 2, {name}", texts[0], "mm³", _of(name, 0, cubic), AT)
@@ -51,49 +57,51 @@ def _link_2() -> tuple[Claim, ...]:
         ),
         *(_claim(f"mass of link 2, {name}", texts[1], "g", _of(name, 0, g), AT) for name, texts in printed.items()),
         *(
-            _claim(f"mass by place of link 2, {name}", texts[2], "g mm", _of(name, 1, g * mm), AT)
+            _claim(
+                f"mass by place of link 2, {name}",
+                texts[2],
+                "g mm",
+                _of(name, 1, g * mm),
+                AT,
+                follows=partial(by_place, name=name),
+            )
             for name, texts in printed.items()
         ),
         _claim("mass of link 2", "1.641", "g", _of("2", 0, g), AT),
-        _claim("mass centre of link 2 from O2", "19.30", "mm", lambda: part("2").centre.real / mm, AT),
+        _claim(CENTRE, "19.30", "mm", lambda: part("2").centre.real / mm, AT, follows=centre),
         _claim("weight of link 2", "16.1e-2", "N", _of("2", 0, 1 / GRAVITY), AT, "16.1e-3 N, as used afterwards"),
+        _claim("weight of link 2, as used", "16.1e-3", "N", _of("2", 0, 1 / GRAVITY), "5, link 2", repeated=True),
     )
 
 
 def _inertia_2() -> tuple[Claim, ...]:
     """Parallel axes about the common centre; the report goes on from its rounded masses and its 19.30 mm."""
     printed = {
-        "link": ("127.1e-9", "12.32e-9", 1.386, 32.637 / 2),
-        "holder": ("0.64e-9", "23.22e-9", 0.113, 33.637),
-        "gripper": ("0.49e-9", "45.17e-9", 0.142, 37.137),
+        "link": ("127.1e-9", "12.32e-9"),
+        "holder": ("0.64e-9", "23.22e-9"),
+        "gripper": ("0.49e-9", "45.17e-9"),
     }
-    note = "from the rounded masses and 19.30 mm"
-    pairs = [
-        (
-            _claim(f"moment of inertia of link 2, {name}", own, "kg m²", partial(_moment, name), AT),
-            _claim(
-                f"moment of inertia of link 2, {name} away from the centre",
-                moved,
-                "kg m²",
-                partial(_moved, name),
-                AT,
-                note,
-                partial(float, mass * (place - CENTRE) ** 2 * NANO),
-            ),
+    whole = "moment of inertia of link 2"
+
+    def own_moment(of: Mapping[str, float], name: str) -> float:
+        return part(name).moment / part(name).mass * of[f"mass of link 2, {name}"] * g
+
+    def moved_moment(of: Mapping[str, float], name: str) -> float:
+        return of[f"mass of link 2, {name}"] * (part(name).centre.real / mm - of[CENTRE]) ** 2 * NANO
+
+    terms = [
+        _claim(item, text, "kg m²", partial(compute, name), AT, follows=partial(follows, name=name))
+        for name, (own, moved) in printed.items()
+        for item, text, compute, follows in (
+            (f"{whole}, {name}", own, _moment, own_moment),
+            (f"{whole}, {name} away from the centre", moved, _moved, moved_moment),
         )
-        for name, (own, moved, mass, place) in printed.items()
     ]
-    terms = [float(text) for own, moved, _, _ in printed.values() for text in (own, moved)]
-    whole = _claim(
-        "moment of inertia of link 2",
-        "208.94e-9",
-        "kg m²",
-        partial(_moment, "2"),
-        AT,
-        "the sum of the rounded terms",
-        lambda: sum(terms),
-    )
-    return (*(claim for pair in pairs for claim in pair), whole)
+
+    def added(of: Mapping[str, float]) -> float:
+        return sum(of[term.item] for term in terms)
+
+    return (*terms, _claim(whole, "208.94e-9", "kg m²", partial(_moment, "2"), AT, follows=added))
 
 
 def _moment(name: str) -> float:
@@ -110,8 +118,8 @@ def _others(number: str) -> tuple[Claim, ...]:
     volume, mass, weight, moment = printed[number]
     length = {"1": PARAMS.crank, "3": PARAMS.rocker}[number]
 
-    def rounded() -> float:
-        return float(bar_moment(float(mass) * g, length, PARAMS.width))
+    def from_mass(of: Mapping[str, float]) -> float:
+        return float(bar_moment(of[f"mass of link {number}"] * g, length, PARAMS.width))
 
     return (
         _claim(f"volume of link {number}", volume, "mm³", _of(number, 0, PARAMS.density * mm**3), AT),
@@ -123,7 +131,6 @@ def _others(number: str) -> tuple[Claim, ...]:
             "kg m²",
             partial(_moment, number),
             AT,
-            f"from the rounded mass of {mass} g",
-            rounded,
+            follows=from_mass,
         ),
     )

@@ -5,6 +5,7 @@ A rise of L over the cam angle beta at the speed w; s, v, a the law's displaceme
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -30,9 +31,8 @@ def _equation(number: str, printed: str, law: Law, order: int, right: Callable[[
     return Claim("thesis", f"Eq {number}", printed, RESIDUAL, lambda: _off(law, order, right()), f"2.2.2, Eq {number}")
 
 
-def _misprinted(claim: Claim, note: str, mended: Callable[[], float]) -> Claim:
-    fields = claim.paper, claim.item, claim.printed, claim.unit, claim.compute
-    return Claim(*fields, source=claim.source, note=note, mended=mended)
+def _misprinted(claim: Claim, note: str, mended: Callable[[], float], *slips: str) -> Claim:
+    return replace(claim, note=note, mended=mended, slips=slips)
 
 
 def _motion(law: Law, order: int) -> FloatArray:
@@ -62,8 +62,9 @@ def _harmonic() -> tuple[Claim, ...]:
         ),
         _misprinted(
             _equation("2.49", "S = L/[2 (1 - cos(π θ/β))]", HARMONIC, 0, lambda: LIFT / (2 * (1 - np.cos(PHI)))),
-            "the bracket belongs above the bar: S = (L/2)(1 - cos(π θ/β))",
+            "S = (L/2)(1 - cos(π θ/β))",
             lambda: _off(HARMONIC, 0, half * (1 - np.cos(PHI))),
+            "fraction bar",
         ),
         _equation(
             "2.50", "V = π L/(2 β) sin(π θ/β) ω", HARMONIC, 1, lambda: math.pi * LIFT / (2 * BETA) * np.sin(PHI) * SPEED
@@ -94,15 +95,17 @@ def _cycloidal() -> tuple[Claim, ...]:
         ),
         _misprinted(
             _equation("2.55", "v = L ω/[β (1 - cos(2π θ/β))]", CYCLOIDAL, 1, lambda: velocity / (1 - np.cos(turned))),
-            "the bracket belongs above the bar: v = (L ω/β)(1 - cos(2π θ/β))",
+            "v = (L ω/β)(1 - cos(2π θ/β))",
             lambda: _off(CYCLOIDAL, 1, velocity * (1 - np.cos(turned))),
+            "fraction bar",
         ),
         _misprinted(
             _equation(
                 "2.56", "a = 2π L ω²/[β² sin(2π θ/β)]", CYCLOIDAL, 2, lambda: acceleration / np.sin(turned + 1e-6)
             ),
-            "the sine belongs above the bar: a = (2π L ω²/β²) sin(2π θ/β)",
+            "a = (2π L ω²/β²) sin(2π θ/β)",
             lambda: _off(CYCLOIDAL, 2, acceleration * np.sin(turned)),
+            "fraction bar",
         ),
     )
 

@@ -17,9 +17,17 @@ def claims() -> tuple[Claim, ...]:
 
 
 def _equation(
-    number: str, printed: str, compute: Computation, note: str = "", mended: Computation | None = None
+    number: str,
+    printed: str,
+    compute: Computation,
+    note: str = "",
+    mended: Computation | None = None,
+    *,
+    slips: tuple[str, ...] = (),
 ) -> Claim:
-    return Claim("thesis", f"Eq {number}", printed, RESIDUAL, compute, f"2.1.3, Eq {number}", note, mended=mended)
+    return Claim(
+        "thesis", f"Eq {number}", printed, RESIDUAL, compute, f"2.1.3, Eq {number}", note, mended=mended, slips=slips
+    )
 
 
 def _loop() -> tuple[Claim, ...]:
@@ -96,29 +104,32 @@ def _superposition() -> tuple[Claim, ...]:
 
 
 def _elimination() -> tuple[Claim, ...]:
-    note = "1 for 1/2, which contradicts Eqs 2.38 to 2.42: {}"
+    half = ("half in λ",)
     return (
         _equation(
             "2.43",
             "... + λ1 (l1 m4 + l4 m1 - 1/2) + ... = 0",
             lambda: arm.eq_2_43(4, HALF_TOO_MUCH),
-            note.format("l1 m4 + l4 m1 - 1"),
+            "l1 m4 + l4 m1 - 1",
             lambda: arm.eq_2_43(4, WHOLE),
+            slips=half,
         ),
         _equation(
             "2.44",
             "... + λ2 (l1 n5 + l5 n1 - 1/2) + ... = 0",
             lambda: arm.eq_2_43(5, HALF_TOO_MUCH),
-            note.format("l1 n5 + l5 n1 - 1"),
+            "l1 n5 + l5 n1 - 1",
             lambda: arm.eq_2_43(5, WHOLE),
+            slips=half,
         ),
         _equation("2.45, A1 to A5", "Eq 2.43 - n4/n5 Eq 2.44 has no λ2²", arm.eq_2_45),
         _equation(
             "2.46",
             "λ2 = -(A1 λ1² + A3 λ1 + A5)/(A4 + A2 λ1)",
             lambda: arm.eq_2_46(HALF_TOO_MUCH),
-            note.format("... - 1 in A3 and n4/n5 in A4"),
+            "... - 1 in A3 and n4/n5 in A4",
             lambda: arm.eq_2_46(WHOLE),
+            slips=half,
         ),
         _equation("2.46 f., text", "the coefficient of λ1⁴ becomes zero", arm.quartic),
         Claim("thesis", "solutions of the third-order equation", "3", COUNT, arm.solutions, "2.1.3, text"),

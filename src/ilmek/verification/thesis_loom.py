@@ -1,6 +1,7 @@
 """Thesis 3.1 and 3.2: the warp cylinders and the square shaft as beams under a uniform load."""
 
 import math
+from collections.abc import Mapping
 from functools import partial
 from typing import NamedTuple
 
@@ -102,7 +103,6 @@ def _beam() -> tuple[Claim, ...]:
 
 def _cylinders() -> tuple[Claim, ...]:
     """Table 3.1: least outer radius for the slope, and sag of the chosen one."""
-    lost = "5/384 of Eq 3.4 was taken as 1/384: 5 times as much; below 1 mm still"
     rows = {50: ("51.69", 60, "0.037"), 75: ("75.52", 85, "0.012"), 100: ("100.22", 110, "0.005")}
     rows |= {125: ("125.12", 135, "0.0028"), 150: ("150.066", 160, "0.0016")}
     at = "Table 3.1"
@@ -126,7 +126,10 @@ def _cylinders() -> tuple[Claim, ...]:
                 "mm",
                 partial(_sag, chosen, inner),
                 at,
-                lost,
+                "5 times as much; below 1 mm still",
+                follows=partial(_slipped_sag, chosen, inner, 5),
+                right=partial(_slipped_sag, chosen, inner, 1),
+                slips=("lost 5",),
                 fitted=CYLINDER.text(),
             )
             for inner, (_, chosen, sag) in rows.items()
@@ -155,6 +158,11 @@ def _sag(outer: float, inner: float) -> float:
     return float(uniform.deflection_max(PULL / span, span, E, uniform.tube_inertia(outer * mm, inner * mm))) / mm
 
 
+def _slipped_sag(outer: float, inner: float, factor: float, _: Mapping[str, float]) -> float:
+    """The sag [mm], too small by a factor."""
+    return _sag(outer, inner) / factor
+
+
 def _lengths_apart(factor: float) -> float:
     """From the first row, 51.69 mm and 0.037 mm, with y_max = factor W l³/(E I)."""
     E = CYLINDER.modulus
@@ -175,7 +183,10 @@ def _tube() -> tuple[Claim, ...]:
             "mm",
             partial(_sag, outer / mm, inner / mm),
             at,
-            "diameters taken as radii (1/16) and the 5 of Eq 3.4 lost; below 1 mm still",
+            "below 1 mm still",
+            follows=partial(_slipped_sag, outer / mm, inner / mm, 5 * 16),
+            right=partial(_slipped_sag, outer / mm, inner / mm, 1),
+            slips=("diameters as radii", "lost 5"),
             fitted=CYLINDER.text(),
         ),
         _claim(
@@ -281,16 +292,17 @@ def _safety() -> float:
 def _shaft_load() -> tuple[Claim, ...]:
     weight, across = 550 * GRAVITY, 600 * 10 * N
     return (
-        _claim(
-            "weight of cams of 550 kg", "5489", "N", lambda: weight, "3.2", "550 kg weigh 5395.5 N; 5489 N are 559.5 kg"
-        ),
+        _claim("weight of cams of 550 kg", "5489", "N", lambda: weight, "3.2", slips=("5489 for 5589",)),
         _claim(
             "resultant of weight and 600 warps of 10 N",
             "8200",
             "N",
             lambda: math.hypot(weight, across),
             "3.2",
-            "weight and warps are at a right angle; from the printed 5489 N it is 8132 N, from 5589 N 8200 N",
+            "weight and warps are at a right angle; from the printed 5489 N it is 8132 N",
+            follows=lambda of: math.hypot(of["weight of cams of 550 kg"] + 100, across),
+            right=lambda of: math.hypot(of["weight of cams of 550 kg"], across),
+            slips=("5489 for 5589",),
         ),
         _claim("load on the shaft at a safety of 2", "14", "kN/m", lambda: 8200 * N / (1.2 * m) * 2 / kN, "3.2"),
     )

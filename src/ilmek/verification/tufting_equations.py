@@ -43,9 +43,17 @@ def claims() -> tuple[Claim, ...]:
 
 
 def _equation(
-    number: str, printed: str, compute: Computation, note: str = "", mended: Computation | None = None
+    number: str,
+    printed: str,
+    compute: Computation,
+    note: str = "",
+    mended: Computation | None = None,
+    *,
+    slips: tuple[str, ...] = (),
 ) -> Claim:
-    return Claim("tufting", f"Eq {number}", printed, RESIDUAL, compute, f"Eq {number}", note, mended=mended)
+    return Claim(
+        "tufting", f"Eq {number}", printed, RESIDUAL, compute, f"Eq {number}", note, mended=mended, slips=slips
+    )
 
 
 @cache
@@ -267,8 +275,8 @@ def _balances() -> tuple[Claim, ...]:
             "35 (and 43)",
             "M_r - moments of F_54, F_C about s4 = -M4",
             partial(fourth, -1),
-            "+M4: the row is clockwise-positive; up to 0.56 N m in M_r",
-            partial(fourth, 1),
+            mended=partial(fourth, 1),
+            slips=("sign of M4",),
         ),
         _equation(
             "38",

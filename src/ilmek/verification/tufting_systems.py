@@ -28,9 +28,17 @@ def claims() -> tuple[Claim, ...]:
 
 
 def _equation(
-    number: str, printed: str, compute: Computation, note: str = "", mended: Computation | None = None
+    number: str,
+    printed: str,
+    compute: Computation,
+    note: str = "",
+    mended: Computation | None = None,
+    *,
+    slips: tuple[str, ...] = (),
 ) -> Claim:
-    return Claim("tufting", f"Eq {number}", printed, RESIDUAL, compute, f"Eq {number}", note, mended=mended)
+    return Claim(
+        "tufting", f"Eq {number}", printed, RESIDUAL, compute, f"Eq {number}", note, mended=mended, slips=slips
+    )
 
 
 def _inertia() -> tuple[Claim, ...]:
@@ -71,8 +79,8 @@ def _systems() -> tuple[Claim, ...]:
             "40 to 43",
             "C F_R2 = D, without the column of zeros, moving down",
             partial(_second_system, -1),
-            "+M4 for -M4 in D, as in Eq 35",
-            partial(_second_system, 1),
+            mended=partial(_second_system, 1),
+            slips=("sign of M4",),
         ),
     )
 
@@ -182,8 +190,26 @@ def _columns() -> tuple[Claim, ...]:
     def unknowns(pins: int, others: int) -> int:
         return 2 * pins + others
 
-    note = "one column of zeros too many: the vector of unknowns has {} entries"
+    note, zeros = "the vector of unknowns has {} entries", ("column of zeros",)
     return (
-        Claim("tufting", "columns of matrix A", "10", COUNT, partial(unknowns, 4, 1), "Eq 30, 31", note.format(9)),
-        Claim("tufting", "columns of matrix C", "9", COUNT, partial(unknowns, 3, 2), "Eq 41, 42", note.format(8)),
+        Claim(
+            "tufting",
+            "columns of matrix A",
+            "10",
+            COUNT,
+            partial(unknowns, 4, 1),
+            "Eq 30, 31",
+            note.format(9),
+            slips=zeros,
+        ),
+        Claim(
+            "tufting",
+            "columns of matrix C",
+            "9",
+            COUNT,
+            partial(unknowns, 3, 2),
+            "Eq 41, 42",
+            note.format(8),
+            slips=zeros,
+        ),
     )

@@ -3,7 +3,9 @@
 from collections import Counter
 from collections.abc import Iterable
 
-from ilmek.verification.claim import COUNT, RESIDUAL, VERDICTS, Verdict, read_printed
+from ilmek.verification.claim import COUNT, MISPRINT, RESIDUAL, VERDICTS, read_printed
+from ilmek.verification.judgement import Verdict
+from ilmek.verification.slips import SLIPS
 
 MORE_DIGITS = 2
 
@@ -41,9 +43,33 @@ def item_text(verdict: Verdict) -> str:
 
 
 def source_text(verdict: Verdict) -> str:
-    """The source, the fitted constants and the note, as far as there are any."""
+    """The source, the fitted constants, the roots by name and the note, as far as there are any."""
     claim = verdict.claim
-    return "; ".join(filter(None, (claim.source, f"fitted: {claim.fitted}" if claim.fitted else "", verdict.note)))
+    fitted = f"fitted: {claim.fitted}" if claim.fitted else ""
+    if verdict.verdict != MISPRINT:
+        return "; ".join(filter(None, (claim.source, fitted, verdict.note)))
+    others = [root for root in verdict.roots if root != claim.item]
+    root = f"root: {', '.join(others)}" if others else ""
+    return "; ".join(filter(None, (claim.source, fitted, root, claim.note)))
+
+
+ROOT_HEADINGS = ("root", "rows", "what is wrong", "first row")
+
+
+def root_rows(verdicts: Iterable[Verdict]) -> list[tuple[str, str, str, str]]:
+    """A row with `ROOT_HEADINGS` for each slip from which misprints follow, in the order of the pages.
+
+    A misprint stands under the root that changes it most. One that follows from no other row and has no slip in common
+    with another is its own root, and its note says what is wrong.
+    """
+    groups: dict[str, list[Verdict]] = {}
+    for verdict in verdicts:
+        for root in verdict.roots[:1]:
+            groups.setdefault(root, []).append(verdict)
+    return [
+        (root, str(len(group)), SLIPS.get(root) or group[0].claim.note, item_text(group[0]))
+        for root, group in groups.items()
+    ]
 
 
 HEADINGS = ("item", "printed", "computed", "verdict", "source; fitted; note")
@@ -56,7 +82,7 @@ def row(verdict: Verdict) -> tuple[str, str, str, str, str]:
 
 
 def summary(verdicts: Iterable[Verdict]) -> str:
-    """The number of claims, in total and by verdict, and of those with fitted constants.
+    """The number of claims, in total and by verdict, of the roots of the misprints, and of fitted constants.
 
     >>> summary(())
     '0 claims'
@@ -64,7 +90,8 @@ def summary(verdicts: Iterable[Verdict]) -> str:
     listed = tuple(verdicts)
     counted = Counter(verdict.verdict for verdict in listed)
     fitted = sum(bool(verdict.claim.fitted) for verdict in listed)
-    parts = [f"{counted[name]} {name}" for name in VERDICTS if counted[name]]
+    roots = f" from {len(root_rows(listed))} slips"
+    parts = [f"{counted[name]} {name}{roots if name == MISPRINT else ''}" for name in VERDICTS if counted[name]]
     total = f"{counted.total()} claim{'' if counted.total() == 1 else 's'}"
     kinds = f"{total}: {', '.join(parts)}" if parts else total
     return f"{kinds}; {fitted} with fitted constants" if fitted else kinds

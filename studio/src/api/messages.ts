@@ -372,7 +372,7 @@ export interface CyclogramRequest {
 /**
  * A solved cyclogram: the file's data with its new timing, and what limits it.
  *
- *     goal  acceleration or period      measure, unit  description of before and after [SI], and their display unit
+ *     goal  acceleration or period      measure, shown_unit  description of before and after [SI], and the unit to show them in
  *
  * This interface was referenced by `Messages`'s JSON-Schema
  * via the `definition` "CyclogramSolution".
@@ -381,7 +381,7 @@ export interface CyclogramSolution {
   data: {};
   goal: string;
   measure: string;
-  unit: string;
+  shown_unit: string;
   factor: number;
   before: number;
   after: number;
@@ -424,7 +424,7 @@ export interface CyclogramView {
 /**
  * A track. SI; null where there is no limit, or where a peak is infinite.
  *
- *     factor  SI value in `unit` is value times this      locked  the solver leaves it as it is
+ *     factor  SI value in `shown_unit` is value times this      locked  the solver leaves it as it is
  *     count   number of samples of its curves             low, high  least and greatest position
  *
  * This interface was referenced by `Messages`'s JSON-Schema
@@ -433,7 +433,7 @@ export interface CyclogramView {
 export interface ShownTrack {
   name: string;
   actuator: string;
-  unit: string;
+  shown_unit: string;
   factor: number;
   revolves: number;
   locked: boolean;
@@ -543,7 +543,7 @@ export interface ShownPresence {
   high: number | null;
 }
 /**
- * The largest speed or acceleration of a track against the limit of its actuator [SI], shown in `unit`.
+ * The largest speed or acceleration of a track against the limit of its actuator [SI], shown in `shown_unit`.
  *
  * This interface was referenced by `Messages`'s JSON-Schema
  * via the `definition` "ShownLimit".
@@ -553,7 +553,7 @@ export interface ShownLimit {
   why: string;
   value: number | null;
   limit: number;
-  unit: string;
+  shown_unit: string;
   ok: boolean;
 }
 /**
@@ -615,7 +615,7 @@ export interface ShownReason {
   cure: string;
 }
 /**
- * A result; `value` [SI] where it is one number. `machine` as of a check.
+ * A result; `value` where it is one number, in the SI unit `unit`. `machine` as of a check.
  *
  * This interface was referenced by `Messages`'s JSON-Schema
  * via the `definition` "ShownResult".
@@ -796,7 +796,7 @@ export interface VectorSeries {
  *     machine  the other machine that it belongs to, "" for the machine's own
  *     kind     quantity, count, flag, choice, or text
  *     default  SI value; null: chosen by the design, `doc` states how          default_text  as it is shown
- *     unit     in which it is shown, as it can be typed       printed  the same as it is printed       factor  to SI
+ *     shown_unit  in which it is shown, as it can be typed    printed  the same as it is printed       factor  to SI
  *     above, below  bounds that are excluded [SI]             at_least, at_most  bounds that are included [SI]
  *     allowed  the bounds or choices in words                 choices  allowed texts; of a quantity, words besides numbers
  *     alias    second name under which it can be set
@@ -811,7 +811,7 @@ export interface FormField {
   kind: string;
   default: number | boolean | string | null;
   default_text: string;
-  unit: string;
+  shown_unit: string;
   printed: string;
   factor: number;
   above: number | null;
@@ -1086,7 +1086,7 @@ export interface ShownPlot {
  */
 export interface ShownAxis {
   label: string;
-  unit: string;
+  shown_unit: string;
 }
 /**
  * A curve of a plot.
@@ -1120,7 +1120,7 @@ export interface ShownMark {
 export interface ShownDrawing {
   strokes: ShownStroke[];
   dots: ShownDot[];
-  unit: string;
+  shown_unit: string;
 }
 /**
  * A polyline of a drawing [m]; `role` sets how it is drawn. look: -1 where its role has a colour of its own.
@@ -1208,7 +1208,7 @@ export interface MovingPoint {
  */
 export interface ShownReading {
   label: string;
-  unit: string;
+  shown_unit: string;
   values: (number | null)[];
 }
 /**
@@ -1232,7 +1232,7 @@ export interface ShownTiming {
 export interface ShownLane {
   name: string;
   actuator: string;
-  unit: string;
+  shown_unit: string;
   look: number;
   angle: (number | null)[];
   position: (number | null)[];
@@ -1395,14 +1395,14 @@ export interface ShownTable {
   rows: (number | string | null)[][];
 }
 /**
- * A column: heading, unit of its SI numbers, and their significant digits.
+ * A column: heading, the unit its SI numbers are shown in, and their significant digits.
  *
  * This interface was referenced by `Messages`'s JSON-Schema
  * via the `definition` "ShownColumn".
  */
 export interface ShownColumn {
   heading: string;
-  unit: string;
+  shown_unit: string;
   digits: number;
 }
 /**

@@ -43,13 +43,13 @@ export function paintPlot(
   width: number,
   height: number,
 ): Layout {
-  const [fx, fy] = [parseUnit(plot.x.unit)?.factor ?? 1, parseUnit(plot.y.unit)?.factor ?? 1];
+  const [fx, fy] = [parseUnit(plot.x.shown_unit)?.factor ?? 1, parseUnit(plot.y.shown_unit)?.factor ?? 1];
   const top = plot.marks.length > 0 ? 22 : 8;
   const bottom = height - 20;
   const count = Math.max(2, Math.min(7, Math.round((bottom - top) / PIXELS_PER_TICK.y)));
   const inUnit = { low: ranges.y.low / fy, high: ranges.y.high / fy };
-  const room = roomy(inUnit, plot.y.unit, count);
-  const rows = ticks(room, plot.y.unit, count);
+  const room = roomy(inUnit, plot.y.shown_unit, count);
+  const rows = ticks(room, plot.y.shown_unit, count);
   const names = tickLabels(rows);
   context.font = SMALL;
   const left = Math.ceil(Math.max(...names.map((name) => context.measureText(name).width), 18)) + 10;
@@ -90,7 +90,7 @@ function paintAxes(
   const shades = colours();
   const columns = ticks(
     { low: layout.x.low / fx, high: layout.x.high / fx },
-    plot.x.unit,
+    plot.x.shown_unit,
     Math.max(2, (right - left) / PIXELS_PER_TICK.x),
   );
   context.lineWidth = 1;

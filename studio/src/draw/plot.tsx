@@ -28,7 +28,7 @@ export function Plot({ plot, title, height = 210, ranges }: PlotProps) {
     },
     [plot, shown],
   );
-  const angle = isAngle(plot.x.unit);
+  const angle = isAngle(plot.x.shown_unit);
   const inside = (value: number | null) => (value === null ? null : within(value, shown.x.low, shown.x.high, angle));
   const over = useCanvas(
     (context, width, high) => {
@@ -46,19 +46,19 @@ export function Plot({ plot, title, height = 210, ranges }: PlotProps) {
     moveTo(cursor, fromX(layout.current, event.clientX - box.left));
   };
   const at = inside(cursor.at.value);
-  const reading = at === null ? "" : formatQuantity(at, plot.x.unit);
+  const reading = at === null ? "" : formatQuantity(at, plot.x.shown_unit);
   const greatest = useMemo(() => greatestOf(plot.curves.map((curve) => curve.y)), [plot]);
   const values = plot.curves.map((curve) => {
     const value = at === null ? null : valueAt(curve.x, curve.y, at);
     return value === null ? null : quiet(value, greatest);
   });
   const spoken = plot.curves.map(
-    (curve, k) => `${curve.label} ${shownValue(values[k] ?? null, plot.y.unit)} ${shownUnit(plot.y.unit)}`,
+    (curve, k) => `${curve.label} ${shownValue(values[k] ?? null, plot.y.shown_unit)} ${shownUnit(plot.y.shown_unit)}`,
   );
   return (
     <div class="fig-plot">
       <div class="fig-axis-names">
-        <span>{withUnit(plot.y.label, plot.y.unit)}</span>
+        <span>{withUnit(plot.y.label, plot.y.shown_unit)}</span>
       </div>
       <div
         class="fig-field"
@@ -80,7 +80,13 @@ export function Plot({ plot, title, height = 210, ranges }: PlotProps) {
           if (dragged || (event.pointerType === "mouse" && cursor.player.peek() === null)) point(event);
         }}
         onKeyDown={(event) => {
-          const to = keyed(event, inside(cursor.at.peek()) ?? shown.x.low, shown.x.low, shown.x.high, plot.x.unit);
+          const to = keyed(
+            event,
+            inside(cursor.at.peek()) ?? shown.x.low,
+            shown.x.low,
+            shown.x.high,
+            plot.x.shown_unit,
+          );
           if (to !== undefined) moveTo(cursor, to);
         }}
       >
@@ -88,7 +94,7 @@ export function Plot({ plot, title, height = 210, ranges }: PlotProps) {
         <canvas ref={over} />
       </div>
       <div class="fig-axis-names fig-lower">
-        <span>{withUnit(plot.x.label, plot.x.unit)}</span>
+        <span>{withUnit(plot.x.label, plot.x.shown_unit)}</span>
       </div>
       <PlotLegend plot={plot} at={at} values={values} reading={reading} />
     </div>
@@ -104,7 +110,7 @@ interface LegendProps {
 
 function PlotLegend({ plot, at, values, reading }: LegendProps) {
   const several = plot.curves.length > 1;
-  const unit = shownUnit(plot.y.unit);
+  const unit = shownUnit(plot.y.shown_unit);
   return (
     <ul class="fig-legend">
       {at !== null && <li class="fig-at">{t("ui.at", { at: reading })}</li>}
@@ -114,7 +120,7 @@ function PlotLegend({ plot, at, values, reading }: LegendProps) {
           <span>{curve.label}</span>
           {at !== null && (
             <b>
-              {shownValue(values[k] ?? null, plot.y.unit)} {unit}
+              {shownValue(values[k] ?? null, plot.y.shown_unit)} {unit}
             </b>
           )}
         </li>

@@ -34,7 +34,7 @@ export function Timing({ timing, title }: { timing: ShownTiming; title: string }
     const share = ((event.clientX - rectangle.left) / rectangle.width) * width;
     moveTo(cursor, Math.min(Math.max((share - left) / frame.width, 0), 1) * TURN);
   };
-  const reading = at === null ? "" : formatQuantity(at, timing.drive.unit);
+  const reading = at === null ? "" : formatQuantity(at, timing.drive.shown_unit);
   return (
     <div ref={box}>
       <div
@@ -56,7 +56,7 @@ export function Timing({ timing, title }: { timing: ShownTiming; title: string }
           if (dragged || (event.pointerType === "mouse" && cursor.player.peek() === null)) point(event);
         }}
         onKeyDown={(event) => {
-          const to = keyed(event, at ?? 0, 0, TURN, timing.drive.unit);
+          const to = keyed(event, at ?? 0, 0, TURN, timing.drive.shown_unit);
           if (to !== undefined) moveTo(cursor, to);
         }}
       >
@@ -86,7 +86,7 @@ function Lanes({ timing, frame, bottom }: { timing: ShownTiming; frame: Frame; b
         <g key={angle}>
           <line class="grid" x1={frame.x(angle)} x2={frame.x(angle)} y1={TOP} y2={bottom} />
           <text x={frame.x(angle)} y={bottom + 14} text-anchor="middle">
-            {formatQuantity(angle, timing.drive.unit)}
+            {formatQuantity(angle, timing.drive.shown_unit)}
           </text>
           <text x={frame.x(angle)} y={TOP - 7} text-anchor="middle">
             {formatQuantity((angle / TURN) * timing.period, "s", 3)}

@@ -123,6 +123,7 @@ def _linkage(path: Path, target: Path, name: str, outputs: Outputs, progress: Pr
     if write is not None:
         workshop = write(with_parts(made, moved.machine))
         notes += workshop.notes
+        made = workshop.judged(made)
     if name == "table":
         outputs.write(target, csv_text(columns(found), progress.part(0.8, 1.0, "table")))
     part = progress.part(0.8, 1.0)

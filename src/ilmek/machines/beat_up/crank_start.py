@@ -131,15 +131,16 @@ def crank_start(duty: CrankDuty, params: CrankStartParams) -> CrankStart:
 
 
 def start_checks(found: CrankStart) -> tuple[Check, ...]:
-    """Whether a motor, and a clutch where there is one, start and stop the crank in its time."""
+    """Whether a motor, and a clutch where there is one, start and stop the crank, in the time between two beats."""
     slower = "set a lower speed of the crank, more beaters, or a longer run-up"
     motor = must("a motor starts and stops the crank", found.pair is not None, "motor table, margin 1.25", cure=slower)
-    every = found.duty.every or found.beat_time
-    fits = at_most("time of a beat", found.beat_time, every, "s", "time from beat to beat", cure=slower)
+    every = found.duty.every
+    in_time = every and at_most("time of a beat", found.beat_time, every, "s", "time from beat to beat", cure=slower)
+    made = (motor, in_time) if in_time else (motor,)
     if found.drive == "servo":
-        return motor, fits
+        return made
     largest = f"sizes of clutches, up to {format_quantity(CLUTCHES[-1], 'Nm')}"
-    return motor, fits, at_most("torque of the clutch", found.clutch_torque, CLUTCHES[-1], "Nm", largest, cure=slower)
+    return *made, at_most("torque of the clutch", found.clutch_torque, CLUTCHES[-1], "Nm", largest, cure=slower)
 
 
 def start_parts(found: CrankStart, name: str = "beat-up") -> tuple[Part, ...]:

@@ -140,9 +140,10 @@ _FLYWHEEL = "leave flywheel out, or set a larger one"
 
 
 def _running_checks(params: BeatUpParams, running: MotorRun) -> tuple[Check, ...]:
-    """Whether the motor starts it, and the flywheel is enough."""
+    """Whether the motor starts it, and the flywheel is enough; a linkage that needs no torque needs no motor."""
     if running.start is None:
-        return ()
+        toggle = "the motion near a toggle position has no usable Fourier series"
+        return (must("the motor runs the linkage", False, toggle, cure=_LINKS),) if running.torque else ()
     reached, run, last = max(float(run.speed.max()) for run in running.runs), running.runs[-1], running.last_turn
     cure = _SOFTER if run.end.kind.early else _STRONGER
     source = "forward run, 95 % of it"
@@ -171,7 +172,7 @@ def _force_warnings(design: BeatUp) -> tuple[str, ...]:
 
 def _running_warnings(running: MotorRun) -> tuple[str, ...]:
     if running.start is None:
-        return ("no run by the motor: the linkage is too near a toggle position, or needs no torque",)
+        return () if running.torque else ("no run by the motor: the linkage needs no torque",)
     if running.started:
         return ()
     if running.start.end.kind.early:

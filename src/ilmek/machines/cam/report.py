@@ -17,7 +17,7 @@ from ilmek.machines.cam.compliant_follower import vibration_checks, vibration_ta
 from ilmek.machines.cam.design import CamDesign
 from ilmek.machines.cam.shape import programme_of, size_without_undercut, smallest_of
 from ilmek.num.piecewise import infimum, supremum
-from ilmek.report import Check, Table, at_least, at_most, columns
+from ilmek.report import Check, Table, at_least, at_most, columns, must
 from ilmek.units import deg, format_quantity
 
 NORTON = "Norton, Cam Design and Manufacturing"
@@ -68,6 +68,13 @@ def _shape_checks(design: CamDesign) -> tuple[Check, ...]:
     room = least_surface_radius(design) - design.hub.reach
     if room < math.inf:
         made.append(at_least("wall between keyway and surface", room, params.wall, "mm", "wall"))
+    largest = largest_cutter(design)
+    if params.cutter_radius is not None and largest < math.inf:
+        source, cure = "least hollow of the cam, or its groove", "leave cutter_radius out, or set a smaller one"
+        made.append(at_most("radius of the cutter", params.cutter_radius, largest, "mm", source, cure=cure))
+    if params.follower == "roller" and params.roller_radius is None:
+        cure = "set a larger prime_radius, or a roller_radius of your own"
+        made.append(must("a roller of the table fits the cam", design.roller is not None, "roller table", cure=cure))
     return tuple(made)
 
 
@@ -121,10 +128,6 @@ def warnings(found: CamAnalysis) -> tuple[str, ...]:
     if least_surface_radius(design) <= design.hub.reach:
         bore = format_quantity(design.hub.bore, "mm")
         made.append(f"the bore of {bore} does not fit into the cam, which is drawn without it")
-    largest = largest_cutter(design)
-    if params.cutter_radius is not None and params.cutter_radius > largest * (1 + 1e-9):
-        shown, most = (format_quantity(value, "mm") for value in (params.cutter_radius, largest))
-        made.append(f"cutter_radius={shown} does not reach into every hollow of the cam: at most {most}")
     if design.roller is None and params.follower == "roller" and params.roller_radius is None:
         radius = format_quantity(cam.roller_radius, "mm")
         made.append(f"no roller of the table fits this cam: computed with a radius of {radius}")

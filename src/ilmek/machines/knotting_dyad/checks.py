@@ -43,7 +43,9 @@ def dyad_self_tests(design: KnottingDyad, motion: HeadMotion | None) -> tuple[Ch
         return (closes,)
     masses = "set masses and speeds within their usual sizes"
     balance = at_most("power balance of the torques", motion.power_error, BALANCE, "1", "virtual power", cure=masses)
-    return closes, balance, equilibrium_test(motion.strength)
+    limits = "limits of joints and centre gripper: the motion is as quick as they allow"
+    used = at_most("greatest use of a drive's limit", motion.cycle.usage, 1 + TOLERANCE, "1", limits)
+    return closes, balance, used, equilibrium_test(motion.strength)
 
 
 def _arm_checks(design: KnottingDyad) -> tuple[Check, ...]:
@@ -160,16 +162,7 @@ def _gap_checks(head: Head) -> tuple[Check, ...]:
 
 
 def _motion_checks(motion: HeadMotion) -> tuple[Check, ...]:
-    used = "greatest use of a drive's limit: speed, acceleration, jerk"
     return (
-        at_most(
-            used,
-            motion.cycle.usage,
-            1 + TOLERANCE,
-            "1",
-            "limits of joints and centre gripper",
-            cure="set higher limits of speed, acceleration and jerk",
-        ),
         must(
             "servos of the joints",
             all(joint.motor for joint in motion.joints),

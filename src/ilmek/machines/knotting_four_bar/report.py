@@ -3,12 +3,13 @@
 import numpy as np
 
 from ilmek.machines.knotting_four_bar.design import KnottingFourBar
+from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams
 from ilmek.machines.knotting_four_bar.posed import PosedFourBar
 from ilmek.machines.knotting_four_bar.sides import SidesAnalysis, analyse_sides
 from ilmek.machines.knotting_four_bar.strength import four_bar_strength
 from ilmek.machines.linkage_strength import LinkageStrength, equilibrium_test, strength_checks, strength_table
 from ilmek.records import group, record
-from ilmek.report import Check, Table, at_least, at_most, columns
+from ilmek.report import Check, Table, at_least, at_most, columns, must
 from ilmek.units import deg, format_quantity, turn
 
 BALANCE = 1e-9
@@ -35,7 +36,7 @@ def analyse(design: KnottingFourBar) -> KnottingFourBarAnalysis:
 
 
 def checks(found: KnottingFourBarAnalysis) -> tuple[Check, ...]:
-    """Dead point and transmission angle; both sides."""
+    """Dead point and transmission angle, servo; both sides, and the knot that they tie."""
     design = found.design
     distance = design.dead_point_distance
     dead_point = at_least("crank's distance from its dead point", distance, DISTANCE, "deg", "rule of thumb")
@@ -43,6 +44,7 @@ def checks(found: KnottingFourBarAnalysis) -> tuple[Check, ...]:
         *((dead_point,) if design.range else ()),
         at_least("transmission angle", design.transmission_angle, TRANSMISSION, "deg", RULE),
         *strength_checks(found.strength, stronger="set a larger width or thickness, or a smaller grip_force"),
+        _servo_check(design),
         *(() if found.sides is None else _side_checks(design, found.sides)),
     )
 
@@ -72,6 +74,30 @@ def _side_checks(design: KnottingFourBar, found: SidesAnalysis) -> tuple[Check, 
     return (
         at_least("clearance of the two sides", found.side_clearance_min, params.side_clearance, "mm", "side_clearance"),
         at_most("bending of the gears' teeth", bending, params.gear_stress, "MPa", "gear_stress; Lewis"),
+        _knot_check(params, found),
+    )
+
+
+def _servo_check(design: KnottingFourBar) -> Check:
+    drive = design.drive
+    torque, speed = format_quantity(drive.torque, "N*m"), format_quantity(drive.speed, "rad/s")
+    cure = f"set a lower speed, or poses farther from a dead point: {torque} at {speed} are required"
+    return must("a servo turns the crank", drive.servo is not None, "servo table, gears of stock", cure=cure)
+
+
+def _knot_check(params: KnottingFourBarParams, found: SidesAnalysis) -> Check:
+    """The hands tie a knot on the two warps between the sides; the cure names the warps on which they tie one."""
+    cure = "set other poses: on no distance of the warps is a knot tied"
+    if found.knot_pitches is not None:
+        least, most = (format_quantity(end, "mm") for end in found.knot_pitches)
+        cure = f"set warp_pitch to {least} to {most}: there the hands tie a {found.wider}; or set other poses"
+    return at_least(
+        "knots tied on the two warps",
+        float(found.proof.tied is not None),
+        1.0,
+        "1",
+        f"{format_quantity(params.warp_pitch, 'mm')} apart; crossings of the yarn: {found.proof.why}",
+        cure=cure,
     )
 
 
@@ -85,41 +111,19 @@ def _side_tests(found: SidesAnalysis) -> tuple[Check, ...]:
 
 
 def warnings(found: KnottingFourBarAnalysis) -> tuple[str, ...]:
-    """A dead point that is near, a drive that is too weak, a knot that is not tied."""
-    return (*_near_dead_point(found.design), *_too_weak(found.design), *_no_knot(found))
-
-
-def _too_weak(design: KnottingFourBar) -> tuple[str, ...]:
-    drive = design.drive
-    if drive.servo:
-        return ()
-    torque, speed = format_quantity(drive.torque, "N*m"), format_quantity(drive.speed, "rad/s")
-    return (f"no servo of the catalogue gives {torque} at {speed}, behind any of the gears",)
-
-
-def _near_dead_point(design: KnottingFourBar) -> tuple[str, ...]:
+    """What to do about a dead point that is near."""
+    design = found.design
     if design.dead_point_distance >= DISTANCE:
         return ()
-    distance, angle = (format_quantity(one, "deg") for one in (design.dead_point_distance, design.crank_angle))
+    distance, angle = (format_quantity(value, "deg") for value in (design.dead_point_distance, design.crank_angle))
     if design.instead is None:
         return (f"in its motion through the poses the crank comes within {distance} of a dead point",)
     params = design.instead.params
     links = {"r0": params.ground, "r1": params.crank, "r2": params.coupler, "r3": params.rocker}
     lengths = ", ".join(f"{alias} {format_quantity(length, 'mm')}" for alias, length in links.items())
-    torque, greatest = (format_quantity(one.torque_max, "N*m") for one in (design.at, design.instead.state))
+    torque, greatest = (format_quantity(state.torque_max, "N*m") for state in (design.at, design.instead.state))
     wrong = f"at {angle} the crank is {distance} from its dead point: {torque} move it, coupler and rocker are in line"
     return (f"{wrong}; use the four-bar of both arms instead: {lengths}, at most {greatest} at the report's poses",)
-
-
-def _no_knot(found: KnottingFourBarAnalysis) -> tuple[str, ...]:
-    """That no knot is tied, and on which warps one is."""
-    if found.sides is None or found.sides.proof.tied is not None:
-        return ()
-    none = f"the hands tie no knot on two warps {format_quantity(found.design.params.warp_pitch, 'mm')} apart"
-    if found.sides.knot_pitches is None:
-        return (f"{none}, nor on any opened wider",)
-    least, most = (format_quantity(end, "mm") for end in found.sides.knot_pitches)
-    return (f"{none}; on warps opened to {least} to {most} they tie a {found.sides.wider}",)
 
 
 def tables(found: KnottingFourBarAnalysis) -> tuple[Table, ...]:

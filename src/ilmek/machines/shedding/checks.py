@@ -134,25 +134,9 @@ def _span_checks(design: SheddingDesign) -> Iterator[Check]:
 
 
 def _neighbour_checks(design: SheddingDesign) -> Iterator[Check]:
-    """Several shafts: room between neighbours, and for all of them."""
+    """Several shafts: room for all of them; their guides are shaft_gap from each other by the layout."""
     if len(design.shafts) > 1:
         yield height_check(design.params, design.shafts[-1].beyond)
-        yield at_least(
-            "gap between the guides of two shafts",
-            min(_gaps(design)),
-            design.params.shaft_gap,
-            "mm",
-            "shaft_gap",
-            cure="set fewer shafts, or a lower lift",
-        )
-
-
-def _gaps(design: SheddingDesign) -> list[float]:
-    """Gap between the guides of each shaft and the next [m]."""
-    return [
-        after.beyond - before.beyond - after.stack.guide_radius - before.stack.guide_radius
-        for before, after in zip(design.shafts, design.shafts[1:], strict=False)
-    ]
 
 
 def _shaft_checks(one: CamShaft) -> Iterator[Check]:

@@ -12,7 +12,7 @@ from ilmek.machines.component import Component
 from ilmek.machines.tufting.design import Tufting, design
 from ilmek.machines.tufting.figures import figures
 from ilmek.machines.tufting.params import TuftingParams
-from ilmek.machines.tufting.report import TuftingAnalysis, analyse, checks, plates, self_tests, tables, warnings
+from ilmek.machines.tufting.report import TuftingAnalysis, analyse, checks, plates, self_tests, tables
 
 __all__ = ["MACHINE", "Tufting", "TuftingParams", "design"]
 
@@ -28,6 +28,5 @@ MACHINE = Component(
     self_tests=self_tests,
     tables=tables,
     figures=lambda found: figures(found.design),
-    warnings=warnings,
     plates=plates,
 )

@@ -6,7 +6,7 @@ from ilmek.machines.tufting.design import JOINTS, LINKS, Tufting
 from ilmek.machines.tufting.model import inertias
 from ilmek.machines.tufting.strength import NeedleStrength, link_sections, needle_checks, needle_strength
 from ilmek.records import group, record
-from ilmek.report import Check, Plate, Table, at_least, at_most, columns
+from ilmek.report import Check, Plate, Table, at_least, at_most, columns, must
 from ilmek.units import deg, format_quantity, mm, turn
 
 PAPER = "Xu et al., needle multi-linkage mechanism"
@@ -57,8 +57,18 @@ def checks(found: TuftingAnalysis) -> tuple[Check, ...]:
         at_most("needle's height at entry against exit", levels, LEVELS, "mm", "one backing: both at its level"),
         at_least("transmission angle of rocker", design.transmission, TRANSMISSION, "deg", "rule of thumb for rockers"),
         at_most("pressure angle of the rod", design.pressure_angle, PRESSURE, "deg", "rule of thumb for sliders"),
+        *_lowest_check(design),
         *needle_checks(found.strength),
     )
+
+
+def _lowest_check(design: Tufting) -> tuple[Check, ...]:
+    """The needle passes its lowest position in the backing; nothing is required where friction acts all the time."""
+    if design.params.friction == "always":
+        return ()
+    lowest = format_quantity(design.lowest, "deg")
+    cure = f"set entry and exit on both sides of {lowest}, or the other turning sense"
+    return (must("needle lowest between entry and exit", design.lowest_within, f"lowest at {lowest}", cure=cure),)
 
 
 def self_tests(found: TuftingAnalysis) -> tuple[Check, ...]:
@@ -72,15 +82,6 @@ def self_tests(found: TuftingAnalysis) -> tuple[Check, ...]:
         at_most("power balance of the forces", design.state.forces.power_error, BALANCE, "1", "virtual power"),
         equilibrium_test(found.strength.linkage),
     )
-
-
-def warnings(found: TuftingAnalysis) -> tuple[str, ...]:
-    """A needle that is not in the backing where it is lowest."""
-    design = found.design
-    if design.params.friction == "always" or design.lowest_within:
-        return ()
-    lowest = format_quantity(design.lowest, "deg")
-    return (f"the needle is lowest at {lowest}, not between entry and exit: check entry, exit and the turning sense",)
 
 
 def tables(found: TuftingAnalysis) -> tuple[Table, ...]:

@@ -32,11 +32,11 @@ SLOT_CURE = "set a larger warp_pitch, or thinner warps"
 
 
 def _design_checks(design: WarpTensionDesign) -> tuple[Check, ...]:
-    params, locking = design.params, "nothing comes back: 2 - 1/efficiency <= 0"
+    params, locking = design.params, f"makers ensure it up to {SURE:g}; in theory 2 - 1/efficiency <= 0, {LOCKING:g}"
     worst = f"worst case: {design.loads.worst_case}; own weight included"
     slope, sag = f"{THESIS}, eq. 3.5 and 3.7; {worst}", f"{THESIS}, eq. 3.4; {worst}"
     locks = at_most(
-        *("efficiency, to lock itself", params.efficiency, LOCKING, "1", locking),
+        *("efficiency, to lock itself", params.efficiency, SURE, "1", locking),
         cure="set a lower efficiency, or self_locking=no with a brake",
     )
     return (
@@ -127,10 +127,6 @@ def warnings(found: WarpTensionAnalysis) -> tuple[str, ...]:
         made.append(
             f"a reducer of efficiency {efficiency} does not lock itself: one that does (at most {LOCKING:g}) "
             f"requires {needed} or more of the motor; or set self_locking=no and hold the warps by a brake"
-        )
-    if params.self_locking and SURE < params.efficiency <= LOCKING:
-        made.append(
-            f"a reducer of efficiency {efficiency} locks itself in theory only: makers ensure it below {SURE:g}"
         )
     if params.motor_torque is None and design.motor is None:
         made.append(no_motor(design.motor_torque, design.motor_speed))

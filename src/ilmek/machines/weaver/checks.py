@@ -16,6 +16,9 @@ from ilmek.report import Check, at_least, at_most, must
 from ilmek.timing.cyclogram import check_all
 
 LONGER = "set a longer knot_cycle"
+SAME = 1e-9
+"""Relative difference of times that is rounding."""
+
 FINER = "set a coarser quality, or thinner warps"
 
 
@@ -43,6 +46,7 @@ def _tool_checks(weaver: Weaver) -> tuple[Check, ...]:
             at_most(f"{name}: speed", speed, params.speed_limit, "m/s", source[0], cure=LONGER),
             at_most(f"{name}: acceleration", acceleration, params.acceleration_limit, "m/s^2", source[1], cure=LONGER),
         ]
+    longer = "set a longer cycle (knot_cycle of a loom), or higher limits of speed and acceleration"
     step, hand = "set a longer knot_cycle, or a faster carriage", "set a shorter knot_cycle, or higher limits"
     return (
         *found,
@@ -50,7 +54,16 @@ def _tool_checks(weaver: Weaver) -> tuple[Check, ...]:
             "carriage: step to the next knot", weaver.carriage_step, weaver.carriage_window, "s", "tools out", cure=step
         ),
         at_most("knot cycle", weaver.cycle, HAND_KNOT, "s", "best hand weaver: 25 knots a minute", cure=hand),
+        at_most("knot cycle, as required", weaver.cycle, weaver.params.cycle, "s", _cycle_source(weaver), cure=longer),
     )
+
+
+def _cycle_source(weaver: Weaver) -> str:
+    """The parameter, and what lets a knot take longer than it."""
+    if weaver.cycle <= weaver.params.cycle:
+        return "parameter cycle"
+    limited = weaver.shortest >= weaver.cycle * (1 - SAME)
+    return f"parameter cycle; {f'limits of the {weaver.limiting}' if limited else 'time of the arms'} allow no less"
 
 
 def _order_checks(weaver: Weaver) -> tuple[Check, ...]:

@@ -67,7 +67,9 @@ def _jerk(default: float, doc: str) -> Any:
 class WeaverParams(Params):
     """The knot, the head's timing and dimensions, and the limits of its motions."""
 
-    cycle: float = kind.time(2.0, at_least=1e-3, at_most=3600.0, doc="required time of a knot; longer by the limits")
+    cycle: float = kind.time(
+        2.0, at_least=1e-3, at_most=3600.0, doc="required time of a knot; fails where limits allow no less"
+    )
     optimise: bool = kind.flag(False, doc="stretch and overlap the motions within their order for least accelerations")
     law: str = kind.choice("modified-sine", SMOOTH_LAWS, doc="law of all motions")
     prepare_end: float = kind.angle(104 * deg, above=0.0, below=turn, doc="cam angle at which the pile is ready")

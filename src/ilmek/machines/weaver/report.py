@@ -38,9 +38,6 @@ from ilmek.timing.figures import draw
 from ilmek.timing.track import sample
 from ilmek.units import format_quantity, turn
 
-SAME = 1e-9
-"""Relative difference of times that is rounding."""
-
 OUTLINE = 4
 """Every n-th sample of a cam's contour is a point of its drawing."""
 
@@ -102,18 +99,8 @@ def checks(found: WeaverAnalysis) -> tuple[Check, ...]:
 
 
 def warnings(found: WeaverAnalysis) -> tuple[str, ...]:
-    """More yarn than required, a longer cycle than required."""
-    weaver = found.weaver
-    warned, required = list(_knot_warnings(weaver)), weaver.params.cycle
-    if weaver.cycle > required:
-        longer = f"a knot takes {weaver.cycle:.4g} s, not the required {required:.4g} s"
-        why = f"limits of the {weaver.limiting}" if weaver.shortest >= weaver.cycle * (1 - SAME) else "time of the arms"
-        warned.append(f"{longer}: the {why} allow no less")
-    return tuple(warned)
-
-
-def _knot_warnings(weaver: Weaver) -> tuple[str, ...]:
     """A knot that the thesis' mechanism does not tie; more yarn drawn than billed."""
+    weaver = found.weaver
     params, warned = weaver.params, []
     if weaver.knot_tied != params.knot and not params.with_arms:
         warned.append(

@@ -198,7 +198,7 @@ function Lane(props: LaneProps) {
   const range = joined(rangeOf(curves[curve], curve), earlier && rangeOf(earlier[curve], curve));
   const level = levelScale(lane, range);
   const top = lane * LANE;
-  const unit = unitOf(track.unit, curve);
+  const unit = unitOf(track.shown_unit, curve);
   const pressLevel = (part: ShownTrack["motions"][number]) => (event: KeyboardEvent) => {
     const by = { ArrowUp: 1, ArrowDown: -1 }[event.key];
     if (by === undefined || props.locked) return;
@@ -230,7 +230,7 @@ function Lane(props: LaneProps) {
               role="button"
               aria-label={t("cyclogram.levelAfter", {
                 name: `${track.name}, ${part.name}`,
-                level: formatQuantity(part.finish, track.unit),
+                level: formatQuantity(part.finish, track.shown_unit),
               })}
               onPointerDown={props.take(lane, track, part.name, "level", range)}
               onKeyDown={pressLevel(part)}

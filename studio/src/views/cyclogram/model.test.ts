@@ -22,7 +22,7 @@ const part = (name: string, start: number, end: number, begin: number, finish: n
 
 const track = {
   name: "die",
-  unit: "mm",
+  shown_unit: "mm",
   motions: [part("down", 170, 215, 0, 0.1), part("up", 225, 270, 0.1, 0)],
 } as unknown as ShownTrack;
 

@@ -144,7 +144,7 @@ export function withLevel(data: CyclogramData, track: ShownTrack, motion: string
   const own = track.motions[index];
   const next = track.motions[(index + 1) % track.motions.length];
   if (own === undefined || next === undefined) return data;
-  const text = positionText(level, track.unit);
+  const text = positionText(level, track.shown_unit);
   const made = withMotion(data, track.name, motion, { to: text });
   return joins(own, next) ? withMotion(made, track.name, next.name, { from: text }) : made;
 }
@@ -160,7 +160,7 @@ export function withBegin(data: CyclogramData, track: ShownTrack, motion: string
   const own = track.motions[index];
   if (before !== undefined && own !== undefined && joins(before, own))
     return withLevel(data, track, before.name, level);
-  return withMotion(data, track.name, motion, { from: positionText(level, track.unit) });
+  return withMotion(data, track.name, motion, { from: positionText(level, track.shown_unit) });
 }
 
 /** Name of the law of a motion in the file. */

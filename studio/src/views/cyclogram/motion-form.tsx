@@ -17,7 +17,7 @@ interface MotionProps {
 export function MotionForm({ data, track, part, laws, onChange }: MotionProps) {
   const law = lawName(data.tracks?.[track.name]?.motions?.[part.name]?.law);
   const span = (change: Partial<Span>) => onChange(withSpan(data, track.name, part.name, { ...part, ...change }));
-  const unit = track.unit;
+  const unit = track.shown_unit;
   return (
     <fieldset class="cyclogram-motion">
       <legend>

@@ -31,7 +31,7 @@ export function Readings({ shown, cursor }: { shown: Shown; cursor: number }) {
               <th scope="row">{track.name}</th>
               {QUANTITIES.map((curve) => (
                 <td key={curve} class="number">
-                  {reading(shown, index, track.unit, curve, cursor)}
+                  {reading(shown, index, track.shown_unit, curve, cursor)}
                   {curve !== "position" && <span class="cyclogram-peak">{peakText(track, curve)}</span>}
                 </td>
               ))}
@@ -56,5 +56,7 @@ const PEAKS = { velocity: "speed", acceleration: "acceleration", jerk: "jerk" } 
 
 function peakText(track: ShownTrack, curve: Exclude<Curve, "position">): string {
   const peak = track.peaks[PEAKS[curve]];
-  return t("cyclogram.atMost", { value: peak == null ? "∞" : formatQuantity(peak, unitOf(track.unit, curve), 3) });
+  return t("cyclogram.atMost", {
+    value: peak == null ? "∞" : formatQuantity(peak, unitOf(track.shown_unit, curve), 3),
+  });
 }

@@ -107,8 +107,8 @@ export function Rules({ data, shown, locked, onChange }: RulesProps) {
           <Rule key={`l${index}`} ok={one.ok} label={one.label} why={one.why}>
             <span>
               {t("cyclogram.limit", {
-                value: formatQuantity(one.value ?? Number.POSITIVE_INFINITY, one.unit, 4),
-                limit: formatQuantity(one.limit, one.unit, 4),
+                value: formatQuantity(one.value ?? Number.POSITIVE_INFINITY, one.shown_unit, 4),
+                limit: formatQuantity(one.limit, one.shown_unit, 4),
               })}
             </span>
           </Rule>

@@ -45,7 +45,7 @@ interface ComparisonProps {
 function Comparison({ compared, onTake, onDiscard }: ComparisonProps) {
   const { solution } = compared;
   const times = solution.before / solution.after;
-  const value = (si: number) => formatQuantity(si, solution.unit, 4);
+  const value = (si: number) => formatQuantity(si, solution.shown_unit, 4);
   return (
     <section class="ui-callout good ui-stack" aria-label={t("cyclogram.solution")}>
       <div>

@@ -27,7 +27,7 @@ const part = (name: string, start: number, end: number, begin: number, finish: n
 
 const die = {
   name: "die",
-  unit: "mm",
+  shown_unit: "mm",
   low: 0,
   high: 0.1,
   motions: [part("down", 170, 215, 0, 0.1), part("up", 225, 270, 0.1, 0)],

@@ -229,9 +229,9 @@ export function withStroke(data: CyclogramData, track: ShownTrack, laws: readonl
   const out = freeName("motion", names);
   const back = freeName("motion", [...names, out]);
   const at = (share: number) => snap(gap.start + share * (gap.end - gap.start));
-  const stroke = track.high - track.low > 1e-9 ? track.high - track.low : 50 / fromSi(1, track.unit);
+  const stroke = track.high - track.low > 1e-9 ? track.high - track.low : 50 / fromSi(1, track.shown_unit);
   const law = laws.includes("modified-sine") ? "modified-sine" : (laws[0] ?? "");
-  const position = (si: number) => quantityText(si, track.unit);
+  const position = (si: number) => quantityText(si, track.shown_unit);
   const motion = (start: number, end: number, from: number, to: number): MotionData => ({
     start: quantityText(at(start), "deg"),
     end: quantityText(at(end), "deg"),
@@ -272,7 +272,7 @@ export function withNewExclusion(data: CyclogramData, tracks: readonly ShownTrac
   const [one, other] = tracks;
   const upper = (track: ShownTrack): PresenceData => ({
     track: track.name,
-    above: quantityText((track.low + track.high) / 2, track.unit, 3),
+    above: quantityText((track.low + track.high) / 2, track.shown_unit, 3),
   });
   if (one === undefined) return data;
   const second: PresenceData = other === undefined ? { name: "windows", windows: [["0deg", "30deg"]] } : upper(other);

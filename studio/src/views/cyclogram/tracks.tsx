@@ -84,7 +84,7 @@ function TrackForm({ data, track, laws, names, onChange, onRename }: TrackProps)
     const made = without({ ...limits, [name]: value });
     put({ limits: Object.keys(made).length ? made : undefined });
   };
-  const unit = track.unit;
+  const unit = track.shown_unit;
   const units = UNITS.includes(unit as (typeof UNITS)[number]) ? UNITS : [unit, ...UNITS];
   return (
     <div class="cyclogram-track ui-stack">
@@ -222,7 +222,7 @@ function Events({ data, track, events, onChange }: EventsProps) {
               <EntryField
                 label={t("cyclogram.passing")}
                 value={event["passing"] as Quantity | undefined}
-                unit={track.unit}
+                unit={track.shown_unit}
                 onChange={(passing) =>
                   put(
                     name,

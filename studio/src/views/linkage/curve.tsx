@@ -80,5 +80,5 @@ export function plotOf(
   }
   const marks: ShownMark[] = motion.dead_centres.map((one) => ({ x: one.value, label: one.bodies.join(", ") }));
   const drive = motion.kind === "rotation" ? "deg" : "mm";
-  return { x: { label: driveLabel(motion), unit: drive }, y: { label: title, unit }, curves, marks };
+  return { x: { label: driveLabel(motion), shown_unit: drive }, y: { label: title, shown_unit: unit }, curves, marks };
 }

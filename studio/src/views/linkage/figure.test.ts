@@ -91,7 +91,7 @@ describe("curves and arrows", () => {
   it("have a limit across and the dead centres as marks", () => {
     const dead = { ...motion, dead_centres: [{ value: 1.5, bodies: ["coupler", "rocker"] }] };
     const plot = plotOf(dead, "angle", "deg", { B: [1, 1, null, null] }, { value: 0.7, label: "usual" });
-    expect(plot.x).toEqual({ label: "crank", unit: "deg" });
+    expect(plot.x).toEqual({ label: "crank", shown_unit: "deg" });
     expect(plot.curves.map((curve) => [curve.label, curve.y])).toEqual([
       ["B", [1, 1, null, null]],
       ["usual", [0.7, 0.7]],

@@ -166,8 +166,5 @@ export function PartDetails({ model, part, onLook, children }: DetailsProps) {
 
 /** A check in a line: value, relation, limit, and in words whether it holds. */
 export function judged(check: SceneCheck): string {
-  const [value, limit] = [check.value, check.limit].map((one) =>
-    one === null ? "–" : formatQuantity(one, check.unit),
-  );
-  return `${value} ${check.relation} ${limit}: ${t(check.ok ? "loom.holds" : "loom.fails")}`;
+  return `${check.shown}: ${t(check.ok ? "loom.holds" : "loom.fails")}`;
 }

@@ -12,6 +12,7 @@ export interface SceneCheck {
   source: string;
   relation: string;
   cure: string;
+  shown: string;
 }
 
 export interface SceneMotion {

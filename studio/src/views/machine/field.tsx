@@ -203,7 +203,7 @@ function reader(model: MachineModel, field: FormField, refuse: (why: string) => 
 /** What a text was read as, where it is typed in another unit. */
 function Understood({ field, text }: { field: FormField; text: string }) {
   const value = readValue(field, text);
-  const shown = value === null ? "" : formatQuantity(value, field.unit, 5);
+  const shown = value === null ? "" : formatQuantity(value, field.shown_unit, 5);
   if (field.kind !== "quantity" || shown === "" || same(shown, text)) return null;
   return <p class="ui-help">{t("machine.readAs", { value: shown })}</p>;
 }
@@ -216,7 +216,7 @@ function same(one: string, other: string): boolean {
 /** The value of a text [SI]; null where it is none. */
 function readValue(field: FormField, text: string): number | null {
   if (text.trim() === "") return null;
-  const read = readQuantity(text, field.unit);
+  const read = readQuantity(text, field.shown_unit);
   return "si" in read ? read.si : null;
 }
 
@@ -225,7 +225,7 @@ export function settingOf(field: FormField, text: string): Setting | undefined {
   const written = text.trim();
   if (written === "") return undefined;
   if (field.kind === "text" || field.choices.includes(written)) return written;
-  const read = readQuantity(written, field.unit);
+  const read = readQuantity(written, field.shown_unit);
   if (!("si" in read) || outside(read.si, field) !== null) return undefined;
   return field.kind === "count" && !Number.isInteger(read.si) ? undefined : read.text;
 }
@@ -240,8 +240,8 @@ function ValueSlider({ model, field, value }: RowProps & { value: number }) {
   const whole = field.kind === "count";
   const kept = useRef<{ scale: Scale; field: FormField } | null>(null);
   if (kept.current?.field !== field || !onScale(value, kept.current.scale)) {
-    const usual = typeof field.default === "number" ? scaleAround(field.default, field, field.unit, whole) : null;
-    const scale = usual && onScale(value, usual) ? usual : scaleAround(value, field, field.unit, whole);
+    const usual = typeof field.default === "number" ? scaleAround(field.default, field, field.shown_unit, whole) : null;
+    const scale = usual && onScale(value, usual) ? usual : scaleAround(value, field, field.shown_unit, whole);
     kept.current = { scale, field };
   }
   const { scale } = kept.current;
@@ -253,8 +253,8 @@ function ValueSlider({ model, field, value }: RowProps & { value: number }) {
       min={0}
       max={STEPS}
       step={whole ? Math.max(1, STEPS / Math.max(1, scale.high - scale.low)) : 1}
-      text={formatQuantity(value, field.unit)}
-      onInput={(position) => model.drag(field.name, textAt(position, scale, field.unit, field as Bounds))}
+      text={formatQuantity(value, field.shown_unit)}
+      onInput={(position) => model.drag(field.name, textAt(position, scale, field.shown_unit, field as Bounds))}
       onCommit={() => model.drop()}
     />
   );

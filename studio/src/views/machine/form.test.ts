@@ -12,7 +12,7 @@ function field(name: string, more: Partial<FormField> = {}): FormField {
     kind: "quantity",
     default: 1,
     default_text: "1 m",
-    unit: "m",
+    shown_unit: "m",
     printed: "m",
     factor: 1,
     above: null,

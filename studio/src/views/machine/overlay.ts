@@ -6,7 +6,7 @@ export function overlaid(a: readonly ShownFigure[], b: readonly ShownFigure[]): 
   const others = new Map(b.map((figure) => [figure.name, figure]));
   return a.map((figure) => {
     const [mine, theirs] = [figure.plot, others.get(figure.name)?.plot];
-    if (!mine || !theirs || mine.x.label !== theirs.x.label || mine.y.unit !== theirs.y.unit) return figure;
+    if (!mine || !theirs || mine.x.label !== theirs.x.label || mine.y.shown_unit !== theirs.y.shown_unit) return figure;
     const dashed = theirs.curves.map((curve) => ({ ...curve, label: `B: ${curve.label}`, dashed: true }));
     return { ...figure, plot: { ...mine, curves: [...mine.curves, ...dashed] } };
   });

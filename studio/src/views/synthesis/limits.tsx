@@ -130,8 +130,8 @@ function Setting({ field, value, onChange }: SettingProps) {
     <QuantityField
       label={label}
       help={field.doc}
-      value={typeof value === "number" ? quantityText(value, field.unit) : String(value ?? "")}
-      unit={field.unit}
+      value={typeof value === "number" ? quantityText(value, field.shown_unit) : String(value ?? "")}
+      unit={field.shown_unit}
       optional
       placeholder={field.default_text}
       bounds={bounds}

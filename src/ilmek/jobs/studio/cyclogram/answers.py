@@ -34,13 +34,13 @@ class ShownEvent:
 class ShownTrack:
     """A track. SI; null where there is no limit, or where a peak is infinite.
 
-    factor  SI value in `unit` is value times this      locked  the solver leaves it as it is
+    factor  SI value in `shown_unit` is value times this      locked  the solver leaves it as it is
     count   number of samples of its curves             low, high  least and greatest position
     """
 
     name: str
     actuator: str
-    unit: str
+    shown_unit: str
     factor: float
     revolves: float
     locked: bool
@@ -112,13 +112,13 @@ class ShownExclusion:
 
 @dataclass(frozen=True, slots=True)
 class ShownLimit:
-    """The largest speed or acceleration of a track against the limit of its actuator [SI], shown in `unit`."""
+    """The largest speed or acceleration of a track against the limit of its actuator [SI], shown in `shown_unit`."""
 
     label: str
     why: str
     value: float | None
     limit: float
-    unit: str
+    shown_unit: str
     ok: bool
 
 
@@ -158,13 +158,13 @@ class ShownBinding:
 class CyclogramSolution:
     """A solved cyclogram: the file's data with its new timing, and what limits it.
 
-    goal  acceleration or period      measure, unit  description of before and after [SI], and their display unit
+    goal  acceleration or period      measure, shown_unit  of before and after [SI]: description, unit
     """
 
     data: dict[str, Any]
     goal: str
     measure: str
-    unit: str
+    shown_unit: str
     factor: float
     before: float
     after: float

@@ -106,7 +106,7 @@ def _track(cyclogram: Cyclogram, track: Track, rows: TrackCurves) -> ShownTrack:
     return ShownTrack(
         name=track.name,
         actuator=track.actuator,
-        unit=track.unit,
+        shown_unit=track.unit,
         factor=from_si(1.0, track.unit),
         revolves=track.revolves,
         locked=track.locked,
@@ -197,7 +197,7 @@ def solved(request: SolveRequest, context: Context) -> CyclogramSolution:
         data=timed_data(request.data, solution.cyclogram),
         goal=solution.goal,
         measure=solution.measure,
-        unit=solution.unit,
+        shown_unit=solution.unit,
         factor=from_si(1.0, solution.unit),
         before=solution.before,
         after=solution.after,

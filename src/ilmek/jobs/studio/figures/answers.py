@@ -15,7 +15,7 @@ class ShownAxis:
     """An axis: label, and the unit its SI data are shown in."""
 
     label: str
-    unit: str
+    shown_unit: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +74,7 @@ class ShownDrawing:
 
     strokes: list[ShownStroke]
     dots: list[ShownDot]
-    unit: str
+    shown_unit: str
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -107,7 +107,7 @@ class ShownReading:
     """A number over the frames [SI], shown in a unit."""
 
     label: str
-    unit: str
+    shown_unit: str
     values: Numbers
 
 
@@ -159,7 +159,7 @@ class ShownLane:
 
     name: str
     actuator: str
-    unit: str
+    shown_unit: str
     look: int
     angle: Numbers
     position: Numbers
@@ -237,10 +237,10 @@ class ShownFigure:
 
 @dataclass(frozen=True, slots=True)
 class ShownColumn:
-    """A column: heading, unit of its SI numbers, and their significant digits."""
+    """A column: heading, the unit its SI numbers are shown in, and their significant digits."""
 
     heading: str
-    unit: str
+    shown_unit: str
     digits: int
 
 

@@ -53,7 +53,7 @@ class FormField:
     machine  the other machine that it belongs to, "" for the machine's own
     kind     quantity, count, flag, choice, or text
     default  SI value; null: chosen by the design, `doc` states how          default_text  as it is shown
-    unit     in which it is shown, as it can be typed       printed  the same as it is printed       factor  to SI
+    shown_unit  in which it is shown, as it can be typed    printed  the same as it is printed       factor  to SI
     above, below  bounds that are excluded [SI]             at_least, at_most  bounds that are included [SI]
     allowed  the bounds or choices in words                 choices  allowed texts; of a quantity, words besides numbers
     alias    second name under which it can be set
@@ -65,7 +65,7 @@ class FormField:
     kind: str
     default: Value
     default_text: str
-    unit: str
+    shown_unit: str
     printed: str
     factor: float
     above: float | None
@@ -195,7 +195,7 @@ def _field(one: Parameter, others: tuple[str, ...]) -> FormField:
         kind="choice" if one.kind is str and one.choices else KINDS[one.kind],
         default=one.default,
         default_text=value_text(one.default, one.unit),
-        unit=one.unit,
+        shown_unit=one.unit,
         printed=printed_unit(one.unit),
         factor=parse_unit(one.unit).factor,
         above=one.above,

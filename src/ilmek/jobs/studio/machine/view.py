@@ -16,12 +16,13 @@ from ilmek.machines.catalogue import find_machine
 from ilmek.params import Params, Setting, Value
 from ilmek.progress import SILENT, Progress
 from ilmek.report import Report, result_text
+from ilmek.units import si_unit
 from ilmek.viz.number_format import quantity
 
 
 @dataclass(frozen=True, slots=True)
 class ShownResult:
-    """A result; `value` [SI] where it is one number. `machine` as of a check."""
+    """A result; `value` where it is one number, in the SI unit `unit`. `machine` as of a check."""
 
     name: str
     machine: str
@@ -186,6 +187,6 @@ def _results(report: Report, machine: str) -> Iterator[ShownResult]:
         if one.shown:
             number = one.value if isinstance(one.value, int | float) and not isinstance(one.value, bool) else None
             text = quantity(number, one.unit) if number is not None else result_text(one.value, one.unit)
-            yield ShownResult(one.name, machine, text, one.unit, one.meaning, finite(number))
+            yield ShownResult(one.name, machine, text, si_unit(one.unit), one.meaning, finite(number))
     for child in report.children:
         yield from _results(child, f"{machine}: {child.machine}" if machine else child.machine)

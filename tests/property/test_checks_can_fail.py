@@ -1,0 +1,157 @@
+"""A check compares two numbers that can differ: over random settings every check of every machine moves or fails.
+
+A check that always has its limit as its value, or always the same share of it and never fails, says nothing of the
+design. `WITNESSES` are settings at which checks fail that a design otherwise keeps exactly, because what it leaves
+open is chosen so.
+"""
+
+import math
+import random
+from collections import defaultdict
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+
+import pytest
+from designs import random_settings
+
+from ilmek.errors import IlmekError
+from ilmek.machines.catalogue import MACHINES
+from ilmek.report import Check, Report, at_most, must
+
+NUMBER, SLOW = 12, ("automated-loom", "knotting-dyad", "path-four-bar", "motion-four-bar")
+"""Designs of each machine, a quarter of those that take seconds each."""
+
+FEWER = {"path-four-bar": {"starts": "96"}}
+
+WITNESSES: Mapping[str, tuple[dict[str, str], ...]] = {
+    "beat-up": (
+        {"beater_mass": "100t"},
+        {"start.drive": "servo", "speed": "300rad/s", "beater_mass": "50kg"},
+        {"interval": "1s"},
+        {"swing": "84.3deg", "crank_rotation": "311.3deg"},
+    ),
+    "cam": (
+        {"prime_radius": "20mm"},
+        {"law": "uniform"},
+        {"law": "parabolic", "speed": "300rpm"},
+        {"kind": "grooved", "roller_radius": "6.5mm", "cutter_radius": "7mm"},
+        {"prime_radius": "6mm", "lift": "3mm", "rise": "150deg", "bore": "2mm"},
+    ),
+    "hammer": (
+        {"drive": "linkage", "beat_speed": "5rad/s", "ballast": "1kg"},
+        {"drive": "linkage", "start.drive": "servo", "beat_speed": "60rad/s"},
+        {"row_pitch": "3mm", "force": "1N"},
+    ),
+    "knotting-dyad": (
+        {"pair_opened": "0.1mm"},
+        {"opening": "0.1mm"},
+        {"strength.pin_diameter": "1mm"},
+        {"gear_ratio": "10000"},
+    ),
+    "knotting-four-bar": (
+        {"sides": "2", "poses": "(0,0,10deg) (25mm,15mm,3deg) (30mm,1mm,-25deg)", "warp_pitch": "20mm"},
+        {"sides": "2"},
+        {"speed": "1000rad/s"},
+        {"strength.pin_diameter": "1mm"},
+    ),
+    "shedding": (
+        {"warp_pitch": "0.5mm"},
+        {"cam_thickness": "0.2mm"},
+        {"shuttle_height": "80mm"},
+        {"warp_diameter": "1.5mm"},
+        {"prime_radius": "40mm"},
+        {"rise": "100deg", "fall": "100deg"},
+        {"shaft_length": "1m"},
+    ),
+    "tension-compensator": ({"springs": "1", "wire": "0.5mm"}, {"rate_share": "1e-3"}),
+    "tufting": ({"entry": "200deg", "exit": "300deg"}, {"speed": "20000rpm"}),
+    "warp-tension": ({"efficiency": "0.6"}, {"motor_torque": "1Nm"}),
+    "motion-four-bar": ({"transmission_min": "10deg"}, {"transmission_min": "60deg"}),
+    "weaver": (
+        {"relation_gap": "4deg"},
+        {"crossing_turn": "60deg"},
+        {"clearance": "3mm"},
+        {"opener.tip": "3mm"},
+        {"cycle": "0.05s", "speed_limit": "100m/s", "acceleration_limit": "20000m/s^2"},
+        {"opener.height": "80mm"},
+        {"cycle": "0.5s"},
+        {"knot_yarn": "20mm"},
+        {"knot": "asymmetric"},
+        {"head_width": "40mm"},
+    ),
+    "weft": (
+        {"carrier": "shuttle", "crossed": "no"},
+        {"yarns.friction": "2"},
+        {"acceleration": "0.1m/s^2"},
+        {"speed": "0.5m/s"},
+    ),
+}
+"""Settings at which checks fail that the choices of a design keep at their limit."""
+
+
+def reports(machine: str) -> Iterator[Report]:
+    """The default, random designs, and the witnesses."""
+    component = replace(MACHINES[machine], figures=lambda _: ())
+    number = NUMBER // 4 if machine in SLOW else NUMBER
+    drawn = [random_settings(machine, random.Random(f"{machine} moves {seed}"), most=3) for seed in range(number)]
+    for settings in ({}, *drawn, *WITNESSES.get(machine, ())):
+        try:
+            yield component.report_for(settings | FEWER.get(machine, {}))
+        except IlmekError:
+            continue
+
+
+def never_differ(checks: Mapping[str, list[Check]]) -> set[str]:
+    """The names of checks whose value is always the limit, or always the same share of it without a failure."""
+    return {name for name, found in checks.items() if not any(moves(check, found) for check in found)}
+
+
+def moves(check: Check, others: list[Check]) -> bool:
+    """Whether a check fails, or has another share of its limit than another design and differs from the limit."""
+    if not check.ok:
+        return True
+    return check.value != check.limit and any(share(check) != share(other) for other in others)
+
+
+def share(check: Check) -> tuple[float, ...]:
+    """The value over the limit; both, where that is no number."""
+    finite = check.limit and math.isfinite(check.value / check.limit)
+    return (round(check.value / check.limit, 9),) if finite else (check.value, check.limit)
+
+
+@pytest.mark.parametrize("machine", [name for name in MACHINES if name != "automated-loom"])
+def test_every_check_of_a_machine_can_differ(machine: str) -> None:
+    """The checks of the loom are those of its machines, of the cyclogram, of clearances, and wishes."""
+    checks: dict[str, list[Check]] = defaultdict(list)
+    number = 0
+    for report in reports(machine):
+        number += 1
+        for check in report.checks:
+            checks[check.name].append(check)
+    assert number > 1
+    seldom = {name for name, found in checks.items() if len(found) < number / 4}
+    assert never_differ(checks) - seldom == set()
+
+
+def test_a_check_against_its_own_value_is_found() -> None:
+    """The kind of check that this test is for: a time beside the same time."""
+    times = [at_most("time", value, value, "s", "") for value in (1.0, 40.84, 3.0)]
+    slack = [at_most("slack", value, 2 * value, "s", "") for value in (1.0, 40.84, 3.0)]
+    assert never_differ({"time": times, "slack": slack, "always": [must("a", True, "")] * 3}) == {
+        "time",
+        "slack",
+        "always",
+    }
+    assert never_differ({"time": [*times, at_most("time", 2.0, 1.0, "s", "")]}) == set()
+    assert never_differ({"slack": [*slack, at_most("slack", 2.0, 5.0, "s", "")]}) == set()
+
+
+def test_the_time_of_a_beat_has_a_limit_of_its_own() -> None:
+    """Without a time between beats nothing limits it, and there is no check."""
+    names = {check.name for check in MACHINES["beat-up"].report_for({}).checks}
+    assert "time of a beat" not in names
+    (check,) = (
+        check for check in MACHINES["beat-up"].report_for({"interval": "50s"}).checks if check.name == "time of a beat"
+    )
+    assert (check.limit, check.ok) == (50.0, True)
+    assert check.value < 50.0
