@@ -1,4 +1,4 @@
-"""Draws examples/photo.jpg: the Tabriz of examples/recipes on a wooden floor, as somebody who stands before it photographs it.
+"""Draws examples/photo.jpg: the Tabriz of examples/recipes on a wooden floor, photographed from where one stands.
 
 Run it as `python examples/draw_photograph.py`; it prints the corners of the carpet in the picture.
 """

@@ -53,9 +53,9 @@ class _PageRun:
         return block.language in (*RUN, "doctest")
 
     def sh(self, block: Block) -> None:
-        """Run commands."""
+        """Run commands; a quotation behind them is of the last one."""
         outputs = [self._command(line, block) for line in logical_lines(block.text)]
-        self.printed = "".join(outputs)
+        self.printed = outputs[-1]
 
     def console(self, block: Block) -> None:
         """Run each command behind `$`, and compare the lines below it."""
@@ -83,7 +83,8 @@ class _PageRun:
 
     def doctest(self, block: Block) -> None:
         """Run examples, and compare what they give."""
-        test = doctest.DocTestParser().get_doctest(block.text, self.names, self.page.stem, str(self.page), block.line - 1)
+        parser = doctest.DocTestParser()
+        test = parser.get_doctest(block.text, self.names, self.page.stem, str(self.page), block.line - 1)
         report = io.StringIO()
         with contextlib.chdir(self.shell.folder):
             results = doctest.DocTestRunner(verbose=False).run(test, out=report.write, clear_globs=False)

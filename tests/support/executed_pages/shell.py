@@ -7,7 +7,6 @@ import os
 import re
 import shlex
 import shutil
-import signal
 import subprocess
 import sys
 import time
@@ -68,13 +67,15 @@ class Shell:
     def run(self, line: str) -> tuple[int, str]:
         """Exit code and output of a command."""
         words = shlex.split(line, comments=True)
-        signs = {token for token in shlex.shlex(line, posix=True, punctuation_chars=True) if set(token) <= set("|&;<>()")}
+        tokens = shlex.shlex(line, posix=True, punctuation_chars=True)
+        signs = [token for token in tokens if set(token) <= set("|&;<>()")]
         if words[0] == "cd":
             self.folder = (self.folder / words[1]).resolve()
             return 0, ""
         if words[0] != "ilmek" or signs or "$" in line:
             return self._shell(line)
-        if BESIDE in line or words[1] == "studio" or (words[1] == "serve" and not {"--add-user", "--nodeset"} & {*words}):
+        serves = words[1] == "serve" and not {"--add-user", "--nodeset"} & {*words}
+        if serves or words[1] == "studio" or BESIDE in line:
             return self._beside(line, words)
         if words[1] == "weave" and "--out" in words and self._only_shipped(words):
             return self._once(words)
@@ -90,6 +91,7 @@ class Shell:
     def _shell(self, line: str) -> tuple[int, str]:
         done = subprocess.run(
             ["bash", "-c", line],
+            check=False,
             cwd=self.folder,
             env=self.environment,
             stdin=subprocess.DEVNULL,
@@ -112,7 +114,6 @@ class Shell:
                 stdout=output,
                 stderr=subprocess.STDOUT,
                 text=True,
-                preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
             )
         self.beside.append((line, process))
         journal = Path(words[2]).with_suffix(".journal") if words[1] == "run" else None
@@ -150,7 +151,7 @@ class Shell:
         """End what runs beside the page."""
         for _, process in self.beside:
             if process.poll() is None:
-                process.send_signal(signal.SIGINT)
+                process.terminate()
         for _, process in self.beside:
             try:
                 process.wait(30)
