@@ -54,6 +54,10 @@ def _differences(shown: Any, actual: Any, where: str) -> Iterator[str]:
             yield f"{where}: names {sorted(names)}, printed: {sorted(actual)}"
         for name in names & actual.keys():
             yield from _differences(shown[name], actual[name], f"{where}.{name}")
+    elif isinstance(shown, list) and isinstance(actual, list) and shown[:1] == [GAP] != shown:
+        rests = [actual[begin:] for begin in range(len(actual))]
+        if all(any(_differences(shown[1:], rest, where)) for rest in rests):
+            yield f"{where}: no entry is {shown[1]}"
     elif isinstance(shown, list) and isinstance(actual, list):
         entries = [entry for entry in shown if entry != GAP]
         if len(entries) > len(actual) or (len(entries) == len(shown) != len(actual)):

@@ -72,11 +72,11 @@ class Shell:
         if words[0] == "cd":
             self.folder = (self.folder / words[1]).resolve()
             return 0, ""
+        serves = words[:2] == ["ilmek", "serve"] and not {"--add-user", "--nodeset"} & {*words}
+        if serves or words[:2] == ["ilmek", "studio"] or BESIDE in line:
+            return self._beside(line, words)
         if words[0] != "ilmek" or signs or "$" in line:
             return self._shell(line)
-        serves = words[1] == "serve" and not {"--add-user", "--nodeset"} & {*words}
-        if serves or words[1] == "studio" or BESIDE in line:
-            return self._beside(line, words)
         if words[1] == "weave" and "--out" in words and self._only_shipped(words):
             return self._once(words)
         return self._here(words)
@@ -107,7 +107,7 @@ class Shell:
         log = self.home / f"beside-{len(self.beside)}.txt"
         with log.open("w", encoding="utf-8") as output:
             process = subprocess.Popen(
-                [sys.executable, "-m", "ilmek", *words[1:]],
+                ["bash", "-c", f"exec {line}"],
                 cwd=self.folder,
                 env=self.environment,
                 stdin=subprocess.DEVNULL,
@@ -116,11 +116,11 @@ class Shell:
                 text=True,
             )
         self.beside.append((line, process))
-        journal = Path(words[2]).with_suffix(".journal") if words[1] == "run" else None
+        shown = self.folder / words[words.index(">") + 1] if ">" in words else log
+        socket = self.folder / Path(words[2]).with_suffix(".journal") / "control"
         until = time.monotonic() + _LONGEST
         while process.poll() is None and time.monotonic() < until:
-            ready = log.read_text(encoding="utf-8").endswith("\n")
-            if ready or (journal is not None and (self.folder / journal / "control").exists()):
+            if (words[1] == "run" and socket.exists()) or (shown.exists() and shown.read_text(encoding="utf-8").endswith("\n")):
                 return 0, log.read_text(encoding="utf-8")
             time.sleep(0.02)
         return process.returncode or 0, log.read_text(encoding="utf-8")
