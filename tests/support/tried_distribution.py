@@ -57,7 +57,9 @@ def tried(distribution: Path, constraints: Path, examples: Path) -> None:
             )  # fmt: skip
             print(f"  {time.monotonic() - begin:5.1f} s  ilmek {command}", flush=True)
             if done.returncode != code:
-                raise SystemExit(f"{command!r} ends with {done.returncode} instead of {code}:\n{done.stdout}{done.stderr}")
+                raise SystemExit(
+                    f"{command!r} ends with {done.returncode} instead of {code}:\n{done.stdout}{done.stderr}"
+                )
         missing = [file for file in FILES if not (work / file).exists()]
         if missing:
             raise SystemExit(f"not written: {', '.join(missing)}")
@@ -69,7 +71,10 @@ def main(folder: str, constraints: str, examples: str) -> None:
     if [path.suffix for path in distributions] != [".whl", ".gz"]:
         raise SystemExit(f"{folder} must have one wheel and one sdist")
     for distribution in distributions:
-        print(f"{distribution.name}, {distribution.stat().st_size / 1e6:.1f} MB, Python {sys.version.split()[0]}", flush=True)
+        print(
+            f"{distribution.name}, {distribution.stat().st_size / 1e6:.1f} MB, Python {sys.version.split()[0]}",
+            flush=True,
+        )
         tried(distribution, Path(constraints).resolve(), Path(examples).resolve())
     print("wheel and sdist install and run")
 

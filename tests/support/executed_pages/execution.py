@@ -22,7 +22,7 @@ def execute(page: Path, folder: Path, shared: Path) -> int:
 
     shared  a folder for carpets that several pages weave. Raises PageError, with the line.
     """
-    (folder / "work").mkdir()
+    (folder / "work").mkdir(parents=True)
     shutil.copytree(ROOT / "examples", folder / "work" / "examples", ignore=shutil.ignore_patterns("__pycache__"))
     run = _PageRun(page, Shell(folder / "work", shared, folder))
     try:

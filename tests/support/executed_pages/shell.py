@@ -120,7 +120,9 @@ class Shell:
         socket = self.folder / Path(words[2]).with_suffix(".journal") / "control"
         until = time.monotonic() + _LONGEST
         while process.poll() is None and time.monotonic() < until:
-            if (words[1] == "run" and socket.exists()) or (shown.exists() and shown.read_text(encoding="utf-8").endswith("\n")):
+            if (words[1] == "run" and socket.exists()) or (
+                shown.exists() and shown.read_text(encoding="utf-8").endswith("\n")
+            ):
                 return 0, log.read_text(encoding="utf-8")
             time.sleep(0.02)
         return process.returncode or 0, log.read_text(encoding="utf-8")
