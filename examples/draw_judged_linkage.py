@@ -1,4 +1,4 @@
-"""Draws docs/_static/judged-linkage.svg: the beat-up's four-bar of docs/how-to/judge-a-linkage.md and what is found of it.
+"""Draws docs/_static/judged-linkage.svg: the beat-up's four-bar of docs/how-to/judge-a-linkage.md, judged.
 
 Run it as `python examples/draw_judged_linkage.py`; it ends with the least clearance in mm.
 """

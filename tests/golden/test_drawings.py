@@ -14,9 +14,12 @@ from PIL import Image
 ROOT = Path(__file__).parents[2]
 STATIC = ROOT / "docs" / "_static"
 SLOW = {
-    "draw_approximation", "draw_arrangement", "draw_clearance", "draw_four_bars", "draw_loom_scaling", "draw_nine_points", "draw_overview",
-    "draw_path", "draw_warp_machines",
-}  # fmt: skip
+    f"draw_{name}"
+    for name in (
+        *("approximation", "arrangement", "clearance", "four_bars", "loom_scaling"),
+        *("nine_points", "overview", "path", "warp_machines"),
+    )
+}
 """Scripts that take more than a second of processor time."""
 
 SCRIPTS = sorted(

@@ -32,8 +32,9 @@ COMMANDS = (
 """Commands, and the exit code that each must have."""
 
 FILES = (
-    "chart/chart.png", "medallion/report.html", "medallion/programme.ilmek", "beat-up.html", "parts/crank.dxf", "press.html",
-)  # fmt: skip
+    *("chart/chart.png", "medallion/report.html", "medallion/programme.ilmek"),
+    *("beat-up.html", "parts/crank.dxf", "press.html"),
+)
 """Files that the commands must have written."""
 
 
@@ -55,7 +56,7 @@ def tried(distribution: Path, constraints: Path, examples: Path) -> None:
                 [str(scripts / "ilmek"), *command.split()],
                 cwd=work, env=environment, capture_output=True, text=True, check=False,
             )  # fmt: skip
-            print(f"  {time.monotonic() - begin:5.1f} s  ilmek {command}", flush=True)
+            _show(f"  {time.monotonic() - begin:5.1f} s  ilmek {command}")
             if done.returncode != code:
                 raise SystemExit(
                     f"{command!r} ends with {done.returncode} instead of {code}:\n{done.stdout}{done.stderr}"
@@ -65,18 +66,22 @@ def tried(distribution: Path, constraints: Path, examples: Path) -> None:
             raise SystemExit(f"not written: {', '.join(missing)}")
 
 
+def _show(line: str) -> None:
+    sys.stdout.write(f"{line}\n")
+    sys.stdout.flush()
+
+
 def main(folder: str, constraints: str, examples: str) -> None:
     """Try every wheel and sdist of a folder."""
     distributions = sorted(Path(folder).resolve().glob("*.whl")) + sorted(Path(folder).resolve().glob("*.tar.gz"))
     if [path.suffix for path in distributions] != [".whl", ".gz"]:
         raise SystemExit(f"{folder} must have one wheel and one sdist")
     for distribution in distributions:
-        print(
+        _show(
             f"{distribution.name}, {distribution.stat().st_size / 1e6:.1f} MB, Python {sys.version.split()[0]}",
-            flush=True,
         )
         tried(distribution, Path(constraints).resolve(), Path(examples).resolve())
-    print("wheel and sdist install and run")
+    _show("wheel and sdist install and run")
 
 
 if __name__ == "__main__":

@@ -17,9 +17,9 @@ def _is_executed(block: Block) -> bool:
 
 
 SLOW = {
-    "connect-by-opc-ua", "four-bar-for-a-motion", "meet-a-deadline", "plan-a-factory", "factory-planner", "prepare-a-picture",
-    "run-the-loom", "weave-on-a-loom-that-exists", "weave-row-by-row", "write-a-recipe",
-}  # fmt: skip
+    *("connect-by-opc-ua", "factory-planner", "four-bar-for-a-motion", "meet-a-deadline", "plan-a-factory"),
+    *("prepare-a-picture", "run-the-loom", "weave-on-a-loom-that-exists", "weave-row-by-row", "write-a-recipe"),
+}
 """Pages of more than four seconds of processor time."""
 
 PAGES = [
@@ -67,7 +67,7 @@ def test_a_page_that_is_wrong_is_found(tmp_path: Path) -> None:
     wrong = {
         "exit code": "```sh\nilmek machines nothing\n```",
         "quotation": "```sh\nilmek --version\n```\n\n```text\nilmek 0.0.0\n```",
-        "JSON": '```sh\nilmek design tufting --json -\n```\n\n```json\n{"machine": "tufting", "holds": false, "…": "…"}\n```',
+        "JSON": '```sh\nilmek design tufting --json -\n```\n\n```json\n{"holds": false, "…": "…"}\n```',
         "file": "```toml\na = 1\n```",
         "example": "    >>> 1 + 1\n    3\n",
     }

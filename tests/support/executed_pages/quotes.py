@@ -46,26 +46,33 @@ def json_difference(quoted: str, printed: str) -> str:
 
 
 def _differences(shown: Any, actual: Any, where: str) -> Iterator[str]:
-    if shown == GAP:
-        return
     if isinstance(shown, dict) and isinstance(actual, dict):
-        names = shown.keys() - {GAP}
-        if names - actual.keys() or (GAP not in shown and names != actual.keys()):
-            yield f"{where}: names {sorted(names)}, printed: {sorted(actual)}"
-        for name in names & actual.keys():
-            yield from _differences(shown[name], actual[name], f"{where}.{name}")
-    elif isinstance(shown, list) and isinstance(actual, list) and shown[:1] == [GAP] != shown:
-        rests = [actual[begin:] for begin in range(len(actual))]
-        if all(any(_differences(shown[1:], rest, where)) for rest in rests):
-            yield f"{where}: no entry is {shown[1]}"
+        yield from _of_names(shown, actual, where)
     elif isinstance(shown, list) and isinstance(actual, list):
-        entries = [entry for entry in shown if entry != GAP]
-        if len(entries) > len(actual) or (len(entries) == len(shown) != len(actual)):
-            yield f"{where}: {len(entries)} entries, printed: {len(actual)}"
-        for number, (entry, printed) in enumerate(zip(entries, actual, strict=False)):
-            yield from _differences(entry, printed, f"{where}[{number}]")
-    elif not _same(shown, actual):
+        yield from _of_lists(shown, actual, where)
+    elif shown != GAP and not _same(shown, actual):
         yield f"{where}: {shown!r}, printed: {actual!r}"
+
+
+def _of_names(shown: dict[str, Any], actual: dict[str, Any], where: str) -> Iterator[str]:
+    names = shown.keys() - {GAP}
+    if names - actual.keys() or (GAP not in shown and names != actual.keys()):
+        yield f"{where}: names {sorted(names)}, printed: {sorted(actual)}"
+    for name in names & actual.keys():
+        yield from _differences(shown[name], actual[name], f"{where}.{name}")
+
+
+def _of_lists(shown: list[Any], actual: list[Any], where: str) -> Iterator[str]:
+    """Lists agree entry by entry; a gap at the begin or at the end stands for entries that are left out there."""
+    if len(shown) > 1 and shown[0] == GAP:
+        if all(any(_of_lists(shown[1:], actual[begin:], where)) for begin in range(len(actual))):
+            yield f"{where}: no entry is {shown[1]}"
+        return
+    entries = [entry for entry in shown if entry != GAP]
+    if len(entries) > len(actual) or (len(entries) == len(shown) != len(actual)):
+        yield f"{where}: {len(entries)} entries, printed: {len(actual)}"
+    for number, (entry, printed) in enumerate(zip(entries, actual, strict=False)):
+        yield from _differences(entry, printed, f"{where}[{number}]")
 
 
 def _same(shown: Any, actual: Any) -> bool:
