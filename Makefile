@@ -8,7 +8,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help weave studio client client-check browser test lint types layers unit shapes mutants fuzz kills cuts bench docs venv lock clean
+.PHONY: help weave studio client client-check browser test lint types layers unit shapes mutants fuzz kills cuts bench docs dist venv lock clean
 
 help:
 	@echo "make weave   weave the shipped example and print where its report lies"
@@ -22,6 +22,7 @@ help:
 	@echo "make client  the studio's client from its sources, into the package (needs Node)"
 	@echo "make bench   the benchmarks, side by side with their peers"
 	@echo "make docs    the documentation, in docs/_build/html"
+	@echo "make dist    wheel and sdist, each installed into an empty environment and tried there"
 	@echo "make venv    .venv with everything for development"
 
 $(BIN)/python:
@@ -117,6 +118,11 @@ docs: venv
 	$(BIN)/sphinx-build -W --keep-going -q -b html docs docs/_build/html
 	@echo "docs/_build/html/index.html"
 
+# Another Python: make dist PYTHON=python3.13
+dist: $(BIN)/python
+	rm -rf dist && $(PIP) install build && $(BIN)/python -m build --quiet --outdir dist .
+	$(PYTHON) tests/support/tried_distribution.py dist constraints.txt examples
+
 # Versions move only by this command; the file names no host.
 lock:
 	rm -rf .venv-lock && $(PYTHON) -m venv .venv-lock
@@ -127,4 +133,4 @@ lock:
 	$(PYTHON) -c 'import json; p = "studio/package-lock.json"; d = json.load(open(p)); [v.pop("funding", None) for v in d["packages"].values()]; open(p, "w").write(json.dumps(d, indent=2) + "\n")'
 
 clean:
-	rm -rf .venv studio/node_modules out docs/_build .pytest_cache .mypy_cache .ruff_cache .import_linter_cache
+	rm -rf .venv dist studio/node_modules out docs/_build .pytest_cache .mypy_cache .ruff_cache .import_linter_cache

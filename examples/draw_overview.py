@@ -22,7 +22,7 @@ from ilmek.viz.svg import svg
 
 EXAMPLES = Path(__file__).parent
 OUT = EXAMPLES.parent / "docs" / "_static" / "overview.svg"
-WIDTH, HEIGHT = 1240, 800
+WIDTH, HEIGHT = 1240, 1100
 INK, MUTED = "#1f2933", "#52606d"
 
 
@@ -96,11 +96,11 @@ def draw() -> str:
         caption(830, 40, "and the loom that weaves it", f"{design(params).warps} warps at 2 mm, four knotting heads"),
         figure(figures["loom-side"], 815, 68, 400, 330),
         caption(30, 440, "beat-up linkage", "synthesised, its forces checked"),
-        figure(figures["beat-up"], 20, 465, 330, 300),
-        caption(380, 440, "shedding cams", "sized for pressure angle and shaft"),
-        figure(figures["shedding-cam"], 360, 465, 330, 300),
-        caption(730, 440, "and one cyclogram for all", "a knot on one turn of five cams"),
-        figure(figures["knot"], 715, 470, 500, 290),
+        figure(figures["beat-up"], 10, 470, 420, 290),
+        caption(30, 790, "shedding cams", "sized for pressure angle and shaft"),
+        figure(figures["shedding-cam"], 10, 815, 420, 275),
+        caption(460, 440, "and one cyclogram for all", "a knot on one turn of five cams"),
+        figure(figures["knot"], 445, 475, 785, 615),
     ]
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}"'

@@ -1,5 +1,7 @@
 """The planner against every plan of small factories, and against its own bounds."""
 
+from dataclasses import replace
+
 import pytest
 from small_factory import every_plan, small_factory
 
@@ -33,6 +35,17 @@ def test_a_solved_plan_is_valid_repeatable_and_not_below_its_bound(seed: int) ->
     solved = runs[0]
     assert plan_faults(first, first.cost) == plan_faults(solved.plan, solved.plan.cost) == ()
     assert solved.bound <= solved.plan.cost <= first.cost
+
+
+@pytest.mark.parametrize("carpets", [2, 3])
+def test_like_carpets_on_one_loom_are_planned_where_every_plan_costs_the_same(carpets: int) -> None:
+    """OR-tools 9.15 aborted the process: the model is settled while it is loaded."""
+    factory = small_factory(carpets, 1, seed=1)
+    job = replace(factory.jobs[0], due=60 * 1440, earliest=0, yarns={}, weaving={0: 1200})
+    factory = replace(factory, jobs=(job,) * carpets, yarns=())
+    solved = solve(factory, first_plan(factory), LIMITS, in_time=frozenset(range(carpets)))
+    assert {plan.cost for plan in every_plan(factory)} == {solved.plan.cost}
+    assert plan_faults(solved.plan, solved.plan.cost) == ()
 
 
 @pytest.mark.parametrize("seed", range(40, 46))

@@ -3,20 +3,12 @@
 from collections.abc import Sequence
 
 import numpy as np
+from examples.draw_photograph import perspective
 from PIL import Image
 
 from ilmek.arrays import Rgb
 
 Quad = Sequence[tuple[float, float]]
-
-
-def perspective(quad: Quad, width: float, height: float) -> np.ndarray:
-    """Coefficients of Pillow's PERSPECTIVE from a photograph to a picture whose corners are at `quad`."""
-    rows, values = [], []
-    for (u, v), (x, y) in zip(quad, [(0, 0), (width, 0), (width, height), (0, height)], strict=True):
-        rows += [[u, v, 1, 0, 0, 0, -u * x, -v * x], [0, 0, 0, u, v, 1, -u * y, -v * y]]
-        values += [x, y]
-    return np.linalg.solve(np.array(rows, dtype=float), np.array(values, dtype=float))
 
 
 def projected_by_pillow(picture: Image.Image, quad: Quad, shape: tuple[int, int], above: float = 0.0) -> Image.Image:

@@ -1,5 +1,6 @@
 """Recipes: what a file means, and one error with file and line for each fault."""
 
+import shutil
 from dataclasses import replace
 from pathlib import Path
 
@@ -67,6 +68,14 @@ FAULTS = {
     ),
     "edit of a number": (FIELD + "edits = [3]", r"line 3, edits.0: 3 is no edit"),
     "unknown yarn of an edit": (FIELD + 'edits = ["set 1,1 ivry"]', r"line 3, edits.0: unknown yarn 'ivry'.*'ivory'"),
+    "a yarn that no knot has": (
+        FIELD + 'edits = ["set 1,1 gold", "replace rose by gold"]',
+        "line 3, edits.1: 'replace rose by gold' changes nothing: no knot in the carpet has the first yarn",
+    ),
+    "a yarn that no knot has there": (
+        FIELD + 'edits = ["half 1,1 gold", "replace gold by rose in 2,2 9,9"]',
+        "line 3, edits.1: 'replace gold by rose in 2,2 9,9' changes nothing: no knot there has the first yarn",
+    ),
     "two yarns": (FIELD + 'edits = ["replace ivory"]', r"line 3, edits.0: 'ivory' does not name two yarns"),
     "unknown yarn of the field": ('plain = "madder"', r"line 1, plain: unknown yarn 'madder'.*'madder red'"),
     "unknown yarn of a border": (
@@ -206,6 +215,20 @@ def test_more_yarns_named_than_colours_is_an_error(folder: Path) -> None:
     text = FIELD + 'colours = 2\nedits = ["set 1,1 gold", "set 1,2 grey"]'
     with pytest.raises(IlmekError, match=r"carpet.toml: colours = 2, and 3 yarns are named: ivory, gold, grey"):
         chart_order(order_of(folder, text))
+
+
+def test_a_yarn_that_is_replaced_everywhere_is_kept_in_place_of_the_new_one(folder: Path) -> None:
+    """Terracotta has 192 knots of the tile; rose, which is near to it, does not take its place in the palette."""
+    tile = Path(__file__).parents[2] / "examples/recipes/tiles/kazak-middle.png"
+    shutil.copy(tile, folder / "middle.png")
+    recipe = 'picture = "middle.png"\nsize = "73.6x48.8cm"\nquality = "25x25/dm"\ncolours = {}\nedits = ["{}"]'
+    for colours in (4, 6, 8):
+        chart = chart_order(order_of(folder, recipe.format(colours, "replace terracotta by rose")))[0].chart
+        counts = {yarn.name: count for yarn, count in zip(chart.yarns, chart.counts, strict=True)}
+        assert counts["rose"] == chart.reading.edited >= 192
+        assert not counts.get("terracotta", 0)
+    chart = chart_order(order_of(folder, recipe.format(8, "replace terracotta by rose in 1,1 61,184")))[0].chart
+    assert 0 < chart.reading.edited < 192
 
 
 def test_a_list_of_names_holds_names_with_commas(folder: Path) -> None:

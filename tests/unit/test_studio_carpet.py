@@ -66,8 +66,9 @@ def test_an_unsaved_recipe_has_the_chart_of_its_file(context: Context) -> None:
 
 
 def test_what_is_kept_does_not_change(context: Context) -> None:
-    first = _chart(context)[1]
-    assert _chart(context, edits=["replace ivory by madder red", "mirror both"])[1] != first
+    about, first = _chart(context)
+    used = about["yarns"][0]["name"]
+    assert _chart(context, edits=[f"replace {used} by madder red", "mirror both"])[1] != first
     assert _chart(context, saturation=0.5)[1] != first
     assert _chart(context)[1] == first
     Image.new("RGB", (80, 120), "#9e2b25").save(context.folder / "pictures/photo.png")
@@ -103,7 +104,7 @@ def test_the_fitted_picture_is_sent_once(context: Context) -> None:
 
 
 def test_a_row_is_that_of_rows_txt(context: Context) -> None:
-    recipe = {**SMALL, "edits": ["replace ivory by ivory", "jufti 1,1 9,80", "half 10,4 near-black"]}
+    recipe = {**SMALL, "edits": ["jufti 1,1 9,80", "half 10,4 near-black"]}
     made = _as_file(context, _lines(recipe)).chart
     lines = b"".join(part for _, part in row_bands(made, "runs", "both")).decode().splitlines()
     for number in (1, 10, 120):

@@ -13,13 +13,11 @@ from ilmek.errors import ParameterError
 from ilmek.factory.bound import capacity_bound
 from ilmek.factory.calendar import DAY, MOST_DAYS, WEEK
 from ilmek.factory.model import Factory, FactoryPlan, SolveLimits, carpet_on, in_turn, left_shifted, lone_cost
+from ilmek.factory.search import LEAST_SECONDS
 from ilmek.factory.solver_model import FactoryModel
 
 FIRST_SHARE = 0.75
 """Share of the time in which the cost is minimised; in the rest the ends are."""
-
-LEAST_SECONDS = 0.1
-"""Least time of a run [s]."""
 
 
 @dataclass(frozen=True, slots=True)

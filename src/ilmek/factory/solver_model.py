@@ -26,11 +26,9 @@ from ilmek.factory.model import (
     likeness,
     sequences_of,
 )
+from ilmek.factory.search import searched
 from ilmek.factory.yarn_stock import scarce_yarns, waiting_in
 from ilmek.records import record
-
-WORKERS = 2
-"""Threads of the solver; their number does not change its result."""
 
 
 @record
@@ -364,16 +362,7 @@ class FactoryModel:
 
     def run(self, limits: SolveLimits) -> SolverRun:
         """Solve the model within limits."""
-        solver = self.cp.CpSolver()
-        settings = solver.parameters
-        settings.random_seed = 0
-        settings.num_workers = WORKERS
-        settings.interleave_search = True
-        settings.cp_model_probing_level = 0  # it takes all the time of a short run
-        settings.max_deterministic_time = limits.deterministic
-        settings.max_time_in_seconds = limits.seconds
-        status = solver.solve(self.model)
-        repeatable = solver.wall_time < limits.seconds
+        solver, status, repeatable = searched(self.cp, self.model, limits)
         if status not in (self.cp.OPTIMAL, self.cp.FEASIBLE):
             return SolverRun(None, {}, 0, repeatable)
         bound = int(-(-(solver.best_objective_bound - 0.5) // 1))

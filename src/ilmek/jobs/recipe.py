@@ -10,7 +10,7 @@ from ilmek.carpet.chart import Chart, chart_of_design, used_first
 from ilmek.carpet.palette_rules import PaletteParams, names_text, yarn_names
 from ilmek.carpet.reading import READINGS
 from ilmek.carpet.recipe.composition import Composition, compose
-from ilmek.carpet.recipe.edits import located
+from ilmek.carpet.recipe.edits import located, named_yarns
 from ilmek.carpet.recipe.finish import finish
 from ilmek.carpet.recipe.recipe import Recipe
 from ilmek.carpet.usual_pile import with_counts
@@ -113,14 +113,21 @@ def _check_never(recipe: Recipe, palette: PaletteParams) -> None:
 def _keeping(recipe: Recipe, order: CarpetOrder) -> PaletteParams:
     """The palette rules, where they choose yarns with the yarns that the recipe names among those that are kept.
 
+    Where a yarn is replaced in the whole carpet the old one is kept: its knots become the new one's.
     Raises CarpetError for more of them than colours.
     """
     rules = order.palette
     if rules.colours is None and not rules.least_share:
         return rules
-    known = {yarn.name.casefold(): yarn.name for yarn in order.yarns or default_yarns()}
+    yarns = order.yarns or default_yarns()
+    listed = {yarn.name.casefold(): yarn.name for yarn in yarns}
+    names = [name for name, _ in recipe.laid]
+    for edit in recipe.edits:
+        with located(edit.where):
+            edited = [yarns[number].name for number in named_yarns(edit, yarns) if not edit.yarns.startswith("#")]
+        names += edited[:1] if edit.kind == "replace" and not edit.knots else edited
     kept = {name.casefold(): name for name in yarn_names("keep", rules.keep)}
-    kept |= {name.casefold(): known[name.casefold()] for name, _ in recipe.named if name.casefold() in known}
+    kept |= {name.casefold(): listed[name.casefold()] for name in names if name.casefold() in listed}
     if isinstance(rules.colours, int) and len(kept) > rules.colours:
         raise CarpetError(
             f"{recipe.file}: colours = {rules.colours}, and {len(kept)} yarns are named: {', '.join(kept.values())}",

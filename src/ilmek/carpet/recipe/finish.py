@@ -13,10 +13,11 @@ from ilmek.carpet.design import bands
 from ilmek.carpet.differences import YarnDifference
 from ilmek.carpet.overlay import overlay_of
 from ilmek.carpet.recipe.composition import Composition
-from ilmek.carpet.recipe.edits import apply_edit, check_knots, located, named_yarns
+from ilmek.carpet.recipe.edits import Edit, apply_edit, check_knots, knots_between, located, named_yarns
 from ilmek.carpet.recipe.marks import EditedMarks
 from ilmek.carpet.recipe.recipe import Recipe
 from ilmek.carpet.yarn import Yarn, yarn_labs
+from ilmek.errors import CarpetError
 from ilmek.progress import SILENT, Progress
 
 
@@ -27,7 +28,8 @@ def finish(
 
     yarns  the whole list      made  the composition; None: one whole picture
     A yarn that the recipe names is in the chart, whatever the palette rules chose.
-    Raises CarpetError, with file and line, for an edit outside the grid or of a yarn that is not in the list.
+    Raises CarpetError, with file and line, for an edit outside the grid, of a yarn that is not in the list, and for
+    one that replaces a yarn which no knot has.
     """
     if made is None and not recipe.edits:
         return chart
@@ -50,6 +52,8 @@ def finish(
         part = editing.part(count / len(numbers), (count + 1) / len(numbers))
         own = tuple(index[number] for number in found)
         with located(edit.where):
+            if edit.kind == "replace":
+                _check_replaced(knots, marks, edit, own[0])
             apply_edit(knots, edit, own, part)
             marks.apply(edit, knots, own)
     changed = sum(int(np.count_nonzero(knots[band] != before[band])) for band in bands(*knots.shape))
@@ -57,6 +61,20 @@ def finish(
     finished = replace(chart, knots=knots, overlay=marks.overlay(), reading=reading)
     finished.tally(progress.part(0.9, 1.0))
     return finished
+
+
+def _check_replaced(knots: Indices, marks: EditedMarks, edit: Edit, old: int) -> None:
+    """Raise CarpetError where no knot, and no half knot, has the yarn that is to be replaced."""
+    corners = [(len(knots) - row, column - 1) for row, column in edit.knots]
+    part = knots_between(knots, corners)
+    if any((part[band] == old).any() for band in bands(*part.shape)) or marks.halves(corners, old):
+        return
+    where = "there" if edit.knots else "in the carpet"
+    raise CarpetError(
+        f"{edit.text!r} changes nothing: no knot {where} has the first yarn",
+        allowed="a yarn that the knots have where the edit is made",
+        do="look at the chart without this edit",
+    )
 
 
 def _with_yarns(chart: Chart, yarns: Sequence[Yarn], named: set[int]) -> tuple[Chart, dict[int, int]]:

@@ -40,6 +40,17 @@ class EditedMarks:
             kept = self.marks.items()
             self.marks = {cell: found for cell, found in kept if self._stands(found[0], found[1], knots)}
 
+    def halves(self, corners: list[tuple[int, int]], second: int) -> list[tuple[int, int]]:
+        """Cells of the half knots with a second yarn, between two opposite corners, or in the whole carpet."""
+        ends = sorted(row for row, _ in corners), sorted(column for _, column in corners)
+        return [
+            cell
+            for cell, (mark, _) in self.marks.items()
+            if mark.kind == HALF
+            and mark.second == second
+            and (not corners or all(low <= number <= high for number, (low, high) in zip(cell, ends, strict=True)))
+        ]
+
     def overlay(self) -> Overlay:
         """The marks as an overlay. Raises CarpetError for too many."""
         return overlay_of(mark for mark, _ in self.marks.values())
@@ -71,11 +82,9 @@ class EditedMarks:
                 column += 1
 
     def _replace(self, at: list[tuple[int, int]], yarns: tuple[int, ...]) -> None:
-        ends = sorted(row for row, _ in at), sorted(column for _, column in at)
-        for cell, (mark, yarn) in list(self.marks.items()):
-            inside = not at or all(low <= one <= high for one, (low, high) in zip(cell, ends, strict=True))
-            if inside and mark.kind == HALF and mark.second == yarns[0]:
-                self.marks[cell] = mark._replace(second=yarns[1]), yarn
+        for cell in self.halves(at, yarns[0]):
+            mark, yarn = self.marks[cell]
+            self.marks[cell] = mark._replace(second=yarns[1]), yarn
 
     @staticmethod
     def _stands(mark: KnotMark, yarn: int, knots: Indices) -> bool:

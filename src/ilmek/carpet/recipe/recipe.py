@@ -133,11 +133,16 @@ class Recipe:
     @property
     def named(self) -> Iterator[tuple[str, str]]:
         """The yarns that the recipe gives to knots, by name or colour, and where each is named."""
+        yield from self.laid
+        for edit in self.edits:
+            yield edit.yarns.rpartition(" by ")[2], edit.where
+
+    @property
+    def laid(self) -> Iterator[tuple[str, str]]:
+        """Those of them that the design has, before the edits."""
         yield self.plain, self.where
         for border in self.borders:
             yield from ((name, border.where) for name in (border.yarn, *border.teeth))
-        for edit in self.edits:
-            yield edit.yarns.rpartition(" by ")[2], edit.where
 
     @property
     def is_composed(self) -> bool:
