@@ -76,7 +76,7 @@ class ForwardRun:
     table_error                    error of the Fourier table, relative to the greatest value; None without a table
 
     >>> from ilmek import bar, four_bar, simulate
-    >>> run = simulate(four_bar(0.300, 0.060, 0.200, 0.230), {"rocker": bar(0, 0.230, mass=0.4)}, 0.2, speed=10)
+    >>> run = simulate(four_bar(0.300, 0.060, 0.200, 0.230), {"crank": bar(0, 0.060, mass=0.4)}, 0.2, speed=10)
     >>> run.end.kind.name, bool(run.energy_error < 1e-6)
     ('TIME', True)
     """
