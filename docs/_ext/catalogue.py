@@ -26,9 +26,9 @@ from ilmek.viz.page import machine_page
 SOURCE = Path(__file__).parents[2] / "src" / "ilmek"
 OUT = Path(__file__).parents[1] / "reference" / "generated"
 PACKAGES = (
-    "units", "errors", "arrays", "progress", "records", "params", "report", "num", "plane", "linkage", "elements",
-    "synthesis", "dynamics", "cams", "timing", "weaving", "carpet", "loom", "machines", "verification", "io",
-    "viz", "drivers", "factory", "jobs", "api",
+    "units", "arguments", "errors", "arrays", "progress", "records", "params", "report", "num", "plane", "linkage",
+    "elements", "synthesis", "dynamics", "cams", "timing", "weaving", "carpet", "loom", "machines", "verification",
+    "io", "viz", "drivers", "factory", "jobs", "api",
 )  # fmt: skip
 
 

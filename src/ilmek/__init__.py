@@ -28,10 +28,11 @@ PUBLIC = {
     "Motion": "ilmek.linkage.motion",
     # forces
     "Inertia": "ilmek.dynamics.inertia",
-    "bar": "ilmek.dynamics.inertia",
-    "bar_mass": "ilmek.dynamics.inertia",
-    "point_mass": "ilmek.dynamics.inertia",
-    "combined": "ilmek.dynamics.inertia",
+    "bar": "ilmek.api.masses",
+    "bar_mass": "ilmek.api.masses",
+    "point_mass": "ilmek.api.masses",
+    "combined": "ilmek.api.masses",
+    "Load": "ilmek.dynamics.loads",
     "Gravity": "ilmek.dynamics.loads",
     "PointForce": "ilmek.dynamics.loads",
     "Torque": "ilmek.dynamics.loads",
@@ -40,7 +41,7 @@ PUBLIC = {
     "Forces": "ilmek.dynamics.inverse",
     "simulate": "ilmek.api.mechanisms",
     "OwnMachine": "ilmek.dynamics.own_machine",
-    "run_machine": "ilmek.api.mechanisms",
+    "run_machine": "ilmek.api.machine_runs",
     "ForwardRun": "ilmek.dynamics.forward_run",
     # cams
     "motion_law": "ilmek.api.cams",
@@ -103,10 +104,14 @@ if TYPE_CHECKING:
     from ilmek.api.four_bars import function_four_bars as function_four_bars
     from ilmek.api.four_bars import motion_four_bars as motion_four_bars
     from ilmek.api.four_bars import path_four_bars as path_four_bars
+    from ilmek.api.machine_runs import run_machine as run_machine
+    from ilmek.api.masses import bar as bar
+    from ilmek.api.masses import bar_mass as bar_mass
+    from ilmek.api.masses import combined as combined
+    from ilmek.api.masses import point_mass as point_mass
     from ilmek.api.mechanisms import four_bar as four_bar
     from ilmek.api.mechanisms import inverse_dynamics as inverse_dynamics
     from ilmek.api.mechanisms import read_mechanism as read_mechanism
-    from ilmek.api.mechanisms import run_machine as run_machine
     from ilmek.api.mechanisms import simulate as simulate
     from ilmek.api.mechanisms import slider_crank as slider_crank
     from ilmek.api.mechanisms import solve as solve
@@ -116,12 +121,9 @@ if TYPE_CHECKING:
     from ilmek.carpet.chart import Chart as Chart
     from ilmek.dynamics.forward_run import ForwardRun as ForwardRun
     from ilmek.dynamics.inertia import Inertia as Inertia
-    from ilmek.dynamics.inertia import bar as bar
-    from ilmek.dynamics.inertia import bar_mass as bar_mass
-    from ilmek.dynamics.inertia import combined as combined
-    from ilmek.dynamics.inertia import point_mass as point_mass
     from ilmek.dynamics.inverse import Forces as Forces
     from ilmek.dynamics.loads import Gravity as Gravity
+    from ilmek.dynamics.loads import Load as Load
     from ilmek.dynamics.loads import PointForce as PointForce
     from ilmek.dynamics.loads import Torque as Torque
     from ilmek.dynamics.own_machine import OwnMachine as OwnMachine

@@ -28,6 +28,9 @@ class IlmekError(Exception):
     given    the wrong input, with its value as written
     allowed  the allowed input ("" if it follows from the first part)
     do       the next step ("" if it is obvious)
+
+    >>> print(IlmekError("crank is 60 m", allowed="up to 10 m", do="write 60 * mm"))
+    crank is 60 m; up to 10 m; write 60 * mm
     """
 
     def __init__(self, given: str, *, allowed: str = "", do: str = "") -> None:

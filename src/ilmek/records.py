@@ -130,15 +130,22 @@ def brief(value: Any, names: Iterable[str] | None = None) -> str:
     """
     head, shown = f"{type(value).__name__}(", ""
     for name in (one.name for one in fields(value)) if names is None else names:
-        item = f"{', ' if shown else ''}{name}={_shown(getattr(value, name))}"
+        item = f"{', ' if shown else ''}{name}={shown_value(getattr(value, name))}"
         if len(head) + len(shown) + len(item) > _LONGEST_LINE:
             return f"{head}{shown}, ...)"
         shown += item
     return f"{head}{shown})"
 
 
-def _shown(value: Any) -> str:
+def shown_value(value: Any) -> str:
+    """A value in a few characters: plain values as they are, arrays by type and shape, collections by size.
+
+    >>> shown_value("text"), shown_value([1, 2]), shown_value(object())
+    ("'text'", 'list[2]', 'object')
+    """
     if hasattr(value, "dtype") and hasattr(value, "shape"):  # an array; numpy is not imported for a record
+        if value.shape == ():
+            return shown_value(value.item())
         return f"{value.dtype}[{'x'.join(str(size) for size in value.shape)}]"
     if value is None or isinstance(value, bool | int | float | complex | str):
         text = repr(value)

@@ -21,6 +21,40 @@ from functools import lru_cache
 from typing import Any, TypeAlias
 
 from ilmek.errors import UnitError
+from ilmek.records import shown_value
+
+__all__ = [
+    "GPa",
+    "MPa",
+    "Pa",
+    "cm",
+    "day",
+    "deg",
+    "dm",
+    "foot",
+    "format_quantity",
+    "from_si",
+    "hour",
+    "inch",
+    "kN",
+    "kPa",
+    "kg",
+    "km",
+    "mN",
+    "mg",
+    "minute",
+    "mm",
+    "mrad",
+    "ms",
+    "parse_quantity",
+    "parse_unit",
+    "rad",
+    "rpm",
+    "tonne",
+    "turn",
+    "um",
+]
+"""What `from ilmek.units import *` gives: not the factors of one letter, `m`, `s`, `g` and `N`, names of variables."""
 
 Dimension: TypeAlias = tuple[int, int, int, int]
 """Exponents of metre, kilogram, second and radian, so that angles are not mistaken for numbers."""
@@ -133,6 +167,7 @@ def parse_quantity(text: str, unit: str) -> float:
     its magnitude is above `GREATEST`.
     """
     _check_length(text, "quantity")
+    _check_length(unit, "unit")
     matched = _NUMBER.fullmatch(text.strip())
     example = f"write it like {_example(unit)}"
     if matched is None:
@@ -179,6 +214,8 @@ def in_bounds(value: float) -> bool:
 
 
 def _check_length(text: str, noun: str) -> None:
+    if not isinstance(text, str):
+        raise UnitError(f"{shown_value(text)} given for a {noun}", allowed="a text")
     if len(text) > LONGEST:
         raise UnitError(f"{text[:20]!r}... is too long for a {noun}", allowed=f"at most {LONGEST} characters")
 

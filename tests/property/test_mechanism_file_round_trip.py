@@ -33,6 +33,7 @@ from ilmek.linkage.fourbar import four_bar
 from ilmek.linkage.model import GROUND, Body, Coupling, Displacement, Mechanism, Pin, Rotation, Slide
 
 REAL = st.floats(-1e30, 1e30)
+ANGLE = st.floats(-12.0, 12.0)
 POSITIVE = st.floats(0, 1e30)
 PLACE = st.builds(complex, REAL, REAL)
 NAME = st.text(st.characters(categories=("L", "M", "N", "P", "S")), max_size=8)
@@ -49,7 +50,7 @@ def parts(draw):
         first, second = names[k], names[k + 1]
         for body in (first, second):
             points[body][joint] = draw(PLACE)
-        slide = (draw(REAL), draw(REAL)) if draw(st.booleans()) else ()
+        slide = (draw(ANGLE), draw(ANGLE)) if draw(st.booleans()) else ()
         driven = draw(st.sampled_from([first, second])) if k % 2 == 0 else None
         joints.append((joint, second, first, slide, driven))
     for k, name in enumerate(names[1:-1]):  # a link whose two pins coincide is refused

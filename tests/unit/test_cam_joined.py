@@ -56,10 +56,10 @@ def test_blends_reach_the_asked_order(order, spans, speed, start) -> None:
     made = joined(parts, order, start)
     assert all_jumps(made, order) == ()
     for edge in made.edges[:-1]:
-        before, after = (made.at(np.array(start + edge + side)) for side in (-1e-9, 1e-9))
+        before, after = (made.motion(np.array(start + edge + side)) for side in (-1e-9, 1e-9))
         for k in range(order + 1):
             assert float(before[k]) == pytest.approx(float(after[k]), abs=1e-7 * speed * 10**k)
-    middle = made.at(np.array(start + 0.5 * feed))
+    middle = made.motion(np.array(start + 0.5 * feed))
     assert float(middle.ds) == pytest.approx(speed)
     assert [segment.name for segment in made.segments] == ["constant speed", "blend", "dwell", "blend"]
 
@@ -112,7 +112,7 @@ def test_a_rise_that_overshoots_is_counted_in_the_bounds() -> None:
 def test_an_indexing_programme_gains_its_step_every_turn() -> None:
     table = CamProgramme((rise(2.0, 0.05, LAWS["modified-sine"]), dwell(TURN - 2.0)), start=0.3, revolves=0.05)
     angle = np.linspace(-7, 20, 500)
-    here, later = table.at(angle), table.at(angle + TURN)
+    here, later = table.motion(angle), table.motion(angle + TURN)
     np.testing.assert_allclose(later.s - here.s, 0.05, atol=1e-15)
     np.testing.assert_allclose(later.ds, here.ds, atol=1e-13)
     assert np.all(np.diff(here.s) >= -1e-16)
@@ -128,8 +128,8 @@ def test_an_indexing_programme_gains_its_step_every_turn() -> None:
 )
 def test_any_order_of_angles_is_the_angles_one_by_one(law, angles, start) -> None:
     made = CamProgramme((rise(1.7, 0.03, law), dwell(0.8), fall(2.1, 0.03, law), dwell(TURN - 4.6)), start)
-    whole = np.stack(made.at(np.array(angles)))
-    single = np.array([[float(row) for row in made.at(np.array(angle))] for angle in angles]).T
+    whole = np.stack(made.motion(np.array(angles)))
+    single = np.array([[float(row) for row in made.motion(np.array(angle))] for angle in angles]).T
     np.testing.assert_array_equal(whole, single)
     u = (math.fmod(angles[0] - start, TURN) + TURN) % TURN / 1.7
     if u < 1:

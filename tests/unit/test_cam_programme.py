@@ -65,7 +65,7 @@ def test_names_where_the_acceleration_jumps(name, places) -> None:
 def test_whole_turns_are_the_begin_of_the_first_part() -> None:
     law = LAWS["uniform"]
     saw = CamProgramme((rise(1.0, 0.01, law), fall(2 * math.pi - 1.0, 0.01, law)))
-    np.testing.assert_allclose(saw.at(2 * math.pi * np.arange(-300, 301)).ds, 0.01, rtol=1e-12)
+    np.testing.assert_allclose(saw.motion(2 * math.pi * np.arange(-300, 301)).ds, 0.01, rtol=1e-12)
 
 
 def test_size_of_the_jump() -> None:

@@ -191,22 +191,22 @@ def mesh(**changes) -> Coupling:
 
 
 @pytest.mark.parametrize(
-    ("coupling", "said"),
+    ("changes", "said"),
     [
-        (mesh(ratio=0.0), "coupling 'mesh' of geared five-bar has ratio 0"),
-        (mesh(ratio=float("nan")), "finite numbers, the ratio not 0"),
-        (mesh(second_at=float("inf")), "assembled at 0 and inf"),
-        (mesh(kind="worm"), "is of kind 'worm'; gears, belt, rack"),
-        (mesh(first=("lft", "A0")), "has no body 'lft'"),
-        (mesh(first=("left", "Q")), "body 'left' of geared five-bar has no point 'Q'"),
-        (mesh(second=("left", "A0")), "joins left, left, ground; three different bodies"),
-        (mesh(carrier="arm"), "has no body 'arm'"),
-        (mesh(kind="rack"), "requires a slide 'B0' of 'right' on 'ground'; it is a pin of ground, right"),
+        (dict(ratio=0.0), "coupling 'mesh' of geared five-bar has ratio 0"),
+        (dict(ratio=float("nan")), "ratio of coupling 'mesh' is nan; a finite number"),
+        (dict(second_at=float("inf")), "second_at of coupling 'mesh' is inf; a finite number"),
+        (dict(kind="worm"), "is of kind 'worm'; gears, belt, rack"),
+        (dict(first=("lft", "A0")), "has no body 'lft'"),
+        (dict(first=("left", "Q")), "body 'left' of geared five-bar has no point 'Q'"),
+        (dict(second=("left", "A0")), "joins left, left, ground; three different bodies"),
+        (dict(carrier="arm"), "has no body 'arm'"),
+        (dict(kind="rack"), "requires a slide 'B0' of 'right' on 'ground'; it is a pin of ground, right"),
     ],
 )
-def test_bad_couplings_are_refused_in_words(coupling, said):
+def test_bad_couplings_are_refused_in_words(changes, said):
     with pytest.raises(MechanismError) as caught:
-        dataclasses.replace(geared_five_bar(), couplings=(coupling,))
+        dataclasses.replace(geared_five_bar(), couplings=(mesh(**changes),))
     assert said in str(caught.value)
     assert caught.value.about[:1] == ("couplings",)
 

@@ -37,5 +37,5 @@ def test_nothing_weighs_nothing() -> None:
 
 @pytest.mark.parametrize(("mass", "moment"), [(-1.0, 0.0), (float("nan"), 0.0), (1.0, -1e-9), (1.0, float("inf"))])
 def test_refuses_what_is_no_inertia(mass: float, moment: float) -> None:
-    with pytest.raises(MechanismError, match="finite and not negative"):
+    with pytest.raises(MechanismError, match="not negative|a finite number"):
         Inertia(mass, 0j, moment)

@@ -88,9 +88,9 @@ def test_names_that_do_not_exist_are_refused() -> None:
     with pytest.raises(MechanismError, match="no body 'rokcer'"):
         inverse(motion, {"rokcer": Inertia(1.0, 0j, 0.1)})
     forces = inverse(motion, {})
-    with pytest.raises(MechanismError, match="inputs: crank"):
+    with pytest.raises(MechanismError, match="one of crank"):
         forces.effort("rocker")
-    with pytest.raises(MechanismError, match="it connects crank and coupler"):
+    with pytest.raises(MechanismError, match="one of crank, coupler"):
         forces.pin("A", on="rocker")
 
 

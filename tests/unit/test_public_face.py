@@ -12,7 +12,7 @@ import pytest
 import ilmek
 from ilmek.machines.catalogue import MACHINES
 from ilmek.params import Params
-from ilmek.units import deg, mm
+from ilmek.units import deg, mm, rpm
 
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "docs" / "reference" / "python.md"
@@ -21,6 +21,19 @@ LONGEST = 300
 
 FOUR_BAR = ilmek.four_bar(300 * mm, 60 * mm, 200 * mm, 230 * mm)
 INERTIAS = {"crank": ilmek.bar(0, 60 * mm, mass=0.1), "rocker": ilmek.bar(0, 230 * mm, mass=0.4)}
+
+
+def moving() -> ilmek.Motion:
+    return ilmek.solve(FOUR_BAR, np.linspace(0, 6, 13), speed=10.0)
+
+
+def too_long() -> ilmek.Mechanism:
+    bodies = ilmek.Body("ground", {"A0": 0}), ilmek.Body("crank", {"A0": 0, "A": 60})
+    return ilmek.Mechanism(bodies, [ilmek.Pin("A0", "ground", "crank")], [ilmek.Rotation("crank", "A0")])
+
+
+def path_of_medallion() -> Path:
+    return ROOT / "examples" / "medallion.png"
 
 
 def cam() -> ilmek.PlateCam:
@@ -43,7 +56,8 @@ def test_reference_page_lists_every_public_name_once() -> None:
     [
         (lambda: ilmek.four_bar(300, 60, 200, 230), "300 m.*write 300 \\* mm"),
         (lambda: ilmek.slider_crank(60, 0.2), "60 m.*write 60 \\* mm"),
-        (lambda: ilmek.four_bar("300mm", 0.06, 0.2, 0.23), "text '300mm'.*40 \\* mm"),
+        (lambda: ilmek.four_bar("300", 0.06, 0.2, 0.23), "ground of a four-bar: 300 has no unit; write 300mm"),
+        (lambda: ilmek.four_bar("300kg", 0.06, 0.2, 0.23), "ground of a four-bar: '300kg' has the wrong unit"),
         (lambda: ilmek.solve(FOUR_BAR, np.linspace(0, 360)), "360 rad.*degrees"),
         (lambda: ilmek.solve(FOUR_BAR, np.linspace(0, 360, 3600, endpoint=False)), "degrees"),
         (lambda: ilmek.solve(FOUR_BAR, np.arange(0, 360, 10)), "degrees"),
@@ -56,14 +70,48 @@ def test_reference_page_lists_every_public_name_once() -> None:
         (lambda: ilmek.rise(100 * deg, 40 * mm, "modified sine"), "'modified-sine'"),
         (lambda: ilmek.rise(100 * deg, ilmek.motion_law("harmonic"), 40 * mm), "the span, the lift and then the law"),
         (lambda: ilmek.fall("harmonic", 100 * deg, 40 * mm), "the span, the lift and then the law"),
-        (lambda: ilmek.fall("100deg", 40 * mm, "harmonic"), "100 \\* deg"),
+        (lambda: ilmek.fall("100", 40 * mm, "harmonic"), "100 has no unit; write 100deg"),
         (lambda: ilmek.dwell(80), "write 80 \\* deg"),
         (lambda: ilmek.dwell(ilmek.motion_law("harmonic")), "law 'harmonic'"),
         (lambda: ilmek.crank_rocker(30), "write 30 \\* deg"),
         (lambda: ilmek.plate_cam(cam().programme, 50), "write 50 \\* mm"),
         (lambda: ilmek.plate_cam(cam().programme, 50 * mm, pressure_angle=30 * deg), "leave one"),
         (lambda: ilmek.motion_four_bars([0, 1, 2], [0, 1]), "one angle for each point"),
-        (lambda: ilmek.motion_four_bars([0, 25, 30], [0.1, 0.2, 0.3]), "write 30 \\* mm"),
+        (lambda: ilmek.motion_four_bars([0, 25, 30], [0.1, 0.2, 0.3]), "write 25 \\* mm"),
+        (lambda: ilmek.four_bar(0.3, 0.06, 0.2, 0.23, points={"rockr": {"E": 0.3}}), "'rockr'.*did you mean 'rocker'"),
+        (lambda: ilmek.four_bar(0.3, 0.06, 0.2, 0.23, points={"rocker": {"E": 300}}), "write 300 \\* mm"),
+        (lambda: ilmek.slider_crank(0.06, 0.2, points={"slidr": {"E": 0.3}}), "did you mean 'slider'"),
+        (lambda: ilmek.solve(too_long(), 0.5), "point 'A' of body 'crank' is 60 m.*write 60 \\* mm"),
+        (lambda: ilmek.solve(FOUR_BAR, "90"), "90 has no unit; write 90deg"),
+        (lambda: ilmek.Slide("line", "ram", "ground", along=90), "write 90 \\* deg"),
+        (lambda: ilmek.bar(0, 200, mass=1), "write 200 \\* mm"),
+        (lambda: ilmek.bar_mass(300, 30, 10, 7800), "write 300 \\* mm"),
+        (lambda: ilmek.Gravity(9.81), "along x.*-9.81j"),
+        (lambda: ilmek.OwnMachine(FOUR_BAR, gravity=9.81), "along x.*-9.81j"),
+        (
+            lambda: ilmek.inverse_dynamics(ilmek.solve(FOUR_BAR, 0.5), INERTIAS),
+            "at rest and no load acts.*give solve a speed",
+        ),
+        (lambda: ilmek.inverse_dynamics(moving(), INERTIAS, ilmek.Gravity(-9.81j)), "write \\[loads\\]"),
+        (lambda: ilmek.inverse_dynamics(moving(), {}, [ilmek.Torque("rockr", 1)]), "did you mean 'rocker'"),
+        (lambda: ilmek.inverse_dynamics(moving(), {}, [ilmek.Torque("rocker", np.ones(5))]), "each of the 13 samples"),
+        (lambda: ilmek.simulate(FOUR_BAR, INERTIAS, 1.0, drive=5.0), "a function of time, position and speed"),
+        (lambda: ilmek.Mechanism((ilmek.Body("ground", {}),), ilmek.Pin("A", "a", "b"), ()), "write \\[joints\\]"),
+        (lambda: ilmek.plate_cam(1), "programme of the cam is 1; CamProgramme"),
+        (lambda: cam().programme.at(45), "45 rad.*degrees"),
+        (lambda: cam().programme.at(np.linspace(0, 360, 721)), "360 rad.*degrees"),
+        (lambda: cam().surface(np.arange(0, 360)), "degrees"),
+        (lambda: cam().pressure_angle("45"), "45 has no unit; write 45deg"),
+        (lambda: ilmek.path_four_bars(1000 * np.array(POINTS)), "write 1000 \\* mm"),
+        (lambda: ilmek.path_four_bars(np.array([(0.0, 0.1)] * 12).T), "int64|float64\\[2x12\\].*N x 2; transpose it"),
+        (lambda: ilmek.run_machine(FOUR_BAR, speed="10"), "10 has no unit; write 10rpm"),
+        (lambda: ilmek.run_machine(FOUR_BAR, over=("0deg", "1m")), "'1m' has the wrong unit"),
+        (lambda: ilmek.run_machine(FOUR_BAR, fixed={"rocker": 1.0}), "has no input 'rocker'"),
+        (lambda: ilmek.make_chart(np.full((8, 8, 3), 0.5), "30x40cm", "10x10/dm"), "round\\(\\).astype"),
+        (
+            lambda: ilmek.make_chart(path_of_medallion(), "30x40cm", "10x10/dm", kind="photo"),
+            "unknown parameter 'kind'",
+        ),
         (lambda: ilmek.design("beat_up"), "did you mean beat-up"),
         (lambda: ilmek.design("beat-up", swing=30), "did you mean 30deg"),
         (lambda: ilmek.design("automated-loom", width=1200), "did you mean 1200mm"),
@@ -82,6 +130,34 @@ def test_slip_is_caught_with_what_was_given_and_a_guess(typed: object, message: 
 @pytest.mark.parametrize("angles", [0.0, 7.3, [0, 0.1], np.linspace(0, 20 * math.pi, 721), 1])
 def test_angles_in_radians_pass(angles: object) -> None:
     assert len(ilmek.solve(FOUR_BAR, angles)) == np.size(angles)  # type: ignore[arg-type]
+
+
+def test_numbers_of_a_run_are_radians_and_its_texts_have_units() -> None:
+    numbers = ilmek.run_machine(FOUR_BAR, over=(0.0, 1.0), speed=12.5, steps=20).motion
+    texts = ilmek.run_machine(FOUR_BAR, over="0rad..1rad", speed="12.5rad/s", steps=20).motion
+    assert np.array_equal(numbers.drives["crank"].value, np.linspace(0, 1, 21))
+    assert np.array_equal(numbers.omega("rocker"), texts.omega("rocker"))
+    assert ilmek.run_machine(FOUR_BAR, fixed={"crank": 1.0}).motion.drives["crank"].value == 1.0
+    turned = ilmek.run_machine(FOUR_BAR, over=("0deg", math.pi), speed=15.5 * rpm, steps=4).motion
+    assert np.allclose(turned.drives["crank"].value, np.linspace(0, math.pi, 5))
+    assert turned.drives["crank"].speed == pytest.approx(2 * math.pi * 15.5 / 60)
+
+
+def test_points_are_complex_or_two_coordinates() -> None:
+    built = [
+        ilmek.four_bar(0.3, 0.06, 0.2, 0.23, points={"rocker": {"E": point}})
+        for point in (0.3 + 0.05j, (0.3, 0.05), [0.3, 0.05], np.array([0.3, 0.05]), ("300mm", "50mm"))
+    ]
+    assert all(mechanism == built[0] for mechanism in built)
+    assert ilmek.Inertia(1, (0.1, 0.2), 1).centre == 0.1 + 0.2j
+    assert ilmek.Gravity((0, -9.81)) == ilmek.Gravity(-9.81j)
+
+
+def test_forces_by_sample_are_complex_or_rows_of_two() -> None:
+    motion, rows = moving(), np.column_stack((np.arange(13.0), -np.ones(13)))
+    loads = [ilmek.PointForce("rocker", "B", force) for force in (rows, rows[:, 0] + 1j * rows[:, 1])]
+    first, second = (ilmek.inverse_dynamics(motion, INERTIAS, [load]).effort("crank") for load in loads)
+    assert np.array_equal(first, second)
 
 
 def test_a_law_is_a_name_or_a_law() -> None:
@@ -194,8 +270,9 @@ def test_machine_is_designed_from_numbers_and_texts() -> None:
     assert report["drive_torque_max"] > 0
     assert report.parameters["swing"] == 30 * deg
     assert set(ilmek.list_machines()) == set(MACHINES)
-    with pytest.raises(KeyError, match="did you mean 'drive_torque"):
-        _ = report["drive_torque"]
+    for error in (KeyError, ilmek.IlmekError):
+        with pytest.raises(error, match="beat-up has no result 'drive_torque'; did you mean 'drive_torque"):
+            _ = report["drive_torque"]
 
 
 def test_catalogue_is_a_mapping_that_names_the_nearest() -> None:

@@ -1,9 +1,13 @@
 """Carpets: picture to knot chart, chart to files, the whole job."""
 
-from collections.abc import Mapping, Sequence
+from __future__ import annotations  # so that `help` shows the aliases
+
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
+from typing import Any, TypeVar
 
+from ilmek.arguments import Arguments, Quantity
 from ilmek.arrays import Rgb
 from ilmek.carpet import chart as charting
 from ilmek.carpet.chart import Chart
@@ -11,7 +15,7 @@ from ilmek.carpet.quality import Quality, carpet_quality
 from ilmek.carpet.sizes import CarpetSize, carpet_size
 from ilmek.carpet.yarn import Yarn, yarn_list
 from ilmek.elements.knot_kinds import parse_knot
-from ilmek.errors import CarpetError, shortened
+from ilmek.errors import CarpetError, OutputError, ParameterError, PictureError, YarnError
 from ilmek.io import picture as pictures
 from ilmek.io import yarn_file
 from ilmek.io.chart import formats
@@ -24,25 +28,45 @@ from ilmek.jobs.weave import WeaveResult
 from ilmek.params import Setting
 from ilmek.progress import SILENT, Progress
 
+T = TypeVar("T")
+
+PictureLike = str | Path | Picture | Rgb
+"""A picture, its path, or its pixels: rows x columns x 3, 0 to 255."""
+
+YarnsLike = str | Path | Sequence[Yarn] | None
+"""Yarns, or the path of their list; None: the wool list that is built in."""
+
+Settings = Mapping[str, Setting]
+"""Values by name: texts with units, or numbers in SI."""
+
 
 def read_picture(path: str | Path) -> Picture:
     """The picture in a file as sRGB: `rgb` of shape rows x columns x 3, and `notes` on conversions.
 
     Raises PictureError where there is no picture that can be read.
+
+    >>> read_picture("examples/medallion.png").rgb.shape[2]
+    3
     """
-    return pictures.read_picture(Path(path))
+    return pictures.read_picture(Arguments("a picture", PictureError).path("path", path))
 
 
 def read_yarns(path: str | Path | None = None) -> tuple[Yarn, ...]:
-    """The yarns of a TOML or CSV list; default: the wool list that is built in. Raises YarnError."""
-    return yarn_file.default_yarns() if path is None else yarn_file.read_yarns(Path(path))
+    """The yarns of a TOML or CSV list; default: the wool list that is built in. Raises YarnError.
+
+    >>> len({yarn.name for yarn in read_yarns()}) == len(read_yarns())
+    True
+    """
+    if path is None:
+        return yarn_file.default_yarns()
+    return yarn_file.read_yarns(Arguments("a yarn list", YarnError).path("path", path))
 
 
 def make_chart(
-    picture: str | Path | Picture | Rgb,
+    picture: PictureLike,
     size: str | CarpetSize,
     quality: str | Quality,
-    yarns: str | Path | Sequence[Yarn] | None = None,
+    yarns: YarnsLike = None,
     *,
     knot: str = "symmetric",
     progress: Progress = SILENT,
@@ -54,9 +78,13 @@ def make_chart(
     size     like "120x180cm" or "seccade"      quality  like "40x40/dm"
     yarns    a path or a list; default: the wool list that is built in      knot  "symmetric" or "asymmetric"
     settings  of the fit, the reading, the palette and the counts of the yarns, by the names of the command line's
-              options: colours=8
+              options: colours=8, read="photo"
 
     Raises PictureError, CarpetError or YarnError; Cancelled.
+
+    >>> chart = make_chart("examples/medallion.png", "30x40cm", "10x10/dm", colours=4)
+    >>> chart.rows, chart.columns, chart.colours, sum(chart.counts)
+    (40, 30, 4, 1200)
     """
     groups = read_groups(settings)
     density, knot = carpet_quality(quality), parse_knot(knot)
@@ -70,12 +98,12 @@ def make_chart(
         fit=groups["fit"],
         reading=groups["reading"],
         palette=groups["palette"],
-        progress=progress,
+        progress=Arguments("a chart", CarpetError).record("progress", progress, Progress),
     )
     return charting.used_first(chart)
 
 
-def _pixels(picture: str | Path | Picture | Rgb) -> Rgb:
+def _pixels(picture: PictureLike) -> Rgb:
     if isinstance(picture, str | Path):
         return read_picture(picture).rgb
     return picture.rgb if isinstance(picture, Picture) else pictures.pixels_of(picture)
@@ -88,10 +116,16 @@ def write_chart(path: str | Path, chart: Chart) -> None:
     An existing file is replaced, whole or not at all.
     Raises OutputError for another ending, and if the file cannot be written; CarpetError for what is no chart, and for
     more knots than the format has.
+
+    >>> import tempfile
+    >>> path = Path(tempfile.mkdtemp()) / "chart.oxs"
+    >>> chart = make_chart("examples/medallion.png", "30x40cm", "10x10/dm", colours=4)
+    >>> write_chart(path, chart)
+    >>> read_chart(path).counts == chart.counts
+    True
     """
-    path = Path(path)
-    if not isinstance(chart, Chart):
-        raise CarpetError(f"the chart is {shortened(repr(chart))}", allowed="a Chart")
+    path = Arguments("a chart file", OutputError).path("path", path)
+    Arguments("a chart file", CarpetError).record("chart", chart, Chart)
     chosen = formats.format_by_ending(path)
     with Outputs(force=True) as outputs, outputs.file(path) as work:
         chosen.save(work, chart)
@@ -101,8 +135,14 @@ def read_chart(path: str | Path) -> Chart:
     """The chart of a file that `write_chart` or a job wrote with all facts, as it was, or of a chart program.
 
     Raises PictureError for what is no chart, and CarpetError for a grid that no carpet of the usual quality has.
+
+    >>> import tempfile
+    >>> path = Path(tempfile.mkdtemp()) / "chart.png"
+    >>> write_chart(path, make_chart("examples/medallion.png", "30x40cm", "10x10/dm", colours=4))
+    >>> read_chart(path).colours
+    4
     """
-    return formats.read_chart(Path(path))[0]
+    return formats.read_chart(Arguments("a chart file", PictureError).path("path", path))[0]
 
 
 def weave(
@@ -114,10 +154,10 @@ def weave(
     knot: str | None = None,
     yarns: str | Path | None = None,
     heads: int | None = None,
-    deadline: str | None = None,
+    deadline: Quantity | None = None,
     aim: str | None = None,
     warp_pitch: Setting = None,
-    loom: Mapping[str, Setting] = MappingProxyType({}),
+    loom: Settings = MappingProxyType({}),
     loom_file: str | Path | None = None,
     force: bool = False,
     progress: Progress = SILENT,
@@ -127,7 +167,7 @@ def weave(
 
     size, quality, knot, yarns  as of `make_chart`; `yarns` is a path; default: those of a chart, else 120 x 180 cm, 25
                      knots/dm, symmetric and the wool list
-    heads, deadline  knotting heads; time for the whole carpet, like "72h"; default: chosen by aim; any time
+    heads, deadline  knotting heads; time for the whole carpet [s], like "72h"; default: chosen by aim; any time
     aim              "price" or "time": what is least in the choice of all that is left open; default: price
     warp_pitch       distance of two warps; default: that of the quality
     loom             parameters of the loom by name, those of its machines dotted: {"shedding.law": "modified-sine"}
@@ -139,23 +179,41 @@ def weave(
     Settings are texts with units or numbers in SI. Where the loom cannot weave the carpet, `weaves` of the result is
     False, its `checks` have the reasons, and there is no programme. Raises any IlmekError; then nothing is written;
     Cancelled.
+
+    >>> import tempfile
+    >>> folder = Path(tempfile.mkdtemp()) / "carpet"
+    >>> woven = weave("examples/medallion.png", folder, size="30x40cm", quality="10x10/dm", heads=1)
+    >>> woven.weaves, (folder / "programme.ilmek").exists()
+    (True, True)
     """
+    given = Arguments("a carpet")
+    if "yarn_file" in settings:
+        raise ParameterError("unknown parameter 'yarn_file' of a carpet", do="did you mean 'yarns'?")
+    further: dict[str, Any] = settings
     order = read_order(
-        Path(picture),
-        size=size,
-        quality=quality,
-        knot=knot,
-        yarn_file=None if yarns is None else Path(yarns),
-        pdf=None,
-        **settings,
+        given.path("picture", picture),
+        size=_optional(given.text, "size", size),
+        quality=_optional(given.text, "quality", quality),
+        knot=_optional(given.text, "knot", knot),
+        yarn_file=_optional(given.path, "yarns", yarns),
+        **further,
     )
     wanted = read_loom_order(
         order,
-        heads=heads,
-        deadline=deadline,
-        aim=aim,
+        heads=_optional(given.whole, "heads", heads),
+        deadline=deadline if deadline is None or isinstance(deadline, str) else _seconds(given, deadline),
+        aim=_optional(given.text, "aim", aim),
         warp_pitch=warp_pitch,
-        loom=loom,
-        loom_file=None if loom_file is None else Path(loom_file),
+        loom=given.mapping("loom", loom, lambda _, value: value),
+        loom_file=_optional(given.path, "loom_file", loom_file),
     )
-    return weaving.weave(order, wanted, Path(out), force=force, progress=progress)
+    folder, replace = given.path("out", out), given.flag("force", force)
+    return weaving.weave(order, wanted, folder, force=replace, progress=given.record("progress", progress, Progress))
+
+
+def _optional(read: Callable[[str, object], T], name: str, value: object) -> T | None:
+    return None if value is None else read(name, value)
+
+
+def _seconds(given: Arguments, deadline: object) -> str:
+    return f"{given.number('deadline', deadline, 's')!r}s"

@@ -1,8 +1,11 @@
 """Machines of the catalogue, designed from their parameters, and the verification manual."""
 
+from __future__ import annotations  # so that `help` shows the aliases
+
 from collections.abc import Mapping
 from types import MappingProxyType
 
+from ilmek.arguments import Arguments
 from ilmek.errors import ParameterError
 from ilmek.jobs.design import design_machine
 from ilmek.jobs.machine_file import read_machine_order
@@ -12,18 +15,25 @@ from ilmek.params import Setting
 from ilmek.progress import SILENT, Progress
 from ilmek.report import Report
 
+Settings = Mapping[str, Setting]
+"""Values by name: texts with units, or numbers in SI."""
+
 COARSE = 100.0
 """Knots per metre below which knots per dm were meant; assumed by this project: 10 knots per dm are the coarsest."""
 
 
 def list_machines() -> dict[str, str]:
-    """The machines that `design` takes: name -> summary."""
+    """The machines that `design` takes: name -> summary.
+
+    >>> "beat-up" in list_machines()
+    True
+    """
     return machine_list()
 
 
 def design(
     name: str,
-    parameters: Mapping[str, Setting] = MappingProxyType({}),
+    parameters: Settings = MappingProxyType({}),
     /,
     *,
     progress: Progress = SILENT,
@@ -38,15 +48,21 @@ def design(
     Values are texts with units or numbers in SI. `report["drive_torque_max"]` gives a result in SI, `report.failed` the
     checks that do not hold. Raises ParameterError for an unknown machine or parameter and for a value out of bounds;
     errors of the machine; Cancelled.
+
+    >>> report = design("beat-up", swing="30deg", beta="48deg")
+    >>> report.failed, report["drive_torque_max"] > 0
+    ((), True)
     """
-    order = read_machine_order(name, {**parameters, **settings})
+    given = Arguments("a design")
+    values = {**given.mapping("parameters", parameters, lambda _, value: value), **settings}
+    order = read_machine_order(given.text("name", name), values)
     _check_densities(order.machine, order.settings)
-    return design_machine(order.machine, order.settings, progress=progress).report
+    return design_machine(order.machine, order.settings, progress=given.record("progress", progress, Progress)).report
 
 
 def _check_densities(name: str, settings: Mapping[str, Setting]) -> None:
     """Raise ParameterError where a number of knots per metre is so small that knots per dm were meant."""
-    densities = {one.name for one in machine_form(name).parameters if one.unit == "1/dm"}
+    densities = {parameter.name for parameter in machine_form(name).parameters if parameter.unit == "1/dm"}
     for parameter in densities & settings.keys():
         value = settings[parameter]
         if isinstance(value, int | float) and 0 < value < COARSE:
@@ -62,5 +78,10 @@ def reproduce(*papers: str, progress: Progress = SILENT) -> ReproductionResult:
 
     papers  names like "beat-up"; default: all
     Raises ParameterError for an unknown paper; Cancelled.
+
+    >>> list(reproduce("beat-up").verdicts)
+    ['beat-up']
     """
-    return reproduce_papers(papers, progress=progress)
+    given = Arguments("the manual")
+    names = [given.text("paper", paper) for paper in papers]
+    return reproduce_papers(names, progress=given.record("progress", progress, Progress))

@@ -1,14 +1,17 @@
 """Synthesis of four-bars: from a path, a motion, a function, or the swing of the rocker."""
 
+from __future__ import annotations  # so that `help` shows the aliases
+
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from ilmek.api.slips import check_angle, check_lengths
-from ilmek.arrays import FloatArray, NumberArray
+from ilmek.arguments import LONGEST, Arguments, Points, Quantities, Quantity
+from ilmek.arrays import FloatArray
 from ilmek.errors import ParameterError
 from ilmek.machines.catalogue import find_machine
+from ilmek.params import Setting
 from ilmek.progress import SILENT, Progress
 from ilmek.synthesis.approximation.function_generator import FunctionApproximation, function_approximations
 from ilmek.synthesis.candidate import Candidate
@@ -17,24 +20,29 @@ from ilmek.synthesis.four_bar import LinkLengths
 from ilmek.synthesis.function import Function
 from ilmek.synthesis.path import search
 from ilmek.synthesis.path.fit import PathFit
-from ilmek.synthesis.path.task import PathTask
+from ilmek.synthesis.path.task import KINDS, PathTask
+from ilmek.units import counted
+
+MOST_FOUR_BARS = 1000
+"""Largest number of four-bars wanted of a search."""
 
 
 def path_four_bars(
-    points: NumberArray | Sequence[complex],
+    points: Points,
     *,
-    timing: NumberArray | Sequence[float] | None = None,
+    timing: Quantities | None = None,
     closed: bool = False,
-    bounds: Mapping[str, tuple[float, float]] | None = None,
+    bounds: Mapping[str, tuple[Quantity, Quantity]] | None = None,
     kind: str = "crank-rocker",
-    transmission: float = 0.0,
+    transmission: Quantity = 0.0,
     count: int = 5,
     seed: int = 0,
-    time_limit: float = math.inf,
+    time_limit: Quantity = math.inf,
     progress: Progress = SILENT,
 ) -> tuple[PathFit, ...]:
-    """Four-bars whose coupler point comes nearest to points [m, complex], the best first.
+    """Four-bars whose coupler point comes nearest to points [m], the best first.
 
+    points        complex numbers, pairs (x, y), or an array of N x 2
     timing        crank angles [rad] at the points; default: free      closed  the path returns to its first point
     bounds        (low, high) of ground, crank, coupler, rocker, along, across, x, y [m], turn, start [rad]
     kind          "crank-rocker" or "double-crank"      transmission  least transmission angle [rad]
@@ -42,76 +50,119 @@ def path_four_bars(
     time_limit    [s]; default: none. The search then ends with the best found so far
     progress      reports the share done, and can cancel the search
 
-    Raises ParameterError for a task that is not one, where no start can be brought within the limits; Cancelled.
+    Raises ParameterError for a task that is not one, where no start can be brought within the limits, and for points
+    that were probably meant in millimetres; Cancelled.
+
+    >>> ellipse = [(0.10 + 0.04 * math.cos(u), 0.02 * math.sin(u)) for u in (0, 1, 2, 3, 4, 5)]
+    >>> best, *_ = path_four_bars(ellipse, closed=True, count=1)
+    >>> best.greatest_error < 1e-6
+    True
     """
+    given = Arguments("the path")
     task = PathTask(
-        np.asarray(points, dtype=complex),
-        None if timing is None else np.asarray(timing, dtype=float),
-        closed=closed,
-        bounds=bounds or {},
-        kind=kind,
-        transmission=transmission,
+        given.points("points", points, most=LONGEST),
+        None if timing is None else np.atleast_1d(given.values("timing", timing, "rad")),
+        closed=given.flag("closed", closed),
+        bounds=given.mapping("bounds", bounds or {}, _bound),
+        kind=given.one_of("kind", kind, KINDS),
+        transmission=given.angle("transmission", transmission),
     )
-    return search.path_four_bars(task, count=count, seed=seed, time_limit=time_limit, progress=progress)
+    return search.path_four_bars(
+        task,
+        count=given.whole("count", count, least=1, most=MOST_FOUR_BARS),
+        seed=given.whole("seed", seed),
+        time_limit=math.inf if time_limit == math.inf else given.number("time_limit", time_limit, "s"),
+        progress=given.record("progress", progress, Progress),
+    )
 
 
-def motion_four_bars(
-    points: NumberArray | Sequence[complex], angles: Sequence[float] | FloatArray, **settings: str | float | int
-) -> tuple[Candidate, ...]:
+def _bound(name: str, ends: object) -> tuple[float, float]:
+    """Low and high of a number of the four-bar [m; rad]; either may be infinite."""
+    given = Arguments("the path")
+    low, high = given.pair(name, ends, "(low, high)")
+    unit = "rad" if "turn" in name or "start" in name else "m"
+    infinite = (-math.inf, math.inf)
+    first, last = (end if end in infinite else given.number(name, end, unit) for end in (low, high))
+    return first, last
+
+
+def motion_four_bars(points: Points, angles: Quantities, **settings: Setting) -> tuple[Candidate, ...]:
     """Four-bars whose coupler takes three, four or five poses exactly, the best first; those with defects left out.
 
-    points    position of one point of the coupler at each pose [m], complex
+    points    position of one point of the coupler at each pose [m]: complex numbers, pairs (x, y), or an array of N x 2
     angles    angle of the coupler at each pose [rad]
     settings  parameters of the machine "motion-four-bar", like pivots="(0,0) (40mm,0)"; see `design`
 
     Raises ParameterError for another number of poses, and poses that a whole family of links takes.
+
+    >>> best, *_ = motion_four_bars([(0, 0), (0.025, 0.015), (0.030, 0.001)], ["10deg", "3deg", "-25deg"])
+    >>> best.point_error < 1e-9
+    True
     """
-    places, turned = np.asarray(points, dtype=complex), np.asarray(angles, dtype=float)
-    if places.shape != turned.shape or places.ndim != 1:
-        raise ParameterError(f"{places.size} points and {turned.size} angles", allowed="one angle for each point")
-    check_lengths(ParameterError, "a pose", x=float(np.abs(places.real).max()), y=float(np.abs(places.imag).max()))
-    for angle in turned:
-        check_angle(ParameterError, "the angle of a pose", float(angle))
+    given = Arguments("the poses")
+    positions = given.points("points", points, most=LONGEST)
+    turned = np.atleast_1d(given.values("angles", angles, "rad"))
+    if turned.shape != positions.shape:
+        raise ParameterError(
+            f"{counted(positions.size, 'point')} and {counted(turned.size, 'angle')}",
+            allowed="one angle for each point",
+        )
+    for number, angle in enumerate(turned, 1):
+        given.angle(f"angle {number}", float(angle))
     poses = " ".join(
-        f"({float(p.real)!r}m,{float(p.imag)!r}m,{float(a)!r}rad)" for p, a in zip(places, turned, strict=True)
+        f"({float(p.real)!r}m,{float(p.imag)!r}m,{float(a)!r}rad)" for p, a in zip(positions, turned, strict=True)
     )
     machine = find_machine("motion-four-bar")
-    found = machine.design(machine.params.read({"poses": poses, **settings}))
-    return tuple(option.candidate for option in found.choice.kept)
+    design = machine.design(machine.params.read({"poses": poses, **settings}))
+    return tuple(option.candidate for option in design.choice.kept)
 
 
 def function_four_bars(
     function: Callable[[FloatArray], FloatArray],
     start: float,
     stop: float,
-    crank_swing: float,
-    rocker_swing: float,
+    crank_swing: Quantity,
+    rocker_swing: Quantity,
     *,
     criterion: str = "minimax",
-    crank_start: float | None = None,
-    rocker_start: float | None = None,
-    ground: float = 1.0,
+    crank_start: Quantity | None = None,
+    rocker_start: Quantity | None = None,
+    ground: Quantity = 1.0,
 ) -> tuple[FunctionApproximation, ...]:
     """Four-bars whose rocker generates y = f(x) from the crank angle, the best first.
 
     function      of an array, gives an array      start, stop  range of x
     crank_swing, rocker_swing  angles [rad] that show the ranges of x and y
-    criterion     "minimax", "least squares" or "interpolation"
+    criterion     "minimax", "least-squares" or "interpolation"
     crank_start, rocker_start  angles at `start` against the ground link [rad]; default: free
     ground        A0-B0 [m]
 
     Raises ParameterError for an empty range, swings of more than a turn, an unknown criterion, and a function that a
     whole family of four-bars generates.
+
+    >>> best, *_ = function_four_bars(lambda x: np.sqrt(1 + x), 0, 3, "80deg", "60deg", crank_start=1, rocker_start=0.8)
+    >>> best.greatest < 0.02
+    True
     """
-    wanted = Function(function, start, stop, crank_swing, rocker_swing)
-    check_lengths(ParameterError, "the four-bar", ground=ground)
+    given = Arguments("the function")
+    task = Function(
+        given.function("function", function, "an array"),
+        given.number("start", start),
+        given.number("stop", stop),
+        given.angle("crank_swing", crank_swing),
+        given.angle("rocker_swing", rocker_swing),
+    )
     return function_approximations(
-        wanted, criterion, crank_start=crank_start, rocker_start=rocker_start, ground=ground
+        task,
+        given.text("criterion", criterion).replace("-", " "),
+        crank_start=None if crank_start is None else given.angle("crank_start", crank_start),
+        rocker_start=None if rocker_start is None else given.angle("rocker_start", rocker_start),
+        ground=given.length("ground", ground),
     ).found
 
 
 def crank_rocker(
-    swing: float, rotation: float = CENTRIC, *, beta: float | None = None, ground: float = 1.0
+    swing: Quantity, rotation: Quantity = CENTRIC, *, beta: Quantity | None = None, ground: Quantity = 1.0
 ) -> LinkLengths:
     """Ground, crank, coupler and rocker [m] of a crank-rocker; `four_bar(*crank_rocker(30 * deg))` builds it.
 
@@ -121,9 +172,17 @@ def crank_rocker(
     ground    [m]
 
     Raises ParameterError, with the allowed interval, where no such crank-rocker exists.
+
+    >>> [round(length, 4) for length in crank_rocker("30deg", ground=0.3)]
+    [0.3, 0.06, 0.1998, 0.2316]
     """
-    check_angle(ParameterError, "the swing of the rocker", swing)
-    check_angle(ParameterError, "the rotation of the crank", rotation)
-    check_lengths(ParameterError, "the crank-rocker", ground=ground)
-    found = member(swing, rotation, beta)
-    return LinkLengths(ground, ground * found.crank, ground * found.coupler, ground * found.rocker)
+    given = Arguments("the crank-rocker")
+    base = given.length("ground", ground)
+    if base <= 0:
+        raise ParameterError(f"ground of the crank-rocker is {base:g} m", allowed="above 0")
+    links = member(
+        given.angle("swing", swing),
+        given.angle("rotation", rotation),
+        None if beta is None else given.angle("beta", beta),
+    )
+    return LinkLengths(base, base * links.crank, base * links.coupler, base * links.rocker)

@@ -1,52 +1,53 @@
 """Mechanisms: built from lengths or read from a file, moved, and their forces."""
 
+from __future__ import annotations  # so that `help` shows the aliases
+
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 
-from ilmek.api.slips import by_input, check_lengths, check_turning
-from ilmek.arrays import FloatArray, RealField
+from ilmek.arguments import Arguments, Point, Quantities, Quantity
+from ilmek.arrays import RealField
 from ilmek.dynamics import forward, inverse
 from ilmek.dynamics.forward_run import Drive, ForwardRun, ForwardState
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.inverse import Forces
-from ilmek.dynamics.joint_friction import JointFriction
+from ilmek.dynamics.joint_friction import JointFriction, PinFriction, SlideFriction
 from ilmek.dynamics.loads import Load
 from ilmek.dynamics.own_machine import OwnMachine
 from ilmek.dynamics.reduced import reduce
 from ilmek.errors import MechanismError
 from ilmek.io import mechanism_file
 from ilmek.io.mechanism_file import MechanismFile
-from ilmek.jobs.mechanism.analysis import Analysis, analysis
-from ilmek.jobs.mechanism.data import columns
-from ilmek.jobs.mechanism.report import report
-from ilmek.jobs.mechanism.request import STEPS, MotionRequest
-from ilmek.jobs.mechanism.run import run
 from ilmek.linkage import fourbar
 from ilmek.linkage import solve as linkage
 from ilmek.linkage.drawing import as_drawn
-from ilmek.linkage.model import Mechanism, Rotation
+from ilmek.linkage.model import Input, Mechanism, Rotation
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.structure import Plan, plan
-from ilmek.records import record
-from ilmek.report import Report
 
-Values = RealField | Sequence[float] | Mapping[str, RealField | Sequence[float]]
+Values = Quantities | Mapping[str, Quantities]
 """Values of the only input, or of several by name."""
+
+BodyPoints = Mapping[str, Mapping[str, Point]]
+"""Body -> further points of it by name."""
 
 Solvable = Mechanism | MechanismFile | Plan
 """What can be moved. A plan saves its own search where the same mechanism is solved many times."""
 
+ANY_ANGLE = "`ilmek.linkage.solve.solve`"
+"""What takes angles of any number of turns, for messages."""
+
 
 def four_bar(
-    ground: float,
-    crank: float,
-    coupler: float,
-    rocker: float,
+    ground: Quantity,
+    crank: Quantity,
+    coupler: Quantity,
+    rocker: Quantity,
     *,
     branch: int = +1,
-    points: Mapping[str, Mapping[str, complex]] | None = None,
+    points: BodyPoints | None = None,
     name: str = "four-bar",
 ) -> Mechanism:
     """A four-bar driven by its crank, from link lengths [m]; pins A0, A, B, B0 with A0 at the origin, B0 on x.
@@ -55,38 +56,75 @@ def four_bar(
     points  further points [m] by body (ground, crank, coupler, rocker), in the frame at the body's first pin with x
             to the second: `{"rocker": {"E": 0.3}}`
 
-    Raises MechanismError for a length that is not above zero or was probably meant in millimetres.
+    Raises MechanismError for a length that is not above zero or was probably meant in millimetres, and for points of
+    an unknown body.
+
+    >>> beat_up = four_bar(0.300, 0.060, 0.200, "230mm", points={"coupler": {"P": (0.1, 0.05)}})
+    >>> beat_up.point("coupler", "P")
+    (0.1+0.05j)
     """
-    check_lengths(MechanismError, name, ground=ground, crank=crank, coupler=coupler, rocker=rocker)
-    return fourbar.four_bar(ground, crank, coupler, rocker, branch=branch, points=points, name=name)
+    given = Arguments("a four-bar", MechanismError)
+    links = {"ground": ground, "crank": crank, "coupler": coupler, "rocker": rocker}
+    lengths = {link: given.length(link, length) for link, length in links.items()}
+    return fourbar.four_bar(
+        **lengths,
+        branch=given.whole("branch", branch, least=-1, most=1),
+        points=_further_points(given, points, tuple(links)),
+        name=given.text("name", name),
+    )
 
 
 def slider_crank(
-    crank: float,
-    rod: float,
+    crank: Quantity,
+    rod: Quantity,
     *,
-    offset: float = 0.0,
+    offset: Quantity = 0.0,
     branch: int = +1,
-    points: Mapping[str, Mapping[str, complex]] | None = None,
+    points: BodyPoints | None = None,
     name: str = "slider-crank",
 ) -> Mechanism:
     """A slider-crank driven by its crank, from lengths [m]; crank A0-A, rod A-B, slider at B on the line y = offset.
 
     branch  +1: the slider on the side of +x (default), -1: on the other
-    points  further points [m] by body (crank, rod, slider), as of `four_bar`
+    points  further points [m] by body (ground, crank, rod, slider), as of `four_bar`
 
-    Raises MechanismError for a length that is not above zero or was probably meant in millimetres.
+    Raises MechanismError as `four_bar`.
+
+    >>> slider_crank(0.040, "140mm", offset=0.010).moving
+    ('crank', 'rod', 'slider')
     """
-    check_lengths(MechanismError, name, crank=crank, rod=rod, offset=offset)
-    return fourbar.slider_crank(crank, rod, offset=offset, branch=branch, points=points, name=name)
+    given = Arguments("a slider-crank", MechanismError)
+    return fourbar.slider_crank(
+        given.length("crank", crank),
+        given.length("rod", rod),
+        offset=given.length("offset", offset),
+        branch=given.whole("branch", branch, least=-1, most=1),
+        points=_further_points(given, points, ("ground", "crank", "rod", "slider")),
+        name=given.text("name", name),
+    )
+
+
+def _further_points(given: Arguments, points: object, bodies: Sequence[str]) -> dict[str, dict[str, complex]]:
+    """Points by body and name [m], of the bodies of a mechanism alone."""
+    if points is None:
+        return {}
+
+    def of_body(name: str, table: object) -> dict[str, complex]:
+        return given.mapping(name, table, given.near_point)
+
+    tables = given.mapping("points", points, of_body)
+    return {given.one_of("a body in points", body, bodies): table for body, table in tables.items()}
 
 
 def read_mechanism(path: str | Path) -> MechanismFile:
     """The `mechanism` and the `inertias` of a .toml or .json file; `solve` takes the result as it is.
 
     Raises MechanismError with file, line and key.
+
+    >>> read_mechanism("examples/jansen_leg.toml").mechanism.name
+    'Jansen leg'
     """
-    return mechanism_file.read_mechanism(Path(path))
+    return mechanism_file.read_mechanism(Arguments("a mechanism", MechanismError).path("path", path))
 
 
 def write_mechanism(
@@ -95,9 +133,20 @@ def write_mechanism(
     """Write a mechanism and its inertias, or a machine with its loads and task, to a .toml or .json file.
 
     Raises MechanismError for another ending; OutputError where the file cannot be written.
+
+    >>> import pathlib, tempfile
+    >>> path = pathlib.Path(tempfile.mkdtemp()) / "four_bar.toml"
+    >>> write_mechanism(path, four_bar(0.300, 0.060, 0.200, 0.230), {"rocker": Inertia(0.4, 0.115, 0.002)})
+    >>> read_mechanism(path).inertias["rocker"].mass
+    0.4
     """
-    machine = mechanism if isinstance(mechanism, OwnMachine) else OwnMachine(mechanism, inertias or {})
-    mechanism_file.write_mechanism(Path(path), machine)
+    given = Arguments("a mechanism file", MechanismError)
+    file = given.path("path", path)
+    given.record("mechanism", mechanism, (Mechanism, OwnMachine))
+    if isinstance(mechanism, OwnMachine) and inertias:
+        raise MechanismError("inertias are given beside a machine", do="put them into the machine")
+    machine = mechanism if isinstance(mechanism, OwnMachine) else OwnMachine(mechanism, _inertias(inertias or {}))
+    mechanism_file.write_mechanism(file, machine)
 
 
 def solve(
@@ -115,12 +164,38 @@ def solve(
 
     A sample that cannot be solved does not raise: see `Motion.status`, `Motion.require`. Raises MechanismError for a
     mechanism without a plan, unknown or missing inputs, and angles that were probably meant in degrees.
+
+    >>> beat_up = four_bar(0.300, 0.060, 0.200, 0.230)
+    >>> motion = solve(beat_up, np.linspace(0, 2 * np.pi, 73), speed="150rpm")
+    >>> motion.ok, len(motion)
+    (True, 73)
+    >>> bool(motion.angle("rocker")[6] == solve(beat_up, "30deg").angle("rocker")[0])
+    True
     """
     planned = planned_of(mechanism)
-    rotates = {entry.name: isinstance(entry, Rotation) for entry in planned.mechanism.inputs}
-    for name, angles in by_input(values, rotates).items():
-        check_turning(name, angles)
-    return linkage.solve(planned, _values(values), _values(speed), _values(acceleration), _values(jerk))
+    inputs = planned.mechanism.inputs
+    fields = (("value", "", values), ("speed", "/s", speed), ("acceleration", "/s^2", acceleration))
+    read = [_by_input(inputs, name, per, field) for name, per, field in (*fields, ("jerk", "/s^3", jerk))]
+    return linkage.solve(planned, *read)
+
+
+def _by_input(inputs: Sequence[Input], quantity: str, per: str, values: Values) -> linkage.InputValues:
+    """Values or rates of the inputs by name [SI]; one value of several inputs is left to `linkage.solve`."""
+    given = Arguments("", MechanismError)
+    turning = {entry.name: isinstance(entry, Rotation) for entry in inputs}
+
+    def read(name: str, value: object, rotates: bool) -> RealField:
+        if rotates and not per:
+            return given.turning(name, value, ANY_ANGLE)
+        return given.values(name, value, f"{'rad' if rotates else 'm'}{per}")
+
+    if not isinstance(values, Mapping):
+        return read(f"{quantity} of {next(iter(turning), 'an input')!r}", values, next(iter(turning.values()), True))
+    names = given.mapping(f"{quantity} by input", values, lambda _, value: value)
+    return {
+        given.one_of("an input", name, turning): read(f"{quantity} of {name!r}", value, turning.get(name, True))
+        for name, value in names.items()
+    }
 
 
 def inverse_dynamics(
@@ -134,25 +209,52 @@ def inverse_dynamics(
     motion           with speeds and accelerations: from `solve(..., speed=...)`
     inertias         body -> inertia; a body that is not listed is massless
     loads            loads such as `Gravity`, `PointForce`, `Torque`, `Spring`; default: none
-    joint_frictions  friction of joints, `ilmek.dynamics.PinFriction`, `SlideFriction`; default: none
+    joint_frictions  friction of joints: `PinFriction`, `SlideFriction` of `ilmek.dynamics`; default: none
 
     `forces.pin("B")` is the force in a pin [N], `forces.effort("crank")` the torque of the drive [N m].
-    Raises MechanismError for an unknown body or joint. A sample that cannot be solved does not raise.
+    Raises MechanismError for an unknown body or joint, and for a motion at rest without loads, of which all forces are
+    0. A sample that cannot be solved does not raise.
+
+    >>> from ilmek.dynamics import Gravity, bar
+    >>> beat_up = four_bar(0.300, 0.060, 0.200, 0.230)
+    >>> motion = solve(beat_up, np.linspace(0, 2 * np.pi, 73), speed=15.5)
+    >>> forces = inverse_dynamics(motion, {"rocker": bar(0, 0.230, mass=0.4)}, [Gravity(-9.81j)])
+    >>> forces.pin("B0").shape, bool(forces.power_error < 1e-9)
+    ((73,), True)
     """
-    return inverse.inverse(motion, inertias, loads, joint_frictions)
+    given = Arguments("inverse dynamics", MechanismError)
+    moved = given.record("motion", motion, Motion)
+    acting = _loads(given, loads)
+    rubbing: tuple[JointFriction, ...] = given.sequence(
+        "joint_frictions", joint_frictions, (PinFriction, SlideFriction)
+    )
+    if not acting and not any(np.any(one.speed) or np.any(one.acceleration) for one in moved.drives.values()):
+        raise MechanismError(
+            "the motion is at rest and no load acts: all forces are 0", do="give solve a speed, or give loads"
+        )
+    return inverse.inverse(moved, _inertias(inertias), acting, rubbing)
+
+
+def _loads(given: Arguments, loads: object) -> tuple[Load, ...]:
+    return given.sequence("loads", loads, Load)
+
+
+def _inertias(inertias: object) -> dict[str, Inertia]:
+    given = Arguments("", MechanismError)
+    return given.mapping("inertias", inertias, lambda name, value: given.record(name, value, Inertia))
 
 
 def simulate(
     mechanism: Solvable,
     inertias: Mapping[str, Inertia],
-    duration: float,
+    duration: Quantity,
     *,
-    position: float = 0.0,
-    speed: float = 0.0,
+    position: Quantity = 0.0,
+    speed: Quantity = 0.0,
     drive: Drive | None = None,
     loads: Sequence[Load] = (),
-    flywheel: float = 0.0,
-    every: float | None = None,
+    flywheel: Quantity = 0.0,
+    every: Quantity | None = None,
 ) -> ForwardRun:
     """Run of a mechanism with one input from a state, under its drive and loads (forward dynamics).
 
@@ -166,93 +268,51 @@ def simulate(
 
     Raises MechanismError for several inputs, no moving mass, a start at which the mechanism does not close, and values
     that are not finite.
+
+    >>> from ilmek.dynamics import bar
+    >>> masses = {"crank": bar(0, 0.060, mass=0.1), "rocker": bar(0, 0.230, mass=0.4)}
+    >>> run = simulate(four_bar(0.300, 0.060, 0.200, 0.230), masses, "0.5s", speed="100rpm")
+    >>> run.end.reason, bool(run.energy_error < 1e-6)
+    ('its duration was reached', True)
     """
     planned = planned_of(mechanism)
-    if any(isinstance(entry, Rotation) for entry in planned.mechanism.inputs):
-        check_turning(planned.mechanism.inputs[0].name, position)
-    reduced = reduce(planned, inertias, loads, flywheel=flywheel)
-    return forward.forward(reduced, ForwardState(position, speed), duration, drive=drive, every=every)
-
-
-@record
-class MachineRun:
-    """An own machine in motion: what `ilmek mechanism` reports of it.
-
-    analysis  motion, forces, strength, servo, study and forward run, as far as the machine states them
-    report    results by name (`run.report["drive_torque_max"]`), checks, tables, figures
-    """
-
-    analysis: Analysis
-    report: Report
-
-    @property
-    def motion(self) -> Motion:
-        """The motion over the range."""
-        return self.analysis.run.motion
-
-    @property
-    def forces(self) -> Forces | None:
-        """Joint forces and drive efforts by sample; None without masses, loads and friction."""
-        found = self.analysis.run.forces
-        return None if found is None else found.forces
-
-    @property
-    def table(self) -> dict[str, FloatArray]:
-        """All columns of `--csv` by heading, SI and radians."""
-        return columns(self.analysis)
-
-
-def run_machine(
-    machine: OwnMachine | MechanismFile | Mechanism | str | Path,
-    *,
-    over: tuple[float, float] | str = "",
-    speed: float | str = "",
-    steps: int = STEPS,
-    fixed: Mapping[str, float | str] | None = None,
-) -> MachineRun:
-    """Motion, forces and strength of an own machine over a range of its driving input, as `ilmek mechanism` gives them.
-
-    machine  a file or its path, a machine, or a mechanism
-    over     range of the driving input [rad; m], or a text like "0deg..180deg"; default: a full turn
-    speed    of the driving input [rad/s; m/s], or a text like "150rpm"; default: that of the machine, else 1
-    steps    of the range
-    fixed    input -> value [rad; m] or text; with all inputs fixed one pose is computed; default: none
-
-    Raises MechanismError, as for a range in which the mechanism closes nowhere; UnitError for a text that is no
-    quantity.
-    """
-    if isinstance(machine, str | Path):
-        machine = read_mechanism(machine)
-    if isinstance(machine, Mechanism):
-        machine = OwnMachine(as_drawn(machine))
-    file = machine if isinstance(machine, MechanismFile) else MechanismFile(machine)
-    texts = {name: value if isinstance(value, str) else repr(float(value)) for name, value in (fixed or {}).items()}
-    reach = over if isinstance(over, str) else f"{float(over[0])!r}..{float(over[1])!r}"
-    pace = speed if isinstance(speed, str) else repr(float(speed))
-    found = analysis(run(file, MotionRequest(texts, reach, pace, steps)))
-    return MachineRun(found, report(found))
+    given = Arguments("a run", MechanismError)
+    turning = not planned.mechanism.inputs or isinstance(planned.mechanism.inputs[0], Rotation)
+    unit = "rad" if turning else "m"
+    start = given.number("position", position, unit)
+    if turning:
+        given.turning("position", position, ANY_ANGLE)
+    if drive is not None:
+        given.function("drive", drive, "time, position and speed")
+    masses, acting = _inertias(inertias), _loads(given, loads)
+    heavy = given.not_negative("flywheel", flywheel, "kg*m^2" if turning else "kg")
+    reduced = reduce(planned, masses, acting, flywheel=heavy)
+    return forward.forward(
+        reduced,
+        ForwardState(start, given.number("speed", speed, f"{unit}/s")),
+        given.number("duration", duration, "s"),
+        drive=drive,
+        every=None if every is None else given.number("every", every, "s"),
+    )
 
 
 def planned_of(mechanism: Solvable) -> Plan:
-    """The plan of a mechanism. Raises MechanismError where it has none, or for another object."""
+    """The plan of a mechanism.
+
+    Raises MechanismError where it has none, for another object, and for points so far out that millimetres were meant:
+    a file states its units, a mechanism built in Python does not.
+    """
     if isinstance(mechanism, Plan):
         return mechanism
     if isinstance(mechanism, MechanismFile):
         return mechanism.plan()
-    if isinstance(mechanism, Mechanism):
-        return plan(as_drawn(mechanism))
-    raise MechanismError(
-        f"{type(mechanism).__name__} given for a mechanism",
-        allowed="a Mechanism, the result of `read_mechanism`, or a plan",
-    )
-
-
-def _values(values: Values) -> linkage.InputValues:
-    """Sequences as arrays."""
-    if isinstance(values, Mapping):
-        return {name: _array(one) for name, one in values.items()}
-    return _array(values)
-
-
-def _array(values: RealField | Sequence[float]) -> RealField:
-    return np.asarray(values, dtype=float) if isinstance(values, Sequence) else values
+    if not isinstance(mechanism, Mechanism):
+        raise MechanismError(
+            f"{type(mechanism).__name__} given for a mechanism",
+            allowed="a Mechanism, the result of `read_mechanism`, or a plan",
+        )
+    for body in mechanism.bodies:
+        given = Arguments(f"body {body.name!r}", MechanismError)
+        for point, position in body.points.items():
+            given.near_point(f"point {point!r}", position)
+    return plan(as_drawn(mechanism))

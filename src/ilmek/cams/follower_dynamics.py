@@ -158,7 +158,7 @@ def _of_law(law: Law, after: float) -> _Motion:
 
 def _of_programme(programme: CamProgramme) -> _Motion:
     def curve(angle: FloatArray) -> FloatArray:
-        at: FollowerMotion = programme.at(angle)
+        at: FollowerMotion = programme.motion(angle)
         return np.array(at[:3])
 
     kicks = tuple((jump.angle, jump.after - jump.before) for jump in jumps(programme, 1))

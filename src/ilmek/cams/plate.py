@@ -10,6 +10,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from ilmek.arguments import Arguments, Quantities
 from ilmek.arrays import FloatArray
 from ilmek.cams import profile
 from ilmek.cams.programme import CamProgramme, FollowerMotion
@@ -26,6 +27,11 @@ class PlateCam(CamCurves):
     prime_radius   distance of the roller's centre from the axis where the displacement is 0
     offset         of the follower's line from the axis      roller_radius  0: knife edge
     Raises ParameterError where the follower's line misses the prime circle or the roller is as large as it.
+
+    >>> from ilmek import cam_programme, dwell, fall, rise
+    >>> cam = PlateCam(cam_programme(rise("90deg", 0.04), fall("90deg", 0.04), dwell("180deg")), 0.1)
+    >>> complex(cam.surface(0.0)), float(cam.pressure_angle("180deg"))
+    ((0.1+0j), 0.0)
     """
 
     programme: CamProgramme
@@ -35,6 +41,11 @@ class PlateCam(CamCurves):
     flat: ClassVar[bool] = False
 
     def __post_init__(self) -> None:
+        given = Arguments("a plate cam")
+        given.record("programme", self.programme, CamProgramme)
+        for name in ("prime_radius", "offset", "roller_radius"):
+            object.__setattr__(self, name, given.number(name, getattr(self, name), "m"))
+        given.not_negative("roller_radius", self.roller_radius)
         least = self.prime_bounds[0]
         if self.prime_radius <= least:
             shown = format_quantity(self.prime_radius, "mm")
@@ -59,12 +70,12 @@ class PlateCam(CamCurves):
         centre = profile.reach(motion.s, self.prime_radius, self.offset) - 1j * self.offset
         return trace_of_point(angle, motion, (centre, motion.ds, motion.dds), 1.0, self.roller_radius)
 
-    def pressure_angle(self, angle: FloatArray) -> FloatArray:
+    def pressure_angle(self, angle: Quantities) -> FloatArray:
         """Pressure angle [rad] at cam angles [rad]."""
         at = self.programme.at(angle)
         return np.asarray(profile.pressure_angle(at.s, at.ds, self.prime_radius, self.offset))
 
-    def curvature(self, angle: FloatArray) -> FloatArray:
+    def curvature(self, angle: Quantities) -> FloatArray:
         """Curvature of the pitch curve [1/m] at cam angles [rad], positive where convex."""
         at = self.programme.at(angle)
         return np.asarray(profile.curvature(at.s, at.ds, at.dds, self.prime_radius, self.offset))

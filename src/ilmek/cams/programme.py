@@ -20,6 +20,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ilmek.arguments import Arguments, Quantities
 from ilmek.arrays import FloatArray
 from ilmek.cams.segments import CamSegment, OpenSegment, blend, bounds, dwell, even, fall, free, rise
 from ilmek.errors import ParameterError
@@ -47,6 +48,7 @@ __all__ = [
 TURN = 2 * math.pi
 _FIT = 1e-9
 _WHOLE = 4.5e-16
+_GIVEN, _CAM = Arguments("a cam's programme"), Arguments("the cam")
 _DERIVATIVES = ("", "velocity", "acceleration", "jerk")
 
 
@@ -91,6 +93,10 @@ class CamProgramme:
     start     cam angle [rad] where the first segment begins
     revolves  displacement gained per turn [m], for example of an indexing table; 0: the follower returns
     Raises ParameterError where the segments do not fill the turn or do not return, or a law does not go from 0 to 1.
+
+    >>> shed = CamProgramme((rise(2.0, 0.06, "harmonic"), fall(2.0, 0.06, "harmonic"), dwell(TURN - 4.0)))
+    >>> float(shed.at(2.0).s), float(shed.at("1rad").ds) > 0
+    (0.06, True)
     """
 
     segments: tuple[CamSegment, ...]
@@ -98,6 +104,9 @@ class CamProgramme:
     revolves: float = 0.0
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "segments", _GIVEN.sequence("segments", self.segments, CamSegment))
+        object.__setattr__(self, "start", _GIVEN.number("start", self.start, "rad"))
+        object.__setattr__(self, "revolves", _GIVEN.number("revolves", self.revolves, "m"))
         _check_turn(self.segments)
         _check_laws(self.segments)
         left = sum(segment.change for segment in self.segments) - self.revolves
@@ -150,8 +159,15 @@ class CamProgramme:
         """Least and greatest displacement over the first turn [m], including the overshoot of laws."""
         return bounds(self.segments)
 
-    def at(self, angle: FloatArray) -> FollowerMotion:
-        """Motion at cam angles [rad] of any shape and any turn; at a boundary, that of the segment that begins."""
+    def at(self, angle: Quantities) -> FollowerMotion:
+        """Motion at cam angles [rad] of any shape; at a boundary, that of the segment that begins.
+
+        Raises ParameterError for angles that were probably meant in degrees.
+        """
+        return self.motion(cam_angles(angle))
+
+    def motion(self, angle: FloatArray) -> FollowerMotion:
+        """The same at any angles of any turn [rad], as they are."""
         turns, phase = _turn_and_phase(np.asarray(angle - self.start))
         flat = phase.ravel()
         order = None if np.all(flat[1:] >= flat[:-1]) else np.argsort(flat, kind="stable")
@@ -180,6 +196,15 @@ class CamProgramme:
                 here[0], here[1], here[2], here[3] = segment.motion(u)
             here[0] += base
         return rows
+
+
+def cam_angles(angle: Quantities) -> FloatArray:
+    """Cam angles [rad] as an array. Raises ParameterError for those that were probably meant in degrees.
+
+    >>> cam_angles(["90deg", 0.5])
+    array([1.57079633, 0.5       ])
+    """
+    return np.asarray(_CAM.turning("angle", angle, "`CamProgramme.motion`"))
 
 
 def joined(

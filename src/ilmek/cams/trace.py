@@ -19,8 +19,9 @@ from typing import Protocol, runtime_checkable
 
 import numpy as np
 
+from ilmek.arguments import Quantities
 from ilmek.arrays import ComplexArray, ComplexField, FloatArray
-from ilmek.cams.programme import CamProgramme, FollowerMotion
+from ilmek.cams.programme import CamProgramme, FollowerMotion, cam_angles
 from ilmek.plane.vectors import cross, dot, unit
 from ilmek.records import record
 
@@ -130,28 +131,29 @@ class CamCurves(ABC):
     def trace_of(self, angle: FloatArray, motion: FollowerMotion) -> CamTrace:
         """Everything at cam angles [rad] where the follower's motion is known there."""
 
-    def trace(self, angle: FloatArray) -> CamTrace:
+    def trace(self, angle: Quantities) -> CamTrace:
         """The trace at cam angles [rad]."""
-        return self.trace_of(angle, self.programme.at(angle))
+        angles = cam_angles(angle)
+        return self.trace_of(angles, self.programme.motion(angles))
 
-    def pitch(self, angle: FloatArray) -> ComplexArray:
+    def pitch(self, angle: Quantities) -> ComplexArray:
         """Pitch curve at cam angles [rad], in the cam's frame [m]."""
         return self.trace(angle).pitch
 
-    def surface(self, angle: FloatArray) -> ComplexArray:
+    def surface(self, angle: Quantities) -> ComplexArray:
         """Cam surface at cam angles [rad], in the cam's frame [m]."""
         return self.trace(angle).surface
 
-    def cutter_path(self, angle: FloatArray, radius: float) -> ComplexArray:
+    def cutter_path(self, angle: Quantities, radius: float) -> ComplexArray:
         """Path of the centre of a cutter of a radius [m], at cam angles [rad], in the cam's frame [m]."""
         trace = self.trace(angle)
         return trace.parallel(radius - trace.roller_radius)
 
-    def pressure_angle(self, angle: FloatArray) -> FloatArray:
+    def pressure_angle(self, angle: Quantities) -> FloatArray:
         """Pressure angle [rad] at cam angles [rad]."""
         return self.trace(angle).pressure_angle
 
-    def curvature(self, angle: FloatArray) -> FloatArray:
+    def curvature(self, angle: Quantities) -> FloatArray:
         """Curvature of the pitch curve [1/m] at cam angles [rad], positive where convex."""
         return self.trace(angle).curvature
 

@@ -80,6 +80,10 @@ class Chart:
     overlay  half knots and jufti knots; default: none
     Raises CarpetError for knots that are no such indices or not those of the size and quality, for an unknown knot, and
     for an overlay that does not fit; YarnError for a list of no or too many yarns.
+
+    >>> from ilmek import read_yarns
+    >>> Chart([[0, 1], [1, 1]], read_yarns()[:2], "4x4cm", "5x5/dm", "symmetric").counts
+    (1, 3)
     """
 
     knots: Indices

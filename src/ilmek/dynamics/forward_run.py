@@ -7,6 +7,7 @@ from typing import TypeAlias
 
 import numpy as np
 
+from ilmek.arguments import Arguments
 from ilmek.dynamics.events import EventRecord
 from ilmek.dynamics.reduced import ReducedMechanism, Samples
 from ilmek.errors import MechanismError
@@ -73,6 +74,11 @@ class ForwardRun:
     drive_work, load_work          work since the start [J]: of the drive; of the loads except gravity
     end, events                    reason of the end; the events that occurred, in their order
     table_error                    error of the Fourier table, relative to the greatest value; None without a table
+
+    >>> from ilmek import bar, four_bar, simulate
+    >>> run = simulate(four_bar(0.300, 0.060, 0.200, 0.230), {"crank": bar(0, 0.060, mass=0.4)}, 0.2, speed=10)
+    >>> run.end.kind.name, bool(run.energy_error < 1e-6)
+    ('TIME', True)
     """
 
     reduced: ReducedMechanism
@@ -112,6 +118,7 @@ class ForwardRun:
 
         Raises MechanismError that states the number of turns reached: the drive is too weak or the duration too short.
         """
+        turns = Arguments("a run", MechanismError).number("turns", turns)
         required, curve = turns * turn, self.position - self.position[0]
         reached = float(np.max(np.abs(curve)))
         if reached >= required:

@@ -7,13 +7,15 @@
 (0.2691, 3.149)
 """
 
-import cmath
 import math
 from dataclasses import dataclass
 
+from ilmek.arguments import Arguments
 from ilmek.arrays import ComplexField, RealField
 from ilmek.errors import MechanismError
 from ilmek.plane.vectors import dot
+
+_BODY = Arguments("a body", MechanismError)
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,10 +23,13 @@ class Inertia:
     """Mass properties of a rigid body.
 
     mass     [kg], not negative
-    centre   mass centre in the body's frame [m], complex
+    centre   mass centre in the body's frame [m], complex or (x, y)
     moment   moment of inertia about the mass centre [kg m²], not negative
 
     Raises MechanismError for values outside these ranges or not finite.
+
+    >>> Inertia("400g", (0.1, 0.02), 1e-3)
+    Inertia(mass=0.4, centre=(0.1+0.02j), moment=0.001)
     """
 
     mass: float
@@ -32,12 +37,9 @@ class Inertia:
     moment: float
 
     def __post_init__(self) -> None:
-        for name in ("mass", "moment"):
-            value = getattr(self, name)
-            if not (math.isfinite(value) and value >= 0):
-                raise MechanismError(f"{name} of a body is {value:g}", allowed="finite and not negative")
-        if not cmath.isfinite(self.centre):
-            raise MechanismError(f"mass centre of a body is {self.centre}", allowed="finite coordinates")
+        object.__setattr__(self, "mass", _BODY.not_negative("mass", self.mass, "kg"))
+        object.__setattr__(self, "centre", _BODY.point("mass centre", self.centre))
+        object.__setattr__(self, "moment", _BODY.not_negative("moment", self.moment, "kg*m^2"))
 
     def about(self, point: complex) -> float:
         """Moment of inertia about a point [m] of the body's frame: J + m r² [kg m²] [parallel-axis theorem].

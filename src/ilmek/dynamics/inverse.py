@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ilmek.arguments import Arguments
 from ilmek.arrays import BoolArray, ComplexArray, FloatArray, Int8, RealField
 from ilmek.dynamics.equations import Needs, joint_pulls, needs
 from ilmek.dynamics.inertia import Inertia
@@ -27,6 +28,8 @@ from ilmek.linkage.status import Status
 from ilmek.plane.vectors import cross, dot
 from ilmek.records import record
 from ilmek.units import format_quantity
+
+_GIVEN = Arguments("", MechanismError)
 
 MASSLESS = Inertia(0.0, 0j, 0.0)
 
@@ -56,6 +59,12 @@ class Forces:
     load_power    power of the loads, including gravity and friction [W]
     kinetic_rate  time derivative of the kinetic energy [W]
     undetermined  what depends on the tension of belts and chains
+
+    >>> from ilmek import bar, four_bar, inverse_dynamics, solve
+    >>> motion = solve(four_bar(0.300, 0.060, 0.200, 0.230), [0.0, 0.5, 1.0], speed=15.5)
+    >>> forces = inverse_dynamics(motion, {"rocker": bar(0, 0.230, mass=0.4)})
+    >>> forces.effort("crank").shape, bool(abs(forces.pin("B", "rocker") + forces.pin("B", "coupler")).max() == 0)
+    ((3,), True)
     """
 
     motion: Motion
@@ -102,19 +111,15 @@ class Forces:
         Raises MechanismError for an unknown joint, and for a body that it does not connect.
         """
         joint = self.mechanism.joint(name)
-        if on is not None and on not in joint.bodies:
-            joined = " and ".join(joint.bodies)
-            raise MechanismError(f"joint {name!r} does not connect {on!r}", allowed=f"it connects {joined}")
-        return self.reactions[name] if on in (None, receiver(joint)) else -self.reactions[name]
+        body = receiver(joint) if on is None else _GIVEN.one_of(f"body at joint {name!r}", on, joint.bodies)
+        return self.reactions[name] if body == receiver(joint) else -self.reactions[name]
 
     def tooth(self, coupling: str) -> ComplexArray:
         """Tooth force of gears or a rack [N] on the coupling's second body, at the pitch point; complex, per sample.
 
         Along the line of action, at the pressure angle; NaN for a belt. Raises MechanismError for an unknown coupling.
         """
-        if coupling not in {mesh.name for mesh in self.mechanism.couplings}:
-            raise MechanismError(f"{self.mechanism.name} has no coupling {coupling!r}")
-        return self.reactions[coupling]
+        return self.reactions[_GIVEN.one_of("coupling", coupling, (mesh.name for mesh in self.mechanism.couplings))]
 
     def effort(self, entry: str) -> FloatArray:
         """Torque [N m] or force [N] on the driven body, one value per sample.
@@ -123,9 +128,7 @@ class Forces:
 
         Raises MechanismError for an unknown input.
         """
-        if entry not in self.efforts:
-            raise MechanismError(f"no input {entry!r}", allowed=f"inputs: {', '.join(self.efforts)}")
-        return self.efforts[entry]
+        return self.efforts[_GIVEN.one_of("input", entry, self.efforts)]
 
     @property
     def power_residual(self) -> FloatArray:

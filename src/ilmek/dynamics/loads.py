@@ -5,15 +5,21 @@ sample, or functions of the motion (a spring, a fabric's resistance, air drag). 
 frame; torques are positive counter-clockwise.
 """
 
+from __future__ import annotations  # so that `help` shows the aliases
+
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import Protocol, TypeAlias, runtime_checkable
+from typing import Any, Protocol, TypeAlias, runtime_checkable
 
+import numpy as np
+
+from ilmek.arguments import Arguments
 from ilmek.arrays import ComplexField, RealField
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.pose_block import cut
+from ilmek.errors import MechanismError
 from ilmek.linkage.motion import Motion
-from ilmek.records import record
+from ilmek.records import record, shown_value
 
 ForceLaw: TypeAlias = ComplexField | Callable[[Motion], ComplexField]
 """A force [N], complex: a number, one value per sample, or a function of the motion."""
@@ -31,14 +37,18 @@ class Wrench:
     at: complex
     torque: RealField = 0.0
 
-    def part(self, part: slice) -> "Wrench":
+    def part(self, part: slice) -> Wrench:
         """The wrench at the samples `part`."""
         return Wrench(self.body, cut(self.force, part), self.at, cut(self.torque, part))
 
 
 @runtime_checkable
 class Load(Protocol):
-    """A load that can be resolved into wrenches."""
+    """A load that can be resolved into wrenches: `Gravity`, `PointForce`, `Torque`, `Spring`, or a class of one's own.
+
+    >>> isinstance(Gravity(-9.81j), Load)
+    True
+    """
 
     def wrenches(self, motion: Motion, inertias: Mapping[str, Inertia]) -> Iterable[Wrench]:
         """The wrenches of this load over the motion."""
@@ -46,9 +56,22 @@ class Load(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Gravity:
-    """Gravity on every body at its mass centre; `acceleration` [m/s²], complex, such as -9.81j."""
+    """Gravity on every body at its mass centre; `acceleration` [m/s²], complex or (x, y), such as -9.81j.
+
+    Raises MechanismError for a real number other than 0: gravity along x is nearly always a slip.
+
+    >>> Gravity((0, -9.81))
+    Gravity(acceleration=-9.81j)
+    >>> Gravity(9.81)
+    Traceback (most recent call last):
+    ...
+    ilmek.errors.MechanismError: gravity is 9.81 m/s², along x; it is a vector; write -9.81j, or complex(9.81) along x
+    """
 
     acceleration: complex
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "acceleration", gravity_vector(self.acceleration))
 
     def wrenches(self, motion: Motion, inertias: Mapping[str, Inertia]) -> Iterable[Wrench]:  # noqa: ARG002
         """One wrench per body."""
@@ -56,29 +79,79 @@ class Gravity:
             yield Wrench(body, inertia.mass * self.acceleration, inertia.centre)
 
 
+def gravity_vector(acceleration: object) -> complex:
+    """An acceleration of gravity [m/s²]. Raises MechanismError for a real number other than 0."""
+    given = Arguments("gravity", MechanismError)
+    vector = given.point("acceleration", acceleration, unit="m/s^2")
+    if vector and not isinstance(acceleration, complex | np.complexfloating | tuple | list | np.ndarray):
+        size = abs(vector.real)
+        do = f"write -{size:g}j, or complex({vector.real:g}) along x"
+        raise MechanismError(f"gravity is {vector.real:g} m/s², along x", allowed="it is a vector", do=do)
+    return vector
+
+
+def sampled(law: Any, motion: Motion, body: str) -> Any:
+    """A force or torque on a body over the samples of a motion.
+
+    Raises MechanismError for an unknown body and another number of values.
+    """
+    motion.plan.mechanism.body(body)
+    values = law(motion) if callable(law) else law
+    array = np.asarray(values)
+    if array.dtype.kind not in "iufc" or array.shape not in {(), (1,), (len(motion),)}:
+        allowed = f"a number, or one for each of the {len(motion)} samples"
+        raise MechanismError(f"the load on {body!r} is {shown_value(values)}", allowed=allowed)
+    return values
+
+
 @record
 class PointForce:
-    """A force [N] on a point of a body, given by its name or by its position in the body's frame [m]."""
+    """A force [N] on a point of a body, given by its name or by its position in the body's frame [m].
+
+    The force is complex or (x, y): constant, an array of one per sample (NaN where there is none), or a function of the
+    motion.
+
+    >>> PointForce("rocker", "E", (0, -60)).force
+    -60j
+    """
 
     body: str
     point: str | complex
     force: ForceLaw
 
+    def __post_init__(self) -> None:
+        given = Arguments("a point force", MechanismError)
+        object.__setattr__(self, "body", given.text("body", self.body))
+        if not isinstance(self.point, str):
+            object.__setattr__(self, "point", given.point("point", self.point))
+        if not callable(self.force):
+            object.__setattr__(self, "force", given.vectors("force", self.force, "N"))
+
     def wrenches(self, motion: Motion, inertias: Mapping[str, Inertia]) -> Iterable[Wrench]:  # noqa: ARG002
         """One wrench."""
-        force = self.force(motion) if callable(self.force) else self.force
+        force = sampled(self.force, motion, self.body)
         local = motion.plan.mechanism.point(self.body, self.point) if isinstance(self.point, str) else self.point
         yield Wrench(self.body, force, local)
 
 
 @record
 class Torque:
-    """A torque [N m] on a body, counter-clockwise."""
+    """A torque [N m] on a body, counter-clockwise: constant, an array of one per sample, or a function of the motion.
+
+    >>> Torque("rocker", "5N*m").torque
+    5.0
+    """
 
     body: str
     torque: TorqueLaw
 
+    def __post_init__(self) -> None:
+        given = Arguments("a torque", MechanismError)
+        object.__setattr__(self, "body", given.text("body", self.body))
+        if not callable(self.torque):
+            object.__setattr__(self, "torque", given.values("torque", self.torque, "N*m", finite=False))
+
     def wrenches(self, motion: Motion, inertias: Mapping[str, Inertia]) -> Iterable[Wrench]:  # noqa: ARG002
         """One wrench."""
-        torque = self.torque(motion) if callable(self.torque) else self.torque
+        torque = sampled(self.torque, motion, self.body)
         yield Wrench(self.body, 0j, 0j, torque)

@@ -6,12 +6,15 @@ computed here. All quantities are SI; angles are in radians.
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from typing import TypeAlias
 
+from ilmek.arguments import Arguments
 from ilmek.arrays import FloatArray
 from ilmek.dynamics.inertia import Inertia
-from ilmek.dynamics.joint_friction import JointFriction
-from ilmek.dynamics.loads import Load
+from ilmek.dynamics.joint_friction import JointFriction, PinFriction, SlideFriction
+from ilmek.dynamics.loads import Load, gravity_vector
+from ilmek.errors import MechanismError
 from ilmek.linkage.model import Mechanism
 from ilmek.records import record
 
@@ -146,6 +149,12 @@ class OwnMachine:
     servo      input for which a motor of the catalogue is chosen; None: none
     paths      (body, point) of each point whose path is drawn and listed; (): all points that are no joints
     transmission  pins at which the transmission angle is listed; (): every free pin of a dyad
+
+    Raises MechanismError for a value of another kind.
+
+    >>> from ilmek import four_bar
+    >>> OwnMachine(four_bar(0.300, 0.060, 0.200, 0.230), {"rocker": Inertia(0.4, 0.115, 0.002)}, (0, -9.81)).gravity
+    -9.81j
     """
 
     mechanism: Mechanism
@@ -161,6 +170,27 @@ class OwnMachine:
     servo: str | None = None
     paths: tuple[tuple[str, str], ...] = ()
     transmission: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        given = Arguments("a machine", MechanismError)
+        given.record("mechanism", self.mechanism, Mechanism)
+        object.__setattr__(self, "gravity", gravity_vector(self.gravity))
+        for name, kind in (
+            ("inertias", Inertia),
+            ("members", FlatMember),
+            ("pins", PinMember),
+            ("motions", GivenMotion),
+        ):
+            object.__setattr__(self, name, given.mapping(name, getattr(self, name), partial(given.record, kind=kind)))
+        for body in (*self.inertias, *self.members):
+            self.mechanism.body(body)
+        for name, kinds in (("loads", NamedLoad), ("frictions", (PinFriction, SlideFriction)), ("transmission", str)):
+            object.__setattr__(self, name, given.sequence(name, getattr(self, name), kinds))
+        for name, optional in (("forward", ForwardTask), ("study", SpeedStudy), ("servo", str)):
+            if getattr(self, name) is not None:
+                given.record(name, getattr(self, name), optional)
+        paths = given.sequence("paths", self.paths, (tuple, list))
+        object.__setattr__(self, "paths", tuple(given.pair("a path", path, "(body, point)") for path in paths))
 
     @property
     def has_forces(self) -> bool:

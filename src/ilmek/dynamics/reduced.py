@@ -118,8 +118,8 @@ def reduce(
     loads     loads such as `Gravity`; default: none
     flywheel  inertia that moves with the input [kg m²; kg for a sliding input]
 
-    Raises MechanismError for several inputs, an unknown body, a negative flywheel, a load given by sample, gravity that
-    is not finite, and a mechanism in which no mass moves with the input.
+    Raises MechanismError for several inputs, an unknown body, a negative flywheel, a load given by sample, and
+    a mechanism in which no mass moves with the input.
     """
     mechanism = plan.mechanism
     if len(mechanism.inputs) != 1:
@@ -135,11 +135,6 @@ def reduce(
     if flywheel == 0 and not any(inertia.mass or inertia.moment for inertia in moving.values()):
         raise MechanismError(f"no body of {mechanism.name} has a mass", do="give inertias, or a flywheel")
     weights = tuple(load for load in loads if isinstance(load, Gravity))
-    for load in weights:
-        if not np.isfinite(load.acceleration):
-            raise MechanismError(
-                f"gravity of {mechanism.name} is {load.acceleration}", allowed="a finite acceleration in m/s²"
-            )
     others = [load for load in loads if not isinstance(load, Gravity)]
     steady, live = ([load for load in others if _steady(load) is kind] for kind in (True, False))
     return ReducedMechanism(plan, moving, weights, tuple(steady), tuple(live), flywheel)

@@ -4,12 +4,12 @@ Either body may be the ground. The forces on the two bodies are equal and opposi
 move together.
 """
 
-import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
+from ilmek.arguments import Arguments
 from ilmek.dynamics.attached import attached
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.loads import Wrench
@@ -17,6 +17,8 @@ from ilmek.errors import MechanismError
 from ilmek.linkage.followed import followed_angle
 from ilmek.linkage.motion import Motion
 from ilmek.plane.vectors import dot
+
+_SPRING = Arguments("a spring", MechanismError)
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,6 +32,9 @@ class Spring:
 
     The force is NaN where the points coincide: it has no direction there. Raises MechanismError for values that are
     negative or not finite.
+
+    >>> Spring("ground", "S", "rocker", "E", stiffness="2N/mm", length=0.1).stiffness
+    2000.0
     """
 
     first: str
@@ -41,8 +46,10 @@ class Spring:
     damping: float = 0.0
 
     def __post_init__(self) -> None:
-        for name in ("stiffness", "length", "damping"):
-            _require(name, getattr(self, name), least=0.0)
+        for name in ("first", "first_point", "second", "second_point"):
+            object.__setattr__(self, name, _SPRING.text(name, getattr(self, name)))
+        for name, unit in (("stiffness", "N/m"), ("length", "m"), ("damping", "N*s/m")):
+            object.__setattr__(self, name, _SPRING.not_negative(name, getattr(self, name), unit))
 
     def wrenches(self, motion: Motion, inertias: Mapping[str, Inertia]) -> Iterable[Wrench]:  # noqa: ARG002
         """The force on each of the two bodies, one value per sample."""
@@ -79,9 +86,9 @@ class TorsionSpring:
     damping: float = 0.0
 
     def __post_init__(self) -> None:
-        for name in ("stiffness", "damping"):
-            _require(name, getattr(self, name), least=0.0)
-        _require("angle", self.angle, least=-math.inf)
+        for name, unit in (("stiffness", "N*m/rad"), ("damping", "N*m*s/rad")):
+            object.__setattr__(self, name, _SPRING.not_negative(name, getattr(self, name), unit))
+        object.__setattr__(self, "angle", _SPRING.number("angle", self.angle, "rad"))
 
     def wrenches(self, motion: Motion, inertias: Mapping[str, Inertia]) -> Iterable[Wrench]:  # noqa: ARG002
         """The torque on the second body, and the opposite torque on the first, one value per sample."""
@@ -89,9 +96,3 @@ class TorsionSpring:
         spin = motion.omega(self.second) - motion.omega(self.first)
         torque = -self.stiffness * wound - self.damping * spin
         return Wrench(self.first, 0j, 0j, -torque), Wrench(self.second, 0j, 0j, torque)
-
-
-def _require(name: str, value: float, *, least: float) -> None:
-    if not (math.isfinite(value) and value >= least):
-        allowed = "a finite number" if least < 0 else "finite and not negative"
-        raise MechanismError(f"{name} of a spring is {value:g}", allowed=allowed)

@@ -143,7 +143,7 @@ def read_order(
         "pdf": pdf,
         "notes": None if quality is None else tuple(filter(None, (gereh_note(quality),))),
     }
-    groups = read_groups({**({} if found is None else found.settings), **_given(settings)})
+    groups = read_groups({**({} if found is None else found.settings), **by_name(_given(settings))})
     return _checked(replace(base, **_given(given), **groups))
 
 
@@ -206,15 +206,34 @@ def _given(settings: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def read_groups(settings: Mapping[str, Setting]) -> dict[str, Any]:
-    """The groups of parameters from settings by name; None: the default. Raises ParameterError."""
-    own = {parameter.name: group for group, cls in GROUPS.items() for parameter in declared(cls)}
+    """The groups of parameters from settings by name or by option; None: the default. Raises ParameterError.
+
+    >>> read_groups({"read": "photo"})["reading"].reading
+    'photo'
+    """
     sorted_settings: dict[str, dict[str, Setting]] = {group: {} for group in GROUPS}
-    for name, setting in settings.items():
-        if name not in own:
-            raise ParameterError(f"unknown parameter {name!r} of a carpet", do=did_you_mean(name, own))
+    groups = {parameter.name: group for group, cls in GROUPS.items() for parameter in declared(cls)}
+    for name, setting in by_name(settings).items():
         if setting is not None:
-            sorted_settings[own[name]][name] = setting
+            sorted_settings[groups[name]][name] = setting
     return {group: cls.read(sorted_settings[group]) for group, cls in GROUPS.items()}
+
+
+def by_name(settings: Mapping[str, Setting]) -> dict[str, Setting]:
+    """Settings by the names of their parameters, of settings by name or by option.
+
+    Raises ParameterError for an unknown name, and for a parameter set by its name and by its option.
+    """
+    known = recipe_parameters()
+    named: dict[str, Setting] = {}
+    for name, setting in settings.items():
+        if name not in known:
+            raise ParameterError(f"unknown parameter {name!r} of a carpet", do=did_you_mean(name, known))
+        own = known[name].name
+        if own in named:
+            raise ParameterError(f"{own} is set twice, once as {name}", do="set it once")
+        named[own] = setting
+    return named
 
 
 def check_sheets(size: CarpetSize, quality: Quality, order: CarpetOrder) -> None:

@@ -10,124 +10,33 @@ A mechanism is data. `structure.plan` finds the order of solution, `solve.solve`
 1
 """
 
-import cmath
-import math
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from typing import TypeAlias, TypeVar
 
+from ilmek.arguments import Arguments
 from ilmek.errors import MechanismError, did_you_mean
+from ilmek.linkage.joints import GROUND, Body, Displacement, Pin, Rotation, Slide, about, set_texts
 from ilmek.plane.teeth import PRESSURE_ANGLE
-from ilmek.records import brief
+from ilmek.records import brief, shown_value
 from ilmek.units import deg
 
-GROUND = "ground"
-"""The fixed body; its frame is the world."""
-
-
-@dataclass(frozen=True, slots=True)
-class Body:
-    """A rigid body: named points in its own frame [m].
-
-    The frame is free to choose; the origin need not be a point of the body. The body named "ground" is fixed and
-    its frame is the world.
-    """
-
-    name: str
-    points: Mapping[str, complex]
-
-    def __post_init__(self) -> None:
-        points = {name: complex(point) for name, point in self.points.items()}
-        for name, point in points.items():
-            if not cmath.isfinite(point):
-                given = f"point {name!r} of body {self.name!r} is {point}"
-                raise MechanismError(given, allowed="finite coordinates", about=("bodies", self.name, "points", name))
-        object.__setattr__(self, "points", points)
-
-    def __hash__(self) -> int:
-        return hash((self.name, tuple(sorted(self.points))))
-
-    def __repr__(self) -> str:
-        return brief(self)
-
-
-@dataclass(frozen=True, slots=True)
-class Pin:
-    """A turning joint: two bodies at the point that both carry under the pin's name.
-
-    The order of the bodies defines the branch of a group with this pin as its free pin: with +1 the pin is on the left
-    of the line from the known pin of `first` to the known pin of `second`.
-    """
-
-    name: str
-    first: str
-    second: str
-
-    @property
-    def bodies(self) -> tuple[str, str]:
-        """The two joined bodies."""
-        return self.first, self.second
-
-
-@dataclass(frozen=True, slots=True)
-class Slide:
-    """A sliding joint: a point of `body` moves along a line of `guide`; the angle between the bodies is fixed.
-
-    The line goes through the guide's point of the slide's name, in direction `along` [rad] of the guide's frame; the
-    body's point of the slide's name lies on it, `s` metres from the guide's point. The body has the angle `turned`
-    [rad] against the guide. An offset slider is one whose line misses the crank's pivot; the guide may move.
-    """
-
-    name: str
-    body: str
-    guide: str
-    along: float = 0.0
-    turned: float = 0.0
-
-    @property
-    def bodies(self) -> tuple[str, str]:
-        """The two joined bodies: the sliding body and the guide."""
-        return self.body, self.guide
-
-
-@dataclass(frozen=True, slots=True)
-class Rotation:
-    """An input that turns `body` about the pin `about`: the angle [rad] against the other body at that pin.
-
-    For a pin on the ground that is the angle of the body in the world, counter-clockwise from x.
-    """
-
-    body: str
-    about: str
-
-    @property
-    def name(self) -> str:
-        """Name of the input in `solve`: the name of the body."""
-        return self.body
-
-    @property
-    def joint(self) -> str:
-        """The joint that it drives."""
-        return self.about
-
-
-@dataclass(frozen=True, slots=True)
-class Displacement:
-    """An input that shifts a slide: the distance s [m] from the guide's point along the line."""
-
-    slide: str
-
-    @property
-    def name(self) -> str:
-        """Name of the input in `solve`: the name of the slide."""
-        return self.slide
-
-    @property
-    def joint(self) -> str:
-        """The joint that it drives."""
-        return self.slide
+__all__ = [
+    "GROUND",
+    "KINDS",
+    "Body",
+    "Coupling",
+    "Displacement",
+    "Input",
+    "Joint",
+    "Mechanism",
+    "Pin",
+    "Rotation",
+    "Slide",
+    "degrees_of_freedom",
+]
 
 
 GREATEST_PRESSURE_ANGLE = 45 * deg
@@ -151,6 +60,9 @@ class Coupling:
 
     Angles determined by inputs and ratios alone count full turns. Any other angle of `first` (or `second`) is assumed
     to be within half a turn of `first_at` (`second_at`).
+
+    >>> Coupling("mesh", "gears", ("pinion", "P0"), ("wheel", "W0"), ratio=-20 / 60, first_at=0, second_at=0).bodies
+    ('pinion', 'wheel', 'ground')
     """
 
     name: str
@@ -162,6 +74,20 @@ class Coupling:
     second_at: float
     carrier: str = GROUND
     pressure_angle: float = PRESSURE_ANGLE
+
+    def __post_init__(self) -> None:
+        set_texts(self, "name", "kind", "carrier")
+        given = Arguments(f"coupling {self.name!r}", MechanismError)
+        rack = self.kind == "rack"
+        with about("couplings", self.name):
+            for name in ("first", "second"):
+                body, point = given.pair(name, getattr(self, name), "(body, point)")
+                wheel = given.text(f"body of {name}", body), given.text(f"point of {name}", point)
+                object.__setattr__(self, name, wheel)
+            units = {"ratio": "m" if rack else "", "first_at": "rad", "second_at": "m" if rack else "rad"}
+            units["pressure_angle"] = "rad"
+            for name, unit in units.items():
+                object.__setattr__(self, name, given.number(name, getattr(self, name), unit))
 
     @property
     def bodies(self) -> tuple[str, str, str]:
@@ -193,6 +119,14 @@ class Mechanism:
     Raises MechanismError for a name used twice or unknown, a body that no joint holds, a link of zero length, a
     branch that is neither +1 nor -1, a pose that is not finite. The degrees of freedom are checked by `structure.plan`,
     so that an over-constrained mechanism can be examined too (`mobility`).
+
+    >>> press = Mechanism(
+    ...     bodies=[Body("ground", {"line": 0}), Body("ram", {"line": 0})],
+    ...     joints=[Slide("line", "ram", "ground")],
+    ...     inputs=[Displacement("line")],
+    ... )
+    >>> press.moving
+    ('ram',)
     """
 
     bodies: tuple[Body, ...]
@@ -204,10 +138,14 @@ class Mechanism:
     couplings: tuple[Coupling, ...] = ()
 
     def __post_init__(self) -> None:
-        for one in ("bodies", "joints", "inputs", "couplings"):
-            object.__setattr__(self, one, tuple(getattr(self, one)))
-        object.__setattr__(self, "branches", dict(self.branches))
-        object.__setattr__(self, "pose", dict(self.pose))
+        given = Arguments("a mechanism", MechanismError)
+        kinds = {"bodies": Body, "joints": (Pin, Slide), "inputs": (Rotation, Displacement), "couplings": Coupling}
+        object.__setattr__(self, "name", given.text("name", self.name))
+        for name, kind in kinds.items():
+            object.__setattr__(self, name, given.sequence(name, getattr(self, name), kind))
+        branches = given.mapping("branches", self.branches, partial(given.whole, least=-1, most=1))
+        object.__setattr__(self, "branches", branches)
+        object.__setattr__(self, "pose", given.mapping("pose", self.pose, partial(_pose, given)))
         _check(self)
 
     def __hash__(self) -> int:
@@ -227,9 +165,11 @@ class Mechanism:
     def point(self, body: str, point: str) -> complex:
         """A body's point in the body's frame [m]."""
         points = self.body(body).points
-        if point not in points:
+        if not isinstance(point, str) or point not in points:
             known = ", ".join(points) or "none"
-            raise MechanismError(f"body {body!r} of {self.name} has no point {point!r}", allowed=f"it has {known}")
+            raise MechanismError(
+                f"body {body!r} of {self.name} has no point {shown_value(point)}", allowed=f"it has {known}"
+            )
         return points[point]
 
     @property
@@ -238,13 +178,21 @@ class Mechanism:
         return tuple(body.name for body in self.bodies if body.name != GROUND)
 
 
+def _pose(given: Arguments, name: str, pose: object) -> tuple[complex, float]:
+    """Origin [m] and angle [rad] of a body."""
+    origin, angle = given.pair(name, pose, "(origin, angle)")
+    return given.point(f"origin of {name}", origin), given.number(f"angle of {name}", angle, "rad")
+
+
 def degrees_of_freedom(mechanism: Mechanism) -> int:
     """Degrees of freedom [1] with free inputs, 3 bodies - 2 joints - couplings [Gruebler; Norton, chapter 2]."""
     return 3 * len(mechanism.moving) - 2 * len(mechanism.joints) - len(mechanism.couplings)
 
 
 def _find(name: str, among: Iterable[Named], kind: str, of: str) -> Named:
-    known = {one.name: one for one in among}
+    known = {entry.name: entry for entry in among}
+    if not isinstance(name, str):
+        raise MechanismError(f"{shown_value(name)} given for a {kind} of {of}", allowed="its name")
     if name in known:
         return known[name]
     allowed = f"it has {', '.join(known) or 'none'}"
@@ -254,42 +202,32 @@ def _find(name: str, among: Iterable[Named], kind: str, of: str) -> Named:
 def _check(mechanism: Mechanism) -> None:
     _check_names(mechanism)
     for joint in mechanism.joints:
-        with _about("joints", joint.name):
+        with about("joints", joint.name):
             _check_joint(mechanism, joint)
     for coupling in mechanism.couplings:
-        with _about("couplings", coupling.name):
+        with about("couplings", coupling.name):
             _check_coupling(mechanism, coupling)
     for entry in mechanism.inputs:
-        with _about("inputs", entry.joint):
+        with about("inputs", entry.joint):
             _check_input(mechanism, entry)
     for name in mechanism.moving:
-        with _about("bodies", name):
+        with about("bodies", name):
             _check_joined(mechanism, name)
     for name, branch in mechanism.branches.items():
-        with _about("branches", name):
+        with about("branches", name):
             _check_branch(mechanism, name, branch)
-    for name, (origin, angle) in mechanism.pose.items():
-        with _about("pose", name):
-            _check_pose(mechanism, name, origin, angle)
-
-
-@contextmanager
-def _about(*path: str) -> Iterator[None]:
-    """Attribute errors without an entry of their own to this entry."""
-    try:
-        yield
-    except MechanismError as error:
-        error.about = error.about or path
-        raise
+    for name in mechanism.pose:
+        with about("pose", name):
+            mechanism.body(name)
 
 
 def _check_names(mechanism: Mechanism) -> None:
     for kind in ("bodies", "joints", "inputs", "couplings"):
         named = getattr(mechanism, kind)
-        for name, times in Counter(one.name for one in named).items():
+        for name, times in Counter(entry.name for entry in named).items():
             if times > 1:
                 raise MechanismError(f"{mechanism.name} has {times} {kind} named {name!r}", do="give each its own name")
-    for name in {joint.name for joint in mechanism.joints} & {one.name for one in mechanism.couplings}:
+    for name in {joint.name for joint in mechanism.joints} & {coupling.name for coupling in mechanism.couplings}:
         given = f"{mechanism.name} has a joint and a coupling named {name!r}"
         raise MechanismError(given, do="give each its own name", about=("couplings", name))
     if GROUND not in {body.name for body in mechanism.bodies}:
@@ -302,8 +240,6 @@ def _check_joint(mechanism: Mechanism, joint: Joint) -> None:
         raise MechanismError(f"joint {joint.name!r} of {mechanism.name} joins {joint.bodies[0]!r} to itself")
     for body in joint.bodies:
         mechanism.point(body, joint.name)
-    if isinstance(joint, Slide) and not (math.isfinite(joint.along) and math.isfinite(joint.turned)):
-        raise MechanismError(f"slide {joint.name!r} has along={joint.along}, turned={joint.turned}: angles in radians")
 
 
 def _check_coupling(mechanism: Mechanism, coupling: Coupling) -> None:
@@ -315,10 +251,8 @@ def _check_coupling(mechanism: Mechanism, coupling: Coupling) -> None:
     for body, point in (coupling.first, coupling.second):
         mechanism.point(body, point)
     mechanism.body(coupling.carrier)
-    numbers = (coupling.ratio, coupling.first_at, coupling.second_at)
-    if not all(math.isfinite(number) for number in numbers) or coupling.ratio == 0:
-        given = f"{subject} has ratio {coupling.ratio:g}, assembled at {coupling.first_at:g} and {coupling.second_at:g}"
-        raise MechanismError(given, allowed="finite numbers, the ratio not 0")
+    if coupling.ratio == 0:
+        raise MechanismError(f"{subject} has ratio 0", allowed="another number")
     if not 0 <= coupling.pressure_angle <= GREATEST_PRESSURE_ANGLE:
         given = f"{subject} has a pressure angle of {coupling.pressure_angle:g} rad"
         raise MechanismError(given, allowed="0 to 45deg", do="teeth have 20deg, as a rule")
@@ -362,10 +296,3 @@ def _check_branch(mechanism: Mechanism, name: str, branch: int) -> None:
     mechanism.joint(name)
     if branch not in (+1, -1):
         raise MechanismError(f"branch of {name!r} in {mechanism.name} is {branch!r}", allowed="+1 or -1")
-
-
-def _check_pose(mechanism: Mechanism, name: str, origin: complex, angle: float) -> None:
-    mechanism.body(name)
-    if not (cmath.isfinite(origin) and math.isfinite(angle)):
-        given = f"pose of {name!r} in {mechanism.name} is {origin}, {angle}"
-        raise MechanismError(given, allowed="a finite origin [m] and angle [rad]")

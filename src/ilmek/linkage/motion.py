@@ -5,7 +5,9 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from ilmek.arguments import Arguments
 from ilmek.arrays import Complex, ComplexField, Float, Int8, RealField
+from ilmek.errors import MechanismError
 from ilmek.linkage.body_jerk import STILL_JERK, BodyJerk
 from ilmek.linkage.body_motion import STILL, BodyMotion, PointMotion
 from ilmek.linkage.faults import first_fault
@@ -31,6 +33,13 @@ class Motion:
     samples, and may be a read-only view. NaN where a sample is not solved.
 
     status  Status of each sample (int8)        drives  the inputs' motions by name
+
+    >>> from ilmek import four_bar, solve
+    >>> motion = solve(four_bar(0.300, 0.060, 0.200, 0.230), [0.0, 0.5, 1.0], speed=15.5)
+    >>> motion
+    <Motion of four-bar: 3 of 3 samples solved>
+    >>> bool(abs(motion.point("crank", "A").velocity[0] - 0.93j) < 1e-12)
+    True
     """
 
     plan: Plan
@@ -52,9 +61,9 @@ class Motion:
 
     def body(self, name: str) -> BodyMotion:
         """A body's motion, constants as plain numbers. Raises MechanismError for an unknown body."""
+        self.plan.mechanism.body(name)
         if name == GROUND:
             return STILL
-        self.plan.mechanism.body(name)
         step = self.plan.step_of(name)
         known = {parent: self.body(parent) for parent in step.parents}
         with np.errstate(invalid="ignore", over="ignore"):  # at a dead centre rates are infinite; `status` says so
@@ -78,6 +87,7 @@ class Motion:
 
     def pose(self, sample: int = 0) -> dict[str, tuple[complex, float]]:
         """Body -> (origin [m], angle [rad]) at one sample, in the form of a mechanism's `pose`."""
+        sample = Arguments("a motion", MechanismError).whole("sample", sample, least=-len(self), most=len(self) - 1)
         return {
             body: (complex(self.origin(body)[sample]), float(np.angle(self.direction(body)[sample])))
             for body in self.plan.mechanism.moving
@@ -116,9 +126,9 @@ class Motion:
 
     def _jerk(self, name: str) -> BodyJerk:
         """A body's motion with its jerk, from those of the bodies to which it is attached."""
+        self.plan.mechanism.body(name)
         if name == GROUND:
             return STILL_JERK
-        self.plan.mechanism.body(name)
         step = self.plan.step_of(name)
         known = {parent: self._jerk(parent) for parent in step.parents}
         columns = {body: self.columns[body] for body in step.bodies}

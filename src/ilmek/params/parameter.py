@@ -6,6 +6,7 @@ import typing
 from dataclasses import dataclass
 
 from ilmek.errors import ParameterError, UnitError
+from ilmek.records import shown_value
 from ilmek.units import GREATEST, LEAST, format_quantity, has_unit, parse_quantity, parse_unit, similar_units
 
 Value: typing.TypeAlias = float | int | bool | str | None
@@ -50,7 +51,7 @@ class Parameter:
         Raises ParameterError where the text is no value of this kind, or has no unit where one is required.
         """
         if not isinstance(setting, str):
-            return setting
+            return self._plain(setting)
         text = setting.strip()
         try:
             if self.kind is str or text.lower() in self.choices:
@@ -70,6 +71,14 @@ class Parameter:
         if has_unit(text) and abs(number) <= GREATEST and not self.within(number):
             raise self._out_of_bounds(number)
         return self._whole(number, setting) if self.kind is int else number
+
+    def _plain(self, setting: object) -> Value:
+        """A setting that is no text, as a plain value of Python."""
+        value = setting.item() if hasattr(setting, "item") and getattr(setting, "shape", None) == () else setting
+        if value is not None and not isinstance(value, bool | int | float | str):
+            given = f"{self.name} is {shown_value(value)}"
+            raise ParameterError(given, allowed=self.allowed() or "a number or a text")
+        return value
 
     def _whole(self, number: float, setting: Setting) -> int:
         if number != round(number):

@@ -4,8 +4,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any, TypeVar
 
-from ilmek.errors import did_you_mean
-from ilmek.records import record
+from ilmek.errors import ParameterError, did_you_mean
+from ilmek.records import record, shown_value
 from ilmek.report.bill import Part
 from ilmek.report.check import Check
 from ilmek.report.choice import Choice
@@ -22,6 +22,12 @@ NEAREST = "nearest"
 _Named = TypeVar("_Named", Plate, CamTable)
 
 
+class UnknownResult(ParameterError, KeyError):
+    """A result that a report does not have."""
+
+    __str__ = Exception.__str__  # that of KeyError would put quotation marks around the message
+
+
 @record
 class Report:
     """What a design reports; `children` are the reports of the machines in it.
@@ -30,6 +36,10 @@ class Report:
     their machine: `all_checks`, `all_warnings`, `all_plates`, `all_cam_tables`. `headline` names results that stand at
     the top level of the JSON too. `self_tests` are tests of the computation, not of the machine: power balances,
     closure; one that fails is among `checks` too. `lead` is a sentence that stands below the title of its page.
+
+    >>> report = Report("press", "Press", {}, (Result("force", 60.0, "N", "greatest force"),), ())
+    >>> report["force"], report.failed
+    (60.0, ())
     """
 
     machine: str
@@ -124,8 +134,10 @@ class Report:
     def __getitem__(self, name: str) -> Json:
         """The value of a result [SI] by its name, of a machine in it by a dotted name: `beat_up.crank`.
 
-        Raises KeyError, naming the nearest, for any other; `names` lists them.
+        Raises UnknownResult, naming the nearest, for any other; `names` lists them.
         """
+        if not isinstance(name, str):
+            raise UnknownResult(f"{shown_value(name)} given for a result of {self.machine}", allowed="its name")
         head, dot, rest = name.partition(".")
         if dot:
             for child in self.children:
@@ -135,7 +147,7 @@ class Report:
             if result.name == name:
                 return result.value
         hint = did_you_mean(name, self.names(), otherwise="its names() lists them")
-        raise KeyError(f"{self.machine} has no result {name!r}; {hint}")
+        raise UnknownResult(f"{self.machine} has no result {name!r}", do=hint)
 
     def names(self) -> Iterator[str]:
         """The names of all results, dotted for the machines in it."""

@@ -16,7 +16,7 @@ from ilmek.arrays import Float, FloatArray
 from ilmek.errors import ParameterError
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
-from ilmek.records import record
+from ilmek.records import record, shown_value
 from ilmek.synthesis.four_bar import FourBar
 from ilmek.synthesis.task import PrecisionTask
 from ilmek.units import deg
@@ -61,8 +61,12 @@ class Function:
     @property
     def range(self) -> tuple[float, float]:
         """The values y0, y1 at both ends of x."""
-        first, last = self.f(np.array([self.start, self.stop]))
-        return float(first), float(last)
+        ends = np.array([self.start, self.stop])
+        values = np.asarray(self.f(ends))
+        if values.shape != ends.shape or values.dtype.kind not in "iuf":
+            given = f"the function of an array of 2 numbers is {shown_value(values)}"
+            raise ParameterError(given, allowed="an array of as many real numbers", do="write it with numpy")
+        return float(values[0]), float(values[1])
 
     def crank(self, x: FloatArray) -> FloatArray:
         """Rotation of the crank from `start` to x [rad]."""

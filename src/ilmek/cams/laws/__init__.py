@@ -27,6 +27,7 @@ from ilmek.cams.laws import (
 )
 from ilmek.cams.laws.law import NONE, REST, Law, LawFamily, Parameters, fixed
 from ilmek.errors import ParameterError
+from ilmek.records import shown_value
 
 __all__ = ["FAMILIES", "LAWS", "REST", "SMOOTH_LAWS", "Law", "Parameters", "law_of"]
 
@@ -105,7 +106,7 @@ def _number(law: str, key: str, given: object) -> float:
     except OverflowError:
         raise ParameterError(f"law {law}: {key} has too many digits", allowed="a number up to 1e308") from None
     except (TypeError, ValueError) as error:
-        raise ParameterError(f"law {law}: {key}={given!r}", allowed="a number") from error
+        raise ParameterError(f"law {law}: {key} is {shown_value(given)}", allowed="a number") from error
 
 
 def _perhaps(name: str, known: Mapping[str, object]) -> str:

@@ -72,6 +72,8 @@ def looks_flat(rgb: Rgb) -> Flatness:
     """Whether a picture is a drawing: few true colours, which nearly all of its pixels have."""
     seen = survey(np.ascontiguousarray(rgb))
     true = true_colours(seen)
+    if not len(true.srgb):
+        return Flatness(False, 0, 0.0, "no drawing: it has no true colour", true)
     near, explained, variance = _near(seen, true), _explained(seen, true), _variance(seen, true)
     slope, most = _slope(seen, true), max(_LEAST_SLOPE, _SLOPE + _SLOPE_NOISE * true.noise)
     one = len(true.srgb) == 1

@@ -185,6 +185,8 @@ def _without_blends(
     survey: Survey, srgb: UInt8[np.ndarray, "colours 3"], even: BoolArray
 ) -> UInt8[np.ndarray, "colours 3"]:
     """The colours without those that occur on edges and are blends of others."""
+    if not len(srgb):
+        return srgb
     ridge = ~even & (survey.ridge >= np.maximum(40, survey.ramp))
     labs = srgb_to_lab(srgb)
     label = np.empty((1, len(survey.codes)), dtype=np.uint8)

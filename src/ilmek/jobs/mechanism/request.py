@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from ilmek.arguments import Arguments, Quantity
 from ilmek.arrays import FloatArray, RealField
 from ilmek.dynamics.input_loads import jumps
 from ilmek.dynamics.own_machine import GivenMotion, OwnMachine
@@ -11,7 +12,7 @@ from ilmek.errors import MechanismError
 from ilmek.linkage.model import Input, Rotation
 from ilmek.linkage.structure import Plan
 from ilmek.records import record
-from ilmek.units import has_unit, parse_quantity, turn
+from ilmek.units import turn
 
 STEPS = 360
 """Default number of steps of a range."""
@@ -25,17 +26,17 @@ HALVINGS = 50
 
 @record
 class MotionRequest:
-    """The motion of a mechanism, as texts with units.
+    """The motion of a mechanism, as texts with units or as numbers in SI.
 
     fixed  input -> value; "" for the only input. At most one input without a motion of its own is left to drive
-    over   range "FROM..TO" of the driving input; default: a full turn, or the period of its motion
+    over   range "FROM..TO" of the driving input, or its ends; default: a full turn, or the period of its motion
     speed  of the driving input; default: that of its motion in the file, else 1 rad/s or 1 m/s
     steps  number of steps of the range
     """
 
-    fixed: Mapping[str, str]
-    over: str = ""
-    speed: str = ""
+    fixed: Mapping[str, Quantity]
+    over: str | tuple[Quantity, Quantity] = ""
+    speed: Quantity = ""
     steps: int = STEPS
 
 
@@ -80,7 +81,7 @@ def driven_inputs(machine: OwnMachine, plan: Plan, request: MotionRequest) -> Dr
         return _pose(inputs, fixed, request)
     running = _running(free, laws)
     law = laws.pop(running.name, None)
-    if law is not None and law.speed is None and not (request.over or request.speed):
+    if law is not None and law.speed is None and _left_out(request.over) and _left_out(request.speed):
         grid = TimeGrid(request.steps, _jumps(machine, running.name))
         return _over_time(running, law, laws, fixed, grid)
     start = 0.0 if law is None else float(law.law(np.zeros(1))[0][0])
@@ -89,7 +90,7 @@ def driven_inputs(machine: OwnMachine, plan: Plan, request: MotionRequest) -> Dr
     time = None if speed == 0 else (values - start) / speed
     rates = _rates(laws, np.zeros(len(values)) if time is None else time, fixed)
     rates[0][running.name], rates[1][running.name] = values, speed
-    return DrivenInputs(running, values, speed, time, rates, assumed=not request.speed and law is None)
+    return DrivenInputs(running, values, speed, time, rates, assumed=_left_out(request.speed) and law is None)
 
 
 def _jumps(machine: OwnMachine, name: str) -> tuple[float, ...]:
@@ -141,16 +142,16 @@ def _running(free: list[Input], laws: Mapping[str, GivenMotion]) -> Input:
     left = [entry for entry in free if entry.name not in laws]
     if len(left) > 1:
         names = " and ".join(entry.name for entry in left)
-        raise MechanismError(f"inputs {names} are both without a value", do=f"fix one, like --at {left[0].name}=0")
+        raise MechanismError(f"inputs {names} are both without a value", do=f"fix one, like {left[0].name}=0")
     return (left or free)[0]
 
 
 def _pose(inputs: Mapping[str, Input], fixed: dict[str, RealField], request: MotionRequest) -> DrivenInputs:
     """A single pose; a speed of the request is that of the only input."""
-    if not request.speed:
+    if _left_out(request.speed):
         return DrivenInputs(None, np.zeros(1), None, None, (fixed, {}, {}))
     if len(inputs) > 1:
-        raise MechanismError("a speed is given for a pose of several inputs", do="leave one input free, with --over")
+        raise MechanismError("a speed is given for a pose of several inputs", do="leave one input free, with a range")
     (entry,) = inputs.values()
     return DrivenInputs(None, np.zeros(1), None, None, (fixed, {entry.name: _speed(entry, request.speed, None)}, {}))
 
@@ -178,57 +179,55 @@ def _rates(
     return rates
 
 
-def _fixed(plan: Plan, inputs: Mapping[str, Input], texts: Mapping[str, str]) -> dict[str, RealField]:
+def _fixed(plan: Plan, inputs: Mapping[str, Input], values: Mapping[str, Quantity]) -> dict[str, RealField]:
     fixed: dict[str, RealField] = {}
-    for name, text in texts.items():
+    for name, value in values.items():
         if not name and len(inputs) > 1:
-            raise MechanismError(f"{text} names no input", do=f"write NAME=VALUE, with one of {', '.join(inputs)}")
+            raise MechanismError(f"{value} names no input", do=f"write NAME=VALUE, with one of {', '.join(inputs)}")
         entry = inputs.get(name or next(iter(inputs), ""))
         if entry is None:
             raise MechanismError(
                 f"{plan.mechanism.name} has no input {name!r}", allowed=f"it has {', '.join(inputs) or 'none'}"
             )
-        fixed[entry.name] = _quantity(text, "rad" if isinstance(entry, Rotation) else "m")
+        fixed[entry.name] = _quantity(f"value of {entry.name!r}", value, "rad" if isinstance(entry, Rotation) else "m")
     return fixed
 
 
-def _quantity(text: str, unit: str) -> float:
-    """A quantity with its unit [SI]. Raises MechanismError for a number other than 0 without one, UnitError."""
-    value = parse_quantity(text, unit)
-    if value and not has_unit(text):
-        likely = {"rad": "deg", "m": "mm", "rad/s": "rpm", "m/s": "m/s"}[unit]
-        raise MechanismError(f"{text.strip()} has no unit", do=f"write {text.strip()}{likely}")
-    return value
+def _left_out(value: object) -> bool:
+    return isinstance(value, str) and not value
+
+
+def _quantity(name: str, value: Quantity, unit: str) -> float:
+    """A number in SI, or a text with its unit [SI]."""
+    return Arguments("", MechanismError).number(name, value, unit)
 
 
 def _values(running: Input, request: MotionRequest, start: float) -> FloatArray:
     """The values of the driving input. Raises MechanismError for a range that cannot be read or has no length."""
     turning = isinstance(running, Rotation)
-    if not request.over:
+    if _left_out(request.over):
         if turning:
             return np.linspace(start, start + turn, request.steps + 1)
         raise MechanismError(
-            f"input {running.name!r} is a displacement and needs a range", do="give one, like --over 0mm..50mm"
+            f"input {running.name!r} is a displacement and needs a range", do="give one, like 0mm..50mm"
         )
-    begin, dots, end = request.over.partition("..")
-    if not dots or request.steps < 1:
+    ends = request.over.split("..") if isinstance(request.over, str) else request.over
+    if len(ends) != 2 or request.steps < 1:
         raise MechanismError(
             f"the range {request.over!r} in {request.steps} steps cannot be read",
             do="write FROM..TO, like 0deg..360deg",
         )
-    first, last = (_quantity(end, "rad" if turning else "m") for end in (begin, end))
+    first, last = (_quantity("the range", end, "rad" if turning else "m") for end in ends)
     if first == last:
-        raise MechanismError(f"the range {request.over} has no length", do="give one pose with --at instead")
+        raise MechanismError(f"the range {request.over} has no length", do="fix the input at one pose instead")
     return np.linspace(first, last, request.steps + 1)
 
 
-def _speed(running: Input, text: str, law: GivenMotion | None) -> float:
+def _speed(running: Input, value: Quantity, law: GivenMotion | None) -> float:
     """Speed of the driving input [rad/s; m/s]: that of the request, of the file, or 1."""
-    if text:
-        speed = _quantity(text, "rad/s" if isinstance(running, Rotation) else "m/s")
+    if not _left_out(value):
+        speed = _quantity(f"speed of {running.name!r}", value, "rad/s" if isinstance(running, Rotation) else "m/s")
         if not speed:
-            raise MechanismError(
-                f"speed {text.strip()} of {running.name!r}", allowed="not 0", do="give a pose with --at"
-            )
+            raise MechanismError(f"speed {value} of {running.name!r}", allowed="not 0", do="fix the input at a pose")
         return speed
     return 1.0 if law is None or law.speed is None else law.speed
