@@ -26,7 +26,8 @@ from dataclasses import dataclass
 from decimal import Context
 from fractions import Fraction
 
-from ilmek.errors import CarpetError, shortened
+from ilmek.errors import CarpetError
+from ilmek.records import shown_value
 from ilmek.units import LONGEST, format_number, format_quantity, real_number
 
 COARSEST, FINEST = 10.0, 5000.0
@@ -142,7 +143,7 @@ def carpet_quality(quality: object) -> Quality:
     if isinstance(quality, str):
         return parse_quality(quality)
     if not isinstance(quality, Quality):
-        raise CarpetError(f"the quality is {shortened(repr(quality))}", allowed="a text or a Quality", do=EXAMPLE)
+        raise CarpetError(f"the quality is {shown_value(quality)}", allowed="a text or a Quality", do=EXAMPLE)
     return quality
 
 

@@ -14,7 +14,8 @@ import unicodedata
 from dataclasses import dataclass
 from fractions import Fraction
 
-from ilmek.errors import CarpetError, shortened
+from ilmek.errors import CarpetError
+from ilmek.records import shown_value
 from ilmek.units import LONGEST, cm, format_number, format_quantity, real_number
 
 
@@ -96,7 +97,7 @@ def carpet_size(size: object) -> CarpetSize:
     if isinstance(size, str):
         return parse_size(size)
     if not isinstance(size, CarpetSize):
-        raise CarpetError(f"the size is {shortened(repr(size))}", allowed="a text or a CarpetSize", do=EXAMPLE)
+        raise CarpetError(f"the size is {shown_value(size)}", allowed="a text or a CarpetSize", do=EXAMPLE)
     return size
 
 

@@ -7,7 +7,8 @@ import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.carpet.picture_points import hex_colour
-from ilmek.errors import YarnError, shortened
+from ilmek.errors import YarnError
+from ilmek.records import shown_value
 from ilmek.units import counted, real_number
 
 MOST_YARNS = 255
@@ -85,7 +86,7 @@ def yarn_list(yarns: object, least: int = 1) -> tuple[Yarn, ...]:
     listed = tuple(yarns) if isinstance(yarns, Iterable) else (yarns,)
     for index, yarn in enumerate(listed):
         if not isinstance(yarn, Yarn):
-            raise YarnError(f"yarns[{index}] is {shortened(repr(yarn))}", allowed="a Yarn, as `read_yarns` gives them")
+            raise YarnError(f"yarns[{index}] is {shown_value(yarn)}", allowed="a Yarn, as `read_yarns` gives them")
     if not least <= len(listed) <= MOST_YARNS:
         raise YarnError(f"the yarn list has {counted(len(listed), 'yarn')}", allowed=f"{least} to {MOST_YARNS} yarns")
     return listed

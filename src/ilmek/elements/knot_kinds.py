@@ -28,6 +28,7 @@ import math
 from collections.abc import Callable
 
 from ilmek.errors import CarpetError
+from ilmek.records import shown_value
 
 
 def symmetric_wrap(pitch: float, radius: float, left: int = 1, right: int = 1) -> float:
@@ -98,7 +99,7 @@ def parse_knot(text: str) -> str:
         return _OTHER_NAMES[name]
     matches = difflib.get_close_matches(name, [*WRAPS, *_OTHER_NAMES], n=1)
     raise CarpetError(
-        f"unknown knot {text!r}",
+        f"unknown knot {shown_value(text)}",
         allowed="symmetric (Turkish) or asymmetric (Persian)",
         do=f"did you mean {matches[0]}?" if matches else "",
     )
