@@ -13,6 +13,7 @@ from ilmek.linkage.configuration_path import InputPath
 from ilmek.linkage.mirror import other
 from ilmek.linkage.model import degrees_of_freedom
 from ilmek.linkage.one_input import one_input
+from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.knotting_four_bar import MACHINE, KnottingFourBar, KnottingFourBarParams, design
 from ilmek.machines.knotting_four_bar.sides import KnottingSides, clearances, hands, outlines
 from ilmek.plane.teeth import PRESSURE_ANGLE
@@ -194,3 +195,17 @@ def test_no_room_for_teeth_is_said() -> None:
     with pytest.raises(IlmekError, match="9 mm or more: fewer than 18 teeth are undercut"):
         equal_gears(8 * mm, 1.0, width=5 * mm, stress=20 * MPa)
     assert lewis(18) == pytest.approx(0.309)
+
+
+@pytest.mark.parametrize(("pitch", "tied"), [("2mm", False), ("12mm", False), ("20mm", True), ("40mm", True)])
+def test_hands_that_tie_no_knot_on_the_warps_fail(pitch: str, tied: bool) -> None:
+    """The report's poses: a knot is tied on warps that are farther from each other than the hands at their nearest."""
+    poses = "(0,0,10deg) (25mm,15mm,3deg) (30mm,1mm,-25deg)"
+    report = MACHINES["knotting-four-bar"].report_for(
+        {"poses": poses, "sides": "2", "width": "8mm", "warp_pitch": pitch}
+    )
+    (knot,) = (check for check in report.checks if check.name == "knots tied on the two warps")
+    assert (knot.ok, knot.value, knot.limit) == (tied, float(tied), 1.0)
+    assert [check.name for check in report.failed] == ([] if tied else [knot.name])
+    (nearest,) = (result.value for result in report.results if result.name == "hand_distance_min")
+    assert (float(pitch.removesuffix("mm")) * mm > nearest) is tied

@@ -372,7 +372,7 @@ export interface CyclogramRequest {
 /**
  * A solved cyclogram: the file's data with its new timing, and what limits it.
  *
- *     goal  acceleration or period      measure, shown_unit  description of before and after [SI], and the unit to show them in
+ *     goal  acceleration or period      measure, shown_unit  of before and after [SI]: description, unit
  *
  * This interface was referenced by `Messages`'s JSON-Schema
  * via the `definition` "CyclogramSolution".
