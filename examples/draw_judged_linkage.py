@@ -25,14 +25,14 @@ HUB = 50 * mm
 
 def figure() -> Drawing:
     """The linkage at the position of least clearance, the path of P, the area that the lever sweeps, and the hub."""
-    points = {"rocker": {"E": 0.300}, "coupler": {"P": 0.200 - 0.100j}}
+    points = {"rocker": {"E": 0.300 + 0j}, "coupler": {"P": 0.200 - 0.100j}}
     crank = one_input(plan(four_bar(0.300, 0.0597, 0.2007, 0.2308, branch=+1, points=points)))
     path = InputPath(crank)
     curve = coupler_curve(path, "coupler", "P")
     lever = OutlinedBody("rocker", (Outline((0, 0.300), radius=0.012),))
     near = clearance(path, lever, OutlinedBody("ground", (Outline((0,), radius=HUB),)))
     motion = crank.motion(np.array([near.input]))
-    joint = {name: complex(motion.point(body, name).position[0]) for body, name in _POINTS}
+    joint = {name: complex(np.ravel(motion.point(body, name).position)[0]) for body, name in _POINTS}
     line = np.asarray(crank.motion(np.linspace(-np.pi, np.pi, 361)).point("coupler", "P").position)
     circle = HUB * np.exp(1j * np.linspace(0, 2 * np.pi, 73))
     swept = [

@@ -68,7 +68,7 @@ def floor(height: int, width: int, rng: np.random.Generator) -> np.ndarray:
     ends = np.zeros((height, width), dtype=bool)
     for number in range(0, height, board):
         ends[number : number + board, rng.integers(0, width, 2)] = True
-    planks = np.array([176.0, 146.0, 108.0]) + tone[..., None] * np.array([1.0, 0.95, 0.8])
+    planks: np.ndarray = np.array([176.0, 146.0, 108.0]) + tone[..., None] * np.array([1.0, 0.95, 0.8])
     planks[np.broadcast_to(seam, ends.shape) | ends] *= 0.62
     return planks
 
