@@ -4,8 +4,10 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser, Page, sync_playwright
-from studio_browser import Seen, Studio, browser_path, context_of, launched, studio
+from playwright.sync_api import Browser, Page, expect, sync_playwright
+from studio_browser import PATIENCE, Seen, Studio, browser_path, context_of, launched, studio
+
+expect.set_options(timeout=PATIENCE)
 
 
 @pytest.fixture(scope="session")

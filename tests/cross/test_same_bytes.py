@@ -1,13 +1,11 @@
 """The same input gives the same bytes: in another process, with other numbers of threads, with another hash seed."""
 
 import json
-import os
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 from PIL import Image
+from processes import printed, python
 
 MADE = """
 import hashlib, json, sys
@@ -33,16 +31,11 @@ Path("digests.json").write_text(json.dumps(made))
 def test_the_same_bytes_with_one_thread_and_with_two(tmp_path: Path) -> None:
     noise = np.random.default_rng(1).integers(0, 256, (140, 140, 3), dtype=np.uint8)  # a sum over 15 625 colours
     Image.fromarray(noise).save(tmp_path / "noise.png")
-    runs = []
+    names = ("NUMBA_NUM_THREADS", "OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "PYTHONHASHSEED")
     for threads in ("1", "2"):
         folder = tmp_path / threads
         folder.mkdir()
-        names = ("NUMBA_NUM_THREADS", "OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "PYTHONHASHSEED")
-        environment = os.environ | dict.fromkeys(names, threads)
-        runs.append(subprocess.Popen([sys.executable, "-c", MADE], cwd=folder, env=environment, stdout=subprocess.PIPE))
-    for run in runs:
-        run.communicate(timeout=300)
-    assert [run.returncode for run in runs] == [0, 0]
+        printed(python("-c", MADE), cwd=folder, changes=dict.fromkeys(names, threads))
     one, two = (json.loads((tmp_path / threads / "digests.json").read_text()) for threads in ("1", "2"))
     assert len(one) > 25
     assert [name for name in one if one[name] != two[name]] == []

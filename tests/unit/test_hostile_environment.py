@@ -1,11 +1,9 @@
 """Odd environments: no traceback, whatever the variables hold."""
 
-import os
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
+from processes import ended, ilmek
 
 ENVIRONMENTS = {
     "a date in words": {"SOURCE_DATE_EPOCH": "abc"},
@@ -19,9 +17,6 @@ ENVIRONMENTS = {
 
 @pytest.mark.parametrize("name", ENVIRONMENTS)
 def test_an_odd_environment_does_no_harm(name: str, tmp_path: Path) -> None:
-    changed = {**os.environ, **ENVIRONMENTS[name]}
-    kept = {key: value for key, value in changed.items() if value is not None}
-    words = ["design", "beat-up", "--report", str(tmp_path / "page.html")]
-    done = subprocess.run([sys.executable, "-m", "ilmek", *words], env=kept, capture_output=True, check=False)
+    done = ended(ilmek("design", "beat-up", "--report", tmp_path / "page.html"), changes=ENVIRONMENTS[name], text=False)
     assert done.returncode == 0, done.stderr
     assert b"Traceback" not in done.stderr
