@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from PIL import Image
 
+from campaign import examples
 from ilmek.arrays import Rgb
 from ilmek.carpet.design import resampled
 from ilmek.carpet.fitting import FitParams
@@ -56,7 +57,7 @@ def test_a_photographed_checkerboard_is_straight_to_a_knot(shifts: tuple[float, 
 
 
 @given(SHIFTS, st.floats(1, 500), st.floats(1, 500))
-@settings(max_examples=50, deadline=None)
+@examples(50)
 def test_the_homography_takes_corners_to_corners_and_lines_to_lines(
     shifts: tuple[float, ...], width: float, height: float
 ) -> None:
@@ -72,7 +73,7 @@ def test_the_homography_takes_corners_to_corners_and_lines_to_lines(
 
 
 @given(st.floats(-0.6, 0.6), st.floats(-0.6, 0.6), st.floats(-0.5, 0.5), st.floats(0.6, 1.5), st.floats(0.4, 2.5))
-@settings(max_examples=100, deadline=None)
+@examples(100)
 def test_the_corners_give_the_true_proportions(
     yaw: float, pitch: float, roll: float, focal: float, proportions: float
 ) -> None:

@@ -9,12 +9,13 @@ from dataclasses import replace
 import pytest
 from designs import random_settings
 
+from campaign import seeds
 from ilmek.errors import IlmekError
 from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.invariants import SOURCE
 
-NUMBER, SLOW = 16, ("automated-loom", "knotting-dyad", "path-four-bar", "motion-four-bar")
-"""Designs of each machine, half as many of those that take a second or two each."""
+SLOW = ("automated-loom", "knotting-dyad", "path-four-bar", "motion-four-bar")
+"""Machines whose designs take a second or two each."""
 
 FEWER = {"path-four-bar": {"starts": 96}}
 """A search of few starts has the same kinds of results."""
@@ -24,7 +25,7 @@ FEWER = {"path-four-bar": {"starts": 96}}
 def test_random_designs_keep_the_invariants_or_are_refused(machine: str) -> None:
     component = replace(MACHINES[machine], figures=lambda _: ())  # the figures take most of the time
     made = 0
-    for seed in range(NUMBER // 2 if machine in SLOW else NUMBER):
+    for seed in seeds(2, 6) if machine in SLOW else seeds(8, 24):
         settings = random_settings(machine, random.Random(f"{machine} {seed}")) | FEWER.get(machine, {})
         try:
             report = component.report_for(settings)

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from campaign import examples
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
 from ilmek.synthesis.path.confidence import probability_missed
@@ -33,7 +34,7 @@ def oval(count):
 
 
 @given(st.integers(0, 2**32 - 1), st.sampled_from([+1, -1]), st.sampled_from([+1, -1]))
-@settings(max_examples=60, deadline=None)
+@examples(60)
 def test_slopes_are_differences(seed, kind, branch):
     rng = np.random.default_rng(seed)
     bounds = np.full(4, 1e-3), np.full(4, 10.0)

@@ -4,6 +4,7 @@ import pytest
 from loom_cuts.cuts import FAULTY, CutPort, woven_through_cuts
 from small_programme import small_programme
 
+from campaign import seeds
 from ilmek.loom.twin.comparison import chart_digest
 from ilmek.loom.twin.model import NO_FAULTS
 
@@ -14,12 +15,12 @@ PROGRAMME = small_programme(6, 24, 3, 4)
 @pytest.mark.parametrize("rates", [NO_FAULTS, FAULTY], ids=["sound", "faulty"])
 def test_a_carpet_is_woven_whole_through_power_cuts(group: int, rates: object) -> None:
     cuts = 0
-    for seed in range(4):
+    for seed in seeds(2, 12):
         found = woven_through_cuts(PROGRAMME, seed, group=group, rates=rates, mean=25.0)  # type: ignore[arg-type]
         assert found.findings == []
         assert found.woven.digest == chart_digest(PROGRAMME)
         cuts += found.cuts
-    assert cuts > 100
+    assert cuts > 50
 
 
 def test_the_campaign_notices_a_knot_that_is_tied_twice(monkeypatch: pytest.MonkeyPatch) -> None:

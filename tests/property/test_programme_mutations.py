@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from plain_proof import broken_rules
 from small_programme import small_programme
 
+from campaign import examples
 from ilmek.errors import LoomError
 from ilmek.io.any_programme import open_any_programme
 from ilmek.io.programme_text import programme_text_parts
@@ -64,7 +65,7 @@ def edited_programmes(draw: st.DrawFn) -> EditedProgramme:
     return edited(programme, number, lambda _: changed, packages=packages, spacing=draw(st.integers(1, 4)))
 
 
-@settings(max_examples=70, deadline=None)
+@examples(70)
 @given(edited_programmes())
 def test_the_proof_agrees_with_the_plain_rules(programme: EditedProgramme) -> None:
     proof = prove(programme)

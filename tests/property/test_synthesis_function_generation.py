@@ -6,6 +6,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.optimize import fsolve
 
+from campaign import examples
 from ilmek.errors import ParameterError
 from ilmek.synthesis.candidate import judge
 from ilmek.synthesis.circuit_loops import circuit_loops
@@ -48,7 +49,7 @@ def solved(crank: np.ndarray, rocker: np.ndarray, swap: bool = False) -> Generat
     )
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(tasks, st.booleans())
 def test_a_planted_function_generator_is_found_again(task: Drawn, swap: bool) -> None:
     drawn, crank, rocker = planted(task)

@@ -9,6 +9,7 @@ import pytest
 from output_scenarios import SCENARIOS, Scenario, at, expect, hidden, news, nexts, not_atomic, prepare, write
 from power_cut import Recorder, State, materialise, read_tree, states
 
+import campaign
 from ilmek.io.output import disk, outputs
 
 
@@ -49,7 +50,7 @@ def tried(scenario: Scenario, memory: Path, monkeypatch: pytest.MonkeyPatch) -> 
     number = 0
     with monkeypatch.context() as patched:
         patched.setattr(disk, "sync", lambda *_, **__: None)
-        for state in states(recorder):
+        for state in states(recorder, campaign.first(), campaign.number(12, 200)):
             number += 1
             message = wrong(scenario, state, memory / str(number))
             if message:
