@@ -1,10 +1,10 @@
 """Settings of the whole test run."""
 
+import gc
 import os
 
+import effort
 from hypothesis import settings
-
-import campaign
 
 os.environ["ILMEK_LEAVE_NOTHING_OUT"] = "1"  # a figure that cannot be made is an error
 
@@ -12,4 +12,15 @@ os.environ["ILMEK_LEAVE_NOTHING_OUT"] = "1"  # a figure that cannot be made is a
 # `make campaigns` looks for new ones, and so does `pytest --hypothesis-profile=explore`, 100 for each property.
 settings.register_profile("explore", deadline=None)
 settings.register_profile("ilmek", deadline=None, derandomize=True, max_examples=40)
-settings.load_profile("ilmek" if campaign.SEED is None else "explore")
+
+
+def pytest_collection_finish() -> None:
+    """What all tests share stays: collections of garbage leave it out."""
+    gc.enable()
+    gc.collect()
+    gc.freeze()
+    gc.set_threshold(50_000, 20, 50)
+
+
+gc.disable()  # while the tests are collected: a third of that time
+settings.load_profile("ilmek" if effort.SEED is None else "explore")

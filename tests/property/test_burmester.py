@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
+from effort import examples
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.optimize import fsolve
 
-from campaign import examples
 from ilmek.errors import ParameterError
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan

@@ -4,11 +4,11 @@ import math
 
 import numpy as np
 import pytest
+from effort import examples
 from fitted_picture import fit_picture
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from campaign import examples
 from ilmek.carpet.chart import make_chart
 from ilmek.carpet.design import distortion
 from ilmek.carpet.fitting import Fit, FitParams, border_colour

@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
+from effort import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from campaign import examples
 from ilmek.carpet.colour import lab_to_srgb, srgb_to_lab
 from ilmek.carpet.colour_difference import delta_e_2000
 from ilmek.carpet.palette import Colours, distinct_colours, nearest_yarns

@@ -5,12 +5,12 @@ import math
 import numpy as np
 import photographs
 import pytest
+from effort import examples
 from fitted_picture import fit_picture
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from PIL import Image
 
-from campaign import examples
 from ilmek.arrays import Rgb
 from ilmek.carpet.design import resampled
 from ilmek.carpet.fitting import FitParams

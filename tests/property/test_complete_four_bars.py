@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from effort import number
 
-from campaign import number
 from ilmek.errors import MechanismError
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan

@@ -8,8 +8,8 @@ from dataclasses import replace
 
 import pytest
 from designs import random_settings
+from effort import seeds
 
-from campaign import seeds
 from ilmek.errors import IlmekError
 from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.invariants import SOURCE

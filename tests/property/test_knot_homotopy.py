@@ -3,10 +3,10 @@
 from itertools import pairwise
 
 import numpy as np
+from effort import examples
 from hypothesis import given
 from hypothesis import strategies as st
 
-from campaign import examples
 from ilmek.units import mm
 from ilmek.weaving.knots.crossings import WarpRow, arc_lengths, crossings, row_of_warps
 from ilmek.weaving.knots.path import KnotDimensions, knot_path

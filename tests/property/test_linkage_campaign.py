@@ -9,8 +9,7 @@ from benchmarks.campaign.accuracy import accuracy
 from benchmarks.campaign.branches import crank_rockers
 from benchmarks.campaign.near_limits import near_limits
 from benchmarks.campaign.random_linkages import KINDS
-
-from campaign import first, number
+from effort import first, number
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -3,10 +3,10 @@
 import dataclasses
 
 import numpy as np
+from effort import examples
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from campaign import examples
 from ilmek.linkage.fourbar import four_bar, slider_crank
 from ilmek.linkage.model import GROUND, Body, Mechanism, Pin, Rotation, Slide
 from ilmek.linkage.motion import Motion

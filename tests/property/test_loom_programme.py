@@ -5,11 +5,11 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from effort import examples
 from hypothesis import given
 from hypothesis import strategies as st
 from small_programme import head_knots, rows_of
 
-from campaign import examples
 from ilmek.arrays import Indices
 from ilmek.loom.programme import Programme, least_heads, least_time, make_programme, weaving_time
 from ilmek.loom.sharing import least_distance

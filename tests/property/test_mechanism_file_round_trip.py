@@ -4,10 +4,10 @@ import json
 import math
 from dataclasses import fields
 
+from effort import examples
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 
-from campaign import examples
 from ilmek.cams.laws import LAWS
 from ilmek.dynamics.friction import AngleRange, Friction, WindowedLoad
 from ilmek.dynamics.inertia import Inertia

@@ -4,10 +4,10 @@ import math
 
 import numpy as np
 import pytest
+from effort import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from campaign import examples
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
 from ilmek.synthesis.path.confidence import probability_missed

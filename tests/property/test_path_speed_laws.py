@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
+from effort import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from campaign import examples
 from ilmek.arrays import FloatArray
 from ilmek.errors import ParameterError
 from ilmek.timing.path_speed.solve import AxesLimits, JointPath, PathMotion, quickest_motion

@@ -6,12 +6,12 @@ from dataclasses import astuple
 from pathlib import Path
 
 import pytest
+from effort import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from plant_driver import weave
 from small_programme import small_programme
 
-from campaign import examples
 from ilmek.drivers.twin_port import TwinPort
 from ilmek.errors import LoomError
 from ilmek.io.recording_file import read_recording, recording_text

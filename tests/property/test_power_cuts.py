@@ -1,10 +1,10 @@
 """Power cuts at random instants, on a disc that loses, tears and reorders writes: every knot is in the carpet once."""
 
 import pytest
+from effort import seeds
 from loom_cuts.cuts import FAULTY, CutPort, woven_through_cuts
 from small_programme import small_programme
 
-from campaign import seeds
 from ilmek.loom.twin.comparison import chart_digest
 from ilmek.loom.twin.model import NO_FAULTS
 

@@ -9,12 +9,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 from edited_programme import EditedProgramme, edited, part_of, with_knot, with_knot_twice, without_knot
+from effort import examples
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from plain_proof import broken_rules
 from small_programme import small_programme
 
-from campaign import examples
 from ilmek.errors import LoomError
 from ilmek.io.any_programme import open_any_programme
 from ilmek.io.programme_text import programme_text_parts

@@ -6,10 +6,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from effort import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from campaign import examples
 from ilmek.carpet.quality import Quality, parse_quality
 from ilmek.carpet.recipe.border import draw_border, edges, repeat_lines
 from ilmek.carpet.recipe.composition import compose

@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+from effort import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from campaign import examples
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.overlay import HALF, JUFTI, KnotMark, overlay_of
 from ilmek.carpet.quality import Quality

@@ -5,11 +5,11 @@ from collections.abc import Iterable
 
 import numpy as np
 import pytest
+from effort import examples
 from hypothesis import given
 from hypothesis import strategies as st
 from small_programme import TIMES, small_programme
 
-from campaign import examples
 from ilmek.arrays import Indices
 from ilmek.errors import LoomError
 from ilmek.loom.bobbins import Bobbin

@@ -4,10 +4,10 @@ import itertools
 from functools import cache
 
 import numpy as np
+from effort import examples
 from hypothesis import given
 from hypothesis import strategies as st
 
-from campaign import examples
 from ilmek.arrays import Indices
 from ilmek.loom.programme import make_programme
 from ilmek.loom.times import Times

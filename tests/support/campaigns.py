@@ -61,12 +61,12 @@ def _laws(seed: int, share: bool) -> Run:
 
 
 def lawful(tests: Path) -> Iterator[Path]:
-    """The test files that try random cases: those that import hypothesis or `campaign`."""
+    """The test files that try random cases: those that import hypothesis or `effort`."""
     for path in sorted(tests.glob("*/test_*.py")):
         if path.parent.name == "browser":
             continue
         nodes = [node for node in ast.walk(tree_of(path)) if isinstance(node, ast.ImportFrom) and node.module]
-        if {node.module for node in nodes} & {"hypothesis", "campaign"}:
+        if {node.module for node in nodes} & {"hypothesis", "effort"}:
             yield path
 
 

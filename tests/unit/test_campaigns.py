@@ -45,7 +45,7 @@ def test_a_part_that_is_not_there_is_an_error() -> None:
 
 
 def test_make_test_tries_the_same_cases_each_time_and_a_campaign_others() -> None:
-    script = "import campaign; print(campaign.number(3, 50), campaign.seeds(2, 3), campaign.examples(60).max_examples)"
+    script = "import effort; print(effort.number(3, 50), effort.seeds(2, 3), effort.examples(60).max_examples)"
     said = [printed(python("-c", script), changes={"ILMEK_CAMPAIGN": seed}) for seed in (None, "0", "1")]
     assert said == ["3 range(0, 2) 20\n", "50 range(1000, 1003) 60\n", "50 range(2000, 2003) 60\n"]
 

@@ -3,13 +3,12 @@
 from pathlib import Path
 
 import pytest
+from effort import first, number
 from fuzz.case import Case, read_case
 from fuzz.corpus import make_corpus
 from fuzz.inputs import make_case
 from fuzz.pool import Limits, outcomes
 from fuzz.reduction import reduced
-
-from campaign import first, number
 
 CASES = Path(__file__).parents[1] / "fuzz_cases"
 LIMITS = Limits(hang=300.0, timing=False)

@@ -6,12 +6,25 @@ import pytest
 from processes import ended, ilmek
 
 ENVIRONMENTS = {
-    "a date in words": {"SOURCE_DATE_EPOCH": "abc"},
-    "a date beyond time": {"SOURCE_DATE_EPOCH": "9" * 30},
-    "an unknown backend": {"MPLBACKEND": "nosuch"},
-    "no home and no characters": {"HOME": None, "LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONIOENCODING": "ascii"},
-    "nothing writable": {"HOME": "/proc", "XDG_CACHE_HOME": "/proc/none", "MPLCONFIGDIR": "/proc/none"},
-    "a terminal of no size": {"TERM": "nosuch", "COLUMNS": "abc", "LINES": "-1"},
+    "a date in words, no home and no characters": {
+        "SOURCE_DATE_EPOCH": "abc",
+        "HOME": None,
+        "LC_ALL": "C",
+        "PYTHONUTF8": "0",
+        "PYTHONIOENCODING": "ascii",
+    },
+    "a date beyond time, nothing writable": {
+        "SOURCE_DATE_EPOCH": "9" * 30,
+        "HOME": "/proc",
+        "XDG_CACHE_HOME": "/proc/none",
+        "MPLCONFIGDIR": "/proc/none",
+    },
+    "an unknown backend, a terminal of no size": {
+        "MPLBACKEND": "nosuch",
+        "TERM": "nosuch",
+        "COLUMNS": "abc",
+        "LINES": "-1",
+    },
 }
 
 

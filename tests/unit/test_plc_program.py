@@ -10,13 +10,13 @@ from xml.etree import ElementTree as ET
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from effort import examples
 from hypothesis import given
 from hypothesis import strategies as st
 from plc_loom import SENSORS, PlcLoom
 from small_programme import small_programme
 from structured_text import Machine
 
-from campaign import examples
 from ilmek.cli import main
 from ilmek.io.plc.cam_function import ERROR, cam_tables, cam_units
 from ilmek.io.plc.interlock_logic import SENSOR_NAMES, TENSION_KNOWN, interlock_unit
