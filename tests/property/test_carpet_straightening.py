@@ -116,6 +116,7 @@ def carpet() -> Rgb:
     return rgb
 
 
+@pytest.mark.matrix(light=2)
 @pytest.mark.parametrize("name", QUADS)
 def test_the_outline_on_a_floor_is_found(name: str) -> None:
     """To half a pixel; two knots are four."""
@@ -156,6 +157,7 @@ UNCLEAR = {
 }  # fmt: skip
 
 
+@pytest.mark.matrix(light=3)
 @pytest.mark.parametrize("name", UNCLEAR)
 def test_an_outline_that_is_not_clear_is_refused(name: str) -> None:
     with pytest.raises(PictureError, match="outline of the carpet is not clear.*give the corners"):

@@ -61,12 +61,13 @@ def _laws(seed: int, share: bool) -> Run:
 
 
 def lawful(tests: Path) -> Iterator[Path]:
-    """The test files that try random cases: those that import hypothesis or `effort`."""
+    """The test files that try more in a campaign: those of hypothesis, of `effort`, and of a matrix of cases."""
     for path in sorted(tests.glob("*/test_*.py")):
         if path.parent.name == "browser":
             continue
         nodes = [node for node in ast.walk(tree_of(path)) if isinstance(node, ast.ImportFrom) and node.module]
-        if {node.module for node in nodes} & {"hypothesis", "effort"}:
+        matrix = any(isinstance(node, ast.Attribute) and node.attr == "matrix" for node in ast.walk(tree_of(path)))
+        if matrix or {node.module for node in nodes} & {"hypothesis", "effort"}:
             yield path
 
 

@@ -5,11 +5,13 @@ other cases for each seed: `make campaigns SEED=7` sets ILMEK_CAMPAIGN=7.
 """
 
 import os
+from collections.abc import Iterable
 from typing import TypeVar
 
 from hypothesis import settings
 
 Amount = TypeVar("Amount")
+Case = TypeVar("Case")
 _GIVEN = os.environ.get("ILMEK_CAMPAIGN")
 SEED = None if _GIVEN is None else int(_GIVEN)
 """Seed of the campaign; None: `make test`."""
@@ -28,6 +30,14 @@ def first(light: int = 0) -> int:
 def seeds(light: int, whole: int) -> range:
     """Seeds of cases: 0, 1 ... in `make test`, others and more in a campaign."""
     return range(first(), first() + number(light, whole))
+
+
+def some(cases: Iterable[Case], light: int) -> list[Case]:
+    """So many of the cases in `make test`, spread over them, the first and the last among them; all in a campaign."""
+    every = list(cases)
+    if SEED is not None or light >= len(every):
+        return every
+    return [every[round(index * (len(every) - 1) / max(light - 1, 1))] for index in range(light)]
 
 
 def examples(whole: int, light: int | None = None) -> settings:

@@ -1,6 +1,7 @@
 """Shares of the campaigns: none is left out for ever, a seed repeats its cases. Phases run side by side."""
 
 import re
+from pathlib import Path
 
 import pytest
 from campaigns import PARTS, ROOT, SHARES, chosen, lawful, rotated, seed_of_the_commit
@@ -50,7 +51,7 @@ def test_make_test_tries_the_same_cases_each_time_and_a_campaign_others() -> Non
     assert said == ["3 range(0, 2) 20\n", "50 range(1000, 1003) 60\n", "50 range(2000, 2003) 60\n"]
 
 
-def test_phases_run_side_by_side_and_a_failure_ends_its_lane(capfd: pytest.CaptureFixture[str], tmp_path) -> None:
+def test_phases_run_side_by_side_and_a_failure_ends_its_lane(capfd: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     rules = ("waits:\n\t@read line < pipe && echo $$line", "feeds:\n\t@echo fed > pipe", "fails:\n\t@echo bad; exit 3")
     (tmp_path / "makefile").write_text("\n".join((*rules, "never:\n\t@echo never\n")))
     make = ("make", "--no-print-directory", "-C", str(tmp_path))
@@ -68,3 +69,24 @@ def test_the_table_has_the_seconds_of_each_phase() -> None:
     assert re.search(r"^lint +2 s$", shown, re.MULTILINE)
     assert re.search(r"^unit +181 s  FAILED$", shown, re.MULTILINE)
     assert re.search(r"^all +182 s; 350 s of processor time", shown, re.MULTILINE)
+
+
+MATRIX = """
+import pytest
+
+@pytest.mark.matrix(light=3)
+@pytest.mark.parametrize("number", range(10))
+def test_many(number):
+    print(f"case {number}")
+"""
+
+
+@pytest.mark.parametrize(("seed", "cases"), [(None, [0, 4, 9]), ("5", list(range(10)))])
+def test_a_matrix_has_some_of_its_cases_in_make_test_and_all_in_a_campaign(
+    tmp_path: Path, seed: str | None, cases: list[int]
+) -> None:
+    (tmp_path / "conftest.py").write_text((ROOT / "tests" / "conftest.py").read_text(encoding="utf-8"))
+    (tmp_path / "test_matrix.py").write_text(MATRIX)
+    command = python("-m", "pytest", "-q", "-s", "-p", "no:cacheprovider", "--rootdir", tmp_path, tmp_path)
+    shown = printed(command, cwd=tmp_path, changes={"ILMEK_CAMPAIGN": seed})
+    assert [int(number) for number in re.findall(r"case (\d)", shown)] == cases

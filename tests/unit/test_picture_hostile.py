@@ -306,6 +306,7 @@ def test_pillow_logs_nothing_to_the_error_stream(tmp_path: Path) -> None:
     assert (done.returncode, done.stdout, done.stderr) == (0, "refused\n", "")
 
 
+@pytest.mark.matrix(light=8)
 @pytest.mark.parametrize("name", SEEDS)
 def test_mutants_are_read_or_refused(tmp_path: Path, name: str, capfd: pytest.CaptureFixture[str]) -> None:
     chance = random.Random(name)

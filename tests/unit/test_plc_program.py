@@ -120,6 +120,7 @@ def test_the_program_weaves_the_carpet_of_its_chart(heads: int, yarns: int, seed
     assert loom.read("KnotsDone") == 96
 
 
+@pytest.mark.matrix(light=7)
 @pytest.mark.parametrize("seed", range(20))
 def test_power_cuts_lose_and_double_nothing(seed: int) -> None:
     random = np.random.default_rng(seed)

@@ -139,6 +139,7 @@ def test_branches_of_a_drawing_are_those_that_it_shows() -> None:
         assert answer.motion.status[0] == 0
 
 
+@pytest.mark.matrix(light=4)
 @pytest.mark.parametrize("name", MECHANISMS)
 def test_only_the_dragged_joint_moves(name: str) -> None:
     data = example(name)
