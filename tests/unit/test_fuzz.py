@@ -9,12 +9,13 @@ from fuzz.corpus import make_corpus
 from fuzz.inputs import make_case
 from fuzz.pool import Limits, outcomes
 from fuzz.reduction import reduced
+from kept import kept
 
 CASES = Path(__file__).parents[1] / "fuzz_cases"
 LIMITS = Limits(hang=300.0, timing=False)
 """No test of time: the machine may be busy, and kernels may have to be compiled."""
 
-FIRST, NUMBER = 1_000_000, number(40, 2000)
+FIRST, NUMBER = 1_000_000, number(25, 2000)
 """The first input of the share, not those of `make fuzz`; and how many."""
 
 
@@ -34,7 +35,7 @@ def test_what_was_found_once_stays_repaired_and_a_share_of_the_inputs_has_no_fin
 
 
 def test_an_input_follows_from_its_number() -> None:
-    corpus = make_corpus()
+    corpus = kept(make_corpus)
     first, second = ([make_case(corpus, seed) for seed in range(20)] for _ in range(2))
     assert first == second
     assert len({case.command for case in first}) > 6
