@@ -72,7 +72,7 @@ browser: venv
 	@command -v chromium >/dev/null || command -v chromium-browser >/dev/null || command -v google-chrome >/dev/null \
 	|| { [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null && { apt-get update -qq; apt-get install -y -qq --no-install-recommends chromium; } >/dev/null 2>&1; } \
 	|| echo "Chromium is missing and cannot be installed here: the tests in a browser are left out"
-	$(BIN)/pytest -n 0 tests/browser
+	$(BIN)/pytest -n 2 --dist loadfile tests/browser
 
 # Side by side, so that no processor waits for the end of a phase; the seconds of each phase stand at the end.
 test: venv

@@ -108,6 +108,19 @@ class Studio:
         self.process.wait(PATIENCE / 1000)
         self._stack.close()
 
+    def restore(self, copy: Path) -> None:
+        """Make the project what a copy of it is, without the history of its files; start the server where it ended."""
+        for folder, left in (
+            (self.project, {".studio"}),
+            (self.project / ".studio", {"secret", "served", ".gitignore"}),
+        ):
+            for path in folder.iterdir():
+                if path.name not in left:
+                    shutil.rmtree(path) if path.is_dir() else path.unlink()
+        shutil.copytree(copy, self.project, dirs_exist_ok=True)
+        if self.process.poll() is not None:
+            self.restart()
+
     def restart(self) -> None:
         """Start the server again, on the same port."""
         self.process, self.address = _started(self.project, self.port, self._stack)
