@@ -110,13 +110,10 @@ class Studio:
 
     def restore(self, copy: Path) -> None:
         """Make the project what a copy of it is, without the history of its files; start the server where it ended."""
-        for folder, left in (
-            (self.project, {".studio"}),
-            (self.project / ".studio", {"secret", "served", ".gitignore"}),
-        ):
-            for path in folder.iterdir():
-                if path.name not in left:
-                    shutil.rmtree(path) if path.is_dir() else path.unlink()
+        own = self.project / ".studio"
+        kept = {own, own / "secret", own / "served", own / ".gitignore"}
+        for path in {*self.project.iterdir(), *own.iterdir()} - kept:
+            shutil.rmtree(path) if path.is_dir() else path.unlink()
         shutil.copytree(copy, self.project, dirs_exist_ok=True)
         if self.process.poll() is not None:
             self.restart()
