@@ -11,7 +11,7 @@ from typing import Any
 
 import studio_tasks
 import uvicorn
-from processes import PATIENCE, until
+from processes import PATIENCE, python, until
 from websockets.sync.client import ClientConnection, connect
 
 from ilmek.web.app import studio_app
@@ -21,6 +21,8 @@ from ilmek.web.safety import Access
 from ilmek.web.serve import StudioOrder, access_to, bound_socket, server_settings
 
 JSON = {"content-type": "application/json"}
+UNPREPARED = tuple(python(Path(__file__).with_name("unprepared_worker.py")))
+"""Starts a worker of the real tasks that prepares nothing."""
 
 
 @dataclass
@@ -86,7 +88,7 @@ def studio(
     port = int(listener.getsockname()[1])
     access = access_to(StudioOrder(project, password=password), port, "secret of the test")
     endpoints = ENDPOINTS if real else studio_tasks.ENDPOINTS
-    command = {} if real else {"command": studio_tasks.COMMAND}
+    command = {"command": UNPREPARED if real else studio_tasks.COMMAND}
     pool = Pool(str(project), size=size, **{**command, **pool_fields})
     app = studio_app(str(project), access, f"ilmek-studio-{port}", pool, endpoints)
     server = uvicorn.Server(uvicorn.Config(app, **server_settings()))

@@ -130,19 +130,19 @@ REFUSED = {
 def test_is_refused_at_once(tmp_path: Path, name: str, capfd: pytest.CaptureFixture[str]) -> None:
     make, reason = REFUSED[name]
     (tmp_path / "picture").write_bytes(make())
-    begun = time.perf_counter()
+    begun = time.process_time()
     with pytest.raises(PictureError, match=f"(?i){reason}") as caught:
         read_picture(tmp_path / "picture")
-    assert time.perf_counter() - begun < PATIENCE
+    assert time.process_time() - begun < PATIENCE
     assert "\n" not in str(caught.value)
     assert capfd.readouterr().err == ""
 
 
 def test_many_directories_are_not_walked(tmp_path: Path) -> None:
     (tmp_path / "a.tif").write_bytes(tiff_of(100_000))
-    begun = time.perf_counter()
+    begun = time.process_time()
     picture = read_picture(tmp_path / "a.tif")
-    assert time.perf_counter() - begun < PATIENCE
+    assert time.process_time() - begun < PATIENCE
     assert picture.notes == ("the first of several frames is used",)
     assert np.array_equal(picture.rgb, np.asarray(SMOOTH))
 

@@ -5,7 +5,6 @@ import json
 import os
 import socket
 import struct
-import sys
 import zlib
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
@@ -14,7 +13,7 @@ from typing import Any
 
 import pytest
 from processes import PATIENCE, until
-from studio_server import JSON, Studio, studio
+from studio_server import JSON, UNPREPARED, Studio, studio
 from studio_tasks import LARGE
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection
@@ -274,7 +273,7 @@ def test_a_worker_that_is_killed_ends_its_request_alone(server: Studio) -> None:
 
 def test_where_nothing_can_be_written_an_error_says_what_to_do_and_all_stays(project: Path) -> None:
     """As on a full disc: the system refuses every byte that a worker writes to a file."""
-    command = ("/bin/sh", "-c", 'ulimit -f 0; exec "$0" -m ilmek.web.worker "$@"', sys.executable)
+    command = ("/bin/sh", "-c", 'ulimit -f 0; exec "$0" "$@"', *UNPREPARED)
     before = files_of(project)
     with studio(project, size=1, real=True, command=command) as served:
         base = served.send("GET", "/api/project/files/carpet.toml").json["digest"]
