@@ -117,6 +117,18 @@ def test_nothing_is_half_written_after_a_signal(tmp_path: Path, number: signal.S
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.parametrize("ignored", [signal.SIGINT, signal.SIGHUP])
+def test_what_a_script_or_nohup_ignores_stays_ignored_and_a_termination_ends(tmp_path: Path, ignored: int) -> None:
+    """`ilmek ... &` in a script goes on where Ctrl-C ends the script, `nohup ilmek ...` where the terminal closes."""
+    background = f"import signal; signal.signal({int(ignored)}, signal.SIG_IGN)\n"
+    with start(python("-c", background + SLOW), cwd=tmp_path) as process:
+        assert process.stdout.readline() == "writing\n"
+        process.send_signal(ignored)
+        process.send_signal(signal.SIGTERM)
+        errors = process.communicate(timeout=PATIENCE)[1]
+    assert (process.returncode, errors) == (143, "ilmek: interrupted; nothing was written\n")
+
+
 @pytest.mark.parametrize("arguments", [["machines"], ["machines", "--json", "-"], ["chart", "--help"]])
 def test_a_reader_that_goes_away_is_no_traceback(arguments: list[str]) -> None:
     """The status is that of a program that the signal of a closed pipe ends: 128 + SIGPIPE."""

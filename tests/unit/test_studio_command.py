@@ -94,6 +94,20 @@ def test_a_second_studio_on_the_project_is_reported(tmp_path: Path) -> None:
             assert (note in process.communicate(timeout=PATIENCE)[1].splitlines()) is reported
 
 
+def test_a_studio_in_the_background_of_a_script_is_ended_by_a_termination(tmp_path: Path) -> None:
+    """Its parent ignores Ctrl-C; so does the studio, and ends as ever by SIGTERM, with its workers."""
+    shell = ["sh", "-c", 'trap "" INT; exec "$@"', "sh", *ilmek("studio", tmp_path / "p", "--no-browser", "--port", 0)]
+    with start(shell) as process:
+        assert "token" in process.stdout.readline()
+        workers = until(lambda: children(process.pid), "a worker")
+        process.send_signal(signal.SIGINT)
+        process.terminate()
+        errors = process.communicate(timeout=PATIENCE)[1]
+    assert process.returncode == 143
+    assert errors == f"ilmek: interrupted; the studio is closed; the project is in {tmp_path / 'p'}\n"
+    assert_ended(workers)
+
+
 def test_a_project_is_served_alone_again_after_the_others_end(tmp_path: Path) -> None:
     project = open_project(tmp_path / "carpets")
     with served_alone(project) as first, served_alone(project) as second:
