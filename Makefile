@@ -8,17 +8,18 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help weave studio client client-check browser test lint types layers unit shapes mutants fuzz kills cuts bench docs dist venv lock clean
+.PHONY: help weave studio client client-check browser test lint types layers unit campaigns shapes mutants fuzz kills cuts bench docs dist venv lock clean
 
 help:
 	@echo "make weave   weave the shipped example and print where its report lies"
 	@echo "make studio  open the studio on the shipped example, in a browser"
-	@echo "make test    every check and every test"
-	@echo "make shapes  the engine's tests with the shapes of all arrays checked (slower)"
-	@echo "make mutants small wrong changes of the sources, and which of them no test notices (about an hour)"
-	@echo "make fuzz    20,000 hostile inputs for every command (about ten minutes)"
-	@echo "make kills   500 signals at random instants of real commands: no result is lost, no message is false (10 minutes)"
-	@echo "make cuts    power cuts and kills while carpets are woven: every knot is in them once (five minutes)"
+	@echo "make test    every check and every test, and the seconds of each phase (lint, layers, types, unit, client-check, browser)"
+	@echo "make campaigns  much random input for every law (hours); SHARE=1: a share, five minutes; SEED=7: these cases; parts by PARTS=\"kills cuts\":"
+	@echo "     make shapes  the engine's tests with the shapes of all arrays checked"
+	@echo "     make mutants small wrong changes of the sources, and which of them no test notices (about an hour)"
+	@echo "     make fuzz    20,000 hostile inputs for every command (about ten minutes)"
+	@echo "     make kills   500 signals at random instants of real commands: no result is lost, no message is false (10 minutes)"
+	@echo "     make cuts    power cuts and kills while carpets are woven: every knot is in them once (five minutes)"
 	@echo "make client  the studio's client from its sources, into the package (needs Node)"
 	@echo "make bench   the benchmarks, side by side with their peers"
 	@echo "make docs    the documentation, in docs/_build/html"
@@ -72,12 +73,11 @@ browser: venv
 	@command -v chromium >/dev/null || command -v chromium-browser >/dev/null || command -v google-chrome >/dev/null \
 	|| { [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null && { apt-get update -qq; apt-get install -y -qq --no-install-recommends chromium; } >/dev/null 2>&1; } \
 	|| echo "Chromium is missing and cannot be installed here: the tests in a browser are left out"
-	$(BIN)/pytest -n 0 tests/browser
+	$(BIN)/pytest -n 2 --dist loadfile tests/browser
 
-# Types beside the tests: mypy has one process, and takes more than a minute in a fresh checkout.
-test: lint layers client-check
-	@$(MAKE) --no-print-directory -j 2 types unit
-	@$(MAKE) --no-print-directory browser
+# Side by side, so that no processor waits for the end of a phase; the seconds of each phase stand at the end.
+test: venv
+	@PYTHONPATH=tests/support $(BIN)/python -m phases browser "lint layers client-check types" unit
 
 lint: venv
 	$(BIN)/ruff check .
@@ -94,6 +94,10 @@ unit: venv
 
 shapes: venv
 	$(BIN)/pytest -n 2 --dist worksteal --jaxtyping-packages=ilmek,typecheck.checker $$($(BIN)/python tests/support/engine_paths.py)
+
+# Without PARTS all of them, in a share two that follow from SEED; without SEED it is the number of the commit.
+campaigns: venv
+	@PYTHONPATH=src:tests/support $(BIN)/python -m campaigns $(PARTS) $(if $(SEED),--seed $(SEED)) $(if $(SHARE),--share)
 
 # Options as of `python -m kills --help`: make kills KILLS="--long --number 40"
 kills: venv
@@ -133,4 +137,4 @@ lock:
 	$(PYTHON) -c 'import json; p = "studio/package-lock.json"; d = json.load(open(p)); [v.pop("funding", None) for v in d["packages"].values()]; open(p, "w").write(json.dumps(d, indent=2) + "\n")'
 
 clean:
-	rm -rf .venv dist studio/node_modules out docs/_build .pytest_cache .mypy_cache .ruff_cache .import_linter_cache
+	rm -rf .venv build dist studio/node_modules out docs/_build .pytest_cache .mypy_cache .ruff_cache .import_linter_cache

@@ -2,11 +2,10 @@
 
 import importlib
 import re
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
+from processes import printed, python
 
 import ilmek
 
@@ -57,8 +56,7 @@ def test_packages_are_cheap_to_import() -> None:
     script = (
         f"import {', '.join(LAZY)}; import sys; print([m for m in ('numpy', 'scipy', 'numba') if m in sys.modules])"
     )
-    shown = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
-    assert shown.stdout.strip() == "[]"
+    assert printed(python("-c", script)) == "[]\n"
 
 
 def test_unknown_name_offers_the_nearest() -> None:

@@ -1,16 +1,16 @@
 """What the repository must not hold: machine paths, addresses in the lock, left-overs."""
 
 import re
-import subprocess
 from pathlib import Path
 
 import pytest
+from processes import ended
 
 ROOT = Path(__file__).parents[2]
 
 
 def tracked() -> list[Path]:
-    listed = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, text=True, check=False)
+    listed = ended(["git", "ls-files", "-z"], cwd=ROOT)
     if listed.returncode:
         pytest.fail(f"git ls-files: {listed.stderr}")
     return [ROOT / name for name in listed.stdout.split("\0") if name and (ROOT / name).is_file()]

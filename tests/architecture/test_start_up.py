@@ -1,11 +1,10 @@
 """What must stay light: a command imports what it uses."""
 
 import json
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
+from processes import printed, python
 
 ROOT = Path(__file__).parents[2]
 FIGURES = ("matplotlib", "PIL", "reportlab", "jinja2", "ezdxf", "OCP", "ilmek.viz")
@@ -29,8 +28,7 @@ COMMANDS = {
 def imported(statement: str, names: tuple[str, ...]) -> list[str]:
     """Those of the modules that a statement imports."""
     script = f"import sys, json\n{statement}\nprint('\\n' + json.dumps([m for m in {names!r} if m in sys.modules]))"
-    shown = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=True)
-    found: list[str] = json.loads(shown.stdout.splitlines()[-1])
+    found: list[str] = json.loads(printed(python("-c", script), cwd=ROOT).splitlines()[-1])
     return found
 
 

@@ -4,12 +4,11 @@ import ast
 import inspect
 import json
 import re
-import subprocess
-import sys
 from pathlib import Path
 from typing import Any
 
 import pytest
+from processes import printed, python
 from sources import tree_of
 
 from ilmek.jobs.studio.answers import Binary
@@ -76,8 +75,7 @@ def test_the_server_imports_no_engineering() -> None:
         "heavy = {'numpy', 'scipy', 'numba', 'PIL', 'tomlkit', 'click.testing', 'ilmek.machines', 'ilmek.params'}\n"
         "print(sorted(heavy & set(sys.modules)))"
     )
-    shown = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=True)
-    assert shown.stdout.strip() == "[]"
+    assert printed(python("-c", script), cwd=ROOT) == "[]\n"
 
 
 def test_the_clients_types_are_those_of_the_server() -> None:

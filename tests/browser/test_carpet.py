@@ -1,15 +1,13 @@
 """The carpet in a real browser: a dropped picture, the chart that follows, edits of the recipe, rows to weave by."""
 
 import re
-import subprocess
-import sys
-import time
 from io import BytesIO
 from pathlib import Path
 
 import pytest
 from PIL import Image
 from playwright.sync_api import Page, expect
+from processes import ilmek, start, until
 from studio_browser import PATIENCE, Seen, Studio, data_of, middle, open_view, until_file, violations
 
 from ilmek.io.yarn_file import default_yarns
@@ -69,13 +67,12 @@ def _edits(running: Studio) -> list[str]:
 
 def _until_drawn(page: Page) -> None:
     """Wait until the canvas shows more than its ground."""
-    until = time.monotonic() + PATIENCE / 1000
-    while True:
-        picture = Image.open(BytesIO(page.locator(".carpet-surface canvas").screenshot())).convert("RGB")
-        if len(picture.reduce(8).getcolors(100_000) or ()) > 10:
-            return
-        assert time.monotonic() < until, "the chart was never drawn"
-        time.sleep(0.1)
+    canvas = page.locator(".carpet-surface canvas")
+
+    def colours() -> int:
+        return len(Image.open(BytesIO(canvas.screenshot())).convert("RGB").reduce(8).getcolors(100_000) or ())
+
+    until(lambda: colours() > 10, "the chart")
 
 
 @pytest.fixture
@@ -168,8 +165,7 @@ def test_the_crop_is_set_by_keys(carpet: Page, running: Studio) -> None:
 
 def test_a_knot_is_that_of_the_command_line(carpet: Page, running: Studio, tmp_path: Path) -> None:
     recipe, out = running.project / "carpet.toml", tmp_path / "chart"
-    command = ("chart", str(recipe), "--no-pdf", "--rows", "none", "--out", str(out))
-    with subprocess.Popen([sys.executable, "-m", "ilmek", *command], stdout=subprocess.DEVNULL) as charting:
+    with start(ilmek("chart", recipe, "--no-pdf", "--rows", "none", "--out", out)) as charting:
         carpet.get_by_role("button", name="Single knots").click()
         surface = carpet.locator(".carpet-surface")
         surface.press("ArrowUp")
@@ -180,7 +176,8 @@ def test_a_knot_is_that_of_the_command_line(carpet: Page, running: Studio, tmp_p
         at_cursor = _status(carpet, f"Row {int(begin[1]) + 10} from below, knot {int(begin[2]) - 11} from")
         carpet.mouse.move(*middle(carpet, ".carpet-marks .cursor"))
         expect(carpet.locator(".carpet-status")).to_have_text(at_cursor)
-        assert charting.wait() == 0
+        charting.communicate(timeout=PATIENCE / 1000)
+        assert charting.returncode == 0
     found = AT_KNOT.search(at_cursor)
     assert found is not None
     colour_of = {yarn.name: yarn.hex for yarn in default_yarns()}

@@ -2,13 +2,10 @@
 
 import json
 import re
-import subprocess
-import sys
-import time
 import tomllib
-from collections.abc import Callable
 
 from playwright.sync_api import Page, expect
+from processes import ilmek, printed, until
 from studio_browser import PATIENCE, Studio, data_of, middle, open_view, until_file, violations
 
 
@@ -27,14 +24,6 @@ def degrees_of_freedom(page: Page, count: int, driven: int) -> None:
     facts = page.locator(".linkage-facts").first.locator("dd")
     expect(facts.nth(0)).to_have_text(str(count), timeout=PATIENCE)
     expect(facts.nth(1)).to_have_text(str(driven), timeout=PATIENCE)
-
-
-def until(done: Callable[[], bool]) -> None:
-    """Wait until something holds."""
-    end = time.monotonic() + 20
-    while not done():
-        assert time.monotonic() < end
-        time.sleep(0.05)
 
 
 def test_a_four_bar_is_drawn_with_the_mouse(page: Page, running: Studio) -> None:
@@ -71,9 +60,8 @@ def test_a_four_bar_is_drawn_with_the_mouse(page: Page, running: Studio) -> None
         ["link1", "link2"],
         ["link2", "link3"],
     ]
-    command = [sys.executable, "-m", "ilmek", "mechanism", path, "--json", "-"]
-    made = subprocess.run(command, cwd=running.project, capture_output=True, text=True, check=True)
-    assert json.loads(made.stdout)["results"]["mobility"] == "1 degree of freedom by count and by rank"
+    report = json.loads(printed(ilmek("mechanism", path, "--json", "-"), cwd=running.project))
+    assert report["results"]["mobility"] == "1 degree of freedom by count and by rank"
 
 
 def test_a_joint_is_dragged_and_moved_by_keys(page: Page, running: Studio) -> None:

@@ -1,12 +1,10 @@
 """Two tabs on one project, another program beside them, and a server that is lost during an edit."""
 
 import re
-import time
-from pathlib import Path
 
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
-from studio_browser import PATIENCE, Seen, Studio, context_of, open_view, settled
+from studio_browser import PATIENCE, Seen, Studio, context_of, open_view, settled, until_file
 
 FILE = "machines/beat-up.toml"
 
@@ -25,15 +23,6 @@ def _type_swing(page: Page, value: str) -> None:
     field.press("Enter")
 
 
-def _file_has(project: Path, text: str, patience: float = 20.0) -> bool:
-    until = time.monotonic() + patience
-    while time.monotonic() < until:
-        if text in (project / FILE).read_text(encoding="utf-8"):
-            return True
-        time.sleep(0.05)
-    return False
-
-
 @pytest.fixture
 def machine(page: Page, running: Studio) -> Page:
     open_view(page, running, "machine/beat-up")
@@ -45,14 +34,14 @@ def test_an_edit_is_in_the_file_and_in_the_other_tab(browser: Browser, running: 
         other = context.new_page()
         open_view(other, running, "machine/beat-up")
         _type_swing(machine, "31deg")
-        assert _file_has(running.project, "31deg")
+        until_file(running.project, FILE, "31deg")
         expect(_field(other)).to_have_value(re.compile("^31"), timeout=PATIENCE)
 
 
 def test_undo_is_there_after_a_reload(running: Studio, machine: Page) -> None:
     before = _swing(machine)
     _type_swing(machine, "33deg")
-    assert _file_has(running.project, "33deg")
+    until_file(running.project, FILE, "33deg")
     machine.reload()
     open_view(machine, running, "machine/beat-up")
     machine.get_by_role("button", name=re.compile("^Undo")).first.click()
@@ -73,7 +62,7 @@ def test_an_edit_survives_a_server_that_is_killed(running: Studio, machine: Page
         timeout=PATIENCE
     )
     running.restart()
-    assert _file_has(running.project, "34deg", patience=30)
+    until_file(running.project, FILE, "34deg")
     settled(machine)
     assert _swing(machine).startswith("34")
 

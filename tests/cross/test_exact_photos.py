@@ -20,6 +20,7 @@ def photo(name: str, width: int) -> Image.Image:
     return picture.resize((width, round(width * picture.height / picture.width)), Image.Resampling.LANCZOS)
 
 
+@pytest.mark.matrix(light=4)
 @pytest.mark.parametrize(("name", "width"), [*((name, 120) for name in NAMES), ("coffee.png", 360)])
 def test_a_photo_of_few_colours_is_no_drawing(name: str, width: int) -> None:
     picture = photo(name, width)

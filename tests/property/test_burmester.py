@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from effort import examples
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.optimize import fsolve
@@ -53,7 +54,7 @@ def spread(guide: Guide, points: np.ndarray, angles: np.ndarray) -> float:
     return float(np.ptp(guide.reach(points, angles))) / size
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(planted(5))
 def test_both_cranks_of_a_four_bar_are_among_the_links_of_five_of_its_poses(task) -> None:
     drawn, points, angles = task

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from effort import examples
 from fitted_picture import fit_picture
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -34,7 +35,7 @@ def mirrored(height: int, width: int) -> np.ndarray:
 
 
 @given(SIDES, SIDES, SIZES, st.sampled_from(["crop", "pad"]))
-@settings(max_examples=60, deadline=None)
+@examples(60)
 def test_crop_and_pad_keep_the_centre_and_give_the_proportions(
     height: int, width: int, size: CarpetSize, fit: str
 ) -> None:
@@ -49,7 +50,7 @@ def test_crop_and_pad_keep_the_centre_and_give_the_proportions(
 
 
 @given(SIDES, SIDES, SIZES)
-@settings(max_examples=60, deadline=None)
+@examples(60)
 def test_auto_stretches_up_to_two_per_cent_and_crops_the_rest(height: int, width: int, size: CarpetSize) -> None:
     rgb = noise(height, width)
     made, done = fit_picture(rgb, size)
@@ -102,7 +103,7 @@ def test_a_picture_with_the_grid_of_the_knots_is_left_as_it_is() -> None:
 
 
 @given(st.floats(1.0, 89.0), st.integers(40, 120), st.integers(40, 120))
-@settings(max_examples=80, deadline=None)
+@examples(80)
 def test_the_inner_rectangle_lies_in_the_turned_picture_and_no_larger_one_of_its_shape_does(
     angle: float, width: int, height: int
 ) -> None:

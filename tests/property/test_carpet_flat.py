@@ -68,6 +68,7 @@ def is_line(rgb: Picture) -> np.ndarray:
     return line < ground
 
 
+@pytest.mark.matrix(light=5)
 @pytest.mark.parametrize("finish", ["hard", "smooth", "grain", "jpeg"])
 @pytest.mark.parametrize("pixels", [2.5, 4.0, 5.7])
 def test_a_line_of_any_angle_stays_in_one_piece_and_keeps_its_width(pixels: float, finish: str) -> None:
@@ -136,6 +137,7 @@ def test_a_mirrored_or_turned_picture_gives_the_mirrored_or_turned_chart(seed: i
         assert "vertical" in both.symmetric
 
 
+@pytest.mark.matrix(light=8)
 @pytest.mark.parametrize("name", ["eyes", "rosette", "star", "borders", "kilim steps", "letters", "scales"])
 @pytest.mark.parametrize("finish", ["hard", "smooth", "grain"])
 def test_no_knot_has_a_colour_that_its_cell_has_not(name: str, finish: str) -> None:

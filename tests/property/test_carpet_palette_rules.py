@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from effort import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -45,7 +46,7 @@ SETS = st.sets(st.sampled_from(NAMES), max_size=4)
     st.one_of(st.integers(4, 8), st.just("auto"), st.none()),
     st.sampled_from([0.0, 0.01, 0.1]),
 )
-@settings(max_examples=60, deadline=None)
+@examples(60)
 def test_kept_yarns_are_there_and_banned_ones_never(
     seed: int, keep: set[str], never: set[str], colours: int | str | None, least: float
 ) -> None:

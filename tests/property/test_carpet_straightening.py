@@ -5,6 +5,7 @@ import math
 import numpy as np
 import photographs
 import pytest
+from effort import examples
 from fitted_picture import fit_picture
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -56,7 +57,7 @@ def test_a_photographed_checkerboard_is_straight_to_a_knot(shifts: tuple[float, 
 
 
 @given(SHIFTS, st.floats(1, 500), st.floats(1, 500))
-@settings(max_examples=50, deadline=None)
+@examples(50)
 def test_the_homography_takes_corners_to_corners_and_lines_to_lines(
     shifts: tuple[float, ...], width: float, height: float
 ) -> None:
@@ -72,7 +73,7 @@ def test_the_homography_takes_corners_to_corners_and_lines_to_lines(
 
 
 @given(st.floats(-0.6, 0.6), st.floats(-0.6, 0.6), st.floats(-0.5, 0.5), st.floats(0.6, 1.5), st.floats(0.4, 2.5))
-@settings(max_examples=100, deadline=None)
+@examples(100)
 def test_the_corners_give_the_true_proportions(
     yaw: float, pitch: float, roll: float, focal: float, proportions: float
 ) -> None:
@@ -115,6 +116,7 @@ def carpet() -> Rgb:
     return rgb
 
 
+@pytest.mark.matrix(light=2)
 @pytest.mark.parametrize("name", QUADS)
 def test_the_outline_on_a_floor_is_found(name: str) -> None:
     """To half a pixel; two knots are four."""
@@ -155,6 +157,7 @@ UNCLEAR = {
 }  # fmt: skip
 
 
+@pytest.mark.matrix(light=3)
 @pytest.mark.parametrize("name", UNCLEAR)
 def test_an_outline_that_is_not_clear_is_refused(name: str) -> None:
     with pytest.raises(PictureError, match="outline of the carpet is not clear.*give the corners"):

@@ -1,8 +1,5 @@
 """A chart of any array of indices: what is written in every format is what was given, or an error names the fault."""
 
-import os
-import subprocess
-import sys
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -12,6 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from PIL import Image
+from processes import ended, python
 
 import ilmek
 from ilmek.carpet.chart import Chart
@@ -263,8 +261,7 @@ print("checked")
 
 def test_kernels_of_a_chart_keep_inside_their_arrays() -> None:
     """Each index is checked in the machine code; one outside is an IndexError."""
-    environment = dict(os.environ, ILMEK_BOUNDS_CHECK="1")
-    run = subprocess.run([sys.executable, "-c", CHECKED], env=environment, capture_output=True, text=True, check=False)
+    run = ended(python("-c", CHECKED), changes={"ILMEK_BOUNDS_CHECK": "1"})
     assert (run.stdout, run.returncode) == ("checked\n", 0), run.stderr
 
 

@@ -72,6 +72,7 @@ def pieces(mask: np.ndarray, least: float = 1) -> int:
     return int(np.count_nonzero(np.bincount(ndimage.label(mask, EIGHT)[0].ravel())[1:] >= least))
 
 
+@pytest.mark.matrix(light=32)
 @pytest.mark.parametrize("finish", FINISHES)
 @pytest.mark.parametrize("name", FLAT)
 def test_a_drawing_is_charted_as_it_is_drawn(name: str, finish: str) -> None:
@@ -137,6 +138,7 @@ def test_a_photograph_is_read_as_one(name: str) -> None:
     assert chart.reading.least_delta_e <= chart.reading.mean_delta_e <= 1.05 * chart.reading.least_delta_e
 
 
+@pytest.mark.matrix(light=5)
 @pytest.mark.parametrize("name", DULL)
 def test_a_photograph_of_few_tones_is_no_drawing(name: str) -> None:
     rgb = supplied(name)
@@ -152,6 +154,7 @@ def test_artwork_is_a_drawing_with_grain_too(name: str) -> None:
     assert looks_flat(np.rint(rgb + grain).clip(0, 255).astype(np.uint8)).is_flat
 
 
+@pytest.mark.matrix(light=4)
 @pytest.mark.parametrize("pixels", [1.7, 2.5])
 @pytest.mark.parametrize("finish", FINISHES)
 def test_a_drawing_is_seen_at_any_number_of_pixels_a_knot(finish: str, pixels: float) -> None:

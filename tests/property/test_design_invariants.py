@@ -7,14 +7,16 @@ import random
 from dataclasses import replace
 
 import pytest
+from default_machines import default_report
 from designs import random_settings
+from effort import seeds
 
 from ilmek.errors import IlmekError
 from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.invariants import SOURCE
 
-NUMBER, SLOW = 16, ("automated-loom", "knotting-dyad", "path-four-bar", "motion-four-bar")
-"""Designs of each machine, half as many of those that take a second or two each."""
+SLOW = ("automated-loom", "knotting-dyad", "path-four-bar", "motion-four-bar")
+"""Machines whose designs take a second or two each."""
 
 FEWER = {"path-four-bar": {"starts": 96}}
 """A search of few starts has the same kinds of results."""
@@ -24,7 +26,7 @@ FEWER = {"path-four-bar": {"starts": 96}}
 def test_random_designs_keep_the_invariants_or_are_refused(machine: str) -> None:
     component = replace(MACHINES[machine], figures=lambda _: ())  # the figures take most of the time
     made = 0
-    for seed in range(NUMBER // 2 if machine in SLOW else NUMBER):
+    for seed in seeds(2, 6) if machine in SLOW else seeds(8, 24):
         settings = random_settings(machine, random.Random(f"{machine} {seed}")) | FEWER.get(machine, {})
         try:
             report = component.report_for(settings)
@@ -43,5 +45,5 @@ def test_the_same_seed_gives_the_same_settings() -> None:
 
 @pytest.mark.parametrize("machine", MACHINES)
 def test_a_sound_design_has_no_check_of_an_invariant(machine: str) -> None:
-    report = MACHINES[machine].report_for({})
+    report = default_report(machine)
     assert [check for check in report.all_checks if check.source == SOURCE] == []

@@ -15,6 +15,7 @@ from ilmek.factory.yarn_stock import waiting_in
 LIMITS = SolveLimits(3.0, 60.0)
 
 
+@pytest.mark.matrix(light=3)
 @pytest.mark.parametrize("seed", range(6))
 def test_no_plan_costs_less_than_the_solvers(seed: int) -> None:
     factory = small_factory(2 + seed % 2, 2, seed=seed, tight=0.2)
@@ -58,6 +59,7 @@ def test_bounds_are_below_every_plan(seed: int) -> None:
     assert 0 < capacity_bound(factory, horizon) <= best.cost
 
 
+@pytest.mark.matrix(light=3)
 @pytest.mark.parametrize("seed", range(60, 66))
 def test_a_plan_is_made_again_from_its_sequences(seed: int) -> None:
     plan = first_plan(small_factory(20, 3, seed=seed))

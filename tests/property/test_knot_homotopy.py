@@ -3,7 +3,8 @@
 from itertools import pairwise
 
 import numpy as np
-from hypothesis import given, settings
+from effort import examples
+from hypothesis import given
 from hypothesis import strategies as st
 
 from ilmek.units import mm
@@ -12,7 +13,7 @@ from ilmek.weaving.knots.path import KnotDimensions, knot_path
 from ilmek.weaving.knots.proof import knot_of_curve, tied_knot
 from ilmek.weaving.knots.word import SINGLE, inverse, knot, passes, recognised, reduced
 
-CASES = settings(max_examples=60, deadline=None)
+CASES = examples(100, 20)
 WARPS = row_of_warps(5, 1.0)
 ROW = WarpRow(WARPS)
 LETTERS = st.integers(1, 5).flatmap(lambda warp: st.sampled_from((warp, -warp)))

@@ -1,4 +1,7 @@
-"""Random mechanisms of every group of class II, many at once; `python -m benchmarks accuracy` is the same with 10^5."""
+"""Random mechanisms of every group of class II, many at once: few in `make test`, more in a campaign.
+
+`python -m benchmarks accuracy` is the same with 10^5.
+"""
 
 import numpy as np
 import pytest
@@ -6,12 +9,14 @@ from benchmarks.campaign.accuracy import accuracy
 from benchmarks.campaign.branches import crank_rockers
 from benchmarks.campaign.near_limits import near_limits
 from benchmarks.campaign.random_linkages import KINDS
+from effort import first, number
 
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_loops_close_newton_agrees_and_rates_are_derivatives(kind):
-    found = accuracy(kind, 1000, np.random.default_rng(1))
-    assert found.mechanisms == 1000
+    count = number(150, 4000)
+    found = accuracy(kind, count, np.random.default_rng(first(1)))
+    assert found.mechanisms == count
     assert found.closure <= 1e-12
     assert found.newton <= 1e-10
     assert found.velocity <= 1e-9
@@ -20,10 +25,15 @@ def test_loops_close_newton_agrees_and_rates_are_derivatives(kind):
 
 @pytest.mark.parametrize(
     ("kind", "count", "dyads", "closed_forms"),
-    [*((kind, 40, 1, True) for kind in KINDS), ("RRR", 15, 2, True), ("RRP", 15, 3, True), ("RPR", 4, 1, False)],
+    [
+        *((kind, number(15, 60), 1, True) for kind in KINDS),
+        ("RRR", number(6, 30), 2, True),
+        ("RRP", number(6, 30), 3, True),
+        ("RPR", number(2, 8), 1, False),
+    ],
 )
 def test_beside_a_limit_ok_means_two_digits_of_every_acceleration_of_forty(kind, count, dyads, closed_forms):
-    found = near_limits(kind, count, np.random.default_rng(2), dyads=dyads, closed_forms=closed_forms)
+    found = near_limits(kind, count, np.random.default_rng(first(2)), dyads=dyads, closed_forms=closed_forms)
     assert found.ok > 0
     assert found.worst <= 0.01
     assert found.silent == 0
@@ -32,7 +42,8 @@ def test_beside_a_limit_ok_means_two_digits_of_every_acceleration_of_forty(kind,
 
 
 def test_crank_rockers_stay_on_their_branch_however_few_the_steps():
-    found = crank_rockers(500, np.random.default_rng(3))
-    assert found.greatest > 0.9999
-    assert found.samples == 500 * (36 + 72 + 360)
+    count = number(150, 2000)
+    found = crank_rockers(count, np.random.default_rng(first(3)))
+    assert found.greatest > 0.999
+    assert found.samples == count * (36 + 72 + 360)
     assert found.wrong == 0

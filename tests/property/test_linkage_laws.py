@@ -3,6 +3,7 @@
 import dataclasses
 
 import numpy as np
+from effort import examples
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
@@ -170,7 +171,7 @@ def test_the_four_bar_closes_exactly_in_its_input_range(ground, crank, coupler, 
     assert (status[outside] == 1).all()
 
 
-@settings(max_examples=100)
+@examples(100)
 @given(st.floats(1e-9, 1e-4), SIGN, st.sampled_from([36, 72, 360]), LENGTH, LENGTH)
 def test_no_wrong_branch_close_to_a_change_point(short, branch, steps, coupler, rocker):
     """Grashof ratio up to 1 - 1e-9: the orientation of the triangle A B0 B never changes over the turn."""

@@ -5,7 +5,8 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from effort import examples
+from hypothesis import given
 from hypothesis import strategies as st
 from small_programme import head_knots, rows_of
 
@@ -53,7 +54,7 @@ def account(programme: Programme) -> tuple[float, list[int], list[int]]:
 
 
 @given(charts())
-@settings(max_examples=100)
+@examples(100)
 def test_the_time_is_that_of_the_explicit_operations(case: tuple[Indices, int, int]) -> None:
     knots, yarns, heads = case
     programme = make_programme(knots, yarns, heads, TIMES)
@@ -66,7 +67,7 @@ def test_the_time_is_that_of_the_explicit_operations(case: tuple[Indices, int, i
 
 
 @given(charts())
-@settings(max_examples=100)
+@examples(100)
 def test_every_knot_is_tied_once_by_its_head_in_its_colour(case: tuple[Indices, int, int]) -> None:
     knots, yarns, heads = case
     programme = make_programme(knots, yarns, heads, TIMES)
@@ -79,7 +80,7 @@ def test_every_knot_is_tied_once_by_its_head_in_its_colour(case: tuple[Indices, 
 
 
 @given(charts())
-@settings(max_examples=60)
+@examples(60)
 def test_a_head_reaches_its_first_knot_of_a_row_while_the_row_before_ends(case: tuple[Indices, int, int]) -> None:
     knots, yarns, heads = case
     times = Times(knot=2.0, colour_change=0.5, travel=0.3, weft=1.0)
@@ -91,7 +92,7 @@ def test_a_head_reaches_its_first_knot_of_a_row_while_the_row_before_ends(case: 
 
 
 @given(charts())
-@settings(max_examples=80)
+@examples(80)
 def test_the_order_is_never_slower_than_sweeping_a_part_with_the_same_handler(case: tuple[Indices, int, int]) -> None:
     knots, yarns, _ = case
     times = Times(knot=1.0, colour_change=1.0, travel=0.01, weft=0.0)
@@ -101,7 +102,7 @@ def test_the_order_is_never_slower_than_sweeping_a_part_with_the_same_handler(ca
 
 
 @given(charts(), st.floats(1.0, 3.0))
-@settings(max_examples=80)
+@examples(80)
 def test_deadline_gives_the_smallest_number_of_heads(case: tuple[Indices, int, int], slack: float) -> None:
     knots, yarns, heads_max = case
     durations = [make_programme(knots, yarns, heads, TIMES).duration for heads in range(1, heads_max + 1)]
@@ -111,7 +112,7 @@ def test_deadline_gives_the_smallest_number_of_heads(case: tuple[Indices, int, i
 
 
 @given(charts())
-@settings(max_examples=60)
+@examples(60)
 def test_no_chart_is_woven_sooner_than_the_least_time(case: tuple[Indices, int, int]) -> None:
     knots, yarns, heads = case
     rows, columns = knots.shape
@@ -125,7 +126,7 @@ def test_a_trial_is_given_up_above_the_deadline() -> None:
 
 
 @given(charts())
-@settings(max_examples=60)
+@examples(60)
 def test_heads_keep_their_distance_in_every_phase(case: tuple[Indices, int, int]) -> None:
     knots, yarns, heads = case
     programme = make_programme(knots, yarns, heads, TIMES)

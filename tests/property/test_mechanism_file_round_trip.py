@@ -4,6 +4,7 @@ import json
 import math
 from dataclasses import fields
 
+from effort import examples
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 
@@ -84,7 +85,7 @@ def built(points, joints, branches, name, pose) -> Mechanism:
 WEIGHT = st.tuples(POSITIVE, PLACE, POSITIVE)
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(parts(), st.dictionaries(st.integers(0, 4), WEIGHT, max_size=2))
 def test_what_is_written_is_read_again(said, weights):
     mechanism = built(*said)
@@ -105,7 +106,7 @@ TREE = st.recursive(
 )
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(st.lists(NAME, min_size=1, max_size=6, unique=True))
 def test_json_keys_are_found_in_their_lines(names):
     data = {names[0]: {name: [0, {"x": "]}"}] for name in names[1:]}}
@@ -119,7 +120,7 @@ def test_json_keys_are_found_in_their_lines(names):
         assert found[(names[0], name, 1, "x")] == line + 3
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(st.dictionaries(NAME, TREE, max_size=4))
 def test_every_key_of_a_toml_text_has_a_place(data):
     text = toml_text(data)

@@ -24,6 +24,7 @@ def answer(**settings: str) -> MotionFourBar:
     return design(MotionFourBarParams.read(settings))
 
 
+@pytest.mark.matrix(light=4)
 @pytest.mark.parametrize("poses", [3, 4])
 @pytest.mark.parametrize("seed", [3, 29, 57, 81, 102])
 def test_a_planted_task_with_little_slack_has_an_answer_within_every_limit(poses: int, seed: int) -> None:

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from effort import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -33,7 +34,7 @@ def oval(count):
 
 
 @given(st.integers(0, 2**32 - 1), st.sampled_from([+1, -1]), st.sampled_from([+1, -1]))
-@settings(max_examples=60, deadline=None)
+@examples(60)
 def test_slopes_are_differences(seed, kind, branch):
     rng = np.random.default_rng(seed)
     bounds = np.full(4, 1e-3), np.full(4, 10.0)

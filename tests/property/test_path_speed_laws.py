@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from effort import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -87,7 +88,7 @@ def test_backwards_and_in_other_units_it_takes_the_same_time(seed: int, jerk: fl
     assert quickest_motion(longer, limits, INTERVALS).duration == pytest.approx(time, rel=2e-3)
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(
     distance=st.floats(-10, 10).filter(lambda way: way == 0 or abs(way) > 1e-3),
     speed=LIMIT,

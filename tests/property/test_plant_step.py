@@ -6,6 +6,7 @@ from dataclasses import astuple
 from pathlib import Path
 
 import pytest
+from effort import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from plant_driver import weave
@@ -90,7 +91,7 @@ def taken(state: PlantState, inputs: Sequence[PlantInput]) -> tuple[PlantState, 
     return state, done
 
 
-@settings(max_examples=100)
+@examples(100)
 @given(st.lists(st.tuples(st.lists(INPUTS, max_size=4), DURATIONS, DURATIONS), max_size=6))
 def test_a_step_in_two_parts_is_the_step(steps: list[tuple[list[PlantInput], int, int]]) -> None:
     state = first_state(PLANT)
@@ -105,7 +106,7 @@ def test_a_step_in_two_parts_is_the_step(steps: list[tuple[list[PlantInput], int
         state = whole
 
 
-@settings(max_examples=100)
+@examples(100)
 @given(st.lists(st.tuples(INPUTS, DURATIONS), max_size=25))
 def test_inputs_of_one_time_act_alike_together_and_one_by_one(steps: list[tuple[PlantInput, int]]) -> None:
     state = first_state(PLANT)

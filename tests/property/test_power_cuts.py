@@ -1,6 +1,7 @@
 """Power cuts at random instants, on a disc that loses, tears and reorders writes: every knot is in the carpet once."""
 
 import pytest
+from effort import seeds
 from loom_cuts.cuts import FAULTY, CutPort, woven_through_cuts
 from small_programme import small_programme
 
@@ -14,12 +15,12 @@ PROGRAMME = small_programme(6, 24, 3, 4)
 @pytest.mark.parametrize("rates", [NO_FAULTS, FAULTY], ids=["sound", "faulty"])
 def test_a_carpet_is_woven_whole_through_power_cuts(group: int, rates: object) -> None:
     cuts = 0
-    for seed in range(4):
+    for seed in seeds(2, 12):
         found = woven_through_cuts(PROGRAMME, seed, group=group, rates=rates, mean=25.0)  # type: ignore[arg-type]
         assert found.findings == []
         assert found.woven.digest == chart_digest(PROGRAMME)
         cuts += found.cuts
-    assert cuts > 100
+    assert cuts > 50
 
 
 def test_the_campaign_notices_a_knot_that_is_tied_twice(monkeypatch: pytest.MonkeyPatch) -> None:

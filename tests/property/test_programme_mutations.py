@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from edited_programme import EditedProgramme, edited, part_of, with_knot, with_knot_twice, without_knot
+from effort import examples
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from plain_proof import broken_rules
@@ -64,7 +65,7 @@ def edited_programmes(draw: st.DrawFn) -> EditedProgramme:
     return edited(programme, number, lambda _: changed, packages=packages, spacing=draw(st.integers(1, 4)))
 
 
-@settings(max_examples=70, deadline=None)
+@examples(70)
 @given(edited_programmes())
 def test_the_proof_agrees_with_the_plain_rules(programme: EditedProgramme) -> None:
     proof = prove(programme)

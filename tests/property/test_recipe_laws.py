@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from effort import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -58,7 +59,7 @@ def test_a_side_has_every_line_of_its_tile_in_order(
     assert len(whole) == length + extra
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(st.integers(1, 8), st.integers(1, 9), st.integers(1, 6), st.integers(1, 6), st.integers(0, 99))
 def test_a_border_of_whole_repeats_tiles_its_sides_and_turns_its_corners(
     breadth: int, length: int, across: int, along: int, seed: int

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from effort import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -67,7 +68,7 @@ charts = st.tuples(
 )
 
 
-@settings(max_examples=60, deadline=None)
+@examples(60)
 @given(charts, st.sampled_from(["runs", "colours"]), st.sampled_from(DIRECTIONS))
 def test_the_rows_expand_to_the_chart(made: tuple[Any, ...], split: str, direction: str) -> None:
     chart = random_chart(*made)

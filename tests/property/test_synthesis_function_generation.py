@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from effort import examples
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.optimize import fsolve
@@ -48,7 +49,7 @@ def solved(crank: np.ndarray, rocker: np.ndarray, swap: bool = False) -> Generat
     )
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(tasks, st.booleans())
 def test_a_planted_function_generator_is_found_again(task: Drawn, swap: bool) -> None:
     drawn, crank, rocker = planted(task)

@@ -5,7 +5,8 @@ from collections.abc import Iterable
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from effort import examples
+from hypothesis import given
 from hypothesis import strategies as st
 from small_programme import TIMES, small_programme
 
@@ -43,7 +44,7 @@ def parts_of(knots: Indices, heads: int, head: int) -> Iterable[list[int]]:
 
 
 @given(charts())
-@settings(max_examples=80)
+@examples(80)
 def test_every_part_has_its_yarns_and_enough_of_them(case: tuple[Indices, int, YarnSupply]) -> None:
     knots, heads, supply = case
     plan = plan_tubes(knots, heads, supply, WEFTS)
@@ -62,7 +63,7 @@ def test_every_part_has_its_yarns_and_enough_of_them(case: tuple[Indices, int, Y
 
 
 @given(charts())
-@settings(max_examples=80)
+@examples(80)
 def test_no_plan_has_fewer_changes_of_colour(case: tuple[Indices, int, YarnSupply]) -> None:
     knots, heads, supply = case
     endless = YarnSupply(supply.tubes, (1e9,) * len(supply.packages), supply.knot_yarn)
@@ -78,7 +79,7 @@ def test_no_plan_has_fewer_changes_of_colour(case: tuple[Indices, int, YarnSuppl
 
 
 @given(st.lists(st.tuples(st.integers(0, 9), st.integers(0, 4)), max_size=6), st.sets(st.integers(1, 13), max_size=3))
-@settings(max_examples=80)
+@examples(80)
 def test_no_choice_of_points_has_fewer_stops(given_windows: list[tuple[int, int]], fixed: set[int]) -> None:
     windows = np.array([(low, low + length, 0, index, 0) for index, (low, length) in enumerate(given_windows)], int)
     windows = windows.reshape(-1, 5)

@@ -4,7 +4,8 @@ import itertools
 from functools import cache
 
 import numpy as np
-from hypothesis import given, settings
+from effort import examples
+from hypothesis import given
 from hypothesis import strategies as st
 
 from ilmek.arrays import Indices
@@ -54,7 +55,7 @@ def _row_times(line: tuple[int, ...], tube: int | None, times: Times) -> dict[in
 
 
 @given(tiny())
-@settings(max_examples=60)
+@examples(60)
 def test_without_travel_no_order_has_fewer_changes(knots: Indices) -> None:
     times = Times(knot=1.0, colour_change=1.0, travel=0.0, weft=2.0)
     programme = make_programme(knots, 4, 1, times)
@@ -63,7 +64,7 @@ def test_without_travel_no_order_has_fewer_changes(knots: Indices) -> None:
 
 
 @given(tiny(), st.sampled_from([0.01, 0.05, 0.3, 1.0]))
-@settings(max_examples=80)
+@examples(80)
 def test_the_best_order_is_between_the_bound_and_the_chosen_one(knots: Indices, travel: float) -> None:
     times = Times(knot=1.0, colour_change=0.5, travel=travel, weft=20.0)
     programme, best = make_programme(knots, 4, 1, times), best_time(knots, times)

@@ -8,6 +8,8 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
+from sources import tree_of
+
 ROOT = Path(__file__).parents[2]
 ENGINE = ("linkage", "plane", "num", "dynamics", "cams", "carpet", "weaving")
 BEYOND = {"machines", "verification", "jobs", "io", "viz", "cli"}
@@ -15,9 +17,7 @@ BEYOND = {"machines", "verification", "jobs", "io", "viz", "cli"}
 
 def imported_packages(path: Path) -> set[str]:
     """Packages of ilmek that a test file imports."""
-    modules = [
-        node for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))) if isinstance(node, ast.ImportFrom)
-    ]
+    modules = [node for node in ast.walk(tree_of(path)) if isinstance(node, ast.ImportFrom)]
     names = [f"{node.module}.{alias.name}".split(".") for node in modules for alias in node.names]
     return {name[1] for name in names if name[0] == "ilmek"}
 

@@ -177,8 +177,8 @@ class State:
     tree: Tree
 
 
-def states(recorder: Recorder, seed: int = 0) -> Iterator[State]:
-    """All states, each once, of few of them; else a sample for each instant."""
+def states(recorder: Recorder, seed: int = 0, most: int = MOST) -> Iterator[State]:
+    """All states, each once, of few of them; else a sample of about `most` for each instant."""
     chance = random.Random(seed)
     forced: list[int] = []
     pending: list[int] = []
@@ -187,7 +187,7 @@ def states(recorder: Recorder, seed: int = 0) -> Iterator[State]:
     seen: set[str] = set()
     for step in range(len(recorder.operations) + 1):
         reported = step > 0 and recorder.operations[step - 1].reported
-        for chosen, contents in _choices(recorder, pending, latest, durable, chance):
+        for chosen, contents in _choices(recorder, pending, latest, durable, (chance, most)):
             tree = _tree(recorder, sorted([*forced, *chosen]), {**durable, **contents})
             if tree is not None and (key := repr((reported, tree))) not in seen:
                 seen.add(key)
@@ -210,14 +210,20 @@ def states(recorder: Recorder, seed: int = 0) -> Iterator[State]:
 
 
 def _choices(
-    recorder: Recorder, pending: list[int], latest: dict[Node, bytes], durable: dict[Node, bytes], chance: random.Random
+    recorder: Recorder,
+    pending: list[int],
+    latest: dict[Node, bytes],
+    durable: dict[Node, bytes],
+    chance: tuple[random.Random, int],
 ) -> Iterator[tuple[list[int], dict[Node, bytes]]]:
+    """The changes of names that are kept, and contents: all, or a sample of about so many, by chance."""
+    rng, most = chance
     versions = {
         node: [durable.get(node, recorder.first.get(node, b"")), new[: len(new) // 2], new]
         for node, new in latest.items()
     }
     number = 2 ** len(pending) * 3 ** len(versions)
-    if number <= MOST:
+    if number <= most:
         for kept in itertools.product((False, True), repeat=len(pending)):
             for contents in itertools.product(*versions.values()):
                 chosen = list(itertools.compress(pending, kept))
@@ -226,9 +232,9 @@ def _choices(
     for count in range(len(pending) + 1):  # those that a journal allows
         yield pending[:count], {}
     yield pending, dict(latest)
-    for _ in range(MOST):
-        chosen = [index for index in pending if chance.random() < 0.5]
-        yield chosen, {node: chance.choice(contents) for node, contents in versions.items()}
+    for _ in range(most):
+        chosen = [index for index in pending if rng.random() < 0.5]
+        yield chosen, {node: rng.choice(contents) for node, contents in versions.items()}
 
 
 def _tree(recorder: Recorder, chosen: list[int], contents: dict[Node, bytes]) -> Tree | None:

@@ -4,16 +4,12 @@ Everything that a page must not do is collected: errors on the console, errors o
 machine, answers of the server that are faults.
 """
 
-import os
 import re
 import shutil
 import signal
-import subprocess
-import sys
-import time
 import tomllib
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -21,6 +17,7 @@ from urllib.parse import urlsplit
 
 from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Page, Playwright, Request, Response
+from processes import ilmek, start, until
 
 ADDRESS = re.compile(r"http://127\.0\.0\.1:\d+/\?token=[\w-]+")
 VIEWS = ("carpet", "machine", "linkage", "synthesis", "cyclogram", "loom", "files")
@@ -36,7 +33,7 @@ FLAGS = (
     "--enable-unsafe-swiftshader",
 )
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
-PATIENCE = 30_000
+PATIENCE = 60_000
 """Longest wait for something to appear [ms]; machines with other work are slow."""
 
 COUNT_REQUESTS = """
@@ -87,8 +84,9 @@ class Studio:
 
     project: Path
     port: int
-    process: subprocess.Popen[str]
+    process: Any
     address: str
+    _stack: ExitStack
 
     @property
     def base(self) -> str:
@@ -107,33 +105,40 @@ class Studio:
         self._ended()
 
     def _ended(self) -> None:
-        self.process.wait(20)
-        assert self.process.stdout is not None
-        self.process.stdout.close()
+        self.process.wait(PATIENCE / 1000)
+        self._stack.close()
+
+    def restore(self, copy: Path) -> None:
+        """Make the project what a copy of it is, without the history of its files; start the server where it ended."""
+        own = self.project / ".studio"
+        kept = {own, own / "secret", own / "served", own / ".gitignore"}
+        for path in {*self.project.iterdir(), *own.iterdir()} - kept:
+            shutil.rmtree(path) if path.is_dir() else path.unlink()
+        shutil.copytree(copy, self.project, dirs_exist_ok=True)
+        if self.process.poll() is not None:
+            self.restart()
 
     def restart(self) -> None:
         """Start the server again, on the same port."""
-        self.process, self.address = _started(self.project, self.port)
+        self.process, self.address = _started(self.project, self.port, self._stack)
 
 
-def _started(project: Path, port: int) -> tuple["subprocess.Popen[str]", str]:
-    command = [sys.executable, "-m", "ilmek", "studio", str(project), "--no-browser", "--port", str(port)]
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env={**os.environ, "PYTHONUNBUFFERED": "1"})
-    assert process.stdout is not None
+def _started(project: Path, port: int, stack: ExitStack) -> tuple[Any, str]:
+    command = ilmek("studio", project, "--no-browser", "--port", port)
+    process = stack.enter_context(start(command, stderr=None, changes={"PYTHONUNBUFFERED": "1"}))
     for line in process.stdout:
-        if found := ADDRESS.search(line):
-            return process, found.group()
+        if address := ADDRESS.search(line):
+            return process, address.group()
     raise AssertionError(f"the studio ended with {process.wait()}")
 
 
 @contextmanager
 def studio(project: Path, port: int = 0) -> Iterator[Studio]:
     """A studio on a project, ended afterwards."""
-    process, address = _started(project, port)
-    running = Studio(project, int(urlsplit(address).port or 0), process, address)
-    try:
+    with ExitStack() as stack:
+        process, address = _started(project, port, stack)
+        running = Studio(project, int(urlsplit(address).port or 0), process, address, stack)
         yield running
-    finally:
         running.stop()
 
 
@@ -194,6 +199,7 @@ def context_of(browser: Browser, *, width: int = 1400, height: int = 900, dark: 
         reduced_motion="reduce",
         locale="en-GB",
     )
+    context.set_default_timeout(PATIENCE)
     context.add_init_script(COUNT_REQUESTS)
     return context
 
@@ -203,20 +209,14 @@ def data_of(project: Path, path: str) -> dict[str, Any]:
     return tomllib.loads((project / path).read_text(encoding="utf-8"))
 
 
-def until_file(project: Path, path: str, words: str, patience: float = 20.0) -> None:
+def until_file(project: Path, path: str, words: str) -> None:
     """Wait until a file of the project has a text."""
-    until = time.monotonic() + patience
-    while words not in (project / path).read_text(encoding="utf-8"):
-        assert time.monotonic() < until, f"{path} never had {words}"
-        time.sleep(0.05)
+    until(lambda: words in (project / path).read_text(encoding="utf-8"), f"{words} in {path}")
 
 
-def until_data(project: Path, path: str, accepted: Callable[[dict[str, Any]], bool], patience: float = 20.0) -> None:
+def until_data(project: Path, path: str, accepted: Callable[[dict[str, Any]], bool]) -> None:
     """Wait until the data of a file of the project are accepted."""
-    until = time.monotonic() + patience
-    while not accepted(data_of(project, path)):
-        assert time.monotonic() < until, f"{path} stays {data_of(project, path)}"
-        time.sleep(0.05)
+    until(lambda: accepted(data_of(project, path)), lambda: f"other data than {data_of(project, path)}")
 
 
 def middle(page: Page, selector: str, number: int = 0) -> tuple[float, float]:

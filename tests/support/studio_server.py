@@ -3,7 +3,6 @@
 import http.client
 import json
 import threading
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -12,6 +11,7 @@ from typing import Any
 
 import studio_tasks
 import uvicorn
+from processes import PATIENCE, python, until
 from websockets.sync.client import ClientConnection, connect
 
 from ilmek.web.app import studio_app
@@ -21,6 +21,8 @@ from ilmek.web.safety import Access
 from ilmek.web.serve import StudioOrder, access_to, bound_socket, server_settings
 
 JSON = {"content-type": "application/json"}
+UNPREPARED = tuple(python(Path(__file__).with_name("unprepared_worker.py")))
+"""Starts a worker of the real tasks that prepares nothing."""
 
 
 @dataclass
@@ -44,14 +46,23 @@ class Studio:
     access: Access
     pool: Pool
     project: Path
+    server: uvicorn.Server
+
+    def connections(self) -> int:
+        """The number of connections that are open."""
+        return len(self.server.server_state.connections)
 
     @property
     def cookie(self) -> dict[str, str]:
         return {"cookie": f"ilmek-studio-{self.port}={self.access.cookie}"}
 
+    def busy(self) -> list[int]:
+        """The processes of the workers that have a request."""
+        return [worker.process.pid for worker in self.pool._workers if worker.request is not None]
+
     def send(self, method: str, path: str, body: Any = None, headers: dict[str, str] | None = None) -> Answer:
         """The answer to a request, with the cookie where no headers are given."""
-        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=20)
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=PATIENCE)
         sent = dict(self.cookie if headers is None else headers)
         if body is not None and not isinstance(body, bytes):
             body, sent = json.dumps(body).encode(), {**JSON, **sent}
@@ -77,17 +88,17 @@ def studio(
     port = int(listener.getsockname()[1])
     access = access_to(StudioOrder(project, password=password), port, "secret of the test")
     endpoints = ENDPOINTS if real else studio_tasks.ENDPOINTS
-    command = {} if real else {"command": studio_tasks.COMMAND}
+    command = {"command": UNPREPARED if real else studio_tasks.COMMAND}
     pool = Pool(str(project), size=size, **{**command, **pool_fields})
     app = studio_app(str(project), access, f"ilmek-studio-{port}", pool, endpoints)
     server = uvicorn.Server(uvicorn.Config(app, **server_settings()))
     thread = threading.Thread(target=server.run, args=([listener],))
     thread.start()
     try:
-        while not server.started and thread.is_alive():
-            time.sleep(0.005)
-        yield Studio(port, access, pool, project)
+        until(lambda: server.started or not thread.is_alive(), "the server")
+        yield Studio(port, access, pool, project, server)
     finally:
         server.should_exit = True
-        thread.join(20)
+        thread.join(PATIENCE)
         listener.close()
+    assert not thread.is_alive(), "the server does not end"

@@ -1,6 +1,5 @@
 """Machines in motion: bars keep their lengths, the run closes, and the page's figure says what the script needs."""
 
-import functools
 import itertools
 import json
 import math
@@ -9,6 +8,7 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 import pytest
+from default_machines import default_report
 
 from ilmek.dynamics.animation import animated, frames
 from ilmek.linkage.fourbar import four_bar
@@ -26,19 +26,13 @@ NOTHING = Drawing("run", "A machine in motion", ())
 MOVING = ("beat-up", "tufting", "knotting-four-bar", "motion-four-bar", "function-four-bar")
 
 
-@functools.cache
-def designed(name: str) -> Report:
-    machine = MACHINES[name]
-    return machine.report(machine.design(machine.params.read({})))
-
-
 def motions(report: Report) -> list[Animation]:
     return [figure for figure in report.figures if isinstance(figure, Animation)]
 
 
 @pytest.fixture(scope="module", params=MOVING)
 def report(request: pytest.FixtureRequest) -> Report:
-    return designed(request.param)
+    return default_report(request.param)
 
 
 def quick_return() -> Motion:
@@ -80,7 +74,7 @@ def test_a_closed_run_goes_on_without_a_jump(report: Report) -> None:
 @pytest.mark.parametrize("name", [name for name in MACHINES if name != "automated-loom"])
 def test_every_machine_that_moves_is_shown_moving(name: str) -> None:
     """The row of a loom, which is long to design, is shown by `test_arrangement`."""
-    found = motions(designed(name))
+    found = motions(default_report(name))
     assert found, "no figure moves"
     for figure in found:
         assert figure.readings
@@ -95,7 +89,7 @@ def test_every_machine_that_moves_is_shown_moving(name: str) -> None:
 def test_moving_machines_follow_the_motion_of_their_reports() -> None:
     """Lift of the warps, travel of the bar, stroke of the comb and carrier: distances in the figures, read off."""
     shedding, compensator, hammer, weft = (
-        motions(designed(name))[0] for name in ("shedding", "tension-compensator", "hammer", "weft")
+        motions(default_report(name))[0] for name in ("shedding", "tension-compensator", "hammer", "weft")
     )
     even = [one.points for one in shedding.strokes if one.label == "even"][1]
     assert even[:, 1].real == pytest.approx(shedding.readings[0].values, abs=1e-12)
@@ -110,7 +104,7 @@ def test_moving_machines_follow_the_motion_of_their_reports() -> None:
 
 
 def test_what_is_shown_first_is_where_it_matters() -> None:
-    (beat,) = motions(designed("beat-up"))
+    (beat,) = motions(default_report("beat-up"))
     (fell,) = (dot for dot in beat.dots if dot.label == "E")
     distance = next(reading for reading in beat.readings if reading.label == "beater from the fell")
     assert distance.values[beat.start] == pytest.approx(0.0, abs=5e-4)
@@ -148,7 +142,7 @@ def test_parts_stand_at_the_frame_shown_first_and_refer_to_places(report: Report
 
 
 def test_every_name_is_there_once_and_bars_are_in_the_legend() -> None:
-    (beat,) = motions(designed("beat-up"))
+    (beat,) = motions(default_report("beat-up"))
     said = [(one.text or "").strip() for one in ET.fromstring(svg(beat)).iter() if one.tag.endswith("}text")]
     for name in ("A", "B", "C", "D", "E", "carpet", "warp", "fell"):
         assert said.count(name) == 1

@@ -10,13 +10,13 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from click.testing import CliRunner, Result
+from default_machines import default_report
 from PIL import Image, ImageChops, ImageSequence
 
 from ilmek.cli import main
 from ilmek.io.moving_picture import gif, write_mp4
 from ilmek.io.output import Outputs
 from ilmek.jobs import animation as job
-from ilmek.machines.catalogue import MACHINES
 from ilmek.progress import Cancelled, Progress
 from ilmek.report import Animation, Report
 from ilmek.viz import animation_frames
@@ -41,8 +41,7 @@ def few(monkeypatch: pytest.MonkeyPatch) -> int:
 
 @pytest.fixture(scope="module")
 def four_bar() -> Report:
-    machine = MACHINES["function-four-bar"]
-    return machine.report(machine.design(machine.params.read({})))
+    return default_report("function-four-bar")
 
 
 def pictures(report: Report) -> list[Image.Image]:

@@ -247,6 +247,7 @@ def test_front_and_side_show_the_same_heights() -> None:
     assert max(one.points.imag.max() for one in columns) == pytest.approx(made.side.loom_height)
 
 
+@pytest.mark.matrix(light=3)
 @pytest.mark.parametrize(
     "settings",
     [

@@ -33,6 +33,7 @@ def reported(**settings: Any) -> Report:
     return MACHINE.report(design(AutomatedLoomParams(**settings)))
 
 
+@pytest.mark.matrix(light=3)
 @pytest.mark.parametrize(
     "settings",
     [
@@ -106,6 +107,7 @@ def test_a_wide_loom_takes_the_time_that_its_shuttle_needs() -> None:
     assert any("shedding cams turn at" in said for said in MACHINE.report(loom).all_warnings)
 
 
+@pytest.mark.matrix(light=2)
 @pytest.mark.parametrize("width", [0.6, 2.0, 5.0, 6.0])
 def test_a_wide_loom_is_many_narrow_ones_beside_each_other(width: float) -> None:
     """Supports of the cam shaft and strokes of the beater keep bar, cams and beat of a narrow loom."""
@@ -187,6 +189,7 @@ def test_parameters_out_of_bounds(settings: dict[str, Any]) -> None:
         AutomatedLoomParams(**settings)
 
 
+@pytest.mark.matrix(light=4)
 @pytest.mark.parametrize(
     "settings",
     [

@@ -49,6 +49,7 @@ def test_every_drive_is_as_strong_as_the_rows_need(kind, width) -> None:
     assert drive.frame_force > 0
 
 
+@pytest.mark.matrix(light=5)
 @pytest.mark.parametrize("kind", BEATS)
 @pytest.mark.parametrize("pitch", ["0.25mm", "1mm", "4mm"])
 def test_no_drive_raises_at_any_pitch(kind, pitch) -> None:

@@ -6,15 +6,17 @@ import pty
 import re
 import select
 import signal
-import sys
 import time
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from processes import PATIENCE, python, start
 
 from ilmek.carpet.calling import CallStep, count_text, row_steps
 from ilmek.carpet.chart import Chart
@@ -233,20 +235,23 @@ def test_unknown_keys_do_nothing() -> None:
     assert list(keys_of(b"\r\x7f\x1bOCP")) == ["next", "back", "next", "row before"]
 
 
+ON_A_TERMINAL = """
+import fcntl, runpy, termios
+fcntl.ioctl(0, termios.TIOCSCTTY, 0)
+runpy.run_module("ilmek", run_name="__main__", alter_sys=True)
+"""
+"""ilmek, whose input is the terminal that sends it signals."""
+
+
 class Session:
     """`ilmek call` on a terminal of its own."""
 
-    def __init__(self, file: Path, *words: str, **environment: str) -> None:
-        here = {**os.environ, "TERM": "xterm-256color", "COLORTERM": "truecolor", **environment}
-        self.child, self.terminal = pty.fork()
-        if self.child == 0:
-            signal.signal(signal.SIGINT, signal.SIG_DFL)  # a run of tests in the background ignores it
-            os.execve(sys.executable, [sys.executable, "-m", "ilmek", "call", str(file), *words], here)
-        self.shown = b""
+    def __init__(self, process: Any, terminal: int) -> None:
+        self.process, self.terminal, self.shown = process, terminal, b""
 
-    def wait_for(self, text: str, last: str = "q end", longest: float = 60.0) -> str:
+    def wait_for(self, text: str, last: str = "q end") -> str:
         """The screen, once it has a text and its last line."""
-        end = time.monotonic() + longest
+        end = time.monotonic() + PATIENCE
         while text not in (screen := self._screen()) or last not in screen:
             assert time.monotonic() < end, screen
             if select.select([self.terminal], [], [], 0.2)[0]:
@@ -264,44 +269,53 @@ class Session:
         os.write(self.terminal, keys)
 
     def end(self, number: int | None = None) -> int:
+        """The exit code, after a signal or by itself."""
         if number is not None:
-            os.kill(self.child, number)
-        _, status = os.waitpid(self.child, 0)
-        os.close(self.terminal)
-        return status
+            self.process.send_signal(number)
+        return int(self.process.wait(PATIENCE))
 
 
-@pytest.mark.filterwarnings("ignore:This process .* is multi-threaded:DeprecationWarning")
+@contextmanager
+def session(file: Path, *words: str, **changes: str) -> Iterator[Session]:
+    terminal, inner = pty.openpty()
+    changes = {"TERM": "xterm-256color", "COLORTERM": "truecolor", **changes}
+    command = python("-c", ON_A_TERMINAL, "call", file, *words)
+    try:
+        with start(command, changes=changes, stdin=inner, stdout=inner, stderr=inner) as process:
+            os.close(inner)
+            yield Session(process, terminal)
+    finally:
+        os.close(terminal)
+
+
 def test_a_killed_call_goes_on_at_its_step(chart_file: Path) -> None:
-    session = Session(chart_file, "--from-row", "2")
-    session.wait_for("Row 2 of 3 →   step 1 of 2")
-    session.press(b" ")
-    screen = session.wait_for("step 2 of 2")
-    assert "indigo" in screen
-    assert "then the next row" in screen
-    session.press(b"n\r")
-    session.wait_for("Row 3 of 3 →   step 2 of 3")
-    assert session.end(signal.SIGKILL) == signal.SIGKILL
-    again = Session(chart_file, NO_COLOR="1")
-    screen = again.wait_for("Row 3 of 3 →   step 2 of 3")
-    assert "\x1b[4" not in screen
-    again.press(b"\x1b[D")
-    again.wait_for("step 1 of 3")
-    again.press(b"q")
-    again.wait_for("note: goes on at row 3, step 2")
-    assert again.end() == 0
+    with session(chart_file, "--from-row", "2") as first:
+        first.wait_for("Row 2 of 3 →   step 1 of 2")
+        first.press(b" ")
+        screen = first.wait_for("step 2 of 2")
+        assert "indigo" in screen
+        assert "then the next row" in screen
+        first.press(b"n\r")
+        first.wait_for("Row 3 of 3 →   step 2 of 3")
+        assert first.end(signal.SIGKILL) == -signal.SIGKILL
+    with session(chart_file, NO_COLOR="1") as again:
+        screen = again.wait_for("Row 3 of 3 →   step 2 of 3")
+        assert "\x1b[4" not in screen
+        again.press(b"\x1b[D")
+        again.wait_for("step 1 of 3")
+        again.press(b"q")
+        again.wait_for("note: goes on at row 3, step 2")
+        assert again.end() == 0
     assert json.loads(state_file(CHART).read_text(encoding="utf-8"))["step"] == 0
 
 
-@pytest.mark.filterwarnings("ignore:This process .* is multi-threaded:DeprecationWarning")
 def test_an_interrupt_keeps_the_step_and_the_terminal(chart_file: Path) -> None:
-    session = Session(chart_file, PYTHONIOENCODING="ascii")
-    assert "##" in session.wait_for("Row 1 of 3 >")
-    session.press(b"n")
-    session.wait_for("Row 2 of 3")
-    session.press(b"\x03")
-    session.wait_for("interrupted; the last step is kept")
-    status = session.end()
-    assert os.waitstatus_to_exitcode(status) == 130
-    assert re.search(rb"step 1 of 2", session.shown)
+    with session(chart_file, PYTHONIOENCODING="ascii") as shown:
+        assert "##" in shown.wait_for("Row 1 of 3 >")
+        shown.press(b"n")
+        shown.wait_for("Row 2 of 3")
+        shown.press(b"\x03")
+        shown.wait_for("interrupted; the last step is kept")
+        assert shown.end() == 130
+        assert re.search(rb"step 1 of 2", shown.shown)
     assert begin_calling(CHART, "runs", "right").row == 2

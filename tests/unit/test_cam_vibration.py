@@ -178,6 +178,7 @@ def test_uniform_motion_kicks_a_follower_every_turn() -> None:
     assert slope[first] - slope[first - 1] == pytest.approx(5.0 * 0.02, rel=0.02)
 
 
+@pytest.mark.matrix(light=5)
 @pytest.mark.parametrize("name", ["parabolic", "harmonic", "cycloidal", "modified-sine", "4-5-6-7"])
 @pytest.mark.parametrize(("share", "damping"), [(0.1, 0.0), (0.01, 0.0), (0.01, 0.05)])
 def test_the_least_time_ratio_is_met_and_all_above_are_below(name, share, damping) -> None:

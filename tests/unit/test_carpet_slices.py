@@ -28,6 +28,7 @@ def made(quality: float, progress: Progress | None = None) -> Chart:
     )
 
 
+@pytest.mark.matrix(light=2)
 @pytest.mark.parametrize("quality", [40.0, 120.0])
 @pytest.mark.parametrize("most", [1, 1000])
 def test_slices_change_nothing(monkeypatch: pytest.MonkeyPatch, quality: float, most: int) -> None:

@@ -2,11 +2,10 @@
 
 import json
 import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
+from processes import ended, python
 
 from ilmek.errors import CarpetError, OutputError
 from ilmek.io.chart.formats import FORMATS, format_by_ending, format_of
@@ -75,8 +74,7 @@ print(json.dumps({
 
 def test_a_format_is_one_row(tmp_path: Path) -> None:
     shutil.copy(Path(__file__).parents[2] / "examples/medallion.png", tmp_path)
-    run = [sys.executable, "-c", ONE_ROW + USED]
-    shown = subprocess.run(run, cwd=tmp_path, capture_output=True, text=True, check=False)
+    shown = ended(python("-c", ONE_ROW + USED), cwd=tmp_path)
     assert shown.returncode == 0, shown.stderr
     assert json.loads(shown.stdout) == {
         "option": True,

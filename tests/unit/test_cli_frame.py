@@ -5,13 +5,13 @@ import importlib
 import json
 import os
 import signal
-import subprocess
-import sys
 from pathlib import Path
 
 import click
 import pytest
 from click.testing import CliRunner, Result
+from processes import PATIENCE, ended, printed, python, start
+from processes import ilmek as program
 
 import ilmek
 from ilmek.cli import main
@@ -84,8 +84,7 @@ def test_a_defect_keeps_its_traceback() -> None:
 
 
 def test_module_and_script_are_the_same_program() -> None:
-    shown = subprocess.run([sys.executable, "-m", "ilmek", "--version"], capture_output=True, text=True, check=True)
-    assert shown.stdout == f"ilmek {ilmek.__version__}\n"
+    assert printed(program("--version")) == f"ilmek {ilmek.__version__}\n"
 
 
 SLOW = """
@@ -109,28 +108,34 @@ LazyGroup(name="ilmek", modules={}).main(["go"])
 
 @pytest.mark.parametrize(("number", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)])
 def test_nothing_is_half_written_after_a_signal(tmp_path: Path, number: signal.Signals, status: int) -> None:
-    # A run behind `nohup` or `&` hands on that a signal is ignored; the program then ignores it too.
-    heeded = f"import signal; signal.signal({int(number)}, signal.SIG_DFL)\n"
-    interrupt = "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
-    command = [sys.executable, "-c", heeded + interrupt + SLOW]
-    with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
-        assert process.stdout is not None
+    with start(python("-c", SLOW), cwd=tmp_path) as process:
         assert process.stdout.readline() == "writing\n"
         process.send_signal(number)
-        errors = process.communicate(timeout=30)[1]
+        errors = process.communicate(timeout=PATIENCE)[1]
     assert process.returncode == status
     assert errors == "ilmek: interrupted; nothing was written\n"
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.parametrize("ignored", [signal.SIGINT, signal.SIGHUP])
+def test_what_a_script_or_nohup_ignores_stays_ignored_and_a_termination_ends(tmp_path: Path, ignored: int) -> None:
+    """`ilmek ... &` in a script goes on where Ctrl-C ends the script, `nohup ilmek ...` where the terminal closes."""
+    background = f"import signal; signal.signal({int(ignored)}, signal.SIG_IGN)\n"
+    with start(python("-c", background + SLOW), cwd=tmp_path) as process:
+        assert process.stdout.readline() == "writing\n"
+        process.send_signal(ignored)
+        process.send_signal(signal.SIGTERM)
+        errors = process.communicate(timeout=PATIENCE)[1]
+    assert (process.returncode, errors) == (143, "ilmek: interrupted; nothing was written\n")
+
+
 @pytest.mark.parametrize("arguments", [["machines"], ["machines", "--json", "-"], ["chart", "--help"]])
 def test_a_reader_that_goes_away_is_no_traceback(arguments: list[str]) -> None:
     """The status is that of a program that the signal of a closed pipe ends: 128 + SIGPIPE."""
-    command = [sys.executable, "-c", f"from ilmek.cli import main; main({arguments})"]
     read, write = os.pipe()
     os.close(read)
     try:
-        shown = subprocess.run(command, stdout=write, stderr=subprocess.PIPE, text=True, check=False)
+        shown = ended(python("-c", f"from ilmek.cli import main; main({arguments})"), stdout=write)
     finally:
         os.close(write)
     assert shown.returncode == 128 + signal.SIGPIPE
@@ -140,10 +145,10 @@ def test_a_reader_that_goes_away_is_no_traceback(arguments: list[str]) -> None:
 @pytest.mark.parametrize("closed", [(1,), (2,), (0, 1, 2)])
 def test_closed_streams_are_no_traceback(tmp_path: Path, closed: tuple[int, ...]) -> None:
     shut = "".join(f"os.close({number});" for number in closed)
-    start = (
+    script = (
         f"import os, sys; {shut} os.execv(sys.executable, [sys.executable, '-m', 'ilmek', 'machines', '--json', 'a'])"
     )
-    shown = subprocess.run([sys.executable, "-c", start], cwd=tmp_path, capture_output=True, text=True, check=False)
+    shown = ended(python("-c", script), cwd=tmp_path)
     assert shown.returncode == 0
     assert shown.stderr == ""
     assert json.loads((tmp_path / "a").read_text())["machines"]
@@ -151,17 +156,14 @@ def test_closed_streams_are_no_traceback(tmp_path: Path, closed: tuple[int, ...]
 
 def test_a_full_output_is_one_line() -> None:
     with Path("/dev/full").open("w") as full:
-        command = [sys.executable, "-m", "ilmek", "machines"]
-        shown = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+        shown = ended(program("machines"), stdout=full)
     assert shown.returncode == 2
     assert shown.stderr == "ilmek: the output cannot be read or written: No space left on device\n"
 
 
 def test_a_terminal_without_the_signs_shows_question_marks() -> None:
-    environment = dict(os.environ, PYTHONIOENCODING="ascii")
-    command = [sys.executable, "-m", "ilmek", "machines", "beat-up"]
-    shown = subprocess.run(command, capture_output=True, env=environment, check=False)
-    assert (shown.returncode, shown.stderr) == (0, b"")
+    shown = ended(program("machines", "beat-up"), changes={"PYTHONIOENCODING": "ascii"})
+    assert (shown.returncode, shown.stderr) == (0, "")
 
 
 SWALLOWED = """
@@ -188,13 +190,10 @@ CAUGHT = SWALLOWED.replace("def command():", "def command():\n    native_message
 )
 
 
-@pytest.mark.parametrize("program", [SWALLOWED, CAUGHT])
-def test_no_library_can_swallow_ctrl_c_or_its_message(tmp_path: Path, program: str) -> None:
-    heeded = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)\n"
-    command = [sys.executable, "-c", heeded + program]
-    with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
-        assert process.stdout is not None
+@pytest.mark.parametrize("source", [SWALLOWED, CAUGHT])
+def test_no_library_can_swallow_ctrl_c_or_its_message(tmp_path: Path, source: str) -> None:
+    with start(python("-c", source), cwd=tmp_path) as process:
         assert process.stdout.readline() == "working\n"
         process.send_signal(signal.SIGINT)
-        errors = process.communicate(timeout=30)[1]
+        errors = process.communicate(timeout=PATIENCE)[1]
     assert (process.returncode, errors) == (130, "ilmek: interrupted; nothing was written\n")

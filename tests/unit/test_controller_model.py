@@ -36,6 +36,7 @@ CASES = {
 }
 
 
+@pytest.mark.matrix(light=3)
 @pytest.mark.parametrize("name", CASES)
 def test_every_operation_is_in_the_carpet_once_and_the_carpet_can_always_be_finished(name: str) -> None:
     case = CASES[name]

@@ -16,6 +16,7 @@ LOOMS = (
 )
 
 
+@pytest.mark.matrix(light=3)
 @pytest.mark.parametrize("settings", LOOMS, ids=str)
 def test_every_check_of_a_loom_has_a_cure(settings: dict[str, str]) -> None:
     report = MACHINES["automated-loom"].report_for(settings)

@@ -1,23 +1,22 @@
 """A share of `make fuzz`, the reduced cases of what it found, and the harness itself."""
 
-import time
-from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
+from effort import first, number
 from fuzz.case import Case, read_case
 from fuzz.corpus import make_corpus
 from fuzz.inputs import make_case
-from fuzz.pool import Limits, Task, outcomes
+from fuzz.pool import Limits, outcomes
 from fuzz.reduction import reduced
+from kept import kept
 
 CASES = Path(__file__).parents[1] / "fuzz_cases"
 LIMITS = Limits(hang=300.0, timing=False)
 """No test of time: the machine may be busy, and kernels may have to be compiled."""
 
-SECONDS = 8.0
-FIRST, MOST = 1_000_000, 3000
-"""The first input of the share, not those of `make fuzz`; and how many a fast machine runs."""
+FIRST, NUMBER = 1_000_000, number(25, 2000)
+"""The first input of the share, not those of `make fuzz`; and how many."""
 
 
 @pytest.fixture(autouse=True)
@@ -26,27 +25,18 @@ def checked_indices(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("OPENBLAS_NUM_THREADS", "1")
 
 
-def findings(tasks: Sequence[Task], until: float = float("inf")) -> list[str]:
-    return [
-        f"{outcome.name}: {finding.kind}: {finding.key}\n{finding.detail}"
-        for outcome in outcomes(tasks, 1, LIMITS, until)
-        for finding in outcome.findings
-    ]
-
-
-def test_what_was_found_once_stays_repaired() -> None:
+def test_what_was_found_once_stays_repaired_and_a_share_of_the_inputs_has_no_finding() -> None:
     cases = [read_case(path.read_text(encoding="utf-8")) for path in sorted(CASES.glob("*.json"))]
     assert cases
-    assert not findings(cases)
-
-
-def test_a_share_of_the_inputs_has_no_finding() -> None:
-    assert not findings(range(FIRST, FIRST + MOST), time.monotonic() + SECONDS)
+    run = list(outcomes([*cases, *range(FIRST + first(), FIRST + first() + NUMBER)], 1, LIMITS))
+    assert len(run) == len(cases) + NUMBER
+    findings = [(outcome.name, finding) for outcome in run for finding in outcome.findings]
+    assert not findings, "\n".join(f"{name}: {one.kind}: {one.key}\n{one.detail}" for name, one in findings)
 
 
 def test_an_input_follows_from_its_number() -> None:
-    corpus = make_corpus()
-    first, second = ([make_case(corpus, seed) for seed in range(60)] for _ in range(2))
+    corpus = kept(make_corpus)
+    first, second = ([make_case(corpus, seed) for seed in range(20)] for _ in range(2))
     assert first == second
     assert len({case.command for case in first}) > 6
 

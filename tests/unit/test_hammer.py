@@ -99,6 +99,7 @@ def test_comb_held_at_its_ends_by_hetenyi(rigidity) -> None:
     assert middle / found.share[0] == pytest.approx(c / (c**2 + s**2), rel=1e-9)
 
 
+@pytest.mark.matrix(light=2)
 @pytest.mark.parametrize("places", [(0.6,), (0.3, 0.9), (0.0, 0.5, 1.2), (0.1, 0.35, 0.8)])
 def test_comb_on_the_fell_against_finite_elements(places) -> None:
     """600 beam elements on springs, pushed down by 1 at the supports."""

@@ -59,27 +59,27 @@ def _built(ends: list[tuple[str, str]]) -> Mechanism:
 
 def test_groups_of_a_large_network_are_found_soon() -> None:
     mechanism = network(25, 3)
-    begin = time.perf_counter()
+    begin = time.process_time()
     steps = plan(mechanism).steps
     assert sum(len(step.bodies) for step in steps) == 25
-    assert time.perf_counter() - begin < PATIENCE
+    assert time.process_time() - begin < PATIENCE
 
 
 def test_an_over_constrained_network_is_found_soon() -> None:
     mechanism = network(25, 3, extra=2)
-    begin = time.perf_counter()
+    begin = time.process_time()
     with pytest.raises(MechanismError, match="over-constrained"):
         plan(mechanism, closed_forms=False)
-    assert time.perf_counter() - begin < PATIENCE
+    assert time.process_time() - begin < PATIENCE
 
 
 def test_a_large_group_is_refused_before_it_is_solved() -> None:
     file = parse_mechanism(mechanism_toml(OwnMachine(network(41, 1))))
     assert max(len(step.bodies) for step in file.plan().steps) > MOST_BODIES
-    begin = time.perf_counter()
+    begin = time.process_time()
     with pytest.raises(MechanismError, match=f"at most {MOST_BODIES} bodies"):
         run(file, MotionRequest({}))
-    assert time.perf_counter() - begin < PATIENCE
+    assert time.process_time() - begin < PATIENCE
 
 
 def test_a_file_has_at_most_so_many_bodies() -> None:

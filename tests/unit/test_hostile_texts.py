@@ -103,10 +103,10 @@ def test_random_texts_give_errors_of_ilmek_only(name: str) -> None:
 @pytest.mark.parametrize("name", READERS)
 @pytest.mark.parametrize("piece", ["1", " ", "x ", "(", "(1,", "mm*", "1 ", "²", "^"])
 def test_long_texts_are_refused_soon(name: str, piece: str) -> None:
-    begin = time.perf_counter()
+    begin = time.process_time()
     with pytest.raises(IlmekError):
         READERS[name](f"x^{piece * 20_000}!")
-    assert time.perf_counter() - begin < PATIENCE
+    assert time.process_time() - begin < PATIENCE
 
 
 @pytest.mark.parametrize("text", ["km^400", "km^13", "GPa^12*GPa^12", "mm^-12*mm^-12", "m" * 200, "m²²²"])
@@ -174,10 +174,10 @@ def test_control_characters_of_a_file_are_refused(tmp_path: Path, control: str) 
 def test_headings_of_a_path_are_read_in_linear_time(tmp_path: Path, heading: str) -> None:
     path = tmp_path / "path.csv"
     path.write_text(f"{heading}\n1,2\n3,4\n")
-    begin = time.perf_counter()
+    begin = time.process_time()
     with pytest.raises(CarpetError):
         read_path(path)
-    assert time.perf_counter() - begin < PATIENCE
+    assert time.process_time() - begin < PATIENCE
 
 
 @pytest.mark.parametrize("cell", ["1_0", "٣", "inf", "1e400", "9" * 100_000, "1 " * 9_000])
@@ -271,10 +271,10 @@ CASES = [*((text, True, said) for text, said in DATA.values()), *((text, False, 
 
 @pytest.mark.parametrize(("text", "toml", "said"), CASES)
 def test_data_of_others_is_bounded(text: str, toml: bool, said: str) -> None:
-    begin = time.perf_counter()
+    begin = time.process_time()
     with pytest.raises(ParameterError, match=said) as caught:
         parse_data(text, name="a file", toml=toml, error=ParameterError)
-    assert time.perf_counter() - begin < PATIENCE
+    assert time.process_time() - begin < PATIENCE
     assert len(str(caught.value)) < 300
     assert str(caught.value).isascii()
 
@@ -358,10 +358,10 @@ def cyclogram(tracks: int, motions: int, relations: int, exclusions: int) -> str
     ],
 )
 def test_a_cyclogram_is_bounded(counts: tuple[int, int, int, int], said: str) -> None:
-    begin = time.perf_counter()
+    begin = time.process_time()
     with pytest.raises(ParameterError, match=said):
         parse_cyclogram(cyclogram(*counts))
-    assert time.perf_counter() - begin < PATIENCE
+    assert time.process_time() - begin < PATIENCE
 
 
 def test_a_law_is_bounded() -> None:

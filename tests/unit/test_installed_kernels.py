@@ -1,13 +1,13 @@
 """Kernels that are installed with the package: used where they fit, ignored where they do not."""
 
 import os
-import subprocess
 import sys
 import zipfile
 from pathlib import Path
 
 import llvmlite.binding
 import pytest
+from processes import printed, python
 
 from ilmek.num import installed_kernels
 from ilmek.num.installed_kernels import baseline, compiler_settings, pack, read_installed
@@ -33,9 +33,8 @@ def run(folder: Path, archive: Path, **settings: str) -> str:
     """What the kernel gives in a new process, and whether it was compiled there."""
     (folder / "warps.py").write_text(KERNEL, encoding="utf-8")
     paths = os.pathsep.join([str(folder), *sys.path])
-    environment = dict(os.environ, PYTHONPATH=paths, XDG_CACHE_HOME=str(folder / "cache"), **settings)
-    command = [sys.executable, "-c", SCRIPT, str(archive)]
-    return subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout.strip()
+    changes = {"PYTHONPATH": paths, "XDG_CACHE_HOME": str(folder / "cache"), **settings}
+    return printed(python("-c", SCRIPT, archive), changes=changes).strip()
 
 
 def test_what_is_installed_is_not_compiled(tmp_path: Path) -> None:

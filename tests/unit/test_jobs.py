@@ -56,6 +56,7 @@ def test_loom_follows_the_chart() -> None:
     assert make_loomed(read_loom_order(deep), make_charted(deep)).design.params.knot_yarn > params.knot_yarn + 0.02
 
 
+@pytest.mark.matrix(light=4)
 @pytest.mark.parametrize("knot", ["symmetric", "asymmetric"])
 @pytest.mark.parametrize("quality", ["12x10/dm", "25x25/dm", "40 raj", "100x90/dm"])
 def test_a_loom_without_a_carpet_has_the_pile_of_the_default_one(quality: str, knot: str) -> None:

@@ -2,12 +2,11 @@
 
 import os
 import random
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 from losing_disc import LosingDisc
+from processes import ended, python
 
 from ilmek.errors import IlmekError, LoomError, OutputError
 from ilmek.io.journal_file import JournalFile
@@ -40,8 +39,7 @@ def test_a_second_controller_is_refused_with_the_process(tmp_path: Path) -> None
 def test_the_lock_ends_with_its_process(tmp_path: Path) -> None:
     code = "import sys, os; from pathlib import Path; from ilmek.io.journal_folder import JournalFolder\n"
     code += f"JournalFolder(Path({str(tmp_path / 'j')!r})); os.kill(os.getpid(), 9)"
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
-    assert subprocess.run([sys.executable, "-c", code], check=False, env=environment).returncode == -9
+    assert ended(python("-c", code)).returncode == -9
     JournalFolder(tmp_path / "j").close()
 
 

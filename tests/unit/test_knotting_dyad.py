@@ -146,6 +146,7 @@ def test_what_cannot_be_kept_is_a_failed_check_and_drops_none(settings: dict[str
     assert any(check.name.startswith(failed) and check.cure for check in hard.failed)
 
 
+@pytest.mark.matrix(light=4)
 @pytest.mark.parametrize("knot", ["symmetric", "asymmetric"])
 @pytest.mark.parametrize("pitch", ["0.25mm", "0.5mm", "1mm", "2mm", "4mm"])
 def test_arms_with_an_opener_tie_both_knots_at_every_pitch_with_needle_and_yarn_in_the_gap(

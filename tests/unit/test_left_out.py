@@ -4,6 +4,7 @@ from dataclasses import replace
 from functools import partial
 
 import pytest
+from default_machines import default_page
 
 from ilmek.carpet.design import MOST_KNOTS
 from ilmek.errors import OutputError
@@ -84,10 +85,9 @@ def test_a_page_names_the_figure_that_cannot_be_drawn(monkeypatch: pytest.Monkey
 
 @pytest.mark.parametrize("name", SUMMARIES)
 def test_with_the_defaults_nothing_is_left_out(name: str) -> None:
-    left_out: list[str] = []
-    report = find_machine(name).report_for({})
-    assert "left out" not in machine_page(report, left_out)
-    assert left_out == []
+    page, left_out = default_page(name)
+    assert "left out" not in page
+    assert left_out == ()
 
 
 def test_the_scaling_of_the_largest_carpets_is_drawn() -> None:

@@ -1,11 +1,10 @@
 """The compiled executor: the same motions as `solve` gives, the same statuses, and what a sweep refuses."""
 
 import dataclasses
-import subprocess
-import sys
 
 import numpy as np
 import pytest
+from processes import printed, python
 
 from ilmek.errors import MechanismError
 from ilmek.linkage.batch import batch_arrays, solve_batch, sweep
@@ -324,8 +323,7 @@ def test_a_sweep_refuses(given, said):
 
 def test_the_compiler_is_imported_by_the_batch_module_alone():
     script = "import sys, ilmek.linkage.solve, ilmek.linkage.fourbar; print('numba' in sys.modules)"
-    shown = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
-    assert shown.stdout.strip() == "False"
+    assert printed(python("-c", script)) == "False\n"
 
 
 def test_sine_and_cosine_are_right_to_the_last_digits():

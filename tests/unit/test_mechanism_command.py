@@ -86,6 +86,7 @@ def test_csv_has_every_number_of_the_motion():
     np.testing.assert_array_equal(column, motion.point("leg", "F").velocity.real)
 
 
+@pytest.mark.matrix(light=4)
 @pytest.mark.parametrize("path", MECHANISMS, ids=lambda path: path.stem)
 def test_every_example_makes_a_page_with_a_moving_figure(path: Path, tmp_path: Path):
     page = tmp_path / "page.html"

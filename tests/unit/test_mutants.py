@@ -1,13 +1,11 @@
 """The tool of `make mutants`: what it changes, and whether it sees that a test notices."""
 
 import ast
-import os
-import subprocess
-import sys
 from pathlib import Path
 
 from mutants.__main__ import read_accepted, sampled
 from mutants.operators import mutants_of, mutated
+from processes import printed, python
 
 SOURCE = """
 LIMIT: float = 2.0 * mm
@@ -105,11 +103,7 @@ for one, found in outcomes(Path.cwd(), tasks, 4):
 def test_mutants_are_caught_survive_and_hang(tmp_path: Path) -> None:
     for name, text in FILES.items():
         (tmp_path / name).write_text(text)
-    where = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[1] / "support")}
-    shown = subprocess.run(
-        [sys.executable, "-c", SCRIPT], cwd=tmp_path, env=where, capture_output=True, text=True, check=True
-    )
-    assert set(shown.stdout.splitlines()) == {
+    assert set(printed(python("-c", SCRIPT), cwd=tmp_path).splitlines()) == {
         "not n > 0 -> n > 0: timed out",
         "n > 0 -> n <= 0: timed out",
         "0 -> 1: survived",

@@ -2,15 +2,14 @@
 
 import hashlib
 import importlib
-import os
 import pickle
-import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
+from processes import ended, printed, python
 
 from ilmek.cli import main
 from ilmek.linkage.groups import rrp, rrr
@@ -184,12 +183,10 @@ def test_with_bounds_check_an_index_outside_is_an_error():
         "@compiled\ndef at(x: object, i: int) -> float:\n    return x[i]\n"
         "print(at(np.zeros(2), 1))\nat(np.zeros(2), 2)"
     )
-    environment = dict(os.environ, ILMEK_BOUNDS_CHECK="1")
-    shown = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, env=environment, check=False)
+    shown = ended(python("-c", script), changes={"ILMEK_BOUNDS_CHECK": "1"})
     assert (shown.stdout, "IndexError" in shown.stderr) == ("0.0\n", True)
 
 
 def test_modules_with_kernels_load_no_compiler():
     script = "import sys, ilmek.linkage.batch, ilmek.loom.order; print('numba' in sys.modules)"
-    shown = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
-    assert shown.stdout == "False\n"
+    assert printed(python("-c", script)) == "False\n"

@@ -99,6 +99,7 @@ def check(scenario: Scenario, root: Path, faults: Faults, monkeypatch: pytest.Mo
     return message
 
 
+@pytest.mark.matrix(light=8)
 @pytest.mark.parametrize("lasting", [False, True])
 @pytest.mark.parametrize("scenario", SCENARIOS, ids=lambda scenario: scenario.name)
 def test_an_error_at_any_call(scenario: Scenario, lasting: bool, memory: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -112,6 +113,7 @@ def test_an_error_at_any_call(scenario: Scenario, lasting: bool, memory: Path, m
     assert any("nothing was written" in message for message in messages)
 
 
+@pytest.mark.matrix(light=4)
 @pytest.mark.parametrize("scenario", SCENARIOS, ids=lambda scenario: scenario.name)
 def test_two_errors(scenario: Scenario, memory: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     chance = random.Random(1)

@@ -1,12 +1,10 @@
 """Targets of every kind: strange paths, links, devices, pipes, modes, several writers, interrupts at every line."""
 
-import contextlib
 import errno
 import json
 import os
 import signal
 import stat
-import subprocess
 import sys
 import threading
 from collections.abc import Callable, Iterator
@@ -18,6 +16,7 @@ from typing import Any
 import pytest
 from output_scenarios import SCENARIOS, Scenario, at, hidden, news, nexts, prepare, write
 from power_cut import Tree, read_tree
+from processes import PATIENCE, ended, python, start
 
 from ilmek.errors import OutputError
 from ilmek.io.output import MANIFEST, Outputs, disk, manifest, outputs, write_file
@@ -135,22 +134,23 @@ def test_what_a_pipe_has_taken_is_stated(tmp_path: Path, monkeypatch: pytest.Mon
 BLOCKED = """
 import sys
 from ilmek.cli import main
-sys.stderr.write("ready\\n")
+
+def tell(event, arguments):
+    if event == "open" and str(arguments[0]).endswith("pipe"):
+        sys.stdout.write("opening\\n")
+        sys.stdout.flush()
+
+sys.addaudithook(tell)
 main(["machines", "--json", "pipe"], prog_name="ilmek")
 """
 
 
 def test_a_pipe_without_a_reader_can_be_interrupted(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "pipe")
-    start = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)\n"
-    command = [sys.executable, "-c", start + BLOCKED]
-    with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
-        assert process.stderr is not None
-        assert process.stderr.readline() == "ready\n"
-        with contextlib.suppress(subprocess.TimeoutExpired):
-            process.wait(3)
+    with start(python("-c", BLOCKED), cwd=tmp_path) as process:
+        assert process.stdout.readline() == "opening\n"
         process.send_signal(signal.SIGINT)
-        errors = process.communicate(timeout=30)[1]
+        errors = process.communicate(timeout=PATIENCE)[1]
     assert (process.returncode, errors) == (130, "ilmek: interrupted; nothing was written\n")
     assert names(tmp_path) == ["pipe"]
 
@@ -224,9 +224,7 @@ def passable(tmp_path: Path) -> Iterator[Path]:
 
 
 def test_folders_and_files_that_are_closed_to_their_owner(passable: Path) -> None:
-    done = subprocess.run(
-        [sys.executable, "-B", "-c", AS_NOBODY, str(passable)], capture_output=True, text=True, check=False
-    )
+    done = ended(python("-B", "-c", AS_NOBODY, passable))
     assert done.stdout == "['a.json', 'out'] b 0o100200 0o40555\n", done.stderr
 
 

@@ -8,6 +8,7 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 import pytest
+from default_machines import default_page, default_report
 
 from ilmek.machines.catalogue import MACHINES
 from ilmek.report import Animation, Axis, Drawing, MovingStroke, Plot, Report, Series, at_most, rounded
@@ -32,9 +33,7 @@ class Made:
 @pytest.fixture(scope="module", params=MACHINES)
 def made(request: pytest.FixtureRequest) -> Made:
     """The page of each machine's design by default."""
-    machine = MACHINES[request.param]
-    report = machine.report(machine.design(machine.params.read({})))
-    return Made(report, machine_page(report))
+    return Made(default_report(request.param), default_page(request.param)[0])
 
 
 def colours(report: Report) -> Iterator[tuple[str, str]]:

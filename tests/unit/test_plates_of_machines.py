@@ -1,6 +1,7 @@
 """Plates of machines: areas as designed; links as long as the design's, none where there is no room for two pins."""
 
 import pytest
+from default_machines import default_report
 
 from ilmek.elements.plates import link_plates
 from ilmek.io.plate_shape import plate_shape
@@ -47,7 +48,7 @@ def test_pins_without_room_are_left_out() -> None:
 
 @pytest.mark.parametrize("machine", ["beat-up", "tufting"])
 def test_plates_are_bored_for_the_pins_that_were_checked(machine: str) -> None:
-    report = MACHINES[machine].report_for({})
+    report = default_report(machine)
     largest = next(one.value for one in report.results if one.name == "pin_diameter")
     holes = [hole.radius for plate in report.plates if plate.name != "crank" for hole in plate.holes]
     assert max(holes) == pytest.approx(largest / 2)

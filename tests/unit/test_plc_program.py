@@ -10,7 +10,8 @@ from xml.etree import ElementTree as ET
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from hypothesis import given, settings
+from effort import examples
+from hypothesis import given
 from hypothesis import strategies as st
 from plc_loom import SENSORS, PlcLoom
 from small_programme import small_programme
@@ -74,7 +75,7 @@ def rules() -> Machine:
 
 
 @given(SENSOR_STATES)
-@settings(max_examples=150)
+@examples(150)
 def test_interlocks_permit_what_the_controller_permits(sensors: Sensors) -> None:
     block = rules().instance("Interlocks")
     inputs = {name: getattr(sensors, field) for field, name in SENSOR_NAMES.items()}
@@ -119,6 +120,7 @@ def test_the_program_weaves_the_carpet_of_its_chart(heads: int, yarns: int, seed
     assert loom.read("KnotsDone") == 96
 
 
+@pytest.mark.matrix(light=7)
 @pytest.mark.parametrize("seed", range(20))
 def test_power_cuts_lose_and_double_nothing(seed: int) -> None:
     random = np.random.default_rng(seed)

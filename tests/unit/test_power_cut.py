@@ -5,6 +5,7 @@ The operations of real runs are recorded, and every state that the disk may then
 
 from pathlib import Path
 
+import effort
 import pytest
 from output_scenarios import SCENARIOS, Scenario, at, expect, hidden, news, nexts, not_atomic, prepare, write
 from power_cut import Recorder, State, materialise, read_tree, states
@@ -49,7 +50,7 @@ def tried(scenario: Scenario, memory: Path, monkeypatch: pytest.MonkeyPatch) -> 
     number = 0
     with monkeypatch.context() as patched:
         patched.setattr(disk, "sync", lambda *_, **__: None)
-        for state in states(recorder):
+        for state in states(recorder, effort.first(), effort.number(12, 200)):
             number += 1
             message = wrong(scenario, state, memory / str(number))
             if message:

@@ -1,12 +1,11 @@
 """The cache folder: only where nobody else can write, only whole entries of the user, never larger than its bound."""
 
 import os
-import subprocess
-import sys
 import time
 from pathlib import Path
 
 import pytest
+from processes import PATIENCE, python, start
 
 from ilmek.num import private_files
 from ilmek.num.private_files import DamagedEntryError, private_folder, prune, read_entry, write_entry
@@ -201,7 +200,7 @@ def test_two_processes_at_once_keep_whole_entries(cache):
         "path = private_folder('kernels') / 'a.kernel'\n"
         "for turn in range(300):\n    write_entry(path, sys.argv[1].encode() * 1000 * turn)\n    read_entry(path)\n"
     )
-    runs = [subprocess.Popen([sys.executable, "-c", script, word]) for word in ("warp", "weft")]
-    assert [run.wait() for run in runs] == [0, 0]
+    with start(python("-c", script, "warp")) as warp, start(python("-c", script, "weft")) as weft:
+        assert [run.communicate(timeout=PATIENCE)[1] for run in (warp, weft)] == ["", ""]
     assert read_entry(made() / "a.kernel") in (b"warp" * 299000, b"weft" * 299000)
     assert len(list(made().iterdir())) == 1

@@ -168,6 +168,7 @@ def test_any_page_overwritten_is_found_or_harmless(written: Path) -> None:
     assert found > 0
 
 
+@pytest.mark.matrix(light=6)
 @pytest.mark.parametrize(
     ("statement", "said"),
     [

@@ -6,15 +6,13 @@ import os
 import random
 import re
 import signal
-import subprocess
-import sys
 import threading
-import time
 from pathlib import Path
 from typing import Any
 
 import pytest
 from click.testing import CliRunner, Result
+from processes import PATIENCE, ilmek, start, until
 from small_programme import small_programme
 
 from ilmek.cli import main
@@ -193,7 +191,7 @@ def test_commands_to_a_run(carpet: Path, tmp_path: Path) -> None:
         assert as_json("resume", "--journal", journal)["state"] in ("Execute", "Held", "Unholding")
         _until(run, "Execute")
         assert call("stop", "--journal", journal).exit_code == 0
-        thread.join(10)
+        thread.join(PATIENCE)
         assert not thread.is_alive()
         assert not run.result().ok
     assert as_json("status", "--journal", journal)["state"] == "Stopped"
@@ -201,10 +199,7 @@ def test_commands_to_a_run(carpet: Path, tmp_path: Path) -> None:
 
 
 def _until(run: LoomRun, state: str) -> None:
-    end = time.monotonic() + 10
-    while run.snapshot().state != state:
-        assert time.monotonic() < end, run.snapshot().state
-        time.sleep(0.005)
+    until(lambda: run.snapshot().state == state, f"the state {state}")
 
 
 def test_a_person_is_asked_what_the_sensor_cannot_tell(carpet: Path, tmp_path: Path) -> None:
@@ -223,7 +218,7 @@ def test_a_person_is_asked_what_the_sensor_cannot_tell(carpet: Path, tmp_path: P
         assert "is the knot of row 3 on warp pair 4 tied" in run.snapshot().requests[0]
         assert "asks" in call("status", "--journal", tmp_path / "j").stdout
         assert call("resume", "--journal", tmp_path / "j", "--answer", "no").exit_code == 0
-        thread.join(10)
+        thread.join(PATIENCE)
         assert not thread.is_alive()
         assert run.result().ok
 
@@ -279,15 +274,11 @@ def test_a_server_goes_on_after_a_carpet(carpet: Path, tmp_path: Path) -> None:
 
 
 def test_a_run_that_is_killed_goes_on(carpet: Path, tmp_path: Path) -> None:
-    line = ["run", str(carpet), "--speed", "100x", "--journal", str(tmp_path / "j")]
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
-    with subprocess.Popen([sys.executable, "-m", "ilmek", *line], env=environment) as process:
-        journal, end = tmp_path / "j" / "journal", time.monotonic() + 60
-        while not journal.exists() or journal.stat().st_size < 1000:
-            assert process.poll() is None
-            assert time.monotonic() < end
-            time.sleep(0.01)
+    journal = tmp_path / "j" / "journal"
+    with start(ilmek("run", carpet, "--speed", "20x", "--journal", tmp_path / "j")) as process:
+        until(lambda: journal.exists() and journal.stat().st_size >= 1000, "the journal")
         process.send_signal(signal.SIGKILL)
+        assert process.wait(PATIENCE) == -signal.SIGKILL
     begun = as_json("status", "--journal", tmp_path / "j")
     assert begun["state"] == "Stopped"
     assert begun["uncertain"] >= 2

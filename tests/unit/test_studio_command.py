@@ -7,38 +7,31 @@ import os
 import re
 import signal
 import socket
-import subprocess
-import sys
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import pytest
 from click.testing import CliRunner
+from processes import PATIENCE, ended, ilmek, start, until
 
 from ilmek.cli import main
 from ilmek.jobs.studio.project.opening import open_project, served_alone
 
 
 @contextmanager
-def started(project: Path, *options: str, token: bool = True) -> Iterator[tuple["subprocess.Popen[str]", int, str]]:
+def started(project: Path, *options: str, token: bool = True) -> Iterator[tuple[Any, int, str]]:
     """A studio in a process: the process, its port and its token, if it has one."""
-    command = [sys.executable, "-m", "ilmek", "studio", str(project), "--no-browser", *options]
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    try:
-        assert process.stdout is not None
+    with start(ilmek("studio", project, "--no-browser", *options)) as process:
         pattern = r"http://127\.0\.0\.1:(\d+)/" + (r"\?token=([\w-]+)\n" if token else "()\n")
-        found = re.fullmatch(pattern, process.stdout.readline())
-        assert found is not None
-        yield process, int(found[1]), found[2]
-    finally:
-        process.kill()
-        process.communicate()
+        address = re.fullmatch(pattern, process.stdout.readline())
+        assert address is not None
+        yield process, int(address[1]), address[2]
 
 
 def get(port: int, path: str, **headers: str) -> tuple[int, bytes, str]:
-    connection = http.client.HTTPConnection("127.0.0.1", port, timeout=20)
+    connection = http.client.HTTPConnection("127.0.0.1", port, timeout=PATIENCE)
     with contextlib.closing(connection):
         connection.request("GET", path, headers=headers)
         reply = connection.getresponse()
@@ -47,18 +40,19 @@ def get(port: int, path: str, **headers: str) -> tuple[int, bytes, str]:
 
 def children(number: int) -> list[int]:
     """The processes that a process has started."""
-    listed = subprocess.run(["ps", "-o", "pid=", "--ppid", str(number)], capture_output=True, text=True, check=False)
-    return [int(line) for line in listed.stdout.split()]
+    return [int(word) for word in ended(["ps", "-o", "pid=", "--ppid", str(number)]).stdout.split()]
 
 
 def assert_ended(numbers: list[int]) -> None:
-    end = time.monotonic() + 5
     for number in numbers:
-        with contextlib.suppress(ProcessLookupError):
-            while Path(f"/proc/{number}/stat").read_text(encoding="utf-8").split(") ")[1][0] != "Z":
-                assert time.monotonic() < end, "a worker outlives its server"
-                time.sleep(0.02)
-                os.kill(number, 0)
+        until(lambda: has_ended(number), f"the end of worker {number}")  # noqa: B023 - called at once
+
+
+def has_ended(number: int) -> bool:
+    try:
+        return Path(f"/proc/{number}/stat").read_text(encoding="utf-8").rpartition(") ")[2][0] == "Z"
+    except (FileNotFoundError, ProcessLookupError):
+        return True
 
 
 def test_a_page_is_known_after_the_server_was_killed_and_started_again(tmp_path: Path) -> None:
@@ -76,7 +70,7 @@ def test_a_page_is_known_after_the_server_was_killed_and_started_again(tmp_path:
         assert get(port, "/api", Cookie=cookie)[0] == 200
         workers = children(process.pid)
         process.send_signal(signal.SIGINT)
-        further, errors = process.communicate(timeout=5)
+        further, errors = process.communicate(timeout=PATIENCE)
         assert (process.returncode, further) == (130, "")
         assert errors == f"ilmek: interrupted; the studio is closed; the project is in {tmp_path / 'carpets'}\n"
         assert_ended(workers)
@@ -88,7 +82,7 @@ def test_a_port_in_use_is_reported(tmp_path: Path) -> None:
         with started(tmp_path / "carpets", "--port", str(port)) as (process, taken, _):
             assert taken > port
             process.terminate()
-            _, errors = process.communicate(timeout=5)
+            _, errors = process.communicate(timeout=PATIENCE)
     assert errors.splitlines()[0] == f"note: port {port} is in use; the studio takes {taken}"
 
 
@@ -97,7 +91,21 @@ def test_a_second_studio_on_the_project_is_reported(tmp_path: Path) -> None:
     with started(tmp_path / "carpets", "--port", "0") as (one, *_), started(tmp_path / "carpets", "--port", "0") as two:
         for process, reported in ((one, False), (two[0], True)):
             process.send_signal(signal.SIGINT)
-            assert (note in process.communicate(timeout=20)[1].splitlines()) is reported
+            assert (note in process.communicate(timeout=PATIENCE)[1].splitlines()) is reported
+
+
+def test_a_studio_in_the_background_of_a_script_is_ended_by_a_termination(tmp_path: Path) -> None:
+    """Its parent ignores Ctrl-C; so does the studio, and ends as ever by SIGTERM, with its workers."""
+    shell = ["sh", "-c", 'trap "" INT; exec "$@"', "sh", *ilmek("studio", tmp_path / "p", "--no-browser", "--port", 0)]
+    with start(shell) as process:
+        assert "token" in process.stdout.readline()
+        workers = until(lambda: children(process.pid), "a worker")
+        process.send_signal(signal.SIGINT)
+        process.terminate()
+        errors = process.communicate(timeout=PATIENCE)[1]
+    assert process.returncode == 143
+    assert errors == f"ilmek: interrupted; the studio is closed; the project is in {tmp_path / 'p'}\n"
+    assert_ended(workers)
 
 
 def test_a_project_is_served_alone_again_after_the_others_end(tmp_path: Path) -> None:

@@ -144,6 +144,7 @@ def test_branches_of_a_drawing_are_those_that_it_shows() -> None:
         assert contrary.structure.groups[1].branch == mirrored
 
 
+@pytest.mark.matrix(light=4)
 @pytest.mark.parametrize("name", MECHANISMS)
 def test_only_the_dragged_joint_moves(name: str) -> None:
     data = example(name)

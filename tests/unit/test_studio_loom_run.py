@@ -1,12 +1,12 @@
 """A run of the twin in the studio: news of each instant, commands, what is refused."""
 
 import threading
-import time
 from pathlib import Path
 
 import numpy as np
 import pytest
 from PIL import Image
+from processes import PATIENCE, until
 
 from ilmek.errors import IlmekError
 from ilmek.jobs.studio.answers import Context
@@ -45,14 +45,14 @@ def test_a_run_is_held_led_on_and_stopped_by_commands(project: Path) -> None:
     working = threading.Thread(target=lambda: ends.append(run(RunRequest(speed=500.0), context)))
     working.start()
     try:
-        _until(lambda: bool(news) and news[-1].state == "Execute")
+        until(lambda: bool(news) and news[-1].state == "Execute", "the first row")
         assert command(LoomCommand("hold"), context) == CommandAnswer(True, "")
-        _until(lambda: news[-1].state == "Held")
+        until(lambda: news[-1].state == "Held")
         assert command(LoomCommand("resume"), context).ok
-        _until(lambda: news[-1].state == "Execute")
+        until(lambda: news[-1].state == "Execute")
         assert command(LoomCommand("stop"), context).ok
     finally:
-        working.join(20)
+        working.join(PATIENCE)
     assert not working.is_alive()
     assert ends[0].last.state == "Stopped"
 
@@ -70,10 +70,3 @@ def test_unknown_commands_speeds_and_files_are_refused(project: Path) -> None:
         command(LoomCommand("dance"), context)
     with pytest.raises(IlmekError, match="a clock of 0 times"):
         run(RunRequest(speed=0.0), context)
-
-
-def _until(reached) -> None:  # type: ignore[no-untyped-def]
-    end = time.monotonic() + 20
-    while not reached():
-        assert time.monotonic() < end
-        time.sleep(0.02)

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
+from default_machines import default_report
 
 from ilmek.cli import main
 from ilmek.errors import ParameterError
@@ -95,7 +96,7 @@ def test_loom_in_the_studio_has_the_checks_of_all_its_machines_and_states_the_ne
 @pytest.mark.parametrize("name", ["beat-up", "shedding"])
 def test_figures_are_those_of_the_page_chosen_by_name(name: str) -> None:
     machine = MACHINES[name]
-    page = [figure.name for figure in machine.report_for({}).figures]
+    page = [figure.name for figure in default_report(machine.name).figures]
     none = figures(FiguresRequest(name, {}, names=()), HERE)
     assert [one.name for one in none.known] == page
     assert none.figures == []

@@ -59,6 +59,7 @@ def remove(path: Path) -> None:
         path.unlink()
 
 
+@pytest.mark.matrix(light=3)
 @pytest.mark.parametrize(
     ("path", "names"),
     [

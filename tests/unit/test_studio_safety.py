@@ -1,18 +1,20 @@
 """Who may use the studio: each refusal over a real connection."""
 
+import asyncio
 import contextlib
 import errno
 import http.client
 import json
 import os
 import socket
-import time
+import threading
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+from processes import PATIENCE, until
 from studio_server import Studio, studio
 from websockets.exceptions import InvalidStatus
 
@@ -110,7 +112,7 @@ def test_a_websocket_needs_the_cookie_too(server: Studio) -> None:
     with pytest.raises(InvalidStatus, match="403"):
         server.events({})
     with server.events({**server.cookie, "origin": f"http://127.0.0.1:{server.port}"}) as events:
-        assert json.loads(events.recv(5))["type"] == "hello"
+        assert json.loads(events.recv(PATIENCE))["type"] == "hello"
 
 
 def test_a_form_of_another_site_is_no_json(server: Studio) -> None:
@@ -139,7 +141,7 @@ def test_an_upload_is_taken_by_type(server: Studio) -> None:
 
 @pytest.mark.parametrize("length", [str(LONGEST_BODY + 1), "9" * 5000, "-1", "1e3"])
 def test_a_body_that_states_to_be_long_is_refused_before_it_is_read(server: Studio, length: str) -> None:
-    connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=10)
+    connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=PATIENCE)
     connection.putrequest("POST", "/api/uploaded/warp")
     for name, value in {**server.cookie, **PNG, "content-length": length}.items():
         connection.putheader(name, value)
@@ -154,7 +156,7 @@ def test_a_body_that_grows_is_refused_while_it_streams(server: Studio) -> None:
     chunk = b"400000\r\n" + bytes(0x400000) + b"\r\n"
     sent = 0
     with (
-        socket.create_connection(("127.0.0.1", server.port), timeout=20) as raw,
+        socket.create_connection(("127.0.0.1", server.port), timeout=PATIENCE) as raw,
         contextlib.suppress(ConnectionError),
     ):
         raw.sendall(f"{head}Content-Type: image/png\r\nTransfer-Encoding: chunked\r\n\r\n".encode())
@@ -226,11 +228,17 @@ def test_a_password_is_required_and_no_token_replaces_it(guarded: Studio) -> Non
     assert guarded.send("POST", "/login", b"x" * 5000, {}).status == 413
 
 
-def test_wrong_passwords_are_slowed(guarded: Studio) -> None:
-    began = time.monotonic()
-    for body in (b"password=wrong", b"\xff\xfe"):
+def test_wrong_passwords_are_slowed(guarded: Studio, monkeypatch: pytest.MonkeyPatch) -> None:
+    delays: list[float] = []
+
+    async def pause(seconds: float) -> None:
+        delays.append(seconds)
+
+    monkeypatch.setattr(login, "pause", pause)
+    assert guarded.send("POST", "/login", b"password=right+horse", {}).status == 303
+    for body in (b"password=wrong", b"\xff\xfe", *6 * [b"password=wrong"]):
         assert guarded.send("POST", "/login", body, {}).status == 403
-    assert time.monotonic() - began > 0.5 + 1.0 - 0.1
+    assert delays == [0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 16.0, 16.0]
 
 
 def test_beyond_the_loopback_a_password_is_required() -> None:
@@ -289,14 +297,20 @@ def test_the_server_listens_at_the_loopback_alone(server: Studio) -> None:
 
 
 def test_many_passwords_at_a_time_are_refused(guarded: Studio, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(login, "LONGEST_DELAY", 0.3)
+    passed = threading.Event()
 
-    def guess(_: int) -> int:
-        return guarded.send("POST", "/login", b"password=wrong", {}).status
+    async def pause(_: float) -> None:
+        while not passed.is_set():
+            await asyncio.sleep(0.001)
 
+    monkeypatch.setattr(login, "pause", pause)
     with ThreadPoolExecutor(20) as many:
-        statuses = list(many.map(guess, range(20)))
-    assert set(statuses) == {403, 429}
+        guesses = [many.submit(guarded.send, "POST", "/login", b"password=wrong", {}) for _ in range(20)]
+        until(lambda: sum(guess.done() for guess in guesses) == 20 - login.MOST_WAITING, "the refusal of the others")
+        refused = [guess.result().status for guess in guesses if guess.done()]
+        passed.set()
+    assert set(refused) == {429}
+    assert [guess.result().status for guess in guesses].count(403) == login.MOST_WAITING
     assert guarded.send("GET", "/api").status == 200  # those who are in stay in
 
 

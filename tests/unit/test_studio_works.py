@@ -1,6 +1,7 @@
 """Works without a server: those of a page that has gone, and the answers that are kept."""
 
 import asyncio
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import partial
 from io import BytesIO
@@ -8,6 +9,7 @@ from typing import Any
 from unittest.mock import AsyncMock, Mock
 
 import pytest
+from processes import PATIENCE
 
 from ilmek.web import worker as workers
 from ilmek.web.events import EventHub
@@ -40,8 +42,10 @@ def works(body: bytes | None) -> tuple[Works, FakePool]:
     return Works(pool, EventHub({}, lambda _: None), patience=0.01), pool
 
 
-async def _settle() -> None:
-    await asyncio.sleep(0.05)
+async def _until(condition: Callable[[], bool]) -> None:
+    async with asyncio.timeout(PATIENCE):
+        while not condition():
+            await asyncio.sleep(0.001)
 
 
 def test_the_works_of_a_page_that_does_not_come_back_end() -> None:
@@ -53,7 +57,7 @@ def test_the_works_of_a_page_that_does_not_come_back_end() -> None:
         await asyncio.sleep(0)
         running.page_left("one")
         running.page_left("")
-        await _settle()
+        await _until(lambda: bool(pool.cancelled))
         assert pool.cancelled == [b"of one"]
         for number in (other, nobody):
             state = running.state(number)
@@ -72,9 +76,12 @@ def test_answers_are_kept_up_to_a_number_and_a_size(size: int, kept: int) -> Non
         for _ in range(MOST_KEPT + 3):
             numbers.append(running.start("f", b"", 1.0, ""))
             await asyncio.sleep(0)
-        await _settle()
-        there = [number for number in numbers if running.state(number) is not None]
-        assert there == numbers[-kept:]
+
+        def there() -> list[int]:
+            return [number for number in numbers if running.state(number) is not None]
+
+        await _until(lambda: len(there()) <= kept)
+        assert there() == numbers[-kept:]
 
     asyncio.run(scenario())
 

@@ -1,10 +1,7 @@
 """The twin behind the ports: times by the rules, the woven carpet, faults, halts, and the state after a restart."""
 
 import errno
-import os
 import signal
-import subprocess
-import sys
 import threading
 from collections.abc import Callable
 from dataclasses import replace
@@ -13,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from plant_driver import knots_of, weave
+from processes import ended, python
 from small_programme import small_programme
 
 from ilmek.drivers.twin_port import TwinPort
@@ -229,14 +227,11 @@ with open_woven(Path({str(path)!r}), programme) as woven:
         if number == 30:
             os.kill(os.getpid(), signal.SIGKILL)
 """
-    support = Path(__file__).parents[1] / "support"
-    paths = os.pathsep.join([str(support), *sys.path])
-    done = subprocess.run([sys.executable, "-c", code], env={**os.environ, "PYTHONPATH": paths}, check=False)
-    assert done.returncode == -signal.SIGKILL
+    assert ended(python("-c", code)).returncode == -signal.SIGKILL
     with open_woven(path, programme) as woven:
         tied = sum(int(woven.counts(row).sum()) for row in range(3))
-        ended = sum(int(woven.ends(row).sum()) for row in range(3))
-        assert (tied, ended) == (17, 5)
+        ends = sum(int(woven.ends(row).sum()) for row in range(3))
+        assert (tied, ends) == (17, 5)
         again = TwinPort(programme.setup, woven)
         assert again.time > 0
         assert again.state.heads[0].tube >= 0

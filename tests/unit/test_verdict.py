@@ -160,6 +160,7 @@ def test_a_setting_that_prevents_a_design_is_bad_input(tmp_path: Path, monkeypat
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.matrix(light=2)
 @pytest.mark.parametrize(
     ("wishes", "named"),
     [

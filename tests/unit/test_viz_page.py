@@ -253,6 +253,7 @@ def test_a_pixel_of_the_chart_tells_its_yarn_even_of_one_colour() -> None:
     assert (data["rows"], data["columns"], data["step"]) == (30, 20, 1)
 
 
+@pytest.mark.matrix(light=1)
 @pytest.mark.parametrize("srgb", [(0, 0, 0), (255, 255, 255), (9, 250, 4)])
 def test_yarns_of_one_colour_get_codes_of_their_own_nearby(srgb: tuple[int, int, int]) -> None:
     yarns = tuple(Yarn(str(number), srgb, (0.0, 0.0, 0.0), 4.0) for number in range(255))

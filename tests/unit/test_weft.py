@@ -57,6 +57,7 @@ def test_the_sinuous_weft_is_longer_and_its_bobbin_lasts_longer() -> None:
     assert sinuous.rows > straight.rows
 
 
+@pytest.mark.matrix(light=2)
 @pytest.mark.parametrize("carrier", ["shuttle", "rapier"])
 @pytest.mark.parametrize("width", [0.6, 1.2, 6.0])
 def test_the_motion_keeps_its_limits_and_covers_the_cloth(carrier: str, width: float) -> None:

@@ -2,9 +2,6 @@
 
 import importlib.util
 import math
-import os
-import subprocess
-import sys
 from pathlib import Path
 
 import ezdxf
@@ -12,6 +9,7 @@ import numpy as np
 import pytest
 from ezdxf.entitydb import EntityDB
 from ezdxf.path import make_path
+from processes import printed, python
 
 from ilmek.cams.laws import LAWS
 from ilmek.cams.limits import PlateCam, area
@@ -113,8 +111,7 @@ def test_the_same_plate_gives_the_same_bytes_in_every_process(tmp_path: Path) ->
         "write_dxf(Path(sys.argv[1]), Plate('p', 'p', np.array([0, 0.1, 0.1 + 0.1j]), 0.01, 'steel'))"
     )
     for seed in "123":
-        environment = dict(os.environ, PYTHONHASHSEED=seed)
-        subprocess.run([sys.executable, "-c", script, str(tmp_path / seed)], env=environment, check=True)
+        printed(python("-c", script, tmp_path / seed), changes={"PYTHONHASHSEED": seed})
     assert len({path.read_bytes() for path in tmp_path.iterdir()}) == 1
 
 

@@ -21,6 +21,9 @@ MOST_WAITING = 8
 LONGEST_FORM = 4096
 """Largest body of the form [bytes]."""
 
+pause = asyncio.sleep
+"""Lets a time pass [s], while others are served."""
+
 _PAGE = """<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
 <title>ilmek studio</title></head><body><main><h1>ilmek studio</h1>
@@ -66,7 +69,7 @@ class Login:
         if self._access.knows_password(password):
             self._wrong = 0
             return True
-        await asyncio.sleep(min(FIRST_DELAY * 2**self._wrong, LONGEST_DELAY))
+        await pause(min(FIRST_DELAY * 2**self._wrong, LONGEST_DELAY))
         self._wrong = min(self._wrong + 1, 20)
         return False
 

@@ -114,14 +114,14 @@ def serve(order: StudioOrder, note: Callable[[str], None], show: Callable[[str],
     access = access_to(order, port, secret)
     host = socket.gethostname() if order.host in _EVERYWHERE else f"[{order.host}]" if ":" in order.host else order.host
     address = f"http://{host}:{port}/"
-    show(address if order.password else f"{address}?token={access.token}")
-    if browser:
-        opened = address if order.password else f"{address}?token={access.browser_token}"
-        threading.Thread(target=webbrowser.open, args=(opened,), daemon=True).start()
     app = studio_app(str(order.project.resolve()), access, f"ilmek-studio-{port}")
     with served_alone(order.project) as alone:
         if not alone:
             note("the project is open in another studio too; each shows what the other saves")
+        show(address if order.password else f"{address}?token={access.token}")
+        if browser:
+            opened = address if order.password else f"{address}?token={access.browser_token}"
+            threading.Thread(target=webbrowser.open, args=(opened,), daemon=True).start()
         uvicorn.Server(uvicorn.Config(app, **server_settings())).run(sockets=[listener])
 
 

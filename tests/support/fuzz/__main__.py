@@ -9,6 +9,8 @@ from collections.abc import Sequence
 from hashlib import sha256
 from pathlib import Path
 
+from kept import kept
+
 from fuzz.case import read_case, shortened
 from fuzz.corpus import ROOT, make_corpus
 from fuzz.inputs import make_case, usual_cases
@@ -52,7 +54,7 @@ def main() -> int:
 def _warm_up(jobs: int) -> None:
     """Run what is right once, so that the kernels are compiled; complain where that fails."""
     _show("compiling the kernels with checked indices (about two minutes, once)")
-    for outcome in outcomes(usual_cases(make_corpus()), jobs, Limits(hang=600.0, timing=False)):
+    for outcome in outcomes(usual_cases(kept(make_corpus)), jobs, Limits(hang=600.0, timing=False)):
         if outcome.code not in (0, 3):  # 3: a check of the design fails
             _show(f"an input that is right ends with {outcome.code}: {outcome.task}")
 
@@ -64,7 +66,7 @@ def _write_case(folder: Path, key: tuple[str, str], outcome: Outcome, limits: Li
         _show(outcome.findings[0].detail)
         return
     if case is None:  # the process died with it
-        case = make_case(make_corpus(), outcome.task) if isinstance(outcome.task, int) else outcome.task
+        case = make_case(kept(make_corpus), outcome.task) if isinstance(outcome.task, int) else outcome.task
     if limits:
         case = reduced(case, key[1], limits)
     name = f"{key[0]}-{case.command}-{sha256(key[1].encode()).hexdigest()[:8]}".replace(" ", "-")

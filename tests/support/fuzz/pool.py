@@ -16,6 +16,8 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from traceback import format_exc
 
+from kept import kept
+
 from fuzz.case import Case
 from fuzz.corpus import Corpus, make_corpus
 from fuzz.execution import Run, Runner
@@ -165,7 +167,7 @@ def _work(pipe: Connection, stacks: Path, limits: Limits) -> None:
                 return
             try:
                 if isinstance(task, int):
-                    corpus = corpus or make_corpus()
+                    corpus = corpus or kept(make_corpus)
                     case = make_case(corpus, task)
                 else:
                     case = task
