@@ -86,7 +86,7 @@ def test_a_page_names_the_figure_that_cannot_be_drawn(monkeypatch: pytest.Monkey
 def test_with_the_defaults_nothing_is_left_out(name: str) -> None:
     left_out: list[str] = []
     report = find_machine(name).report_for({})
-    assert "left out" not in machine_page(report, left_out)
+    assert "is left out" not in machine_page(report, left_out)
     assert left_out == []
 
 

@@ -61,8 +61,9 @@ def test_every_solution_takes_the_poses_on_one_branch_when_it_is_moved(text: str
 def test_five_poses_list_every_link_and_judge_every_pair_both_ways() -> None:
     results = answer(poses=FIVE).as_json()["results"]
     assert len(results["links"]) == 4
-    assert len(results["solutions"]) + len(results["removed"]) + 2 == results["judged"] == 12
-    assert results["sieve"].startswith("12 four-bars: 7 kept, 5 removed")
+    assert len(results["solutions"]) + len(results["removed"]) + 1 == results["judged"] == 12
+    assert results["sieve"].startswith("12 four-bars: 6 kept, 6 removed")
+    assert results["removed_counts"]["transmits"] == 1
     points, angles = read_poses("poses", FIVE)
     for link in results["links"]:
         guide = Guide(GuideKind(link["kind"]), complex(*link["pivot"]), complex(*link["pin"]))

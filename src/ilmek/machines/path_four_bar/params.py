@@ -140,7 +140,7 @@ class PathFourBarParams(FourBarTaskParams):
                 self.ordered,
                 limits,
                 kind,
-                self.transmission_min,
+                self.filters().least_transmission,
                 math.inf if self.link_ratio_max is None else self.link_ratio_max,
                 math.inf if self.size_max is None else self.size_max,
             )
