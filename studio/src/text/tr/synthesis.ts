@@ -1,5 +1,5 @@
 import type en from "../en/synthesis";
-import type { Same } from "../index";
+import type { Same } from "../catalogue";
 
 export default {
   title: "Sentez",

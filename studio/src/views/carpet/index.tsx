@@ -1,6 +1,6 @@
 import { useEffect, useState } from "preact/hooks";
 import { useReady } from "../../app/ready";
-import { goTo, type ViewProps } from "../../app/routes";
+import { address, goTo, type ViewProps } from "../../app/routes";
 import { remember } from "../../app/settings";
 import { FileCommand, project, refreshProject, SaveState, useDocument } from "../../project";
 import { formatNumber, t } from "../../text";
@@ -60,7 +60,7 @@ function RecipeView({ path }: { path: string }) {
       <header class="ui-view-head carpet-head">
         <h1>{t("carpet.title")}</h1>
         <RecipeChoice path={path} />
-        <SaveState document={document as never} />
+        <SaveState document={document as never} textAddress={address("files", document.path)} />
         <Timing model={model} />
         <Button
           disabled={!isRead}

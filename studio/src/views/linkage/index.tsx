@@ -2,6 +2,7 @@
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import { post } from "../../api/request";
 import { useReady } from "../../app/ready";
+import { address } from "../../app/routes";
 import { filesOf, project, refreshProject, SaveState, useDocument } from "../../project";
 import { t } from "../../text";
 import { Button, CopyCommand, formatQuantity, IconButton, Slider } from "../../ui";
@@ -74,7 +75,7 @@ function LinkageFile({ name, names }: { name: string; names: readonly string[] }
       <header class="linkage-head">
         <h1 class="visually-hidden">{t("linkage.title")}</h1>
         <FileBar name={name} names={names} />
-        <SaveState document={document} />
+        <SaveState document={document} textAddress={address("files", document.path)} />
       </header>
       <div class="linkage-body-area">
         <Toolbar tools={tools} onChoose={focus} />

@@ -1,6 +1,6 @@
 import { useEffect, useMemo, useState } from "preact/hooks";
 import { useReady } from "../../app/ready";
-import { goTo, type ViewProps } from "../../app/routes";
+import { address, goTo, type ViewProps } from "../../app/routes";
 import { remember, remembered } from "../../app/settings";
 import { filesOf, project, SaveState } from "../../project";
 import { useDocument } from "../../project/use-document";
@@ -69,7 +69,7 @@ function OneMachine({ name }: { name: string }) {
           />
         </div>
         <span class="ui-grow" />
-        {!missing && <SaveState document={document as never} />}
+        {!missing && <SaveState document={document as never} textAddress={address("files", document.path)} />}
       </header>
       {missing ? (
         <NoFile name={name} />
