@@ -328,6 +328,35 @@ describe("another program or tab", () => {
     expect([document.saved.value, document.error.value ?? null]).toEqual(["saved", null]);
   });
 
+  it("a file without a history that has gone is not read again, until it is back", async () => {
+    const document = await opened();
+    server.refuse = new ApiError(422, "carpet.toml is not there");
+    await document.gone();
+    expect([document.saved.value, document.problem.value]).toEqual(["missing", ""]);
+    server.refuse = null;
+    await document.refresh();
+    expect(document.saved.value).toBe("saved");
+  });
+
+  it("a document whose file is taken away saves what waits, and asks for nothing afterwards", async () => {
+    const document = await opened();
+    document.update(() => ({ colours: 1 }));
+    const left = document.leave(async () => {
+      expect(JSON.parse(server.text)).toEqual({ colours: 1 });
+      server.refuse = new ApiError(422, "carpet.toml is not there");
+    });
+    await Promise.all([left, document.refresh()]);
+    expect([document.saved.value, document.problem.value]).toEqual(["saved", ""]);
+  });
+
+  it("a document whose file could not be taken away goes on", async () => {
+    const document = await opened();
+    await expect(document.leave(() => Promise.reject(new ApiError(422, "taken")))).rejects.toThrow("taken");
+    server.write({ size: "80x120cm" });
+    await document.refresh();
+    expect(document.data.value).toEqual({ size: "80x120cm" });
+  });
+
   it("a file that is gone is reported", async () => {
     const document = await opened();
     server.refuse = new ApiError(422, "carpet.toml is not there");

@@ -64,6 +64,7 @@ export class Document<T extends object = Record<string, unknown>> {
   #pending: State | null = null;
   #timer: ReturnType<typeof setTimeout> | undefined;
   #failures = 0;
+  #left = false;
   #queue: Promise<void> = Promise.resolve();
 
   constructor(
@@ -121,6 +122,30 @@ export class Document<T extends object = Record<string, unknown>> {
     return this.#next(() => this.#send());
   }
 
+  /**
+   * Does what takes the file away, after all that waits; then the document asks the server for nothing any more.
+   *
+   * Throws what `work` throws; the document then goes on.
+   */
+  leave(work: () => Promise<void>): Promise<void> {
+    void this.flush();
+    const left = this.#queue.then(work).then(() => {
+      this.#left = true;
+      clearTimeout(this.#timer);
+    });
+    this.#queue = left.catch(() => undefined);
+    return left;
+  }
+
+  /** Follows that the file is not in the project any more: only one with a history is read, what waits is kept. */
+  gone(): Promise<void> {
+    const { undo, redo } = this.#history.peek();
+    if (undo || redo) return this.refresh();
+    return this.#next(async () => {
+      if (this.#pending === null && this.#conflict.peek() === null) this.#saved.value = "missing";
+    });
+  }
+
   /** Brings back the state before; what waits is saved first. */
   undo(): Promise<void> {
     return this.#step((path) => this.#around.api.undo(path));
@@ -137,7 +162,8 @@ export class Document<T extends object = Record<string, unknown>> {
       if (this.#pending !== null || this.#conflict.peek() !== null) return;
       try {
         const file = await this.#around.api.read(this.path);
-        if (this.#pending === null && file.digest !== this.#base) this.#take(file);
+        const isBack = this.#saved.peek() === "missing";
+        if (this.#pending === null && (isBack || file.digest !== this.#base)) this.#take(file);
         else if (this.#pending === null) this.#error.value = file.error ?? null;
       } catch (error) {
         if (error instanceof ApiError && this.#pending === null) {
@@ -260,7 +286,7 @@ export class Document<T extends object = Record<string, unknown>> {
   }
 
   #next(work: () => Promise<void>): Promise<void> {
-    this.#queue = this.#queue.then(work);
+    this.#queue = this.#queue.then(() => (this.#left ? undefined : work()));
     return this.#queue;
   }
 

@@ -127,10 +127,16 @@ function forget(path: string): void {
   if (activeDocument.peek() === known) activeDocument.value = null;
 }
 
-/** Follows files that another program or tab changed. */
-export function filesChanged(paths: readonly string[]): void {
-  for (const path of paths) void documents.get(path)?.refresh();
-  void refreshProject().catch(() => undefined);
+/** Follows files that another program or tab changed; those that are not listed any more are not read. */
+export async function filesChanged(paths: readonly string[]): Promise<void> {
+  await refreshProject().catch(() => undefined);
+  const files = list.peek()?.files;
+  if (files === undefined) return;
+  const listed = new Set(files.map((file) => file.path));
+  for (const path of paths) {
+    const document = documents.get(path);
+    void (listed.has(path) ? document?.refresh() : document?.gone());
+  }
 }
 
 /** Follows whatever changed while the server was lost, and sends what waits. */
@@ -159,20 +165,22 @@ export async function newFile(
   await refreshProject();
 }
 
+/** Does what takes a file away; its document does not follow it any more. */
+async function leave(path: string, work: () => Promise<void>): Promise<void> {
+  await (documents.get(path)?.leave(work) ?? work());
+  forget(path);
+}
+
 /** Renames a text file. Throws ApiError. */
 export async function renameFile(path: string, to: string): Promise<void> {
-  await documents.get(path)?.flush();
-  await post("/project/rename", { path, new: to });
-  forget(path);
+  await leave(path, () => post("/project/rename", { path, new: to }));
   forget(to);
   await refreshProject();
 }
 
 /** Deletes a text file; `undoDelete` brings it back. Throws ApiError. */
 export async function deleteFile(path: string): Promise<void> {
-  await documents.get(path)?.flush();
-  await post("/project/delete", { path });
-  forget(path);
+  await leave(path, () => post("/project/delete", { path }));
   await refreshProject();
 }
 

@@ -1,5 +1,5 @@
-import type en from "../en/synthesis";
 import type { Same } from "../catalogue";
+import type en from "../en/synthesis";
 
 export default {
   title: "Sentez",
