@@ -24,7 +24,10 @@ class FakeServer implements ProjectApi {
     } catch {
       // as a file that is no TOML
     }
-    const error = data?.["size"] === "huge" ? { given: "line 1: huge is no size", allowed: "", do: "", line: 1 } : null;
+    const error =
+      data?.["size"] === "huge"
+        ? { given: "line 1: huge is no size", allowed: "", do: "", line: 1, unfinished: false }
+        : null;
     const [undo, redo] = [this.at > 0, this.at + 1 < this.states.length];
     return { path: "carpet.toml", kind: "carpet", text: this.text, data, digest: `#${this.text}`, error, undo, redo };
   }
@@ -314,7 +317,7 @@ describe("another program or tab", () => {
       data: null,
       text: "",
       undo: true,
-      error: { given: "gone", allowed: "", do: "", line: null },
+      error: { given: "gone", allowed: "", do: "", line: null, unfinished: false },
     });
     await document.refresh();
     expect([document.saved.value, document.error.value?.given, document.canUndo.value, document.data.value]).toEqual([

@@ -164,7 +164,7 @@ export class Document<T extends object = Record<string, unknown>> {
         const file = await this.#around.api.read(this.path);
         const isBack = this.#saved.peek() === "missing";
         if (this.#pending === null && (isBack || file.digest !== this.#base)) this.#take(file);
-        else if (this.#pending === null) this.#error.value = file.error ?? null;
+        else if (this.#pending === null) this.#error.value = errorOf(file);
       } catch (error) {
         if (error instanceof ApiError && this.#pending === null) {
           this.#problem.value = problemOf(error);
@@ -242,7 +242,7 @@ export class Document<T extends object = Record<string, unknown>> {
       if (!own || !isSame(this.#data.peek(), file.data)) this.#data.value = (file.data ?? null) as T | null;
       this.#text.value = file.text;
     }
-    this.#error.value = file.error ?? null;
+    this.#error.value = errorOf(file);
     this.#history.value = { undo: file.undo ?? false, redo: file.redo ?? false };
     this.#problem.value = "";
     this.#saved.value = file.digest === "" ? "missing" : "saved";
@@ -296,6 +296,11 @@ export class Document<T extends object = Record<string, unknown>> {
     if (pause === undefined) this.#failures += 1;
     this.#timer = setTimeout(work, pause ?? retry);
   }
+}
+
+/** The first error of a file; what is only unfinished is named by its view. */
+function errorOf({ error }: FileContent): FileError | null {
+  return error == null || error.unfinished ? null : error;
 }
 
 function isEqual(state: State, file: FileContent): boolean {

@@ -11,6 +11,7 @@ from ilmek.errors import ParameterError
 from ilmek.records import record
 from ilmek.synthesis.path.links import random_links
 from ilmek.synthesis.path.model import NAMES, SIZE, START, TURN
+from ilmek.units import counted
 
 FEWEST, MOST = 4, 200
 """Least and greatest number of points of a path."""
@@ -118,7 +119,7 @@ def _check_points(points: ComplexArray, timed: bool) -> None:
     if points.ndim != 1 or not FEWEST <= len(points) <= MOST:
         few = "use exact synthesis for two or three points, with timing for up to five (dyads, timed paths)"
         do = few if points.size < FEWEST else "give fewer points: 60 suffice for a hand-drawn curve"
-        raise ParameterError(f"a path of {points.size} points", allowed=f"{FEWEST} to {MOST} points", do=do)
+        raise ParameterError(f"a path of {counted(points.size, 'point')}", allowed=f"{FEWEST} to {MOST} points", do=do)
     bad = np.flatnonzero(~np.isfinite(points))
     if len(bad):
         raise ParameterError(f"point {bad[0] + 1} of the path is {points[bad[0]]}", allowed="finite points")
@@ -133,7 +134,10 @@ def _check_points(points: ComplexArray, timed: bool) -> None:
 def _check_timing(timing: FloatArray, count: int) -> None:
     """Raise ParameterError unless the crank angles are a valid timing."""
     if timing.shape != (count,) or not np.isfinite(timing).all():
-        raise ParameterError(f"timing of {timing.size} angles for {count} points", allowed="one finite angle per point")
+        raise ParameterError(
+            f"timing of {counted(timing.size, 'angle')} for {counted(count, 'point')}",
+            allowed="one finite angle per point",
+        )
     steps = np.diff(timing)
     if not ((steps > 0).all() or (steps < 0).all()):
         raise ParameterError("the crank angles of the timing are not monotonic", allowed="ascending or descending")

@@ -1,5 +1,6 @@
 /** Numbers and texts of the file as fields: each is written as the file has it, and taken over with Enter or on leaving. */
 import { useState } from "preact/hooks";
+import { t } from "../../text";
 import type { Editor } from "./editor";
 import { apply, type Table } from "./mechanism";
 
@@ -55,11 +56,16 @@ export function leaves(entry: unknown, path: readonly string[] = []): { path: re
 
 const COORDINATES: Record<string, string> = { "0": "x", "1": "y" };
 
+/** Entries that name a body and one of its points, and what their two places are called. */
+const PLACES: ReadonlySet<string> = new Set(["on", "between"]);
+
 /** The name of an entry: "A x", "mass". */
 export function entryLabel(path: readonly string[]): string {
   const shown = path.filter((key) => key !== "points");
+  const place = path.some((key) => PLACES.has(key));
+  const named: Record<string, string> = place ? { "0": t("linkage.onBody"), "1": t("linkage.atPoint") } : COORDINATES;
   return shown
-    .map((key, index) => (index === shown.length - 1 && shown.length > 1 ? (COORDINATES[key] ?? key) : key))
+    .map((key, index) => (index === shown.length - 1 && shown.length > 1 ? (named[key] ?? key) : key))
     .join(" ");
 }
 

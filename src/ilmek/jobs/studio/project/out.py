@@ -11,7 +11,7 @@ from zipfile import ZIP_DEFLATED, ZipFile
 
 from ilmek.errors import ParameterError
 from ilmek.jobs.studio.answers import Binary, Context
-from ilmek.jobs.studio.project.folder import OUT, ProjectFolder, cannot
+from ilmek.jobs.studio.project.folder import OUT, ProjectFolder, cannot, natural
 from ilmek.jobs.studio.project.origins import read_origins
 from ilmek.jobs.studio.project.products import sources
 from ilmek.jobs.studio.project.tasks import Changed, PathRequest, ProjectRequest
@@ -78,7 +78,7 @@ def written(request: ProjectRequest, context: Context) -> OutList:
             files = tuple(_out_file(folder.base, path, status) for path, status in found)
             changed = origins.changed(name, source, max(times)) if source else ()
             entries.append(OutEntry(name, sum(one.size for one in files), max(times) / 1e9, files, source, changed))
-    return OutList(tuple(sorted(entries, key=lambda entry: (-entry.time, entry.path))))
+    return OutList(tuple(sorted(entries, key=lambda entry: (-entry.time, natural(entry.path)))))
 
 
 def _out_file(base: Path, path: str, status: os.stat_result) -> OutFile:
@@ -94,7 +94,9 @@ def last_change(path: Path) -> int:
 
 def _scanned(folder: Path) -> list[os.DirEntry[str]]:
     try:
-        return sorted((one for one in os.scandir(folder) if not one.name.startswith(".")), key=lambda one: one.name)
+        return sorted(
+            (one for one in os.scandir(folder) if not one.name.startswith(".")), key=lambda one: natural(one.name)
+        )
     except FileNotFoundError:
         return []
     except OSError as error:
