@@ -17,7 +17,7 @@ from ilmek.cli import main
 from ilmek.jobs.studio.answers import Context
 from ilmek.jobs.studio.project.tasks import PathRequest, read_file
 
-LINKAGE = '[bodies.ground.points]\nA0 = [0, 0]\n'
+LINKAGE = "[bodies.ground.points]\nA0 = [0, 0]\n"
 RECIPE = 'plain = "ivory"\nsize = "20x30cm"\npdf = false\n\n[[border]]\nyarn = "dark red"\nwidth = 3\n'
 
 
