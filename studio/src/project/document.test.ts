@@ -331,16 +331,6 @@ describe("another program or tab", () => {
     expect([document.saved.value, document.error.value ?? null]).toEqual(["saved", null]);
   });
 
-  it("a file without a history that has gone is not read again, until it is back", async () => {
-    const document = await opened();
-    server.refuse = new ApiError(422, "carpet.toml is not there");
-    await document.gone();
-    expect([document.saved.value, document.problem.value]).toEqual(["missing", ""]);
-    server.refuse = null;
-    await document.refresh();
-    expect(document.saved.value).toBe("saved");
-  });
-
   it("a document whose file is taken away saves what waits, and asks for nothing afterwards", async () => {
     const document = await opened();
     document.update(() => ({ colours: 1 }));

@@ -5,7 +5,7 @@
  * the server has it, the browser keeps it. Where another program or tab changed the file too, nothing is overwritten:
  * the conflict is shown, and either state can be kept; the other one stays in the file's history.
  */
-import { computed, type ReadonlySignal, signal } from "@preact/signals";
+import { batch, computed, type ReadonlySignal, signal } from "@preact/signals";
 import { ApiError, type FileContent, type FileError, type ProjectApi, problemOf, type State } from "./api";
 import { isSame } from "./differences";
 import type { Drafts } from "./drafts";
@@ -137,15 +137,6 @@ export class Document<T extends object = Record<string, unknown>> {
     return left;
   }
 
-  /** Follows that the file is not in the project any more: only one with a history is read, what waits is kept. */
-  gone(): Promise<void> {
-    const { undo, redo } = this.#history.peek();
-    if (undo || redo) return this.refresh();
-    return this.#next(async () => {
-      if (this.#pending === null && this.#conflict.peek() === null) this.#saved.value = "missing";
-    });
-  }
-
   /** Brings back the state before; what waits is saved first. */
   undo(): Promise<void> {
     return this.#step((path) => this.#around.api.undo(path));
@@ -162,8 +153,7 @@ export class Document<T extends object = Record<string, unknown>> {
       if (this.#pending !== null || this.#conflict.peek() !== null) return;
       try {
         const file = await this.#around.api.read(this.path);
-        const isBack = this.#saved.peek() === "missing";
-        if (this.#pending === null && (isBack || file.digest !== this.#base)) this.#take(file);
+        if (this.#pending === null && file.digest !== this.#base) this.#take(file);
         else if (this.#pending === null) this.#error.value = errorOf(file);
       } catch (error) {
         if (error instanceof ApiError && this.#pending === null) {
@@ -238,14 +228,16 @@ export class Document<T extends object = Record<string, unknown>> {
   #take(file: FileContent, own = false): void {
     this.#pending = null;
     this.#base = file.digest;
-    if (file.digest !== "") {
-      if (!own || !isSame(this.#data.peek(), file.data)) this.#data.value = (file.data ?? null) as T | null;
-      this.#text.value = file.text;
-    }
-    this.#error.value = errorOf(file);
-    this.#history.value = { undo: file.undo ?? false, redo: file.redo ?? false };
-    this.#problem.value = "";
-    this.#saved.value = file.digest === "" ? "missing" : "saved";
+    batch(() => {
+      if (file.digest !== "") {
+        if (!own || !isSame(this.#data.peek(), file.data)) this.#data.value = (file.data ?? null) as T | null;
+        this.#text.value = file.text;
+      }
+      this.#error.value = errorOf(file);
+      this.#history.value = { undo: file.undo ?? false, redo: file.redo ?? false };
+      this.#problem.value = "";
+      this.#saved.value = file.digest === "" ? "missing" : "saved";
+    });
     this.#around.drafts.remove(this.path);
   }
 

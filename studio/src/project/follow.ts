@@ -9,7 +9,7 @@ import { filesChanged, refreshProject, saveAll, serverIsBack } from "./project";
 export function follow(): void {
   void refreshProject().catch(() => undefined);
   onEvent((event) => {
-    if (event.type === "changed") void filesChanged(event.paths);
+    if (event.type === "changed") filesChanged(event.paths);
   });
   let before = connection.peek();
   effect(() => {

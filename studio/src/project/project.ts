@@ -127,16 +127,10 @@ function forget(path: string): void {
   if (activeDocument.peek() === known) activeDocument.value = null;
 }
 
-/** Follows files that another program or tab changed; those that are not listed any more are not read. */
-export async function filesChanged(paths: readonly string[]): Promise<void> {
-  await refreshProject().catch(() => undefined);
-  const files = list.peek()?.files;
-  if (files === undefined) return;
-  const listed = new Set(files.map((file) => file.path));
-  for (const path of paths) {
-    const document = documents.get(path);
-    void (listed.has(path) ? document?.refresh() : document?.gone());
-  }
+/** Follows files that another program or tab changed. */
+export function filesChanged(paths: readonly string[]): void {
+  for (const path of paths) void documents.get(path)?.refresh();
+  void refreshProject().catch(() => undefined);
 }
 
 /** Follows whatever changed while the server was lost, and sends what waits. */

@@ -173,11 +173,11 @@ function Timing({ model }: { model: CarpetModel }) {
 }
 
 function Problem({ model }: { model: CarpetModel }) {
-  const problem = model.problem.value;
+  const problem = model.problem.value ?? model.document.error.value;
   // What the file's reader reports already is not reported twice.
   const reported = model.document.error.value?.given.replace(/, line \d+/, "");
   const edit = /edits\.(\d+)/.exec(problem?.given ?? "")?.[1];
-  if (problem === null || (reported === problem.given && edit === undefined)) return null;
+  if (problem === null || (reported === problem.given.replace(/, line \d+/, "") && edit === undefined)) return null;
   return (
     <div class="ui-callout bad carpet-problem" role="alert">
       <strong>{problem.given}</strong>

@@ -26,6 +26,7 @@ export default function Linkage({ name }: { name: string }) {
   }, []);
   const names = filesOf("linkage").map((file) => nameOf(file.path));
   const shown = name !== "" ? name : names.includes(FIRST) ? FIRST : names[0];
+  useReady(project.value !== null && shown === undefined);
   if (project.value === null) return <p class="app-loading">{t("app.loading")}</p>;
   if (shown === undefined) {
     return (

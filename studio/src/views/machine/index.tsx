@@ -26,8 +26,9 @@ function nameOf(path: string): string {
 }
 
 export default function Machine({ name }: ViewProps) {
-  if (project.value === null) return <p class="app-loading">{t("app.loading")}</p>;
   const shown = name === "" ? usual() : name;
+  useReady(project.value !== null && shown === "");
+  if (project.value === null) return <p class="app-loading">{t("app.loading")}</p>;
   if (shown === "") {
     return (
       <div class="app-plain">
