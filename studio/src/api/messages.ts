@@ -736,7 +736,7 @@ export interface FileContent {
 /**
  * The first error of a file: what was given, what is allowed, what to do, and the line where it is known.
  *
- *     unfinished  it can be read, and lacks something that its view names: points of a task, joints or a drive of a linkage
+ *     unfinished  it can be read, and lacks what its view names: points of a task, joints or a drive of a linkage
  *
  * This interface was referenced by `Messages`'s JSON-Schema
  * via the `definition` "FileError".

@@ -5,9 +5,9 @@ import re
 _OPTION = re.compile(r"(?<![\w-])--(?:no-)?([a-z][a-z-]*)(?: [A-Z]+\.\.[A-Z]+)?")
 
 NAMES = {
-    "speed": "a speed (Motion, Speed)",
-    "over": "a range (Motion, Range)",
-    "at": "a fixed value (Motion)",
+    "speed": 'the speed in "Motion"',
+    "over": 'the range in "Motion"',
+    "at": 'the fixed value in "Motion"',
     "fit": "Fit",
     "corners": "corners (Straighten)",
     "colours": "the number of colours",
@@ -24,7 +24,7 @@ def in_page(text: str) -> str:
     """A sentence without options of the command line.
 
     >>> in_page("forces at 1 rad/s; give --speed")
-    'forces at 1 rad/s; give a speed (Motion, Speed)'
+    'forces at 1 rad/s; give the speed in "Motion"'
     >>> in_page("give a longer --time-limit")
     'give a longer time limit'
     """

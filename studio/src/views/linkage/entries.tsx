@@ -54,18 +54,22 @@ export function leaves(entry: unknown, path: readonly string[] = []): { path: re
   return [{ path, value: String(entry) }];
 }
 
-const COORDINATES: Record<string, string> = { "0": "x", "1": "y" };
+/** What the two places of a list are called: of a body and its point, of two bodies, else of coordinates. */
+function places(path: readonly string[]): readonly string[] {
+  const body = t("linkage.onBody");
+  if (path.includes("torsion")) return [`${body} 1`, `${body} 2`];
+  return path.includes("on") || path.includes("between") ? [body, t("linkage.atPoint")] : ["x", "y"];
+}
 
-/** Entries that name a body and one of its points, and what their two places are called. */
-const PLACES: ReadonlySet<string> = new Set(["on", "between"]);
-
-/** The name of an entry: "A x", "mass". */
+/** The name of an entry: "A x", "mass", "force1 on body". */
 export function entryLabel(path: readonly string[]): string {
   const shown = path.filter((key) => key !== "points");
-  const place = path.some((key) => PLACES.has(key));
-  const named: Record<string, string> = place ? { "0": t("linkage.onBody"), "1": t("linkage.atPoint") } : COORDINATES;
+  const names = places(shown);
   return shown
-    .map((key, index) => (index === shown.length - 1 && shown.length > 1 ? (named[key] ?? key) : key))
+    .map((key, index) => {
+      if (index === 0 || !/^\d+$/.test(key)) return key;
+      return index === shown.length - 1 ? (names[Number(key)] ?? key) : String(Number(key) + 1);
+    })
     .join(" ");
 }
 
