@@ -72,7 +72,7 @@ def test_a_path_is_clicked_on_an_empty_plane(page: Page, running: Studio) -> Non
 
 
 def test_poses_are_pressed_dragged_and_released(page: Page, running: Studio) -> None:
-    """A drag gives a pose its direction, a click the direction of the way; the gallery has no jam and no power of ten."""
+    """A drag gives a pose its direction, a click that of the way; the gallery has no power of ten."""
     path = "synthesis/dragged.toml"
     (running.project / path).write_text('machine = "motion-four-bar"\n\n[settings]\nposes = ""\n', encoding="utf-8")
     open_view(page, running, "synthesis/dragged")

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
+from PIL import Image
 from playwright.sync_api import Browser, Page, expect
 from studio_browser import PATIENCE, VIEWS, Seen, context_of, settled, studio
 
@@ -108,12 +109,17 @@ STATES = {
         "synthesis/one-angle",
         ("Left out:", "whose least transmission angle is below 1°"),
     ),
-    "cyclograms/track.toml": State('name = "machine"\nperiod = "1s"\n\n[tracks.slide]\nunit = "mm"\n', "cyclogram/track"),
+    "cyclograms/track.toml": State(
+        'name = "machine"\nperiod = "1s"\n\n[tracks.slide]\nunit = "mm"\n', "cyclogram/track"
+    ),
     "machines/new.toml": State('machine = "beat-up"\n\n[settings]\n', "machine/new"),
     "yarns/new.toml": State(STARTED_YARNS, "files/yarns/new.toml"),
     "carpet.toml": State('plain = "ivory"\nsize = "20x30cm"\nquality = "20x20/dm"\n', "carpet", tab="Result"),
     "small.toml": State(
-        'picture = "wide.png"\nsize = "20x30cm"\nquality = "20x20/dm"\n', "carpet/small", ("Fit offers crop",), tab="Result"
+        'picture = "wide.png"\nsize = "20x30cm"\nquality = "20x20/dm"\n',
+        "carpet/small",
+        ("Fit offers crop",),
+        tab="Result",
     ),
 }
 
@@ -121,8 +127,6 @@ STATES = {
 @pytest.fixture(scope="module")
 def half(tmp_path_factory: pytest.TempPathFactory, browser: Browser) -> Iterator[tuple[Page, Seen]]:
     """A page on a project in which every file is new, empty or half of what it is to be."""
-    from PIL import Image
-
     folder = Path(tmp_path_factory.mktemp("half")) / "project"
     for path, state in STATES.items():
         (folder / path).parent.mkdir(parents=True, exist_ok=True)

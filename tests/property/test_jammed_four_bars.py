@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 import pytest
@@ -19,9 +20,10 @@ QUICK = {
     "function-four-bar": {},
 }
 DEG = math.pi / 180
+Solution = dict[str, Any]
 
 
-def brute_force(solution: dict, cranks: np.ndarray) -> float:
+def brute_force(solution: Solution, cranks: np.ndarray) -> float:
     """Least acute angle between coupler and rocker [rad], B followed step by step where two circles meet."""
     a0, b0, a, b = (pin(solution, name) for name in ("a0", "b0", "a", "b"))
     crank, coupler, rocker = abs(a - a0), abs(b - a), abs(b - b0)
@@ -38,7 +40,7 @@ def brute_force(solution: dict, cranks: np.ndarray) -> float:
     return least
 
 
-def pin(solution: dict, name: str) -> complex:
+def pin(solution: Solution, name: str) -> complex:
     return complex(*np.atleast_1d(solution[name]))
 
 
@@ -46,7 +48,7 @@ def cross(u: complex, v: complex) -> float:
     return (u.conjugate() * v).imag
 
 
-def used_motion(solution: dict) -> np.ndarray:
+def used_motion(solution: Solution) -> np.ndarray:
     """Crank angles of the motion [rad]: a whole turn, or from the first to the last position."""
     if solution["crank_turns"]:
         base = pin(solution, "b0") - pin(solution, "a0")
@@ -55,7 +57,7 @@ def used_motion(solution: dict) -> np.ndarray:
     return np.linspace(min(cranks), max(cranks), 1441)
 
 
-def offered(machine: str, given: dict[str, str]) -> Iterator[dict]:
+def offered(machine: str, given: dict[str, str]) -> Iterator[Solution]:
     yield from find_machine(machine).report_for({**QUICK[machine], **given}).as_json()["results"]["solutions"]
 
 
@@ -73,7 +75,7 @@ points = st.tuples(st.floats(-40, 40), st.floats(-40, 40))
 
 @settings(max_examples=12)
 @given(st.lists(st.tuples(points, angles), min_size=3, max_size=3), st.booleans())
-def test_three_poses(poses: list, translated: bool) -> None:
+def test_three_poses(poses: list[Any], translated: bool) -> None:
     far = [(x + 60 * at, y) for at, ((x, y), _) in enumerate(poses)]
     turned = [0.0 if translated else round(angle + 7 * at, 3) for at, (_, angle) in enumerate(poses)]
     text = " ".join(f"({x:.3f}mm,{y:.3f}mm,{angle}deg)" for (x, y), angle in zip(far, turned, strict=True))
@@ -82,7 +84,7 @@ def test_three_poses(poses: list, translated: bool) -> None:
 
 @settings(max_examples=6)
 @given(st.lists(st.tuples(points, angles), min_size=5, max_size=5))
-def test_five_poses(poses: list) -> None:
+def test_five_poses(poses: list[Any]) -> None:
     text = " ".join(
         f"({x + 40 * at:.3f}mm,{y:.3f}mm,{angle + 11 * at:.3f}deg)" for at, ((x, y), angle) in enumerate(poses)
     )
@@ -91,7 +93,7 @@ def test_five_poses(poses: list) -> None:
 
 @settings(max_examples=4)
 @given(st.lists(points, min_size=5, max_size=5), st.booleans())
-def test_a_path(path: list, closed: bool) -> None:
+def test_a_path(path: list[Any], closed: bool) -> None:
     text = " ".join(f"({x + 30 * at:.3f}mm,{y:.3f}mm)" for at, (x, y) in enumerate(path))
     never_jams("path-four-bar", {"points": text, "closed": "yes" if closed else "no"})
 

@@ -9,7 +9,6 @@ from ilmek.arrays import Int64, IntArray
 from ilmek.loom.operations import LoomSetup, RowOperations
 from ilmek.loom.proof import kernel
 from ilmek.records import value_record
-from ilmek.units import counted
 
 
 class FaultyPart(Enum):
@@ -84,8 +83,8 @@ def _meeting(
     """The knots of both heads; a head that stands has none."""
     needed = (right[0] - left[0]) * setup.spacing
     what = (
-        f"heads {left[0] + 1} and {right[0] + 1} come within {counted(distance, 'knot')} of each other in a phase; "
-        f"at least {needed} needed"
+        f"heads {left[0] + 1} and {right[0] + 1} come within {distance} knot{'' if distance == 1 else 's'} of each other "
+        f"in a phase; at least {needed} needed"
     )
     knots = [index for _, index in (left, right) if index != kernel.NO_KNOT]
     for index in knots:

@@ -11,10 +11,10 @@ from ilmek.synthesis.path.task import FEWEST
 
 
 class TaskList(NamedTuple):
-    """The setting that holds the points of a task, how many a text has, and the least number that is searched."""
+    """The setting that holds the points of a task, how many a text holds, and the least number that is searched."""
 
     setting: str
-    count: Callable[[str, str], int]
+    number: Callable[[str, str], int]
     least: int
 
 
@@ -35,7 +35,7 @@ def is_unfinished(data: Mapping[str, Any]) -> bool:
         return False
     least = min(EXACT) if is_exact(settings) else task.least
     try:
-        return not text.strip() or task.count(task.setting, text) < least
+        return not text.strip() or task.number(task.setting, text) < least
     except IlmekError:
         return False
 
