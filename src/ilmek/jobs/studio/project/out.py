@@ -1,6 +1,7 @@
 """What was written into out/: listed with what has changed since, packed, removed."""
 
 import os
+import secrets
 import shutil
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -120,7 +121,9 @@ def delete_written(request: PathRequest, context: Context) -> Changed:
     with folder.locked():
         try:
             if path.is_dir():
-                shutil.rmtree(path)
+                # At once: a list that is read meanwhile has the whole folder or nothing of it.
+                hidden = path.with_name(f".{path.name}.{secrets.token_hex(4)}.deleted")
+                shutil.rmtree(path.rename(hidden))
             else:
                 path.unlink()
         except OSError as error:
