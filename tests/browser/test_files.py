@@ -10,13 +10,14 @@ from zipfile import ZipFile
 
 import pytest
 from click.testing import CliRunner
-from playwright.sync_api import Locator, Page, expect
+from playwright.sync_api import Locator, Page, Route, expect
 from studio_browser import PATIENCE, Seen, Studio, open_view, until_file
 
 from ilmek.cli import main
 from ilmek.jobs.studio.answers import Context
 from ilmek.jobs.studio.project.tasks import PathRequest, read_file
 
+LINKAGE = "[bodies.ground.points]\nA0 = [0, 0]\n"
 RECIPE = 'plain = "ivory"\nsize = "20x30cm"\npdf = false\n\n[[border]]\nyarn = "dark red"\nwidth = 3\n'
 
 
@@ -114,6 +115,33 @@ def test_files_come_and_go_by_keys_alone(page: Page, running: Studio) -> None:
     press(page, "Bring it back")
     expect(heading).to_have_text("çağrı 2", timeout=PATIENCE)
     assert (linkages / "çağrı 2.toml").read_text() == (linkages / "new.toml").read_text()
+
+
+@pytest.mark.parametrize(("button", "request_path"), [("Rename", "rename"), ("Delete", "delete")])
+def test_a_file_that_goes_is_not_asked_for_again(
+    page: Page, running: Studio, seen: Seen, button: str, request_path: str
+) -> None:
+    """The list of files without it may arrive before the answer to the request that took it away."""
+    (running.project / "linkages" / f"{request_path}.toml").write_text(LINKAGE)
+    open_view(page, running, f"files/linkages/{request_path}.toml")
+    expect(page.locator("#files-chosen")).to_have_text(request_path, timeout=PATIENCE)
+
+    def late(route: Route) -> None:
+        answer = route.fetch()
+        with page.expect_response(re.compile(r"/api/project\?"), timeout=PATIENCE):
+            pass
+        page.wait_for_timeout(300)  # time in which a wrong request would be sent
+        route.fulfill(response=answer)
+
+    page.route(f"**/api/project/{request_path}", late)
+    page.get_by_role("button", name=button, exact=True).click()
+    if button == "Rename":
+        page.get_by_label("New name").fill("renamed")
+        page.keyboard.press("Enter")
+        expect(page.locator("#files-chosen")).to_have_text("renamed", timeout=PATIENCE)
+    else:
+        expect(page.get_by_text(f"linkages/{request_path}.toml was deleted.")).to_be_visible(timeout=PATIENCE)
+    assert seen.faults == []
 
 
 def test_a_new_file_of_each_kind_can_be_used(page: Page, running: Studio) -> None:

@@ -95,6 +95,50 @@ def test_a_joint_is_dragged_and_moved_by_keys(page: Page, running: Studio) -> No
     assert moved["bodies"]["crank"] == still["bodies"]["crank"]
 
 
+FOUR_BAR = """name = "beside"
+inputs = { A = "link1" }
+branches = { C = 1 }
+
+[bodies]
+ground = { points = { A = [0, 0], D = ["100mm", 0] } }
+link1 = { points = { A = [0, 0], B = ["30mm", 0] } }
+link2 = { points = { B = [0, 0], C = ["90mm", 0] } }
+link3 = { points = { D = [0, 0], C = ["60mm", 0] } }
+
+[joints]
+A.pin = ["ground", "link1"]
+B.pin = ["link1", "link2"]
+C.pin = ["link2", "link3"]
+D.pin = ["ground", "link3"]
+"""
+
+
+def test_a_traced_point_is_put_anywhere_on_the_plane_of_a_link(page: Page, running: Studio) -> None:
+    path = "linkages/beside.toml"
+    (running.project / path).write_text(FOUR_BAR, encoding="utf-8")
+    open_view(page, running, "linkage/beside")
+    expect(page.locator("[data-body=link1]")).to_be_visible(timeout=PATIENCE)
+
+    def points(body: str) -> list[str]:
+        return list(data_of(running.project, path)["bodies"][body]["points"])
+
+    x, y = middle(page, "[data-joint=D] .pin")
+    page.locator(".linkage-canvas").focus()
+    tool(page, "t", "Traced point")
+    page.mouse.click(x - 90, y + 60)  # nearest to the rocker, link3
+    until(lambda: points("link3") == ["D", "C", "E"])
+    expect(page.locator(".linkage-path:not(.joint)")).to_have_count(1, timeout=PATIENCE)
+    page.keyboard.press("Escape")
+    page.get_by_role("tab", name="Parts").click()
+    page.get_by_role("button", name="link2", exact=True).click()
+    page.locator(".linkage-canvas").focus()
+    tool(page, "t", "Traced point")
+    page.mouse.click(x - 180, y + 120)  # in the plane of the coupler, which is chosen
+    until(lambda: len(points("link2")) == 3)
+    expect(page.locator(".linkage-path:not(.joint)")).to_have_count(2, timeout=PATIENCE)
+    expect(page.locator(".ui-toast")).to_have_count(0)
+
+
 def test_a_mechanism_that_cannot_close_is_drawn_with_the_reason(page: Page, running: Studio) -> None:
     open_view(page, running, "linkage/watt-six-bar")
     page.get_by_role("tab", name="Parts").click()

@@ -1,7 +1,9 @@
 """Synthesis in a real browser: a point is dragged and the candidates follow; one of them goes to the editor."""
 
+import math
 import re
 
+import pytest
 from playwright.sync_api import Page, expect
 from studio_browser import PATIENCE, Studio, data_of, middle, open_view, until_data, until_file, violations
 
@@ -67,3 +69,41 @@ def test_a_path_is_clicked_on_an_empty_plane(page: Page, running: Studio) -> Non
     expect(page.get_by_text("4 more points are needed")).to_be_visible(timeout=PATIENCE)
     page.get_by_label("Undo (Ctrl+Z)").click()
     until_file(running.project, "synthesis/path.toml", points)
+
+
+def test_poses_are_pressed_dragged_and_released(page: Page, running: Studio) -> None:
+    """A drag gives a pose its direction, a click that of the way; the gallery has no power of ten."""
+    path = "synthesis/dragged.toml"
+    (running.project / path).write_text('machine = "motion-four-bar"\n\n[settings]\nposes = ""\n', encoding="utf-8")
+    open_view(page, running, "synthesis/dragged")
+    plane = page.get_by_role("group", name="Plane of the task")
+    box = plane.bounding_box()
+    assert box is not None
+
+    def at(x: float, y: float) -> tuple[float, float]:
+        return box["x"] + x * box["width"], box["y"] + y * box["height"]
+
+    for (x, y), degrees in (((0.3, 0.6), 30), ((0.5, 0.4), -10)):
+        to = math.radians(degrees)
+        left, top = at(x, y)
+        page.mouse.move(left, top)
+        page.mouse.down()
+        page.mouse.move(left + 80 * math.cos(to), top - 80 * math.sin(to), steps=6)
+        page.mouse.up()
+    expect(page.get_by_text("1 more pose is needed")).to_be_visible(timeout=PATIENCE)
+    page.mouse.click(*at(0.7, 0.65))
+    full_search_ended(page)
+    until_data(running.project, path, lambda data: data["settings"]["poses"].count("(") == 3)
+    poses = data_of(running.project, path)["settings"]["poses"]
+    (_, _, first), (x2, y2, second), (x3, y3, third) = re.findall(r"\(([^,]+),([^,]+),([^)]+)\)", poses)
+    assert float(first.removesuffix("deg")) == pytest.approx(30, abs=1)
+    assert float(second.removesuffix("deg")) == pytest.approx(-10, abs=1)
+    way = math.atan2(*(float(b.removesuffix("mm")) - float(a.removesuffix("mm")) for a, b in ((y2, y3), (x2, x3))))
+    assert float(third.removesuffix("deg")) == pytest.approx(math.degrees(way), abs=1)
+    assert not re.search(r"\d[eE][-−]\d", page.locator(".synthesis-gallery").inner_text())
+    before = poses
+    page.get_by_role("button", name=re.compile("^Direction of pose 1")).press("ArrowUp")
+    until_data(running.project, path, lambda data: data["settings"]["poses"] != before)
+    turned = re.findall(r",([^,)]+)deg\)", data_of(running.project, path)["settings"]["poses"])[0]
+    assert float(turned) == pytest.approx(float(first.removesuffix("deg")) + 1, abs=1e-6)
+    assert violations(page) == []

@@ -179,7 +179,7 @@ def test_a_part_that_is_not_there_is_refused(text: str, message: str) -> None:
 @pytest.mark.parametrize(
     ("wrong", "message"),
     [
-        ({"crop": "10,10"}, "1 points; 2 points"),
+        ({"crop": "10,10"}, "1 point; 2 points"),
         ({"crop": "ten,ten"}, "no list of points"),
         ({"crop": "1,2 3,4 5,6"}, "3 points"),
         ({"crop": "1,2 " * 200}, "too long"),

@@ -186,7 +186,7 @@ CARPET = {
     "a share without per cent": ("--least-share 0.5", "did you mean 0.5%"),
     "one shade": ("--propose 1", "propose=1 is out of bounds"),
     "unknown fit": ("--fit strech", "did you mean stretch"),
-    "crop of one corner": ("--crop 10,10", "1 points; 2 points"),
+    "crop of one corner": ("--crop 10,10", "1 point; 2 points"),
     "crop in words": ("--crop left", "no list of points"),
     "crop outside the picture": ("--crop 0,0;21,30", "reaches outside the picture"),
     "empty crop": ("--crop 5,5;5,30", "leaves no pixel"),

@@ -99,7 +99,7 @@ def test_progress_rises_to_one() -> None:
 
 def test_refused_in_words() -> None:
     rgb = medallion(9, 6)
-    with pytest.raises(YarnError, match="1 yarns"):
+    with pytest.raises(YarnError, match="1 yarn"):
         make_chart(rgb, SIZE, QUALITY, YARNS[:1])
     with pytest.raises(YarnError, match="2 to 10"):
         make_chart(rgb, SIZE, QUALITY, YARNS, palette=PaletteParams(colours=11))

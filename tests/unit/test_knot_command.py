@@ -93,7 +93,7 @@ GOOD = b"x [mm],y [mm]\n1,9\n1,-9\n"
 BAD = {
     "missing": (None, (), "does not exist; check its name"),
     "empty": (b"\n", (), "is empty"),
-    "one place": (b"x [mm],y [mm]\n1,9\n", (), "has 1 points; two or more"),
+    "one place": (b"x [mm],y [mm]\n1,9\n", (), "has 1 point; two or more"),
     "no unit": (b"x,y\n1,9\n1,-9\n", (), "column 'x' has no unit; write x [mm] in the first line"),
     "an angle": (b"x [deg],y [mm]\n1,9\n1,-9\n", (), "deg"),
     "no such column": (b"a [mm],b [mm],c [mm]\n1,9,0\n1,-9,0\n", (), "choose two with --columns X Y"),

@@ -61,8 +61,9 @@ def test_every_solution_takes_the_poses_on_one_branch_when_it_is_moved(text: str
 def test_five_poses_list_every_link_and_judge_every_pair_both_ways() -> None:
     results = answer(poses=FIVE).as_json()["results"]
     assert len(results["links"]) == 4
-    assert len(results["solutions"]) + len(results["removed"]) + 2 == results["judged"] == 12
-    assert results["sieve"].startswith("12 four-bars: 7 kept, 5 removed")
+    assert len(results["solutions"]) + len(results["removed"]) + 1 == results["judged"] == 12
+    assert results["sieve"].startswith("12 four-bars: 6 kept, 6 removed")
+    assert results["removed_counts"]["transmits"] == 1
     points, angles = read_poses("poses", FIVE)
     for link in results["links"]:
         guide = Guide(GuideKind(link["kind"]), complex(*link["pivot"]), complex(*link["pin"]))
@@ -115,12 +116,12 @@ def test_pivots_stay_within_their_bounds() -> None:
         ),
         ({"poses": FOUR, "pivots": "(0,0) (9mm,0)"}, "pivots are given for 4 poses; three poses leave them free"),
         ({"pivots": "(0,0) (9mm,0)", "pins": "(0,0) (9mm,0)"}, "pivots and pins are given; one of them, or neither"),
-        ({"pivots": "(0,0)"}, "pivots holds 1 points; two, one for each link"),
+        ({"pivots": "(0,0)"}, "pivots holds 1 point; two, one for each link"),
         ({"pins": "(0,0) (0,0)"}, "both pins are one point"),
         ({"pivot_x": "50mm..0mm"}, "did you mean 0mm..50mm"),
         ({"keep_out": "(0,0) (1mm,0) (2mm,0)"}, "keep_out has no area"),
         ({"pivot_region": "(0,0) (9mm,9mm) (9mm,0) (0,8mm)"}, "two sides of pivot_region cross"),
-        ({"crank_region": "(0,0)"}, "crank_region holds 1 points"),
+        ({"crank_region": "(0,0)"}, "crank_region holds 1 point"),
         ({"driven": "first"}, "neither pivots nor pins are given"),
         ({"transmission_min": "40"}, "did you mean 40deg"),
         ({"poses": FIVE, "chosen": "9"}, "chosen=9, and there are 5 solutions; 1 to 5"),

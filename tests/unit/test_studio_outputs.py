@@ -96,6 +96,26 @@ def test_a_product_is_what_its_command_and_its_python_write(
     assert written(ProjectRequest(), context).entries == ()
 
 
+def test_a_list_that_is_read_while_a_folder_is_deleted_has_nothing_of_it(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    context, seen = Context(str(folder)), []
+    (folder / "out" / "chart").mkdir(parents=True)
+    for name in ("carpet.png", "chart.png"):
+        (folder / "out" / "chart" / name).write_bytes(b"x")
+    remove = shutil.rmtree
+
+    def slowly(path: Path) -> None:
+        (path / "carpet.png").unlink()
+        seen.append(written(ProjectRequest(), context).entries)
+        remove(path)
+
+    monkeypatch.setattr(shutil, "rmtree", slowly)
+    delete_written(PathRequest("out/chart"), context)
+    assert seen == [()]
+    assert list((folder / "out").iterdir()) == []
+
+
 def test_every_kind_has_products(folder: Path) -> None:
     context = Context(str(folder))
     for path in ("carpet.toml", "machines/cam.toml", "linkages/slider-crank-press.toml"):

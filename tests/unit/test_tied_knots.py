@@ -224,7 +224,7 @@ def test_side_of_a_warp_is_decided_exactly() -> None:
 @pytest.mark.parametrize(
     ("points", "warps", "said"),
     [
-        (path((6.5, 6)), WARPS, "1 points"),
+        (path((6.5, 6)), WARPS, "1 point"),
         (np.array([0j, complex("nan")]), WARPS, "point 1 of the path is no number"),
         (path((6.5, 6), (6.5, 7)), WARPS[::-1], "warp 2 does not lie to the right of warp 1"),
         (path((6.5, 6), (6.5, 7)), WARPS[:0], "0 warps"),

@@ -32,6 +32,7 @@ from ilmek.errors import ParameterError, YarnError, did_you_mean, shortened
 from ilmek.params import Params, kind, param
 from ilmek.progress import SILENT, Progress
 from ilmek.records import value_record
+from ilmek.units import counted
 
 AUTO = "auto"
 
@@ -87,7 +88,7 @@ class PaletteParams(Params):
             name = next(name for name in kept if name.casefold() in both)
             raise ParameterError(f"{name!r} is both in keep and in never", do="leave it out of one")
         if isinstance(self.colours, int) and len(kept) > self.colours:
-            raise ParameterError(f"keep has {len(kept)} yarns, more than colours={self.colours}")
+            raise ParameterError(f"keep has {counted(len(kept), 'yarn')}, more than colours={self.colours}")
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,6 +8,7 @@ import numpy as np
 
 from ilmek.arrays import Float
 from ilmek.errors import ParameterError, shortened
+from ilmek.units import counted
 
 Points: TypeAlias = Float[np.ndarray, "points 2"]
 """x to the right and y downwards [pixels]; (0, 0) is the upper left corner of the first pixel."""
@@ -42,7 +43,9 @@ def read_points(name: str, text: str, count: int, example: str) -> tuple[tuple[t
         between = _BETWEEN.match(text, found.end())
         at = between.end() if between else found.end()
     if len(points) != count:
-        raise ParameterError(f"{given} holds {len(points)} points", allowed=f"{count} points", do=example)
+        raise ParameterError(
+            f"{given} holds {counted(len(points), 'point')}", allowed=counted(count, "point"), do=example
+        )
     return tuple(points)
 
 

@@ -23,6 +23,7 @@ from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import Plan
 from ilmek.plane.vectors import dot
 from ilmek.records import record
+from ilmek.units import counted
 
 Samples: TypeAlias = Float[np.ndarray, " samples"]
 
@@ -124,7 +125,7 @@ def reduce(
     mechanism = plan.mechanism
     if len(mechanism.inputs) != 1:
         raise MechanismError(
-            f"{mechanism.name} has {len(mechanism.inputs)} inputs",
+            f"{mechanism.name} has {counted(len(mechanism.inputs), 'input')}",
             allowed="the reduced equation is for one degree of freedom",
         )
     for body in inertias:

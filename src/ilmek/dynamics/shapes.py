@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from ilmek.dynamics.inertia import Inertia
 from ilmek.errors import MechanismError
 from ilmek.plane.vectors import cross, dot
+from ilmek.units import counted
 
 
 def disc(radius: float, thickness: float, density: float, *, at: complex = 0j) -> Inertia:
@@ -78,7 +79,7 @@ def plate(corners: Sequence[complex], thickness: float, density: float) -> Inert
     area = math.fsum(float(cross(p, q)) for p, q in edges) / 2
     if len(corners) < 3 or not abs(area) > 0:
         raise MechanismError(
-            f"a plate of {len(corners)} corners has no area", allowed="three corners or more, in order"
+            f"a plate of {counted(len(corners), 'corner')} has no area", allowed="three corners or more, in order"
         )
     centre = sum(((p + q) * float(cross(p, q)) for p, q in edges), 0j) / (6 * area)
     about_first = math.fsum(float((dot(p, p) + dot(p, q) + dot(q, q)) * cross(p, q)) for p, q in edges) / (12 * area)

@@ -17,7 +17,7 @@ from ilmek.arrays import ComplexArray
 from ilmek.errors import CarpetError, UnitError, shortened
 from ilmek.io.csv_lines import CsvLines, csv_lines, decimal_points
 from ilmek.io.text_file import read_text
-from ilmek.units import LONGEST, parse_quantity, read_number
+from ilmek.units import LONGEST, counted, parse_quantity, read_number
 
 LARGEST = 20_000_000
 """Largest size of a path file [bytes]; `MOST_POINTS` lines of ten columns."""
@@ -39,7 +39,7 @@ def read_path(path: Path, columns: tuple[str, str] | None = None) -> ComplexArra
         factors = np.array([_factor(lines.header[1][index]) for index in chosen])
         points = np.array(list(_points(lines, chosen)))
         if len(points) < 2:
-            raise CarpetError(f"has {len(points)} points", allowed="two or more below the line of headings")
+            raise CarpetError(f"has {counted(len(points), 'point')}", allowed="two or more below the line of headings")
     except CarpetError as error:
         raise CarpetError(f"path {path}: {error.given}", allowed=error.allowed, do=error.do) from None
     across, upwards = (points * factors).T

@@ -4,6 +4,7 @@ import numpy as np
 
 from ilmek.arrays import Float, Inexact
 from ilmek.errors import IlmekError
+from ilmek.units import counted
 
 
 def periodic_derivative(
@@ -21,7 +22,7 @@ def periodic_derivative(
     """
     count = len(samples)
     if count < 3:
-        raise IlmekError(f"{count} samples of a period", allowed="at least 3 for a derivative")
+        raise IlmekError(f"{counted(count, 'sample')} of a period", allowed="at least 3 for a derivative")
     factor = (2j * np.pi / period * np.fft.fftfreq(count, 1 / count)) ** order
     if count % 2 == 0 and order % 2:
         factor[count // 2] = 0  # the derivative of the highest frequency is undefined

@@ -11,7 +11,7 @@ import numpy as np
 
 from ilmek.arrays import Complex, ComplexArray, Float, FloatArray
 from ilmek.errors import ParameterError, UnitError
-from ilmek.units import parse_quantity
+from ilmek.units import counted, parse_quantity
 
 _BRACKETS = re.compile(r"\(([^()]*)\)")
 _ITEM = re.compile(r"[^\s,;]+(?:\s+(?![+\-.\d])[^\s,;]+)?")
@@ -95,7 +95,7 @@ def read_two_points(name: str, text: str) -> ComplexArray:
     """Two points that differ, one for each link [m]. Raises ParameterError where the text holds anything else."""
     found = read_points(name, text)
     if len(found) != 2:
-        raise ParameterError(f"{name} holds {len(found)} points", allowed="two, one for each link")
+        raise ParameterError(f"{name} holds {counted(len(found), 'point')}", allowed="two, one for each link")
     if found[0] == found[1]:
         raise ParameterError(f"both {name} are one point", do="give two that differ")
     return found
@@ -115,7 +115,7 @@ def read_region(name: str, text: str) -> ComplexArray:
         corners = np.array([low, complex(high.real, low.imag), high, complex(low.real, high.imag)])
     if not 3 <= len(corners) <= MOST_CORNERS:
         raise ParameterError(
-            f"{name} holds {len(corners)} points",
+            f"{name} holds {counted(len(corners), 'point')}",
             allowed=f"two opposite corners of a rectangle, or 3 to {MOST_CORNERS} corners of a polygon",
         )
     area = 0.5 * float(np.sum(np.imag(np.conj(corners) * np.roll(corners, -1))))

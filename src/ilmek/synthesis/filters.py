@@ -14,6 +14,9 @@ from ilmek.report import snap_to_limit
 from ilmek.synthesis.candidate import Candidate
 from ilmek.units import deg, format_quantity
 
+JAM = 1 * deg
+"""Transmission angle below which a four-bar counts as jammed [rad]: 57 times the force, and play decides the motion."""
+
 
 @dataclass(frozen=True, slots=True)
 class Filters(Params):
@@ -27,6 +30,7 @@ class Filters(Params):
         True, doc="remove four-bars that pass a dead centre of the crank between two positions"
     )
     in_order: bool = kind.flag(True, doc="remove four-bars whose crank meets the positions in another order")
+    transmits: bool = kind.flag(True, doc="remove four-bars that jam: least transmission angle below 1 deg")
     full_turn: bool = kind.flag(False, doc="remove four-bars whose crank does not rotate fully")
     transmission_min: float = kind.angle(
         0.0, at_least=0.0, below=90 * deg, doc="least angle between coupler and rocker over the motion"
@@ -38,6 +42,16 @@ class Filters(Params):
         None, above=0.0, at_most=1e3, doc="greatest overall size of the four-bar over its motion"
     )
 
+    @property
+    def transmits_only(self) -> bool:
+        """Whether no transmission angle is required but that of a four-bar that does not jam."""
+        return self.transmits and self.transmission_min <= JAM
+
+    @property
+    def least_transmission(self) -> float:
+        """Least transmission angle that is kept [rad]: `transmission_min`, or that of a four-bar that does not jam."""
+        return max(self.transmission_min, JAM if self.transmits else 0.0)
+
 
 REASONS = {
     "closes": "does not close at a position",
@@ -45,6 +59,7 @@ REASONS = {
     "one_circuit": "positions on two circuits",
     "one_branch": "positions on two branches",
     "in_order": "positions out of order",
+    "transmits": f"least transmission angle below {format_quantity(JAM, 'deg')}",
     "full_turn": "crank does not turn fully",
     "transmission": "transmission angle too small",
     "link_ratio": "links too unequal",
@@ -104,10 +119,7 @@ def _of_motion(one: Candidate, filters: Filters, transmission: float) -> dict[st
     found = {}
     if not one.crank_turns:
         found["full_turn"] = f"the crank does not turn fully: {one.grashof.kind}"
-    required = filters.transmission_min
-    if required and not snap_to_limit(transmission, required) >= required:
-        least, limit = (format_quantity(angle, "deg") for angle in (transmission, required))
-        found["transmission"] = f"transmission angle {least}, required at least {limit}"
+    found |= _of_transmission(one, filters, transmission)
     if (
         filters.link_ratio_max is not None
         and snap_to_limit(one.link_ratio, filters.link_ratio_max) > filters.link_ratio_max
@@ -119,6 +131,18 @@ def _of_motion(one: Candidate, filters: Filters, transmission: float) -> dict[st
         size, limit = (format_quantity(length, "mm") for length in (one.size, filters.size_max))
         found["size"] = f"size {size}, allowed at most {limit}"
     return found
+
+
+def _of_transmission(one: Candidate, filters: Filters, least: float) -> dict[str, str]:
+    """The jam, or the transmission angle below the required one; a passed dead centre is named as such alone."""
+    shown = format_quantity(round(least, 6), "deg")
+    if filters.transmits and one.one_branch and snap_to_limit(least, JAM) < JAM:
+        return {"transmits": f"jams: transmission angle {shown}, below {format_quantity(JAM, 'deg')}"}
+    required = filters.transmission_min
+    if required and not snap_to_limit(least, required) >= required:
+        limit = format_quantity(required, "deg")
+        return {"transmission": f"transmission angle {shown}, required at least {limit}"}
+    return {}
 
 
 def _out_of_order(order: tuple[int, ...]) -> str:

@@ -11,9 +11,10 @@ from ilmek.params import declared, kind
 from ilmek.records import computed, record
 from ilmek.report import Json
 from ilmek.synthesis.candidate import Candidate
-from ilmek.synthesis.filters import REASONS, Filters, defects
+from ilmek.synthesis.filters import JAM, REASONS, Filters, defects
 from ilmek.synthesis.four_bar import FourBar
 from ilmek.synthesis.merit import Merit, merit
+from ilmek.units import format_quantity
 
 OF_POSITIONS = ("crank_angle", "circuit", "point_error", "coupler_error", "rocker_error")
 """Quantities of each position that a solution lists; None where the task has none, or it is not reached."""
@@ -175,11 +176,18 @@ class FourBarSelection:
     @computed("", "how many four-bars were found, kept and removed")
     def sieve(self) -> str:
         if self.family is not None:
-            return f"{self.family.searched} four-bars searched: {self.family.found} within all limits"
+            return f"{self.family.searched} four-bars searched: {self.family.found} within all limits{self._jammed}"
         kept = len(self.kept) + self.more
         total = kept + len(self.removed)
         first = f"{total} four-bar{'' if total == 1 else 's'}: {kept} kept, {len(self.removed)} removed"
         return f"{first} ({self.reasons})" if self.removed else first
+
+    @property
+    def _jammed(self) -> str:
+        """How many of a family were left out because they jam, as the end of a sentence."""
+        count = self.left_out.get("transmits", 0)
+        limit = format_quantity(JAM, "deg")
+        return f"; left out: {count} whose least transmission angle is below {limit}" if count else ""
 
     @property
     def reasons(self) -> str:

@@ -15,7 +15,7 @@ from ilmek.arrays import BoolArray, ComplexArray, FloatArray
 from ilmek.errors import ParameterError
 from ilmek.num.brackets import bracketed_minima, bracketed_roots
 from ilmek.timing.windows import WHOLE, Windows, windows_of
-from ilmek.units import deg, turn
+from ilmek.units import counted, deg, turn
 
 Margin: TypeAlias = Callable[[FloatArray], FloatArray]
 """Master angles [rad], (angles) -> margins, (angles)."""
@@ -74,7 +74,7 @@ def distance_from(points: ComplexArray, corners: ComplexArray) -> FloatArray:
     Raises ParameterError for fewer than three corners.
     """
     if len(corners) < 3:
-        raise ParameterError(f"a region of {len(corners)} corners", allowed="three or more")
+        raise ParameterError(f"a region of {counted(len(corners), 'corner')}", allowed="three or more")
     at = np.asarray(points)[..., np.newaxis]
     side = np.roll(corners, -1) - corners
     along = np.clip(np.real((at - corners) * np.conj(side)) / np.abs(side) ** 2, 0.0, 1.0)

@@ -26,6 +26,7 @@ import msgspec
 
 from ilmek.errors import IlmekError
 from ilmek.jobs.studio.answers import Binary, Context
+from ilmek.jobs.studio.words import in_page
 from ilmek.progress import Cancelled, Progress
 from ilmek.web.framing import (
     JSON,
@@ -162,7 +163,7 @@ def _prepared(step: Callable[[], object]) -> None:
 def _refused(error: Exception) -> tuple[int, str, bytes]:
     """Status, media type and body of the answer after an error."""
     if isinstance(error, IlmekError):
-        return 422, JSON, error_body(error.given, allowed=error.allowed, do=error.do)
+        return 422, JSON, error_body(in_page(error.given), allowed=in_page(error.allowed), do=in_page(error.do))
     if isinstance(error, Cancelled):
         return 499, JSON, b"{}"
     if isinstance(error, msgspec.ValidationError):

@@ -736,6 +736,8 @@ export interface FileContent {
 /**
  * The first error of a file: what was given, what is allowed, what to do, and the line where it is known.
  *
+ *     unfinished  it can be read, and lacks what its view names: points of a task, joints or a drive of a linkage
+ *
  * This interface was referenced by `Messages`'s JSON-Schema
  * via the `definition` "FileError".
  */
@@ -744,6 +746,7 @@ export interface FileError {
   allowed: string;
   do: string;
   line: number | null;
+  unfinished: boolean;
 }
 /**
  * A text file of the project.
@@ -1818,7 +1821,7 @@ export interface ProposalRequest {
  *
  *     circuits  with all assemblies; empty where `left_out` states why      mobility  degrees of freedom by count and rank
  *     checks    as in the JSON of `ilmek mechanism`                        warnings  what is left out, and what to add
- *     fault     why there is nothing
+ *     fault     why there is nothing                has_forces  whether there is a mass, a load or friction
  *
  * This interface was referenced by `Messages`'s JSON-Schema
  * via the `definition` "QualityAnswer".
@@ -1832,6 +1835,7 @@ export interface QualityAnswer {
   warnings: string[];
   left_out: string[];
   fault: LinkageFault | null;
+  has_forces: boolean;
 }
 /**
  * What a typed value was read as: the SI value, and its text.
@@ -2141,6 +2145,7 @@ export interface SolveRequest {
  *     sieve     how many were found and kept, as a sentence
  *     found     number within all limits, `more` of them not listed
  *     required  of a function: x and the required rotation of the rocker [rad]
+ *     jam       transmission angle below which a four-bar is left out as jammed [rad]
  *
  * This interface was referenced by `Messages`'s JSON-Schema
  * via the `definition` "SynthesisAnswer".
@@ -2161,6 +2166,7 @@ export interface SynthesisAnswer {
   angles: number[];
   required: number[][] | null;
   curves: PivotCurves | null;
+  jam: number;
 }
 /**
  * A task of synthesis, as its file states it.

@@ -1,6 +1,5 @@
 /** Views and their addresses: `#linkage` or `#linkage/NAME`. */
 import { computed, signal } from "@preact/signals";
-import type { ComponentType } from "preact";
 
 export const VIEWS = ["carpet", "machine", "linkage", "synthesis", "cyclogram", "loom", "files"] as const;
 export type View = (typeof VIEWS)[number];
@@ -14,16 +13,6 @@ export interface Route {
   view: View;
   name: string;
 }
-
-export const LOADERS: Record<View, () => Promise<{ default: ComponentType<ViewProps> }>> = {
-  carpet: () => import("../views/carpet"),
-  machine: () => import("../views/machine"),
-  linkage: () => import("../views/linkage"),
-  synthesis: () => import("../views/synthesis"),
-  cyclogram: () => import("../views/cyclogram"),
-  loom: () => import("../views/loom"),
-  files: () => import("../views/files"),
-};
 
 /** The route of an address; an unknown one is the first view. */
 export function parseRoute(hash: string): Route {

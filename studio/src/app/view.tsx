@@ -4,7 +4,17 @@ import { t } from "../text";
 import { Button } from "../ui";
 import { Boundary } from "./boundary";
 import { ready } from "./ready";
-import { LOADERS, route, type View, type ViewProps } from "./routes";
+import { route, type View, type ViewProps } from "./routes";
+
+const LOADERS: Record<View, () => Promise<{ default: ComponentType<ViewProps> }>> = {
+  carpet: () => import("../views/carpet"),
+  machine: () => import("../views/machine"),
+  linkage: () => import("../views/linkage"),
+  synthesis: () => import("../views/synthesis"),
+  cyclogram: () => import("../views/cyclogram"),
+  loom: () => import("../views/loom"),
+  files: () => import("../views/files"),
+};
 
 const loaded = new Map<View, ComponentType<ViewProps>>();
 

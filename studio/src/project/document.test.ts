@@ -24,7 +24,10 @@ class FakeServer implements ProjectApi {
     } catch {
       // as a file that is no TOML
     }
-    const error = data?.["size"] === "huge" ? { given: "line 1: huge is no size", allowed: "", do: "", line: 1 } : null;
+    const error =
+      data?.["size"] === "huge"
+        ? { given: "line 1: huge is no size", allowed: "", do: "", line: 1, unfinished: false }
+        : null;
     const [undo, redo] = [this.at > 0, this.at + 1 < this.states.length];
     return { path: "carpet.toml", kind: "carpet", text: this.text, data, digest: `#${this.text}`, error, undo, redo };
   }
@@ -314,7 +317,7 @@ describe("another program or tab", () => {
       data: null,
       text: "",
       undo: true,
-      error: { given: "gone", allowed: "", do: "", line: null },
+      error: { given: "gone", allowed: "", do: "", line: null, unfinished: false },
     });
     await document.refresh();
     expect([document.saved.value, document.error.value?.given, document.canUndo.value, document.data.value]).toEqual([
@@ -326,6 +329,25 @@ describe("another program or tab", () => {
     server.file = () => file;
     await document.undo();
     expect([document.saved.value, document.error.value ?? null]).toEqual(["saved", null]);
+  });
+
+  it("a document whose file is taken away saves what waits, and asks for nothing afterwards", async () => {
+    const document = await opened();
+    document.update(() => ({ colours: 1 }));
+    const left = document.leave(async () => {
+      expect(JSON.parse(server.text)).toEqual({ colours: 1 });
+      server.refuse = new ApiError(422, "carpet.toml is not there");
+    });
+    await Promise.all([left, document.refresh()]);
+    expect([document.saved.value, document.problem.value]).toEqual(["saved", ""]);
+  });
+
+  it("a document whose file could not be taken away goes on", async () => {
+    const document = await opened();
+    await expect(document.leave(() => Promise.reject(new ApiError(422, "taken")))).rejects.toThrow("taken");
+    server.write({ size: "80x120cm" });
+    await document.refresh();
+    expect(document.data.value).toEqual({ size: "80x120cm" });
   });
 
   it("a file that is gone is reported", async () => {

@@ -5,7 +5,7 @@
  * the server has it, the browser keeps it. Where another program or tab changed the file too, nothing is overwritten:
  * the conflict is shown, and either state can be kept; the other one stays in the file's history.
  */
-import { computed, type ReadonlySignal, signal } from "@preact/signals";
+import { batch, computed, type ReadonlySignal, signal } from "@preact/signals";
 import { ApiError, type FileContent, type FileError, type ProjectApi, problemOf, type State } from "./api";
 import { isSame } from "./differences";
 import type { Drafts } from "./drafts";
@@ -64,6 +64,7 @@ export class Document<T extends object = Record<string, unknown>> {
   #pending: State | null = null;
   #timer: ReturnType<typeof setTimeout> | undefined;
   #failures = 0;
+  #left = false;
   #queue: Promise<void> = Promise.resolve();
 
   constructor(
@@ -121,6 +122,21 @@ export class Document<T extends object = Record<string, unknown>> {
     return this.#next(() => this.#send());
   }
 
+  /**
+   * Does what takes the file away, after all that waits; then the document asks the server for nothing any more.
+   *
+   * Throws what `work` throws; the document then goes on.
+   */
+  leave(work: () => Promise<void>): Promise<void> {
+    void this.flush();
+    const left = this.#queue.then(work).then(() => {
+      this.#left = true;
+      clearTimeout(this.#timer);
+    });
+    this.#queue = left.catch(() => undefined);
+    return left;
+  }
+
   /** Brings back the state before; what waits is saved first. */
   undo(): Promise<void> {
     return this.#step((path) => this.#around.api.undo(path));
@@ -138,7 +154,7 @@ export class Document<T extends object = Record<string, unknown>> {
       try {
         const file = await this.#around.api.read(this.path);
         if (this.#pending === null && file.digest !== this.#base) this.#take(file);
-        else if (this.#pending === null) this.#error.value = file.error ?? null;
+        else if (this.#pending === null) this.#error.value = errorOf(file);
       } catch (error) {
         if (error instanceof ApiError && this.#pending === null) {
           this.#problem.value = problemOf(error);
@@ -212,14 +228,16 @@ export class Document<T extends object = Record<string, unknown>> {
   #take(file: FileContent, own = false): void {
     this.#pending = null;
     this.#base = file.digest;
-    if (file.digest !== "") {
-      if (!own || !isSame(this.#data.peek(), file.data)) this.#data.value = (file.data ?? null) as T | null;
-      this.#text.value = file.text;
-    }
-    this.#error.value = file.error ?? null;
-    this.#history.value = { undo: file.undo ?? false, redo: file.redo ?? false };
-    this.#problem.value = "";
-    this.#saved.value = file.digest === "" ? "missing" : "saved";
+    batch(() => {
+      if (file.digest !== "") {
+        if (!own || !isSame(this.#data.peek(), file.data)) this.#data.value = (file.data ?? null) as T | null;
+        this.#text.value = file.text;
+      }
+      this.#error.value = errorOf(file);
+      this.#history.value = { undo: file.undo ?? false, redo: file.redo ?? false };
+      this.#problem.value = "";
+      this.#saved.value = file.digest === "" ? "missing" : "saved";
+    });
     this.#around.drafts.remove(this.path);
   }
 
@@ -260,7 +278,7 @@ export class Document<T extends object = Record<string, unknown>> {
   }
 
   #next(work: () => Promise<void>): Promise<void> {
-    this.#queue = this.#queue.then(work);
+    this.#queue = this.#queue.then(() => (this.#left ? undefined : work()));
     return this.#queue;
   }
 
@@ -270,6 +288,11 @@ export class Document<T extends object = Record<string, unknown>> {
     if (pause === undefined) this.#failures += 1;
     this.#timer = setTimeout(work, pause ?? retry);
   }
+}
+
+/** The first error of a file; what is only unfinished is named by its view. */
+function errorOf({ error }: FileContent): FileError | null {
+  return error == null || error.unfinished ? null : error;
 }
 
 function isEqual(state: State, file: FileContent): boolean {

@@ -159,20 +159,22 @@ export async function newFile(
   await refreshProject();
 }
 
+/** Does what takes a file away; its document does not follow it any more. */
+async function leave(path: string, work: () => Promise<void>): Promise<void> {
+  await (documents.get(path)?.leave(work) ?? work());
+  forget(path);
+}
+
 /** Renames a text file. Throws ApiError. */
 export async function renameFile(path: string, to: string): Promise<void> {
-  await documents.get(path)?.flush();
-  await post("/project/rename", { path, new: to });
-  forget(path);
+  await leave(path, () => post("/project/rename", { path, new: to }));
   forget(to);
   await refreshProject();
 }
 
 /** Deletes a text file; `undoDelete` brings it back. Throws ApiError. */
 export async function deleteFile(path: string): Promise<void> {
-  await documents.get(path)?.flush();
-  await post("/project/delete", { path });
-  forget(path);
+  await leave(path, () => post("/project/delete", { path }));
   await refreshProject();
 }
 

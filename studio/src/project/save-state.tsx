@@ -1,4 +1,3 @@
-import { address, route } from "../app/routes";
 import { t } from "../text";
 import { Button, Icon, IconButton } from "../ui";
 import { decide } from "./conflicts";
@@ -15,8 +14,14 @@ const ICONS = {
   missing: "error",
 } as const satisfies Record<State, string>;
 
+interface SaveStateProps {
+  document: AnyDocument;
+  /** Address where the text of the file is edited, for its error; left out where it is shown anyway. */
+  textAddress?: string;
+}
+
 /** Whether a document is saved, with undo and redo, and its first error. */
-export function SaveState({ document }: { document: AnyDocument }) {
+export function SaveState({ document, textAddress }: SaveStateProps) {
   const state = document.saved.value;
   const error = document.error.value;
   return (
@@ -57,10 +62,10 @@ export function SaveState({ document }: { document: AnyDocument }) {
       {error !== null && (
         <p class="ui-callout bad">
           {[error.given, error.allowed, error.do].filter(Boolean).join("; ")}
-          {route.value.view !== "files" && state !== "missing" && (
+          {textAddress !== undefined && state !== "missing" && (
             <>
               {" "}
-              <a href={address("files", document.path)}>{t("project.editText")}</a>
+              <a href={textAddress}>{t("project.editText")}</a>
             </>
           )}
         </p>

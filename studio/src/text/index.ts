@@ -1,15 +1,9 @@
 /** All texts of the studio: typed keys, English at once, other languages loaded when chosen. */
 import { computed, signal } from "@preact/signals";
+import type { Catalogue, Group, Translation } from "./catalogue";
 import { en } from "./en";
 
 export type Language = "en" | "tr";
-
-type Catalogue = typeof en;
-type Group = keyof Catalogue;
-
-/** A group of texts in another language: the same keys. */
-export type Same<T> = { readonly [K in keyof T]: string };
-export type Translation = { readonly [G in Group]: Same<Catalogue[G]> };
 
 /** "group.key" of every text. */
 export type Key = { [G in Group]: `${G}.${keyof Catalogue[G] & string}` }[Group];

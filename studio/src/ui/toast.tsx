@@ -20,7 +20,7 @@ let count = 0;
 const MOST = 4;
 const ICONS = { info: "info", good: "good", warn: "warning", bad: "error" } as const;
 
-/** Shows a message; those that report nothing bad go by themselves. Returns what takes it away. */
+/** Shows a message; all but bad ones go by themselves. Returns what takes it away. */
 export function toast(text: string, kind: ToastKind = "info", more = ""): () => void {
   count += 1;
   const id = count;
@@ -67,7 +67,7 @@ export function Toasts() {
 function Message({ one }: { one: Toast }) {
   const [held, setHeld] = useState(false);
   useEffect(() => {
-    if (held || isUrgent(one)) return undefined;
+    if (held || one.kind === "bad") return undefined;
     const timer = setTimeout(() => dismiss(one.id), readingTime(one));
     return () => clearTimeout(timer);
   }, [held, one]);

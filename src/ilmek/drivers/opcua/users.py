@@ -11,6 +11,7 @@ from enum import StrEnum
 
 from ilmek.errors import ParameterError, shortened
 from ilmek.records import value_record
+from ilmek.units import counted
 
 COST, BLOCK, PARALLEL = 1 << 15, 8, 1
 """Parameters of scrypt: 32 MiB and about 0.1 s for a password."""
@@ -44,7 +45,9 @@ class LoomUser:
 def hashed(password: str, salt: bytes | None = None) -> str:
     """The salted hash of a password: scrypt$cost$block$parallel$salt$hash. Raises ParameterError for its length."""
     if not SHORTEST <= len(password) <= LONGEST:
-        raise ParameterError(f"a password of {len(password)} characters", allowed=f"{SHORTEST} to {LONGEST} characters")
+        raise ParameterError(
+            f"a password of {counted(len(password), 'character')}", allowed=f"{SHORTEST} to {LONGEST} characters"
+        )
     salt = secrets.token_bytes(_SALT) if salt is None else salt
     found = _scrypt(password, salt, COST, BLOCK, PARALLEL)
     return "$".join(

@@ -3,6 +3,7 @@
 import math
 from dataclasses import dataclass
 
+from ilmek.jobs.studio.words import in_page
 from ilmek.report import Check, Reason
 from ilmek.viz.number_format import beside, compared
 
@@ -55,7 +56,7 @@ def shown_check(check: Check, machine: str = "") -> ShownCheck:
         limit_text=limit,
         ratio=ratio_of(check) if limit else None,
         source=check.source,
-        cure=check.cure,
+        cure=in_page(check.cure),
     )
 
 

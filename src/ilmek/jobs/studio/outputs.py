@@ -33,6 +33,7 @@ from ilmek.jobs.studio.project.folder import OUT, ProjectFolder, kind_of, make_f
 from ilmek.jobs.studio.project.origins import digests_of, note_origin
 from ilmek.jobs.studio.project.out import last_change
 from ilmek.jobs.studio.project.products import OPTIONS, product, product_names
+from ilmek.jobs.studio.words import all_in_page
 from ilmek.jobs.weave import weave
 from ilmek.jobs.workshop_order import WorkshopOrder, workshop_writer
 from ilmek.progress import Progress
@@ -84,7 +85,7 @@ def write_product(request: OutputRequest, context: Context) -> WrittenProduct:
             checks, notes = write(path, target, made.name, outputs, context.progress)
     with contextlib.suppress(OutputError):  # a disc that is full now: without a note times are compared
         note_origin(folder, made.target, digests, last_change(final))
-    return WrittenProduct(made.target, tuple(reason.name for reason in reasons(checks)), notes)
+    return WrittenProduct(made.target, tuple(reason.name for reason in reasons(checks)), all_in_page(notes))
 
 
 def _carpet(path: Path, target: Path, name: str, outputs: Outputs, progress: Progress) -> Result:

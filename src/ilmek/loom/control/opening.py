@@ -20,6 +20,7 @@ from ilmek.loom.control.ports import EndRow, Tie
 from ilmek.loom.control.sequence import Sequence
 from ilmek.loom.operations import LoomProgramme, RowEnd
 from ilmek.records import record
+from ilmek.units import counted
 
 LARGEST_GROUP = 10_000
 """Most knots in a group commit."""
@@ -62,7 +63,7 @@ def open_journal(content: bytes, programme: LoomProgramme, *, group: int = 1, no
     Raises JournalError for a journal of another programme, and for one that is damaged: it names the record.
     """
     if not 1 <= group <= LARGEST_GROUP:
-        raise JournalError(f"a group commit of {group} knots", allowed=f"1 to {LARGEST_GROUP}")
+        raise JournalError(f"a group commit of {counted(group, 'knot')}", allowed=f"1 to {LARGEST_GROUP}")
     setup = programme.setup
     found = read_journal(content)
     if found is None:

@@ -82,9 +82,9 @@ def _meeting(
 ) -> Iterator[RuleFault]:
     """The knots of both heads; a head that stands has none."""
     needed = (right[0] - left[0]) * setup.spacing
+    near = f"{distance} knot{'' if distance == 1 else 's'}"
     what = (
-        f"heads {left[0] + 1} and {right[0] + 1} come within {distance} knots of each other in a phase; "
-        f"at least {needed} needed"
+        f"heads {left[0] + 1} and {right[0] + 1} come within {near} of each other in a phase; at least {needed} needed"
     )
     knots = [index for _, index in (left, right) if index != kernel.NO_KNOT]
     for index in knots:

@@ -41,6 +41,11 @@ from ilmek.synthesis.selection import (
 )
 from ilmek.synthesis.task import PrecisionTask
 
+ONE_ANGLE = 1e-9
+"""Difference of angles [rad] up to which the poses have one angle."""
+
+TRANSLATION = "the poses have one angle: only parallelograms take them; turn a pose to have other four-bars"
+
 
 @record
 class MotionFourBar(FourBarDesign):
@@ -176,7 +181,8 @@ def _searched(params: MotionFourBarParams, poses: BodyPoses, limits: MotionLimit
         for one in (*found.pairs, *found.nearest)
         if np.isfinite(one.pins).all()
     ]
-    choice = choose(options, (), params, breaches=partial(breaches, limits=limits), task_only=params.task_only)
+    other = (TRANSLATION,) if np.ptp(poses.angles) < ONE_ANGLE else ()
+    choice = choose(options, other, params, breaches=partial(breaches, limits=limits), task_only=params.task_only)
     family = SearchedFamily(found.searched, found.found if choice.kept else 0, found.left_out)
     cured: tuple[str, ...] = ()
     if not choice.kept and params.loosen:

@@ -11,6 +11,7 @@ from ilmek.synthesis.burmester.constant_distance import require_task
 from ilmek.synthesis.motion.limits import NOWHERE, MotionLimits
 from ilmek.synthesis.motion.search import LINKS
 from ilmek.synthesis.selection import FourBarTaskParams
+from ilmek.units import counted
 
 KNOTTING = "(0mm,0mm,10deg) (25mm,15mm,3deg) (30mm,1mm,-25deg)"
 """The knotting report's poses of the gripper."""
@@ -71,7 +72,7 @@ class MotionFourBarParams(FourBarTaskParams):
         if given:
             if len(poses.points) != 3:
                 raise ParameterError(
-                    f"{given[0]} are given for {len(poses.points)} poses",
+                    f"{given[0]} are given for {counted(len(poses.points), 'pose')}",
                     allowed="three poses leave them free",
                     do=f"leave {given[0]} out, or a pose",
                 )
@@ -91,7 +92,7 @@ class MotionFourBarParams(FourBarTaskParams):
         if count not in TAKEN:
             more = "path-four-bar comes near any number of points" if count > max(TAKEN) else "give three at least"
             raise ParameterError(
-                f"motion-four-bar was given {count} poses", allowed="3, 4 or 5 are met exactly", do=more
+                f"motion-four-bar was given {counted(count, 'pose')}", allowed="3, 4 or 5 are met exactly", do=more
             )
         require_task("pose", *poses, count, "motion-four-bar")
         return poses

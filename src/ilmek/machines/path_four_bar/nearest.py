@@ -77,8 +77,8 @@ def nearest(params: PathFourBarParams, progress: Progress) -> Nearest:
     and those whose sums of squared errors differ by at most 0.1 % are ranked by merit; others by this error.
     """
     found, searches = _searched(params, progress)
-    # The search keeps both limits, and ends at them: a filter would find them exceeded by rounding.
-    filters = dataclasses.replace(params.filters(), transmission_min=0.0, full_turn=False)
+    # The search keeps these limits, and ends at them: a filter would find them exceeded by rounding.
+    filters = dataclasses.replace(params.filters(), transmission_min=0.0, full_turn=False, transmits=False)
     missed = [(one, defects(one.candidate, filters)) for one in found]
     good = [with_merit(one) for one, reasons in missed if not reasons]
     removed = [(one, reasons) for one, reasons in missed if reasons]

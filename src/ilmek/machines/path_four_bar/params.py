@@ -13,6 +13,7 @@ from ilmek.params.text_lists import Bounds, read_angles, read_angles_or_free, re
 from ilmek.synthesis.alt_burmester.task import PosesAndPoints
 from ilmek.synthesis.path.task import FEWEST, KINDS, MOST, PathTask
 from ilmek.synthesis.selection import FourBarTaskParams, ratio_limit
+from ilmek.units import counted
 
 LINE = "(20mm,20mm) (20mm,25mm) (20mm,30mm) (20mm,35mm) (20mm,40mm) (20mm,45mm)"
 """Case 1 of the literature's benchmarks: six points of a vertical line."""
@@ -122,7 +123,9 @@ class PathFourBarParams(FourBarTaskParams):
         points = self.positions()
         if not FEWEST <= len(points) <= MOST:
             raise ParameterError(
-                f"a path of {len(points)} points", allowed=f"{FEWEST} to {MOST} are searched", do=_instead(len(points))
+                f"a path of {counted(len(points), 'point')}",
+                allowed=f"{FEWEST} to {MOST} are searched",
+                do=_instead(len(points)),
             )
         if self.pivots is not None:
             raise ParameterError(
@@ -140,7 +143,7 @@ class PathFourBarParams(FourBarTaskParams):
                 self.ordered,
                 limits,
                 kind,
-                self.transmission_min,
+                self.filters().least_transmission,
                 math.inf if self.link_ratio_max is None else self.link_ratio_max,
                 math.inf if self.size_max is None else self.size_max,
             )
@@ -176,12 +179,14 @@ def _check_exact(params: PathFourBarParams) -> None:
     if len(points) not in EXACT:
         more = f"{FEWEST} to {MOST} points are searched for the nearest four-bar: leave exact out"
         raise ParameterError(
-            f"exact=yes with {len(points)} points",
+            f"exact=yes with {counted(len(points), 'point')}",
             allowed="3 to 5 timed points are met exactly",
             do=more if len(points) > max(EXACT) else "give more points",
         )
     if len(timing) != len(points):
-        raise ParameterError(f"{len(points)} points and {len(timing)} angles", allowed="one angle for each point")
+        raise ParameterError(
+            f"{counted(len(points), 'point')} and {counted(len(timing), 'angle')}", allowed="one angle for each point"
+        )
     if (params.both_pivots() is None) == (len(points) == 3):
         what = "need both pivots" if len(points) == 3 else "leave no pivot free to give"
         do = "set pivots=(0,0) (9mm,0)" if len(points) == 3 else "leave pivots out"
@@ -195,7 +200,7 @@ def _check_complete(params: PathFourBarParams) -> None:
     count = len(params.positions())
     if params.coupler_angles is None and count != NINE:
         raise ParameterError(
-            f"exact=yes without a timing, with {count} points",
+            f"exact=yes without a timing, with {counted(count, 'point')}",
             allowed="nine points, fewer with coupler_angles, or 3 to 5 points with a timing",
             do="give nine points; or set coupler_angles, 0deg free 20deg …; or timing, 30deg 45deg …",
         )

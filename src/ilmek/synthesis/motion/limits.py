@@ -81,7 +81,7 @@ class MotionLimits:
         limits[measures.ONE_CIRCUIT] = filters.one_circuit
         limits[measures.IN_ORDER] = filters.in_order
         limits[measures.FULL_TURN] = filters.full_turn
-        limits[measures.LEAST_SINE] = math.sin(filters.transmission_min)
+        limits[measures.LEAST_SINE] = math.sin(filters.least_transmission)
         limits[measures.TASK_ONLY] = self.task_only
         limits[measures.SIZE_MAX] = (filters.size_max or math.inf) / frame.size
         limits[measures.EXTENT] = extent

@@ -34,6 +34,9 @@ MOTION = 6
 """Indices of what is known of a motion: side of B, crank angles of the task from the ground line [rad], whether the
 crank turns fully, least sine of the transmission angle, angle of the ground line [rad]."""
 
+EQUAL = 1e-12
+"""Difference of sums of two links, in the sum of all four, up to which they are equal: a change point."""
+
 BAD = 10.0
 """Violation of a four-bar that has no motion: of all its margins."""
 
@@ -158,11 +161,15 @@ def set_margins(
     one_side = least if least + most >= 0 else -most
     margins[BRANCH] = one_side if limits[ONE_BRANCH] > 0 else NONE
     inner, outer = abs(ground - crank) - abs(coupler - rocker), coupler + rocker - ground - crank
-    turns = inner >= 0 and outer >= 0
     size = 0.25 * (ground + crank + coupler + rocker)
+    # A crank passes the ground line only where the triangle A, B0, B does not flatten there: at a change point it jams.
+    passes_inner, passes_outer = inner > 2 * EQUAL * size, outer > 2 * EQUAL * size
+    turns = passes_inner and passes_outer
     margins[TURN] = min(inner, outer) / size if limits[FULL_TURN] > 0 else NONE
     motion[TURNS], motion[GROUND] = (1.0 if turns else 0.0), np.arctan2(base.imag, base.real)
-    order, circuit = set_order(cranks, turns, inner < 0 and outer < 0, inner < 0 and outer >= 0, motion)
+    order, circuit = set_order(
+        cranks, turns, not passes_inner and not passes_outer, passes_outer and not passes_inner, motion
+    )
     margins[ORDER] = order if limits[IN_ORDER] > 0 else NONE
     margins[CIRCUIT] = NONE
     if limits[ONE_CIRCUIT] > 0:

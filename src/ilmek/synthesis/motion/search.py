@@ -267,6 +267,11 @@ class MotionSpace:
         return np.array(same)
 
 
+def _reason(limits: MotionLimits, margin: int) -> str:
+    """Name of a margin; a transmission angle that is required only to transmit at all has its own."""
+    return "transmits" if margin == measures.TRANSMISSION and limits.filters.transmits_only else REASONS[margin]
+
+
 ALONE = refine.OtherPairs(np.zeros((0, 4), dtype=complex), 0.0)
 """No other pairs near by."""
 
@@ -310,7 +315,7 @@ def search_pairs(space: MotionSpace, count: int, progress: Progress = SILENT) ->
         pairs,
         max(found, len(good.scores)),
         searched,
-        {REASONS[at]: int(number) for at, number in enumerate(counts) if number},
+        {_reason(space.limits, at): int(number) for at, number in enumerate(counts) if number},
         ()
         if pairs
         else tuple(_as_pair(space, one, at, math.inf) for one in [nearest] for at in range(len(one.scores))),

@@ -39,6 +39,7 @@ from ilmek.synthesis.burmester.links import (
 )
 from ilmek.synthesis.dyad import STILL, RootKind, arms_through_points
 from ilmek.synthesis.four_bar import FourBar
+from ilmek.units import counted
 
 
 class CrankKind(StrEnum):
@@ -237,7 +238,7 @@ def timed_four_bars(
             cranks, points, crank_angles, lambda _, positions, angles: arms_of_pivots(positions, angles, other)
         )
     raise ParameterError(
-        f"a timed path of {len(points)} points",
+        f"a timed path of {counted(len(points), 'point')}",
         allowed="3 to 5 points for an exact solution",
         do="for more points use approximate synthesis" if len(points) > 5 else "give more points",
     )

@@ -23,7 +23,7 @@ import numpy as np
 from ilmek.arrays import BoolArray, Complex, ComplexArray, Float, FloatArray, Int
 from ilmek.errors import CarpetError
 from ilmek.records import record
-from ilmek.units import format_quantity
+from ilmek.units import counted, format_quantity
 from ilmek.weaving.knots.word import Word
 
 _ERROR = (3 + 16 * 2.0**-53) * 2.0**-53
@@ -107,7 +107,7 @@ def crossings(row: WarpRow, points: Complex[np.ndarray, " points"], lengths: Flo
 def check_points(points: ComplexArray) -> None:
     """Raise CarpetError for a path of fewer than two points, or with a point that is not finite."""
     if len(points) < 2:
-        raise CarpetError(f"a path of {len(points)} points", allowed="two or more")
+        raise CarpetError(f"a path of {counted(len(points), 'point')}", allowed="two or more")
     if not np.isfinite(points).all():
         raise CarpetError(f"point {int(np.argmin(np.isfinite(points)))} of the path is no number", allowed="numbers")
 

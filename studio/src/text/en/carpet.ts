@@ -29,6 +29,7 @@ export default {
   dropHint: "or drop one anywhere on this page",
   notTaken: "{name} cannot be used",
   composed: "This recipe draws its field from tiles or a plain yarn. Borders, tiles and motifs are in its file.",
+  notZero: "Every number has to be above 0.",
   size: "Size",
   sizeHelp: "like 120x180cm, or seccade",
   quality: "Quality",

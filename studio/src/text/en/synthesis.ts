@@ -24,9 +24,10 @@ export default {
   addPoint: "Add a point",
   addPose: "Add a pose",
   removeAll: "Remove all",
-  morePoints: "Click in the plane: {count} more points are needed before four-bars can be searched.",
+  morePoints:
+    "Click in the plane: {count} more point is needed before four-bars can be searched.|Click in the plane: {count} more points are needed before four-bars can be searched.",
   morePoses:
-    "Click in the plane: {count} more poses are needed before four-bars can be searched. The handle turns a pose.",
+    "Press in the plane and drag the direction: {count} more pose is needed before four-bars can be searched.|Press in the plane and drag the direction: {count} more poses are needed before four-bars can be searched.",
   changeTask: "Otherwise change the task: move, add or remove points, or loosen limits.",
   pointsOf: "{count} of at most {most}",
   removePoint: "Remove number {number}",
@@ -38,6 +39,8 @@ export default {
   removePivots: "Remove the pivot region",
   removeKeepOut: "Remove the forbidden region",
   pointsHint: "Click adds, drag moves, Delete removes, arrow keys nudge.",
+  posesHint:
+    "Press and drag: a pose and its direction. A click takes the direction of the way. Delete removes, arrow keys nudge or turn, Shift and a drag move the plane.",
   regionHint: "Drag a rectangle.",
   samplesHint: "Drag the samples; click adds one, Delete removes it.",
   namedHint: "The function is given by its name. Edit it as points to drag it.",
@@ -61,6 +64,8 @@ export default {
   shortSearch: "Short search",
   fullSearch: "Full search",
   found: "{count} within all limits",
+  jammed:
+    "Left out: {count} linkage whose least transmission angle is below {limit}.|Left out: {count} linkages whose least transmission angle is below {limit}.",
   filter: "Filter and order",
   order: "Order",
   byRank: "Rank",
@@ -130,6 +135,7 @@ export default {
   reason_one_circuit: "positions on two circuits",
   reason_one_branch: "positions on two branches",
   reason_in_order: "positions out of order",
+  reason_transmits: "cannot transmit: coupler and rocker come into line",
   reason_full_turn: "crank does not turn fully",
   reason_transmission: "transmission angle too small",
   reason_link_ratio: "links too unequal",
@@ -173,6 +179,7 @@ export default {
   set_rocker_region: "Region of the rocker's pivot",
   set_keep_out: "Forbidden region",
   set_turn: "Direction of the ground link",
+  set_transmits: "Transmits in every position",
   set_one_circuit: "Positions on one circuit",
   set_one_branch: "Positions on one branch",
   set_in_order: "Positions in order",

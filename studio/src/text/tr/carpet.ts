@@ -1,4 +1,4 @@
-import type { Same } from "..";
+import type { Same } from "../catalogue";
 import type en from "../en/carpet";
 
 export default {
@@ -31,6 +31,7 @@ export default {
   dropHint: "ya da sayfaya bırakın",
   notTaken: "{name} kullanılamıyor",
   composed: "Bu reçete zemini karolardan ya da düz bir iplikten kurar. Bordürler, karolar ve motifler dosyasındadır.",
+  notZero: "Her sayı 0'dan büyük olmalı.",
   size: "Boyut",
   sizeHelp: "örneğin 120x180cm ya da seccade",
   quality: "Kalite",

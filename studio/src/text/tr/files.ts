@@ -1,4 +1,4 @@
-import type { Same } from "..";
+import type { Same } from "../catalogue";
 import type en from "../en/files";
 
 export default {
@@ -25,6 +25,7 @@ export default {
   newName: "Yeni ad",
   wasDeleted: "{path} silindi.",
   bringBack: "Geri getir",
+  unfinished: "bitmedi",
   hasError: "hatalı",
   errorInLine: "{line}. satırda hata",
   upload: "Resim ekle",
@@ -39,7 +40,7 @@ export default {
   failed: "Şu denetimler sağlanmıyor: {names}",
   notes: "{count} not|{count} not",
   show: "Göster",
-  showFile: "{path} göster",
+  showFile: "Göster: {path}",
   get: "İndir",
   getZip: "ZIP olarak indir",
   preview: "{path} önizlemesi",
@@ -54,7 +55,7 @@ export default {
   count: "{count} dosya|{count} dosya",
   filesOf: "{path} dosyaları",
   deleteWritten: "{path} sil",
-  download: "{path} indir",
+  downloadNamed: "{words}: {path}",
   product_carpet: "Halı ve tezgâh",
   product_carpet_help: "Halı ve tezgâh raporu, desen, dokuma sıraları, alınacak iplik, tezgâhın programı.",
   product_chart: "Desen ve iplik",

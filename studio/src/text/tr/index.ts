@@ -1,6 +1,6 @@
 /** Every text in Turkish. */
 
-import type { Translation } from "..";
+import type { Translation } from "../catalogue";
 import app from "./app";
 import carpet from "./carpet";
 import cyclogram from "./cyclogram";

@@ -1,4 +1,4 @@
-import type { Same } from "..";
+import type { Same } from "../catalogue";
 import type en from "../en/linkage";
 
 export default {
@@ -49,13 +49,15 @@ export default {
     "Uzvun kayan noktasına, sonra doğrultu için ikinci bir konuma tıklayın. Başka bir uzuv üzerinde: kılavuz o uzuvdur.",
   hint_gears: "Önce birinci, sonra ikinci çarkın merkezine tıklayın.",
   hint_drive: "Tahrik edilen mafsala tıklayın; yeniden tıklayınca kalkar.",
-  hint_point: "Noktanın bulunduğu uzva tıklayın.",
+  hint_point:
+    "Noktanın yerine tıklayın: bir uzvun üstünde, ya da yanında; yanındaki seçili uzvun, yoksa en yakınının düzlemindedir.",
   hint_force: "Kuvvetin etkidiği mafsala ya da noktaya tıklayın.",
-  hint_mass: "Uzva, kütle merkezinde tıklayın.",
+  hint_mass:
+    "Kütle merkezine tıklayın: bir uzvun üstünde, ya da yanında; yanındaki seçili uzvun, yoksa en yakınının düzlemindedir.",
   needsJoint: "Bir mafsala tıklayın.",
   needsPoint: "Bir mafsala ya da uzuv ucuna tıklayın.",
   needsBodies: "Orada iki uzuv üst üste gelmiyor.",
-  needsBody: "Orada uzuv yok.",
+  needsBody: "Henüz uzuv yok. Önce bir uzuv çizin.",
   needsGears: "İki merkez de aynı taşıyıcı üzerinde, her biri kendi çarkıyla, mafsal olmalıdır.",
   typed: "Yazılan konum",
   polar: "Uzunluk ve doğrultu",
@@ -137,5 +139,9 @@ export default {
   crosses: "({at} değerinde başka bir devreyle kesişir)",
   curves: "Noktaların yörüngeleri",
   curve: "{point}: {length}, {cusps} uç, {crossings} kesişme, {inflections} büküm",
-  noChecks: "Denetim yok: cisimlere kütle ya da kesit, makineye yük verin.",
+  noChecks: "Denetim yok: hiçbir şeyin kütlesi ya da yükü yok, kuvvet etkimiyor.",
+  noLimits:
+    "Denetim yok: kuvvetler biliniyor, ama onları karşılaştıracak bir şey verilmemiş: uzuv kesiti, pim çapı, yatak ya da servo gibi.",
+  onBody: "cisim",
+  atPoint: "nokta",
 } satisfies Same<typeof en>;

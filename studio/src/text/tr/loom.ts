@@ -1,4 +1,4 @@
-import type { Same } from "..";
+import type { Same } from "../catalogue";
 import type en from "../en/loom";
 
 export default {

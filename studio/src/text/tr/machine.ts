@@ -1,5 +1,5 @@
 /** Texts of the view "machine" in Turkish. */
-import type { Same } from "..";
+import type { Same } from "../catalogue";
 import type en from "../en/machine";
 
 export default {

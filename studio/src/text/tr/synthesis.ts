@@ -1,5 +1,5 @@
+import type { Same } from "../catalogue";
 import type en from "../en/synthesis";
-import type { Same } from "../index";
 
 export default {
   title: "Sentez",
@@ -28,7 +28,7 @@ export default {
   addPose: "Konum ekle",
   removeAll: "Tümünü sil",
   morePoints: "Düzleme tıklayın: dört çubuk aranabilmesi için {count} nokta daha gerekli.",
-  morePoses: "Düzleme tıklayın: dört çubuk aranabilmesi için {count} konum daha gerekli. Kol konumu döndürür.",
+  morePoses: "Düzlemde basıp yönü sürükleyin: dört çubuk aranabilmesi için {count} konum daha gerekli.",
   changeTask: "Yoksa görevi değiştirin: noktaları taşıyın, ekleyin, silin ya da sınırları gevşetin.",
   pointsOf: "{count} / en çok {most}",
   removePoint: "{number} numarayı sil",
@@ -40,6 +40,8 @@ export default {
   removePivots: "Mafsal bölgesini sil",
   removeKeepOut: "Yasak bölgeyi sil",
   pointsHint: "Tıklama ekler, sürükleme taşır, Delete siler, ok tuşları kaydırır.",
+  posesHint:
+    "Basıp sürükleyin: konum ve yönü. Tıklama gidiş yönünü alır. Delete siler, ok tuşları kaydırır ya da döndürür, Shift ile sürükleme düzlemi kaydırır.",
   regionHint: "Bir dikdörtgen sürükleyin.",
   samplesHint: "Örnekleri sürükleyin; tıklama ekler, Delete siler.",
   namedHint: "Fonksiyon adıyla verilmiştir. Sürüklemek için noktalara çevirin.",
@@ -63,6 +65,7 @@ export default {
   shortSearch: "Kısa arama",
   fullSearch: "Tam arama",
   found: "Tüm sınırlar içinde {count}",
+  jammed: "Dışarıda: en küçük bağlama açısı {limit} altında kalan {count} mekanizma.",
   filter: "Süz ve sırala",
   order: "Sıra",
   byRank: "Derece",
@@ -132,6 +135,7 @@ export default {
   reason_one_circuit: "konumlar iki devrede",
   reason_one_branch: "konumlar iki dalda",
   reason_in_order: "konumlar sırasız",
+  reason_transmits: "kuvvet iletemez: biyel ile sarkaç bir doğruya gelir",
   reason_full_turn: "krank tam dönmüyor",
   reason_transmission: "bağlama açısı çok küçük",
   reason_link_ratio: "uzuvlar çok farklı",
@@ -175,6 +179,7 @@ export default {
   set_rocker_region: "Sarkaç mafsalının bölgesi",
   set_keep_out: "Yasak bölge",
   set_turn: "Sabit uzvun doğrultusu",
+  set_transmits: "Her konumda iletir",
   set_one_circuit: "Konumlar tek devrede",
   set_one_branch: "Konumlar tek dalda",
   set_in_order: "Konumlar sırayla",

@@ -1,6 +1,6 @@
 import { useEffect, useState } from "preact/hooks";
 import { useReady } from "../../app/ready";
-import { goTo, type ViewProps } from "../../app/routes";
+import { address, goTo, type ViewProps } from "../../app/routes";
 import { remember } from "../../app/settings";
 import { FileCommand, project, refreshProject, SaveState, useDocument } from "../../project";
 import { formatNumber, t } from "../../text";
@@ -60,7 +60,7 @@ function RecipeView({ path }: { path: string }) {
       <header class="ui-view-head carpet-head">
         <h1>{t("carpet.title")}</h1>
         <RecipeChoice path={path} />
-        <SaveState document={document as never} />
+        <SaveState document={document as never} textAddress={address("files", document.path)} />
         <Timing model={model} />
         <Button
           disabled={!isRead}
@@ -173,11 +173,11 @@ function Timing({ model }: { model: CarpetModel }) {
 }
 
 function Problem({ model }: { model: CarpetModel }) {
-  const problem = model.problem.value;
+  const problem = model.problem.value ?? model.document.error.value;
   // What the file's reader reports already is not reported twice.
   const reported = model.document.error.value?.given.replace(/, line \d+/, "");
   const edit = /edits\.(\d+)/.exec(problem?.given ?? "")?.[1];
-  if (problem === null || (reported === problem.given && edit === undefined)) return null;
+  if (problem === null || (reported === problem.given.replace(/, line \d+/, "") && edit === undefined)) return null;
   return (
     <div class="ui-callout bad carpet-problem" role="alert">
       <strong>{problem.given}</strong>

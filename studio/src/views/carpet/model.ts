@@ -59,6 +59,8 @@ export class CarpetModel {
   readonly #send: Latest<{ recipe: Recipe; draft: boolean }>;
   /** A chart waits for the server to be back. */
   #isWaiting = false;
+  /** The recipe whose chart was asked for last. */
+  #sent: Recipe | null = null;
   #timer: ReturnType<typeof setTimeout> | undefined;
 
   constructor(readonly path: string) {
@@ -92,8 +94,13 @@ export class CarpetModel {
   follow(): () => void {
     const end = effect(() => {
       const recipe = this.recipe.value;
+      // What is in the file as it is, and refused by its reader, has no chart.
+      const state = this.document.saved.value;
+      const isRefused = state === "missing" || (state === "saved" && this.document.error.value !== null);
       clearTimeout(this.#timer);
-      if (recipe !== null) this.#send({ recipe, draft: true });
+      if (recipe === null || (recipe === this.#sent && !isRefused)) return;
+      this.#sent = isRefused ? null : recipe;
+      if (!isRefused) this.#send({ recipe, draft: true });
     });
     const back = effect(() => {
       const recipe = this.recipe.peek();
@@ -103,6 +110,7 @@ export class CarpetModel {
     });
     const kept = effect(() => remember("carpet.split", String(this.split.value)));
     return () => {
+      this.#sent = null;
       end();
       back();
       kept();

@@ -75,13 +75,22 @@ interface SettingProps {
   help?: string;
 }
 
+/** Texts whose numbers are above 0. */
+const MEASURES: ReadonlySet<string> = new Set(["size", "quality"]);
+
+/** Whether a measure has a number that is 0: it is not written into the file. */
+export function hasNothing(text: string): boolean {
+  return (text.match(/\d+(?:[.,]\d+)?/g) ?? []).some((number) => Number(number.replace(",", ".")) === 0);
+}
+
 /** A text of the recipe, taken when the field is left or Enter is pressed. */
 export function TextSetting({ model, name, label, help }: SettingProps) {
   const value = model.text(name);
   const [draft, setDraft] = useState(value);
   useEffect(() => setDraft(value), [value]);
+  const error = MEASURES.has(name) && hasNothing(draft) ? t("carpet.notZero") : undefined;
   return (
-    <Field label={label} help={help}>
+    <Field label={label} help={help} error={error}>
       {(tied) => (
         <input
           {...tied}
@@ -91,7 +100,7 @@ export function TextSetting({ model, name, label, help }: SettingProps) {
           spellcheck={false}
           value={draft}
           onInput={(event) => setDraft(event.currentTarget.value)}
-          onChange={(event) => model.set({ [name]: event.currentTarget.value.trim() })}
+          onChange={(event) => error === undefined && model.set({ [name]: event.currentTarget.value.trim() })}
         />
       )}
     </Field>

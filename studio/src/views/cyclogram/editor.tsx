@@ -2,7 +2,7 @@ import type { ComponentChildren } from "preact";
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import type { ShownTrack } from "../../api/messages";
 import { useReady } from "../../app/ready";
-import { goTo } from "../../app/routes";
+import { address, goTo } from "../../app/routes";
 import { FileCommand, SaveState, useDocument } from "../../project";
 import { formatNumber, t } from "../../text";
 import { Button, FaultNote, formatQuantity, QuantityField, quantityText, Segments, Slider } from "../../ui";
@@ -72,7 +72,7 @@ export function CyclogramEditor({ path, head }: { path: string; head: ComponentC
           <p>{t("cyclogram.lead")}</p>
         </div>
         <div class="ui-row cyclogram-files">{head}</div>
-        <SaveState document={file as never} />
+        <SaveState document={file as never} textAddress={address("files", file.path)} />
       </header>
       {/* The error of the file is shown beside its state. */}
       <FaultNote fault={file.error.value === null ? store.fault.value : null} />

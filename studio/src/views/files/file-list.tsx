@@ -82,7 +82,8 @@ function FileButton({
     >
       <span class="ui-grow">{stemOf(file.path)}</span>
       <Unsaved path={file.path} />
-      {file.error && (
+      {file.error?.unfinished && <span class="ui-badge">{t("files.unfinished")}</span>}
+      {file.error && !file.error.unfinished && (
         <span class="ui-badge bad">
           <Icon name="error" />
           {typeof file.error.line === "number"

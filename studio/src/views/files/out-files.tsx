@@ -34,6 +34,7 @@ export function Preview({ entry }: { entry: OutEntry }) {
 export function Downloads({ entry }: { entry: OutEntry }) {
   const main = isSingle(entry) ? entry.files[0] : FIRST.map((name) => fileOf(entry, name)).find(Boolean);
   const address = isSingle(entry) ? `${fileAddress(entry.path)}?download=1` : zipAddress(entry.path);
+  const words = isSingle(entry) ? t("files.get") : t("files.getZip");
   return (
     <>
       {main && SHOWN.test(main.path) && (
@@ -52,10 +53,10 @@ export function Downloads({ entry }: { entry: OutEntry }) {
         class="ui-button small"
         href={address}
         download={isSingle(entry) ? "" : `${entry.path.slice("out/".length)}.zip`}
-        aria-label={t("files.download", { path: entry.path })}
+        aria-label={t("files.downloadNamed", { words, path: entry.path })}
       >
         <Icon name="download" />
-        {isSingle(entry) ? t("files.get") : t("files.getZip")}
+        {words}
       </a>
     </>
   );

@@ -79,7 +79,7 @@ function FolderFiles({ entry }: { entry: OutEntry }) {
               class="ui-button quiet small icon"
               href={`${fileAddress(file.path)}?download=1`}
               download
-              aria-label={t("files.download", { path: file.path })}
+              aria-label={t("files.downloadNamed", { words: t("files.get"), path: file.path })}
             >
               <Icon name="download" />
             </a>

@@ -1,5 +1,6 @@
 /** Numbers and texts of the file as fields: each is written as the file has it, and taken over with Enter or on leaving. */
 import { useState } from "preact/hooks";
+import { t } from "../../text";
 import type { Editor } from "./editor";
 import { apply, type Table } from "./mechanism";
 
@@ -53,13 +54,22 @@ export function leaves(entry: unknown, path: readonly string[] = []): { path: re
   return [{ path, value: String(entry) }];
 }
 
-const COORDINATES: Record<string, string> = { "0": "x", "1": "y" };
+/** What the two places of a list are called: of a body and its point, of two bodies, else of coordinates. */
+function places(path: readonly string[]): readonly string[] {
+  const body = t("linkage.onBody");
+  if (path.includes("torsion")) return [`${body} 1`, `${body} 2`];
+  return path.includes("on") || path.includes("between") ? [body, t("linkage.atPoint")] : ["x", "y"];
+}
 
-/** The name of an entry: "A x", "mass". */
+/** The name of an entry: "A x", "mass", "force1 on body". */
 export function entryLabel(path: readonly string[]): string {
   const shown = path.filter((key) => key !== "points");
+  const names = places(shown);
   return shown
-    .map((key, index) => (index === shown.length - 1 && shown.length > 1 ? (COORDINATES[key] ?? key) : key))
+    .map((key, index) => {
+      if (index === 0 || !/^\d+$/.test(key)) return key;
+      return index === shown.length - 1 ? (names[Number(key)] ?? key) : String(Number(key) + 1);
+    })
     .join(" ");
 }
 

@@ -2,6 +2,7 @@
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import { post } from "../../api/request";
 import { useReady } from "../../app/ready";
+import { address } from "../../app/routes";
 import { filesOf, project, refreshProject, SaveState, useDocument } from "../../project";
 import { t } from "../../text";
 import { Button, CopyCommand, formatQuantity, IconButton, Slider } from "../../ui";
@@ -25,6 +26,7 @@ export default function Linkage({ name }: { name: string }) {
   }, []);
   const names = filesOf("linkage").map((file) => nameOf(file.path));
   const shown = name !== "" ? name : names.includes(FIRST) ? FIRST : names[0];
+  useReady(project.value !== null && shown === undefined);
   if (project.value === null) return <p class="app-loading">{t("app.loading")}</p>;
   if (shown === undefined) {
     return (
@@ -74,7 +76,7 @@ function LinkageFile({ name, names }: { name: string; names: readonly string[] }
       <header class="linkage-head">
         <h1 class="visually-hidden">{t("linkage.title")}</h1>
         <FileBar name={name} names={names} />
-        <SaveState document={document} />
+        <SaveState document={document} textAddress={address("files", document.path)} />
       </header>
       <div class="linkage-body-area">
         <Toolbar tools={tools} onChoose={focus} />

@@ -129,6 +129,16 @@ describe("edits of a mechanism", () => {
       ["A y", "2mm"],
       ["mass", "1kg"],
     ]);
+    const loads = {
+      force1: { force: ["3N", "4N"], on: ["link3", "E"] },
+      spring1: { between: [["ground", "A"], ["link2", "B"]] },
+      twist: { torsion: ["ground", "link1"] },
+    }; // biome-ignore format: one table
+    expect(leaves(loads).map((leaf) => entryLabel(leaf.path))).toEqual([
+      ...["force1 force x", "force1 force y", "force1 on body", "force1 on point"],
+      ...["spring1 between 1 body", "spring1 between 1 point", "spring1 between 2 body", "spring1 between 2 point"],
+      ...["twist torsion body 1", "twist torsion body 2"],
+    ]);
     expect([entryOf("2"), entryOf("2mm"), entryOf("2*r"), entryOf("true")]).toEqual([2, "2mm", "2*r", true]);
   });
 });

@@ -226,7 +226,9 @@ function Checks({ editor }: { editor: Editor }) {
   const checks = quality.checks as unknown as { name: string; value: number; limit: number; unit: string; ok: boolean; relation: string; cure: string }[]; // biome-ignore format: the check's record
   return (
     <div class="linkage-checks">
-      {checks.length === 0 && <p class="ui-muted">{t("linkage.noChecks")}</p>}
+      {checks.length === 0 && !quality.fault && (
+        <p class="ui-muted">{t(quality.has_forces ? "linkage.noLimits" : "linkage.noChecks")}</p>
+      )}
       <ul>
         {checks.map((check) => (
           <li key={check.name} class={check.ok ? "good" : "bad"}>

@@ -3,7 +3,7 @@ import { signal } from "@preact/signals";
 import { t } from "../../text";
 import { toast } from "../../ui";
 import type { Editor, Tool } from "./editor";
-import { bodiesAt, type Figure, type Hit, hitAt } from "./figure";
+import { bodiesAt, bodyDistance, type Figure, type Hit, hitAt } from "./figure";
 import { direction, distance, gridStep, plus, type Snap, snap, times, toLocal, type Vec, vec } from "./geometry";
 import {
   addBody,
@@ -49,6 +49,9 @@ const SAME = 1e-7;
 export class Tools {
   readonly draft = signal<Draft>(EMPTY);
   readonly typed = signal<TypedLine>(FREE);
+
+  /** Takes the last refusal away, once another spot is put. */
+  #takeAway: () => void = () => undefined;
 
   constructor(readonly editor: Editor) {}
 
@@ -120,6 +123,7 @@ export class Tools {
   }
 
   private putSpot(spot: Spot, at: Vec, touch: boolean): void {
+    this.#takeAway();
     const tool = this.editor.tool.peek();
     const spots = [...this.draft.peek().spots, spot];
     this.typed.value = FREE;
@@ -142,7 +146,7 @@ export class Tools {
   }
 
   private refuse(why: "needsJoint" | "needsPoint" | "needsBodies" | "needsBody" | "needsGears"): false {
-    toast(t(`linkage.${why}`), "warn");
+    this.#takeAway = toast(t(`linkage.${why}`), "warn");
     return false;
   }
 
@@ -180,7 +184,7 @@ export class Tools {
   private finishPoint(tool: Tool, spot: Spot, at: Vec, under: readonly string[]): void {
     const { editor } = this;
     const poses = editor.figure.peek()?.poses ?? {};
-    const [body] = under;
+    const body = under[0] ?? this.#plane(at);
     if (tool === "force") {
       const members =
         spot.joint === undefined ? [] : editor.figure.peek()?.joints.find((one) => one.name === spot.joint);
@@ -196,6 +200,15 @@ export class Tools {
       const where = spot.joint === undefined && spot.point === undefined ? spot.at : at;
       editor.edit((data) => editor.select({ points: [`${body}.${addTracer(data, body, where, poses)}`] }));
     }
+  }
+
+  /** The link in whose plane a position beside all links is: the chosen one, else the nearest. */
+  #plane(at: Vec): string | undefined {
+    const { bodies } = this.editor.selection.peek();
+    const moving = (this.editor.figure.peek()?.bodies ?? []).filter((one) => one.name !== GROUND);
+    const chosen = moving.find((one) => bodies.length === 1 && one.name === bodies[0]);
+    const nearest = moving.sort((one, other) => bodyDistance(one, at) - bodyDistance(other, at))[0];
+    return (chosen ?? nearest)?.name;
   }
 
   /** What lies where a pointer snapped to. */

@@ -4,7 +4,7 @@ import { useEffect, useState } from "preact/hooks";
 import { answered, postPacked } from "../../api/request";
 import { useReady } from "../../app/ready";
 import { goTo, rename, type ViewProps } from "../../app/routes";
-import { filesOf, project, refreshProject } from "../../project";
+import { filesOf, openDocument, project, refreshProject } from "../../project";
 import { t } from "../../text";
 import { Button, CopyCommand, Progress, Select, toast } from "../../ui";
 import { type Live, liveOf } from "./live";
@@ -43,7 +43,12 @@ function LoomOf({ file, files }: LoomOfProps) {
   const [model, setModel] = useState<SceneModel | null>(null);
   const [workbench, setWorkbench] = useState<ComponentType<WorkbenchProps> | null>(null);
   const [error, setError] = useState("");
+  const document = openDocument(file);
+  const isRead = document.saved.value !== "loading";
   useEffect(() => {
+    const refused = document.error.peek();
+    if (refused !== null) setError([refused.given, refused.allowed, refused.do].filter(Boolean).join("; "));
+    if (!isRead || refused !== null) return undefined;
     const control = new AbortController();
     Promise.all([postPacked<SceneAbout>("/loom/scene", { file }, control.signal), import("./workbench")]).then(
       ([answer, module]) => {
@@ -55,7 +60,7 @@ function LoomOf({ file, files }: LoomOfProps) {
       },
     );
     return () => control.abort();
-  }, []);
+  }, [isRead]);
   const live = useLive(file, model);
   useReady(model !== null || error !== "");
   if (error !== "") return <Sorry file={file} files={files} reason={error} />;

@@ -1,6 +1,6 @@
 import { useEffect, useMemo, useState } from "preact/hooks";
 import { useReady } from "../../app/ready";
-import { goTo, type ViewProps } from "../../app/routes";
+import { address, goTo, type ViewProps } from "../../app/routes";
 import { remember, remembered } from "../../app/settings";
 import { filesOf, project, SaveState } from "../../project";
 import { useDocument } from "../../project/use-document";
@@ -26,8 +26,9 @@ function nameOf(path: string): string {
 }
 
 export default function Machine({ name }: ViewProps) {
-  if (project.value === null) return <p class="app-loading">{t("app.loading")}</p>;
   const shown = name === "" ? usual() : name;
+  useReady(project.value !== null && shown === "");
+  if (project.value === null) return <p class="app-loading">{t("app.loading")}</p>;
   if (shown === "") {
     return (
       <div class="app-plain">
@@ -69,7 +70,7 @@ function OneMachine({ name }: { name: string }) {
           />
         </div>
         <span class="ui-grow" />
-        {!missing && <SaveState document={document as never} />}
+        {!missing && <SaveState document={document as never} textAddress={address("files", document.path)} />}
       </header>
       {missing ? (
         <NoFile name={name} />

@@ -14,7 +14,7 @@ import {
   type Scene,
   snappedToPlane,
 } from "./handles";
-import { rectangle } from "./task";
+import { rectangle, type TaskPoint } from "./task";
 
 interface CanvasProps {
   label: string;
@@ -30,6 +30,8 @@ interface CanvasProps {
   /** A region that is drawn with the next drag; null: points are clicked. */
   drawing: RegionKind | null;
   canAdd: boolean;
+  /** What a press on the empty plane makes: its direction is dragged; null: a point that is clicked. */
+  poseAt?: ((at: At) => TaskPoint) | null;
   chosen: number;
   onChoose: (index: number) => void;
   onScene: (scene: Scene, settled: boolean) => void;
@@ -44,6 +46,10 @@ interface Drag {
   from: At;
   camera: Camera;
   moved: boolean;
+  /** The scene as it was dragged last. */
+  scene: Scene;
+  /** The plane is moved, whatever lies there. */
+  pans: boolean;
 }
 
 /** Distance from a click to a drag [px]. */
@@ -62,10 +68,12 @@ export function Canvas(props: CanvasProps) {
     return { x: event.clientX - (box?.left ?? 0), y: event.clientY - (box?.top ?? 0) };
   };
   const down = (event: PointerEvent) => {
-    if (event.button !== 0) return;
+    if (event.button > 1) return;
     const from = at(event);
-    const handle = props.drawing ? null : nearest(scene, camera, from, event.pointerType === "mouse" ? 13 : 22);
-    drag.current = { handle, from, camera, moved: false };
+    const pans = event.button === 1 || event.shiftKey;
+    const reach = event.pointerType === "mouse" ? 13 : 22;
+    const handle = props.drawing || pans ? null : nearest(scene, camera, from, reach);
+    drag.current = { handle, from, camera, moved: false, scene, pans };
     svg.current?.setPointerCapture(event.pointerId);
     if (handle && handle.kind !== "corner") props.onChoose(handle.index);
   };
@@ -75,16 +83,23 @@ export function Canvas(props: CanvasProps) {
     const to = at(event);
     if (!now.moved && Math.hypot(to.x - now.from.x, to.y - now.from.y) < SLACK) return;
     now.moved = true;
-    if (now.handle) onScene(dragged(scene, camera, now.handle, to), false);
-    else if (props.drawing) onScene(withRegion(scene, props.drawing, camera, now.from, to), false);
+    if (!now.handle && !now.pans && !props.drawing && props.canAdd && props.poseAt) {
+      const index = scene.points.length;
+      now.handle = { kind: "angle", index };
+      now.scene = { ...scene, points: [...scene.points, props.poseAt(snappedToPlane(camera, now.from))] };
+      props.onChoose(index);
+    }
+    if (now.handle) now.scene = dragged(now.scene, camera, now.handle, to);
+    else if (props.drawing && !now.pans) now.scene = withRegion(scene, props.drawing, camera, now.from, to);
+    if (now.handle || (props.drawing && !now.pans)) onScene(now.scene, false);
     else setCamera({ ...now.camera, ox: now.camera.ox + to.x - now.from.x, oy: now.camera.oy + to.y - now.from.y });
   };
   const up = (event: PointerEvent) => {
     const now = drag.current;
     drag.current = null;
     if (now === null) return;
-    if (now.moved && (now.handle || props.drawing)) onScene(scene, true);
-    else if (!now.moved && !now.handle && !props.drawing && props.canAdd && event.type === "pointerup")
+    if (now.moved && (now.handle || (props.drawing && !now.pans))) onScene(now.scene, true);
+    else if (!now.moved && !now.handle && !now.pans && !props.drawing && props.canAdd && event.type === "pointerup")
       props.onAdd(snappedToPlane(camera, now.from));
   };
   const wheel = (event: WheelEvent) => {

@@ -1,7 +1,7 @@
 import type { ShownFourBar } from "../../api/messages";
 import { formatNumber, t } from "../../text";
 import { Button, formatQuantity, Table } from "../../ui";
-import { classText, errorText, Fact } from "./gallery";
+import { classText, errorText, Fact, meritText } from "./gallery";
 
 /** The chosen candidate in numbers: links, merit, what each position is met by. */
 export function Details({ one, busy, onTake }: { one: ShownFourBar; busy: boolean; onTake: () => void }) {
@@ -53,7 +53,7 @@ function MeritBars({ merit }: { merit: NonNullable<ShownFourBar["merit"]> }) {
   return (
     <div>
       <h3>
-        {t("synthesis.merit")} {formatNumber(merit.value, 3)}
+        {t("synthesis.merit")} {meritText(merit.value)}
       </h3>
       <ul class="synthesis-reasons">
         {Object.entries(terms).map(([name, [label, value]]) => (

@@ -4,6 +4,7 @@ import { fitted } from "./camera";
 import { indexAt, linkPaths, pinsAt, reach } from "./drawing";
 import { accepted, NO_FILTER, ordered } from "./filter";
 import { generatedRow, requiredRow, samplesOf, valueAt } from "./function-scene";
+import { errorText, meritText } from "./gallery";
 
 function fourBar(number: number, more: Partial<ShownFourBar> = {}): ShownFourBar {
   const pins = { a0: [0, 0], b0: [4, 0], a: [1, 0], b: [3, 3] };
@@ -21,6 +22,19 @@ function fourBar(number: number, more: Partial<ShownFourBar> = {}): ShownFourBar
   };
   return { ...made, ...more } as unknown as ShownFourBar;
 }
+
+describe("numbers of the gallery", () => {
+  it("are no powers of ten", () => {
+    for (const size of [1, 1e-3, 1e-5, 1e-8, 3e-12]) {
+      expect(meritText(size)).not.toMatch(/e/i);
+      expect(errorText(fourBar(1, { error_max: size }))).not.toMatch(/\de/i);
+      expect(errorText(fourBar(1, { error_max: size, function: {} as never }))).not.toMatch(/\de/i);
+    }
+    expect([meritText(0.4567), meritText(1.28e-6)]).toEqual(["0.457", "< 0.001"]);
+    expect(errorText(fourBar(1, { error_max: 2e-8 }))).toBe("< 0.001 mm");
+    expect(errorText(fourBar(1, { error_max: 1.5e-4 }))).toBe("0.15 mm");
+  });
+});
 
 describe("a four-bar in motion", () => {
   it("goes round where its motion is closed, there and back where it is not", () => {

@@ -32,6 +32,7 @@ export function Gallery({ answer, isFull, chosen, onChoose, onLoosen }: GalleryP
         </span>
         <span class="ui-muted">{t("synthesis.found", { count: answer.found })}</span>
       </div>
+      <Jammed answer={answer} />
       {answer.candidates.length > 1 && (
         <details class="ui-details">
           <summary>{t("synthesis.filter")}</summary>
@@ -59,6 +60,13 @@ export function Gallery({ answer, isFull, chosen, onChoose, onLoosen }: GalleryP
   );
 }
 
+/** How many were left out because they cannot transmit. */
+function Jammed({ answer }: { answer: SynthesisAnswer }) {
+  const count = answer.left_out.find((reason) => reason.name === "transmits")?.count ?? 0;
+  if (count === 0) return null;
+  return <p class="ui-muted">{t("synthesis.jammed", { count, limit: formatQuantity(answer.jam ?? 0, "deg") })}</p>;
+}
+
 function Card({ one, chosen, onChoose }: { one: ShownFourBar; chosen: boolean; onChoose: () => void }) {
   return (
     <button type="button" class="synthesis-card" aria-pressed={chosen} onClick={onChoose}>
@@ -69,7 +77,7 @@ function Card({ one, chosen, onChoose }: { one: ShownFourBar; chosen: boolean; o
       </span>
       <Thumbnail one={one} />
       <dl>
-        {one.merit && <Fact name={t("synthesis.merit")} value={formatNumber(one.merit.value, 3)} />}
+        {one.merit && <Fact name={t("synthesis.merit")} value={meritText(one.merit.value)} />}
         {errorText(one) !== "" && <Fact name={t("synthesis.error")} value={errorText(one)} />}
         <Fact name="μ" value={formatQuantity(one.transmission, "deg", 3)} />
         <Fact name={t("synthesis.size")} value={formatQuantity(one.size, "mm", 3)} />
@@ -92,11 +100,21 @@ export function classText(name: string): string {
   return textIfKnown(`synthesis.class_${name.replaceAll("-", "_")}`) ?? name;
 }
 
-/** The greatest error: a length of points, an angle of functions; an exact one is "0". */
+/** Least merit, and least error as a number in mm or degrees, that is written out. */
+const LEAST = 0.001;
+
+/** A merit with three digits; a very small one as such, never as a power of ten. */
+export function meritText(value: number): string {
+  return value < LEAST ? `< ${formatNumber(LEAST)}` : formatNumber(value, 3);
+}
+
+/** The greatest error: a length of points, an angle of functions; of a task that is met exactly in words. */
 export function errorText(one: ShownFourBar): string {
   if (one.error_max === null || one.error_max === undefined) return "";
-  if (one.function) return formatQuantity(one.error_max, "deg", 3);
-  return one.error_max < 1e-9 ? t("synthesis.exact") : formatQuantity(one.error_max, "mm", 3);
+  if (!one.function && one.error_max < 1e-9) return t("synthesis.exact");
+  const unit = one.function ? "deg" : "mm";
+  const least = LEAST * (one.function ? Math.PI / 180 : 1e-3);
+  return one.error_max < least ? `< ${formatQuantity(least, unit)}` : formatQuantity(one.error_max, unit, 3);
 }
 
 interface FiltersProps {

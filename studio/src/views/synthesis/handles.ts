@@ -82,6 +82,14 @@ export function snappedToPlane(camera: Camera, at: At): At {
   return { x: snapped(plane.x, step.x), y: snapped(plane.y, step.y) };
 }
 
+/** A pose at a place: its direction is that from the pose before, in whole degrees; the first one has 0. */
+export function poseAt(poses: readonly TaskPoint[], at: At): TaskPoint {
+  const last = poses.at(-1);
+  if (last === undefined) return { ...at, angle: 0 };
+  const angle = snapped(Math.atan2(at.y - last.y, at.x - last.x) / DEGREE, 1) * DEGREE;
+  return { ...at, angle: nearTurn(angle, last.angle ?? 0) };
+}
+
 /** The same angle, less than half a turn from another one. */
 export function nearTurn(angle: number, other: number): number {
   return angle + 2 * Math.PI * Math.round((other - angle) / (2 * Math.PI));

@@ -39,7 +39,7 @@ const GROUPS: Record<string, readonly string[]> = {
   ],
   links: ["ground", "crank", "coupler", "rocker", "tracer_along", "tracer_across"],
   pivots: ["pivots", "pins", "pivot_x", "pivot_y", "pivot_region", "crank_region", "rocker_region", "keep_out", "turn"],
-  defects: ["one_circuit", "one_branch", "in_order"],
+  defects: ["transmits", "one_circuit", "one_branch", "in_order"],
 };
 
 /** An upper bound so far off that it is not worth a line of the form; the server keeps it. */

@@ -5,7 +5,7 @@ import { Button, formatQuantity, Segments } from "../../ui";
 import type { At, Camera } from "./camera";
 import { Canvas } from "./canvas";
 import { reach, rowPath } from "./drawing";
-import type { Handle, RegionKind, Scene } from "./handles";
+import { type Handle, poseAt, type RegionKind, type Scene } from "./handles";
 import {
   LISTS,
   type Machine,
@@ -48,9 +48,7 @@ export function PlaneCanvas(props: PlaneProps) {
     if (settled && tool !== "points") setTool("points");
   };
   const add = (at: At) => {
-    const last = points.at(-1)?.angle ?? 0;
-    const made: TaskPoint = { x: at.x, y: at.y, ...(poses ? { angle: last } : {}) };
-    onChange(withPoints(data, [...points, made]), true);
+    onChange(withPoints(data, [...points, poses ? poseAt(points, at) : at]), true);
     props.onPoint(points.length);
   };
   const remove = (handle: Handle) => {
@@ -90,7 +88,7 @@ export function PlaneCanvas(props: PlaneProps) {
           </Button>
         ))}
         <span class="ui-muted synthesis-hint">
-          {t(tool === "points" ? "synthesis.pointsHint" : "synthesis.regionHint")}
+          {t(tool !== "points" ? "synthesis.regionHint" : poses ? "synthesis.posesHint" : "synthesis.pointsHint")}
         </span>
       </div>
       <Canvas
@@ -101,6 +99,7 @@ export function PlaneCanvas(props: PlaneProps) {
         axes={AXES}
         drawing={tool === "points" ? null : tool}
         canAdd={points.length < LISTS[machine].most}
+        poseAt={poses ? (at) => poseAt(points, at) : null}
         chosen={props.point}
         onChoose={props.onPoint}
         onScene={change}

@@ -89,6 +89,9 @@ export function PointsTable({ machine, points, chosen, onChoose, onChange }: Poi
   );
 }
 
+/** How far the second pose is turned from the first [rad]: poses of one angle have parallelograms alone. */
+const TURNED = -Math.PI / 12;
+
 /** A point beyond the last one, as far from it as this from the one before. */
 export function nextPoint(machine: Machine, points: readonly TaskPoint[]): TaskPoint {
   const last = points.at(-1);
@@ -97,5 +100,6 @@ export function nextPoint(machine: Machine, points: readonly TaskPoint[]): TaskP
   if (last === undefined) return machine === "motion-four-bar" ? { x: 0, y: 0, angle: 0 } : { x: 0, y: 0 };
   const by = before === undefined ? step : { x: last.x - before.x || step.x, y: last.y - before.y };
   const next = { x: last.x + by.x, y: last.y + by.y };
-  return last.angle === undefined ? next : { ...next, angle: 2 * last.angle - (before?.angle ?? last.angle) };
+  if (last.angle === undefined) return next;
+  return { ...next, angle: before?.angle === undefined ? last.angle + TURNED : 2 * last.angle - before.angle };
 }

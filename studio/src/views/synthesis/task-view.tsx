@@ -3,7 +3,7 @@ import { useEffect, useMemo, useState } from "preact/hooks";
 import type { MechanismDocument, ShownFourBar, SynthesisAnswer } from "../../api/messages";
 import { post } from "../../api/request";
 import { useReady } from "../../app/ready";
-import { goTo } from "../../app/routes";
+import { address, goTo } from "../../app/routes";
 import { type Document, FileCommand, freePath, newFile, SaveState, useDocument } from "../../project";
 import { formatNumber, t } from "../../text";
 import { Button, FaultNote, Progress, Segments, toast } from "../../ui";
@@ -64,7 +64,7 @@ export function TaskView({ path, stem, head }: TaskProps) {
           <p>{t("synthesis.lead")}</p>
         </div>
         <div class="ui-row synthesis-files">{head}</div>
-        <SaveState document={file as never} />
+        <SaveState document={file as never} textAddress={address("files", file.path)} />
       </header>
       {data === null || !isMachine(data.machine) ? (
         <Unreadable file={file} />

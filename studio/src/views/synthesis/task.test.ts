@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { fitted, gridLines, niceStep, snapped, toPlane, toScreen, zoomed } from "./camera";
-import { dragged, handleAt, handlesOf, nearest, nearTurn, nudged, type Scene, withCorner } from "./handles";
+import { dragged, handleAt, handlesOf, nearest, nearTurn, nudged, poseAt, type Scene, withCorner } from "./handles";
 import { nextPoint } from "./points-table";
 import {
   pointsOf,
@@ -143,6 +143,17 @@ describe("handles", () => {
     expect(by("ArrowRight", true)).toBeCloseTo(10 * (by("ArrowRight") ?? 0), 12);
     const turned = nudged(scene, camera, { kind: "angle", index: 0 }, "ArrowUp", false);
     expect(turned?.points[0]?.angle).toBeCloseTo(Math.PI / 180, 12);
+  });
+  it("a pose that is clicked has the direction of the way to it, without a jump", () => {
+    expect(poseAt([], { x: 1, y: 2 })).toEqual({ x: 1, y: 2, angle: 0 });
+    expect(poseAt([{ x: 0, y: 0, angle: 0 }], { x: 1, y: 1 }).angle).toBeCloseTo(Math.PI / 4, 12);
+    expect(poseAt([{ x: 0, y: 0, angle: 3 }], { x: -1, y: -0.01 }).angle).toBeCloseTo((181 * Math.PI) / 180, 12);
+  });
+  it("adds poses that are turned", () => {
+    const first = nextPoint("motion-four-bar", []);
+    const second = nextPoint("motion-four-bar", [first]);
+    const third = nextPoint("motion-four-bar", [first, second]);
+    expect(new Set([first.angle, second.angle, third.angle]).size).toBe(3);
   });
   it("adds a point beyond the last one", () => {
     expect(

@@ -50,6 +50,7 @@ from ilmek.jobs.studio.carpet.answers import (
 from ilmek.jobs.studio.carpet.stages import KeptStages
 from ilmek.jobs.studio.checks import shown_check
 from ilmek.jobs.studio.project.folder import ProjectFolder
+from ilmek.jobs.studio.words import all_in_page
 from ilmek.jobs.yarn_choice import proposed_shades
 
 MOST_SHADES = 60
@@ -232,8 +233,8 @@ def _answer(made: ChartResult, draft: bool, seconds: float) -> ChartAnswer:
         price=bill.price,
         currency=bill.currency,
         checks=tuple(shown_check(check) for check in made.checks),
-        warnings=made.warnings,
-        notes=made.notes,
+        warnings=all_in_page(made.warnings),
+        notes=all_in_page(made.notes),
         half_knots=sum(chart.tied.half),
         jufti_knots=sum(chart.tied.jufti),
         draft=draft,

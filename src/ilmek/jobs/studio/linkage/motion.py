@@ -23,6 +23,7 @@ from ilmek.jobs.studio.linkage.answer import (
     Rates,
     VectorSeries,
 )
+from ilmek.jobs.studio.words import in_page
 from ilmek.linkage.branches_in_pose import Pose
 from ilmek.linkage.closing import closing
 from ilmek.linkage.initial_pose import inputs_in_pose
@@ -141,7 +142,7 @@ def _fault(motion: Motion) -> LinkageFault | None:
     try:
         motion.require()
     except MechanismError as error:
-        return LinkageFault(error.given, error.allowed, error.do)
+        return LinkageFault(*(in_page(part) for part in (error.given, error.allowed, error.do)))
     return None
 
 

@@ -49,6 +49,15 @@ MOST_LEFT_OUT = 20
 """Largest number of wrong entries of a file that are left out to draw the rest."""
 
 
+def is_unfinished(data: Mapping[str, Any]) -> bool:
+    """Whether a mechanism file can be read as far as its bodies are joined: what is missing is named by the drawing."""
+    try:
+        mechanism_of_data(joined_part(data)[0])
+    except IlmekError:
+        return False
+    return True
+
+
 def sound_part(data: Mapping[str, Any]) -> dict[str, Any] | None:
     """The data of a file without the entries that cannot be read; None where too much is wrong."""
     rest: dict[str, Any] | None = dict(data)

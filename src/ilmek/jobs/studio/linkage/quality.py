@@ -1,7 +1,7 @@
 """What takes longer than a drag: circuits, mobility by rank, coupler curves, forces against their limits."""
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -14,6 +14,7 @@ from ilmek.jobs.studio.linkage.answer import LinkageFault
 from ilmek.jobs.studio.linkage.motion import RunOptions, mechanism_run
 from ilmek.jobs.studio.linkage.part import machine_of_part, solved_part
 from ilmek.jobs.studio.linkage.tasks import MechanismRequest, drawn_mechanism, fault_of, plan_of
+from ilmek.jobs.studio.words import all_in_page, in_page
 from ilmek.linkage.circuits import Circuit, circuits
 from ilmek.linkage.configuration_path import InputPath
 from ilmek.linkage.coupler_curve import coupler_curve
@@ -88,7 +89,7 @@ class QualityAnswer:
 
     circuits  with all assemblies; empty where `left_out` states why      mobility  degrees of freedom by count and rank
     checks    as in the JSON of `ilmek mechanism`                        warnings  what is left out, and what to add
-    fault     why there is nothing
+    fault     why there is nothing                has_forces  whether there is a mass, a load or friction
     """
 
     circuits: tuple[CircuitAnswer, ...] = ()
@@ -99,6 +100,7 @@ class QualityAnswer:
     warnings: tuple[str, ...] = ()
     left_out: tuple[str, ...] = field(default_factory=tuple)
     fault: LinkageFault | None = None
+    has_forces: bool = False
 
 
 def quality(request: MechanismRequest, context: Context) -> QualityAnswer:
@@ -130,8 +132,9 @@ def quality(request: MechanismRequest, context: Context) -> QualityAnswer:
         _transmission(made),
         _mobility(made),
         checks,
-        warnings,
-        left_out,
+        all_in_page(warnings),
+        all_in_page(left_out),
+        has_forces=machine.has_forces,
     )
 
 
@@ -214,4 +217,5 @@ def _checks(made: MechanismRun, context: Context) -> tuple[tuple[dict[str, Any],
         found = analysis(made, context.progress.part(0.6, 0.9, "forces"))
     except IlmekError as error:
         return (), (str(error),)
-    return tuple(check.as_json() for check in found.checks), found.warnings
+    shown = (replace(check, cure=in_page(check.cure)) for check in found.checks)
+    return tuple(check.as_json() for check in shown), found.warnings

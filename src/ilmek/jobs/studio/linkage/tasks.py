@@ -26,6 +26,7 @@ from ilmek.jobs.studio.linkage.part import (
     sound_part,
 )
 from ilmek.jobs.studio.linkage.structure import bodies_of, couplings_of, inputs_of, joints_of, structure_of
+from ilmek.jobs.studio.words import in_page
 from ilmek.linkage.branches_in_pose import Pose
 from ilmek.linkage.initial_pose import inputs_in_pose
 from ilmek.linkage.model import GROUND, Mechanism
@@ -144,7 +145,7 @@ def plan_of(part: Mechanism) -> Plan:
 
 def fault_of(error: IlmekError) -> LinkageFault:
     """The parts of an error's message."""
-    return LinkageFault(error.given, error.allowed, error.do)
+    return LinkageFault(*(in_page(part) for part in (error.given, error.allowed, error.do)))
 
 
 def drawn_mechanism(request: MechanismRequest) -> DrawnMechanism:

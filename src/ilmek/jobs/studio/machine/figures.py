@@ -7,6 +7,7 @@ from ilmek.jobs.studio.answers import Context
 from ilmek.jobs.studio.figures.answers import ShownFigure, ShownTable
 from ilmek.jobs.studio.figures.plain import shown_figures, shown_table
 from ilmek.jobs.studio.machine.view import designed
+from ilmek.jobs.studio.words import all_in_page
 from ilmek.machines.catalogue import find_machine
 from ilmek.machines.component import Child, Component
 from ilmek.params import Setting
@@ -91,7 +92,7 @@ def figures(request: FiguresRequest, context: Context) -> MachineFigures:
         shown_figures(chosen),
         tuple(NamedFigure(one.name, one.title, KINDS[type(one).__name__]) for one in drawn),
         tuple(NamedPart(one.name, one.component.title) for one in children),
-        warnings,
+        all_in_page(warnings),
     )
 
 

@@ -12,6 +12,7 @@ from ilmek.jobs.nearest import with_nearest
 from ilmek.jobs.studio.answers import Context
 from ilmek.jobs.studio.checks import ShownCheck, finite, printed, shown_check
 from ilmek.jobs.studio.machine.tasks import DesignRequest, parameters_of, value_text
+from ilmek.jobs.studio.words import all_in_page, in_page
 from ilmek.machines.catalogue import find_machine
 from ilmek.params import Params, Setting, Value
 from ilmek.progress import SILENT, Progress
@@ -148,11 +149,11 @@ def shown(report: Report, params: Params, seconds: float) -> DesignView:
         title=report.title,
         holds=not report.failed,
         failed=sum(not one.ok for one in checks),
-        reasons=tuple(ShownReason(one.name, *printed(one), one.cure) for one in report.reasons),
+        reasons=tuple(ShownReason(one.name, *printed(one), in_page(one.cure)) for one in report.reasons),
         checks=checks,
         results=tuple(_results(report, "")),
         choices=tuple(ShownChoice(**one.as_json()) for one in report.all_choices),
-        warnings=report.all_warnings,
+        warnings=all_in_page(report.all_warnings),
         parameters=in_force(report, params),
         seconds=seconds,
     )

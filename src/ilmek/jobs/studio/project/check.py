@@ -1,6 +1,7 @@
 """The first error of a project's text file, found by the reader of the command line."""
 
 import re
+import tomllib
 from dataclasses import dataclass
 from functools import lru_cache
 from importlib import import_module
@@ -8,6 +9,7 @@ from pathlib import Path
 
 from ilmek.errors import IlmekError
 from ilmek.jobs.studio.project.folder import kind_of, read_bytes
+from ilmek.jobs.studio.words import in_page
 
 _LINE = re.compile(r"\bline (\d+)")
 _YARN = re.compile(r"\byarn (\d+) ")
@@ -16,12 +18,16 @@ _YARN_TABLE = re.compile(r"[ \t]*\[\[[ \t]*yarn[ \t]*\]\]")
 
 @dataclass(frozen=True, slots=True)
 class FileError:
-    """The first error of a file: what was given, what is allowed, what to do, and the line where it is known."""
+    """The first error of a file: what was given, what is allowed, what to do, and the line where it is known.
+
+    unfinished  it can be read, and lacks what its view names: points of a task, joints or a drive of a linkage
+    """
 
     given: str
     allowed: str = ""
     do: str = ""
     line: int | None = None
+    unfinished: bool = False
 
 
 def file_error(base: Path, path: str, digest: str) -> FileError | None:
@@ -45,9 +51,20 @@ def _read(base: Path, path: str) -> FileError | None:
     try:
         _use_reader(kind_of(path) or "carpet", file)
     except IlmekError as error:
-        given, allowed, do = (part.replace(f"{base}/", "") for part in (error.given, error.allowed, error.do))
-        return FileError(given, allowed, do, _line_of(given, file))
+        given, allowed, do = (in_page(part.replace(f"{base}/", "")) for part in (error.given, error.allowed, error.do))
+        return FileError(given, allowed, do, _line_of(given, file), _is_unfinished(kind_of(path), file))
     return None
+
+
+def _is_unfinished(kind: str | None, file: Path) -> bool:
+    """Whether a file with an error is half of what it is to be: a linkage that is not joined, a task without points."""
+    if kind not in ("linkage", "synthesis"):
+        return False
+    rules = import_module("ilmek.jobs.studio.linkage.part" if kind == "linkage" else "ilmek.jobs.studio.synthesis.task")
+    try:
+        return bool(rules.is_unfinished(tomllib.loads(file.read_text(encoding="utf-8"))))
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError):
+        return False
 
 
 def _use_reader(kind: str, file: Path) -> None:

@@ -127,7 +127,7 @@ class ProjectFolder:
             return []
         names = [one.name for one in entries if one.is_file(follow_symlinks=False) and _is_taken(one.name)]
         found = [f"{folder}/{name}" if folder else name for name in names]
-        return sorted(found, key=lambda path: (path != "carpet.toml", path.casefold(), path))
+        return sorted(found, key=lambda path: (path != "carpet.toml", natural(path)))
 
     @contextlib.contextmanager
     def locked(self) -> Iterator[None]:
@@ -144,6 +144,17 @@ class ProjectFolder:
             yield
         finally:
             os.close(handle)
+
+
+def natural(path: str) -> tuple[tuple[int | str, ...], str]:
+    """Sort key of a path: as people count, without the ending first.
+
+    >>> sorted(["copy-10.toml", "Copy-2.toml", "copy.toml", "copy-1.toml"], key=natural)
+    ['copy.toml', 'copy-1.toml', 'Copy-2.toml', 'copy-10.toml']
+    """
+    stem = re.sub(r"\.[A-Za-z]\w*$", "", path).casefold()
+    parts = enumerate(re.split(r"([0-9]+)", stem))
+    return tuple(int(part) if at % 2 else part for at, part in parts), path
 
 
 def kind_of(path: str) -> str | None:

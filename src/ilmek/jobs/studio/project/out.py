@@ -1,6 +1,7 @@
 """What was written into out/: listed with what has changed since, packed, removed."""
 
 import os
+import secrets
 import shutil
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -11,7 +12,7 @@ from zipfile import ZIP_DEFLATED, ZipFile
 
 from ilmek.errors import ParameterError
 from ilmek.jobs.studio.answers import Binary, Context
-from ilmek.jobs.studio.project.folder import OUT, ProjectFolder, cannot
+from ilmek.jobs.studio.project.folder import OUT, ProjectFolder, cannot, natural
 from ilmek.jobs.studio.project.origins import read_origins
 from ilmek.jobs.studio.project.products import sources
 from ilmek.jobs.studio.project.tasks import Changed, PathRequest, ProjectRequest
@@ -78,7 +79,7 @@ def written(request: ProjectRequest, context: Context) -> OutList:
             files = tuple(_out_file(folder.base, path, status) for path, status in found)
             changed = origins.changed(name, source, max(times)) if source else ()
             entries.append(OutEntry(name, sum(one.size for one in files), max(times) / 1e9, files, source, changed))
-    return OutList(tuple(sorted(entries, key=lambda entry: (-entry.time, entry.path))))
+    return OutList(tuple(sorted(entries, key=lambda entry: (-entry.time, natural(entry.path)))))
 
 
 def _out_file(base: Path, path: str, status: os.stat_result) -> OutFile:
@@ -94,7 +95,9 @@ def last_change(path: Path) -> int:
 
 def _scanned(folder: Path) -> list[os.DirEntry[str]]:
     try:
-        return sorted((one for one in os.scandir(folder) if not one.name.startswith(".")), key=lambda one: one.name)
+        return sorted(
+            (one for one in os.scandir(folder) if not one.name.startswith(".")), key=lambda one: natural(one.name)
+        )
     except FileNotFoundError:
         return []
     except OSError as error:
@@ -118,7 +121,9 @@ def delete_written(request: PathRequest, context: Context) -> Changed:
     with folder.locked():
         try:
             if path.is_dir():
-                shutil.rmtree(path)
+                # At once: a list that is read meanwhile has the whole folder or nothing of it.
+                hidden = path.with_name(f".{path.name}.{secrets.token_hex(4)}.deleted")
+                shutil.rmtree(path.rename(hidden))
             else:
                 path.unlink()
         except OSError as error:

@@ -180,13 +180,9 @@ def _summary(folder: ProjectFolder, path: str, *, checked: bool) -> FileSummary:
 def read_file(request: PathRequest, context: Context) -> FileContent:
     """A text file: text, data, digest, first error.
 
-    Raises ParameterError where there is none and never was one; one that has gone has a digest of "" and can be undone.
+    One that is not there has a digest of ""; one that has gone can be undone. Raises ParameterError for another path.
     """
-    folder = ProjectFolder(context.folder.resolve())
-    found = _content(folder, request.path)
-    if not found.digest and not found.undo:
-        raise ParameterError(f"{request.path} is not there", do="it was deleted or renamed")
-    return found
+    return _content(ProjectFolder(context.folder.resolve()), request.path)
 
 
 def save_file(request: SaveRequest, context: Context) -> SavedFile:

@@ -147,6 +147,7 @@ class SynthesisAnswer:
     sieve     how many were found and kept, as a sentence
     found     number within all limits, `more` of them not listed
     required  of a function: x and the required rotation of the rocker [rad]
+    jam       transmission angle below which a four-bar is left out as jammed [rad]
     """
 
     machine: str
@@ -164,6 +165,7 @@ class SynthesisAnswer:
     angles: list[float] = field(default_factory=list)
     required: list[list[float]] | None = None
     curves: PivotCurves | None = None
+    jam: float = 0.0
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -18,9 +18,11 @@ from ilmek.jobs.studio.synthesis.gallery import (
     reasons,
     task_points,
 )
+from ilmek.jobs.studio.synthesis.task import is_exact
 from ilmek.machines.catalogue import find_machine
 from ilmek.machines.four_bar_figures import own_four_bar
 from ilmek.params import Params, Setting
+from ilmek.synthesis.filters import JAM
 from ilmek.synthesis.four_bar import FourBar
 
 QUICK: Mapping[str, Mapping[str, Setting]] = {
@@ -76,6 +78,7 @@ def candidates(request: SynthesisRequest, context: Context) -> SynthesisAnswer:
         angles=angles,
         required=function_required(design),
         curves=pivot_curves(design),
+        jam=JAM,
     )
 
 
@@ -87,8 +90,7 @@ def _read(request: SynthesisRequest) -> tuple[str, Params, bool]:
     settings = request.data.get("settings", {})
     if not isinstance(settings, dict):
         raise ParameterError("settings is no table", do='write [settings] and below it points = "(20mm,20mm) …"')
-    exact = settings.get("exact") in (True, "yes", "true", "on")
-    shorter = QUICK[name] if request.quick and not exact else {}
+    shorter = QUICK[name] if request.quick and not is_exact(settings) else {}
     return name, find_machine(name).params.read({**settings, **shorter}), bool(shorter)
 
 

@@ -1,0 +1,9 @@
+/** Shape of the texts: other languages have the keys of the English ones. */
+import type { en } from "./en";
+
+export type Catalogue = typeof en;
+export type Group = keyof Catalogue;
+
+/** A group of texts in another language: the same keys. */
+export type Same<T> = { readonly [K in keyof T]: string };
+export type Translation = { readonly [G in Group]: Same<Catalogue[G]> };
