@@ -48,9 +48,12 @@ def test_json_has_its_names_and_the_seven_verdicts_only(everything: list[dict[st
     assert {found["paper"] for found in everything} == set(PAPERS) == set(TITLES)
 
 
-def test_the_readme_states_the_number_of_rows(everything: list[dict[str, Any]]) -> None:
-    readme = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
-    assert f"recomputes four published papers in {len(everything)} rows" in readme
+def test_the_manual_states_the_numbers_of_rows_misprints_and_slips(everything: list[dict[str, Any]]) -> None:
+    manual = (Path(__file__).parents[2] / "docs" / "verification.md").read_text(encoding="utf-8")
+    misprints = [row for row in everything if row["verdict"] == "misprint"]
+    slips = {(row["paper"], row["roots"][0]) for row in misprints}
+    assert f"recomputes four published papers in {len(everything)} rows" in manual
+    assert f"{len(misprints)} misprints come from {len(slips)} slips" in manual
 
 
 def test_every_claim_has_its_own_name_and_a_source(everything: list[dict[str, Any]]) -> None:
