@@ -17,7 +17,14 @@ def _is_executed(block: Block) -> bool:
 
 
 SLOW = {
-    *("connect-by-opc-ua", "factory-planner", "four-bar-for-a-motion", "meet-a-deadline", "plan-a-factory"),
+    *(
+        "connect-by-opc-ua",
+        "factory-planner",
+        "four-bar-for-a-motion",
+        "four-bar-for-a-path",
+        "meet-a-deadline",
+        "plan-a-factory",
+    ),
     *("prepare-a-picture", "run-the-loom", "weave-on-a-loom-that-exists", "weave-row-by-row", "write-a-recipe"),
 }
 """Pages of more than four seconds of processor time."""
