@@ -63,6 +63,7 @@ class State:
 STARTED_YARNS = '[[yarn]]\nname = "ivory"\nsrgb = "#efe6d2"\n\n[[yarn]]\nname = "dark red"\nsrgb = "#7a1f24"\n'
 NO_CHECKS = "No checks: nothing has a mass"
 NO_LIMITS = "No checks: the forces are known"
+MOTION_ONLY, SPEED = "motion only: for forces give", 'give the speed in "Motion"'
 STATES = {
     "linkages/empty.toml": State(
         'name = "empty"\ninputs = {}\n\n[bodies]\nground = {}\n\n[joints]\n', "linkage/empty", ("Draw the first link",)
@@ -76,15 +77,17 @@ STATES = {
         ("Choose Drive",),
     ),
     "linkages/undriven.toml": State(linkage(BARS), "linkage/undriven", ("Choose Drive",), (NO_CHECKS,), "Checks"),
-    "linkages/driven.toml": State(linkage(BARS, drive=DRIVEN), "linkage/driven", (NO_CHECKS,), (NO_LIMITS,), "Checks"),
+    "linkages/driven.toml": State(
+        linkage(BARS, drive=DRIVEN), "linkage/driven", (MOTION_ONLY,), (NO_LIMITS,), "Checks"
+    ),
     "linkages/mass.toml": State(
-        linkage(BARS, drive=DRIVEN, mass=MASS), "linkage/mass", (NO_LIMITS,), (NO_CHECKS,), "Checks"
+        linkage(BARS, drive=DRIVEN, mass=MASS), "linkage/mass", (SPEED,), (NO_CHECKS, MOTION_ONLY), "Checks"
     ),
     "linkages/load.toml": State(
-        linkage(BARS + LOAD, drive=DRIVEN), "linkage/load", (NO_LIMITS,), (NO_CHECKS,), "Checks"
+        linkage(BARS + LOAD, drive=DRIVEN), "linkage/load", (SPEED,), (NO_CHECKS, MOTION_ONLY), "Checks"
     ),
     "linkages/both.toml": State(
-        linkage(BARS + LOAD, drive=DRIVEN, mass=MASS), "linkage/both", (NO_LIMITS,), (NO_CHECKS,), "Checks"
+        linkage(BARS + LOAD, drive=DRIVEN, mass=MASS), "linkage/both", (SPEED,), (NO_CHECKS, MOTION_ONLY), "Checks"
     ),
     "linkages/named.toml": State(
         linkage(BARS + LOAD, drive=DRIVEN),
