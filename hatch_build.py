@@ -30,16 +30,22 @@ class Kernels(BuildHookInterface):  # type: ignore[type-arg]
         """Compile the kernels into the wheel. Where that fails, the wheel has none, and says so."""
         if version == "editable" or os.environ.get("ILMEK_KERNELS") == "no":
             return
+        source = Path(self.root) / "src"
         name = f"kernels-{sys.implementation.cache_tag}-{sys.platform}.zip"
         archive = Path(self.root) / "build" / name
-        archive.parent.mkdir(exist_ok=True)
-        environment = dict(os.environ, PYTHONPATH=str(Path(self.root) / "src"))
-        self.app.display_waiting("compiling the kernels, about a minute")
-        command = [sys.executable, "-m", "ilmek.jobs.warm", "--into", str(archive)]
-        done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
-        if done.returncode:
-            self.app.display_warning(
-                f"no kernels in the wheel: {(done.stderr.strip() or 'no reason').splitlines()[-1]}"
-            )
-        else:
+        newest = max(file.stat().st_mtime for file in source.rglob("*.py"))
+        if (
+            not archive.exists() or archive.stat().st_mtime < newest
+        ):  # pip builds twice: for the metadata, for the wheel
+            archive.unlink(missing_ok=True)
+            archive.parent.mkdir(exist_ok=True)
+            self.app.display_waiting("compiling the kernels, about a minute")
+            # The libraries of the build are on the path of this process alone.
+            environment = dict(os.environ, PYTHONPATH=os.pathsep.join((str(source), *filter(None, sys.path))))
+            command = [sys.executable, "-m", "ilmek.jobs.warm", "--into", str(archive)]
+            done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+            if done.returncode:
+                reason = (done.stderr.strip() or "no reason").splitlines()[-1]
+                self.app.display_warning(f"no kernels in the wheel: {reason}")
+        if archive.exists():
             build_data["force_include"][str(archive)] = f"ilmek/num/{name}"
