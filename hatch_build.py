@@ -36,7 +36,7 @@ class Kernels(BuildHookInterface):  # type: ignore[type-arg]
         newest = max(file.stat().st_mtime for file in source.rglob("*.py"))
         if (
             not archive.exists() or archive.stat().st_mtime < newest
-        ):  # pip builds twice: for the metadata, for the wheel
+        ):  # pip builds twice, for the metadata too
             archive.unlink(missing_ok=True)
             archive.parent.mkdir(exist_ok=True)
             self.app.display_waiting("compiling the kernels, about a minute")
