@@ -77,7 +77,7 @@ browser: venv
 
 # Side by side, so that no processor waits for the end of a phase; the seconds of each phase stand at the end.
 test: venv
-	@PYTHONPATH=tests/support $(BIN)/python -m phases browser "lint layers client-check types" unit
+	@$(BIN)/python tests/support/phases.py browser "lint layers client-check types" unit
 
 lint: venv
 	$(BIN)/ruff check .

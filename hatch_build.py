@@ -34,9 +34,7 @@ class Kernels(BuildHookInterface):  # type: ignore[type-arg]
         name = f"kernels-{sys.implementation.cache_tag}-{sys.platform}.zip"
         archive = Path(self.root) / "build" / name
         newest = max(file.stat().st_mtime for file in source.rglob("*.py"))
-        if (
-            not archive.exists() or archive.stat().st_mtime < newest
-        ):  # pip builds twice, for the metadata too
+        if not archive.exists() or archive.stat().st_mtime < newest:  # pip builds twice, for the metadata too
             archive.unlink(missing_ok=True)
             archive.parent.mkdir(exist_ok=True)
             self.app.display_waiting("compiling the kernels, about a minute")

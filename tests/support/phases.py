@@ -1,4 +1,4 @@
-"""Run targets of make side by side, and print how long each took: `python -m phases "lint layers" unit browser`.
+"""Run targets of make side by side, and print how long each took: `tests/support/phases.py "lint layers" unit browser`.
 
 A lane is one argument: its targets one after the other; the lanes run at once, so that no processor waits for the end
 of a phase. Lines are shown as they come. A target that fails ends its lane; the others go on, and the exit code is 1.

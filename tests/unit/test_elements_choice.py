@@ -83,11 +83,13 @@ def test_least_sides_keep_just_the_twist_and_the_strength() -> None:
     assert square_stress(2000.0, 0.0, side) == pytest.approx(6 * 2000.0 / side**3)
 
 
-def test_a_reducer_that_locks_in_theory_only_is_warned_of() -> None:
-    said = [warp_tension.MACHINE.report(made).warnings for made in map(cylinder, (0.45, 0.48, 0.55))]
-    assert [len(warnings) for warnings in said] == [0, 1, 1]
-    assert "in theory only" in said[1][0]
-    assert "does not lock itself" in said[2][0]
+def test_a_reducer_that_locks_in_theory_only_fails_a_check() -> None:
+    reports = [warp_tension.MACHINE.report(design) for design in map(cylinder, (0.45, 0.48, 0.55))]
+    locking = [
+        next(check for check in report.checks if check.name == "efficiency, to lock itself") for report in reports
+    ]
+    assert [check.ok for check in locking] == [True, False, False]
+    assert "does not lock itself" in reports[2].warnings[0]
 
 
 def cylinder(efficiency: float) -> warp_tension.WarpTensionDesign:

@@ -154,7 +154,7 @@ def test_a_file_that_is_no_journal_is_refused() -> None:
 
 @pytest.mark.parametrize("group", [0, LARGEST_GROUP + 1])
 def test_a_group_has_limits(group: int) -> None:
-    with pytest.raises(JournalError, match=f"a group commit of {group} knots; 1 to 10000"):
+    with pytest.raises(JournalError, match=f"a group commit of {group:,} knots; 1 to 10000"):
         open_journal(b"", PROGRAMME, group=group)
 
 

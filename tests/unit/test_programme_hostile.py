@@ -233,7 +233,7 @@ DEEP = "[" * 100_000
         ("yarns", put(0, "name", " wool"), "spaces round"),
         ("yarns", put(0, "srgb", [0, 0, 256]), r"yarns\[0\]\.srgb\[2\] is 256"),
         ("yarns", put(0, "lab", [0, 0]), r"yarns\[0\]\.lab"),
-        ("yarns", put(0, "metric_count", 0), "nm 0"),
+        ("yarns", put(0, "metric_count", 0), "metric_count 0"),
         ("yarns", lambda yarns: yarns[:1], "yarns is a list"),
         ("yarns", lambda yarns: [*yarns, *yarns], "both named"),
         ("cyclograms", lambda cyclograms: cyclograms * 9, "cyclograms is a list"),

@@ -131,7 +131,7 @@ def test_a_large_chart_is_shown_by_fewer_knots(project: Path) -> None:
     made = project_loom(project, "machines/loom.toml").scene
     yarn = Yarn("red", (200, 0, 0), (40.0, 60.0, 50.0))
     knots = np.zeros((300, 500), np.uint8)
-    chart = Chart(knots, (yarn,), CarpetSize(0.3, 0.4), Quality(1000.0, 1000.0), "symmetric")
+    chart = Chart(knots, (yarn,), CarpetSize(0.5, 0.3), Quality(1000.0, 1000.0), "symmetric")
     about, parts = _read(scene_answer(made, chart, most=40_000))
     assert (about["chart"]["rows"], about["chart"]["columns"]) == (150, 250)
     assert len(parts[2]) == 150 * 250
