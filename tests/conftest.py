@@ -13,7 +13,7 @@ os.environ["ILMEK_LEAVE_NOTHING_OUT"] = "1"  # a figure that cannot be made is a
 # No test is a timed test. The examples are the same in every run, so that a change breaks it and not chance;
 # `make campaigns` looks for new ones, and so does `pytest --hypothesis-profile=explore`, 100 for each property.
 settings.register_profile("explore", deadline=None)
-settings.register_profile("ilmek", deadline=None, derandomize=True, max_examples=40)
+settings.register_profile("ilmek", deadline=None, derandomize=True, max_examples=25)
 
 
 def pytest_configure(config: pytest.Config) -> None:

@@ -78,6 +78,7 @@ def test_axe_finds_nothing(opened: Page) -> None:
     assert violations(opened) == []
 
 
+@pytest.mark.matrix(light=3)
 def test_axe_finds_nothing_on_a_dark_phone(opened: Page) -> None:
     opened.emulate_media(color_scheme="dark")
     assert violations(opened, "color-contrast") == []
@@ -88,6 +89,7 @@ def test_axe_finds_nothing_on_a_dark_phone(opened: Page) -> None:
     assert found == []
 
 
+@pytest.mark.matrix(light=5)
 @pytest.mark.parametrize("size", [PHONE, WALL], ids=["phone", "wall"])
 def test_nothing_is_cut_off(opened: Page, size: dict[str, int]) -> None:
     _sized(opened, size)
@@ -98,6 +100,7 @@ def test_nothing_is_cut_off(opened: Page, size: dict[str, int]) -> None:
     assert all(content <= shown for content, shown in widths), widths
 
 
+@pytest.mark.matrix(light=3)
 def test_the_tab_key_goes_through_everything(opened: Page) -> None:
     opened.locator(".app-skip").focus()
     stops: list[dict[str, Any]] = []
@@ -113,6 +116,7 @@ def test_the_tab_key_goes_through_everything(opened: Page) -> None:
     assert len(back) <= 1, f"in no order of reading: {back}"
 
 
+@pytest.mark.matrix(light=2)
 def test_its_help_lists_the_keys(opened: Page) -> None:
     opened.locator("main").focus()
     opened.keyboard.press("?")

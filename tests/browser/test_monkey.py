@@ -1,6 +1,6 @@
 """Random input for a while: no error, no growth of memory.
 
-Seconds by ILMEK_MONKEY: 10 in `make test`, more in a campaign. Its seed by ILMEK_MONKEY_SEED.
+Seconds by ILMEK_MONKEY: 5 in `make test`, more in a campaign. Its seed by ILMEK_MONKEY_SEED.
 """
 
 import os
@@ -9,7 +9,7 @@ from monkey import walk
 from playwright.sync_api import Page
 from studio_browser import Seen, Studio, open_view, settled
 
-SECONDS = float(os.environ.get("ILMEK_MONKEY", "10"))
+SECONDS = float(os.environ.get("ILMEK_MONKEY", "5"))
 SEED = int(os.environ.get("ILMEK_MONKEY_SEED", "1"))
 
 

@@ -21,6 +21,7 @@ RENEW = "RENEW_PICTURES" in os.environ
 TRIES = 4
 
 
+@pytest.mark.matrix(light=4)
 @pytest.mark.parametrize("view", VIEWS)
 def test_a_view_looks_as_it_did(browser: Browser, running: Studio, view: str) -> None:
     with context_of(browser) as context:

@@ -167,6 +167,7 @@ def nothing_wrong(page: Page, seen: Seen) -> str:
     return text
 
 
+@pytest.mark.matrix(light=14)
 @pytest.mark.parametrize("path", STATES)
 def test_a_new_or_half_filled_file_is_shown_as_what_it_is(half: tuple[Page, Seen], path: str) -> None:
     page, seen = half
@@ -220,6 +221,7 @@ def bare(tmp_path_factory: pytest.TempPathFactory, browser: Browser) -> Iterator
         yield page, seen, folder
 
 
+@pytest.mark.matrix(light=3)
 @pytest.mark.parametrize("view", VIEWS)
 def test_a_missing_picture_is_named_and_nothing_else_is_wrong(bare: tuple[Page, Seen, Path], view: str) -> None:
     page, seen, _ = bare
@@ -232,11 +234,13 @@ def test_a_missing_picture_is_named_and_nothing_else_is_wrong(bare: tuple[Page, 
     assert seen.faults == []
 
 
+@pytest.mark.matrix(light=3)
 @pytest.mark.parametrize("view", VIEWS)
 def test_a_project_without_files(bare: tuple[Page, Seen, Path], view: str) -> None:
     page, seen, folder = bare
     (folder / "carpet.toml").unlink(missing_ok=True)
     page.evaluate(f"location.hash = '#{view}'")
     page.wait_for_selector(f"main[data-view='{view}'][data-ready='true']")
+    expect(page.locator(RED)).to_have_count(0, timeout=PATIENCE)  # the page has heard of the deletion
     settled(page)
     nothing_wrong(page, seen)

@@ -13,12 +13,13 @@ from dataclasses import replace
 
 import pytest
 from designs import random_settings
+from effort import number
 
 from ilmek.errors import IlmekError
 from ilmek.machines.catalogue import MACHINES
 from ilmek.report import Check, Report, at_most, must
 
-NUMBER, SLOW = 12, ("automated-loom", "knotting-dyad", "path-four-bar", "motion-four-bar")
+NUMBER, SLOW = number(12, 24), ("automated-loom", "knotting-dyad", "path-four-bar", "motion-four-bar")
 """Designs of each machine, a quarter of those that take seconds each."""
 
 FEWER = {"path-four-bar": {"starts": "96"}}
@@ -92,8 +93,8 @@ WITNESSES: Mapping[str, tuple[dict[str, str], ...]] = {
 def reports(machine: str) -> Iterator[Report]:
     """The default, random designs, and the witnesses."""
     component = replace(MACHINES[machine], figures=lambda _: ())
-    number = NUMBER // 4 if machine in SLOW else NUMBER
-    drawn = [random_settings(machine, random.Random(f"{machine} moves {seed}"), most=3) for seed in range(number)]
+    designs = NUMBER // 4 if machine in SLOW else NUMBER
+    drawn = [random_settings(machine, random.Random(f"{machine} moves {seed}"), most=3) for seed in range(designs)]
     for settings in ({}, *drawn, *WITNESSES.get(machine, ())):
         try:
             yield component.report_for(settings | FEWER.get(machine, {}))

@@ -4,7 +4,8 @@ Warnings are errors in the test run. Lengths that meet at change points and dead
 """
 
 import numpy as np
-from hypothesis import example, given, settings
+from effort import examples
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 import ilmek
@@ -58,7 +59,7 @@ def loads_of(mechanism: Mechanism, chosen: int, size: float, angle: float) -> li
     ]
 
 
-@settings(max_examples=15, deadline=None)
+@examples(15, light=4)
 @given(DESIGNS)
 @example(("slider-crank", (0.1, 0.1, 0.1, 0.1), 255, 5.0, 3.0, 0.1))
 @example(("four-bar", (0.3, 0.1, 0.3, 0.1), 255, 5.0, -8.0, 0.1))

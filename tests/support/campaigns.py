@@ -13,9 +13,10 @@ import os
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
+from functools import cache
 from pathlib import Path
 
 from engine_paths import engine_paths
@@ -60,15 +61,18 @@ def _laws(seed: int, share: bool) -> Run:
     return Run((*PYTEST, f"--hypothesis-seed={seed}", *paths), {"ILMEK_CAMPAIGN": str(seed)})
 
 
-def lawful(tests: Path) -> Iterator[Path]:
+@cache
+def lawful(tests: Path) -> tuple[Path, ...]:
     """The test files that try more in a campaign: those of hypothesis, of `effort`, and of a matrix of cases."""
+    lawful_files = []
     for path in sorted(tests.glob("*/test_*.py")):
         if path.parent.name == "browser":
             continue
         nodes = [node for node in ast.walk(tree_of(path)) if isinstance(node, ast.ImportFrom) and node.module]
         matrix = any(isinstance(node, ast.Attribute) and node.attr == "matrix" for node in ast.walk(tree_of(path)))
         if matrix or {node.module for node in nodes} & {"hypothesis", "effort"}:
-            yield path
+            lawful_files.append(path)
+    return tuple(lawful_files)
 
 
 def _shapes(seed: int, share: bool) -> Run:
@@ -76,9 +80,12 @@ def _shapes(seed: int, share: bool) -> Run:
     return Run((*PYTEST, "--jaxtyping-packages=ilmek,typecheck.checker", *paths))
 
 
-def _monkey(seed: int, share: bool) -> Run:
-    changes = {"ILMEK_MONKEY": "120" if share else "1800", "ILMEK_MONKEY_SEED": str(seed)}
-    return Run(("-m", "pytest", "-n", "0", "tests/browser/test_monkey.py"), changes)
+def _browser(seed: int, share: bool) -> Run:
+    paths = rotated(
+        [str(path.relative_to(ROOT)) for path in sorted((ROOT / "tests/browser").glob("test_*.py"))], seed, share
+    )
+    monkey = {"ILMEK_MONKEY": "120" if share else "1800", "ILMEK_MONKEY_SEED": str(seed)}
+    return Run(("-m", "pytest", "-n", "2", "--dist", "loadfile", *paths), {"ILMEK_CAMPAIGN": str(seed), **monkey})
 
 
 def _fuzz(seed: int, share: bool) -> Run:
@@ -100,7 +107,7 @@ PARTS = (
     Part("fuzz", "hostile input for every command", _fuzz),
     Part("kills", "signals at random instants of real commands", _numbered("kills", ("--number", "60"))),
     Part("shapes", "the engine's tests with the shapes of all arrays checked", _shapes),
-    Part("monkey", "random input on the studio's pages", _monkey),
+    Part("browser", "every view in every state, and random input on the studio's pages", _browser),
     Part(
         "cuts",
         "power cuts and kills while carpets are woven",

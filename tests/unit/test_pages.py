@@ -26,8 +26,9 @@ SLOW = {
         "plan-a-factory",
     ),
     *("prepare-a-picture", "run-the-loom", "weave-on-a-loom-that-exists", "weave-row-by-row", "write-a-recipe"),
+    *("check-a-programme", "first-studio", "studio-api", "use-it-from-python"),
 }
-"""Pages of more than four seconds of processor time."""
+"""Pages of more than three seconds of processor time."""
 
 PAGES = [
     page
