@@ -32,7 +32,8 @@ export class CandidateSearch {
     },
     (found) => {
       this.quickTime.value = performance.now() - this.#sent;
-      if (this.#full !== null) return;
+      // A short search may answer after the full one, or after a stop: what they left stays.
+      if (!["quick", "failed"].includes(this.state.peek())) return;
       if (!found.quick) clearTimeout(this.#timer);
       this.#take(found, found.quick ? "quick" : "done");
     },
