@@ -142,6 +142,7 @@ def reports(report: Report) -> Iterator[Report]:
 
 
 @pytest.mark.parametrize("name", MACHINES)
+@pytest.mark.one_in(3)
 def test_tables_and_figures_are_named_in_words_of_the_field(name: str) -> None:
     machine = MACHINES[name]
     texts = []

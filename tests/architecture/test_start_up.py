@@ -37,6 +37,7 @@ def test_the_package_itself_imports_nothing() -> None:
 
 
 @pytest.mark.parametrize("command", COMMANDS)
+@pytest.mark.one_in(2)
 def test_a_command_imports_what_it_uses(command: str) -> None:
     statement = f"from ilmek.cli import main; main({command.split()!r}, standalone_mode=False)"
     assert imported(statement, COMMANDS[command]) == []

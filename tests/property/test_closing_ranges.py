@@ -19,6 +19,7 @@ END = 1e-6 * np.pi / 180
 
 
 @pytest.mark.parametrize("make", [*CLASS_II, *CLASS_III, plate_behind_a_dyad], ids=lambda make: make.__name__)
+@pytest.mark.one_in(2)
 def test_ranges_end_at_dead_centres_and_nothing_is_missed(make):
     rng = np.random.default_rng(7)
     for _ in range(3 if make in CLASS_II else 1):

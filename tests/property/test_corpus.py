@@ -72,7 +72,7 @@ def pieces(mask: np.ndarray, least: float = 1) -> int:
     return int(np.count_nonzero(np.bincount(ndimage.label(mask, EIGHT)[0].ravel())[1:] >= least))
 
 
-@pytest.mark.matrix(light=32)
+@pytest.mark.matrix(light=10)
 @pytest.mark.parametrize("finish", FINISHES)
 @pytest.mark.parametrize("name", FLAT)
 def test_a_drawing_is_charted_as_it_is_drawn(name: str, finish: str) -> None:

@@ -23,6 +23,7 @@ FEWER = {"path-four-bar": {"starts": 96}}
 
 
 @pytest.mark.parametrize("machine", MACHINES)
+@pytest.mark.one_in(3)
 def test_random_designs_keep_the_invariants_or_are_refused(machine: str) -> None:
     component = replace(MACHINES[machine], figures=lambda _: ())  # the figures take most of the time
     made = 0

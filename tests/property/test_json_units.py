@@ -65,6 +65,7 @@ def test_the_si_unit_is_written_like_any_unit(unit: str) -> None:
 
 
 @pytest.mark.parametrize("machine", MACHINES)
+@pytest.mark.one_in(3)
 def test_units_of_every_machine_are_those_of_its_numbers(machine: str) -> None:
     component = replace(MACHINES[machine], figures=lambda _: ())
     fewer = {"path-four-bar": {"starts": "96"}}.get(machine, {})

@@ -38,8 +38,8 @@ def test_beside_a_limit_ok_means_two_digits_of_every_acceleration_of_forty(kind,
     assert found.worst <= 0.01
     assert found.silent == 0
     assert found.misjudged == 0
-    # On average PRP refuses one good sample in nine, the others one in a hundred. The samples of a mechanism come together,
-    # so the count scatters about twice as far as independent ones would; the second term is four times that.
+    # On average PRP refuses one good sample in nine, the others one in a hundred. The samples of a mechanism come
+    # together, so the count scatters about twice as far as independent ones would; the second term is four times that.
     assert found.refused <= 0.15 * found.good + 4 * np.sqrt(0.15 * found.good)
 
 

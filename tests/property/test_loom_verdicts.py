@@ -134,7 +134,7 @@ def matches(check: Check, pattern: str) -> bool:
     return re.search(pattern, check.name) is not None
 
 
-@pytest.mark.matrix(light=14)
+@pytest.mark.matrix(light=7)
 @pytest.mark.parametrize(
     ("settings", "expected"), TABLE, ids=[" ".join(f"{k}={v}" for k, v in one.items()) or "default" for one, _ in TABLE]
 )

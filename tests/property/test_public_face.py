@@ -216,6 +216,7 @@ def optional(call: Call, name: str, kind: Kind) -> bool:
 
 
 @pytest.mark.parametrize("name", [name for name, call in CALLS.items() if not call.long])
+@pytest.mark.one_in(2)
 def test_the_same_value_in_another_form_gives_the_same(name: str) -> None:
     call = CALLS[name]
     valid = outcome(call, [plain(kind) for kind in call.positional], {key: plain(k) for key, k in call.named.items()})

@@ -5,7 +5,8 @@ other cases for each seed: `make campaigns SEED=7` sets ILMEK_CAMPAIGN=7.
 """
 
 import os
-from collections.abc import Iterable
+import zlib
+from collections.abc import Iterable, Sequence
 from typing import TypeVar
 
 from hypothesis import settings
@@ -38,6 +39,13 @@ def some(cases: Iterable[Case], light: int) -> list[Case]:
     if SEED is not None or light >= len(every):
         return every
     return [every[round(index * (len(every) - 1) / max(light - 1, 1))] for index in range(light)]
+
+
+def share_of(cases: Sequence[Case], count: int, name: str) -> Sequence[Case]:
+    """One case in `count` in `make test`, others for each name, so that tests of one matrix share it out; all in a
+    campaign.
+    """
+    return cases if SEED is not None else cases[zlib.crc32(name.encode()) % min(count, len(cases)) :: count]
 
 
 def examples(whole: int, light: int | None = None) -> settings:

@@ -78,6 +78,11 @@ import pytest
 @pytest.mark.parametrize("number", range(10))
 def test_many(number):
     print(f"case {number}")
+
+@pytest.mark.one_in(4)
+@pytest.mark.parametrize("number", range(10))
+def test_shared_out(number):
+    print(f"part {number}")
 """
 
 
@@ -90,3 +95,5 @@ def test_a_matrix_has_some_of_its_cases_in_make_test_and_all_in_a_campaign(
     command = python("-m", "pytest", "-q", "-s", "-p", "no:cacheprovider", "--rootdir", tmp_path, tmp_path)
     shown = printed(command, cwd=tmp_path, changes={"ILMEK_CAMPAIGN": seed})
     assert [int(number) for number in re.findall(r"case (\d)", shown)] == cases
+    part = [int(number) for number in re.findall(r"part (\d)", shown)]
+    assert part == (list(range(10)) if seed else list(range(part[0], 10, 4)))

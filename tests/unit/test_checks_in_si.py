@@ -52,6 +52,7 @@ def checks(machine: str) -> tuple[Check, ...]:
 
 
 @pytest.mark.parametrize("machine", SUMMARIES)
+@pytest.mark.one_in(3)
 def test_value_and_limit_have_the_magnitude_of_si(machine: str) -> None:
     for check in checks(machine):
         for number in filter(math.isfinite, (check.value, check.limit)):

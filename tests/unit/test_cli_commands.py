@@ -182,6 +182,7 @@ def test_machines_are_listed_with_their_parameters() -> None:
 
 
 @pytest.mark.parametrize("name", MACHINES)
+@pytest.mark.one_in(3)
 def test_design_gives_json_table_and_page(tmp_path: Path, name: str) -> None:
     page, file = tmp_path / "page.html", tmp_path / "data.json"
     shown = run("design", name, "--json", str(file), "--report", str(page)).stdout

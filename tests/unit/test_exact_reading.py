@@ -55,7 +55,7 @@ def test_a_drawing_of_one_pixel_a_knot_states_its_grid(name: str) -> None:
     assert (found.size.width, found.size.length) == pytest.approx((60 / 250, 72 / 250))
 
 
-@pytest.mark.matrix(light=24)
+@pytest.mark.matrix(light=8)
 @pytest.mark.parametrize("name", FLAT)
 @pytest.mark.parametrize(("pixels", "finish"), [(3.7, "hard"), (2.5, "smooth"), (5.7, "smooth"), (4, "jpeg")])
 def test_artwork_of_many_pixels_a_knot_does_not(name: str, pixels: float, finish: str) -> None:

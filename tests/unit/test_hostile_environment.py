@@ -29,6 +29,7 @@ ENVIRONMENTS = {
 
 
 @pytest.mark.parametrize("name", ENVIRONMENTS)
+@pytest.mark.one_in(3)
 def test_an_odd_environment_does_no_harm(name: str, tmp_path: Path) -> None:
     done = ended(ilmek("design", "beat-up", "--report", tmp_path / "page.html"), changes=ENVIRONMENTS[name], text=False)
     assert done.returncode == 0, done.stderr

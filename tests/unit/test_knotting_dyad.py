@@ -139,6 +139,7 @@ def test_refuses_in_words(settings: dict[str, str], said: str) -> None:
         ({"gear_ratio": "9000"}, "servos of the joints"),
     ],
 )
+@pytest.mark.one_in(2)
 def test_what_cannot_be_kept_is_a_failed_check_and_drops_none(settings: dict[str, str], failed: str) -> None:
     usual, hard = answer(), answer(**settings)
     assert not usual.failed

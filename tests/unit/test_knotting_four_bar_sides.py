@@ -198,6 +198,7 @@ def test_no_room_for_teeth_is_said() -> None:
 
 
 @pytest.mark.parametrize(("pitch", "tied"), [("2mm", False), ("12mm", False), ("20mm", True), ("40mm", True)])
+@pytest.mark.one_in(2)
 def test_hands_that_tie_no_knot_on_the_warps_fail(pitch: str, tied: bool) -> None:
     """The report's poses: a knot is tied on warps that are farther from each other than the hands at their nearest."""
     poses = "(0,0,10deg) (25mm,15mm,3deg) (30mm,1mm,-25deg)"

@@ -84,6 +84,7 @@ def test_a_page_names_the_figure_that_cannot_be_drawn(monkeypatch: pytest.Monkey
 
 
 @pytest.mark.parametrize("name", SUMMARIES)
+@pytest.mark.one_in(3)
 def test_with_the_defaults_nothing_is_left_out(name: str) -> None:
     page, left_out = default_page(name)
     assert "is left out" not in page

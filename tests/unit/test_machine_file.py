@@ -57,7 +57,7 @@ def test_an_error_names_the_line(tmp_path: Path, text: str, message: str) -> Non
         read_machine_order(str(written(tmp_path, text)), {})
 
 
-@pytest.mark.matrix(light=9)
+@pytest.mark.matrix(light=4)
 @pytest.mark.parametrize("path", sorted(EXAMPLE.glob("*/*.toml")), ids=lambda path: f"{path.parent.name}/{path.stem}")
 def test_each_file_of_the_example_runs_by_its_command(path: Path) -> None:
     command = {"linkages": "mechanism", "cyclograms": "cyclogram"}.get(path.parent.name, "design")

@@ -197,6 +197,7 @@ def test_a_force_acts_on_the_second_body_of_a_pin_and_on_the_slide(press: Path) 
 
 
 @pytest.mark.parametrize("path", MECHANISMS, ids=lambda path: path.stem)
+@pytest.mark.one_in(2)
 def test_the_power_balance_holds_on_every_example(path: Path) -> None:
     over = ["--over", "-40deg..40deg"] if path.stem == "peaucellier" else []
     found = called(str(path), *over, "--speed", "60rpm", "--json", "-")

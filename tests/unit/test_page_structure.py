@@ -50,6 +50,7 @@ def colours(report: Report) -> Iterator[tuple[str, str]]:
             yield from zip(links, bars, strict=len(links) == len(bars))
 
 
+@pytest.mark.one_in(3)
 def test_a_label_has_one_colour_in_all_figures_of_a_page(made: Made) -> None:
     found: dict[str, set[str]] = {}
     for label, shade in colours(made.report):

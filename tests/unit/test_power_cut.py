@@ -59,6 +59,7 @@ def tried(scenario: Scenario, memory: Path, monkeypatch: pytest.MonkeyPatch) -> 
 
 
 @pytest.mark.parametrize("scenario", SCENARIOS, ids=lambda scenario: scenario.name)
+@pytest.mark.one_in(3)
 def test_a_power_cut_leaves_the_old_result_or_the_new_one(
     scenario: Scenario, memory: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -324,6 +324,7 @@ def check_records(*values: object) -> None:
 
 
 @pytest.mark.parametrize("name", sorted(MACHINES))
+@pytest.mark.one_in(3)
 def test_records_of_a_design_compare_and_print(name: str) -> None:
     machine = MACHINES[name]
     design = machine.design(machine.params.read({}))

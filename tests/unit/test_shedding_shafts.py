@@ -179,7 +179,7 @@ def test_fine_pitch_takes_a_reed_and_guide_cams_take_more_shafts() -> None:
     assert len(cams.shafts) > 1 or "thickness of a guide cam" in failed(MACHINE.report(cams))
 
 
-@pytest.mark.matrix(light=9)
+@pytest.mark.matrix(light=4)
 @pytest.mark.parametrize("pitch", PITCHES)
 @pytest.mark.parametrize("shafts", [None, 1, 2, 3, 4])
 def test_every_pitch_gives_a_design_with_its_checks(pitch, shafts) -> None:

@@ -51,6 +51,7 @@ def weight(reason: dict[str, Any]) -> float:
 
 
 @pytest.mark.parametrize("name", MACHINES)
+@pytest.mark.one_in(3)
 def test_design_ends_as_its_checks_demand(tmp_path: Path, name: str) -> None:
     file = tmp_path / "found.json"
     shown = run("design", name, "--json", str(file))
