@@ -20,7 +20,7 @@ from ilmek.carpet.fitting import Fit, FitParams, prepare_picture
 from ilmek.carpet.halftone import draw_halftone
 from ilmek.carpet.matches import ColourMatch, colour_matches
 from ilmek.carpet.overlay import Overlay, TiedKnots, no_overlay, require_fit, tied_knots
-from ilmek.carpet.edges_kept import edges_kept, vanished
+from ilmek.carpet.edges_kept import LostColour, edges_kept, lost_colours
 from ilmek.carpet.palette import Colours, distinct_colours, paint
 from ilmek.carpet.palette_rules import Palette, PaletteParams
 from ilmek.carpet.proposal import ProposedShade, propose_shades
@@ -54,6 +54,7 @@ class ChartReading:
     palette        how its yarns were chosen from the list; default: they were not
     proposed       shades of the design itself: those that are dyed for it, or as many as were required
     dyed           names of the yarns that are dyed for it
+    lost           colours of a drawing that vanish, because one beside them has the same yarn
     edges_kept     share of the design's edges that the chart keeps; None: it has none, or nothing was measured
     """
 
@@ -70,6 +71,7 @@ class ChartReading:
     palette: Palette = Palette(())
     proposed: tuple[ProposedShade, ...] = ()
     dyed: tuple[str, ...] = ()
+    lost: tuple[LostColour, ...] = ()
     edges_kept: float | None = None
 
 
@@ -298,10 +300,11 @@ def chart_of_design(
         design.foreign,
         fit or Fit(),
         to_design.of_yarns,
-        matches=_matches(distinct, own, labs),
+        matches=() if own.groups is None else colour_matches(distinct, own.yarn_of, own.difference, own.groups),
         palette=own.palette,
         proposed=own.proposed if rules.propose is None else _proposed(distinct, design, rules.propose, progress),
         dyed=tuple(shade.name for shade in own.proposed),
+        lost=_lost(own, distinct, labs),
         edges_kept=edges_kept(design.colours, distinct, knots, labs),
     )
     chart = Chart(knots, own.palette.yarns, size, quality, kind, read)
@@ -309,14 +312,14 @@ def chart_of_design(
     return chart
 
 
-def _matches(distinct: Colours, own: YarnsOfDesign, labs: FloatArray) -> tuple[ColourMatch, ...]:
-    """The yarn of each colour of a drawing."""
+def _lost(own: YarnsOfDesign, distinct: Colours, labs: FloatArray) -> tuple[LostColour, ...]:
+    """The colours of a drawing that vanish; the yarn of a group is that of its most frequent colour."""
     if own.groups is None:
         return ()
     lead = np.zeros(len(own.groups), dtype=np.uint8)
     order = np.argsort(distinct.counts, kind="stable")
     lead[own.groups.of[order]] = own.yarn_of[order]
-    return colour_matches(distinct, own.yarn_of, own.difference, own.groups, vanished(own.groups, lead, labs))
+    return lost_colours(own.groups, lead, labs)
 
 
 def _halftone(

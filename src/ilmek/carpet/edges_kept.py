@@ -5,20 +5,23 @@ design, from FAINT on. It is kept as far as the chart has half of its contrast: 
 two yarns. The share that is kept is the mean of all edges, each with the weight c. Up to MOST_KNOTS knots of an even
 lattice begin an edge: on larger charts it is a sample, whose standard error is below 0.005.
 
-Colours: a group of a drawing's colours [`colour_groups`] vanishes where it lies beside others of which it differs by
-FAINT or more, and most of this contrast has the yarn of the other, or one within SAME_YARN. Of two that lose each other
-that with the fewer knots vanishes.
+Colours: two groups of a drawing's colours [`colour_groups`] that touch and differ by VANISHING or more are lost in each
+other where their yarns are one, or within SAME_YARN. That with the fewer knots vanishes; its share is that of what is
+drawn where the two touch [`assignment.touching`].
 """
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
-from ilmek.arrays import BoolArray, Float, FloatArray, Indices, IntArray, Rgb, UInt8
+from ilmek.arrays import Float, FloatArray, Indices, IntArray, Rgb, UInt8
 from ilmek.carpet.assignment import touching
+from ilmek.carpet.colour import lab_to_srgb
 from ilmek.carpet.colour_difference import ciede2000, delta_e_2000
 from ilmek.carpet.colour_groups import ColourGroups
 from ilmek.carpet.palette import Colours
+from ilmek.carpet.picture_points import hex_colour
 from ilmek.num.compiled import compiled
 
 FAINT = 6.0
@@ -27,15 +30,31 @@ FAINT = 6.0
 REACH = 4
 """Knots over which a soft edge is seen."""
 
+VANISHING = 10.0
+"""CIEDE2000 from which two colours of a drawing are two."""
+
 SAME_YARN = 3.0
 """CIEDE2000 of two yarns that look like one in the pile."""
 
-LEAST_KEPT = 0.5
-"""Least share of the edges that a chart keeps; chosen by this project on drawings and photographs: see the docs."""
+LEAST_KEPT, MOST_LOST = 0.6, 0.005
+"""Least share of the edges that a chart keeps, and largest share of knots of colours that vanish; chosen by this project
+on drawings and photographs, by looking at their charts.
+"""
 
 MOST_KNOTS = 20_000
-LEAST_LOST = 24
-"""Least number of knots of a colour whose loss is reported."""
+
+
+class LostColour(NamedTuple):
+    """A colour of a drawing that vanishes, the colour beside it that has the same yarn, and the share of the knots."""
+
+    srgb: tuple[int, int, int]
+    beside: tuple[int, int, int]
+    share: float
+
+    @property
+    def hex(self) -> str:
+        """The colour as `#rrggbb`."""
+        return hex_colour(self.srgb)
 
 
 @compiled
@@ -71,14 +90,20 @@ def edges_kept(design: Rgb, colours: Colours, knots: Indices, yarn_labs: Float[n
     return float(sums[1] / sums[0]) if sums[0] > 0 else None
 
 
-def vanished(
+def lost_colours(
     groups: ColourGroups, yarn_of: UInt8[np.ndarray, " groups"], yarn_labs: Float[np.ndarray, "yarns 3"]
-) -> BoolArray:
-    """Which groups of colours are not seen in the chart, (groups,)."""
+) -> tuple[LostColour, ...]:
+    """The colours of a drawing that vanish, the largest share first; a colour that vanishes in several is named once.
+
+    yarn_of  index of each group's yarn
+    """
     contrast = delta_e_2000(groups.labs[:, None], groups.labs[None])
     apart = delta_e_2000(yarn_labs[:, None], yarn_labs[None])[yarn_of[:, None], yarn_of[None]]
-    border = np.where(contrast >= FAINT, touching(groups) * contrast, 0.0)
-    gone = np.where(apart < SAME_YARN, border, 0.0)
-    lesser = groups.knots[:, None] <= groups.knots
-    share = np.where(lesser, gone, 0.0).sum(axis=1) / np.maximum(border.sum(axis=1), 1e-9)
-    return np.asarray((share > 0.5) & (groups.knots >= LEAST_LOST))
+    drawn = np.where((contrast >= VANISHING) & (apart < SAME_YARN), touching(groups), 0.0)
+    # Groups are in the order of their knots: below the diagonal the first of the two has fewer.
+    shares = np.tril(drawn, -1) / groups.knots.sum()
+    codes = [tuple(srgb) for srgb in lab_to_srgb(groups.labs).tolist()]
+    found = [
+        LostColour(codes[group], codes[int(row.argmax())], float(row.sum())) for group, row in enumerate(shares) if row.any()
+    ]
+    return tuple(sorted(found, key=lambda lost: -lost.share))

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ilmek.arrays import BoolArray, Float, UInt8
+from ilmek.arrays import Float, UInt8
 from ilmek.carpet.colour_groups import ColourGroups
 from ilmek.carpet.palette import Colours
 from ilmek.carpet.picture_points import hex_colour
@@ -16,7 +16,7 @@ MOST_MATCHES = 255
 class ColourMatch(NamedTuple):
     """A colour of a design: sRGB, its knots, the index of its yarn, and the CIEDE2000 difference of the two.
 
-    group  number of its group of colours, which look like one      lost  the group is not seen in the chart
+    group  number of its group of colours, which look like one
     """
 
     srgb: tuple[int, int, int]
@@ -24,7 +24,6 @@ class ColourMatch(NamedTuple):
     yarn: int
     delta_e: float
     group: int = 0
-    lost: bool = False
 
     @property
     def hex(self) -> str:
@@ -37,12 +36,8 @@ def colour_matches(
     yarn_of: UInt8[np.ndarray, " colours"],
     difference: Float[np.ndarray, " colours"],
     groups: ColourGroups,
-    lost: BoolArray,
 ) -> tuple[ColourMatch, ...]:
-    """The match of each distinct colour, most knots first; none where there are more than MOST_MATCHES.
-
-    lost  which groups are not seen, (groups,)
-    """
+    """The match of each distinct colour, most knots first; none where there are more than MOST_MATCHES."""
     if len(distinct.counts) > MOST_MATCHES:
         return ()
     codes = np.flatnonzero(distinct.index)
@@ -54,7 +49,6 @@ def colour_matches(
             int(yarn_of[number]),
             float(difference[number]),
             int(groups.of[number]),
-            bool(lost[groups.of[number]]),
         )
         for code, number in zip(codes.tolist(), numbers.tolist(), strict=True)
     ]

@@ -6,7 +6,8 @@ colours): each colour goes to the shade of least CIEDE2000, each shade to the me
 total falls.
 
 A picture without a yarn list is tied in its own shades [`own_yarns`]: a shade within SAME of a wool that is in stock is
-that wool, and the others are dyed to order. A picture whose shades are all in stock is charted from the stock.
+that wool, and the others are dyed to order. A picture whose shades are all in stock is charted from the stock, and so
+is a drawing that it serves: each colour has a wool of its own, none farther than FAR, and their mean is at most NEAR.
 """
 
 import itertools
@@ -27,11 +28,14 @@ from ilmek.progress import SILENT, Progress
 SAME = 2.0
 """CIEDE2000 below which a shade is taken for a wool in stock: beside each other they are hard to tell apart."""
 
-_CANDIDATES = 600
+NEAR, FAR = 5.0, 12.0
+"""Mean and greatest CIEDE2000 to wools in stock for which nothing is dyed for a drawing; assumed by this project."""
+
+_CANDIDATES = 300
 """Largest number of pooled colours among which the medoids are."""
 
-_COLOURS = 60_000
-"""Largest number of pooled colours of which the means are formed."""
+_COLOURS = 6_000
+"""Largest number of colours of which the means are formed; more are pooled."""
 
 _ROUNDS = 12
 
@@ -72,28 +76,36 @@ def match_shades(shades: Sequence[ProposedShade], yarns: Sequence[Yarn]) -> tupl
 
 
 def propose_shades(
-    colours: Colours, count: int, *, drawn: bool, progress: Progress = SILENT
+    colours: Colours,
+    count: int,
+    *,
+    drawn: bool,
+    evenness: float = 0.0,
+    least_gain: float = 0.0,
+    progress: Progress = SILENT,
 ) -> tuple[ProposedShade, ...]:
     """At most `count` shades of a picture, that with the most knots first, each with a name of its own.
 
-    drawn  the picture is a drawing: its shades are colours that it has
+    drawn     the picture is a drawing: its shades are colours that it has
+    evenness  0: a colour counts by its knots; 1: all alike; between, by a power of its knots, so that a face is not
+              given up for the ground
+    least_gain  gain in the mean CIEDE2000, so weighted, below which no shade is added to two
     """
-    if len(colours.labs) <= count:
-        shades = colours.labs
+    labs, knots = pooled(colours, _COLOURS, progress)
+    if len(labs) <= count:
+        shades = labs
     else:
-        shades = _medoids(colours, count, progress.part(0.0, 0.6))
+        shades = _medoids(replace(colours, labs=labs, counts=knots), count, evenness, least_gain, progress.part(0.0, 0.6))
         if not drawn:
-            shades = _means(*pooled(colours, _COLOURS, progress), shades, progress.part(0.6, 1.0))
+            shades = _means(labs, knots ** (1.0 - evenness), shades, progress.part(0.6, 1.0))
     codes = np.unique(lab_to_srgb(shades), axis=0)
-    index, _ = nearest(colours.labs, srgb_to_lab(codes))
-    knots = np.bincount(index, weights=colours.counts, minlength=len(codes))
-    order = np.argsort(-knots, kind="stable").tolist()
-    total = float(knots.sum())
+    index, _ = nearest(labs, srgb_to_lab(codes))
+    shares = np.bincount(index, weights=knots, minlength=len(codes)) / float(knots.sum())
     shades_by_name: dict[str, ProposedShade] = {}
-    for number in order:
+    for number in np.argsort(-shares, kind="stable").tolist():
         red, green, blue = codes[number].tolist()
         name = unique_name(colour_name(srgb_to_lab(codes[number])), shades_by_name)
-        shades_by_name[name] = ProposedShade(name, (red, green, blue), float(knots[number]) / total)
+        shades_by_name[name] = ProposedShade(name, (red, green, blue), float(shares[number]))
     return tuple(shades_by_name.values())
 
 
@@ -115,7 +127,7 @@ def own_yarns(
         if difference < SAME and wool.name.casefold() not in never:
             found[wool.name] = wool
             continue
-        name = unique_name(shade.name, {*names, *found})
+        name = unique_name(colour_name(lab), {*names, *found})
         lightness, a, b = lab.tolist()
         found[name] = replace(wool, name=name, srgb=shade.srgb, lab=(lightness, a, b))
         dyed.append(replace(shade, name=name))
@@ -127,11 +139,19 @@ def own_yarns(
     return (*found.values(), *extra), tuple(dyed)
 
 
-def _medoids(colours: Colours, count: int, progress: Progress) -> FloatArray:
-    """The `count` colours with the least total CIEDE2000 over the picture."""
+def _medoids(
+    colours: Colours, count: int, evenness: float, least_gain: float, progress: Progress
+) -> FloatArray:
+    """The `count` colours, or fewer, with the least total CIEDE2000 over the picture."""
     candidates, knots = pooled(colours, _CANDIDATES, progress)
-    table = difference_table(candidates, knots, candidates, progress.part(0.0, 0.7))
-    begun = [yarn for yarn, _ in itertools.islice(additions(table), min(count, len(candidates)))]
+    weights = knots ** (1.0 - evenness)
+    table = difference_table(candidates, weights, candidates, progress.part(0.0, 0.7))
+    begun, before, enough = list[int](), np.inf, least_gain * float(weights.sum())
+    for yarn, total in itertools.islice(additions(table), min(count, len(candidates))):
+        if len(begun) >= 2 and before - total < enough:
+            break
+        begun.append(yarn)
+        before = total
     return np.asarray(candidates[swap_while_better(table, begun, progress.part(0.7, 1.0))])
 
 

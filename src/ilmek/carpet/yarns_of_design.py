@@ -15,13 +15,13 @@ import numpy as np
 from ilmek.arrays import Float, FloatArray, UInt8
 from ilmek.carpet.assignment import assign_yarns
 from ilmek.carpet.colour import srgb_to_lab
-from ilmek.carpet.colour_difference import delta_e_2000
+from ilmek.carpet.colour_difference import delta_e_2000, nearest
 from ilmek.carpet.colour_groups import TWIN, ColourGroups, colour_groups
 from ilmek.carpet.edges_kept import LEAST_KEPT, edges_kept
 from ilmek.carpet.palette import Colours, nearest_yarns, paint
 from ilmek.carpet.palette_rules import NEUTRAL_NO, Palette, PaletteParams, choose_yarns, mapped_colours, yarn_names
 from ilmek.carpet.picture_points import hex_colour
-from ilmek.carpet.proposal import ProposedShade, own_yarns, propose_shades
+from ilmek.carpet.proposal import FAR, NEAR, ProposedShade, own_yarns, propose_shades
 from ilmek.carpet.reading import Design
 from ilmek.carpet.yarn import Yarn, yarn_labs
 from ilmek.errors import YarnError
@@ -30,6 +30,11 @@ from ilmek.records import record
 
 DRAWN_SHADES, PHOTO_SHADES = 24, 16
 """Largest number of shades of a drawing and of a photo without a yarn list, unless the number of colours is given."""
+
+EVENNESS, LEAST_GAIN = 0.5, 0.15
+"""How evenly the colours of a photo count for its shades, and the least gain in mean CIEDE2000 of a further one; both
+chosen by looking at charts of photographs.
+"""
 
 _OWN = 1.0
 """CIEDE2000 to a yarn within which a colour is drawn in that yarn, whatever the colours like it."""
@@ -108,13 +113,26 @@ def _own(
     shades_of = distinct
     if groups is not None and len(distinct.counts) > count:
         shades_of = replace(distinct, labs=groups.labs, counts=groups.knots.astype(np.int64))
-    shades = propose_shades(shades_of, count, drawn=groups is not None, progress=progress)
+    if groups is None:
+        photo = {"evenness": EVENNESS, "least_gain": LEAST_GAIN if rules.colours is None else 0.0}
+        shades = propose_shades(distinct, count, drawn=False, **photo, progress=progress)
+    elif _served(groups, stock):
+        return tuple(stock), (), rules
+    else:
+        shades = propose_shades(shades_of, count, drawn=True, progress=progress)
     never = frozenset(name.casefold() for name in yarn_names("never", rules.never))
     yarns, dyed = own_yarns(shades, stock, never, needed)
     if not dyed:
         return yarns, (), rules
     few = isinstance(rules.colours, int) and rules.colours >= len(yarns)
     return yarns, dyed, replace(rules, never=None, colours=None if few else rules.colours)
+
+
+def _served(groups: ColourGroups, stock: Sequence[Yarn]) -> bool:
+    """Whether the wools in stock serve a drawing."""
+    wool, difference = nearest(groups.labs, yarn_labs(stock))
+    mean = float((groups.knots * difference).sum() / groups.knots.sum())
+    return len(np.unique(wool)) == len(wool) and mean <= NEAR and float(difference.max()) <= FAR
 
 
 def _given_pairs(
