@@ -59,6 +59,8 @@ _CANDIDATES = 16
 
 _MOST_TRIALS = 20_000
 _ROUNDS = 50
+_LESS = 1e-9
+"""Least fall of the cost, in CIEDE2000 × knots."""
 
 
 @record
@@ -103,16 +105,14 @@ def assign_yarns(
     return problem.yarns[np.arange(count), choice].astype(np.uint8)
 
 
-def assignment_cost(
-    groups: ColourGroups, yarn_labs: FloatArray, yarn_of: IntArray, *, neutral: bool = True
-) -> float:
+def assignment_cost(groups: ColourGroups, yarn_labs: FloatArray, yarn_of: IntArray, *, neutral: bool = True) -> float:
     """E of an assignment, in CIEDE2000 × knots."""
     problem = _problem(groups, yarn_labs, dict(enumerate(np.asarray(yarn_of).tolist())), neutral=neutral)
     return _energy(problem, np.zeros(len(groups), dtype=np.int64))
 
 
 def single_costs(groups: ColourGroups, yarn_labs: FloatArray, *, neutral: bool) -> FloatArray:
-    """Cost of each group's knot with each yarn (groups, yarns): CIEDE2000, and the chroma that a neutral colour gets."""
+    """Cost of a knot of each group with each yarn, (groups, yarns): CIEDE2000 and g."""
     colours, yarns = groups.labs[:, 1] + 1j * groups.labs[:, 2], yarn_labs[:, 1] + 1j * yarn_labs[:, 2]
     chroma, of_yarns = np.abs(colours), np.abs(yarns)
     # |u - v|² of the two vectors is that of the chromas and (2 sqrt(C1 C2) sin(Δh/2))².
@@ -132,9 +132,7 @@ def touching(groups: ColourGroups) -> FloatArray:
     return np.asarray(groups.contact * np.minimum(depth[:, None], depth))
 
 
-def _problem(
-    groups: ColourGroups, labs: FloatArray, fixed: Mapping[int, int], *, neutral: bool
-) -> _Problem:
+def _problem(groups: ColourGroups, labs: FloatArray, fixed: Mapping[int, int], *, neutral: bool) -> _Problem:
     cost = single_costs(groups, labs, neutral=neutral)
     for group, yarn in fixed.items():
         cost[group, np.arange(len(labs)) != yarn] = np.inf
@@ -185,7 +183,7 @@ def _all_tried(problem: _Problem) -> IntArray:
 
 def _in_order(problem: _Problem) -> IntArray:
     """Each group, from the first, gets the yarn that is best beside those before it."""
-    count, candidates = problem.single.shape
+    count = len(problem.single)
     choice = np.zeros(count, dtype=np.int64)
     cost = problem.single.copy()
     for group in range(count):
@@ -203,48 +201,67 @@ def _improved(problem: _Problem, begun: IntArray) -> IntArray:
 
 
 @compiled
+def _costs(  # noqa: PLR0917
+    single: FloatArray, first: IntArray, second: IntArray, pairs: FloatArray, choice: IntArray, cost: FloatArray
+) -> None:
+    """Write the cost of each group and candidate beside the choice of all others."""
+    cost[:] = single
+    for pair in range(len(first)):
+        for k in range(single.shape[1]):
+            cost[first[pair], k] += pairs[pair, k, choice[second[pair]]]
+            cost[second[pair], k] += pairs[pair, choice[first[pair]], k]
+
+
+@compiled
+def _change_one(  # noqa: PLR0917
+    cost: FloatArray, first: IntArray, second: IntArray, pairs: FloatArray, choice: IntArray, group: int
+) -> bool:
+    """Give a group its best candidate, and tell the others."""
+    old, best = choice[group], choice[group]
+    for k in range(cost.shape[1]):
+        if cost[group, k] < cost[group, best] - _LESS:
+            best = k
+    if best == old:
+        return False
+    choice[group] = best
+    for pair in range(len(first)):
+        for k in range(cost.shape[1]):
+            if first[pair] == group:
+                cost[second[pair], k] += pairs[pair, best, k] - pairs[pair, old, k]
+            elif second[pair] == group:
+                cost[first[pair], k] += pairs[pair, k, best] - pairs[pair, k, old]
+    return True
+
+
+@compiled
+def _change_two(
+    cost: FloatArray, one: int, other: int, own: Float[np.ndarray, "candidates candidates"], choice: IntArray
+) -> bool:
+    """Give two groups the best candidates together; own: the costs of the two."""
+    a0, b0 = choice[one], choice[other]
+    a1, b1, least = a0, b0, cost[one, a0] + cost[other, b0] - own[a0, b0]
+    for a in range(cost.shape[1]):
+        for b in range(cost.shape[1]):
+            both = cost[one, a] - own[a, b0] + cost[other, b] - own[a0, b] + own[a, b]
+            if both < least - _LESS:
+                a1, b1, least = a, b, both
+    choice[one], choice[other] = a1, b1
+    return a1 != a0 or b1 != b0
+
+
+@compiled
 def _descend(  # noqa: PLR0917
     single: FloatArray, first: IntArray, second: IntArray, pairs: FloatArray, choice: IntArray, rounds: int
 ) -> None:
-    count, candidates = single.shape
-    cost = np.empty((count, candidates))
+    cost = np.empty_like(single)
     for _ in range(rounds):
+        _costs(single, first, second, pairs, choice, cost)
         changed = False
-        cost[:] = single
-        for pair in range(len(first)):
-            for k in range(candidates):
-                cost[first[pair], k] += pairs[pair, k, choice[second[pair]]]
-                cost[second[pair], k] += pairs[pair, choice[first[pair]], k]
-        for group in range(count):
-            best, old = choice[group], choice[group]
-            for k in range(candidates):
-                if cost[group, k] < cost[group, best] - 1e-9:
-                    best = k
-            if best != old:
-                changed = True
-                choice[group] = best
-                for pair in range(len(first)):
-                    if first[pair] == group:
-                        for k in range(candidates):
-                            cost[second[pair], k] += pairs[pair, best, k] - pairs[pair, old, k]
-                    elif second[pair] == group:
-                        for k in range(candidates):
-                            cost[first[pair], k] += pairs[pair, k, best] - pairs[pair, k, old]
-        if changed:
-            continue
-        for pair in range(len(first)):
-            i, j = first[pair], second[pair]
-            a0, b0 = choice[i], choice[j]
-            # Without their own pair the costs of the two add up.
-            least, a1, b1 = cost[i, a0] + cost[j, b0] - pairs[pair, a0, b0], a0, b0
-            for a in range(candidates):
-                for b in range(candidates):
-                    both = cost[i, a] - pairs[pair, a, b0] + cost[j, b] - pairs[pair, a0, b] + pairs[pair, a, b]
-                    if both < least - 1e-9:
-                        least, a1, b1 = both, a, b
-            if (a1, b1) != (a0, b0):
-                changed = True
-                choice[i], choice[j] = a1, b1
-                break
+        for group in range(len(single)):
+            changed = _change_one(cost, first, second, pairs, choice, group) or changed
+        pair = 0
+        while not changed and pair < len(first):
+            changed = _change_two(cost, first[pair], second[pair], pairs[pair], choice)
+            pair += 1
         if not changed:
             return

@@ -15,12 +15,12 @@ from ilmek.carpet.codes import eight_bits
 from ilmek.carpet.confetti import merge_patches
 from ilmek.carpet.design import bands, knot_grid
 from ilmek.carpet.differences import YarnDifference, differences
+from ilmek.carpet.edges_kept import LostColour, edges_kept, lost_colours
 from ilmek.carpet.fitted import fitted_design, unfitted_design
 from ilmek.carpet.fitting import Fit, FitParams, prepare_picture
 from ilmek.carpet.halftone import draw_halftone
 from ilmek.carpet.matches import ColourMatch, colour_matches
 from ilmek.carpet.overlay import Overlay, TiedKnots, no_overlay, require_fit, tied_knots
-from ilmek.carpet.edges_kept import LostColour, edges_kept, lost_colours
 from ilmek.carpet.palette import Colours, distinct_colours, paint
 from ilmek.carpet.palette_rules import Palette, PaletteParams
 from ilmek.carpet.proposal import ProposedShade, propose_shades

@@ -36,11 +36,6 @@ VANISHING = 10.0
 SAME_YARN = 3.0
 """CIEDE2000 of two yarns that look like one in the pile."""
 
-LEAST_KEPT, MOST_LOST = 0.6, 0.005
-"""Least share of the edges that a chart keeps, and largest share of knots of colours that vanish; chosen by this project
-on drawings and photographs, by looking at their charts.
-"""
-
 MOST_KNOTS = 20_000
 
 
@@ -104,6 +99,8 @@ def lost_colours(
     shares = np.tril(drawn, -1) / groups.knots.sum()
     codes = [tuple(srgb) for srgb in lab_to_srgb(groups.labs).tolist()]
     found = [
-        LostColour(codes[group], codes[int(row.argmax())], float(row.sum())) for group, row in enumerate(shares) if row.any()
+        LostColour(codes[group], codes[int(row.argmax())], float(row.sum()))
+        for group, row in enumerate(shares)
+        if row.any()
     ]
     return tuple(sorted(found, key=lambda lost: -lost.share))

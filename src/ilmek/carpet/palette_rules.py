@@ -51,6 +51,9 @@ GREY, MOST_TINTED = 8.0, 2e-3
 LEAST_DIFFERENCE = 2.0
 """CIEDE2000 below which two yarns are near twins; assumed by this project."""
 
+LEAST_EDGES, MOST_LOST = 0.6, 0.005
+"""Limits of what a chart loses; chosen by this project on drawings and photographs, by looking at their charts."""
+
 MOST_PROPOSED = 64
 """Largest number of shades that are proposed."""
 
@@ -75,13 +78,11 @@ class PaletteParams(Params):
     )
     keep: str | None = kind.text(None, doc="yarns that are in the palette in any case, names separated by commas")
     never: str | None = kind.text(None, doc="yarns of the list that are not used, names separated by commas")
-    mapped: str | None = param(
-        None, doc='yarns of colours of the picture, like "#6c9136=dark green"; several by semicolons', alias="map"
-    )
+    mapped: str | None = param(None, doc='yarns of colours of the picture, like "#6c9136=dark green"', alias="map")
     neutral: str = kind.choice(
         AUTO,
         (AUTO, NEUTRAL_NO),
-        doc="auto: greys take neutral yarns, and a grey picture these alone; no: the nearest, which may be blue or brown",
+        doc="auto: greys take neutral yarns, and a grey picture these alone; no: any, which may be blue or brown",
     )
     least_share: float = param(
         0.0,
@@ -89,6 +90,20 @@ class PaletteParams(Params):
         at_least=0.0,
         at_most=0.2,
         doc="share of the knots below which a yarn is merged into the nearest that remains, unless it is kept",
+    )
+    least_edges: float = param(
+        LEAST_EDGES,
+        unit="%",
+        at_least=0.0,
+        at_most=1.0,
+        doc="least share of the picture's edges that the chart keeps, of which less is a failed check",
+    )
+    most_lost: float = param(
+        MOST_LOST,
+        unit="%",
+        at_least=0.0,
+        at_most=1.0,
+        doc="largest share of the knots of a drawing's colours that are lost in others, beyond which is a failed check",
     )
     propose: int | None = kind.count(
         None,
@@ -98,7 +113,7 @@ class PaletteParams(Params):
     )
 
     def check_together(self) -> None:
-        """Raise ParameterError for texts that are no names or pairs, a yarn kept and never used, and more kept than N."""
+        """Raise ParameterError for texts that cannot be read, a yarn kept and never used, and more kept than N."""
         mapped_colours(self.mapped)
         kept, never = yarn_names("keep", self.keep), yarn_names("never", self.never)
         both = {name.casefold() for name in kept} & {name.casefold() for name in never}

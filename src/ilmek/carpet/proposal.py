@@ -95,7 +95,9 @@ def propose_shades(
     if len(labs) <= count:
         shades = labs
     else:
-        shades = _medoids(replace(colours, labs=labs, counts=knots), count, evenness, least_gain, progress.part(0.0, 0.6))
+        shades = _medoids(
+            replace(colours, labs=labs, counts=knots), count, evenness, least_gain, progress.part(0.0, 0.6)
+        )
         if not drawn:
             shades = _means(labs, knots ** (1.0 - evenness), shades, progress.part(0.6, 1.0))
     codes = np.unique(lab_to_srgb(shades), axis=0)
@@ -116,9 +118,10 @@ def own_yarns(
 
     stock   wools that a shade within SAME of one is; they all have one count, and that of the dyed yarns
     never   names of wools, in lower case, that no shade is      needed  names of wools that follow in any case
-    A dyed yarn costs as much as the nearest wool. Where all shades are wools in stock, the yarns are the stock.
+    A dyed yarn costs as much as the dearest wool. Where all shades are wools in stock, the yarns are the stock.
     """
     labs, names = yarn_labs(stock), {yarn.name.casefold() for yarn in stock}
+    dearest = max((yarn.price for yarn in stock if yarn.price is not None), default=None)
     found, dyed = dict[str, Yarn](), list[ProposedShade]()
     for shade in shades:
         lab = srgb_to_lab(np.array(shade.srgb, dtype=np.uint8))
@@ -129,7 +132,7 @@ def own_yarns(
             continue
         name = unique_name(colour_name(lab), {*names, *found})
         lightness, a, b = lab.tolist()
-        found[name] = replace(wool, name=name, srgb=shade.srgb, lab=(lightness, a, b))
+        found[name] = replace(wool, name=name, srgb=shade.srgb, lab=(lightness, a, b), price=dearest)
         dyed.append(replace(shade, name=name))
     if not dyed:
         return tuple(stock), ()
@@ -139,9 +142,7 @@ def own_yarns(
     return (*found.values(), *extra), tuple(dyed)
 
 
-def _medoids(
-    colours: Colours, count: int, evenness: float, least_gain: float, progress: Progress
-) -> FloatArray:
+def _medoids(colours: Colours, count: int, evenness: float, least_gain: float, progress: Progress) -> FloatArray:
     """The `count` colours, or fewer, with the least total CIEDE2000 over the picture."""
     candidates, knots = pooled(colours, _CANDIDATES, progress)
     weights = knots ** (1.0 - evenness)

@@ -17,9 +17,17 @@ from ilmek.carpet.assignment import assign_yarns
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.colour_difference import delta_e_2000, nearest
 from ilmek.carpet.colour_groups import TWIN, ColourGroups, colour_groups
-from ilmek.carpet.edges_kept import LEAST_KEPT, edges_kept
+from ilmek.carpet.edges_kept import edges_kept
 from ilmek.carpet.palette import Colours, nearest_yarns, paint
-from ilmek.carpet.palette_rules import NEUTRAL_NO, Palette, PaletteParams, choose_yarns, mapped_colours, yarn_names
+from ilmek.carpet.palette_rules import (
+    LEAST_EDGES,
+    NEUTRAL_NO,
+    Palette,
+    PaletteParams,
+    choose_yarns,
+    mapped_colours,
+    yarn_names,
+)
 from ilmek.carpet.picture_points import hex_colour
 from ilmek.carpet.proposal import FAR, NEAR, ProposedShade, own_yarns, propose_shades
 from ilmek.carpet.reading import Design
@@ -171,7 +179,7 @@ def _stretched(
 ) -> UInt8[np.ndarray, " colours"] | None:
     """The nearest yarns of the tones stretched onto the yarns, where much is lost without and less with; else None."""
     kept = edges_kept(design.colours, distinct, paint(design.colours, distinct, yarn_of), labs)
-    if kept is None or kept >= LEAST_KEPT:
+    if kept is None or kept >= LEAST_EDGES:
         return None
     order = np.argsort(distinct.labs[:, 0])
     place = np.cumsum(distinct.counts[order]) / float(distinct.counts.sum())
