@@ -24,6 +24,7 @@ from ilmek.carpet.palette_rules import (
     NEUTRAL_NO,
     Palette,
     PaletteParams,
+    check_palette,
     choose_yarns,
     mapped_colours,
     yarn_names,
@@ -113,6 +114,7 @@ def _own(
     distinct: Colours, groups: ColourGroups | None, stock: Sequence[Yarn], rules: PaletteParams, progress: Progress
 ) -> tuple[tuple[Yarn, ...], tuple[ProposedShade, ...], PaletteParams]:
     """The picture's own shades as yarns, those that are dyed, and the rules as they act on these yarns."""
+    check_palette(replace(rules, colours=None, mapped=None), stock)
     names = [name for _, name in mapped_colours(rules.mapped)]
     needed = frozenset(name.casefold() for name in (*yarn_names("keep", rules.keep), *names))
     count = PHOTO_SHADES if groups is None else DRAWN_SHADES

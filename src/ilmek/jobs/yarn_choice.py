@@ -2,20 +2,21 @@
 shades of the picture; and what the chart keeps of the picture, as checks.
 """
 
+import math
 from typing import Any
 
 import numpy as np
 
+from ilmek.carpet.assignment import NEUTRAL, NEUTRAL_CHROMA
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.colour_difference import delta_e_2000
 from ilmek.carpet.colour_names import colour_name
 from ilmek.carpet.edges_kept import LostColour
 from ilmek.carpet.matches import ColourMatch
-from ilmek.carpet.palette_rules import LEAST_DIFFERENCE, LEAST_GAIN, TwinYarns, twin_yarns
+from ilmek.carpet.palette_rules import LEAST_DIFFERENCE, LEAST_GAIN, NEUTRAL_NO, TwinYarns, twin_yarns
 from ilmek.carpet.picture_points import hex_colour
 from ilmek.carpet.proposal import MatchedShade, match_shades
-from ilmek.carpet.yarn import yarn_labs
 from ilmek.io.yarn_file import default_yarns
 from ilmek.jobs.order import CarpetOrder
 from ilmek.report import Check
@@ -56,8 +57,8 @@ def yarn_notes(chart: Chart) -> tuple[str, ...]:
     palette, notes = chart.reading.palette, []
     if dyed := chart.reading.dyed:
         notes.append(
-            f"{len(dyed)} of {counted(chart.colours, 'yarn')} dyed to order: {PROPOSED} lists them; --yarns wool keeps to "
-            "the wools in stock"
+            f"{len(dyed)} of {counted(chart.colours, 'yarn')} dyed to order: {PROPOSED} lists them; --yarns wool "
+            "keeps to the wools in stock"
         )
     if (knee := palette.knee) is not None:
         further = "there are no more" if knee.next_mean is None else f"with one more it is {knee.next_mean:.2f}"
@@ -96,12 +97,14 @@ _KEPT = "chosen by this project on drawings and photographs"
 def _lost_cure(lost: LostColour, chart: Chart, order: CarpetOrder) -> str:
     if order.dyed:
         return f"--colours {chart.colours + len(chart.reading.lost)}"
-    listed = order.yarns or ()
     code, beside = (srgb_to_lab(np.array(srgb, dtype=np.uint8)) for srgb in (lost.srgb, lost.beside))
-    left = [yarn for yarn in listed if yarn not in chart.yarns]
-    apart = [yarn for yarn in left if delta_e_2000(yarn_labs([yarn])[0], beside) > delta_e_2000(code, beside)]
+    left = [yarn for yarn in order.yarns or () if yarn.name not in {one.name for one in chart.yarns}]
+    if order.palette.neutral != NEUTRAL_NO and np.hypot(*code[1:]) < NEUTRAL:
+        left = [yarn for yarn in left if math.hypot(*yarn.lab[1:]) <= NEUTRAL_CHROMA]
+    contrast = float(delta_e_2000(code, beside))
+    apart = [yarn for yarn in left if float(delta_e_2000(np.array(yarn.lab), beside)) > contrast]
     if apart:
-        near = min(apart, key=lambda yarn: float(delta_e_2000(yarn_labs([yarn])[0], code)))
+        near = min(apart, key=lambda yarn: float(delta_e_2000(np.array(yarn.lab), code)))
         return f"take {near.name!r} of the list as well (--keep, more --colours)"
     return f"add a yarn like {lost.hex}, {colour_name(code)}, to the list, or leave out --yarns"
 
