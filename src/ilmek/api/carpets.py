@@ -34,7 +34,7 @@ PictureLike = str | Path | Picture | Rgb
 """A picture, its path, or its pixels: rows x columns x 3, 0 to 255."""
 
 YarnsLike = str | Path | Sequence[Yarn] | None
-"""Yarns, or the path of their list; None: the wool list that is built in."""
+"""Yarns, the path of their list, or "wool": the list that is built in; None: the picture's own shades."""
 
 Settings = Mapping[str, Setting]
 """Values by name: texts with units, or numbers in SI."""
@@ -76,7 +76,8 @@ def make_chart(
 
     picture  a path, a picture, or its pixels: rows x columns x 3, 0 to 255
     size     like "120x180cm" or "seccade"      quality  like "40x40/dm"
-    yarns    a path or a list; default: the wool list that is built in      knot  "symmetric" or "asymmetric"
+    yarns    a path, a list, or "wool": the list that is built in; default: the picture's own shades, which are wools of
+             that list where one is near      knot  "symmetric" or "asymmetric"
     settings  of the fit, the reading, the palette and the counts of the yarns, by the names of the command line's
               options: colours=8, read="photo"
 
@@ -94,6 +95,7 @@ def make_chart(
         carpet_size(size),
         density,
         groups["plan"].counted(listed, density, knot),
+        dyed=yarns is None,
         knot=knot,
         fit=groups["fit"],
         reading=groups["reading"],
@@ -166,7 +168,7 @@ def weave(
     """Picture to chart, yarn, loom, programme and report in the folder `out`, whole or not at all.
 
     size, quality, knot, yarns  as of `make_chart`; `yarns` is a path; default: those of a chart, else 120 x 180 cm, 25
-                     knots/dm, symmetric and the wool list
+                     knots/dm, symmetric and the picture's own shades
     heads, deadline  knotting heads; time for the whole carpet [s], like "72h"; default: chosen by aim; any time
     aim              "price" or "time": what is least in the choice of all that is left open; default: price
     warp_pitch       distance of two warps; default: that of the quality

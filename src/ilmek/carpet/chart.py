@@ -1,8 +1,8 @@
 """Chart: one yarn per knot, from a picture, a size, a quality and a yarn list.
 
 The picture is fitted to the carpet (`fitting`) and read as a design with one colour for each knot (`reading`). Each
-distinct colour of the design gets the yarn of the least CIEDE2000 difference (`palette`) among those that the rules
-leave (`palette_rules`).
+distinct colour of the design gets its yarn (`yarns_of_design`). What the chart keeps of the design is measured
+(`edges_kept`).
 """
 
 from collections.abc import Sequence
@@ -15,13 +15,14 @@ from ilmek.carpet.codes import eight_bits
 from ilmek.carpet.confetti import merge_patches
 from ilmek.carpet.design import bands, knot_grid
 from ilmek.carpet.differences import YarnDifference, differences
+from ilmek.carpet.edges_kept import LostColour, edges_kept, lost_colours
 from ilmek.carpet.fitted import fitted_design, unfitted_design
 from ilmek.carpet.fitting import Fit, FitParams, prepare_picture
 from ilmek.carpet.halftone import draw_halftone
 from ilmek.carpet.matches import ColourMatch, colour_matches
 from ilmek.carpet.overlay import Overlay, TiedKnots, no_overlay, require_fit, tied_knots
-from ilmek.carpet.palette import Colours, distinct_colours, nearest_yarns, paint
-from ilmek.carpet.palette_rules import Palette, PaletteParams, choose_yarns
+from ilmek.carpet.palette import Colours, distinct_colours, paint
+from ilmek.carpet.palette_rules import Palette, PaletteParams
 from ilmek.carpet.proposal import ProposedShade, propose_shades
 from ilmek.carpet.quality import Quality, carpet_quality
 from ilmek.carpet.reading import Design, ReadParams
@@ -29,6 +30,7 @@ from ilmek.carpet.sizes import CarpetSize, carpet_size
 from ilmek.carpet.tally import Tally, tally_of
 from ilmek.carpet.usual_pile import with_counts
 from ilmek.carpet.yarn import Yarn, yarn_labs, yarn_list
+from ilmek.carpet.yarns_of_design import YarnsOfDesign, yarns_of_design
 from ilmek.elements.knot_kinds import parse_knot
 from ilmek.errors import CarpetError, PictureError
 from ilmek.progress import SILENT, Progress
@@ -50,7 +52,10 @@ class ChartReading:
     edited         number of knots that the edits of a recipe changed
     matches        of each colour of an exact or flat design, most knots first, at most MOST_MATCHES
     palette        how its yarns were chosen from the list; default: they were not
-    proposed       shades of the design itself, where they were required
+    proposed       shades of the design itself: those that are dyed for it, or as many as were required
+    dyed           names of the yarns that are dyed for it
+    lost           colours of a drawing that vanish, because one beside them has the same yarn
+    edges_kept     share of the design's edges that the chart keeps; None: it has none, or nothing was measured
     """
 
     kind: str
@@ -65,6 +70,9 @@ class ChartReading:
     matches: tuple[ColourMatch, ...] = ()
     palette: Palette = Palette(())
     proposed: tuple[ProposedShade, ...] = ()
+    dyed: tuple[str, ...] = ()
+    lost: tuple[LostColour, ...] = ()
+    edges_kept: float | None = None
 
 
 @record
@@ -214,11 +222,13 @@ def make_chart(
     fit: FitParams | None = None,
     reading: ReadParams | None = None,
     palette: PaletteParams | None = None,
+    dyed: bool = False,
     progress: Progress = SILENT,
 ) -> Chart:
     """The knot chart of a picture.
 
     rgb   picture, uint8 (height, width, 3)      fit, reading, palette  default: those of the classes
+    dyed  the yarns are the picture's own shades, dyed to order, and those of the list that one of them is
     Raises PictureError for an empty picture, CarpetError for an unknown knot and a grid out of bounds, YarnError for a
     list of less than 2 or more than 255 yarns, and for palette rules that no list of yarns meets.
     """
@@ -244,6 +254,7 @@ def make_chart(
         fit=fitted,
         reading=reading,
         palette=palette,
+        dyed=dyed,
         progress=progress.part(0.4, 1.0),
     )
 
@@ -258,6 +269,7 @@ def chart_of_design(
     fit: Fit | None = None,
     reading: ReadParams | None = None,
     palette: PaletteParams | None = None,
+    dyed: bool = False,
     progress: Progress = SILENT,
 ) -> Chart:
     """As `make_chart`, of a design with one colour for each knot, which the caller need not keep.
@@ -267,33 +279,47 @@ def chart_of_design(
     yarns = yarn_list(yarns, 2)
     kind, reading, rules = parse_knot(knot), reading or ReadParams(), palette or PaletteParams()
     distinct = distinct_colours(design.colours, progress.part(0.0, 0.2))
-    chosen = choose_yarns(distinct, with_counts(yarns, quality, kind), rules, progress.part(0.2, 0.35))
-    proposed = () if rules.propose is None else _proposed(distinct, design, rules.propose, progress.part(0.35, 0.4))
-    labs = yarn_labs(chosen.yarns)
-    yarn_of, difference = nearest_yarns(distinct, labs, progress.part(0.4, 0.6))
-    painted = paint(design.colours, distinct, yarn_of, progress.part(0.6, 0.7))
+    own = yarns_of_design(
+        distinct, design, with_counts(yarns, quality, kind), rules, dyed=dyed, progress=progress.part(0.2, 0.6)
+    )
+    labs = yarn_labs(own.palette.yarns)
+    painted = paint(design.colours, distinct, own.yarn_of, progress.part(0.6, 0.7))
     knots, drawn = _halftone(painted, design, labs, reading.halftone, progress.part(0.7, 0.8))
     least = reading.least_patch_of(design.kind)
     knots, changed = merge_patches(knots, design.colours, labs, least, kept=drawn, progress=progress.part(0.8, 0.9))
-    to_design = differences(
-        design.colours, distinct, (yarn_of, difference), (painted, knots), labs, progress.part(0.9, 0.95)
-    )
+    taken, measuring = (own.yarn_of, own.difference), progress.part(0.9, 0.95)
+    to_design = differences(design.colours, distinct, taken, (painted, knots), labs, measuring)
+    words = [design.reason, *(["tones stretched onto the yarns"] if own.stretched else [])]
+    words += [] if drawn is None else [f"patterns on {drawn.mean():.1%} of it"]
     read = ChartReading(
         design.kind,
-        design.reason if drawn is None else f"{design.reason}; patterns on {drawn.mean():.1%} of it",
+        "; ".join(words),
         to_design.mean,
-        to_design.least,
+        own.least,
         changed,
         design.foreign,
         fit or Fit(),
         to_design.of_yarns,
-        matches=() if design.kind == "photo" else colour_matches(distinct, yarn_of, difference),
-        palette=chosen,
-        proposed=proposed,
+        matches=() if own.groups is None else colour_matches(distinct, own.yarn_of, own.difference, own.groups),
+        palette=own.palette,
+        proposed=own.proposed if rules.propose is None else _proposed(distinct, design, rules.propose, progress),
+        dyed=tuple(shade.name for shade in own.proposed),
+        lost=_lost(own, distinct, labs),
+        edges_kept=edges_kept(design.colours, distinct, knots, labs),
     )
-    chart = Chart(knots, chosen.yarns, size, quality, kind, read)
+    chart = Chart(knots, own.palette.yarns, size, quality, kind, read)
     chart.tally(progress.part(0.95, 1.0))
     return chart
+
+
+def _lost(own: YarnsOfDesign, distinct: Colours, labs: FloatArray) -> tuple[LostColour, ...]:
+    """The colours of a drawing that vanish; the yarn of a group is that of its most frequent colour."""
+    if own.groups is None:
+        return ()
+    lead = np.zeros(len(own.groups), dtype=np.uint8)
+    order = np.argsort(distinct.counts, kind="stable")
+    lead[own.groups.of[order]] = own.yarn_of[order]
+    return lost_colours(own.groups, lead, labs)
 
 
 def _halftone(

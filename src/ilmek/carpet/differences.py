@@ -25,12 +25,10 @@ class YarnDifference(NamedTuple):
 class Differences(NamedTuple):
     """CIEDE2000 of a chart to its design.
 
-    mean     over the knots                                least   the same if each knot had its nearest yarn
-    of_yarns  of each yarn, 0 for one without a knot
+    mean     over the knots      of_yarns  of each yarn, 0 for one without a knot
     """
 
     mean: float
-    least: float
     of_yarns: tuple[YarnDifference, ...]
 
 
@@ -59,17 +57,17 @@ def _move(  # noqa: PLR0917
 def differences(  # noqa: PLR0917
     design: Rgb,
     colours: Colours,
-    nearest: tuple[UInt8[np.ndarray, " colours"], Float[np.ndarray, " colours"]],
+    taken: tuple[UInt8[np.ndarray, " colours"], Float[np.ndarray, " colours"]],
     charts: tuple[Indices, Indices],
     yarn_labs: Float[np.ndarray, "yarns 3"],
     progress: Progress = SILENT,
 ) -> Differences:
     """The differences of a chart to its design.
 
-    nearest  yarn of each distinct colour and its difference [`palette.nearest_yarns`]
-    charts   knots with the nearest yarns, and of the chart
+    taken   yarn of each distinct colour and its difference
+    charts  knots with these yarns, and of the chart
     """
-    (yarn_of, difference), (before, knots), yarns = nearest, charts, len(yarn_labs)
+    (yarn_of, difference), (before, knots), yarns = taken, charts, len(yarn_labs)
     design = np.ascontiguousarray(design)
 
     def move(band: slice) -> tuple[IntArray, IntArray, FloatArray]:
@@ -78,7 +76,7 @@ def differences(  # noqa: PLR0917
         _move(design[band], *args)
         return sums, counts, worst
 
-    least = float(np.sum(colours.counts * difference))  # a dot product's order depends on the threads
+    begun = float(np.sum(colours.counts * difference))  # a dot product's order depends on the threads
     sums, counts, worst = np.zeros(yarns, dtype=np.int64), np.zeros(yarns, dtype=np.int64), np.zeros(yarns)
     np.maximum.at(worst, yarn_of, difference)
     for band, found in in_threads(move, () if before is knots else bands(knots.shape[0], knots.shape[1], PART)):
@@ -88,6 +86,6 @@ def differences(  # noqa: PLR0917
     total = np.bincount(yarn_of, weights=colours.counts * difference, minlength=yarns) + added
     number = np.bincount(yarn_of, weights=colours.counts, minlength=yarns) + counts
     of_yarns = np.where(number > 0, total / np.maximum(number, 1), 0.0), np.where(number > 0, worst, 0.0)
-    mean = (least + float(added.sum())) / knots.size
+    mean = (begun + float(added.sum())) / knots.size
     pairs = zip(of_yarns[0].tolist(), of_yarns[1].tolist(), strict=True)
-    return Differences(mean, least / knots.size, tuple(YarnDifference(*pair) for pair in pairs))
+    return Differences(mean, tuple(YarnDifference(*pair) for pair in pairs))

@@ -1,11 +1,11 @@
 """Matches: the colours of a drawing and the yarns that they take, one by one."""
 
-from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
 
 from ilmek.arrays import Float, UInt8
+from ilmek.carpet.colour_groups import ColourGroups
 from ilmek.carpet.palette import Colours
 from ilmek.carpet.picture_points import hex_colour
 
@@ -14,12 +14,16 @@ MOST_MATCHES = 255
 
 
 class ColourMatch(NamedTuple):
-    """A colour of a design: sRGB, its knots, the index of its yarn, and the CIEDE2000 difference of the two."""
+    """A colour of a design: sRGB, its knots, the index of its yarn, and the CIEDE2000 difference of the two.
+
+    group  number of its group of colours, which look like one
+    """
 
     srgb: tuple[int, int, int]
     knots: int
     yarn: int
     delta_e: float
+    group: int = 0
 
     @property
     def hex(self) -> str:
@@ -28,7 +32,10 @@ class ColourMatch(NamedTuple):
 
 
 def colour_matches(
-    distinct: Colours, yarn_of: UInt8[np.ndarray, " colours"], difference: Float[np.ndarray, " colours"]
+    distinct: Colours,
+    yarn_of: UInt8[np.ndarray, " colours"],
+    difference: Float[np.ndarray, " colours"],
+    groups: ColourGroups,
 ) -> tuple[ColourMatch, ...]:
     """The match of each distinct colour, most knots first; none where there are more than MOST_MATCHES."""
     if len(distinct.counts) > MOST_MATCHES:
@@ -41,15 +48,8 @@ def colour_matches(
             int(distinct.counts[number]),
             int(yarn_of[number]),
             float(difference[number]),
+            int(groups.of[number]),
         )
         for code, number in zip(codes.tolist(), numbers.tolist(), strict=True)
     ]
     return tuple(sorted(found, key=lambda match: (-match.knots, match.srgb)))
-
-
-def shared_yarns(matches: Iterable[ColourMatch]) -> tuple[tuple[ColourMatch, ...], ...]:
-    """The colours that have one yarn together, of each yarn with two or more."""
-    of_yarn: dict[int, list[ColourMatch]] = {}
-    for match in matches:
-        of_yarn.setdefault(match.yarn, []).append(match)
-    return tuple(tuple(found) for found in of_yarn.values() if len(found) > 1)

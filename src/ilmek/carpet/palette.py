@@ -27,6 +27,9 @@ _MOST_TRIALS = 3_000_000
 _TABLE, _SWAPS = 0.3, 0.4
 """Share of the search for yarns in which the table of differences is made, and share of the rest before the swaps."""
 
+_FEW = 400_000
+"""Number of colours below which sorting is quicker than a table of all cells."""
+
 _CELLS = 256
 """Cells of the Lab space along a and b; both are -108 to 99 in sRGB."""
 
@@ -199,6 +202,8 @@ def _cells(labs: FloatArray, cell: float) -> IntArray:
     for part in bands(len(labs), 1, _BATCH):
         lightness, a, b = np.floor(labs[part] / cell).astype(np.int32).T
         keys[part] = (lightness * _CELLS + a + _CELLS // 2) * _CELLS + b + _CELLS // 2
+    if len(keys) < _FEW:
+        return np.asarray(np.unique(keys, return_inverse=True)[1])
     occupied = np.zeros(101 * _CELLS**2, dtype=bool)
     occupied[keys] = True
     return np.asarray((np.cumsum(occupied, dtype=np.int32) - 1)[keys])

@@ -3,7 +3,8 @@
 1. Yarns that are never used leave the list.
 2. Of the rest the best N are taken (`palette.best_yarns`), with those that are kept. N is given, or found (`auto`): the
    least, from two, for which the best N + 1 lower the mean CIEDE2000 of the best N by less than LEAST_GAIN.
-3. Yarns below the least share of the knots are merged, the rarest first: each of its colours goes to the nearest yarn
+3. A grey picture takes neutral yarns alone, where the list has two or more.
+4. Yarns below the least share of the knots are merged, the rarest first: each of its colours goes to the nearest yarn
    that remains. Kept yarns stay.
 
 A kept yarn is in the palette in any case; it has knots only where it is the nearest to a colour.
@@ -17,6 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.arrays import FloatArray
+from ilmek.carpet.assignment import NEUTRAL_CHROMA
 from ilmek.carpet.colour_difference import delta_e_2000, nearest
 from ilmek.carpet.palette import (
     Colours,
@@ -27,6 +29,7 @@ from ilmek.carpet.palette import (
     pooled,
     total_difference,
 )
+from ilmek.carpet.picture_points import hex_colour, read_colour
 from ilmek.carpet.yarn import MOST_YARNS, Yarn, yarn_labs
 from ilmek.errors import ParameterError, YarnError, did_you_mean, shortened
 from ilmek.params import Params, kind, param
@@ -36,11 +39,20 @@ from ilmek.units import counted
 
 AUTO = "auto"
 
+NEUTRAL_NO = "no"
+"""Choice of `neutral`: greys take the nearest yarns, whatever their chroma."""
+
 LEAST_GAIN = 0.25
 """Least gain in mean CIEDE2000 for which `auto` adds a yarn; assumed by this project."""
 
+GREY, MOST_TINTED = 8.0, 2e-3
+"""Chroma in CIELAB beyond which a knot is tinted, and largest share of such knots in a grey picture."""
+
 LEAST_DIFFERENCE = 2.0
 """CIEDE2000 below which two yarns are near twins; assumed by this project."""
+
+LEAST_EDGES, MOST_LOST = 0.6, 0.005
+"""Limits of what a chart loses; chosen by this project on drawings and photographs, by looking at their charts."""
 
 MOST_PROPOSED = 64
 """Largest number of shades that are proposed."""
@@ -66,12 +78,32 @@ class PaletteParams(Params):
     )
     keep: str | None = kind.text(None, doc="yarns that are in the palette in any case, names separated by commas")
     never: str | None = kind.text(None, doc="yarns of the list that are not used, names separated by commas")
+    mapped: str | None = param(None, doc='yarns of colours of the picture, like "#6c9136=dark green"', alias="map")
+    neutral: str = kind.choice(
+        AUTO,
+        (AUTO, NEUTRAL_NO),
+        doc="auto: greys take neutral yarns, and a grey picture these alone; no: any, which may be blue or brown",
+    )
     least_share: float = param(
         0.0,
         unit="%",
         at_least=0.0,
         at_most=0.2,
         doc="share of the knots below which a yarn is merged into the nearest that remains, unless it is kept",
+    )
+    least_edges: float = param(
+        LEAST_EDGES,
+        unit="%",
+        at_least=0.0,
+        at_most=1.0,
+        doc="least share of the picture's edges that the chart keeps, of which less is a failed check",
+    )
+    most_lost: float = param(
+        MOST_LOST,
+        unit="%",
+        at_least=0.0,
+        at_most=1.0,
+        doc="largest share of the knots of a drawing's colours that are lost in others, beyond which is a failed check",
     )
     propose: int | None = kind.count(
         None,
@@ -81,7 +113,8 @@ class PaletteParams(Params):
     )
 
     def check_together(self) -> None:
-        """Raise ParameterError for texts that are no names, a yarn kept and never used, and more kept than N."""
+        """Raise ParameterError for texts that cannot be read, a yarn kept and never used, and more kept than N."""
+        mapped_colours(self.mapped)
         kept, never = yarn_names("keep", self.keep), yarn_names("never", self.never)
         both = {name.casefold() for name in kept} & {name.casefold() for name in never}
         if both:
@@ -146,6 +179,27 @@ def yarn_names(option: str, text: str | None) -> tuple[str, ...]:
     return tuple({name.casefold(): name for name in names}.values())
 
 
+def mapped_colours(text: str | None) -> tuple[tuple[tuple[int, int, int], str], ...]:
+    """The pairs of a text: sRGB of a colour, and the name of its yarn. Raises ParameterError.
+
+    >>> mapped_colours("#6c9136=dark green; #fff = ivory")
+    (((108, 145, 54), 'dark green'), ((255, 255, 255), 'ivory'))
+    """
+    if text is None:
+        return ()
+    found: dict[tuple[int, int, int], str] = {}
+    for pair in filter(None, (part.strip() for part in text.split(";"))):
+        colour, equals, name = pair.partition("=")
+        if not equals or not name.strip():
+            raise ParameterError(f"map={shortened(pair)!r} is no pair", do='write it like "#6c9136=dark green"')
+        srgb = read_colour("map", colour.strip())
+        if found.setdefault(srgb, name.strip().strip('"')) != name.strip().strip('"'):
+            raise ParameterError(f"map gives {hex_colour(srgb)} two yarns", do="give each colour once")
+    if not found:
+        raise ParameterError(f"map={shortened(text)!r} has no pair", do='write it like "#6c9136=dark green"')
+    return tuple(found.items())
+
+
 def check_palette(params: PaletteParams, yarns: Sequence[Yarn]) -> None:
     """Raise YarnError for rules that the list of yarns cannot meet."""
     _kept_and_allowed(params, yarns)
@@ -165,9 +219,11 @@ def choose_yarns(
 ) -> Palette:
     """The yarns of the list that a design takes, in the order of the list. Raises YarnError."""
     kept, allowed = _kept_and_allowed(params, yarns)
+    count = params.colours
+    if params.neutral == AUTO and (neutral := _neutrals(distinct, yarns, kept, allowed)):
+        allowed, count = neutral, min(count, len(neutral)) if isinstance(count, int) else count
     yarns, knee = [yarns[number] for number in allowed], None
     fixed = tuple(allowed.index(number) for number in kept)
-    count = params.colours
     if count == AUTO:
         knee = _knee(distinct, yarn_labs(yarns), fixed, progress.part(0.0, 0.4))
         count = knee.colours
@@ -196,7 +252,13 @@ def twin_yarns(yarns: Sequence[Yarn]) -> tuple[TwinYarns, ...]:
 
 def _kept_and_allowed(params: PaletteParams, yarns: Sequence[Yarn]) -> tuple[tuple[int, ...], list[int]]:
     """Indices of the yarns that are kept, and of all that may be used."""
-    kept, never = (_indices(name, text, yarns) for name, text in (("keep", params.keep), ("never", params.never)))
+    kept, never = (
+        _indices(name, yarn_names(name, text), yarns) for name, text in (("keep", params.keep), ("never", params.never))
+    )
+    mapped = _indices("map", [name for _, name in mapped_colours(params.mapped)], yarns)
+    kept = tuple(dict.fromkeys((*kept, *mapped)))
+    if twice := [number for number in mapped if number in never]:
+        raise YarnError(f"{yarns[twice[0]].name!r} is both in map and in never", do="leave it out of one")
     allowed = [number for number in range(len(yarns)) if number not in never]
     without = " without those of --never" if never else ""
     if len(allowed) < 2:
@@ -210,10 +272,20 @@ def _kept_and_allowed(params: PaletteParams, yarns: Sequence[Yarn]) -> tuple[tup
     return kept, allowed
 
 
-def _indices(option: str, text: str | None, yarns: Sequence[Yarn]) -> tuple[int, ...]:
+def _neutrals(distinct: Colours, yarns: Sequence[Yarn], kept: tuple[int, ...], allowed: list[int]) -> list[int]:
+    """The yarns of a grey picture: the neutral ones and those kept; none where there is one, and of other pictures."""
+    tinted = distinct.counts[np.hypot(distinct.labs[:, 1], distinct.labs[:, 2]) > GREY].sum()
+    if tinted > MOST_TINTED * distinct.counts.sum():
+        return []
+    chroma = np.hypot(*yarn_labs(yarns)[:, 1:].T)
+    neutral = [number for number in allowed if chroma[number] <= NEUTRAL_CHROMA]
+    return [number for number in allowed if number in (*neutral, *kept)] if len(neutral) >= 2 else []
+
+
+def _indices(option: str, names: Iterable[str], yarns: Sequence[Yarn]) -> tuple[int, ...]:
     numbers = {yarn.name.casefold(): number for number, yarn in enumerate(yarns)}
     found = []
-    for name in yarn_names(option, text):
+    for name in names:
         if name.casefold() not in numbers:
             near = did_you_mean(name.casefold(), numbers, otherwise=f"the list has {_listed(yarns)}")
             raise YarnError(f"--{option}: the list has no yarn {shortened(name)!r}", do=near)

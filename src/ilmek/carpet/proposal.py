@@ -4,35 +4,47 @@ A drawing's shades are colours of the drawing: all of them where they are no mor
 total CIEDE2000 (k-medoids). A photo's shades are means of its colours (k-means from the k-medoids of its pooled
 colours): each colour goes to the shade of least CIEDE2000, each shade to the mean of its colours in CIELAB, while the
 total falls.
+
+A picture without a yarn list is tied in its own shades [`own_yarns`]: a shade within SAME of a wool that is in stock is
+that wool, and the others are dyed to order. A picture whose shades are all in stock is charted from the stock, and so
+is a drawing that it serves: each colour has a wool of its own, none farther than FAR, and their mean is at most NEAR.
 """
 
 import itertools
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.carpet.colour import lab_to_srgb, srgb_to_lab
 from ilmek.carpet.colour_difference import nearest
+from ilmek.carpet.colour_names import colour_name, unique_name
 from ilmek.carpet.palette import Colours, additions, difference_table, pooled, swap_while_better
 from ilmek.carpet.picture_points import hex_colour
 from ilmek.carpet.yarn import Yarn, yarn_labs
 from ilmek.progress import SILENT, Progress
 
-_CANDIDATES = 600
+SAME = 2.0
+"""CIEDE2000 below which a shade is taken for a wool in stock: beside each other they are hard to tell apart."""
+
+NEAR, FAR = 5.0, 12.0
+"""Mean and greatest CIEDE2000 to wools in stock for which nothing is dyed for a drawing; assumed by this project."""
+
+_CANDIDATES = 300
 """Largest number of pooled colours among which the medoids are."""
 
-_COLOURS = 60_000
-"""Largest number of pooled colours of which the means are formed."""
+_COLOURS = 6_000
+"""Largest number of colours of which the means are formed; more are pooled."""
 
 _ROUNDS = 12
 
 
 @dataclass(frozen=True, slots=True)
 class ProposedShade:
-    """A shade of a picture: sRGB codes, and the share of the knots to which it is the nearest shade [-]."""
+    """A shade of a picture: name, sRGB codes, and the share of the knots to which it is the nearest shade [-]."""
 
+    name: str
     srgb: tuple[int, int, int]
     share: float
 
@@ -44,54 +56,103 @@ class ProposedShade:
 
 @dataclass(frozen=True, slots=True)
 class MatchedShade:
-    """A proposed shade, its name, and the nearest yarn of another list with its CIEDE2000."""
+    """A proposed shade, and the nearest yarn of another list with its CIEDE2000."""
 
-    name: str
     shade: ProposedShade
     nearest: str
     difference: float
 
 
 def match_shades(shades: Sequence[ProposedShade], yarns: Sequence[Yarn]) -> tuple[MatchedShade, ...]:
-    """The shades, named by number, each with the nearest of the yarns."""
+    """The shades, each with the nearest of the yarns."""
     if not shades:
         return ()
     labs = srgb_to_lab(np.array([shade.srgb for shade in shades], dtype=np.uint8))
     index, difference = nearest(labs, yarn_labs(yarns))
-    found = zip(shades, index.tolist(), difference.tolist(), strict=True)
     return tuple(
-        MatchedShade(f"shade {number}", shade, yarns[yarn].name, delta_e)
-        for number, (shade, yarn, delta_e) in enumerate(found, start=1)
+        MatchedShade(shade, yarns[yarn].name, delta_e)
+        for shade, yarn, delta_e in zip(shades, index.tolist(), difference.tolist(), strict=True)
     )
 
 
 def propose_shades(
-    colours: Colours, count: int, *, drawn: bool, progress: Progress = SILENT
+    colours: Colours,
+    count: int,
+    *,
+    drawn: bool,
+    evenness: float = 0.0,
+    least_gain: float = 0.0,
+    progress: Progress = SILENT,
 ) -> tuple[ProposedShade, ...]:
-    """At most `count` shades of a picture, that with the most knots first.
+    """At most `count` shades of a picture, that with the most knots first, each with a name of its own.
 
-    drawn  the picture is a drawing: its shades are colours that it has
+    drawn     the picture is a drawing: its shades are colours that it has
+    evenness  0: a colour counts by its knots; 1: all alike; between, by a power of its knots, so that a face is not
+              given up for the ground
+    least_gain  gain in the mean CIEDE2000, so weighted, below which no shade is added to two
     """
-    if len(colours.labs) <= count:
-        shades = colours.labs
+    labs, knots = pooled(colours, _COLOURS, progress)
+    if len(labs) <= count:
+        shades = labs
     else:
-        shades = _medoids(colours, count, progress.part(0.0, 0.6))
+        shades = _medoids(
+            replace(colours, labs=labs, counts=knots), count, evenness, least_gain, progress.part(0.0, 0.6)
+        )
         if not drawn:
-            shades = _means(*pooled(colours, _COLOURS, progress), shades, progress.part(0.6, 1.0))
+            shades = _means(labs, knots ** (1.0 - evenness), shades, progress.part(0.6, 1.0))
     codes = np.unique(lab_to_srgb(shades), axis=0)
-    index, _ = nearest(colours.labs, srgb_to_lab(codes))
-    knots = np.bincount(index, weights=colours.counts, minlength=len(codes))
-    order = np.argsort(-knots, kind="stable").tolist()
-    total = float(knots.sum())
-    found = [(codes[number].tolist(), float(knots[number]) / total) for number in order]
-    return tuple(ProposedShade((red, green, blue), share) for (red, green, blue), share in found)
+    index, _ = nearest(labs, srgb_to_lab(codes))
+    shares = np.bincount(index, weights=knots, minlength=len(codes)) / float(knots.sum())
+    shades_by_name: dict[str, ProposedShade] = {}
+    for number in np.argsort(-shares, kind="stable").tolist():
+        red, green, blue = codes[number].tolist()
+        name = unique_name(colour_name(srgb_to_lab(codes[number])), shades_by_name)
+        shades_by_name[name] = ProposedShade(name, (red, green, blue), float(shares[number]))
+    return tuple(shades_by_name.values())
 
 
-def _medoids(colours: Colours, count: int, progress: Progress) -> FloatArray:
-    """The `count` colours with the least total CIEDE2000 over the picture."""
+def own_yarns(
+    shades: Sequence[ProposedShade], stock: Sequence[Yarn], never: frozenset[str], needed: frozenset[str]
+) -> tuple[tuple[Yarn, ...], tuple[ProposedShade, ...]]:
+    """The yarns of a picture's shades, in their order, and the shades that are dyed to order for them.
+
+    stock   wools that a shade within SAME of one is; they all have one count, and that of the dyed yarns
+    never   names of wools, in lower case, that no shade is      needed  names of wools that follow in any case
+    A dyed yarn costs as much as the dearest wool. Where all shades are wools in stock, the yarns are the stock.
+    """
+    labs, names = yarn_labs(stock), {yarn.name.casefold() for yarn in stock}
+    dearest = max((yarn.price for yarn in stock if yarn.price is not None), default=None)
+    found, dyed = dict[str, Yarn](), list[ProposedShade]()
+    for shade in shades:
+        lab = srgb_to_lab(np.array(shade.srgb, dtype=np.uint8))
+        number, difference = (one[0] for one in nearest(lab[None], labs))
+        wool = stock[number]
+        if difference < SAME and wool.name.casefold() not in never:
+            found[wool.name] = wool
+            continue
+        name = unique_name(colour_name(lab), {*names, *found})
+        lightness, a, b = lab.tolist()
+        found[name] = replace(wool, name=name, srgb=shade.srgb, lab=(lightness, a, b), price=dearest)
+        dyed.append(replace(shade, name=name))
+    if not dyed:
+        return tuple(stock), ()
+    extra = [wool for wool in stock if wool.name.casefold() in needed and wool.name not in found]
+    if len(found) + len(extra) < 2:
+        extra = [stock[int(nearest(srgb_to_lab(np.array([dyed[0].srgb], dtype=np.uint8)), labs)[0][0])]]
+    return (*found.values(), *extra), tuple(dyed)
+
+
+def _medoids(colours: Colours, count: int, evenness: float, least_gain: float, progress: Progress) -> FloatArray:
+    """The `count` colours, or fewer, with the least total CIEDE2000 over the picture."""
     candidates, knots = pooled(colours, _CANDIDATES, progress)
-    table = difference_table(candidates, knots, candidates, progress.part(0.0, 0.7))
-    begun = [yarn for yarn, _ in itertools.islice(additions(table), min(count, len(candidates)))]
+    weights = knots ** (1.0 - evenness)
+    table = difference_table(candidates, weights, candidates, progress.part(0.0, 0.7))
+    begun, before, enough = list[int](), np.inf, least_gain * float(weights.sum())
+    for yarn, total in itertools.islice(additions(table), min(count, len(candidates))):
+        if len(begun) >= 2 and before - total < enough:
+            break
+        begun.append(yarn)
+        before = total
     return np.asarray(candidates[swap_while_better(table, begun, progress.part(0.7, 1.0))])
 
 

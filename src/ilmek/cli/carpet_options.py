@@ -17,6 +17,10 @@ SIZES = "a standard size (seccade, kelle, ...) or width x length, like 120x180cm
 QUALITIES = "knots across x knots along, like 25x25/dm; also 40raj, 130kpsi, 62500/m2, 9/60 (India), 90line (China)"
 
 
+LISTS = ("keep", "never", "mapped")
+"""Parameters that are lists, whose options may be given again."""
+
+
 def carpet_options(command: F) -> F:
     """Options of a carpet: picture, size, quality, knot, yarns, output, and the parameters of the order's groups."""
     for option in reversed((*_CARPET, *_of_the_groups(), *_OUTPUT)):
@@ -43,10 +47,19 @@ def _option(parameter: Parameter) -> Callable[[F], F]:
     """The option of a parameter; its text is read and checked with the order."""
     name = (parameter.alias or parameter.name).replace("_", "-")
     meaning = f"{parameter.doc[0].upper()}{parameter.doc[1:]}"
+    if parameter.name in LISTS:
+        joined = "Several by semicolons, or the option again"
+        return click.option(
+            f"--{name}", parameter.name, multiple=True, callback=_one_text, metavar="TEXT", help=f"{meaning}. {joined}."
+        )
     if parameter.kind is bool:
         return click.option(f"--{name}/--no-{name}", parameter.name, default=None, help=f"{meaning}.")
     default = "" if parameter.default is None else f"; default: {_shown(parameter)}"
     return click.option(f"--{name}", parameter.name, metavar=_metavar(parameter), help=f"{meaning}{default}.")
+
+
+def _one_text(_context: click.Context, _option: click.Parameter, given: tuple[str, ...]) -> str | None:
+    return "; ".join(given) or None
 
 
 def _shown(parameter: Parameter) -> str:
@@ -80,7 +93,8 @@ _CARPET = (
         "yarn_file",
         type=click.Path(path_type=Path),
         metavar="FILE",
-        help="Yarn list: TOML, CSV or a GIMP palette (.gpl); default: that of a chart, the sixteen wools of ilmek.",
+        help="Yarn list: TOML, CSV or a GIMP palette (.gpl); wool: the sixteen wools of ilmek; default: that of a "
+        "chart, the picture's own shades, dyed to order where no wool is near.",
     ),
 )
 _OUTPUT = (

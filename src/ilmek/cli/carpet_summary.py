@@ -18,7 +18,7 @@ def carpet_pairs(charted: ChartResult) -> list[tuple[str, str]]:
         ("fit", made.fit.words),
         ("changes", changes_in_words(chart)),
         *([("overlay", overlay_in_words(chart))] if len(chart.overlay) else []),
-        ("colours", f"{chart.colours} of {len(charted.order.yarns)} yarns, {colours_in_words(chart)}"),
+        ("colours", f"{yarns_in_words(charted)}, {colours_in_words(chart)}"),
         ("yarn", f"{format_quantity(bill.mass, 'kg', 3)}, pile {format_quantity(bill.pile_mass, 'kg', 3)}"),
         ("carpet mass", mass_in_words(bill)),
         ("to buy", to_buy_in_words(charted)),
@@ -46,10 +46,20 @@ def changes_in_words(chart: Chart) -> str:
     return ", ".join(parts)
 
 
+def yarns_in_words(charted: ChartResult) -> str:
+    """The number of yarns that are used, of a list or dyed to order."""
+    chart, dyed = charted.chart, len(charted.chart.reading.dyed)
+    if dyed:
+        return f"{counted(chart.colours, 'yarn')}, {dyed} dyed to order"
+    return f"{chart.colours} of {len(charted.order.yarns)} yarns"
+
+
 def colours_in_words(chart: Chart) -> str:
     """The yarns' difference to the picture; of a drawing the colour that is farthest from its yarn."""
     made = chart.reading
     mean = f"mean ΔE {made.mean_delta_e:.2f} (least {made.least_delta_e:.2f})"
+    if made.edges_kept is not None:
+        mean += f", {format_quantity(made.edges_kept, '%', 3)} of the edges kept"
     if not made.matches:
         return mean
     worst = max(made.matches, key=lambda match: match.delta_e)

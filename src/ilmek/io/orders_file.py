@@ -30,6 +30,7 @@ from ilmek.errors import IlmekError, ParameterError
 from ilmek.io.data_text import read_data
 from ilmek.io.factory_entry import FactoryEntry, file_beside
 from ilmek.io.schema import SourceText, shown
+from ilmek.io.yarn_file import WOOL
 from ilmek.params import Parameter, Setting
 
 MOST_ORDERS = 500
@@ -140,7 +141,7 @@ class _OrderReader:
             self._late(row),
             row.count("priority", 1, 1, MOST_PRIORITY),
             {} if programme is not None else _settings(row, self.parameters),
-            self._file(row, "yarns"),
+            Path(WOOL) if row.data.get("yarns") == WOOL else self._file(row, "yarns"),
             f"{self.path}, line {row.source.lines.get(row.path, 1)}",
         )
 

@@ -57,7 +57,7 @@ from ilmek.io.data_text import read_data, values
 from ilmek.io.file_entry import FileEntry
 from ilmek.io.line_numbers import KeyLines
 from ilmek.io.schema import SourceText, shown
-from ilmek.io.yarn_file import read_yarns, yarns_from_records
+from ilmek.io.yarn_file import WOOL, default_yarns, read_yarns, yarns_from_records
 from ilmek.params import Parameter, Setting
 from ilmek.units import parse_quantity
 
@@ -182,6 +182,8 @@ class _RecipeReader:
             records = [row.data for row in self.root.rows("yarn")]
             with self._at(self.root, "yarn"):
                 return yarns_from_records(records), None
+        if self.root.data.get("yarns") == WOOL:
+            return default_yarns(), None
         file = self._file(self.root, "yarns")
         if file is None:
             return None, None
@@ -205,6 +207,8 @@ class _RecipeReader:
             with self._at(self.root, key):
                 if parameter.name in found:
                     raise ParameterError(f"{parameter.name} is given twice", do="leave one of them out")
+                if isinstance(value, dict) and parameter.name == "mapped":
+                    value = "; ".join(f"{colour}={yarn}" for colour, yarn in value.items())
                 if isinstance(value, list) and all(isinstance(one, str | int | float) for one in value):
                     names = parameter.name in ("keep", "never")
                     value = names_text(map(str, value)) if names else ", ".join(str(one) for one in value)

@@ -14,6 +14,7 @@ from ilmek.carpet.yarn import Yarn
 from ilmek.errors import CarpetError
 from ilmek.io.recipe_file import RecipeFile
 from ilmek.io.toml_text import toml_list, toml_section, toml_text
+from ilmek.io.yarn_file import WOOL, default_yarns
 from ilmek.units import cm
 
 SECTIONS = ("repeat", "border", "motif")
@@ -67,7 +68,9 @@ def _inside(path: Path, folder: Path) -> str:
 
 
 def _yarn_file(made: RecipeFile, folder: Path) -> str | None:
-    """The file of the yarns, if it lies in the folder; else the recipe has the yarns themselves."""
+    """The file of the yarns, if it lies in the folder, or WOOL; else the recipe has the yarns themselves."""
+    if made.yarns == default_yarns():
+        return WOOL
     file = made.yarn_file
     return None if file is None or not file.resolve().is_relative_to(folder.resolve()) else _inside(file, folder)
 

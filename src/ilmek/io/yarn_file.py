@@ -46,11 +46,16 @@ _GPL_COLOUR = re.compile(r"\s*(\d{1,3})\s+(\d{1,3})\s+(\d{1,3})(?:\s+(.*))?")
 
 FIELDS = ("name", "srgb", "lab", "nm", "ply", "price")
 
-_MISSING = "check the path, or leave out --yarns to use the built-in wool list"
+_MISSING = "check the path, or give --yarns wool: the wools that come with ilmek"
+
+WOOL = "wool"
+"""In the place of a file: the wools that come with ilmek."""
 
 
 def read_yarns(path: Path) -> tuple[Yarn, ...]:
-    """The yarns of a TOML, CSV or GPL file. Raises YarnError, naming the file and the line or yarn."""
+    """The yarns of a TOML, CSV or GPL file, or of WOOL. Raises YarnError, naming the file and the line or yarn."""
+    if str(path) == WOOL and not path.exists():
+        return default_yarns()
     reader = _READERS.get(path.suffix.lower())
     try:
         if reader is None and path.is_file():

@@ -18,6 +18,6 @@ def proposal_text(proposed: Sequence[MatchedShade]) -> str:
     parts = [f"{heading}\n# The count of the yarn follows from the quality; add nm and ply to state it.\n"]
     for one in proposed:
         comment = f"# {one.shade.share:.1%} of the knots; nearest shipped wool: {one.nearest}"
-        section = toml_section(("yarn",), {"name": one.name, "srgb": one.shade.hex}, many=True)
+        section = toml_section(("yarn",), {"name": one.shade.name, "srgb": one.shade.hex}, many=True)
         parts.append(f"{comment}, CIEDE2000 {one.difference:.1f}\n{section}\n")
     return "\n".join(parts)

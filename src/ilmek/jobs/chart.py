@@ -10,7 +10,6 @@ from ilmek.arrays import Rgb
 from ilmek.carpet.bill import YarnBill, YarnNeed, yarn_bill
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.fitting import Fit
-from ilmek.carpet.matches import shared_yarns
 from ilmek.carpet.pile import PileParams, fill_check, pile_fill
 from ilmek.carpet.statistics import ChartStatistics, chart_statistics
 from ilmek.carpet.yarn import Yarn
@@ -26,20 +25,23 @@ from ilmek.jobs.order import MOST_PRINTED, MOST_SHEETS, CarpetOrder, ResolvedOrd
 from ilmek.jobs.recipe import chart_of_recipe
 from ilmek.jobs.rows import rows_plan, write_rows
 from ilmek.jobs.stages import ANEW, Stages
-from ilmek.jobs.yarn_choice import PROPOSED, proposed_shades, twin_warnings, yarn_choice_results, yarn_notes
+from ilmek.jobs.yarn_choice import (
+    PROPOSED,
+    kept_checks,
+    proposed_shades,
+    twin_warnings,
+    yarn_choice_results,
+    yarn_notes,
+)
 from ilmek.jobs.yarn_warnings import yarn_warnings
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 from ilmek.report import Check, plain, verdict_json
 from ilmek.report.left_out import made_or_left_out
-from ilmek.units import counted
 from ilmek.viz.carpet_page import CarpetPage, carpet_page
 from ilmek.viz.carpet_picture import DrawnCarpet, check_carpet_width, draw_carpet
 
 CARPET_PICTURE, YARN_TABLE = "carpet.png", "yarn.csv"
-
-MOST_SHARED = 5
-"""Largest number of yarns with two or more colours that are named."""
 
 
 @record
@@ -92,14 +94,15 @@ class ChartResult:
 
     @property
     def checks(self) -> tuple[Check, ...]:
-        """Share of the ground that the pile fills, against 100 %."""
-        return (fill_check(pile_fill(self.chart.quality, self.thickest.linear_density, self.pile)),)
+        """Share of the ground that the pile fills, against 100 %; what the chart keeps of the picture."""
+        fill = fill_check(pile_fill(self.chart.quality, self.thickest.linear_density, self.pile))
+        return (fill, *kept_checks(self.chart, self.order.order))
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """Colours that have one yarn together, near twins, remedies for the checks that fail, the mass, dye lots."""
+        """Near twins, remedies for the checks that fail, the mass, dye lots."""
         of_yarns = yarn_warnings(self.chart, self.bill, self.thickest, self.checks[0])
-        return (*_shared_yarns(self.chart), *twin_warnings(self.chart), *of_yarns)
+        return (*twin_warnings(self.chart), *of_yarns)
 
 
 def chart_order(
@@ -169,19 +172,6 @@ def make_charted(
     return ChartResult(made.order, chart, bill, chart_statistics(chart), notes, made.source)
 
 
-def _shared_yarns(chart: Chart) -> tuple[str, ...]:
-    """A warning for each yarn that two or more colours of the drawing have, at most MOST_SHARED."""
-    shared = shared_yarns(chart.reading.matches)
-    warnings = [
-        f"the colours {' and '.join(sorted(match.hex for match in matches))} have the same yarn, "
-        f"{chart.yarns[matches[0].yarn].name!r}"
-        for matches in shared[:MOST_SHARED]
-    ]
-    more = len(shared) - MOST_SHARED
-    further = f"{counted(more, 'more yarn')} with two or more colours each"
-    return (*warnings, *((further,) if more > 0 else ()))
-
-
 def _left_out(order: CarpetOrder, chart: Chart) -> tuple[str, ...]:
     sheets, rows = chart_cut(chart).count, rows_plan(chart, order).notes
     if order.pdf is not None or sheets <= MOST_SHEETS:
@@ -201,13 +191,9 @@ def chart_results(charted: ChartResult) -> dict[str, Any]:
         "reading": reading.kind,
         "changed_knots": reading.changed,
         "edited_knots": reading.edited,
-        "matches": [
-            {"srgb": match.hex, "knots": match.knots, "yarn": chart.yarns[match.yarn].name, "delta_e": match.delta_e}
-            for match in reading.matches
-        ],
         "foreign_fraction": None if reading.foreign is None else reading.foreign / chart.knots.size,
         "fit": fit_results(reading.fit),
-        **yarn_choice_results(chart),
+        **yarn_choice_results(chart, charted.order.order),
         "mean_delta_e": reading.mean_delta_e,
         "least_delta_e": reading.least_delta_e,
         "half_knots": sum(chart.tied.half),

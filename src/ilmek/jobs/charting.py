@@ -73,7 +73,7 @@ def chart_of_order(
         reading = progress.part(0.0, 0.4)
         read = stages.keep("read", key, lambda: _read_file(order, file, reading, stages, with_source=with_source))
     made = replace(order, size=read.size, quality=read.quality).resolved()
-    rest = (order.reading, order.palette, made.size, made.quality, made.knot, made.yarns)
+    rest = (order.reading, order.palette, made.size, made.quality, made.knot, made.yarns, order.dyed)
 
     def chart_of() -> Chart:
         design = toned_design(stages.shown(read.design), order.reading.tone, progress.part(0.4, 0.5, "chart"))
@@ -86,11 +86,13 @@ def chart_of_order(
             fit=read.fit,
             reading=order.reading,
             palette=order.palette,
+            dyed=order.dyed,
             progress=progress.part(0.5, 1.0, "chart"),
         )
         return used_first(made_chart)
 
-    return OrderedChart(made, stages.keep("chart", (key, rest), chart_of), (*notes, *read.notes), read.source)
+    chart = stages.keep("chart", (key, rest), chart_of)
+    return OrderedChart(made.with_dyed(chart.yarns), chart, (*notes, *read.notes), read.source)
 
 
 def file_key(path: Path) -> tuple[Path, int, int]:

@@ -4,7 +4,7 @@ Its parameters stand in groups, `GROUPS`. Each parameter of a group is an option
 and a key of a recipe, `least_patch`; no two groups have a parameter of the same name.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
@@ -52,8 +52,8 @@ class CarpetOrder:
     """The order of a carpet.
 
     picture  file of the picture
-    size, quality, knot, yarns  default: those of the picture where it is a chart, else SIZE, QUALITY, KNOT and the wool
-             list that is built in
+    size, quality, knot, yarns  default: those of the picture where it is a chart, else SIZE, QUALITY, KNOT and the
+             picture's own shades: wools that come with ilmek where they are near, the others dyed to order
     fit      how the picture is fitted to the carpet        reading  how it is read
     palette  which yarns of the list are taken              plan     the yarn      files  the files of the folder
     pdf      print the chart; default: if it has few enough sheets (`MOST_SHEETS`)
@@ -85,10 +85,20 @@ class CarpetOrder:
         yarns = {} if self.yarn_file is None else {"the yarn list": self.yarn_file}
         return {"PICTURE": self.picture, **{f"{path.name} of the recipe": path for path in pictures}, **yarns}
 
+    @property
+    def dyed(self) -> bool:
+        """Whether the yarns are the picture's own shades: no list is given."""
+        return self.yarns is None
+
     def resolved(self) -> "ResolvedOrder":
-        """The order with the defaults for all that is left open; each yarn has its count."""
+        """The order with the defaults for all that is left open; each yarn has its count.
+
+        Where no list is given its yarns are the wools in stock; those that are dyed follow from the picture.
+        """
         quality, knot = self.quality or parse_quality(QUALITY), self.knot or KNOT
-        yarns = self.plan.counted(self.yarns or self.plan.priced(default_yarns()), quality, knot)
+        wools = default_yarns()
+        listed = self.plan.priced(wools) if self.yarns in (None, wools) else self.yarns
+        yarns = self.plan.counted(listed, quality, knot)
         return ResolvedOrder(self, self.size or parse_size(SIZE), quality, knot, yarns)
 
 
@@ -101,6 +111,11 @@ class ResolvedOrder:
     quality: Quality
     knot: str
     yarns: tuple[Yarn, ...]
+
+    def with_dyed(self, yarns: Sequence[Yarn]) -> "ResolvedOrder":
+        """The order with the yarns of a chart that its list does not have, those dyed for it, after the others."""
+        names = {yarn.name for yarn in self.yarns}
+        return replace(self, yarns=(*self.yarns, *(yarn for yarn in yarns if yarn.name not in names)))
 
     def as_dict(self) -> dict[str, Any]:
         """The order as plain data, SI."""
@@ -139,7 +154,7 @@ def read_order(
         "quality": None if quality is None else parse_quality(quality),
         "knot": None if knot is None else parse_knot(knot),
         "yarns": None if yarn_file is None else read_yarns(yarn_file),
-        "yarn_file": yarn_file,
+        "yarn_file": None if yarn_file is None or not yarn_file.exists() else yarn_file,
         "pdf": pdf,
         "notes": None if quality is None else tuple(filter(None, (gereh_note(quality),))),
     }

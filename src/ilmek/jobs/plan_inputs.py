@@ -203,7 +203,9 @@ def _programme_fit(digest: str, time: float, loom: ExistingLoom) -> LoomFit:
 
 def setup_of(chart: Chart) -> tuple[Any, ...]:
     """What two carpets have in common that need no new warp and no new tubes: warps, quality, knot, yarns."""
-    return chart.columns, chart.quality, chart.knot, frozenset(chart.yarns[index].name for index in chart.used)
+    # Two carpets may each have a yarn dyed for them of one name and two shades.
+    used_yarns = ((chart.yarns[index].name, chart.yarns[index].srgb) for index in chart.used)
+    return chart.columns, chart.quality, chart.knot, frozenset(used_yarns)
 
 
 def _yarn_names(orders: Sequence[PlannedOrder]) -> list[str]:

@@ -91,11 +91,13 @@ def _composed_chart(
             fit=composition.fit,
             reading=order.reading,
             palette=order.palette,
+            dyed=order.dyed,
             progress=progress.part(0.5, 0.8, "chart"),
         )
 
     composition, notes = stages.keep("composition", key, composed)
-    chart = stages.keep("chart", (key, made.knot, order.palette), charted)
+    chart = stages.keep("chart", (key, made.knot, order.palette, order.dyed), charted)
+    made = made.with_dyed(chart.yarns)
     source = shown_source(composition.design.colours) if with_source else None
     chart = finish(chart, recipe, _counted(made), composition, progress.part(0.8, 1.0, "edits"))
     return OrderedChart(made, used_first(chart), notes, source)

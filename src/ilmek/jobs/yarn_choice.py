@@ -1,12 +1,27 @@
-"""How the yarns of a chart were chosen, in words and by JSON names: merged yarns, twins, proposed shades."""
+"""How the yarns of a chart were chosen, in words and by JSON names: the yarn of each colour, merged yarns, twins, and
+shades of the picture; and what the chart keeps of the picture, as checks.
+"""
 
+import math
 from typing import Any
 
+import numpy as np
+
+from ilmek.carpet.assignment import NEUTRAL, NEUTRAL_CHROMA
 from ilmek.carpet.chart import Chart
-from ilmek.carpet.palette_rules import LEAST_DIFFERENCE, LEAST_GAIN, TwinYarns, twin_yarns
+from ilmek.carpet.colour import srgb_to_lab
+from ilmek.carpet.colour_difference import delta_e_2000
+from ilmek.carpet.colour_names import colour_name
+from ilmek.carpet.edges_kept import LostColour
+from ilmek.carpet.matches import ColourMatch
+from ilmek.carpet.palette_rules import LEAST_DIFFERENCE, LEAST_GAIN, NEUTRAL_NO, TwinYarns, twin_yarns
+from ilmek.carpet.picture_points import hex_colour
 from ilmek.carpet.proposal import MatchedShade, match_shades
 from ilmek.io.yarn_file import default_yarns
-from ilmek.units import format_quantity
+from ilmek.jobs.order import CarpetOrder
+from ilmek.report import Check
+from ilmek.report.check import at_least, at_most
+from ilmek.units import counted, format_quantity
 
 PROPOSED = "proposed.toml"
 """File of the proposed shades."""
@@ -38,8 +53,13 @@ def twin_warnings(chart: Chart) -> tuple[str, ...]:
 
 
 def yarn_notes(chart: Chart) -> tuple[str, ...]:
-    """The number of yarns that was found, and the yarns that were merged."""
+    """The yarns that are dyed, the number of yarns that was found, and the yarns that were merged."""
     palette, notes = chart.reading.palette, []
+    if dyed := chart.reading.dyed:
+        notes.append(
+            f"{len(dyed)} of {counted(chart.colours, 'yarn')} dyed to order: {PROPOSED} lists them; --yarns wool "
+            "keeps to the wools in stock"
+        )
     if (knee := palette.knee) is not None:
         further = "there are no more" if knee.next_mean is None else f"with one more it is {knee.next_mean:.2f}"
         notes.append(
@@ -53,11 +73,77 @@ def yarn_notes(chart: Chart) -> tuple[str, ...]:
     return tuple(notes)
 
 
-def yarn_choice_results(chart: Chart) -> dict[str, Any]:
+def kept_checks(chart: Chart, order: CarpetOrder) -> tuple[Check, ...]:
+    """The edges of the picture that the chart keeps, and the colours of a drawing that it loses, with their cure.
+
+    None for a chart that is taken as it is.
+    """
+    made, rules = chart.reading, order.palette
+    checks = []
+    if made.edges_kept is not None:
+        cure = _edges_cure(chart, order)
+        checks.append(at_least("edges of the picture kept", made.edges_kept, rules.least_edges, "%", _KEPT, cure=cure))
+    if made.matches:
+        share = sum(lost.share for lost in made.lost)
+        named = [f"{lost.hex} in {hex_colour(lost.beside)}: {_lost_cure(lost, chart, order)}" for lost in made.lost]
+        cure = "; ".join(named[:MOST_TWINS])
+        checks.append(at_most("colours of the drawing lost", share, rules.most_lost, "%", _KEPT, cure=cure))
+    return tuple(checks)
+
+
+_KEPT = "chosen by this project on drawings and photographs"
+
+
+def _lost_cure(lost: LostColour, chart: Chart, order: CarpetOrder) -> str:
+    if order.dyed:
+        return f"--colours {chart.colours + len(chart.reading.lost)}"
+    code, beside = (srgb_to_lab(np.array(srgb, dtype=np.uint8)) for srgb in (lost.srgb, lost.beside))
+    left = [yarn for yarn in order.yarns or () if yarn.name not in {one.name for one in chart.yarns}]
+    if order.palette.neutral != NEUTRAL_NO and np.hypot(*code[1:]) < NEUTRAL:
+        left = [yarn for yarn in left if math.hypot(*yarn.lab[1:]) <= NEUTRAL_CHROMA]
+    contrast = float(delta_e_2000(code, beside))
+    apart = [yarn for yarn in left if float(delta_e_2000(np.array(yarn.lab), beside)) > contrast]
+    if apart:
+        near = min(apart, key=lambda yarn: float(delta_e_2000(np.array(yarn.lab), code)))
+        return f"take {near.name!r} of the list as well (--keep, more --colours)"
+    return f"add a yarn like {lost.hex}, {colour_name(code)}, to the list, or leave out --yarns"
+
+
+def _edges_cure(chart: Chart, order: CarpetOrder) -> str:
+    """What brings edges back."""
+    shades = f"more --colours than {chart.colours}" if order.dyed else "the picture's own shades (leave out --yarns)"
+    halftone = chart.reading.kind == "photo" and order.reading.halftone < 1.0
+    return f"{shades}, or a halftone (--halftone 100%)" if halftone else shades
+
+
+def assignment_results(chart: Chart) -> list[dict[str, Any]]:
+    """The yarn of each colour of a drawing by JSON names; merged_with: the other colours of its yarn, but for twins."""
+    of_yarn: dict[int, list[ColourMatch]] = {}
+    for match in chart.reading.matches:
+        of_yarn.setdefault(match.yarn, []).append(match)
+    return [
+        {
+            "colour": match.hex,
+            "yarn": chart.yarns[match.yarn].name,
+            "delta_e": match.delta_e,
+            "knots": match.knots,
+            "merged_with": [other.hex for other in of_yarn[match.yarn] if other.group != match.group],
+        }
+        for match in chart.reading.matches
+    ]
+
+
+def yarn_choice_results(chart: Chart, order: CarpetOrder) -> dict[str, Any]:
     """Results by their JSON names."""
     palette = chart.reading.palette
     knee = palette.knee
     return {
+        "assignment": assignment_results(chart),
+        "edges_kept": chart.reading.edges_kept,
+        "lost": [
+            {"colour": lost.hex, "share": lost.share, "cure": _lost_cure(lost, chart, order)}
+            for lost in chart.reading.lost
+        ],
         "knee": None
         if knee is None
         else {"colours": knee.colours, "mean_delta_e": knee.mean, "next_mean_delta_e": knee.next_mean},
@@ -65,11 +151,12 @@ def yarn_choice_results(chart: Chart) -> dict[str, Any]:
         "twins": [{"yarns": list(one.names), "delta_e": one.difference} for one in twins_of(chart)],
         "proposed": [
             {
-                "name": one.name,
+                "name": one.shade.name,
                 "srgb": one.shade.hex,
                 "share": one.shade.share,
                 "nearest": one.nearest,
                 "delta_e": one.difference,
+                "dyed": one.shade.name in chart.reading.dyed,
             }
             for one in proposed_shades(chart)
         ],

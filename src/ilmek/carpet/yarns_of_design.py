@@ -1,0 +1,196 @@
+"""The yarns of a design: which it takes, and which of them each of its colours has.
+
+1. Without a list of the customer the yarns are the picture's own shades [`proposal.own_yarns`].
+2. The palette rules choose from the list [`palette_rules`].
+3. A drawing's colours get their yarns together [`assignment`], a photo's each the nearest. Pairs that are given hold.
+4. A photo that would lose its edges, because its tones lie between two yarns, has them stretched onto the range of
+   lightness of the yarns before they are matched.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from ilmek.arrays import Float, FloatArray, UInt8
+from ilmek.carpet.assignment import assign_yarns
+from ilmek.carpet.colour import srgb_to_lab
+from ilmek.carpet.colour_difference import delta_e_2000, nearest
+from ilmek.carpet.colour_groups import TWIN, ColourGroups, colour_groups
+from ilmek.carpet.edges_kept import edges_kept
+from ilmek.carpet.palette import Colours, nearest_yarns, paint
+from ilmek.carpet.palette_rules import (
+    LEAST_EDGES,
+    NEUTRAL_NO,
+    Palette,
+    PaletteParams,
+    check_palette,
+    choose_yarns,
+    mapped_colours,
+    yarn_names,
+)
+from ilmek.carpet.picture_points import hex_colour
+from ilmek.carpet.proposal import FAR, NEAR, ProposedShade, own_yarns, propose_shades
+from ilmek.carpet.reading import Design
+from ilmek.carpet.yarn import Yarn, yarn_labs
+from ilmek.errors import YarnError
+from ilmek.progress import SILENT, Progress
+from ilmek.records import record
+
+DRAWN_SHADES, PHOTO_SHADES = 24, 16
+"""Largest number of shades of a drawing and of a photo without a yarn list, unless the number of colours is given."""
+
+EVENNESS, LEAST_GAIN = 0.5, 0.15
+"""How evenly the colours of a photo count for its shades, and the least gain in mean CIEDE2000 of a further one; both
+chosen by looking at charts of photographs.
+"""
+
+_OWN = 1.0
+"""CIEDE2000 to a yarn within which a colour is drawn in that yarn, whatever the colours like it."""
+
+_ENDS = (0.5, 99.5)
+"""Percentiles of the knots between which the tones of a photo lie."""
+
+
+@record
+class YarnsOfDesign:
+    """The yarns of a design.
+
+    palette   the yarns, and how they were chosen      proposed  the shades that are dyed for it
+    yarn_of, difference  yarn of each distinct colour and CIEDE2000 of the two
+    least     mean CIEDE2000 of the knots, each with its nearest yarn
+    groups    of the colours of a drawing              stretched  the tones of a photo were stretched
+    """
+
+    palette: Palette
+    yarn_of: UInt8[np.ndarray, " colours"]
+    difference: Float[np.ndarray, " colours"]
+    least: float
+    proposed: tuple[ProposedShade, ...] = ()
+    groups: ColourGroups | None = None
+    stretched: bool = False
+
+
+def yarns_of_design(
+    distinct: Colours,
+    design: Design,
+    yarns: Sequence[Yarn],
+    rules: PaletteParams,
+    *,
+    dyed: bool = False,
+    progress: Progress = SILENT,
+) -> YarnsOfDesign:
+    """The yarns of a design.
+
+    yarns  the list, or with `dyed` the wools in stock, all with their counts      distinct  colours of the design
+    Raises YarnError for rules that the list cannot meet, and for a given pair whose colour the design does not have.
+    """
+    drawn = design.kind != "photo"
+    groups = colour_groups(design.colours, distinct) if drawn else None
+    proposed: tuple[ProposedShade, ...] = ()
+    if dyed:
+        yarns, proposed, rules = _own(distinct, groups, yarns, rules, progress.part(0.0, 0.3))
+    palette = choose_yarns(distinct, yarns, rules, progress.part(0.3, 0.6))
+    labs = yarn_labs(palette.yarns)
+    yarn_of, difference = nearest_yarns(distinct, labs, progress.part(0.6, 0.9))
+    least = float(np.sum(distinct.counts * difference)) / float(distinct.counts.sum())
+    pairs = _given_pairs(distinct, palette.yarns, rules, drawn=drawn)
+    stretched = False
+    if groups is not None:
+        fixed = {int(groups.of[of[0]]): yarn for of, yarn in pairs}
+        found = assign_yarns(groups, labs, fixed, neutral=rules.neutral != NEUTRAL_NO)[groups.of]
+        yarn_of = np.where(difference <= _OWN, yarn_of, found)
+    elif not proposed:
+        better = _stretched(distinct, design, labs, yarn_of, progress.part(0.9, 1.0))
+        stretched, yarn_of = better is not None, yarn_of if better is None else better
+    for of, yarn in pairs:
+        yarn_of[of] = yarn
+    return YarnsOfDesign(
+        palette, yarn_of, delta_e_2000(distinct.labs, labs[yarn_of]), least, proposed, groups, stretched
+    )
+
+
+def _own(
+    distinct: Colours, groups: ColourGroups | None, stock: Sequence[Yarn], rules: PaletteParams, progress: Progress
+) -> tuple[tuple[Yarn, ...], tuple[ProposedShade, ...], PaletteParams]:
+    """The picture's own shades as yarns, those that are dyed, and the rules as they act on these yarns."""
+    check_palette(replace(rules, colours=None, mapped=None), stock)
+    names = [name for _, name in mapped_colours(rules.mapped)]
+    needed = frozenset(name.casefold() for name in (*yarn_names("keep", rules.keep), *names))
+    count = PHOTO_SHADES if groups is None else DRAWN_SHADES
+    if isinstance(rules.colours, int):
+        count = max(2, rules.colours - len(needed))
+    shades_of = distinct
+    if groups is not None and len(distinct.counts) > count:
+        shades_of = replace(distinct, labs=groups.labs, counts=groups.knots.astype(np.int64))
+    if groups is None:
+        photo = {"evenness": EVENNESS, "least_gain": LEAST_GAIN if rules.colours is None else 0.0}
+        shades = propose_shades(distinct, count, drawn=False, **photo, progress=progress)
+    elif _served(groups, stock):
+        return tuple(stock), (), rules
+    else:
+        shades = propose_shades(shades_of, count, drawn=True, progress=progress)
+    never = frozenset(name.casefold() for name in yarn_names("never", rules.never))
+    yarns, dyed = own_yarns(shades, stock, never, needed)
+    if not dyed:
+        return yarns, (), rules
+    few = isinstance(rules.colours, int) and rules.colours >= len(yarns)
+    return yarns, dyed, replace(rules, never=None, colours=None if few else rules.colours)
+
+
+def _served(groups: ColourGroups, stock: Sequence[Yarn]) -> bool:
+    """Whether the wools in stock serve a drawing."""
+    wool, difference = nearest(groups.labs, yarn_labs(stock))
+    mean = float((groups.knots * difference).sum() / groups.knots.sum())
+    return len(np.unique(wool)) == len(wool) and mean <= NEAR and float(difference.max()) <= FAR
+
+
+def _given_pairs(
+    distinct: Colours, yarns: Sequence[Yarn], rules: PaletteParams, *, drawn: bool
+) -> list[tuple[np.ndarray, int]]:
+    """For each pair that is given the distinct colours that it means, the nearest first, and the index of its yarn.
+
+    Raises YarnError for a colour that the design does not have.
+    """
+    numbers = {yarn.name.casefold(): number for number, yarn in enumerate(yarns)}
+    found = []
+    for srgb, name in mapped_colours(rules.mapped):
+        difference = delta_e_2000(distinct.labs, srgb_to_lab(np.array(srgb, dtype=np.uint8)))
+        of = np.flatnonzero(difference <= (TWIN if drawn else 2 * TWIN))
+        if len(of) == 0:
+            raise YarnError(
+                f"--map {hex_colour(srgb)}: the design has no such colour",
+                allowed=f"like {', '.join(_frequent(distinct, difference))}",
+                do="give a colour that the chart's JSON lists under assignment",
+            )
+        found.append((of[np.argsort(difference[of], kind="stable")], numbers[name.casefold()]))
+    return found
+
+
+def _frequent(distinct: Colours, difference: FloatArray) -> list[str]:
+    """The nearest colour, then the most frequent ones."""
+    numbers = [int(difference.argmin()), *np.argsort(-distinct.counts, kind="stable")[:4].tolist()]
+    codes = np.flatnonzero(distinct.index)
+    of_number = dict(zip((distinct.index[codes] - 1).tolist(), codes.tolist(), strict=True))
+    wanted = dict.fromkeys(of_number[number] for number in numbers)
+    return [hex_colour((code >> 16, code >> 8 & 255, code & 255)) for code in wanted]
+
+
+def _stretched(
+    distinct: Colours, design: Design, labs: FloatArray, yarn_of: UInt8[np.ndarray, " colours"], progress: Progress
+) -> UInt8[np.ndarray, " colours"] | None:
+    """The nearest yarns of the tones stretched onto the yarns, where much is lost without and less with; else None."""
+    kept = edges_kept(design.colours, distinct, paint(design.colours, distinct, yarn_of), labs)
+    if kept is None or kept >= LEAST_EDGES:
+        return None
+    order = np.argsort(distinct.labs[:, 0])
+    place = np.cumsum(distinct.counts[order]) / float(distinct.counts.sum())
+    dark, light = (float(distinct.labs[order[np.searchsorted(place, end / 100)], 0]) for end in _ENDS)
+    least, most = float(labs[:, 0].min()), float(labs[:, 0].max())
+    if light - dark < 1.0:
+        return None
+    toned = distinct.labs.copy()
+    toned[:, 0] = least + (most - least) * (toned[:, 0] - dark) / (light - dark)
+    found, _ = nearest_yarns(replace(distinct, labs=toned), labs, progress)
+    knots = paint(design.colours, distinct, found)
+    return found if (edges_kept(design.colours, distinct, knots, labs) or 0.0) > kept else None
