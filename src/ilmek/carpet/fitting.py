@@ -16,7 +16,7 @@ from ilmek.carpet.design import LARGEST_DISTORTION, bands, distortion
 from ilmek.carpet.outline import find_outline
 from ilmek.carpet.picture_points import hex_colour, in_pixels, read_colour, read_points
 from ilmek.carpet.projection import MadeRgb, inner_rectangle, outer_rectangle, projected, rotation_about
-from ilmek.carpet.sizes import CarpetSize
+from ilmek.carpet.sizes import LARGEST, SMALLEST, CarpetSize
 from ilmek.carpet.straightening import check_corners, straightened, true_proportions
 from ilmek.errors import ParameterError, PictureError, shortened
 from ilmek.params import Params, kind
@@ -46,6 +46,21 @@ Colour: TypeAlias = tuple[int, int, int]
 class FitParams(Params):
     """How a picture is fitted to the carpet: straightened, turned, cropped and fitted, in this order."""
 
+    width: float | None = kind.length(
+        None,
+        unit="cm",
+        at_least=SMALLEST,
+        at_most=LARGEST,
+        doc="width of the carpet, whose length then follows from the picture",
+    )
+    length: float | None = kind.length(
+        None,
+        unit="cm",
+        at_least=SMALLEST,
+        at_most=LARGEST,
+        doc="length of the carpet, whose width then follows from the picture",
+    )
+
     fit: str = kind.choice(
         "auto",
         FITS,
@@ -66,6 +81,16 @@ class FitParams(Params):
     turn: float = kind.angle(
         0.0, at_least=-360 * deg, at_most=360 * deg, doc="angle by which the picture is turned clockwise, like 90deg"
     )
+
+    @property
+    def size(self) -> CarpetSize | None:
+        """The size of the carpet where both sides are given."""
+        return None if self.width is None or self.length is None else CarpetSize(self.width, self.length)
+
+    @property
+    def without_sides(self) -> "FitParams":
+        """The same without a side of the carpet, once its size is known."""
+        return replace(self, width=None, length=None)
 
     def check_together(self) -> None:
         """Raise ParameterError for texts that are no points or colours, and for a border colour without a border."""

@@ -10,10 +10,11 @@ from ilmek.arrays import Rgb
 from ilmek.carpet.chart import Chart, chart_of_design, used_first
 from ilmek.carpet.design import knot_grid, resampled
 from ilmek.carpet.exact import few_colours, has_grid, of_grid, stated_quality
-from ilmek.carpet.fitted import fitted_design, unfitted_design
+from ilmek.carpet.fitted import fitted_design, shaped_size, unfitted_design
 from ilmek.carpet.fitting import Fit, FitParams, fit_notes, prepare_picture
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.reading import Design, ReadParams, toned_design
+from ilmek.carpet.size_of_picture import unrounded_size
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import MOST_YARNS
 from ilmek.errors import PictureError
@@ -72,7 +73,7 @@ def chart_of_order(
     else:
         reading = progress.part(0.0, 0.4)
         read = stages.keep("read", key, lambda: _read_file(order, file, reading, stages, with_source=with_source))
-    made = replace(order, size=read.size, quality=read.quality).resolved()
+    made = _sized(order, read.size, read.quality).resolved()
     rest = (order.reading, order.palette, made.size, made.quality, made.knot, made.yarns)
 
     def chart_of() -> Chart:
@@ -129,7 +130,7 @@ def _read_file(
     del picture
     if order.size is not None and order.reading.reading == "auto" and order.fit.fit != FitParams().fit:
         order = replace(order, quality=order.resolved().quality)
-    size, fitting = order.resolved().size, order.fit
+    size, fitting = order.size, order.fit
     prepared, fit = stages.keep(
         "prepared",
         (file, fitting, size),
@@ -147,7 +148,13 @@ def _read_chart(
     """Read a chart as a drawing; given: the order without what it has of the chart."""
     prepared, fit = prepare_picture(drawn_chart(chart), order.fit, progress.part(0.0, 0.3))
     drawn = given.size is None and _is_part(prepared, chart)
-    order = replace(order, size=None) if drawn else order
+    if drawn:
+        rows, columns = prepared.shape[:2]
+        part = (columns / chart.quality.across) / (rows / chart.quality.along)
+        size = _with_its_proportions(given, part).size
+        drawn = size is None
+        quality = order.quality if drawn else given.quality or of_grid((rows, columns), size, None)[1]
+        order = replace(order, size=size, quality=quality)
     reading = progress.part(0.3, 1.0)
     read = _read(order, prepared, fit, reading, drawn=drawn, with_source=with_source)
     return replace(read, notes=(*_flattened(chart), *read.notes))
@@ -169,7 +176,7 @@ def _read(
         design, size, quality = exact
         check_sheets(size, quality, order)
         return _ReadPicture(size, quality, design, fit, (), shown_source(prepared) if with_source else None)
-    made = order.resolved()
+    made = _sized(order, order.size or shaped_size(prepared, order.resolved().quality, order.fit), order.quality).resolved()
     check_sheets(made.size, made.quality, order)
     reading = progress.part(0.35, 1.0)
     design, fitted, fit = fitted_design(
@@ -177,6 +184,11 @@ def _read(
     )
     notes = fit_notes(fit, fitted.shape[:2], made.size, knot_grid(made.size, made.quality))
     return _ReadPicture(made.size, made.quality, design, fit, notes, shown_source(fitted) if with_source else None)
+
+
+def _sized(order: CarpetOrder, size: CarpetSize, quality: Quality | None) -> CarpetOrder:
+    """The order with a size, and so without the one side that was given of it."""
+    return replace(order, size=size, quality=quality, fit=order.fit.without_sides)
 
 
 def _stated(order: CarpetOrder, picture: Picture) -> Quality | None:
@@ -221,6 +233,7 @@ def _own_chart(order: CarpetOrder, progress: Progress) -> tuple[Chart | None, tu
 def _on_the_chart(order: CarpetOrder, chart: Chart) -> CarpetOrder:
     """The order, with what it leaves open from the chart; a size or a quality alone keeps the chart's grid."""
     grid = chart.rows, chart.columns
+    order = _with_its_proportions(order, chart.size.width / chart.size.length)
     size = chart.size if order.size is not None and _same(order.size, chart.size) else order.size
     if (size or chart.size) == chart.size and (order.quality or chart.quality) == chart.quality:
         size, quality = chart.size, chart.quality
@@ -231,6 +244,14 @@ def _on_the_chart(order: CarpetOrder, chart: Chart) -> CarpetOrder:
     else:
         quality = order.quality
     return replace(order, size=size, quality=quality, knot=order.knot or chart.knot, yarns=order.yarns or chart.yarns)
+
+
+def _with_its_proportions(order: CarpetOrder, proportions: float) -> CarpetOrder:
+    """The order with its size, where it gives one side of a chart's."""
+    width, length = order.fit.width, order.fit.length
+    if width is None and length is None:
+        return order
+    return _sized(order, unrounded_size(proportions, width=width, length=length), order.quality)
 
 
 def _same(one: CarpetSize, other: CarpetSize) -> bool:
