@@ -92,7 +92,7 @@ def make_chart(
     density, knot = carpet_quality(quality), parse_knot(knot)
     listed = read_yarns(yarns) if yarns is None or isinstance(yarns, str | Path) else yarn_list(yarns, 2)
     chart = charting.make_chart(
-        _pixels(picture),
+        _pixels(picture, groups["fit"].ground),
         stated,
         density,
         groups["plan"].counted(listed, density, knot),
@@ -105,9 +105,10 @@ def make_chart(
     return charting.used_first(chart)
 
 
-def _pixels(picture: PictureLike) -> Rgb:
+def _pixels(picture: PictureLike, ground: str | None) -> Rgb:
     if isinstance(picture, str | Path):
-        return read_picture(picture).rgb
+        path = Arguments("a picture", PictureError).path("path", picture)
+        return pictures.read_picture(path, ground=ground).rgb
     return picture.rgb if isinstance(picture, Picture) else pictures.pixels_of(picture)
 
 

@@ -7,14 +7,13 @@ is: each of its pixels is a knot.
 
 import math
 from dataclasses import dataclass, replace
-from typing import TypeAlias
 
 import numpy as np
 
 from ilmek.arrays import Rgb
 from ilmek.carpet.design import LARGEST_DISTORTION, bands, distortion
 from ilmek.carpet.outline import find_outline
-from ilmek.carpet.picture_points import hex_colour, in_pixels, read_colour, read_points
+from ilmek.carpet.picture_points import Colour, hex_colour, in_pixels, read_colour, read_points
 from ilmek.carpet.projection import MadeRgb, inner_rectangle, outer_rectangle, projected, rotation_about
 from ilmek.carpet.sizes import LARGEST, SMALLEST, CarpetSize
 from ilmek.carpet.straightening import check_corners, straightened, true_proportions
@@ -38,9 +37,6 @@ _CREDIBLE = 0.1
 
 _SAME = 12
 """Largest difference of a channel within which the pixels of a border count as one colour."""
-
-Colour: TypeAlias = tuple[int, int, int]
-
 
 @dataclass(frozen=True, slots=True)
 class FitParams(Params):
@@ -67,8 +63,10 @@ class FitParams(Params):
         doc="what is done where the proportions of picture and carpet differ: crop about the centre, pad, stretch, or "
         "turn by 90 degrees where that suits better and then as auto; auto: up to 2 % is stretched, else cropped",
     )
-    border_colour: str | None = kind.text(
-        None, doc="colour of the border with fit pad, like #e8dfc8; default: that of the picture's border, else white"
+    ground: str | None = kind.text(
+        None,
+        doc="colour behind transparent parts and of margins, like #e8dfc8; default: white, behind nearly white art a dark "
+        "one; of margins that of the picture's border",
     )
     corners: str | None = kind.text(
         None,
@@ -93,15 +91,13 @@ class FitParams(Params):
         return replace(self, width=None, length=None)
 
     def check_together(self) -> None:
-        """Raise ParameterError for texts that are no points or colours, and for a border colour without a border."""
+        """Raise ParameterError for texts that are no points or colours."""
         if self.corners not in (None, AUTO):
             read_points("corners", self.corners, 4, CORNERS_EXAMPLE)
         if self.crop is not None:
             read_points("crop", self.crop, 2, CROP_EXAMPLE)
-        if self.border_colour is not None:
-            read_colour("border_colour", self.border_colour)
-            if self.fit != "pad":
-                raise ParameterError(f"border_colour is given, but fit={self.fit}", do="a border needs fit pad")
+        if self.ground is not None:
+            read_colour("ground", self.ground)
 
 
 @record
@@ -186,7 +182,7 @@ def fit_prepared(
     if rgb.shape[:2] == grid:
         return rgb, fit
     if params.fit == "pad":
-        border = read_colour("border", fit.border or params.border_colour or hex_colour(border_colour(rgb)))
+        border = read_colour("border", fit.border or params.ground or hex_colour(border_colour(rgb)))
         made = _padded(rgb, size, border, progress)
         padded = 1 - (1 - fit.padded) * _area(rgb) / _area(made)
         fit = replace(fit, padded=padded, border=hex_colour(border) if padded else None)
@@ -267,9 +263,9 @@ def _turned(rgb: Rgb, params: FitParams, progress: Progress) -> tuple[MadeRgb, F
     if params.fit == "pad":
         shape = outer_rectangle(width, height, params.turn)
         _check_padded(shape)
-        outside = params.border_colour or hex_colour(border_colour(rgb))
+        outside = params.ground or hex_colour(border_colour(rgb))
         fit = replace(fit, padded=1 - width * height / (shape[0] * shape[1]), border=outside)
-        border = read_colour("border_colour", outside)
+        border = read_colour("ground", outside)
     else:
         shape, border = inner_rectangle(width, height, params.turn), None
         fit = replace(fit, cropped=1 - shape[0] * shape[1] / (width * height))

@@ -12,6 +12,7 @@ from ilmek.carpet.design import knot_grid, resampled
 from ilmek.carpet.exact import few_colours, has_grid, of_grid, stated_quality
 from ilmek.carpet.fitted import fitted_design, shaped_size, unfitted_design
 from ilmek.carpet.fitting import Fit, FitParams, fit_notes, prepare_picture
+from ilmek.carpet.picture_points import hex_colour
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.reading import Design, ReadParams, toned_design
 from ilmek.carpet.size_of_picture import unrounded_size
@@ -121,24 +122,28 @@ def _read_file(
     order: CarpetOrder, file: object, progress: Progress, stages: Stages, *, with_source: bool
 ) -> _ReadPicture:
     """Read a picture that is no chart."""
-    picture = stages.keep("picture", file, lambda: read_picture(order.picture, progress.part(0.0, 0.5, "picture")))
+    ground, reading_file = order.fit.ground, progress.part(0.0, 0.5, "picture")
+    picture = stages.keep(
+        "picture", (file, ground), lambda: read_picture(order.picture, reading_file, ground=ground)
+    )
     rgb, notes = picture.rgb, picture.notes
     stated = _stated(order, picture)
     if stated is not None:
         order = replace(order, quality=stated)
         notes = (*notes, f"its resolution is that of knots: {stated}")
-    del picture
     if order.size is not None and order.reading.reading == "auto" and order.fit.fit != FitParams().fit:
         order = replace(order, quality=order.resolved().quality)
     size, fitting = order.size, order.fit
+    if picture.ground is not None:
+        fitting = replace(fitting, ground=hex_colour(picture.ground))
     prepared, fit = stages.keep(
         "prepared",
         (file, fitting, size),
         lambda: prepare_picture(rgb, fitting, progress.part(0.5, 0.6), size=size),
     )
-    del rgb
+    del rgb, picture
     reading = progress.part(0.6, 1.0, "chart")
-    read = _read(order, prepared, fit, reading, drawn=stated is not None, with_source=with_source)
+    read = _read(replace(order, fit=fitting), prepared, fit, reading, drawn=stated is not None, with_source=with_source)
     return replace(read, notes=(*notes, *read.notes))
 
 
@@ -195,7 +200,7 @@ def _stated(order: CarpetOrder, picture: Picture) -> Quality | None:
     """The quality that the picture states, where the order leaves size, quality and reading open."""
     if order.size is not None or order.quality is not None or order.reading.reading not in ("auto", "exact"):
         return None
-    return None if order.fit != FitParams() else stated_quality(picture.density, picture.rgb)
+    return None if replace(order.fit, ground=None) != FitParams() else stated_quality(picture.density, picture.rgb)
 
 
 def drawn_chart(chart: Chart) -> Rgb:

@@ -68,7 +68,7 @@ def _composed_chart(
     key = (plain, files, made.size, made.quality, made.yarns, order.fit, order.reading)
 
     def composed() -> tuple[Composition, tuple[str, ...]]:
-        pictures, notes = _pictures(recipe, progress.part(0.0, 0.3, "picture"), stages)
+        pictures, notes = _pictures(recipe, order.fit.ground, progress.part(0.0, 0.3, "picture"), stages)
         composition = compose(
             recipe,
             made.size,
@@ -141,7 +141,9 @@ def _counted(made: ResolvedOrder) -> tuple[Yarn, ...]:
     return with_counts(made.yarns, made.quality, made.knot)
 
 
-def _pictures(recipe: Recipe, progress: Progress, stages: Stages) -> tuple[Mapping[Path, Pixels], tuple[str, ...]]:
+def _pictures(
+    recipe: Recipe, ground: str | None, progress: Progress, stages: Stages
+) -> tuple[Mapping[Path, Pixels], tuple[str, ...]]:
     """The pixels of all pictures, and notes on them."""
     found, notes = {}, []
     files = recipe.pictures
@@ -149,17 +151,19 @@ def _pictures(recipe: Recipe, progress: Progress, stages: Stages) -> tuple[Mappi
         part = progress.part(number / len(files), (number + 1) / len(files))
         with located(where):
             smallest = SMALLEST if path == recipe.picture else 1
-            key = (file_key(path), smallest)
-            found[path], more = stages.keep("tile", key, partial(picture_pixels, path, smallest, part))
+            key = (file_key(path), smallest, ground)
+            found[path], more = stages.keep("tile", key, partial(picture_pixels, path, smallest, part, ground))
         notes += [f"{path.name}: {note}" for note in more]
     return found, tuple(notes)
 
 
-def picture_pixels(path: Path, smallest: int, progress: Progress) -> tuple[Pixels, tuple[str, ...]]:
+def picture_pixels(
+    path: Path, smallest: int, progress: Progress, ground: str | None = None
+) -> tuple[Pixels, tuple[str, ...]]:
     """The pixels of a picture, or of a chart that is none, which has its yarns' colours; and notes."""
     chosen = format_of(path)
     if chosen is None or chosen.picture:
-        picture = read_picture(path, progress, smallest=smallest)
+        picture = read_picture(path, progress, smallest=smallest, ground=ground)
         return picture.rgb, picture.notes
     chart, notes = read_chart(path, progress=progress)
     return drawn_chart(chart), notes
