@@ -18,8 +18,9 @@ A small picture of few colours, at most SMALL pixels long, is drawn knot by knot
 unless its edges are smoothed: they have mixes, more than a quarter of its details.
 
 Assumed by this project, from photos reduced to 8 to 64 colours, with and without dithering, and from drawings of
-carpets: all photos of 16 and more colours fail, all drawings with details of one knot pass. The small ones from some
-hundred icons: with smoothed edges 0.6 to 8 % are mixes and less than 2 % details, with hard ones 0 to 2 % beside 0 to 40 %.
+carpets: all photos of 16 and more colours fail, all drawings with details of one knot pass. The small ones from
+some hundred icons: with smoothed edges 0.6 to 8 % are mixes beside less than 2 % of details, with hard ones up to 2 %
+beside up to 40 %.
 """
 
 import math
@@ -52,8 +53,9 @@ SMALL, FEW = 128, 16
 """Greatest side [pixels] and number of colours of a small picture of few colours."""
 
 SMALL_ALIKE, SMALL_DETAILS, SMOOTHED = 0.45, 0.5, (0.002, 0.25)
-"""Least share of alike neighbours and greatest one of details in it; share of mixes, and their ratio to the details, above
-which its edges are smoothed."""
+"""Least share of alike neighbours and greatest one of details in it; share of mixes, and their ratio to the details,
+above which its edges are smoothed.
+"""
 
 LEAST_DETAILS, MOST_DETAILS, LEAST_ALIKE, LEAST_CONTRAST = 0.01, 0.25, 0.6, 0.6
 COARSEST_DRAWN, FINEST_DRAWN, MOST_OBLONG = 150.0, 2000.0, 2.0

@@ -92,7 +92,9 @@ _UNITS = {
 }
 _NUMBER = r"([+-]?(?:[0-9]{1,15}(?:\.[0-9]{0,40})?|\.[0-9]{1,40}))"
 _ONE_SIDE = re.compile(rf"\s*{_NUMBER}\s*[^\d\s.×x*]*\s*[x×*]?\s*")
-_OPEN_SIDES = re.compile(rf"\s*(?:{_NUMBER}\s*([^\d\s.×x*]*)|auto)\s*[x×*]\s*(?:{_NUMBER}\s*(\S*?)|auto)\s*", re.IGNORECASE)
+_OPEN_SIDES = re.compile(
+    rf"\s*(?:{_NUMBER}\s*([^\d\s.×x*]*)|auto)\s*[x×*]\s*(?:{_NUMBER}\s*(\S*?)|auto)\s*", re.IGNORECASE
+)
 _SIDES = re.compile(rf"\s*{_NUMBER}\s*([^\d\s.×x*]*)\s*[x×*]\s*{_NUMBER}\s*(\S*?)\s*", re.IGNORECASE)
 
 

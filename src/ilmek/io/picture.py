@@ -127,8 +127,8 @@ def read_picture(
     ground  colour behind transparent parts, `#rrggbb`; default: white, behind nearly white art a dark one
 
     The first frame is used, EXIF rotation applied, an embedded colour profile converted to sRGB, 16 bits reduced to 8,
-    CMYK and grey converted to RGB, transparency put on a ground; each with a note. Raises PictureError unless the file is
-    a picture of at least 8 x 8 pixels, at most 150 megapixels (`LARGEST`; some formats less) and at most 500 MB
+    CMYK and grey converted to RGB, transparency put on a ground; each with a note. Raises PictureError unless the file
+    is a picture of at least 8 x 8 pixels, at most 150 megapixels (`LARGEST`; some formats less) and at most 500 MB
     (`picture_file.MOST_BYTES`); Cancelled.
     """
     behind = None if ground is None else read_colour("ground", ground)

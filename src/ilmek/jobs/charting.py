@@ -40,12 +40,14 @@ class OrderedChart:
 
     source  the fitted picture, at most SHOWN pixels on its longer side; None where it is not wanted, and where the file
             is a chart that is taken as it is
+    whole   the same of the picture before it was cropped to the carpet's proportions; None where it was not
     """
 
     order: ResolvedOrder
     chart: Chart
     notes: tuple[str, ...]
     source: Rgb | None = None
+    whole: Rgb | None = None
 
 
 def chart_of_order(
@@ -92,7 +94,9 @@ def chart_of_order(
         )
         return used_first(made_chart)
 
-    return OrderedChart(made, stages.keep("chart", (key, rest), chart_of), (*notes, *read.notes), read.source)
+    return OrderedChart(
+        made, stages.keep("chart", (key, rest), chart_of), (*notes, *read.notes), read.source, read.whole
+    )
 
 
 def file_key(path: Path) -> tuple[Path, int, int]:
@@ -116,6 +120,7 @@ class _ReadPicture:
     fit: Fit
     notes: tuple[str, ...]
     source: Rgb | None
+    whole: Rgb | None = None
 
 
 def _read_file(
@@ -123,10 +128,8 @@ def _read_file(
 ) -> _ReadPicture:
     """Read a picture that is no chart."""
     ground, reading_file = order.fit.ground, progress.part(0.0, 0.5, "picture")
-    picture = stages.keep(
-        "picture", (file, ground), lambda: read_picture(order.picture, reading_file, ground=ground)
-    )
-    rgb, notes = picture.rgb, picture.notes
+    picture = stages.keep("picture", (file, ground), lambda: read_picture(order.picture, reading_file, ground=ground))
+    rgb, notes, behind = picture.rgb, picture.notes, picture.ground
     stated = _stated(order, picture)
     if stated is not None:
         order = replace(order, quality=stated)
@@ -134,8 +137,8 @@ def _read_file(
     if order.size is not None and order.reading.reading == "auto" and order.fit.fit != FitParams().fit:
         order = replace(order, quality=order.resolved().quality)
     size, fitting = order.size, order.fit
-    if picture.ground is not None:
-        fitting = replace(fitting, ground=hex_colour(picture.ground))
+    if behind is not None:
+        fitting = replace(fitting, ground=hex_colour(behind))
     prepared, fit = stages.keep(
         "prepared",
         (file, fitting, size),
@@ -144,6 +147,8 @@ def _read_file(
     del rgb, picture
     reading = progress.part(0.6, 1.0, "chart")
     read = _read(replace(order, fit=fitting), prepared, fit, reading, drawn=stated is not None, with_source=with_source)
+    if ground is not None and behind is None and not read.fit.padded:
+        notes = (*notes, f"ground={ground!r} is not seen: the picture has no transparent part and no margin")
     return replace(read, notes=(*notes, *read.notes))
 
 
@@ -181,14 +186,17 @@ def _read(
         design, size, quality = exact
         check_sheets(size, quality, order)
         return _ReadPicture(size, quality, design, fit, (), shown_source(prepared) if with_source else None)
-    made = _sized(order, order.size or shaped_size(prepared, order.resolved().quality, order.fit), order.quality).resolved()
+    size = order.size or shaped_size(prepared, order.resolved().quality, order.fit)
+    made = _sized(order, size, order.quality).resolved()
     check_sheets(made.size, made.quality, order)
     reading = progress.part(0.35, 1.0)
     design, fitted, fit = fitted_design(
         prepared, fit, made.size, made.quality, fitting=order.fit, reading=params, progress=reading
     )
     notes = fit_notes(fit, fitted.shape[:2], made.size, knot_grid(made.size, made.quality))
-    return _ReadPicture(made.size, made.quality, design, fit, notes, shown_source(fitted) if with_source else None)
+    source = shown_source(fitted) if with_source else None
+    whole = shown_source(prepared) if with_source and fit.frame is not None else None
+    return _ReadPicture(made.size, made.quality, design, fit, notes, source, whole)
 
 
 def _sized(order: CarpetOrder, size: CarpetSize, quality: Quality | None) -> CarpetOrder:

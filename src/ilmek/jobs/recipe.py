@@ -52,7 +52,7 @@ def chart_of_recipe(
         chart = replace(done.chart, reading=reading)
         chart = finish(chart, recipe, _counted(done.order), None, progress.part(0.8, 1.0, "edits"))
         chart = used_first(chart) if recipe.edits else chart
-        return OrderedChart(replace(done.order, order=given), chart, done.notes, done.source)
+        return replace(done, order=replace(done.order, order=given), chart=chart)
     made = _composed_chart(recipe, order, progress, stages, with_source=with_source)
     return replace(made, order=replace(made.order, order=given))
 
