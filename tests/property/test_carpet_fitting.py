@@ -137,7 +137,7 @@ def test_turning_resamples_about_the_centre(angle: float) -> None:
 
 def test_pad_keeps_the_corners_of_a_turned_picture() -> None:
     rgb = np.full((60, 80, 3), 200, dtype=np.uint8)
-    made, done = fit_picture(rgb, CarpetSize(1.0, 1.0), FitParams(fit="pad", turn=30 * deg, border_colour="#102030"))
+    made, done = fit_picture(rgb, CarpetSize(1.0, 1.0), FitParams(fit="pad", turn=30 * deg, ground="#102030"))
     assert made.shape[0] == made.shape[1] >= max(outer_rectangle(80, 60, 30 * deg))
     assert made[0, 0].tolist() == [16, 32, 48]
     shown = np.count_nonzero(made[..., 0] > 150)
@@ -183,8 +183,7 @@ def test_a_part_that_is_not_there_is_refused(text: str, message: str) -> None:
         ({"crop": "ten,ten"}, "no list of points"),
         ({"crop": "1,2 3,4 5,6"}, "3 points"),
         ({"crop": "1,2 " * 200}, "too long"),
-        ({"fit": "pad", "border_colour": "reddish"}, "no colour"),
-        ({"border_colour": "#ffffff"}, "needs fit pad"),
+        ({"ground": "reddish"}, "no colour"),
     ],
 )
 def test_texts_that_are_no_points_or_colours_are_refused(wrong: dict[str, str], message: str) -> None:

@@ -12,7 +12,7 @@ from ilmek.arrays import Rgb
 from ilmek.carpet import chart as charting
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.quality import Quality, carpet_quality
-from ilmek.carpet.sizes import CarpetSize, carpet_size
+from ilmek.carpet.sizes import AUTO, CarpetSize
 from ilmek.carpet.yarn import Yarn, yarn_list
 from ilmek.elements.knot_kinds import parse_knot
 from ilmek.errors import CarpetError, OutputError, ParameterError, PictureError, YarnError
@@ -23,7 +23,7 @@ from ilmek.io.output import Outputs
 from ilmek.io.picture import Picture
 from ilmek.jobs import weave as weaving
 from ilmek.jobs.loom import read_loom_order
-from ilmek.jobs.order import read_groups, read_order
+from ilmek.jobs.order import QUALITY, read_groups, read_order, read_size
 from ilmek.jobs.weave import WeaveResult
 from ilmek.params import Setting
 from ilmek.progress import SILENT, Progress
@@ -64,8 +64,8 @@ def read_yarns(path: str | Path | None = None) -> tuple[Yarn, ...]:
 
 def make_chart(
     picture: PictureLike,
-    size: str | CarpetSize,
-    quality: str | Quality,
+    size: str | CarpetSize = AUTO,
+    quality: str | Quality = QUALITY,
     yarns: YarnsLike = None,
     *,
     knot: str = "symmetric",
@@ -75,7 +75,8 @@ def make_chart(
     """The knot chart of a picture.
 
     picture  a path, a picture, or its pixels: rows x columns x 3, 0 to 255
-    size     like "120x180cm" or "seccade"      quality  like "40x40/dm"
+    size     like "120x180cm", "seccade" or "120cmxauto"; "auto": in the shape of the picture
+    quality  like "40x40/dm"
     yarns    a path, a list, or "wool": the list that is built in; default: the picture's own shades, which are wools of
              that list where one is near      knot  "symmetric" or "asymmetric"
     settings  of the fit, the reading, the palette and the counts of the yarns, by the names of the command line's
@@ -87,12 +88,13 @@ def make_chart(
     >>> chart.rows, chart.columns, chart.colours, sum(chart.counts)
     (40, 30, 4, 1200)
     """
-    groups = read_groups(settings)
+    stated, sides = read_size(size, settings)
+    groups = read_groups({**settings, **sides})
     density, knot = carpet_quality(quality), parse_knot(knot)
     listed = read_yarns(yarns) if yarns is None or isinstance(yarns, str | Path) else yarn_list(yarns, 2)
     chart = charting.make_chart(
-        _pixels(picture),
-        carpet_size(size),
+        _pixels(picture, groups["fit"].ground),
+        stated,
         density,
         groups["plan"].counted(listed, density, knot),
         dyed=yarns is None,
@@ -105,9 +107,10 @@ def make_chart(
     return charting.used_first(chart)
 
 
-def _pixels(picture: PictureLike) -> Rgb:
+def _pixels(picture: PictureLike, ground: str | None) -> Rgb:
     if isinstance(picture, str | Path):
-        return read_picture(picture).rgb
+        path = Arguments("a picture", PictureError).path("path", picture)
+        return pictures.read_picture(path, ground=ground).rgb
     return picture.rgb if isinstance(picture, Picture) else pictures.pixels_of(picture)
 
 
@@ -167,8 +170,8 @@ def weave(
 ) -> WeaveResult:
     """Picture to chart, yarn, loom, programme and report in the folder `out`, whole or not at all.
 
-    size, quality, knot, yarns  as of `make_chart`; `yarns` is a path; default: those of a chart, else 120 x 180 cm, 25
-                     knots/dm, symmetric and the picture's own shades
+    size, quality, knot, yarns  as of `make_chart`; `yarns` is a path; default: those of a chart, else a size in the
+                     shape of the picture, 25 knots/dm, symmetric and the picture's own shades
     heads, deadline  knotting heads; time for the whole carpet [s], like "72h"; default: chosen by aim; any time
     aim              "price" or "time": what is least in the choice of all that is left open; default: price
     warp_pitch       distance of two warps; default: that of the quality

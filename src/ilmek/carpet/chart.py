@@ -16,7 +16,7 @@ from ilmek.carpet.confetti import merge_patches
 from ilmek.carpet.design import bands, knot_grid
 from ilmek.carpet.differences import YarnDifference, differences
 from ilmek.carpet.edges_kept import LostColour, edges_kept, lost_colours
-from ilmek.carpet.fitted import fitted_design, unfitted_design
+from ilmek.carpet.fitted import fitted_design, shaped_size, unfitted_design
 from ilmek.carpet.fitting import Fit, FitParams, prepare_picture
 from ilmek.carpet.halftone import draw_halftone
 from ilmek.carpet.matches import ColourMatch, colour_matches
@@ -214,7 +214,7 @@ def used_first(chart: Chart) -> Chart:
 
 def make_chart(
     rgb: Rgb,
-    size: CarpetSize,
+    size: CarpetSize | None,
     quality: Quality,
     yarns: Sequence[Yarn],
     *,
@@ -227,8 +227,9 @@ def make_chart(
 ) -> Chart:
     """The knot chart of a picture.
 
-    rgb   picture, uint8 (height, width, 3)      fit, reading, palette  default: those of the classes
+    rgb   picture, uint8 (height, width, 3)      size  None: in the shape of the picture, of which `fit` may give a side
     dyed  the yarns are the picture's own shades, dyed to order, and those of the list that one of them is
+    fit, reading, palette  default: those of the classes
     Raises PictureError for an empty picture, CarpetError for an unknown knot and a grid out of bounds, YarnError for a
     list of less than 2 or more than 255 yarns, and for palette rules that no list of yarns meets.
     """
@@ -237,11 +238,13 @@ def make_chart(
     yarns = yarn_list(yarns, 2)
     parse_knot(knot)
     fitting, read = fit or FitParams(), reading or ReadParams()
+    size = size or fitting.size
     prepared, fitted = prepare_picture(rgb, fitting, progress.part(0.0, 0.1), size=size)
     exact = unfitted_design(prepared, size, quality, fitting=fitting, reading=read, progress=progress.part(0.1, 0.2))
     if exact is not None:
-        design = exact[0]
+        design, size, quality = exact
     else:
+        size = size or shaped_size(prepared, quality, fitting)
         design, _, fitted = fitted_design(
             prepared, fitted, size, quality, fitting=fitting, reading=read, progress=progress.part(0.2, 0.4)
         )

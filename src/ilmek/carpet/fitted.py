@@ -8,8 +8,15 @@ from ilmek.carpet.fitting import Fit, FitParams, fit_prepared
 from ilmek.carpet.projection import MadeRgb
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.reading import Design, ReadParams, exact_design, read_design
+from ilmek.carpet.size_of_picture import size_of_picture, unrounded_size
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.progress import SILENT, Progress
+
+
+def shaped_size(prepared: Rgb, quality: Quality, fitting: FitParams) -> CarpetSize:
+    """The size of a carpet in the shape of a prepared picture, of which the fit may give one side."""
+    height, width = prepared.shape[:2]
+    return size_of_picture(width / height, quality, width=fitting.width, length=fitting.length)
 
 
 def unfitted_design(
@@ -24,10 +31,14 @@ def unfitted_design(
 ) -> tuple[Design, CarpetSize, Quality] | None:
     """As `reading.exact_design`, of a picture that is not fitted yet.
 
-    A fit that is given may still make the grid of the knots, so an exact reading is not required before it.
+    A fit that is given may still make the grid of the knots, so an exact reading is not required before it. Where the
+    fit gives one side of the carpet, the other has the proportions of the pixels.
     """
     if reading.reading == "exact" and fitting.fit != FitParams().fit:
         reading = replace(reading, reading="auto")
+    if size is None and (fitting.width is not None or fitting.length is not None):
+        height, width = prepared.shape[:2]
+        size = unrounded_size(width / height, width=fitting.width, length=fitting.length)
     return exact_design(prepared, size, quality, reading, drawn=drawn, progress=progress)
 
 
@@ -52,5 +63,4 @@ def fitted_design(
     exact = exact_design(fitted, size, quality, reading, progress=progress.part(0.1, 0.3))
     if exact is not None:
         return exact[0], fitted, fit
-    inner = prepared if fit.padded else None
-    return read_design(fitted, grid, reading, progress.part(0.3, 1.0), unpadded=inner), fitted, fit
+    return read_design(fitted, grid, reading, progress.part(0.3, 1.0), judged=prepared), fitted, fit

@@ -7,18 +7,18 @@ is: each of its pixels is a knot.
 
 import math
 from dataclasses import dataclass, replace
-from typing import TypeAlias
 
 import numpy as np
 
 from ilmek.arrays import Rgb
 from ilmek.carpet.design import LARGEST_DISTORTION, bands, distortion
 from ilmek.carpet.outline import find_outline
-from ilmek.carpet.picture_points import hex_colour, in_pixels, read_colour, read_points
+from ilmek.carpet.picture_points import Colour, hex_colour, in_pixels, read_colour, read_points
 from ilmek.carpet.projection import MadeRgb, inner_rectangle, outer_rectangle, projected, rotation_about
-from ilmek.carpet.sizes import CarpetSize
+from ilmek.carpet.sizes import LARGEST, SMALLEST, CarpetSize
 from ilmek.carpet.straightening import check_corners, straightened, true_proportions
-from ilmek.errors import ParameterError, PictureError, shortened
+from ilmek.carpet.subject import subject_start
+from ilmek.errors import PictureError, shortened
 from ilmek.params import Params, kind
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
@@ -34,26 +34,44 @@ MOST_PADDED = 200_000_000
 AUTO = "auto"
 
 _CREDIBLE = 0.1
-"""Largest relative difference within which a photographed carpet has the proportions of the carpet to be woven."""
+"""Largest relative difference within which a photographed carpet has the proportions of what is woven of it."""
+
+_CLEARLY = 0.2
+"""Difference of two relative differences of proportions from which a photographed carpet lies where its size stands."""
 
 _SAME = 12
 """Largest difference of a channel within which the pixels of a border count as one colour."""
-
-Colour: TypeAlias = tuple[int, int, int]
 
 
 @dataclass(frozen=True, slots=True)
 class FitParams(Params):
     """How a picture is fitted to the carpet: straightened, turned, cropped and fitted, in this order."""
 
+    width: float | None = kind.length(
+        None,
+        unit="cm",
+        at_least=SMALLEST,
+        at_most=LARGEST,
+        doc="width of the carpet, whose length then follows from the picture",
+    )
+    length: float | None = kind.length(
+        None,
+        unit="cm",
+        at_least=SMALLEST,
+        at_most=LARGEST,
+        doc="length of the carpet, whose width then follows from the picture",
+    )
+
     fit: str = kind.choice(
         "auto",
         FITS,
-        doc="what is done where the proportions of picture and carpet differ: crop about the centre, pad, stretch, or "
+        doc="what is done where the proportions of picture and carpet differ: crop about the subject, pad, stretch, or "
         "turn by 90 degrees where that suits better and then as auto; auto: up to 2 % is stretched, else cropped",
     )
-    border_colour: str | None = kind.text(
-        None, doc="colour of the border with fit pad, like #e8dfc8; default: that of the picture's border, else white"
+    ground: str | None = kind.text(
+        None,
+        doc="colour behind transparent parts and of margins, like #e8dfc8; default: white, dark behind nearly "
+        "white art; of margins that of the picture's border",
     )
     corners: str | None = kind.text(
         None,
@@ -67,16 +85,24 @@ class FitParams(Params):
         0.0, at_least=-360 * deg, at_most=360 * deg, doc="angle by which the picture is turned clockwise, like 90deg"
     )
 
+    @property
+    def size(self) -> CarpetSize | None:
+        """The size of the carpet where both sides are given."""
+        return None if self.width is None or self.length is None else CarpetSize(self.width, self.length)
+
+    @property
+    def without_sides(self) -> "FitParams":
+        """The same without a side of the carpet, once its size is known."""
+        return replace(self, width=None, length=None)
+
     def check_together(self) -> None:
-        """Raise ParameterError for texts that are no points or colours, and for a border colour without a border."""
+        """Raise ParameterError for texts that are no points or colours."""
         if self.corners not in (None, AUTO):
             read_points("corners", self.corners, 4, CORNERS_EXAMPLE)
         if self.crop is not None:
             read_points("crop", self.crop, 2, CROP_EXAMPLE)
-        if self.border_colour is not None:
-            read_colour("border_colour", self.border_colour)
-            if self.fit != "pad":
-                raise ParameterError(f"border_colour is given, but fit={self.fit}", do="a border needs fit pad")
+        if self.ground is not None:
+            read_colour("ground", self.ground)
 
 
 @record
@@ -86,6 +112,7 @@ class Fit:
     kind     whole: its proportions are the carpet's; else stretch, crop or pad
     stretch  of the picture's width against its height [-]; negative where it is compressed
     cropped  share of the straightened and turned picture that the carpet does not show [-]
+    frame    left, top, right and bottom of what it shows, in shares of the sides of the prepared picture; None: all
     padded   share of the carpet that is border [-]        border  colour of that border, `#rrggbb`
     turned   angle by which the picture was turned clockwise [rad]
     corners  of the carpet in the photograph [pixels]; None: it was not straightened
@@ -95,6 +122,7 @@ class Fit:
     kind: str = "whole"
     stretch: float = 0.0
     cropped: float = 0.0
+    frame: tuple[float, float, float, float] | None = None
     padded: float = 0.0
     border: str | None = None
     turned: float = 0.0
@@ -126,11 +154,11 @@ def prepare_picture(
 ) -> tuple[MadeRgb, Fit]:
     """The picture straightened, turned by a stated angle and cropped to a stated part, and what was done.
 
-    size  proportions within 10 % of which a photographed carpet is taken to have them; default: those of its corners
+    size  of the carpet, whose proportions a photographed carpet has; default: those of its corners in perspective
 
     Raises PictureError for corners of no rectangle, and for a part that is empty or not in the picture.
     """
-    rgb, straight = _straightened(rgb, params, size, progress.part(0.0, 0.6))
+    rgb, straight, params = _straightened(rgb, params, size, progress.part(0.0, 0.6))
     picture, fit = _turned(rgb, params, progress.part(0.6, 1.0))
     fit = replace(fit, corners=straight.corners, clearness=straight.clearness)
     if params.crop is None:
@@ -161,30 +189,33 @@ def fit_prepared(
     if rgb.shape[:2] == grid:
         return rgb, fit
     if params.fit == "pad":
-        border = read_colour("border", fit.border or params.border_colour or hex_colour(border_colour(rgb)))
+        border = read_colour("border", fit.border or params.ground or hex_colour(border_colour(rgb)))
         made = _padded(rgb, size, border, progress)
         padded = 1 - (1 - fit.padded) * _area(rgb) / _area(made)
         fit = replace(fit, padded=padded, border=hex_colour(border) if padded else None)
     elif params.fit == "stretch" or (params.fit != "crop" and abs(distortion(rgb, size)) <= LARGEST_DISTORTION):
         made = rgb
     else:
-        made = _centre(rgb, size)
-        fit = replace(fit, cropped=1 - (1 - fit.cropped) * _area(made) / _area(rgb))
+        made, frame = _about_the_subject(rgb, size)
+        fit = replace(fit, cropped=1 - (1 - fit.cropped) * _area(made) / _area(rgb), frame=frame)
     stretch = distortion(made, size)
     name = "pad" if fit.padded else "crop" if made.shape != rgb.shape else "stretch" if stretch else "whole"
     return made, replace(fit, kind=name, stretch=stretch)
 
 
 def fit_notes(fit: Fit, pixels: tuple[int, ...], size: CarpetSize, grid: tuple[int, int]) -> tuple[str, ...]:
-    """Notes on a picture that is cropped, padded, stretched, or coarser than the carpet.
+    """Notes on a picture that is cropped, stretched, or coarser than the carpet.
 
     pixels  height and width of the fitted picture      grid  rows and columns of knots
     """
     (height, width), (rows, columns) = pixels, grid
     notes = []
-    if max(abs(fit.stretch), fit.cropped, fit.padded) > LARGEST_DISTORTION:
-        others = "; --fit offers crop, pad, stretch and turn" if fit.kind != "whole" else ""
-        notes.append(f"the picture is fitted to {size}: {fit.words}{others}")
+    if fit.frame is not None or abs(fit.stretch) > LARGEST_DISTORTION:
+        done = "cut off" if fit.frame is not None else "stretched"
+        notes.append(
+            f"the picture has other proportions than {size} and is {done}: --size auto keeps it as it is, one side, "
+            "--width or --length, gives the other, and --fit offers crop, pad, stretch and turn"
+        )
     if width < columns or height < rows:
         knots = f"{columns} x {rows} knots"
         notes.append(
@@ -207,10 +238,16 @@ def border_colour(rgb: Rgb) -> Colour:
     return (red, green, blue) if 2 * np.count_nonzero(near) >= len(border) else (255, 255, 255)
 
 
-def _straightened(rgb: Rgb, params: FitParams, size: CarpetSize | None, progress: Progress) -> tuple[MadeRgb, Fit]:
-    """The carpet between the corners, with its true proportions; those of the size, or of the turned size, if near."""
+def _straightened(
+    rgb: Rgb, params: FitParams, size: CarpetSize | None, progress: Progress
+) -> tuple[MadeRgb, Fit, FitParams]:
+    """The carpet between the corners with its true proportions, and how it is to be turned then.
+
+    They are those of the size, so that nothing of the carpet is cut; those of the perspective where no size is given,
+    and where it is that of a part. A carpet that lies in the photograph is turned to stand as its size does.
+    """
     if params.corners is None:
-        return rgb, Fit()
+        return rgb, Fit(), params
     height, width = int(rgb.shape[0]), int(rgb.shape[1])
     if params.corners == AUTO:
         corners, clearness = find_outline(rgb, progress.part(0.0, 0.3))
@@ -220,14 +257,16 @@ def _straightened(rgb: Rgb, params: FitParams, size: CarpetSize | None, progress
     check_corners(corners, width, height, f"corners={shortened(params.corners)!r}")
     proportions = true_proportions(corners, width, height)
     if size is not None:
-        turned = params.turn % math.pi
-        wanted = size.width / size.length
-        for one in (1 / wanted, wanted) if math.pi / 4 < turned < 3 * math.pi / 4 else (wanted, 1 / wanted):
-            if abs(proportions / one - 1) <= _CREDIBLE:
-                proportions = one
-                break
+        wanted, turned = size.width / size.length, params.turn % math.pi
+        crosswise = math.pi / 4 < turned < 3 * math.pi / 4
+        lies = abs(math.log(proportions * wanted)) + _CLEARLY < abs(math.log(proportions / wanted))
+        if lies and params.turn == 0.0 and params.crop is None:
+            params, crosswise = replace(params, turn=math.pi / 2), True
+        of_the_size = 1 / wanted if crosswise else wanted
+        if params.crop is None or abs(proportions / of_the_size - 1) <= _CREDIBLE:
+            proportions = of_the_size
     picture = straightened(rgb, corners, proportions, progress.part(0.3, 1.0))
-    return picture, Fit(corners=tuple((x, y) for x, y in corners.tolist()), clearness=clearness)
+    return picture, Fit(corners=tuple((x, y) for x, y in corners.tolist()), clearness=clearness), params
 
 
 def _turned(rgb: Rgb, params: FitParams, progress: Progress) -> tuple[MadeRgb, Fit]:
@@ -242,9 +281,9 @@ def _turned(rgb: Rgb, params: FitParams, progress: Progress) -> tuple[MadeRgb, F
     if params.fit == "pad":
         shape = outer_rectangle(width, height, params.turn)
         _check_padded(shape)
-        outside = params.border_colour or hex_colour(border_colour(rgb))
+        outside = params.ground or hex_colour(border_colour(rgb))
         fit = replace(fit, padded=1 - width * height / (shape[0] * shape[1]), border=outside)
-        border = read_colour("border_colour", outside)
+        border = read_colour("ground", outside)
     else:
         shape, border = inner_rectangle(width, height, params.turn), None
         fit = replace(fit, cropped=1 - shape[0] * shape[1] / (width * height))
@@ -288,11 +327,16 @@ def _of_same_parity(side: float, like: int) -> int:
     return max(2 * round((side - odd) / 2) + odd, 2 - odd)
 
 
-def _centre(rgb: Rgb, size: CarpetSize) -> MadeRgb:
-    """The largest part about the centre with the carpet's proportions."""
+def _about_the_subject(rgb: Rgb, size: CarpetSize) -> tuple[MadeRgb, tuple[float, float, float, float] | None]:
+    """The largest part with the carpet's proportions about the subject, and its frame."""
+    whole = int(rgb.shape[0]), int(rgb.shape[1])
     height, width = _sides(rgb, size, larger=False)
-    top, left = (rgb.shape[0] - height) // 2, (rgb.shape[1] - width) // 2
-    return rgb[top : top + height, left : left + width]
+    if (height, width) == whole:
+        return rgb, None
+    top = 0 if height == whole[0] else subject_start(rgb, height, across=False)
+    left = 0 if width == whole[1] else subject_start(rgb, width, across=True)
+    frame = left / whole[1], top / whole[0], (left + width) / whole[1], (top + height) / whole[0]
+    return rgb[top : top + height, left : left + width], frame
 
 
 def _padded(rgb: Rgb, size: CarpetSize, border: Colour, progress: Progress) -> MadeRgb:

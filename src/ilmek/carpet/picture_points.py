@@ -13,6 +13,9 @@ from ilmek.units import counted
 Points: TypeAlias = Float[np.ndarray, "points 2"]
 """x to the right and y downwards [pixels]; (0, 0) is the upper left corner of the first pixel."""
 
+Colour: TypeAlias = tuple[int, int, int]
+"""Codes of sRGB, 0 to 255."""
+
 LONGEST = 400
 """Largest number of characters of a list of points."""
 
@@ -72,7 +75,7 @@ def hex_colour(srgb: Sequence[int]) -> str:
 def read_colour(name: str, text: str) -> tuple[int, int, int]:
     """The codes of `#rrggbb`, also without #. Raises ParameterError.
 
-    >>> read_colour("border_colour", "#e8dfc8")
+    >>> read_colour("ground", "#e8dfc8")
     (232, 223, 200)
     """
     found = _COLOUR.fullmatch(text)

@@ -139,19 +139,21 @@ def read_design(
     params: ReadParams | None = None,
     progress: Progress = SILENT,
     *,
-    unpadded: MadeRgb | None = None,
+    judged: MadeRgb | None = None,
 ) -> Design:
     """The design of a fitted picture that is not exact, on a grid of rows and columns.
 
-    unpadded  the picture without the border that fits it to the carpet: an even border makes no drawing of a photo
+    judged  the picture before it is fitted, which tells a drawing from a photo: so the size of the carpet changes
+            nothing, and an even border makes no drawing of a photo; default: the fitted picture
     """
     params = params or ReadParams()
     if params.reading == "photo":
         return _photo(rgb, grid, params, "as required", progress)
-    seen = looks_flat(rgb if unpadded is None else unpadded)
+    seen = looks_flat(rgb if judged is None else judged)
     if params.reading == "auto" and not seen.is_flat:
         return _photo(rgb, grid, params, seen.sentence, progress)
-    flat = flat_design(rgb, grid, progress, seen.true if unpadded is None else None)
+    padded = judged is not None and rgb.size > judged.size
+    flat = flat_design(rgb, grid, progress, None if padded else seen.true)
     required = "as required; " if params.reading == "flat" and not seen.is_flat else ""
     axes = f"; symmetric about the {' and the '.join(flat.symmetric)} axis" if flat.symmetric else ""
     return toned_design(Design(flat.colours, "flat", required + seen.sentence + axes, flat.foreign), params.tone)

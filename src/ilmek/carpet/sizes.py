@@ -1,4 +1,4 @@
-"""Carpet sizes: Turkish standard names, and any width × length.
+"""Carpet sizes: Turkish standard names, and any width × length; a side that is `auto` follows from the picture.
 
 Source: thesis, Table 1.1 (which gives length × width in cm).
 
@@ -56,6 +56,9 @@ class CarpetSize:
 
 SMALLEST, LARGEST = 0.01, 50.0
 EXAMPLE = "write it width x length, like 120x180cm"
+OPEN_EXAMPLE = "write the other side, or auto where it follows from the picture: 120cmxauto, autox180cm"
+AUTO = "auto"
+"""The side, or the size, that follows from the picture."""
 
 STANDARD_SIZES: dict[str, CarpetSize] = {
     size.name: size
@@ -71,6 +74,9 @@ STANDARD_SIZES: dict[str, CarpetSize] = {
 }
 """Thesis, Table 1.1; it gives seccade as 180 × 120 to 200 × 130 cm, here the two ends of that range."""
 
+LEAST_BARE = 10
+"""Least number without a unit that is taken for centimetres beside `auto`: 1.2 may be metres."""
+
 _OTHER_NAMES = {"seccade-130x200": "seccade-large", "seccade-120x180": "seccade"}
 _OPEN_NAMES = {
     "taban": "a taban is any carpet above 6 m²: give its size, like 250x350cm",
@@ -85,6 +91,10 @@ _UNITS = {
     **dict.fromkeys(("ft", "foot", "feet", "'", "′"), Fraction("0.3048")),
 }
 _NUMBER = r"([+-]?(?:[0-9]{1,15}(?:\.[0-9]{0,40})?|\.[0-9]{1,40}))"
+_ONE_SIDE = re.compile(rf"\s*{_NUMBER}\s*[^\d\s.×x*]*\s*[x×*]?\s*")
+_OPEN_SIDES = re.compile(
+    rf"\s*(?:{_NUMBER}\s*([^\d\s.×x*]*)|auto)\s*[x×*]\s*(?:{_NUMBER}\s*(\S*?)|auto)\s*", re.IGNORECASE
+)
 _SIDES = re.compile(rf"\s*{_NUMBER}\s*([^\d\s.×x*]*)\s*[x×*]\s*{_NUMBER}\s*(\S*?)\s*", re.IGNORECASE)
 
 
@@ -115,10 +125,36 @@ def parse_size(text: str) -> CarpetSize:
     if _key(text) in _OPEN_NAMES:
         raise CarpetError(f"{text.strip()!r} names no size", allowed=_OPEN_NAMES[_key(text)])
     matched = _SIDES.fullmatch(text)
+    if _ONE_SIDE.fullmatch(text):
+        raise CarpetError(f"size {text!r} has one side", allowed="width x length", do=OPEN_EXAMPLE)
     if matched is None:
         raise CarpetError(f"unknown size {text!r}", allowed=_near_names(text), do=f"or {EXAMPLE}")
     unit = _common_unit(text, matched[2].lower(), matched[4].lower())
     return CarpetSize(float(Fraction(matched[1]) * unit), float(Fraction(matched[3]) * unit))
+
+
+def parse_open_size(text: str) -> tuple[CarpetSize | None, dict[str, float]]:
+    """The size of a text as `parse_size`, or the sides [m] that it gives where others are `auto`.
+
+    A side beside `auto` without a unit is in centimetres.
+
+    >>> parse_open_size("120x180cm") == (CarpetSize(1.2, 1.8), {})
+    True
+    >>> parse_open_size("120cm x auto"), parse_open_size("autox180"), parse_open_size("auto")
+    ((None, {'width': 1.2}), (None, {'length': 1.8}), (None, {}))
+    """
+    if text.strip().lower() == AUTO:
+        return None, {}
+    matched = _OPEN_SIDES.fullmatch(text) if len(text) <= LONGEST else None
+    if matched is None or None not in (matched[1], matched[3]):
+        return parse_size(text), {}
+    found = {}
+    for name, number, unit in (("width", matched[1], matched[2]), ("length", matched[3], matched[4])):
+        if number is not None:
+            if not unit and Fraction(number) < LEAST_BARE:
+                raise CarpetError(f"size {text!r} has no unit", allowed="mm, cm, dm, m, in or ft", do=OPEN_EXAMPLE)
+            found[name] = float(Fraction(number) * _common_unit(text, *2 * (unit.lower() or "cm",)))
+    return None, found
 
 
 def _common_unit(text: str, first: str, second: str) -> Fraction:

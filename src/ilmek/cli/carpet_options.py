@@ -13,7 +13,7 @@ from ilmek.units import format_quantity
 
 F = TypeVar("F", bound=Callable[..., Any])
 
-SIZES = "a standard size (seccade, kelle, ...) or width x length, like 120x180cm"
+SIZES = "a standard size (seccade, kelle, ...), width x length, like 120x180cm, 120cmxauto, or auto"
 QUALITIES = "knots across x knots along, like 25x25/dm; also 40raj, 130kpsi, 62500/m2, 9/60 (India), 90line (China)"
 
 
@@ -70,7 +70,7 @@ def _shown(parameter: Parameter) -> str:
 def _metavar(parameter: Parameter) -> str:
     if parameter.choices:
         return "|".join((*(() if parameter.kind is str else ("N",)), *parameter.choices))
-    return {"mm": "LENGTH", "%": "SHARE", "deg": "ANGLE", "kg": "MASS", "g": "MASS"}.get(
+    return {"mm": "LENGTH", "cm": "LENGTH", "%": "SHARE", "deg": "ANGLE", "kg": "MASS", "g": "MASS"}.get(
         parameter.unit, "TEXT" if parameter.kind is str else "N"
     )
 
@@ -80,7 +80,8 @@ _CARPET = (
     click.option(
         "--size",
         metavar="SIZE",
-        help=f"Carpet size: {SIZES}; default: that of a chart or a drawing made knot by knot, {SIZE}.",
+        help=f"Carpet size: {SIZES}; default: that of a chart or a drawing made knot by knot, else auto: the shape of "
+        f"the picture at the area of {SIZE}.",
     ),
     click.option(
         "--quality",

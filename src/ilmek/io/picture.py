@@ -19,6 +19,7 @@ from PIL import Image, UnidentifiedImageError
 
 from ilmek.arrays import Rgb
 from ilmek.carpet.codes import eight_bits
+from ilmek.carpet.picture_points import Colour, read_colour
 from ilmek.errors import PictureError
 from ilmek.io.native_messages import native_messages
 from ilmek.io.picture_file import (
@@ -88,11 +89,13 @@ class Picture:
 
     rgb      rows x columns x 3, whole numbers 0 to 255; other integers become uint8. Raises PictureError for others
     density  pixels per metre across and along, as the file states them; None: it does not
+    ground   colour behind its transparent parts; None: it has none
     """
 
     rgb: Rgb
     notes: tuple[str, ...] = ()
     density: tuple[float, float] | None = None
+    ground: Colour | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "rgb", pixels_of(self.rgb))
@@ -116,14 +119,19 @@ def pixels_of(rgb: object) -> Rgb:
     return pixels
 
 
-def read_picture(path: Path, progress: Progress = SILENT, *, smallest: int = SMALLEST) -> Picture:
+def read_picture(
+    path: Path, progress: Progress = SILENT, *, smallest: int = SMALLEST, ground: str | None = None
+) -> Picture:
     """The picture in a file.
 
+    ground  colour behind transparent parts, `#rrggbb`; default: white, behind nearly white art a dark one
+
     The first frame is used, EXIF rotation applied, an embedded colour profile converted to sRGB, 16 bits reduced to 8,
-    CMYK and grey converted to RGB, transparency put on white; each with a note. Raises PictureError unless the file is
-    a picture of at least 8 x 8 pixels, at most 150 megapixels (`LARGEST`; some formats less) and at most 500 MB
+    CMYK and grey converted to RGB, transparency put on a ground; each with a note. Raises PictureError unless the file
+    is a picture of at least 8 x 8 pixels, at most 150 megapixels (`LARGEST`; some formats less) and at most 500 MB
     (`picture_file.MOST_BYTES`); Cancelled.
     """
+    behind = None if ground is None else read_colour("ground", ground)
     data = read_bytes(path, progress.part(0.0, 0.1))
     with pillow_settings(LARGEST):
         try:
@@ -132,7 +140,7 @@ def read_picture(path: Path, progress: Progress = SILENT, *, smallest: int = SMA
             stream.allow(_ENTRIES, _HEADER + len(data) * (data[:4] == b"RIFF" or data[4:8] == b"ftyp"))
             with contextlib.closing(Image.open(stream, formats=_OPENED)) as opened:
                 _check_size(path, opened, smallest)
-                return _decoded(opened, stream, progress)
+                return _decoded(opened, stream, behind, progress)
         except (PictureError, Cancelled, MemoryError):
             raise
         except UnidentifiedImageError:
@@ -182,7 +190,7 @@ def _check_size(path: Path, opened: Image.Image, smallest: int) -> None:
         raise PictureError(size, allowed=_at_most(limit, name), do=do)
 
 
-def _decoded(opened: Image.Image, stream: MeteredBytes, progress: Progress) -> Picture:
+def _decoded(opened: Image.Image, stream: MeteredBytes, ground: Colour | None, progress: Progress) -> Picture:
     notes = _several_frames(opened)
     deep = ("16 bits per channel reduced to 8",) if _is_deep(opened) else ()
     singly = _READS * min(opened.width * opened.height, LARGEST_INTERPRETED)
@@ -192,14 +200,15 @@ def _decoded(opened: Image.Image, stream: MeteredBytes, progress: Progress) -> P
     _load(opened, stream, progress.part(0.2, 0.7))
     if not by_pillow:
         orientation, about_exif = _orientation(opened)
-    pixels, converted = srgb_pixels(opened, progress.part(0.7, 1.0))
+    pixels, behind, converted = srgb_pixels(opened, progress.part(0.7, 1.0), ground)
     density = _density(opened)
     opened.close()  # before the pixels are copied
     upright = pixels if by_pillow else turned(pixels, orientation)
     across, along = density or (0.0, 0.0)
     if orientation >= 5 and not by_pillow:
         across, along = along, across
-    return Picture(upright, (*notes, *about_exif, *deep, *converted), (across, along) if density else None)
+    stated = (across, along) if density else None
+    return Picture(upright, (*notes, *about_exif, *deep, *converted), stated, behind)
 
 
 def _density(opened: Image.Image) -> tuple[float, float] | None:

@@ -11,10 +11,23 @@ import numpy as np
 from PIL import Image, ImageCms
 
 from ilmek.arrays import FloatArray, Rgb
+from ilmek.carpet.colour import srgb_to_lab
+from ilmek.carpet.picture_points import Colour, hex_colour
 from ilmek.progress import SILENT, Progress
 
 MOST_PROFILE = 4_000_000
 """Largest size of a colour profile that is applied [bytes]; those of printing presses have 2 MB."""
+
+WHITE, DARK = (255, 255, 255), (32, 32, 32)
+"""Colours behind the transparent parts of a picture."""
+
+NEARLY_WHITE = 20.0
+"""Mean difference from white in CIELAB of what is seen of a picture, below which it needs a dark ground: white art with
+black lines on a fifth of it has 20.
+"""
+
+_JUDGED = 512
+"""Pixels of the longer side of the picture of which that is judged."""
 
 _STRIP = 1 << 21
 """Pixels of a strip."""
@@ -28,24 +41,51 @@ _ALPHA = ("P", "PA", "RGBa", "La", "LA", "RGBA")
 _Convert = Callable[[Image.Image], Image.Image]
 
 
-def srgb_pixels(image: Image.Image, progress: Progress = SILENT) -> tuple[Rgb, tuple[str, ...]]:
-    """The pixels of a loaded picture and notes on the conversions; transparent parts are put on white."""
+def srgb_pixels(
+    image: Image.Image, progress: Progress = SILENT, ground: Colour | None = None
+) -> tuple[Rgb, Colour | None, tuple[str, ...]]:
+    """The pixels of a loaded picture, the colour behind its transparent parts (None: it has none), and notes.
+
+    ground  default: white, or DARK behind art that is nearly white
+    """
     to_eight_bits, notes = _eight_bits(image)
     first = to_eight_bits(image.crop((0, 0, image.width, 1)))
     to_rgb, more = _in_srgb(_flat(first).mode, image.info.get("icc_profile"))
     out = np.empty((image.height, image.width, 3), dtype=np.uint8)
-    covered = False
+    behind = None
     for top, bottom in _strips(image):
         strip = to_eight_bits(image.crop((0, top, image.width, bottom)))
         coloured, cover = to_rgb(_flat(strip)), _cover(strip)
         if cover is not None:
-            covered = True
-            white = Image.new("RGB", strip.size, "white")
-            white.paste(coloured, mask=cover)
-            coloured = white
+            behind = behind or ground or _contrasting(image, to_eight_bits, to_rgb)
+            below = Image.new("RGB", strip.size, behind)
+            below.paste(coloured, mask=cover)
+            coloured = below
         out[top:bottom] = np.asarray(coloured)
         progress(bottom / image.height)
-    return out, (*notes, *more, *(("transparent parts put on white",) if covered else ()))
+    return out, behind, (*notes, *more, *_about_the_ground(behind, ground))
+
+
+def _contrasting(image: Image.Image, to_eight_bits: _Convert, to_rgb: _Convert) -> Colour:
+    """White, or DARK where what is seen of a picture is nearly white."""
+    scale = max(1.0, max(image.size) / _JUDGED)
+    few = to_eight_bits(image.resize([max(1, int(side / scale)) for side in image.size], Image.Resampling.NEAREST))
+    cover = _cover(few)
+    if cover is None:
+        return WHITE
+    seen = np.asarray(cover, dtype=float) / 255
+    apart = np.linalg.norm(srgb_to_lab(np.asarray(to_rgb(_flat(few)))) - (100.0, 0.0, 0.0), axis=-1)
+    return DARK if float((seen * apart).sum()) < NEARLY_WHITE * float(seen.sum()) else WHITE
+
+
+def _about_the_ground(behind: Colour | None, given: Colour | None) -> tuple[str, ...]:
+    """A note on the colour behind transparent parts."""
+    if behind is None:
+        return ()
+    if behind == WHITE:
+        return ("transparent parts put on white",)
+    why = "" if given else ", because the rest is nearly white; --ground gives another colour"
+    return (f"transparent parts put on {hex_colour(behind)}{why}",)
 
 
 def turned(pixels: Rgb, orientation: int) -> Rgb:

@@ -49,7 +49,7 @@ from ilmek.carpet.recipe.recipe import (
     Recipe,
     Repeat,
 )
-from ilmek.carpet.sizes import CarpetSize, parse_size
+from ilmek.carpet.sizes import CarpetSize, parse_open_size
 from ilmek.carpet.yarn import Yarn
 from ilmek.elements.knot_kinds import parse_knot
 from ilmek.errors import CarpetError, IlmekError, ParameterError
@@ -138,15 +138,19 @@ class _RecipeReader:
         root = self.root
         root.keys(*LAYOUT_KEYS, *CARPET_KEYS, *parameters, *LOOM_KEYS)
         yarns, yarn_file = self._yarns()
+        size, sides = self._parsed("size", parse_open_size) or (None, {})
+        settings = self._settings(parameters)
+        if root.has("size") and (beside := [key for key in ("width", "length") if key in settings]):
+            root.refuse(CarpetError(f"{' and '.join(beside)} beside size", do="leave one of them out"), beside[0])
         return RecipeFile(
             self._recipe(),
-            self._parsed("size", parse_size),
+            size,
             self._parsed("quality", parse_quality),
             self._parsed("knot", parse_knot),
             yarns,
             yarn_file,
             root.flag("pdf") if root.has("pdf") else None,
-            self._settings(parameters),
+            {**settings, **sides},
             self._loom(),
             self._parsed("quality", gereh_note) or "",
         )

@@ -51,6 +51,7 @@ class ChartResult:
     statistics  of the chart
     notes       changes made to the picture, and files that are left out
     source      the fitted picture, made small; None of a chart as input, and where it is not wanted
+    whole       the same of the picture before it was cropped to the carpet's proportions; None where it was not
     """
 
     order: ResolvedOrder
@@ -59,6 +60,7 @@ class ChartResult:
     statistics: ChartStatistics
     notes: tuple[str, ...]
     source: Rgb | None = None
+    whole: Rgb | None = None
 
     @property
     def pile(self) -> PileParams:
@@ -150,6 +152,7 @@ def _page(charted: ChartResult, names: Sequence[str], left_out: Sequence[str], d
         names,
         statistics=charted.statistics,
         source=charted.source,
+        whole=charted.whole,
         checks=charted.checks,
         warnings=(*charted.warnings, *charted.notes, *left_out),
         drawn=drawn,
@@ -169,7 +172,7 @@ def make_charted(
     check_carpet_width(chart.size, order.files.carpet_width)
     bill = yarn_bill(chart, order.plan)
     notes = (*order.notes, *made.notes, *yarn_notes(chart), *_left_out(order, chart))
-    return ChartResult(made.order, chart, bill, chart_statistics(chart), notes, made.source)
+    return ChartResult(made.order, chart, bill, chart_statistics(chart), notes, made.source, made.whole)
 
 
 def _left_out(order: CarpetOrder, chart: Chart) -> tuple[str, ...]:

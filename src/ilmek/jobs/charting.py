@@ -10,10 +10,12 @@ from ilmek.arrays import Rgb
 from ilmek.carpet.chart import Chart, chart_of_design, used_first
 from ilmek.carpet.design import knot_grid, resampled
 from ilmek.carpet.exact import few_colours, has_grid, of_grid, stated_quality
-from ilmek.carpet.fitted import fitted_design, unfitted_design
+from ilmek.carpet.fitted import fitted_design, shaped_size, unfitted_design
 from ilmek.carpet.fitting import Fit, FitParams, fit_notes, prepare_picture
+from ilmek.carpet.picture_points import hex_colour
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.reading import Design, ReadParams, toned_design
+from ilmek.carpet.size_of_picture import unrounded_size
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import MOST_YARNS
 from ilmek.errors import PictureError
@@ -38,12 +40,14 @@ class OrderedChart:
 
     source  the fitted picture, at most SHOWN pixels on its longer side; None where it is not wanted, and where the file
             is a chart that is taken as it is
+    whole   the same of the picture before it was cropped to the carpet's proportions; None where it was not
     """
 
     order: ResolvedOrder
     chart: Chart
     notes: tuple[str, ...]
     source: Rgb | None = None
+    whole: Rgb | None = None
 
 
 def chart_of_order(
@@ -72,7 +76,7 @@ def chart_of_order(
     else:
         reading = progress.part(0.0, 0.4)
         read = stages.keep("read", key, lambda: _read_file(order, file, reading, stages, with_source=with_source))
-    made = replace(order, size=read.size, quality=read.quality).resolved()
+    made = _sized(order, read.size, read.quality).resolved()
     rest = (order.reading, order.palette, made.size, made.quality, made.knot, made.yarns, order.dyed)
 
     def chart_of() -> Chart:
@@ -92,7 +96,7 @@ def chart_of_order(
         return used_first(made_chart)
 
     chart = stages.keep("chart", (key, rest), chart_of)
-    return OrderedChart(made.with_dyed(chart.yarns), chart, (*notes, *read.notes), read.source)
+    return OrderedChart(made.with_dyed(chart.yarns), chart, (*notes, *read.notes), read.source, read.whole)
 
 
 def file_key(path: Path) -> tuple[Path, int, int]:
@@ -116,30 +120,35 @@ class _ReadPicture:
     fit: Fit
     notes: tuple[str, ...]
     source: Rgb | None
+    whole: Rgb | None = None
 
 
 def _read_file(
     order: CarpetOrder, file: object, progress: Progress, stages: Stages, *, with_source: bool
 ) -> _ReadPicture:
     """Read a picture that is no chart."""
-    picture = stages.keep("picture", file, lambda: read_picture(order.picture, progress.part(0.0, 0.5, "picture")))
-    rgb, notes = picture.rgb, picture.notes
+    ground, reading_file = order.fit.ground, progress.part(0.0, 0.5, "picture")
+    picture = stages.keep("picture", (file, ground), lambda: read_picture(order.picture, reading_file, ground=ground))
+    rgb, notes, behind = picture.rgb, picture.notes, picture.ground
     stated = _stated(order, picture)
     if stated is not None:
         order = replace(order, quality=stated)
         notes = (*notes, f"its resolution is that of knots: {stated}")
-    del picture
     if order.size is not None and order.reading.reading == "auto" and order.fit.fit != FitParams().fit:
         order = replace(order, quality=order.resolved().quality)
-    size, fitting = order.resolved().size, order.fit
+    size, fitting = order.size, order.fit
+    if behind is not None:
+        fitting = replace(fitting, ground=hex_colour(behind))
     prepared, fit = stages.keep(
         "prepared",
         (file, fitting, size),
         lambda: prepare_picture(rgb, fitting, progress.part(0.5, 0.6), size=size),
     )
-    del rgb
+    del rgb, picture
     reading = progress.part(0.6, 1.0, "chart")
-    read = _read(order, prepared, fit, reading, drawn=stated is not None, with_source=with_source)
+    read = _read(replace(order, fit=fitting), prepared, fit, reading, drawn=stated is not None, with_source=with_source)
+    if ground is not None and behind is None and not read.fit.padded:
+        notes = (*notes, f"ground={ground!r} is not seen: the picture has no transparent part and no margin")
     return replace(read, notes=(*notes, *read.notes))
 
 
@@ -149,7 +158,13 @@ def _read_chart(
     """Read a chart as a drawing; given: the order without what it has of the chart."""
     prepared, fit = prepare_picture(drawn_chart(chart), order.fit, progress.part(0.0, 0.3))
     drawn = given.size is None and _is_part(prepared, chart)
-    order = replace(order, size=None) if drawn else order
+    if drawn:
+        rows, columns = prepared.shape[:2]
+        part = (columns / chart.quality.across) / (rows / chart.quality.along)
+        size = _with_its_proportions(given, part).size
+        drawn = size is None
+        quality = order.quality if drawn else given.quality or of_grid((rows, columns), size, None)[1]
+        order = replace(order, size=size, quality=quality)
     reading = progress.part(0.3, 1.0)
     read = _read(order, prepared, fit, reading, drawn=drawn, with_source=with_source)
     return replace(read, notes=(*_flattened(chart), *read.notes))
@@ -171,21 +186,29 @@ def _read(
         design, size, quality = exact
         check_sheets(size, quality, order)
         return _ReadPicture(size, quality, design, fit, (), shown_source(prepared) if with_source else None)
-    made = order.resolved()
+    size = order.size or shaped_size(prepared, order.resolved().quality, order.fit)
+    made = _sized(order, size, order.quality).resolved()
     check_sheets(made.size, made.quality, order)
     reading = progress.part(0.35, 1.0)
     design, fitted, fit = fitted_design(
         prepared, fit, made.size, made.quality, fitting=order.fit, reading=params, progress=reading
     )
     notes = fit_notes(fit, fitted.shape[:2], made.size, knot_grid(made.size, made.quality))
-    return _ReadPicture(made.size, made.quality, design, fit, notes, shown_source(fitted) if with_source else None)
+    source = shown_source(fitted) if with_source else None
+    whole = shown_source(prepared) if with_source and fit.frame is not None else None
+    return _ReadPicture(made.size, made.quality, design, fit, notes, source, whole)
+
+
+def _sized(order: CarpetOrder, size: CarpetSize, quality: Quality | None) -> CarpetOrder:
+    """The order with a size, and so without the one side that was given of it."""
+    return replace(order, size=size, quality=quality, fit=order.fit.without_sides)
 
 
 def _stated(order: CarpetOrder, picture: Picture) -> Quality | None:
     """The quality that the picture states, where the order leaves size, quality and reading open."""
     if order.size is not None or order.quality is not None or order.reading.reading not in ("auto", "exact"):
         return None
-    return None if order.fit != FitParams() else stated_quality(picture.density, picture.rgb)
+    return None if replace(order.fit, ground=None) != FitParams() else stated_quality(picture.density, picture.rgb)
 
 
 def drawn_chart(chart: Chart) -> Rgb:
@@ -223,6 +246,7 @@ def _own_chart(order: CarpetOrder, progress: Progress) -> tuple[Chart | None, tu
 def _on_the_chart(order: CarpetOrder, chart: Chart) -> CarpetOrder:
     """The order, with what it leaves open from the chart; a size or a quality alone keeps the chart's grid."""
     grid = chart.rows, chart.columns
+    order = _with_its_proportions(order, chart.size.width / chart.size.length)
     size = chart.size if order.size is not None and _same(order.size, chart.size) else order.size
     if (size or chart.size) == chart.size and (order.quality or chart.quality) == chart.quality:
         size, quality = chart.size, chart.quality
@@ -233,6 +257,14 @@ def _on_the_chart(order: CarpetOrder, chart: Chart) -> CarpetOrder:
     else:
         quality = order.quality
     return replace(order, size=size, quality=quality, knot=order.knot or chart.knot, yarns=order.yarns or chart.yarns)
+
+
+def _with_its_proportions(order: CarpetOrder, proportions: float) -> CarpetOrder:
+    """The order with its size, where it gives one side of a chart's."""
+    width, length = order.fit.width, order.fit.length
+    if width is None and length is None:
+        return order
+    return _sized(order, unrounded_size(proportions, width=width, length=length), order.quality)
 
 
 def _same(one: CarpetSize, other: CarpetSize) -> bool:

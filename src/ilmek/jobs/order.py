@@ -17,7 +17,7 @@ from ilmek.carpet.quality import Quality, gereh_note, parse_quality
 from ilmek.carpet.reading import ReadParams
 from ilmek.carpet.recipe.edits import located
 from ilmek.carpet.recipe.recipe import Recipe
-from ilmek.carpet.sizes import CarpetSize, parse_size
+from ilmek.carpet.sizes import AUTO, CarpetSize, carpet_size, parse_open_size, parse_size
 from ilmek.carpet.yarn import Yarn
 from ilmek.carpet.yarn_plan import YarnPlanParams
 from ilmek.elements.knot_kinds import parse_knot
@@ -31,6 +31,9 @@ from ilmek.viz.carpet_picture import check_carpet_width
 
 SIZE, QUALITY, KNOT = "seccade", "25x25/dm", "symmetric"
 """What holds where neither the user nor the picture gives it."""
+
+SIDES = ("width", "length")
+"""Parameters of the fit that give the size, or the side that the picture leaves open."""
 
 MOST_SHEETS = 400
 """Largest number of sheets for which chart.pdf is written by default; the same of rows.pdf."""
@@ -52,9 +55,11 @@ class CarpetOrder:
     """The order of a carpet.
 
     picture  file of the picture
-    size, quality, knot, yarns  default: those of the picture where it is a chart, else SIZE, QUALITY, KNOT and the
-             picture's own shades: wools that come with ilmek where they are near, the others dyed to order
-    fit      how the picture is fitted to the carpet        reading  how it is read
+    size, quality, knot, yarns  default: those of the picture where it is a chart, else that of its shape
+             (`size_of_picture`), QUALITY, KNOT and the picture's own shades: wools that come with ilmek where they are
+             near, the others dyed to order
+    fit      how the picture is fitted to the carpet, and the one side that is given of an open size
+    reading  how it is read
     palette  which yarns of the list are taken              plan     the yarn      files  the files of the folder
     pdf      print the chart; default: if it has few enough sheets (`MOST_SHEETS`)
     recipe   of the carpet, if `picture` is its file; default: the carpet is the picture
@@ -91,7 +96,7 @@ class CarpetOrder:
         return self.yarns is None
 
     def resolved(self) -> "ResolvedOrder":
-        """The order with the defaults for all that is left open; each yarn has its count.
+        """The order with the defaults for all that is left open, SIZE for its size; each yarn has its count.
 
         Where no list is given its yarns are the wools in stock; those that are dyed follow from the picture.
         """
@@ -149,8 +154,13 @@ def read_order(
     """
     found = _read_recipe(picture) if picture.suffix.lower() == RECIPE else None
     base = CarpetOrder(picture) if found is None else _order_of(picture, found)
+    keys = by_name(_given(settings))
+    sized, sides = read_size(size, keys)
+    if size is not None or keys.keys() & SIDES:
+        base = replace(base, size=None)
+        sides = {**dict.fromkeys(SIDES), **keys, **sides}
     given: dict[str, Any] = {
-        "size": None if size is None else parse_size(size),
+        "size": sized,
         "quality": None if quality is None else parse_quality(quality),
         "knot": None if knot is None else parse_knot(knot),
         "yarns": None if yarn_file is None else read_yarns(yarn_file),
@@ -158,8 +168,30 @@ def read_order(
         "pdf": pdf,
         "notes": None if quality is None else tuple(filter(None, (gereh_note(quality),))),
     }
-    groups = read_groups({**({} if found is None else found.settings), **by_name(_given(settings))})
+    groups = read_groups({**({} if found is None else found.settings), **keys, **sides})
     return _checked(replace(base, **_given(given), **groups))
+
+
+def read_size(
+    size: str | CarpetSize | None, settings: Mapping[str, Setting]
+) -> tuple[CarpetSize | None, dict[str, Setting]]:
+    """A size or that of a text, or None and the sides of the parameters `SIDES` that give it with the picture.
+
+    settings  by name, among which a side may be given instead of a size
+    Raises CarpetError for what is no size; ParameterError where a side is given beside one.
+    """
+    beside = [name for name in SIDES if settings.get(name) is not None]
+    whole = not isinstance(size, str) or size.strip().lower() != AUTO
+    if size is not None and beside and whole:
+        raise ParameterError(
+            f"{' and '.join(beside)} given beside the size {str(size)!r}",
+            allowed="a size, or one side or both",
+            do="leave one of them out",
+        )
+    if not isinstance(size, str):
+        return None if size is None else carpet_size(size), {}
+    stated, sides = parse_open_size(size)
+    return stated, {**sides}
 
 
 def order_of_data(path: Path, data: Mapping[str, Any]) -> CarpetOrder:
@@ -171,7 +203,9 @@ def order_of_data(path: Path, data: Mapping[str, Any]) -> CarpetOrder:
 
 
 def _checked(order: CarpetOrder) -> CarpetOrder:
-    """The order, after the checks that need no picture."""
+    """The order with a size where both sides are given, after the checks that need no picture."""
+    if order.fit.size is not None:
+        order = replace(order, size=order.fit.size, fit=order.fit.without_sides)
     if order.yarns is not None:
         check_palette(order.palette, order.yarns)
     if order.size is not None:

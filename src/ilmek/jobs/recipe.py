@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import replace
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 
 from ilmek.arrays import Pixels
@@ -24,6 +24,7 @@ from ilmek.io.toml_text import written_quantity
 from ilmek.io.yarn_file import default_yarns
 from ilmek.jobs.charting import OrderedChart, chart_of_order, drawn_chart, file_key, shown_source
 from ilmek.jobs.order import GROUPS, CarpetOrder, ResolvedOrder, check_sheets, recipe_key
+from ilmek.jobs.recipe_size import of_its_shape, size_of_recipe
 from ilmek.jobs.stages import ANEW, Stages
 from ilmek.params import declared
 from ilmek.progress import SILENT, Progress
@@ -39,7 +40,7 @@ def chart_of_recipe(
     recipe = order.recipe
     assert recipe is not None
     _check_never(recipe, order.palette)
-    given, order = order, replace(order, palette=_keeping(recipe, order))
+    given, order = replace(order, fit=order.fit.without_sides), replace(order, palette=_keeping(recipe, order))
     if not recipe.is_composed:
         assert recipe.picture is not None
         picture = replace(order, picture=recipe.picture, recipe=None)
@@ -52,7 +53,7 @@ def chart_of_recipe(
         chart = replace(done.chart, reading=reading)
         chart = finish(chart, recipe, _counted(done.order), None, progress.part(0.8, 1.0, "edits"))
         chart = used_first(chart) if recipe.edits else chart
-        return OrderedChart(replace(done.order, order=given), chart, done.notes, done.source)
+        return replace(done, order=replace(done.order, order=given), chart=chart)
     made = _composed_chart(recipe, order, progress, stages, with_source=with_source)
     return replace(made, order=replace(made.order, order=given))
 
@@ -61,14 +62,20 @@ def _composed_chart(
     recipe: Recipe, order: CarpetOrder, progress: Progress, stages: Stages, *, with_source: bool
 ) -> OrderedChart:
     """The chart of a recipe that is more than one whole picture."""
-    made = order.resolved()
-    check_sheets(made.size, made.quality, order)
     plain = replace(recipe, edits=())
     files = tuple(file_key(path) for path in recipe.pictures)
+    read = cache(lambda: _pictures(recipe, order.fit.ground, progress.part(0.0, 0.3, "picture"), stages))
+    if order.size is None:
+        quality = order.resolved().quality
+        shape = (plain, files, quality, order.fit)
+        size = stages.keep("shape", shape, lambda: size_of_recipe(recipe, quality, order.fit, read()[0]))
+        order = replace(order, size=size, fit=of_its_shape(order.fit))
+    made = order.resolved()
+    check_sheets(made.size, made.quality, order)
     key = (plain, files, made.size, made.quality, made.yarns, order.fit, order.reading)
 
     def composed() -> tuple[Composition, tuple[str, ...]]:
-        pictures, notes = _pictures(recipe, progress.part(0.0, 0.3, "picture"), stages)
+        pictures, notes = read()
         composition = compose(
             recipe,
             made.size,
@@ -143,7 +150,9 @@ def _counted(made: ResolvedOrder) -> tuple[Yarn, ...]:
     return with_counts(made.yarns, made.quality, made.knot)
 
 
-def _pictures(recipe: Recipe, progress: Progress, stages: Stages) -> tuple[Mapping[Path, Pixels], tuple[str, ...]]:
+def _pictures(
+    recipe: Recipe, ground: str | None, progress: Progress, stages: Stages
+) -> tuple[Mapping[Path, Pixels], tuple[str, ...]]:
     """The pixels of all pictures, and notes on them."""
     found, notes = {}, []
     files = recipe.pictures
@@ -151,17 +160,19 @@ def _pictures(recipe: Recipe, progress: Progress, stages: Stages) -> tuple[Mappi
         part = progress.part(number / len(files), (number + 1) / len(files))
         with located(where):
             smallest = SMALLEST if path == recipe.picture else 1
-            key = (file_key(path), smallest)
-            found[path], more = stages.keep("tile", key, partial(picture_pixels, path, smallest, part))
+            key = (file_key(path), smallest, ground)
+            found[path], more = stages.keep("tile", key, partial(picture_pixels, path, smallest, part, ground))
         notes += [f"{path.name}: {note}" for note in more]
     return found, tuple(notes)
 
 
-def picture_pixels(path: Path, smallest: int, progress: Progress) -> tuple[Pixels, tuple[str, ...]]:
+def picture_pixels(
+    path: Path, smallest: int, progress: Progress, ground: str | None = None
+) -> tuple[Pixels, tuple[str, ...]]:
     """The pixels of a picture, or of a chart that is none, which has its yarns' colours; and notes."""
     chosen = format_of(path)
     if chosen is None or chosen.picture:
-        picture = read_picture(path, progress, smallest=smallest)
+        picture = read_picture(path, progress, smallest=smallest, ground=ground)
         return picture.rgb, picture.notes
     chart, notes = read_chart(path, progress=progress)
     return drawn_chart(chart), notes

@@ -224,6 +224,7 @@ def _carpet_page(woven: WeaveResult, drawn: DrawnCarpet | None) -> CarpetPage:
         woven.written,
         statistics=charted.statistics,
         source=charted.source,
+        whole=charted.whole,
         facts=_loom_facts(woven),
         good=GOOD,
         bad=BAD,

@@ -15,7 +15,7 @@ from ilmek.viz.carpet_picture import DrawnCarpet
 from ilmek.viz.number_format import count, fixed
 from ilmek.viz.page import render
 from ilmek.viz.page_parts import Fact, FileNote, carpet_facts, yarn_lines
-from ilmek.viz.page_pictures import pictures
+from ilmek.viz.page_pictures import cut_picture, pictures
 from ilmek.viz.sections import PageVerdict, drawn
 
 _FIRST_REASONS = 3
@@ -37,6 +37,7 @@ class CarpetPage:
     statistics     of the chart
     symbols        the symbol of each yarn of `chart.yarns` in the printed chart; default: none
     source         the picture as fitted to the carpet; default: not shown
+    whole          the picture before it was cropped to the carpet's proportions; default: it was not
     reading        how the picture was read: label, value and note of each line
     facts          further entries of the summary, after knots, colours and yarn (heads, weaving time, deadline)
     good, bad      sentence where every check holds; where not
@@ -56,6 +57,7 @@ class CarpetPage:
     statistics: ChartStatistics
     symbols: str = ""
     source: Rgb | None = None
+    whole: Rgb | None = None
     reading: tuple[Fact, ...] = ()
     facts: tuple[Fact, ...] = ()
     good: str = "Every check holds."
@@ -91,6 +93,7 @@ def carpet_page(page: CarpetPage, left_out: list[str] | None = None, progress: P
         facts=carpet_facts(page.chart, page.bill, page.facts, page.checks),
         warnings=[*page.warnings, *left_out],
         shown=shown,
+        cut=None if page.whole is None else cut_picture(page.whole, page.chart.reading.fit, left_out),
         reading=page.reading,
         proposed=page.proposed,
         yarn=lines,

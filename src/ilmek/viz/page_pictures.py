@@ -17,6 +17,7 @@ from PIL import Image
 from ilmek.arrays import Rgb
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.colour import takes_white
+from ilmek.carpet.fitting import Fit
 from ilmek.carpet.overlay import HALF, JUFTI
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
@@ -166,6 +167,37 @@ def _of_the_source(source: Rgb, chart: Chart) -> PagePicture:
         return PagePicture(_address(stream.getvalue(), "png"), *_proportions(chart), alt, sharp=True)
     Image.fromarray(source).save(stream, format="JPEG", quality=88)
     return PagePicture(_address(stream.getvalue(), "jpeg"), *_proportions(chart), alt)
+
+
+@record
+class CutPicture:
+    """A picture with the frame of what the carpet shows of it.
+
+    path    of the part that is not shown, in pixels of the picture      cut  its share of the picture [-]
+    """
+
+    picture: PagePicture
+    path: str
+    cut: float
+
+
+def cut_picture(whole: Rgb, fit: Fit, left_out: list[str]) -> CutPicture | None:
+    """A picture that is cropped to the carpet's proportions, with what is cut shaded; None where it is not cropped."""
+    if fit.frame is None:
+        return None
+    height, width = int(whole.shape[0]), int(whole.shape[1])
+    left, top, right, bottom = (round(one * side, 1) for one, side in zip(fit.frame, 2 * (width, height), strict=True))
+
+    def made() -> PagePicture:
+        stream = io.BytesIO()
+        Image.fromarray(whole).save(stream, format="JPEG", quality=85)
+        return PagePicture(_address(stream.getvalue(), "jpeg"), width, height, "The picture before it is cropped")
+
+    picture = made_or_left_out("the picture of what is cut", made, left_out)
+    if picture is None:
+        return None
+    path = f"M0 0H{width}V{height}H0ZM{left} {top}V{bottom}H{right}V{top}Z"
+    return CutPicture(picture, path, 1 - (right - left) * (bottom - top) / (width * height))
 
 
 def _of_the_chart(chart: Chart, step: int, codes: Sequence[tuple[int, int, int]]) -> PagePicture:

@@ -158,7 +158,7 @@ def _folder(context: Context) -> ProjectFolder:
 def _pixels(request: PictureRequest, context: Context) -> tuple[Rgb, tuple[str, ...]]:
     path = _folder(context).path(request.picture)
     return KeptStages().keep(
-        "tile", (file_key(path), SMALLEST), lambda: picture_pixels(path, SMALLEST, context.progress)
+        "tile", (file_key(path), SMALLEST, None), lambda: picture_pixels(path, SMALLEST, context.progress)
     )
 
 
