@@ -6,7 +6,7 @@ from typing import Any, NoReturn
 import numpy as np
 
 from ilmek.arrays import IntArray
-from ilmek.errors import LoomError
+from ilmek.errors import LoomError, is_printable
 from ilmek.io.schema import shown
 
 LONGEST_NAME = 200
@@ -46,7 +46,7 @@ class MetaEntry:
         """A text of printable characters."""
         if not isinstance(self.value, str) or not least <= len(self.value) <= LONGEST_NAME:
             self.refuse(f"a text of {least} to {LONGEST_NAME} characters")
-        if not self.value.isprintable():
+        if not is_printable(self.value):
             self.refuse("printable characters")
         return self.value
 

@@ -29,7 +29,7 @@ import numpy as np
 from ilmek.carpet.colour import lab_to_srgb, srgb_to_lab
 from ilmek.carpet.picture_points import hex_colour
 from ilmek.carpet.yarn import COUNTS, MOST_YARNS, PLIES, Yarn
-from ilmek.errors import YarnError, did_you_mean, shortened
+from ilmek.errors import JOINERS, YarnError, did_you_mean, is_printable, shortened
 from ilmek.io.csv_lines import csv_lines, decimal_points
 from ilmek.io.data_text import LONGEST_NAME, parse_data
 from ilmek.io.schema import finite_number, key_faults
@@ -182,13 +182,13 @@ def yarns_from_records(records: Sequence[Record], lines: Sequence[int] = ()) -> 
 
 def _yarn(record: Record, numbered: str) -> Yarn:
     """The yarn of a record, which is `numbered` in messages: "yarn 3"."""
-    name = str(record.get("name") or "").strip()
+    name = str(record.get("name") or "").strip().strip(JOINERS)
     called = f"{numbered} ({shortened(name)})" if name else numbered
     for _, error in key_faults(record, FIELDS, noun="field"):
         raise YarnError(f"{called}: {error.given}", allowed=error.allowed, do=error.do)
     if not name:
         raise YarnError(f"{called} has no name", do='give it one, like name = "madder red"')
-    if not name.isprintable() or len(name) > LONGEST_NAME:
+    if not is_printable(name) or len(name) > LONGEST_NAME:
         allowed = f"at most {LONGEST_NAME} letters, digits and signs on one line"
         raise YarnError(f"{numbered} has the name {shortened(ascii(name))}", allowed=allowed)
     srgb, lab = _colour(record, called)

@@ -20,7 +20,7 @@ from ilmek.carpet.exact import has_grid, of_grid
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import MOST_YARNS, Yarn
-from ilmek.errors import IlmekError, PictureError, shortened
+from ilmek.errors import IlmekError, PictureError, is_printable, shortened
 from ilmek.io.carpet_facts import ChartFacts, chart_of_facts, read_facts
 from ilmek.io.chart.oxs import MOST_OXS_KNOTS
 from ilmek.io.data_text import LONGEST_NAME
@@ -257,7 +257,7 @@ def _yarns(reader: _Reader, stitches: Int[np.ndarray, "rows columns"]) -> tuple[
 
 def _unlike(name: str, index: int, names: set[str]) -> str:
     """A printable name that no other yarn has."""
-    clean = "".join(letter if letter.isprintable() else " " for letter in name)[: LONGEST_NAME - 8].strip()
+    clean = "".join(letter if is_printable(letter) else " " for letter in name)[: LONGEST_NAME - 8].strip()
     clean = clean or f"colour {index}"
     if clean.casefold() in names:
         clean = f"{clean} ({index})"
