@@ -56,11 +56,11 @@ class MetaEntry:
             self.refuse(", ".join(known))
         return str(self.value)
 
-    def table(self, *keys: str) -> dict[str, "MetaEntry"]:
-        """A table with exactly these keys."""
-        if not isinstance(self.value, dict) or set(self.value) != set(keys):
-            self.refuse(f"a table with {', '.join(keys)}")
-        return {key: MetaEntry(f"{self.path}.{key}", self.value[key]) for key in keys}
+    def table(self, *keys: str, optional: tuple[str, ...] = ()) -> dict[str, "MetaEntry"]:
+        """A table with exactly these keys, and with those that are optional, whose default is null."""
+        if not isinstance(self.value, dict) or set(self.value) - set(optional) != set(keys):
+            self.refuse(f"a table with {', '.join((*keys, *optional))}")
+        return {key: MetaEntry(f"{self.path}.{key}", self.value.get(key)) for key in (*keys, *optional)}
 
     def rows(self, least: int, most: int) -> list["MetaEntry"]:
         """A list."""

@@ -77,7 +77,7 @@ def write_colours_pdf(path: Path, chart: Chart, direction: str, pages: int, prog
     pages  their number, of `colour_pages`
     """
     register_fonts()
-    inks = Inks.of(chart.yarns, symbols(len(chart.yarns)))
+    inks = Inks.of(chart.yarns, symbols(chart.yarns))
     name = chart.size.name or f"{chart.columns} × {chart.rows} knots"
     with plain_streams():
         canvas = Canvas(str(path), pagesize=A4, pageCompression=1, invariant=1)

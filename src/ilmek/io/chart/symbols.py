@@ -1,4 +1,4 @@
-"""Symbols for the yarns of a chart: one symbol per yarn, by its index in the list.
+"""Symbols of yarns, by their numbers in the yarn list: a yarn of one list has one symbol on every chart.
 
 The symbols are of DejaVu Sans Mono, a free font that may be embedded and that comes with the package. All have the same
 width, so that a row of them is one text. Letters and digits come first, without those easily confused (I O Q 0 1 l);
@@ -6,6 +6,7 @@ then shapes, Greek, arrows, signs and Cyrillic.
 """
 
 import re
+from collections.abc import Sequence
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -13,12 +14,14 @@ from typing import Any
 from reportlab.pdfbase import pdfmetrics
 from reportlab.pdfbase.ttfonts import TTFont
 
+from ilmek.carpet.yarn import Yarn
+
 SYMBOLS = (
     "ABCDEFGHJKLMNPRSTUVWXYZ23456789●■▲◆▼★♥♣♠○□△◇▽☆+×÷=≠#%&@?!§abdefghkmnqrtyΓΔΘΛΞΠΣΦΨΩαβγδεζηθλμξπστφψω"
     "←↑→↓↔↕↖↗↘↙⇐⇑⇒⇓⇔⇕∞∂∀∃∇∈∋√∫∴∵≈≡≤≥⊂⊃⊆⊇⊕⊖⊗⊘⊙⊞⊟⊠⊡∩∪∧∨◐◑◒◓◖◗◧◨◩◪◰◱◲◳▣▤▥▦▧▨▩◉◎▶◀◢◣◤◥"
     "БДЖЗИЛФЦЧШЭЮЯ☀☂☎☘☠☮☯☺☻☾♀♂♔♕♖♗♘♙♚♛♜♝♞♟♪♫⚀⚁⚂⚃⚄⚅✂✈✉✎✓✗✚✠✢✦✧✪✭✱✶✹❀❄❖❤$€£¥¢¶ßæðøþđłŋ«»¿¡"
 )[:255]
-"""Symbols by the yarn's index in the list; a list has at most 255 yarns."""
+"""Symbols by the yarn's number in its list, less 1; a list has at most 255 yarns."""
 
 SIGNS, TEXT, STRONG = "ilmek-signs", "ilmek-text", "ilmek-strong"
 ARABIC, HEBREW, DEVANAGARI = "ilmek-arabic", "ilmek-hebrew", "ilmek-devanagari"
@@ -45,13 +48,20 @@ _FILES = {
 }
 
 
-def symbols(yarns: int) -> str:
-    """The symbols of the first `yarns` yarns.
+def symbols(yarns: Sequence[Yarn]) -> str:
+    """The symbol of each yarn of a chart.
 
-    >>> symbols(4)
-    'ABCD'
+    Yarns without a number, and those whose number an earlier one has, take the first symbols that are free.
+
+    >>> symbols([Yarn(name, (0, 0, 0), (0.0, 0.0, 0.0), number=n) for name, n in (("a", 3), ("b", None), ("c", 1))])
+    'CBA'
     """
-    return SYMBOLS[:yarns]
+    found: dict[int, str] = {}
+    for index, yarn in enumerate(yarns):
+        if yarn.number is not None and SYMBOLS[yarn.number - 1] not in found.values():
+            found[index] = SYMBOLS[yarn.number - 1]
+    free = iter(sign for sign in SYMBOLS if sign not in set(found.values()))
+    return "".join(found[index] if index in found else next(free) for index in range(len(yarns)))
 
 
 class ShapedFont(TTFont):  # type: ignore[misc]
