@@ -55,6 +55,9 @@ class FitParams(Params):
     border_colour: str | None = kind.text(
         None, doc="colour of the border with fit pad, like #e8dfc8; default: that of the picture's border, else white"
     )
+    ground: str | None = kind.text(
+        None, doc="colour of the knots in cells that a chart of another program leaves without a stitch, like #e8dfc8"
+    )
     corners: str | None = kind.text(
         None,
         doc="corners of a carpet photographed at an angle, in pixels or percent: top left, top right, bottom right, "
@@ -73,6 +76,8 @@ class FitParams(Params):
             read_points("corners", self.corners, 4, CORNERS_EXAMPLE)
         if self.crop is not None:
             read_points("crop", self.crop, 2, CROP_EXAMPLE)
+        if self.ground is not None:
+            read_colour("ground", self.ground)
         if self.border_colour is not None:
             read_colour("border_colour", self.border_colour)
             if self.fit != "pad":

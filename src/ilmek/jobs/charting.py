@@ -58,7 +58,9 @@ def chart_of_order(
     """
     file = file_key(order.picture)
     key = (file, order.size, order.quality, order.fit, order.reading.untoned, with_source)
-    chart, notes = stages.keep("own chart", file, lambda: _own_chart(order, progress.part(0.0, 0.4, "picture")))
+    chart, notes = stages.keep(
+        "own chart", (file, order.fit.ground), lambda: _own_chart(order, progress.part(0.0, 0.4, "picture"))
+    )
     if chart is not None:
         given, order = order, _on_the_chart(order, chart)
         made = order.resolved()
@@ -211,7 +213,7 @@ def _own_chart(order: CarpetOrder, progress: Progress) -> tuple[Chart | None, tu
     if chosen is None or chosen.read is None:
         return None, ()
     try:
-        return chosen.read(order.picture, order.size, order.quality, progress)
+        return chosen.read(order.picture, order.size, order.quality, progress, order.fit.ground)
     except PictureError as error:
         if not chosen.picture:
             raise
@@ -246,7 +248,8 @@ def _keeps_knots(order: CarpetOrder, chart: Chart) -> bool:
         reading = replace(reading, reading=ReadParams().reading)
     if reading.least_patch == 0:
         reading = replace(reading, least_patch=None)
-    given: dict[str, Any] = {group: getattr(order, group) for group in _OF_THE_KNOTS} | {"reading": reading}
+    changed = {"reading": reading, "fit": replace(order.fit, ground=None)}  # all cells of a chart have knots
+    given: dict[str, Any] = {group: getattr(order, group) for group in _OF_THE_KNOTS} | changed
     untouched = all(given[group] == GROUPS[group]() for group in _OF_THE_KNOTS)
     return untouched and has_grid((chart.rows, chart.columns), order.size, order.quality)
 
