@@ -9,6 +9,7 @@ from dataclasses import asdict, fields, replace
 
 from ilmek.arrays import Indices
 from ilmek.carpet.chart import Chart, ChartReading
+from ilmek.carpet.codes import CODES
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import LARGEST, CarpetSize
 from ilmek.carpet.yarn import MOST_YARNS, Yarn
@@ -30,6 +31,7 @@ class ChartFacts:
     quality: Quality
     knot: str
     yarns: tuple[Yarn, ...]
+    creel: tuple[int, ...] | None = None
 
 
 def chart_facts(chart: Chart) -> str:
@@ -39,6 +41,7 @@ def chart_facts(chart: Chart) -> str:
         "quality": asdict(chart.quality),
         "knot": chart.knot,
         "yarns": [asdict(yarn) for yarn in chart.yarns],
+        **({} if chart.creel is None else {"creel": chart.creel}),
     }
     return json.dumps(facts, ensure_ascii=False)
 
@@ -51,19 +54,21 @@ def read_facts(text: str) -> ChartFacts:
         data = json.loads(text)
     except (ValueError, RecursionError) as error:
         raise LoomError(f"its facts are not JSON ({shortened(str(error), 100)})") from None
-    given = MetaEntry("chart", data).table("size", "quality", "knot", "yarns")
+    given = MetaEntry("chart", data).table("size", "quality", "knot", "yarns", optional=("creel",))
+    yarns, creel = yarn_entries(given["yarns"]), given["creel"]
     return ChartFacts(
         size_entry(given["size"]),
         quality_entry(given["quality"]),
         given["knot"].one_of(*WRAPS),
-        yarn_entries(given["yarns"]),
+        yarns,
+        None if creel.value is None else tuple(creel.wholes(len(yarns), CODES - 1).tolist()),
     )
 
 
 def chart_of_facts(knots: Indices, facts: ChartFacts, file: str) -> Chart:
     """The chart of a file; `file`: what it is, for the user."""
     reading = ChartReading("exact", f"{file}: knots and yarns are its own", 0.0, 0.0, 0, 0)
-    return Chart(knots, facts.yarns, facts.size, facts.quality, facts.knot, reading)
+    return Chart(knots, facts.yarns, facts.size, facts.quality, facts.knot, reading, creel=facts.creel)
 
 
 def size_entry(entry: MetaEntry) -> CarpetSize:

@@ -6,8 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from ilmek.arrays import Rgb
+from ilmek.arrays import Indices, Rgb
 from ilmek.carpet.chart import Chart, chart_of_design, used_first
+from ilmek.carpet.creel import in_creel_order
 from ilmek.carpet.design import knot_grid, resampled
 from ilmek.carpet.exact import few_colours, has_grid, of_grid, stated_quality
 from ilmek.carpet.fitted import fitted_design, unfitted_design
@@ -90,7 +91,8 @@ def chart_of_order(
             palette=order.palette,
             progress=progress.part(0.5, 1.0, "chart"),
         )
-        return used_first(made_chart)
+        in_order = None if read.indices is None else in_creel_order(made_chart, read.indices)
+        return in_order or used_first(made_chart)
 
     return OrderedChart(made, stages.keep("chart", (key, rest), chart_of), (*notes, *read.notes), read.source)
 
@@ -107,7 +109,7 @@ def file_key(path: Path) -> tuple[Path, int, int]:
 @record
 class _ReadPicture:
     """The design of a picture without changes of its tone, size and quality, how it was fitted, notes, and what a page
-    shows.
+    shows; indices of an indexed picture that was not turned or cropped.
     """
 
     size: CarpetSize
@@ -116,6 +118,7 @@ class _ReadPicture:
     fit: Fit
     notes: tuple[str, ...]
     source: Rgb | None
+    indices: Indices | None = None
 
 
 def _read_file(
@@ -123,7 +126,7 @@ def _read_file(
 ) -> _ReadPicture:
     """Read a picture that is no chart."""
     picture = stages.keep("picture", file, lambda: read_picture(order.picture, progress.part(0.0, 0.5, "picture")))
-    rgb, notes = picture.rgb, picture.notes
+    rgb, notes, indices = picture.rgb, picture.notes, picture.indices
     stated = _stated(order, picture)
     if stated is not None:
         order = replace(order, quality=stated)
@@ -140,7 +143,8 @@ def _read_file(
     del rgb
     reading = progress.part(0.6, 1.0, "chart")
     read = _read(order, prepared, fit, reading, drawn=stated is not None, with_source=with_source)
-    return replace(read, notes=(*notes, *read.notes))
+    kept = indices if read.fit.words == Fit().words else None
+    return replace(read, notes=(*notes, *read.notes), indices=kept)
 
 
 def _read_chart(
