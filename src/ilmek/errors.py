@@ -90,6 +90,19 @@ def did_you_mean(name: str, known: Iterable[str], *, otherwise: str = "") -> str
     return f"did you mean {nearest[0]!r}?" if nearest else otherwise
 
 
+JOINERS = "\u200c\u200d"
+"""Zero width non-joiner and joiner, which Persian and Indic words are written with: سرمه‌ای, navy blue."""
+
+
+def is_printable(text: str) -> bool:
+    r"""Whether a text has characters that can be printed, and joiners, and no others.
+
+    >>> is_printable("سرمه\u200cای"), is_printable("two\nlines")
+    (True, False)
+    """
+    return "".join(letter for letter in text if letter not in JOINERS).isprintable()
+
+
 def printable(text: str) -> str:
     r"""The text as a terminal may show it: other blanks than line ends become spaces, control characters, marks of
     direction and halves of surrogate pairs become �.
@@ -99,7 +112,7 @@ def printable(text: str) -> str:
     """
     if text.isprintable():
         return text
-    return "".join(c if c.isprintable() or c == "\n" else " " if c.isspace() else "�" for c in text)
+    return "".join(c if is_printable(c) or c == "\n" else " " if c.isspace() else "�" for c in text)
 
 
 def encodable(text: str) -> str:

@@ -67,7 +67,11 @@ def test_the_yarn_is_the_same_everywhere(
     made = charted(records, cells, across, along, kind)
     knots = Counter(made.chart.knots.ravel().tolist())
     used: list[Yarn] = [made.chart.yarns[place] for place in sorted(knots)]
-    results, lines, shown = chart_results(made), written(made), yarn_lines(made.chart, made.bill, symbols(12))
+    results, lines, shown = (
+        chart_results(made),
+        written(made),
+        yarn_lines(made.chart, made.bill, symbols(made.chart.yarns)),
+    )
 
     named = [yarn.name for yarn in used]
     pile = results["yarn"]
@@ -75,7 +79,9 @@ def test_the_yarn_is_the_same_everywhere(
     assert [line["yarn"] for line in lines] == [line.need.name for line in shown]
     assert [line["srgb"] for line in lines if line["srgb"]] == [yarn.hex for yarn in used]
     assert [line.colour for line in shown if line.colour] == [yarn.hex for yarn in used]
-    assert [line.symbol for line in shown if line.symbol] == [symbols(12)[place] for place in sorted(knots)]
+    assert [line.symbol for line in shown if line.symbol] == [
+        symbols(made.chart.yarns)[place] for place in sorted(knots)
+    ]
 
     counts = [knots[place] for place in sorted(knots)]
     assert [need["knots"] for need in pile] == counts == [line.need.knots for line in shown if line.colour]

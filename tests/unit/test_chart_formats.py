@@ -22,11 +22,11 @@ from ilmek.carpet.yarn import Yarn
 from ilmek.io.chart import formats
 
 def write(path, chart, progress):
-    yarns = [[yarn.name, yarn.srgb, yarn.lab] for yarn in chart.yarns]
+    yarns = [[yarn.name, yarn.srgb, yarn.lab, None, 1, None, yarn.number] for yarn in chart.yarns]
     data = [chart.knots.tolist(), yarns, str(chart.size), str(chart.quality), chart.knot]
     path.write_text("weave " + json.dumps(data), encoding="utf-8")
 
-def read(path, size, quality, progress):
+def read(path, size, quality, progress, ground):
     knots, yarns, *rest = json.loads(path.read_text(encoding="utf-8").removeprefix("weave "))
     return Chart(np.array(knots), [Yarn(*yarn) for yarn in yarns], *rest), ("of a test",)
 

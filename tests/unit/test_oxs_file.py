@@ -35,39 +35,39 @@ def oxs(stitches: str = STITCHES, palette: str = PALETTE, more: str = "", size: 
     )
 
 
-def read(tmp_path: Path, text: str) -> tuple[Chart, tuple[str, ...]]:
+def read(tmp_path: Path, text: str, ground: str | None = "#ffffff") -> tuple[Chart, tuple[str, ...]]:
     (tmp_path / "design.oxs").write_text(text, encoding="utf-8")
-    return read_chart_oxs(tmp_path / "design.oxs", None, Quality(100.0, 100.0))
+    return read_chart_oxs(tmp_path / "design.oxs", None, Quality(100.0, 100.0), ground=ground)
 
 
 def test_the_palette_of_another_program_is_the_yarn_list(tmp_path: Path) -> None:
     chart, notes = read(tmp_path, oxs())
-    assert chart.knots.tolist() == [[1, 0, 0], [0, 0, 2]]
-    assert [yarn.name for yarn in chart.yarns] == ["cloth", "DMC 310 Black", "DMC 310 Black (2)"]
-    assert [yarn.hex for yarn in chart.yarns] == ["#ffffff", "#2c3225", "#a26d20"]
-    assert chart.yarns[1].lab == pytest.approx(srgb_to_lab(np.array([0x2C, 0x32, 0x25], np.uint8)).tolist())
+    assert chart.knots.tolist() == [[0, 2, 2], [2, 2, 1]]
+    assert [yarn.name for yarn in chart.yarns] == ["DMC 310 Black", "DMC 310 Black (2)", "ground"]
+    assert [yarn.hex for yarn in chart.yarns] == ["#2c3225", "#a26d20", "#ffffff"]
+    assert [yarn.number for yarn in chart.yarns] == [1, 2, 3]
+    assert chart.yarns[0].lab == pytest.approx(srgb_to_lab(np.array([0x2C, 0x32, 0x25], np.uint8)).tolist())
     assert (chart.size.width, chart.quality) == (pytest.approx(0.03), Quality(100.0, 100.0))
     assert notes == ("its palette is the yarn list",)
 
 
 def test_cloth_that_is_covered_is_no_yarn(tmp_path: Path) -> None:
     every = "".join(f'<stitch x="{x}" y="{y}" palindex="{1 + (x + y) % 2}"/>' for x in range(3) for y in range(2))
-    chart, _ = read(tmp_path, oxs(every))
+    chart, _ = read(tmp_path, oxs(every), ground=None)
     assert len(chart.yarns) == 2
 
 
 def test_stitches_that_are_no_knots_are_counted_and_left_out(tmp_path: Path) -> None:
-    more = '<partstitches><partstitch x="1" y="1" palindex1="1" palindex2="0" direction="2"/></partstitches>'
-    more += '<backstitches><backstitch x1="1" x2="2" y1="0" y2="1" palindex="1"/></backstitches>'
+    more = '<backstitches><backstitch x1="1" x2="2" y1="0" y2="1" palindex="1"/></backstitches>'
     more += '<ornaments_inc_knots_and_beads><object x1="1" y1="1" palindex="1" objecttype="bead"/>'
     more += '<object x1="1" y1="0" palindex="1" objecttype="knot"/></ornaments_inc_knots_and_beads>'
     _, notes = read(tmp_path, oxs(more=more))
-    assert notes[0] == ("left out of the chart: 1 back stitch, 2 knots, beads and other ornaments, 1 part stitch")
+    assert notes[0] == ("left out of the chart: 1 back stitch, 2 knots, beads and other ornaments")
 
 
 def test_programs_that_count_from_1_are_understood(tmp_path: Path) -> None:
     chart, notes = read(tmp_path, oxs('<stitch x="1" y="1" palindex="1"/><stitch x="3" y="2" palindex="2"/>'))
-    assert chart.knots.tolist() == [[1, 0, 0], [0, 0, 2]]
+    assert chart.knots.tolist() == [[0, 2, 2], [2, 2, 1]]
     assert "its stitches are numbered from 1" in notes
 
 

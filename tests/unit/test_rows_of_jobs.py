@@ -90,7 +90,7 @@ def test_the_wall_chart_is_one_page_of_the_whole_chart(tmp_path: Path, monkeypat
     text = page.extract_text(visitor_text=visit)
     signs = "".join("".join(shown).split())
     assert {sign: signs.count(sign) for sign in set(signs)} == {
-        sign: count for sign, count in zip(symbols(len(made.yarns)), made.counts, strict=True) if count
+        sign: count for sign, count in zip(symbols(made.yarns), made.counts, strict=True) if count
     }
     assert all(made.yarns[yarn].name in text for yarn in made.used)
     assert "60" in text

@@ -66,7 +66,7 @@ def test_480_knots_are_one_line_of_one_page(tmp_path: Path) -> None:
         for text, x, y, _, font in texts
         if "Mono" in font and low[1] + 32.0 < y < low[0] and len(text.strip()) == 1
     ]
-    expected = "".join(symbols(16)[yarn] for yarn in made.knots[-1])
+    expected = "".join(symbols(made.yarns)[yarn] for yarn in made.knots[-1])
     assert "".join(text.strip() for _, text in sorted(row)) == expected
     first, *_, last = sorted(row)
     assert 24.0 < first[0] < last[0] < plan.width - 24.0
@@ -80,7 +80,7 @@ def test_labels_never_meet(seed: int) -> None:
     marks = [KnotMark(1, column, HALF if rng.random() < 0.5 else JUFTI, 1) for column in range(0, 478, 3 + seed)]
     made = chart(2, 480 if seed < 4 else 1200, 3, tuple(marks) if seed % 2 else (), seed)
     plan = chart_rows_layout(made)
-    inks = Inks.of(made.yarns, symbols(3))
+    inks = Inks.of(made.yarns, symbols(made.yarns))
     for part in range(plan.parts):
         begin = part * plan.part_columns
         strip = Strip(1, row_runs(made, 1), begin, min(begin + plan.part_columns, plan.columns))
@@ -120,7 +120,7 @@ def test_a_run_over_the_end_of_a_strip_has_its_whole_count(tmp_path: Path) -> No
     made = chart(2, 1000, 2)
     made = replace(made, knots=np.zeros((2, 1000), dtype=np.uint8))
     plan = chart_rows_layout(made)
-    inks = Inks.of(made.yarns, symbols(2))
+    inks = Inks.of(made.yarns, symbols(made.yarns))
     counts = [
         [
             label.count

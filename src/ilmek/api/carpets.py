@@ -136,9 +136,10 @@ def write_chart(path: str | Path, chart: Chart) -> None:
         chosen.save(work, chart)
 
 
-def read_chart(path: str | Path) -> Chart:
+def read_chart(path: str | Path, *, ground: str | None = None) -> Chart:
     """The chart of a file that `write_chart` or a job wrote with all facts, as it was, or of a chart program.
 
+    ground  colour of the knots in cells without a stitch, like #e8dfc8; default: such a chart is refused
     Raises PictureError for what is no chart, and CarpetError for a grid that no carpet of the usual quality has.
 
     >>> import tempfile
@@ -147,7 +148,7 @@ def read_chart(path: str | Path) -> Chart:
     >>> read_chart(path).colours
     4
     """
-    return formats.read_chart(Arguments("a chart file", PictureError).path("path", path))[0]
+    return formats.read_chart(Arguments("a chart file", PictureError).path("path", path), ground=ground)[0]
 
 
 def weave(

@@ -7,11 +7,12 @@ distinct colour of the design gets its yarn (`yarns_of_design`). What the chart 
 
 from collections.abc import Sequence
 from dataclasses import field, fields, replace
+from typing import Any
 
 import numpy as np
 
 from ilmek.arrays import BoolArray, FloatArray, Indices, Rgb
-from ilmek.carpet.codes import eight_bits
+from ilmek.carpet.codes import CODES, eight_bits
 from ilmek.carpet.confetti import merge_patches
 from ilmek.carpet.design import bands, knot_grid
 from ilmek.carpet.differences import YarnDifference, differences
@@ -34,7 +35,7 @@ from ilmek.carpet.yarns_of_design import YarnsOfDesign, yarns_of_design
 from ilmek.elements.knot_kinds import parse_knot
 from ilmek.errors import CarpetError, PictureError
 from ilmek.progress import SILENT, Progress
-from ilmek.records import brief, record
+from ilmek.records import brief, record, shown_value
 from ilmek.units import counted
 
 
@@ -86,6 +87,8 @@ class Chart:
     knot     symmetric or asymmetric, also by a trade name (`parse_knot`): senneh is asymmetric
     reading  how the picture was read
     overlay  half knots and jufti knots; default: none
+    creel    the position in the creel of each yarn, 0 to 255: its index in the indexed picture that gave it, and in
+             chart.bmp; None: their order
     Raises CarpetError for knots that are no such indices or not those of the size and quality, for an unknown knot, and
     for an overlay that does not fit; YarnError for a list of no or too many yarns.
 
@@ -101,6 +104,7 @@ class Chart:
     knot: str
     reading: ChartReading = field(default_factory=lambda: ChartReading("exact", "drawn knot by knot", 0.0, 0.0))
     overlay: Overlay = field(default_factory=no_overlay)
+    creel: tuple[int, ...] | None = None
     _tallies: list[Tally] = field(default_factory=list, init=False)
     """The tally, once it is made: many results need it."""
 
@@ -118,6 +122,9 @@ class Chart:
             object.__setattr__(self, name, value)
         _require_grid(self.knots, size, quality)
         require_fit(self.overlay, self.knots, len(yarns))
+        if not len(yarns) == len(set(self.positions)) == len(set(self.positions) & set(range(CODES))):
+            given = f"the creel {shown_value(self.creel)}"
+            raise CarpetError(given, allowed=f"a position of its own, 0 to {CODES - 1}, for each of {len(yarns)} yarns")
 
     def __repr__(self) -> str:
         return brief(self, (part.name for part in fields(self) if part.init))
@@ -131,6 +138,11 @@ class Chart:
     def columns(self) -> int:
         """Knots per row."""
         return int(self.knots.shape[1])
+
+    @property
+    def positions(self) -> tuple[int, ...]:
+        """The position in the creel of each yarn."""
+        return tuple(range(len(self.yarns))) if self.creel is None else self.creel
 
     def tally(self, progress: Progress = SILENT) -> Tally:
         """The counts of the whole chart, made once."""
@@ -200,16 +212,31 @@ def used_first(chart: Chart) -> Chart:
     knots = np.empty_like(chart.knots)
     for band in bands(chart.rows, chart.columns):
         knots[band] = moved[chart.knots[band]]
-    tally, differences_of = chart.tally(), chart.reading.differences
-    reading = replace(
-        chart.reading,
-        differences=tuple(differences_of[yarn] for yarn in order) if differences_of else (),
-        matches=tuple(match._replace(yarn=int(moved[match.yarn])) for match in chart.reading.matches),
+    ordered = rearranged(
+        chart,
+        order,
+        knots,
+        overlay=chart.overlay.with_yarns(moved),
+        creel=chart.creel and tuple(chart.creel[yarn] for yarn in order),
     )
-    yarns = tuple(chart.yarns[yarn] for yarn in order)
-    ordered = replace(chart, knots=knots, yarns=yarns, reading=reading, overlay=chart.overlay.with_yarns(moved))
+    tally = chart.tally()
     ordered._tallies.append(replace(tally, counts=tuple(tally.counts[yarn] for yarn in order)))
     return ordered
+
+
+def rearranged(chart: Chart, order: Sequence[int], knots: Indices, **changes: Any) -> Chart:
+    """The chart with its yarns in another order, which has the old number of each; several may have the same one.
+
+    knots  by the new numbers      changes  of other fields
+    """
+    reading, differences_of = chart.reading, chart.reading.differences
+    reading = replace(
+        reading,
+        differences=tuple(differences_of[yarn] for yarn in order) if differences_of else (),
+        matches=tuple(match._replace(yarn=order.index(match.yarn)) for match in reading.matches),
+    )
+    yarns = tuple(chart.yarns[yarn] for yarn in order)
+    return replace(chart, **{"knots": knots, "yarns": yarns, "reading": reading, **changes})
 
 
 def make_chart(

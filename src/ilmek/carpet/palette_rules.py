@@ -239,13 +239,14 @@ def choose_yarns(
 
 
 def twin_yarns(yarns: Sequence[Yarn]) -> tuple[TwinYarns, ...]:
-    """The pairs of yarns that differ by less than LEAST_DIFFERENCE, the nearest first."""
+    """The pairs of yarns that differ by less than LEAST_DIFFERENCE, the nearest first; one number is one yarn."""
     labs, found = yarn_labs(yarns), []
     for number, yarn in enumerate(yarns[1:], start=1):
         differences = np.atleast_1d(delta_e_2000(labs[:number], labs[number]))
         found += [
             TwinYarns((yarns[other].name, yarn.name), float(differences[other]))
             for other in np.flatnonzero(differences < LEAST_DIFFERENCE).tolist()
+            if yarn.number is None or yarn.number != yarns[other].number
         ]
     return tuple(sorted(found, key=lambda twins: twins.difference))
 

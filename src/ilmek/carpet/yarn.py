@@ -29,7 +29,9 @@ class Yarn:
     metric_count  Nm of a single strand [m/g]; None: left open, to follow from the quality
     ply           number of strands
     price         per kg; None: unknown
-    Raises YarnError for a colour that is none, a count or a ply that is not above 0, and a price below 0.
+    number        in its list, 1 to MOST_YARNS, to which its symbol on every chart belongs; None: of no list
+    Raises YarnError for a colour that is none, a count or a ply that is not above 0, a price below 0, and for a number
+    out of its range.
     """
 
     name: str
@@ -38,6 +40,7 @@ class Yarn:
     metric_count: float | None = None
     ply: int = 1
     price: float | None = None
+    number: int | None = None
 
     def __post_init__(self) -> None:
         codes = [code for code in _three(self.srgb) if code == round(code) and 0 <= code <= 255]
@@ -49,6 +52,8 @@ class Yarn:
             f"lab {self.lab!r}: three numbers L, a, b": len(lab) != 3,
             f"metric_count {self.metric_count!r}: above 0": self.metric_count is not None and not (count and count > 0),
             f"ply {self.ply!r}: a whole number above 0": ply is None or ply < 1 or ply != round(ply),
+            f"number {self.number!r}: 1 to {MOST_YARNS}": self.number is not None
+            and (type(self.number) is not int or not 1 <= self.number <= MOST_YARNS),
             f"price {self.price!r}: 0 or above": self.price is not None and (price is None or price < 0),
         }
         for fault in (fault for fault, holds in faults.items() if holds):

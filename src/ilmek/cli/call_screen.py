@@ -133,7 +133,7 @@ def screen_lines(calling: Calling, depth: int, width: int) -> Iterator[str]:
     figures = large(count_text(step))
     if len(figures[0]) + 18 > width:  # a number is never cut
         figures = (count_text(step),)
-    signs = symbols(len(chart.yarns))
+    signs = symbols(chart.yarns)
     beside = "  ".join(swatch(chart.yarns[yarn].srgb, 12 // len(yarns), depth) for yarn in yarns)
     for line in figures:
         yield f"{line[: width - 20]}    {beside}".rstrip() if depth else line[:width].rstrip()
@@ -176,7 +176,7 @@ def _wrapped(text: str, width: int, most: int) -> list[str]:
 
 def print_rows(calling: Calling) -> None:
     """Print the rows from the present one, one a line, with the yarns' names first."""
-    chart, signs = calling.chart, symbols(len(calling.chart.yarns))
+    chart, signs = calling.chart, symbols(calling.chart.yarns)
     for yarn in chart.used:
         click.echo(f"{signs[yarn]} {_name(chart.yarns[yarn])}")
     while not calling.done:

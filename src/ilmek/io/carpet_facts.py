@@ -9,6 +9,7 @@ from dataclasses import asdict, fields, replace
 
 from ilmek.arrays import Indices
 from ilmek.carpet.chart import Chart, ChartReading
+from ilmek.carpet.codes import CODES
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import LARGEST, CarpetSize
 from ilmek.carpet.yarn import MOST_YARNS, Yarn
@@ -30,6 +31,7 @@ class ChartFacts:
     quality: Quality
     knot: str
     yarns: tuple[Yarn, ...]
+    creel: tuple[int, ...] | None = None
 
 
 def chart_facts(chart: Chart) -> str:
@@ -39,6 +41,7 @@ def chart_facts(chart: Chart) -> str:
         "quality": asdict(chart.quality),
         "knot": chart.knot,
         "yarns": [asdict(yarn) for yarn in chart.yarns],
+        **({} if chart.creel is None else {"creel": chart.creel}),
     }
     return json.dumps(facts, ensure_ascii=False)
 
@@ -51,19 +54,21 @@ def read_facts(text: str) -> ChartFacts:
         data = json.loads(text)
     except (ValueError, RecursionError) as error:
         raise LoomError(f"its facts are not JSON ({shortened(str(error), 100)})") from None
-    given = MetaEntry("chart", data).table("size", "quality", "knot", "yarns")
+    given = MetaEntry("chart", data).table("size", "quality", "knot", "yarns", optional=("creel",))
+    yarns, creel = yarn_entries(given["yarns"]), given["creel"]
     return ChartFacts(
         size_entry(given["size"]),
         quality_entry(given["quality"]),
         given["knot"].one_of(*WRAPS),
-        yarn_entries(given["yarns"]),
+        yarns,
+        None if creel.value is None else tuple(creel.wholes(len(yarns), CODES - 1).tolist()),
     )
 
 
 def chart_of_facts(knots: Indices, facts: ChartFacts, file: str) -> Chart:
     """The chart of a file; `file`: what it is, for the user."""
     reading = ChartReading("exact", f"{file}: knots and yarns are its own", 0.0, 0.0, 0, 0)
-    return Chart(knots, facts.yarns, facts.size, facts.quality, facts.knot, reading)
+    return Chart(knots, facts.yarns, facts.size, facts.quality, facts.knot, reading, creel=facts.creel)
 
 
 def size_entry(entry: MetaEntry) -> CarpetSize:
@@ -81,13 +86,14 @@ def yarn_entries(entry: MetaEntry) -> tuple[Yarn, ...]:
     """The yarns, by the rules of a yarn list."""
     found = []
     for one in entry.rows(2, MOST_YARNS):
-        given = one.table(*(field.name for field in fields(Yarn)))
+        given = one.table(*(field.name for field in fields(Yarn) if field.name != "number"), optional=("number",))
         lightness, a, b = (part.number(-200.0, 200.0) for part in given["lab"].rows(3, 3))
         red, green, blue = (part.whole(0, 255) for part in given["srgb"].rows(3, 3))
         price = None if given["price"].value is None else given["price"].number()
         count = None if given["metric_count"].value is None else given["metric_count"].number()
         numbers = count, given["ply"].whole(1, MOST_YARNS), price
-        found.append(Yarn(given["name"].text(least=1), (red, green, blue), (lightness, a, b), *numbers))
+        place = None if given["number"].value is None else given["number"].whole(1, MOST_YARNS)
+        found.append(Yarn(given["name"].text(least=1), (red, green, blue), (lightness, a, b), *numbers, place))
     records = [
         {
             "name": yarn.name,
@@ -99,6 +105,6 @@ def yarn_entries(entry: MetaEntry) -> tuple[Yarn, ...]:
         for yarn in found
     ]
     for yarn, read in zip(found, yarns_from_records(records), strict=True):
-        if replace(read, lab=yarn.lab) != yarn:
+        if replace(read, lab=yarn.lab, number=yarn.number) != yarn:
             raise LoomError(f"the yarn {yarn.name!r} has spaces round its name")
     return tuple(found)

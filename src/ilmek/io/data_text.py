@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ilmek.errors import IlmekError, shortened
+from ilmek.errors import IlmekError, is_printable, shortened
 from ilmek.io.line_numbers import KeyLines, Token, json_lines, tokens, toml_lines
 from ilmek.io.line_numbers import Path as KeyPath
 from ilmek.io.text_file import read_text
@@ -132,10 +132,10 @@ def _check_texts(data: Any, lines: KeyLines) -> None:
     for path, value in values(data, ()):
         at = f"line {_line(path, lines)}"
         name = path[-1] if path else 0
-        if isinstance(name, str) and not (len(name) <= LONGEST_NAME and name.isprintable()):
+        if isinstance(name, str) and not (len(name) <= LONGEST_NAME and is_printable(name)):
             given = f"{at}: the name {shortened(ascii(name))} cannot be used"
             raise IlmekError(given, allowed=f"at most {LONGEST_NAME} letters, digits and signs on one line")
-        if isinstance(value, str) and not value.translate(_SPACES).isprintable():
+        if isinstance(value, str) and not is_printable(value.translate(_SPACES)):
             given = f"{at}, {name}: {shortened(ascii(value))} cannot be printed"
             raise IlmekError(given, allowed="letters, digits and signs on one line")
         if isinstance(value, float) and not math.isfinite(value):

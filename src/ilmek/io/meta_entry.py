@@ -6,7 +6,7 @@ from typing import Any, NoReturn
 import numpy as np
 
 from ilmek.arrays import IntArray
-from ilmek.errors import LoomError
+from ilmek.errors import LoomError, is_printable
 from ilmek.io.schema import shown
 
 LONGEST_NAME = 200
@@ -46,7 +46,7 @@ class MetaEntry:
         """A text of printable characters."""
         if not isinstance(self.value, str) or not least <= len(self.value) <= LONGEST_NAME:
             self.refuse(f"a text of {least} to {LONGEST_NAME} characters")
-        if not self.value.isprintable():
+        if not is_printable(self.value):
             self.refuse("printable characters")
         return self.value
 
@@ -56,11 +56,11 @@ class MetaEntry:
             self.refuse(", ".join(known))
         return str(self.value)
 
-    def table(self, *keys: str) -> dict[str, "MetaEntry"]:
-        """A table with exactly these keys."""
-        if not isinstance(self.value, dict) or set(self.value) != set(keys):
-            self.refuse(f"a table with {', '.join(keys)}")
-        return {key: MetaEntry(f"{self.path}.{key}", self.value[key]) for key in keys}
+    def table(self, *keys: str, optional: tuple[str, ...] = ()) -> dict[str, "MetaEntry"]:
+        """A table with exactly these keys, and with those that are optional, whose default is null."""
+        if not isinstance(self.value, dict) or set(self.value) - set(optional) != set(keys):
+            self.refuse(f"a table with {', '.join((*keys, *optional))}")
+        return {key: MetaEntry(f"{self.path}.{key}", self.value.get(key)) for key in (*keys, *optional)}
 
     def rows(self, least: int, most: int) -> list["MetaEntry"]:
         """A list."""

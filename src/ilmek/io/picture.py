@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from PIL import Image, UnidentifiedImageError
 
-from ilmek.arrays import Rgb
+from ilmek.arrays import Indices, Rgb
 from ilmek.carpet.codes import eight_bits
 from ilmek.carpet.picture_points import Colour, read_colour
 from ilmek.errors import PictureError
@@ -59,6 +59,9 @@ LARGEST_JPEG_2000 = 2_000_000
 LARGEST_INTERPRETED = 4_000_000
 """Largest number of pixels where Pillow's decoder is written in Python: up to 3 s a megapixel (QOI, PPM of 16 bits)."""
 
+MOST_INDEXED = 25_000_000
+"""Largest number of pixels of an indexed picture whose indices are kept: 5,000 x 5,000 knots."""
+
 _OPENED = [name for name in FORMATS if name != "MPO"]
 _ORIENTATION = 0x0112
 _ENTRIES = 20_000
@@ -90,12 +93,14 @@ class Picture:
     rgb      rows x columns x 3, whole numbers 0 to 255; other integers become uint8. Raises PictureError for others
     density  pixels per metre across and along, as the file states them; None: it does not
     ground   colour behind its transparent parts; None: it has none
+    indices  of an opaque indexed picture of at most MOST_INDEXED pixels, rows x columns; None: it is none
     """
 
     rgb: Rgb
     notes: tuple[str, ...] = ()
     density: tuple[float, float] | None = None
     ground: Colour | None = None
+    indices: Indices | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "rgb", pixels_of(self.rgb))
@@ -201,14 +206,15 @@ def _decoded(opened: Image.Image, stream: MeteredBytes, ground: Colour | None, p
     if not by_pillow:
         orientation, about_exif = _orientation(opened)
     pixels, behind, converted = srgb_pixels(opened, progress.part(0.7, 1.0), ground)
-    density = _density(opened)
+    density, indices = _density(opened), _indices(opened)
     opened.close()  # before the pixels are copied
     upright = pixels if by_pillow else turned(pixels, orientation)
     across, along = density or (0.0, 0.0)
     if orientation >= 5 and not by_pillow:
         across, along = along, across
     stated = (across, along) if density else None
-    return Picture(upright, (*notes, *about_exif, *deep, *converted), stated, behind)
+    indices = None if indices is None or orientation != 1 else indices
+    return Picture(upright, (*notes, *about_exif, *deep, *converted), stated, behind, indices)
 
 
 def _density(opened: Image.Image) -> tuple[float, float] | None:
@@ -219,6 +225,12 @@ def _density(opened: Image.Image) -> tuple[float, float] | None:
     except (TypeError, ValueError, OverflowError, ZeroDivisionError):
         return None
     return (across, along) if min(across, along) > 0 else None
+
+
+def _indices(opened: Image.Image) -> Indices | None:
+    """The indices of a loaded picture with a palette whose colours are opaque."""
+    few = opened.width * opened.height <= MOST_INDEXED
+    return np.array(opened) if few and opened.mode == "P" and not opened.has_transparency_data else None
 
 
 def _several_frames(opened: Image.Image) -> tuple[str, ...]:

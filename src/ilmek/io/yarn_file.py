@@ -6,8 +6,10 @@
     nm = 5.0                  # metric count of the single strand [m/g]; optional: by the quality of the carpet
     ply = 3
     price = 14.5              # per kilogram; optional
+    number = 12               # of the shelf, 1 to 255; its symbol belongs to it; default: its place in the list
 
-A CSV file has the columns name, srgb or lab ("31.5 45 27"), nm, ply, price; separated by commas, semicolons or tabs.
+A CSV file has the columns name, srgb or lab ("31.5 45 27"), nm, ply, price, number; separated by commas, semicolons or
+tabs.
 They stand in any order. Empty lines are ignored, and lines that begin with # above the header; below it every line is a
 yarn.
 
@@ -15,11 +17,12 @@ A palette of GIMP (.gpl) has a colour and a name on each line. Names are made un
 count follows from the quality of the carpet.
 
 A record is one yarn as read from the file: a mapping with the fields `name`, `srgb` ("#8b1a1a") or `lab` ([L, a, b]),
-`nm`, `ply` and `price`, numbers or texts. Prices are per kilogram, in the currency of the yarn plan.
+`nm`, `ply`, `price` and `number`, numbers or texts. Prices are per kilogram, in the currency of the yarn plan.
 """
 
 import re
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from importlib import resources
 from pathlib import Path
 from typing import TypeAlias
@@ -29,7 +32,7 @@ import numpy as np
 from ilmek.carpet.colour import lab_to_srgb, srgb_to_lab
 from ilmek.carpet.picture_points import hex_colour
 from ilmek.carpet.yarn import COUNTS, MOST_YARNS, PLIES, Yarn
-from ilmek.errors import YarnError, did_you_mean, shortened
+from ilmek.errors import JOINERS, YarnError, did_you_mean, is_printable, shortened
 from ilmek.io.csv_lines import csv_lines, decimal_points
 from ilmek.io.data_text import LONGEST_NAME, parse_data
 from ilmek.io.schema import finite_number, key_faults
@@ -44,7 +47,9 @@ Record: TypeAlias = Mapping[str, object]
 GPL_HEADING = "GIMP Palette"
 _GPL_COLOUR = re.compile(r"\s*(\d{1,3})\s+(\d{1,3})\s+(\d{1,3})(?:\s+(.*))?")
 
-FIELDS = ("name", "srgb", "lab", "nm", "ply", "price")
+FIELDS = ("name", "srgb", "lab", "nm", "ply", "price", "number")
+
+_WHOLE = ("ply", "number")
 
 _MISSING = "check the path, or give --yarns wool: the wools that come with ilmek"
 
@@ -115,7 +120,7 @@ def _csv_value(name: str, cell: str, line: int, delimiter: str) -> object:
         return values
     if len(values) != 1:
         raise YarnError(f"line {line}: {name} {cell!r} is not one number", do="correct that cell")
-    return int(values[0]) if name == "ply" and values[0].is_integer() else values[0]
+    return int(values[0]) if name in _WHOLE and values[0].is_integer() else values[0]
 
 
 def _gpl_yarns(text: str) -> tuple[Yarn, ...]:
@@ -171,6 +176,7 @@ def yarns_from_records(records: Sequence[Record], lines: Sequence[int] = ()) -> 
     called = [f"line {line}: yarn {number}" for number, line in enumerate(lines, start=1)]
     called = called or [f"yarn {number}" for number in range(1, len(records) + 1)]
     yarns = tuple(_yarn(record, name) for record, name in zip(records, called, strict=True))
+    yarns = _numbered(yarns, called)
     has_counts = any(yarn.metric_count is not None for yarn in yarns)
     seen: dict[str, int] = {}
     for number, yarn in enumerate(yarns, start=1):
@@ -185,25 +191,44 @@ def yarns_from_records(records: Sequence[Record], lines: Sequence[int] = ()) -> 
     return yarns
 
 
+def _numbered(yarns: tuple[Yarn, ...], called: Sequence[str]) -> tuple[Yarn, ...]:
+    """The yarns with a number each: their own, or their place in the list. Raises YarnError for one of two yarns."""
+    found = tuple(replace(yarn, number=yarn.number or place) for place, yarn in enumerate(yarns, start=1))
+    first: dict[int | None, int] = {}
+    for place, yarn in enumerate(found):
+        other = first.setdefault(yarn.number, place)
+        if other != place:
+            both = f"{called[other]} ({shortened(yarns[other].name)}) and {called[place]} ({shortened(yarn.name)})"
+            raise YarnError(
+                f"{both} have the number {yarn.number}",
+                allowed="a number each; a yarn without one has its place in the list",
+                do="give every yarn a number, or none",
+            )
+    return found
+
+
 def _yarn(record: Record, numbered: str) -> Yarn:
     """The yarn of a record, which is `numbered` in messages: "yarn 3"."""
-    name = str(record.get("name") or "").strip()
+    name = str(record.get("name") or "").strip().strip(JOINERS)
     called = f"{numbered} ({shortened(name)})" if name else numbered
     for _, error in key_faults(record, FIELDS, noun="field"):
         raise YarnError(f"{called}: {error.given}", allowed=error.allowed, do=error.do)
     if not name:
         raise YarnError(f"{called} has no name", do='give it one, like name = "madder red"')
-    if not name.isprintable() or len(name) > LONGEST_NAME:
+    if not is_printable(name) or len(name) > LONGEST_NAME:
         allowed = f"at most {LONGEST_NAME} letters, digits and signs on one line"
         raise YarnError(f"{numbered} has the name {shortened(ascii(name))}", allowed=allowed)
     srgb, lab = _colour(record, called)
     count = _number(record, "nm", called)
-    ply = _number(record, "ply", called)
+    ply, place = _number(record, "ply", called), _number(record, "number", called)
     if count is None and ply is not None:
         raise _no_count(called)
     if ply is not None and ply != round(ply):
         raise YarnError(f"{called}: ply {ply:g} is not a whole number", allowed="strands twisted together: 1 to 64")
-    return Yarn(name, srgb, lab, count, 1 if ply is None else round(ply), _number(record, "price", called))
+    if place is not None and place != round(place):
+        raise YarnError(f"{called}: number {place:g} is not a whole number", allowed=f"1 to {MOST_YARNS}")
+    number = None if place is None else round(place)
+    return Yarn(name, srgb, lab, count, 1 if ply is None else round(ply), _number(record, "price", called), number)
 
 
 def _no_count(called: str) -> YarnError:
@@ -214,7 +239,12 @@ def _no_count(called: str) -> YarnError:
     )
 
 
-_BOUNDS: Mapping[str, tuple[float, float]] = {"nm": COUNTS, "ply": PLIES, "price": (0.0, 1e6)}
+_BOUNDS: Mapping[str, tuple[float, float]] = {
+    "nm": COUNTS,
+    "ply": PLIES,
+    "price": (0.0, 1e6),
+    "number": (1, MOST_YARNS),
+}
 
 
 def _number(record: Record, field: str, called: str) -> float | None:

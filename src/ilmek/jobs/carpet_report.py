@@ -28,7 +28,7 @@ def page_of(
         chart=chart,
         bill=bill,
         statistics=statistics,
-        symbols=symbols(len(chart.yarns)),
+        symbols=symbols(chart.yarns),
         reading=reading_lines(chart),
         proposed=proposed_shades(chart),
         files=file_notes(files),

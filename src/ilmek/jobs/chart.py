@@ -206,6 +206,7 @@ def chart_results(charted: ChartResult) -> dict[str, Any]:
         "changes_per_knot": chart.changes_per_knot,
         "statistics": _statistics(charted),
         "yarn": [_need(need) for need in bill.pile],
+        "yarn_index": [chart.positions[yarn] for yarn in chart.used],
         "ground": [_need(need) for need in bill.ground],
         "pile_mass": bill.pile_mass,
         "pile_mass_per_area": bill.pile_mass / chart.size.area,

@@ -6,8 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from ilmek.arrays import Rgb
+from ilmek.arrays import Indices, Rgb
 from ilmek.carpet.chart import Chart, chart_of_design, used_first
+from ilmek.carpet.creel import in_creel_order
 from ilmek.carpet.design import knot_grid, resampled
 from ilmek.carpet.exact import few_colours, has_grid, of_grid, stated_quality
 from ilmek.carpet.fitted import fitted_design, shaped_size, unfitted_design
@@ -62,7 +63,9 @@ def chart_of_order(
     """
     file = file_key(order.picture)
     key = (file, order.size, order.quality, order.fit, order.reading.untoned, with_source)
-    chart, notes = stages.keep("own chart", file, lambda: _own_chart(order, progress.part(0.0, 0.4, "picture")))
+    chart, notes = stages.keep(
+        "own chart", (file, order.fit.ground), lambda: _own_chart(order, progress.part(0.0, 0.4, "picture"))
+    )
     if chart is not None:
         given, order = order, _on_the_chart(order, chart)
         made = order.resolved()
@@ -93,7 +96,8 @@ def chart_of_order(
             dyed=order.dyed,
             progress=progress.part(0.5, 1.0, "chart"),
         )
-        return used_first(made_chart)
+        in_order = None if read.indices is None else in_creel_order(made_chart, read.indices)
+        return in_order or used_first(made_chart)
 
     chart = stages.keep("chart", (key, rest), chart_of)
     return OrderedChart(made.with_dyed(chart.yarns), chart, (*notes, *read.notes), read.source, read.whole)
@@ -111,7 +115,7 @@ def file_key(path: Path) -> tuple[Path, int, int]:
 @record
 class _ReadPicture:
     """The design of a picture without changes of its tone, size and quality, how it was fitted, notes, and what a page
-    shows.
+    shows; indices of an indexed picture that was not turned or cropped.
     """
 
     size: CarpetSize
@@ -121,6 +125,7 @@ class _ReadPicture:
     notes: tuple[str, ...]
     source: Rgb | None
     whole: Rgb | None = None
+    indices: Indices | None = None
 
 
 def _read_file(
@@ -129,7 +134,7 @@ def _read_file(
     """Read a picture that is no chart."""
     ground, reading_file = order.fit.ground, progress.part(0.0, 0.5, "picture")
     picture = stages.keep("picture", (file, ground), lambda: read_picture(order.picture, reading_file, ground=ground))
-    rgb, notes, behind = picture.rgb, picture.notes, picture.ground
+    rgb, notes, behind, indices = picture.rgb, picture.notes, picture.ground, picture.indices
     stated = _stated(order, picture)
     if stated is not None:
         order = replace(order, quality=stated)
@@ -149,7 +154,8 @@ def _read_file(
     read = _read(replace(order, fit=fitting), prepared, fit, reading, drawn=stated is not None, with_source=with_source)
     if ground is not None and behind is None and not read.fit.padded:
         notes = (*notes, f"ground={ground!r} is not seen: the picture has no transparent part and no margin")
-    return replace(read, notes=(*notes, *read.notes))
+    kept = indices if read.fit.words == Fit().words else None
+    return replace(read, notes=(*notes, *read.notes), indices=kept)
 
 
 def _read_chart(
@@ -236,7 +242,7 @@ def _own_chart(order: CarpetOrder, progress: Progress) -> tuple[Chart | None, tu
     if chosen is None or chosen.read is None:
         return None, ()
     try:
-        return chosen.read(order.picture, order.size, order.quality, progress)
+        return chosen.read(order.picture, order.size, order.quality, progress, order.fit.ground)
     except PictureError as error:
         if not chosen.picture:
             raise
@@ -280,7 +286,8 @@ def _keeps_knots(order: CarpetOrder, chart: Chart) -> bool:
         reading = replace(reading, reading=ReadParams().reading)
     if reading.least_patch == 0:
         reading = replace(reading, least_patch=None)
-    given: dict[str, Any] = {group: getattr(order, group) for group in _OF_THE_KNOTS} | {"reading": reading}
+    changed = {"reading": reading, "fit": replace(order.fit, ground=None)}  # all cells of a chart have knots
+    given: dict[str, Any] = {group: getattr(order, group) for group in _OF_THE_KNOTS} | changed
     untouched = all(given[group] == GROUPS[group]() for group in _OF_THE_KNOTS)
     return untouched and has_grid((chart.rows, chart.columns), order.size, order.quality)
 

@@ -9,13 +9,20 @@ from ilmek.carpet.quality import Quality
 from ilmek.carpet.usual_pile import BAND_SOURCE, USUAL_PLY, usual_count
 from ilmek.carpet.yarn import Yarn
 from ilmek.carpet.yarn_plan import EURO
+from ilmek.errors import shortened
+from ilmek.io.chart.lettering import missing_letters
 from ilmek.report import Check
-from ilmek.units import format_number, format_quantity
+from ilmek.units import counted, format_number, format_quantity
 
 
 def yarn_warnings(chart: Chart, bill: YarnBill, thickest: Yarn, fill: Check) -> tuple[str, ...]:
     """The warnings on the yarn of a chart: the thickest yarn that is used, the mass, the dye lots of the field."""
-    found = (too_thick(chart, thickest, fill), mass_warning(bill, chart.quality), lot_warning(bill))
+    found = (
+        too_thick(chart, thickest, fill),
+        mass_warning(bill, chart.quality),
+        lot_warning(bill),
+        letters_warning(chart),
+    )
     return tuple(filter(None, found))
 
 
@@ -52,6 +59,23 @@ def mass_warning(bill: YarnBill, quality: Quality) -> str:
     return (
         f"the carpet weighs {mass}, {'below' if light else 'above'} the {published} published for {quality} "
         f"({BAND_SOURCE}): calibrate, or take {cure} (--calibration, --yarn-count, --pile-height)"
+    )
+
+
+def letters_warning(chart: Chart) -> str:
+    """The characters of names that no font of the PDF files has, which show boxes; "" where there are none."""
+    found = {
+        yarn.name: letters
+        for yarn in map(chart.yarns.__getitem__, chart.used)
+        if (letters := missing_letters(yarn.name))
+    }
+    if not found:
+        return ""
+    name, letters = next(iter(found.items()))
+    others = f" (and in {counted(len(found) - 1, 'more name')})" if len(found) > 1 else ""
+    return (
+        f"no font of the PDF files has {letters!r} of the yarn {shortened(name)!r}{others}: boxes stand there; "
+        "the symbols are whole, and report.html has the name"
     )
 
 

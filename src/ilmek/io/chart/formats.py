@@ -34,8 +34,8 @@ class ChartFormat:
     write     the file of a chart
     begins    whether a file that begins with these bytes is a chart of this format; the ending counts as well where
               the format is no picture
-    read      the chart of a file, with the size and the quality of an order, of which a file without them needs one;
-              None: it is not read as a chart
+    read      the chart of a file, with the size and the quality of an order, of which a file without them needs one,
+              and the colour of its cells without a knot; None: it is not read as a chart
     picture   it is a picture, and read as one where it has no facts of a chart
     always    it is in every folder
     printed   it is for people: written where it is not too large
@@ -47,7 +47,7 @@ class ChartFormat:
     doc: str
     write: Callable[[Path, Chart, Progress], None]
     begins: Callable[[bytes], bool] = lambda _: False
-    read: Callable[[Path, CarpetSize | None, Quality | None, Progress], ReadChart] | None = None
+    read: Callable[[Path, CarpetSize | None, Quality | None, Progress, str | None], ReadChart] | None = None
     picture: bool = True
     always: bool = False
     printed: bool = False
@@ -83,7 +83,13 @@ class ChartFormat:
             )
 
 
-def _read_png(path: Path, size: CarpetSize | None, quality: Quality | None, progress: Progress) -> ReadChart:  # noqa: ARG001 - it has its own
+def _read_png(
+    path: Path,
+    size: CarpetSize | None,  # noqa: ARG001 - it has its own, and a knot in every cell
+    quality: Quality | None,  # noqa: ARG001
+    progress: Progress,
+    ground: str | None,  # noqa: ARG001
+) -> ReadChart:
     return read_chart_png(path, progress), ()
 
 
@@ -144,16 +150,21 @@ def format_of(path: Path) -> ChartFormat | None:
 
 
 def read_chart(
-    path: Path, size: CarpetSize | None = None, quality: Quality | None = None, progress: Progress = SILENT
+    path: Path,
+    size: CarpetSize | None = None,
+    quality: Quality | None = None,
+    progress: Progress = SILENT,
+    ground: str | None = None,
 ) -> ReadChart:
     """The chart of a file in any format that is read.
 
     size, quality  of the carpet, for a file that states none; default: as of a drawing
+    ground         colour of the cells without a knot, which only charts of other programs have
     Raises PictureError for a file that is no chart, CarpetError for a grid that no carpet has; Cancelled.
     """
     chosen = format_of(path) or FORMATS["png"]  # which states what is wrong
     assert chosen.read is not None
-    return chosen.read(path, size, quality, progress)
+    return chosen.read(path, size, quality, progress, ground)
 
 
 def format_by_ending(path: Path) -> ChartFormat:

@@ -4,10 +4,11 @@ from typing import Any
 
 import numpy as np
 from PIL import Image
-from reportlab.lib.utils import ImageReader, simpleSplit
+from reportlab.lib.utils import ImageReader
 
 from ilmek.carpet.chart import Chart
 from ilmek.io.chart.inks import Inks
+from ilmek.io.chart.lettering import cut_line, draw_line, line_width, two_lines
 from ilmek.io.chart.sheets import SheetLayout
 from ilmek.io.chart.symbols import SIGNS, STRONG, TEXT
 from ilmek.units import counted, format_number
@@ -16,8 +17,8 @@ _LEFT, _TOP, _WIDTH, _HEIGHT = 54.0, 800.0, 487.0, 620.0
 _GREY = (0.36, 0.40, 0.44)
 _LINE, _LINES = 19.0, 36
 """Height of a legend entry [pt], and entries per column; two columns per page."""
-_SMALL = 6.5
-"""Size of a long name's letters [pt]."""
+_NAME, _SMALL = 9.0, 6.5
+"""Sizes of a name's letters, and of those of a long name [pt]."""
 
 
 def draw_overview(canvas: Any, chart: Chart, plan: SheetLayout, name: str) -> None:
@@ -137,19 +138,9 @@ def draw_entry(
 def _write_name(canvas: Any, name: str, at: tuple[float, float], room: float) -> None:
     """Write a name in one line, or smaller in two."""
     x, y = at
-    if canvas.stringWidth(name, TEXT, 9) <= room:
-        canvas.drawString(x, y, name)
+    if line_width(name, _NAME) <= room:
+        draw_line(canvas, x, y, name, _NAME)
         return
-    first, *more = simpleSplit(name, TEXT, _SMALL, room)
-    canvas.setFont(TEXT, _SMALL)
-    canvas.drawString(x, y + 4.0 if more else y, _fitted(canvas, first, room))
-    canvas.drawString(x, y - 3.5, _fitted(canvas, " ".join(more), room))
-
-
-def _fitted(canvas: Any, text: str, room: float) -> str:
-    """The text in small letters; a long one loses its middle, because names often differ at the end."""
-    half = len(text) // 2
-    head, tail = text[:half], text[half:]
-    while canvas.stringWidth(shown := f"{head}…{tail}" if len(head + tail) < len(text) else text, TEXT, _SMALL) > room:
-        head, tail = head[:-1], tail[1:]
-    return shown
+    first, more = two_lines(name, _SMALL, room)
+    draw_line(canvas, x, y + 4.0 if more else y, cut_line(first, _SMALL, room), _SMALL)
+    draw_line(canvas, x, y - 3.5, cut_line(more, _SMALL, room), _SMALL)

@@ -1,10 +1,12 @@
-"""Knot charts as OXS, the open XML charts of cross-stitch programs: one full stitch for each knot.
+"""Knot charts as OXS, the open XML charts of cross-stitch programs: a full stitch for a knot, a three-quarter stitch in
+two colours for two half knots.
 
     <chart>
       <properties software="ilmek" chartwidth chartheight stitchesperinch stitchesperinch_y palettecount .../>
       <palette>  <palette_item index number name color .../>  </palette>        item 0 is the cloth
       <fullstitches>  <stitch x y palindex/>  </fullstitches>                    x to the right, y down, both from 0
-      <partstitches/> <backstitches/> ...                                        empty
+      <partstitches>  <partstitch x y palindex1 palindex2 direction/>  </partstitches>     left and right half knots
+      <backstitches/> ...                                                        empty
       <ilmek facts overlay/>                                                     all facts of the chart
     </chart>
 
@@ -17,6 +19,7 @@ from pathlib import Path
 from xml.sax.saxutils import quoteattr
 
 from ilmek.carpet.chart import Chart
+from ilmek.carpet.overlay import HALF
 from ilmek.io.carpet_facts import chart_facts
 from ilmek.io.overlay_text import overlay_text
 from ilmek.io.picture import METRE
@@ -55,11 +58,20 @@ def _lines(chart: Chart) -> Iterator[str]:
         yield f"    {_element('palette_item', {**item, 'strands': yarn.ply})}\n"
     yield "  </palette>\n  <fullstitches>\n"
     begins = [f'    <stitch x="{column}" y="' for column in range(chart.columns)]
+    halves = [mark for mark in chart.overlay if mark.kind == HALF]
+    in_halves = {(mark.row, mark.column) for mark in halves}
     for number, row in enumerate(chart.knots):
         ends = [f'{number}" palindex="{yarn + 1}"/>\n' for yarn in range(len(chart.yarns))]
-        yield "".join([begin + ends[yarn] for begin, yarn in zip(begins, row.tolist(), strict=True)])
-    yield "  </fullstitches>\n"
-    for empty in ("partstitches", "backstitches", "ornaments_inc_knots_and_beads", "commentboxes"):
+        stitches = [begin + ends[yarn] for begin, yarn in zip(begins, row.tolist(), strict=True)]
+        yield "".join(
+            stitches if not halves else [one for at, one in enumerate(stitches) if (number, at) not in in_halves]
+        )
+    yield "  </fullstitches>\n  <partstitches>\n"
+    for row, column, _, second in halves:
+        colours = {"palindex1": int(chart.knots[row, column]) + 1, "palindex2": second + 1}
+        yield f"    {_element('partstitch', {'x': column, 'y': row, **colours, 'direction': 1})}\n"
+    yield "  </partstitches>\n"
+    for empty in ("backstitches", "ornaments_inc_knots_and_beads", "commentboxes"):
         yield f"  <{empty}/>\n"
     facts = {"facts": chart_facts(chart), "overlay": overlay_text(chart.overlay, chart.columns)}
     yield f"  {_element('ilmek', facts)}\n</chart>\n"

@@ -1,14 +1,19 @@
 """Reading of OXS charts, ilmek's own and those of cross-stitch programs, as knot charts.
 
+A full stitch is a knot. A three-quarter stitch (direction 1, 2) is a half knot in each of its colours, left and right,
+over the cell's full stitch where it has one colour. A half stitch (direction 3, 4), whose thread crosses the cell, is a
+knot. A cell, or a half of one, without a stitch is bare cloth, on which no knot is tied.
+
 The file is untrusted: no document type, hence no entities; bounded size, depth, grid and palette. It is parsed in
 blocks; every element is checked as it comes.
 """
 
 import re
 from collections import Counter
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 from xml.parsers import expat
 
 import numpy as np
@@ -17,10 +22,12 @@ from ilmek.arrays import Indices, Int
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.exact import has_grid, of_grid
+from ilmek.carpet.overlay import HALF, KnotMark, overlay_of
+from ilmek.carpet.picture_points import hex_colour, read_colour
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import MOST_YARNS, Yarn
-from ilmek.errors import IlmekError, PictureError, shortened
+from ilmek.errors import IlmekError, PictureError, is_printable, shortened
 from ilmek.io.carpet_facts import ChartFacts, chart_of_facts, read_facts
 from ilmek.io.chart.oxs import MOST_OXS_KNOTS
 from ilmek.io.data_text import LONGEST_NAME
@@ -44,8 +51,10 @@ _BLOCK = 1 << 20
 _BEGIN = 4096
 _WHOLE = re.compile(r"\s*([0-9]{1,7})(?:\.0{1,9})?\s*")
 _COLOUR = re.compile(r"\s*#?([0-9a-fA-F]{6})\s*")
+_FULL, _LEFT, _RIGHT = range(3)
+"""Layers of a chart's stitches: full ones, left and right parts."""
+
 _LEFT_OUT = {
-    "partstitch": ("part stitch", "part stitches"),
     "backstitch": ("back stitch", "back stitches"),
     "object": ("knot, bead or other ornament", "knots, beads and other ornaments"),
     "commentbox": ("comment", "comments"),
@@ -59,7 +68,11 @@ def begins_oxs(begin: bytes) -> bool:
 
 
 def read_chart_oxs(
-    path: Path, size: CarpetSize | None = None, quality: Quality | None = None, progress: Progress = SILENT
+    path: Path,
+    size: CarpetSize | None = None,
+    quality: Quality | None = None,
+    progress: Progress = SILENT,
+    ground: str | None = None,
 ) -> tuple[Chart, tuple[str, ...]]:
     """The chart of an OXS file, and notes on what is left out.
 
@@ -67,14 +80,15 @@ def read_chart_oxs(
     of the palette the yarns, whose count is left open; its size follows from the quality.
 
     size, quality  of the carpet, for a chart of another program; default: as of a drawing
-    Raises PictureError for a file that is no such chart or exceeds the limits, CarpetError for a grid that no carpet of
-    the size or the quality has; Cancelled.
+    ground         colour of the knots in cells without a stitch, `#rrggbb`: a yarn of the palette or one more, "ground"
+    Raises PictureError for a file that is no such chart or exceeds the limits, and for cells without a stitch where no
+    ground is given; CarpetError for a grid that no carpet of the size or the quality has; Cancelled.
     """
     reader = _Reader()
     try:
         reader.parse(path, progress)
-        knots, more = reader.grid()
-        return _chart(reader, knots, more, size, quality)
+        stitches, more = reader.grid(None if ground is None else hex_colour(read_colour("ground", ground)))
+        return _chart(reader, stitches, more, size, quality)
     except expat.ExpatError as error:
         given = f"{path}, line {error.lineno}: {expat.errors.messages[error.code]}"
         raise PictureError(given, do="it is damaged or truncated; save or copy it again") from None
@@ -88,6 +102,13 @@ class _FaultError(IlmekError):
     """A fault of the file at the line that is read."""
 
 
+class _Stitches(NamedTuple):
+    """The palette's index of each cell's knot on its left and on its right warp, above 0."""
+
+    left: Int[np.ndarray, "rows columns"]
+    right: Int[np.ndarray, "rows columns"]
+
+
 class _Reader:
     """Takes the elements of a file one by one."""
 
@@ -96,7 +117,7 @@ class _Reader:
         self.palette: dict[int, tuple[str, str]] = {}  # name and colour by index
         self.left_out: Counter[tuple[str, str]] = Counter()
         self.facts = self.overlay = self.software = ""
-        self._stitches: Int[np.ndarray, "rows columns"] | None = None
+        self._stitches: Int[np.ndarray, "layers rows columns"] | None = None
         self._parser: Any = expat.ParserCreate()
         self._parser.buffer_text = True
         self._parser.StartElementHandler = self._start
@@ -122,18 +143,35 @@ class _Reader:
                 progress(done / size)
             self._parser.Parse(b"", True)
 
-    def grid(self) -> tuple[Int[np.ndarray, "rows columns"], tuple[str, ...]]:
-        """The palette's index of each knot, 0 for the cloth, and notes."""
+    def grid(self, ground: str | None) -> tuple[_Stitches, tuple[str, ...]]:
+        """The palette's index of each knot, on left and right warps, and notes."""
         if self._stitches is None:
             raise _FaultError("it has no stitches", allowed="a chart of full stitches")
-        rows, columns = (int(side) - 1 for side in self._stitches.shape)
-        beyond = bool(self._stitches[rows].any() or self._stitches[:, columns].any())
-        if not beyond:
-            return np.ascontiguousarray(self._stitches[:rows, :columns]), ()
-        if self._stitches[0].any() or self._stitches[:, 0].any():
+        rows, columns = (int(side) - 1 for side in self._stitches.shape[1:])
+        beyond = bool(self._stitches[:, rows].any() or self._stitches[:, :, columns].any())
+        if beyond and (self._stitches[:, 0].any() or self._stitches[:, :, 0].any()):
             given = f"a stitch is outside of the chart of {columns} × {rows}"
             raise _FaultError(given, allowed=f"x 0 to {columns - 1}, y 0 to {rows - 1}")
-        return np.ascontiguousarray(self._stitches[1:, 1:]), ("its stitches are numbered from 1",)
+        full, left, right = self._stitches[:, 1:, 1:] if beyond else self._stitches[:, :rows, :columns]
+        left, right = np.where(left, left, full), np.where(right, right, full)
+        if bare := int(np.count_nonzero((left == 0) | (right == 0))):
+            filled = self._ground(ground, bare, left.size)
+            left[left == 0], right[right == 0] = filled, filled
+        return _Stitches(left, right), ("its stitches are numbered from 1",) if beyond else ()
+
+    def _ground(self, ground: str | None, bare: int, cells: int) -> int:
+        """The palette's index of the yarn for cells without a stitch. Raises _FaultError where none is given."""
+        if ground is None:
+            raise _FaultError(
+                f"{bare} of its {counted(cells, 'cell')} have no stitch, or half of one: that is bare cloth",
+                allowed="a knot in every cell: there is no carpet without pile in places",
+                do="give the colour of these knots, as --ground '#ffffff'",
+            )
+        colour = ground.removeprefix("#")
+        same = [index for index, (_, other) in self.palette.items() if other == colour and index > 0]
+        index = same[0] if same else max(self.palette, default=0) + 1
+        self.palette.setdefault(index, ("ground", colour))
+        return index
 
     def _refuse_doctype(self, *_: object) -> None:
         raise _FaultError("it has a document type", allowed="an OXS chart has none")
@@ -145,7 +183,10 @@ class _Reader:
         if self.depth == 1 and name != "chart":
             raise _FaultError(f"it is no OXS chart: it begins with {shortened(name)!r}", allowed="<chart>")
         if name == "stitch":
-            self._stitch(given)
+            self._stitch(given, {_FULL: "palindex"})
+        elif name == "partstitch":
+            whole = _whole(given, "direction", 4) > 2
+            self._stitch(given, {_FULL: "palindex1"} if whole else {_LEFT: "palindex1", _RIGHT: "palindex2"})
         elif name == "palette_item":
             self._palette_item(given)
         elif name == "properties":
@@ -167,7 +208,9 @@ class _Reader:
         if self._stitches is not None:
             raise _FaultError("it has two sections of properties", allowed="one, before the stitches")
         self.software = given.get("software", "")
-        self._stitches = np.zeros((rows + 1, columns + 1), dtype=np.int16)  # one more, for programs that count from 1
+        self._stitches = np.zeros(
+            (3, rows + 1, columns + 1), dtype=np.int16
+        )  # one more, for programs that count from 1
 
     def _palette_item(self, given: dict[str, str]) -> None:
         index = _whole(given, "index", MOST_ITEMS) if "index" in given else len(self.palette)
@@ -180,15 +223,17 @@ class _Reader:
         words = name if number[:1] == ["ilmek"] or number == name else [*number, *name]
         self.palette[index] = " ".join(words), colour[1].lower()
 
-    def _stitch(self, given: dict[str, str]) -> None:
+    def _stitch(self, given: dict[str, str], layers: Mapping[int, str]) -> None:
+        """Take a stitch whose colours, by layer, stand in these attributes; the cloth's colour is no stitch."""
         if self._stitches is None:
             raise _FaultError("a stitch comes before the properties", allowed="<properties> with chartwidth first")
-        rows, columns = self._stitches.shape
+        rows, columns = self._stitches.shape[1:]
         x, y = _whole(given, "x", columns - 1), _whole(given, "y", rows - 1)
-        index = _whole(given, "palindex", MOST_ITEMS)
-        if index not in self.palette:
-            raise _FaultError(f"the stitch at x {x}, y {y} has the colour {index}, which the palette has not")
-        self._stitches[y, x] = index
+        for layer, name in layers.items():
+            index = _whole(given, name, MOST_ITEMS)
+            if index not in self.palette:
+                raise _FaultError(f"the stitch at x {x}, y {y} has the colour {index}, which the palette has not")
+            self._stitches[layer, y, x] = index or self._stitches[layer, y, x]
 
 
 def _whole(given: dict[str, str], name: str, most: int) -> int:
@@ -201,7 +246,7 @@ def _whole(given: dict[str, str], name: str, most: int) -> int:
 
 def _chart(
     reader: _Reader,
-    stitches: Int[np.ndarray, "rows columns"],
+    stitches: _Stitches,
     notes: tuple[str, ...],
     size: CarpetSize | None,
     quality: Quality | None,
@@ -214,50 +259,57 @@ def _chart(
             return _own(reader, stitches), notes
         except IlmekError as error:
             notes = (*notes, f"its data of ilmek cannot be used ({error.given}); it is read as that of another program")
-    yarns, knots = _yarns(reader, stitches)
+    yarns, position = _yarns(reader, stitches)
+    knots, seconds = position[stitches.left], position[stitches.right]
+    rows, columns = np.nonzero(knots != seconds)
+    halves = zip(rows.tolist(), columns.tolist(), seconds[rows, columns].tolist(), strict=True)
     grid = (int(knots.shape[0]), int(knots.shape[1]))
     if size is None or quality is None or not has_grid(grid, size, quality):
         size, quality = of_grid(grid, None if quality else size, quality)
-    facts = ChartFacts(size, quality, "symmetric", yarns)
-    return chart_of_facts(knots, facts, "an OXS chart"), (*notes, "its palette is the yarn list")
+    chart = chart_of_facts(knots, ChartFacts(size, quality, "symmetric", yarns), "an OXS chart")
+    overlay = overlay_of(KnotMark(row, column, HALF, second) for row, column, second in halves)
+    return replace(chart, overlay=overlay), (*notes, "its palette is the yarn list")
 
 
-def _own(reader: _Reader, stitches: Int[np.ndarray, "rows columns"]) -> Chart:
+def _own(reader: _Reader, stitches: _Stitches) -> Chart:
     """The chart that ilmek wrote. Raises an IlmekError where another program has changed it."""
     facts = read_facts(reader.facts)
     colours = [f"#{colour}" for index, (_, colour) in sorted(reader.palette.items()) if index > 0]
-    if colours != [yarn.hex for yarn in facts.yarns] or not stitches.all():
-        raise _FaultError("the palette or the stitches were changed")
-    knots = (stitches - 1).astype(np.uint8)
-    chart = chart_of_facts(knots, facts, "an OXS chart of ilmek")
-    return replace(chart, overlay=read_overlay(reader.overlay, knots, len(facts.yarns)))
+    if colours != [yarn.hex for yarn in facts.yarns]:
+        raise _FaultError("the palette was changed")
+    knots = (stitches.left - 1).astype(np.uint8)
+    overlay = read_overlay(reader.overlay, knots, len(facts.yarns))
+    expected, halves = stitches.left.copy(), overlay.kinds == HALF
+    expected[overlay.rows[halves], overlay.columns[halves]] = overlay.seconds[halves] + 1
+    if not np.array_equal(expected, stitches.right):
+        raise _FaultError("the stitches were changed")
+    return replace(chart_of_facts(knots, facts, "an OXS chart of ilmek"), overlay=overlay)
 
 
-def _yarns(reader: _Reader, stitches: Int[np.ndarray, "rows columns"]) -> tuple[tuple[Yarn, ...], Indices]:
-    """The yarns of the palette, the cloth among them where it is seen, and the knots."""
-    seen = set(np.flatnonzero(np.bincount(stitches.ravel())).tolist())
-    reader.palette.setdefault(0, ("cloth", "ffffff"))
-    listed = [index for index in sorted(reader.palette) if index > 0 or 0 in seen]
+def _yarns(reader: _Reader, stitches: _Stitches) -> tuple[tuple[Yarn, ...], Indices]:
+    """The yarns of the palette, and the yarn of each of its items. Raises _FaultError for too few or too many."""
+    seen = {index for side in stitches for index in np.flatnonzero(np.bincount(side.ravel())).tolist()}
+    listed = [index for index in sorted(reader.palette) if index > 0]
     if len(listed) > MOST_YARNS:
         listed = [index for index in listed if index in seen]
     if not 2 <= len(listed) <= MOST_YARNS:
         raise _FaultError(f"its palette has {counted(len(listed), 'colour')}", allowed=f"2 to {MOST_YARNS}")
     names: set[str] = set()
     yarns = []
-    for index in listed:
+    for place, index in enumerate(listed, start=1):
         name, colour = reader.palette[index]
         red, green, blue = bytes.fromhex(colour)
         lightness, a, b = srgb_to_lab(np.array([red, green, blue], dtype=np.uint8)).tolist()
         name = _unlike(name, index, names)
-        yarns.append(Yarn(name, (red, green, blue), (lightness, a, b)))
-    position = np.zeros(MOST_ITEMS + 1, dtype=np.uint8)
+        yarns.append(Yarn(name, (red, green, blue), (lightness, a, b), number=place))
+    position = np.zeros(MOST_ITEMS + 2, dtype=np.uint8)
     position[listed] = np.arange(len(listed))
-    return tuple(yarns), position[stitches]
+    return tuple(yarns), position
 
 
 def _unlike(name: str, index: int, names: set[str]) -> str:
     """A printable name that no other yarn has."""
-    clean = "".join(letter if letter.isprintable() else " " for letter in name)[: LONGEST_NAME - 8].strip()
+    clean = "".join(letter if is_printable(letter) else " " for letter in name)[: LONGEST_NAME - 8].strip()
     clean = clean or f"colour {index}"
     if clean.casefold() in names:
         clean = f"{clean} ({index})"

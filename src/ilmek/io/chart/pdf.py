@@ -32,7 +32,7 @@ def write_chart_pdf(path: Path, chart: Chart, progress: Progress = SILENT, title
     """
     register_fonts()
     plan = chart_cut(chart)
-    inks = Inks.of(chart.yarns, symbols(len(chart.yarns)))
+    inks = Inks.of(chart.yarns, symbols(chart.yarns))
     name = title or chart.size.name or f"{chart.columns} × {chart.rows} knots"
     with plain_streams():
         canvas = Canvas(str(path), pagesize=A4, pageCompression=1, invariant=1)

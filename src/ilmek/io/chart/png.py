@@ -55,10 +55,10 @@ class CountedFile(io.FileIO):
         return written
 
 
-def chart_picture(chart: Chart) -> Image.Image:
-    """The chart as a picture with a palette."""
-    picture = Image.frombytes("P", (chart.columns, chart.rows), np.ascontiguousarray(chart.knots).tobytes())
-    picture.putpalette([channel for yarn in chart.yarns for channel in yarn.srgb])
+def chart_picture(knots: Indices, palette: Indices) -> Image.Image:
+    """The knots of a chart as a picture with a palette (colours, 3)."""
+    picture = Image.frombytes("P", knots.shape[::-1], np.ascontiguousarray(knots).tobytes())
+    picture.putpalette(palette.tobytes())
     return picture
 
 
@@ -70,9 +70,10 @@ def write_chart_png(path: Path, chart: Chart, progress: Progress = SILENT) -> No
     info.add_itxt(KEY, chart_facts(chart))
     if len(chart.overlay):
         info.add_itxt(OVERLAY_KEY, overlay_text(chart.overlay, chart.columns))
+    palette = np.array([yarn.srgb for yarn in chart.yarns], dtype=np.uint8)
     dots = (chart.quality.across * METRE, chart.quality.along * METRE)
     with CountedFile(path, chart.knots.size, progress) as file:
-        chart_picture(chart).save(file, format="PNG", pnginfo=info, dpi=dots)
+        chart_picture(chart.knots, palette).save(file, format="PNG", pnginfo=info, dpi=dots)
 
 
 def begins_chart_png(begin: bytes) -> bool:

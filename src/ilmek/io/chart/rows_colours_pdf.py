@@ -12,6 +12,7 @@ from ilmek.carpet.chart import Chart
 from ilmek.carpet.rows import Run, directions, row_codes, runs_of, span_text, spans_by_yarn
 from ilmek.io.chart.front_pages import draw_legend
 from ilmek.io.chart.inks import Inks
+from ilmek.io.chart.lettering import cut_line, draw_line
 from ilmek.io.chart.pdf import plain_streams
 from ilmek.io.chart.symbols import ADVANCE, SIGNS, STRONG, TEXT, register_fonts, symbols
 from ilmek.progress import SILENT, Progress
@@ -76,7 +77,7 @@ def write_colours_pdf(path: Path, chart: Chart, direction: str, pages: int, prog
     pages  their number, of `colour_pages`
     """
     register_fonts()
-    inks = Inks.of(chart.yarns, symbols(len(chart.yarns)))
+    inks = Inks.of(chart.yarns, symbols(chart.yarns))
     name = chart.size.name or f"{chart.columns} × {chart.rows} knots"
     with plain_streams():
         canvas = Canvas(str(path), pagesize=A4, pageCompression=1, invariant=1)
@@ -123,15 +124,6 @@ def _draw_line(canvas: Any, line: ColourLine, chart: Chart, inks: Inks, y: float
         canvas.setFont(SIGNS, _SIZE)
         canvas.drawString(_LEFT + 28.0, y, inks.symbols[line.yarn])
         canvas.drawRightString(_LEFT + _CELLS_AT - 8.0, y, str(line.knots))
-        canvas.setFont(TEXT, 6)
-        canvas.drawString(_LEFT + 36.0, y, _short(canvas, chart.yarns[line.yarn].name))
+        draw_line(canvas, _LEFT + 36.0, y, cut_line(chart.yarns[line.yarn].name, 6.0, 50.0), 6.0)
     canvas.setFont(SIGNS, _SIZE)
     canvas.drawString(_LEFT + _CELLS_AT, y, line.text)
-
-
-def _short(canvas: Any, name: str) -> str:
-    """The name, without its end where it is too long for its column."""
-    shown = name
-    while shown and canvas.stringWidth(shown, TEXT, 6) > 50.0:
-        shown = shown[:-1]
-    return shown if shown == name else f"{shown[:-1]}…"

@@ -41,7 +41,7 @@ def write_rows_pdf(
     """
     register_fonts()
     plan = chart_rows_layout(chart, direction)
-    inks = Inks.of(chart.yarns, symbols(len(chart.yarns)))
+    inks = Inks.of(chart.yarns, symbols(chart.yarns))
     name = title or chart.size.name or f"{chart.columns} × {chart.rows} knots"
     with plain_streams():
         canvas = Canvas(str(path), pagesize=A4, pageCompression=1, invariant=1)

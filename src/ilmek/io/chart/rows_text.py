@@ -66,7 +66,7 @@ def write_rows_text(path: Path, chart: Chart, split: str, direction: str = "both
 def header(chart: Chart, split: str, direction: str) -> str:
     """The lines before the rows."""
     size, quality, tied = chart.size, chart.quality, chart.tied
-    signs = symbols(len(chart.yarns))
+    signs = symbols(chart.yarns)
     lines = [
         MAGIC,
         f"# {size}, {quality}, {chart.knot} knot; row 1 is the first that is woven, at the lower edge.",
@@ -88,7 +88,7 @@ def header(chart: Chart, split: str, direction: str) -> str:
 
 def row_bands(chart: Chart, split: str, direction: str) -> Iterator[tuple[float, bytes]]:
     """The text of the rows in parts, each with the share of the rows that is then done."""
-    glyphs, widths = _glyphs(symbols(len(chart.yarns)))
+    glyphs, widths = _glyphs(symbols(chart.yarns))
     mode, step = DIRECTIONS.index(direction), max(1, _BAND // chart.columns)
     for first in range(0, chart.rows, step):
         stop = min(first + step, chart.rows)

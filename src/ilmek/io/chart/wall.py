@@ -70,7 +70,7 @@ def write_wall_pdf(path: Path, chart: Chart, progress: Progress = SILENT, title:
     """Write the chart as one sheet to `path`. Raises CarpetError as `wall_sheet`."""
     register_fonts()
     sheet = wall_sheet(chart)
-    inks = Inks.of(chart.yarns, symbols(len(chart.yarns)))
+    inks = Inks.of(chart.yarns, symbols(chart.yarns))
     name = title or chart.size.name or f"{chart.columns} × {chart.rows} knots"
     page = (sheet.width / sheet.unit, sheet.height / sheet.unit)
     with plain_streams():

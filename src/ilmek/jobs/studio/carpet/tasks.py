@@ -127,7 +127,7 @@ def row(request: RowRequest, context: Context) -> RowAnswer:
 
 def _row_text(made: Chart, number: int, direction: str) -> str:
     """A row by its runs, like `12A 3B 2½AC`."""
-    signs = symbols(len(made.yarns))
+    signs = symbols(made.yarns)
     words = []
     for step in row_steps(made, number, "runs", direction):
         sign, second = signs[step.yarn], signs[step.second] if "½" in count_text(step) else ""
@@ -186,7 +186,7 @@ def _source(shown: Rgb | None, known: str) -> tuple[SourcePicture | None, tuple[
 
 
 def _yarns(made: Chart) -> tuple[ChartYarn, ...]:
-    signs = symbols(len(made.yarns))
+    signs = symbols(made.yarns)
     return tuple(ChartYarn(yarn.name, yarn.hex, signs[index]) for index, yarn in enumerate(made.yarns))
 
 
