@@ -13,7 +13,7 @@ from types import MappingProxyType
 from ilmek.arrays import Rgb
 from ilmek.carpet.design import resampled
 from ilmek.carpet.exact import find_drawing
-from ilmek.carpet.flat import flat_design, looks_flat
+from ilmek.carpet.flat import flat_design, looks_flat, whole_chroma
 from ilmek.carpet.picture_points import read_colour
 from ilmek.carpet.projection import MadeRgb
 from ilmek.carpet.quality import Quality
@@ -153,6 +153,10 @@ def read_design(
     if params.reading == "auto" and not seen.is_flat:
         return _photo(rgb, grid, params, seen.sentence, progress)
     padded = judged is not None and rgb.size > judged.size
+    whole = whole_chroma(rgb, progress.part(0.0, 0.1))
+    if whole is not rgb:
+        rgb, again = whole, looks_flat(whole)
+        seen = again if again.is_flat and not padded else replace(seen, true=again.true)
     flat = flat_design(rgb, grid, progress, None if padded else seen.true)
     required = "as required; " if params.reading == "flat" and not seen.is_flat else ""
     axes = f"; symmetric about the {' and the '.join(flat.symmetric)} axis" if flat.symmetric else ""
