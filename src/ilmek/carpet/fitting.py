@@ -90,6 +90,8 @@ class Fit:
     turned   angle by which the picture was turned clockwise [rad]
     corners  of the carpet in the photograph [pixels]; None: it was not straightened
     clearness  of the outline, 0 to 1, where the corners were found in the picture
+    shown    left, top, right and bottom of what the carpet shows, as shares of the prepared picture; beyond 0 and 1
+             where it is padded
     """
 
     kind: str = "whole"
@@ -100,6 +102,7 @@ class Fit:
     turned: float = 0.0
     corners: tuple[tuple[float, float], ...] | None = None
     clearness: float | None = None
+    shown: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 1.0)
 
     @property
     def words(self) -> str:
@@ -172,7 +175,7 @@ def fit_prepared(
         fit = replace(fit, cropped=1 - (1 - fit.cropped) * _area(made) / _area(rgb))
     stretch = distortion(made, size)
     name = "pad" if fit.padded else "crop" if made.shape != rgb.shape else "stretch" if stretch else "whole"
-    return made, replace(fit, kind=name, stretch=stretch)
+    return made, replace(fit, kind=name, stretch=stretch, shown=_shown(rgb, made))
 
 
 def fit_notes(fit: Fit, pixels: tuple[int, ...], size: CarpetSize, grid: tuple[int, int]) -> tuple[str, ...]:
@@ -293,6 +296,13 @@ def _centre(rgb: Rgb, size: CarpetSize) -> MadeRgb:
     height, width = _sides(rgb, size, larger=False)
     top, left = (rgb.shape[0] - height) // 2, (rgb.shape[1] - width) // 2
     return rgb[top : top + height, left : left + width]
+
+
+def _shown(rgb: Rgb, made: Rgb) -> tuple[float, float, float, float]:
+    """Left, top, right and bottom of a part, or of a padded picture, about the picture's centre, as shares of it."""
+    height, width = int(rgb.shape[0]), int(rgb.shape[1])
+    top, left = (height - int(made.shape[0])) // 2, (width - int(made.shape[1])) // 2
+    return left / width, top / height, (left + made.shape[1]) / width, (top + made.shape[0]) / height
 
 
 def _padded(rgb: Rgb, size: CarpetSize, border: Colour, progress: Progress) -> MadeRgb:

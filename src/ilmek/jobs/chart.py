@@ -12,6 +12,7 @@ from ilmek.carpet.chart import Chart
 from ilmek.carpet.fitting import Fit
 from ilmek.carpet.matches import shared_yarns
 from ilmek.carpet.pile import PileParams, fill_check, pile_fill
+from ilmek.carpet.recipe.outcome import edit_checks
 from ilmek.carpet.statistics import ChartStatistics, chart_statistics
 from ilmek.carpet.yarn import Yarn
 from ilmek.io.chart.formats import FORMATS, ChartFormat
@@ -92,8 +93,9 @@ class ChartResult:
 
     @property
     def checks(self) -> tuple[Check, ...]:
-        """Share of the ground that the pile fills, against 100 %."""
-        return (fill_check(pile_fill(self.chart.quality, self.thickest.linear_density, self.pile)),)
+        """Share of the ground that the pile fills, against 100 %; and the edits of a recipe that are left out."""
+        fill = fill_check(pile_fill(self.chart.quality, self.thickest.linear_density, self.pile))
+        return (fill, *edit_checks(self.chart.reading.edits))
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -201,6 +203,7 @@ def chart_results(charted: ChartResult) -> dict[str, Any]:
         "reading": reading.kind,
         "changed_knots": reading.changed,
         "edited_knots": reading.edited,
+        "edits": [outcome.as_plain() for outcome in reading.edits],
         "matches": [
             {"srgb": match.hex, "knots": match.knots, "yarn": chart.yarns[match.yarn].name, "delta_e": match.delta_e}
             for match in reading.matches
