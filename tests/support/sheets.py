@@ -79,7 +79,10 @@ def printed(
                 dark = int(palette[design[row, column]].astype(int).sum()) < 380
                 at = margin + (column + 0.5) * pitch, margin + (row + 0.5) * pitch
                 draw.text(
-                    at, "ABCDEFGHJKLMNP"[design[row, column]], fill=(240,) * 3 if dark else (30,) * 3, font=font,
+                    at,
+                    "ABCDEFGHJKLMNP"[design[row, column]],
+                    fill=(240,) * 3 if dark else (30,) * 3,
+                    font=font,
                     anchor="mm",
                 )
     if numbers:

@@ -57,8 +57,32 @@ FAULTS = {
     "folder": ('picture = "."', r"line 1, picture: '.' is no file"),
     "yarn list outside": (FIELD + 'yarns = "../wool.toml"', r"line 3, yarns: '../wool.toml' reaches outside"),
     "edit outside": (
-        FIELD + 'edits = ["set 1,1 ivory",\n"set 151,1 ivory"]',
-        r"line 4, edits.1: knot 151,1 lies outside the carpet; row 1 \(lower edge\) to 150, column 1 \(left\) to 100",
+        FIELD + '[[edits]]\ngrid = "100x150"\nlines = ["set 1,1 ivory",\n"set 151,1 ivory"]',
+        r"line 6, edits.0.lines.1: knot 151,1 lies outside the carpet; row 1 \(lower edge\) to 150, column 1 \(left\) to 100",
+    ),
+    "edits on nothing": (
+        FIELD + '[[edits]]\non = "bordr"\nlines = ["set 1,1 ivory"]',
+        r"line 3, edits.0: 'bordr' is nothing to count on; carpet, picture",
+    ),
+    "edits on a picture without a grid": (
+        FIELD + '[[edits]]\non = "picture"\nlines = ["set 1,1 ivory"]',
+        r'edits.0: edits on picture state no grid; give columns x rows, like grid = "300x450"',
+    ),
+    "edits on a missing picture": (
+        FIELD + '[[edits]]\non = "picture"\ngrid = "60x90"\nlines = ["set 1,1 ivory"]',
+        r'edits.0.lines.0: the recipe has no picture; write on = "carpet"',
+    ),
+    "edits on a missing motif": (
+        FIELD + '[[edits]]\non = "motif 2"\nlines = ["set 1,1 ivory"]',
+        r"edits.0.lines.0: motif 2 is not there; no motif",
+    ),
+    "a mirror of a motif": (
+        FIELD + '[[edits]]\non = "motif 1"\nlines = ["mirror both"]',
+        r"edits.0.lines.0: mirror is no edit of a motif",
+    ),
+    "edits of no grid": (
+        FIELD + '[[edits]]\ngrid = "100"\nlines = ["set 1,1 ivory"]',
+        r"edits.0: '100' is no grid; columns x rows",
     ),
     "unknown edit": (FIELD + 'edits = ["sett 1,1 ivory"]', r"line 3, edits.0: unknown edit 'sett'; .*'set'"),
     "edit without yarn": (FIELD + 'edits = ["set 1,1"]', r"line 3, edits.0: .* is no edit; write set ROW,COLUMN YARN"),

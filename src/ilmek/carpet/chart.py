@@ -27,6 +27,7 @@ from ilmek.carpet.palette_rules import Palette, PaletteParams
 from ilmek.carpet.proposal import ProposedShade, propose_shades
 from ilmek.carpet.quality import Quality, carpet_quality
 from ilmek.carpet.reading import Design, ReadParams
+from ilmek.carpet.recipe.outcome import EditOutcome
 from ilmek.carpet.sizes import CarpetSize, carpet_size
 from ilmek.carpet.tally import Tally, tally_of
 from ilmek.carpet.usual_pile import with_counts
@@ -51,6 +52,7 @@ class ChartReading:
     fit            how the picture was fitted to the carpet
     differences    of each yarn of the chart to the colours that it is the nearest of; 0 of one that is of none
     edited         number of knots that the edits of a recipe changed
+    edits          what became of those that were written on another grid, or have no place on this one
     matches        of each colour of an exact or flat design, most knots first, at most MOST_MATCHES
     palette        how its yarns were chosen from the list; default: they were not
     proposed       shades of the design itself: those that are dyed for it, or as many as were required
@@ -68,6 +70,7 @@ class ChartReading:
     fit: Fit = field(default_factory=Fit)
     differences: tuple[YarnDifference, ...] = ()
     edited: int = 0
+    edits: tuple[EditOutcome, ...] = ()
     matches: tuple[ColourMatch, ...] = ()
     palette: Palette = Palette(())
     proposed: tuple[ProposedShade, ...] = ()

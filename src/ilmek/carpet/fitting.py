@@ -117,6 +117,8 @@ class Fit:
     turned   angle by which the picture was turned clockwise [rad]
     corners  of the carpet in the photograph [pixels]; None: it was not straightened
     clearness  of the outline, 0 to 1, where the corners were found in the picture
+    shown    left, top, right and bottom of what the carpet shows, as shares of the prepared picture; beyond 0 and 1
+             where it is padded
     """
 
     kind: str = "whole"
@@ -128,6 +130,7 @@ class Fit:
     turned: float = 0.0
     corners: tuple[tuple[float, float], ...] | None = None
     clearness: float | None = None
+    shown: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 1.0)
 
     @property
     def words(self) -> str:
@@ -200,7 +203,7 @@ def fit_prepared(
         fit = replace(fit, cropped=1 - (1 - fit.cropped) * _area(made) / _area(rgb), frame=frame)
     stretch = distortion(made, size)
     name = "pad" if fit.padded else "crop" if made.shape != rgb.shape else "stretch" if stretch else "whole"
-    return made, replace(fit, kind=name, stretch=stretch)
+    return made, replace(fit, kind=name, stretch=stretch, shown=_shown(rgb, made))
 
 
 def fit_notes(fit: Fit, pixels: tuple[int, ...], size: CarpetSize, grid: tuple[int, int]) -> tuple[str, ...]:
@@ -337,6 +340,13 @@ def _about_the_subject(rgb: Rgb, size: CarpetSize) -> tuple[MadeRgb, tuple[float
     left = 0 if width == whole[1] else subject_start(rgb, width, across=True)
     frame = left / whole[1], top / whole[0], (left + width) / whole[1], (top + height) / whole[0]
     return rgb[top : top + height, left : left + width], frame
+
+
+def _shown(rgb: Rgb, made: Rgb) -> tuple[float, float, float, float]:
+    """Left, top, right and bottom of a part, or of a padded picture, about the picture's centre, as shares of it."""
+    height, width = int(rgb.shape[0]), int(rgb.shape[1])
+    top, left = (height - int(made.shape[0])) // 2, (width - int(made.shape[1])) // 2
+    return left / width, top / height, (left + made.shape[1]) / width, (top + made.shape[0]) / height
 
 
 def _padded(rgb: Rgb, size: CarpetSize, border: Colour, progress: Progress) -> MadeRgb:

@@ -238,3 +238,14 @@ def _plain(value: Fraction, digits: int) -> str:
     rounded = Context(prec=digits).divide(value.numerator, value.denominator)
     text = f"{rounded:f}"
     return text.rstrip("0").rstrip(".") if "." in text else text
+
+
+def shortest_quality(quality: Quality) -> str:
+    """The quality in knots per dm, or where that is long in the shortest notation that reads back to the same.
+
+    >>> shortest_quality(Quality(250.0, 250.0))
+    '25x25/dm'
+    """
+    pair = write_quality(quality, "dm")
+    texts = (write_quality(quality, notation) for notation in NOTATIONS)
+    return min((text for text in texts if parse_quality(text) == quality), key=len) if len(pair) > 12 else pair

@@ -35,11 +35,9 @@ from typing import Any
 
 from ilmek.carpet.palette_rules import names_text
 from ilmek.carpet.quality import Quality, gereh_note, parse_quality
-from ilmek.carpet.recipe.edits import FORMS, Edit, parse_edit
 from ilmek.carpet.recipe.mirror import MIRRORS
 from ilmek.carpet.recipe.recipe import (
     MOST_BORDERS,
-    MOST_EDITS,
     MOST_MOTIFS,
     ORDERS,
     POSITIONS,
@@ -54,6 +52,7 @@ from ilmek.carpet.yarn import Yarn
 from ilmek.elements.knot_kinds import parse_knot
 from ilmek.errors import CarpetError, IlmekError, ParameterError
 from ilmek.io.data_text import read_data, values
+from ilmek.io.edits_entry import read_edits
 from ilmek.io.file_entry import FileEntry
 from ilmek.io.line_numbers import KeyLines
 from ilmek.io.schema import SourceText, shown
@@ -261,7 +260,7 @@ class _RecipeReader:
             _choice(root, "mirror", MIRRORS),
             tuple(self._border(row) for row in self._rows("border", MOST_BORDERS)),
             tuple(self._motif(row) for row in self._rows("motif", MOST_MOTIFS)),
-            self._edits(),
+            read_edits(root, self._where, self._parsed("size", parse_size), self._parsed("quality", parse_quality)),
             self._where(root, "picture" if picture is not None else "plain"),
         )
 
@@ -311,23 +310,6 @@ class _RecipeReader:
         mirror = _choice(entry, "mirror", MIRRORS)
         where = self._where(entry)
         return Motif(picture, _position(entry), mirror, *sides, entry.text("transparent", ""), where)
-
-    def _edits(self) -> tuple[Edit, ...]:
-        lines = self.root.data.get("edits", [])
-        if not isinstance(lines, list):
-            self.root.refuse(
-                CarpetError(f"{shown(lines)} is not a list", do='write edits = ["set 12,40 ivory"]'), "edits"
-            )
-        if len(lines) > MOST_EDITS:
-            self.root.refuse(CarpetError(f"has {len(lines):,} edits", allowed=f"at most {MOST_EDITS:,}"), "edits")
-        found = []
-        for number, line in enumerate(lines):
-            entry = FileEntry({}, ("edits", number), self.root.source)
-            if not isinstance(line, str):
-                entry.refuse(CarpetError(f"{shown(line)} is no edit", allowed=", ".join(FORMS.values())))
-            with entry.located():
-                found.append(parse_edit(line, self._where(entry)))
-        return tuple(found)
 
 
 def file_inside(folder: Path, text: str) -> Path:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from ilmek.carpet.colour import srgb_to_lab
-from ilmek.carpet.quality import NOTATIONS, Quality, parse_quality, write_quality
+from ilmek.carpet.quality import shortest_quality
 from ilmek.carpet.recipe.recipe import plain_data
 from ilmek.carpet.sizes import CarpetSize, parse_size
 from ilmek.carpet.yarn import Yarn
@@ -27,11 +27,12 @@ def recipe_text(made: RecipeFile, folder: Path) -> str:
     """
     data = plain_data(made.recipe, lambda path: _inside(path, folder))
     edits = data.pop("edits", [])
+    stated = any(isinstance(entry, Mapping) for entry in edits)
     sections = {key: data.pop(key) for key in SECTIONS if key in data}
     loom = made.loom
     data |= {
         "size": None if made.size is None else _size(made.size),
-        "quality": None if made.quality is None else _quality(made.quality),
+        "quality": None if made.quality is None else shortest_quality(made.quality),
         "knot": made.knot,
         "yarns": _yarn_file(made, folder),
         "pdf": made.pdf,
@@ -43,8 +44,9 @@ def recipe_text(made: RecipeFile, folder: Path) -> str:
         "loom_file": None if loom.loom_file is None else _inside(loom.loom_file, folder),
     }
     parts = [toml_text({key: value for key, value in data.items() if value is not None}).rstrip()]
-    if edits:
+    if edits and not stated:
         parts[0] += "\n" + toml_list("edits", edits)
+    parts += [_edit_table(table) for table in edits if stated]
     for key, section in sections.items():
         many = isinstance(section, list)
         parts += [toml_section((key,), entry, many=many) for entry in (section if many else [section])]
@@ -53,6 +55,12 @@ def recipe_text(made: RecipeFile, folder: Path) -> str:
     if made.yarns is not None and "yarns" not in {key for key, value in data.items() if value is not None}:
         parts += [toml_section(("yarn",), _yarn(yarn), many=True) for yarn in made.yarns]
     return "\n\n".join(parts) + "\n"
+
+
+def _edit_table(table: Mapping[str, Any]) -> str:
+    """A table of edits, one line for each."""
+    keys = {key: value for key, value in table.items() if key != "lines"}
+    return "\n".join([toml_section(("edits",), keys, many=True), toml_list("lines", table["lines"])])
 
 
 def _inside(path: Path, folder: Path) -> str:
@@ -82,13 +90,6 @@ def _size(size: CarpetSize) -> str:
     texts += [f"{sides[0]:.{digits}g}x{sides[1]:.{digits}g}cm" for digits in (4, 8, 12)]
     same = (text for text in texts if _same(parse_size(text), size))
     return next(same, f"{size.width!r}x{size.length!r}m")
-
-
-def _quality(quality: Quality) -> str:
-    """The quality in knots per dm, or where that is long in the shortest notation that reads back to the same."""
-    pair = write_quality(quality, "dm")
-    texts = (write_quality(quality, notation) for notation in NOTATIONS)
-    return min((text for text in texts if parse_quality(text) == quality), key=len) if len(pair) > 12 else pair
 
 
 def _same(one: CarpetSize, other: CarpetSize) -> bool:

@@ -11,6 +11,7 @@ from ilmek.carpet.bill import YarnBill, YarnNeed, yarn_bill
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.fitting import Fit
 from ilmek.carpet.pile import PileParams, fill_check, pile_fill
+from ilmek.carpet.recipe.outcome import edit_checks
 from ilmek.carpet.statistics import ChartStatistics, chart_statistics
 from ilmek.carpet.yarn import Yarn
 from ilmek.io.chart.formats import FORMATS, ChartFormat
@@ -96,9 +97,10 @@ class ChartResult:
 
     @property
     def checks(self) -> tuple[Check, ...]:
-        """Share of the ground that the pile fills, against 100 %; what the chart keeps of the picture."""
+        """Share of the ground that the pile fills, against 100 %; what the chart keeps of the picture; edits left out."""
         fill = fill_check(pile_fill(self.chart.quality, self.thickest.linear_density, self.pile))
-        return (fill, *kept_checks(self.chart, self.order.order))
+        kept = kept_checks(self.chart, self.order.order)
+        return (fill, *kept, *edit_checks(self.chart.reading.edits))
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -194,6 +196,7 @@ def chart_results(charted: ChartResult) -> dict[str, Any]:
         "reading": reading.kind,
         "changed_knots": reading.changed,
         "edited_knots": reading.edited,
+        "edits": [outcome.as_plain() for outcome in reading.edits],
         "foreign_fraction": None if reading.foreign is None else reading.foreign / chart.knots.size,
         "fit": fit_results(reading.fit),
         **yarn_choice_results(chart, charted.order.order),

@@ -7,12 +7,17 @@ from pathlib import Path
 
 from ilmek.arrays import Pixels
 from ilmek.carpet.chart import Chart, chart_of_design, used_first
+from ilmek.carpet.exact import of_grid
 from ilmek.carpet.palette_rules import PaletteParams, names_text, yarn_names
 from ilmek.carpet.reading import READINGS
+from ilmek.carpet.recipe.anchor import CARPET, KNOTS, MOTIF, PICTURE, Anchor, grid_text
 from ilmek.carpet.recipe.composition import Composition, compose
-from ilmek.carpet.recipe.edits import located, named_yarns
-from ilmek.carpet.recipe.finish import finish
+from ilmek.carpet.recipe.edits import Edit, located, named_yarns
+from ilmek.carpet.recipe.finish import Origin, finish
+from ilmek.carpet.recipe.layout import CarpetLayout
+from ilmek.carpet.recipe.outcome import outcome_notes
 from ilmek.carpet.recipe.recipe import Recipe
+from ilmek.carpet.recipe.structure import Structure, relate, relate_motif, relate_picture
 from ilmek.carpet.usual_pile import with_counts
 from ilmek.carpet.yarn import Yarn
 from ilmek.errors import CarpetError, IlmekError, PictureError
@@ -28,6 +33,7 @@ from ilmek.jobs.recipe_size import of_its_shape, size_of_recipe
 from ilmek.jobs.stages import ANEW, Stages
 from ilmek.params import declared
 from ilmek.progress import SILENT, Progress
+from ilmek.units import counted
 
 
 def chart_of_recipe(
@@ -41,27 +47,39 @@ def chart_of_recipe(
     assert recipe is not None
     _check_never(recipe, order.palette)
     given, order = replace(order, fit=order.fit.without_sides), replace(order, palette=_keeping(recipe, order))
-    if not recipe.is_composed:
-        assert recipe.picture is not None
-        picture = replace(order, picture=recipe.picture, recipe=None)
-        try:
-            done = chart_of_order(picture, progress.part(0.0, 0.8), with_source=with_source, stages=stages)
-        except IlmekError as error:
-            with located(recipe.where if isinstance(error, PictureError) else str(recipe.file)):
-                raise
-        reading = replace(done.chart.reading, reason=f"{done.chart.reading.reason} (picture of {recipe.file.name})")
-        chart = replace(done.chart, reading=reading)
-        chart = finish(chart, recipe, _counted(done.order), None, progress.part(0.8, 1.0, "edits"))
-        chart = used_first(chart) if recipe.edits else chart
-        return replace(done, order=replace(done.order, order=given), chart=chart)
-    made = _composed_chart(recipe, order, progress, stages, with_source=with_source)
-    return replace(made, order=replace(made.order, order=given))
+    done, made = _designed(order, progress.part(0.0, 0.8), stages, with_source=with_source)
+    origins, carrying = _origins(done, order, made, stages)
+    yarns = _counted(done.order)
+    chart = finish(done.chart, recipe, yarns, made, progress.part(0.85, 1.0, "edits"), origins=origins)
+    chart = used_first(chart) if recipe.edits or made is not None else chart
+    notes = (*done.notes, *carrying, *outcome_notes(chart.reading.edits))
+    return replace(done, order=replace(done.order, order=given), chart=chart, notes=notes)
+
+
+def _designed(
+    order: CarpetOrder, progress: Progress, stages: Stages, *, with_source: bool = False
+) -> tuple[OrderedChart, Composition | None]:
+    """The chart of a recipe without its edits, and its composition; None: it is one whole picture."""
+    recipe = order.recipe
+    assert recipe is not None
+    if recipe.is_composed:
+        return _composed_chart(recipe, order, progress, stages, with_source=with_source)
+    assert recipe.picture is not None
+    picture = replace(order, picture=recipe.picture, recipe=None)
+    try:
+        done = chart_of_order(picture, progress, with_source=with_source, stages=stages)
+    except IlmekError as error:
+        with located(recipe.where if isinstance(error, PictureError) else str(recipe.file)):
+            raise
+    reason = f"{done.chart.reading.reason} (picture of {recipe.file.name})"
+    chart = replace(done.chart, reading=replace(done.chart.reading, reason=reason))
+    return replace(done, chart=chart), None
 
 
 def _composed_chart(
     recipe: Recipe, order: CarpetOrder, progress: Progress, stages: Stages, *, with_source: bool
-) -> OrderedChart:
-    """The chart of a recipe that is more than one whole picture."""
+) -> tuple[OrderedChart, Composition]:
+    """The chart of a recipe that is more than one whole picture, without its edits."""
     plain = replace(recipe, edits=())
     files = tuple(file_key(path) for path in recipe.pictures)
     read = cache(lambda: _pictures(recipe, order.fit.ground, progress.part(0.0, 0.3, "picture"), stages))
@@ -84,7 +102,7 @@ def _composed_chart(
             pictures,
             fit=order.fit,
             reading=order.reading,
-            progress=progress.part(0.3, 0.5, "chart"),
+            progress=progress.part(0.4, 0.6, "chart"),
         )
         return composition, (*notes, *composition.notes)
 
@@ -95,19 +113,89 @@ def _composed_chart(
             made.quality,
             made.yarns,
             knot=made.knot,
-            fit=composition.fit,
+            fit=composition.structure.fit,
             reading=order.reading,
             palette=order.palette,
             dyed=order.dyed,
-            progress=progress.part(0.5, 0.8, "chart"),
+            progress=progress.part(0.6, 1.0, "chart"),
         )
 
     composition, notes = stages.keep("composition", key, composed)
     chart = stages.keep("chart", (key, made.knot, order.palette, order.dyed), charted)
     made = made.with_dyed(chart.yarns)
     source = shown_source(composition.design.colours) if with_source else None
-    chart = finish(chart, recipe, _counted(made), composition, progress.part(0.8, 1.0, "edits"))
-    return OrderedChart(made, used_first(chart), notes, source)
+    return OrderedChart(made, chart, notes, source), composition
+
+
+def _origins(
+    done: OrderedChart, order: CarpetOrder, made: Composition | None, stages: Stages
+) -> tuple[dict[Anchor, Origin | str], tuple[str, ...]]:
+    """The designs on the grids that the edits count, where these are not the carpet's, and a note on edits without."""
+    recipe, grid = order.recipe, (done.chart.rows, done.chart.columns)
+    assert recipe is not None
+    found: dict[Anchor, Origin | str] = {}
+    target = _structure(recipe, done.chart, made)
+    for edit in recipe.edits:
+        anchor = edit.anchor
+        if anchor in found or (anchor.on in (CARPET, KNOTS) and (anchor.grid == grid or _is_ordered(anchor, order))):
+            continue
+        with located(edit.where):
+            if anchor.on == PICTURE:
+                assert anchor.grid is not None
+                found[anchor] = Origin(relate_picture(target, anchor.grid))
+            elif anchor.on == MOTIF:
+                found[anchor] = Origin(relate_motif(target, anchor.number, anchor.grid))
+            elif (origin := _origin(anchor, done, order, target, stages)) is not None:
+                found[anchor] = origin
+    open_ones = sum(1 for edit in recipe.edits if edit.knots and edit.anchor.grid is None and edit.anchor.on != MOTIF)
+    note = (
+        f"{counted(open_ones, 'edit')} of {recipe.file.name} without a grid: at another size these knots lie elsewhere "
+        f'in the design; write [[edits]] with grid = "{grid_text(grid)}" and lines = [...], as --save-recipe does'
+    )
+    return found, (note,) if open_ones else ()
+
+
+def _is_ordered(anchor: Anchor, order: CarpetOrder) -> bool:
+    """Whether edits that state no grid were written for the size and quality of an order."""
+    return (
+        anchor.grid is None
+        and (anchor.size is None or anchor.size == order.size)
+        and (anchor.quality is None or anchor.quality == order.quality)
+    )
+
+
+def _origin(
+    anchor: Anchor, done: OrderedChart, order: CarpetOrder, target: Structure, stages: Stages
+) -> Origin | str | None:
+    """The design on another carpet than that which is made, or why its edits cannot be carried; None: on the same grid."""
+    recipe = replace(target.recipe, edits=())
+    try:
+        size, quality = anchor.size or order.size, anchor.quality
+        if anchor.grid is not None:
+            size, quality = of_grid(anchor.grid, None, quality or done.order.quality)
+        fit = order.fit if size is None else order.fit.without_sides
+        other = replace(order, size=size, quality=quality, recipe=recipe, pdf=False, fit=fit)
+        files = tuple(file_key(path) for path in recipe.pictures)
+        key = (recipe, files, size, quality, order.yarns, order.fit, order.reading, order.palette)
+        old, made = stages.keep("origin of edits", key, lambda: _designed(other, SILENT, ANEW))
+    except IlmekError as error:
+        return f"the design cannot be made on the grid that it states: {error.given}"
+    if (old.chart.rows, old.chart.columns) == target.grid:
+        return None
+    if anchor.on == KNOTS:
+        return f"its knots are those of a carpet of {grid_text((old.chart.rows, old.chart.columns))} knots"
+    try:
+        return Origin(relate(_structure(recipe, old.chart, made), target), old.chart)
+    except CarpetError as error:
+        return error.given
+
+
+def _structure(recipe: Recipe, chart: Chart, made: Composition | None) -> Structure:
+    """Where the parts of a design lie."""
+    if made is not None:
+        return made.structure
+    grid = chart.rows, chart.columns
+    return Structure(recipe, grid, CarpetLayout((), (0, 0), grid), chart.reading.fit)
 
 
 def _check_never(recipe: Recipe, palette: PaletteParams) -> None:
@@ -185,7 +273,7 @@ def saved_recipe(made: ResolvedOrder, chart: Chart, folder: Path, loom: LoomKeys
     Raises CarpetError for a picture that does not lie in the folder.
     """
     order = made.order
-    recipe = order.recipe or Recipe(folder / "carpet.toml", order.picture)
+    recipe = _anchored(order.recipe or Recipe(folder / "carpet.toml", order.picture), made, chart)
     decided = {} if recipe.is_composed or chart.reading.kind not in READINGS else {"reading": chart.reading.kind}
     settings = {}
     for group, cls in GROUPS.items():
@@ -209,3 +297,18 @@ def saved_recipe(made: ResolvedOrder, chart: Chart, folder: Path, loom: LoomKeys
         loom or order.loom,
     )
     return recipe_text(found, folder)
+
+
+def _anchored(recipe: Recipe, made: ResolvedOrder, chart: Chart) -> Recipe:
+    """The recipe with the grid that its edits count: that of the chart where they state none and were not carried."""
+    counts = {outcome.edit: outcome.grid for outcome in chart.reading.edits}
+    own = chart.rows, chart.columns
+
+    def stated(edit: Edit) -> Edit:
+        if edit.anchor.grid is not None or edit.anchor.on == MOTIF:
+            return edit
+        grid = counts.get(edit) or own
+        quality = made.quality if grid == own else edit.anchor.quality
+        return replace(edit, anchor=replace(edit.anchor, grid=grid, quality=quality, size=None))
+
+    return replace(recipe, edits=tuple(stated(edit) for edit in recipe.edits))

@@ -24,14 +24,12 @@ from ilmek.carpet.recipe.layout import BorderLayout, CarpetLayout, lay_out
 from ilmek.carpet.recipe.mirror import complete, part_grid
 from ilmek.carpet.recipe.recipe import MOST_TILE, Motif, Recipe
 from ilmek.carpet.recipe.repeat import repeated
+from ilmek.carpet.recipe.structure import Area, MotifCopy, Structure
 from ilmek.carpet.sizes import LARGEST, SMALLEST, CarpetSize
 from ilmek.carpet.yarn import MOST_YARNS, Yarn
 from ilmek.errors import CarpetError
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
-
-Area = tuple[slice, slice]
-"""Rows and columns of a part of the grid."""
 
 _KINDS = ("exact", "flat", "photo")
 _HALF = 188
@@ -42,15 +40,13 @@ _HALF = 188
 class Composition:
     """The design of a recipe.
 
-    fit     of the field's picture
     yarns   areas in which the knots of a yarn's colour are that yarn, by its index in the list; later ones prevail
     drawn   areas of an exacter reading than that of the whole, to which none of its rules applies, and which knots
-    notes   on the fit
+    structure  where its parts lie      notes  on the fit
     """
 
     design: Design
-    fit: Fit
-    layout: CarpetLayout
+    structure: Structure
     yarns: tuple[tuple[Area, int], ...] = ()
     drawn: tuple[tuple[Area, Bool[np.ndarray, "rows columns"] | None], ...] = ()
     notes: tuple[str, ...] = ()
@@ -131,13 +127,15 @@ def compose(
         progress(0.1)
     with located(recipe.where):
         done = _draw_field(canvas, recipe, layout, fit or FitParams(), progress.part(0.1, 0.9))
+    motifs = []
     for motif in recipe.motifs:
         with located(motif.where):
-            _draw_motif(canvas, motif, layout)
+            motifs.append(_draw_motif(canvas, motif, layout))
         progress(0.9)
     whole = _whole(canvas, recipe.file.name)
     kept = tuple((area, shown) for area, kind, shown in canvas.drawn if _KINDS.index(kind) < _KINDS.index(whole.kind))
-    return Composition(whole, done, layout, tuple(canvas.yarns), kept, tuple(canvas.notes))
+    structure = Structure(recipe, grid, layout, done, _tile_sides(recipe, pictures), tuple(motifs))
+    return Composition(whole, structure, tuple(canvas.yarns), kept, tuple(canvas.notes))
 
 
 def _whole(canvas: _Canvas, file: str) -> Design:
@@ -232,8 +230,9 @@ def _part_size(part: tuple[int, int], quality: Quality) -> CarpetSize:
 def _draw_repeat(canvas: _Canvas, recipe: Recipe, out: Pixels, progress: Progress) -> None:
     repeat = recipe.repeat
     assert repeat is not None
-    height, width = canvas.pictures[repeat.tile].shape[:2]
-    tile = canvas.tile(repeat.tile, (repeat.length or height, repeat.width or width))
+    sides = _tile_sides(recipe, canvas.pictures)
+    assert sides is not None
+    tile = canvas.tile(repeat.tile, sides)
     filled = repeated(tile, out, repeat.order, cut=repeat.cut, progress=progress)
     if not filled and not recipe.plain:
         given = f"whole tiles of {tile.shape[1]} × {tile.shape[0]} knots do not fill the field of "
@@ -241,7 +240,15 @@ def _draw_repeat(canvas: _Canvas, recipe: Recipe, out: Pixels, progress: Progres
         raise CarpetError(given, do='give the ground, like plain = "ivory", or cut = true')
 
 
-def _draw_motif(canvas: _Canvas, motif: Motif, layout: CarpetLayout) -> None:
+def _tile_sides(recipe: Recipe, pictures: Mapping[Path, Pixels]) -> tuple[int, int] | None:
+    """Rows and columns of the tile that the field repeats; None: it has none."""
+    if (repeat := recipe.repeat) is None:
+        return None
+    height, width = pictures[repeat.tile].shape[:2]
+    return repeat.length or height, repeat.width or width
+
+
+def _draw_motif(canvas: _Canvas, motif: Motif, layout: CarpetLayout) -> tuple[MotifCopy, ...]:
     """Draw a motif and its reflections."""
     rgb = canvas.pictures[motif.picture]
     height, width = _sides(motif, rgb)
@@ -249,6 +256,7 @@ def _draw_motif(canvas: _Canvas, motif: Motif, layout: CarpetLayout) -> None:
     colours = canvas.tile(motif.picture, (height, width))
     shown = _shown(motif, rgb, (height, width))
     rows, columns = canvas.colours.shape[:2]
+    copies = []
     for down, right in _copies(motif):
         top = rows - first[0] - height if down else first[0]
         left = columns - first[1] - width if right else first[1]
@@ -256,6 +264,8 @@ def _draw_motif(canvas: _Canvas, motif: Motif, layout: CarpetLayout) -> None:
         area = (slice(top, top + height), slice(left, left + width))
         canvas.colours[area][shown[step]] = colours[step][shown[step]]
         canvas.mark(area, shown=shown[step])
+        copies.append(MotifCopy(area, (down, right)))
+    return tuple(copies)
 
 
 def _sides(motif: Motif, rgb: Pixels) -> tuple[int, int]:

@@ -28,6 +28,7 @@ from ilmek.arrays import Indices, Int64, UInt8
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.colour_difference import nearest
 from ilmek.carpet.design import bands
+from ilmek.carpet.recipe.anchor import MOTIF, PICTURE, Anchor
 from ilmek.carpet.recipe.border import edges
 from ilmek.carpet.recipe.mirror import MIRRORS, complete
 from ilmek.carpet.yarn import Yarn, yarn_labs
@@ -60,13 +61,16 @@ _WITHIN = ("replace", "mirror", "repeat", "border")
 
 _WITHOUT_YARN = ("jufti", "mirror", "repeat")
 
+_OF_CARPET = ("mirror", "repeat", "border")
+"""Edits of a carpet, not of its picture or a motif, which it may show several times."""
+
 
 @dataclass(frozen=True, slots=True)
 class Edit:
     """An edit as it is written.
 
     kind   of FORMS      knots  rows and columns, from 1      yarns  the text of the yarns      where  file and line
-    direction  of a mirror, of MIRRORS      width  of a border [knots]
+    direction  of a mirror, of MIRRORS      width  of a border [knots]      anchor  what rows and columns count
     """
 
     kind: str
@@ -76,10 +80,13 @@ class Edit:
     where: str = ""
     direction: str = ""
     width: int = 0
+    anchor: Anchor = Anchor()
 
 
-def parse_edit(text: str, where: str = "") -> Edit:
+def parse_edit(text: str, where: str = "", anchor: Anchor | None = None) -> Edit:
     """The edit of a line; yarns and bounds are checked when it is applied. Raises CarpetError.
+
+    anchor  what its rows and columns count; default: the knots of the carpet that is made
 
     >>> parse_edit("line 1,1 30, 30 ivory").knots
     ((1, 1), (30, 30))
@@ -106,7 +113,10 @@ def parse_edit(text: str, where: str = "") -> Edit:
         fits = fits and width > 0
     if not (fits and least <= len(knots) <= most) or bool(yarns) == (kind in _WITHOUT_YARN):
         raise CarpetError(f"{shortened(text.strip())!r} is no edit", do=f"write {FORMS[kind]}")
-    return Edit(kind, (*knots, *part), yarns, " ".join(text.split()), where, direction, width)
+    anchor = anchor or Anchor()
+    if kind in _OF_CARPET and anchor.on in (PICTURE, MOTIF):
+        raise CarpetError(f"{kind} is no edit of a {anchor.on}", do='write it under on = "carpet"')
+    return Edit(kind, (*knots, *part), yarns, " ".join(text.split()), where, direction, width, anchor)
 
 
 def _points(text: str) -> tuple[tuple[Knot, ...], str]:
@@ -161,12 +171,16 @@ def named_yarns(edit: Edit, yarns: Sequence[Yarn]) -> tuple[int, ...]:
     return yarn_number(known[0][0], yarns), yarn_number(known[0][1], yarns)
 
 
+def outside_grid(edit: Edit, rows: int, columns: int) -> str | None:
+    """The first knot of an edit that lies outside a grid, in words; None: none does."""
+    knots = (knot for knot in edit.knots if not (1 <= knot[0] <= rows and 1 <= knot[1] <= columns))
+    return next((f"knot {row},{column} lies outside the carpet" for row, column in knots), None)
+
+
 def check_knots(edit: Edit, rows: int, columns: int) -> None:
     """Raise CarpetError for a knot outside the grid."""
-    for row, column in edit.knots:
-        if not (1 <= row <= rows and 1 <= column <= columns):
-            allowed = f"row 1 (lower edge) to {rows}, column 1 (left) to {columns}"
-            raise CarpetError(f"knot {row},{column} lies outside the carpet", allowed=allowed)
+    if outside := outside_grid(edit, rows, columns):
+        raise CarpetError(outside, allowed=f"row 1 (lower edge) to {rows}, column 1 (left) to {columns}")
 
 
 def apply_edit(knots: Indices, edit: Edit, yarns: tuple[int, ...], progress: Progress = SILENT) -> None:

@@ -1,42 +1,74 @@
 """Finish: what a recipe fixes on the chart of its design: drawn areas, yarns that it names, and edits."""
 
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ilmek.arrays import FloatArray, Indices, Pixels
+from ilmek.arrays import Bool, FloatArray, Indices, Pixels
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.colour_difference import nearest
 from ilmek.carpet.design import bands
 from ilmek.carpet.differences import YarnDifference
 from ilmek.carpet.overlay import overlay_of
+from ilmek.carpet.recipe.anchor import Anchor
+from ilmek.carpet.recipe.carry import carry
 from ilmek.carpet.recipe.composition import Composition
-from ilmek.carpet.recipe.edits import Edit, apply_edit, check_knots, knots_between, located, named_yarns
+from ilmek.carpet.recipe.edits import (
+    Edit,
+    Knot,
+    apply_edit,
+    check_knots,
+    knots_between,
+    located,
+    named_yarns,
+    outside_grid,
+)
 from ilmek.carpet.recipe.marks import EditedMarks
+from ilmek.carpet.recipe.outcome import EditOutcome
 from ilmek.carpet.recipe.recipe import Recipe
+from ilmek.carpet.recipe.structure import Relation
 from ilmek.carpet.yarn import Yarn, yarn_labs
 from ilmek.errors import CarpetError
 from ilmek.progress import SILENT, Progress
+from ilmek.records import record
+
+
+@record
+class Origin:
+    """The design on the grid that edits count.
+
+    relation  of that grid to the carpet's      chart  of the design there, without edits; None: it is not known
+    """
+
+    relation: Relation
+    chart: Chart | None = None
 
 
 def finish(
-    chart: Chart, recipe: Recipe, yarns: Sequence[Yarn], made: Composition | None, progress: Progress = SILENT
+    chart: Chart,
+    recipe: Recipe,
+    yarns: Sequence[Yarn],
+    made: Composition | None,
+    progress: Progress = SILENT,
+    *,
+    origins: Mapping[Anchor, Origin | str] | None = None,
 ) -> Chart:
     """The chart of a recipe from that of its design.
 
     yarns  the whole list      made  the composition; None: one whole picture
+    origins  of the edits that do not count the knots of this chart, by their anchors; a text is the reason why they
+             cannot be carried. An edit that has no place on the chart is left out, and is in `reading.edits`
     A yarn that the recipe names is in the chart, whatever the palette rules chose.
-    Raises CarpetError, with file and line, for an edit outside the grid, of a yarn that is not in the list, and for
-    one that replaces a yarn which no knot has.
+    Raises CarpetError, with file and line, for an edit outside the grid that it states, of a yarn that is not in the
+    list, and for one on this grid that replaces a yarn which no knot has.
     """
     if made is None and not recipe.edits:
         return chart
     numbers = []
     for edit in recipe.edits:
         with located(edit.where):
-            check_knots(edit, chart.rows, chart.columns)
             numbers.append(named_yarns(edit, yarns))
     named = {number for found in numbers for number in found}
     named |= {number for _, number in made.yarns} if made is not None else set()
@@ -44,23 +76,121 @@ def finish(
     knots = chart.knots.copy()
     if made is not None:
         _draw_composed(knots, chart.yarns, made, index, progress.part(0.0, 0.5))
-    before = knots.copy() if recipe.edits else knots
-    editing = progress.part(0.5, 0.9, "edits")
-    marks = EditedMarks()
-    marks.start(chart.overlay, knots)
+    if not recipe.edits:
+        return _finished(chart, knots, EditedMarks.of(chart.overlay, knots), 0, (), progress)
+    before, editing = knots.copy(), progress.part(0.5, 0.9, "edits")
+    editor = _Editor(knots, EditedMarks.of(chart.overlay, knots), _sources(origins or {}, yarns, named))
     for count, (edit, found) in enumerate(zip(recipe.edits, numbers, strict=True)):
         part = editing.part(count / len(numbers), (count + 1) / len(numbers))
-        own = tuple(index[number] for number in found)
         with located(edit.where):
-            if edit.kind == "replace":
-                _check_replaced(knots, marks, edit, own[0])
-            apply_edit(knots, edit, own, part)
-            marks.apply(edit, knots, own)
+            editor.edit(edit, found, index, part)
     changed = sum(int(np.count_nonzero(knots[band] != before[band])) for band in bands(*knots.shape))
-    reading = replace(chart.reading, edited=changed)
+    return _finished(chart, knots, editor.marks, changed, tuple(editor.outcomes), progress)
+
+
+def _finished(  # noqa: PLR0917
+    chart: Chart,
+    knots: Indices,
+    marks: EditedMarks,
+    changed: int,
+    outcomes: tuple[EditOutcome, ...],
+    progress: Progress,
+) -> Chart:
+    reading = replace(chart.reading, edited=changed, edits=outcomes)
     finished = replace(chart, knots=knots, overlay=marks.overlay(), reading=reading)
     finished.tally(progress.part(0.9, 1.0))
     return finished
+
+
+@dataclass(slots=True)
+class _Source:
+    """Knots on the grid that edits count, with those edits that count it so far; indices of the list's yarns."""
+
+    relation: Relation
+    knots: Indices | None
+    index: dict[int, int]
+
+
+def _sources(
+    origins: Mapping[Anchor, Origin | str], yarns: Sequence[Yarn], named: set[int]
+) -> dict[Anchor, _Source | str]:
+    found: dict[Anchor, _Source | str] = {}
+    for anchor, origin in origins.items():
+        if isinstance(origin, str):
+            found[anchor] = origin
+        elif origin.chart is None:
+            found[anchor] = _Source(origin.relation, None, {})
+        else:
+            chart, index = _with_yarns(origin.chart, yarns, named)
+            found[anchor] = _Source(origin.relation, chart.knots.copy(), index)
+    return found
+
+
+@dataclass(slots=True)
+class _Editor:
+    """The knots of a chart and their marks while they are edited, in place; what became of edits that are carried."""
+
+    knots: Indices
+    marks: EditedMarks
+    sources: dict[Anchor, _Source | str]
+    outcomes: list[EditOutcome] = field(default_factory=list)
+
+    def edit(self, edit: Edit, numbers: tuple[int, ...], index: dict[int, int], progress: Progress) -> None:
+        """Apply an edit, or list it where it has no place."""
+        own = tuple(index[number] for number in numbers)
+        source = self.sources.get(edit.anchor)
+        if source is None:
+            outside = outside_grid(edit, *self.knots.shape)
+            if outside is not None and edit.anchor.grid is None:
+                self.outcomes.append(EditOutcome(edit, None, details=(1, 1), reason=f"{outside}; it states no grid"))
+                return
+            check_knots(edit, *self.knots.shape)
+            self._apply(edit, own, progress)
+        elif isinstance(source, str):
+            self.outcomes.append(EditOutcome(edit, edit.anchor.grid, details=(1, 1), reason=source))
+        else:
+            check_knots(edit, *source.relation.grid)
+            self._carry(edit, source, own, progress)
+            if source.knots is not None:
+                apply_edit(source.knots, edit, tuple(source.index[number] for number in numbers), progress)
+
+    def _carry(self, edit: Edit, source: _Source, own: tuple[int, ...], progress: Progress) -> None:
+        before = self.knots.copy()
+        carried = carry(edit, source.relation, source.knots, self.knots, own)
+        reason, details, applied = carried.reason, carried.details, list(carried.edits)
+        for one in carried.edits:
+            try:
+                self._apply(one, own, progress)
+            except CarpetError as error:
+                applied.remove(one)
+                reason, details = reason or error.given, (details[0], max(1, details[1]))
+        changed = self.knots != before
+        part = _part(changed) or _written(applied)
+        count = int(np.count_nonzero(changed))
+        self.outcomes.append(EditOutcome(edit, source.relation.grid, count, part, details, reason))
+
+    def _apply(self, edit: Edit, own: tuple[int, ...], progress: Progress) -> None:
+        if edit.kind == "replace":
+            _check_replaced(self.knots, self.marks, edit, own[0])
+        apply_edit(self.knots, edit, own, progress)
+        self.marks.apply(edit, self.knots, own)
+
+
+def _part(changed: Bool[np.ndarray, "rows columns"]) -> tuple[Knot, Knot] | None:
+    """The lowest and the highest row and column of knots, as edits count them; None: there are none."""
+    if not changed.any():
+        return None
+    rows, columns = (np.flatnonzero(changed.any(axis=way)) for way in (1, 0))
+    return (len(changed) - int(rows[-1]), int(columns[0]) + 1), (len(changed) - int(rows[0]), int(columns[-1]) + 1)
+
+
+def _written(edits: Sequence[Edit]) -> tuple[Knot, Knot] | None:
+    """The same of the knots that edits name."""
+    knots = [knot for edit in edits for knot in edit.knots]
+    if not knots:
+        return None
+    rows, columns = zip(*knots, strict=True)
+    return (min(rows), min(columns)), (max(rows), max(columns))
 
 
 def _check_replaced(knots: Indices, marks: EditedMarks, edit: Edit, old: int) -> None:

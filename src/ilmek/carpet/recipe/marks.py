@@ -19,10 +19,13 @@ class EditedMarks:
 
     marks: dict[tuple[int, int], tuple[KnotMark, int]] = field(default_factory=dict)
 
-    def start(self, overlay: Overlay, knots: Indices) -> None:
-        """Take the marks of a chart."""
+    @classmethod
+    def of(cls, overlay: Overlay, knots: Indices) -> "EditedMarks":
+        """The marks of a chart."""
+        found = cls()
         for mark in overlay:
-            self._put(mark, knots)
+            found._put(mark, knots)
+        return found
 
     def apply(self, edit: Edit, knots: Indices, yarns: tuple[int, ...]) -> None:
         """Follow an edit that has been applied to the knots; yarns: its indices. Raises CarpetError."""

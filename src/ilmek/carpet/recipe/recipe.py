@@ -4,11 +4,14 @@ A yarn is named as in the yarn list, and is then exactly that yarn; or it is a c
 yarn of the list. `where` is the file and line of an entry, for messages.
 """
 
-from collections.abc import Callable, Iterator, Mapping
+import itertools
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from ilmek.carpet.quality import shortest_quality
+from ilmek.carpet.recipe.anchor import CARPET, grid_text
 from ilmek.carpet.recipe.edits import Edit
 
 ORDERS = ("straight", "brick", "half-drop", "mirrored")
@@ -198,4 +201,17 @@ def plain_data(recipe: Recipe, named: Callable[[Path], str]) -> dict[str, Any]:
             )
             for motif in recipe.motifs
         ]
-    return {**data, **given(edits=[edit.text for edit in recipe.edits])}
+    return {**data, **given(edits=_plain_edits(recipe.edits))}
+
+
+def _plain_edits(edits: Sequence[Edit]) -> list[Any]:
+    """The lines of edits; where any states what it counts, tables of neighbours that count the same."""
+    if all(edit.anchor.is_open for edit in edits):
+        return [edit.text for edit in edits]
+    tables = []
+    for anchor, lines in itertools.groupby(edits, lambda edit: edit.anchor):
+        keys: dict[str, Any] = {} if anchor.on == CARPET else {"on": anchor.name}
+        keys |= {} if anchor.grid is None else {"grid": grid_text(anchor.grid)}
+        keys |= {} if anchor.grid is None or anchor.quality is None else {"quality": shortest_quality(anchor.quality)}
+        tables.append({**keys, "lines": [edit.text for edit in lines]})
+    return tables
