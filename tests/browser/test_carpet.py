@@ -206,3 +206,24 @@ def test_the_weaver_goes_on_where_the_page_was_left(carpet: Page, running: Studi
     _until_drawn(carpet)
     carpet.evaluate(LOSE)
     _until_drawn(carpet)
+
+
+def test_a_drawn_colour_gets_a_yarn_by_hand(carpet: Page, running: Studio, seen: Seen) -> None:
+    seen.expected = ("status of 422",)  # where the engine has no [map] yet
+    _drop(carpet, "stripes.png", _picture())
+    _set(carpet, "Size", "40x60cm")
+    carpet.get_by_role("tab", name="Yarns").click()
+    rows = carpet.locator(".carpet-assignment tbody tr")
+    expect(rows).to_have_count(4, timeout=PATIENCE)
+    navy = rows.filter(has_text="#1b2a4e")
+    expect(navy).to_contain_text("indigo navy")
+    expect(navy).to_contain_text(re.compile(r"3,[78]\d\d"))  # a quarter of 15,000
+    navy.get_by_role("button").click()
+    shelf = carpet.get_by_role("group", name="Yarn for #1b2a4e")
+    assert violations(carpet) == []
+    shelf.get_by_role("button", name="sage green").click()
+    until_file(running.project, "carpet.toml", '"#1b2a4e" = "sage green"')
+    expect(shelf).to_have_count(0)
+    carpet.keyboard.press("Control+z")
+    expect(carpet.locator(".project-saved.saved")).to_be_visible(timeout=PATIENCE)
+    assert "map" not in data_of(running.project, "carpet.toml")
