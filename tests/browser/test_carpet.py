@@ -8,7 +8,7 @@ import pytest
 from PIL import Image
 from playwright.sync_api import Page, expect
 from processes import ilmek, start, until
-from studio_browser import PATIENCE, Seen, Studio, data_of, middle, open_view, until_file, violations
+from studio_browser import PATIENCE, Seen, Studio, data_of, middle, open_view, until_data, until_file, violations
 
 from ilmek.io.yarn_file import default_yarns
 
@@ -225,5 +225,4 @@ def test_a_drawn_colour_gets_a_yarn_by_hand(carpet: Page, running: Studio, seen:
     until_file(running.project, "carpet.toml", '"#1b2a4e" = "sage green"')
     expect(shelf).to_have_count(0)
     carpet.keyboard.press("Control+z")
-    expect(carpet.locator(".project-saved.saved")).to_be_visible(timeout=PATIENCE)
-    assert "map" not in data_of(running.project, "carpet.toml")
+    until_data(running.project, "carpet.toml", lambda data: "map" not in data)
