@@ -18,6 +18,7 @@ import {
   zoomed,
 } from "./geometry";
 import type { CarpetModel } from "./model";
+import { speckPath } from "./specks";
 import { handOf, useHand } from "./use-hand";
 import { useRenderer } from "./use-renderer";
 
@@ -160,6 +161,7 @@ interface MarksProps {
 /** Cursor, tile and the part that is dragged, as lines over the chart. */
 function Marks({ model, grid, view, size, cursor, hand }: MarksProps) {
   const part = hand.part.value;
+  const specks = model.specks.value;
   const tile = model.tool.value === "repeat" ? model.tile.value : null;
   const box = (first: Knot, last: Knot) => {
     const [left, right] = [Math.min(first.column, last.column), Math.max(first.column, last.column) + 1];
@@ -172,6 +174,7 @@ function Marks({ model, grid, view, size, cursor, hand }: MarksProps) {
   const ends = line?.map((knot) => canvasPoint(view, grid, size, knot.column + 0.5, knot.line + 0.5));
   return (
     <svg class="carpet-marks" aria-hidden="true">
+      {specks !== null && model.specksShown.value && <path class="specks" d={speckPath(specks, grid, view, size)} />}
       {tile !== null && <rect class="tile" {...box(tile[0], tile[1])} />}
       {part !== null && <rect class="part" {...box(part[0], part[1])} />}
       {ends?.[0] && ends[1] && <line class="part" x1={ends[0].x} y1={ends[0].y} x2={ends[1].x} y2={ends[1].y} />}

@@ -7,6 +7,7 @@ import { ApiError, type Packed, postPacked } from "../../api/request";
 import { remember, remembered } from "../../app/settings";
 import { type Document, openDocument } from "../../project";
 import type { Grid, Knot } from "./geometry";
+import type { FoundSpecks } from "./specks";
 
 /** The data of a recipe's file. */
 export type Recipe = Record<string, unknown>;
@@ -51,6 +52,9 @@ export class CarpetModel {
   readonly mirror = signal<"across" | "along" | "both">("across");
   readonly split = signal(Number(remembered("carpet.split") ?? "0.5"));
   readonly left = signal<"chart" | "source">("chart");
+  /** The specks of the chart, while they are looked at, and whether they are marked. */
+  readonly specks = signal<FoundSpecks | null>(null);
+  readonly specksShown = signal(false);
   readonly weaving = signal(false);
   /** Row that is to be shown in the chart. */
   readonly sought = signal<number | null>(null);

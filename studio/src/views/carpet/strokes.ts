@@ -44,6 +44,11 @@ export function strokeEdits(points: readonly Knot[], yarn: string, grid: Grid): 
   const [first, last] = [knots[0], knots[knots.length - 1]];
   if (first === undefined || last === undefined) return [];
   if (knots.length > 2 && isLine(knots, first, last)) return [lineEdit(first, last, yarn, grid)];
+  return setEdits(knots, yarn, grid);
+}
+
+/** Edits that give single knots a yarn. */
+export function setEdits(knots: readonly Knot[], yarn: string, grid: Grid): string[] {
   const edits: string[] = [];
   let text = "set";
   for (const knot of knots) {

@@ -5,7 +5,7 @@ import { formatNumber, t } from "../../text";
 import { Button, IconButton, Select, toast } from "../../ui";
 import { Assignment } from "./assignment-table";
 import { type CarpetModel, namesOf } from "./model";
-import { TextSetting } from "./settings";
+import { TextSetting } from "./text-setting";
 
 /** The yarns: how many, which are kept and which are never taken, one in the place of another, shades to dye. */
 export function Yarns({ model }: { model: CarpetModel }) {
