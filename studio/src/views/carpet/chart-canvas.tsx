@@ -18,8 +18,9 @@ import {
   zoomed,
 } from "./geometry";
 import type { CarpetModel } from "./model";
+import { drawsLive } from "./pointer";
 import { speckPath } from "./specks";
-import { handOf, useHand } from "./use-hand";
+import { listenersOf, useHand } from "./use-hand";
 import { useRenderer } from "./use-renderer";
 
 const ZOOM = 1.4;
@@ -85,7 +86,7 @@ export function ChartCanvas({ model }: { model: CarpetModel }) {
           role="application"
           aria-label={t("carpet.canvas")}
           aria-describedby="carpet-keys"
-          {...handOf(hand)}
+          {...listenersOf(hand)}
         >
           <canvas ref={canvas} />
           {chart !== null && (
@@ -171,10 +172,19 @@ function Marks({ model, grid, view, size, cursor, hand }: MarksProps) {
     return { x: from.x, y: from.y, width: to.x - from.x, height: to.y - from.y };
   };
   const line = hand.line.value;
+  const axes = drawsLive(model.tool.value) ? model.symmetry.value : "none";
+  const middle = canvasPoint(view, grid, size, grid.columns / 2, grid.rows / 2);
   const ends = line?.map((knot) => canvasPoint(view, grid, size, knot.column + 0.5, knot.line + 0.5));
   return (
     <svg class="carpet-marks" aria-hidden="true">
       {specks !== null && model.specksShown.value && <path class="specks" d={speckPath(specks, grid, view, size)} />}
+      {(axes === "across" || axes === "both") && (
+        <line class="axis" x1={middle.x} y1={0} x2={middle.x} y2={size.height} />
+      )}
+      {(axes === "along" || axes === "both") && (
+        <line class="axis" x1={0} y1={middle.y} x2={size.width} y2={middle.y} />
+      )}
+      {axes === "turned" && <circle class="axis" cx={middle.x} cy={middle.y} r={8} />}
       {tile !== null && <rect class="tile" {...box(tile[0], tile[1])} />}
       {part !== null && <rect class="part" {...box(part[0], part[1])} />}
       {ends?.[0] && ends[1] && <line class="part" x1={ends[0].x} y1={ends[0].y} x2={ends[1].x} y2={ends[1].y} />}

@@ -8,6 +8,7 @@ import { remember, remembered } from "../../app/settings";
 import { type Document, openDocument } from "../../project";
 import type { Grid, Knot } from "./geometry";
 import type { FoundSpecks } from "./specks";
+import type { Symmetry } from "./symmetry";
 
 /** The data of a recipe's file. */
 export type Recipe = Record<string, unknown>;
@@ -48,6 +49,9 @@ export class CarpetModel {
   readonly yarn = signal("");
   /** Tile of the tool repeat, once it is chosen. */
   readonly tile = signal<readonly [Knot, Knot] | null>(null);
+  /** Width of the brush [knots], and what is drawn with each stroke. */
+  readonly brush = signal(1);
+  readonly symmetry = signal<Symmetry>("none");
   readonly borderWidth = signal(3);
   readonly mirror = signal<"across" | "along" | "both">("across");
   readonly split = signal(Number(remembered("carpet.split") ?? "0.5"));

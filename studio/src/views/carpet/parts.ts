@@ -53,7 +53,7 @@ export function movedCrop(
   let moved = { x: between(to.x, 0, sides.width), y: between(to.y, 0, sides.height) };
   if (ratio !== null) {
     const room = { x: left ? rest.x : sides.width - rest.x, y: top ? rest.y : sides.height - rest.y };
-    const wanted = Math.max(Math.abs(moved.x - rest.x), Math.abs(moved.y - rest.y) * ratio);
+    const wanted = (Math.abs(moved.x - rest.x) + Math.abs(moved.y - rest.y) * ratio) / 2;
     const width = Math.min(wanted, room.x, room.y * ratio);
     moved = { x: rest.x + (left ? -width : width), y: rest.y + ((top ? -1 : 1) * width) / ratio };
   }

@@ -16,6 +16,7 @@ export function SpecksPanel({ model }: { model: CarpetModel }) {
   const specks = model.specks.value;
   useEffect(() => {
     const recipe = model.recipe.peek();
+    model.specks.value = null;
     // A draft's specks are not those of the carpet.
     if (chart === null || recipe === null || (chart.about.draft && chart.about.reading === "photo")) return undefined;
     const abort = new AbortController();

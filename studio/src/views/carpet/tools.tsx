@@ -1,7 +1,8 @@
 import { t } from "../../text";
 import { Button, NumberField, Segments, Select } from "../../ui";
 import { type CarpetModel, TOOLS } from "./model";
-import { takesPart } from "./pointer";
+import { drawsLive, takesPart } from "./pointer";
+import { BRUSHES, SYMMETRIES } from "./symmetry";
 import { applyToWhole } from "./use-hand";
 
 /** The tools of the chart, and what the one in hand needs. */
@@ -31,6 +32,26 @@ export function Tools({ model }: { model: CarpetModel }) {
           choices={names.map((name) => ({ value: name, label: name }))}
           onChange={(name) => {
             model.yarn.value = name;
+          }}
+        />
+      )}
+      {(tool === "pencil" || tool === "line") && (
+        <Select
+          label={t("carpet.brush")}
+          value={String(model.brush.value)}
+          choices={BRUSHES.map((width) => ({ value: String(width), label: t("carpet.brushWidth", { count: width }) }))}
+          onChange={(width) => {
+            model.brush.value = Number(width);
+          }}
+        />
+      )}
+      {drawsLive(tool) && (
+        <Select
+          label={t("carpet.symmetry")}
+          value={model.symmetry.value}
+          choices={SYMMETRIES.map((one) => ({ value: one, label: t(`carpet.${one}Symmetry`) }))}
+          onChange={(symmetry) => {
+            model.symmetry.value = symmetry;
           }}
         />
       )}

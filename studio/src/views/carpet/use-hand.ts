@@ -18,6 +18,7 @@ import type { CarpetModel } from "./model";
 import { areaEdits, editsOf, type Hand, isPoint, type Point, pinched, takesPart } from "./pointer";
 import type { Renderer } from "./renderer";
 import { lineKnots } from "./strokes";
+import { brushSpans, imagesOf } from "./symmetry";
 
 interface Stage {
   model: CarpetModel;
@@ -46,13 +47,6 @@ export function useHand(stage: Stage) {
   const panning = useRef(false);
 
   const grid = () => model.chart.peek()?.grid ?? null;
-  const hand = (): Hand => ({
-    tool: model.tool.peek(),
-    yarn: model.yarn.peek(),
-    mirror: model.mirror.peek(),
-    borderWidth: model.borderWidth.peek(),
-    tile: model.tile.peek(),
-  });
   const pointOf = (event: MouseEvent): Point => {
     const box = canvas.current?.getBoundingClientRect();
     return { x: event.clientX - (box?.left ?? 0), y: event.clientY - (box?.top ?? 0) };
@@ -74,12 +68,17 @@ export function useHand(stage: Stage) {
     return () => element?.removeEventListener("wheel", wheel);
   }, [canvas.current]);
 
-  /** Shows a stroke on the screen at once. */
+  /** Shows a stroke and its images on the screen at once. */
   const preview = (points: readonly Knot[]) => {
     const [last, before] = [points[points.length - 1], points[points.length - 2]];
-    const yarn = model.yarnIndex.peek();
-    if (last === undefined || yarn < 0) return;
-    renderer.current?.paint(lineKnots(before ?? last, last), yarn);
+    const [yarn, own] = [model.yarnIndex.peek(), grid()];
+    if (last === undefined || own === null || yarn < 0) return;
+    const path = lineKnots(before ?? last, last);
+    const knots = imagesOf(path, model.symmetry.peek(), own).flat();
+    renderer.current?.paint(
+      knots.flatMap((knot) => brushSpans(knot, model.brush.peek(), own)),
+      yarn,
+    );
   };
 
   /** Ends a stroke: its edits go to the recipe, a tile to the tool. */
@@ -93,7 +92,7 @@ export function useHand(stage: Stage) {
       if (!isPoint(first, last)) model.tile.value = [first, last];
       return;
     }
-    model.edit(editsOf(hand(), points, own));
+    model.edit(editsOf(handOf(model), points, own));
   };
 
   const show = (points: readonly Knot[]) => {
@@ -237,7 +236,7 @@ export function useHand(stage: Stage) {
 }
 
 /** The listeners of a canvas. */
-export function handOf({ down, move, up, key, leave }: ReturnType<typeof useHand>) {
+export function listenersOf({ down, move, up, key, leave }: ReturnType<typeof useHand>) {
   return {
     onPointerDown: down,
     onPointerMove: move,
@@ -253,13 +252,19 @@ export function handOf({ down, move, up, key, leave }: ReturnType<typeof useHand
 export function applyToWhole(model: CarpetModel): void {
   const chart = model.chart.peek();
   if (chart === null) return;
-  const hand: Hand = {
+  model.edit(areaEdits(handOf(model), null, chart.grid));
+  model.tile.value = null;
+}
+
+/** The tool in hand with all that it needs. */
+function handOf(model: CarpetModel): Hand {
+  return {
     tool: model.tool.peek(),
     yarn: model.yarn.peek(),
+    width: model.brush.peek(),
+    symmetry: model.symmetry.peek(),
     mirror: model.mirror.peek(),
     borderWidth: model.borderWidth.peek(),
     tile: model.tile.peek(),
   };
-  model.edit(areaEdits(hand, null, chart.grid));
-  model.tile.value = null;
 }
