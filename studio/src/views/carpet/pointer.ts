@@ -51,7 +51,7 @@ export function areaEdits(hand: Hand, part: Part, grid: Grid): string[] {
 
 /** Whether a tool acts on a part that is dragged. */
 export function takesPart(tool: Tool): boolean {
-  return tool === "mirror" || tool === "repeat" || tool === "border";
+  return tool === "mirror" || tool === "repeat" || tool === "border" || tool === "select";
 }
 
 export function isPoint(one: Knot, other: Knot): boolean {

@@ -15,6 +15,7 @@ import {
   zoomed,
 } from "./geometry";
 import type { CarpetModel } from "./model";
+import { mirrored, placeAbout, shownPiece, turned } from "./placing";
 import { areaEdits, editsOf, type Hand, isPoint, type Point, pinched, takesPart } from "./pointer";
 import type { Renderer } from "./renderer";
 import { lineKnots } from "./strokes";
@@ -81,6 +82,14 @@ export function useHand(stage: Stage) {
     );
   };
 
+  /** Places what is held about a knot; false: nothing is. */
+  const drop = (knot: Knot): boolean => {
+    const [placing, own] = [model.placing.peek(), grid()];
+    if (placing === null || own === null) return false;
+    model.place(placeAbout(knot, shownPiece(placing), own));
+    return true;
+  };
+
   /** Ends a stroke: its edits go to the recipe, a tile to the tool. */
   const finish = (points: readonly Knot[]) => {
     const own = grid();
@@ -88,6 +97,10 @@ export function useHand(stage: Stage) {
     part.value = null;
     line.value = null;
     if (own === null || first === undefined || last === undefined) return;
+    if (model.tool.peek() === "select") {
+      model.selection.value = isPoint(first, last) ? null : [first, last];
+      return;
+    }
     if (model.tool.peek() === "repeat" && model.tile.peek() === null) {
       if (!isPoint(first, last)) model.tile.value = [first, last];
       return;
@@ -123,6 +136,7 @@ export function useHand(stage: Stage) {
     }
     panning.current = model.tool.peek() === "pan" || event.button !== 0;
     if (panning.current) return;
+    if (drop(knot)) return;
     stroke.current = [knot];
     cursor.value = null;
     if (model.tool.peek() === "pencil") preview([knot]);
@@ -174,7 +188,7 @@ export function useHand(stage: Stage) {
   /** The key of a tool at the cursor: one knot, or the first and then the other end. */
   const press = (knot: Knot) => {
     const tool = model.tool.peek();
-    if (tool === "pan") return;
+    if (tool === "pan" || drop(knot)) return;
     if (tool === "pencil" || tool === "fill") {
       if (tool === "pencil") preview([knot]);
       finish([knot]);
@@ -187,9 +201,23 @@ export function useHand(stage: Stage) {
     }
   };
 
+  /** Keys of a selected part and of what is held; whether it was one. */
+  const heldKey = (event: KeyboardEvent): boolean => {
+    const placing = model.placing.peek();
+    const command = event.ctrlKey || event.metaKey;
+    if (command && (event.key === "c" || event.key === "x") && model.selection.peek() !== null)
+      model.hold(event.key === "c" ? "copy" : "move");
+    else if (placing !== null && !command && event.key === "r") model.placing.value = turned(placing);
+    else if (placing !== null && !command && event.key === "m") model.placing.value = mirrored(placing);
+    else if (placing !== null && event.key === "Escape") model.placing.value = null;
+    else return false;
+    event.preventDefault();
+    return true;
+  };
+
   const key = (event: KeyboardEvent) => {
     const own = grid();
-    if (own === null || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (own === null || heldKey(event) || event.ctrlKey || event.metaKey || event.altKey) return;
     const { width, height } = size.peek();
     const step = event.shiftKey ? LEAP : 1;
     const moves: Record<string, readonly [number, number]> = {
@@ -219,6 +247,7 @@ export function useHand(stage: Stage) {
       part.value = null;
       line.value = null;
       model.tile.value = null;
+      model.selection.value = null;
       cursor.value = null;
     } else if (event.key === "+" || event.key === "=" || event.key === "-") {
       const factor = event.key === "-" ? 1 / 1.4 : 1.4;
