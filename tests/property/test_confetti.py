@@ -13,7 +13,7 @@ from ilmek.carpet.colour_difference import delta_e_2000
 from ilmek.carpet.confetti import merge_patches
 from ilmek.carpet.light import LIGHT, lab_of_light
 from ilmek.carpet.palette import distinct_colours, nearest_yarns, paint
-from ilmek.carpet.patches import count_patches
+from ilmek.carpet.patches import count_patches, small_patches
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.reading import LEAST_PATCHES, ReadParams
 from ilmek.carpet.sizes import CarpetSize
@@ -54,6 +54,24 @@ def sizes(knots: np.ndarray) -> list[int]:
     return of_all
 
 
+def around_small(knots: np.ndarray, most: int) -> dict[int, int]:
+    """The knots of small patches, and the yarn that most of the knots around have, by dilation of each component."""
+    found: dict[int, int] = {}
+    for yarn in np.unique(knots):
+        labels, number = ndimage.label(knots == yarn, np.ones((3, 3)))
+        for label in range(1, number + 1):
+            own = labels == label
+            if own.sum() > most:
+                continue
+            counts = np.zeros(int(knots.max()) + 1)
+            for row, column in np.argwhere(own):  # a knot around counts for each knot that it touches
+                near = knots[max(row - 1, 0) : row + 2, max(column - 1, 0) : column + 2]
+                counts += np.bincount(near[near != yarn], minlength=len(counts))
+            around = int(counts.argmax()) if counts.any() else int(yarn)
+            found |= dict.fromkeys(np.flatnonzero(own).tolist(), around)
+    return found
+
+
 @given(
     rows=st.integers(1, 14), columns=st.integers(1, 14), yarns=st.integers(2, 6), most=st.integers(1, 9),
     seed=st.integers(0, 10**6),
@@ -61,6 +79,9 @@ def sizes(knots: np.ndarray) -> list[int]:
 def test_patches_are_the_components(rows: int, columns: int, yarns: int, most: int, seed: int) -> None:
     knots = np.random.default_rng(seed).integers(0, yarns, (rows, columns), dtype=np.uint8)
     assert count_patches(knots, most) == sum(size <= most for size in sizes(knots))
+    found = small_patches(knots, most)
+    assert found.sizes.sum() == count_patches(knots, most)
+    assert dict(zip(found.knots.tolist(), found.around.tolist(), strict=True)) == around_small(knots, most)
 
 
 @settings(max_examples=25)

@@ -10,12 +10,13 @@ from PIL import Image
 
 from ilmek.errors import CarpetError, ParameterError, PictureError
 from ilmek.io.chart.rows_text import row_bands
+from ilmek.io.yarn_file import default_yarns
 from ilmek.jobs.chart import make_charted
 from ilmek.jobs.order import read_order
 from ilmek.jobs.studio.answers import Binary, Context
 from ilmek.jobs.studio.carpet import stages
-from ilmek.jobs.studio.carpet.answers import ChartRequest, PictureRequest, ProposalRequest, RowRequest
-from ilmek.jobs.studio.carpet.tasks import chart, corners, picture, proposal, row
+from ilmek.jobs.studio.carpet.answers import ChartRequest, PictureRequest, ProposalRequest, RowRequest, SpecksRequest
+from ilmek.jobs.studio.carpet.tasks import chart, corners, picture, proposal, row, specks
 
 SMALL = {"picture": "pictures/photo.png", "size": "40x60cm", "quality": "20x20/dm"}
 
@@ -190,3 +191,57 @@ def test_a_missing_picture_is_named_as_in_the_project(context: Context) -> None:
     with pytest.raises(CarpetError, match=r"^carpet\.toml, picture: 'pictures/no\.png' is not there") as refused:
         _chart(context, picture="pictures/no.png")
     assert str(context.folder) not in str(refused.value)
+
+
+def _dots(context: Context) -> dict[str, Any]:
+    """A recipe of a drawing knot by knot: ivory, five lone knots, a pair on a diagonal, and a block of nine."""
+    srgb = {yarn.name: yarn.srgb for yarn in default_yarns()}
+    drawn = np.full((40, 30, 3), srgb["ivory"], dtype=np.uint8)
+    for line, column in ((2, 3), (2, 20), (9, 9), (30, 3), (39, 29), (20, 20), (21, 21)):
+        drawn[line, column] = srgb["indigo navy"]
+    drawn[14:17, 4:7] = srgb["madder red"]
+    Image.fromarray(drawn).save(context.folder / "pictures/dots.png")
+    return {"picture": "pictures/dots.png", "size": "12x16cm", "quality": "25x25/dm", "read": "exact"}
+
+
+def test_the_yarn_of_each_colour_of_a_drawing_is_listed(context: Context) -> None:
+    about, _ = _parts(chart(ChartRequest(_dots(context)), context))
+    made = make_charted(read_order(_written(context, _dots(context)))).chart
+    found = {(one["colour"], one["yarn"], one["knots"]) for one in about["assignment"]}
+    assert found == {(m.hex, made.yarns[m.yarn].name, m.knots) for m in made.reading.matches}
+    assert [one["knots"] for one in about["assignment"]] == [1184, 9, 7]
+    assert all(one["merged_with"] == [] and one["delta_e"] < 1 for one in about["assignment"])
+
+
+def test_colours_of_one_yarn_name_each_other(context: Context) -> None:
+    recipe = _dots(context)
+    drawn = np.array(Image.open(context.folder / "pictures/dots.png"))
+    ground = drawn[0, 0].copy()
+    drawn[0, :5] = ground - np.uint8(1)
+    Image.fromarray(drawn).save(context.folder / "pictures/dots.png")
+    about, _ = _parts(chart(ChartRequest(recipe), context))
+    merged = {one["colour"]: one["merged_with"] for one in about["assignment"]}
+    one, other = (f"#{bytes(colour).hex()}" for colour in (ground, drawn[0, 0]))
+    assert merged[one] == [other]
+    assert merged[other] == [one]
+
+
+def _written(context: Context, recipe: dict[str, Any]) -> Path:
+    file = context.folder / "carpet.toml"
+    file.write_text(_lines(recipe), encoding="utf-8")
+    return file
+
+
+def test_specks_are_found_with_the_yarn_around_them(context: Context) -> None:
+    answer = specks(SpecksRequest(_dots(context), 3), context)
+    about, data = _parts(answer)
+    assert about["sizes"] == [5, 1, 0]
+    places = np.frombuffer(data, dtype="<u4", count=about["knots"])
+    around = data[4 * about["knots"] + (-4 * about["knots"]) % 8 :][: about["knots"]]
+    assert sorted(divmod(int(place), 30) for place in places) == [
+        (2, 3), (2, 20), (9, 9), (20, 20), (21, 21), (30, 3), (39, 29)
+    ]  # fmt: skip
+    assert {about["yarns"][yarn] for yarn in around} == {"ivory"}
+    assert _parts(specks(SpecksRequest(_dots(context), 9), context))[0]["sizes"][-1] == 1
+    with pytest.raises(ParameterError, match="100 knots"):
+        specks(SpecksRequest(_dots(context), 100), context)

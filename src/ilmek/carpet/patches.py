@@ -5,9 +5,12 @@ begins only where no earlier neighbour (left, above, above left, above right) ha
 it meets a knot before its first. So the time is linear in the knots, and no labels are kept.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
-from ilmek.arrays import Indices, Int32, Int64
+from ilmek.arrays import Indices, Int32, Int64, UInt8
+from ilmek.carpet.codes import CODES
 from ilmek.carpet.design import PART, bands
 from ilmek.num.compiled import compiled
 from ilmek.num.threads import in_threads
@@ -110,3 +113,76 @@ def count_patches(knots: Indices, most: int, progress: Progress = SILENT) -> int
     1
     """
     return int(patch_sizes(knots, most, progress).sum())
+
+
+class SmallPatches(NamedTuple):
+    """The small patches of a chart.
+
+    sizes  numbers of the patches of 0, 1, 2 ... knots
+    knots  of all of them, patch by patch, counted row by row from the upper edge
+    around the yarn of each knot's patch that most of the knots around it have; of equal ones the first
+    """
+
+    sizes: Int64[np.ndarray, " sizes"]
+    knots: Int64[np.ndarray, " knots"]
+    around: UInt8[np.ndarray, " knots"]
+
+
+def small_patches(knots: Indices, most: int, progress: Progress = SILENT) -> SmallPatches:
+    """The patches of at most `most` knots of a chart (rows, columns).
+
+    >>> found = small_patches(np.array([[1, 0, 0, 2], [0, 1, 0, 2], [0, 0, 0, 2]], dtype=np.uint8), 2)
+    >>> found.knots.tolist(), found.around.tolist()
+    ([0, 5], [0, 0])
+    """
+    knots = np.ascontiguousarray(knots)
+    places, yarns = [np.empty(0, dtype=np.int64)], [np.empty(0, dtype=np.uint8)]
+    sizes = np.zeros(most + 1, dtype=np.int64)
+    members, marks = room(most + 1)
+    for band in bands(knots.shape[0], knots.shape[1], PART):
+        number = (band.stop - band.start) * knots.shape[1] + most * knots.shape[1]
+        place, around = np.empty(number, dtype=np.int64), np.empty(number, dtype=np.uint8)
+        found = _list(knots, band.start, band.stop, members, marks, sizes, place, around)
+        places.append(place[:found])
+        yarns.append(around[:found])
+        progress(band.stop / len(knots))
+    return SmallPatches(sizes, np.concatenate(places), np.concatenate(yarns))
+
+
+@compiled
+def _list(  # noqa: PLR0917
+    knots: Indices,
+    first: int,
+    stop: int,
+    members: Members,
+    marks: Marks,
+    sizes: Int64[np.ndarray, " sizes"],
+    places: Int64[np.ndarray, " most"],
+    yarns: UInt8[np.ndarray, " most"],
+) -> int:
+    """List the knots of the small patches that begin in some rows, and the yarns around; the number of knots."""
+    least, mark, found = len(sizes), 0, 0
+    near = np.zeros(CODES, dtype=np.int64)
+    marks[:] = 0
+    for row in range(first, stop):
+        for column in range(knots.shape[1]):
+            if not begins(knots, row, column):
+                continue
+            mark += 1
+            size = fill(knots, row, column, least, True, members, marks, mark)
+            if not 0 < size < least:
+                continue
+            sizes[size] += 1
+            near[:] = 0
+            for k in range(size):
+                y, x = members[k]
+                for i in range(max(y - 1, 0), min(y + 2, knots.shape[0])):
+                    for j in range(max(x - 1, 0), min(x + 2, knots.shape[1])):
+                        near[knots[i, j]] += 1
+            near[knots[row, column]] = 0
+            around = np.argmax(near) if near.any() else knots[row, column]
+            for k in range(size):
+                places[found] = members[k, 0] * knots.shape[1] + members[k, 1]
+                yarns[found] = around
+                found += 1
+    return found

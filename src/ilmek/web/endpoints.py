@@ -295,6 +295,16 @@ ENDPOINTS: tuple[Endpoint, ...] = (
     ),
     Endpoint(
         "POST",
+        "/carpet/specks",
+        "studio.carpet.tasks:specks",
+        "The small patches of the chart of a recipe, their knots and the yarns around them (packed).",
+        limit=10 * 60 * SECOND,
+        affinity="carpet",
+        records=("Specks",),
+        answer=PACKED,
+    ),
+    Endpoint(
+        "POST",
         "/carpet/proposal",
         "studio.carpet.tasks:proposal",
         "The shades that suit the picture of a recipe best.",

@@ -10,6 +10,21 @@
  */
 export interface Messages {}
 /**
+ * A colour of a drawing, `#rrggbb`, the name of its yarn, the CIEDE2000 of the two, and its knots.
+ *
+ *     merged_with  the other colours of the yarn, those with most knots; at most MOST_MERGED
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "AssignedColour".
+ */
+export interface AssignedColour {
+  colour: string;
+  yarn: string;
+  delta_e: number;
+  knots: number;
+  merged_with: string[];
+}
+/**
  * A body: its points in its own frame [m], by name, and whether it is located by the groups found so far.
  *
  * This interface was referenced by `Messages`'s JSON-Schema
@@ -54,6 +69,7 @@ export interface Changed {
  *
  *     width, length  of the carpet [m]      quality  as written      reading, reason, fit  how the picture was read
  *     listed  all yarns that may be chosen      hardest  rows with most changes      edited  knots that edits changed
+ *     assignment  the yarn of each colour, most knots first; none of a photo, and of a drawing of too many colours
  *     mass, mass_per_area, price  of all yarns [kg], [kg/m²]
  *     checks, warnings, notes  as in the report      seconds  that it took
  *
@@ -73,6 +89,7 @@ export interface ChartAnswer {
   yarns: ChartYarn[];
   ground: GroundNeed[];
   listed: ListedYarn[];
+  assignment: AssignedColour[];
   hardest: HardRow[];
   mean_changes: number;
   edited: number;
@@ -2137,6 +2154,31 @@ export interface ShownMotion {
 export interface SolveRequest {
   data: {};
   goal?: string;
+}
+/**
+ * The specks of a chart before their knots: numbers of the patches of 1, 2 ... knots, and the names of the yarns.
+ *
+ *     Then follow two parts: the knots, 4 bytes each, little-endian, row by row from the upper edge; and one byte each,
+ *     the index of the yarn around its patch.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "Specks".
+ */
+export interface Specks {
+  sizes: number[];
+  knots: number;
+  yarns: string[];
+}
+/**
+ * The specks of the chart of a recipe: its patches of at most `most` knots.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "SpecksRequest".
+ */
+export interface SpecksRequest {
+  recipe: {};
+  most?: number;
+  path?: string;
 }
 /**
  * The four-bars for a task, the best first.

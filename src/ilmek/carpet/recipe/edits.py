@@ -2,6 +2,7 @@
 
     set 12,40 madder red              one knot or several: set 12,40 12,41 madder red
     line 1,1 30,30 ivory              a line, 8-connected
+    stroke 5 1,1 30,30 40,30 ivory    lines from knot to knot, drawn with a round brush of 5 knots
     fill 100,50 indigo navy           the connected area of one yarn about a knot
     replace ivory by camel            every knot of a yarn
     replace ivory by camel in 1,1 50,50     within a rectangle
@@ -11,6 +12,10 @@
     mirror across in 1,1 50,50        the left half of a rectangle, reflected, becomes its right half; along: the upper
                                       half the lower one; both: the upper left quarter all; without `in`: of the carpet
     repeat 1,1 10,10 in 1,1 50,50     a rectangle becomes the tile of another one, or of the carpet
+    copy 1,1 10,20 to 40,50           a rectangle again, its lower left knot at 40,50; beyond the edge it is cut;
+                                      before, `mirrored across` (or along) reflects it, then `turned 90deg` turns it
+                                      clockwise: copy 1,1 10,20 to 40,50 turned 90deg mirrored across
+    move 1,1 10,20 to 40,50 ivory     the same, and the rectangle where it was becomes ivory
     border 3 ivory in 1,1 50,50       a border of 3 knots along the edge of a rectangle, inside, or of the carpet
 
 A knot is given as row,column. Rows are counted as they are woven, from 1 at the carpet's lower edge; columns from 1 at
@@ -30,6 +35,7 @@ from ilmek.carpet.colour_difference import nearest
 from ilmek.carpet.design import bands
 from ilmek.carpet.recipe.anchor import MOTIF, PICTURE, Anchor
 from ilmek.carpet.recipe.border import edges
+from ilmek.carpet.recipe.copies import WIDEST_BRUSH, brush_spans, transformed
 from ilmek.carpet.recipe.mirror import MIRRORS, complete
 from ilmek.carpet.yarn import Yarn, yarn_labs
 from ilmek.errors import CarpetError, IlmekError, did_you_mean, shortened
@@ -42,6 +48,7 @@ _POINT = re.compile(r"\s*(\d{1,9})\s*,\s*(\d{1,9})(?=\s|$)")
 _FLOOD = 1 << 20
 FORMS = {
     "set": "set ROW,COLUMN YARN",
+    "stroke": f"stroke WIDTH ROW,COLUMN ROW,COLUMN ... YARN, of a width up to {WIDEST_BRUSH}",
     "fill": "fill ROW,COLUMN YARN",
     "line": "line ROW,COLUMN ROW,COLUMN YARN",
     "replace": "replace YARN by YARN, or replace YARN by YARN in ROW,COLUMN ROW,COLUMN",
@@ -49,17 +56,31 @@ FORMS = {
     "jufti": "jufti ROW,COLUMN, or jufti ROW,COLUMN ROW,COLUMN",
     "mirror": "mirror across (or along, both), and in ROW,COLUMN ROW,COLUMN for a part",
     "repeat": "repeat ROW,COLUMN ROW,COLUMN, and in ROW,COLUMN ROW,COLUMN for a part",
+    "copy": "copy ROW,COLUMN ROW,COLUMN to ROW,COLUMN, and turned 90deg (180deg, 270deg), mirrored across (or along)",
+    "move": "move ROW,COLUMN ROW,COLUMN to ROW,COLUMN YARN, and before the yarn as for copy",
     "border": "border WIDTH YARN, and in ROW,COLUMN ROW,COLUMN for a part",
 }
 """How each edit is written."""
 
-_KNOTS = {"set": (1, 10_000), "fill": (1, 1), "line": (2, 2), "half": (1, 1), "jufti": (1, 2), "repeat": (2, 2)}
+_KNOTS = {
+    "set": (1, 10_000),
+    "stroke": (1, 10_000),
+    "fill": (1, 1),
+    "line": (2, 2),
+    "half": (1, 1),
+    "jufti": (1, 2),
+    "repeat": (2, 2),
+    "copy": (2, 2),
+    "move": (2, 2),
+}
 """Least and largest number of knots of an edit, without those of the part that it acts on; default: none."""
 
 _WITHIN = ("replace", "mirror", "repeat", "border")
 """Edits that act on the carpet, or on a part."""
 
-_WITHOUT_YARN = ("jufti", "mirror", "repeat")
+_WITHOUT_YARN = ("jufti", "mirror", "repeat", "copy")
+
+_PLACED = re.compile(r"(?:turned\s+(90|180|270)deg\s*)?(?:mirrored\s+(across|along)(?:\s+|$))?")
 
 _OF_CARPET = ("mirror", "repeat", "border")
 """Edits of a carpet, not of its picture or a motif, which it may show several times."""
@@ -70,7 +91,8 @@ class Edit:
     """An edit as it is written.
 
     kind   of FORMS      knots  rows and columns, from 1      yarns  the text of the yarns      where  file and line
-    direction  of a mirror, of MIRRORS      width  of a border [knots]      anchor  what rows and columns count
+    direction  of a mirror, of MIRRORS, or of a reflected copy; "": none      width  of a border or a brush [knots]
+    turned     right angles by which a copy is turned clockwise      anchor  what rows and columns count
     """
 
     kind: str
@@ -80,6 +102,7 @@ class Edit:
     where: str = ""
     direction: str = ""
     width: int = 0
+    turned: int = 0
     anchor: Anchor = Anchor()
 
 
@@ -96,27 +119,34 @@ def parse_edit(text: str, where: str = "", anchor: Anchor | None = None) -> Edit
         near = did_you_mean(kind, FORMS)
         raise CarpetError(f"unknown edit {shortened(kind)!r}", allowed=", ".join(FORMS), do=near)
     part: tuple[Knot, ...] = ()
-    fits = True
+    fits, direction, width, turned = True, "", 0, 0
     if kind in _WITHIN:
         rest, inside, region = rest.partition(" in ")
         part, left = _points(region)
         fits = not left and len(part) == (2 if inside else 0)
+    if kind in ("border", "stroke"):
+        digits, _, rest = rest.strip().partition(" ")
+        width = int(digits) if re.fullmatch(r"[1-9]\d{0,3}", digits) else 0
+        fits = fits and 0 < width <= (WIDEST_BRUSH if kind == "stroke" else width)
     knots, words = ((), rest) if kind == "replace" else _points(rest)
-    least, most = _KNOTS.get(kind, (0, 0))
-    yarns, direction, width = " ".join(words.split()), "", 0
+    if kind in ("copy", "move"):
+        to, _, target = words.partition(" ")
+        part, words = _points(target)
+        placed = _PLACED.match(words)
+        assert placed is not None  # both parts of it may be missing
+        turned, direction, words = int(placed[1] or 0) // 90, placed[2] or "", words[placed.end() :]
+        fits = to == "to" and len(part) == 1
+    yarns = " ".join(words.split())
     if kind == "mirror":
         yarns, direction = "", yarns
         fits = fits and direction in MIRRORS
-    elif kind == "border":
-        digits, _, yarns = yarns.partition(" ")
-        width = int(digits) if re.fullmatch(r"[1-9]\d{0,3}", digits) else 0
-        fits = fits and width > 0
+    least, most = _KNOTS.get(kind, (0, 0))
     if not (fits and least <= len(knots) <= most) or bool(yarns) == (kind in _WITHOUT_YARN):
         raise CarpetError(f"{shortened(text.strip())!r} is no edit", do=f"write {FORMS[kind]}")
     anchor = anchor or Anchor()
     if kind in _OF_CARPET and anchor.on in (PICTURE, MOTIF):
         raise CarpetError(f"{kind} is no edit of a {anchor.on}", do='write it under on = "carpet"')
-    return Edit(kind, (*knots, *part), yarns, " ".join(text.split()), where, direction, width, anchor)
+    return Edit(kind, (*knots, *part), yarns, " ".join(text.split()), where, direction, width, turned, anchor)
 
 
 def _points(text: str) -> tuple[tuple[Knot, ...], str]:
@@ -151,7 +181,7 @@ def srgb_of(name: str) -> tuple[int, int, int]:
 
 
 def named_yarns(edit: Edit, yarns: Sequence[Yarn]) -> tuple[int, ...]:
-    """Indices of the yarns of an edit: one; of `replace` old and new, of `jufti`, `mirror` and `repeat` none.
+    """Indices of the yarns of an edit: one; of `replace` old and new, of `jufti`, `mirror`, `repeat`, `copy` none.
 
     Raises CarpetError.
     """
@@ -192,6 +222,10 @@ def apply_edit(knots: Indices, edit: Edit, yarns: tuple[int, ...], progress: Pro
         complete(knots_between(knots, at), edit.direction)
     elif edit.kind == "repeat":
         _repeat(knots, at)
+    elif edit.kind == "stroke":
+        _stroke(knots, at, yarns[0], edit.width, progress)
+    elif edit.kind in ("copy", "move"):
+        _copy(knots, at, edit, yarns)
     elif edit.kind == "border":
         part = knots_between(knots, at)
         rows, columns = part.shape
@@ -217,6 +251,29 @@ def _repeat(knots: Indices, at: list[Knot]) -> None:
     columns = (np.arange(part.shape[1]) + first[1] - left) % tile.shape[1]
     for band in bands(*part.shape):
         part[band] = tile[np.ix_(rows[band], columns)]
+
+
+def _stroke(knots: Indices, at: list[Knot], yarn: int, width: int, progress: Progress) -> None:
+    """Lines from knot to knot with a round brush; what lies beyond the carpet is left out."""
+    spans = brush_spans(width)
+    for count, ends in enumerate(zip(at, at[1:] or at, strict=False)):
+        for row, column in zip(*(line.tolist() for line in line_knots(*ends)), strict=True):
+            for down, (left, right) in spans:
+                if 0 <= row + down < len(knots):
+                    knots[row + down, max(column + left, 0) : max(column + right, 0)] = yarn
+        progress((count + 1) / len(at))
+
+
+def _copy(knots: Indices, at: list[Knot], edit: Edit, yarns: tuple[int, ...]) -> None:
+    """A rectangle again at another place, reflected and turned; of `move` its own place gets the yarn first."""
+    part = knots_between(knots, at[:2])
+    found = transformed(part.copy(), edit.direction, edit.turned)
+    if edit.kind == "move":
+        part[:] = yarns[0]
+    bottom, left = at[2]
+    top = bottom + 1 - len(found)
+    place = knots[max(top, 0) : bottom + 1, left : left + found.shape[1]]
+    place[:] = found[len(found) - len(place) :, : place.shape[1]]
 
 
 def _set(knots: Indices, at: list[Knot], yarns: tuple[int, ...], progress: Progress) -> None:

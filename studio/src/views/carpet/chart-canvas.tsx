@@ -4,21 +4,19 @@ import { t } from "../../text";
 import { Button, IconButton } from "../../ui";
 import { Compare, CompareLine } from "./compare";
 import {
-  canvasPoint,
   closeTo,
-  type Grid,
   heldKnot,
   heldView,
   type Knot,
   middleKnot,
-  type Size,
   type View,
   weaverNumbers,
   wholeView,
   zoomed,
 } from "./geometry";
+import { Marks } from "./marks";
 import type { CarpetModel } from "./model";
-import { handOf, useHand } from "./use-hand";
+import { listenersOf, useHand } from "./use-hand";
 import { useRenderer } from "./use-renderer";
 
 const ZOOM = 1.4;
@@ -84,7 +82,7 @@ export function ChartCanvas({ model }: { model: CarpetModel }) {
           role="application"
           aria-label={t("carpet.canvas")}
           aria-describedby="carpet-keys"
-          {...handOf(hand)}
+          {...listenersOf(hand)}
         >
           <canvas ref={canvas} />
           {chart !== null && (
@@ -94,6 +92,7 @@ export function ChartCanvas({ model }: { model: CarpetModel }) {
               view={view.value}
               size={size.value}
               cursor={cursor.value}
+              hover={hover.value}
               hand={hand}
             />
           )}
@@ -145,46 +144,6 @@ function KnotText({ model, knot }: { model: CarpetModel; knot: Knot | null }) {
       <span class="carpet-swatch" style={{ background: yarn?.srgb ?? "transparent" }} aria-hidden="true" />
       <span>{t("carpet.atKnot", { row, knot: number, yarn: yarn?.name ?? "", symbol: yarn?.symbol ?? "" })}</span>
     </>
-  );
-}
-
-interface MarksProps {
-  model: CarpetModel;
-  grid: Grid;
-  view: View;
-  size: Size;
-  cursor: Knot | null;
-  hand: ReturnType<typeof useHand>;
-}
-
-/** Cursor, tile and the part that is dragged, as lines over the chart. */
-function Marks({ model, grid, view, size, cursor, hand }: MarksProps) {
-  const part = hand.part.value;
-  const tile = model.tool.value === "repeat" ? model.tile.value : null;
-  const box = (first: Knot, last: Knot) => {
-    const [left, right] = [Math.min(first.column, last.column), Math.max(first.column, last.column) + 1];
-    const [top, bottom] = [Math.min(first.line, last.line), Math.max(first.line, last.line) + 1];
-    const from = canvasPoint(view, grid, size, left, top);
-    const to = canvasPoint(view, grid, size, right, bottom);
-    return { x: from.x, y: from.y, width: to.x - from.x, height: to.y - from.y };
-  };
-  const line = hand.line.value;
-  const ends = line?.map((knot) => canvasPoint(view, grid, size, knot.column + 0.5, knot.line + 0.5));
-  return (
-    <svg class="carpet-marks" aria-hidden="true">
-      {tile !== null && <rect class="tile" {...box(tile[0], tile[1])} />}
-      {part !== null && <rect class="part" {...box(part[0], part[1])} />}
-      {ends?.[0] && ends[1] && <line class="part" x1={ends[0].x} y1={ends[0].y} x2={ends[1].x} y2={ends[1].y} />}
-      {cursor !== null && (
-        <>
-          <rect
-            class="row"
-            {...box({ column: 0, line: cursor.line }, { column: grid.columns - 1, line: cursor.line })}
-          />
-          <rect class="cursor" {...box(cursor, cursor)} />
-        </>
-      )}
-    </svg>
   );
 }
 

@@ -15,6 +15,7 @@ import { Tools } from "./tools";
 import { Weaver } from "./weaver";
 import { Yarns } from "./yarns";
 import "./carpet.css";
+import "./assignment.css";
 
 /** The carpet: from a picture to the chart, its yarns and its rows. */
 export default function Carpet({ name }: ViewProps) {

@@ -7,6 +7,9 @@ import { ApiError, type Packed, postPacked } from "../../api/request";
 import { remember, remembered } from "../../app/settings";
 import { type Document, openDocument } from "../../project";
 import type { Grid, Knot } from "./geometry";
+import { type Placing, pieceOf, placingEdit } from "./placing";
+import type { FoundSpecks } from "./specks";
+import type { Symmetry } from "./symmetry";
 
 /** The data of a recipe's file. */
 export type Recipe = Record<string, unknown>;
@@ -24,7 +27,7 @@ export interface Source {
   pixels: Uint8Array;
 }
 
-export const TOOLS = ["pan", "pencil", "line", "fill", "mirror", "repeat", "border"] as const;
+export const TOOLS = ["pan", "pencil", "line", "fill", "select", "mirror", "repeat", "border"] as const;
 export type Tool = (typeof TOOLS)[number];
 
 /** Pause after the last change before a chart is made with all colours of a photo [ms]. */
@@ -47,10 +50,19 @@ export class CarpetModel {
   readonly yarn = signal("");
   /** Tile of the tool repeat, once it is chosen. */
   readonly tile = signal<readonly [Knot, Knot] | null>(null);
+  /** Part that is selected, and what is held over the chart. */
+  readonly selection = signal<readonly [Knot, Knot] | null>(null);
+  readonly placing = signal<Placing | null>(null);
+  /** Width of the brush [knots], and what is drawn with each stroke. */
+  readonly brush = signal(1);
+  readonly symmetry = signal<Symmetry>("none");
   readonly borderWidth = signal(3);
   readonly mirror = signal<"across" | "along" | "both">("across");
   readonly split = signal(Number(remembered("carpet.split") ?? "0.5"));
   readonly left = signal<"chart" | "source">("chart");
+  /** The specks of the chart, while they are looked at, and whether they are marked. */
+  readonly specks = signal<FoundSpecks | null>(null);
+  readonly specksShown = signal(false);
   readonly weaving = signal(false);
   /** Row that is to be shown in the chart. */
   readonly sought = signal<number | null>(null);
@@ -191,6 +203,35 @@ export class CarpetModel {
   /** Takes the yarn of a knot into the hand. */
   takeYarn(knot: Knot): void {
     this.yarn.value = this.yarnAt(knot)?.name ?? this.yarn.peek();
+  }
+
+  /** Takes another tool. */
+  takeTool(tool: Tool): void {
+    this.tool.value = tool;
+    this.tile.value = null;
+    this.selection.value = null;
+    this.placing.value = null;
+  }
+
+  /** Holds the selected part over the chart, to place it once or more often. */
+  hold(kind: "copy" | "move"): void {
+    const [from, chart] = [this.selection.peek(), this.chart.peek()];
+    if (from === null || chart === null) return;
+    const colours = chart.about.yarns.map((yarn) => yarn.srgb);
+    const piece = pieceOf(chart.knots, chart.grid, from, colours);
+    this.placing.value = { kind, piece, from, mirrored: false, turned: 0 };
+  }
+
+  /** Places what is held with its upper left knot at a knot. */
+  place(at: Knot): void {
+    const [placing, chart] = [this.placing.peek(), this.chart.peek()];
+    if (placing === null || chart === null) return;
+    this.edit([placingEdit(placing, at, this.yarn.peek(), chart.grid)]);
+    // What was moved is no longer where it was.
+    if (placing.kind === "move") {
+      this.placing.value = null;
+      this.selection.value = null;
+    }
   }
 
   /** Adds edits to the recipe; undo takes them out again. */

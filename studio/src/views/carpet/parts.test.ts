@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { cornersText, cropHandles, cropText, movedCrop, pointsOf } from "./parts";
+import { cornersText, cropHandles, cropOfRatio, cropText, movedCrop, pointsOf, shiftedCrop } from "./parts";
 import { degreesOf, shareOf } from "./settings";
 
 describe("parts of a picture", () => {
@@ -29,6 +29,68 @@ describe("parts of a picture", () => {
       { x: 70, y: 80 },
     ]);
     expect(cropHandles(crop)[3]).toEqual({ x: 10, y: 80 });
+    // A corner does not leave the picture.
+    expect(movedCrop(crop, 2, { x: 500, y: 90 }, null, { width: 100, height: 100 })[1]).toEqual({ x: 100, y: 90 });
+  });
+
+  it("keep a proportion with the opposite corner at rest", () => {
+    const sides = { width: 100, height: 90 };
+    const crop = [
+      { x: 10, y: 10 },
+      { x: 50, y: 70 },
+    ];
+    for (const [at, rest] of [
+      [0, { x: 50, y: 70 }],
+      [1, { x: 10, y: 70 }],
+      [2, { x: 10, y: 10 }],
+      [3, { x: 50, y: 10 }],
+    ] as const) {
+      for (const to of [
+        { x: 33, y: 20 },
+        { x: 99, y: 99 },
+        { x: -20, y: 40 },
+      ]) {
+        const [first, last] = movedCrop(crop, at, to, 2 / 3, sides);
+        if (first === undefined || last === undefined) throw new Error("two corners");
+        expect((last.x - first.x) / (last.y - first.y)).toBeCloseTo(2 / 3);
+        expect(cropHandles([first, last]).some(({ x, y }) => x === rest.x && y === rest.y)).toBe(true);
+        for (const { x, y } of [first, last]) {
+          expect(x).toBeGreaterThanOrEqual(-1e-9);
+          expect(x).toBeLessThanOrEqual(100 + 1e-9);
+          expect(y).toBeGreaterThanOrEqual(-1e-9);
+          expect(y).toBeLessThanOrEqual(90 + 1e-9);
+        }
+      }
+    }
+  });
+
+  it("move as they are, up to the edges of the picture", () => {
+    const crop = [
+      { x: 10, y: 10 },
+      { x: 60, y: 40 },
+    ];
+    expect(shiftedCrop(crop, { x: 5, y: -4 }, { width: 100, height: 50 })).toEqual([
+      { x: 15, y: 6 },
+      { x: 65, y: 36 },
+    ]);
+    expect(shiftedCrop(crop, { x: 500, y: -400 }, { width: 100, height: 50 })).toEqual([
+      { x: 50, y: 0 },
+      { x: 100, y: 30 },
+    ]);
+  });
+
+  it("get a proportion about their middle", () => {
+    const wide = cropOfRatio(
+      [
+        { x: 0, y: 0 },
+        { x: 90, y: 40 },
+      ],
+      0.5,
+    );
+    expect(wide).toEqual([
+      { x: 35, y: 0 },
+      { x: 55, y: 40 },
+    ]);
   });
 });
 

@@ -28,16 +28,68 @@ export function cornersText(corners: readonly PicturePoint[]): string {
   return corners.map(({ x, y }) => `${Math.round(x)},${Math.round(y)}`).join(" ");
 }
 
-/** The corners that are moved with one of a crop's rectangle: of two opposite ones, upper left first. */
-export function movedCrop(points: readonly PicturePoint[], at: number, to: PicturePoint): PicturePoint[] {
+/** The sides of a picture [pixels]. */
+interface Sides {
+  width: number;
+  height: number;
+}
+
+/**
+ * The opposite corners of a crop, upper left first, after one of its four is moved, clockwise from the upper left.
+ *
+ * ratio  width by height that is kept, with the corner opposite at rest; null: none
+ */
+export function movedCrop(
+  points: readonly PicturePoint[],
+  at: number,
+  to: PicturePoint,
+  ratio: number | null = null,
+  sides: Sides = { width: Number.POSITIVE_INFINITY, height: Number.POSITIVE_INFINITY },
+): PicturePoint[] {
   const [first, last] = [points[0] ?? to, points[1] ?? to];
-  // The handles go clockwise from the upper left.
   const left = at === 0 || at === 3;
   const top = at === 0 || at === 1;
+  const rest = { x: left ? last.x : first.x, y: top ? last.y : first.y };
+  let moved = { x: between(to.x, 0, sides.width), y: between(to.y, 0, sides.height) };
+  if (ratio !== null) {
+    const room = { x: left ? rest.x : sides.width - rest.x, y: top ? rest.y : sides.height - rest.y };
+    const wanted = (Math.abs(moved.x - rest.x) + Math.abs(moved.y - rest.y) * ratio) / 2;
+    const width = Math.min(wanted, room.x, room.y * ratio);
+    moved = { x: rest.x + (left ? -width : width), y: rest.y + ((top ? -1 : 1) * width) / ratio };
+  }
   return [
-    { x: left ? to.x : first.x, y: top ? to.y : first.y },
-    { x: left ? last.x : to.x, y: top ? last.y : to.y },
+    { x: left ? moved.x : first.x, y: top ? moved.y : first.y },
+    { x: left ? last.x : moved.x, y: top ? last.y : moved.y },
   ];
+}
+
+/** The opposite corners of a crop that is moved as it is, held inside the picture. */
+export function shiftedCrop(
+  points: readonly PicturePoint[],
+  by: PicturePoint,
+  { width, height }: Sides,
+): PicturePoint[] {
+  const [xs, ys] = [points.map((one) => one.x), points.map((one) => one.y)];
+  const x = between(by.x, -Math.min(...xs), width - Math.max(...xs));
+  const y = between(by.y, -Math.min(...ys), height - Math.max(...ys));
+  return points.map((one) => ({ x: one.x + x, y: one.y + y }));
+}
+
+/** The largest crop of a ratio about the middle of a crop. */
+export function cropOfRatio(points: readonly PicturePoint[], ratio: number): PicturePoint[] {
+  const [first, last] = points;
+  if (first === undefined || last === undefined) return [...points];
+  const [width, height] = [Math.abs(last.x - first.x), Math.abs(last.y - first.y)];
+  const [halfWidth, halfHeight] = [Math.min(width, height * ratio) / 2, Math.min(height, width / ratio) / 2];
+  const [x, y] = [(first.x + last.x) / 2, (first.y + last.y) / 2];
+  return [
+    { x: x - halfWidth, y: y - halfHeight },
+    { x: x + halfWidth, y: y + halfHeight },
+  ];
+}
+
+export function between(value: number, least: number, most: number): number {
+  return Math.min(Math.max(value, least), most);
 }
 
 /** The four corners of a crop's rectangle, clockwise from the upper left. */

@@ -4,7 +4,15 @@ import { areaEdits, editsOf, type Hand, pinched } from "./pointer";
 
 const GRID: Grid = { rows: 100, columns: 80, aspect: 1 };
 const SIZE = { width: 400, height: 300 };
-const HAND: Hand = { tool: "pencil", yarn: "ivory", mirror: "both", borderWidth: 4, tile: null };
+const HAND: Hand = {
+  tool: "pencil",
+  yarn: "ivory",
+  width: 1,
+  symmetry: "none",
+  mirror: "both",
+  borderWidth: 4,
+  tile: null,
+};
 const at = (line: number, column: number): Knot => ({ line, column });
 
 describe("two fingers", () => {

@@ -1,7 +1,7 @@
 /** What pointers and keys do on the chart, without the page: pan, pinch, strokes, parts. */
 import { type Grid, heldView, type Knot, panned, type Size, type View, zoomed } from "./geometry";
 import type { Tool } from "./model";
-import { borderEdit, fillEdit, lineEdit, mirrorEdit, type Part, repeatEdit, strokeEdits } from "./strokes";
+import { type Brush, borderEdit, fillEdits, mirrorEdit, type Part, repeatEdit, strokeEdits } from "./strokes";
 
 export interface Point {
   x: number;
@@ -24,9 +24,8 @@ export function pinched(
 }
 
 /** What the tools need to know. */
-export interface Hand {
+export interface Hand extends Brush {
   tool: Tool;
-  yarn: string;
   mirror: "across" | "along" | "both";
   borderWidth: number;
   tile: readonly [Knot, Knot] | null;
@@ -36,9 +35,9 @@ export interface Hand {
 export function editsOf(hand: Hand, points: readonly Knot[], grid: Grid): string[] {
   const [first, last] = [points[0], points[points.length - 1]];
   if (first === undefined || last === undefined || hand.yarn === "") return [];
-  if (hand.tool === "pencil") return strokeEdits(points, hand.yarn, grid);
-  if (hand.tool === "line") return [lineEdit(first, last, hand.yarn, grid)];
-  if (hand.tool === "fill") return [fillEdit(last, hand.yarn, grid)];
+  if (hand.tool === "pencil") return strokeEdits(points, hand, grid);
+  if (hand.tool === "line") return strokeEdits([first, last], hand, grid);
+  if (hand.tool === "fill") return fillEdits(last, hand, grid);
   return isPoint(first, last) ? [] : areaEdits(hand, [first, last], grid);
 }
 
@@ -52,9 +51,14 @@ export function areaEdits(hand: Hand, part: Part, grid: Grid): string[] {
 
 /** Whether a tool acts on a part that is dragged. */
 export function takesPart(tool: Tool): boolean {
-  return tool === "mirror" || tool === "repeat" || tool === "border";
+  return tool === "mirror" || tool === "repeat" || tool === "border" || tool === "select";
 }
 
 export function isPoint(one: Knot, other: Knot): boolean {
   return one.column === other.column && one.line === other.line;
+}
+
+/** Whether a tool draws with the images of a symmetry. */
+export function drawsLive(tool: Tool): boolean {
+  return tool === "pencil" || tool === "line" || tool === "fill";
 }

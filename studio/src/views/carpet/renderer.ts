@@ -1,6 +1,7 @@
 /** Draws a chart with WebGL2: knots as textures of one byte, a palette, symbols; at most one frame a refresh. */
-import { type Grid, type Knot, type Tile, tileKnots, tilesOf, type View } from "./geometry";
+import { type Grid, type Tile, tileKnots, tilesOf, type View } from "./geometry";
 import { FRAGMENT, VERTEX } from "./shaders";
+import type { Span } from "./symmetry";
 
 export interface Scene {
   view: View;
@@ -119,16 +120,18 @@ export class Renderer {
     this.draw();
   }
 
-  /** Gives single knots a yarn on the screen, before the server has made the chart with them. */
-  paint(knots: readonly Knot[], yarn: number): void {
+  /** Gives knots a yarn on the screen, before the server has made the chart with them. */
+  paint(spans: readonly Span[], yarn: number): void {
     const gl = this.#gl;
-    const value = new Uint8Array([yarn]);
+    const value = new Uint8Array(this.#grid.columns).fill(yarn);
     for (const tile of this.#tiles) {
       gl.bindTexture(gl.TEXTURE_2D, tile.texture);
-      for (const knot of knots) {
-        const [column, line] = [knot.column - tile.column, knot.line - tile.line];
-        if (column < 0 || line < 0 || column >= tile.columns || line >= tile.rows) continue;
-        gl.texSubImage2D(gl.TEXTURE_2D, 0, column, line, 1, 1, gl.RED_INTEGER, gl.UNSIGNED_BYTE, value);
+      for (const { column, line, length } of spans) {
+        const from = Math.max(column - tile.column, 0);
+        const number = Math.min(column + length - tile.column, tile.columns) - from;
+        const at = line - tile.line;
+        if (number < 1 || at < 0 || at >= tile.rows) continue;
+        gl.texSubImage2D(gl.TEXTURE_2D, 0, from, at, number, 1, gl.RED_INTEGER, gl.UNSIGNED_BYTE, value);
       }
     }
     this.draw();

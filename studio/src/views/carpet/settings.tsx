@@ -1,11 +1,12 @@
-import { useEffect, useState } from "preact/hooks";
+import { useState } from "preact/hooks";
 import { filesOf } from "../../project";
 import { formatNumber, t } from "../../text";
 import { Button, Select, Slider } from "../../ui";
-import { Field } from "../../ui/field";
 import type { CarpetModel } from "./model";
 import { Picture } from "./picture";
 import { SourceDialog } from "./source";
+import { SpecksPanel } from "./specks-panel";
+import { type SettingProps, TextSetting } from "./text-setting";
 
 /** What the carpet is made of and how its picture is read: the keys of the recipe. */
 export function Settings({ model }: { model: CarpetModel }) {
@@ -54,9 +55,11 @@ export function Settings({ model }: { model: CarpetModel }) {
           <ShareSetting model={model} name="brightness" label={t("carpet.brightness")} least={-0.9} most={0.9} />
           <ShareSetting model={model} name="contrast" label={t("carpet.contrast")} least={-1} most={2} />
           <ShareSetting model={model} name="saturation" label={t("carpet.saturation")} least={-1} most={2} />
+          <Halftone model={model} />
           <TextSetting model={model} name="white" label={t("carpet.white")} help={t("carpet.whiteHelp")} />
         </div>
       </details>
+      <Specks model={model} />
       {source !== null && <SourceDialog model={model} mode={source} onClose={() => setSource(null)} />}
     </div>
   );
@@ -66,45 +69,6 @@ function fitText(model: CarpetModel): string {
   const fit = model.chart.value?.about.fit ?? "";
   const notes = [model.text("crop") && t("carpet.isCropped"), model.text("corners") && t("carpet.isStraightened")];
   return [fit, ...notes].filter(Boolean).join("; ");
-}
-
-interface SettingProps {
-  model: CarpetModel;
-  name: string;
-  label: string;
-  help?: string;
-}
-
-/** Texts whose numbers are above 0. */
-const MEASURES: ReadonlySet<string> = new Set(["size", "quality"]);
-
-/** Whether a measure has a number that is 0: it is not written into the file. */
-export function hasNothing(text: string): boolean {
-  return (text.match(/\d+(?:[.,]\d+)?/g) ?? []).some((number) => Number(number.replace(",", ".")) === 0);
-}
-
-/** A text of the recipe, taken when the field is left or Enter is pressed. */
-export function TextSetting({ model, name, label, help }: SettingProps) {
-  const value = model.text(name);
-  const [draft, setDraft] = useState(value);
-  useEffect(() => setDraft(value), [value]);
-  const error = MEASURES.has(name) && hasNothing(draft) ? t("carpet.notZero") : undefined;
-  return (
-    <Field label={label} help={help} error={error}>
-      {(tied) => (
-        <input
-          {...tied}
-          class="ui-input"
-          type="text"
-          autocomplete="off"
-          spellcheck={false}
-          value={draft}
-          onInput={(event) => setDraft(event.currentTarget.value)}
-          onChange={(event) => error === undefined && model.set({ [name]: event.currentTarget.value.trim() })}
-        />
-      )}
-    </Field>
-  );
 }
 
 const CHOICE_TEXTS = {
@@ -130,8 +94,7 @@ function ChoiceSetting({ model, name, label, choices }: SettingProps & { choices
       value={value}
       choices={choices.map((choice) => ({ value: choice, label: CHOICE_TEXTS[choice]() }))}
       onChange={(chosen) => {
-        const extra =
-          name === "read" ? { reading: "" } : name === "fit" && chosen !== "pad" ? { border_colour: "" } : {};
+        const extra = name === "read" ? { reading: "" } : {};
         model.set({ ...extra, [name]: chosen === first ? "" : chosen });
       }}
     />
@@ -152,6 +115,40 @@ function ShareSetting({ model, name, label, least, most }: SettingProps & { leas
       text={`${percent > 0 ? "+" : ""}${formatNumber(percent)} %`}
       onInput={(value) => model.set({ [name]: Math.abs(value) < 0.005 ? "" : Math.round(100 * value) / 100 })}
     />
+  );
+}
+
+/** How much of the tones between the yarns patterns render: of photos only. */
+function Halftone({ model }: { model: CarpetModel }) {
+  const given = model.recipe.value?.["halftone"];
+  if (given === undefined && model.chart.value?.about.reading !== "photo") return null;
+  const share = shareOf(given);
+  return (
+    <div class="carpet-turn">
+      <Slider
+        label={t("carpet.halftone")}
+        value={share}
+        min={0}
+        max={1}
+        step={0.05}
+        text={given === undefined ? t("carpet.auto") : `${formatNumber(Math.round(100 * share))} %`}
+        onInput={(value) => model.set({ halftone: Math.round(100 * value) / 100 })}
+      />
+      <Button size="small" disabled={given === undefined} onClick={() => model.set({ halftone: "" })}>
+        {t("carpet.auto")}
+      </Button>
+    </div>
+  );
+}
+
+/** The specks, which are looked for while they are open. */
+function Specks({ model }: { model: CarpetModel }) {
+  const [open, setOpen] = useState(false);
+  return (
+    <details class="ui-details" onToggle={(event) => setOpen(event.currentTarget.open)}>
+      <summary>{t("carpet.specks")}</summary>
+      {open && <SpecksPanel model={model} />}
+    </details>
   );
 }
 

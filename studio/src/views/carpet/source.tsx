@@ -1,10 +1,20 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import type { Corners, PictureAbout } from "../../api/messages";
 import { ApiError, post, postPacked } from "../../api/request";
-import { t } from "../../text";
-import { Button, Dialog } from "../../ui";
+import { formatNumber, t } from "../../text";
+import { Button, Dialog, Toggle } from "../../ui";
 import type { CarpetModel } from "./model";
-import { cornersText, cropHandles, cropText, movedCrop, type PicturePoint, pointsOf } from "./parts";
+import {
+  between,
+  cornersText,
+  cropHandles,
+  cropOfRatio,
+  cropText,
+  movedCrop,
+  type PicturePoint,
+  pointsOf,
+  shiftedCrop,
+} from "./parts";
 
 interface SourceProps {
   model: CarpetModel;
@@ -19,6 +29,7 @@ export function SourceDialog({ model, mode, onClose }: SourceProps) {
   const [points, setPoints] = useState<PicturePoint[]>([]);
   const [problem, setProblem] = useState("");
   const [busy, setBusy] = useState(false);
+  const [kept, setKept] = useState(false);
   const picture = model.text("picture");
 
   useEffect(() => {
@@ -57,10 +68,20 @@ export function SourceDialog({ model, mode, onClose }: SourceProps) {
     onClose();
   };
   const handles = mode === "crop" ? cropHandles(points) : points;
+  const ratio = ratioOf(model);
   const move = (at: number, to: PicturePoint) => {
     if (about === null) return;
-    const held = { x: Math.min(Math.max(to.x, 0), about.width), y: Math.min(Math.max(to.y, 0), about.height) };
-    setPoints(mode === "crop" ? movedCrop(points, at, held) : points.map((one, index) => (index === at ? held : one)));
+    const held = { x: between(to.x, 0, about.width), y: between(to.y, 0, about.height) };
+    setPoints(
+      mode === "crop"
+        ? movedCrop(points, at, to, kept ? ratio : null, about)
+        : points.map((one, index) => (index === at ? held : one)),
+    );
+  };
+  const shift = (by: PicturePoint) => about !== null && setPoints(shiftedCrop(points, by, about));
+  const keep = (on: boolean) => {
+    setKept(on);
+    if (on) setPoints(cropOfRatio(points, ratio));
   };
   return (
     <Dialog
@@ -95,6 +116,12 @@ export function SourceDialog({ model, mode, onClose }: SourceProps) {
           {problem}
         </p>
       )}
+      {mode === "crop" && (
+        <div class="ui-row">
+          <Toggle label={t("carpet.keepRatio")} value={kept} onChange={keep} />
+          <output class="ui-muted">{about !== null && shareText(points, about)}</output>
+        </div>
+      )}
       <div class="carpet-source">
         <canvas ref={canvas} width={1} height={1} />
         {about !== null && (
@@ -105,6 +132,7 @@ export function SourceDialog({ model, mode, onClose }: SourceProps) {
                 d={`M0 0H${about.width}V${about.height}H0ZM${handles.map(({ x, y }) => `${x} ${y}`).join("L")}Z`}
               />
             </svg>
+            {mode === "crop" && <Frame handles={handles} about={about} onShift={shift} />}
             {handles.map((point, at) => (
               <Handle key={at} at={at} point={point} about={about} onMove={move} />
             ))}
@@ -112,6 +140,81 @@ export function SourceDialog({ model, mode, onClose }: SourceProps) {
         )}
       </div>
     </Dialog>
+  );
+}
+
+/** Width by length of the carpet. */
+function ratioOf(model: CarpetModel): number {
+  const carpet = model.chart.value?.about;
+  return carpet === undefined ? 1 : carpet.width / carpet.length;
+}
+
+/** The share of the picture that a crop keeps. */
+function shareText([first, last]: readonly PicturePoint[], about: PictureAbout): string {
+  if (first === undefined || last === undefined) return "";
+  const share = Math.abs((last.x - first.x) * (last.y - first.y)) / (about.width * about.height);
+  return t("carpet.cropShare", { share: formatNumber(100 * share, 3) });
+}
+
+/** Steps of the arrow keys [pixels of the picture]. */
+function keyStep(event: KeyboardEvent, about: PictureAbout): PicturePoint | null {
+  const step = (event.shiftKey ? 0.05 : 0.005) * Math.max(about.width, about.height);
+  const by = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step] }[event.key];
+  if (by === undefined) return null;
+  event.preventDefault();
+  return { x: by[0] ?? 0, y: by[1] ?? 0 };
+}
+
+/** Where a pointer that is held by an element of the picture is [pixels of the picture]. */
+function heldPoint(event: PointerEvent, about: PictureAbout): PicturePoint | null {
+  const element = event.currentTarget as HTMLElement;
+  const box = element.parentElement?.getBoundingClientRect();
+  if (box === undefined || !element.hasPointerCapture(event.pointerId)) return null;
+  return {
+    x: ((event.clientX - box.left) / box.width) * about.width,
+    y: ((event.clientY - box.top) / box.height) * about.height,
+  };
+}
+
+interface FrameProps {
+  handles: readonly PicturePoint[];
+  about: PictureAbout;
+  onShift: (by: PicturePoint) => void;
+}
+
+/** The part that is used: dragged, or moved by the arrow keys, as it is. */
+function Frame({ handles, about, onShift }: FrameProps) {
+  const from = useRef<PicturePoint | null>(null);
+  const [xs, ys] = [handles.map(({ x }) => x), handles.map(({ y }) => y)];
+  const [left, top] = [Math.min(...xs), Math.min(...ys)];
+  const shares = {
+    left: `${(100 * left) / about.width}%`,
+    top: `${(100 * top) / about.height}%`,
+    width: `${(100 * (Math.max(...xs) - left)) / about.width}%`,
+    height: `${(100 * (Math.max(...ys) - top)) / about.height}%`,
+  };
+  const drag = (event: PointerEvent) => {
+    const to = heldPoint(event, about);
+    if (to !== null && from.current !== null) onShift({ x: to.x - from.current.x, y: to.y - from.current.y });
+    from.current = to;
+  };
+  const key = (event: KeyboardEvent) => {
+    const by = keyStep(event, about);
+    if (by !== null) onShift(by);
+  };
+  return (
+    <button
+      type="button"
+      class="carpet-frame"
+      style={shares}
+      aria-label={t("carpet.cropFrame")}
+      onPointerDown={(event) => {
+        event.currentTarget.setPointerCapture(event.pointerId);
+        from.current = heldPoint(event, about);
+      }}
+      onPointerMove={drag}
+      onKeyDown={key}
+    />
   );
 }
 
@@ -126,28 +229,18 @@ interface HandleProps {
 function Handle({ at, point, about, onMove }: HandleProps) {
   const names = [t("carpet.upperLeft"), t("carpet.upperRight"), t("carpet.lowerRight"), t("carpet.lowerLeft")];
   const drag = (event: PointerEvent) => {
-    const handle = event.currentTarget as HTMLElement;
-    if (!handle.hasPointerCapture(event.pointerId)) return;
-    const box = handle.parentElement?.getBoundingClientRect();
-    if (box === undefined) return;
-    onMove(at, {
-      x: ((event.clientX - box.left) / box.width) * about.width,
-      y: ((event.clientY - box.top) / box.height) * about.height,
-    });
+    const to = heldPoint(event, about);
+    if (to !== null) onMove(at, to);
   };
   const key = (event: KeyboardEvent) => {
-    const step = (event.shiftKey ? 0.05 : 0.005) * Math.max(about.width, about.height);
-    const by = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step] }[event.key];
-    if (by === undefined) return;
-    event.preventDefault();
-    onMove(at, { x: point.x + (by[0] ?? 0), y: point.y + (by[1] ?? 0) });
+    const by = keyStep(event, about);
+    if (by !== null) onMove(at, { x: point.x + by.x, y: point.y + by.y });
   };
-  const position = { left: `${(100 * point.x) / about.width}%`, top: `${(100 * point.y) / about.height}%` };
   return (
     <button
       type="button"
       class="carpet-handle"
-      style={position}
+      style={{ left: `${(100 * point.x) / about.width}%`, top: `${(100 * point.y) / about.height}%` }}
       aria-label={`${names[at] ?? ""}: ${Math.round(point.x)}, ${Math.round(point.y)}`}
       onPointerDown={(event) => event.currentTarget.setPointerCapture(event.pointerId)}
       onPointerMove={drag}

@@ -1,5 +1,6 @@
 /** From strokes on the chart to edits of the recipe, as `ilmek weave` reads them. */
 import { type Grid, type Knot, weaverNumbers } from "./geometry";
+import { imagesOf, type Symmetry } from "./symmetry";
 
 /** Largest number of characters of an edit: a recipe takes texts of 1,000. */
 const LONGEST = 900;
@@ -23,13 +24,9 @@ export function lineKnots(from: Knot, to: Knot): Knot[] {
   return swapped ? knots.reverse() : knots;
 }
 
-/** The knots of a stroke: lines from point to point, each knot once. */
-export function strokeKnots(points: readonly Knot[]): Knot[] {
-  const found = new Map<string, Knot>();
-  points.forEach((point, at) => {
-    for (const knot of lineKnots(points[at - 1] ?? point, point)) found.set(`${knot.line},${knot.column}`, knot);
-  });
-  return [...found.values()];
+/** Each knot once. */
+function distinct(knots: readonly Knot[]): Knot[] {
+  return [...new Map(knots.map((knot) => [`${knot.line},${knot.column}`, knot])).values()];
 }
 
 /** A knot as edits write it: row from the lower edge, column from the left, both from 1. */
@@ -38,39 +35,91 @@ export function written(knot: Knot, grid: Grid): string {
   return `${row},${column}`;
 }
 
-/** Edits that give the knots of a stroke a yarn: a line where they are one, else single knots. */
-export function strokeEdits(points: readonly Knot[], yarn: string, grid: Grid): string[] {
-  const knots = strokeKnots(points);
-  const [first, last] = [knots[0], knots[knots.length - 1]];
-  if (first === undefined || last === undefined) return [];
-  if (knots.length > 2 && isLine(knots, first, last)) return [lineEdit(first, last, yarn, grid)];
-  const edits: string[] = [];
-  let text = "set";
-  for (const knot of knots) {
-    const point = written(knot, grid);
-    if (text.length + point.length + yarn.length + 2 > LONGEST) {
-      edits.push(`${text} ${yarn}`);
-      text = "set";
-    }
-    text += ` ${point}`;
-  }
-  return [...edits, `${text} ${yarn}`];
+/** How a stroke is drawn: its yarn, the width of the brush [knots], the images that are drawn with it. */
+export interface Brush {
+  yarn: string;
+  width: number;
+  symmetry: Symmetry;
 }
 
-function isLine(knots: readonly Knot[], first: Knot, last: Knot): boolean {
+/** The edits of a stroke and of its images: lines where it is straight, single knots, or strokes of a brush. */
+export function strokeEdits(points: readonly Knot[], brush: Brush, grid: Grid): string[] {
+  const path = pathOf(points);
+  const paths = imagesOf(path, brush.symmetry, grid);
+  if (path.length === 0) return [];
+  if (brush.width > 1) return paths.flatMap((one) => brushEdits(one, brush, grid));
+  const isStraight = path.length > 2 && isLine(path);
+  if (isStraight && paths.every(isLine)) return paths.map((one) => lineEdit(one, brush.yarn, grid));
+  return setEdits(distinct(paths.flat()), brush.yarn, grid);
+}
+
+/** The knots that a stroke passes, one beside the other. */
+function pathOf(points: readonly Knot[]): Knot[] {
+  const path: Knot[] = [];
+  points.forEach((point, at) => {
+    for (const knot of lineKnots(points[at - 1] ?? point, point)) {
+      const last = path[path.length - 1];
+      if (last === undefined || knot.line !== last.line || knot.column !== last.column) path.push(knot);
+    }
+  });
+  return path;
+}
+
+/** Strokes of a brush along a path: a knot where its direction changes. So a mirrored path is exactly the mirrored one. */
+function brushEdits(path: readonly Knot[], { yarn, width }: Brush, grid: Grid): string[] {
+  const turns = path.filter((knot, at) => {
+    const [before, after] = [path[at - 1], path[at + 1]];
+    if (before === undefined || after === undefined) return true;
+    return (
+      after.line - knot.line !== knot.line - before.line || after.column - knot.column !== knot.column - before.column
+    );
+  });
+  return chunks(turns, `stroke ${width}`, yarn, grid, 1);
+}
+
+/** Edits that give single knots a yarn. */
+export function setEdits(knots: readonly Knot[], yarn: string, grid: Grid): string[] {
+  return chunks(knots, "set", yarn, grid, 0);
+}
+
+/** Texts of knots, cut before they get too long; `shared`: knots that a text has of the one before. */
+function chunks(knots: readonly Knot[], head: string, yarn: string, grid: Grid, shared: number): string[] {
+  const edits: string[] = [];
+  let points: string[] = [];
+  let length = head.length + yarn.length + 2;
+  for (const knot of knots) {
+    const point = written(knot, grid);
+    if (length + point.length + 1 > LONGEST) {
+      edits.push([head, ...points, yarn].join(" "));
+      points = points.slice(points.length - shared);
+      length = [head, ...points, yarn].join(" ").length;
+    }
+    points.push(point);
+    length += point.length + 1;
+  }
+  return [...edits, [head, ...points, yarn].join(" ")];
+}
+
+function isLine(path: readonly Knot[]): boolean {
+  const [first, last] = [path[0], path[path.length - 1]];
+  if (first === undefined || last === undefined) return false;
   const line = lineKnots(first, last);
   return (
-    line.length === knots.length &&
-    line.every((one, at) => one.column === knots[at]?.column && one.line === knots[at]?.line)
+    line.length === path.length &&
+    line.every((one, at) => one.column === path[at]?.column && one.line === path[at]?.line)
   );
 }
 
-export function lineEdit(from: Knot, to: Knot, yarn: string, grid: Grid): string {
-  return `line ${written(from, grid)} ${written(to, grid)} ${yarn}`;
+/** A line from the first to the last knot of a path. */
+function lineEdit(path: readonly Knot[], yarn: string, grid: Grid): string {
+  const [first, last] = [path[0], path[path.length - 1]];
+  return first === undefined || last === undefined ? "" : `line ${written(first, grid)} ${written(last, grid)} ${yarn}`;
 }
 
-export function fillEdit(knot: Knot, yarn: string, grid: Grid): string {
-  return `fill ${written(knot, grid)} ${yarn}`;
+/** Fills about a knot and its images. */
+export function fillEdits(knot: Knot, { yarn, symmetry }: Brush, grid: Grid): string[] {
+  const knots = distinct(imagesOf([knot], symmetry, grid).flat());
+  return knots.map((one) => `fill ${written(one, grid)} ${yarn}`);
 }
 
 /** Two opposite corners of a part; null: the whole carpet. */

@@ -15,9 +15,11 @@ import {
   zoomed,
 } from "./geometry";
 import type { CarpetModel } from "./model";
+import { mirrored, placeAbout, shownPiece, turned } from "./placing";
 import { areaEdits, editsOf, type Hand, isPoint, type Point, pinched, takesPart } from "./pointer";
 import type { Renderer } from "./renderer";
 import { lineKnots } from "./strokes";
+import { brushSpans, imagesOf } from "./symmetry";
 
 interface Stage {
   model: CarpetModel;
@@ -46,13 +48,6 @@ export function useHand(stage: Stage) {
   const panning = useRef(false);
 
   const grid = () => model.chart.peek()?.grid ?? null;
-  const hand = (): Hand => ({
-    tool: model.tool.peek(),
-    yarn: model.yarn.peek(),
-    mirror: model.mirror.peek(),
-    borderWidth: model.borderWidth.peek(),
-    tile: model.tile.peek(),
-  });
   const pointOf = (event: MouseEvent): Point => {
     const box = canvas.current?.getBoundingClientRect();
     return { x: event.clientX - (box?.left ?? 0), y: event.clientY - (box?.top ?? 0) };
@@ -74,12 +69,25 @@ export function useHand(stage: Stage) {
     return () => element?.removeEventListener("wheel", wheel);
   }, [canvas.current]);
 
-  /** Shows a stroke on the screen at once. */
+  /** Shows a stroke and its images on the screen at once. */
   const preview = (points: readonly Knot[]) => {
     const [last, before] = [points[points.length - 1], points[points.length - 2]];
-    const yarn = model.yarnIndex.peek();
-    if (last === undefined || yarn < 0) return;
-    renderer.current?.paint(lineKnots(before ?? last, last), yarn);
+    const [yarn, own] = [model.yarnIndex.peek(), grid()];
+    if (last === undefined || own === null || yarn < 0) return;
+    const path = lineKnots(before ?? last, last);
+    const knots = imagesOf(path, model.symmetry.peek(), own).flat();
+    renderer.current?.paint(
+      knots.flatMap((knot) => brushSpans(knot, model.brush.peek(), own)),
+      yarn,
+    );
+  };
+
+  /** Places what is held about a knot; false: nothing is. */
+  const drop = (knot: Knot): boolean => {
+    const [placing, own] = [model.placing.peek(), grid()];
+    if (placing === null || own === null) return false;
+    model.place(placeAbout(knot, shownPiece(placing), own));
+    return true;
   };
 
   /** Ends a stroke: its edits go to the recipe, a tile to the tool. */
@@ -89,11 +97,15 @@ export function useHand(stage: Stage) {
     part.value = null;
     line.value = null;
     if (own === null || first === undefined || last === undefined) return;
+    if (model.tool.peek() === "select") {
+      model.selection.value = isPoint(first, last) ? null : [first, last];
+      return;
+    }
     if (model.tool.peek() === "repeat" && model.tile.peek() === null) {
       if (!isPoint(first, last)) model.tile.value = [first, last];
       return;
     }
-    model.edit(editsOf(hand(), points, own));
+    model.edit(editsOf(handOf(model), points, own));
   };
 
   const show = (points: readonly Knot[]) => {
@@ -124,6 +136,7 @@ export function useHand(stage: Stage) {
     }
     panning.current = model.tool.peek() === "pan" || event.button !== 0;
     if (panning.current) return;
+    if (drop(knot)) return;
     stroke.current = [knot];
     cursor.value = null;
     if (model.tool.peek() === "pencil") preview([knot]);
@@ -175,7 +188,7 @@ export function useHand(stage: Stage) {
   /** The key of a tool at the cursor: one knot, or the first and then the other end. */
   const press = (knot: Knot) => {
     const tool = model.tool.peek();
-    if (tool === "pan") return;
+    if (tool === "pan" || drop(knot)) return;
     if (tool === "pencil" || tool === "fill") {
       if (tool === "pencil") preview([knot]);
       finish([knot]);
@@ -188,9 +201,23 @@ export function useHand(stage: Stage) {
     }
   };
 
+  /** Keys of a selected part and of what is held; whether it was one. */
+  const heldKey = (event: KeyboardEvent): boolean => {
+    const placing = model.placing.peek();
+    const command = event.ctrlKey || event.metaKey;
+    if (command && (event.key === "c" || event.key === "x") && model.selection.peek() !== null)
+      model.hold(event.key === "c" ? "copy" : "move");
+    else if (placing !== null && !command && event.key === "r") model.placing.value = turned(placing);
+    else if (placing !== null && !command && event.key === "m") model.placing.value = mirrored(placing);
+    else if (placing !== null && event.key === "Escape") model.placing.value = null;
+    else return false;
+    event.preventDefault();
+    return true;
+  };
+
   const key = (event: KeyboardEvent) => {
     const own = grid();
-    if (own === null || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (own === null || heldKey(event) || event.ctrlKey || event.metaKey || event.altKey) return;
     const { width, height } = size.peek();
     const step = event.shiftKey ? LEAP : 1;
     const moves: Record<string, readonly [number, number]> = {
@@ -220,6 +247,7 @@ export function useHand(stage: Stage) {
       part.value = null;
       line.value = null;
       model.tile.value = null;
+      model.selection.value = null;
       cursor.value = null;
     } else if (event.key === "+" || event.key === "=" || event.key === "-") {
       const factor = event.key === "-" ? 1 / 1.4 : 1.4;
@@ -237,7 +265,7 @@ export function useHand(stage: Stage) {
 }
 
 /** The listeners of a canvas. */
-export function handOf({ down, move, up, key, leave }: ReturnType<typeof useHand>) {
+export function listenersOf({ down, move, up, key, leave }: ReturnType<typeof useHand>) {
   return {
     onPointerDown: down,
     onPointerMove: move,
@@ -253,13 +281,19 @@ export function handOf({ down, move, up, key, leave }: ReturnType<typeof useHand
 export function applyToWhole(model: CarpetModel): void {
   const chart = model.chart.peek();
   if (chart === null) return;
-  const hand: Hand = {
+  model.edit(areaEdits(handOf(model), null, chart.grid));
+  model.tile.value = null;
+}
+
+/** The tool in hand with all that it needs. */
+function handOf(model: CarpetModel): Hand {
+  return {
     tool: model.tool.peek(),
     yarn: model.yarn.peek(),
+    width: model.brush.peek(),
+    symmetry: model.symmetry.peek(),
     mirror: model.mirror.peek(),
     borderWidth: model.borderWidth.peek(),
     tile: model.tile.peek(),
   };
-  model.edit(areaEdits(hand, null, chart.grid));
-  model.tile.value = null;
 }

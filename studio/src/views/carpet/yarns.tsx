@@ -3,8 +3,9 @@ import type { Proposal } from "../../api/messages";
 import { ApiError, post } from "../../api/request";
 import { formatNumber, t } from "../../text";
 import { Button, IconButton, Select, toast } from "../../ui";
+import { Assignment } from "./assignment-table";
 import { type CarpetModel, namesOf } from "./model";
-import { TextSetting } from "./settings";
+import { TextSetting } from "./text-setting";
 
 /** The yarns: how many, which are kept and which are never taken, one in the place of another, shades to dye. */
 export function Yarns({ model }: { model: CarpetModel }) {
@@ -31,6 +32,10 @@ export function Yarns({ model }: { model: CarpetModel }) {
           </ul>
         </details>
       )}
+      <details class="ui-details" open>
+        <summary>{t("carpet.assignment")}</summary>
+        <Assignment model={model} />
+      </details>
       <Replace model={model} />
       <Propose model={model} />
     </div>

@@ -8,6 +8,9 @@ from ilmek.jobs.studio.checks import ShownCheck
 RECIPE = "carpet.toml"
 """The recipe of a project."""
 
+MOST_MERGED = 3
+"""Colours that are named beside one with the same yarn."""
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ChartRequest:
@@ -39,6 +42,15 @@ class RowRequest:
 
     recipe: dict[str, Any]
     row: int
+    path: str = RECIPE
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class SpecksRequest:
+    """The specks of the chart of a recipe: its patches of at most `most` knots."""
+
+    recipe: dict[str, Any]
+    most: int = 3
     path: str = RECIPE
 
 
@@ -97,6 +109,20 @@ class ListedYarn:
 
 
 @dataclass(frozen=True, slots=True)
+class AssignedColour:
+    """A colour of a drawing, `#rrggbb`, the name of its yarn, the CIEDE2000 of the two, and its knots.
+
+    merged_with  the other colours of the yarn, those with most knots; at most MOST_MERGED
+    """
+
+    colour: str
+    yarn: str
+    delta_e: float
+    knots: int
+    merged_with: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class HardRow:
     """A row with many changes of yarn."""
 
@@ -122,6 +148,7 @@ class ChartAnswer:
 
     width, length  of the carpet [m]      quality  as written      reading, reason, fit  how the picture was read
     listed  all yarns that may be chosen      hardest  rows with most changes      edited  knots that edits changed
+    assignment  the yarn of each colour, most knots first; none of a photo, and of a drawing of too many colours
     mass, mass_per_area, price  of all yarns [kg], [kg/m²]
     checks, warnings, notes  as in the report      seconds  that it took
     """
@@ -138,6 +165,7 @@ class ChartAnswer:
     yarns: tuple[ChartYarn, ...]
     ground: tuple[GroundNeed, ...]
     listed: tuple[ListedYarn, ...]
+    assignment: tuple[AssignedColour, ...]
     hardest: tuple[HardRow, ...]
     mean_changes: float
     edited: int
@@ -155,6 +183,19 @@ class ChartAnswer:
     draft: bool
     seconds: float
     source: SourcePicture | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Specks:
+    """The specks of a chart before their knots: numbers of the patches of 1, 2 ... knots, and the names of the yarns.
+
+    Then follow two parts: the knots, 4 bytes each, little-endian, row by row from the upper edge; and one byte each,
+    the index of the yarn around its patch.
+    """
+
+    sizes: tuple[int, ...]
+    knots: int
+    yarns: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True)

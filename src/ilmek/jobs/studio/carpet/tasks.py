@@ -16,6 +16,7 @@ from ilmek.carpet.chart import Chart, make_chart
 from ilmek.carpet.design import resampled
 from ilmek.carpet.fitting import FitParams, prepare_picture
 from ilmek.carpet.outline import find_outline
+from ilmek.carpet.patches import small_patches
 from ilmek.carpet.quality import parse_quality
 from ilmek.carpet.rows import row_runs
 from ilmek.carpet.sizes import parse_size
@@ -30,6 +31,8 @@ from ilmek.jobs.order import CarpetOrder, order_of_data
 from ilmek.jobs.recipe import picture_pixels
 from ilmek.jobs.studio.answers import Binary, Context, packed
 from ilmek.jobs.studio.carpet.answers import (
+    MOST_MERGED,
+    AssignedColour,
     ChartAnswer,
     ChartRequest,
     ChartYarn,
@@ -46,15 +49,20 @@ from ilmek.jobs.studio.carpet.answers import (
     RowRun,
     ShadeToDye,
     SourcePicture,
+    Specks,
+    SpecksRequest,
 )
 from ilmek.jobs.studio.carpet.stages import KeptStages
 from ilmek.jobs.studio.checks import shown_check
 from ilmek.jobs.studio.project.folder import ProjectFolder
 from ilmek.jobs.studio.words import all_in_page
-from ilmek.jobs.yarn_choice import proposed_shades
+from ilmek.jobs.yarn_choice import assignment_results, proposed_shades
 
 MOST_SHADES = 60
 """Largest number of shades that are proposed."""
+
+MOST_SPECK = 99
+"""Knots of the largest patch that is looked for as a speck: the largest that a reading merges."""
 
 
 def prepare() -> None:
@@ -77,6 +85,16 @@ def chart(request: ChartRequest, context: Context) -> Binary:
     return packed(about, made.chart.knots.tobytes(), *pixels)
 
 
+def specks(request: SpecksRequest, context: Context) -> Binary:
+    """The specks of the chart of a recipe: `Specks`, then their knots and the yarns around them. Raises IlmekError."""
+    if not 1 <= request.most <= MOST_SPECK:
+        raise ParameterError(f"specks of {request.most} knots", allowed=f"1 to {MOST_SPECK}")
+    made = _charted(request, context, KeptStages()).chart
+    found = small_patches(made.knots, request.most, context.progress)
+    about = Specks(tuple(found.sizes[1:].tolist()), len(found.knots), tuple(yarn.name for yarn in made.yarns))
+    return packed(about, found.knots.astype("<u4").tobytes(), found.around.tobytes())
+
+
 def proposal(request: ProposalRequest, context: Context) -> Proposal:
     """The shades that suit the picture of a recipe best, to dye or to match. Raises IlmekError."""
     if not 2 <= request.count <= MOST_SHADES:
@@ -87,7 +105,7 @@ def proposal(request: ProposalRequest, context: Context) -> Proposal:
         made = make_charted(order, context.progress, with_source=True, stages=KeptStages())
     shades = proposed_shades(made.chart)
     return Proposal(
-        tuple(ShadeToDye(one.name, one.shade.hex, one.shade.share, one.nearest, one.difference) for one in shades)
+        tuple(ShadeToDye(one.shade.name, one.shade.hex, one.shade.share, one.nearest, one.difference) for one in shades)
     )
 
 
@@ -135,12 +153,12 @@ def _row_text(made: Chart, number: int, direction: str) -> str:
     return f"{number} {'>' if direction == 'right' else '<'} {' '.join(words)}"
 
 
-def _order(request: ChartRequest | ProposalRequest | RowRequest, context: Context) -> CarpetOrder:
+def _order(request: ChartRequest | ProposalRequest | RowRequest | SpecksRequest, context: Context) -> CarpetOrder:
     """The order of the recipe of a request, whose file need not be saved."""
     return order_of_data(_folder(context).path(request.path), request.recipe)
 
 
-def _charted(request: ChartRequest | RowRequest, context: Context, stages: KeptStages) -> ChartResult:
+def _charted(request: ChartRequest | RowRequest | SpecksRequest, context: Context, stages: KeptStages) -> ChartResult:
     """The chart of a request, with the last ones kept."""
     with _plain_errors(context):
         order = _order(request, context)
@@ -206,6 +224,12 @@ def _needed(made: ChartResult) -> tuple[ChartYarn, ...]:
     return tuple(yarns)
 
 
+def _assignment(chart: Chart) -> tuple[AssignedColour, ...]:
+    """The yarn of each colour of a drawing."""
+    rows = assignment_results(chart)
+    return tuple(AssignedColour(**{**row, "merged_with": tuple(row["merged_with"][:MOST_MERGED])}) for row in rows)
+
+
 def _answer(made: ChartResult, draft: bool, seconds: float) -> ChartAnswer:
     chart, bill, reading = made.chart, made.bill, made.chart.reading
     return ChartAnswer(
@@ -223,6 +247,7 @@ def _answer(made: ChartResult, draft: bool, seconds: float) -> ChartAnswer:
             GroundNeed(one.name, one.use, one.length, one.mass, one.to_buy, one.hanks, one.price) for one in bill.ground
         ),
         listed=tuple(ListedYarn(yarn.name, yarn.hex) for yarn in made.order.yarns),
+        assignment=_assignment(chart),
         hardest=tuple(HardRow(number, made.statistics.of_row(number)) for number in made.statistics.hardest),
         mean_changes=made.statistics.mean_changes,
         edited=reading.edited,

@@ -1,0 +1,19 @@
+import { describe, expect, it } from "vitest";
+import { mapOf, mapWith } from "./assignment";
+
+describe("yarns by hand", () => {
+  it("are read whatever the case of a colour", () => {
+    expect(mapOf({ map: { "#6C9136": "dark green", "#ffffff": 7 } })).toEqual({ "#6c9136": "dark green" });
+    for (const map of [undefined, null, [], "ivory"]) expect(mapOf({ map })).toEqual({});
+    expect(mapOf(null)).toEqual({});
+  });
+
+  it("are given, changed and taken back one by one", () => {
+    const one = mapWith({}, "#6C9136", "dark green");
+    expect(one).toEqual({ "#6c9136": "dark green" });
+    const two = mapWith({ map: one }, "#000000", "ivory");
+    expect(mapWith({ map: two }, "#6c9136", "sage green")).toEqual({ "#6c9136": "sage green", "#000000": "ivory" });
+    expect(mapWith({ map: two }, "#000000", "")).toEqual(one);
+    expect(mapWith({ map: one }, "#6c9136", "")).toBeNull();
+  });
+});
