@@ -16,6 +16,7 @@ from ilmek.carpet.colour_difference import delta_e_2000
 from ilmek.carpet.design import bands
 from ilmek.carpet.halftone import CELL, draw_halftone
 from ilmek.carpet.palette import distinct_colours, nearest_yarns, paint
+from ilmek.carpet.palette_rules import PaletteParams
 from ilmek.carpet.patches import count_patches
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.reading import ReadParams
@@ -54,7 +55,8 @@ def far(rgb: np.ndarray, knots: np.ndarray) -> float:
 
 def chart(rgb: np.ndarray, **reading: float) -> Chart:
     size, quality = CarpetSize(rgb.shape[1] / 1000, rgb.shape[0] / 1000), Quality(1000.0, 1000.0)
-    return make_chart(rgb, size, quality, YARNS, reading=ReadParams(reading="photo", **reading))
+    every = PaletteParams(neutral="no")
+    return make_chart(rgb, size, quality, YARNS, reading=ReadParams(reading="photo", **reading), palette=every)
 
 
 def pillow(rgb: np.ndarray) -> np.ndarray:

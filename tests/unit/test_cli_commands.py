@@ -163,7 +163,8 @@ def test_notes_tell_what_was_done_to_the_picture(tmp_path: Path) -> None:
     result = run("chart", str(tmp_path / "a.png"), *SMALL, "--json", "-")
     assert "note: transparent parts put on white" in result.stderr
     assert "cropped, 78% of the picture is not shown" in result.stderr
-    assert len(json.loads(result.stdout)["notes"]) == 2
+    assert "1 of 1 yarn dyed to order" in result.stderr
+    assert len(json.loads(result.stdout)["notes"]) == 3
 
 
 def test_yarn_list_of_the_examples(tmp_path: Path) -> None:

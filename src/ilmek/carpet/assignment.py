@@ -3,7 +3,7 @@
 The nearest yarn of each colour alone can be the same for two colours that touch, and what they draw is gone. So the
 yarns y of all groups of colours [`colour_groups`] are those of the least
 
-    E(y) = Σi ni (ΔE(i, yi) + g(i, yi)) + Σi<j wij (S max(0, min(cij, APART) - dij)) + R kij rij
+    E(y) = Σi ni (ΔE(i, yi) + g(i, yi)) + Σi<j (S wij max(0, min(cij, APART) - dij) + R kij rij)
 
     ΔE, c, d  CIEDE2000 of a colour and its yarn, of two colours, and of their two yarns          n  knots
     w         what is drawn where i and j touch: their contact times the knots by contact of the lesser of the two, so

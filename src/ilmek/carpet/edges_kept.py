@@ -1,9 +1,10 @@
 """What a chart keeps of its design: its edges, and the colours of a drawing.
 
-Edges: two knots of a row or a column, 1 or REACH apart, are an edge of contrast c, CIEDE2000 of their colours in the
-design, from FAINT on. It is kept as far as the chart has half of its contrast: by min(1, 2 d / c), d CIEDE2000 of their
-two yarns. The share that is kept is the mean of all edges, each with the weight c. Up to MOST_KNOTS knots of an even
-lattice begin an edge: on larger charts it is a sample, whose standard error is below 0.005.
+Edges: two blocks of 2 × 2 knots side by side, or REACH apart, are an edge of contrast c, CIEDE2000 of their mean CIELAB
+in the design, from FAINT on: grain is averaged out, and a pattern counts by what it mixes to. It is kept as far as the
+chart has half of its contrast: by min(1, 2 d / c), d that of the means of their yarns. The share that is kept is the
+mean of all edges, each with the weight c. Up to MOST_BLOCKS blocks of an even lattice begin an edge: on larger charts it
+is a sample.
 
 Colours: two groups of a drawing's colours [`colour_groups`] that touch and differ by VANISHING or more are lost in each
 other where their yarns are one, or within SAME_YARN. That with the fewer knots vanishes; its share is that of what is
@@ -25,10 +26,10 @@ from ilmek.carpet.picture_points import hex_colour
 from ilmek.num.compiled import compiled
 
 FAINT = 6.0
-"""CIEDE2000 below which two knots are no edge."""
+"""CIEDE2000 below which two blocks are no edge."""
 
 REACH = 4
-"""Knots over which a soft edge is seen."""
+"""Knots from block to block over which a soft edge is seen."""
 
 VANISHING = 10.0
 """CIEDE2000 from which two colours of a drawing are two."""
@@ -36,7 +37,7 @@ VANISHING = 10.0
 SAME_YARN = 3.0
 """CIEDE2000 of two yarns that look like one in the pile."""
 
-MOST_KNOTS = 20_000
+MOST_BLOCKS = 10_000
 
 
 class LostColour(NamedTuple):
@@ -53,35 +54,46 @@ class LostColour(NamedTuple):
 
 
 @compiled
+def _mean(  # noqa: PLR0917
+    rgb: Rgb, index: IntArray, labs: FloatArray, knots: Indices, yarns: FloatArray, i: int, j: int, out: FloatArray
+) -> None:
+    """Write the mean CIELAB of a block: of the design, then of the yarns."""
+    out[:] = 0.0
+    for y in range(i, i + 2):
+        for x in range(j, j + 2):
+            code = np.int32(rgb[y, x, 0]) << 16 | np.int32(rgb[y, x, 1]) << 8 | rgb[y, x, 2]
+            for axis in range(3):
+                out[axis] += 0.25 * labs[index[code] - 1, axis]
+                out[3 + axis] += 0.25 * yarns[knots[y, x], axis]
+
+
+@compiled
 def _edges(  # noqa: PLR0917
-    rgb: Rgb, index: IntArray, labs: FloatArray, knots: Indices, apart: FloatArray, step: int, sums: FloatArray
+    rgb: Rgb, index: IntArray, labs: FloatArray, knots: Indices, yarns: FloatArray, step: int, sums: FloatArray
 ) -> None:
     rows, columns = knots.shape
-    for i in range(0, rows, step):
-        for j in range(i // step * 7 % step, columns, step):
-            code = np.int32(rgb[i, j, 0]) << 16 | np.int32(rgb[i, j, 1]) << 8 | rgb[i, j, 2]
-            l1, a1, b1 = labs[index[code] - 1]
+    one, other = np.empty(6), np.empty(6)
+    for i in range(0, rows - 1, step):
+        for j in range(i // step * 7 % step, columns - 1, step):
+            _mean(rgb, index, labs, knots, yarns, i, j, one)
             for turn in range(4):
-                reach = REACH if turn >= 2 else 1
+                reach = REACH if turn >= 2 else 2
                 y, x = (i + reach, j) if turn % 2 else (i, j + reach)
-                if y >= rows or x >= columns:
+                if y + 1 >= rows or x + 1 >= columns:
                     continue
-                other = np.int32(rgb[y, x, 0]) << 16 | np.int32(rgb[y, x, 1]) << 8 | rgb[y, x, 2]
-                if other == code:
-                    continue
-                l2, a2, b2 = labs[index[other] - 1]
-                contrast = ciede2000(l1, a1, b1, l2, a2, b2)
+                _mean(rgb, index, labs, knots, yarns, y, x, other)
+                contrast = ciede2000(one[0], one[1], one[2], other[0], other[1], other[2])
                 if contrast >= FAINT:
+                    drawn = ciede2000(one[3], one[4], one[5], other[3], other[4], other[5])
                     sums[0] += contrast
-                    sums[1] += min(contrast, 2.0 * apart[knots[i, j], knots[y, x]])
+                    sums[1] += min(contrast, 2.0 * drawn)
 
 
 def edges_kept(design: Rgb, colours: Colours, knots: Indices, yarn_labs: Float[np.ndarray, "yarns 3"]) -> float | None:
     """Share of the design's edges that a chart keeps [-]; None: the design has no edge."""
     sums = np.zeros(2)
-    step = max(1, math.ceil(math.sqrt(knots.size / MOST_KNOTS)))
-    apart = delta_e_2000(yarn_labs[:, None], yarn_labs[None])
-    _edges(np.ascontiguousarray(design), colours.index, colours.labs, knots, apart, step, sums)
+    step = max(1, math.ceil(math.sqrt(knots.size / MOST_BLOCKS)))
+    _edges(np.ascontiguousarray(design), colours.index, colours.labs, knots, yarn_labs, step, sums)
     return float(sums[1] / sums[0]) if sums[0] > 0 else None
 
 

@@ -30,6 +30,10 @@ MOST_TWINS = 5
 """Largest number of pairs of near twins that are named in warnings."""
 
 
+MOST_CURES = 2
+"""Largest number of lost colours that the line of a check names; the JSON has all."""
+
+
 def twins_of(chart: Chart) -> tuple[TwinYarns, ...]:
     """Near twins among the yarns that are used."""
     return twin_yarns([chart.yarns[number] for number in chart.used])
@@ -86,7 +90,8 @@ def kept_checks(chart: Chart, order: CarpetOrder) -> tuple[Check, ...]:
     if made.matches:
         share = sum(lost.share for lost in made.lost)
         named = [f"{lost.hex} in {hex_colour(lost.beside)}: {_lost_cure(lost, chart, order)}" for lost in made.lost]
-        cure = "; ".join(named[:MOST_TWINS])
+        more = len(named) - MOST_CURES
+        cure = "; ".join((*named[:MOST_CURES], *((f"and {counted(more, 'more colour')}",) if more > 0 else ())))
         checks.append(at_most("colours of the drawing lost", share, rules.most_lost, "%", _KEPT, cure=cure))
     return tuple(checks)
 
