@@ -162,7 +162,7 @@ def test_notes_tell_what_was_done_to_the_picture(tmp_path: Path) -> None:
     Image.new("RGBA", (300, 100), (200, 30, 30, 128)).save(tmp_path / "a.png")
     result = run("chart", str(tmp_path / "a.png"), *SMALL, "--json", "-")
     assert "note: transparent parts put on white" in result.stderr
-    assert "cropped, 78% of the picture is not shown" in result.stderr
+    assert "78% of the picture is cut off, which has other proportions than" in result.stderr
     assert "1 of 1 yarn dyed to order" in result.stderr
     assert len(json.loads(result.stdout)["notes"]) == 3
 

@@ -52,7 +52,7 @@ LEAST_DRAWN, MOST_DRAWN = 16, 5000
 SMALL, FEW = 128, 16
 """Greatest side [pixels] and number of colours of a small picture of few colours."""
 
-SMALL_ALIKE, SMALL_DETAILS, SMOOTHED = 0.45, 0.5, (0.002, 0.25)
+SMALL_ALIKE, SMALL_DETAILS, SMOOTHED = 0.55, 0.4, (0.002, 0.25)
 """Least share of alike neighbours and greatest one of details in it; share of mixes, and their ratio to the details,
 above which its edges are smoothed.
 """

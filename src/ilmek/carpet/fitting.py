@@ -214,10 +214,12 @@ def fit_notes(fit: Fit, pixels: tuple[int, ...], size: CarpetSize, grid: tuple[i
     (height, width), (rows, columns) = pixels, grid
     notes = []
     if fit.frame is not None or abs(fit.stretch) > LARGEST_DISTORTION:
-        done = "cut off" if fit.frame is not None else "stretched"
+        left, top, right, bottom = fit.frame or (0.0, 0.0, 1.0, 1.0)
+        cut = 1 - (right - left) * (bottom - top)
+        done = f"{format_quantity(cut, '%', 3)} of the picture is cut off" if cut else "the picture is stretched"
         notes.append(
-            f"the picture has other proportions than {size} and is {done}: --size auto keeps it as it is, one side, "
-            "--width or --length, gives the other, and --fit offers crop, pad, stretch and turn"
+            f"{done}, which has other proportions than {size}: --size auto keeps it as it is, one side, --width or "
+            "--length, gives the other, and --fit offers crop, pad, stretch and turn"
         )
     if width < columns or height < rows:
         knots = f"{columns} x {rows} knots"

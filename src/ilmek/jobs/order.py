@@ -155,7 +155,7 @@ def read_order(
     found = _read_recipe(picture) if picture.suffix.lower() == RECIPE else None
     base = CarpetOrder(picture) if found is None else _order_of(picture, found)
     keys = by_name(_given(settings))
-    sized, sides = read_size(size, keys)
+    sized, sides = (None, {}) if size is None else read_size(size, keys)
     if size is not None or keys.keys() & SIDES:
         base = replace(base, size=None)
         sides = {**dict.fromkeys(SIDES), **keys, **sides}
@@ -172,9 +172,7 @@ def read_order(
     return _checked(replace(base, **_given(given), **groups))
 
 
-def read_size(
-    size: str | CarpetSize | None, settings: Mapping[str, Setting]
-) -> tuple[CarpetSize | None, dict[str, Setting]]:
+def read_size(size: str | CarpetSize, settings: Mapping[str, Setting]) -> tuple[CarpetSize | None, dict[str, Setting]]:
     """A size or that of a text, or None and the sides of the parameters `SIDES` that give it with the picture.
 
     settings  by name, among which a side may be given instead of a size
@@ -182,14 +180,14 @@ def read_size(
     """
     beside = [name for name in SIDES if settings.get(name) is not None]
     whole = not isinstance(size, str) or size.strip().lower() != AUTO
-    if size is not None and beside and whole:
+    if beside and whole:
         raise ParameterError(
             f"{' and '.join(beside)} given beside the size {str(size)!r}",
             allowed="a size, or one side or both",
             do="leave one of them out",
         )
     if not isinstance(size, str):
-        return None if size is None else carpet_size(size), {}
+        return carpet_size(size), {}
     stated, sides = parse_open_size(size)
     return stated, {**sides}
 
