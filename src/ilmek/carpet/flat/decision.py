@@ -18,6 +18,10 @@ from ilmek.carpet.flat.nearest import UNKNOWN, count_near
 from ilmek.carpet.flat.survey import Survey, survey
 from ilmek.carpet.flat.true_colours import TrueColours, is_mixture, true_colours
 from ilmek.records import record
+from ilmek.units import counted
+
+_LEAST_PIXELS = 4
+"""Least number of pixels for each true colour."""
 
 _LEAST_NEAR, _NEAR, _NEAR_NOISE = 0.85, 5.0, 0.25
 """Least share of the even areas that have a true colour; difference in CIELAB up to which they have one, and what each
@@ -74,6 +78,9 @@ def looks_flat(rgb: Rgb) -> Flatness:
     true = true_colours(seen)
     if not len(true.srgb):
         return Flatness(False, 0, 0.0, "no drawing: it has no true colour", true)
+    if len(true.srgb) * _LEAST_PIXELS > len(seen.codes):
+        sentence = f"no drawing: {len(true.srgb)} colours on {counted(len(seen.codes), 'pixel')}"
+        return Flatness(False, len(true.srgb), 0.0, sentence, true)
     near, explained, variance = _near(seen, true), _explained(seen, true), _variance(seen, true)
     slope, most = _slope(seen, true), max(_LEAST_SLOPE, _SLOPE + _SLOPE_NOISE * true.noise)
     one = len(true.srgb) == 1
