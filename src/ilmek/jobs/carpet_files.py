@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from ilmek.carpet.rows import DIRECTIONS, SPLITS
 from ilmek.io.chart.formats import FORMATS, ChartFormat
+from ilmek.io.chart.printing import DIGITS
 from ilmek.params import Params, kind, param
 from ilmek.viz.carpet_picture import NARROWEST, WIDEST
 from ilmek.viz.page_parts import FileNote
@@ -48,6 +49,11 @@ class _FileParams(Params):
         "both",
         choices=DIRECTIONS,
         doc="direction in which rows are read: to the right, to the left, both, or odd rows right and even rows left",
+    )
+    digits: str = param(
+        "latin",
+        choices=tuple(DIGITS),
+        doc="digits of the numbers on chart.pdf, rows.pdf and wall.pdf: latin, Persian and Urdu (fa), or Arabic (ar)",
     )
     wall: bool = param(False, doc="draw the whole chart on one large sheet, wall.pdf")
 

@@ -277,10 +277,10 @@ def write_chart(
 
 def _print_chart(charted: ChartResult, folder: Path, left_out: list[str], progress: Progress) -> list[str]:
     """Write the printed formats into a folder; returns the names of those that are not left out."""
-    names: list[str] = []
+    names, digits = list[str](), charted.order.order.files.digits
     for row in charted.printed:
         file, before, printing = folder / row.file, len(left_out), progress.part(0.0, 1.0, row.file)
-        made_or_left_out(row.file, partial(row.save, file, charted.chart, printing), left_out)
+        made_or_left_out(row.file, partial(row.save, file, charted.chart, printing, digits), left_out)
         if len(left_out) > before:
             file.unlink(missing_ok=True)
         else:

@@ -76,7 +76,7 @@ def write_rows(
     """Write the files of `rows_plan` into a folder; returns their names. A PDF that cannot be made is added to
     `left_out`. Raises OSError.
     """
-    plan, direction = rows_plan(chart, order), order.files.rows_direction
+    plan, direction, digits = rows_plan(chart, order), order.files.rows_direction, order.files.digits
     parts = iter(
         progress.part(share, share + 0.3, name) for share, name in zip((0.0, 0.35, 0.7), plan.names, strict=False)
     )
@@ -84,12 +84,12 @@ def write_rows(
     def make(name: str, part: Progress) -> Callable[[], None]:
         path = folder / name
         if name == "wall.pdf":
-            return lambda: write_wall_pdf(path, chart, part)
+            return lambda: write_wall_pdf(path, chart, part, digits=digits)
         if name == "rows.txt":
             return lambda: write_rows_text(path, chart, plan.split, direction, part)
         if plan.split == "colours":
-            return lambda: write_colours_pdf(path, chart, direction, plan.pages, part)
-        return lambda: write_rows_pdf(path, chart, direction, part)
+            return lambda: write_colours_pdf(path, chart, direction, plan.pages, part, digits=digits)
+        return lambda: write_rows_pdf(path, chart, direction, part, digits=digits)
 
     written = []
     for name, part in zip(plan.names, parts, strict=True):

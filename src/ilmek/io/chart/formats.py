@@ -31,7 +31,7 @@ class ChartFormat:
     name      also its ending, its option and its key of a recipe
     note      on the file of a carpet's folder
     doc       of the option that writes it, after "write chart.NAME, "
-    write     the file of a chart
+    write     the file of a chart; one that is printed, in the digits of `printing.DIGITS`
     begins    whether a file that begins with these bytes is a chart of this format; the ending counts as well where
               the format is no picture
     read      the chart of a file, with the size and the quality of an order, of which a file without them needs one,
@@ -45,7 +45,7 @@ class ChartFormat:
     name: str
     note: str
     doc: str
-    write: Callable[[Path, Chart, Progress], None]
+    write: Callable[..., None]
     begins: Callable[[bytes], bool] = lambda _: False
     read: Callable[[Path, CarpetSize | None, Quality | None, Progress, str | None], ReadChart] | None = None
     picture: bool = True
@@ -68,10 +68,13 @@ class ChartFormat:
         """Whether it is written where an option requires it."""
         return not self.always and not self.printed
 
-    def save(self, path: Path, chart: Chart, progress: Progress = SILENT) -> None:
-        """Write a chart to a file. Raises OSError, and CarpetError for a chart of too many knots."""
+    def save(self, path: Path, chart: Chart, progress: Progress = SILENT, digits: str = "latin") -> None:
+        """Write a chart to a file, its numbers in these digits where it is printed.
+
+        Raises OSError, and CarpetError for a chart of too many knots.
+        """
         self.require(chart.knots.size)
-        self.write(path, chart, progress)
+        self.write(path, chart, progress, **({"digits": digits} if self.printed else {}))
 
     def require(self, knots: int) -> None:
         """Raise CarpetError for more knots than a file can have."""

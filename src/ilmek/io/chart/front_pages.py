@@ -124,9 +124,9 @@ def draw_entry(
     canvas.rect(x, y - 4.0, 24.0, 14.0, stroke=1, fill=1)
     canvas.setFont(SIGNS, 10)
     canvas.setFillGray(1.0 if inks.white[index] else 0.0)
-    canvas.drawCentredString(x + 12.0, y, inks.symbols[index])
+    canvas.draw_sign(x + 12.0, y, inks.symbols[index])
     canvas.setFillGray(0.1)
-    canvas.drawCentredString(x + 38.0, y, inks.symbols[index])
+    canvas.draw_sign(x + 38.0, y, inks.symbols[index])
     canvas.setFont(TEXT, 9)
     share = 100 * count / total
     canvas.drawRightString(x + width, y, f"{share:.1f} %" if share >= 0.05 else "< 0.1 %")

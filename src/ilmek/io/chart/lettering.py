@@ -48,7 +48,7 @@ def draw_line(canvas: Any, x: float, y: float, text: str, size: float) -> None:
         if part.marked:
             actual = part.text.encode("utf-16-be").hex().upper()
             canvas._code.append(f"/Span <</ActualText <FEFF{actual}>>> BDC")
-        canvas.drawString(x, y, part.glyphs)
+        canvas.draw_letters(x, y, part.glyphs)
         if part.marked:
             canvas._code.append("EMC")
         x += size * part.width

@@ -40,7 +40,7 @@ def _draw_half(canvas: Any, chart: Chart, plan: SheetLayout, inks: Inks, at: tup
         canvas.setFillColorRGB(*inks.fills[yarn])
         canvas.rect(x + side * half, y, half, plan.cell_height, stroke=0, fill=1)
         canvas.setFillGray(1.0 if inks.white[yarn] else 0.0)
-        canvas.drawCentredString(x + (side + 0.5) * half, y + (plan.cell_height - 0.72 * size) / 2, inks.symbols[yarn])
+        canvas.draw_sign(x + (side + 0.5) * half, y + (plan.cell_height - 0.72 * size) / 2, inks.symbols[yarn])
     canvas.setStrokeGray(0.25)
     canvas.setLineWidth(0.3)
     canvas.line(x + half, y, x + half, y + plan.cell_height)

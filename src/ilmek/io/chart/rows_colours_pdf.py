@@ -6,15 +6,14 @@ from pathlib import Path
 from typing import Any
 
 from reportlab.lib.pagesizes import A4
-from reportlab.pdfgen.canvas import Canvas
 
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.rows import Run, directions, row_codes, runs_of, span_text, spans_by_yarn
 from ilmek.io.chart.front_pages import draw_legend
 from ilmek.io.chart.inks import Inks
 from ilmek.io.chart.lettering import cut_line, draw_line
-from ilmek.io.chart.pdf import plain_streams
-from ilmek.io.chart.symbols import ADVANCE, SIGNS, STRONG, TEXT, register_fonts, symbols
+from ilmek.io.chart.printing import printed_file
+from ilmek.io.chart.symbols import ADVANCE, SIGNS, STRONG, TEXT, symbols
 from ilmek.progress import SILENT, Progress
 
 _LEFT, _TOP, _LOW = 42.0, 800.0, 40.0
@@ -71,18 +70,16 @@ def colour_pages(chart: Chart, direction: str) -> Iterator[list[ColourLine]]:
     yield page
 
 
-def write_colours_pdf(path: Path, chart: Chart, direction: str, pages: int, progress: Progress = SILENT) -> None:
+def write_colours_pdf(
+    path: Path, chart: Chart, direction: str, pages: int, progress: Progress = SILENT, *, digits: str = "latin"
+) -> None:
     """Write the rows of a chart, split by colours, to `path`.
 
-    pages  their number, of `colour_pages`
+    pages  their number, of `colour_pages`      digits  of `printing.DIGITS`
     """
-    register_fonts()
     inks = Inks.of(chart.yarns, symbols(chart.yarns))
     name = chart.size.name or f"{chart.columns} × {chart.rows} knots"
-    with plain_streams():
-        canvas = Canvas(str(path), pagesize=A4, pageCompression=1, invariant=1)
-        canvas.setTitle(f"Rows to weave by: {name}")
-        canvas.setCreator("ilmek")
+    with printed_file(path, f"Rows to weave by: {name}", digits) as canvas:
         draw_legend(canvas, chart, inks)
         for number, lines in enumerate(colour_pages(chart, direction), start=1):
             canvas.setFillGray(0.1)
@@ -101,7 +98,6 @@ def write_colours_pdf(path: Path, chart: Chart, direction: str, pages: int, prog
                 _draw_line(canvas, text, chart, inks, _TOP - 30.0 - line * _LINE)
             canvas.showPage()
             progress(number / pages)
-        canvas.save()
 
 
 def _draw_line(canvas: Any, line: ColourLine, chart: Chart, inks: Inks, y: float) -> None:
@@ -122,7 +118,7 @@ def _draw_line(canvas: Any, line: ColourLine, chart: Chart, inks: Inks, y: float
         canvas.rect(_LEFT + 12.0, y - 1.2, 12.0, 7.4, stroke=1, fill=1)
         canvas.setFillGray(0.1)
         canvas.setFont(SIGNS, _SIZE)
-        canvas.drawString(_LEFT + 28.0, y, inks.symbols[line.yarn])
+        canvas.draw_letters(_LEFT + 28.0, y, inks.symbols[line.yarn])
         canvas.drawRightString(_LEFT + _CELLS_AT - 8.0, y, str(line.knots))
         draw_line(canvas, _LEFT + 36.0, y, cut_line(chart.yarns[line.yarn].name, 6.0, 50.0), 6.0)
     canvas.setFont(SIGNS, _SIZE)

@@ -8,17 +8,14 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from reportlab.lib.pagesizes import A4
-from reportlab.pdfgen.canvas import Canvas
-
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.rows import directions, row_codes, runs_of
 from ilmek.io.chart.front_pages import draw_legend
 from ilmek.io.chart.inks import Inks
-from ilmek.io.chart.pdf import plain_streams
+from ilmek.io.chart.printing import printed_file
 from ilmek.io.chart.rows_layout import FOOT, HEAD, LEFT, MARGIN, RIGHT, RULER, SMALLEST, RowsLayout, rows_layout
 from ilmek.io.chart.rows_strip import Strip, Typesetter, draw_strip, knots_in_words
-from ilmek.io.chart.symbols import SIGNS, STRONG, TEXT, register_fonts, symbols
+from ilmek.io.chart.symbols import SIGNS, STRONG, TEXT, symbols
 from ilmek.progress import SILENT, Progress
 
 _GREY = (0.36, 0.40, 0.44)
@@ -32,21 +29,24 @@ def chart_rows_layout(chart: Chart, direction: str = "both") -> RowsLayout:
 
 
 def write_rows_pdf(
-    path: Path, chart: Chart, direction: str = "both", progress: Progress = SILENT, title: str = ""
+    path: Path,
+    chart: Chart,
+    direction: str = "both",
+    progress: Progress = SILENT,
+    *,
+    title: str = "",
+    digits: str = "latin",
 ) -> None:
     """Write the rows of a chart to `path`, each as one strip where it fits the paper.
 
     direction  of `carpet.rows.DIRECTIONS`: from which edges the knots are numbered
+    digits     of `printing.DIGITS`
     A page takes about 0.02 s; `chart_rows_layout` gives their number.
     """
-    register_fonts()
     plan = chart_rows_layout(chart, direction)
     inks = Inks.of(chart.yarns, symbols(chart.yarns))
     name = title or chart.size.name or f"{chart.columns} × {chart.rows} knots"
-    with plain_streams():
-        canvas = Canvas(str(path), pagesize=A4, pageCompression=1, invariant=1)
-        canvas.setTitle(f"Rows to weave by: {name}")
-        canvas.setCreator("ilmek")
+    with printed_file(path, f"Rows to weave by: {name}", digits) as canvas:
         draw_legend(canvas, chart, inks)
         setter = Typesetter(canvas, plan.size)
         page: list[Strip] = []
@@ -58,7 +58,6 @@ def write_rows_pdf(
                 _draw_page(setter, page, plan, (number, name, direction), inks)
                 page = []
                 progress(number / plan.count)
-        canvas.save()
 
 
 def _strips(chart: Chart, plan: RowsLayout) -> Iterator[Strip]:
@@ -98,7 +97,7 @@ def _draw_page(
         canvas.setFont(SIGNS, SMALLEST)
         canvas.setFillColorRGB(*_GREY)
         if strip.stop == plan.columns:
-            canvas.drawString(0.0, -below + 0.3, knots_in_words(strip, inks, wide))
+            canvas.draw_letters(0.0, -below + 0.3, knots_in_words(strip, inks, wide, canvas.numerals))
         canvas.restoreState()
     canvas.showPage()
 

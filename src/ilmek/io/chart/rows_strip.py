@@ -1,5 +1,6 @@
 """One strip of rows.pdf: the cells of a row, the counts and symbols of its runs above, numbers of knots below."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -116,7 +117,7 @@ def draw_strip(setter: Typesetter, strip: Strip, plan: RowsLayout, inks: Inks, r
         low = base + level * plan.level
         texts.append((one.middle, low, one.signs))
         if one.count:
-            texts.append((one.middle, low + 1.02 * plan.size, one.count))
+            texts.append((one.middle, low + 1.02 * plan.size, canvas.numerals(one.count)))
     setter.show(texts)
     _rulers(canvas, strip, plan, reading)
     _numbers(canvas, strip, wide)
@@ -208,16 +209,19 @@ def _numbers(canvas: Any, strip: Strip, wide: float) -> None:
         canvas.drawString(-LEFT, 11.0, strip.part)
 
 
-def knots_in_words(strip: Strip, inks: Inks, wide: float) -> str:
-    """The knots of each yarn in the row of a strip, as many as one line has space for: `A 212  B 88`."""
+def knots_in_words(strip: Strip, inks: Inks, wide: float, numerals: Callable[[str], str] = str) -> str:
+    """The knots of each yarn in the row of a strip, as many as one line has space for: `A 212  B 88`.
+
+    numerals  writes a number in the digits of the page
+    """
     counts: dict[int, int] = {}
     for run in strip.runs:
         counts[run.yarn] = counts.get(run.yarn, 0) + run.knots
         if run.mark == HALF:
             counts[run.second] = counts.get(run.second, 0) + run.knots
-    words = [f"{inks.symbols[yarn]} {count}" for yarn, count in sorted(counts.items())]
+    words = [f"{inks.symbols[yarn]} {numerals(str(count))}" for yarn, count in sorted(counts.items())]
     for shown in range(len(words), 0, -1):
-        rest = f"   and {len(words) - shown} more" if shown < len(words) else ""
+        rest = f"   and {numerals(str(len(words) - shown))} more" if shown < len(words) else ""
         text = "   ".join(words[:shown]) + rest
         if stringWidth(text, SIGNS, SMALLEST) <= wide:
             return text

@@ -10,15 +10,14 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from reportlab.pdfbase.pdfdoc import PDFPage
-from reportlab.pdfgen.canvas import Canvas
 
 from ilmek.carpet.chart import Chart
 from ilmek.io.chart.front_pages import draw_entry
 from ilmek.io.chart.grid import draw_cells
 from ilmek.io.chart.inks import Inks
-from ilmek.io.chart.pdf import plain_streams
+from ilmek.io.chart.printing import PrintCanvas, printed_file
 from ilmek.io.chart.sheets import SheetLayout, require_wall
-from ilmek.io.chart.symbols import STRONG, TEXT, register_fonts, symbols
+from ilmek.io.chart.symbols import STRONG, TEXT, symbols
 from ilmek.progress import SILENT, Progress
 from ilmek.units import format_number
 
@@ -66,17 +65,15 @@ def _entries(width: float) -> int:
     return max(1, int((width - 2 * _SIDE) // _ENTRY))
 
 
-def write_wall_pdf(path: Path, chart: Chart, progress: Progress = SILENT, title: str = "") -> None:
-    """Write the chart as one sheet to `path`. Raises CarpetError as `wall_sheet`."""
-    register_fonts()
+def write_wall_pdf(
+    path: Path, chart: Chart, progress: Progress = SILENT, *, title: str = "", digits: str = "latin"
+) -> None:
+    """Write the chart as one sheet to `path`, in digits of `printing.DIGITS`. Raises CarpetError as `wall_sheet`."""
     sheet = wall_sheet(chart)
     inks = Inks.of(chart.yarns, symbols(chart.yarns))
     name = title or chart.size.name or f"{chart.columns} × {chart.rows} knots"
     page = (sheet.width / sheet.unit, sheet.height / sheet.unit)
-    with plain_streams():
-        canvas = Canvas(str(path), pagesize=page, pageCompression=1, invariant=1, pdfVersion=(1, 6))
-        canvas.setTitle(f"Knot chart: {name}")
-        canvas.setCreator("ilmek")
+    with printed_file(path, f"Knot chart: {name}", digits, pagesize=page, pdfVersion=(1, 6)) as canvas:
         canvas.scale(1 / sheet.unit, 1 / sheet.unit)
         _write_head(canvas, chart, sheet, name)
         canvas.saveState()
@@ -96,11 +93,10 @@ def write_wall_pdf(path: Path, chart: Chart, progress: Progress = SILENT, title:
             draw_entry(canvas, chart, inks, (index, tied.of(index), total), box)
         canvas.showPage()
         _set_unit(canvas, sheet.unit)
-        canvas.save()
     progress(1.0)
 
 
-def _write_head(canvas: Canvas, chart: Chart, sheet: WallSheet, name: str) -> None:
+def _write_head(canvas: PrintCanvas, chart: Chart, sheet: WallSheet, name: str) -> None:
     canvas.setFillGray(0.1)
     canvas.setFont(STRONG, 16)
     canvas.drawString(_SIDE, sheet.height - 34.0, f"Knot chart: {name}")
@@ -114,7 +110,7 @@ def _write_head(canvas: Canvas, chart: Chart, sheet: WallSheet, name: str) -> No
     )
 
 
-def _set_unit(canvas: Canvas, unit: int) -> None:
+def _set_unit(canvas: PrintCanvas, unit: int) -> None:
     """State the unit of length of the pages, which reportlab has no name for."""
     if unit > 1:
         for page in canvas._doc.idToObject.values():

@@ -1,0 +1,68 @@
+"""The PDF files of a chart: how they are opened and closed, and the digits of their numbers."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from reportlab import rl_config
+from reportlab.lib.pagesizes import A4
+from reportlab.pdfgen.canvas import Canvas
+
+from ilmek.io.chart.symbols import register_fonts
+
+DIGITS = {"latin": "0123456789", "fa": "۰۱۲۳۴۵۶۷۸۹", "ar": "٠١٢٣٤٥٦٧٨٩"}
+"""Digits 0 to 9 by the language: Persian and Urdu (fa), Arabic (ar). The fonts of the printed files have them."""
+
+
+class PrintCanvas(Canvas):  # type: ignore[misc]
+    """A canvas that writes numbers in the digits of a script; symbols and names stay as they are."""
+
+    def __init__(self, path: Path, digits: str, **more: Any) -> None:
+        super().__init__(str(path), pageCompression=1, invariant=1, **more)
+        self._digits = str.maketrans(DIGITS["latin"], DIGITS[digits])
+
+    def numerals(self, text: str) -> str:
+        """A text with the digits of this canvas."""
+        return text.translate(self._digits)
+
+    def drawString(self, x: float, y: float, text: str) -> None:
+        """As of reportlab, in the digits of this canvas."""
+        super().drawString(x, y, self.numerals(text))
+
+    def drawRightString(self, x: float, y: float, text: str) -> None:
+        """As of reportlab, in the digits of this canvas."""
+        super().drawRightString(x, y, self.numerals(text))
+
+    def drawCentredString(self, x: float, y: float, text: str) -> None:
+        """As of reportlab, in the digits of this canvas."""
+        super().drawCentredString(x, y, self.numerals(text))
+
+    def draw_letters(self, x: float, y: float, text: str) -> None:
+        """A text from x to the right, with its own digits."""
+        super().drawString(x, y, text)
+
+    def draw_sign(self, x: float, y: float, sign: str) -> None:
+        """The symbol of a yarn, centred on x."""
+        super().drawCentredString(x, y, sign)
+
+
+@contextmanager
+def printed_file(path: Path, title: str, digits: str = "latin", **more: Any) -> Iterator[PrintCanvas]:
+    """The canvas of a PDF file, which is saved at the end; the same pages make the same file.
+
+    more  of reportlab's Canvas: pagesize (default: A4), pdfVersion
+    Streams are bytes, not base-85 text: smaller, and several times faster.
+    """
+    register_fonts()
+    config: Any = rl_config
+    before = config.useA85
+    config.useA85 = 0
+    try:
+        canvas = PrintCanvas(path, digits, **{"pagesize": A4, **more})
+        canvas.setTitle(title)
+        canvas.setCreator("ilmek")
+        yield canvas
+        canvas.save()
+    finally:
+        config.useA85 = before
