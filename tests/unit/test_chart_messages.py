@@ -31,6 +31,7 @@ def plain(size: str, count: float = 1.3) -> Chart:
         ("3x3cm", 1.3, False),
         ("16x16cm", 1.3, False),
         ("16x16cm", 0.4, False),
+        ("32x32cm", 1.26, False),
         ("25x40cm", 0.4, True),
         ("120x180cm", 0.4, True),
         ("120x180cm", 1.3, False),

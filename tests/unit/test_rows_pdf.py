@@ -154,3 +154,19 @@ def test_the_same_chart_gives_the_same_file(tmp_path: Path) -> None:
     assert (tmp_path / "a.pdf").read_bytes() == (tmp_path / "b.pdf").read_bytes()
     assert done == sorted(done)
     assert done[-1] == 1.0
+
+
+@pytest.mark.parametrize(("marks", "words"), [
+    ([], ()), ([KnotMark(0, 0, HALF, 1)], ("half knots",)), ([KnotMark(1, 0, JUFTI)], ("jufti knots",)),
+    ([KnotMark(0, 0, HALF, 1), KnotMark(1, 0, JUFTI)], ("half knots", "jufti knots")),
+])  # fmt: skip
+def test_only_the_marks_that_are_there_are_explained(
+    marks: list[KnotMark], words: tuple[str, ...], tmp_path: Path
+) -> None:
+    made = chart(4, 4, yarns=2)
+    made = replace(made, knots=np.zeros_like(made.knots), overlay=overlay_of(marks))
+    write_rows_pdf(tmp_path / "rows.pdf", made)
+    write_colours_pdf(tmp_path / "colours.pdf", made, "both", 1)
+    for file in ("rows.pdf", "colours.pdf"):
+        text = " ".join(page.extract_text() for page in PdfReader(tmp_path / file).pages)
+        assert [word for word in ("half knots", "jufti knots") if word in text] == list(words)

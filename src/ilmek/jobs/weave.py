@@ -21,7 +21,7 @@ from ilmek.loom.programme import Programme
 from ilmek.progress import SILENT, Progress
 from ilmek.report import NEAREST, Check, Report, must, verdict_json
 from ilmek.report.left_out import made_or_left_out
-from ilmek.units import format_quantity, hour
+from ilmek.units import counted, format_quantity, hour
 from ilmek.viz.carpet_page import CarpetPage, carpet_page
 from ilmek.viz.carpet_picture import DrawnCarpet
 from ilmek.viz.loom_page import BAD, GOOD, LoomPage, loom_page
@@ -139,7 +139,8 @@ def overlay_checks(chart: Chart) -> tuple[Check, ...]:
     """That every knot is on two warps, as the loom ties it; failed for a chart with half knots or jufti knots."""
     if not len(chart.overlay):
         return ()
-    source = f"{2 * chart.overlay.halves:,} half knots, {chart.overlay.juftis:,} jufti knots; the loom ties none"
+    halves, juftis = counted(2 * chart.overlay.halves, "half knot"), counted(chart.overlay.juftis, "jufti knot")
+    source = f"{halves}, {juftis}; the loom ties none"
     cure = "weave by hand from rows.pdf, or leave the overlay out"
     return (must("every knot on two warps", False, source, cure=cure),)
 

@@ -53,7 +53,7 @@ def twin_warnings(chart: Chart) -> tuple[str, ...]:
         for one in twins[:MOST_TWINS]
     ]
     more = len(twins) - MOST_TWINS
-    return (*warnings, *((f"{more} more pairs of yarns are near twins",) if more > 0 else ()))
+    return (*warnings, *((f"near twins too: {counted(more, 'more pair')} of yarns",) if more > 0 else ()))
 
 
 def yarn_notes(chart: Chart) -> tuple[str, ...]:

@@ -48,9 +48,12 @@ def currency_warning(currency: str, loom_prices: str | None) -> str:
 
 
 def mass_warning(bill: YarnBill, quality: Quality) -> str:
-    """What to do where a carpet's mass is outside the published band; "" where none is published, and of a swatch."""
-    band = bill.band
-    if band is None or bill.mass_per_area in band or bill.area < SMALLEST_CARPET:
+    """What to do where a carpet's mass is outside the published band; "" where none is published, and of a swatch.
+
+    A carpet is too heavy by its field alone: of ends and selvedges a small one has more than those of the band.
+    """
+    band, edges = bill.band, sum(need.kept for need in bill.needs if need.use in ("end", "selvedge")) / bill.area
+    if band is None or bill.area < SMALLEST_CARPET or band.least <= bill.mass_per_area <= band.most + edges:
         return ""
     light = bill.mass_per_area < band.least
     mass = format_quantity(bill.mass_per_area, "kg/m^2", 3)

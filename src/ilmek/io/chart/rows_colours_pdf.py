@@ -78,6 +78,8 @@ def write_colours_pdf(
     pages  their number, of `colour_pages`      digits  of `printing.DIGITS`
     """
     inks = Inks.of(chart.yarns, symbols(chart.yarns))
+    halves = "; L, R: half knots on left, right warps" if chart.overlay.halves else ""
+    marks = halves + ("; j: jufti knots" if chart.overlay.juftis else "")
     name = chart.size.name or f"{chart.columns} × {chart.rows} knots"
     with printed_file(path, f"Rows to weave by: {name}", digits) as canvas:
         draw_legend(canvas, chart, inks)
@@ -91,8 +93,7 @@ def write_colours_pdf(
             canvas.drawString(
                 _LEFT,
                 _TOP - 12.0,
-                "Row 1 is the first that is woven. Cells count from the left (→) or the right (←) edge; L, R: half "
-                "knots on left, right warps; j: jufti knots.",
+                f"Row 1 is the first that is woven. Cells count from the left (→) or the right (←) edge{marks}.",
             )
             for line, text in enumerate(lines):
                 _draw_line(canvas, text, chart, inks, _TOP - 30.0 - line * _LINE)

@@ -50,12 +50,12 @@ def write_rows_pdf(
         draw_legend(canvas, chart, inks)
         setter = Typesetter(canvas, plan.size)
         page: list[Strip] = []
-        number = 0
+        number, marks = 0, _about_marks(chart)
         for strip in _strips(chart, plan):
             page.append(strip)
             if len(page) == plan.lines or (strip.number == chart.rows and strip.stop == chart.columns):
                 number += 1
-                _draw_page(setter, page, plan, (number, name, direction), inks)
+                _draw_page(setter, page, plan, (number, name, direction, marks), inks)
                 page = []
                 progress(number / plan.count)
 
@@ -73,16 +73,16 @@ def _strips(chart: Chart, plan: RowsLayout) -> Iterator[Strip]:
 
 
 def _draw_page(
-    setter: Typesetter, strips: list[Strip], plan: RowsLayout, titles: tuple[int, str, str], inks: Inks
+    setter: Typesetter, strips: list[Strip], plan: RowsLayout, titles: tuple[int, str, str, str], inks: Inks
 ) -> None:
-    """Draw a page of strips; titles: number of the page, name of the carpet, direction."""
+    """Draw a page of strips; titles: number of the page, name of the carpet, direction, about marks."""
     canvas = setter.canvas
-    number, name, direction = titles
+    number, name, direction, marks = titles
     canvas.setPageSize((plan.width, plan.height))
     rows = f"rows {strips[0].number}–{strips[-1].number}"
     canvas.bookmarkPage(f"rows-{number}")
     canvas.addOutlineEntry(rows, f"rows-{number}", 0)
-    _write_head(canvas, plan, (f"{rows} of {plan.rows}", f"{name}, page {number} of {plan.count}"), direction)
+    _write_head(canvas, plan, (f"{rows} of {plan.rows}", f"{name}, page {number} of {plan.count}"), direction, marks)
     top = plan.height - MARGIN - HEAD
     wide = plan.width - 2 * MARGIN - LEFT - RIGHT
     for line, strip in enumerate(strips):
@@ -110,7 +110,14 @@ def _reads(direction: str) -> str:
     }.get(direction, "Black numbers count from the left, grey ones from the right.")
 
 
-def _write_head(canvas: Any, plan: RowsLayout, titles: tuple[str, str], direction: str) -> None:
+def _about_marks(chart: Chart) -> str:
+    """How the half knots and jufti knots of a chart are written; "" where it has none."""
+    half = "2½ over AC: 2 cells with half knots, A on the left warp, C on the right."
+    jufti = "3j over A: 3 jufti knots, each on four warps, two cells (bars)."
+    return " ".join([*([half] if chart.overlay.halves else []), *([jufti] if chart.overlay.juftis else [])])
+
+
+def _write_head(canvas: Any, plan: RowsLayout, titles: tuple[str, str], direction: str, marks: str) -> None:
     top = plan.height - MARGIN
     canvas.setFillGray(0.1)
     canvas.setFont(STRONG, 12)
@@ -128,7 +135,6 @@ def _write_head(canvas: Any, plan: RowsLayout, titles: tuple[str, str], directio
     canvas.drawString(
         MARGIN,
         top - 33.0,
-        "2½ over AC: 2 cells with half knots, A on the left warp, C on the right. 3j over A: 3 jufti knots, each on "
-        "four warps, two cells (bars).",
+        marks,
     )
     canvas.drawRightString(plan.width - MARGIN, MARGIN - FOOT / 2, "Below each row: its knots of each yarn.")
