@@ -84,6 +84,7 @@ class FitParams(Params):
     turn: float = kind.angle(
         0.0, at_least=-360 * deg, at_most=360 * deg, doc="angle by which the picture is turned clockwise, like 90deg"
     )
+    page: int = kind.count(1, at_least=1, at_most=10_000, doc="page of a PDF file that is the picture")
 
     @property
     def size(self) -> CarpetSize | None:

@@ -1,4 +1,5 @@
-"""Pictures of all formats that Pillow opens safely, as 8-bit sRGB, with a note on every conversion.
+"""Pictures of all formats that Pillow opens safely, as 8-bit sRGB, with a note on every conversion; drawings (SVG, PDF)
+are rendered first [`rendered`].
 
 Formats that start another program (EPS, WMF) or are no pictures (HDF5, GRIB, BUFR, MPEG) are excluded. A file is
 untrusted: its size, structure, width, height and number of entries are checked before anything is decoded.
@@ -32,6 +33,7 @@ from ilmek.io.picture_file import (
     shortened,
 )
 from ilmek.io.picture_pixels import srgb_pixels, turned
+from ilmek.io.rendered.kind import Rendering, rendered
 from ilmek.progress import SILENT, Cancelled, Progress
 from ilmek.records import record
 
@@ -125,11 +127,17 @@ def pixels_of(rgb: object) -> Rgb:
 
 
 def read_picture(
-    path: Path, progress: Progress = SILENT, *, smallest: int = SMALLEST, ground: str | None = None
+    path: Path,
+    progress: Progress = SILENT,
+    *,
+    smallest: int = SMALLEST,
+    ground: str | None = None,
+    rendering: Rendering | None = None,
 ) -> Picture:
     """The picture in a file.
 
-    ground  colour behind transparent parts, `#rrggbb`; default: white, behind nearly white art a dark one
+    ground     colour behind transparent parts, `#rrggbb`; default: white, behind nearly white art a dark one
+    rendering  of an SVG drawing or a PDF page; default: the first page, for a carpet of usual size
 
     The first frame is used, EXIF rotation applied, an embedded colour profile converted to sRGB, 16 bits reduced to 8,
     CMYK and grey converted to RGB, transparency put on a ground; each with a note. Raises PictureError unless the file
@@ -138,6 +146,8 @@ def read_picture(
     """
     behind = None if ground is None else read_colour("ground", ground)
     data = read_bytes(path, progress.part(0.0, 0.1))
+    drawn = rendered(path, data, rendering or Rendering())
+    data, about = drawn or (data, ())
     with pillow_settings(LARGEST):
         try:
             check_structure(data, progress.part(0.1, 0.2))
@@ -145,7 +155,9 @@ def read_picture(
             stream.allow(_ENTRIES, _HEADER + len(data) * (data[:4] == b"RIFF" or data[4:8] == b"ftyp"))
             with contextlib.closing(Image.open(stream, formats=_OPENED)) as opened:
                 _check_size(path, opened, smallest)
-                return _decoded(opened, stream, behind, progress)
+                picture = _decoded(opened, stream, behind, progress)
+                about = (*about, *picture.notes)
+                return picture if drawn is None else Picture(picture.rgb, about, ground=picture.ground)
         except (PictureError, Cancelled, MemoryError):
             raise
         except UnidentifiedImageError:
@@ -169,10 +181,10 @@ def read_picture(
             ) from None
 
 
-_OTHER = {b"%!PS": "EPS", b"\xc5\xd0\xd3\xc6": "EPS", b"%PDF": "PDF", b"<svg": "SVG", b"\xd7\xcd\xc6\x9a": "WMF"}
+_OTHER = {b"%!PS": "EPS", b"\xc5\xd0\xd3\xc6": "EPS", b"\xd7\xcd\xc6\x9a": "WMF"}
 """Begins of files in formats that a user may take for pictures that can be read."""
 
-_USE = "use a PNG, JPEG, TIFF, WebP, BMP or GIF file"
+_USE = "use a PNG, JPEG, TIFF, WebP, BMP, GIF, SVG or PDF file"
 
 
 def _at_most(pixels: int, name: str = "") -> str:

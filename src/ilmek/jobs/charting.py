@@ -22,6 +22,7 @@ from ilmek.carpet.yarn import MOST_YARNS
 from ilmek.errors import PictureError
 from ilmek.io.chart.formats import format_of
 from ilmek.io.picture import Picture, read_picture
+from ilmek.io.rendered.kind import RENDERED, Rendering
 from ilmek.jobs.order import GROUPS, CarpetOrder, ResolvedOrder, check_sheets
 from ilmek.jobs.stages import ANEW, Stages
 from ilmek.progress import SILENT, Progress
@@ -103,6 +104,12 @@ def chart_of_order(
     return OrderedChart(made.with_dyed(chart.yarns), chart, (*notes, *read.notes), read.source, read.whole)
 
 
+def rendering_of(order: CarpetOrder) -> Rendering:
+    """How a drawing is rendered for the knots of an order."""
+    made = order.resolved()
+    return Rendering(order.fit.page, knot_grid(made.size, made.quality))
+
+
 def file_key(path: Path) -> tuple[Path, int, int]:
     """What changes when a file does."""
     try:
@@ -133,7 +140,11 @@ def _read_file(
 ) -> _ReadPicture:
     """Read a picture that is no chart."""
     ground, reading_file = order.fit.ground, progress.part(0.0, 0.5, "picture")
-    picture = stages.keep("picture", (file, ground), lambda: read_picture(order.picture, reading_file, ground=ground))
+    rendering = rendering_of(order)
+    of_picture = (file, ground, rendering if order.picture.suffix.lower() in RENDERED else rendering.page)
+    picture = stages.keep(
+        "picture", of_picture, lambda: read_picture(order.picture, reading_file, ground=ground, rendering=rendering)
+    )
     rgb, notes, behind, indices = picture.rgb, picture.notes, picture.ground, picture.indices
     stated = _stated(order, picture)
     if stated is not None:
@@ -146,7 +157,7 @@ def _read_file(
         fitting = replace(fitting, ground=hex_colour(behind))
     prepared, fit = stages.keep(
         "prepared",
-        (file, fitting, size),
+        (of_picture, fitting, size),
         lambda: prepare_picture(rgb, fitting, progress.part(0.5, 0.6), size=size),
     )
     del rgb, picture

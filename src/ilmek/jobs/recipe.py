@@ -25,9 +25,10 @@ from ilmek.io.chart.formats import format_of, read_chart
 from ilmek.io.picture import SMALLEST, read_picture
 from ilmek.io.recipe_file import LoomKeys, RecipeFile
 from ilmek.io.recipe_text import recipe_text
+from ilmek.io.rendered.kind import RENDERED, Rendering
 from ilmek.io.toml_text import written_quantity
 from ilmek.io.yarn_file import default_yarns
-from ilmek.jobs.charting import OrderedChart, chart_of_order, drawn_chart, file_key, shown_source
+from ilmek.jobs.charting import OrderedChart, chart_of_order, drawn_chart, file_key, rendering_of, shown_source
 from ilmek.jobs.order import GROUPS, CarpetOrder, ResolvedOrder, check_sheets, recipe_key
 from ilmek.jobs.recipe_size import of_its_shape, size_of_recipe
 from ilmek.jobs.stages import ANEW, Stages
@@ -82,7 +83,9 @@ def _composed_chart(
     """The chart of a recipe that is more than one whole picture, without its edits."""
     plain = replace(recipe, edits=())
     files = tuple(file_key(path) for path in recipe.pictures)
-    read = cache(lambda: _pictures(recipe, order.fit.ground, progress.part(0.0, 0.3, "picture"), stages))
+    read = cache(
+        lambda: _pictures(recipe, order.fit.ground, rendering_of(order), progress.part(0.0, 0.3, "picture"), stages)
+    )
     if order.size is None:
         quality = order.resolved().quality
         shape = (plain, files, quality, order.fit)
@@ -167,7 +170,7 @@ def _is_ordered(anchor: Anchor, order: CarpetOrder) -> bool:
 def _origin(
     anchor: Anchor, done: OrderedChart, order: CarpetOrder, target: Structure, stages: Stages
 ) -> Origin | str | None:
-    """The design on another carpet than that which is made, or why its edits cannot be carried; None: on the same grid."""
+    """The design on the carpet of an anchor, or why its edits cannot be carried; None: it has the grid of this one."""
     recipe = replace(target.recipe, edits=())
     try:
         size, quality = anchor.size or order.size, anchor.quality
@@ -239,28 +242,37 @@ def _counted(made: ResolvedOrder) -> tuple[Yarn, ...]:
 
 
 def _pictures(
-    recipe: Recipe, ground: str | None, progress: Progress, stages: Stages
+    recipe: Recipe, ground: str | None, rendering: Rendering, progress: Progress, stages: Stages
 ) -> tuple[Mapping[Path, Pixels], tuple[str, ...]]:
-    """The pixels of all pictures, and notes on them."""
+    """The pixels of all pictures, and notes on them; rendering: of the field's picture."""
     found, notes = {}, []
     files = recipe.pictures
     for number, (path, where) in enumerate(files.items()):
         part = progress.part(number / len(files), (number + 1) / len(files))
         with located(where):
-            smallest = SMALLEST if path == recipe.picture else 1
-            key = (file_key(path), smallest, ground)
-            found[path], more = stages.keep("tile", key, partial(picture_pixels, path, smallest, part, ground))
+            if path == recipe.picture:
+                smallest, drawn = SMALLEST, rendering
+            elif path.suffix.lower() in RENDERED:
+                raise CarpetError(f"{path.name} has no pixels", do="save a tile or a motif as PNG, one pixel one knot")
+            else:
+                smallest, drawn = 1, None
+            key = (file_key(path), smallest, ground, drawn)
+            found[path], more = stages.keep("tile", key, partial(picture_pixels, path, smallest, part, ground, drawn))
         notes += [f"{path.name}: {note}" for note in more]
     return found, tuple(notes)
 
 
 def picture_pixels(
-    path: Path, smallest: int, progress: Progress, ground: str | None = None
+    path: Path,
+    smallest: int,
+    progress: Progress,
+    ground: str | None = None,
+    rendering: Rendering | None = None,
 ) -> tuple[Pixels, tuple[str, ...]]:
     """The pixels of a picture, or of a chart that is none, which has its yarns' colours; and notes."""
     chosen = format_of(path)
     if chosen is None or chosen.picture:
-        picture = read_picture(path, progress, smallest=smallest, ground=ground)
+        picture = read_picture(path, progress, smallest=smallest, ground=ground, rendering=rendering)
         return picture.rgb, picture.notes
     chart, notes = read_chart(path, progress=progress)
     return drawn_chart(chart), notes
