@@ -13,7 +13,7 @@ from types import MappingProxyType
 from ilmek.arrays import Rgb
 from ilmek.carpet.design import resampled
 from ilmek.carpet.exact import find_drawing
-from ilmek.carpet.flat import flat_design, looks_flat, whole_chroma
+from ilmek.carpet.flat import flat_design, looks_flat, looks_like_itself, whole_chroma
 from ilmek.carpet.picture_points import read_colour
 from ilmek.carpet.projection import MadeRgb
 from ilmek.carpet.quality import Quality
@@ -149,9 +149,12 @@ def read_design(
     params = params or ReadParams()
     if params.reading == "photo":
         return _photo(rgb, grid, params, "as required", progress)
-    seen = looks_flat(rgb if judged is None else judged)
+    picture = rgb if judged is None else judged
+    seen = looks_flat(picture)
     if params.reading == "auto" and not seen.is_flat:
         return _photo(rgb, grid, params, seen.sentence, progress)
+    if params.reading == "auto" and not looks_like_itself(picture, seen.true):
+        return _photo(rgb, grid, params, f"{seen.sentence}, but they do not show what the picture shows", progress)
     padded = judged is not None and rgb.size > judged.size
     whole = whole_chroma(rgb, progress.part(0.0, 0.1))
     if whole is not rgb:
