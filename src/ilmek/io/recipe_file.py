@@ -142,7 +142,7 @@ class _RecipeReader:
         if root.has("size") and (beside := [key for key in ("width", "length") if key in settings]):
             root.refuse(CarpetError(f"{' and '.join(beside)} beside size", do="leave one of them out"), beside[0])
         return RecipeFile(
-            self._recipe(),
+            self._recipe(size),
             size,
             self._parsed("quality", parse_quality),
             self._parsed("knot", parse_knot),
@@ -239,7 +239,7 @@ class _RecipeReader:
             self._where(root, "loom"),
         )
 
-    def _recipe(self) -> Recipe:
+    def _recipe(self, size: CarpetSize | None) -> Recipe:
         root = self.root
         picture = self._file(root, "picture")
         plain, has_tile = root.text("plain", ""), root.has("repeat")
@@ -260,7 +260,7 @@ class _RecipeReader:
             _choice(root, "mirror", MIRRORS),
             tuple(self._border(row) for row in self._rows("border", MOST_BORDERS)),
             tuple(self._motif(row) for row in self._rows("motif", MOST_MOTIFS)),
-            read_edits(root, self._where, self._parsed("size", parse_size), self._parsed("quality", parse_quality)),
+            read_edits(root, self._where, size, self._parsed("quality", parse_quality)),
             self._where(root, "picture" if picture is not None else "plain"),
         )
 
