@@ -102,7 +102,7 @@ def assign_yarns(
         near, heavy = problem.single.argmin(axis=1), _in_order(problem)
         found = [_improved(problem, begun) for begun in (near, heavy)]
         choice = min(found, key=lambda one: _energy(problem, one))
-    return problem.yarns[np.arange(count), choice].astype(np.uint8)
+    return np.asarray(problem.yarns[np.arange(count), choice], dtype=np.uint8)
 
 
 def assignment_cost(groups: ColourGroups, yarn_labs: FloatArray, yarn_of: IntArray, *, neutral: bool = True) -> float:
@@ -119,10 +119,10 @@ def single_costs(groups: ColourGroups, yarn_labs: FloatArray, *, neutral: bool) 
     hue = np.abs(colours[:, None] - yarns) ** 2 - (chroma[:, None] - of_yarns) ** 2
     cost = delta_e_2000(groups.labs[:, None], yarn_labs[None]) + HUE * np.sqrt(np.maximum(hue, 0.0))
     if not neutral:
-        return cost
+        return np.asarray(cost)
     beyond = np.maximum(of_yarns - max(NEUTRAL_CHROMA, float(of_yarns.min())), 0.0)
     lost = np.maximum(PALE * chroma[:, None] - of_yarns, 0.0)
-    return cost + np.where((chroma < NEUTRAL)[:, None], _TINTED * beyond, _GREYED * lost)
+    return np.asarray(cost + np.where((chroma < NEUTRAL)[:, None], _TINTED * beyond, _GREYED * lost))
 
 
 def touching(groups: ColourGroups) -> FloatArray:
@@ -246,7 +246,7 @@ def _change_two(
             if both < least - _LESS:
                 a1, b1, least = a, b, both
     choice[one], choice[other] = a1, b1
-    return a1 != a0 or b1 != b0
+    return bool(a1 != a0 or b1 != b0)
 
 
 @compiled

@@ -3,8 +3,8 @@
 Edges: two blocks of 2 × 2 knots side by side, or REACH apart, are an edge of contrast c, CIEDE2000 of their mean CIELAB
 in the design, from FAINT on: grain is averaged out, and a pattern counts by what it mixes to. It is kept as far as the
 chart has half of its contrast: by min(1, 2 d / c), d that of the means of their yarns. The share that is kept is the
-mean of all edges, each with the weight c. Up to MOST_BLOCKS blocks of an even lattice begin an edge: on larger charts it
-is a sample.
+mean of all edges, each with the weight c. Up to MOST_BLOCKS blocks of an even lattice begin an edge: of larger charts
+they are a sample.
 
 Colours: two groups of a drawing's colours [`colour_groups`] that touch and differ by VANISHING or more are lost in each
 other where their yarns are one, or within SAME_YARN. That with the fewer knots vanishes; its share is that of what is

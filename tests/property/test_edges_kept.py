@@ -1,0 +1,73 @@
+"""The share of the edges that a chart keeps, against loops over all blocks, and its limits."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from skimage.color import deltaE_ciede2000, rgb2lab
+
+from ilmek.carpet.colour import srgb_to_lab
+from ilmek.carpet.colour_groups import ColourGroups
+from ilmek.carpet.edges_kept import FAINT, MOST_BLOCKS, REACH, edges_kept, lost_colours
+from ilmek.carpet.palette import distinct_colours, nearest_yarns, paint
+
+YARNS = np.array([(29, 24, 21), (239, 230, 208), (158, 43, 37), (52, 86, 139)], dtype=np.uint8)
+
+
+def plain_share(design: np.ndarray, chart: np.ndarray) -> float | None:
+    """The share by scikit-image's CIEDE2000 of the means of all blocks."""
+    labs = [rgb2lab(picture) for picture in (design, chart)]
+    means = [(lab[:-1, :-1] + lab[1:, :-1] + lab[:-1, 1:] + lab[1:, 1:]) / 4 for lab in labs]
+    seen = kept = 0.0
+    for reach in (2, REACH):
+        for axis in (0, 1):
+            pairs = [(np.delete(mean, np.s_[:reach], axis), np.delete(mean, np.s_[-reach:], axis)) for mean in means]
+            contrast, drawn = (deltaE_ciede2000(*pair) for pair in pairs)
+            edge = contrast >= FAINT
+            seen += contrast[edge].sum()
+            kept += np.minimum(contrast, 2 * drawn)[edge].sum()
+    return kept / seen if seen else None
+
+
+@given(st.integers(6, 24), st.integers(6, 24), st.integers(0, 10_000))
+def test_share_is_that_of_all_blocks(rows: int, columns: int, seed: int) -> None:
+    random = np.random.default_rng(seed)
+    shades = random.integers(0, 256, (int(random.integers(2, 9)), 3)).astype(np.uint8)
+    design = shades[random.integers(0, len(shades), (rows, columns))]
+        np.uint8
+    )
+    distinct, labs = distinct_colours(design), srgb_to_lab(YARNS)
+    knots = paint(design, distinct, nearest_yarns(distinct, labs)[0])
+    expected = plain_share(design, YARNS[knots])
+    found = edges_kept(design, distinct, knots, labs)
+    assert found == (None if expected is None else pytest.approx(expected, abs=2e-3))
+
+
+def test_a_blank_chart_keeps_nothing_and_the_design_itself_all() -> None:
+    design = np.repeat(np.repeat(YARNS[np.arange(36).reshape(6, 6) % 4], 9, 0), 9, 1)
+    distinct, labs = distinct_colours(design), srgb_to_lab(YARNS)
+    knots = paint(design, distinct, nearest_yarns(distinct, labs)[0])
+    assert edges_kept(design, distinct, knots, labs) == 1.0
+    assert edges_kept(design, distinct, np.zeros_like(knots), labs) == 0.0
+    flat = np.full_like(design, 90)
+    assert edges_kept(flat, distinct_colours(flat), knots, labs) is None
+
+
+def test_a_sample_of_a_large_chart_is_near_to_all_of_it() -> None:
+    y, x = np.mgrid[:700, :500]
+    grey = 128 + 60 * np.sin(x / 23 + y / 41) + 50 * (np.hypot(x - 250, y - 350) < 180)
+    design = np.stack([np.clip(grey, 0, 255)] * 3, axis=-1).astype(np.uint8)
+    distinct, labs = distinct_colours(design), srgb_to_lab(YARNS)
+    knots = paint(design, distinct, nearest_yarns(distinct, labs)[0])
+    assert knots.size > MOST_BLOCKS
+    assert edges_kept(design, distinct, knots, labs) == pytest.approx(plain_share(design, YARNS[knots]), abs=0.02)
+
+
+@pytest.mark.parametrize(("yarns", "lost"), [((0, 0, 1), ["#ff0000"]), ((0, 1, 2), [])])
+def test_a_colour_with_the_yarn_beside_it_is_lost(yarns: tuple[int, int, int], lost: list[str]) -> None:
+    colours = srgb_to_lab(np.array([(255, 255, 255), (255, 0, 0), (0, 0, 0)], dtype=np.uint8))
+    contact = np.array([[0.0, 40.0, 12.0], [40.0, 0.0, 0.0], [12.0, 0.0, 0.0]])
+    groups = ColourGroups(np.arange(3, dtype=np.uint8), colours, np.array([900.0, 80.0, 20.0]), contact)
+    found = lost_colours(groups, np.array(yarns, dtype=np.uint8), srgb_to_lab(YARNS))
+    assert [one.hex for one in found] == lost
+    assert sum(one.share for one in found) == pytest.approx(0.08 if lost else 0.0)
