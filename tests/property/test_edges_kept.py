@@ -34,8 +34,6 @@ def test_share_is_that_of_all_blocks(rows: int, columns: int, seed: int) -> None
     random = np.random.default_rng(seed)
     shades = random.integers(0, 256, (int(random.integers(2, 9)), 3)).astype(np.uint8)
     design = shades[random.integers(0, len(shades), (rows, columns))]
-        np.uint8
-    )
     distinct, labs = distinct_colours(design), srgb_to_lab(YARNS)
     knots = paint(design, distinct, nearest_yarns(distinct, labs)[0])
     expected = plain_share(design, YARNS[knots])

@@ -37,6 +37,9 @@ VANISHING = 10.0
 SAME_YARN = 3.0
 """CIEDE2000 of two yarns that look like one in the pile."""
 
+LEAST_LOST = 5e-4
+"""Least share of the knots of a colour that is called lost."""
+
 MOST_BLOCKS = 10_000
 
 
@@ -113,6 +116,6 @@ def lost_colours(
     found = [
         LostColour(codes[group], codes[int(row.argmax())], float(row.sum()))
         for group, row in enumerate(shares)
-        if row.any()
+        if row.sum() >= LEAST_LOST
     ]
     return tuple(sorted(found, key=lambda lost: -lost.share))
