@@ -15,6 +15,11 @@ from ilmek.carpet.design import resampled
 _SIDE = 192
 """Longer side on which the contrast is measured [pixels]."""
 
+_MARGINS = (0.0, 0.05, 0.1, 0.15)
+"""Shares of the part at either end without which it is measured too: what lies at an end counts less."""
+
+_BINOMIAL = (1, 4, 6, 4, 1)
+
 _NEARLY = 0.92
 """Share of the greatest contrast that is as good: the crop nearest to the centre is taken among those."""
 
@@ -31,11 +36,13 @@ def subject_start(rgb: Rgb, length: int, *, across: bool) -> int:
     kept = np.concatenate([[0.0], np.cumsum(_along(rgb, across=across))])
     starts = np.arange(whole - length + 1)
     places = np.linspace(0, whole, len(kept))
-    shown = np.interp(starts + length, places, kept) - np.interp(starts, places, kept)
+    shown = np.zeros(len(starts))
+    for margin in length * np.array(_MARGINS):
+        shown += np.interp(starts + length - margin, places, kept) - np.interp(starts + margin, places, kept)
     good = starts[shown >= _NEARLY * shown.max()] - centre
     if good.min() <= 0.0 <= good.max():
         return int(centre)
-    nearest = good.max() if good.max() < 0 else good.min()
+    nearest = float(good.max() if good.max() < 0 else good.min())
     return round(nearest + centre)
 
 
@@ -54,13 +61,12 @@ def _contrast(rgb: Rgb) -> Float[np.ndarray, "rows columns"]:
     edges = np.zeros_like(salient)
     edges[1:-1] += np.linalg.norm(lab[2:] - lab[:-2], axis=-1)
     edges[:, 1:-1] += np.linalg.norm(lab[:, 2:] - lab[:, :-2], axis=-1)
-    return np.asarray(sum(part / max(float(part.mean()), 1e-9) for part in (salient, edges)))
+    return np.asarray(salient / max(float(salient.mean()), 1e-9) + edges / max(float(edges.mean()), 1e-9))
 
 
 def _blurred(lab: Float[np.ndarray, "rows columns 3"]) -> Float[np.ndarray, "rows columns 3"]:
     """Means by the binomial filter 1 4 6 4 1 along both sides, edges repeated."""
     padded = np.pad(lab, ((2, 2), (2, 2), (0, 0)), mode="edge")
     high, wide = lab.shape[:2]
-    weights = (1 / 16, 4 / 16, 6 / 16, 4 / 16, 1 / 16)
-    rows = sum(weight * padded[first : first + high] for first, weight in enumerate(weights))
-    return np.asarray(sum(weight * rows[:, first : first + wide] for first, weight in enumerate(weights)))
+    rows = np.average([padded[first : first + high] for first in range(5)], axis=0, weights=_BINOMIAL)
+    return np.asarray(np.average([rows[:, first : first + wide] for first in range(5)], axis=0, weights=_BINOMIAL))

@@ -137,7 +137,7 @@ class _RecipeReader:
         root = self.root
         root.keys(*LAYOUT_KEYS, *CARPET_KEYS, *parameters, *LOOM_KEYS)
         yarns, yarn_file = self._yarns()
-        size, sides = self._parsed("size", parse_open_size) or (None, {})
+        size, sides = self._parsed("size", parse_open_size) or (None, dict[str, Setting]())
         settings = self._settings(parameters)
         if root.has("size") and (beside := [key for key in ("width", "length") if key in settings]):
             root.refuse(CarpetError(f"{' and '.join(beside)} beside size", do="leave one of them out"), beside[0])
