@@ -32,7 +32,7 @@ _LEAST_QUALITY = 1.2
 """Least logarithm of the highest power of a tile over the mean."""
 
 _DEGREE = 4
-_BLOCK, _SAMPLES = 4, 8
+_BLOCK, SAMPLES = 4, 8
 """Cells of a block, and samples of a cell, along each side."""
 
 _LEAST_COHERENCE = 0.06
@@ -204,10 +204,10 @@ def window(lattice: Lattice) -> tuple[int, int, int, int]:
 
 
 def rectified(lattice: Lattice, energy: LineEnergy) -> tuple[FloatArray, FloatArray]:
-    """The energies down and across in the cells of the window, _SAMPLES × _SAMPLES a cell; 0 outside the picture."""
+    """The energies down and across in the cells of the window, SAMPLES × SAMPLES a cell; 0 outside the picture."""
     left, right, upper, lower = window(lattice)
-    u = left + (np.arange((right - left) * _SAMPLES) + 0.5) / _SAMPLES
-    v = upper + (np.arange((lower - upper) * _SAMPLES) + 0.5) / _SAMPLES
+    u = left + (np.arange((right - left) * SAMPLES) + 0.5) / SAMPLES
+    v = upper + (np.arange((lower - upper) * SAMPLES) + 0.5) / SAMPLES
     x, y = lattice.points(*np.meshgrid(u, v))
     at = [y / energy.factor - 0.5, x / energy.factor - 0.5]
     down, across = (
@@ -220,10 +220,10 @@ def _corrected(lattice: Lattice, energy: LineEnergy) -> Lattice:
     """The lattice with its corrections: the phase that is left in blocks of cells."""
     left, right, upper, lower = window(lattice)
     down, across = rectified(lattice, energy)
-    phase = np.exp(-2j * np.pi * (np.arange(_SAMPLES) + 0.5) / _SAMPLES)
-    by_cell = (lower - upper, _SAMPLES, right - left, _SAMPLES)
-    of_columns = (levelled(down, _SAMPLES).reshape(by_cell).sum(axis=1) @ phase)
-    of_rows = np.einsum("rsct,s->rc", levelled(across, _SAMPLES).reshape(by_cell), phase)
+    phase = np.exp(-2j * np.pi * (np.arange(SAMPLES) + 0.5) / SAMPLES)
+    by_cell = (lower - upper, SAMPLES, right - left, SAMPLES)
+    of_columns = (levelled(down, SAMPLES).reshape(by_cell).sum(axis=1) @ phase)
+    of_rows = np.einsum("rsct,s->rc", levelled(across, SAMPLES).reshape(by_cell), phase)
     shift = []
     for energy_of, amplitude in ((down, of_columns), (across, of_rows)):
         blocks, all_of = _blocks(amplitude), _blocks((energy_of > 0).reshape(by_cell).sum(axis=(1, 3)))
