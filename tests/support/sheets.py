@@ -124,18 +124,22 @@ def photographed(
     """
     height, width = flat.shape[:2]
     short = min(height, width)
-    edge = round(around * short)
-    y, x = np.mgrid[: height + 2 * edge, : width + 2 * edge].astype(float)
-    y, x = y - edge, x - edge
-    cy, cx = height / 2, width / 2
-    s, t = (x - cx) / short, (y - cy) / short
-    c, n = np.cos(turn), np.sin(turn)
-    s, t = c * s + n * t, -n * s + c * t
-    depth = 1 + perspective * (rng.uniform(-1, 1) * s + rng.choice([-1, 1]) * t)
-    s, t = s / depth, t / depth
-    s = s + bend * np.sin(2.0 * t + rng.uniform(0, 6)) * 0.5
-    t = t + bend * np.sin(2.5 * s + rng.uniform(0, 6)) * 0.5
-    at = np.stack([t * short + cy, s * short + cx])
+    tilts, phases = (rng.uniform(-1, 1), rng.choice([-1, 1])), rng.uniform(0, 6, 2)
+    while True:
+        edge = round(around * short)
+        y, x = np.mgrid[-edge : height + edge, -edge : width + edge].astype(float)
+        s, t = (x - width / 2) / short, (y - height / 2) / short
+        c, n = np.cos(turn), np.sin(turn)
+        s, t = c * s + n * t, -n * s + c * t
+        depth = 1 + perspective * (tilts[0] * s + tilts[1] * t) * short / max(height, width)
+        s, t = s / depth, t / depth
+        s = s + bend * np.sin(2.0 * t + phases[0]) * 0.5
+        t = t + bend * np.sin(2.5 * s + phases[1]) * 0.5
+        at = np.stack([t * short + height / 2, s * short + width / 2])
+        inside = (at[0] > 0) & (at[0] < height) & (at[1] > 0) & (at[1] < width)
+        if not (inside[0].any() or inside[-1].any() or inside[:, 0].any() or inside[:, -1].any()):
+            break
+        around += 0.04
     table = rng.integers(60, 180, 3)
     made = np.stack(
         [

@@ -56,7 +56,7 @@ def read_cells(rgb: Rgb, energy: LineEnergy, lattice: Lattice) -> Cells:
     usual = max(float(np.median(strength)), 1e-9)
     inner = (np.arange(_ALONG) + 0.5) / _ALONG * 2 * _INNER - _INNER
     all_u, all_v = (u[:, None] + inner).ravel(), (v[:, None] + inner).ravel()
-    x, y = lattice.points(*np.meshgrid(all_u, all_v))
+    x, y = lattice.mesh(all_u, all_v)
     samples = rgb[
         np.clip(np.floor(y), 0, rgb.shape[0] - 1).astype(np.intp), np.clip(np.floor(x), 0, rgb.shape[1] - 1).astype(np.intp)
     ]

@@ -22,6 +22,9 @@ _DARK = 4.0
 """Codes that are added before the logarithm: black has noise, too."""
 
 _DEGREE = 5
+_MOST_STEPS = 10_000
+"""Number of differences of neighbours that are used, at most."""
+
 _ONE_COLOUR = 0.03
 """Difference of the logarithms of neighbours beyond which they hardly have one colour."""
 
@@ -105,9 +108,11 @@ def _slow_light(logs: FloatArray) -> FloatArray:
     powers = [(i, j) for i in range(_DEGREE + 1) for j in range(_DEGREE + 1 - i) if i + j]
     terms = np.stack([u**i * v**j for i, j in powers], axis=-1)
     steps = np.concatenate([np.diff(terms, axis=axis).reshape(-1, len(powers)) for axis in (0, 1)])
+    part = slice(None, None, -(-len(steps) // _MOST_STEPS))
+    steps = steps[part]
     light = np.zeros_like(logs)
     for channel in range(3):
-        seen = np.concatenate([np.diff(logs[..., channel], axis=axis).ravel() for axis in (0, 1)])
+        seen = np.concatenate([np.diff(logs[..., channel], axis=axis).ravel() for axis in (0, 1)])[part]
         weights = 1 / (1 + (seen / _ONE_COLOUR) ** 2) ** 2
         for _ in range(8):
             weighted = steps * weights[:, None]

@@ -80,6 +80,23 @@ class Lattice:
         terms = _terms((u + moved[0] - self.centre[0]) / self.scale, (v + moved[1] - self.centre[1]) / self.scale)
         return terms @ self.terms[:, 0], terms @ self.terms[:, 1]
 
+    def mesh(self, u: Float[np.ndarray, " columns"], v: Float[np.ndarray, " rows"]) -> tuple[FloatArray, FloatArray]:
+        """The points (x, y) at all pairs of ascending u and v, (rows, columns), straight between the cells' corners."""
+        lines_u, lines_v = (np.arange(np.floor(one[0]), np.ceil(one[-1]) + 1) for one in (u, v))
+        corners = self.points(*np.meshgrid(lines_u, lines_v))
+        across, along = _between(u - lines_u[0], len(lines_u)), _between(v - lines_v[0], len(lines_v))
+        x, y = (along @ one @ across.T for one in corners)
+        return x, y
+
+
+def _between(at: Float[np.ndarray, " places"], count: int) -> Float[np.ndarray, "places count"]:
+    """The matrix of the linear interpolation at places between 0 and count - 1."""
+    first = np.clip(np.floor(at).astype(int), 0, count - 2)
+    matrix = np.zeros((len(at), count))
+    rows = np.arange(len(at))
+    matrix[rows, first], matrix[rows, first + 1] = 1 - (at - first), at - first
+    return matrix
+
 
 def find_lattice(energy: LineEnergy) -> Lattice:
     """The lattice of the lines of a sheet. Raises PictureError where it is not found."""
@@ -106,7 +123,7 @@ def _tiles(everything: Energy, lines: Energy, pitch: float) -> Tiles:
     size = 2 * _TILE
     ky, kx = np.meshgrid(np.fft.fftfreq(size), np.fft.rfftfreq(size), indexing="ij")
     length = np.hypot(kx, ky) * pitch
-    allowed = (length > 0.65) & (length < 1.55) & (np.abs(ky) <= _SLOPE * kx)
+    allowed = (length > 0.55) & (length < 1.75) & (np.abs(ky) <= _SLOPE * kx)
     ky, kx = ky[allowed], kx[allowed]
     power = np.stack([_power(one, allowed) + _power(other, allowed) for one, other in zip(everything, lines)])
     power = scipy.ndimage.uniform_filter(power, (3, 3, 1), mode="nearest")
@@ -115,9 +132,10 @@ def _tiles(everything: Energy, lines: Energy, pitch: float) -> Tiles:
     weights = np.where(near[peak], power - 0.4 * power.max(axis=-1, keepdims=True), 0.0).clip(0)
     waves = np.stack([weights @ kx, weights @ ky], axis=-1) / weights.sum(axis=-1)[..., None].clip(1e-12)
     middle = np.arange(_TILE) + 0.5 - _TILE / 2
-    along = np.exp(-2j * np.pi * waves[..., 0, None] * middle)
+    along = np.exp(-2j * np.pi * waves[..., 0, None] * middle)[..., None]
     down = np.exp(-2j * np.pi * waves[..., 1, None] * middle)
-    turned = np.einsum("rcy,rcyx,rcx->rc", down, lines, along, optimize=True)
+    sums = lines @ along.real.astype(np.float32) + 1j * (lines @ along.imag.astype(np.float32))
+    turned = (down * sums[..., 0]).sum(axis=-1)
     share = power.max(axis=-1) / power.mean(axis=-1).clip(1e-12)
     return Tiles(waves, np.angle(turned) / (2 * np.pi), np.log(share))
 
@@ -208,7 +226,7 @@ def rectified(lattice: Lattice, energy: LineEnergy) -> tuple[FloatArray, FloatAr
     left, right, upper, lower = window(lattice)
     u = left + (np.arange((right - left) * SAMPLES) + 0.5) / SAMPLES
     v = upper + (np.arange((lower - upper) * SAMPLES) + 0.5) / SAMPLES
-    x, y = lattice.points(*np.meshgrid(u, v))
+    x, y = lattice.mesh(u, v)
     at = [y / energy.factor - 0.5, x / energy.factor - 0.5]
     down, across = (
         scipy.ndimage.map_coordinates(one, at, order=1, cval=0.0) for one in (energy.down, energy.across)
