@@ -11,7 +11,7 @@ from click.testing import CliRunner
 from ilmek.carpet.chart import Chart
 from ilmek.cli import main
 from ilmek.io.chart.pdf import write_chart_pdf
-from ilmek.io.chart.printing import DIGITS
+from ilmek.io.chart.printing import DIGITS, Printing
 from ilmek.io.chart.rows_colours_pdf import write_colours_pdf
 from ilmek.io.chart.rows_pdf import write_rows_pdf
 from ilmek.io.chart.symbols import SYMBOLS
@@ -34,10 +34,10 @@ def text_of(path: Path) -> str:
 
 @pytest.mark.parametrize("digits", DIGITS)
 def test_all_numbers_and_no_symbols(chart: Chart, digits: str, tmp_path: Path) -> None:
-    write_chart_pdf(tmp_path / "chart.pdf", chart, digits=digits)
-    write_rows_pdf(tmp_path / "rows.pdf", chart, digits=digits)
-    write_colours_pdf(tmp_path / "colours.pdf", chart, "both", 2, digits=digits)
-    write_wall_pdf(tmp_path / "wall.pdf", chart, digits=digits)
+    write_chart_pdf(tmp_path / "chart.pdf", chart, printing=Printing(digits))
+    write_rows_pdf(tmp_path / "rows.pdf", chart, printing=Printing(digits))
+    write_colours_pdf(tmp_path / "colours.pdf", chart, "both", 2, printing=Printing(digits))
+    write_wall_pdf(tmp_path / "wall.pdf", chart, printing=Printing(digits))
     native = str.maketrans("0123456789", DIGITS[digits])
     for file, numbers in {
         "chart.pdf": ("30", "25", "1", "20"), "rows.pdf": ("30", "29", "40"), "colours.pdf": ("Row 30", "20"),

@@ -10,12 +10,14 @@ from ilmek.arrays import Rgb
 from ilmek.carpet.bill import YarnBill, YarnNeed, yarn_bill
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.fitting import Fit
+from ilmek.carpet.mounting import mounting
 from ilmek.carpet.pile import PileParams, fill_check, pile_fill
 from ilmek.carpet.recipe.outcome import edit_checks
 from ilmek.carpet.statistics import ChartStatistics, chart_statistics
 from ilmek.carpet.yarn import Yarn
 from ilmek.io.chart.formats import FORMATS, ChartFormat
 from ilmek.io.chart.pdf import chart_cut
+from ilmek.io.chart.printing import Printing
 from ilmek.io.json_file import write_json
 from ilmek.io.output import Outputs, joined
 from ilmek.io.yarn_csv import write_yarn_csv
@@ -89,6 +91,12 @@ class ChartResult:
         pdf = self.order.order.pdf
         wanted = chart_cut(self.chart).count <= MOST_SHEETS if pdf is None else pdf
         return tuple(row for row in FORMATS.values() if row.printed and wanted)
+
+    @property
+    def printing(self) -> Printing:
+        """What the printed files have besides the chart."""
+        ground = self.order.order.plan.ground()
+        return Printing(self.order.order.files.digits, self.bill, mounting(self.chart, ground))
 
     @property
     def thickest(self) -> Yarn:
@@ -267,7 +275,7 @@ def write_chart(
     drawn_for_page = drawn.of_page()
     write_yarn_csv(folder / YARN_TABLE, charted.bill, charted.chart.yarns)
     printed = _print_chart(charted, folder, left_out, progress.part(0.4, 0.7))
-    rows = write_rows(chart, charted.order.order, folder, left_out, progress.part(0.7, 1.0))
+    rows = write_rows(chart, charted.order.order, folder, left_out, progress.part(0.7, 1.0), printing=charted.printing)
     proposed = (PROPOSED,) if chart.reading.proposed else ()
     if proposed:
         write_proposal(folder / PROPOSED, proposed_shades(chart))
@@ -277,10 +285,10 @@ def write_chart(
 
 def _print_chart(charted: ChartResult, folder: Path, left_out: list[str], progress: Progress) -> list[str]:
     """Write the printed formats into a folder; returns the names of those that are not left out."""
-    names, digits = list[str](), charted.order.order.files.digits
+    names: list[str] = []
     for row in charted.printed:
-        file, before, printing = folder / row.file, len(left_out), progress.part(0.0, 1.0, row.file)
-        made_or_left_out(row.file, partial(row.save, file, charted.chart, printing, digits), left_out)
+        file, before, part = folder / row.file, len(left_out), progress.part(0.0, 1.0, row.file)
+        made_or_left_out(row.file, partial(row.save, file, charted.chart, part, charted.printing), left_out)
         if len(left_out) > before:
             file.unlink(missing_ok=True)
         else:

@@ -6,6 +6,7 @@ from itertools import islice
 from pathlib import Path
 
 from ilmek.carpet.chart import Chart
+from ilmek.io.chart.printing import PLAIN, Printing
 from ilmek.io.chart.rows_colours_pdf import colour_pages, write_colours_pdf
 from ilmek.io.chart.rows_pdf import chart_rows_layout, write_rows_pdf
 from ilmek.io.chart.rows_text import write_rows_text
@@ -71,12 +72,18 @@ def _pages(chart: Chart, split: str, direction: str, most: int) -> int:
 
 
 def write_rows(
-    chart: Chart, order: CarpetOrder, folder: Path, left_out: list[str], progress: Progress = SILENT
+    chart: Chart,
+    order: CarpetOrder,
+    folder: Path,
+    left_out: list[str],
+    progress: Progress = SILENT,
+    *,
+    printing: Printing = PLAIN,
 ) -> tuple[str, ...]:
     """Write the files of `rows_plan` into a folder; returns their names. A PDF that cannot be made is added to
     `left_out`. Raises OSError.
     """
-    plan, direction, digits = rows_plan(chart, order), order.files.rows_direction, order.files.digits
+    plan, direction = rows_plan(chart, order), order.files.rows_direction
     parts = iter(
         progress.part(share, share + 0.3, name) for share, name in zip((0.0, 0.35, 0.7), plan.names, strict=False)
     )
@@ -84,12 +91,12 @@ def write_rows(
     def make(name: str, part: Progress) -> Callable[[], None]:
         path = folder / name
         if name == "wall.pdf":
-            return lambda: write_wall_pdf(path, chart, part, digits=digits)
+            return lambda: write_wall_pdf(path, chart, part, printing=printing)
         if name == "rows.txt":
             return lambda: write_rows_text(path, chart, plan.split, direction, part)
         if plan.split == "colours":
-            return lambda: write_colours_pdf(path, chart, direction, plan.pages, part, digits=digits)
-        return lambda: write_rows_pdf(path, chart, direction, part, digits=digits)
+            return lambda: write_colours_pdf(path, chart, direction, plan.pages, part, printing=printing)
+        return lambda: write_rows_pdf(path, chart, direction, part, printing=printing)
 
     written = []
     for name, part in zip(plan.names, parts, strict=True):

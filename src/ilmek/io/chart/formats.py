@@ -13,6 +13,7 @@ from ilmek.io.chart.oxs import MOST_OXS_KNOTS, write_chart_oxs
 from ilmek.io.chart.oxs_reading import begins_oxs, read_chart_oxs
 from ilmek.io.chart.pdf import write_chart_pdf
 from ilmek.io.chart.png import begins_chart_png, read_chart_png, write_chart_png
+from ilmek.io.chart.printing import PLAIN, Printing
 from ilmek.io.regular_file import open_regular
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
@@ -31,7 +32,7 @@ class ChartFormat:
     name      also its ending, its option and its key of a recipe
     note      on the file of a carpet's folder
     doc       of the option that writes it, after "write chart.NAME, "
-    write     the file of a chart; one that is printed, in the digits of `printing.DIGITS`
+    write     the file of a chart; of one that is printed, with a Printing
     begins    whether a file that begins with these bytes is a chart of this format; the ending counts as well where
               the format is no picture
     read      the chart of a file, with the size and the quality of an order, of which a file without them needs one,
@@ -68,13 +69,13 @@ class ChartFormat:
         """Whether it is written where an option requires it."""
         return not self.always and not self.printed
 
-    def save(self, path: Path, chart: Chart, progress: Progress = SILENT, digits: str = "latin") -> None:
-        """Write a chart to a file, its numbers in these digits where it is printed.
+    def save(self, path: Path, chart: Chart, progress: Progress = SILENT, printing: Printing = PLAIN) -> None:
+        """Write a chart to a file; printing: what one that is printed has besides the chart.
 
         Raises OSError, and CarpetError for a chart of too many knots.
         """
         self.require(chart.knots.size)
-        self.write(path, chart, progress, **({"digits": digits} if self.printed else {}))
+        self.write(path, chart, progress, **({"printing": printing} if self.printed else {}))
 
     def require(self, knots: int) -> None:
         """Raise CarpetError for more knots than a file can have."""

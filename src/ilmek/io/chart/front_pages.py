@@ -1,4 +1,4 @@
-"""The first pages of a printed knot chart: the whole carpet with its sheets, and the legend."""
+"""The first page of a printed knot chart: the whole carpet with its sheets."""
 
 from typing import Any
 
@@ -7,18 +7,13 @@ from PIL import Image
 from reportlab.lib.utils import ImageReader
 
 from ilmek.carpet.chart import Chart
-from ilmek.io.chart.inks import Inks
-from ilmek.io.chart.lettering import cut_line, draw_line, line_width, two_lines
+from ilmek.io.chart.legend import thousands
 from ilmek.io.chart.sheets import SheetLayout
-from ilmek.io.chart.symbols import SIGNS, STRONG, TEXT
+from ilmek.io.chart.symbols import STRONG, TEXT
 from ilmek.units import counted, format_number
 
 _LEFT, _TOP, _WIDTH, _HEIGHT = 54.0, 800.0, 487.0, 620.0
 _GREY = (0.36, 0.40, 0.44)
-_LINE, _LINES = 19.0, 36
-"""Height of a legend entry [pt], and entries per column; two columns per page."""
-_NAME, _SMALL = 9.0, 6.5
-"""Sizes of a name's letters, and of those of a long name [pt]."""
 
 
 def draw_overview(canvas: Any, chart: Chart, plan: SheetLayout, name: str) -> None:
@@ -46,20 +41,15 @@ def _facts(chart: Chart, plan: SheetLayout) -> tuple[str, ...]:
     size, quality = chart.size, chart.quality
     lengths = f"{format_number(size.width * 100)} × {format_number(size.length * 100)} cm (width × length)"
     density = f"{format_number(quality.across / 10)} × {format_number(quality.along / 10)} knots per dm"
-    cells = f"{chart.columns} knots × {chart.rows} rows = {_count(chart.knots.size)} knots"
+    cells = f"{chart.columns} knots × {chart.rows} rows = {thousands(chart.knots.size)} knots"
     knots = f"{cells} in {counted(chart.colours, 'colour')}"
-    sheets = f" on {_count(plan.count)} sheets of {plan.sheet_columns} knots × {plan.sheet_rows} rows"
+    sheets = f" on {thousands(plan.count)} sheets of {plan.sheet_columns} knots × {plan.sheet_rows} rows"
     order = "Rows are counted from the bottom, knots from the left."
     return (
         f"{lengths}, {density}, {chart.knot} knots",
         knots + (sheets if plan.count > 1 else " on one sheet"),
         order + (" Shaded knots belong to the next sheet." if plan.count > 1 else ""),
     )
-
-
-def _count(number: int) -> str:
-    """A whole number with its thousands separated."""
-    return f"{number:,}".replace(",", "\u202f")
 
 
 def _thumbnail(chart: Chart) -> Image.Image:
@@ -88,59 +78,3 @@ def _sheet_grid(canvas: Any, plan: SheetLayout, wide: float, high: float) -> Non
         canvas.setFillColorRGB(0.1, 0.1, 0.1, alpha=1)
         canvas.drawCentredString(middle[0], middle[1] - 0.36 * size, str(number))
         canvas.linkRect("", f"sheet-{number}", (x, y, x + across, y + up), relative=1, thickness=0)
-
-
-def draw_legend(canvas: Any, chart: Chart, inks: Inks) -> None:
-    """Draw the legend: swatch with symbol, symbol alone, name, count and share of every yarn that is used."""
-    used, tied = chart.used, chart.tied
-    total = tied.total
-    canvas.bookmarkPage("legend")
-    canvas.addOutlineEntry("Legend", "legend", 0)
-    for first in range(0, len(used), 2 * _LINES):
-        canvas.setFillColorRGB(0.1, 0.1, 0.1)
-        canvas.setFont(STRONG, 13)
-        canvas.drawString(_LEFT, _TOP, f"Legend: {counted(len(used), 'colour')}, {_count(total)} knots")
-        columns = 1 if len(used) <= _LINES else 2
-        for line, index in enumerate(used[first : first + 2 * _LINES]):
-            column, down = divmod(line, _LINES)
-            width = (330.0, 231.5)[columns - 1]
-            y = _TOP - 28.0 - _LINE * down
-            box = (_LEFT + column * (width + 24.0), y, width)
-            draw_entry(canvas, chart, inks, (index, tied.of(index), total), box)
-        canvas.showPage()
-
-
-def draw_entry(
-    canvas: Any, chart: Chart, inks: Inks, counted: tuple[int, int, int], box: tuple[float, float, float]
-) -> None:
-    """Draw the entry of a yarn in the legend.
-
-    counted  index of the yarn, its number of knots and that of all yarns      box  left edge, baseline and width [pt]
-    """
-    (index, count, total), (x, y, width) = counted, box
-    canvas.setFillColorRGB(*inks.fills[index])
-    canvas.setStrokeGray(0.4)
-    canvas.setLineWidth(0.4)
-    canvas.rect(x, y - 4.0, 24.0, 14.0, stroke=1, fill=1)
-    canvas.setFont(SIGNS, 10)
-    canvas.setFillGray(1.0 if inks.white[index] else 0.0)
-    canvas.draw_sign(x + 12.0, y, inks.symbols[index])
-    canvas.setFillGray(0.1)
-    canvas.draw_sign(x + 38.0, y, inks.symbols[index])
-    canvas.setFont(TEXT, 9)
-    share = 100 * count / total
-    canvas.drawRightString(x + width, y, f"{share:.1f} %" if share >= 0.05 else "< 0.1 %")
-    number = _count(count)
-    canvas.drawRightString(x + width - 44.0, y, number)
-    _write_name(canvas, chart.yarns[index].name, (x + 52.0, y), width - 106.0 - canvas.stringWidth(number, TEXT, 9))
-
-
-def _write_name(canvas: Any, name: str, at: tuple[float, float], room: float) -> None:
-    """Write a name in one line, or smaller in two."""
-    x, y = at
-    if line_width(name, _NAME) <= room:
-        draw_line(canvas, x, y, name, _NAME)
-        return
-    first, more = two_lines(name, _SMALL, room)
-    draw_line(canvas, x, y + 4.0 if more else y, cut_line(first, _SMALL, room), _SMALL)
-    draw_line(canvas, x, y - 3.5, cut_line(more, _SMALL, room), _SMALL)

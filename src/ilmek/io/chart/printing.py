@@ -9,10 +9,29 @@ from reportlab import rl_config
 from reportlab.lib.pagesizes import A4
 from reportlab.pdfgen.canvas import Canvas
 
+from ilmek.carpet.bill import YarnBill
+from ilmek.carpet.mounting import Mounting
 from ilmek.io.chart.symbols import register_fonts
+from ilmek.records import record
 
 DIGITS = {"latin": "0123456789", "fa": "۰۱۲۳۴۵۶۷۸۹", "ar": "٠١٢٣٤٥٦٧٨٩"}
 """Digits 0 to 9 by the language: Persian and Urdu (fa), Arabic (ar). The fonts of the printed files have them."""
+
+
+@record
+class Printing:
+    """What the printed files of a chart have besides it.
+
+    digits  of DIGITS      bill  the yarn to buy      mounting  of the warps; None: neither is printed
+    """
+
+    digits: str = "latin"
+    bill: YarnBill | None = None
+    mounting: Mounting | None = None
+
+
+PLAIN = Printing()
+"""The chart alone."""
 
 
 class PrintCanvas(Canvas):  # type: ignore[misc]

@@ -9,10 +9,10 @@ from reportlab.lib.pagesizes import A4
 
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.rows import Run, directions, row_codes, runs_of, span_text, spans_by_yarn
-from ilmek.io.chart.front_pages import draw_legend
 from ilmek.io.chart.inks import Inks
+from ilmek.io.chart.legend import draw_legend
 from ilmek.io.chart.lettering import cut_line, draw_line
-from ilmek.io.chart.printing import printed_file
+from ilmek.io.chart.printing import PLAIN, Printing, printed_file
 from ilmek.io.chart.symbols import ADVANCE, SIGNS, STRONG, TEXT, symbols
 from ilmek.progress import SILENT, Progress
 
@@ -71,18 +71,18 @@ def colour_pages(chart: Chart, direction: str) -> Iterator[list[ColourLine]]:
 
 
 def write_colours_pdf(
-    path: Path, chart: Chart, direction: str, pages: int, progress: Progress = SILENT, *, digits: str = "latin"
+    path: Path, chart: Chart, direction: str, pages: int, progress: Progress = SILENT, *, printing: Printing = PLAIN
 ) -> None:
     """Write the rows of a chart, split by colours, to `path`.
 
-    pages  their number, of `colour_pages`      digits  of `printing.DIGITS`
+    pages  their number, of `colour_pages`
     """
     inks = Inks.of(chart.yarns, symbols(chart.yarns))
     halves = "; L, R: half knots on left, right warps" if chart.overlay.halves else ""
     marks = halves + ("; j: jufti knots" if chart.overlay.juftis else "")
     name = chart.size.name or f"{chart.columns} × {chart.rows} knots"
-    with printed_file(path, f"Rows to weave by: {name}", digits) as canvas:
-        draw_legend(canvas, chart, inks)
+    with printed_file(path, f"Rows to weave by: {name}", printing.digits) as canvas:
+        draw_legend(canvas, chart, inks, printing)
         for number, lines in enumerate(colour_pages(chart, direction), start=1):
             canvas.setFillGray(0.1)
             canvas.setFont(STRONG, 11)

@@ -10,9 +10,9 @@ from typing import Any
 
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.rows import directions, row_codes, runs_of
-from ilmek.io.chart.front_pages import draw_legend
 from ilmek.io.chart.inks import Inks
-from ilmek.io.chart.printing import printed_file
+from ilmek.io.chart.legend import draw_legend
+from ilmek.io.chart.printing import PLAIN, Printing, printed_file
 from ilmek.io.chart.rows_layout import FOOT, HEAD, LEFT, MARGIN, RIGHT, RULER, SMALLEST, RowsLayout, rows_layout
 from ilmek.io.chart.rows_strip import Strip, Typesetter, draw_strip, knots_in_words
 from ilmek.io.chart.symbols import SIGNS, STRONG, TEXT, symbols
@@ -35,19 +35,18 @@ def write_rows_pdf(
     progress: Progress = SILENT,
     *,
     title: str = "",
-    digits: str = "latin",
+    printing: Printing = PLAIN,
 ) -> None:
     """Write the rows of a chart to `path`, each as one strip where it fits the paper.
 
     direction  of `carpet.rows.DIRECTIONS`: from which edges the knots are numbered
-    digits     of `printing.DIGITS`
     A page takes about 0.02 s; `chart_rows_layout` gives their number.
     """
     plan = chart_rows_layout(chart, direction)
     inks = Inks.of(chart.yarns, symbols(chart.yarns))
     name = title or chart.size.name or f"{chart.columns} × {chart.rows} knots"
-    with printed_file(path, f"Rows to weave by: {name}", digits) as canvas:
-        draw_legend(canvas, chart, inks)
+    with printed_file(path, f"Rows to weave by: {name}", printing.digits) as canvas:
+        draw_legend(canvas, chart, inks, printing)
         setter = Typesetter(canvas, plan.size)
         page: list[Strip] = []
         number, marks = 0, _about_marks(chart)

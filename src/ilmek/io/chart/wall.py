@@ -12,10 +12,10 @@ from pathlib import Path
 from reportlab.pdfbase.pdfdoc import PDFPage
 
 from ilmek.carpet.chart import Chart
-from ilmek.io.chart.front_pages import draw_entry
 from ilmek.io.chart.grid import draw_cells
 from ilmek.io.chart.inks import Inks
-from ilmek.io.chart.printing import PrintCanvas, printed_file
+from ilmek.io.chart.legend import draw_entry
+from ilmek.io.chart.printing import PLAIN, PrintCanvas, Printing, printed_file
 from ilmek.io.chart.sheets import SheetLayout, require_wall
 from ilmek.io.chart.symbols import STRONG, TEXT, symbols
 from ilmek.progress import SILENT, Progress
@@ -66,14 +66,14 @@ def _entries(width: float) -> int:
 
 
 def write_wall_pdf(
-    path: Path, chart: Chart, progress: Progress = SILENT, *, title: str = "", digits: str = "latin"
+    path: Path, chart: Chart, progress: Progress = SILENT, *, title: str = "", printing: Printing = PLAIN
 ) -> None:
-    """Write the chart as one sheet to `path`, in digits of `printing.DIGITS`. Raises CarpetError as `wall_sheet`."""
+    """Write the chart as one sheet to `path`. Raises CarpetError as `wall_sheet`."""
     sheet = wall_sheet(chart)
     inks = Inks.of(chart.yarns, symbols(chart.yarns))
     name = title or chart.size.name or f"{chart.columns} × {chart.rows} knots"
     page = (sheet.width / sheet.unit, sheet.height / sheet.unit)
-    with printed_file(path, f"Knot chart: {name}", digits, pagesize=page, pdfVersion=(1, 6)) as canvas:
+    with printed_file(path, f"Knot chart: {name}", printing.digits, pagesize=page, pdfVersion=(1, 6)) as canvas:
         canvas.scale(1 / sheet.unit, 1 / sheet.unit)
         _write_head(canvas, chart, sheet, name)
         canvas.saveState()
