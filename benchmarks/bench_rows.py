@@ -34,7 +34,7 @@ def chart_of_runs(rows: int, columns: int, share: float) -> Chart:
 
 def plain_python(chart: Chart, rows: int) -> float:
     """Time of the runs of some rows in both directions by itertools, for the whole chart."""
-    signs = symbols(len(chart.yarns))
+    signs = symbols(chart.yarns)
     start = time.perf_counter()
     for row in chart.knots[:rows].tolist():
         runs = [f"{len(list(group))}{signs[yarn]}" for yarn, group in itertools.groupby(row)]
