@@ -78,7 +78,7 @@ def test_a_row_of_tiles_keeps_its_shift(tmp_path: Path) -> None:
     layout = 'plain = "navy"\nsize = "{}"\n[repeat]\ntile = "tile.png"\norder = "brick"\n'.replace(
         "navy", "indigo navy"
     )
-    for row in (9, 15, 21, 147):  # rows 9 and 21 lie in shifted rows of tiles
+    for row in (9, 147):  # row 9 lies in a shifted row of tiles
         line = f"set {row},16 {row},11 gold"
         first = charted(tmp_path, recipe(layout.format("40x60cm"), line)).chart
         plain = charted(tmp_path, layout.format("40x60cm")).chart
@@ -158,7 +158,9 @@ def test_a_size_beside_the_recipe_carries_edits_without_a_grid(tmp_path: Path, s
     """They count the knots of the carpet that the file states."""
     drawing(tmp_path)
     text = 'picture = "drawing.png"\nsize = "80x120cm"\nread = "flat"\nedits = ["fill 200,75 gold"]\n'
-    at_home, away = charted(tmp_path, text).chart, charted(tmp_path, text, size=size).chart
+    at_home, made = charted(tmp_path, text).chart, charted(tmp_path, text, size=size)
+    away = made.chart
+    assert any('write [[edits]] with grid = "200x300"' in note for note in made.notes)
     times = away.rows / at_home.rows
     assert len(tied_in(away, "gold")) == pytest.approx(len(tied_in(at_home, "gold")) * times * times, rel=0.05)
 

@@ -150,12 +150,20 @@ def _origins(
                 found[anchor] = Origin(relate_motif(target, anchor.number, anchor.grid))
             elif (origin := _origin(anchor, done, order, target, stages)) is not None:
                 found[anchor] = origin
-    open_ones = sum(1 for edit in recipe.edits if edit.knots and edit.anchor.grid is None and edit.anchor.on != MOTIF)
-    note = (
-        f"{counted(open_ones, 'edit')} of {recipe.file.name} without a grid: at another size these knots lie elsewhere "
-        f'in the design; write [[edits]] with grid = "{grid_text(grid)}" and lines = [...], as --save-recipe does'
+    return found, _open_note(recipe, grid, found)
+
+
+def _open_note(recipe: Recipe, grid: tuple[int, int], origins: Mapping[Anchor, Origin | str]) -> tuple[str, ...]:
+    """A note on edits that state no grid, with the grid that they count."""
+    anchors = [edit.anchor for edit in recipe.edits if edit.knots and edit.anchor.is_open]
+    if not anchors:
+        return ()
+    origin = origins.get(anchors[0])
+    counts = grid_text(origin.relation.grid if isinstance(origin, Origin) else grid)
+    return (
+        f"{counted(len(anchors), 'edit')} of {recipe.file.name} without a grid: at another size these knots lie elsewhere "
+        f'in the design; write [[edits]] with grid = "{counts}" and lines = [...], as --save-recipe does',
     )
-    return found, (note,) if open_ones else ()
 
 
 def _is_ordered(anchor: Anchor, order: CarpetOrder) -> bool:

@@ -57,8 +57,12 @@ def render_svg(path: Path, data: bytes, knots: tuple[int, int]) -> tuple[bytes, 
         root.set(key, str(value))
     root.set("viewBox", " ".join(repr(side) for side in box))
     text = ET.tostring(root, encoding="unicode")
+    letters = any(element.tag.rpartition("}")[2] == "text" for element in root.iter())
+    fonts: dict[str, Any] = (
+        {"font_dirs": [str(FONTS)], "sans_serif_family": "DejaVu Sans"} if letters else {"skip_system_fonts": True}
+    )
     try:
-        made = resvg_py.svg_to_bytes(svg_string=text, font_dirs=[str(FONTS)], sans_serif_family="DejaVu Sans")
+        made = resvg_py.svg_to_bytes(svg_string=text, **fonts)
     except ValueError as error:
         raise PictureError(f"{path} cannot be rendered ({shortened(error)})", do="save it as PNG") from None
     notes = [f"rendered with {sides[0]} x {sides[1]} pixels"]
