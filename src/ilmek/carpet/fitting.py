@@ -113,7 +113,6 @@ class Fit:
     kind     whole: its proportions are the carpet's; else stretch, crop or pad
     stretch  of the picture's width against its height [-]; negative where it is compressed
     cropped  share of the straightened and turned picture that the carpet does not show [-]
-    frame    left, top, right and bottom of what it shows, in shares of the sides of the prepared picture; None: all
     padded   share of the carpet that is border [-]        border  colour of that border, `#rrggbb`
     turned   angle by which the picture was turned clockwise [rad]
     corners  of the carpet in the photograph [pixels]; None: it was not straightened
@@ -125,7 +124,6 @@ class Fit:
     kind: str = "whole"
     stretch: float = 0.0
     cropped: float = 0.0
-    frame: tuple[float, float, float, float] | None = None
     padded: float = 0.0
     border: str | None = None
     turned: float = 0.0
@@ -200,11 +198,12 @@ def fit_prepared(
     elif params.fit == "stretch" or (params.fit != "crop" and abs(distortion(rgb, size)) <= LARGEST_DISTORTION):
         made = rgb
     else:
-        made, frame = _about_the_subject(rgb, size)
-        fit = replace(fit, cropped=1 - (1 - fit.cropped) * _area(made) / _area(rgb), frame=frame)
+        made, part = _about_the_subject(rgb, size)
+        fit = replace(fit, cropped=1 - (1 - fit.cropped) * _area(made) / _area(rgb), shown=part)
     stretch = distortion(made, size)
     name = "pad" if fit.padded else "crop" if made.shape != rgb.shape else "stretch" if stretch else "whole"
-    return made, replace(fit, kind=name, stretch=stretch, shown=_shown(rgb, made))
+    shown = fit.shown if name == "crop" else _shown(rgb, made)
+    return made, replace(fit, kind=name, stretch=stretch, shown=shown)
 
 
 def fit_notes(fit: Fit, pixels: tuple[int, ...], size: CarpetSize, grid: tuple[int, int]) -> tuple[str, ...]:
@@ -214,9 +213,9 @@ def fit_notes(fit: Fit, pixels: tuple[int, ...], size: CarpetSize, grid: tuple[i
     """
     (height, width), (rows, columns) = pixels, grid
     notes = []
-    if fit.frame is not None or abs(fit.stretch) > LARGEST_DISTORTION:
-        left, top, right, bottom = fit.frame or (0.0, 0.0, 1.0, 1.0)
-        cut = 1 - (right - left) * (bottom - top)
+    if fit.kind == "crop" or abs(fit.stretch) > LARGEST_DISTORTION:
+        left, top, right, bottom = fit.shown
+        cut = 1 - (right - left) * (bottom - top) if fit.kind == "crop" else 0.0
         done = f"{format_quantity(cut, '%', 3)} of the picture is cut off" if cut else "the picture is stretched"
         notes.append(
             f"{done}, which has other proportions than {size}: --size auto keeps it as it is, one side, --width or "

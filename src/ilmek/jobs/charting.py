@@ -212,7 +212,7 @@ def _read(
     )
     notes = fit_notes(fit, fitted.shape[:2], made.size, knot_grid(made.size, made.quality))
     source = shown_source(fitted) if with_source else None
-    whole = shown_source(prepared) if with_source and fit.frame is not None else None
+    whole = shown_source(prepared) if with_source and fit.kind == "crop" else None
     return _ReadPicture(made.size, made.quality, design, fit, notes, source, whole)
 
 

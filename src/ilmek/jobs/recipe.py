@@ -160,10 +160,9 @@ def _open_note(recipe: Recipe, grid: tuple[int, int], origins: Mapping[Anchor, O
         return ()
     origin = origins.get(anchors[0])
     counts = grid_text(origin.relation.grid if isinstance(origin, Origin) else grid)
-    return (
-        f"{counted(len(anchors), 'edit')} of {recipe.file.name} without a grid: at another size these knots lie elsewhere "
-        f'in the design; write [[edits]] with grid = "{counts}" and lines = [...], as --save-recipe does',
-    )
+    given = f"{counted(len(anchors), 'edit')} of {recipe.file.name} without a grid: at another size these knots lie "
+    cure = f'elsewhere in the design; write [[edits]] with grid = "{counts}" and lines = [...], as --save-recipe does'
+    return (given + cure,)
 
 
 def _is_ordered(anchor: Anchor, order: CarpetOrder) -> bool:

@@ -183,10 +183,10 @@ class CutPicture:
 
 def cut_picture(whole: Rgb, fit: Fit, left_out: list[str]) -> CutPicture | None:
     """A picture that is cropped to the carpet's proportions, with what is cut shaded; None where it is not cropped."""
-    if fit.frame is None:
+    if fit.kind != "crop":
         return None
     height, width = int(whole.shape[0]), int(whole.shape[1])
-    left, top, right, bottom = (round(one * side, 1) for one, side in zip(fit.frame, 2 * (width, height), strict=True))
+    left, top, right, bottom = (round(one * side, 1) for one, side in zip(fit.shown, 2 * (width, height), strict=True))
 
     def made() -> PagePicture:
         stream = io.BytesIO()

@@ -212,7 +212,8 @@ def _field(old: Structure, new: Structure) -> Iterator[Patch]:
         ]
         yield Patch(axes[0], axes[1])
     elif old.recipe.repeat is None:
-        yield Patch(*(proportional(_span(old.field[way]), _span(new.field[way])) for way in (0, 1)))
+        rows, columns = (proportional(_span(old.field[way]), _span(new.field[way])) for way in (0, 1))
+        yield Patch(rows, columns)
     else:
         yield from _repeat(old, new, old.recipe.repeat.order)
 

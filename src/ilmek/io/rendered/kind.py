@@ -77,6 +77,7 @@ def rendered(path: Path, data: bytes, rendering: Rendering) -> tuple[bytes, tupl
 
     Raises PictureError for a drawing that cannot be read, a missing extra, and for a page that is not there.
     """
+    made: tuple[bytes, tuple[str, ...]] | None = None
     try:
         if is_svg(data):
             from ilmek.io.rendered.svg import render_svg
@@ -90,8 +91,6 @@ def rendered(path: Path, data: bytes, rendering: Rendering) -> tuple[bytes, tupl
             from ilmek.io.rendered.layers import merge_layers
 
             made = merge_layers(path, data)
-        else:
-            made = None
     except ImportError as error:
         raise PictureError(f"{path} needs the extra vector ({error.name} is not installed)", do=EXTRA) from None
     if rendering.page != 1:
