@@ -11,11 +11,13 @@ import { Edits } from "./edits";
 import { type CarpetModel, modelOf, type Recipe } from "./model";
 import { ChooseFile, takePicture } from "./picture";
 import { recipesOf, Settings } from "./settings";
+import { Shelf } from "./shelf";
 import { Tools } from "./tools";
 import { Weaver } from "./weaver";
 import { Yarns } from "./yarns";
 import "./carpet.css";
 import "./assignment.css";
+import "./shelf.css";
 
 /** The carpet: from a picture to the chart, its yarns and its rows. */
 export default function Carpet({ name }: ViewProps) {
@@ -119,7 +121,7 @@ function NoRecipe({ model, isMissing }: { model: CarpetModel; isMissing: boolean
   );
 }
 
-type SideTab = "settings" | "yarns" | "edits" | "bill";
+type SideTab = "settings" | "yarns" | "motifs" | "edits" | "bill";
 
 function Side({ model, onWeave }: { model: CarpetModel; onWeave: (row: number) => void }) {
   const [tab, setTab] = useState<SideTab>("settings");
@@ -131,6 +133,7 @@ function Side({ model, onWeave }: { model: CarpetModel; onWeave: (row: number) =
         tabs={[
           { value: "settings", label: t("carpet.settings") },
           { value: "yarns", label: t("carpet.yarns") },
+          { value: "motifs", label: t("carpet.motifs") },
           { value: "edits", label: t("carpet.editTab", { count: model.edits().length }) },
           { value: "bill", label: t("carpet.result") },
         ]}
@@ -138,6 +141,7 @@ function Side({ model, onWeave }: { model: CarpetModel; onWeave: (row: number) =
       >
         {tab === "settings" && <Settings model={model} />}
         {tab === "yarns" && <Yarns model={model} />}
+        {tab === "motifs" && <Shelf model={model} />}
         {tab === "edits" && <Edits model={model} />}
         {tab === "bill" && <Bill model={model} onWeave={onWeave} />}
       </Tabs>

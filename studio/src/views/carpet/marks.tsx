@@ -1,7 +1,7 @@
 import { useMemo } from "preact/hooks";
 import { canvasPoint, type Grid, type Knot, type Size, type View } from "./geometry";
 import type { CarpetModel } from "./model";
-import { type Piece, placeAbout, shownPiece } from "./placing";
+import { pictureOf, placeAbout, shownPiece } from "./placing";
 import { drawsLive } from "./pointer";
 import { speckPath } from "./specks";
 import type { useHand } from "./use-hand";
@@ -29,7 +29,7 @@ export function Marks({ model, grid, view, size, cursor, hover, hand }: MarksPro
     return { x: from.x, y: from.y, width: to.x - from.x, height: to.y - from.y };
   };
   const line = hand.line.value;
-  const axes = drawsLive(model.tool.value) ? model.symmetry.value : "none";
+  const axes = drawsLive(model.tool.value) || model.placing.value?.kind === "motif" ? model.symmetry.value : "none";
   const middle = canvasPoint(view, grid, size, grid.columns / 2, grid.rows / 2);
   const ends = line?.map((knot) => canvasPoint(view, grid, size, knot.column + 0.5, knot.line + 0.5));
   return (
@@ -84,12 +84,4 @@ function Held({ model, grid, view, size, about }: HeldProps) {
       <rect class="part" {...box} />
     </>
   );
-}
-
-/** A piece as the address of a picture. */
-function pictureOf({ columns, rows, pixels }: Piece): string {
-  const canvas = document.createElement("canvas");
-  [canvas.width, canvas.height] = [columns, rows];
-  canvas.getContext("2d")?.putImageData(new ImageData(pixels, columns, rows), 0, 0);
-  return canvas.toDataURL();
 }

@@ -7,8 +7,9 @@ import { ApiError, type Packed, postPacked } from "../../api/request";
 import { remember, remembered } from "../../app/settings";
 import { type Document, openDocument } from "../../project";
 import type { Grid, Knot } from "./geometry";
-import { type Placing, pieceOf, placingEdit } from "./placing";
+import { type Placing, pieceOf, placingEdits, recoloured, tileEntry } from "./placing";
 import type { FoundSpecks } from "./specks";
+import type { Brush } from "./strokes";
 import type { Symmetry } from "./symmetry";
 
 /** The data of a recipe's file. */
@@ -200,9 +201,18 @@ export class CarpetModel {
     return chart?.about.yarns[chart.knots[knot.line * chart.grid.columns + knot.column] ?? 0];
   }
 
+  /** Takes a yarn into the hand; a motif that is held gets it. */
+  takeYarnOf(name: string): void {
+    this.yarn.value = name;
+    const placing = this.placing.peek();
+    if (placing?.kind === "motif") {
+      this.placing.value = { ...placing, piece: recoloured(placing.piece, this.colourOf(name)) };
+    }
+  }
+
   /** Takes the yarn of a knot into the hand. */
   takeYarn(knot: Knot): void {
-    this.yarn.value = this.yarnAt(knot)?.name ?? this.yarn.peek();
+    this.takeYarnOf(this.yarnAt(knot)?.name ?? this.yarn.peek());
   }
 
   /** Takes another tool. */
@@ -222,11 +232,21 @@ export class CarpetModel {
     this.placing.value = { kind, piece, from, mirrored: false, turned: 0 };
   }
 
+  /** How strokes are drawn. */
+  drawing(): Brush {
+    return { yarn: this.yarn.peek(), width: this.brush.peek(), symmetry: this.symmetry.peek() };
+  }
+
   /** Places what is held with its upper left knot at a knot. */
   place(at: Knot): void {
     const [placing, chart] = [this.placing.peek(), this.chart.peek()];
     if (placing === null || chart === null) return;
-    this.edit([placingEdit(placing, at, this.yarn.peek(), chart.grid)]);
+    if (placing.kind === "tile") {
+      const before = this.recipe.peek()?.["motif"];
+      this.set({ motif: [...(Array.isArray(before) ? before : []), tileEntry(placing, at, chart.grid)] });
+      return;
+    }
+    this.edit(placingEdits(placing, at, this.drawing(), chart.grid));
     // What was moved is no longer where it was.
     if (placing.kind === "move") {
       this.placing.value = null;

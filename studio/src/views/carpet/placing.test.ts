@@ -1,6 +1,18 @@
 import { describe, expect, it } from "vitest";
 import type { Grid, Knot } from "./geometry";
-import { mirrored, type Placing, pieceOf, placeAbout, placingEdit, shownPiece, turned } from "./placing";
+import { MOTIFS } from "./motifs";
+import {
+  mirrored,
+  type Placing,
+  pieceOf,
+  pieceOfMotif,
+  placeAbout,
+  placingEdits,
+  shownPiece,
+  tileEntry,
+  turned,
+} from "./placing";
+import type { Brush } from "./strokes";
 
 const GRID: Grid = { rows: 20, columns: 30, aspect: 1 };
 const at = (line: number, column: number): Knot => ({ line, column });
@@ -15,6 +27,8 @@ const HELD: Placing = {
   mirrored: false,
   turned: 0,
 };
+
+const PEN: Brush = { yarn: "ivory", width: 1, symmetry: "none" };
 
 /** The yarns of a piece, row by row: the blue of its pixels. */
 function yarns(placing: Placing): number[][] {
@@ -52,12 +66,12 @@ describe("a part that is held", () => {
   });
 
   it("is an edit of its corners and its lower left knot", () => {
-    expect(placingEdit(HELD, at(0, 0), "ivory", GRID)).toBe("copy 2,4 3,6 to 19,1");
-    expect(placingEdit(turned(HELD), at(0, 9), "ivory", GRID)).toBe("copy 2,4 3,6 to 18,10 turned 90deg");
+    expect(placingEdits(HELD, at(0, 0), PEN, GRID)).toEqual(["copy 2,4 3,6 to 19,1"]);
+    expect(placingEdits(turned(HELD), at(0, 9), PEN, GRID)).toEqual(["copy 2,4 3,6 to 18,10 turned 90deg"]);
     const move = { ...mirrored(turned(HELD)), kind: "move" as const };
-    expect(placingEdit(move, at(0, 9), "ivory", GRID)).toBe(
+    expect(placingEdits(move, at(0, 9), PEN, GRID)).toEqual([
       "move 2,4 3,6 to 18,10 turned 270deg mirrored across ivory",
-    );
+    ]);
   });
 
   it("keeps its lower left knot on the carpet", () => {
@@ -65,5 +79,55 @@ describe("a part that is held", () => {
     expect(placeAbout(at(10, 10), piece, GRID)).toEqual(at(9, 9));
     expect(placeAbout(at(0, 0), piece, GRID)).toEqual(at(-1, 0));
     expect(placeAbout(at(19, 29), piece, GRID)).toEqual(at(18, 28));
+  });
+});
+
+describe("a motif", () => {
+  const cells = ["#.", "##"];
+  const held: Placing = { kind: "motif", piece: pieceOfMotif(cells, 1, "#102030"), mirrored: false, turned: 0 };
+
+  it("is set in the yarn in hand, where it is drawn", () => {
+    expect(placingEdits(held, at(4, 6), PEN, GRID)).toEqual(["set 16,7 15,7 15,8 ivory"]);
+    expect(placingEdits(mirrored(held), at(4, 6), PEN, GRID)).toEqual(["set 16,8 15,7 15,8 ivory"]);
+    expect(placingEdits(turned(held), at(4, 6), PEN, GRID)).toEqual(["set 16,7 16,8 15,7 ivory"]);
+    expect([...held.piece.pixels.subarray(0, 8)]).toEqual([16, 32, 48, 255, 0, 0, 0, 0]);
+  });
+
+  it("is cut at the edges, and drawn with its images", () => {
+    expect(placingEdits(held, at(-1, 29), PEN, GRID)).toEqual(["set 20,30 ivory"]);
+    const edits = placingEdits(held, at(4, 6), { ...PEN, symmetry: "both" }, GRID);
+    expect(edits).toEqual([
+      "set 16,7 15,7 15,8 ivory",
+      "set 16,24 15,24 15,23 ivory",
+      "set 5,7 6,7 6,8 ivory",
+      "set 5,24 6,24 6,23 ivory",
+    ]);
+  });
+
+  it("has cells of any size", () => {
+    const piece = pieceOfMotif(cells, 3, "#000000");
+    expect([piece.columns, piece.rows]).toEqual([6, 6]);
+    expect(placingEdits({ ...held, piece }, at(4, 6), PEN, GRID)[0]?.match(/,/g)).toHaveLength(27);
+  });
+
+  it("of the shelf has even rows of cells", () => {
+    for (const [name, rows] of Object.entries(MOTIFS)) {
+      expect(new Set(rows.map((row) => row.length)).size, name).toBe(1);
+      expect(rows.join(""), name).toMatch(/^[.#]+$/);
+      expect(rows.join("").replaceAll(".", "").length, name).toBeGreaterThan(60);
+    }
+  });
+});
+
+describe("a tile", () => {
+  it("is an entry of the recipe at its lower left knot", () => {
+    const { piece } = HELD;
+    const tile: Placing = { kind: "tile", piece, picture: "pictures/gul.png", mirrored: false, turned: 0 };
+    expect(tileEntry(tile, at(4, 6), GRID)).toEqual({ picture: "pictures/gul.png", position: [15, 7] });
+    expect(tileEntry({ ...tile, transparent: "#ffffff" }, at(4, 6), GRID)).toEqual({
+      picture: "pictures/gul.png",
+      position: [15, 7],
+      transparent: "#ffffff",
+    });
   });
 });

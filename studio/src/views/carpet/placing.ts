@@ -1,5 +1,7 @@
 /** What is held over the chart to be placed: a part of the chart, reflected and turned, or a motif. */
 import { type Grid, type Knot, weaverNumbers } from "./geometry";
+import { type Brush, setEdits, written } from "./strokes";
+import { imagesOf } from "./symmetry";
 
 /** A small picture, row by row from the upper edge: four bytes a knot, red, green, blue and what shows. */
 export interface Piece {
@@ -8,13 +10,15 @@ export interface Piece {
   pixels: Uint8ClampedArray<ArrayBuffer>;
 }
 
+/** copy, move: a part of the chart; motif: knots of the yarn in hand; tile: a picture of the project. */
 export interface Placing {
-  kind: "copy" | "move" | "motif";
+  kind: "copy" | "move" | "motif" | "tile";
   piece: Piece;
-  /** Of a copy the corners of its part. */
+  /** Corners of the part that is copied or moved. */
   from?: readonly [Knot, Knot];
-  /** Of a motif its file. */
+  /** File of a tile, and its colour that leaves the chart as it is. */
   picture?: string;
+  transparent?: string;
   /** It is reflected left to right, and then turned clockwise by so many right angles. */
   mirrored: boolean;
   turned: number;
@@ -58,19 +62,41 @@ export function placeAbout(knot: Knot, piece: Piece, grid: Grid): Knot {
   };
 }
 
-/** The edit that places a part of the chart with its upper left knot at a knot; `yarn`: what a moved one leaves. */
-export function placingEdit(placing: Placing, at: Knot, yarn: string, grid: Grid): string {
-  const text = (knot: Knot) => {
-    const { row, knot: column } = weaverNumbers(knot, grid);
-    return `${row},${column}`;
-  };
+/** The edits that place what is held with its upper left knot at a knot; a moved part leaves the yarn of the brush. */
+export function placingEdits(placing: Placing, at: Knot, brush: Brush, grid: Grid): string[] {
+  if (placing.kind === "motif") return motifEdits(shownPiece(placing), at, brush, grid);
   const [first, last] = placing.from ?? [at, at];
-  const lower = { column: at.column, line: at.line + shownPiece(placing).rows - 1 };
-  const words = [placing.kind, text(first), text(last), "to", text(lower)];
+  const words = [placing.kind, written(first, grid), written(last, grid), "to", written(lowerLeft(placing, at), grid)];
   if (placing.turned > 0) words.push(`turned ${90 * placing.turned}deg`);
   if (placing.mirrored) words.push("mirrored across");
-  if (placing.kind === "move") words.push(yarn);
-  return words.join(" ");
+  if (placing.kind === "move") words.push(brush.yarn);
+  return [words.join(" ")];
+}
+
+/** The knots of a motif and of its images, as far as they lie on the carpet. */
+function motifEdits({ columns, rows, pixels }: Piece, at: Knot, { yarn, symmetry }: Brush, grid: Grid): string[] {
+  const knots: Knot[] = [];
+  for (let line = 0; line < rows; line += 1)
+    for (let column = 0; column < columns; column += 1) {
+      const knot = { column: at.column + column, line: at.line + line };
+      if (pixels[4 * (line * columns + column) + 3] && isOn(knot, grid)) knots.push(knot);
+    }
+  return imagesOf(knots, symmetry, grid).flatMap((image) => setEdits(image, yarn, grid));
+}
+
+function isOn({ column, line }: Knot, grid: Grid): boolean {
+  return column >= 0 && line >= 0 && column < grid.columns && line < grid.rows;
+}
+
+/** The entry [[motif]] of the recipe that places a tile. */
+export function tileEntry(placing: Placing, at: Knot, grid: Grid): Record<string, unknown> {
+  const { row, knot } = weaverNumbers(lowerLeft(placing, at), grid);
+  const entry = { picture: placing.picture, position: [row, knot] };
+  return placing.transparent === undefined ? entry : { ...entry, transparent: placing.transparent };
+}
+
+function lowerLeft(placing: Placing, at: Knot): Knot {
+  return { column: at.column, line: at.line + shownPiece(placing).rows - 1 };
 }
 
 /** A part of a chart as a picture. */
@@ -91,4 +117,36 @@ export function pieceOf(
       pixels.set([code >> 16, (code >> 8) & 255, code & 255, 255], 4 * (line * columns + column));
     }
   return { columns, rows, pixels };
+}
+
+/** A motif drawn in a colour; each of its cells has `scale` by `scale` knots. */
+export function pieceOfMotif(cells: readonly string[], scale: number, colour: string): Piece {
+  const [columns, rows] = [(cells[0]?.length ?? 0) * scale, cells.length * scale];
+  const code = Number.parseInt(colour.slice(1), 16);
+  const pixels = new Uint8ClampedArray(4 * columns * rows);
+  for (let line = 0; line < rows; line += 1)
+    for (let column = 0; column < columns; column += 1)
+      if (cells[Math.floor(line / scale)]?.[Math.floor(column / scale)] === "#")
+        pixels.set([code >> 16, (code >> 8) & 255, code & 255, 255], 4 * (line * columns + column));
+  return { columns, rows, pixels };
+}
+
+/** A piece with all that shows in one colour. */
+export function recoloured({ columns, rows, pixels }: Piece, colour: string): Piece {
+  const code = Number.parseInt(colour.slice(1), 16);
+  const fresh = new Uint8ClampedArray(pixels);
+  for (let at = 0; at < fresh.length; at += 4) fresh.set([code >> 16, (code >> 8) & 255, code & 255], at);
+  return { columns, rows, pixels: fresh };
+}
+
+/** A piece as the address of a picture, for the page. */
+export function pictureOf(piece: Piece): string {
+  return canvasOf(piece).toDataURL();
+}
+
+export function canvasOf({ columns, rows, pixels }: Piece): HTMLCanvasElement {
+  const canvas = document.createElement("canvas");
+  [canvas.width, canvas.height] = [columns, rows];
+  canvas.getContext("2d")?.putImageData(new ImageData(pixels, columns, rows), 0, 0);
+  return canvas;
 }

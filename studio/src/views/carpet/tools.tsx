@@ -10,6 +10,7 @@ import { applyToWhole } from "./use-hand";
 export function Tools({ model }: { model: CarpetModel }) {
   const tool = model.tool.value;
   const names = [...new Set(model.yarns().map((yarn) => yarn.name))];
+  const isMotif = model.placing.value?.kind === "motif";
   const gives = tool === "pencil" || tool === "line" || tool === "fill" || tool === "border" || tool === "select";
   return (
     <div class="carpet-tools">
@@ -25,12 +26,10 @@ export function Tools({ model }: { model: CarpetModel }) {
       )}
       {gives && (
         <Select
-          label={tool === "select" ? t("carpet.leftYarn") : t("carpet.yarn")}
+          label={tool === "select" && !isMotif ? t("carpet.leftYarn") : t("carpet.yarn")}
           value={model.yarn.value}
           choices={names.map((name) => ({ value: name, label: name }))}
-          onChange={(name) => {
-            model.yarn.value = name;
-          }}
+          onChange={(name) => model.takeYarnOf(name)}
         />
       )}
       {(tool === "pencil" || tool === "line") && (
@@ -43,7 +42,7 @@ export function Tools({ model }: { model: CarpetModel }) {
           }}
         />
       )}
-      {drawsLive(tool) && (
+      {(drawsLive(tool) || isMotif) && (
         <Select
           label={t("carpet.symmetry")}
           value={model.symmetry.value}
@@ -113,7 +112,7 @@ function Selection({ model }: { model: CarpetModel }) {
       </Button>
       <Button
         size="small"
-        disabled={placing === null}
+        disabled={placing === null || placing.kind === "tile"}
         onClick={() => {
           if (placing !== null) model.placing.value = turned(placing);
         }}
@@ -122,7 +121,7 @@ function Selection({ model }: { model: CarpetModel }) {
       </Button>
       <Button
         size="small"
-        disabled={placing === null}
+        disabled={placing === null || placing.kind === "tile"}
         onClick={() => {
           if (placing !== null) model.placing.value = mirrored(placing);
         }}

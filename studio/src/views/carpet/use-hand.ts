@@ -289,9 +289,7 @@ export function applyToWhole(model: CarpetModel): void {
 function handOf(model: CarpetModel): Hand {
   return {
     tool: model.tool.peek(),
-    yarn: model.yarn.peek(),
-    width: model.brush.peek(),
-    symmetry: model.symmetry.peek(),
+    ...model.drawing(),
     mirror: model.mirror.peek(),
     borderWidth: model.borderWidth.peek(),
     tile: model.tile.peek(),
