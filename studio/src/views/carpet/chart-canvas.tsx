@@ -2,6 +2,7 @@ import { useSignal, useSignalEffect } from "@preact/signals";
 import { useRef } from "preact/hooks";
 import { t } from "../../text";
 import { Button, IconButton } from "../../ui";
+import { BorderHandles } from "./border-handles";
 import { Compare, CompareLine } from "./compare";
 import {
   closeTo,
@@ -98,6 +99,7 @@ export function ChartCanvas({ model }: { model: CarpetModel }) {
           )}
         </div>
         {chart !== null && <CompareLine model={model} />}
+        {chart !== null && <BorderHandles model={model} grid={chart.grid} view={view.value} size={size.value} />}
         <div class="carpet-zoom">
           <IconButton icon="plus" label={t("ui.zoomIn")} onClick={() => zoom(ZOOM)} />
           <IconButton icon="minus" label={t("ui.zoomOut")} onClick={() => zoom(1 / ZOOM)} />

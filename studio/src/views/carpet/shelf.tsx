@@ -4,6 +4,7 @@ import { postPacked } from "../../api/request";
 import { project, uploadPicture } from "../../project";
 import { formatNumber, t } from "../../text";
 import { Button, Slider, Toggle, toast } from "../../ui";
+import { Borders } from "./border-list";
 import type { CarpetModel } from "./model";
 import { MOTIFS, type MotifName } from "./motifs";
 import { canvasOf, type Piece, type Placing, pictureOf, pieceOf, pieceOfMotif } from "./placing";
@@ -48,6 +49,10 @@ export function Shelf({ model }: { model: CarpetModel }) {
       <p class="ui-help">{t("carpet.motifSource")}</p>
       <Tiles model={model} />
       <Keep model={model} />
+      <details class="ui-details">
+        <summary>{t("carpet.borders")}</summary>
+        <Borders model={model} />
+      </details>
     </div>
   );
 }
@@ -91,7 +96,7 @@ function Tiles({ model }: { model: CarpetModel }) {
     const [red = 0, green = 0, blue = 0] = piece.pixels;
     const ground = `#${((1 << 24) | (red << 16) | (green << 8) | blue).toString(16).slice(1)}`;
     const placing: Placing = { kind: "tile", piece, picture: path, mirrored: false, turned: 0 };
-    model.placing.value = shows ? { ...placing, transparent: ground } : placing;
+    model.placing.value = shows ? { ...placing, transparent: ground, piece: without(piece, ground) } : placing;
   };
   if (tiles.length === 0) return <p class="ui-help">{t("carpet.noTiles", { most: LARGEST_TILE })}</p>;
   return (
@@ -110,6 +115,15 @@ function Tiles({ model }: { model: CarpetModel }) {
       </ul>
     </div>
   );
+}
+
+/** A piece whose knots of a colour do not show. */
+function without({ columns, rows, pixels }: Piece, colour: string): Piece {
+  const fresh = new Uint8ClampedArray(pixels);
+  const code = Number.parseInt(colour.slice(1), 16);
+  for (let at = 0; at < fresh.length; at += 4)
+    if ((((fresh[at] ?? 0) << 16) | ((fresh[at + 1] ?? 0) << 8) | (fresh[at + 2] ?? 0)) === code) fresh[at + 3] = 0;
+  return { columns, rows, pixels: fresh };
 }
 
 /** A picture as a tile; null where it is larger, or cannot be read. */
