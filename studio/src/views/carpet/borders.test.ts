@@ -20,7 +20,11 @@ describe("borders", () => {
     const yarns = ["camel", "gold"];
     expect(asKind({ yarn: "ivory", width: 2 }, "teeth", yarns, [])).toEqual({ width: 2, teeth: ["ivory", "gold"] });
     expect(asKind({ teeth: ["rose", "gold"], width: 2 }, "stripe", yarns, [])).toEqual({ width: 2, yarn: "rose" });
-    expect(asKind({ yarn: "ivory", width: 2 }, "tile", yarns, ["a.png"])).toEqual({ width: 2, tile: "a.png" });
+    expect(asKind({ yarn: "ivory", width: 2 }, "tile", yarns, ["a.png"])).toEqual({
+      width: 2,
+      tile: "a.png",
+      adjust: true,
+    });
   });
 
   it("change places", () => {

@@ -23,12 +23,12 @@ export function bordersOf(recipe: object | null): readonly Border[] {
   return Array.isArray(found) ? (found as Border[]) : [];
 }
 
-/** A border as another kind, of its own width. */
+/** A border as another kind, of its own width; the repeats of a tile are adjusted until they fill a side. */
 export function asKind(border: Border, kind: BorderKind, yarns: readonly string[], tiles: readonly string[]): Border {
   const width = border.width === undefined ? {} : { width: border.width };
   const [first = "", second = first] = yarns;
   if (kind === "teeth") return { ...width, teeth: [border.yarn ?? first, second] };
-  if (kind === "tile") return { ...width, tile: tiles[0] ?? "" };
+  if (kind === "tile") return { ...width, tile: tiles[0] ?? "", adjust: true };
   return { ...width, yarn: border.yarn ?? border.teeth?.[0] ?? first };
 }
 
