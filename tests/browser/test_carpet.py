@@ -8,7 +8,7 @@ import pytest
 from PIL import Image
 from playwright.sync_api import Page, expect
 from processes import ilmek, start, until
-from studio_browser import PATIENCE, Seen, Studio, data_of, middle, open_view, until_data, until_file, violations
+from studio_browser import PATIENCE, Seen, Studio, data_of, middle, open_view, until_file, violations
 
 from ilmek.io.yarn_file import default_yarns
 
@@ -206,23 +206,3 @@ def test_the_weaver_goes_on_where_the_page_was_left(carpet: Page, running: Studi
     _until_drawn(carpet)
     carpet.evaluate(LOSE)
     _until_drawn(carpet)
-
-
-def test_a_drawn_colour_gets_a_yarn_by_hand(carpet: Page, running: Studio, seen: Seen) -> None:
-    seen.expected = ("status of 422",)  # where the engine has no [map] yet
-    _drop(carpet, "stripes.png", _picture())
-    _set(carpet, "Size", "40x60cm")
-    carpet.get_by_role("tab", name="Yarns").click()
-    rows = carpet.locator(".carpet-assignment tbody tr")
-    expect(rows).to_have_count(4, timeout=PATIENCE)
-    navy = rows.filter(has_text="#1b2a4e")
-    expect(navy).to_contain_text("indigo navy")
-    expect(navy).to_contain_text(re.compile(r"3,[78]\d\d"))  # a quarter of 15,000
-    navy.get_by_role("button").click()
-    shelf = carpet.get_by_role("group", name="Yarn for #1b2a4e")
-    assert violations(carpet) == []
-    shelf.get_by_role("button", name="sage green").click()
-    until_file(running.project, "carpet.toml", '"#1b2a4e" = "sage green"')
-    expect(shelf).to_have_count(0)
-    carpet.keyboard.press("Control+z")
-    until_data(running.project, "carpet.toml", lambda data: "map" not in data)

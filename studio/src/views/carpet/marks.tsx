@@ -73,8 +73,8 @@ function Held({ model, grid, view, size, about }: HeldProps) {
   const placing = model.placing.value;
   const piece = useMemo(() => (placing === null ? null : shownPiece(placing)), [placing]);
   const href = useMemo(() => (piece === null ? "" : pictureOf(piece)), [piece]);
-  if (piece === null || about === null) return null;
-  const { column, line } = placeAbout(about, piece, grid);
+  if (placing === null || piece === null || about === null) return null;
+  const { column, line } = placeAbout(about, placing, grid);
   const from = canvasPoint(view, grid, size, column, line);
   const to = canvasPoint(view, grid, size, column + piece.columns, line + piece.rows);
   const box = { x: from.x, y: from.y, width: to.x - from.x, height: to.y - from.y };

@@ -75,10 +75,12 @@ describe("a part that is held", () => {
   });
 
   it("keeps its lower left knot on the carpet", () => {
-    const { piece } = HELD;
-    expect(placeAbout(at(10, 10), piece, GRID)).toEqual(at(9, 9));
-    expect(placeAbout(at(0, 0), piece, GRID)).toEqual(at(-1, 0));
-    expect(placeAbout(at(19, 29), piece, GRID)).toEqual(at(18, 28));
+    expect(placeAbout(at(10, 10), HELD, GRID)).toEqual(at(9, 9));
+    expect(placeAbout(at(0, 0), HELD, GRID)).toEqual(at(-1, 0));
+    expect(placeAbout(at(19, 29), HELD, GRID)).toEqual(at(18, 28));
+    const tile: Placing = { ...HELD, kind: "tile" };
+    expect(placeAbout(at(0, 0), tile, GRID)).toEqual(at(0, 0));
+    expect(placeAbout(at(19, 29), tile, GRID)).toEqual(at(18, 27));
   });
 });
 

@@ -53,12 +53,14 @@ export function shownPiece({ piece, mirrored: flipped, turned: quarters }: Placi
   return { columns: wide, rows: high, pixels };
 }
 
-/** The upper left knot of a piece about a knot; its lower left one lies on the carpet. */
-export function placeAbout(knot: Knot, piece: Piece, grid: Grid): Knot {
-  const hold = (at: number, least: number, most: number) => Math.min(Math.max(at, least), most);
+/** The upper left knot of a piece about a knot; its lower left one lies on the carpet, a tile as a whole. */
+export function placeAbout(knot: Knot, placing: Placing, grid: Grid): Knot {
+  const { columns, rows } = shownPiece(placing);
+  const hold = (at: number, least: number, most: number) => Math.max(Math.min(at, most), least);
+  const isTile = placing.kind === "tile";
   return {
-    column: hold(knot.column - Math.floor(piece.columns / 2), 0, grid.columns - 1),
-    line: hold(knot.line - Math.floor(piece.rows / 2), 1 - piece.rows, grid.rows - piece.rows),
+    column: hold(knot.column - Math.floor(columns / 2), 0, isTile ? grid.columns - columns : grid.columns - 1),
+    line: hold(knot.line - Math.floor(rows / 2), isTile ? 0 : 1 - rows, grid.rows - rows),
   };
 }
 

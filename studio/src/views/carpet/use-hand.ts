@@ -15,7 +15,7 @@ import {
   zoomed,
 } from "./geometry";
 import type { CarpetModel } from "./model";
-import { mirrored, placeAbout, shownPiece, turned } from "./placing";
+import { mirrored, placeAbout, turned } from "./placing";
 import { areaEdits, editsOf, type Hand, isPoint, type Point, pinched, takesPart } from "./pointer";
 import type { Renderer } from "./renderer";
 import { lineKnots } from "./strokes";
@@ -86,7 +86,7 @@ export function useHand(stage: Stage) {
   const drop = (knot: Knot): boolean => {
     const [placing, own] = [model.placing.peek(), grid()];
     if (placing === null || own === null) return false;
-    model.place(placeAbout(knot, shownPiece(placing), own));
+    model.place(placeAbout(knot, placing, own));
     return true;
   };
 
