@@ -223,7 +223,7 @@ def apply_edit(knots: Indices, edit: Edit, yarns: tuple[int, ...], progress: Pro
     elif edit.kind == "repeat":
         _repeat(knots, at)
     elif edit.kind == "stroke":
-        _stroke(knots, at, yarns[0], edit.width, progress)
+        _stroke(knots, at, edit, yarns, progress)
     elif edit.kind in ("copy", "move"):
         _copy(knots, at, edit, yarns)
     elif edit.kind == "border":
@@ -253,15 +253,23 @@ def _repeat(knots: Indices, at: list[Knot]) -> None:
         part[band] = tile[np.ix_(rows[band], columns)]
 
 
-def _stroke(knots: Indices, at: list[Knot], yarn: int, width: int, progress: Progress) -> None:
-    """Lines from knot to knot with a round brush; what lies beyond the carpet is left out."""
-    spans = brush_spans(width)
+def _stroke(knots: Indices, at: list[Knot], edit: Edit, yarns: tuple[int, ...], progress: Progress) -> None:
+    knots[stroke_knots(at, edit.width, knots.shape, progress)] = yarns[0]
+
+
+def stroke_knots(
+    at: Sequence[Knot], width: int, shape: tuple[int, ...], progress: Progress = SILENT
+) -> tuple[Int64[np.ndarray, " knots"], Int64[np.ndarray, " knots"]]:
+    """Rows and columns of the knots of lines from knot to knot, drawn with a round brush, that lie on a grid."""
+    spans, drawn = brush_spans(width), np.zeros(shape, dtype=bool)
     for count, ends in enumerate(zip(at, at[1:] or at, strict=False)):
         for row, column in zip(*(line.tolist() for line in line_knots(*ends)), strict=True):
             for down, (left, right) in spans:
-                if 0 <= row + down < len(knots):
-                    knots[row + down, max(column + left, 0) : max(column + right, 0)] = yarn
+                if 0 <= row + down < shape[0]:
+                    drawn[row + down, max(column + left, 0) : max(column + right, 0)] = True
         progress((count + 1) / len(at))
+    rows, columns = np.nonzero(drawn)
+    return rows, columns
 
 
 def _copy(knots: Indices, at: list[Knot], edit: Edit, yarns: tuple[int, ...]) -> None:
@@ -270,7 +278,7 @@ def _copy(knots: Indices, at: list[Knot], edit: Edit, yarns: tuple[int, ...]) ->
     found = transformed(part.copy(), edit.direction, edit.turned)
     if edit.kind == "move":
         part[:] = yarns[0]
-    bottom, left = at[2]
+    bottom, left = max(row for row, _ in at[2:]), min(column for _, column in at[2:])
     top = bottom + 1 - len(found)
     place = knots[max(top, 0) : bottom + 1, left : left + found.shape[1]]
     place[:] = found[len(found) - len(place) :, : place.shape[1]]

@@ -6,6 +6,7 @@ import type { ChartAnswer, ChartYarn, ListedYarn } from "../../api/messages";
 import { ApiError, type Packed, postPacked } from "../../api/request";
 import { remember, remembered } from "../../app/settings";
 import { type Document, openDocument } from "../../project";
+import { linesOf, withLines, withoutLine } from "./edit-lines";
 import type { Grid, Knot } from "./geometry";
 import { type Placing, pieceOf, placingEdits, recoloured, tileEntry } from "./placing";
 import type { FoundSpecks } from "./specks";
@@ -174,14 +175,12 @@ export class CarpetModel {
 
   /** The edits of the recipe. */
   edits(): readonly string[] {
-    const edits = this.recipe.value?.["edits"];
-    return Array.isArray(edits) ? (edits as string[]) : [];
+    return linesOf(this.recipe.value);
   }
 
   /** Takes an edit out. */
   dropEdit(at: number): void {
-    const rest = this.edits().filter((_, index) => index !== at);
-    this.set({ edits: rest.length > 0 ? rest : null });
+    this.set({ edits: withoutLine(this.recipe.peek(), at) });
   }
 
   /** The yarns of the chart, then those of the list. */
@@ -256,11 +255,10 @@ export class CarpetModel {
 
   /** Adds edits to the recipe; undo takes them out again. */
   edit(lines: readonly string[]): void {
-    if (lines.length === 0) return;
-    this.document.update((recipe) => {
-      const before = Array.isArray(recipe["edits"]) ? (recipe["edits"] as string[]) : [];
-      return { ...recipe, edits: [...before, ...lines] };
-    });
+    const grid = this.chart.peek()?.grid;
+    if (lines.length === 0 || grid === undefined) return;
+    const text = `${grid.columns}x${grid.rows}`;
+    this.document.update((recipe) => ({ ...recipe, edits: withLines(recipe, lines, text) }));
   }
 }
 

@@ -1,0 +1,34 @@
+import { describe, expect, it } from "vitest";
+import { linesOf, withLines, withoutLine } from "./edit-lines";
+
+const TABLE = { on: "carpet", grid: "80x120", lines: ["fill 1,1 ivory", "mirror both"] };
+const RECIPE = { edits: ["set 1,1 camel", TABLE, "replace ivory by camel"] };
+
+describe("edits", () => {
+  it("are lines, and lines of tables", () => {
+    expect(linesOf(RECIPE)).toEqual(["set 1,1 camel", "fill 1,1 ivory", "mirror both", "replace ivory by camel"]);
+    for (const recipe of [null, {}, { edits: "set 1,1 camel" }]) expect(linesOf(recipe)).toEqual([]);
+  });
+
+  it("get lines behind the last one, in a table of their grid where tables are", () => {
+    expect(withLines({}, ["mirror both"], "80x120")).toEqual(["mirror both"]);
+    expect(withLines({ edits: [TABLE] }, ["repeat 1,1 2,2"], "80x120")).toEqual([
+      { ...TABLE, lines: [...TABLE.lines, "repeat 1,1 2,2"] },
+    ]);
+    const other = { on: "carpet", grid: "40x60", lines: ["repeat 1,1 2,2"] };
+    expect(withLines({ edits: [TABLE] }, ["repeat 1,1 2,2"], "40x60")).toEqual([TABLE, other]);
+    const motif = { ...TABLE, on: "motif 1" };
+    expect(withLines({ edits: [motif] }, ["mirror both"], "80x120")).toEqual([
+      motif,
+      { on: "carpet", grid: "80x120", lines: ["mirror both"] },
+    ]);
+  });
+
+  it("lose a line by its number, and a table with its last line", () => {
+    linesOf(RECIPE).forEach((_, number) => {
+      const left = withoutLine(RECIPE, number);
+      expect(linesOf({ edits: left })).toEqual(linesOf(RECIPE).filter((_, at) => at !== number));
+    });
+    expect(withoutLine({ edits: [{ ...TABLE, lines: ["mirror both"] }] }, 0)).toBeNull();
+  });
+});

@@ -1,0 +1,48 @@
+/** The edits of a recipe: lines, and tables [[edits]] of lines that count the knots of a stated grid. */
+
+interface Table {
+  lines: readonly string[];
+  [key: string]: unknown;
+}
+
+type Entry = string | Table;
+
+function entriesOf(recipe: object | null): readonly Entry[] {
+  const edits = (recipe as { edits?: unknown } | null)?.edits;
+  return Array.isArray(edits) ? (edits as Entry[]) : [];
+}
+
+function isTable(entry: Entry | undefined): entry is Table {
+  return typeof entry === "object" && entry !== null && Array.isArray(entry.lines);
+}
+
+/** All lines, in the order in which they are applied. */
+export function linesOf(recipe: object | null): readonly string[] {
+  return entriesOf(recipe).flatMap((entry) => (isTable(entry) ? entry.lines : [entry as string]));
+}
+
+/** The edits with more lines at the end: in the last table, where its knots are those of this grid, else behind it. */
+export function withLines(recipe: object | null, lines: readonly string[], grid: string): readonly Entry[] {
+  const entries = entriesOf(recipe);
+  const last = entries[entries.length - 1];
+  if (!isTable(last)) return [...entries, ...lines];
+  if (last["on"] === undefined || last["on"] === "carpet")
+    if (last["grid"] === grid) return [...entries.slice(0, -1), { ...last, lines: [...last.lines, ...lines] }];
+  return [...entries, { on: "carpet", grid, lines }];
+}
+
+/** The edits without the line of a number, counted over all; null where none is left. */
+export function withoutLine(recipe: object | null, number: number): readonly Entry[] | null {
+  let before = 0;
+  const left = entriesOf(recipe).flatMap((entry): Entry[] => {
+    const at = number - before;
+    if (!isTable(entry)) {
+      before += 1;
+      return at === 0 ? [] : [entry];
+    }
+    before += entry.lines.length;
+    const lines = entry.lines.filter((_, index) => index !== at);
+    return lines.length > 0 ? [{ ...entry, lines }] : [];
+  });
+  return left.length > 0 ? left : null;
+}
