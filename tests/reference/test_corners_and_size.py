@@ -28,7 +28,7 @@ def test_the_medallion_in_a_cropped_photograph_is_whole() -> None:
     found = carpets.make_chart(DATA / "carpet-in-photo.jpg", corners=IN_PHOTO, **settings)
     truth = carpets.make_chart(EXAMPLES / "medallion.png", **settings)
     fit = found.reading.fit
-    assert (fit.cropped, fit.padded, fit.frame) == (0.0, 0.0, None)
+    assert (fit.cropped, fit.padded, fit.shown) == (0.0, 0.0, (0.0, 0.0, 1.0, 1.0))
     # The medallion is its own mirror image, so what is cut at one end shows.
     apart = np.linalg.norm(colours(found) - colours(truth), axis=-1)
     shifted = np.linalg.norm(colours(found)[4:-4] - colours(truth)[8:], axis=-1)
