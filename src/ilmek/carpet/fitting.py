@@ -70,8 +70,8 @@ class FitParams(Params):
     )
     ground: str | None = kind.text(
         None,
-        doc="colour behind transparent parts, of margins, and of cells that a chart of another program leaves without a "
-        "stitch, like #e8dfc8; default: white, dark behind nearly white art; of margins that of the picture's border",
+        doc="colour behind transparent parts, of margins, and of cells that a chart of another program leaves without "
+        "a stitch, like #e8dfc8; default: white, dark behind nearly white art; of margins that of the picture's border",
     )
     corners: str | None = kind.text(
         None,

@@ -21,10 +21,13 @@ MOST_PROFILE = 4_000_000
 WHITE, DARK = (255, 255, 255), (32, 32, 32)
 """Colours behind the transparent parts of a picture."""
 
-NEARLY_WHITE = 20.0
-"""Mean difference from white in CIELAB of what is seen of a picture, below which it needs a dark ground: white art with
-black lines on a fifth of it has 20.
+NEARLY_WHITE, LIGHT = 20.0, 30.0
+"""Mean differences from white in CIELAB of the rim of what is seen of a picture, and of all that is seen, below which it
+needs a dark ground.
 """
+
+_RIM = 2
+"""Width of the rim [pixels of the picture that is judged]: a white animal with a black outline has a black one."""
 
 _JUDGED = 512
 """Pixels of the longer side of the picture of which that is judged."""
@@ -67,15 +70,26 @@ def srgb_pixels(
 
 
 def _contrasting(image: Image.Image, to_eight_bits: _Convert, to_rgb: _Convert) -> Colour:
-    """White, or DARK where what is seen of a picture is nearly white."""
+    """White, or DARK where what is seen of a picture is nearly white along its rim."""
     scale = max(1.0, max(image.size) / _JUDGED)
     few = to_eight_bits(image.resize([max(1, int(side / scale)) for side in image.size], Image.Resampling.NEAREST))
     cover = _cover(few)
     if cover is None:
         return WHITE
     seen = np.asarray(cover, dtype=float) / 255
+    rim = seen * (1 - _least_around(seen, _RIM))
     apart = np.linalg.norm(srgb_to_lab(np.asarray(to_rgb(_flat(few)))) - (100.0, 0.0, 0.0), axis=-1)
-    return DARK if float((seen * apart).sum()) < NEARLY_WHITE * float(seen.sum()) else WHITE
+    limits = ((rim, NEARLY_WHITE), (seen, LIGHT))
+    return DARK if all(float((part * apart).sum()) < most * float(part.sum()) for part, most in limits) else WHITE
+
+
+def _least_around(values: FloatArray, reach: int) -> FloatArray:
+    """The least value within a reach of each, along rows and columns."""
+    for axis in (0, 1):
+        padded = np.pad(values, [(reach, reach) if axis == side else (0, 0) for side in (0, 1)], mode="edge")
+        windows = np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1, axis=axis)
+        values = windows.min(axis=-1)
+    return values
 
 
 def _about_the_ground(behind: Colour | None, given: Colour | None) -> tuple[str, ...]:
