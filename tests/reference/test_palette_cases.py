@@ -5,11 +5,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from drawn_colours import PICTURES, blocks, charted, chroma, colours_of, edge_share, saved, yarn_at
-from skimage import data_dir
+from skimage import data
 
 from ilmek.jobs.chart import ChartResult, chart_results
 
-SKIMAGE = Path(data_dir)
+SKIMAGE = Path(data.__file__).parent
 RED, GREEN, WHITE, BLACK, PURPLE = (255, 0, 0), (0, 255, 0), (255, 255, 255), (0, 0, 0), (150, 0, 200)
 
 

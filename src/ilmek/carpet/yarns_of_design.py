@@ -3,8 +3,8 @@
 1. Without a list of the customer the yarns are the picture's own shades [`proposal.own_yarns`].
 2. The palette rules choose from the list [`palette_rules`].
 3. A drawing's colours get their yarns together [`assignment`], a photo's each the nearest. Pairs that are given hold.
-4. A photo that would lose its edges, because its tones lie between two yarns, has them stretched onto the range of
-   lightness of the yarns before they are matched.
+4. A photo that would lose its edges, because its tones lie between two yarns, has them stretched towards the range of
+   lightness of the yarns before they are matched, as little as keeps the edges.
 """
 
 from collections.abc import Sequence
@@ -47,6 +47,12 @@ chosen by looking at charts of photographs.
 
 _OWN = 1.0
 """CIEDE2000 to a yarn within which a colour is drawn in that yarn, whatever the colours like it."""
+
+_STRETCHES = (0.25, 0.5, 1.0)
+"""Shares of the way to the whole range of the yarns that are tried."""
+
+_MARGIN = 0.1
+"""Share of the edges that may be lost after, with small patches."""
 
 _ENDS = (0.5, 99.5)
 """Percentiles of the knots between which the tones of a photo lie."""
@@ -179,18 +185,25 @@ def _frequent(distinct: Colours, difference: FloatArray) -> list[str]:
 def _stretched(
     distinct: Colours, design: Design, labs: FloatArray, yarn_of: UInt8[np.ndarray, " colours"], progress: Progress
 ) -> UInt8[np.ndarray, " colours"] | None:
-    """The nearest yarns of the tones stretched onto the yarns, where much is lost without and less with; else None."""
+    """The nearest yarns of the tones stretched as little as keeps the edges, or most of them; None: as they are."""
     kept = edges_kept(design.colours, distinct, paint(design.colours, distinct, yarn_of), labs)
-    if kept is None or kept >= LEAST_EDGES:
+    if kept is None or kept >= LEAST_EDGES + _MARGIN / 2:
         return None
     order = np.argsort(distinct.labs[:, 0])
     place = np.cumsum(distinct.counts[order]) / float(distinct.counts.sum())
     dark, light = (float(distinct.labs[order[np.searchsorted(place, end / 100)], 0]) for end in _ENDS)
-    least, most = float(labs[:, 0].min()), float(labs[:, 0].max())
     if light - dark < 1.0:
         return None
-    toned = distinct.labs.copy()
-    toned[:, 0] = least + (most - least) * (toned[:, 0] - dark) / (light - dark)
-    found, _ = nearest_yarns(replace(distinct, labs=toned), labs, progress)
-    knots = paint(design.colours, distinct, found)
-    return found if (edges_kept(design.colours, distinct, knots, labs) or 0.0) > kept else None
+    own, least, most = distinct.labs[:, 0], float(labs[:, 0].min()), float(labs[:, 0].max())
+    whole = least + (most - least) * (own - dark) / (light - dark)
+    best = None
+    for share in _STRETCHES:
+        toned = distinct.labs.copy()
+        toned[:, 0] = own + share * (whole - own)
+        found, _ = nearest_yarns(replace(distinct, labs=toned), labs, progress)
+        now = edges_kept(design.colours, distinct, paint(design.colours, distinct, found), labs) or 0.0
+        if now > kept:
+            best, kept = found, now
+        if kept >= LEAST_EDGES + _MARGIN:
+            break
+    return best
