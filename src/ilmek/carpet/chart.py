@@ -24,6 +24,7 @@ from ilmek.carpet.matches import ColourMatch, colour_matches
 from ilmek.carpet.overlay import Overlay, TiedKnots, no_overlay, require_fit, tied_knots
 from ilmek.carpet.palette import Colours, distinct_colours, paint
 from ilmek.carpet.palette_rules import Palette, PaletteParams
+from ilmek.carpet.paper.sheet import PaperReading
 from ilmek.carpet.proposal import ProposedShade, propose_shades
 from ilmek.carpet.quality import Quality, carpet_quality
 from ilmek.carpet.reading import Design, ReadParams
@@ -58,6 +59,7 @@ class ChartReading:
     proposed       shades of the design itself: those that are dyed for it, or as many as were required
     dyed           names of the yarns that are dyed for it
     lost           colours of a drawing that vanish, because one beside them has the same yarn
+    paper          the sheet of squared paper that the design was read from
     edges_kept     share of the design's edges that the chart keeps; None: it has none, or nothing was measured
     """
 
@@ -77,6 +79,7 @@ class ChartReading:
     dyed: tuple[str, ...] = ()
     lost: tuple[LostColour, ...] = ()
     edges_kept: float | None = None
+    paper: PaperReading | None = None
 
 
 @record
@@ -339,6 +342,7 @@ def chart_of_design(
         dyed=tuple(shade.name for shade in own.proposed),
         lost=_lost(own, distinct, labs),
         edges_kept=edges_kept(design.colours, distinct, knots, labs),
+        paper=design.paper,
     )
     chart = Chart(knots, own.palette.yarns, size, quality, kind, read)
     chart.tally(progress.part(0.95, 1.0))

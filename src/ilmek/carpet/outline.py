@@ -20,6 +20,7 @@ import scipy
 from ilmek.arrays import BoolArray, Float, FloatArray, Rgb
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.design import resampled
+from ilmek.carpet.paper.sheet import squared_paper
 from ilmek.carpet.picture_points import Points
 from ilmek.carpet.projection import MadeRgb
 from ilmek.errors import PictureError
@@ -69,8 +70,14 @@ _STEP = 0.5
 def find_outline(rgb: Rgb, progress: Progress = SILENT) -> tuple[Points, float]:
     """The corners of the carpet in a photograph, clockwise from the upper left, and the clearness of its outline.
 
+    Of a sheet of squared paper those of its grid: the outer field of its drawing may reach to the edge of the picture,
+    and is no floor then; the clearness is the share of its cells that are not doubtful.
     Raises PictureError where the outline is not clear.
     """
+    sheet = squared_paper(rgb, progress.part(0.0, 0.4))
+    if sheet is not None:
+        inside = np.clip(sheet.cells.corners, 0.0, [rgb.shape[1], rgb.shape[0]])
+        return inside, 1.0 - sheet.doubts / sheet.numbers.size
     lab: FloatArray = srgb_to_lab(_reduced(rgb, _LONG, progress.part(0.0, 0.8))).astype(np.float32)
     margin = _margin(lab.shape[0], lab.shape[1])
     floor, difference = _difference(lab, margin)

@@ -1,6 +1,6 @@
 """Reading: from the pixels of a fitted picture to a design, one colour for each knot.
 
-exact  every pixel is a knot [`exact`]
+exact  every pixel is a knot [`exact`], or every cell of a sheet of squared paper [`paper`]
 flat   a drawing: each knot has a true colour of its cell [`flat`]
 photo  box averages in linear light [`design`]
 
@@ -12,14 +12,15 @@ from types import MappingProxyType
 
 from ilmek.arrays import Rgb
 from ilmek.carpet.design import resampled
-from ilmek.carpet.exact import find_drawing
+from ilmek.carpet.exact import find_drawing, has_grid, of_grid
 from ilmek.carpet.flat import flat_design, looks_flat, looks_like_itself, whole_chroma
+from ilmek.carpet.paper.sheet import PaperReading, read_sheet, squared_paper
 from ilmek.carpet.picture_points import read_colour
 from ilmek.carpet.projection import MadeRgb
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.tone import AUTO, Tone, toned
-from ilmek.errors import ParameterError
+from ilmek.errors import CarpetError, ParameterError
 from ilmek.params import Params, kind, param
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
@@ -39,6 +40,9 @@ class ReadParams(Params):
 
     reading: str = param(
         "auto", choices=READINGS, doc="how the picture is read; auto: decided by its pixels", alias="read"
+    )
+    paper: bool = kind.flag(
+        False, doc="read the picture as a scan or photograph of squared paper: one knot for each cell of its grid"
     )
     least_patch: int | None = kind.count(
         None,
@@ -66,7 +70,9 @@ class ReadParams(Params):
     )
 
     def check_together(self) -> None:
-        """Raise ParameterError for a white that is no colour, or black."""
+        """Raise ParameterError for a white that is no colour, or black, and for paper that is to be read otherwise."""
+        if self.paper and self.reading not in ("auto", "exact"):
+            raise ParameterError(f"paper is given, and reading={self.reading!r}", do="leave one of them out")
         if self.white not in (None, AUTO) and max(read_colour("white", self.white)) < DARKEST_WHITE:
             raise ParameterError(
                 f"white={self.white!r} is nearly black", allowed="a code of at least 64", do="give a light colour"
@@ -96,12 +102,14 @@ class Design:
     kind     exact, flat or photo
     reason   of the decision, one sentence for the user
     foreign  number of knots whose colour is that of no true colour of their cell; None: no true colours
+    paper    the sheet of squared paper that it was read from
     """
 
     colours: Rgb
     kind: str
     reason: str
     foreign: int | None = None
+    paper: PaperReading | None = None
 
 
 def toned_design(design: Design, tone: Tone, progress: Progress = SILENT) -> Design:
@@ -127,10 +135,32 @@ def exact_design(
     params = params or ReadParams()
     if params.reading not in ("auto", "exact"):
         return None
-    found = find_drawing(rgb, size, quality, drawn=drawn or params.reading == "exact", progress=progress)
+    if params.paper:
+        return _of_sheet(read_sheet(rgb, progress), size, quality, params)
+    drawn = drawn or params.reading == "exact"
+    sheet = squared_paper(rgb) if size is None and not drawn else None
+    if sheet is not None:
+        return _of_sheet(sheet, size, quality, params)
+    found = find_drawing(rgb, size, quality, drawn=drawn, progress=progress)
     if found is None:
         return None
     return toned_design(Design(found.rgb, "exact", found.reason, 0), params.tone), found.size, found.quality
+
+
+def _of_sheet(
+    sheet: PaperReading, size: CarpetSize | None, quality: Quality | None, params: ReadParams
+) -> tuple[Design, CarpetSize, Quality]:
+    """The design on a sheet of squared paper. Raises CarpetError where size and quality have another grid."""
+    if size is None or quality is None:
+        size, quality = of_grid(sheet.grid, size, quality)
+    elif not has_grid(sheet.grid, size, quality):
+        columns, rows = quality.across * size.width, quality.along * size.length
+        raise CarpetError(
+            f"the picture is {sheet.words}, and {size} at {quality} has {columns:.0f} × {rows:.0f} knots",
+            do="leave out --size or --quality, which then follows from the cells; where lines of the grid were missed, "
+            "crop the picture to the grid",
+        )
+    return toned_design(Design(sheet.rgb, "exact", sheet.words, 0, sheet), params.tone), size, quality
 
 
 def read_design(

@@ -23,6 +23,7 @@ FILES = (
     FileNote("chart.json", "the results as data, SI"),
     FileNote("yarn.csv", "the yarn to buy"),
     FileNote("proposed.toml", "shades proposed from the picture itself: a yarn list for --yarns"),
+    FileNote("paper.html", "the doubtful cells of the squared paper beside their reading, to correct"),
     FileNote("programme.ilmek", "the loom programme; show it with `ilmek inspect`"),
     FileNote("machine.json", "the loom and its machines: parameters, results, checks"),
 )

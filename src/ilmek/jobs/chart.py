@@ -25,6 +25,7 @@ from ilmek.io.yarn_proposal import write_proposal
 from ilmek.jobs.carpet_report import page_of
 from ilmek.jobs.charting import chart_of_order
 from ilmek.jobs.order import MOST_PRINTED, MOST_SHEETS, CarpetOrder, ResolvedOrder
+from ilmek.jobs.paper import PAPER_PAGE, paper_files, paper_notes, paper_results
 from ilmek.jobs.recipe import chart_of_recipe
 from ilmek.jobs.rows import rows_plan, write_rows
 from ilmek.jobs.stages import ANEW, Stages
@@ -43,6 +44,7 @@ from ilmek.report import Check, plain, verdict_json
 from ilmek.report.left_out import made_or_left_out
 from ilmek.viz.carpet_page import CarpetPage, carpet_page
 from ilmek.viz.carpet_picture import DrawnCarpet, check_carpet_width, draw_carpet
+from ilmek.viz.paper_page import paper_page
 
 CARPET_PICTURE, YARN_TABLE = "carpet.png", "yarn.csv"
 
@@ -83,7 +85,7 @@ class ChartResult:
         printed = (row.file for row in self.printed)
         rows = rows_plan(self.chart, self.order.order).names
         proposed = (PROPOSED,) if self.chart.reading.proposed else ()
-        return (*charts, CARPET_PICTURE, *printed, *rows, YARN_TABLE, *proposed)
+        return (*charts, CARPET_PICTURE, *printed, *rows, YARN_TABLE, *proposed, *paper_files(self.chart))
 
     @property
     def printed(self) -> tuple[ChartFormat, ...]:
@@ -181,7 +183,7 @@ def make_charted(
     chart = made.chart
     check_carpet_width(chart.size, order.files.carpet_width)
     bill = yarn_bill(chart, order.plan)
-    notes = (*order.notes, *made.notes, *yarn_notes(chart), *_left_out(order, chart))
+    notes = (*order.notes, *made.notes, *paper_notes(chart), *yarn_notes(chart), *_left_out(order, chart))
     return ChartResult(made.order, chart, bill, chart_statistics(chart), notes, made.source, made.whole)
 
 
@@ -207,6 +209,7 @@ def chart_results(charted: ChartResult) -> dict[str, Any]:
         "edits": [outcome.as_plain() for outcome in reading.edits],
         "foreign_fraction": None if reading.foreign is None else reading.foreign / chart.knots.size,
         "fit": fit_results(reading.fit),
+        "paper": paper_results(chart),
         **yarn_choice_results(chart, charted.order.order),
         "mean_delta_e": reading.mean_delta_e,
         "least_delta_e": reading.least_delta_e,
@@ -279,8 +282,11 @@ def write_chart(
     proposed = (PROPOSED,) if chart.reading.proposed else ()
     if proposed:
         write_proposal(folder / PROPOSED, proposed_shades(chart))
+    paper = paper_files(chart)
+    if paper:
+        (folder / PAPER_PAGE).write_text(paper_page(chart, charted.order.order.picture.stem), encoding="utf-8")
     charts = (row.file for row in formats)
-    return (*charts, CARPET_PICTURE, *printed, *rows, YARN_TABLE, *proposed), drawn_for_page
+    return (*charts, CARPET_PICTURE, *printed, *rows, YARN_TABLE, *proposed, *paper), drawn_for_page
 
 
 def _print_chart(charted: ChartResult, folder: Path, left_out: list[str], progress: Progress) -> list[str]:

@@ -12,6 +12,7 @@ import numpy as np
 from ilmek.arrays import BoolArray, Float, FloatArray, Rgb
 from ilmek.carpet.paper.lattice import SAMPLES, Lattice, rectified, window
 from ilmek.carpet.paper.lines import LineEnergy, levelled, no_grid
+from ilmek.carpet.picture_points import Points
 from ilmek.records import record
 
 LEAST_CELLS = 4
@@ -20,8 +21,8 @@ LEAST_CELLS = 4
 _LEAST_SHARE = 0.3
 """Least coherence of an outer row or column of cells, of the median one."""
 
-_INNER, _ALONG = 0.28, 7
-"""Half side of the inner part of a cell, and the samples along it."""
+_INNER, _ALONG, _LINE = 0.28, 7, 2.4
+"""Half side of the inner part of a cell, at most; the samples along it; its least distance from a line [pixels]."""
 
 _VISIBLE = 0.3
 """Half side of the part of each outer cell that has to be in the picture."""
@@ -34,14 +35,17 @@ class Cells:
     colours  mean of the steady half of the samples of each, sRGB codes (rows, columns, 3)
     spread   range of the lightness of that half [codes]
     x, y     their middles in the picture [pixels]
-    strength coherence of the lines about each cell, 1: as usual in the sheet
+    corners   of the grid in the picture, clockwise from the upper left
+    strength  coherence of the lines about each cell, over `usual`, that of the median cell
     """
 
     colours: Float[np.ndarray, "rows columns 3"]
     spread: Float[np.ndarray, "rows columns"]
     x: Float[np.ndarray, "rows columns"]
     y: Float[np.ndarray, "rows columns"]
+    corners: Points
     strength: Float[np.ndarray, "rows columns"]
+    usual: float
 
 
 def read_cells(rgb: Rgb, energy: LineEnergy, lattice: Lattice) -> Cells:
@@ -54,7 +58,8 @@ def read_cells(rgb: Rgb, energy: LineEnergy, lattice: Lattice) -> Cells:
     v = upper + np.arange(rows.start, rows.stop) + 0.5
     strength = of_columns[rows, columns] + of_rows[rows, columns]
     usual = max(float(np.median(strength)), 1e-9)
-    inner = (np.arange(_ALONG) + 0.5) / _ALONG * 2 * _INNER - _INNER
+    pitch = energy.factor * min(energy.pitch_x, energy.pitch_y)
+    inner = np.linspace(-1, 1, _ALONG) * min(_INNER, max(0.15, 0.5 - _LINE / pitch))
     all_u, all_v = (u[:, None] + inner).ravel(), (v[:, None] + inner).ravel()
     x, y = lattice.mesh(all_u, all_v)
     samples = rgb[
@@ -65,7 +70,10 @@ def read_cells(rgb: Rgb, energy: LineEnergy, lattice: Lattice) -> Cells:
     colours, spread = _steady(by_cell)
     middle = _ALONG // 2
     x, y = (one.reshape(shape)[:, middle, :, middle] for one in (x, y))
-    return Cells(colours, spread, x, y, strength / usual)
+    ends = np.array([[u[0], u[-1], u[-1], u[0]], [v[0], v[0], v[-1], v[-1]]])
+    outwards = np.array([[-0.5, 0.5, 0.5, -0.5], [-0.5, -0.5, 0.5, 0.5]])
+    corners = np.stack(lattice.points(*(ends + outwards)), axis=-1)
+    return Cells(colours, spread, x, y, corners, strength / usual, usual)
 
 
 def _steady(samples: Rgb) -> tuple[FloatArray, FloatArray]:
@@ -111,8 +119,10 @@ def _extent(of_columns: FloatArray, of_rows: FloatArray, seen: BoolArray, lattic
     """The rows and columns of the window that the grid has."""
     left, right, upper, lower = window(lattice)
     low, high = np.rint(lattice.low).astype(int), np.rint(lattice.high).astype(int)
-    rows = slice(max(0, int(low[1]) - upper + 2), max(1, int(high[1]) - upper - 2))
-    columns = slice(max(0, int(low[0]) - left + 2), max(1, int(high[0]) - left - 2))
+    rows = slice(int(low[1]) - upper + 2, int(high[1]) - upper - 2)
+    columns = slice(int(low[0]) - left + 2, int(high[0]) - left - 2)
+    if rows.stop <= rows.start or columns.stop <= columns.start:
+        raise no_grid("its grid has too few cells")
     for _ in range(3):
         columns = _run(of_columns[rows].mean(axis=0), columns, seen[rows].mean(axis=0) > 0.98)
         rows = _run(of_rows[:, columns].mean(axis=1), rows, seen[:, columns].mean(axis=1) > 0.98)
@@ -123,7 +133,9 @@ def _extent(of_columns: FloatArray, of_rows: FloatArray, seen: BoolArray, lattic
 
 def _run(coherence: FloatArray, core: slice, seen: BoolArray) -> slice:
     """The run about the core's middle in which the lines go on; one row or column without lines may lie within."""
-    usual = float(np.median(coherence[core])) if core.stop > core.start else 0.0
+    if not seen.any():
+        raise no_grid("no whole cell is in the picture")
+    usual = float(np.median(coherence[core]))
     on = (coherence >= _LEAST_SHARE * usual) & seen
     middle = (core.start + core.stop) // 2
 

@@ -2,7 +2,7 @@
 
     ln I(cell) = ln palette(colour of the cell) + S(u, v)
 
-S is smooth: light and shadow. Most neighbours have one colour, so that the differences of neighbours are those of S but
+S is smooth, and one for the three channels: light and shadow. Most neighbours have one colour, so that the differences of neighbours are those of S but
 for outliers: a polynomial is fitted to them, weighted down beyond a few percent [E. H. Land, J. J. McCann, Lightness and
 retinex theory, J. Opt. Soc. Am. 61 (1971) 1-11]. Then, in turn, cells are grouped in CIELAB about the densest colours,
 and S is smoothed from what each cell is off its colour: the edge of a shadow is sharper than the polynomial.
@@ -30,6 +30,9 @@ _ONE_COLOUR = 0.03
 
 _BIN, _APART = 3.0, 9.0
 """Side of the bins in which colours are counted, and least distance of two colours of a drawing [CIELAB]."""
+
+LUMA = np.array([0.299, 0.587, 0.114])
+"""Lightness of sRGB codes (ITU-R BT.601)."""
 
 _LEAST = 2
 """Least number of cells of a colour."""
@@ -68,17 +71,17 @@ def cell_colours(
     spread: Float[np.ndarray, "rows columns"],
 ) -> CellColours:
     """The colours that cells have; `spread`: range of the lightness within each [codes]."""
-    logs = np.log(colours + _DARK)
-    light = _slow_light(logs)
+    brightness = np.log(colours @ LUMA + _DARK)
+    light = _slow_light(brightness)
     for _ in range(_ROUNDS):
-        lab = _lab(logs - light)
+        lab = _lab(colours, light)
         centres, numbers = _grouped(lab.reshape(-1, 3))
         numbers = numbers.reshape(spread.shape)
-        of_colour = np.stack([np.median((logs - light)[numbers == one], axis=0) for one in range(len(centres))])
-        off = logs - of_colour[numbers]
-        sure = np.hypot.reduce(lab - centres[numbers], axis=-1) < 2 * _APART / 3
-        light = _smoothed(off, sure, light)
-    lab = _lab(logs - light)
+        even = brightness - light
+        of_colour = np.array([np.median(even[numbers == one]) for one in range(len(centres))])
+        sure = np.sqrt(((lab - centres[numbers]) ** 2).sum(axis=-1)) < 2 * _APART / 3
+        light = _smoothed(brightness - of_colour[numbers], sure, light)
+    lab = _lab(colours, light)
     centres, numbers = _grouped(lab.reshape(-1, 3))
     distance = np.sqrt(((lab[..., None, :] - centres) ** 2).sum(axis=-1))
     numbers = numbers.reshape(spread.shape)
@@ -87,46 +90,45 @@ def cell_colours(
     ratio = own / np.maximum(distance.min(axis=-1), 1e-9)
     usual = max(_USUAL_OFF, float(np.quantile(own, 0.9)))
     doubtful = (ratio > _DOUBTFUL_RATIO) | (own > _DOUBTFUL_OFF * usual) | (spread > _DOUBTFUL_SPREAD)
-    palette = np.stack([np.median(_codes(logs - light)[numbers == one], axis=0) for one in range(len(centres))])
+    evenly = _evenly_lit(colours, light)
+    palette = np.stack([np.median(evenly[numbers == one], axis=0) for one in range(len(centres))])
     return CellColours(
         np.rint(palette).astype(np.uint8), numbers.astype(np.uint8), np.clip(1 - ratio, 0.0, 1.0), doubtful
     )
 
 
-def _codes(logs: FloatArray) -> FloatArray:
-    return np.asarray(np.clip(np.exp(logs) - _DARK, 0.0, 255.0))
+def _evenly_lit(colours: FloatArray, light: FloatArray) -> FloatArray:
+    """The codes of the cells without S."""
+    return np.asarray(np.clip((colours + _DARK) * np.exp(-light)[..., None] - _DARK, 0.0, 255.0))
 
 
-def _lab(logs: FloatArray) -> FloatArray:
-    return np.asarray(xyz_to_lab(decode(_codes(logs) / 255) @ RGB_TO_XYZ.T))
+def _lab(colours: FloatArray, light: FloatArray) -> FloatArray:
+    return np.asarray(xyz_to_lab(decode(_evenly_lit(colours, light) / 255) @ RGB_TO_XYZ.T))
 
 
-def _slow_light(logs: FloatArray) -> FloatArray:
+def _slow_light(logs: Float[np.ndarray, "rows columns"]) -> FloatArray:
     """S as a polynomial, by the differences of neighbours; its mean is 0."""
-    rows, columns = logs.shape[:2]
+    rows, columns = logs.shape
     v, u = np.meshgrid(np.linspace(-1, 1, rows), np.linspace(-1, 1, columns), indexing="ij")
     powers = [(i, j) for i in range(_DEGREE + 1) for j in range(_DEGREE + 1 - i) if i + j]
     terms = np.stack([u**i * v**j for i, j in powers], axis=-1)
     steps = np.concatenate([np.diff(terms, axis=axis).reshape(-1, len(powers)) for axis in (0, 1)])
     part = slice(None, None, -(-len(steps) // _MOST_STEPS))
     steps = steps[part]
-    light = np.zeros_like(logs)
-    for channel in range(3):
-        seen = np.concatenate([np.diff(logs[..., channel], axis=axis).ravel() for axis in (0, 1)])[part]
-        weights = 1 / (1 + (seen / _ONE_COLOUR) ** 2) ** 2
-        for _ in range(8):
-            weighted = steps * weights[:, None]
-            found = np.linalg.solve(weighted.T @ steps + 1e-6 * np.eye(len(powers)), weighted.T @ seen)
-            weights = 1 / (1 + ((seen - steps @ found) / _ONE_COLOUR) ** 2) ** 2
-        light[..., channel] = terms @ found
-    return np.asarray(light - light.mean(axis=(0, 1)))
+    seen = np.concatenate([np.diff(logs, axis=axis).ravel() for axis in (0, 1)])[part]
+    weights = 1 / (1 + (seen / _ONE_COLOUR) ** 2) ** 2
+    for _ in range(8):
+        weighted = steps * weights[:, None]
+        found = np.linalg.solve(weighted.T @ steps + 1e-6 * np.eye(len(powers)), weighted.T @ seen)
+        weights = 1 / (1 + ((seen - steps @ found) / _ONE_COLOUR) ** 2) ** 2
+    light = terms @ found
+    return np.asarray(light - light.mean())
 
 
 def _smoothed(off: FloatArray, sure: BoolArray, before: FloatArray) -> FloatArray:
     """S from what the sure cells are off their colours; far from these as before."""
-    weight = scipy.ndimage.gaussian_filter(sure.astype(float), _SHADOW, mode="nearest")[..., None]
-    change = np.where(sure[..., None], off - before, 0.0)
-    moved = scipy.ndimage.gaussian_filter(change, (_SHADOW, _SHADOW, 0), mode="nearest")
+    weight = scipy.ndimage.gaussian_filter(sure.astype(float), _SHADOW, mode="nearest")
+    moved = scipy.ndimage.gaussian_filter(np.where(sure, off - before, 0.0), _SHADOW, mode="nearest")
     return np.asarray(before + moved / (weight + 0.05))
 
 

@@ -30,6 +30,9 @@ _LEAST_SCORE = 0.12
 _OBLONG = 0.2
 """Logarithm of the largest ratio of pitches that are one; twice that of the sides of a cell."""
 
+SOMEWHERE, NEARLY_EVERYWHERE = 0.04, 0.4
+"""Least share of the pieces of a picture in which lines repeat: of a photographed sheet; of the export of a program."""
+
 _COARSE = 7.0
 """Pitch in the reduced energy, at least [pixels]."""
 
@@ -51,9 +54,12 @@ class LineEnergy:
     pitch_y: float
 
 
-def line_energy(rgb: Rgb, progress: Progress = SILENT) -> LineEnergy:
-    """The line energy of a picture. Raises PictureError where no line repeats."""
-    found = pitches(rgb)
+def line_energy(rgb: Rgb, progress: Progress = SILENT, least: float = SOMEWHERE) -> LineEnergy:
+    """The line energy of a picture; `least`: share of it in which lines repeat.
+
+    Raises PictureError where no line repeats.
+    """
+    found = pitches(rgb, least)
     progress(0.2)
     if found is None:
         raise no_grid("no lines at equal distances")
@@ -107,7 +113,7 @@ def levelled(energy: FloatArray, pitch: float) -> Energy:
     return np.asarray(np.minimum(energy / (mean + 1.0) - 1.0, 2.0), dtype=np.float32)
 
 
-def pitches(rgb: Rgb) -> tuple[float, float] | None:
+def pitches(rgb: Rgb, least: float = SOMEWHERE) -> tuple[float, float] | None:
     """The pitches of the lines down and across a picture [pixels], of nearly square cells; None: no lines repeat."""
     down, across = _lags(rgb), _lags(np.swapaxes(rgb, 0, 1))
     if min(np.count_nonzero(one[:, 1] > 0) for one in (down, across)) < 3:
@@ -118,7 +124,7 @@ def pitches(rgb: Rgb) -> tuple[float, float] | None:
     found = []
     for one in (down, across):
         on = (np.abs(np.log(one[:, 0] / mode)) < 2 * _OBLONG) & (one[:, 1] > 0)
-        if np.count_nonzero(on) < max(3, 0.04 * len(one)):
+        if np.count_nonzero(on) < max(3, least * len(one)):
             return None
         found.append(float(np.median(one[on, 0])))
     return found[0], found[1]

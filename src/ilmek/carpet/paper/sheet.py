@@ -1,17 +1,29 @@
 """A sheet of squared paper, read: one knot a cell, with a confidence.
 
 lines → lattice → cells → colours, each in its module.
+
+A picture that nobody calls a sheet is one where its lines repeat nearly everywhere, are strong, and its cells are many,
+even and of few colours: exports of chart programs are, no photograph, carpet or drawing that was tried.
 """
 
 import numpy as np
 
-from ilmek.arrays import BoolArray, Float, Indices, Rgb, UInt8
+from ilmek.arrays import BoolArray, Float, Indices, Int64, Rgb, UInt8
 from ilmek.carpet.paper.cells import Cells, read_cells
 from ilmek.carpet.paper.colours import cell_colours
 from ilmek.carpet.paper.lattice import find_lattice
-from ilmek.carpet.paper.lines import line_energy
+from ilmek.carpet.paper.lines import NEARLY_EVERYWHERE, SOMEWHERE, line_energy
+from ilmek.errors import PictureError
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
+from ilmek.units import counted
+
+_LEAST_CELLS, _LEAST_EVEN, _EVEN, _MOST_DOUBTFUL, _LEAST_LINES, _MOST_COLOURS = 16, 0.9, 10.0, 0.03, 3.0, 64
+"""Of such a picture: cells along each side, share of even cells and their range of lightness [codes], share of doubtful
+cells, coherence of the lines, number of colours."""
+
+MOST_SHOWN, VIEW = 500, 60
+"""Largest number of doubtful cells that are shown, and side of the view of each [pixels]."""
 
 
 @record
@@ -21,6 +33,8 @@ class PaperReading:
     palette     sRGB of its colours, most cells first     numbers   of each cell's colour (rows, columns)
     confidence  of each cell, 0 to 1                      doubtful  the cells to be looked at
     cells       where they lie in the picture, and how they look there
+    shown       row and column of the most doubtful cells, from the top left, 0 first; at most MOST_SHOWN
+    views       the picture about each of these, VIEW pixels and three cells wide
     """
 
     palette: UInt8[np.ndarray, "colours 3"]
@@ -28,6 +42,8 @@ class PaperReading:
     confidence: Float[np.ndarray, "rows columns"]
     doubtful: BoolArray
     cells: Cells
+    shown: Int64[np.ndarray, "shown 2"]
+    views: UInt8[np.ndarray, "shown side side 3"]
 
     @property
     def grid(self) -> tuple[int, int]:
@@ -45,14 +61,60 @@ class PaperReading:
         """Number of doubtful cells."""
         return int(np.count_nonzero(self.doubtful))
 
+    @property
+    def words(self) -> str:
+        """What was found, for the user."""
+        rows, columns = self.grid
+        found = f"{columns} × {rows} cells in {counted(len(self.palette), 'colour')}"
+        return f"squared paper of {found}, {f'{self.doubts:,} of them doubtful' if self.doubts else 'none doubtful'}"
 
-def read_sheet(rgb: Rgb, progress: Progress = SILENT) -> PaperReading:
-    """The chart on a sheet of squared paper. Raises PictureError where no grid is found."""
+    @property
+    def certain(self) -> bool:
+        """Whether this is squared paper though nobody said so."""
+        return (
+            min(self.grid) >= _LEAST_CELLS
+            and len(self.palette) <= _MOST_COLOURS
+            and self.cells.usual >= _LEAST_LINES
+            and float(np.mean(self.cells.spread < _EVEN)) >= _LEAST_EVEN
+            and self.doubts <= _MOST_DOUBTFUL * self.numbers.size
+        )
+
+
+def squared_paper(rgb: Rgb, progress: Progress = SILENT) -> PaperReading | None:
+    """The chart on a picture that is squared paper beyond doubt; None: it is not."""
+    try:
+        found = read_sheet(rgb, progress, NEARLY_EVERYWHERE)
+    except PictureError:
+        return None
+    return found if found.certain else None
+
+
+def read_sheet(rgb: Rgb, progress: Progress = SILENT, least: float = SOMEWHERE) -> PaperReading:
+    """The chart on a sheet of squared paper; `least`: share of the picture in which lines repeat.
+
+    Raises PictureError where no grid is found.
+    """
     rgb = np.ascontiguousarray(rgb)
-    energy = line_energy(rgb, progress.part(0.0, 0.4))
+    energy = line_energy(rgb, progress.part(0.0, 0.4), least)
     lattice = find_lattice(energy)
     progress(0.8)
     cells = read_cells(rgb, energy, lattice)
     progress(0.9)
     found = cell_colours(cells.colours, cells.spread)
-    return PaperReading(found.palette, found.numbers, found.confidence, found.doubtful, cells)
+    rows, columns = np.nonzero(found.doubtful)
+    order = np.argsort(found.confidence[rows, columns], kind="stable")[:MOST_SHOWN]
+    shown = np.stack([rows[order], columns[order]], axis=-1)
+    pitch = energy.factor * 0.5 * (energy.pitch_x + energy.pitch_y)
+    views = _views(rgb, cells.x[rows, columns][order], cells.y[rows, columns][order], pitch)
+    return PaperReading(found.palette, found.numbers, found.confidence, found.doubtful, cells, shown, views)
+
+
+def _views(
+    rgb: Rgb, x: Float[np.ndarray, " shown"], y: Float[np.ndarray, " shown"], pitch: float
+) -> UInt8[np.ndarray, "shown side side 3"]:
+    """The picture about points, VIEW × VIEW pixels for three cells each."""
+    reach = (np.arange(VIEW) + 0.5) / VIEW * 3 * pitch - 1.5 * pitch
+    across = np.clip(x[:, None] + reach, 0, rgb.shape[1] - 1).astype(np.intp)
+    along = np.clip(y[:, None] + reach, 0, rgb.shape[0] - 1).astype(np.intp)
+    views: UInt8[np.ndarray, "shown side side 3"] = rgb[along[:, :, None], across[:, None, :]]
+    return views
