@@ -31,7 +31,7 @@ _SLOPE = 0.35
 _LEAST_QUALITY = 1.2
 """Least logarithm of the highest power of a tile over the mean."""
 
-_DEGREE = 4
+_DEGREE = 5
 _BLOCK, SAMPLES = 4, 8
 """Cells of a block, and samples of a cell, along each side."""
 

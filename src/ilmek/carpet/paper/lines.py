@@ -33,6 +33,9 @@ _OBLONG = 0.2
 SOMEWHERE, NEARLY_EVERYWHERE = 0.04, 0.4
 """Least share of the pieces of a picture in which lines repeat: of a photographed sheet; of the export of a program."""
 
+_NEARLY = 0.7
+"""Score of a pitch, of the highest one, that counts before that of a multiple."""
+
 _COARSE = 7.0
 """Pitch in the reduced energy, at least [pixels]."""
 
@@ -162,5 +165,12 @@ def _best_lag(piece: FloatArray) -> tuple[float, float]:
         high = np.interp(times * lags, where, correlation)
         low = [np.interp((times + half) * lags, where, correlation) for half in (-0.5, 0.5)]
         total += (high - 0.5 * (low[0] + low[1])) / 3
-    best = int(total.argmax())
+    best = _first_peak(total)
     return float(lags[best]), float(total[best])
+
+
+def _first_peak(scores: FloatArray) -> int:
+    """The first local maximum that is nearly the highest: heavy lines repeat at a multiple of the pitch."""
+    inner = scores[1:-1]
+    peaks = np.flatnonzero((inner >= scores[:-2]) & (inner >= scores[2:]) & (inner >= _NEARLY * scores.max())) + 1
+    return int(peaks[0]) if len(peaks) else int(scores.argmax())
