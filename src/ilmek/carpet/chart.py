@@ -360,9 +360,10 @@ def _lost(own: YarnsOfDesign, distinct: Colours, labs: FloatArray) -> tuple[Lost
 
 
 def _halftone(
-    knots: Indices, design: Design, labs: FloatArray, strength: float, progress: Progress
+    knots: Indices, design: Design, labs: FloatArray, halftone: float | None, progress: Progress
 ) -> tuple[Indices, BoolArray | None]:
     """The chart with its halftone, and the cells that have a pattern; None: no halftone."""
+    strength = (1.0 if design.kind == "photo" else 0.0) if halftone is None else halftone
     if strength == 0.0:
         return knots, None
     if design.kind != "photo":

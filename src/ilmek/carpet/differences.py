@@ -14,6 +14,9 @@ from ilmek.progress import SILENT, Progress
 
 _UNIT = 2.0**24
 
+_MOST_KNOWN = 1 << 24
+"""Most differences that are kept, since a pattern asks for each many times."""
+
 
 class YarnDifference(NamedTuple):
     """CIEDE2000 between a yarn and the colours of the design that it stands for: mean over the knots, and the worst."""
@@ -35,8 +38,9 @@ class Differences(NamedTuple):
 @compiled
 def _move(  # noqa: PLR0917
     rgb: Rgb, index: IntArray, labs: FloatArray, difference: FloatArray, before: Indices, knots: Indices,
-    yarn_labs: FloatArray, sums: IntArray, counts: IntArray, worst: FloatArray
+    yarn_labs: FloatArray, found: FloatArray, sums: IntArray, counts: IntArray, worst: FloatArray
 ) -> None:  # fmt: skip
+    """Add what the changed knots change; `found`: differences of colours and yarns, 0 where not known, or none."""
     # In whole units, so that the sums do not depend on the order.
     for row in range(rgb.shape[0]):
         for column in range(rgb.shape[1]):
@@ -44,9 +48,13 @@ def _move(  # noqa: PLR0917
             if old != yarn:
                 code = np.int32(rgb[row, column, 0]) << 16 | np.int32(rgb[row, column, 1]) << 8 | rgb[row, column, 2]
                 colour = index[code] - 1
-                l1, a1, b1 = labs[colour]
-                l2, a2, b2 = yarn_labs[yarn]
-                delta = ciede2000(l1, a1, b1, l2, a2, b2)
+                delta = found[colour, yarn] if found.size else 0.0
+                if delta == 0.0:
+                    l1, a1, b1 = labs[colour]
+                    l2, a2, b2 = yarn_labs[yarn]
+                    delta = ciede2000(l1, a1, b1, l2, a2, b2)
+                    if found.size:
+                        found[colour, yarn] = delta
                 sums[yarn] += round(delta * _UNIT)
                 sums[old] -= round(difference[colour] * _UNIT)
                 counts[yarn] += 1
@@ -70,9 +78,11 @@ def differences(  # noqa: PLR0917
     (yarn_of, difference), (before, knots), yarns = taken, charts, len(yarn_labs)
     design = np.ascontiguousarray(design)
 
+    known = np.zeros((len(difference) if len(difference) * yarns <= _MOST_KNOWN else 0, yarns))
+
     def move(band: slice) -> tuple[IntArray, IntArray, FloatArray]:
         sums, counts, worst = np.zeros(yarns, dtype=np.int64), np.zeros(yarns, dtype=np.int64), np.zeros(yarns)
-        args = (colours.index, colours.labs, difference, before[band], knots[band], yarn_labs, sums, counts, worst)
+        args = (colours.index, colours.labs, difference, before[band], knots[band], yarn_labs, known, sums, counts, worst)
         _move(design[band], *args)
         return sums, counts, worst
 

@@ -1,24 +1,32 @@
 """Halftone: tones between the yarns, as patterns that mix to the tone at viewing distance.
 
-The chart is cut into cells of 2 × 2 knots. A cell in a smooth area takes one yarn of a mixture of at most three, chosen
-by a threshold of blue noise [`blue_noise`], so that the yarns' shares over some cells are those of the mixture
-[`mixtures`]. Every dot of a pattern has at least four knots, and none is alone.
+The chart is cut into cells of 2 × 2 knots, and the light that a cell has too little or too much is carried on to the
+cells beside and below it, row by row, forth and back, in the shares of Floyd and Steinberg.
 
-smooth    No pattern is drawn in a cell that holds or touches an outline: its knots differ by more than OUTLINE_INSIDE,
-          or its mean from that of a cell beside it by more than OUTLINE, in codes of a channel; nor in a cell that
-          belongs to no square of 3 × 3 others. There the knots keep their nearest yarns.
-strength  The tone aimed at lies at this share of the path from the light of the nearest yarn to that of the cell.
+smooth  A cell of a smooth area is a dot: one yarn of the mixture of its tone [`mixtures`], that which comes nearest to
+        the light of the mixture and of what was carried on. No yarn of a mixture contrasts with its tone by more than
+        CONTRAST, so no dot does with what lies around it.
+other   In a cell that holds or touches an outline, or belongs to no smooth square of 3 × 3 others, each knot has the
+        yarn nearest to its own colour, moved by what was carried on, at most by MOST_MOVED codes. So lines and
+        textures stay sharp, and the borders of their areas make the tone right.
 
-Mixtures are computed once for each tone, with channels rounded to steps of 4 codes, up or down by the noise.
+An outline: knots of a cell differ by more than OUTLINE_INSIDE, or its mean from that of a cell beside it by more than
+OUTLINE, in codes of a channel. The strength is the share of the light that is carried on.
+
+Light is in whole numbers, so that the chart does not depend on the machine.
+
+Source of the shares: R. W. Floyd and L. Steinberg, An adaptive algorithm for spatial greyscale, Proc. SID 17 (1976)
+75-77.
 """
+
+from typing import NamedTuple
 
 import numpy as np
 
 from ilmek.arrays import BoolArray, Float, FloatArray, Indices, Int32, IntArray, Rgb
-from ilmek.carpet.blue_noise import SIDE, blue_noise
-from ilmek.carpet.colour import LINEAR
+from ilmek.carpet.colour_difference import ciede2000
 from ilmek.carpet.design import bands, encoded
-from ilmek.carpet.light import LIGHT
+from ilmek.carpet.light import LIGHT, lab_of_light
 from ilmek.carpet.mixtures import WHITE, mix, yarn_lights
 from ilmek.num.compiled import compiled
 from ilmek.progress import SILENT, Progress
@@ -29,19 +37,59 @@ CELL = 2
 OUTLINE, OUTLINE_INSIDE = 24, 36
 """Differences of an outline, in codes of a channel."""
 
-STEP = 4
-"""Codes between the rounded channels of two tones."""
+MOST_MOVED = 32
+"""Codes by which what is carried on moves the colours of a cell that is no dot."""
 
-SHIFT = SIDE // 2
-"""Cells between the noise that draws the pattern and that which rounds the tones."""
+STEP, FINE = 8, 4
+"""Codes between the channels of the tones whose mixtures are computed, and of the colours whose nearest yarns are; what
+is rounded off is carried on.
+"""
 
-_LEVELS = 255 // STEP + 2
-_BATCH = 1024
+SHOWN = 4.0
+"""A lone knot shows where the yarns beside it are farther from its colour than its own by more [CIEDE2000]."""
+
+_TONES, _COLOURS = 255 // STEP + 2, 256 // FINE
+_UNKNOWN = 255
+"""Stands for no yarn: indices of yarns are at most 254."""
+
+
+class _Shelf(NamedTuple):
+    """The yarns, and what was found of their mixtures so far.
+
+    labs, lights  CIELAB of each yarn, and its linear light in units of LIGHT
+    strength      share of the light that is carried on
+    nearest       of colours in steps of FINE the nearest yarn, _UNKNOWN before it is asked for
+    found         of tones in steps of STEP whether the mixture is computed
+    yarns, aims, slopes  its yarns, its light and the slope of CIELAB there [`mixtures.mix`]
+    """
+
+    labs: FloatArray
+    lights: IntArray
+    strength: float
+    nearest: Indices
+    found: BoolArray
+    yarns: IntArray
+    aims: IntArray
+    slopes: IntArray
+
+
+def _shelf(labs: FloatArray, strength: float) -> _Shelf:
+    tones = _TONES**3  # memory that is never touched costs nothing
+    return _Shelf(
+        np.ascontiguousarray(labs),
+        np.rint(WHITE * yarn_lights(labs)).astype(np.int64),
+        strength,
+        np.full(_COLOURS**3, _UNKNOWN, dtype=np.uint8),
+        np.zeros(tones, dtype=bool),
+        np.empty((tones, 3), dtype=np.int64),
+        np.empty((tones, 3), dtype=np.int64),
+        np.empty((tones, 3, 3), dtype=np.int64),
+    )
 
 
 @compiled
 def _tone(rgb: Rgb, top: int, bottom: int, left: int, right: int, out: IntArray) -> int:  # noqa: PLR0917
-    """Write the codes of the mean light of a cell; returns the greatest range of a channel over its knots."""
+    """Write the mean light of a cell; returns the greatest range of a channel over its knots."""
     widest = 0
     for channel in range(3):
         light, least, most = 0, 255, 0
@@ -50,7 +98,7 @@ def _tone(rgb: Rgb, top: int, bottom: int, left: int, right: int, out: IntArray)
                 code = rgb[i, j, channel]
                 light += LIGHT[code]
                 least, most = min(least, int(code)), max(most, int(code))
-        out[channel] = encoded(light / (WHITE * (bottom - top) * (right - left)))
+        out[channel] = light // ((bottom - top) * (right - left))
         widest = max(widest, most - least)
     return widest
 
@@ -65,7 +113,7 @@ def _tones(rgb: Rgb, tones: Int32[np.ndarray, "rows columns"], rough: BoolArray)
         for j in range(columns):
             right = rgb.shape[1] if j == columns - 1 else CELL * (j + 1)
             rough[i, j] = _tone(rgb, CELL * i, bottom, CELL * j, right, own) > OUTLINE_INSIDE
-            tones[i, j] = own[0] << 16 | own[1] << 8 | own[2]
+            tones[i, j] = encoded(own[0] / WHITE) << 16 | encoded(own[1] / WHITE) << 8 | encoded(own[2] / WHITE)
     for i in range(rows):
         for j in range(columns):
             for y, x in ((i, j - 1), (i - 1, j)):
@@ -78,18 +126,26 @@ def _tones(rgb: Rgb, tones: Int32[np.ndarray, "rows columns"], rough: BoolArray)
 
 
 @compiled
-def _key(tone: int, level: int) -> int:
-    """The number of a tone with its channels rounded up or down by the noise, so that no step is seen."""
-    up = level * STEP // (SIDE * SIDE)
-    red, green, blue = (tone >> 16 & 255) + up, (tone >> 8 & 255) + up, (tone & 255) + up
-    return int(((red // STEP) * _LEVELS + green // STEP) * _LEVELS + blue // STEP)
-
-
-@compiled
-def _note(tones: Int32[np.ndarray, "rows columns"], noise: IntArray, top: int, seen: BoolArray) -> None:
-    for i in range(tones.shape[0]):
-        for j in range(tones.shape[1]):
-            seen[_key(tones[i, j], noise[(top + i + SHIFT) % SIDE, (j + SHIFT) % SIDE])] = True
+def _mixture(shelf: _Shelf, tone: int) -> int:
+    """The number of the mixture of a tone, which is computed when it is first asked for."""
+    half = STEP // 2
+    red, green, blue = (tone >> 16 & 255) + half, (tone >> 8 & 255) + half, (tone & 255) + half
+    key = ((red // STEP) * _TONES + green // STEP) * _TONES + blue // STEP
+    if not shelf.found[key]:
+        shelf.found[key] = True
+        light = np.empty(3)
+        for channel, code in enumerate((red, green, blue)):
+            light[channel] = LIGHT[min(code // STEP * STEP, 255)] / WHITE
+        mix(
+            light,
+            shelf.labs,
+            shelf.lights / WHITE,
+            shelf.strength,
+            shelf.yarns[key],
+            shelf.aims[key],
+            shelf.slopes[key],
+        )
+    return int(key)
 
 
 @compiled
@@ -115,28 +171,136 @@ def _in_smooth_area(rough: BoolArray, i: int, j: int) -> bool:
 
 
 @compiled
-def _draw(  # noqa: PLR0917
-    knots: Indices, tones: Int32[np.ndarray, "rows columns"], rough: BoolArray, number: IntArray, yarns: IntArray,
-    limits: IntArray, noise: IntArray, first: int, stop: int, top: int, drawn: BoolArray
-) -> None:  # fmt: skip
-    """Draw the pattern of the cells of rows `first` to `stop`.
+def _nearest_light(shelf: _Shelf, mixture: int, aim: IntArray) -> int:
+    """The yarn of a mixture whose light is nearest to what is aimed at."""
+    best, least = -1, 0
+    for k in range(3):
+        yarn, far = shelf.yarns[mixture, k], 0
+        for axis in range(3):
+            off = 0
+            for channel in range(3):
+                off += shelf.slopes[mixture, axis, channel] * (shelf.lights[yarn, channel] - aim[channel] >> 8)
+            far += (off >> 8) * (off >> 8)
+        if best < 0 or far < least:
+            best, least = yarn, far
+    return int(best)
 
-    number  of each tone's mixture      limits  of the noise, below which the first and the second yarn are taken
-    top     row of the noise of the first row of cells      drawn  receives which cells have a pattern
+
+@compiled
+def _nearest_yarn(shelf: _Shelf, red: int, green: int, blue: int) -> int:
+    """The yarn nearest to a colour, in steps of FINE codes."""
+    red, green, blue = min(max(red, 0), 255) // FINE, min(max(green, 0), 255) // FINE, min(max(blue, 0), 255) // FINE
+    key, half = (red * _COLOURS + green) * _COLOURS + blue, FINE // 2
+    if shelf.nearest[key] == _UNKNOWN:
+        lightness, a, b = lab_of_light(LIGHT[FINE * red + half], LIGHT[FINE * green + half], LIGHT[FINE * blue + half])
+        least = np.inf
+        for yarn in range(len(shelf.labs)):
+            far = ciede2000(lightness, a, b, shelf.labs[yarn, 0], shelf.labs[yarn, 1], shelf.labs[yarn, 2])
+            if far < least:
+                least = far
+                shelf.nearest[key] = yarn
+    return int(shelf.nearest[key])
+
+
+@compiled
+def _draw_dot(shelf: _Shelf, tone: int, knots: Indices, light: IntArray) -> None:
+    """Tie a cell in one yarn of its mixture; `light`: what was carried on, and receives what is to be."""
+    mixture = _mixture(shelf, tone)
+    for channel in range(3):
+        light[channel] += shelf.aims[mixture, channel]
+    yarn = _nearest_light(shelf, mixture, light)
+    for channel in range(3):
+        light[channel] -= shelf.lights[yarn, channel]
+    knots[:] = yarn
+
+
+@compiled
+def _draw_detail(shelf: _Shelf, tone: int, rgb: Rgb, knots: Indices, light: IntArray) -> None:
+    """Tie each knot of a cell in the yarn nearest to its colour, moved by what was carried on; `light` as for a dot."""
+    moved = np.empty(3, dtype=np.int64)
+    for channel in range(3):
+        code = tone >> (16 - 8 * channel) & 255
+        least, most = LIGHT[max(code - MOST_MOVED, 0)], LIGHT[min(code + MOST_MOVED, 255)]
+        light[channel] = min(max(light[channel] + LIGHT[code], least), most)
+        moved[channel] = encoded(light[channel] / WHITE) - code
+    still = moved[0] == 0 and moved[1] == 0 and moved[2] == 0
+    for y in range(knots.shape[0]):
+        for x in range(knots.shape[1]):
+            if not still:
+                red, green, blue = rgb[y, x, 0] + moved[0], rgb[y, x, 1] + moved[1], rgb[y, x, 2] + moved[2]
+                knots[y, x] = _nearest_yarn(shelf, red, green, blue)
+            for channel in range(3):
+                light[channel] -= shelf.lights[knots[y, x], channel] // knots.size
+
+
+@compiled
+def _carry(light: IntArray, row: int, column: int, ahead: int, owed: IntArray) -> None:
+    """Hand on the light of a cell: 7/16 ahead, 3/16, 5/16 and what is left below.
+
+    owed  to the cells of this row and the next one (2, columns, 3), each at its row modulo 2
+    """
+    columns, here, below = owed.shape[1], row % 2, (row + 1) % 2
+    for channel in range(3):
+        whole = light[channel]
+        first, second, third = 7 * whole >> 4, 3 * whole >> 4, 5 * whole >> 4
+        if 0 <= column + ahead < columns:
+            owed[here, column + ahead, channel] += first
+            owed[below, column + ahead, channel] += whole - first - second - third
+        if 0 <= column - ahead < columns:
+            owed[below, column - ahead, channel] += second
+        owed[below, column, channel] += third
+
+
+@compiled
+def _draw(  # noqa: PLR0917
+    knots: Indices, rgb: Rgb, tones: Int32[np.ndarray, "rows columns"], rough: BoolArray, shelf: _Shelf,
+    own: tuple[int, int, int], owed: IntArray, drawn: BoolArray
+) -> None:  # fmt: skip
+    """Tie the cells of the rows `own[0]` to `own[1]` of a part; `own[2]`: row of the chart with which it begins.
+
+    drawn  receives which cells are dots
     """
     rows, columns = tones.shape
-    for i in range(first, stop):
+    light = np.empty(3, dtype=np.int64)
+    for i in range(own[0], own[1]):
         bottom = knots.shape[0] if i == rows - 1 else CELL * (i + 1)
-        for j in range(columns):
-            if not _in_smooth_area(rough, i, j):
-                continue
-            mixture = number[_key(tones[i, j], noise[(top + i + SHIFT) % SIDE, (j + SHIFT) % SIDE])]
-            level = noise[(top + i) % SIDE, j % SIDE]
-            taken = (level >= limits[mixture, 0]) + (level >= limits[mixture, 1])
-            drawn[i, j] = True
-            for y in range(CELL * i, bottom):
-                for x in range(CELL * j, knots.shape[1] if j == columns - 1 else CELL * (j + 1)):
-                    knots[y, x] = yarns[mixture, taken]
+        row = own[2] + i
+        for at in range(columns):
+            j = at if row % 2 == 0 else columns - 1 - at
+            right = knots.shape[1] if j == columns - 1 else CELL * (j + 1)
+            cell = knots[CELL * i : bottom, CELL * j : right]
+            light[:] = owed[row % 2, j]
+            owed[row % 2, j] = 0
+            drawn[i, j] = _in_smooth_area(rough, i, j)
+            if drawn[i, j]:
+                _draw_dot(shelf, tones[i, j], cell, light)
+            else:
+                _draw_detail(shelf, tones[i, j], rgb[CELL * i : bottom, CELL * j : right], cell, light)
+            for channel in range(3):
+                light[channel] = round(shelf.strength * light[channel])
+            _carry(light, row, j, 1 if row % 2 == 0 else -1, owed)
+
+
+@compiled
+def _join(knots: Indices, rgb: Rgb, labs: FloatArray, first: int, stop: int) -> None:
+    """Give each lone knot of the rows the yarn beside it that is nearest to its colour, unless it shows there."""
+    rows, columns = knots.shape
+    for y in range(first, stop):
+        for x in range(columns):
+            own, lone = knots[y, x], True
+            for i, j in ((y - 1, x), (y + 1, x), (y, x - 1), (y, x + 1)):
+                if 0 <= i < rows and 0 <= j < columns and knots[i, j] == own:
+                    lone = False
+            if lone:
+                lightness, a, b = lab_of_light(LIGHT[rgb[y, x, 0]], LIGHT[rgb[y, x, 1]], LIGHT[rgb[y, x, 2]])
+                least = ciede2000(lightness, a, b, labs[own, 0], labs[own, 1], labs[own, 2]) + SHOWN
+                for i, j in ((y - 1, x), (y + 1, x), (y, x - 1), (y, x + 1)):
+                    if 0 <= i < rows and 0 <= j < columns:
+                        yarn = knots[i, j]
+                        far = ciede2000(lightness, a, b, labs[yarn, 0], labs[yarn, 1], labs[yarn, 2])
+                        if far < least:
+                            least = far
+                            knots[y, x] = yarn
 
 
 def _tones_of(part: Rgb, cells: tuple[int, int]) -> tuple[Int32[np.ndarray, "rows columns"], BoolArray]:
@@ -148,44 +312,26 @@ def _tones_of(part: Rgb, cells: tuple[int, int]) -> tuple[Int32[np.ndarray, "row
 def draw_halftone(
     knots: Indices, rgb: Rgb, yarn_labs: Float[np.ndarray, "yarns 3"], strength: float, progress: Progress = SILENT
 ) -> tuple[Indices, BoolArray]:
-    """The chart with the pattern, and which cells of CELL × CELL knots have one.
+    """The chart with the pattern, and which cells of CELL × CELL knots are dots.
 
-    knots  chart of the nearest yarns      rgb  the design      strength  share of the tone that is rendered [-]
+    knots  chart of the nearest yarns      rgb  the design      strength  share of the light that is carried on [-]
     """
-    rgb, out = np.ascontiguousarray(rgb), knots.copy()
+    rgb, out, shelf = np.ascontiguousarray(rgb), knots.copy(), _shelf(yarn_labs, strength)
     rows, columns = max(1, knots.shape[0] // CELL), max(1, knots.shape[1] // CELL)
-    drawn = np.zeros((rows, columns), dtype=bool)
-    parts = [(band, slice(max(band.start - 3, 0), min(band.stop + 3, rows))) for band in bands(rows, CELL**2 * columns)]
-    seen = np.zeros(_LEVELS**3, dtype=bool)
-    for band, around in parts:
-        tones, _ = _tones_of(_knots_of(rgb, around, rows), (around.stop - around.start, columns))
-        _note(tones, blue_noise(), around.start % SIDE, seen)
-        progress(0.3 * band.stop / rows)
-    keys = np.flatnonzero(seen)
-    number = np.zeros(_LEVELS**3, dtype=np.int32)
-    number[keys] = np.arange(len(keys))
-    yarns, limits = _mixtures(keys, yarn_labs, strength, progress.part(0.3, 0.6))
-    for band, around in parts:
-        tones, rough = _tones_of(_knots_of(rgb, around, rows), (around.stop - around.start, columns))
-        first, stop, top = band.start - around.start, band.stop - around.start, around.start % SIDE
-        part, marks = _knots_of(out, around, rows), drawn[around]
-        _draw(part, tones, rough, number, yarns, limits, blue_noise(), first, stop, top, marks)
-        progress(0.6 + 0.4 * band.stop / rows)
+    drawn, owed = np.zeros((rows, columns), dtype=bool), np.zeros((2, columns, 3), dtype=np.int64)
+    for band in bands(rows, CELL**2 * columns):
+        around = slice(max(band.start - 3, 0), min(band.stop + 3, rows))
+        part = _knots_of(rgb, around, rows)
+        tones, rough = _tones_of(part, (around.stop - around.start, columns))
+        own = (band.start - around.start, band.stop - around.start, around.start)
+        _draw(_knots_of(out, around, rows), part, tones, rough, shelf, own, owed, drawn[around])
+        progress(0.9 * band.stop / rows)
+    for band in bands(*out.shape):
+        _join(out, rgb, shelf.labs, band.start, band.stop)
+        progress(0.9 + 0.1 * band.stop / len(out))
     return out, drawn
 
 
 def _knots_of(knots: Indices, cells: slice, rows: int) -> Indices:
     """The knots of rows of cells; the last row of cells takes what is left over."""
     return knots[CELL * cells.start : len(knots) if cells.stop == rows else CELL * cells.stop]
-
-
-def _mixtures(keys: IntArray, labs: FloatArray, strength: float, progress: Progress) -> tuple[IntArray, IntArray]:
-    """The yarns of each tone's mixture, from dark to light, and the limits of the noise between them."""
-    codes = np.stack([keys // _LEVELS**2, keys // _LEVELS % _LEVELS, keys % _LEVELS], axis=-1) * STEP
-    tones, lights = LINEAR[np.minimum(codes, 255)], yarn_lights(labs)
-    dark = np.argsort(np.argsort(labs[:, 0], kind="stable"), kind="stable")
-    yarns, shares = np.empty((len(keys), 3), dtype=np.int64), np.empty((len(keys), 3))
-    for part in bands(len(keys), 1, _BATCH):
-        mix(tones[part], np.ascontiguousarray(labs), lights, dark, strength, yarns[part], shares[part])
-        progress(part.stop / len(keys))
-    return yarns, np.rint(SIDE**2 * np.cumsum(shares[:, :2], axis=1)).astype(np.int64)

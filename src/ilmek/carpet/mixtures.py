@@ -1,8 +1,11 @@
 """Mixtures: the shares of at most three yarns whose light mixes to a tone.
 
-The shares w make  |M (Σ w l - c)| + PENALTY Σ w d  least: l is the yarns' light, c that of the tone, M the slope of
+The shares w make  |M (Σ w l - c)| + PENALTY Σ w d²  least: l is the yarns' light, c that of the tone, M the slope of
 CIELAB with light at c, its chroma weighted as in CIEDE2000, and d the CIEDE2000 of each yarn to the tone, so that of
-mixtures of one tone that of the nearest yarns is taken. Light mixes linearly.
+mixtures of one tone that which shows least is taken. Light mixes linearly.
+
+A yarn is in a mixture only where its contrast d with the tone is at most CONTRAST, and its difference to it in a, b,
+divided by 1 + 0.045 C as in CIEDE2000, at most CHROMA: yarns of opposing hues do not make a grey.
 """
 
 import math
@@ -15,8 +18,8 @@ from ilmek.carpet.colour_difference import ciede2000
 from ilmek.carpet.light import LIGHT, lab_of_light
 from ilmek.num.compiled import compiled
 
-PENALTY = 0.5
-"""Weight of the differences of the yarns from the tone, against the difference of the mixture."""
+PENALTY = 1 / 160
+"""Weight of the contrast of the yarns with the tone, against the difference of the mixture [1/CIEDE2000]."""
 
 MOST_TRIED = 16
 """Yarns that are tried: those nearest to the tone."""
@@ -24,8 +27,14 @@ MOST_TRIED = 16
 FLAT = 2.0
 """A tone that is as near to a yarn takes that yarn [CIEDE2000]."""
 
-LEAST_SHARE = 0.05
-"""Lesser shares are left out: they would be single dots, not a tone."""
+CONTRAST = 26.0
+"""Greatest contrast of a yarn of a mixture with its tone [CIEDE2000]."""
+
+CHROMA = 20.0
+"""Greatest difference of a yarn of a mixture to its tone in a, b, weighted as in CIEDE2000."""
+
+SLOPES = 16
+"""Whole numbers of a unit of the slope."""
 
 WHITE = float(LIGHT[255])
 
@@ -62,7 +71,7 @@ def _cost(off: FloatArray, far: FloatArray, yarns: tuple[int, int, int], shares:
             shares[0] * off[yarns[0], axis] + shares[1] * off[yarns[1], axis] + shares[2] * off[yarns[2], axis]
         ) ** 2
     for k in range(3):
-        apart += shares[k] * far[yarns[k]]
+        apart += shares[k] * far[yarns[k]] * far[yarns[k]]
     return math.sqrt(square) + PENALTY * apart
 
 
@@ -103,52 +112,48 @@ def _best_mixture(off: FloatArray, far: FloatArray, tried: IntArray, yarns: IntA
 
 
 @compiled
-def _whole(yarns: IntArray, shares: FloatArray, dark: IntArray) -> None:
-    """Leave out the lesser shares, and sort the yarns from dark to light."""
-    total = 0.0
-    for k in range(3):
-        shares[k] = shares[k] if shares[k] >= LEAST_SHARE else 0.0
-        total += shares[k]
-    for k in range(3):
-        shares[k] /= total
-    for a, b in ((0, 1), (1, 2), (0, 1)):
-        if dark[yarns[b]] < dark[yarns[a]]:
-            yarns[a], yarns[b] = yarns[b], yarns[a]
-            shares[a], shares[b] = shares[b], shares[a]
+def _allowed(far: FloatArray, labs: FloatArray, a: float, b: float, tried: IntArray) -> int:
+    """Write the yarns that a mixture of a tone may have, the nearest first; returns their number."""
+    count, weight = 0, 1.0 + 0.045 * math.hypot(a, b)
+    for yarn in np.argsort(far, kind="mergesort"):
+        apart = math.hypot(labs[yarn, 1] - a, labs[yarn, 2] - b) / weight
+        if count < len(tried) and (count == 0 or (far[yarn] <= CONTRAST and apart <= CHROMA)):
+            tried[count] = yarn
+            count += 1
+    return count
 
 
 @compiled
 def mix(  # noqa: PLR0917
-    tones: FloatArray, labs: FloatArray, lights: FloatArray, dark: IntArray, strength: float, yarns: IntArray,
-    shares: FloatArray
+    tone: FloatArray, labs: FloatArray, lights: FloatArray, strength: float, yarns: IntArray, aim: IntArray,
+    slope: IntArray
 ) -> None:  # fmt: skip
-    """Write the yarns, from dark to light, and the shares of the mixture of each tone.
+    """Write the yarns of the mixture of a tone, its light in units of LIGHT, and SLOPES × the slope of CIELAB there.
 
-    tones  linear light, 1 is white (tones, 3)     labs, lights  CIELAB and light of the yarns
-    dark   order of the yarns from dark to light    strength      the tone aimed at lies at this share of the path from
-                                                                   the light of the nearest yarn to that of the tone
+    tone  linear light, 1 is white      labs, lights  CIELAB and light of the yarns
+    strength  the light aimed at lies at this share of the path from that of the nearest yarn to that of the tone
     """
     count = len(labs)
     off, far, matrix = np.empty((count, 3)), np.empty(count), np.empty((3, 3))
-    for tone in range(len(tones)):
-        light = tones[tone].copy()
-        lightness, a, b = lab_of_light(WHITE * light[0], WHITE * light[1], WHITE * light[2])
-        for yarn in range(count):
-            far[yarn] = ciede2000(lightness, a, b, labs[yarn, 0], labs[yarn, 1], labs[yarn, 2])
-        tried = np.argsort(far, kind="mergesort")[:MOST_TRIED]
-        nearest = tried[0]
-        yarns[tone, :] = nearest
-        shares[tone, 0], shares[tone, 1], shares[tone, 2] = 1.0, 0.0, 0.0
-        if far[nearest] <= FLAT:
-            continue
-        for channel in range(3):
-            aim = strength * light[channel] + (1.0 - strength) * lights[nearest, channel]
-            light[channel] = min(max(aim, 0.0), 1.0)
-        _slope(light, matrix)
+    tried, shares, light = np.empty(MOST_TRIED, dtype=np.int64), np.zeros(3), np.empty(3)
+    lightness, a, b = lab_of_light(WHITE * tone[0], WHITE * tone[1], WHITE * tone[2])
+    for yarn in range(count):
+        far[yarn] = ciede2000(lightness, a, b, labs[yarn, 0], labs[yarn, 1], labs[yarn, 2])
+    some = _allowed(far, labs, a, b, tried)
+    yarns[:], shares[0] = tried[0], 1.0
+    for channel in range(3):
+        light[channel] = min(max(strength * tone[channel] + (1.0 - strength) * lights[tried[0], channel], 0.0), 1.0)
+    _slope(light, matrix)
+    if far[tried[0]] > FLAT:
         for yarn in range(count):
             for axis in range(3):
                 off[yarn, axis] = 0.0
                 for channel in range(3):
                     off[yarn, axis] += matrix[axis, channel] * (lights[yarn, channel] - light[channel])
-        _best_mixture(off, far, tried, yarns[tone], shares[tone])
-        _whole(yarns[tone], shares[tone], dark)
+        _best_mixture(off, far, tried[:some], yarns, shares)
+    for channel in range(3):
+        mixed = 0.0
+        for k in range(3):
+            mixed += shares[k] * lights[yarns[k], channel]
+            slope[k, channel] = round(SLOPES * matrix[k, channel])
+        aim[channel] = round(WHITE * mixed)

@@ -51,8 +51,8 @@ class ReadParams(Params):
         doc="patches of fewer knots are merged where they hardly show; default: exact 0, flat 2, photo 4",
     )
 
-    halftone: float = kind.ratio(
-        0.0,
+    halftone: float | None = kind.ratio(
+        None,
         unit="%",
         at_least=0.0,
         at_most=1.0,
