@@ -13,7 +13,7 @@ from types import MappingProxyType
 from ilmek.arrays import Rgb
 from ilmek.carpet.design import resampled
 from ilmek.carpet.exact import find_drawing, has_grid, of_grid
-from ilmek.carpet.flat import flat_design, looks_flat, looks_like_itself, whole_chroma
+from ilmek.carpet.flat import flat_design, looks_flat, looks_like_itself
 from ilmek.carpet.paper.sheet import PaperReading, read_sheet, squared_paper
 from ilmek.carpet.picture_points import read_colour
 from ilmek.carpet.projection import MadeRgb
@@ -24,6 +24,7 @@ from ilmek.errors import CarpetError, ParameterError
 from ilmek.params import Params, kind, param
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
+from ilmek.units import counted
 
 READINGS = ("auto", "exact", "flat", "photo")
 
@@ -186,13 +187,10 @@ def read_design(
     if params.reading == "auto" and not looks_like_itself(picture, seen.true):
         return _photo(rgb, grid, params, f"{seen.sentence}, but they do not show what the picture shows", progress)
     padded = judged is not None and rgb.size > judged.size
-    whole = whole_chroma(rgb, progress.part(0.0, 0.1))
-    if whole is not rgb:
-        rgb, again = whole, looks_flat(whole)
-        seen = again if again.is_flat and not padded else replace(seen, true=again.true)
     flat = flat_design(rgb, grid, progress, None if padded else seen.true)
     required = "as required; " if params.reading == "flat" and not seen.is_flat else ""
     axes = f"; symmetric about the {' and the '.join(flat.symmetric)} axis" if flat.symmetric else ""
+    axes += f"; its halved chroma (JPEG) follows its luma: {counted(len(flat.true), 'colour')}" if flat.restored else ""
     return toned_design(Design(flat.colours, "flat", required + seen.sentence + axes, flat.foreign), params.tone)
 
 

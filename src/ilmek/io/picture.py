@@ -22,6 +22,7 @@ from ilmek.arrays import Indices, Rgb
 from ilmek.carpet.codes import eight_bits
 from ilmek.carpet.picture_points import Colour, read_colour
 from ilmek.errors import PictureError
+from ilmek.io.jpeg_quality import jpeg_loss
 from ilmek.io.native_messages import native_messages
 from ilmek.io.picture_file import (
     MOST_EXIF,
@@ -210,6 +211,7 @@ def _check_size(path: Path, opened: Image.Image, smallest: int) -> None:
 def _decoded(opened: Image.Image, stream: MeteredBytes, ground: Colour | None, progress: Progress) -> Picture:
     notes = _several_frames(opened)
     deep = ("16 bits per channel reduced to 8",) if _is_deep(opened) else ()
+    notes += jpeg_loss(opened)
     singly = _READS * min(opened.width * opened.height, LARGEST_INTERPRETED)
     stream.allow(_ENTRIES + singly + stream.size // 64, _HEADER + 2 * stream.size)
     by_pillow = opened.format == "TIFF"  # turned when it is loaded

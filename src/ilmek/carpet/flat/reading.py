@@ -1,8 +1,9 @@
-"""Flat reading of a picture: true colours, labels of the pixels, symmetry, knots."""
+"""Flat reading of a picture: whole chroma, true colours, labels of the pixels, symmetry, knots."""
 
 import numpy as np
 
 from ilmek.arrays import FloatArray, Indices, Rgb, UInt8
+from ilmek.carpet.flat.chroma import whole_chroma
 from ilmek.carpet.flat.knots import knot_labels
 from ilmek.carpet.flat.labels import label_pixels
 from ilmek.carpet.flat.nearest import UNKNOWN, raw_label
@@ -30,21 +31,28 @@ class FlatDesign:
     true       the true colours, from dark to light
     foreign    knots whose colour is nearest to no pixel of their cell
     symmetric  axes about which the design is symmetric: vertical, horizontal
+    restored   whether the picture had halved chroma, which its luma tells
     """
 
     colours: Rgb
     true: UInt8[np.ndarray, "colours 3"]
     foreign: int
     symmetric: tuple[str, ...]
+    restored: bool
 
 
 def flat_design(
     rgb: Rgb, grid: tuple[int, int], progress: Progress = SILENT, true: TrueColours | None = None
 ) -> FlatDesign:
-    """A picture read as a drawing on a grid of rows and columns; `true`: default: found in the picture."""
-    rgb = np.ascontiguousarray(rgb)
+    """A picture read as a drawing on a grid of rows and columns.
+
+    true  its true colours; default, and where its chroma is halved (`chroma`): found in it
+    """
+    given = np.ascontiguousarray(rgb)
+    rgb = whole_chroma(given, progress.part(0.0, 0.1))
     height, width = rgb.shape[:2]
-    true = true or true_colours(survey(rgb))
+    if true is None or rgb is not given:
+        true = true_colours(survey(rgb))
     progress(0.1)
     table = np.full(_CODES, UNKNOWN, dtype=np.uint8)
     knot = min(height / grid[0], width / grid[1])
@@ -65,7 +73,7 @@ def flat_design(
         foreign += many
         progress(0.9 + 0.1 * min(first + _BAND, grid[0]) / grid[0])
     axes = (("vertical",) if across else ()) + (("horizontal",) if down else ())
-    return FlatDesign(colours, true.srgb, foreign, axes)
+    return FlatDesign(colours, true.srgb, foreign, axes, rgb is not given)
 
 
 @compiled
