@@ -13,15 +13,15 @@ from ilmek.carpet.recipe.carry import carry
 from ilmek.carpet.recipe.edits import Edit, apply_edit, parse_edit
 from ilmek.carpet.recipe.layout import CarpetLayout
 from ilmek.carpet.recipe.recipe import Recipe
-from ilmek.carpet.recipe.structure import Relation, Structure, relate
+from ilmek.carpet.recipe.structure import DesignStructure, GridRelation, relate
 
 YARN = 3
 
 
-def relation_of(old: tuple[int, int], new: tuple[int, int], recipe: Recipe | None = None) -> Relation:
+def relation_of(old: tuple[int, int], new: tuple[int, int], recipe: Recipe | None = None) -> GridRelation:
     """The relation of two grids of a carpet without borders."""
     recipe = recipe or Recipe(Path("carpet.toml"), Path("picture.png"))
-    one, other = (Structure(recipe, grid, CarpetLayout((), (0, 0), grid), Fit()) for grid in (old, new))
+    one, other = (DesignStructure(recipe, grid, CarpetLayout((), (0, 0), grid), Fit()) for grid in (old, new))
     return relate(one, other)
 
 

@@ -1,8 +1,9 @@
 """SVG, PDF and layered files: rendered for the knots, thin strokes kept, and nothing read from outside the file."""
 
-import builtins
 import io
 import struct
+import sys
+import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -14,7 +15,8 @@ from reportlab.pdfgen.canvas import Canvas
 
 from ilmek.errors import CarpetError, PictureError
 from ilmek.io.picture import read_picture
-from ilmek.io.rendered.kind import PIXELS, Rendering, is_svg, scale_for
+from ilmek.io.rendered.kind import is_svg
+from ilmek.io.rendered.resolution import PIXELS, Rendering, scale_for
 from ilmek.io.rendered.svg import drawn_sides, read_tree, take_out_references
 from ilmek.jobs.chart import make_charted
 from ilmek.jobs.order import read_order
@@ -53,6 +55,15 @@ def colours(path: Path, **options: Any) -> list[list[str]]:
 )  # fmt: skip
 def test_a_drawing_is_recognised_behind_what_may_precede_it(begin: bytes, expected: bool) -> None:
     assert is_svg(begin) == expected
+
+
+@pytest.mark.parametrize(
+    "before", [b" " * 70_000, b"<!---->" * 9000 + b"<x", b"<!DOCTYPE a[]>" * 4000, b"<?xml>" * 9000]
+)
+def test_what_precedes_a_drawing_takes_no_time(before: bytes) -> None:
+    begin = time.process_time()
+    assert not is_svg(before)
+    assert time.process_time() - begin < 0.5
 
 
 def test_a_drawing_has_the_knots_that_pillow_draws(tmp_path: Path) -> None:
@@ -271,17 +282,11 @@ def test_a_merged_picture_is_taken_as_it_is(tmp_path: Path) -> None:
 
 
 def test_a_missing_extra_is_one_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    real = builtins.__import__
-
-    def without(name: str, *rest: Any, **more: Any) -> Any:
-        if name.partition(".")[0] in ("resvg_py", "pypdfium2", "psd_tools"):
-            raise ModuleNotFoundError(f"No module named {name!r}", name=name)
-        return real(name, *rest, **more)
-
     large = struct.pack(">4sH6sHIIHH", b"8BPS", 2, b"", 3, 20, 20, 8, 3)  # a PSB file, which Pillow does not read
     (tmp_path / "rug.psb").write_bytes(large)
     files = svg(tmp_path, ""), pdf(tmp_path, _block), tmp_path / "rug.psb"
-    monkeypatch.setattr(builtins, "__import__", without)
+    for name in ("resvg_py", "pypdfium2", "psd_tools"):
+        monkeypatch.setitem(sys.modules, name, None)
     for path in files:
         with pytest.raises(PictureError, match=r"needs the extra vector \(.* is not installed\)") as error:
             read_picture(path)

@@ -34,7 +34,8 @@ from ilmek.io.picture_file import (
     shortened,
 )
 from ilmek.io.picture_pixels import srgb_pixels, turned
-from ilmek.io.rendered.kind import Rendering, rendered
+from ilmek.io.rendered.kind import rendered
+from ilmek.io.rendered.resolution import Rendering
 from ilmek.progress import SILENT, Cancelled, Progress
 from ilmek.records import record
 

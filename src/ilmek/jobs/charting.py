@@ -22,7 +22,8 @@ from ilmek.carpet.yarn import MOST_YARNS
 from ilmek.errors import PictureError
 from ilmek.io.chart.formats import format_of
 from ilmek.io.picture import Picture, read_picture
-from ilmek.io.rendered.kind import RENDERED, Rendering
+from ilmek.io.rendered.kind import RENDERED
+from ilmek.io.rendered.resolution import Rendering
 from ilmek.jobs.order import GROUPS, CarpetOrder, ResolvedOrder, check_sheets
 from ilmek.jobs.stages import ANEW, Stages
 from ilmek.progress import SILENT, Progress

@@ -13,11 +13,11 @@ from ilmek.carpet.reading import READINGS
 from ilmek.carpet.recipe.anchor import CARPET, KNOTS, MOTIF, PICTURE, Anchor, grid_text
 from ilmek.carpet.recipe.composition import Composition, compose
 from ilmek.carpet.recipe.edits import Edit, located, named_yarns
-from ilmek.carpet.recipe.finish import Origin, finish
+from ilmek.carpet.recipe.finish import EditedDesign, finish
 from ilmek.carpet.recipe.layout import CarpetLayout
 from ilmek.carpet.recipe.outcome import outcome_notes
 from ilmek.carpet.recipe.recipe import Recipe
-from ilmek.carpet.recipe.structure import Structure, relate, relate_motif, relate_picture
+from ilmek.carpet.recipe.structure import DesignStructure, relate, relate_motif, relate_picture
 from ilmek.carpet.usual_pile import with_counts
 from ilmek.carpet.yarn import Yarn
 from ilmek.errors import CarpetError, IlmekError, PictureError
@@ -25,7 +25,8 @@ from ilmek.io.chart.formats import format_of, read_chart
 from ilmek.io.picture import SMALLEST, read_picture
 from ilmek.io.recipe_file import LoomKeys, RecipeFile
 from ilmek.io.recipe_text import recipe_text
-from ilmek.io.rendered.kind import RENDERED, Rendering
+from ilmek.io.rendered.kind import RENDERED
+from ilmek.io.rendered.resolution import Rendering
 from ilmek.io.toml_text import written_quantity
 from ilmek.io.yarn_file import default_yarns
 from ilmek.jobs.charting import OrderedChart, chart_of_order, drawn_chart, file_key, rendering_of, shown_source
@@ -132,11 +133,11 @@ def _composed_chart(
 
 def _origins(
     done: OrderedChart, order: CarpetOrder, made: Composition | None, stages: Stages
-) -> tuple[dict[Anchor, Origin | str], tuple[str, ...]]:
+) -> tuple[dict[Anchor, EditedDesign | str], tuple[str, ...]]:
     """The designs on the grids that the edits count, where these are not the carpet's, and a note on edits without."""
     recipe, grid = order.recipe, (done.chart.rows, done.chart.columns)
     assert recipe is not None
-    found: dict[Anchor, Origin | str] = {}
+    found: dict[Anchor, EditedDesign | str] = {}
     target = _structure(recipe, done.chart, made)
     for edit in recipe.edits:
         anchor = edit.anchor
@@ -145,21 +146,21 @@ def _origins(
         with located(edit.where):
             if anchor.on == PICTURE:
                 assert anchor.grid is not None
-                found[anchor] = Origin(relate_picture(target, anchor.grid))
+                found[anchor] = EditedDesign(relate_picture(target, anchor.grid))
             elif anchor.on == MOTIF:
-                found[anchor] = Origin(relate_motif(target, anchor.number, anchor.grid))
+                found[anchor] = EditedDesign(relate_motif(target, anchor.number, anchor.grid))
             elif (origin := _origin(anchor, done, order, target, stages)) is not None:
                 found[anchor] = origin
     return found, _open_note(recipe, grid, found)
 
 
-def _open_note(recipe: Recipe, grid: tuple[int, int], origins: Mapping[Anchor, Origin | str]) -> tuple[str, ...]:
+def _open_note(recipe: Recipe, grid: tuple[int, int], origins: Mapping[Anchor, EditedDesign | str]) -> tuple[str, ...]:
     """A note on edits that state no grid, with the grid that they count."""
     anchors = [edit.anchor for edit in recipe.edits if edit.knots and edit.anchor.is_open]
     if not anchors:
         return ()
     origin = origins.get(anchors[0])
-    counts = grid_text(origin.relation.grid if isinstance(origin, Origin) else grid)
+    counts = grid_text(origin.relation.grid if isinstance(origin, EditedDesign) else grid)
     given = f"{counted(len(anchors), 'edit')} of {recipe.file.name} without a grid: at another size these knots lie "
     cure = f'elsewhere in the design; write [[edits]] with grid = "{counts}" and lines = [...], as --save-recipe does'
     return (given + cure,)
@@ -175,8 +176,8 @@ def _is_ordered(anchor: Anchor, order: CarpetOrder) -> bool:
 
 
 def _origin(
-    anchor: Anchor, done: OrderedChart, order: CarpetOrder, target: Structure, stages: Stages
-) -> Origin | str | None:
+    anchor: Anchor, done: OrderedChart, order: CarpetOrder, target: DesignStructure, stages: Stages
+) -> EditedDesign | str | None:
     """The design on the carpet of an anchor, or why its edits cannot be carried; None: it has the grid of this one."""
     recipe = replace(target.recipe, edits=())
     try:
@@ -195,17 +196,17 @@ def _origin(
     if anchor.on == KNOTS:
         return f"its knots are those of a carpet of {grid_text((old.chart.rows, old.chart.columns))} knots"
     try:
-        return Origin(relate(_structure(recipe, old.chart, made), target), old.chart)
+        return EditedDesign(relate(_structure(recipe, old.chart, made), target), old.chart)
     except CarpetError as error:
         return error.given
 
 
-def _structure(recipe: Recipe, chart: Chart, made: Composition | None) -> Structure:
+def _structure(recipe: Recipe, chart: Chart, made: Composition | None) -> DesignStructure:
     """Where the parts of a design lie."""
     if made is not None:
         return made.structure
     grid = chart.rows, chart.columns
-    return Structure(recipe, grid, CarpetLayout((), (0, 0), grid), chart.reading.fit)
+    return DesignStructure(recipe, grid, CarpetLayout((), (0, 0), grid), chart.reading.fit)
 
 
 def _check_never(recipe: Recipe, palette: PaletteParams) -> None:

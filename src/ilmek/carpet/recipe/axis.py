@@ -19,7 +19,7 @@ _TIE = 1e-9
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Axis:
+class LineMap:
     """The old lines of each line of a part of a new grid.
 
     begin        the first line of the part
@@ -33,7 +33,7 @@ class Axis:
     scale: float
 
 
-def _axis(begin: int, at: FloatArray, step: FloatArray | float, zone: Span) -> Axis:
+def _axis(begin: int, at: FloatArray, step: FloatArray | float, zone: Span) -> LineMap:
     """The axis of old positions.
 
     at    old position of the centre of each new line; NaN: it has none      step  old lines for a new one
@@ -51,7 +51,7 @@ def _axis(begin: int, at: FloatArray, step: FloatArray | float, zone: Span) -> A
     none = ~known | (first >= last)
     steps = half[known] * 2
     scale = 1.0 / float(np.median(steps)) if steps.size else 1.0
-    return Axis(begin, np.where(none, zone[0], first), np.where(none, zone[0], last), scale)
+    return LineMap(begin, np.where(none, zone[0], first), np.where(none, zone[0], last), scale)
 
 
 def _centres(span: Span) -> FloatArray:
@@ -59,7 +59,7 @@ def _centres(span: Span) -> FloatArray:
     return np.arange(span[1] - span[0]) + 0.5
 
 
-def proportional(old: Span, new: Span, *, reflected: bool = False) -> Axis:
+def proportional(old: Span, new: Span, *, reflected: bool = False) -> LineMap:
     """A span that is enlarged or reduced to another one.
 
     >>> axis = proportional((0, 2), (10, 14))
@@ -82,7 +82,7 @@ def _at_edge(old: Span, away: FloatArray, far: BoolArray) -> FloatArray:
     return np.asarray(np.where(far, old[1] - away, old[0] + away))
 
 
-def bordered(old: Span, new: Span, breadths: tuple[int, int], pitches: tuple[float, float] | None) -> Axis:
+def bordered(old: Span, new: Span, breadths: tuple[int, int], pitches: tuple[float, float] | None) -> LineMap:
     """Across a carpet within the outer edge of a border: the border's breadth at both ends, and its side between.
 
     breadths  old and new breadth [lines]
@@ -100,7 +100,7 @@ def bordered(old: Span, new: Span, breadths: tuple[int, int], pitches: tuple[flo
 
 def pictured(
     old: Span, new: Span, shown: tuple[Span | tuple[float, float], tuple[float, float]], *, mirror: bool, copies: bool
-) -> Axis:
+) -> LineMap:
     """Across a field whose picture is fitted: what lies at one place of the picture.
 
     shown   old and new part of the picture that the field shows, as shares of the picture
@@ -163,7 +163,7 @@ def old_tiles(old: Tiling, new: Tiling, numbers: IntArray) -> tuple[IntArray, Bo
     return np.where(near, begin + before, end - 1 - after), inside & (near | far)
 
 
-def tiled(old: Tiling, new: Tiling, *, mirrored: bool = False) -> Axis:
+def tiled(old: Tiling, new: Tiling, *, mirrored: bool = False) -> LineMap:
     """Across a field of tiles of one size: what lies at one place of a tile, and the ground between tiles and edges.
 
     mirrored  every second tile is reflected

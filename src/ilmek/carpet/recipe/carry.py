@@ -12,7 +12,7 @@ import scipy
 
 from ilmek.arrays import Bool, Indices, Int32, IntArray
 from ilmek.carpet.recipe.edits import Edit, Knot, line_knots
-from ilmek.carpet.recipe.structure import Patch, Relation
+from ilmek.carpet.recipe.structure import GridRelation, Patch
 from ilmek.records import record
 
 BELOW = "it is smaller than a knot there"
@@ -28,7 +28,7 @@ Mask = Bool[np.ndarray, "rows columns"]
 
 
 @record
-class Place:
+class PlacedKnots:
     """Knots of the new grid, from its upper left corner, and how many details they show, and how many not.
 
     below  of those that are not shown, how many are too small
@@ -63,7 +63,7 @@ class Carried:
     reason: str = ""
 
 
-def placed(relation: Relation, rows: IntArray, columns: IntArray, *, least: bool = True) -> Place:
+def placed(relation: GridRelation, rows: IntArray, columns: IntArray, *, least: bool = True) -> PlacedKnots:
     """The knots of the new grid at the place of knots of the old one.
 
     rows, columns  from the upper left corner      least  details below a knot are left out
@@ -88,7 +88,7 @@ def placed(relation: Relation, rows: IntArray, columns: IntArray, *, least: bool
     kept = np.unique(labels[shown])
     lost = [group for group in np.unique(labels[below]).tolist() if group not in kept]
     joined = [np.concatenate([one[way] for one in found] or [np.empty(0, dtype=np.int64)]) for way in (0, 1)]
-    return Place(joined[0], joined[1], (count, count - len(kept)), len(lost))
+    return PlacedKnots(joined[0], joined[1], (count, count - len(kept)), len(lost))
 
 
 def _small(cells: Mask, patch: Patch) -> Mask:
@@ -129,7 +129,7 @@ def _in_patch(
     return (lines[0][at[0]], lines[1][at[1]]), seen
 
 
-def carry(edit: Edit, relation: Relation, old: Indices | None, new: Indices, yarns: tuple[int, ...]) -> Carried:
+def carry(edit: Edit, relation: GridRelation, old: Indices | None, new: Indices, yarns: tuple[int, ...]) -> Carried:
     """An edit that counts the knots of the old grid as edits of the new one.
 
     old    knots of the design on the old grid, with the edits before; None: they are not known
@@ -155,7 +155,7 @@ def carry(edit: Edit, relation: Relation, old: Indices | None, new: Indices, yar
     return Carried((replace(edit, knots=knots, width=max(edit.width and 1, round(edit.width * size))),))
 
 
-def _of_parts(edit: Edit, relation: Relation, shape: tuple[int, ...]) -> Carried:
+def _of_parts(edit: Edit, relation: GridRelation, shape: tuple[int, ...]) -> Carried:
     """A yarn that is replaced, or jufti knots, within a rectangle: within each connected part of its place."""
     if not edit.knots and relation.owners is not None:
         return Carried((edit,))
@@ -166,7 +166,7 @@ def _of_parts(edit: Edit, relation: Relation, shape: tuple[int, ...]) -> Carried
     return Carried(tuple(replace(edit, knots=_corners(box, shape[0])) for box in boxes), place.details, place.reason)
 
 
-def _of_cells(edit: Edit, relation: Relation, new: Indices, yarns: tuple[int, ...]) -> Carried:
+def _of_cells(edit: Edit, relation: GridRelation, new: Indices, yarns: tuple[int, ...]) -> Carried:
     """A set, a line or a half knot."""
     rows, columns = _cells(edit, relation.grid)
     place = placed(relation, rows, columns)
@@ -212,7 +212,7 @@ def _factor(new: tuple[int, ...], old: tuple[int, ...]) -> float:
     return float(np.sqrt(new[0] * new[1] / (old[0] * old[1])))
 
 
-def _fill(edit: Edit, relation: Relation, old: Indices | None, new: Indices) -> Carried:
+def _fill(edit: Edit, relation: GridRelation, old: Indices | None, new: Indices) -> Carried:
     ((row, column),) = ((relation.grid[0] - row, column - 1) for row, column in edit.knots)
     if old is None:
         boxes = _boxes(placed(relation, np.array([row]), np.array([column]), least=False), new.shape)
@@ -238,7 +238,7 @@ def _fill(edit: Edit, relation: Relation, old: Indices | None, new: Indices) -> 
     return Carried((replace(edit, knots=(seed,)),))
 
 
-def _boxes(place: Place, shape: tuple[int, ...]) -> list[tuple[int, int, int, int]]:
+def _boxes(place: PlacedKnots, shape: tuple[int, ...]) -> list[tuple[int, int, int, int]]:
     """First and last row, first and last column of each connected part of a place."""
     if not place.rows.size:
         return []

@@ -24,7 +24,7 @@ from ilmek.carpet.recipe.layout import BorderLayout, CarpetLayout, lay_out
 from ilmek.carpet.recipe.mirror import complete, part_grid
 from ilmek.carpet.recipe.recipe import MOST_TILE, Motif, Recipe
 from ilmek.carpet.recipe.repeat import repeated
-from ilmek.carpet.recipe.structure import Area, MotifCopy, Structure
+from ilmek.carpet.recipe.structure import Area, DesignStructure, MotifCopy
 from ilmek.carpet.sizes import LARGEST, SMALLEST, CarpetSize
 from ilmek.carpet.yarn import MOST_YARNS, Yarn
 from ilmek.errors import CarpetError
@@ -46,7 +46,7 @@ class Composition:
     """
 
     design: Design
-    structure: Structure
+    structure: DesignStructure
     yarns: tuple[tuple[Area, int], ...] = ()
     drawn: tuple[tuple[Area, Bool[np.ndarray, "rows columns"] | None], ...] = ()
     notes: tuple[str, ...] = ()
@@ -134,7 +134,7 @@ def compose(
         progress(0.9)
     whole = _whole(canvas, recipe.file.name)
     kept = tuple((area, shown) for area, kind, shown in canvas.drawn if _KINDS.index(kind) < _KINDS.index(whole.kind))
-    structure = Structure(recipe, grid, layout, done, _tile_sides(recipe, pictures), tuple(motifs))
+    structure = DesignStructure(recipe, grid, layout, done, _tile_sides(recipe, pictures), tuple(motifs))
     return Composition(whole, structure, tuple(canvas.yarns), kept, tuple(canvas.notes))
 
 

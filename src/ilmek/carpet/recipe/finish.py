@@ -28,7 +28,7 @@ from ilmek.carpet.recipe.edits import (
 from ilmek.carpet.recipe.marks import EditedMarks
 from ilmek.carpet.recipe.outcome import EditOutcome
 from ilmek.carpet.recipe.recipe import Recipe
-from ilmek.carpet.recipe.structure import Relation
+from ilmek.carpet.recipe.structure import GridRelation
 from ilmek.carpet.yarn import Yarn, yarn_labs
 from ilmek.errors import CarpetError
 from ilmek.progress import SILENT, Progress
@@ -36,13 +36,13 @@ from ilmek.records import record
 
 
 @record
-class Origin:
+class EditedDesign:
     """The design on the grid that edits count.
 
     relation  of that grid to the carpet's      chart  of the design there, without edits; None: it is not known
     """
 
-    relation: Relation
+    relation: GridRelation
     chart: Chart | None = None
 
 
@@ -53,7 +53,7 @@ def finish(
     made: Composition | None,
     progress: Progress = SILENT,
     *,
-    origins: Mapping[Anchor, Origin | str] | None = None,
+    origins: Mapping[Anchor, EditedDesign | str] | None = None,
 ) -> Chart:
     """The chart of a recipe from that of its design.
 
@@ -106,13 +106,13 @@ def _finished(  # noqa: PLR0917
 class _Source:
     """Knots on the grid that edits count, with those edits that count it so far; indices of the list's yarns."""
 
-    relation: Relation
+    relation: GridRelation
     knots: Indices | None
     index: dict[int, int]
 
 
 def _sources(
-    origins: Mapping[Anchor, Origin | str], yarns: Sequence[Yarn], named: set[int]
+    origins: Mapping[Anchor, EditedDesign | str], yarns: Sequence[Yarn], named: set[int]
 ) -> dict[Anchor, _Source | str]:
     found: dict[Anchor, _Source | str] = {}
     for anchor, origin in origins.items():

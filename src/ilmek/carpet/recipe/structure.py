@@ -15,7 +15,7 @@ import numpy as np
 
 from ilmek.arrays import Int, IntArray
 from ilmek.carpet.fitting import Fit
-from ilmek.carpet.recipe.axis import Axis, Tiling, bordered, old_tiles, pictured, proportional, tiled
+from ilmek.carpet.recipe.axis import LineMap, Tiling, bordered, old_tiles, pictured, proportional, tiled
 from ilmek.carpet.recipe.layout import BorderLayout, CarpetLayout
 from ilmek.carpet.recipe.recipe import Recipe
 from ilmek.errors import CarpetError
@@ -34,7 +34,7 @@ class MotifCopy:
 
 
 @record
-class Structure:
+class DesignStructure:
     """Where the parts of a design lie.
 
     grid    rows and columns      fit  of the field's picture
@@ -72,8 +72,8 @@ class Patch:
     part  of the design to which it belongs
     """
 
-    rows: Axis
-    columns: Axis
+    rows: LineMap
+    columns: LineMap
     part: int = 0
 
     @property
@@ -85,7 +85,7 @@ class Patch:
 
 
 @record
-class Relation:
+class GridRelation:
     """Each knot of a new grid and its place on an old one.
 
     grid     rows and columns of the old grid      patches  later ones lie over those before
@@ -99,7 +99,7 @@ class Relation:
     covered: Int[np.ndarray, "rows columns"]
 
 
-def relate(old: Structure, new: Structure) -> Relation:
+def relate(old: DesignStructure, new: DesignStructure) -> GridRelation:
     """The same design on two grids. Raises CarpetError where its picture lies turned on one of them."""
     if old.recipe.picture is not None and abs(old.fit.turned - new.fit.turned) > 1e-9:
         raise CarpetError("the picture is turned on one of the two carpets", do="give fit = crop, pad or stretch")
@@ -118,10 +118,10 @@ def relate(old: Structure, new: Structure) -> Relation:
             patches.append(Patch(axes[0], axes[1], len(areas)))
             areas.append(one.area)
     covered = _painted(new.grid, [patch.area for patch in patches])
-    return Relation(old.grid, tuple(patches), _painted(old.grid, areas), covered)
+    return GridRelation(old.grid, tuple(patches), _painted(old.grid, areas), covered)
 
 
-def relate_picture(new: Structure, grid: tuple[int, int]) -> Relation:
+def relate_picture(new: DesignStructure, grid: tuple[int, int]) -> GridRelation:
     """A grid over the picture of the field, and the knots on which it lies; motifs hide it."""
     if new.recipe.picture is None:
         raise CarpetError("the recipe has no picture", do='write on = "carpet"')
@@ -140,10 +140,10 @@ def relate_picture(new: Structure, grid: tuple[int, int]) -> Relation:
     for copies in new.motifs:
         for copy in copies:
             covered[copy.area] = -1
-    return Relation(grid, (patch,), None, covered)
+    return GridRelation(grid, (patch,), None, covered)
 
 
-def relate_motif(new: Structure, number: int, grid: tuple[int, int] | None) -> Relation:
+def relate_motif(new: DesignStructure, number: int, grid: tuple[int, int] | None) -> GridRelation:
     """A grid over a motif, from 1; default: its knots; and the knots of its copies."""
     if number > len(new.motifs):
         count = len(new.motifs)
@@ -160,7 +160,7 @@ def relate_motif(new: Structure, number: int, grid: tuple[int, int] | None) -> R
     for others in new.motifs[number:]:
         for other in others:
             covered[other.area] = -1
-    return Relation(sides, patches, None, covered)
+    return GridRelation(sides, patches, None, covered)
 
 
 def _span(part: slice) -> tuple[int, int]:
@@ -186,7 +186,7 @@ def _ring(border: BorderLayout, grid: tuple[int, int]) -> tuple[tuple[int, int],
 
 def _border_axis(
     before: BorderLayout, after: BorderLayout, direction: int, spans: tuple[tuple[tuple[int, int], ...], ...]
-) -> Axis:
+) -> LineMap:
     """Down (0) or across (1) a carpet within the outer edge of a border."""
     old, new = spans[0][direction], spans[1][direction]
     breadths = before.breadth[direction], after.breadth[direction]
@@ -198,7 +198,7 @@ def _border_axis(
     return bordered(old, new, breadths, (pitches[0], pitches[1]) if len(pitches) == 2 else None)
 
 
-def _field(old: Structure, new: Structure) -> Iterator[Patch]:
+def _field(old: DesignStructure, new: DesignStructure) -> Iterator[Patch]:
     if old.recipe.picture is not None:
         axes = [
             pictured(
@@ -218,7 +218,7 @@ def _field(old: Structure, new: Structure) -> Iterator[Patch]:
         yield from _repeat(old, new, old.recipe.repeat.order)
 
 
-def _repeat(old: Structure, new: Structure, order: str) -> Iterator[Patch]:
+def _repeat(old: DesignStructure, new: DesignStructure, order: str) -> Iterator[Patch]:
     """A field of tiles; where every second line of them is shifted, each line is a patch."""
     if order not in ("brick", "half-drop"):
         axes = [tiled(old.tiling(way), new.tiling(way), mirrored=order == "mirrored") for way in (0, 1)]
@@ -233,7 +233,7 @@ def _repeat(old: Structure, new: Structure, order: str) -> Iterator[Patch]:
     for number in np.unique(numbers):
         lines = np.flatnonzero(numbers == number)
         place = slice(lines[0], lines[-1] + 1)
-        strip = Axis(axis.begin + int(lines[0]), axis.first[place], axis.last[place], axis.scale)
+        strip = LineMap(axis.begin + int(lines[0]), axis.first[place], axis.last[place], axis.scale)
         shifts = int(found[lines[0]]) % 2 * shift, int(number) % 2 * shift
         moved = tiled(across[0].shifted(shifts[0]), across[1].shifted(shifts[1]))
         yield Patch(strip, moved) if way == 0 else Patch(moved, strip)

@@ -8,13 +8,14 @@ Format: Adobe Photoshop File Formats Specification: image resource 1057, version
 
 import io
 import struct
+from importlib import import_module
 from pathlib import Path
 
 import numpy as np
 
 from ilmek.errors import PictureError
 from ilmek.io.picture_file import shortened
-from ilmek.io.rendered.kind import LARGEST, png_bytes
+from ilmek.io.rendered.resolution import LARGEST, png_bytes
 
 _VERSION_INFO = 1057
 _LARGE = 2
@@ -34,10 +35,9 @@ def merge_layers(path: Path, data: bytes) -> tuple[bytes, tuple[str, ...]] | Non
     if width * height > LARGEST:
         given, allowed = f"{path} is {width} x {height} pixels", f"at most {LARGEST // 1_000_000} megapixels of layers"
         raise PictureError(given, allowed=allowed, do="save it as PNG")
-    from psd_tools import PSDImage
-
+    reader = import_module("psd_tools").PSDImage
     try:
-        merged = PSDImage.open(io.BytesIO(data)).composite()
+        merged = reader.open(io.BytesIO(data)).composite()
     except ImportError:
         raise
     except Exception as error:

@@ -4,12 +4,13 @@ import ctypes
 import itertools
 import math
 import threading
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 from ilmek.errors import PictureError
 from ilmek.io.picture_file import shortened
-from ilmek.io.rendered.kind import Rendering, png_bytes, scale_for
+from ilmek.io.rendered.resolution import Rendering, png_bytes, scale_for
 from ilmek.units import counted
 
 MOST_OBJECTS = 200_000
@@ -25,18 +26,18 @@ def render_pdf(path: Path, data: bytes, rendering: Rendering) -> tuple[bytes, tu
     Raises PictureError for a file that is locked or damaged and for a page that is not there, and ImportError without
     the extra.
     """
-    import pypdfium2
+    pdfium = import_module("pypdfium2")
 
     with _LOCK:
         try:
-            document = pypdfium2.PdfDocument(data)
-        except pypdfium2.PdfiumError as error:
+            document = pdfium.PdfDocument(data)
+        except pdfium.PdfiumError as error:
             locked = "password" in str(error).lower()
             given = f"{path} is locked by a password" if locked else f"{path} is damaged ({shortened(error)})"
             raise PictureError(given, do="save it without a password" if locked else "save or copy it again") from None
         try:
             return _page(path, document, rendering)
-        except pypdfium2.PdfiumError as error:
+        except pdfium.PdfiumError as error:
             raise PictureError(f"{path} cannot be rendered ({shortened(error)})", do="save it as PNG") from None
         finally:
             document.close()
@@ -64,7 +65,7 @@ def _page(path: Path, document: Any, rendering: Rendering) -> tuple[bytes, tuple
 
 def _widen(page: Any, least: float) -> int:
     """Make the strokes of a page at least `least` wide [points]; returns how many were made wider."""
-    from pypdfium2 import raw
+    raw = import_module("pypdfium2.raw")
 
     count, width = 0, ctypes.c_float()
     mode, is_stroked = ctypes.c_int(), ctypes.c_int()

@@ -6,6 +6,7 @@ thinner than a knot are made as wide as a knot [`strokes`].
 """
 
 import re
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree as ET
@@ -13,7 +14,7 @@ from xml.parsers import expat
 
 from ilmek.errors import PictureError
 from ilmek.io.picture_file import DamagedError, shortened
-from ilmek.io.rendered.kind import scale_for
+from ilmek.io.rendered.resolution import scale_for
 from ilmek.io.rendered.strokes import widen_strokes
 from ilmek.units import counted
 
@@ -42,7 +43,7 @@ def render_svg(path: Path, data: bytes, knots: tuple[int, int]) -> tuple[bytes, 
     knots  rows and columns of the carpet
     Raises PictureError, and ImportError without the extra.
     """
-    import resvg_py
+    resvg = import_module("resvg_py")
 
     try:
         root = read_tree(data)
@@ -62,7 +63,7 @@ def render_svg(path: Path, data: bytes, knots: tuple[int, int]) -> tuple[bytes, 
         {"font_dirs": [str(FONTS)], "sans_serif_family": "DejaVu Sans"} if letters else {"skip_system_fonts": True}
     )
     try:
-        made = resvg_py.svg_to_bytes(svg_string=text, **fonts)
+        made = resvg.svg_to_bytes(svg_string=text, **fonts)
     except ValueError as error:
         raise PictureError(f"{path} cannot be rendered ({shortened(error)})", do="save it as PNG") from None
     notes = [f"rendered with {sides[0]} x {sides[1]} pixels"]
