@@ -9,6 +9,7 @@ from PIL import Image
 from playwright.sync_api import Page, expect
 from studio_browser import PATIENCE, Seen, Studio, data_of, middle, open_view, until_data, until_file, violations
 
+from ilmek.io.yarn_file import default_yarns
 from ilmek.jobs.chart import make_charted
 from ilmek.jobs.order import read_order
 
@@ -30,6 +31,7 @@ def carpet(page: Page, running: Studio) -> Page:
     """The view on a recipe of the stripes, a pixel a knot."""
     (running.project / "pictures/stripes.png").write_bytes(_stripes())
     recipe = 'picture = "pictures/stripes.png"\nsize = "32x48cm"\nquality = "25x25/dm"\nleast_patch = 0\n'
+    recipe += "".join(f'[[yarn]]\nname = "{yarn.name}"\nsrgb = "{yarn.hex}"\n' for yarn in default_yarns())
     (running.project / "carpet.toml").write_text(recipe, encoding="utf-8")
     open_view(page, running, "carpet")
     expect(page.locator(".carpet-status")).to_contain_text("80 knots across, 120 rows", timeout=PATIENCE)

@@ -12,7 +12,7 @@ from ilmek.errors import CarpetError, ParameterError, PictureError
 from ilmek.io.chart.rows_text import row_bands
 from ilmek.io.yarn_file import default_yarns
 from ilmek.jobs.chart import make_charted
-from ilmek.jobs.order import read_order
+from ilmek.jobs.order import order_of_data, read_order
 from ilmek.jobs.studio.answers import Binary, Context
 from ilmek.jobs.studio.carpet import stages
 from ilmek.jobs.studio.carpet.answers import ChartRequest, PictureRequest, ProposalRequest, RowRequest, SpecksRequest
@@ -201,12 +201,13 @@ def _dots(context: Context) -> dict[str, Any]:
         drawn[line, column] = srgb["indigo navy"]
     drawn[14:17, 4:7] = srgb["madder red"]
     Image.fromarray(drawn).save(context.folder / "pictures/dots.png")
-    return {"picture": "pictures/dots.png", "size": "12x16cm", "quality": "25x25/dm", "read": "exact"}
+    yarn = [{"name": name, "srgb": f"#{bytes(codes).hex()}"} for name, codes in srgb.items()]
+    return {"picture": "pictures/dots.png", "size": "12x16cm", "quality": "25x25/dm", "read": "exact", "yarn": yarn}
 
 
 def test_the_yarn_of_each_colour_of_a_drawing_is_listed(context: Context) -> None:
     about, _ = _parts(chart(ChartRequest(_dots(context)), context))
-    made = make_charted(read_order(_written(context, _dots(context)))).chart
+    made = make_charted(order_of_data(context.folder / "carpet.toml", _dots(context))).chart
     found = {(one["colour"], one["yarn"], one["knots"]) for one in about["assignment"]}
     assert found == {(m.hex, made.yarns[m.yarn].name, m.knots) for m in made.reading.matches}
     assert [one["knots"] for one in about["assignment"]] == [1184, 9, 7]
@@ -224,12 +225,6 @@ def test_colours_of_one_yarn_name_each_other(context: Context) -> None:
     one, other = (f"#{bytes(colour).hex()}" for colour in (ground, drawn[0, 0]))
     assert merged[one] == [other]
     assert merged[other] == [one]
-
-
-def _written(context: Context, recipe: dict[str, Any]) -> Path:
-    file = context.folder / "carpet.toml"
-    file.write_text(_lines(recipe), encoding="utf-8")
-    return file
 
 
 def test_specks_are_found_with_the_yarn_around_them(context: Context) -> None:
