@@ -117,7 +117,7 @@ def _lost_cure(lost: LostColour, chart: Chart, order: CarpetOrder) -> str:
 def _edges_cure(chart: Chart, order: CarpetOrder) -> str:
     """What brings edges back."""
     shades = f"more --colours than {chart.colours}" if order.dyed else "the picture's own shades (leave out --yarns)"
-    halftone = chart.reading.kind == "photo" and order.reading.halftone < 1.0
+    halftone = chart.reading.kind == "photo" and order.reading.halftone not in (None, 1.0)
     return f"{shades}, or a halftone (--halftone 100%)" if halftone else shades
 
 
