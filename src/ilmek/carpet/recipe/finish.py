@@ -227,7 +227,7 @@ def _with_yarns(chart: Chart, yarns: Sequence[Yarn], named: set[int]) -> tuple[C
         matches=tuple(match._replace(yarn=int(table[match.yarn])) for match in chart.reading.matches),
     )
     seconds = (mark._replace(second=int(table[mark.second])) for mark in chart.overlay)
-    made = replace(chart, knots=knots, yarns=chosen, overlay=overlay_of(seconds), reading=reading)
+    made = replace(chart, knots=knots, yarns=chosen, creel=None, overlay=overlay_of(seconds), reading=reading)
     return made, {number: at for at, number in enumerate(kept)}
 
 
