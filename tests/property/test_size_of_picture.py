@@ -94,7 +94,7 @@ def noise(height: int, width: int) -> Rgb:
 
 
 @given(st.integers(20, 120), st.integers(20, 120), st.none() | st.floats(0.2, 0.6))
-@examples(10)
+@examples(6)
 def test_nothing_is_cut_where_a_side_is_open(height: int, width: int, side: float | None) -> None:
     quality = Quality(50.0, 50.0)
     chart = make_chart(noise(height, width), None, quality, YARNS, fit=FitParams(width=side))

@@ -126,11 +126,11 @@ def test_a_chart_keeps_its_knots_on_another_width(picture: Path) -> None:
 
 
 def test_the_page_shows_what_is_cut(picture: Path) -> None:
-    order = read_order(picture, size="30x60cm", quality=QUALITY)
+    order = read_order(picture, size="30x60cm", quality=QUALITY, pdf=False)
     made, _ = chart_order(order, picture.parent / "out")
     page = (picture.parent / "out/report.html").read_text(encoding="utf-8")
     assert made.chart.reading.fit.cropped == pytest.approx(0.625, abs=0.01)
     assert "<b>What is cut.</b> 62.5 % of the picture is not shown" in page
     assert any("62.5% of the picture is cut off" in note for note in made.notes)
-    chart_order(read_order(picture, quality=QUALITY), picture.parent / "whole")
+    chart_order(read_order(picture, size="32x24cm", quality=QUALITY, pdf=False), picture.parent / "whole")
     assert "What is cut" not in (picture.parent / "whole/report.html").read_text(encoding="utf-8")
