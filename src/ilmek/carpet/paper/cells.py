@@ -21,6 +21,9 @@ LEAST_CELLS = 4
 _LEAST_SHARE = 0.3
 """Least coherence of an outer row or column of cells, of the median one."""
 
+_MOSTLY = 0.7
+"""Quantile of the cells of a row or column that is its coherence: lines may be missing in many."""
+
 _INNER, _ALONG, _LINE = 0.28, 7, 2.4
 """Half side of the inner part of a cell, at most; the samples along it; its least distance from a line [pixels]."""
 
@@ -124,8 +127,8 @@ def _extent(of_columns: FloatArray, of_rows: FloatArray, seen: BoolArray, lattic
     if rows.stop <= rows.start or columns.stop <= columns.start:
         raise no_grid("its grid has too few cells")
     for _ in range(3):
-        columns = _run(of_columns[rows].mean(axis=0), columns, seen[rows].mean(axis=0) > 0.98)
-        rows = _run(of_rows[:, columns].mean(axis=1), rows, seen[:, columns].mean(axis=1) > 0.98)
+        columns = _run(np.quantile(of_columns[rows], _MOSTLY, axis=0), columns, seen[rows].mean(axis=0) > 0.98)
+        rows = _run(np.quantile(of_rows[:, columns], _MOSTLY, axis=1), rows, seen[:, columns].mean(axis=1) > 0.98)
     if min(rows.stop - rows.start, columns.stop - columns.start) < LEAST_CELLS:
         raise no_grid("its grid has too few cells")
     return rows, columns

@@ -31,7 +31,7 @@ _SLOPE = 0.35
 _LEAST_QUALITY = 1.2
 """Least logarithm of the highest power of a tile over the mean."""
 
-_DEGREE = 5
+_DEGREE, _ROUNDS = 5, 3
 _BLOCK, SAMPLES = 4, 8
 """Cells of a block, and samples of a cell, along each side."""
 
@@ -112,7 +112,7 @@ def find_lattice(energy: LineEnergy) -> Lattice:
     row, column = np.nonzero(seen)
     centres = np.stack([column * _STEP + _TILE / 2, row * _STEP + _TILE / 2], axis=-1) * energy.factor
     fitted = _fitted(u[seen], v[seen], centres)
-    for _ in range(3):
+    for _ in range(_ROUNDS):
         fitted = _corrected(fitted, energy)
     return fitted
 
@@ -137,7 +137,7 @@ def _tiles(everything: Energy, lines: Energy, pitch: float) -> Tiles:
     sums = lines @ along.real.astype(np.float32) + 1j * (lines @ along.imag.astype(np.float32))
     turned = (down * sums[..., 0]).sum(axis=-1)
     share = power.max(axis=-1) / power.mean(axis=-1).clip(1e-12)
-    return Tiles(waves, np.angle(turned) / (2 * np.pi), np.log(share))
+    return Tiles(waves, np.angle(turned) / (2 * np.pi), np.log(share.clip(1e-9)))
 
 
 def _windows(energy: Energy) -> Float[np.ndarray, "rows columns side side"]:

@@ -33,7 +33,10 @@ _OBLONG = 0.2
 SOMEWHERE, NEARLY_EVERYWHERE = 0.04, 0.4
 """Least share of the pieces of a picture in which lines repeat: of a photographed sheet; of the export of a program."""
 
-_NEARLY = 0.7
+_FLOOR = 3.0
+"""Energy of noise and of the blocks of a JPEG [codes]."""
+
+_NEARLY = 0.85
 """Score of a pitch, of the highest one, that counts before that of a multiple."""
 
 _COARSE = 7.0
@@ -142,7 +145,11 @@ def _lags(rgb: Rgb) -> Float[np.ndarray, "pieces 2"]:
         strip = _gradient(rgb[start : start + _BROAD]).mean(axis=0)
         for begin in range(0, max(1, width - _LONG // 2), _LONG // 2):
             piece = strip[begin : begin + _LONG]
-            if len(piece) >= 6 * LEAST_PITCH:
+            if len(piece) < 6 * LEAST_PITCH:
+                continue
+            if piece.mean() < _FLOOR:
+                found.append((LEAST_PITCH, 0.0))
+            else:
                 lag, score = _best_lag(piece)
                 found.append((lag, score if score > _LEAST_SCORE else 0.0))
     return np.array(found).reshape(-1, 2)
