@@ -204,7 +204,7 @@ def test_light_has_the_colour_of_its_codes() -> None:
 
 def chart(rgb: np.ndarray, least: int) -> Chart:
     size, quality = CarpetSize(rgb.shape[1] / 1000, rgb.shape[0] / 1000), Quality(1000.0, 1000.0)
-    return make_chart(rgb, size, quality, YARNS, reading=ReadParams(reading="photo", least_patch=least))
+    return make_chart(rgb, size, quality, YARNS, reading=ReadParams(reading="photo", least_patch=least, halftone=0.0))
 
 
 def test_differences_are_those_of_the_changed_chart() -> None:

@@ -48,9 +48,9 @@ DULL = (
 ARTWORK = ("horse.png", "logo.png", "phantom.png")
 
 
-def charted(rgb: np.ndarray, rows: int, columns: int, reading: str = "auto") -> Chart:
+def charted(rgb: np.ndarray, rows: int, columns: int, reading: str = "auto", halftone: float | None = None) -> Chart:
     size = CarpetSize(columns / QUALITY.across, rows / QUALITY.along)
-    return make_chart(rgb, size, QUALITY, YARNS, reading=ReadParams(reading=reading))
+    return make_chart(rgb, size, QUALITY, YARNS, reading=ReadParams(reading=reading, halftone=halftone))
 
 
 def yarn_of(drawing: Drawing) -> np.ndarray:
@@ -115,8 +115,8 @@ def test_a_gradient_is_a_photo_and_a_halftone_shows_it(picture: object) -> None:
     rgb = picture()  # type: ignore[operator] # a function that draws
     rows, columns = rgb.shape[:2]
     size = CarpetSize(columns / QUALITY.across, rows / QUALITY.along)
-    plain = make_chart(rgb, size, QUALITY, YARNS)
-    toned = make_chart(rgb, size, QUALITY, YARNS, reading=ReadParams.read({"halftone": "100%"}))
+    plain = make_chart(rgb, size, QUALITY, YARNS, reading=ReadParams.read({"halftone": "0%"}))
+    toned = make_chart(rgb, size, QUALITY, YARNS)
     assert plain.reading.kind == toned.reading.kind == "photo"
     assert far_difference(toned, rgb) <= min(5.0, 0.8 * far_difference(plain, rgb))
     assert toned.lone_fraction <= 0.01
@@ -132,7 +132,7 @@ def supplied(name: str) -> np.ndarray:
 def test_a_photograph_is_read_as_one(name: str) -> None:
     rgb = supplied(name)
     rows, columns = rgb.shape[0] // 3, rgb.shape[1] // 3
-    chart = charted(rgb, rows, columns)
+    chart = charted(rgb, rows, columns, halftone=0.0)
     assert chart.reading.kind == "photo"
     assert chart.reading.foreign is None
     assert chart.reading.least_delta_e <= chart.reading.mean_delta_e <= 1.05 * chart.reading.least_delta_e

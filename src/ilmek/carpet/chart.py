@@ -326,10 +326,9 @@ def chart_of_design(
     taken, measuring = (own.yarn_of, own.difference), progress.part(0.9, 0.95)
     to_design = differences(design.colours, distinct, taken, (painted, knots), labs, measuring)
     words = [design.reason, *(["tones stretched onto the yarns"] if own.stretched else [])]
-    words += [] if drawn is None else [f"patterns on {drawn.mean():.1%} of it"]
     read = ChartReading(
         design.kind,
-        "; ".join(words),
+        "; ".join(words) + _halftone_in_words(design, drawn),
         to_design.mean,
         own.least,
         changed,
@@ -360,19 +359,29 @@ def _lost(own: YarnsOfDesign, distinct: Colours, labs: FloatArray) -> tuple[Lost
 
 
 def _halftone(
-    knots: Indices, design: Design, labs: FloatArray, halftone: float | None, progress: Progress
+    knots: Indices, design: Design, labs: FloatArray, share: float | None, progress: Progress
 ) -> tuple[Indices, BoolArray | None]:
-    """The chart with its halftone, and the cells that have a pattern; None: no halftone."""
-    strength = (1.0 if design.kind == "photo" else 0.0) if halftone is None else halftone
+    """The chart with its halftone, and the cells that are dots; None: no halftone."""
+    photo = design.kind == "photo"
+    strength = float(photo) if share is None else share
     if strength == 0.0:
         return knots, None
-    if design.kind != "photo":
+    if not photo:
         raise PictureError(
             f"halftone={strength:.0%}, but the picture is read as {design.kind} ({design.reason})",
             allowed="a halftone needs a photo",
             do="read it as a photo (--read photo), or leave the halftone out",
         )
     return draw_halftone(knots, design.colours, labs, strength, progress)
+
+
+def _halftone_in_words(design: Design, dots: BoolArray | None) -> str:
+    """What was done to the tones between the yarns of a photo, and how to have the other; the end of a sentence."""
+    if design.kind != "photo":
+        return ""
+    if dots is None:
+        return "; no patterns between the yarns (with: --halftone 100%)"
+    return f"; patterns on {dots.mean():.1%} of it (without: --halftone 0%)"
 
 
 def _proposed(distinct: Colours, design: Design, count: int, progress: Progress) -> tuple[ProposedShade, ...]:

@@ -82,8 +82,8 @@ def differences(  # noqa: PLR0917
 
     def move(band: slice) -> tuple[IntArray, IntArray, FloatArray]:
         sums, counts, worst = np.zeros(yarns, dtype=np.int64), np.zeros(yarns, dtype=np.int64), np.zeros(yarns)
-        args = (colours.index, colours.labs, difference, before[band], knots[band], yarn_labs, known, sums, counts, worst)
-        _move(design[band], *args)
+        args = (colours.index, colours.labs, difference, before[band], knots[band], yarn_labs, known)
+        _move(design[band], *args, sums, counts, worst)
         return sums, counts, worst
 
     begun = float(np.sum(colours.counts * difference))  # a dot product's order depends on the threads

@@ -24,6 +24,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ilmek.arrays import BoolArray, Float, FloatArray, Indices, Int32, IntArray, Rgb
+from ilmek.carpet.colour import lab_to_srgb
 from ilmek.carpet.colour_difference import ciede2000
 from ilmek.carpet.design import bands, encoded
 from ilmek.carpet.light import LIGHT, lab_of_light
@@ -45,6 +46,9 @@ STEP, FINE = 8, 4
 is rounded off is carried on.
 """
 
+SAME = 3
+"""A tone whose codes differ by no more from those of its nearest yarn takes that yarn."""
+
 SHOWN = 4.0
 """A lone knot shows where the yarns beside it are farther from its colour than its own by more [CIEDE2000]."""
 
@@ -56,7 +60,7 @@ _UNKNOWN = 255
 class _Shelf(NamedTuple):
     """The yarns, and what was found of their mixtures so far.
 
-    labs, lights  CIELAB of each yarn, and its linear light in units of LIGHT
+    labs, lights, codes  CIELAB of each yarn, its linear light in units of LIGHT, and its codes
     strength      share of the light that is carried on
     nearest       of colours in steps of FINE the nearest yarn, _UNKNOWN before it is asked for
     found         of tones in steps of STEP whether the mixture is computed
@@ -65,6 +69,7 @@ class _Shelf(NamedTuple):
 
     labs: FloatArray
     lights: IntArray
+    codes: IntArray
     strength: float
     nearest: Indices
     found: BoolArray
@@ -78,6 +83,7 @@ def _shelf(labs: FloatArray, strength: float) -> _Shelf:
     return _Shelf(
         np.ascontiguousarray(labs),
         np.rint(WHITE * yarn_lights(labs)).astype(np.int64),
+        lab_to_srgb(labs).astype(np.int64),
         strength,
         np.full(_COLOURS**3, _UNKNOWN, dtype=np.uint8),
         np.zeros(tones, dtype=bool),
@@ -205,6 +211,12 @@ def _nearest_yarn(shelf: _Shelf, red: int, green: int, blue: int) -> int:
 @compiled
 def _draw_dot(shelf: _Shelf, tone: int, knots: Indices, light: IntArray) -> None:
     """Tie a cell in one yarn of its mixture; `light`: what was carried on, and receives what is to be."""
+    red, green, blue = tone >> 16 & 255, tone >> 8 & 255, tone & 255
+    yarn = _nearest_yarn(shelf, red, green, blue)
+    own = shelf.codes[yarn]
+    if max(abs(red - own[0]), abs(green - own[1]), abs(blue - own[2])) <= SAME:
+        knots[:] = yarn
+        return
     mixture = _mixture(shelf, tone)
     for channel in range(3):
         light[channel] += shelf.aims[mixture, channel]

@@ -57,7 +57,7 @@ class ReadParams(Params):
         unit="%",
         at_least=0.0,
         at_most=1.0,
-        doc="share of the tones between the yarns that patterns render in the smooth areas of a photo",
+        doc="share of the tones between the yarns that patterns render in a photo; default: photo 100 %, others 0 %",
     )
     brightness: float = kind.ratio(
         0.0, unit="%", at_least=-0.9, at_most=0.9, doc="share by which the mid tone gets lighter; black and white stay"
