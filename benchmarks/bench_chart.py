@@ -174,9 +174,9 @@ METHODS: dict[str, tuple[Method, Method]] = {
         ilmek_chart(reading="photo", least_patch=0),
         ilmek_chart(reading="photo", least_patch=0),
     ),
-    "ilmek, photo, halftone": (
-        ilmek_chart(reading="photo", halftone=1.0),
-        ilmek_chart(reading="photo", halftone=1.0),
+    "ilmek, photo, no halftone": (
+        ilmek_chart(reading="photo", halftone=0.0),
+        ilmek_chart(reading="photo", halftone=0.0),
     ),
     "Pillow, nearest": (pillow(Image.Dither.NONE), pillow(Image.Dither.NONE)),
     "Pillow, Floyd-Steinberg": (pillow(Image.Dither.FLOYDSTEINBERG), pillow(Image.Dither.FLOYDSTEINBERG)),

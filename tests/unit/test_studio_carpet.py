@@ -89,7 +89,7 @@ def test_a_draft_is_nearly_the_chart(context: Context) -> None:
     (full, knots), (draft, quick) = _chart(context), _chart(context, draft=True)
     names = [[yarn["srgb"] for yarn in about["yarns"]] for about in (full, draft)]
     same = [names[0][one] == names[1][other] for one, other in zip(knots, quick, strict=True)]
-    assert np.mean(same) > 0.9
+    assert np.mean(same) > 0.85  # the dots of its halftone lie elsewhere
     assert draft["draft"]
     assert not full["draft"]
 
