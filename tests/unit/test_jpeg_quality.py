@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from PIL import Image
+from PIL import Image, JpegImagePlugin
 
 from ilmek.io.jpeg_quality import jpeg_loss, jpeg_quality
 from ilmek.io.picture import read_picture
@@ -13,10 +13,10 @@ from ilmek.io.picture import read_picture
 PICTURE = Image.fromarray(np.random.default_rng(3).integers(0, 256, (16, 16, 3), dtype=np.uint8))
 
 
-def written(quality: int) -> Image.Image:
+def written(quality: int) -> JpegImagePlugin.JpegImageFile:
     file = io.BytesIO()
     PICTURE.save(file, format="JPEG", quality=quality)
-    return Image.open(file)
+    return JpegImagePlugin.JpegImageFile(file)
 
 
 def test_the_quality_is_the_one_that_was_asked_for() -> None:

@@ -8,8 +8,8 @@ samples and interpolated, tells the chroma of each pixel (He, Sun, Tang, Guided 
     c' = (1 - w) (c + g a (y - y*)) + w (mean c + g a (y - mean y*)),   a = cov(y*, c) / (var y* + e)
 
 All moments are those of a square of SIDE × SIDE pixels. The share r² of the variance of the chroma that the line
-explains says how far two colours are all that the square has: g, 0 to 1, how far the slope counts; w, 0 to 1, how far
-what is not on the line is the residue of the compression. An even area stays as it is.
+explains, and what is off the line, say how far two colours are all that the square has: g, 0 to 1, how far the slope
+counts; w, 0 to 1, how far what is off the line is the residue of the compression. An even area stays as it is.
 
 Halved chroma shows in the pixels: through the two pixels of a sample and those beside them, interpolated chroma is
 a, b, c, d with a - 3b + 3c - d = 0, whatever the samples. The third difference of the luma does not vanish there.
@@ -39,8 +39,11 @@ _LEAST_VARIANCE, _LEAST_CHROMA = 4 * (_ALONG * _ALONG * _UNIT) ** 2, 4 * _UNIT**
 """e: square of the grain of luma, 2 codes; that of chroma."""
 
 _NO_SLOPE, _FULL_SLOPE, _NO_LINE, _ON_LINE = 0.2, 0.6, 0.75, 0.95
-"""r² from which the slope counts, and counts fully; from which the residue goes, and goes wholly. Chosen on the 24
-drawings of the tests at qualities 75 and 85."""
+"""r² from which the slope counts, and counts fully; from which the residue goes, and goes wholly."""
+
+_TWO_COLOURS, _THREE_COLOURS = 14 * _UNIT, 25 * _UNIT
+"""Root mean square of the chroma off the line up to which two colours meet, and from which three do: the median is 8 on
+lines of two colours at quality 75, and 22 on those between two others. All are chosen on the drawings of the tests."""
 
 _CLEAR, _TO_CB, _TO_CR = 6 * _UNIT * 1000, 564, 713
 """Third difference that is not rounding; factors from blue and red less luma to chroma, in 1/1000."""
@@ -221,7 +224,9 @@ def _restore_pixel(  # noqa: PLR0917
     with_red = float(number * total[5] - total[0] * total[3])
     squares = number * number
     explained = (with_blue**2 + with_red**2) / (float(variance) * (chroma + _LEAST_CHROMA * squares))
-    slope = _rise(explained, _NO_SLOPE, _FULL_SLOPE) / (variance + _LEAST_VARIANCE * squares)
+    off = (max(chroma - (with_blue**2 + with_red**2) / float(variance), 0.0) / squares) ** 0.5
+    two = _rise(explained, _NO_SLOPE, _FULL_SLOPE) * (1.0 - _rise(off, _TWO_COLOURS, _THREE_COLOURS))
+    slope = two / (variance + _LEAST_VARIANCE * squares)
     line = _rise(explained, _NO_LINE, _ON_LINE)
     luma, scale = _luma(rgb, y, x), _ALONG * _ALONG
     step = slope * (scale * luma - (1.0 - line) * coarse - line * total[0] / number)
