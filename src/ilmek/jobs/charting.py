@@ -54,9 +54,16 @@ class OrderedChart:
 
 
 def chart_of_order(
-    order: CarpetOrder, progress: Progress = SILENT, *, with_source: bool = False, stages: Stages = ANEW
+    order: CarpetOrder,
+    progress: Progress = SILENT,
+    *,
+    with_source: bool = False,
+    stages: Stages = ANEW,
+    edited: bool = False,
 ) -> OrderedChart:
     """The chart of an order.
+
+    edited  edits follow, which name the yarns of the list: an indexed drawing has them, not the positions of its creel
 
     A chart that ilmek wrote is taken as it is; what the order gives acts on it. Another knot is put in the place of its
     knot. A size or a quality keeps its grid, and the other follows. Yarns, rules of the palette, a fit or a reading act
@@ -82,7 +89,7 @@ def chart_of_order(
         reading = progress.part(0.0, 0.4)
         read = stages.keep("read", key, lambda: _read_file(order, file, reading, stages, with_source=with_source))
     made = _sized(order, read.size, read.quality).resolved()
-    rest = (order.reading, order.palette, made.size, made.quality, made.knot, made.yarns, order.dyed)
+    rest = (edited, order.reading, order.palette, made.size, made.quality, made.knot, made.yarns, order.dyed)
 
     def chart_of() -> Chart:
         design = toned_design(stages.shown(read.design), order.reading.tone, progress.part(0.4, 0.5, "chart"))
@@ -98,8 +105,8 @@ def chart_of_order(
             dyed=order.dyed,
             progress=progress.part(0.5, 1.0, "chart"),
         )
-        in_order = None if read.indices is None else in_creel_order(made_chart, read.indices)
-        return in_order or used_first(made_chart)
+        kept = None if edited or read.indices is None else in_creel_order(made_chart, read.indices)
+        return kept or used_first(made_chart)
 
     chart = stages.keep("chart", (key, rest), chart_of)
     return OrderedChart(made.with_dyed(chart.yarns), chart, (*notes, *read.notes), read.source, read.whole)

@@ -69,7 +69,8 @@ def _designed(
     assert recipe.picture is not None
     picture = replace(order, picture=recipe.picture, recipe=None)
     try:
-        done = chart_of_order(picture, progress, with_source=with_source, stages=stages)
+        edited = bool(recipe.edits)
+        done = chart_of_order(picture, progress, with_source=with_source, stages=stages, edited=edited)
     except IlmekError as error:
         with located(recipe.where if isinstance(error, PictureError) else str(recipe.file)):
             raise
