@@ -33,6 +33,8 @@ def edited_designs(draw: st.DrawFn) -> tuple[np.ndarray, list[Edit]]:
     def knot() -> str:
         return f"{draw(st.integers(1, rows))},{draw(st.integers(1, columns))}"
 
+    turns = st.sampled_from(("", " turned 90deg", " turned 180deg"))
+    reflections = st.sampled_from(("", " mirrored across", " mirrored along"))
     forms = (
         lambda: f"set {knot()} {knot()} gold",
         lambda: f"line {knot()} {knot()} gold",
@@ -43,6 +45,9 @@ def edited_designs(draw: st.DrawFn) -> tuple[np.ndarray, list[Edit]]:
         lambda: f"mirror both in {knot()} {knot()}",
         lambda: f"repeat {knot()} {knot()}",
         lambda: f"repeat {knot()} {knot()} in {knot()} {knot()}",
+        lambda: f"stroke {draw(st.integers(1, 5))} {knot()} {knot()} {knot()} gold",
+        lambda: f"copy {knot()} {knot()} to {knot()}{draw(turns)}{draw(reflections)}",
+        lambda: f"move {knot()} {knot()} to {knot()}{draw(turns)}{draw(reflections)} gold",
         lambda: f"border {draw(st.integers(1, 3))} gold",
         lambda: f"border 1 gold in {knot()} {knot()}",
     )
@@ -57,9 +62,11 @@ def yarns_of(edit: Edit) -> tuple[int, ...]:
 @examples(80)
 @given(edited_designs(), st.integers(2, 3), st.integers(2, 3))
 def test_editing_and_enlarging_commute(made: tuple[np.ndarray, list[Edit]], down: int, across: int) -> None:
-    """The factor of a border's width is one for both directions, so borders are tried on like factors alone."""
+    """The factor of a border's width is one for both directions, so borders are tried on like factors alone; so are parts
+    that are turned.
+    """
     small, edits = made
-    if any(edit.kind == "border" for edit in edits):
+    if any(edit.kind == "border" or edit.turned % 2 for edit in edits):
         across = down
     times = np.ones((down, across), dtype=np.uint8)
     large = np.kron(small, times)

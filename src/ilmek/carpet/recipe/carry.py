@@ -11,7 +11,7 @@ import numpy as np
 import scipy
 
 from ilmek.arrays import Bool, Indices, Int32, IntArray
-from ilmek.carpet.recipe.edits import Edit, Knot, line_knots
+from ilmek.carpet.recipe.edits import Edit, Knot, line_knots, stroke_knots
 from ilmek.carpet.recipe.structure import GridRelation, Patch
 from ilmek.records import record
 
@@ -22,7 +22,7 @@ _SAME = 0.5
 """Least share that two areas have in common of both together where one is taken for the other."""
 
 _EIGHT = np.ones((3, 3), dtype=int)
-_CELLS = ("set", "line", "half")
+_CELLS = ("set", "line", "stroke", "half")
 
 Mask = Bool[np.ndarray, "rows columns"]
 
@@ -144,8 +144,9 @@ def carry(edit: Edit, relation: GridRelation, old: Indices | None, new: Indices,
     if not edit.knots:
         width = max(edit.width and 1, round(edit.width * _factor(new.shape, relation.grid)))
         return Carried((replace(edit, width=width),))
-    parts = [_between(edit.knots[first : first + 2], relation.grid) for first in range(0, len(edit.knots), 2)]
-    places = [placed(relation, *part) for part in parts]
+    corners = (*edit.knots, *edit.knots[-1:]) if len(edit.knots) % 2 else edit.knots  # the place of a copy is one knot
+    parts = [_between(corners[first : first + 2], relation.grid) for first in range(0, len(corners), 2)]
+    places = [placed(relation, *part, least=part[0].size > 1) for part in parts]
     empty = next((place for place in places if not place.rows.size), None)
     if empty is not None:
         return Carried((), (1, 1), empty.reason)
@@ -167,7 +168,7 @@ def _of_parts(edit: Edit, relation: GridRelation, shape: tuple[int, ...]) -> Car
 
 
 def _of_cells(edit: Edit, relation: GridRelation, new: Indices, yarns: tuple[int, ...]) -> Carried:
-    """A set, a line or a half knot."""
+    """A set, a line, a stroke or a half knot."""
     rows, columns = _cells(edit, relation.grid)
     place = placed(relation, rows, columns)
     if not place.rows.size:
@@ -186,6 +187,8 @@ def _cells(edit: Edit, grid: tuple[int, int]) -> tuple[IntArray, IntArray]:
     at = [(grid[0] - row, column - 1) for row, column in edit.knots]
     if edit.kind == "line":
         return line_knots(*at)
+    if edit.kind == "stroke":
+        return stroke_knots(at, edit.width, grid)
     if edit.kind in ("replace", "jufti") and len(at) != 1:
         return _between(edit.knots or ((1, 1), grid), grid)
     if edit.kind == "jufti":

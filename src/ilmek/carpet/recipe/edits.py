@@ -82,7 +82,7 @@ _WITHOUT_YARN = ("jufti", "mirror", "repeat", "copy")
 
 _PLACED = re.compile(r"(?:turned\s+(90|180|270)deg\s*)?(?:mirrored\s+(across|along)(?:\s+|$))?")
 
-_OF_CARPET = ("mirror", "repeat", "border")
+_OF_CARPET = ("mirror", "repeat", "copy", "move", "border")
 """Edits of a carpet, not of its picture or a motif, which it may show several times."""
 
 
