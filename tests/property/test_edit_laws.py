@@ -62,8 +62,8 @@ def yarns_of(edit: Edit) -> tuple[int, ...]:
 @examples(80)
 @given(edited_designs(), st.integers(2, 3), st.integers(2, 3))
 def test_editing_and_enlarging_commute(made: tuple[np.ndarray, list[Edit]], down: int, across: int) -> None:
-    """The factor of a border's width is one for both directions, so borders are tried on like factors alone; so are parts
-    that are turned.
+    """The factor of a border's width is one for both directions, so borders are tried on like factors alone; parts that
+    are turned, too.
     """
     small, edits = made
     if any(edit.kind == "border" or edit.turned % 2 for edit in edits):
