@@ -177,3 +177,21 @@ def test_borders_are_listed_and_dragged(carpet: Page, running: Studio) -> None:
     until_data(running.project, "carpet.toml", lambda data: data["border"][0].get("adjust") is True)
     carpet.get_by_role("button", name="Take border 1 out").click()
     until_data(running.project, "carpet.toml", lambda data: "border" not in data)
+
+
+def test_edits_keep_their_place_when_the_size_changes(carpet: Page, running: Studio) -> None:
+    _tool(carpet, "Fill")
+    carpet.get_by_label("Yarn", exact=True).select_option("sage green")
+    carpet.mouse.click(*middle(carpet, ".carpet-surface canvas"))
+    assert len(_edits(running, 1)) == 1
+    share = (_knots(running) == _sage()).all(axis=-1).mean()
+    size = carpet.get_by_label("Size", exact=True)
+    size.fill("64x96cm")
+    size.press("Enter")
+    until_file(running.project, "carpet.toml", 'grid = "80x120"')
+    expect(carpet.locator(".carpet-timing")).to_contain_text("160 × 240", timeout=PATIENCE)
+    assert (_knots(running) == _sage()).all(axis=-1).mean() == pytest.approx(share)
+
+
+def _sage() -> tuple[int, int, int]:
+    return next(yarn.srgb for yarn in default_yarns() if yarn.name == "sage green")

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { linesOf, withLines, withoutLine } from "./edit-lines";
+import { anchored, linesOf, withLines, withoutLine } from "./edit-lines";
 
 const TABLE = { on: "carpet", grid: "80x120", lines: ["fill 1,1 ivory", "mirror both"] };
 const RECIPE = { edits: ["set 1,1 camel", TABLE, "replace ivory by camel"] };
@@ -22,6 +22,16 @@ describe("edits", () => {
       motif,
       { on: "carpet", grid: "80x120", lines: ["mirror both"] },
     ]);
+  });
+
+  it("state the grid on which they were made, in their order", () => {
+    expect(anchored({ edits: ["set 1,1 camel", "mirror both"] }, "80x120")).toEqual([
+      { on: "carpet", grid: "80x120", lines: ["set 1,1 camel", "mirror both"] },
+    ]);
+    expect(linesOf({ edits: anchored(RECIPE, "40x60") })).toEqual(linesOf(RECIPE));
+    expect(anchored(RECIPE, "40x60")?.[1]).toEqual(TABLE);
+    expect(anchored({ edits: [TABLE] }, "40x60")).toEqual([TABLE]);
+    expect(anchored({}, "40x60")).toBeNull();
   });
 
   it("lose a line by its number, and a table with its last line", () => {

@@ -31,6 +31,19 @@ export function withLines(recipe: object | null, lines: readonly string[], grid:
   return [...entries, { on: "carpet", grid, lines }];
 }
 
+/** The edits where those that state no grid are in tables of this one: they stay in their place at another size. */
+export function anchored(recipe: object | null, grid: string): readonly Entry[] | null {
+  const tables: Table[] = [];
+  for (const entry of entriesOf(recipe)) {
+    const last = tables[tables.length - 1];
+    if (isTable(entry)) tables.push(entry);
+    else if (last?.["grid"] === grid && last["on"] === "carpet")
+      tables[tables.length - 1] = { ...last, lines: [...last.lines, entry] };
+    else tables.push({ on: "carpet", grid, lines: [entry] });
+  }
+  return tables.length > 0 ? tables : null;
+}
+
 /** The edits without the line of a number, counted over all; null where none is left. */
 export function withoutLine(recipe: object | null, number: number): readonly Entry[] | null {
   let before = 0;

@@ -6,7 +6,7 @@ import type { ChartAnswer, ChartYarn, ListedYarn } from "../../api/messages";
 import { ApiError, type Packed, postPacked } from "../../api/request";
 import { remember, remembered } from "../../app/settings";
 import { type Document, openDocument } from "../../project";
-import { linesOf, withLines, withoutLine } from "./edit-lines";
+import { anchored, linesOf, withLines, withoutLine } from "./edit-lines";
 import type { Grid, Knot } from "./geometry";
 import { type Placing, pieceOf, placingEdits, recoloured, tileEntry } from "./placing";
 import type { FoundSpecks } from "./specks";
@@ -164,7 +164,13 @@ export class CarpetModel {
 
   /** Sets values of the recipe; "", null and undefined take a key out. */
   set(values: Recipe): void {
+    const grid = this.chart.peek()?.grid;
     this.document.update((recipe) => {
+      // Edits that state no grid count the knots of the carpet as it was.
+      if (grid !== undefined && ("size" in values || "quality" in values)) {
+        const edits = anchored(recipe, `${grid.columns}x${grid.rows}`);
+        if (edits !== null) recipe["edits"] = edits;
+      }
       for (const [key, value] of Object.entries(values)) {
         if (value === "" || value === null || value === undefined) delete recipe[key];
         else recipe[key] = value;
