@@ -61,8 +61,8 @@ def yarn_notes(chart: Chart) -> tuple[str, ...]:
     palette, notes = chart.reading.palette, []
     if dyed := chart.reading.dyed:
         notes.append(
-            f"{len(dyed)} of {counted(chart.colours, 'yarn')} dyed to order: {PROPOSED} lists them; --yarns wool "
-            "keeps to the wools in stock"
+            f"{len(dyed)} of {counted(chart.colours, 'yarn')} dyed to order, for lack of a near wool; the yarns 'wool' "
+            "keep to those in stock"
         )
     if (knee := palette.knee) is not None:
         further = "there are no more" if knee.next_mean is None else f"with one more it is {knee.next_mean:.2f}"
