@@ -87,6 +87,12 @@ def seen(codes: Rgb, spread: float) -> FloatArray:
     return np.asarray(rgb2lab(encode(ndimage.gaussian_filter(LINEAR[codes], (spread, spread, 0)))))
 
 
+def apart(rgb: Rgb, made: Rgb, spread: float) -> float:
+    """Mean CIEDE2000 after a blur."""
+    difference = deltaE_ciede2000(seen(rgb, spread), seen(made, spread))  # type: ignore[no-untyped-call]
+    return float(np.mean(difference))
+
+
 def main() -> None:
     """Print a row for each photograph, shelf and method."""
     print(f"{'photograph':15}{'shelf':12}{'method':26}{'room':>6}{'arm':>6}{'lone':>8}")
@@ -96,7 +102,7 @@ def main() -> None:
             for title, method in METHODS.items():
                 knots = method(rgb, yarns)
                 made = np.array([yarn.srgb for yarn in yarns], dtype=np.uint8)[knots]
-                room, arm = (float(deltaE_ciede2000(seen(rgb, far), seen(made, far)).mean()) for far in (3.0, 1.0))
+                room, arm = (apart(rgb, made, spread) for spread in (3.0, 1.0))
                 lone = tally_of(knots, len(yarns)).lone / knots.size
                 print(f"{name:15}{shelf:12}{title:26}{room:6.2f}{arm:6.2f}{lone:8.1%}")
 
