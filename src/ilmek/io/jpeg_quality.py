@@ -5,7 +5,7 @@ from typing import Any
 from PIL import Image
 
 LEAST_QUALITY = 70
-"""Quality below which lines of one knot break, with 2.7 pixels a knot: 24 rays in 1 piece at 75, in 6 at 60."""
+"""Quality below which lines of one knot break, with 2.7 pixels a knot: 24 rays are 1 piece at 75, more at 60."""
 
 _STANDARD = (
     16, 11, 10, 16, 24, 40, 51, 61, 12, 12, 14, 19, 26, 58, 60, 55, 14, 13, 16, 24, 40, 57, 69, 56, 14, 17, 22, 29,

@@ -41,7 +41,7 @@ _LEAST_VARIANCE, _LEAST_CHROMA = 4 * (_ALONG * _ALONG * _UNIT) ** 2, 4 * _UNIT**
 _NO_SLOPE, _FULL_SLOPE, _NO_LINE, _ON_LINE = 0.2, 0.6, 0.75, 0.95
 """r² from which the slope counts, and counts fully; from which the residue goes, and goes wholly."""
 
-_TWO_COLOURS, _THREE_COLOURS = 14 * _UNIT, 25 * _UNIT
+_TWO_COLOURS, _THREE_COLOURS = 13 * _UNIT, 24 * _UNIT
 """Root mean square of the chroma off the line up to which two colours meet, and from which three do: the median is 8 on
 lines of two colours at quality 75, and 22 on those between two others. All are chosen on the drawings of the tests."""
 
