@@ -77,7 +77,8 @@ def lettering(x: np.ndarray, y: np.ndarray) -> np.ndarray:
     for line, text in enumerate(("Zer af", "guldan", "1347 H")):
         font = ImageFont.load_default(size=15 * scale)
         ImageDraw.Draw(sheet).text((5 * scale, (6 + 20 * line) * scale), text, fill=255, font=font)
-    return (np.asarray(sheet)[(y * scale).astype(int), (x * scale).astype(int)] > 127).astype(int)
+    ink = np.asarray(sheet) > 127
+    return np.asarray(ink[(y * scale).astype(int), (x * scale).astype(int)], dtype=np.int64)
 
 
 OWN = {

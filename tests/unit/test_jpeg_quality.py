@@ -16,6 +16,7 @@ PICTURE = Image.fromarray(np.random.default_rng(3).integers(0, 256, (16, 16, 3),
 def written(quality: int) -> JpegImagePlugin.JpegImageFile:
     file = io.BytesIO()
     PICTURE.save(file, format="JPEG", quality=quality)
+    file.seek(0)
     return JpegImagePlugin.JpegImageFile(file)
 
 
