@@ -25,7 +25,7 @@ from ilmek.io.yarn_proposal import write_proposal
 from ilmek.jobs.carpet_report import page_of
 from ilmek.jobs.charting import chart_of_order
 from ilmek.jobs.order import MOST_PRINTED, MOST_SHEETS, CarpetOrder, ResolvedOrder
-from ilmek.jobs.paper import PAPER_PAGE, paper_files, paper_notes, paper_results
+from ilmek.jobs.paper import PAPER_PAGE, paper_checks, paper_files, paper_notes, paper_results
 from ilmek.jobs.recipe import chart_of_recipe
 from ilmek.jobs.rows import rows_plan, write_rows
 from ilmek.jobs.stages import ANEW, Stages
@@ -110,7 +110,8 @@ class ChartResult:
         """Share of the ground that the pile fills, against 100 %; what the chart keeps of the picture; edits left out."""
         fill = fill_check(pile_fill(self.chart.quality, self.thickest.linear_density, self.pile))
         kept = kept_checks(self.chart, self.order.order)
-        return (fill, *kept, *edit_checks(self.chart.reading.edits))
+        paper = paper_checks(self.chart, self.order.order)
+        return (fill, *kept, *paper, *edit_checks(self.chart.reading.edits))
 
     @property
     def warnings(self) -> tuple[str, ...]:

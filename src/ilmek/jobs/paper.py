@@ -3,9 +3,28 @@
 from typing import Any
 
 from ilmek.carpet.chart import Chart
+from ilmek.jobs.order import CarpetOrder
+from ilmek.report import Check
+from ilmek.report.check import at_most
 from ilmek.units import counted
 
 PAPER_PAGE = "paper.html"
+
+MOST_BEYOND = 0.09
+"""Largest share of the cells beside the grid in which lines may go on: of sheets read right up to 26 %, of those with a
+row too few at least 10 %."""
+
+
+def paper_checks(chart: Chart, order: CarpetOrder) -> tuple[Check, ...]:
+    """Whether the grid ends where it was found to end; size and quality together say it, too."""
+    paper = chart.reading.paper
+    if paper is None or (order.size is not None and order.quality is not None):
+        return ()
+    rows, columns = paper.grid
+    cure = f"compare {columns} × {rows} with the sheet; give --size and --quality, or crop the picture to the grid"
+    source = "lines that cross the edge of the grid end at it"
+    beyond = paper.cells.beyond
+    return (at_most("squared paper: cells beside the grid with lines", beyond, MOST_BEYOND, "%", source, cure=cure),)
 
 
 def paper_files(chart: Chart) -> tuple[str, ...]:

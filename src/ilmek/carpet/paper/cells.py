@@ -39,6 +39,7 @@ class Cells:
     spread   range of the lightness of that half [codes]
     x, y     their middles in the picture [pixels]
     corners   of the grid in the picture, clockwise from the upper left
+    beyond    share of the cells next to the grid in which lines go on
     strength  coherence of the lines about each cell, over `usual`, that of the median cell
     """
 
@@ -49,6 +50,7 @@ class Cells:
     corners: Points
     strength: Float[np.ndarray, "rows columns"]
     usual: float
+    beyond: float
 
 
 def read_cells(rgb: Rgb, energy: LineEnergy, lattice: Lattice) -> Cells:
@@ -66,7 +68,8 @@ def read_cells(rgb: Rgb, energy: LineEnergy, lattice: Lattice) -> Cells:
     all_u, all_v = (u[:, None] + inner).ravel(), (v[:, None] + inner).ravel()
     x, y = lattice.mesh(all_u, all_v)
     samples = rgb[
-        np.clip(np.floor(y), 0, rgb.shape[0] - 1).astype(np.intp), np.clip(np.floor(x), 0, rgb.shape[1] - 1).astype(np.intp)
+        np.clip(np.floor(y), 0, rgb.shape[0] - 1).astype(np.intp),
+        np.clip(np.floor(x), 0, rgb.shape[1] - 1).astype(np.intp),
     ]
     shape = (len(v), _ALONG, len(u), _ALONG)
     by_cell = samples.reshape(*shape, 3).swapaxes(1, 2).reshape(len(v), len(u), _ALONG**2, 3)
@@ -76,7 +79,7 @@ def read_cells(rgb: Rgb, energy: LineEnergy, lattice: Lattice) -> Cells:
     ends = np.array([[u[0], u[-1], u[-1], u[0]], [v[0], v[0], v[-1], v[-1]]])
     outwards = np.array([[-0.5, 0.5, 0.5, -0.5], [-0.5, -0.5, 0.5, 0.5]])
     corners = np.stack(lattice.points(*(ends + outwards)), axis=-1)
-    return Cells(colours, spread, x, y, corners, strength / usual, usual)
+    return Cells(colours, spread, x, y, corners, strength / usual, usual, _beyond(of_columns, of_rows, rows, columns))
 
 
 def _steady(samples: Rgb) -> tuple[FloatArray, FloatArray]:
@@ -154,3 +157,14 @@ def _run(coherence: FloatArray, core: slice, seen: BoolArray) -> slice:
         return at
 
     return slice(end(-1), end(1) + 1)
+
+
+def _beyond(of_columns: FloatArray, of_rows: FloatArray, rows: slice, columns: slice) -> float:
+    """The largest share, of the four sides, of cells just outside in which the lines that cross the side go on."""
+    shares = []
+    for coherence, beside, along in ((of_columns.T, columns, rows), (of_rows, rows, columns)):
+        usual = float(np.median(coherence[beside, along]))
+        for one in (beside.start - 1, beside.stop):
+            if 0 <= one < len(coherence):
+                shares.append(float(np.mean(coherence[one, along] > 0.5 * usual)))
+    return max(shares, default=0.0)

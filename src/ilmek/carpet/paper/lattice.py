@@ -102,9 +102,7 @@ def find_lattice(energy: LineEnergy) -> Lattice:
     """The lattice of the lines of a sheet. Raises PictureError where it is not found."""
     down = _tiles(energy.all_down, energy.down, energy.pitch_x)
     across = _tiles(energy.all_across.T, energy.across.T, energy.pitch_y)
-    across = Tiles(
-        across.waves.transpose(1, 0, 2)[..., ::-1], across.phases.T, across.qualities.T
-    )
+    across = Tiles(across.waves.transpose(1, 0, 2)[..., ::-1], across.phases.T, across.qualities.T)
     u, v = _continued(down), _continued(across)
     seen = np.isfinite(u) & np.isfinite(v)
     if np.count_nonzero(seen) < 4:
@@ -228,9 +226,7 @@ def rectified(lattice: Lattice, energy: LineEnergy) -> tuple[FloatArray, FloatAr
     v = upper + (np.arange((lower - upper) * SAMPLES) + 0.5) / SAMPLES
     x, y = lattice.mesh(u, v)
     at = [y / energy.factor - 0.5, x / energy.factor - 0.5]
-    down, across = (
-        scipy.ndimage.map_coordinates(one, at, order=1, cval=0.0) for one in (energy.down, energy.across)
-    )
+    down, across = (scipy.ndimage.map_coordinates(one, at, order=1, cval=0.0) for one in (energy.down, energy.across))
     return down, across
 
 
@@ -240,7 +236,7 @@ def _corrected(lattice: Lattice, energy: LineEnergy) -> Lattice:
     down, across = rectified(lattice, energy)
     phase = np.exp(-2j * np.pi * (np.arange(SAMPLES) + 0.5) / SAMPLES)
     by_cell = (lower - upper, SAMPLES, right - left, SAMPLES)
-    of_columns = (levelled(down, SAMPLES).reshape(by_cell).sum(axis=1) @ phase)
+    of_columns = levelled(down, SAMPLES).reshape(by_cell).sum(axis=1) @ phase
     of_rows = np.einsum("rsct,s->rc", levelled(across, SAMPLES).reshape(by_cell), phase)
     shift = []
     for energy_of, amplitude in ((down, of_columns), (across, of_rows)):
@@ -270,5 +266,3 @@ def _blocks(amplitude: FloatArray) -> FloatArray:
     return np.asarray(
         padded.reshape(padded.shape[0] // _BLOCK, _BLOCK, padded.shape[1] // _BLOCK, _BLOCK).sum(axis=(1, 3))
     )
-
-

@@ -1,0 +1,107 @@
+"""Squared paper is read cell by cell: exports, scans and photographs; nothing else is taken for it."""
+
+import json
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+import skimage.data
+from PIL import Image
+
+from ilmek.carpet.paper.sheet import PaperReading, read_sheet, squared_paper
+from ilmek.errors import CarpetError, PictureError
+from ilmek.jobs.chart import chart_order, chart_results, make_charted
+from ilmek.jobs.order import read_order
+from tests.support.sheets import photographed, printed, random_design, random_palette, random_sheet
+
+DATA = Path(__file__).parents[1] / "data" / "paper"
+TRUTH = np.asarray(Image.open(DATA / "cartoon-truth.png")).astype(int)
+
+
+def same_partition(one, other):
+    """Whether two charts have the same areas, whatever the numbers of their colours."""
+    pairs = np.unique(np.stack([one.ravel(), other.ravel()]), axis=1)
+    return one.shape == other.shape and pairs.shape[1] == len(np.unique(one)) == len(np.unique(other))
+
+
+def wrong_cells(found: PaperReading, truth):
+    """The cells whose colour is not the one that most cells of their number have."""
+    meant = np.array([np.bincount(truth[found.numbers == one]).argmax() for one in range(len(found.palette))])
+    return meant[found.numbers] != truth
+
+
+def test_an_export_of_a_chart_program_is_read_by_its_cells():
+    charted = make_charted(read_order(DATA / "cartoon-grid.png"))
+    assert same_partition(charted.chart.knots.astype(int), TRUTH)
+    assert chart_results(charted)["paper"] == {"rows": 120, "columns": 100, "doubtful": 0, "cells": []}
+
+
+@pytest.mark.parametrize(
+    "options", [{"line": 170, "heavy": 5}, {"line": 60, "heavy": 0, "letters": True, "numbers": True, "margin": 60}]
+)
+def test_exports_with_other_lines_letters_and_margins(options):
+    rng = np.random.default_rng(5)
+    palette, design = random_palette(rng, 5), random_design(rng, 30, 24, 5)
+    found = squared_paper(printed(rng, design, palette, 20, **options))
+    assert found is not None
+    assert same_partition(found.numbers.astype(int), design)
+    assert found.doubts == 0
+
+
+def test_a_scan_to_the_edge_of_the_paper_has_the_corners_of_its_grid():
+    order = read_order(DATA / "cartoon-scan.jpg", size="40x48cm", corners="auto")
+    assert same_partition(make_charted(order).chart.knots.astype(int), TRUTH)
+
+
+def test_a_scan_is_read_cell_by_cell():
+    charted = make_charted(read_order(DATA / "cartoon-scan.jpg", paper=True))
+    assert same_partition(charted.chart.knots.astype(int), TRUTH)
+    assert all(check.ok for check in charted.checks)
+
+
+@pytest.mark.parametrize("seed", [101, 102, 104])
+def test_photographed_sheets_are_read_and_what_is_wrong_is_doubtful(seed):
+    sheet = random_sheet(seed, small=True)
+    found = read_sheet(sheet.picture)
+    assert found.grid == sheet.truth.shape
+    wrong = wrong_cells(found, sheet.truth)
+    assert wrong.mean() <= 0.001
+    assert not (wrong & ~found.doubtful).any()
+
+
+@pytest.mark.parametrize("name", ["astronaut", "brick", "coffee", "grass", "page", "logo", "checkerboard"])
+def test_photographs_and_drawings_are_no_squared_paper(name):
+    rgb = getattr(skimage.data, name)()[..., :3] if name != "checkerboard" else skimage.data.checkerboard()
+    rgb = np.repeat(rgb[..., None], 3, axis=-1) if rgb.ndim == 2 else rgb
+    assert squared_paper(np.ascontiguousarray(rgb)) is None
+
+
+@pytest.mark.parametrize("name", ["medallion.png", "photo.jpg"])
+def test_examples_are_no_squared_paper(name):
+    assert squared_paper(np.asarray(Image.open(Path("examples") / name).convert("RGB"))) is None
+
+
+def test_a_photograph_called_paper_is_refused():
+    with pytest.raises(PictureError, match="no squared paper is found"):
+        read_sheet(skimage.data.coffee())
+
+
+def test_a_carpet_of_other_knots_than_the_cells_is_refused():
+    order = read_order(DATA / "cartoon-scan.jpg", paper=True, size="50x48cm", quality="25x25/dm")
+    with pytest.raises(CarpetError, match=r"100 × 120 cells.*125 × 120 knots"):
+        make_charted(order)
+
+
+def test_the_page_shows_the_doubtful_cells(tmp_path):
+    rng = np.random.default_rng(3)
+    palette, design = random_palette(rng, 4), random_design(rng, 30, 30, 4)
+    flat = printed(rng, design, palette, 14).copy()
+    flat[14 * 20 : 14 * 21, 14 * 11 : 14 * 12] = (palette[0].astype(int) + palette[1]) // 2  # a cell of no colour
+    picture = tmp_path / "sheet.png"
+    Image.fromarray(photographed(rng, flat, blur=0.5)).save(picture)
+    charted, _ = chart_order(read_order(picture, paper=True), tmp_path / "out")
+    shown = json.loads(re.search(r'id="paper-data">(.*?)</script>', (tmp_path / "out/paper.html").read_text(), re.S)[1])
+    assert (10, 12) in {(cell["row"], cell["column"]) for cell in shown["cells"]}
+    assert {yarn["name"] for yarn in shown["yarns"]} == {charted.chart.yarns[one].name for one in charted.chart.used}
+    assert len(shown["cells"]) == chart_results(charted)["paper"]["doubtful"]
