@@ -31,7 +31,9 @@ _SLOPE = 0.35
 _LEAST_QUALITY = 1.2
 """Least logarithm of the highest power of a tile over the mean."""
 
-_DEGREE, _ROUNDS = 5, 3
+_DEGREE, _ROUNDS, _TILES_A_DEGREE = 5, 3, 20
+"""Greatest degree of P, number of corrections, and least number of tiles for each degree."""
+
 _BLOCK, SAMPLES = 4, 8
 """Cells of a block, and samples of a cell, along each side."""
 
@@ -77,7 +79,9 @@ class Lattice:
             scipy.ndimage.map_coordinates(self.shift[..., axis], at, order=1, mode="nearest", output=float)
             for axis in range(2)
         ]
-        terms = _terms((u + moved[0] - self.centre[0]) / self.scale, (v + moved[1] - self.centre[1]) / self.scale)
+        terms = _terms(
+            (u + moved[0] - self.centre[0]) / self.scale, (v + moved[1] - self.centre[1]) / self.scale, len(self.terms)
+        )
         return terms @ self.terms[:, 0], terms @ self.terms[:, 1]
 
     def mesh(self, u: Float[np.ndarray, " columns"], v: Float[np.ndarray, " rows"]) -> tuple[FloatArray, FloatArray]:
@@ -186,16 +190,18 @@ def _continued(tiles: Tiles) -> Float[np.ndarray, "rows columns"]:
     return number
 
 
-def _terms(u: FloatArray, v: FloatArray) -> FloatArray:
-    """The products of powers of u and v up to the degree of P."""
-    return np.stack([u**i * v**j for i in range(_DEGREE + 1) for j in range(_DEGREE + 1 - i)], axis=-1)
+def _terms(u: FloatArray, v: FloatArray, count: int) -> FloatArray:
+    """The first products of powers of u and v, by their degree."""
+    powers = [(i, degree - i) for degree in range(_DEGREE + 1) for i in range(degree + 1)]
+    return np.stack([u**i * v**j for i, j in powers[:count]], axis=-1)
 
 
 def _fitted(u: FloatArray, v: FloatArray, points: Float[np.ndarray, "tiles 2"]) -> Lattice:
     """P by least squares, points weighted down beyond a quarter of a cell."""
     low, high = np.array([u.min(), v.min()]), np.array([u.max(), v.max()])
     centre, scale = 0.5 * (low + high), float(max(1.0, 0.5 * (high - low).max()))
-    terms = _terms((u - centre[0]) / scale, (v - centre[1]) / scale)
+    degree = next((degree for degree in range(_DEGREE, 1, -1) if len(u) >= _TILES_A_DEGREE * degree), 1)
+    terms = _terms((u - centre[0]) / scale, (v - centre[1]) / scale, (degree + 1) * (degree + 2) // 2)
     pitch = float(np.ptp(points[:, 0]) + np.ptp(points[:, 1])) / max(1.0, float((high - low).sum()))
     weights: FloatArray = np.ones(len(u))
     ridge = 1e-4 * np.eye(terms.shape[1])
