@@ -48,7 +48,7 @@ def random_design(rng: np.random.Generator, rows: int, columns: int, colours: in
     return design
 
 
-def printed(
+def printed(  # noqa: C901
     rng: np.random.Generator,
     design: NDArray[np.int64],
     palette: Picture,

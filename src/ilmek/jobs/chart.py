@@ -107,7 +107,7 @@ class ChartResult:
 
     @property
     def checks(self) -> tuple[Check, ...]:
-        """Share of the ground that the pile fills, against 100 %; what the chart keeps of the picture; edits left out."""
+        """The ground that the pile fills; what the chart keeps of the picture; the edge of a sheet; edits left out."""
         fill = fill_check(pile_fill(self.chart.quality, self.thickest.linear_density, self.pile))
         kept = kept_checks(self.chart, self.order.order)
         paper = paper_checks(self.chart, self.order.order)

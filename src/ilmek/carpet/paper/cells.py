@@ -3,8 +3,8 @@
 A column of cells belongs to the grid where the lines across go on in it: the energy of the lines there, taken over all
 rows, is in phase with the lattice. Numbers in the margin and the edge of the sheet are not. Rows likewise.
 
-The colour of a cell is the mean of that half of its inner samples whose lightnesses are nearest together: lines, letters
-and dots are in the other half.
+The colour of a cell is the mean of that half of its inner samples whose lightnesses are nearest together: lines,
+letters and dots are in the other half.
 """
 
 import numpy as np
@@ -123,7 +123,7 @@ def _visible(lattice: Lattice, width: int, height: int) -> BoolArray:
 
 def _extent(of_columns: FloatArray, of_rows: FloatArray, seen: BoolArray, lattice: Lattice) -> tuple[slice, slice]:
     """The rows and columns of the window that the grid has."""
-    left, right, upper, lower = window(lattice)
+    left, _, upper, _ = window(lattice)
     low, high = np.rint(lattice.low).astype(int), np.rint(lattice.high).astype(int)
     rows = slice(int(low[1]) - upper + 2, int(high[1]) - upper - 2)
     columns = slice(int(low[0]) - left + 2, int(high[0]) - left - 2)
@@ -161,10 +161,9 @@ def _run(coherence: FloatArray, core: slice, seen: BoolArray) -> slice:
 
 def _beyond(of_columns: FloatArray, of_rows: FloatArray, rows: slice, columns: slice) -> float:
     """The largest share, of the four sides, of cells just outside in which the lines that cross the side go on."""
-    shares = []
+    shares: list[float] = []
     for coherence, beside, along in ((of_columns.T, columns, rows), (of_rows, rows, columns)):
         usual = float(np.median(coherence[beside, along]))
-        for one in (beside.start - 1, beside.stop):
-            if 0 <= one < len(coherence):
-                shares.append(float(np.mean(coherence[one, along] > 0.5 * usual)))
+        outside = [one for one in (beside.start - 1, beside.stop) if 0 <= one < len(coherence)]
+        shares += [float(np.mean(coherence[one, along] > 0.5 * usual)) for one in outside]
     return max(shares, default=0.0)

@@ -127,7 +127,9 @@ def _tiles(everything: Energy, lines: Energy, pitch: float) -> Tiles:
     length = np.hypot(kx, ky) * pitch
     allowed = (length > 0.55) & (length < 1.75) & (np.abs(ky) <= _SLOPE * kx)
     ky, kx = ky[allowed], kx[allowed]
-    power = np.stack([_power(one, allowed) + _power(other, allowed) for one, other in zip(everything, lines)])
+    power = np.stack(
+        [_power(one, allowed) + _power(other, allowed) for one, other in zip(everything, lines, strict=True)]
+    )
     power = scipy.ndimage.uniform_filter(power, (3, 3, 1), mode="nearest")
     peak = power.argmax(axis=-1)
     near = np.hypot(kx[:, None] - kx, ky[:, None] - ky) < 2.5 / size
