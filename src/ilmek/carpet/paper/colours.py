@@ -2,10 +2,11 @@
 
     ln I(cell) = ln palette(colour of the cell) + S(u, v)
 
-S is smooth, and one for the three channels: light and shadow. Most neighbours have one
-colour, so that the differences of neighbours are those of S but for outliers: a polynomial is fitted to them, weighted
-down beyond a few percent [E. H. Land, J. J. McCann, Lightness and retinex theory, J. Opt. Soc. Am. 61 (1971) 1-11]. Then, in turn, cells are grouped in CIELAB about the densest colours,
-and S is smoothed from what each cell is off its colour: the edge of a shadow is sharper than the polynomial.
+S is smooth, and one for the three channels: light and shadow. Most neighbours have one colour, so that the differences
+of neighbours are those of S but for outliers: a polynomial is fitted to them, weighted down beyond a few percent [E.
+H. Land, J. J. McCann, Lightness and retinex theory, J. Opt. Soc. Am. 61 (1971) 1-11]. Then, in turn, cells are grouped
+in CIELAB about the densest colours, and S is smoothed from what each cell is off its colour: the edge of a shadow is
+sharper than the polynomial.
 
 I are the codes of sRGB: a power of the light, so that a product of light is a product of codes.
 """
