@@ -11,9 +11,10 @@ import os
 from pathlib import Path
 
 import pytest
-from pictures import SHARE, difference, keep
 from playwright.sync_api import Browser, Page
 from studio_browser import VIEWS, Studio, context_of, open_view, settled
+
+from pictures import SHARE, difference, keep
 
 FOLDER = Path(__file__).parent / "pictures"
 MOST_BYTES = 1_500_000

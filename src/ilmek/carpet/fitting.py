@@ -39,6 +39,8 @@ _CREDIBLE = 0.1
 _CLEARLY = 0.2
 """Difference of two relative differences of proportions from which a photographed carpet lies where its size stands."""
 
+_WHOLE = (0.0, 0.0, 1.0, 1.0)
+
 _SAME = 12
 """Largest difference of a channel within which the pixels of a border count as one colour."""
 
@@ -129,7 +131,7 @@ class Fit:
     turned: float = 0.0
     corners: tuple[tuple[float, float], ...] | None = None
     clearness: float | None = None
-    shown: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 1.0)
+    shown: tuple[float, float, float, float] = _WHOLE
 
     @property
     def words(self) -> str:
@@ -332,16 +334,16 @@ def _of_same_parity(side: float, like: int) -> int:
     return max(2 * round((side - odd) / 2) + odd, 2 - odd)
 
 
-def _about_the_subject(rgb: Rgb, size: CarpetSize) -> tuple[MadeRgb, tuple[float, float, float, float] | None]:
-    """The largest part with the carpet's proportions about the subject, and its frame."""
+def _about_the_subject(rgb: Rgb, size: CarpetSize) -> tuple[MadeRgb, tuple[float, float, float, float]]:
+    """The largest part with the carpet's proportions about the subject, and its place, as of `Fit.shown`."""
     whole = int(rgb.shape[0]), int(rgb.shape[1])
     height, width = _sides(rgb, size, larger=False)
     if (height, width) == whole:
-        return rgb, None
+        return rgb, _WHOLE
     top = 0 if height == whole[0] else subject_start(rgb, height, across=False)
     left = 0 if width == whole[1] else subject_start(rgb, width, across=True)
-    frame = left / whole[1], top / whole[0], (left + width) / whole[1], (top + height) / whole[0]
-    return rgb[top : top + height, left : left + width], frame
+    shown = left / whole[1], top / whole[0], (left + width) / whole[1], (top + height) / whole[0]
+    return rgb[top : top + height, left : left + width], shown
 
 
 def _shown(rgb: Rgb, made: Rgb) -> tuple[float, float, float, float]:

@@ -22,8 +22,8 @@ WHITE, DARK = (255, 255, 255), (32, 32, 32)
 """Colours behind the transparent parts of a picture."""
 
 NEARLY_WHITE, LIGHT = 20.0, 30.0
-"""Mean differences from white in CIELAB of the rim of what is seen of a picture, and of all that is seen, below which it
-needs a dark ground.
+"""Mean differences from white in CIELAB of the rim of what is seen of a picture, and of all that is seen, below which
+it needs a dark ground.
 """
 
 _RIM = 2

@@ -2,8 +2,8 @@
 
 A picture may pass the decision and yet lose what it shows: a texture of one hue, a plant whose leaves are finer than
 its true colours, a picture of 16 × 16 pixels whose tones are fewer pixels than make a true colour. So the picture is
-read, on at most SIDE pixels along its longer side, and compared with itself by the mean light of blocks of BLOCK × BLOCK
-pixels; small pictures, where each pixel is several knots, pixel by pixel. It does not look like itself where
+read, on at most SIDE pixels along its longer side, and compared with itself by the mean light of blocks of BLOCK ×
+BLOCK pixels; small pictures, where each pixel is several knots, pixel by pixel. It does not look like itself where
 
     the mean CIEDE2000 is above MOST_OFF; of a small picture, where one block in twenty is above it; or
     of the contrasts between blocks that are neighbours, less than LEAST_CONTRAST are kept

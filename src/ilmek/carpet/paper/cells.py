@@ -143,7 +143,7 @@ def _run(coherence: FloatArray, core: slice, seen: BoolArray) -> slice:
         raise no_grid("no whole cell is in the picture")
     usual = float(np.median(coherence[core]))
     on = (coherence >= _LEAST_SHARE * usual) & seen
-    middle = (core.start + core.stop) // 2
+    middle = int(core.start + core.stop) // 2
 
     def end(step: int) -> int:
         at = middle

@@ -162,7 +162,7 @@ def _power(tiles: Float[np.ndarray, "columns side side"], allowed: BoolArray) ->
 def _continued(tiles: Tiles) -> Float[np.ndarray, "rows columns"]:
     """The number of the line at each tile's centre, from the clearest tile on; NaN: no lines, or not joined."""
     number = np.full(tiles.phases.shape, np.nan)
-    rows, columns = number.shape
+    rows, columns = tiles.qualities.shape
     quality = np.where(tiles.qualities >= _LEAST_QUALITY, tiles.qualities, 0.0)
     if not quality.any():
         return number
