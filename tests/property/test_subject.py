@@ -68,8 +68,8 @@ def test_an_even_picture_is_cropped_about_its_centre() -> None:
 def test_the_frame_is_that_of_what_is_shown() -> None:
     rgb = rgb_of(scene(150, 45))
     made, fit = fit_picture(rgb, CarpetSize(0.4, 0.6), FitParams())
-    assert fit.frame is not None
-    left, top, right, bottom = (round(one * side) for one, side in zip(fit.frame, 2 * (WIDE, HIGH), strict=True))
+    assert fit.kind == "crop"
+    left, top, right, bottom = (round(one * side) for one, side in zip(fit.shown, 2 * (WIDE, HIGH), strict=True))
     assert np.array_equal(made, rgb[top:bottom, left:right])
     assert fit.cropped == pytest.approx(1 - made.shape[0] * made.shape[1] / (HIGH * WIDE))
     assert left <= 132

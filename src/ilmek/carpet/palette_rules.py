@@ -182,7 +182,7 @@ def yarn_names(option: str, text: str | None) -> tuple[str, ...]:
 def mapped_colours(text: str | None) -> tuple[tuple[tuple[int, int, int], str], ...]:
     """The pairs of a text: sRGB of a colour, and the name of its yarn. Raises ParameterError.
 
-    >>> mapped_colours("#6c9136=dark green; #fff = ivory")
+    >>> mapped_colours("#6c9136=dark green; #ffffff = ivory")
     (((108, 145, 54), 'dark green'), ((255, 255, 255), 'ivory'))
     """
     if text is None:
