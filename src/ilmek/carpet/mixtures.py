@@ -21,8 +21,8 @@ from ilmek.num.compiled import compiled
 PENALTY = 1 / 160
 """Weight of the contrast of the yarns with the tone, against the difference of the mixture [1/CIEDE2000]."""
 
-MOST_TRIED = 16
-"""Yarns that are tried: those nearest to the tone."""
+MOST_TRIED = 5
+"""Yarns that are tried: those nearest to the tone. Of many shades of one picture, farther ones would only show."""
 
 FLAT = 2.0
 """A tone that is as near to a yarn takes that yarn [CIEDE2000]."""
