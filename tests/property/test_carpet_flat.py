@@ -11,7 +11,9 @@ from scipy import ndimage
 
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.colour_difference import nearest
-from ilmek.carpet.flat import flat_design, looks_flat
+from ilmek.carpet.flat import flat_design, looks_flat, looks_like_itself
+from ilmek.carpet.flat.survey import survey
+from ilmek.carpet.flat.true_colours import true_colours
 from ilmek.carpet.yarn import yarn_labs
 from ilmek.io.yarn_file import default_yarns
 
@@ -171,6 +173,26 @@ def test_a_gradient_is_no_drawing_and_a_drawing_is_one() -> None:
     sky = np.linspace(IVORY, NAVY, 300)[:, None].repeat(200, axis=1).round().astype(np.uint8)
     assert not looks_flat(sky).is_flat
     assert looks_flat(rendered(FLAT["rosette"], 4, "jpeg")).is_flat
+
+
+def test_a_drawing_looks_like_itself_and_a_small_picture_of_many_tones_or_a_plant_of_fine_leaves_does_not() -> None:
+    for name in FLAT:
+        drawn = rendered(FLAT[name], 4, "smooth")
+        assert looks_like_itself(drawn, looks_flat(drawn).true), name
+    rng = np.random.default_rng(5)
+    blade = np.full((16, 16, 3), 255, dtype=np.uint8)
+    blade[3:13, 3:13] = np.array([96, 104, 118, 131, 150])[rng.integers(0, 5, (10, 10, 1))]
+    plant = np.full((300, 300, 3), 255, dtype=np.uint8)
+    plant[60:240, 60:240] = np.array([(12, 12, 12), (150, 70, 160), (60, 120, 50)])[
+        rng.choice(3, (180, 180), p=[0.8, 0.1, 0.1])
+    ]
+    black = true_colours(
+        survey(np.where(plant < 200, 12, 255).astype(np.uint8))
+    )  # what is seen of it by its even areas
+    assert not looks_like_itself(plant, black)
+    few = np.where(blade < 255, 118, 255).astype(np.uint8)
+    assert not looks_like_itself(blade, true_colours(survey(few)))
+    assert looks_like_itself(few, true_colours(survey(few)))
 
 
 def test_a_photo_in_an_even_frame_is_no_drawing() -> None:
