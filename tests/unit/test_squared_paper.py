@@ -16,7 +16,7 @@ from ilmek.jobs.chart import chart_order, chart_results, make_charted
 from ilmek.jobs.order import read_order
 from ilmek.jobs.paper import MOST_BEYOND
 
-DATA = Path(__file__).parents[1] / "data" / "paper"
+DATA, EXAMPLES = Path(__file__).parents[1] / "data" / "paper", Path(__file__).parents[2] / "examples"
 TRUTH = np.asarray(Image.open(DATA / "cartoon-truth.png")).astype(int)
 
 
@@ -108,3 +108,16 @@ def test_the_page_shows_the_doubtful_cells(tmp_path):
     assert (10, 12) in {(cell["row"], cell["column"]) for cell in shown["cells"]}
     assert {yarn["name"] for yarn in shown["yarns"]} == {charted.chart.yarns[one].name for one in charted.chart.used}
     assert len(shown["cells"]) == chart_results(charted)["paper"]["doubtful"]
+
+
+def test_a_picture_that_is_no_sheet_fails_a_check_where_it_is_read_as_one() -> None:
+    """A photograph of a carpet on a floor: what looks like lines is its fringe."""
+    made = make_charted(read_order(EXAMPLES / "photo.jpg", paper=True))
+    failed = [check.name for check in made.checks if not check.ok]
+    assert "squared paper: doubtful cells" in failed
+    shown = make_charted(read_order(DATA / "cartoon-grid.png", paper=True))
+    assert [check.name for check in shown.checks if check.name.startswith("squared paper")] == [
+        "squared paper: doubtful cells",
+        "squared paper: cells beside the grid with lines",
+    ]
+    assert all(check.ok for check in shown.checks)

@@ -152,6 +152,7 @@ def _of_sheet(
     sheet: PaperReading, size: CarpetSize | None, quality: Quality | None, params: ReadParams
 ) -> tuple[Design, CarpetSize, Quality]:
     """The design on a sheet of squared paper. Raises CarpetError where size and quality have another grid."""
+    sheet = replace(sheet, stated=size is not None and quality is not None)
     if size is None or quality is None:
         size, quality = of_grid(sheet.grid, size, quality)
     elif not has_grid(sheet.grid, size, quality):

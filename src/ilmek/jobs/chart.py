@@ -110,7 +110,7 @@ class ChartResult:
         """The ground that the pile fills; what the chart keeps of the picture; the edge of a sheet; edits left out."""
         fill = fill_check(pile_fill(self.chart.quality, self.thickest.linear_density, self.pile))
         kept = kept_checks(self.chart, self.order.order)
-        paper = paper_checks(self.chart, self.order.order)
+        paper = paper_checks(self.chart)
         return (fill, *kept, *paper, *edit_checks(self.chart.reading.edits))
 
     @property

@@ -3,7 +3,6 @@
 from typing import Any
 
 from ilmek.carpet.chart import Chart
-from ilmek.jobs.order import CarpetOrder
 from ilmek.report import Check
 from ilmek.report.check import at_most
 from ilmek.units import counted
@@ -15,16 +14,25 @@ MOST_BEYOND = 0.09
 row too few at least 10 %."""
 
 
-def paper_checks(chart: Chart, order: CarpetOrder) -> tuple[Check, ...]:
-    """Whether the grid ends where it was found to end; size and quality together say it, too."""
+MOST_DOUBTFUL = 0.1
+"""Largest share of doubtful cells: a picture with more is no sheet, or one that is better drawn again."""
+
+
+def paper_checks(chart: Chart) -> tuple[Check, ...]:
+    """Whether most cells are sure, and whether the grid ends where it was found to end, unless that was stated."""
     paper = chart.reading.paper
-    if paper is None or (order.size is not None and order.quality is not None):
+    if paper is None:
         return ()
     rows, columns = paper.grid
+    cure = f"is it a sheet of {columns} × {rows} cells? Leave out --paper, or take a clearer picture"
+    doubts, source = paper.doubts / paper.numbers.size, "cells whose colour is not clear; assumed by this project"
+    sure = at_most("squared paper: doubtful cells", doubts, MOST_DOUBTFUL, "%", source, cure=cure)
+    if paper.stated:
+        return (sure,)
     cure = f"compare {columns} × {rows} with the sheet; give --size and --quality, or crop the picture to the grid"
-    source = "lines that cross the edge of the grid end at it"
-    beyond = paper.cells.beyond
-    return (at_most("squared paper: cells beside the grid with lines", beyond, MOST_BEYOND, "%", source, cure=cure),)
+    source, beyond = "lines that cross the edge of the grid end at it", paper.cells.beyond
+    ends = at_most("squared paper: cells beside the grid with lines", beyond, MOST_BEYOND, "%", source, cure=cure)
+    return sure, ends
 
 
 def paper_files(chart: Chart) -> tuple[str, ...]:

@@ -35,6 +35,7 @@ class PaperReading:
     cells       where they lie in the picture, and how they look there
     shown       row and column of the most doubtful cells, from the top left, 0 first; at most MOST_SHOWN
     views       the picture about each of these, VIEW pixels and three cells wide
+    stated      size and quality of the carpet were given, and they state the same grid
     """
 
     palette: UInt8[np.ndarray, "colours 3"]
@@ -44,6 +45,7 @@ class PaperReading:
     cells: Cells
     shown: Int64[np.ndarray, "shown 2"]
     views: UInt8[np.ndarray, "shown side side 3"]
+    stated: bool = False
 
     @property
     def grid(self) -> tuple[int, int]:
