@@ -212,6 +212,35 @@ def test_a_part_of_an_edit_that_has_no_place_is_counted(tmp_path: Path) -> None:
     code, answer = results(tmp_path, recipe(layout, "set 10,11 10,12 50,51 gold", anchor='grid = "200x300"'))
     (edit,) = answer["results"]["edits"]
     assert (code, edit["details"], edit["left_out"], edit["rows"], edit["columns"]) == (3, 2, 1, [5, 5], [6, 6])
+    assert edit["lost"] == pytest.approx(1 / 3)
+    told = "left out of it: 1 of 2 details, 33.3% of its knots: it is smaller than a knot there"
+    assert any(note.endswith(told) for note in answer["notes"])
+
+
+@pytest.mark.parametrize(
+    ("line", "lost"),
+    [
+        ("line 150,1 150,200 gold", 0.25),  # columns 26 to 175 are shown, 150 of 200
+        ("replace ivory by gold in 1,1 300,40", 25 / 40),
+        ("mirror across in 100,11 110,50", 30 / 40),  # about column 30.5: 26 to 35 have both halves
+        ("border 1 gold in 100,20 109,29", 20 / 36),  # the left side, and 5 knots more of two others
+        ("copy 100,20 109,29 to 50,100", 0.6),
+        ("fill 200,20 gold", None),
+    ],
+)
+def test_what_is_cropped_is_told_in_percent_and_fails_a_check(tmp_path: Path, line: str, lost: float | None) -> None:
+    """A drawing of 2 : 3 on a carpet of 1 : 2, on which a quarter of its width is cropped."""
+    drawing(tmp_path)
+    layout = 'picture = "drawing.png"\nsize = "60x120cm"\nread = "flat"\n'
+    code, answer = results(tmp_path, recipe(layout, line, anchor='grid = "200x300"'))
+    (edit,) = answer["results"]["edits"]
+    if lost is None:  # the ground: what is cropped of the drawing, but for its red and navy parts
+        pixels = np.asarray(Image.open(tmp_path / "drawing.png"))
+        ground = (pixels == IVORY).all(axis=-1)
+        lost = 1 - np.count_nonzero(ground[:, 15:105]) / np.count_nonzero(ground)
+    assert edit["lost"] == pytest.approx(lost, abs=0.006)
+    assert (code, edit["reason"]) == (3, "the carpet does not show all of its place")
+    assert any("left out of it" in note and f"{100 * edit['lost']:.3g}%" in note for note in answer["notes"])
 
 
 def test_half_knots_and_jufti_knots_are_carried(tmp_path: Path) -> None:

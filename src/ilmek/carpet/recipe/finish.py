@@ -142,12 +142,14 @@ class _Editor:
         if source is None:
             outside = outside_grid(edit, *self.knots.shape)
             if outside is not None and edit.anchor.grid is None:
-                self.outcomes.append(EditOutcome(edit, None, details=(1, 1), reason=f"{outside}; it states no grid"))
+                self.outcomes.append(
+                    EditOutcome(edit, None, details=(1, 1), reason=f"{outside}; it states no grid", lost=1.0)
+                )
                 return
             check_knots(edit, *self.knots.shape)
             self._apply(edit, own, progress)
         elif isinstance(source, str):
-            self.outcomes.append(EditOutcome(edit, edit.anchor.grid, details=(1, 1), reason=source))
+            self.outcomes.append(EditOutcome(edit, edit.anchor.grid, details=(1, 1), reason=source, lost=1.0))
         else:
             check_knots(edit, *source.relation.grid)
             self._carry(edit, source, own, progress)
@@ -167,7 +169,7 @@ class _Editor:
         changed = self.knots != before
         part = _part(changed) or _written(applied)
         count = int(np.count_nonzero(changed))
-        self.outcomes.append(EditOutcome(edit, source.relation.grid, count, part, details, reason))
+        self.outcomes.append(EditOutcome(edit, source.relation.grid, count, part, details, reason, carried.lost))
 
     def _apply(self, edit: Edit, own: tuple[int, ...], progress: Progress) -> None:
         if edit.kind == "replace":

@@ -6,7 +6,7 @@ from ilmek.carpet.recipe.anchor import grid_text
 from ilmek.carpet.recipe.edits import Edit, Knot
 from ilmek.records import record
 from ilmek.report.check import Check, at_most
-from ilmek.units import counted
+from ilmek.units import counted, format_quantity
 
 MOST_CARRIED, MOST_LEFT_OUT = 10, 100
 """Largest numbers of edits that have a note of their own: of those that are carried, and of those that are not."""
@@ -18,8 +18,10 @@ class EditOutcome:
 
     grid     rows and columns that it counts; None: it states none
     knots    that it changed      part  its lowest and its highest row and column on the carpet; None: it has none
-    details  separate groups of knots that it gives, and how many of them are left out
+    details  separate groups of knots that it gives, and how many of them are left out as a whole
     reason   why it, or a part of it, is left out; "": it is not
+    lost     share that is left out of the knots that it gives on its own grid: of a fill those of its area, of an edit
+             of a rectangle those of it, of a copy those of the copy
     """
 
     edit: Edit
@@ -28,6 +30,7 @@ class EditOutcome:
     part: tuple[Knot, Knot] | None = None
     details: tuple[int, int] = (1, 0)
     reason: str = ""
+    lost: float = 0.0
 
     @property
     def words(self) -> str:
@@ -38,8 +41,9 @@ class EditOutcome:
             return f"{given} is left out: {self.reason}"
         (low, left), (high, right) = self.part
         done = f"{given}: rows {low} to {high}, columns {left} to {right}, {counted(self.knots, 'knot')} changed"
-        lost = f"; {self.details[1]} of {counted(self.details[0], 'detail')} left out: {self.reason}"
-        return done + (lost if self.reason else "")
+        groups = f"{self.details[1]} of {counted(self.details[0], 'detail')}, " if self.details[1] else ""
+        share = f"{format_quantity(self.lost, '%', 3)} of its knots" if self.lost else "a part of it"
+        return done + (f"; left out of it: {groups}{share}: {self.reason}" if self.reason else "")
 
     def as_plain(self) -> dict[str, Any]:
         """The outcome by its JSON names; rows and columns are lists of the first and the last one."""
@@ -54,6 +58,7 @@ class EditOutcome:
             "columns": sides[1],
             "details": self.details[0],
             "left_out": self.details[1],
+            "lost": self.lost,
             "reason": self.reason,
         }
 

@@ -1,0 +1,41 @@
+"""Carried edits, and rectangles of knots as edits write them and as arrays count them."""
+
+import numpy as np
+
+from ilmek.arrays import IntArray
+from ilmek.carpet.recipe.edits import Edit, Knot
+from ilmek.records import record
+
+Box = tuple[int, int, int, int]
+"""First and last row, first and last column, from the upper left corner."""
+
+
+@record
+class Carried:
+    """An edit on the new grid.
+
+    edits    that take its place; none: it is left out      details, reason, lost  as of an outcome
+    """
+
+    edits: tuple[Edit, ...]
+    details: tuple[int, int] = (1, 0)
+    reason: str = ""
+    lost: float = 0.0
+
+
+def left_out(reason: str) -> Carried:
+    """An edit that is left out as a whole."""
+    return Carried((), (1, 1), reason, 1.0)
+
+
+def between(knots: tuple[Knot, ...], grid: tuple[int, int]) -> tuple[IntArray, IntArray]:
+    """Rows and columns of all knots between two opposite corners, from the upper left corner."""
+    (low, left), (high, right) = np.sort(np.array(knots), axis=0).tolist()
+    rows, columns = np.mgrid[grid[0] - high : grid[0] - low + 1, left - 1 : right]
+    return rows.ravel(), columns.ravel()
+
+
+def corner_knots(box: Box, rows: int) -> tuple[Knot, Knot]:
+    """Lower left and upper right corner of a box of rows and columns, as edits count them."""
+    top, bottom, left, right = box
+    return (rows - bottom, left + 1), (rows - top, right + 1)
