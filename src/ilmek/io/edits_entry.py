@@ -3,7 +3,7 @@
 edits = ["replace ivory by camel"]
 
 [[edits]]
-on = "carpet"               # or "picture", "motif 1", "knots"
+on = "carpet"               # or "picture", "motif 1", "border 1", "corner 1", "knots"
 grid = "300x450"            # columns x rows
 quality = "25x25/dm"        # of the carpet on which they were made, where borders have their width in mm
 lines = ["set 12,40 madder red"]

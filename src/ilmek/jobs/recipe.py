@@ -10,14 +10,15 @@ from ilmek.carpet.chart import Chart, chart_of_design, used_first
 from ilmek.carpet.exact import of_grid
 from ilmek.carpet.palette_rules import PaletteParams, names_text, yarn_names
 from ilmek.carpet.reading import READINGS
-from ilmek.carpet.recipe.anchor import CARPET, KNOTS, MOTIF, PICTURE, Anchor, grid_text
+from ilmek.carpet.recipe.anchor import CARPET, KNOTS, MOTIF, REPEATED, Anchor, grid_text
 from ilmek.carpet.recipe.composition import Composition, compose
 from ilmek.carpet.recipe.edits import Edit, located, named_yarns
 from ilmek.carpet.recipe.finish import EditedDesign, finish
 from ilmek.carpet.recipe.layout import CarpetLayout
 from ilmek.carpet.recipe.outcome import outcome_notes
+from ilmek.carpet.recipe.parts import relate_part
 from ilmek.carpet.recipe.recipe import Recipe
-from ilmek.carpet.recipe.structure import DesignStructure, relate, relate_motif, relate_picture
+from ilmek.carpet.recipe.structure import DesignStructure, relate
 from ilmek.carpet.usual_pile import with_counts
 from ilmek.carpet.yarn import Yarn
 from ilmek.errors import CarpetError, IlmekError, PictureError
@@ -145,11 +146,8 @@ def _origins(
         if anchor in found or (anchor.on in (CARPET, KNOTS) and (anchor.grid == grid or _is_ordered(anchor, order))):
             continue
         with located(edit.where):
-            if anchor.on == PICTURE:
-                assert anchor.grid is not None
-                found[anchor] = EditedDesign(relate_picture(target, anchor.grid))
-            elif anchor.on == MOTIF:
-                found[anchor] = EditedDesign(relate_motif(target, anchor.number, anchor.grid))
+            if anchor.on in REPEATED:
+                found[anchor] = EditedDesign(relate_part(target, anchor))
             elif (origin := _origin(anchor, done, order, target, stages)) is not None:
                 found[anchor] = origin
     return found, _open_note(recipe, grid, found)

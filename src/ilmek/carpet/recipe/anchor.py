@@ -4,6 +4,8 @@ carpet   the knots of a carpet of a stated grid; on another grid the edit follow
          a motif a motif, and what lies in the picture follows the picture
 picture  the cells of a grid over the picture of the field, default: its pixels; also in its reflections
 motif 2  the knots of the second motif of the recipe, in each of its copies
+border 2 the knots of the repeat of the second border, as it stands on the upper side, in each repeat on all four sides
+corner 2 the knots of the upper left corner of the second border, where it has a picture of its own, in all four corners
 knots    the knots of a carpet of a stated grid, and of no other one
 """
 
@@ -14,7 +16,12 @@ from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.errors import CarpetError, did_you_mean, shortened
 
-CARPET, PICTURE, MOTIF, KNOTS = ANCHORS = ("carpet", "picture", "motif", "knots")
+CARPET, PICTURE, MOTIF, BORDER, CORNER, KNOTS = ANCHORS = ("carpet", "picture", "motif", "border", "corner", "knots")
+REPEATED = (PICTURE, MOTIF, BORDER, CORNER)
+"""Parts of a design that a carpet may show several times."""
+
+NUMBERED = (MOTIF, BORDER, CORNER)
+"""Parts of which a recipe has several, from 1."""
 
 LARGEST_GRID = 1_000_000
 """Largest number of rows or columns of a grid."""
@@ -24,7 +31,7 @@ LARGEST_GRID = 1_000_000
 class Anchor:
     """What the rows and columns of an edit count.
 
-    on       of ANCHORS      number  of a motif, from 1
+    on       of ANCHORS      number  of a part of NUMBERED, from 1
     grid     rows and columns; None: those of the carpet of `size` and `quality`, or of the carpet that is made
     size, quality  of the carpet on which the edit was made; None: not stated
     """
@@ -53,8 +60,8 @@ def parse_anchor(text: str) -> tuple[str, int]:
     (('motif', 2), ('carpet', 0))
     """
     kind, _, number = text.strip().partition(" ")
-    if kind not in ANCHORS or bool(number) != (kind == MOTIF) or not re.fullmatch(r"([1-9]\d?)?", number):
-        allowed = "carpet, picture, motif 1 (or 2, 3, ...), knots"
+    if kind not in ANCHORS or bool(number) != (kind in NUMBERED) or not re.fullmatch(r"([1-9]\d?)?", number):
+        allowed = "carpet, picture, motif 1 (or 2, 3, ...), border 1, corner 1, knots"
         raise CarpetError(
             f"{shortened(text)!r} is nothing to count on", allowed=allowed, do=did_you_mean(kind, ANCHORS)
         )

@@ -1,9 +1,12 @@
 """Carried edits, and rectangles of knots as edits write them and as arrays count them."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from ilmek.arrays import IntArray
 from ilmek.carpet.recipe.edits import Edit, Knot
+from ilmek.carpet.recipe.place import PlacedKnots
 from ilmek.records import record
 
 Box = tuple[int, int, int, int]
@@ -26,6 +29,15 @@ class Carried:
 def left_out(reason: str) -> Carried:
     """An edit that is left out as a whole."""
     return Carried((), (1, 1), reason, 1.0)
+
+
+def set_knots(edit: Edit, place: PlacedKnots, rows: int) -> Carried:
+    """An edit knot by knot at its place on a grid of some rows."""
+    if not place.rows.size:
+        return Carried((), place.details, place.reason, place.lost)
+    knots = np.unique(np.stack([rows - place.rows, place.columns + 1], axis=1), axis=0).tolist()
+    edits = (replace(edit, kind="set", knots=tuple((row, column) for row, column in knots)),)
+    return Carried(edits, place.details, place.reason, place.lost)
 
 
 def between(knots: tuple[Knot, ...], grid: tuple[int, int]) -> tuple[IntArray, IntArray]:

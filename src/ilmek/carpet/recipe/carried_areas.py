@@ -14,7 +14,7 @@ import numpy as np
 
 from ilmek.arrays import IntArray
 from ilmek.carpet.recipe.border import edges
-from ilmek.carpet.recipe.carried import Box, Carried, between, corner_knots, left_out
+from ilmek.carpet.recipe.carried import Box, Carried, between, corner_knots, left_out, set_knots
 from ilmek.carpet.recipe.copies import transformed
 from ilmek.carpet.recipe.edits import Edit, Knot
 from ilmek.carpet.recipe.place import Mask, PlacedKnots, lost_share, placed
@@ -89,11 +89,7 @@ def _ring(edit: Edit, relation: GridRelation, rows: int) -> Carried:
     for side in edges(high, wide, (min(edit.width, high), min(edit.width, wide))):
         drawn[side] = True
     place = placed(relation, down[drawn.ravel()], across[drawn.ravel()])
-    if not place.rows.size:
-        return left_out(place.reason)
-    knots = np.unique(np.stack([rows - place.rows, place.columns + 1], axis=1), axis=0)
-    drawn_knots = tuple((int(row), int(column)) for row, column in knots)
-    return Carried((replace(edit, kind="set", knots=drawn_knots),), place.details, place.reason, place.lost)
+    return set_knots(edit, place, rows)
 
 
 def _at(edit: Edit, relation: GridRelation, rows: int) -> Edit:

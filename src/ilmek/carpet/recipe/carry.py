@@ -5,16 +5,17 @@ has most in common with it is filled, if that is at least half of both together.
 copied, what has its source and its place on the carpet is carried [`carried_areas`].
 """
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 import scipy
 
 from ilmek.arrays import Indices, IntArray
-from ilmek.carpet.recipe.carried import Carried, between, corner_knots, left_out
+from ilmek.carpet.recipe.carried import Box, Carried, between, corner_knots, left_out, set_knots
 from ilmek.carpet.recipe.carried_areas import carry_area
-from ilmek.carpet.recipe.edits import Edit, line_knots, stroke_knots
-from ilmek.carpet.recipe.place import BELOW, EIGHT, NOWHERE, PlacedKnots, placed
+from ilmek.carpet.recipe.edits import Edit, Knot, line_knots, stroke_knots
+from ilmek.carpet.recipe.place import BELOW, EIGHT, NOWHERE, Mask, PlacedKnots, knots_of_place, placed
 from ilmek.carpet.recipe.structure import GridRelation
 
 _SAME = 0.5
@@ -39,11 +40,11 @@ def carry(edit: Edit, relation: GridRelation, old: Indices | None, new: Indices,
 
 
 def _of_parts(edit: Edit, relation: GridRelation, shape: tuple[int, ...]) -> Carried:
-    """A yarn that is replaced, or jufti knots, within a rectangle: within each connected part of its place."""
+    """A yarn that is replaced, or jufti knots, within a rectangle: within the rectangles that make its place."""
     if not edit.knots and relation.owners is not None:
         return Carried((edit,))
     place = placed(relation, *_cells(edit, relation.grid))
-    boxes = [box for box in _boxes(place, shape) if edit.kind == "replace" or box[3] > box[2]]
+    boxes = [box for box in _rectangles(_mask(place, shape)) if edit.kind == "replace" or box[3] > box[2]]
     if not boxes:
         return left_out(place.reason or BELOW)
     edits = tuple(replace(edit, knots=corner_knots(box, shape[0])) for box in boxes)
@@ -52,14 +53,10 @@ def _of_parts(edit: Edit, relation: GridRelation, shape: tuple[int, ...]) -> Car
 
 def _of_cells(edit: Edit, relation: GridRelation, new: Indices, yarns: tuple[int, ...]) -> Carried:
     """A set, a line, a stroke or a half knot."""
-    rows, columns = _cells(edit, relation.grid)
-    place = placed(relation, rows, columns)
-    if not place.rows.size:
-        return Carried((), place.details, place.reason, place.lost)
+    place = placed(relation, *_cells(edit, relation.grid))
+    if edit.kind != "half" or not place.rows.size:
+        return set_knots(edit, place, len(new))
     at = np.unique(np.stack([place.rows, place.columns], axis=1), axis=0)
-    if edit.kind != "half":
-        found = tuple((len(new) - row, column + 1) for row, column in at.tolist())
-        return Carried((replace(edit, kind="set", knots=found),), place.details, place.reason, place.lost)
     halves = [(len(new) - row, column + 1) for row, column in at.tolist() if new[row, column] != yarns[0]]
     reason = place.reason or ("" if halves else "its cells have this yarn already")
     return Carried(tuple(replace(edit, knots=(knot,)) for knot in halves), place.details, reason, place.lost)
@@ -82,10 +79,13 @@ def _cells(edit: Edit, grid: tuple[int, int]) -> tuple[IntArray, IntArray]:
 
 def _fill(edit: Edit, relation: GridRelation, old: Indices | None, new: Indices) -> Carried:
     ((row, column),) = ((relation.grid[0] - row, column - 1) for row, column in edit.knots)
+    if relation.is_tile:
+        tile = knots_of_place(relation, new)
+        labels, _ = scipy.ndimage.label(tile == tile[row, column])
+        return set_knots(edit, placed(relation, *np.nonzero(labels == labels[row, column])), len(new))
     if old is None:
-        boxes = _boxes(placed(relation, np.array([row]), np.array([column]), least=False), new.shape)
-        seeds = (((top + bottom) // 2, (left + right) // 2) for top, bottom, left, right in boxes)
-        found = tuple(replace(edit, knots=((len(new) - down, across + 1),)) for down, across in seeds)
+        place = placed(relation, np.array([row]), np.array([column]), least=False)
+        found = tuple(replace(edit, knots=(knot,)) for knot in _seeds(_mask(place, new.shape)))
         return Carried(found) if found else left_out(NOWHERE)
     labels, _ = scipy.ndimage.label(old == old[row, column])
     place = placed(relation, *np.nonzero(labels == labels[row, column]))
@@ -108,11 +108,30 @@ def _fill(edit: Edit, relation: GridRelation, old: Indices | None, new: Indices)
     return Carried(tuple(replace(edit, knots=(seed,)) for seed in seeds), (1, 0), place.reason, place.lost)
 
 
-def _boxes(place: PlacedKnots, shape: tuple[int, ...]) -> list[tuple[int, int, int, int]]:
-    """First and last row, first and last column of each connected part of a place."""
-    if not place.rows.size:
-        return []
+def _mask(place: PlacedKnots, shape: tuple[int, ...]) -> Mask:
     mask = np.zeros(shape, dtype=bool)
     mask[place.rows, place.columns] = True
-    found = scipy.ndimage.find_objects(scipy.ndimage.label(mask, EIGHT)[0])
-    return [(down.start, down.stop - 1, across.start, across.stop - 1) for down, across in found]
+    return mask
+
+
+def _seeds(mask: Mask) -> Iterator[Knot]:
+    """Of each connected part of a place the knot that is nearest to the middle of the rectangle about it."""
+    labels, _ = scipy.ndimage.label(mask, EIGHT)
+    for number, (down, across) in enumerate(scipy.ndimage.find_objects(labels), 1):
+        rows, columns = np.nonzero(labels[down, across] == number)
+        middle = (down.stop - down.start - 1) // 2, (across.stop - across.start - 1) // 2
+        nearest = int(np.argmin((rows - middle[0]) ** 2 + (columns - middle[1]) ** 2))
+        yield len(mask) - int(rows[nearest]) - down.start, int(columns[nearest]) + across.start + 1
+
+
+def _rectangles(mask: Mask) -> Iterator[Box]:
+    """Rectangles that make a place together: equal runs of rows that follow each other."""
+    begun: dict[tuple[int, int], int] = {}
+    steps = np.diff(mask.astype(np.int8), axis=1, prepend=0, append=0)
+    rows = np.flatnonzero(mask.any(axis=1)).tolist()
+    for row in range(rows[0], rows[-1] + 2) if rows else ():
+        step = steps[row] if row < len(mask) else steps[0] * 0
+        runs = set(zip(np.flatnonzero(step == 1).tolist(), (np.flatnonzero(step == -1) - 1).tolist(), strict=True))
+        for run in sorted(begun.keys() - runs):
+            yield begun.pop(run), row - 1, *run
+        begun |= dict.fromkeys(runs - begun.keys(), row)

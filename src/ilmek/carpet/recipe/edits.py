@@ -33,7 +33,7 @@ from ilmek.arrays import Indices, Int64, UInt8
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.colour_difference import nearest
 from ilmek.carpet.design import bands
-from ilmek.carpet.recipe.anchor import MOTIF, PICTURE, Anchor
+from ilmek.carpet.recipe.anchor import BORDER, REPEATED, Anchor
 from ilmek.carpet.recipe.border import edges
 from ilmek.carpet.recipe.copies import WIDEST_BRUSH, brush_spans, transformed
 from ilmek.carpet.recipe.mirror import MIRRORS, complete
@@ -83,7 +83,10 @@ _WITHOUT_YARN = ("jufti", "mirror", "repeat", "copy")
 _PLACED = re.compile(r"(?:turned\s+(90|180|270)deg\s*)?(?:mirrored\s+(across|along)(?:\s+|$))?")
 
 _OF_CARPET = ("mirror", "repeat", "copy", "move", "border")
-"""Edits of a carpet, not of its picture or a motif, which it may show several times."""
+"""Edits of a carpet, not of a part that it may show several times."""
+
+_UPRIGHT = ("half", "jufti")
+"""Edits of warps, which a border that runs along them cannot have."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,7 +147,7 @@ def parse_edit(text: str, where: str = "", anchor: Anchor | None = None) -> Edit
     if not (fits and least <= len(knots) <= most) or bool(yarns) == (kind in _WITHOUT_YARN):
         raise CarpetError(f"{shortened(text.strip())!r} is no edit", do=f"write {FORMS[kind]}")
     anchor = anchor or Anchor()
-    if kind in _OF_CARPET and anchor.on in (PICTURE, MOTIF):
+    if (kind in _OF_CARPET and anchor.on in REPEATED) or (kind in _UPRIGHT and anchor.on == BORDER):
         raise CarpetError(f"{kind} is no edit of a {anchor.on}", do='write it under on = "carpet"')
     return Edit(kind, (*knots, *part), yarns, " ".join(text.split()), where, direction, width, turned, anchor)
 

@@ -159,13 +159,16 @@ class _Editor:
     def _carry(self, edit: Edit, source: _Source, own: tuple[int, ...], progress: Progress) -> None:
         before = self.knots.copy()
         carried = carry(edit, source.relation, source.knots, self.knots, own)
-        reason, details, applied = carried.reason, carried.details, list(carried.edits)
+        refused: list[tuple[Edit, str]] = []
         for one in carried.edits:
             try:
                 self._apply(one, own, progress)
             except CarpetError as error:
-                applied.remove(one)
-                reason, details = reason or error.given, (details[0], max(1, details[1]))
+                refused.append((one, error.given))
+        applied = [one for one in carried.edits if one not in [edit for edit, _ in refused]]
+        reason, details = carried.reason, carried.details
+        if refused and not (edit.kind == "replace" and applied):  # a yarn needs not be in every part of its place
+            reason, details = reason or refused[0][1], (details[0], max(1, details[1]))
         changed = self.knots != before
         part = _part(changed) or _written(applied)
         count = int(np.count_nonzero(changed))

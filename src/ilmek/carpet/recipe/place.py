@@ -7,7 +7,7 @@ knots, is kept where it is as long as a knot or covers half of one, else left ou
 import numpy as np
 import scipy
 
-from ilmek.arrays import Bool, Int32, IntArray
+from ilmek.arrays import Bool, Indices, Int32, IntArray
 from ilmek.carpet.recipe.structure import GridRelation, Patch
 from ilmek.records import record
 
@@ -83,11 +83,12 @@ def placed(relation: GridRelation, rows: IntArray, columns: IntArray, *, least: 
         own = cells if owners is None else cells & (owners == patch.part)
         if not own.any():
             continue
+        own, first = (own.T, (left, top)) if patch.transposed else (own, (top, left))
         large = own if not least else own & ~_small(own, patch)
-        below |= own & ~large
-        at, seen = _in_patch(large, (top, left), patch, relation.covered, number)
-        found.append(at)
-        shown |= large & seen
+        knots, seen = _in_patch(large, first, patch, relation.covered, number)
+        found.append(knots)
+        for all_cells, of_patch in ((shown, large & seen), (below, own & ~large)):
+            all_cells |= of_patch.T if patch.transposed else of_patch
     labels, count = scipy.ndimage.label(cells, EIGHT)
     details = count, count - len(np.unique(labels[shown]))
     joined = [np.concatenate([one[way] for one in found] or [np.empty(0, dtype=np.int64)]) for way in (0, 1)]
@@ -130,3 +131,19 @@ def _in_patch(
             np.add.at(steps, (down[at[0]], across[at[1]]), other)
     seen = steps.cumsum(axis=0).cumsum(axis=1)[:-1, :-1] > 0
     return (lines[0][at[0]], lines[1][at[1]]), seen
+
+
+def knots_of_place(relation: GridRelation, new: Indices) -> Indices:
+    """The old knots as the new ones show them; one that has no new knot is as the nearest that has."""
+    known = np.zeros(relation.grid, dtype=bool)
+    old = np.zeros(relation.grid, dtype=np.uint8)
+    for number, patch in enumerate(relation.patches):
+        down, across = patch.area
+        held = relation.covered[patch.area] == number
+        held &= (patch.rows.last > patch.rows.first)[:, None] & (patch.columns.last > patch.columns.first)
+        rows, columns = np.nonzero(held)
+        cells = patch.rows.first[rows], patch.columns.first[columns]
+        cells = cells[::-1] if patch.transposed else cells
+        old[cells], known[cells] = new[down, across][rows, columns], True
+    nearest = scipy.ndimage.distance_transform_edt(~known, return_distances=False, return_indices=True)
+    return np.asarray(old[tuple(nearest)])

@@ -60,7 +60,7 @@ class DesignStructure:
         repeat = self.recipe.repeat
         assert self.tile is not None
         assert repeat is not None
-        side, (begin, end) = self.tile[direction], _span(self.field[direction])
+        side, (begin, end) = self.tile[direction], span(self.field[direction])
         count = 1 if repeat.cut else (end - begin) // side
         return Tiling((begin, end), side, (end - begin - count * side) // 2, not repeat.cut)
 
@@ -70,11 +70,13 @@ class Patch:
     """A rectangle of the new grid, of which every knot has its place on the old grid: row by row, column by column.
 
     part  of the design to which it belongs
+    transposed  its rows are columns of the old grid, and its columns are rows
     """
 
     rows: LineMap
     columns: LineMap
     part: int = 0
+    transposed: bool = False
 
     @property
     def area(self) -> Area:
@@ -91,12 +93,14 @@ class GridRelation:
     grid     rows and columns of the old grid      patches  later ones lie over those before
     owners   part of the design at each old knot; None: every patch has all of the old grid
     covered  patch of each new knot; -1: none
+    is_tile  the old grid is that of a tile, of which the new one shows parts; an area of one yarn ends at its edges
     """
 
     grid: tuple[int, int]
     patches: tuple[Patch, ...]
     owners: Int[np.ndarray, "old_rows old_columns"] | None
     covered: Int[np.ndarray, "rows columns"]
+    is_tile: bool = False
 
 
 def relate(old: DesignStructure, new: DesignStructure) -> GridRelation:
@@ -114,65 +118,24 @@ def relate(old: DesignStructure, new: DesignStructure) -> GridRelation:
     areas.append(old.field)
     for copies, others in zip(old.motifs, new.motifs, strict=True):
         for one, other in zip(copies, others, strict=True):
-            axes = [proportional(_span(one.area[way]), _span(other.area[way])) for way in (0, 1)]
+            axes = [proportional(span(one.area[way]), span(other.area[way])) for way in (0, 1)]
             patches.append(Patch(axes[0], axes[1], len(areas)))
             areas.append(one.area)
-    covered = _painted(new.grid, [patch.area for patch in patches])
-    return GridRelation(old.grid, tuple(patches), _painted(old.grid, areas), covered)
+    covered = painted(new.grid, [patch.area for patch in patches])
+    return GridRelation(old.grid, tuple(patches), painted(old.grid, areas), covered)
 
 
-def relate_picture(new: DesignStructure, grid: tuple[int, int]) -> GridRelation:
-    """A grid over the picture of the field, and the knots on which it lies; motifs hide it."""
-    if new.recipe.picture is None:
-        raise CarpetError("the recipe has no picture", do='write on = "carpet"')
-    axes = [
-        pictured(
-            (0, grid[direction]),
-            _span(new.field[direction]),
-            ((0.0, 1.0), _shown(new.fit, direction)),
-            mirror=_mirrors(new.recipe, direction),
-            copies=True,
-        )
-        for direction in (0, 1)
-    ]
-    patch = Patch(axes[0], axes[1])
-    covered = _painted(new.grid, [new.field])
-    for copies in new.motifs:
-        for copy in copies:
-            covered[copy.area] = -1
-    return GridRelation(grid, (patch,), None, covered)
-
-
-def relate_motif(new: DesignStructure, number: int, grid: tuple[int, int] | None) -> GridRelation:
-    """A grid over a motif, from 1; default: its knots; and the knots of its copies."""
-    if number > len(new.motifs):
-        count = len(new.motifs)
-        raise CarpetError(f"motif {number} is not there", allowed=f"motif 1 to {count}" if count else "no motif")
-    copies = new.motifs[number - 1]
-    rows, columns = copies[0].area
-    sides = grid or (rows.stop - rows.start, columns.stop - columns.start)
-    axes = [
-        [proportional((0, sides[way]), _span(copy.area[way]), reflected=copy.reflected[way]) for way in (0, 1)]
-        for copy in copies
-    ]
-    patches = tuple(Patch(down, across) for down, across in axes)
-    covered = _painted(new.grid, [copy.area for copy in copies])
-    for others in new.motifs[number:]:
-        for other in others:
-            covered[other.area] = -1
-    return GridRelation(sides, patches, None, covered)
-
-
-def _span(part: slice) -> tuple[int, int]:
+def span(part: slice) -> tuple[int, int]:
+    """First line of a part, and that behind the last one."""
     return part.start, part.stop
 
 
-def _mirrors(recipe: Recipe, direction: int) -> bool:
+def mirrors(recipe: Recipe, direction: int) -> bool:
     """Whether the picture of the field is reflected down its rows (0) or across its columns (1)."""
     return recipe.mirror == "both" or recipe.mirror == ("along", "across")[direction]
 
 
-def _shown(fit: Fit, direction: int) -> tuple[float, float]:
+def shown_part(fit: Fit, direction: int) -> tuple[float, float]:
     """The part of the picture that is shown, down (0) or across (1), as shares."""
     left, top, right, bottom = fit.shown
     return (top, bottom) if direction == 0 else (left, right)
@@ -202,17 +165,17 @@ def _field(old: DesignStructure, new: DesignStructure) -> Iterator[Patch]:
     if old.recipe.picture is not None:
         axes = [
             pictured(
-                _span(old.field[direction]),
-                _span(new.field[direction]),
-                (_shown(old.fit, direction), _shown(new.fit, direction)),
-                mirror=_mirrors(old.recipe, direction),
+                span(old.field[direction]),
+                span(new.field[direction]),
+                (shown_part(old.fit, direction), shown_part(new.fit, direction)),
+                mirror=mirrors(old.recipe, direction),
                 copies=False,
             )
             for direction in (0, 1)
         ]
         yield Patch(axes[0], axes[1])
     elif old.recipe.repeat is None:
-        rows, columns = (proportional(_span(old.field[way]), _span(new.field[way])) for way in (0, 1))
+        rows, columns = (proportional(span(old.field[way]), span(new.field[way])) for way in (0, 1))
         yield Patch(rows, columns)
     else:
         yield from _repeat(old, new, old.recipe.repeat.order)
@@ -239,7 +202,7 @@ def _repeat(old: DesignStructure, new: DesignStructure, order: str) -> Iterator[
         yield Patch(strip, moved) if way == 0 else Patch(moved, strip)
 
 
-def _painted(grid: tuple[int, int], areas: list[Area]) -> IntArray:
+def painted(grid: tuple[int, int], areas: list[Area]) -> IntArray:
     """The last of the areas in which each knot lies; -1: none."""
     painted = np.full(grid, -1, dtype=np.int16)
     for number, area in enumerate(areas):
