@@ -11,7 +11,12 @@ from typing import Any
 import numpy as np
 import pytest
 from PIL import Image, ImageDraw
+from psd_tools import PSDImage
+from psd_tools.constants import Resource
+from psd_tools.psd import image_resources
+from pypdf import PdfWriter
 from reportlab.pdfgen.canvas import Canvas
+from scipy.ndimage import label
 
 from ilmek.errors import CarpetError, PictureError
 from ilmek.io.picture import read_picture
@@ -29,7 +34,7 @@ GROUND = f'<rect width="120" height="180" fill="{IVORY}"/>'
 
 @pytest.fixture(autouse=True)
 def _extra() -> None:
-    for name in ("resvg_py", "pypdfium2", "psd_tools"):
+    for name in ("resvg_py", "pypdfium2"):
         pytest.importorskip(name, reason=f"the extra vector: there is no wheel of {name} for this platform")
 
 
@@ -105,7 +110,6 @@ STROKES = {
 @pytest.mark.parametrize("path", ["M10 20 L110 150", "M10 100 L110 108", "M60 10 L64 170"])
 def test_a_thin_stroke_stays_in_one_piece(tmp_path: Path, kind: str, path: str) -> None:
     """A stroke of a hundredth of a knot; judged by the pieces that scipy labels."""
-    label = pytest.importorskip("scipy.ndimage").label
     made = colours(svg(tmp_path, STROKES[kind].format(NAVY, f'd="{path}" fill="none"')), size="60x90cm")
     line = np.array(made) == "indigo navy"
     assert label(line, np.ones((3, 3)))[1] == 1
@@ -116,7 +120,6 @@ def test_a_thin_stroke_stays_in_one_piece(tmp_path: Path, kind: str, path: str) 
 
 def test_small_letters_keep_their_stems(tmp_path: Path) -> None:
     """Letters of eight knots, whose stems are 0.7 knots: each of the four is there, in one piece."""
-    label = pytest.importorskip("scipy.ndimage").label
     text = f'<text x="10" y="60" font-family="DejaVu Sans" font-size="9" letter-spacing="4" fill="{NAVY}">HILT</text>'
     made = np.array(colours(svg(tmp_path, text), size="60x90cm", quality="20x20/dm")) == "indigo navy"
     assert label(made, np.ones((3, 3)))[1] == 4
@@ -224,7 +227,6 @@ def test_a_page_of_a_pdf_file_has_the_knots_that_pillow_draws(tmp_path: Path) ->
 
 
 def test_a_hairline_of_a_pdf_file_stays_in_one_piece(tmp_path: Path) -> None:
-    label = pytest.importorskip("scipy.ndimage").label
     line = np.array(colours(pdf(tmp_path, _hairline), size="60x90cm")) == "indigo navy"
     assert label(line, np.ones((3, 3)))[1] == 1
     assert line.any(axis=1).sum() > 150
@@ -241,7 +243,7 @@ def test_pages_that_are_not_there_and_files_without_pages(tmp_path: Path) -> Non
 
 
 def test_a_locked_and_a_damaged_pdf_file(tmp_path: Path) -> None:
-    writer = pytest.importorskip("pypdf").PdfWriter(clone_from=pdf(tmp_path, _block))
+    writer = PdfWriter(clone_from=pdf(tmp_path, _block))
     writer.encrypt("word")
     writer.write(tmp_path / "locked.pdf")
     (tmp_path / "cut.pdf").write_bytes(b"%PDF-1.7\nnothing")
@@ -252,15 +254,14 @@ def test_a_locked_and_a_damaged_pdf_file(tmp_path: Path) -> None:
 
 def layered(folder: Path, *, has_merged: bool) -> Path:
     """A PSD file of two layers; what it has as their merged picture is blank."""
-    psd_tools = pytest.importorskip("psd_tools")
-    resources = pytest.importorskip("psd_tools.psd.image_resources")
-    key = pytest.importorskip("psd_tools.constants").Resource.VERSION_INFO
-    made = psd_tools.PSDImage.new("RGB", (40, 60), color=255)
+    made = PSDImage.new("RGB", (40, 60), color=255)
     for colour, place in ((RED, (0, 0, 40, 60)), (NAVY, (10, 20, 30, 40))):
         layer = Image.new("RGB", (place[2] - place[0], place[3] - place[1]), colour)
         made.create_pixel_layer(layer, top=place[1], left=place[0], name=colour)
-    info = resources.VersionInfo(1, has_merged, "test", "test", 1)
-    made.image_resources[key] = resources.ImageResource(key=key.value, data=info.tobytes())
+    info = image_resources.VersionInfo(1, has_merged, "test", "test", 1)
+    made.image_resources[Resource.VERSION_INFO] = image_resources.ImageResource(
+        key=Resource.VERSION_INFO.value, data=info.tobytes()
+    )
     file = io.BytesIO()
     made.save(file)
     (folder / "rug.psd").write_bytes(file.getvalue())

@@ -1697,7 +1697,7 @@ export interface PictureAbout {
 /**
  * A picture of the project, and the longest side at which it is sent [pixels].
  *
- *     corners, turn  as in a recipe: the picture is first straightened and turned
+ *     corners, turn  as in a recipe: the picture is first straightened and turned      page  of a PDF file, from 1
  *
  * This interface was referenced by `Messages`'s JSON-Schema
  * via the `definition` "PictureRequest".
@@ -1707,6 +1707,7 @@ export interface PictureRequest {
   most?: number;
   corners?: string;
   turn?: string;
+  page?: number;
 }
 /**
  * A picture of the project. size: [bytes].

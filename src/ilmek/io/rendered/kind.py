@@ -1,16 +1,22 @@
 """Which files are rendered when they are read: SVG drawings, PDF pages, layers without their merged picture."""
 
 import re
+from importlib.util import find_spec
 from pathlib import Path
 
 from ilmek.errors import PictureError
-from ilmek.io.rendered.layers import merge_layers
+from ilmek.io.rendered.layers import is_large, merge_layers, needs_merging
 from ilmek.io.rendered.pdf import render_pdf
 from ilmek.io.rendered.resolution import Rendering
 from ilmek.io.rendered.svg import render_svg
 
 RENDERED = (".svg", ".pdf", ".ai")
 """Endings of files that have other pixels for other knots."""
+
+_PDF, _PSD = b"%PDF", b"8BPS"
+_LAYERS = "psd_tools"
+_READERS = {".svg": "resvg_py", ".pdf": "pypdfium2", ".psd": _LAYERS, ".psb": _LAYERS}
+"""Modules of the extra by the ending of the files that they read."""
 
 EXTRA = "pip install 'ilmek[vector]'"
 
@@ -32,6 +38,30 @@ def is_svg(data: bytes) -> bool:
     return _MARKUP.match(head) is not None
 
 
+def drawing_endings(data: bytes) -> tuple[str, ...]:
+    """Endings of the name of a file that is rendered, or has layers, by its content; none: it is no such file.
+
+    >>> drawing_endings(b"%PDF-1.7"), drawing_endings(b"<svg>"), drawing_endings(b"BM")
+    (('.pdf', '.ai'), ('.svg',), ())
+    """
+    if data.startswith(_PSD):
+        return (".psb",) if is_large(data) else (".psd",)
+    return (".pdf", ".ai") if data.startswith(_PDF) else (".svg",) if is_svg(data) else ()
+
+
+def check_reader(name: str, data: bytes) -> None:
+    """Raise PictureError for a drawing whose reader is not installed."""
+    reader = next((_READERS[ending] for ending in drawing_endings(data)[:1]), None)
+    if reader == _LAYERS and not needs_merging(data):
+        return
+    if reader is not None and find_spec(reader) is None:
+        raise _missing_extra(name, reader)
+
+
+def _missing_extra(name: object, reader: str | None) -> PictureError:
+    return PictureError(f"{name} needs the extra vector ({reader} is not installed)", do=EXTRA)
+
+
 def rendered(path: Path, data: bytes, rendering: Rendering) -> tuple[bytes, tuple[str, ...]] | None:
     """A PNG file of the drawing in a file, and notes; None: the file is no drawing.
 
@@ -41,12 +71,12 @@ def rendered(path: Path, data: bytes, rendering: Rendering) -> tuple[bytes, tupl
     try:
         if is_svg(data):
             made = render_svg(path, data, rendering.knots)
-        elif data.startswith(b"%PDF"):
+        elif data.startswith(_PDF):
             return render_pdf(path, data, rendering)
-        elif data.startswith(b"8BPS"):
+        elif data.startswith(_PSD):
             made = merge_layers(path, data)
     except ImportError as error:
-        raise PictureError(f"{path} needs the extra vector ({error.name} is not installed)", do=EXTRA) from None
+        raise _missing_extra(path, error.name) from None
     if rendering.page != 1:
         raise PictureError(f"page={rendering.page} is given, and {path} has one picture", do="leave it out")
     return made

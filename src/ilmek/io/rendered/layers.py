@@ -18,8 +18,11 @@ from ilmek.io.picture_file import shortened
 from ilmek.io.rendered.resolution import LARGEST, png_bytes
 
 _VERSION_INFO = 1057
-_LARGE = 2
-"""Version of the header of a PSB file."""
+_HEADER = 26
+"""Bytes of the header."""
+
+_LARGE = b"\0\2"
+"""Version in the header of a PSB file."""
 
 
 def merge_layers(path: Path, data: bytes) -> tuple[bytes, tuple[str, ...]] | None:
@@ -27,11 +30,9 @@ def merge_layers(path: Path, data: bytes) -> tuple[bytes, tuple[str, ...]] | Non
 
     Raises PictureError for layers that cannot be put together, and ImportError without the extra.
     """
-    if len(data) < 26:
+    if len(data) < _HEADER or not needs_merging(data):
         return None
-    version, _, _, height, width = struct.unpack_from(">H6sHII", data, 4)
-    if version != _LARGE and has_merged(data):
-        return None
+    height, width = struct.unpack_from(">II", data, 14)
     if width * height > LARGEST:
         given, allowed = f"{path} is {width} x {height} pixels", f"at most {LARGEST // 1_000_000} megapixels of layers"
         raise PictureError(given, allowed=allowed, do="save it as PNG")
@@ -46,6 +47,16 @@ def merge_layers(path: Path, data: bytes) -> tuple[bytes, tuple[str, ...]] | Non
     if merged is None:
         raise PictureError(f"{path} has no visible layer", do="show one, or save it as PNG")
     return png_bytes(np.asarray(merged.convert("RGBA"))), ("its layers are put together: it has no merged picture",)
+
+
+def is_large(data: bytes) -> bool:
+    """Whether a file is a PSB file, by its version."""
+    return data[4:6] == _LARGE
+
+
+def needs_merging(data: bytes) -> bool:
+    """Whether the layers of a file must be put together: Pillow reads only PSD files that have their picture."""
+    return is_large(data) or not has_merged(data)
 
 
 def has_merged(data: bytes) -> bool:

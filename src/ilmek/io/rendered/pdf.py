@@ -45,7 +45,7 @@ def render_pdf(path: Path, data: bytes, rendering: Rendering) -> tuple[bytes, tu
 
 def _page(path: Path, document: Any, rendering: Rendering) -> tuple[bytes, tuple[str, ...]]:
     pages, number = len(document), rendering.page
-    if number > pages:
+    if not 1 <= number <= pages:
         allowed = f"page 1 to {pages}" if pages else "no page is there"
         raise PictureError(f"page={number} is given, and {path} has {counted(pages, 'page')}", allowed=allowed)
     page = document[number - 1]

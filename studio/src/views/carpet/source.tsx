@@ -31,12 +31,13 @@ export function SourceDialog({ model, mode, onClose }: SourceProps) {
   const [busy, setBusy] = useState(false);
   const [kept, setKept] = useState(false);
   const picture = model.text("picture");
+  const page = Number(model.recipe.value?.page ?? 1);
 
   useEffect(() => {
     const abort = new AbortController();
     // A crop counts in the picture after it is straightened and turned.
     const before = mode === "crop" ? { corners: model.text("corners"), turn: model.text("turn") } : {};
-    postPacked<PictureAbout>("/carpet/picture", { picture, most: 1200, ...before }, abort.signal).then(
+    postPacked<PictureAbout>("/carpet/picture", { picture, page, most: 1200, ...before }, abort.signal).then(
       ({ about: found, parts }) => {
         const { shown_width: width, shown_height: height } = found;
         const [pixels] = parts([3 * width * height]);
@@ -47,13 +48,13 @@ export function SourceDialog({ model, mode, onClose }: SourceProps) {
       (error: unknown) => !abort.signal.aborted && setProblem(textOf(error)),
     );
     return () => abort.abort();
-  }, [picture, mode]);
+  }, [picture, page, mode]);
 
   const find = async () => {
     setBusy(true);
     setProblem("");
     try {
-      const found = await post<Corners>("/carpet/corners", { picture });
+      const found = await post<Corners>("/carpet/corners", { picture, page });
       setPoints(found.corners.map(([x, y]) => ({ x, y })));
     } catch (error) {
       setProblem(textOf(error));

@@ -58,13 +58,14 @@ class SpecksRequest:
 class PictureRequest:
     """A picture of the project, and the longest side at which it is sent [pixels].
 
-    corners, turn  as in a recipe: the picture is first straightened and turned
+    corners, turn  as in a recipe: the picture is first straightened and turned      page  of a PDF file, from 1
     """
 
     picture: str
     most: int = 1400
     corners: str = ""
     turn: str = ""
+    page: int = 1
 
 
 @dataclass(frozen=True, slots=True)

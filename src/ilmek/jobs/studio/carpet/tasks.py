@@ -24,6 +24,7 @@ from ilmek.carpet.statistics import chart_statistics
 from ilmek.errors import IlmekError, ParameterError
 from ilmek.io.chart.symbols import symbols
 from ilmek.io.picture import SMALLEST
+from ilmek.io.rendered.resolution import Rendering
 from ilmek.io.yarn_file import default_yarns
 from ilmek.jobs.chart import ChartResult, make_charted
 from ilmek.jobs.charting import file_key
@@ -174,9 +175,11 @@ def _folder(context: Context) -> ProjectFolder:
 
 
 def _pixels(request: PictureRequest, context: Context) -> tuple[Rgb, tuple[str, ...]]:
-    path = _folder(context).path(request.picture)
+    path, rendering = _folder(context).path(request.picture), Rendering(request.page)
     return KeptStages().keep(
-        "tile", (file_key(path), SMALLEST, None), lambda: picture_pixels(path, SMALLEST, context.progress)
+        "tile",
+        (file_key(path), SMALLEST, None, rendering),
+        lambda: picture_pixels(path, SMALLEST, context.progress, rendering=rendering),
     )
 
 

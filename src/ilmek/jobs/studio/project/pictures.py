@@ -7,6 +7,7 @@ from pathlib import PurePosixPath
 from ilmek.errors import ParameterError, shortened
 from ilmek.io.chart.formats import FORMATS
 from ilmek.io.output import disk
+from ilmek.io.rendered.kind import check_reader, drawing_endings
 from ilmek.jobs.studio.answers import Context
 from ilmek.jobs.studio.project.folder import (
     PICTURES,
@@ -49,7 +50,8 @@ class UploadRequest:
 def upload_picture(request: UploadRequest, context: Context) -> PictureSummary:
     """Put a picture into pictures/; its type is that of its content. A name that is taken gets a number.
 
-    Raises ParameterError for what is no picture, or is too large; OutputError.
+    Raises ParameterError for what is no picture, or is too large; PictureError for a drawing whose reader is not
+    installed; OutputError.
     """
     folder = ProjectFolder(context.folder.resolve())
     content, name = request.content, PurePosixPath(request.name.replace("\\", "/")).name
@@ -59,7 +61,8 @@ def upload_picture(request: UploadRequest, context: Context) -> PictureSummary:
     endings = _endings(content)
     if not endings:
         given = f"{shortened(name) or 'the file'} is no picture that can be read"
-        raise ParameterError(given, do="use a PNG, JPEG, TIFF, WebP, BMP or GIF file")
+        raise ParameterError(given, do="use a PNG, JPEG, TIFF, WebP, BMP, GIF, SVG, PDF or PSD file")
+    check_reader(shortened(name), content)
     stem, suffix = PurePosixPath(name).stem, PurePosixPath(name).suffix.lower()
     stem = "".join(sign if sign.isalnum() or sign in "_-" else "-" for sign in stem).strip("-_")[:60] or "picture"
     ending = suffix if suffix in endings else endings[0]
@@ -86,6 +89,8 @@ def _endings(content: bytes) -> tuple[str, ...]:
     for begin, endings in BEGINS.items():
         if content.startswith(begin):
             return endings
+    if drawn := drawing_endings(content):
+        return drawn
     charts = (row for row in FORMATS.values() if row.read is not None and row.begins(content[:CHART_BEGIN]))
     return tuple(row.suffix for row in charts)[:1]
 
