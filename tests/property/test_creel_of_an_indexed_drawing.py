@@ -113,3 +113,39 @@ def test_a_creel_has_a_place_for_each_yarn() -> None:
     for creel in ((0,), (0,) * len(chart.yarns), (*range(1, len(chart.yarns)), 256)):
         with pytest.raises(CarpetError, match="creel"):
             replace(chart, creel=creel)
+
+
+@pytest.mark.parametrize(
+    ("settings", "recipe", "said"),
+    [
+        ({"size": "12x16cm", "read": "flat"}, "", "the picture is read as flat, not knot by knot"),
+        ({"size": "12x16cm", "quality": "20x20/dm"}, "", "the picture is read as flat, not knot by knot"),
+        ({"crop": "0,0 20,30", "size": "8x12cm"}, "", "it is turned, cropped or stretched"),
+        ({"turn": "90deg"}, "", "it is turned, cropped or stretched"),
+        ({}, 'picture = "drawing.png"\nedits = ["set 1,1 ivory"]\n', "edits name the yarns of the list"),
+        ({}, "", ""),
+    ],
+)
+def test_indices_that_cannot_be_kept_are_told_in_the_reading(
+    tmp_path: Path, settings: dict[str, str], recipe: str, said: str
+) -> None:
+    rng = np.random.default_rng(5)
+    indices = np.array([9, 3, 200], dtype=np.uint8)[np.kron(rng.integers(0, 3, (8, 6)), np.ones((5, 5), dtype=int))]
+    palette = np.zeros((256, 3))
+    palette[[9, 3, 200]] = (28, 40, 92), (150, 30, 40), (150, 30, 40)
+    drawn(tmp_path / "drawing.png", indices, palette)
+    (tmp_path / "carpet.toml").write_text(recipe)
+    made = make_charted(read_order(tmp_path / ("carpet.toml" if recipe else "drawing.png"), **settings))
+    assert (made.chart.creel is None) == bool(said)
+    told = made.chart.reading.reason.partition("its indices are not kept as positions of the creel: ")[2]
+    assert told.removesuffix(" (picture of carpet.toml)") == said
+
+
+@pytest.mark.parametrize("count", [64, 65])
+def test_a_photo_with_a_palette_has_no_creel(tmp_path: Path, count: int) -> None:
+    """Of pictures with more indices than a creel nothing is told: their palettes were made by a program."""
+    indices = (np.arange(100 * 100).reshape(100, 100) * 7 // 3 % count).astype(np.uint8)
+    palette = np.random.default_rng(1).integers(0, 256, (256, 3))
+    drawn(tmp_path / "photo.png", indices, palette, 2)
+    reason = make_charted(read_order(tmp_path / "photo.png", size="20x20cm", read="photo")).chart.reading.reason
+    assert ("positions of the creel" in reason) == (count == 64)

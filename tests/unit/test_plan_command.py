@@ -6,14 +6,25 @@ import shutil
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from click.testing import CliRunner, Result
+from PIL import Image
 from small_programme import small_programme
 
 from ilmek.cli import main
+from ilmek.io.chart.formats import FORMATS
+from ilmek.io.looms_file import read_looms
+from ilmek.io.orders_file import read_orders
 from ilmek.io.programme_file import write_programme
+from ilmek.jobs.chart import make_charted
+from ilmek.jobs.order import read_order, recipe_parameters
+from ilmek.jobs.plan_inputs import read_inputs
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
+TWO_INDICES = Path(__file__).parents[1] / "data" / "two-indices.bmp"
+RED, IVORY, NAVY = (158, 43, 37), (239, 230, 208), (27, 36, 66)
+WOOL = "name,srgb\nred,#9e2b25\nivory,#efe6d0\nnavy,#1b2442\n"
 NAMES = {
     "orders", "bound", "cost", "loom_cost", "late_cost", "gap", "currency", "status", "repeatable", "horizon", "looms",
     "late_orders", "yarn", "yarn_price",
@@ -202,3 +213,39 @@ def test_a_programme_is_woven_only_by_the_loom_that_it_was_compiled_for(
     monkeypatch.setattr("ilmek.jobs.plan_inputs.loom_digest", lambda _: programme.setup.loom)
     (order,) = json.loads(plan(tmp_path, "--json", "-").stdout)["orders"]
     assert (order["loom"], order["late"]) == ("A", 0)
+
+
+@pytest.mark.parametrize("case", ["two-indices", "three positions", "a chart"])
+def test_a_yarn_on_two_positions_of_the_creel_is_bought_as_one(tmp_path: Path, case: str) -> None:
+    """The same drawing with one index for each colour, and the looms' stock of it, are the judges."""
+    indices = np.random.default_rng(3).integers(0, 4, (48, 24), dtype=np.uint8)
+    colours = {"three positions": (RED, IVORY, RED, RED)}.get(case, (RED, IVORY, RED, NAVY))
+    if case == "two-indices":
+        with Image.open(TWO_INDICES) as image:
+            indices = np.array(image)
+    merged = np.array([colours.index(colour) for colour in colours], dtype=np.uint8)[indices]
+    jobs, yarns = [], []
+    for name, drawn in (("apart", indices), ("merged", merged)):
+        picture = Image.fromarray(drawn, "P")
+        picture.putpalette([code for colour in colours for code in colour])
+        picture.save(tmp_path / f"{name}.png", dpi=(6.35, 6.35))
+        (tmp_path / "wool.csv").write_text(WOOL)
+        yarn_key = 'yarns = "wool.csv"\n'
+        if case == "a chart":  # which has its yarns
+            drawing, yarn_key = read_order(tmp_path / f"{name}.png", yarn_file=tmp_path / "wool.csv"), ""
+            FORMATS["png"].save(tmp_path / f"{name}.png", make_charted(drawing).chart)
+        orders = ORDERS.partition("picture")[0] + f'picture = "{name}.png"\n{yarn_key}due = 2026-12-18\n'
+        looms = LOOMS + '[[yarn]]\nname = "red"\nstock = "1kg"\nlead = "2d"\n'
+        folder = written(tmp_path, orders=orders, looms=looms)
+        inputs = read_inputs(
+            read_orders(folder / "orders.toml", recipe_parameters()), read_looms(folder / "looms.toml")
+        )
+        yarns.append({yarn.name: yarn.stock for yarn in inputs.factory.yarns})
+        (job,) = inputs.factory.jobs
+        names = [yarn.name for yarn in inputs.factory.yarns]
+        jobs.append({names[yarn]: grams for yarn, grams in job.yarns.items()})
+    assert yarns[0] == yarns[1]
+    assert yarns[0]["red"] == 1000
+    assert not any("creel" in name for name in jobs[0])
+    for name, grams in jobs[1].items():
+        assert grams <= jobs[0][name] <= grams + 2  # whole grams of each position

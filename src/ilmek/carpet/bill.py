@@ -11,6 +11,7 @@ import math
 from dataclasses import dataclass, replace
 
 from ilmek.carpet.chart import Chart
+from ilmek.carpet.creel import names_to_buy
 from ilmek.carpet.dye_lots import rows_of_new_lots, whole
 from ilmek.carpet.ground import GroundParams, GroundYarn, ground_yarns, selvedge_yarn
 from ilmek.carpet.pile import PileParams, knot_length
@@ -24,6 +25,7 @@ from ilmek.elements.knot_kinds import FORMS
 class YarnNeed:
     """A line of the bill: yarn and use (pile, warp, weft, end, selvedge), knots (0 but for the pile).
 
+    bought        name under which it is bought; a yarn on several positions of the creel has one, as in its list
     length, mass  needed, waste included [m], [kg]
     price         of what is to buy, reserve included; None where no price per kg is known
     count         metric count and ply, like 5/2; "" for the ground
@@ -44,6 +46,7 @@ class YarnNeed:
     hanks: int = 0
     lots: int = 1
     lot_rows: tuple[int, ...] = ()
+    bought: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,7 +115,10 @@ def yarn_bill(chart: Chart, plan: YarnPlanParams | None = None, ground: GroundPa
         *ground_yarns(chart.size, chart.quality, chart.rows, chart.columns, ground),
         selvedge_yarn(chart.size, chart.quality, most.linear_density, ground),
     )
-    needs = tuple(_pile_need(chart, index, plan, pile, ground.yarns.pile) for index in chart.used)
+    names = names_to_buy(chart)
+    needs = tuple(
+        replace(_pile_need(chart, index, plan, pile, ground.yarns.pile), bought=names[index]) for index in chart.used
+    )
     lines = tuple(_ground_need(thread, most, plan) for thread in threads if thread.length > 0)
     return YarnBill(needs, lines, chart.size.area, plan.currency, published_band(chart.quality))
 
@@ -162,4 +168,5 @@ def _need(
         to_buy,
         whole(share),
         max(1, whole(to_buy / plan.lot)),
+        bought=thread.name,
     )

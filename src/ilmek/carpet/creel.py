@@ -11,19 +11,21 @@ import numpy as np
 from ilmek.arrays import Indices
 from ilmek.carpet.chart import Chart, rearranged
 from ilmek.carpet.codes import CODES
+from ilmek.carpet.design import bands
 from ilmek.carpet.yarn import MOST_YARNS, Yarn
 
 MOST_POSITIONS = 64
 """Largest number of indices that are taken for positions of a creel; pictures with more are reduced photos."""
 
 
-def in_creel_order(chart: Chart, indices: Indices) -> Chart | None:
-    """The chart with a yarn for each index of the picture that it was made from, in the order of the indices.
+def in_creel_order(chart: Chart, indices: Indices, obstacle: str = "") -> Chart | str:
+    """The chart with a yarn for each index of the picture that it was made from, in the order of the indices; or why
+    the indices are not the positions of the creel, "" where the picture has more than MOST_POSITIONS.
 
-    indices  of the picture's pixels, a whole number of them along and across each knot
+    indices   of the picture's pixels, a whole number of them along and across each knot
+    obstacle  why they cannot be kept whatever the chart is
     A yarn that several indices have is there for each of them, under one number; from the second on its name has the
-    position. Unused yarns of the list follow, on the positions that are free. None where the
-    picture was not read knot by knot or has more than MOST_POSITIONS indices, and where an index has several yarns.
+    position. Unused yarns of the list follow, on the positions that are free.
 
     >>> from ilmek import read_yarns
     >>> made = in_creel_order(Chart([[0, 1], [1, 1]], read_yarns()[:2], "4x4cm", "5x5/dm", "symmetric"),
@@ -32,13 +34,20 @@ def in_creel_order(chart: Chart, indices: Indices) -> Chart | None:
     ((0, 2, 7), [[2, 0], [1, 0]], [2, 2, 1])
     """
     scale = indices.shape[0] // chart.rows
-    if scale < 1 or chart.reading.kind != "exact" or indices.shape != (scale * chart.rows, scale * chart.columns):
-        return None
+    if not obstacle and chart.reading.kind != "exact":
+        obstacle = f"the picture is read as {chart.reading.kind}, not knot by knot"
+    if not obstacle and (scale < 1 or indices.shape != (scale * chart.rows, scale * chart.columns)):
+        obstacle = "the knots are not its pixels"
+    if obstacle:
+        counts = sum(np.bincount(indices[band].ravel(), minlength=CODES) for band in bands(*indices.shape))
+        return obstacle if np.count_nonzero(counts) <= MOST_POSITIONS else ""
     indices = indices[::scale, ::scale]
     pairs = np.unique(indices.astype(np.int64) * CODES + chart.knots)
     used, yarn_of = divmod(pairs, CODES)
-    if len(np.unique(used)) < len(used) or len(used) > MOST_POSITIONS:
-        return None
+    if len(np.unique(used)) > MOST_POSITIONS:
+        return ""
+    if len(np.unique(used)) < len(used):
+        return "knots of one index have several yarns"
     order = [*yarn_of.tolist(), *(yarn for yarn in range(len(chart.yarns)) if yarn not in yarn_of)][:MOST_YARNS]
     free = (position for position in range(CODES) if position not in used)
     creel = (*used.tolist(), *(next(free) for _ in order[len(used) :]))
@@ -46,6 +55,27 @@ def in_creel_order(chart: Chart, indices: Indices) -> Chart | None:
     rank[used] = np.arange(len(used))
     made = rearranged(chart, order, rank[indices])
     return replace(made, yarns=_named_apart(made.yarns, creel), creel=creel)
+
+
+def names_to_buy(chart: Chart) -> tuple[str, ...]:
+    """The name under which each yarn of a chart is bought: that in its list, which it has on its first position.
+
+    >>> from ilmek import read_yarns
+    >>> rose, ivory = read_yarns()[:2]
+    >>> twice = replace(rose, name=f"{rose.name} (creel 2)")
+    >>> names_to_buy(Chart([[0, 1, 2]], (rose, ivory, twice), "6x2cm", "5x5/dm", "symmetric")) == (
+    ...     rose.name, ivory.name, rose.name)
+    True
+    """
+    yarns = chart.yarns
+    places = sorted(range(len(yarns)), key=lambda place: chart.positions[place])
+    firsts = (next(yarns[one] for one in places if _is_same(yarns[one], yarn)) for yarn in yarns)
+    return tuple(first.name for first in firsts)
+
+
+def _is_same(one: Yarn, other: Yarn) -> bool:
+    """Whether two yarns of a chart are one yarn of the list."""
+    return one == other or (one.number is not None and replace(one, name=other.name) == other)
 
 
 def _named_apart(yarns: tuple[Yarn, ...], creel: tuple[int, ...]) -> tuple[Yarn, ...]:

@@ -105,11 +105,24 @@ def chart_of_order(
             dyed=order.dyed,
             progress=progress.part(0.5, 1.0, "chart"),
         )
-        kept = None if edited or read.indices is None else in_creel_order(made_chart, read.indices)
-        return kept or used_first(made_chart)
+        return _of_indices(made_chart, read, edited=edited)
 
     chart = stages.keep("chart", (key, rest), chart_of)
     return OrderedChart(made.with_dyed(chart.yarns), chart, (*notes, *read.notes), read.source, read.whole)
+
+
+def _of_indices(chart: Chart, read: "_ReadPicture", *, edited: bool) -> Chart:
+    """The chart in the order of an indexed drawing's creel, else by its knots, with why the indices are not kept."""
+    if read.indices is None:
+        return used_first(chart)
+    obstacle = "edits name the yarns of the list" if edited else ""
+    if read.fit.words != Fit().words:
+        obstacle = "it is turned, cropped or stretched"
+    made = in_creel_order(chart, read.indices, obstacle)
+    if isinstance(made, Chart):
+        return made
+    reason = chart.reading.reason + (f"; its indices are not kept as positions of the creel: {made}" if made else "")
+    return used_first(replace(chart, reading=replace(chart.reading, reason=reason)))
 
 
 def rendering_of(order: CarpetOrder) -> Rendering:
@@ -130,7 +143,7 @@ def file_key(path: Path) -> tuple[Path, int, int]:
 @record
 class _ReadPicture:
     """The design of a picture without changes of its tone, size and quality, how it was fitted, notes, and what a page
-    shows; indices of an indexed picture that was not turned or cropped.
+    shows; indices of an indexed picture before it was turned or cropped.
     """
 
     size: CarpetSize
@@ -173,8 +186,7 @@ def _read_file(
     read = _read(replace(order, fit=fitting), prepared, fit, reading, drawn=stated is not None, with_source=with_source)
     if ground is not None and behind is None and not read.fit.padded:
         notes = (*notes, f"ground={ground!r} is not seen: the picture has no transparent part and no margin")
-    kept = indices if read.fit.words == Fit().words else None
-    return replace(read, notes=(*notes, *read.notes), indices=kept)
+    return replace(read, notes=(*notes, *read.notes), indices=indices)
 
 
 def _read_chart(

@@ -338,7 +338,7 @@ def _rate(done: PlanResult, name: str) -> float | None:
             return stock.price
     for order in done.inputs.orders:
         for need in order.bill.needs if order.bill.currency == done.inputs.orders_file.currency else ():
-            if need.name == name and need.price is not None and need.to_buy > 0:
+            if need.bought == name and need.price is not None and need.to_buy > 0:
                 return need.price / need.to_buy
     return None
 

@@ -1,6 +1,7 @@
 """From the files of a factory to its model: looms that are ready, charts of the orders, who can weave what."""
 
 import math
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
 from datetime import datetime, timedelta
@@ -11,6 +12,7 @@ import numpy as np
 
 from ilmek.carpet.bill import YarnBill, yarn_bill
 from ilmek.carpet.chart import Chart
+from ilmek.carpet.creel import names_to_buy
 from ilmek.carpet.recipe.edits import located
 from ilmek.carpet.usual_pile import with_counts
 from ilmek.errors import IlmekError, ParameterError
@@ -202,15 +204,16 @@ def _programme_fit(digest: str, time: float, loom: ExistingLoom) -> LoomFit:
 
 
 def setup_of(chart: Chart) -> tuple[Any, ...]:
-    """What two carpets have in common that need no new warp and no new tubes: warps, quality, knot, yarns."""
+    """What two carpets have in common that need no new warp and no new tubes: warps, quality, knot, tubes."""
     # Two carpets may each have a yarn dyed for them of one name and two shades.
-    used_yarns = ((chart.yarns[index].name, chart.yarns[index].srgb) for index in chart.used)
-    return chart.columns, chart.quality, chart.knot, frozenset(used_yarns)
+    names = names_to_buy(chart)
+    tubes = Counter((names[index], chart.yarns[index].srgb) for index in chart.used)
+    return chart.columns, chart.quality, chart.knot, frozenset(tubes.items())
 
 
 def _yarn_names(orders: Sequence[PlannedOrder]) -> list[str]:
     """The yarns of all orders that are woven, in the order of their first use."""
-    return list(dict.fromkeys(need.name for order in orders if order.possible for need in order.bill.needs))
+    return list(dict.fromkeys(need.bought for order in orders if order.possible for need in order.bill.needs))
 
 
 def _job(order: PlannedOrder, looms: FactoryLooms, origin: datetime, names: Sequence[str]) -> CarpetJob:
@@ -223,7 +226,7 @@ def _job(order: PlannedOrder, looms: FactoryLooms, origin: datetime, names: Sequ
     }
     yarns: dict[int, int] = {}
     for need in order.bill.needs if order.possible else ():
-        yarns[index[need.name]] = yarns.get(index[need.name], 0) + math.ceil(need.to_buy / g - 1e-6)
+        yarns[index[need.bought]] = yarns.get(index[need.bought], 0) + math.ceil(need.to_buy / g - 1e-6)
     late = round(MONEY * entry.late * hour) * entry.priority
     earliest = _minutes(entry.earliest, origin)
     return CarpetJob(0, 0, weaving, earliest, _minutes(entry.due, origin), late, yarns)
