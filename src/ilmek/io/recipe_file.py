@@ -33,7 +33,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from ilmek.carpet.palette_rules import names_text
+from ilmek.carpet.palette_rules import mapped_colours, names_text
 from ilmek.carpet.quality import Quality, gereh_note, parse_quality
 from ilmek.carpet.recipe.mirror import MIRRORS
 from ilmek.carpet.recipe.recipe import (
@@ -211,7 +211,7 @@ class _RecipeReader:
                 if parameter.name in found:
                     raise ParameterError(f"{parameter.name} is given twice", do="leave one of them out")
                 if isinstance(value, dict) and parameter.name == "mapped":
-                    value = "; ".join(f"{colour}={yarn}" for colour, yarn in value.items())
+                    value = self._map(self.root.table(key))
                 if isinstance(value, list) and all(isinstance(one, str | int | float) for one in value):
                     names = parameter.name in ("keep", "never")
                     value = names_text(map(str, value)) if names else ", ".join(str(one) for one in value)
@@ -220,6 +220,19 @@ class _RecipeReader:
                 parameter.check(parameter.read(value))
                 found[parameter.name] = value
         return found
+
+    def _map(self, table: FileEntry) -> str:
+        """The pairs of colours and yarns of a table as one text."""
+        pairs = []
+        for colour, yarn in table.data.items():
+            with self._at(table, colour):
+                if not isinstance(yarn, str):
+                    raise ParameterError(f"{shown(yarn)} is no name of a yarn", do='write it like "dark green"')
+                pairs.append(f"{colour}={yarn}")
+                mapped_colours(pairs[-1])
+        text = "; ".join(pairs)
+        mapped_colours(text)
+        return text
 
     def _loom(self) -> LoomKeys:
         root = self.root
