@@ -35,6 +35,7 @@ _PRIVATE = 0xE000
 """First code of the glyphs that no character stands for: the private use area."""
 
 _CODE = re.compile(r"> <([EF][0-9A-F]{3})>")
+# The fonts are whole: of Han, a subset by frequent characters would lack names of colours, like 绯 and 绛.
 _FONTS = Path(__file__).parents[2] / "fonts"
 _FILES = {
     SIGNS: "DejaVuSansMono.ttf",
@@ -83,12 +84,12 @@ class ShapedFont(TTFont):  # type: ignore[misc]
 
     def addObjects(self, doc: Any) -> None:
         """As of reportlab, with the texts of the codes in the ToUnicode maps (ISO 32000-1, 9.10.3)."""
-        before = set(doc.idToObject)
+        fonts = doc.idToObject["BasicFonts"].dict
+        before = set(fonts)
         super().addObjects(doc)
-        for name in doc.idToObject.keys() - before:
-            if name.startswith("toUnicodeCMap:"):
-                stream = doc.idToObject[name]
-                stream.content = _CODE.sub(self._text, stream.content)
+        for name in fonts.keys() - before:
+            stream = doc.idToObject[fonts[name].ToUnicode.name]
+            stream.content = _CODE.sub(self._text, stream.content)
 
     def _text(self, found: re.Match[str]) -> str:
         text = self.texts.get(int(found[1], 16))
