@@ -63,7 +63,7 @@ def names_to_buy(chart: Chart) -> tuple[str, ...]:
     >>> from ilmek import read_yarns
     >>> rose, ivory = read_yarns()[:2]
     >>> twice = replace(rose, name=f"{rose.name} (creel 2)")
-    >>> names_to_buy(Chart([[0, 1, 2]], (rose, ivory, twice), "6x2cm", "5x5/dm", "symmetric")) == (
+    >>> names_to_buy(Chart([[0, 1, 2]] * 2, (rose, ivory, twice), "6x4cm", "5x5/dm", "symmetric")) == (
     ...     rose.name, ivory.name, rose.name)
     True
     """

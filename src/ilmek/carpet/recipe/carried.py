@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 
 from ilmek.arrays import IntArray
+from ilmek.carpet.recipe.carried_knots import PlacedKnots
 from ilmek.carpet.recipe.edits import Edit, Knot
-from ilmek.carpet.recipe.place import PlacedKnots
 from ilmek.records import record
 
 Box = tuple[int, int, int, int]
@@ -31,13 +31,13 @@ def left_out(reason: str) -> Carried:
     return Carried((), (1, 1), reason, 1.0)
 
 
-def set_knots(edit: Edit, place: PlacedKnots, rows: int) -> Carried:
-    """An edit knot by knot at its place on a grid of some rows."""
-    if not place.rows.size:
-        return Carried((), place.details, place.reason, place.lost)
-    knots = np.unique(np.stack([rows - place.rows, place.columns + 1], axis=1), axis=0).tolist()
-    edits = (replace(edit, kind="set", knots=tuple((row, column) for row, column in knots)),)
-    return Carried(edits, place.details, place.reason, place.lost)
+def set_knots(edit: Edit, knots: PlacedKnots, rows: int) -> Carried:
+    """An edit knot by knot on a grid of some rows."""
+    if not knots.rows.size:
+        return Carried((), knots.details, knots.reason, knots.lost)
+    each = np.unique(np.stack([rows - knots.rows, knots.columns + 1], axis=1), axis=0).tolist()
+    edits = (replace(edit, kind="set", knots=tuple((row, column) for row, column in each)),)
+    return Carried(edits, knots.details, knots.reason, knots.lost)
 
 
 def between(knots: tuple[Knot, ...], grid: tuple[int, int]) -> tuple[IntArray, IntArray]:

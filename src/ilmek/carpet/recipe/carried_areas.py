@@ -15,9 +15,9 @@ import numpy as np
 from ilmek.arrays import IntArray
 from ilmek.carpet.recipe.border import edges
 from ilmek.carpet.recipe.carried import Box, Carried, between, corner_knots, left_out, set_knots
+from ilmek.carpet.recipe.carried_knots import Mask, PlacedKnots, lost_share, placed
 from ilmek.carpet.recipe.copies import transformed
 from ilmek.carpet.recipe.edits import Edit, Knot
-from ilmek.carpet.recipe.place import Mask, PlacedKnots, lost_share, placed
 from ilmek.carpet.recipe.structure import GridRelation
 
 

@@ -1,7 +1,7 @@
 """Carrying: an edit that counts the knots of one grid, as edits of another grid of the same design.
 
-Knots are carried to their place [`place`]. A fill is carried by its area, not by its knot: the area of one yarn that
-has most in common with it is filled, if that is at least half of both together. Of a rectangle that is reflected or
+Knots are carried to their place [`carried_knots`]. A fill is carried by its area, not by its knot: the areas of one
+yarn that lie at its place are filled, if at least half of both together is common. Of a rectangle that is reflected or
 copied, what has its source and its place on the carpet is carried [`carried_areas`].
 """
 
@@ -11,20 +11,23 @@ from dataclasses import replace
 import numpy as np
 import scipy
 
-from ilmek.arrays import Indices, IntArray
+from ilmek.arrays import Indices, IntArray, UInt8
 from ilmek.carpet.recipe.carried import Box, Carried, between, corner_knots, left_out, set_knots
 from ilmek.carpet.recipe.carried_areas import carry_area
+from ilmek.carpet.recipe.carried_knots import BELOW, EIGHT, NOWHERE, Mask, PlacedKnots, placed, tile_knots
 from ilmek.carpet.recipe.edits import Edit, Knot, line_knots, stroke_knots
-from ilmek.carpet.recipe.place import BELOW, EIGHT, NOWHERE, Mask, PlacedKnots, knots_of_place, placed
 from ilmek.carpet.recipe.structure import GridRelation
 
 _SAME = 0.5
 """Least share that two areas have in common of both together where one is taken for the other."""
 
+OldKnots = UInt8[np.ndarray, "old_rows old_columns"]
+"""Yarns on the old grid."""
+
 _CELLS = ("set", "line", "stroke", "half")
 
 
-def carry(edit: Edit, relation: GridRelation, old: Indices | None, new: Indices, yarns: tuple[int, ...]) -> Carried:
+def carry(edit: Edit, relation: GridRelation, old: OldKnots | None, new: Indices, yarns: tuple[int, ...]) -> Carried:
     """An edit that counts the knots of the old grid as edits of the new one.
 
     old    knots of the design on the old grid, with the edits before; None: they are not known
@@ -77,10 +80,10 @@ def _cells(edit: Edit, grid: tuple[int, int]) -> tuple[IntArray, IntArray]:
     return rows, columns
 
 
-def _fill(edit: Edit, relation: GridRelation, old: Indices | None, new: Indices) -> Carried:
+def _fill(edit: Edit, relation: GridRelation, old: OldKnots | None, new: Indices) -> Carried:
     ((row, column),) = ((relation.grid[0] - row, column - 1) for row, column in edit.knots)
     if relation.is_tile:
-        tile = knots_of_place(relation, new)
+        tile = tile_knots(relation, new)
         labels, _ = scipy.ndimage.label(tile == tile[row, column])
         return set_knots(edit, placed(relation, *np.nonzero(labels == labels[row, column])), len(new))
     if old is None:
@@ -98,7 +101,7 @@ def _fill(edit: Edit, relation: GridRelation, old: Indices | None, new: Indices)
     counts = np.bincount(of_place, minlength=len(sizes))
     counts[0] = 0
     alike = np.flatnonzero((counts > 0) & (counts >= _SAME * sizes))
-    chosen = alike if alike.size else counts.argmax(keepdims=True)
+    chosen = alike if alike.size else np.array([counts.argmax()])
     common, size = int(counts[chosen].sum()), int(sizes[chosen].sum())
     share = common / (size + place.rows.size - common)
     if share < _SAME:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ilmek.arrays import Int
+from ilmek.arrays import Num
 
 WIDEST_BRUSH = 99
 """Largest width of a brush [knots]."""
@@ -10,7 +10,7 @@ WIDEST_BRUSH = 99
 _AXES = {"across": 1, "along": 0}
 
 
-def transformed(part: Int[np.ndarray, "high wide"], direction: str, turned: int) -> Int[np.ndarray, "high2 wide2"]:
+def transformed(part: Num[np.ndarray, "high wide"], direction: str, turned: int) -> Num[np.ndarray, "high2 wide2"]:
     """A part (rows, columns) reflected, left to right `across` or top to bottom `along`, then turned clockwise.
 
     direction  "": not reflected      turned  right angles

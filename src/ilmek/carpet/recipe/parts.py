@@ -137,7 +137,7 @@ def _border_sides(new: DesignStructure, border: BorderLayout) -> IntArray:
     (top, left), (high, wide), (rows, columns) = border.inset, border.breadth, new.grid
     sides = painted(new.grid, [])
     ring = sides[top : rows - top, left : columns - left]
-    for number, part in enumerate(edges(*ring.shape, border.breadth)):
+    for number, part in enumerate(edges(ring.shape[0], ring.shape[1], border.breadth)):
         ring[part] = number // 2
     row, column = np.arange(high)[:, None], np.arange(wide)[None]
     corner = ((2 * column + 1) * high < (2 * row + 1) * wide).astype(sides.dtype)

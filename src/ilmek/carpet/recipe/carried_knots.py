@@ -1,4 +1,4 @@
-"""Place: the knots of a new grid at the place of knots of an old one, and how much of these has none.
+"""Carried knots: the knots of a new grid at the place of knots of an old one, and how much of these has none.
 
 A knot of an enlarged design is all the knots that lie in it. On a reduced design a detail, a group of neighbouring
 knots, is kept where it is as long as a knot or covers half of one, else left out.
@@ -7,7 +7,7 @@ knots, is kept where it is as long as a knot or covers half of one, else left ou
 import numpy as np
 import scipy
 
-from ilmek.arrays import Bool, Indices, Int32, IntArray
+from ilmek.arrays import Bool, Indices, Int32, IntArray, UInt8
 from ilmek.carpet.recipe.structure import GridRelation, Patch
 from ilmek.records import record
 
@@ -133,8 +133,8 @@ def _in_patch(
     return (lines[0][at[0]], lines[1][at[1]]), seen
 
 
-def knots_of_place(relation: GridRelation, new: Indices) -> Indices:
-    """The old knots as the new ones show them; one that has no new knot is as the nearest that has."""
+def tile_knots(relation: GridRelation, new: Indices) -> UInt8[np.ndarray, "tile_rows tile_columns"]:
+    """The knots of a tile as the new grid shows them; one that it does not show is as the nearest that it does."""
     known = np.zeros(relation.grid, dtype=bool)
     old = np.zeros(relation.grid, dtype=np.uint8)
     for number, patch in enumerate(relation.patches):
