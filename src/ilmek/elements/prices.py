@@ -16,7 +16,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from ilmek.errors import ParameterError
-from ilmek.report import Part
+from ilmek.report import BillLine
 
 _RATES = {"each": "each", "per kg": "per_kg", "per m": "per_m", "per W": "per_W"}
 
@@ -78,7 +78,7 @@ def read_prices(text: str | None) -> Mapping[str, PriceRates]:
     return prices
 
 
-def price_of(part: Part, prices: Mapping[str, PriceRates]) -> float:
+def price_of(part: BillLine, prices: Mapping[str, PriceRates]) -> float:
     """Price of all pieces of a part, in the currency of the table of prices."""
     weighed = 0.0 if math.isnan(part.mass) else part.mass
     return part.number * prices[part.kind].price(weighed, part.length, part.power)

@@ -20,7 +20,7 @@ from ilmek.machines.loom_task import LoomTask
 from ilmek.params import Params, Setting
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
-from ilmek.report import CamTable, Check, Choice, Figure, Part, Plate, Report, Table, Work, results_of
+from ilmek.report import BillLine, CamTable, Check, Choice, Figure, Plate, Report, Table, Work, results_of
 from ilmek.report.left_out import LazyFigure, made_figures
 from ilmek.timing.cyclogram import Cyclogram, Track
 
@@ -78,7 +78,7 @@ class Component:
     cam_tables: Callable[[Any], tuple[CamTable, ...]] = _nothing
     cyclograms: Callable[[Any], tuple[Cyclogram, ...]] | None = None
     mechanism: Callable[[Any], OwnMachine | None] | None = None
-    parts: Callable[[Any], tuple[Part, ...]] = _nothing
+    parts: Callable[[Any], tuple[BillLine, ...]] = _nothing
     work: Callable[[Any], tuple[Work, ...]] = _nothing
     tracks: Callable[[Any], tuple[Track, ...]] = _nothing
     choices: Callable[[Any], tuple[Choice, ...]] = _nothing
@@ -166,7 +166,7 @@ class Child:
         return self.component.name
 
     @property
-    def parts(self) -> tuple[Part, ...]:
+    def parts(self) -> tuple[BillLine, ...]:
         """Lines of the parts list of one of them."""
         return self.component.parts(self.design)
 

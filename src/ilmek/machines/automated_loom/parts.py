@@ -12,7 +12,7 @@ from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import FrameTask, LoomFrame, frame_for
 from ilmek.machines.weaver import head_mass
 from ilmek.records import computed, group, record
-from ilmek.report import Part
+from ilmek.report import BillLine
 from ilmek.timing.track import peak_acceleration, peak_speed
 
 STEEL = "structural steel"
@@ -25,7 +25,7 @@ _DEPTH = 0.3
 class PartsList:
     """The parts of a loom, its frame among them, and the prices used."""
 
-    parts: tuple[Part, ...]
+    parts: tuple[BillLine, ...]
     prices: Mapping[str, PriceRates]
     frame: LoomFrame = group()
 
@@ -42,7 +42,7 @@ class PartsList:
     )
 
 
-def driven_axes(parts: tuple[Part, ...]) -> int:
+def driven_axes(parts: tuple[BillLine, ...]) -> int:
     """Axes of the control: the motors of a parts list."""
     return sum(part.number for part in parts if part.drives)
 
@@ -56,9 +56,9 @@ def parts_of_loom(loom: LoomDesign) -> PartsList:
     axes = driven_axes(carried)
     lines = (
         *carried,
-        Part("frame", 1, f"columns {frame.column.name}, rail {frame.rail.name}", STEEL, "welded frame", frame.mass),
-        Part("control", 1, f"{axes} axes", "", "control"),
-        Part("axis of the control", axes, "amplifier, cable, switch", "", "axis of the control"),
+        BillLine("frame", 1, f"columns {frame.column.name}, rail {frame.rail.name}", STEEL, "welded frame", frame.mass),
+        BillLine("control", 1, f"{axes} axes", "", "control"),
+        BillLine("axis of the control", axes, "amplifier, cable, switch", "", "axis of the control"),
     )
     return PartsList(lines, prices, frame)
 
@@ -87,7 +87,7 @@ def frame_task(loom: LoomDesign, carried: float) -> FrameTask:
     )
 
 
-def _of_machines(loom: LoomDesign) -> Iterator[Part]:
+def _of_machines(loom: LoomDesign) -> Iterator[BillLine]:
     """The parts of the machines, as many as there are, and those of the beat."""
     for child in loom.machines.values():
         for part in child.parts:
@@ -95,13 +95,15 @@ def _of_machines(loom: LoomDesign) -> Iterator[Part]:
     yield from loom.beat.parts
 
 
-def _own(loom: LoomDesign) -> tuple[Part, ...]:
+def _own(loom: LoomDesign) -> tuple[BillLine, ...]:
     """The rail of the heads with the axes of its retreat."""
     row = loom.row_cyclogram
     heads = row.track(HEADS)
     moved = loom.heads * head_mass(loom.weaver) * peak_acceleration(heads, row.period)
     return (
-        Part("rail of the heads", 1, "with a belt for each head", "", "linear axis", length=loom.task.width),
-        Part("axis of the rail's retreat", 2, "belt drive, one at each column", "", "linear axis", length=heads.stroke),
+        BillLine("rail of the heads", 1, "with a belt for each head", "", "linear axis", length=loom.task.width),
+        BillLine(
+            "axis of the rail's retreat", 2, "belt drive, one at each column", "", "linear axis", length=heads.stroke
+        ),
         belt_motor_part("motor of the rail's retreat", moved, peak_speed(heads, row.period)),
     )

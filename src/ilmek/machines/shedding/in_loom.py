@@ -12,7 +12,7 @@ from ilmek.machines.shedding.design import SheddingDesign, design
 from ilmek.machines.shedding.params import SheddingParams
 from ilmek.machines.warp_loads import planned_compensation
 from ilmek.records import value_record
-from ilmek.report import Part, Work
+from ilmek.report import BillLine, Work
 from ilmek.units import format_quantity
 from ilmek.weaving.shed import shed_lengthening
 
@@ -103,7 +103,7 @@ def _with_spans(task: LoomTask, room: ShedRoom, outline: _Outline, given: Mappin
     return task.parameters("shedding", derived)
 
 
-def parts(made: SheddingDesign) -> tuple[Part, ...]:
+def parts(made: SheddingDesign) -> tuple[BillLine, ...]:
     """Cams, guides and spacers, and of every shaft the bar, its bearings and steadies, motor and reducer."""
     several = len(made.shafts) > 1
     return tuple(
@@ -113,26 +113,26 @@ def parts(made: SheddingDesign) -> tuple[Part, ...]:
     )
 
 
-def _of_shaft(made: SheddingDesign, one: CamShaft, number: str) -> Iterator[Part]:
+def _of_shaft(made: SheddingDesign, one: CamShaft, number: str) -> Iterator[BillLine]:
     """Lines of a shaft; `number` is added to the names where there are several."""
     params, stack, shaft, drive, cams = one.params, one.stack, one.shaft, one.drive, sum(one.numbers)
     prime, guide, bar = (format_quantity(size, "mm") for size in (one.cam.prime_radius, stack.guide_radius, shaft.bar))
     cut = "laser-cut part"
-    yield Part(f"shedding cam{number}", cams, f"prime radius {prime}", STEEL, cut, stack.cam_mass)
+    yield BillLine(f"shedding cam{number}", cams, f"prime radius {prime}", STEEL, cut, stack.cam_mass)
     if stack.shares.guides:
         guides = cams * stack.shares.guides
-        yield Part(f"guide cam{number}", guides, f"radius {guide}", STEEL, cut, stack.guide_mass)
+        yield BillLine(f"guide cam{number}", guides, f"radius {guide}", STEEL, cut, stack.guide_mass)
     else:
         dents = made.params.warps + 1
-        yield Part(f"dent of the reed{number}", dents, f"round {guide}", STEEL, cut, stack.guide_mass)
+        yield BillLine(f"dent of the reed{number}", dents, f"round {guide}", STEEL, cut, stack.guide_mass)
     if stack.spacer_mass > 0:
         ring = format_quantity(stack.shares.spacer, "mm")
-        yield Part(f"spacer of the cams{number}", cams, f"{ring} thick", STEEL, cut, stack.spacer_mass)
+        yield BillLine(f"spacer of the cams{number}", cams, f"{ring} thick", STEEL, cut, stack.spacer_mass)
     mass, ends, name = shaft.bar**2 * shaft.length * params.density, shaft.seat.bearing, f"cam shaft{number}"
-    yield Part(name, 1, f"square {bar}", STEEL, "steel bar", mass, shaft.length)
-    yield Part(f"bearing of the {name}", 2, ends.name, "", "bearing", ends.mass)
+    yield BillLine(name, 1, f"square {bar}", STEEL, "steel bar", mass, shaft.length)
+    yield BillLine(f"bearing of the {name}", 2, ends.name, "", "bearing", ends.mass)
     if params.spans > 1:
-        yield Part(f"steady of the {name}", params.spans - 1, "rollers", "", "bearing")
+        yield BillLine(f"steady of the {name}", params.spans - 1, "rollers", "", "bearing")
     yield motor_part(f"motor of the {name}", drive.motor, drive.motor_torque, drive.motor_speed)
     yield reducer_part(f"reducer of the {name}", drive.reducer.ratio, drive.motor)
 

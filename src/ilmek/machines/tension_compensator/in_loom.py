@@ -6,7 +6,7 @@ from ilmek.machines.loom_task import LoomTask
 from ilmek.machines.shedding import shed_lengthenings
 from ilmek.machines.tension_compensator.design import TensionCompensator
 from ilmek.machines.tension_compensator.params import STEEL, TensionCompensatorParams
-from ilmek.report import NOT_WEIGHED, Part
+from ilmek.report import NOT_WEIGHED, BillLine
 from ilmek.units import format_quantity, mm, turn
 
 SAMPLES = 73
@@ -40,7 +40,7 @@ def fit(task: LoomTask) -> TensionCompensatorParams:
     )
 
 
-def parts(made: TensionCompensator) -> tuple[Part, ...]:
+def parts(made: TensionCompensator) -> tuple[BillLine, ...]:
     """Bars and rods, their rollers, levers, springs, pins and beams."""
     params, members, number = made.params, made.members, made.bars * made.levers
     tube = members.tube.mass(STEEL.density) * params.width
@@ -52,10 +52,12 @@ def parts(made: TensionCompensator) -> tuple[Part, ...]:
     beam = members.beam.line_mass * params.width
     spring = made.one.spring.mass if made.one.spring else NOT_WEIGHED
     return (
-        Part("bar of the compensator", made.bars, f"tube {members.tube.name} mm", STEEL.name, "steel tube", tube),
-        Part("rod of the compensator", 2 * made.bars, f"tube {members.tube.name} mm", STEEL.name, "steel tube", tube),
-        Part("roller of bars and rods", 6 * number, "two at every support", "", "bearing"),
-        Part("lever of the compensator", number, "with its pin and bush", STEEL.name, "machined link", flat),
-        Part("spring of the compensator", number * made.springs, wound, "", "spring", spring),
-        Part("beam of the compensator", made.bars, members.beam.name, STEEL.name, "welded frame", beam),
+        BillLine("bar of the compensator", made.bars, f"tube {members.tube.name} mm", STEEL.name, "steel tube", tube),
+        BillLine(
+            "rod of the compensator", 2 * made.bars, f"tube {members.tube.name} mm", STEEL.name, "steel tube", tube
+        ),
+        BillLine("roller of bars and rods", 6 * number, "two at every support", "", "bearing"),
+        BillLine("lever of the compensator", number, "with its pin and bush", STEEL.name, "machined link", flat),
+        BillLine("spring of the compensator", number * made.springs, wound, "", "spring", spring),
+        BillLine("beam of the compensator", made.bars, members.beam.name, STEEL.name, "welded frame", beam),
     )

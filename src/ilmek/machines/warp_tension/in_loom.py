@@ -8,7 +8,7 @@ from ilmek.machines.warp_loads import loads_in_loom
 from ilmek.machines.warp_tension.cylinders import Cylinder, cylinders
 from ilmek.machines.warp_tension.design import USUAL, WarpTensionDesign
 from ilmek.machines.warp_tension.params import WarpTensionParams
-from ilmek.report import Part, Work
+from ilmek.report import BillLine, Work
 from ilmek.units import format_quantity
 
 STEEL = "structural steel"
@@ -47,14 +47,14 @@ def fit(task: LoomTask) -> WarpTensionParams:
     return replace(derived, tube=USUAL)
 
 
-def parts(made: WarpTensionDesign) -> tuple[Part, ...]:
+def parts(made: WarpTensionDesign) -> tuple[BillLine, ...]:
     """Cylinders, bearings, drives: upper and lower cylinder are alike; a motor for each of the three [thesis 3.1]."""
     upper, lower, spacer = cylinders(made)
     return (
-        Part("cylinder", 2, _tube(upper), STEEL, "steel tube", upper.mass),
-        Part("spacer cylinder", 1, _tube(spacer), STEEL, "steel tube", spacer.mass),
+        BillLine("cylinder", 2, _tube(upper), STEEL, "steel tube", upper.mass),
+        BillLine("spacer cylinder", 1, _tube(spacer), STEEL, "steel tube", spacer.mass),
         *(
-            Part(f"bearing of the {one.name}", 2, one.bearing.name, "", "bearing", one.bearing.mass)
+            BillLine(f"bearing of the {one.name}", 2, one.bearing.name, "", "bearing", one.bearing.mass)
             for one in (upper, lower, spacer)
         ),
         motor_part("motor of a cylinder", made.motor, made.motor_torque, made.motor_speed, 3),

@@ -1,0 +1,124 @@
+"""A tree in space: its bodies as frames of a scene, its parts as solids in them.
+
+A frame of a scene has the axes of the scene at rest. The rotation of a body's place is therefore turned into its
+solids, its motion and the places of what it carries.
+"""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from ilmek.arrays import Float
+from ilmek.errors import ParameterError
+from ilmek.part.part import Part
+from ilmek.part.placement import HERE, Placement
+from ilmek.part.shapes import CHORD
+from ilmek.part.tree import GROUND, Body, Occurrence, Tree
+from ilmek.report import Check
+from ilmek.report.scene import SceneFrame, SceneMotion, ScenePart, Solid
+
+_SAME = 1e-9
+"""Difference of rotation matrices that counts as rounding."""
+
+
+def frames_of(tree: Tree, parent: str, place: Placement = HERE) -> tuple[SceneFrame, ...]:
+    """The frames of the bodies; the tree's ground lies at a place in a frame of the scene, `parent`.
+
+    Raises ParameterError for a body at places of different rotations: they are bodies of their own.
+    """
+    turned = _rotations(tree, place)
+    frames = []
+    for body in tree.bodies:
+        if body.parent == GROUND:
+            origins, carrier = [place.points(position.origin) for position in body.places], parent
+        else:
+            origins, carrier = [turned[body.parent] @ position.origin for position in body.places], body.parent
+        axis = turned[body.id] @ np.array(body.joint.axis)
+        frames.append(
+            SceneFrame(
+                name=body.id,
+                origins=np.array(origins),
+                parent=carrier,
+                motion=_turned_motion(body.joint.motion, turned[body.id]),
+                axis=(float(axis[0]), float(axis[1]), float(axis[2])),
+            )
+        )
+        frames += [
+            SceneFrame(name, np.array([turned[body.id] @ position.origin for position in occurrence.places]), body.id)
+            for occurrence in body.occurrences
+            if (name := _pattern(body, occurrence))
+        ]
+    return tuple(frames)
+
+
+def _rotations(tree: Tree, place: Placement) -> Mapping[str, Float[np.ndarray, "3 3"]]:
+    """The rotation of each body's frame in the scene, at rest."""
+    turned = {GROUND: place.rotation}
+    for body in tree.bodies:
+        first, *others = (position.rotation for position in body.places)
+        if any(np.abs(other - first).max() > _SAME for other in others):
+            raise ParameterError(f"body {body.id!r} at places of different rotations", do="give each its own body")
+        turned[body.id] = turned[body.parent] @ first
+    return turned
+
+
+def _turned_motion(motion: SceneMotion | None, rotation: Float[np.ndarray, "3 3"]) -> SceneMotion | None:
+    if motion is None:
+        return None
+    return SceneMotion(motion.drive, motion.angle, motion.shift @ rotation.T, motion.rotation)
+
+
+def _pattern(body: Body, occurrence: Occurrence) -> str:
+    """Name of the frame of a part that is in its body many times in one direction; "": it lies in the body's frame."""
+    first, *others = (position.rotation for position in occurrence.places)
+    alike = others and all(np.abs(other - first).max() <= _SAME for other in others)
+    return f"{body.id}: {occurrence.part.id}" if alike else ""
+
+
+def parts_of(
+    tree: Tree, machine: str, place: Placement = HERE, checks: Sequence[Check] = (), deviation: float = CHORD
+) -> tuple[ScenePart, ...]:
+    """The parts of a tree that have a shape, in the frames of `frames_of`, each with the checks that concern it.
+
+    machine  that they belong to      place  of the tree's ground, as in `frames_of`
+    """
+    turned = _rotations(tree, place)
+    numbers = {part.id: number for part, number in tree.occurrences()}
+    parts = []
+    for body in tree.bodies:
+        for occurrence in body.occurrences:
+            part = occurrence.part
+            if part.shape is None:
+                continue
+            pattern = _pattern(body, occurrence)
+            places = [Placement(np.zeros(3), occurrence.places[0].rotation)] if pattern else occurrence.places
+            mesh = part.shape.mesh(deviation)
+            parts.append(
+                ScenePart(
+                    name=part.id if len(_bodies_with(tree, part)) == 1 else f"{part.id} of {body.id}",
+                    title=f"{part.title}, {part.size}" if part.size else part.title,
+                    machine=machine,
+                    frame=pattern or body.id,
+                    solids=(_placed(mesh, places, turned[body.id]),),
+                    deviations=(deviation,),
+                    material=part.material.name if part.material else "",
+                    mass=part.mass,
+                    number=numbers[part.id],
+                    checks=tuple(check for check in checks if part.id in check.parts),
+                    envelope=part.envelope,
+                )
+            )
+    return tuple(parts)
+
+
+def _bodies_with(tree: Tree, part: Part) -> list[str]:
+    return [body.id for body in tree.bodies if any(occurrence.part is part for occurrence in body.occurrences)]
+
+
+def _placed(mesh: Solid, places: Sequence[Placement], rotation: Float[np.ndarray, "3 3"]) -> Solid:
+    """The mesh at all places of its body, whose axes are turned."""
+    begins = np.arange(len(places)) * len(mesh.points)
+    return Solid(
+        np.concatenate([position.points(mesh.points) for position in places]) @ rotation.T,
+        np.concatenate([mesh.triangles + begin for begin in begins]),
+    )
