@@ -5,18 +5,21 @@ A bar rests on m levers in the middle of m equal parts p of its width: its ends 
     M = w p^2 / 8,      deflection of an end = 7 w p^4 / (384 E I)   [derived; exact for two levers, more bend less]
 """
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
 
 from ilmek.elements.beam import uniform
+from ilmek.elements.bearing_table import DEEP_GROOVE, RollingBearing
+from ilmek.elements.bearings import ROLLING_BEARINGS, smallest_bearing
 from ilmek.elements.columns import SECTIONS, HollowSquare
 from ilmek.elements.pin_joints import mean_pressure, pin_shear
 from ilmek.elements.tubes import TUBES, Tube, find_tube
 from ilmek.machines.tension_compensator.params import STEEL, TensionCompensatorParams
 from ilmek.records import record
 from ilmek.report import Alternative, Check, Choice, at_most, choose
-from ilmek.units import MPa, format_quantity, mm
+from ilmek.units import MPa, deg, format_quantity, mm
 
 T = TypeVar("T")
 
@@ -25,6 +28,18 @@ HEIGHTS = tuple(size * mm for size in (30, 40, 50, 60, 80, 100, 120, 150, 200, 2
 
 PINS = tuple(size * mm for size in (12, 16, 20, 25, 30, 40, 50, 60, 80))
 """Diameters of pivot pins [m]."""
+
+BUSH_WALL = 3 * mm
+"""Wall of a pin's bush [m]; assumed by this project."""
+
+WIDEST_BORE = 0.6
+"""Largest bore of a lever for its bush, over its height; assumed by this project."""
+
+SADDLE = 45 * deg
+"""Angle of each roller to the middle of the two that carry a bar; assumed by this project."""
+
+ROLLER_TURNS = 1e7
+"""Turns that a roller lives; assumed by this project."""
 
 PRESSURE = 20 * MPa
 """Allowed pressure of a pin in its bush, twice its diameter long; bronze, assumed by this project."""
@@ -46,12 +61,13 @@ class Loads:
 
 @record
 class Members:
-    """What was chosen: tube of bars and rods, height of a lever [m], its pin [m], the beam; and the choices."""
+    """What was chosen: tube of bars and rods, height of a lever [m], its pin [m], beam, roller; and the choices."""
 
     tube: Tube
     lever: float
     pin: float
     beam: HollowSquare
+    roller: RollingBearing
     choices: tuple[Choice, ...]
 
 
@@ -65,13 +81,23 @@ def bar_tubes(params: TensionCompensatorParams) -> tuple[Tube, ...]:
 def members_for(params: TensionCompensatorParams, tube: tuple[Tube, Choice], loads: Loads) -> Members:
     """Levers, pins and beam for the loads, with the tube of the bars that was chosen before."""
     sections = sorted((HollowSquare(*size) for size in SECTIONS), key=lambda section: section.area)
-    lever, of_lever = pick(
-        "lever", HEIGHTS, lambda one: format_quantity(one, "mm"), lambda one: lever_checks(params, one, loads)
-    )
     pin, of_pin = pick("pin", PINS, lambda one: format_quantity(one, "mm"), lambda one: pin_checks(params, one, loads))
+    lever, of_lever = pick(
+        "lever", HEIGHTS, lambda one: format_quantity(one, "mm"), lambda one: lever_checks(params, one, pin, loads)
+    )
     beam, of_beam = pick("beam", sections, lambda one: one.name, lambda one: beam_checks(params, one, loads))
     given = () if params.bar_tube else (tube[1],)
-    return Members(tube[0], lever, pin, beam, (*given, of_lever, of_pin, of_beam))
+    return Members(tube[0], lever, pin, beam, roller_for(params, loads.line), (*given, of_lever, of_pin, of_beam))
+
+
+def roller_for(params: TensionCompensatorParams, line: float) -> RollingBearing:
+    """The lightest ball bearing that lives as the roller of bars and rods, else that of the largest load.
+
+    line  load of a bar [N/m]; two rollers carry it at a lever
+    """
+    force = line * params.width / params.levers / (2 * math.cos(SADDLE))
+    balls = [row for row in ROLLING_BEARINGS.values() if row.kind == DEEP_GROOVE]
+    return smallest_bearing(force, ROLLER_TURNS) or max(balls, key=lambda row: row.static)
 
 
 def pick(
@@ -96,10 +122,17 @@ def bar_checks(params: TensionCompensatorParams, tube: Tube, line: float) -> tup
     )
 
 
-def lever_checks(params: TensionCompensatorParams, height: float, loads: Loads) -> tuple[Check, ...]:
-    """Bending of a lever of a height [m] at its pivot, whose bore takes a third of it."""
-    section = params.lever_thickness * height**2 / 6 * (1 - 3.0**-3)
-    return (at_most("stress of a lever", loads.torque / section, *_limit(params), cure="set a larger lever_thickness"),)
+def lever_checks(params: TensionCompensatorParams, height: float, pin: float, loads: Loads) -> tuple[Check, ...]:
+    """Bending of a lever of a height [m] at its pivot, beside the bore of the pin's bush, and the room of that bore."""
+    bored = (pin + 2 * BUSH_WALL) / height
+    section = params.lever_thickness * height**2 / 6 * max(1 - bored**3, 1e-9)
+    return (
+        at_most("stress of a lever", loads.torque / section, *_limit(params), cure="set a larger lever_thickness"),
+        at_most(
+            *("bore of a lever over its height", bored, WIDEST_BORE, "1", "assumed by this project"),
+            cure="set a longer spring_arm, or a lower tension",
+        ),
+    )
 
 
 def pin_checks(params: TensionCompensatorParams, pin: float, loads: Loads) -> tuple[Check, ...]:

@@ -33,7 +33,7 @@ def checks(found: CompensatorAnalysis) -> tuple[Check, ...]:
         must("equilibrium over the turn", found.balanced, "linkage engine", cure="set a larger rate_share"),
         *_motion_checks(design),
         *bar_checks(params, members.tube, loads.line),
-        *lever_checks(params, members.lever, loads),
+        *lever_checks(params, members.lever, members.pin, loads),
         *pin_checks(params, members.pin, loads),
         *beam_checks(params, members.beam, loads),
     )
