@@ -12,6 +12,7 @@ from ilmek.arrays import Float
 from ilmek.errors import ParameterError
 from ilmek.part.part import Part
 from ilmek.part.placement import HERE, Placement
+from ilmek.part.plates import is_flat, plate_name
 from ilmek.part.shapes import CHORD
 from ilmek.part.tree import GROUND, Body, Occurrence, Tree
 from ilmek.report import Check
@@ -105,6 +106,7 @@ def parts_of(
                     mass=part.mass,
                     number=numbers[part.id],
                     checks=tuple(check for check in checks if part.id in check.parts),
+                    plate=f"{machine}-{plate_name(part)}" if is_flat(part) else "",
                     envelope=part.envelope,
                 )
             )

@@ -106,9 +106,6 @@ class Tree:
                 if parts.setdefault(occurrence.part.id, occurrence.part) is not occurrence.part:
                     raise ParameterError(f"two parts named {occurrence.part.id!r}", do="give each its own id")
 
-    def __add__(self, other: "Tree") -> "Tree":
-        return Tree((*self.bodies, *other.bodies))
-
     def body(self, name: str) -> Body:
         """The body of an id. Raises ParameterError for an unknown one."""
         for body in self.bodies:
@@ -137,16 +134,15 @@ class Tree:
         """Mass of all parts that are weighed [kg]."""
         return math.fsum(number * part.mass for part, number in self.occurrences() if not math.isnan(part.mass))
 
-    def carried_by(self, parent: str, place: Placement = HERE) -> "Tree":
-        """The tree on a body of another, its ground at a place in that body's frame."""
-        return Tree(
-            tuple(
-                replace(body, parent=parent, places=tuple(place.after(own) for own in body.places))
-                if body.parent == GROUND
-                else body
-                for body in self.bodies
-            )
+    def carrying(self, parent: str, tree: "Tree", place: Placement = HERE) -> "Tree":
+        """This tree with another on one of its bodies: the other's ground at a place in that body's frame."""
+        carried = (
+            replace(body, parent=parent, places=tuple(place.after(own) for own in body.places))
+            if body.parent == GROUND
+            else body
+            for body in tree.bodies
         )
+        return Tree((*self.bodies, *carried))
 
 
 def mated(own: Seat, other: Seat) -> Placement:

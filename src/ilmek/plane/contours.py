@@ -13,7 +13,7 @@ from ilmek.arrays import Complex, ComplexArray, Float, FloatArray
 from ilmek.errors import ParameterError
 from ilmek.plane.curves import hull
 from ilmek.plane.vectors import cross, dot
-from ilmek.report import Contour
+from ilmek.report import Contour, Hole
 from ilmek.units import format_quantity
 
 STRAIGHT = 1e-8
@@ -30,6 +30,18 @@ def circle(at: complex, radius: float) -> Contour:
     0.25
     """
     return Contour(np.array([at + radius, at - radius]), np.ones(2))
+
+
+def as_hole(contour: Contour) -> Hole | None:
+    """The round hole that a contour of two half turns is; None: it is no circle.
+
+    >>> as_hole(circle(1j, 0.5)), as_hole(keyed_bore(0.010, 0.006, 0.0028))
+    (Hole(at=1j, radius=0.5, label=''), None)
+    """
+    if len(contour.points) != 2 or np.any(np.abs(np.abs(contour.bulges) - 1) > STRAIGHT):
+        return None
+    first, second = contour.points.tolist()
+    return Hole((first + second) / 2, abs(second - first) / 2)
 
 
 def polygon(corners: Complex[np.ndarray, " corners"]) -> Contour:

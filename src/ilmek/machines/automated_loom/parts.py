@@ -10,7 +10,9 @@ from ilmek.elements.prices import PriceRates, price_of, read_prices
 from ilmek.machines.automated_loom.cyclogram import HEADS
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import FrameTask, LoomFrame, frame_for
+from ilmek.machines.automated_loom.own_parts import own_tree
 from ilmek.machines.weaver import head_mass
+from ilmek.part.bill import bill
 from ilmek.records import computed, group, record
 from ilmek.report import BillLine
 from ilmek.timing.track import peak_acceleration, peak_speed
@@ -96,7 +98,7 @@ def _of_machines(loom: LoomDesign) -> Iterator[BillLine]:
 
 
 def _own(loom: LoomDesign) -> tuple[BillLine, ...]:
-    """The rail of the heads with the axes of its retreat."""
+    """The rail of the heads with the axes of its retreat, and the parts of its own tree."""
     row = loom.row_cyclogram
     heads = row.track(HEADS)
     moved = loom.heads * head_mass(loom.weaver) * peak_acceleration(heads, row.period)
@@ -106,4 +108,5 @@ def _own(loom: LoomDesign) -> tuple[BillLine, ...]:
             "axis of the rail's retreat", 2, "belt drive, one at each column", "", "linear axis", length=heads.stroke
         ),
         belt_motor_part("motor of the rail's retreat", moved, peak_speed(heads, row.period)),
+        *bill(own_tree(loom)),
     )

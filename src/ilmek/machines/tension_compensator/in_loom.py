@@ -1,14 +1,10 @@
-"""The tension compensator in a loom: its parameters from the task, its lines in the parts list."""
+"""The tension compensator in a loom: its parameters from the task."""
 
 import numpy as np
 
 from ilmek.machines.loom_task import LoomTask
 from ilmek.machines.shedding import shed_lengthenings
-from ilmek.machines.tension_compensator.design import TensionCompensator
 from ilmek.machines.tension_compensator.params import TensionCompensatorParams
-from ilmek.machines.tension_compensator.tree import tree
-from ilmek.part.bill import bill
-from ilmek.report import BillLine
 from ilmek.units import turn
 
 SAMPLES = 73
@@ -40,8 +36,3 @@ def fit(task: LoomTask) -> TensionCompensatorParams:
             speed=shed.speed,
         ),
     )
-
-
-def parts(made: TensionCompensator) -> tuple[BillLine, ...]:
-    """Lines of the parts list."""
-    return bill(tree(made))

@@ -47,6 +47,12 @@ PRESSURE = 20 * MPa
 SHEAR = 0.577
 """Yield strength in shear over that in tension [von Mises]."""
 
+
+def part_id(name: str) -> str:
+    """Id of a part or body of the compensator."""
+    return f"tension-compensator/{name}"
+
+
 CURE = "set a lower tension or lift, or a shorter support_span"
 
 
@@ -117,8 +123,18 @@ def bar_checks(params: TensionCompensatorParams, tube: Tube, line: float) -> tup
     span = params.width / params.levers
     sag = 7 * line * span**4 / (384 * STEEL.modulus * tube.inertia)
     return (
-        at_most("deflection of a bar", sag, params.bar_deflection, "mm", "parameter bar_deflection", cure=CURE),
-        at_most("stress of a bar", line * span**2 / 8 / tube.modulus, *_limit(params), cure=CURE),
+        at_most(
+            "deflection of a bar",
+            sag,
+            params.bar_deflection,
+            "mm",
+            "parameter bar_deflection",
+            parts=(part_id("bar"),),
+            cure=CURE,
+        ),
+        at_most(
+            "stress of a bar", line * span**2 / 8 / tube.modulus, *_limit(params), parts=(part_id("bar"),), cure=CURE
+        ),
     )
 
 
@@ -127,9 +143,16 @@ def lever_checks(params: TensionCompensatorParams, height: float, pin: float, lo
     bored = (pin + 2 * BUSH_WALL) / height
     section = params.lever_thickness * height**2 / 6 * max(1 - bored**3, 1e-9)
     return (
-        at_most("stress of a lever", loads.torque / section, *_limit(params), cure="set a larger lever_thickness"),
+        at_most(
+            "stress of a lever",
+            loads.torque / section,
+            *_limit(params),
+            parts=(part_id("lever"),),
+            cure="set a larger lever_thickness",
+        ),
         at_most(
             *("bore of a lever over its height", bored, WIDEST_BORE, "1", "assumed by this project"),
+            parts=(part_id("lever"), part_id("bush")),
             cure="set a longer spring_arm, or a lower tension",
         ),
     )
@@ -140,8 +163,16 @@ def pin_checks(params: TensionCompensatorParams, pin: float, loads: Loads) -> tu
     shear, pressure = pin_shear(loads.pivot, pin), mean_pressure(loads.pivot, pin, 2 * pin)
     cure, source = "set a longer spring_arm", "bronze, assumed by this project"
     return (
-        at_most("shear of a pivot pin", shear, SHEAR * params.strength / params.safety, "MPa", "yield", cure=cure),
-        at_most("pressure of a pivot pin", pressure, PRESSURE, "MPa", source, cure=cure),
+        at_most(
+            "shear of a pivot pin",
+            shear,
+            SHEAR * params.strength / params.safety,
+            "MPa",
+            "yield",
+            parts=(part_id("pin"),),
+            cure=cure,
+        ),
+        at_most("pressure of a pivot pin", pressure, PRESSURE, "MPa", source, parts=(part_id("pin"),), cure=cure),
     )
 
 
@@ -153,8 +184,16 @@ def beam_checks(params: TensionCompensatorParams, section: HollowSquare, loads: 
     source = "assumed by this project: parameter beam_sag"
     cure = "set a lower tension, a narrower loom, or a larger beam_sag"
     return (
-        at_most("deflection of the levers' beam", sag, params.beam_sag * params.width, "mm", source, cure=cure),
-        at_most("stress of the levers' beam", stress, *_limit(params), cure=cure),
+        at_most(
+            "deflection of the levers' beam",
+            sag,
+            params.beam_sag * params.width,
+            "mm",
+            source,
+            parts=(part_id("beam"),),
+            cure=cure,
+        ),
+        at_most("stress of the levers' beam", stress, *_limit(params), parts=(part_id("beam"),), cure=cure),
     )
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from ilmek.arrays import ComplexArray
 from ilmek.elements.materials import MATERIALS, Material
 from ilmek.errors import ParameterError
-from ilmek.machines.tension_compensator.members import BUSH_WALL, SADDLE, Members
+from ilmek.machines.tension_compensator.members import BUSH_WALL, SADDLE, Members, part_id
 from ilmek.machines.tension_compensator.params import STEEL, TensionCompensatorParams
 from ilmek.machines.tension_compensator.synthesis import SprungLever
 from ilmek.part.part import Part, Purchase
@@ -101,7 +101,7 @@ def parts_of(params: TensionCompensatorParams, sprung: SprungLever, members: Mem
         pin=_made("pin", "pin of a lever", turned, bar(pin, 2 * pin + 2 * thick), _round(pin)),
         saddle=_made("saddle", "saddle of a bar", "laser-cut part", _saddle(supports), f"plate {_mm(thick)}"),
         roller=Part(
-            _id("roller"),
+            part_id("roller"),
             "roller of bars and rods",
             "bearing",
             roller.name,
@@ -125,7 +125,7 @@ def sprung_bar(parts: CompensatorParts, name: str, motion: SceneMotion | None, p
     saddle = at.saddle(at.bar, -at.bar)
     wide = _springs_wide(at.sprung)
     return Body(
-        _id(f"{name} bar"),
+        part_id(f"{name} bar"),
         (
             Occurrence(parts.bar, _places([at.bar], [-at.params.width / 2])),
             Occurrence(parts.lever, _places([0j], at.stations, -thick / 2)),
@@ -155,7 +155,7 @@ def standing(parts: CompensatorParts, name: str, placement: Placement = HERE) ->
     missing = Joint(JointKind.MISSING)
     return (
         Body(
-            _id(f"{name} beam"),
+            part_id(f"{name} beam"),
             (
                 Occurrence(parts.beam, _places([beam], [-at.params.width / 2])),
                 Occurrence(parts.pin, _places([lever.pivot], at.stations, -members.pin - thick)),
@@ -164,7 +164,7 @@ def standing(parts: CompensatorParts, name: str, placement: Placement = HERE) ->
             places=(placement,),
         ),
         Body(
-            _id(f"{name} rods"),
+            part_id(f"{name} rods"),
             (
                 Occurrence(parts.rod, _places(rods, [-at.params.width / 2])),
                 Occurrence(parts.saddle, _places(rods, at.stations, thick / 2, turned=-1)),
@@ -174,7 +174,7 @@ def standing(parts: CompensatorParts, name: str, placement: Placement = HERE) ->
             places=(placement,),
         ),
         Body(
-            _id(f"{name} springs"),
+            part_id(f"{name} springs"),
             (
                 Occurrence(parts.spring, tuple(_along(complex(lever.anchor), z).after(leaning) for z in springs)),
                 Occurrence(
@@ -197,14 +197,10 @@ def _rollers(parts: CompensatorParts, saddles: ComplexArray, beside: float) -> t
     )
 
 
-def _id(name: str) -> str:
-    return f"tension-compensator/{name}"
-
-
 def _made(  # noqa: PLR0917
     name: str, title: str, process: str, shape: Shape, size: str, material: Material = STEEL
 ) -> Part:
-    return Part(_id(name), title, process, size, shape, material)
+    return Part(part_id(name), title, process, size, shape, material)
 
 
 def _mm(length: float) -> str:
@@ -273,11 +269,11 @@ def _spring(params: TensionCompensatorParams, sprung: SprungLever) -> Part:
     """The spring, its room that of the coil at rest between its pins."""
     wound, title = sprung.spring, "spring of the compensator"
     if wound is None:
-        return Part(_id("spring"), title, "spring", purchase=Purchase("none of the table is enough"))
+        return Part(part_id("spring"), title, "spring", purchase=Purchase("none of the table is enough"))
     size = f"{params.wire} {wound.wire_diameter / mm:g} mm, {format_quantity(sprung.rate, 'N/mm', 3)}"
     length = sprung.free_length - sprung.preload / sprung.rate
     coil = tube(wound.diameter + wound.wire_diameter, wound.wire_diameter, length)
-    return Part(_id("spring"), title, "spring", size, coil, purchase=Purchase(size, wound.mass), envelope=True)
+    return Part(part_id("spring"), title, "spring", size, coil, purchase=Purchase(size, wound.mass), envelope=True)
 
 
 def _spring_pitch(sprung: SprungLever) -> float:

@@ -17,7 +17,10 @@ from ilmek.machines.automated_loom.in_space.maker import (
     motion,
     track_angles,
 )
+from ilmek.machines.automated_loom.in_space.warps_behind import compensator
+from ilmek.machines.automated_loom.own_parts import own_tree
 from ilmek.machines.automated_loom.parts import parts_of_loom
+from ilmek.part.space import frames_of, parts_of
 from ilmek.plane.solids import box, lengthwise, moved, square_tube, together, tube, upright
 from ilmek.report.scene import SceneFrame, ScenePart, Solid
 from ilmek.timing.track import sample
@@ -37,8 +40,16 @@ def standing(made: SceneMaker) -> SceneGroup:
     rail = made.loom.side.rail
     middle = rail.corner + rail.size / 2
     retreat = along_track(made.loom.row_cyclogram, HEADS, (0.0, 0.0, 1.0))
-    frames = (ground, SceneFrame(RAIL, in_side_view(np.array([middle])), motion=retreat), *_cylinder_frames(made))
-    return SceneGroup(frames, (*_frame_parts(made), *_cylinders(made), *_motors(made)))
+    own, behind = own_tree(made.loom), compensator(made, GROUND)
+    frames = (
+        ground,
+        SceneFrame(RAIL, in_side_view(np.array([middle])), motion=retreat),
+        *_cylinder_frames(made),
+        *frames_of(own, GROUND),
+        *behind.frames,
+    )
+    parts = (*_frame_parts(made), *_cylinders(made), *_motors(made))
+    return SceneGroup(frames, (*parts, *parts_of(own, "automated-loom", checks=made.checks), *behind.parts))
 
 
 def _frame_parts(made: SceneMaker) -> Iterator[ScenePart]:
@@ -117,9 +128,6 @@ def _cylinders(made: SceneMaker) -> Iterator[ScenePart]:
         solid = tube(0j, roller.radius, roller.radius - wall, -half, half, chord_error=_ROUND)
         checks = ("warp-tension: slope", "warp-tension: deflection", "warp-tension: bending")
         yield made.part(name, name, solid, machine="warp-tension", line=line, checks=checks)
-    rest = made.loom.side.back_rest
-    solid = tube(rest.at, rest.radius, 0.0, -half, half, chord_error=_ROUND)
-    yield made.part("back rest", GROUND, solid, machine="automated-loom", envelope=True)
     side = made.loom.side
     roll = tube(side.lower.at, side.roll, side.lower.radius, -made.half, made.half, chord_error=COARSE)
     yield made.part("whole carpet on the lower cylinder", GROUND, roll, machine="automated-loom", envelope=True)
