@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from ilmek.part.moments import Moments
-from ilmek.part.placement import place
-from ilmek.part.section import Section
+from ilmek.part.placement import placement
+from ilmek.part.profile import Profile
 from ilmek.part.shapes import Placed, Prism, Shape, Sum, Turned, bar, box, disc, square_tube, stepped, tube
 from ilmek.plane.contours import circle, polygon, rounded_hull, strip
 
@@ -85,7 +85,7 @@ def _bent() -> TopoDS_Shape:
 
 
 _WELDED = Sum(
-    (Placed(box(0.2, 0.1, 0.3)), Placed(tube(0.08, 0.01, 0.4), (place(0.1, 0.2, 0.3, about=(1, 0, 0), angle=0.7),)))
+    (Placed(box(0.2, 0.1, 0.3)), Placed(tube(0.08, 0.01, 0.4), (placement(0.1, 0.2, 0.3, about=(1, 0, 0), angle=0.7),)))
 )
 _CASES: dict[str, tuple[Shape, Callable[[], TopoDS_Shape]]] = {
     "box": (box(0.1, 0.2, 0.3), lambda: _box(0.1, 0.2, 0.3)),
@@ -96,23 +96,23 @@ _CASES: dict[str, tuple[Shape, Callable[[], TopoDS_Shape]]] = {
         stepped((0.02, 0.1), (0.04, 0.2), (0.03, 0.05)),
         lambda: _fused(_cylinder(0.01, 0.1), _cylinder(0.02, 0.2, z=0.1), _cylinder(0.015, 0.05, z=0.3)),
     ),
-    "cone": (Turned(Section(polygon(np.array([0, 0.3j, 0.4 + 0.1j, 0.4])))), _cone),
-    "ring": (Turned(Section(circle(0.5j, 0.1))), lambda: BRepPrimAPI_MakeTorus(0.5, 0.1).Shape()),
+    "cone": (Turned(Profile(polygon(np.array([0, 0.3j, 0.4 + 0.1j, 0.4])))), _cone),
+    "ring": (Turned(Profile(circle(0.5j, 0.1))), lambda: BRepPrimAPI_MakeTorus(0.5, 0.1).Shape()),
     "bored disc": (
         Prism(disc(0.1, circle(0.04 + 0j, 0.02)), 0.01),
         lambda: _cut(_cylinder(0.1, 0.01), _cylinder(0.02, 0.01, 0.04)),
     ),
     "link": (
-        Prism(Section(rounded_hull(np.array([0, 0.2]), 0.02), (circle(0j, 0.008), circle(0.2 + 0j, 0.006))), 0.01),
+        Prism(Profile(rounded_hull(np.array([0, 0.2]), 0.02), (circle(0j, 0.008), circle(0.2 + 0j, 0.006))), 0.01),
         lambda: _cut(
             _fused(_moved(_box(0.2, 0.04, 0.01), 0.1, 0, 0, 0), _cylinder(0.02, 0.01), _cylinder(0.02, 0.01, 0.2)),
             _cylinder(0.008, 0.01),
             _cylinder(0.006, 0.01, 0.2),
         ),
     ),
-    "bent strip": (Prism(Section(strip(np.array([0, 0.2, 0.2 + 0.3j]), 0.02)), 0.01), _bent),
+    "bent strip": (Prism(Profile(strip(np.array([0, 0.2, 0.2 + 0.3j]), 0.02)), 0.01), _bent),
     "ell": (
-        Prism(Section(polygon(np.array([0, 0.2, 0.2 + 0.1j, 0.1 + 0.1j, 0.1 + 0.3j, 0.3j]))), 0.05),
+        Prism(Profile(polygon(np.array([0, 0.2, 0.2 + 0.1j, 0.1 + 0.1j, 0.1 + 0.3j, 0.3j]))), 0.05),
         _ell,
     ),
     "weldment": (

@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ilmek.part.moments import Moments
-from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, UPRIGHT, Placement, place
-from ilmek.part.section import Section
+from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, UPRIGHT, Placement, placement
+from ilmek.part.profile import Profile
 from ilmek.part.shapes import Placed, Prism, Shape, Sum, Turned, bar, box, disc, square_tube, stepped, tube
 from ilmek.plane.contours import circle, keyed_bore, polygon, rounded_hull, strip
 from ilmek.plane.solids import is_closed, volume
@@ -23,12 +23,12 @@ _ANGLE = st.floats(-3.0, 3.0)
 @st.composite
 def _placements(draw: st.DrawFn) -> Placement:
     axis = draw(st.tuples(_ANGLE, _ANGLE, _ANGLE).filter(lambda one: math.hypot(*one) > 0.1))
-    return place(draw(_ANGLE), draw(_ANGLE), draw(_ANGLE), about=axis, angle=draw(_ANGLE))
+    return placement(draw(_ANGLE), draw(_ANGLE), draw(_ANGLE), about=axis, angle=draw(_ANGLE))
 
 
 @st.composite
 def _shapes(draw: st.DrawFn) -> Shape:
-    """A shape of each kind, with holes, arcs of both directions, and sums at random places."""
+    """A shape of each kind, with holes, arcs of both directions, and sums at random positions."""
     a, b, length = draw(_SIZE), draw(_SIZE), draw(_SIZE)
     kind = draw(st.integers(0, 5))
     if kind == 0:
@@ -39,7 +39,7 @@ def _shapes(draw: st.DrawFn) -> Shape:
         return stepped((a, length), (b, length / 2), (a / 2, b))
     if kind == 3:
         link = strip(np.array([0, a, a + b * np.exp(1j * draw(st.floats(-1.5, 1.5)))]), 0.2 * min(a, b))
-        return Prism(Section(link, (circle(0j, 0.1 * min(a, b)), circle(complex(a), 0.05 * min(a, b)))), length)
+        return Prism(Profile(link, (circle(0j, 0.1 * min(a, b)), circle(complex(a), 0.05 * min(a, b)))), length)
     if kind == 4:
         return Prism(disc(a, keyed_bore(0.4 * a, 0.2 * a, 0.1 * a)), length)
     return Sum((Placed(box(a, b, length), (draw(_placements()), draw(_placements()))), Placed(bar(a, b))))
@@ -102,7 +102,7 @@ def test_a_cylinder_has_the_moments_of_the_textbook(diameter: float, length: flo
 
 
 def test_a_torus_has_the_volume_of_pappus() -> None:
-    ring = Turned(Section(circle(0.5j, 0.1)))
+    ring = Turned(Profile(circle(0.5j, 0.1)))
     assert ring.moments.zeroth == pytest.approx(2 * math.pi**2 * 0.5 * 0.1**2, rel=1e-13)
     assert ring.moments.inertia[2, 2] == pytest.approx(ring.moments.zeroth * (0.5**2 + 0.75 * 0.1**2), rel=1e-12)
 
@@ -139,16 +139,16 @@ def test_a_strip_is_all_that_is_near_its_line(first: float, second: float, turne
     z = grid[:, None] + 1j * grid
     distance = np.minimum(*(_to_segment(z, *pair) for pair in pairwise(nodes)))
     counted = np.count_nonzero(distance <= radius) * (grid[1] - grid[0]) ** 2
-    own = Section(strip(nodes, radius)).area
+    own = Profile(strip(nodes, radius)).area
     assert counted == pytest.approx(own, rel=0.03, abs=radius**2 * math.tan(abs(turned) / 2))
 
 
 def _to_segment(z: np.ndarray, start: complex, end: complex) -> np.ndarray:
     along = np.clip(((z - start) * np.conj(end - start)).real / abs(end - start) ** 2, 0.0, 1.0)
-    return np.abs(z - start - along * (end - start))
+    return np.asarray(np.abs(z - start - along * (end - start)))
 
 
 def test_a_hull_and_a_strip_of_two_nodes_are_one() -> None:
     nodes = np.array([0j, 0.3 + 0.1j])
-    assert Section(strip(nodes, 0.02)).area == pytest.approx(Section(rounded_hull(nodes, 0.02)).area, rel=1e-12)
-    assert Section(polygon(np.array([0, 1, 1 + 1j, 1j]))).moment(1, 1) == pytest.approx(0.25)
+    assert Profile(strip(nodes, 0.02)).area == pytest.approx(Profile(rounded_hull(nodes, 0.02)).area, rel=1e-12)
+    assert Profile(polygon(np.array([0, 1, 1 + 1j, 1j]))).moment(1, 1) == pytest.approx(0.25)

@@ -40,7 +40,7 @@ class Moments:
     def inertia(self) -> Float[np.ndarray, "3 3"]:
         """Inertia tensor about the centre: m^5 of a volume, kg m² of a mass."""
         central = self.second - self.zeroth * np.outer(self.centre, self.centre)
-        return np.trace(central) * np.eye(3) - central
+        return np.asarray(np.trace(central) * np.eye(3) - central)
 
     def placed(self, placement: Placement) -> "Moments":
         """The moments of the body at another place."""

@@ -15,7 +15,7 @@ from ilmek.records import record
 
 
 @record
-class Purchase:
+class Bought:
     """A bought part, by its row of a catalogue.
 
     row     of the catalogue, as ordered: `NEMA 34`        mass  of one [kg]; nan: not weighed
@@ -34,11 +34,11 @@ class Purchase:
 class Seat:
     """A place on a part where another part sits.
 
-    place  its frame on the part, z along the axis of a bore, journal or screw, or normal to a face
+    position  its frame on the part, z along the axis of a bore, journal or screw, or normal to a face
     size   nominal: diameter of a bore or journal, width of a key [m]
     """
 
-    place: Placement
+    position: Placement
     size: float
 
 
@@ -62,7 +62,7 @@ class Part:
     size: str = ""
     shape: Shape | None = None
     material: Material | None = None
-    purchase: Purchase | None = None
+    purchase: Bought | None = None
     seats: Mapping[str, Seat] = field(default_factory=dict)
     envelope: bool = False
 

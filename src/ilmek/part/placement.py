@@ -45,7 +45,7 @@ class Placement:
         return Placement(-self.rotation.T @ self.origin, self.rotation.T)
 
 
-def place(
+def placement(
     x: float = 0.0,
     y: float = 0.0,
     z: float = 0.0,
@@ -55,7 +55,7 @@ def place(
 ) -> Placement:
     """Turned about an axis by an angle [rad], then moved to (x, y, z) [m].      [Rodrigues' formula]
 
-    >>> place(1.0, about=(0, 0, 1), angle=math.pi / 2).points(np.array([1.0, 0.0, 0.0])).round(12).tolist()
+    >>> placement(1.0, about=(0, 0, 1), angle=math.pi / 2).points(np.array([1.0, 0.0, 0.0])).round(12).tolist()
     [1.0, 1.0, 0.0]
     """
     return Placement(np.array([x, y, z], dtype=float), np.eye(3) if about is None else rotation(about, angle))
@@ -71,7 +71,7 @@ def rotation(axis: tuple[float, float, float], angle: float) -> Float[np.ndarray
     return np.asarray(np.eye(3) + math.sin(angle) * across + (1 - math.cos(angle)) * across @ across)
 
 
-HERE = place()
+IDENTITY = placement()
 """The frame itself."""
 
 IN_SIDE_VIEW = Placement(np.zeros(3), np.array([[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]]))

@@ -2,7 +2,7 @@
 
     prism    a section in x and y from z = 0 to its length: a plate, a bar or tube of stock cut to length, a box
     turned   the profile (z, r) turned about the z axis: shafts, rollers, pins, cylinders, cones
-    sum      shapes at places that touch and do not overlap: weldments, patterns
+    sum      shapes at positions that touch and do not overlap: weldments, patterns
 
 Moments are exact (`section`, `moments`): of a prism with the moments M of its section and its length L
 
@@ -22,8 +22,8 @@ from ilmek.errors import ParameterError
 from ilmek.part.convex import Points, circumscribed, convex_pieces, frustums, prism_corners
 from ilmek.part.mesh import extruded, joined, revolved
 from ilmek.part.moments import Moments, together
-from ilmek.part.placement import HERE, Placement
-from ilmek.part.section import Section
+from ilmek.part.placement import IDENTITY, Placement
+from ilmek.part.profile import Profile
 from ilmek.plane.contours import along, bounds, circle, counter_clockwise, polygon
 from ilmek.records import record
 from ilmek.report import Contour
@@ -57,7 +57,7 @@ class Shape(Protocol):
 class Prism:
     """A section between z = 0 and its length [m]. Raises ParameterError for a length that is not above 0."""
 
-    section: Section
+    section: Profile
     length: float
 
     def __post_init__(self) -> None:
@@ -89,7 +89,7 @@ class Prism:
 class Turned:
     """A profile in the half plane (z, r >= 0) turned about z. Raises ParameterError for a profile across the axis."""
 
-    profile: Section
+    profile: Profile
 
     def __post_init__(self) -> None:
         inner = bounds(self.profile.outline)[0].imag
@@ -119,10 +119,10 @@ class Turned:
 
 @record
 class Placed:
-    """A shape at one or more places."""
+    """A shape at one or more positions."""
 
     shape: Shape
-    places: tuple[Placement, ...] = (HERE,)
+    positions: tuple[Placement, ...] = (IDENTITY,)
 
 
 @record
@@ -140,8 +140,8 @@ class Sum:
         """The sum of the moments of its members: those of each shape are computed once."""
         return together(
             moments.placed(position)
-            for moments, places in ((member.shape.moments, member.places) for member in self.members)
-            for position in places
+            for moments, positions in ((member.shape.moments, member.positions) for member in self.members)
+            for position in positions
         )
 
     def mesh(self, deviation: float = CHORD) -> Solid:
@@ -149,8 +149,8 @@ class Sum:
         return joined(
             *(
                 Solid(position.points(solid.points), solid.triangles)
-                for solid, places in ((member.shape.mesh(deviation), member.places) for member in self.members)
-                for position in places
+                for solid, positions in ((member.shape.mesh(deviation), member.positions) for member in self.members)
+                for position in positions
             )
         )
 
@@ -158,9 +158,9 @@ class Sum:
         """The pieces of the members."""
         return tuple(
             position.points(piece)
-            for pieces, places in ((member.shape.pieces(deviation), member.places) for member in self.members)
+            for pieces, positions in ((member.shape.pieces(deviation), member.positions) for member in self.members)
             for piece in pieces
-            for position in places
+            for position in positions
         )
 
 
@@ -172,7 +172,7 @@ def box(width: float, height: float, length: float) -> Prism:
     """
     _require_above_zero("a box's width", width)
     _require_above_zero("a box's height", height)
-    return Prism(Section(rectangle(width, height)), length)
+    return Prism(Profile(rectangle(width, height)), length)
 
 
 def square_tube(side: float, wall: float, length: float) -> Prism:
@@ -181,7 +181,7 @@ def square_tube(side: float, wall: float, length: float) -> Prism:
     Raises ParameterError for a wall of half the side or more.
     """
     _require_wall(wall, side)
-    return Prism(Section(rectangle(side, side), (rectangle(side - 2 * wall, side - 2 * wall),)), length)
+    return Prism(Profile(rectangle(side, side), (rectangle(side - 2 * wall, side - 2 * wall),)), length)
 
 
 def bar(diameter: float, length: float) -> Turned:
@@ -203,7 +203,7 @@ def tube(diameter: float, wall: float, length: float) -> Turned:
             f"a wall of {format_quantity(wall, 'mm')}", allowed=f"above 0, to {format_quantity(diameter / 2, 'mm')}"
         )
     outer, inner = diameter / 2, diameter / 2 - wall
-    return Turned(Section(polygon(np.array([1j * inner, length + 1j * inner, length + 1j * outer, 1j * outer]))))
+    return Turned(Profile(polygon(np.array([1j * inner, length + 1j * inner, length + 1j * outer, 1j * outer]))))
 
 
 def stepped(*steps: tuple[float, float]) -> Turned:
@@ -218,7 +218,7 @@ def stepped(*steps: tuple[float, float]) -> Turned:
         _require_above_zero("a step's length", length)
         corners += [z + 0.5j * diameter, z + length + 0.5j * diameter]
         z += length
-    return Turned(Section(polygon(np.array([*corners, complex(z)]))))
+    return Turned(Profile(polygon(np.array([*corners, complex(z)]))))
 
 
 def rectangle(width: float, height: float) -> Contour:
@@ -226,9 +226,9 @@ def rectangle(width: float, height: float) -> Contour:
     return polygon(np.array([-width - 1j * height, width - 1j * height, width + 1j * height, -width + 1j * height]) / 2)
 
 
-def disc(radius: float, *holes: Contour) -> Section:
+def disc(radius: float, *holes: Contour) -> Profile:
     """The section of a disc about the origin, with its bores [m]."""
-    return Section(circle(0j, radius), holes)
+    return Profile(circle(0j, radius), holes)
 
 
 def _require_above_zero(name: str, length: float) -> None:

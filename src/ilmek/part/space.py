@@ -1,7 +1,7 @@
 """A tree in space: its bodies as frames of a scene, its parts as solids in them.
 
 A frame of a scene has the axes of the scene at rest. The rotation of a body's place is therefore turned into its
-solids, its motion and the places of what it carries.
+solids, its motion and the positions of what it carries.
 """
 
 from collections.abc import Mapping, Sequence
@@ -11,10 +11,10 @@ import numpy as np
 from ilmek.arrays import Float
 from ilmek.errors import ParameterError
 from ilmek.part.part import Part
-from ilmek.part.placement import HERE, Placement
+from ilmek.part.placement import IDENTITY, Placement
 from ilmek.part.plates import is_flat, plate_name
 from ilmek.part.shapes import CHORD
-from ilmek.part.tree import GROUND, Body, Occurrence, Tree
+from ilmek.part.tree import GROUND, Occurrence, RigidBody, Tree
 from ilmek.report import Check
 from ilmek.report.scene import SceneFrame, SceneMotion, ScenePart, Solid
 
@@ -22,18 +22,18 @@ _SAME = 1e-9
 """Difference of rotation matrices that counts as rounding."""
 
 
-def frames_of(tree: Tree, parent: str, place: Placement = HERE) -> tuple[SceneFrame, ...]:
+def frames_of(tree: Tree, parent: str, position: Placement = IDENTITY) -> tuple[SceneFrame, ...]:
     """The frames of the bodies; the tree's ground lies at a place in a frame of the scene, `parent`.
 
-    Raises ParameterError for a body at places of different rotations: they are bodies of their own.
+    Raises ParameterError for a body at positions of different rotations: they are bodies of their own.
     """
-    turned = _rotations(tree, place)
+    turned = _rotations(tree, position)
     frames = []
     for body in tree.bodies:
         if body.parent == GROUND:
-            origins, carrier = [place.points(position.origin) for position in body.places], parent
+            origins, carrier = [position.points(own.origin) for own in body.positions], parent
         else:
-            origins, carrier = [turned[body.parent] @ position.origin for position in body.places], body.parent
+            origins, carrier = [turned[body.parent] @ position.origin for position in body.positions], body.parent
         axis = turned[body.id] @ np.array(body.joint.axis)
         frames.append(
             SceneFrame(
@@ -45,20 +45,22 @@ def frames_of(tree: Tree, parent: str, place: Placement = HERE) -> tuple[SceneFr
             )
         )
         frames += [
-            SceneFrame(name, np.array([turned[body.id] @ position.origin for position in occurrence.places]), body.id)
+            SceneFrame(
+                name, np.array([turned[body.id] @ position.origin for position in occurrence.positions]), body.id
+            )
             for occurrence in body.occurrences
             if (name := _pattern(body, occurrence))
         ]
     return tuple(frames)
 
 
-def _rotations(tree: Tree, place: Placement) -> Mapping[str, Float[np.ndarray, "3 3"]]:
+def _rotations(tree: Tree, position: Placement) -> Mapping[str, Float[np.ndarray, "3 3"]]:
     """The rotation of each body's frame in the scene, at rest."""
-    turned = {GROUND: place.rotation}
+    turned = {GROUND: position.rotation}
     for body in tree.bodies:
-        first, *others = (position.rotation for position in body.places)
+        first, *others = (position.rotation for position in body.positions)
         if any(np.abs(other - first).max() > _SAME for other in others):
-            raise ParameterError(f"body {body.id!r} at places of different rotations", do="give each its own body")
+            raise ParameterError(f"body {body.id!r} at positions of different rotations", do="give each its own body")
         turned[body.id] = turned[body.parent] @ first
     return turned
 
@@ -69,21 +71,21 @@ def _turned_motion(motion: SceneMotion | None, rotation: Float[np.ndarray, "3 3"
     return SceneMotion(motion.drive, motion.angle, motion.shift @ rotation.T, motion.rotation)
 
 
-def _pattern(body: Body, occurrence: Occurrence) -> str:
+def _pattern(body: RigidBody, occurrence: Occurrence) -> str:
     """Name of the frame of a part that is in its body many times in one direction; "": it lies in the body's frame."""
-    first, *others = (position.rotation for position in occurrence.places)
+    first, *others = (position.rotation for position in occurrence.positions)
     alike = others and all(np.abs(other - first).max() <= _SAME for other in others)
     return f"{body.id}: {occurrence.part.id}" if alike else ""
 
 
 def parts_of(
-    tree: Tree, machine: str, place: Placement = HERE, checks: Sequence[Check] = (), deviation: float = CHORD
+    tree: Tree, machine: str, position: Placement = IDENTITY, checks: Sequence[Check] = (), deviation: float = CHORD
 ) -> tuple[ScenePart, ...]:
     """The parts of a tree that have a shape, in the frames of `frames_of`, each with the checks that concern it.
 
-    machine  that they belong to      place  of the tree's ground, as in `frames_of`
+    machine  that they belong to      position  of the tree's ground, as in `frames_of`
     """
-    turned = _rotations(tree, place)
+    turned = _rotations(tree, position)
     numbers = {part.id: number for part, number in tree.occurrences()}
     parts = []
     for body in tree.bodies:
@@ -92,7 +94,7 @@ def parts_of(
             if part.shape is None:
                 continue
             pattern = _pattern(body, occurrence)
-            places = [Placement(np.zeros(3), occurrence.places[0].rotation)] if pattern else occurrence.places
+            positions = [Placement(np.zeros(3), occurrence.positions[0].rotation)] if pattern else occurrence.positions
             mesh = part.shape.mesh(deviation)
             parts.append(
                 ScenePart(
@@ -100,7 +102,7 @@ def parts_of(
                     title=f"{part.title}, {part.size}" if part.size else part.title,
                     machine=machine,
                     frame=pattern or body.id,
-                    solids=(_placed(mesh, places, turned[body.id]),),
+                    solids=(_placed(mesh, positions, turned[body.id]),),
                     deviations=(deviation,),
                     material=part.material.name if part.material else "",
                     mass=part.mass,
@@ -117,10 +119,10 @@ def _bodies_with(tree: Tree, part: Part) -> list[str]:
     return [body.id for body in tree.bodies if any(occurrence.part is part for occurrence in body.occurrences)]
 
 
-def _placed(mesh: Solid, places: Sequence[Placement], rotation: Float[np.ndarray, "3 3"]) -> Solid:
-    """The mesh at all places of its body, whose axes are turned."""
-    begins = np.arange(len(places)) * len(mesh.points)
+def _placed(mesh: Solid, positions: Sequence[Placement], rotation: Float[np.ndarray, "3 3"]) -> Solid:
+    """The mesh at all positions of its body, whose axes are turned."""
+    begins = np.arange(len(positions)) * len(mesh.points)
     return Solid(
-        np.concatenate([position.points(mesh.points) for position in places]) @ rotation.T,
+        np.concatenate([position.points(mesh.points) for position in positions]) @ rotation.T,
         np.concatenate([mesh.triangles + begin for begin in begins]),
     )

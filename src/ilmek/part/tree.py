@@ -1,8 +1,8 @@
 """Bodies and their joints: the tree of a machine, from which all its views are made.
 
-    point in the parent = place (shift(q) + R(axis, rotation(q)) point)          q  angle of the joint's drive
+    point in the parent = position (shift(q) + R(axis, rotation(q)) point)          q  angle of the joint's drive
 
-`place` is where the body's frame lies in its parent's at rest; a body that is there many times has a place for each.
+`position` is where the body's frame lies in its parent's at rest; a body that is there many times has one for each.
 """
 
 import math
@@ -13,7 +13,7 @@ from enum import StrEnum
 from ilmek.errors import ParameterError
 from ilmek.part.moments import Moments, together
 from ilmek.part.part import Part, Seat
-from ilmek.part.placement import HERE, Placement
+from ilmek.part.placement import IDENTITY, Placement
 from ilmek.records import record
 from ilmek.report.scene import SceneMotion
 
@@ -52,24 +52,24 @@ class Joint:
 
 @record
 class Occurrence:
-    """A part in a body, at one or more places in its frame."""
+    """A part in a body, at one or more positions in its frame."""
 
     part: Part
-    places: tuple[Placement, ...] = (HERE,)
+    positions: tuple[Placement, ...] = (IDENTITY,)
 
 
 @record
-class Body:
+class RigidBody:
     """What moves as one: parts, and the joint by which its parent holds it.
 
-    id  unique    parent  id of a body, or the ground    places  of its frame in the parent's, one for each of them
+    id  unique    parent  id of a body, or the ground    positions  of its frame in the parent's, one for each of them
     """
 
     id: str
     occurrences: tuple[Occurrence, ...]
     parent: str = GROUND
     joint: Joint = field(default_factory=Joint)
-    places: tuple[Placement, ...] = (HERE,)
+    positions: tuple[Placement, ...] = (IDENTITY,)
 
     @property
     def moments(self) -> Moments:
@@ -79,7 +79,7 @@ class Body:
             for occurrence in self.occurrences
             for moments in [occurrence.part.moments]
             if moments is not None
-            for position in occurrence.places
+            for position in occurrence.positions
         )
 
 
@@ -90,7 +90,7 @@ class Tree:
     Raises ParameterError for an id that is there twice, and for a parent that does not come before its body.
     """
 
-    bodies: tuple[Body, ...] = ()
+    bodies: tuple[RigidBody, ...] = ()
 
     def __post_init__(self) -> None:
         ids: set[str] = {GROUND}
@@ -106,7 +106,7 @@ class Tree:
                 if parts.setdefault(occurrence.part.id, occurrence.part) is not occurrence.part:
                     raise ParameterError(f"two parts named {occurrence.part.id!r}", do="give each its own id")
 
-    def body(self, name: str) -> Body:
+    def body(self, name: str) -> RigidBody:
         """The body of an id. Raises ParameterError for an unknown one."""
         for body in self.bodies:
             if body.id == name:
@@ -114,10 +114,10 @@ class Tree:
         raise ParameterError(f"no body {name!r}", allowed=", ".join(body.id for body in self.bodies))
 
     def counts(self) -> Mapping[str, int]:
-        """How often each body is there: its places times those of all that carry it."""
+        """How often each body is there: its positions times those of all that carry it."""
         counts = {GROUND: 1}
         for body in self.bodies:
-            counts[body.id] = counts[body.parent] * len(body.places)
+            counts[body.id] = counts[body.parent] * len(body.positions)
         return counts
 
     def occurrences(self) -> Iterator[tuple[Part, int]]:
@@ -126,7 +126,7 @@ class Tree:
         for body in self.bodies:
             for occurrence in body.occurrences:
                 part = parts.setdefault(occurrence.part.id, occurrence.part)
-                numbers[part.id] = numbers.get(part.id, 0) + counts[body.id] * len(occurrence.places)
+                numbers[part.id] = numbers.get(part.id, 0) + counts[body.id] * len(occurrence.positions)
         return ((part, numbers[name]) for name, part in parts.items())
 
     @property
@@ -134,10 +134,10 @@ class Tree:
         """Mass of all parts that are weighed [kg]."""
         return math.fsum(number * part.mass for part, number in self.occurrences() if not math.isnan(part.mass))
 
-    def carrying(self, parent: str, tree: "Tree", place: Placement = HERE) -> "Tree":
-        """This tree with another on one of its bodies: the other's ground at a place in that body's frame."""
+    def carrying(self, parent: str, tree: "Tree", position: Placement = IDENTITY) -> "Tree":
+        """The tree with another on one of its bodies: the ground of the other at a position in that body's frame."""
         carried = (
-            replace(body, parent=parent, places=tuple(place.after(own) for own in body.places))
+            replace(body, parent=parent, positions=tuple(position.after(own) for own in body.positions))
             if body.parent == GROUND
             else body
             for body in tree.bodies
@@ -147,4 +147,4 @@ class Tree:
 
 def mated(own: Seat, other: Seat) -> Placement:
     """Where a part lies in another's frame when a seat of it meets a seat of the other: origins and axes as one."""
-    return other.place.after(own.place.inverse)
+    return other.position.after(own.position.inverse)

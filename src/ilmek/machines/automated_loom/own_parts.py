@@ -4,9 +4,9 @@ from ilmek.elements.materials import MATERIALS
 from ilmek.elements.tubes import TUBES, Tube
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.part.part import Part
-from ilmek.part.placement import ALONG_WIDTH, place
+from ilmek.part.placement import ALONG_WIDTH, placement
 from ilmek.part.shapes import tube
-from ilmek.part.tree import Body, Joint, JointKind, Occurrence, Tree
+from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
 
 BACK_REST = "automated-loom/back-rest"
 
@@ -28,5 +28,7 @@ def own_tree(loom: LoomDesign) -> Tree:
         tube(section.outer, section.wall, wide),
         MATERIALS["structural steel"],
     )
-    position = place(-wide / 2, axis.imag, axis.real).after(ALONG_WIDTH)
-    return Tree((Body("automated-loom/back rest", (Occurrence(roller, (position,)),), joint=Joint(JointKind.MISSING)),))
+    position = placement(-wide / 2, axis.imag, axis.real).after(ALONG_WIDTH)
+    return Tree(
+        (RigidBody("automated-loom/back rest", (Occurrence(roller, (position,)),), joint=Joint(JointKind.MISSING)),)
+    )

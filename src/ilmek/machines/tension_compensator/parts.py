@@ -17,11 +17,11 @@ from ilmek.errors import ParameterError
 from ilmek.machines.tension_compensator.members import BUSH_WALL, SADDLE, Members, part_id
 from ilmek.machines.tension_compensator.params import STEEL, TensionCompensatorParams
 from ilmek.machines.tension_compensator.synthesis import SprungLever
-from ilmek.part.part import Part, Purchase
-from ilmek.part.placement import HERE, Placement, place
-from ilmek.part.section import drilled
+from ilmek.part.part import Bought, Part
+from ilmek.part.placement import IDENTITY, Placement, placement
+from ilmek.part.profile import drilled
 from ilmek.part.shapes import Prism, Shape, bar, square_tube, tube
-from ilmek.part.tree import Body, Joint, JointKind, Occurrence
+from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody
 from ilmek.plane.contours import rounded_hull, strip
 from ilmek.records import record
 from ilmek.report import Contour, Hole
@@ -106,7 +106,7 @@ def parts_of(params: TensionCompensatorParams, sprung: SprungLever, members: Mem
             "bearing",
             roller.name,
             tube(roller.outer, (roller.outer - roller.bore) / 2, roller.width),
-            purchase=Purchase(roller.name, roller.mass),
+            purchase=Bought(roller.name, roller.mass),
             envelope=True,
         ),
         roller_pin=_made("roller-pin", "pin of a roller", turned, pins, _round(roller.bore)),
@@ -116,15 +116,17 @@ def parts_of(params: TensionCompensatorParams, sprung: SprungLever, members: Mem
     )
 
 
-def sprung_bar(parts: CompensatorParts, name: str, motion: SceneMotion | None, placement: Placement = HERE) -> Body:
+def sprung_bar(
+    parts: CompensatorParts, name: str, motion: SceneMotion | None, position: Placement = IDENTITY
+) -> RigidBody:
     """What turns about the levers' pivots: a bar with its levers, saddles and rollers.
 
-    placement  of the parity's axes in those of the compensator      motion  of the lever; None: it stands at rest
+    position  of the parity's axes in those of the compensator      motion  of the lever; None: it stands at rest
     """
     at, thick = parts.supports, parts.supports.params.lever_thickness
     saddle = at.saddle(at.bar, -at.bar)
     wide = _springs_wide(at.sprung)
-    return Body(
+    return RigidBody(
         part_id(f"{name} bar"),
         (
             Occurrence(parts.bar, _places([at.bar], [-at.params.width / 2])),
@@ -135,11 +137,11 @@ def sprung_bar(parts: CompensatorParts, name: str, motion: SceneMotion | None, p
             Occurrence(parts.spring_pin, _places([at.reach], at.stations, -wide / 2)),
         ),
         joint=Joint(JointKind.PIN, motion=motion),
-        places=(placement.after(_along(at.sprung.lever.pivot)),),
+        positions=(position.after(_along(at.sprung.lever.pivot)),),
     )
 
 
-def standing(parts: CompensatorParts, name: str, placement: Placement = HERE) -> tuple[Body, ...]:
+def standing(parts: CompensatorParts, name: str, position: Placement = IDENTITY) -> tuple[RigidBody, ...]:
     """The rods of a parity, the rollers that carry them, its beam with the levers' pins, and its springs.
 
     Nothing carries the rods' saddles, the beam and the springs' anchors yet: these joints are missing.
@@ -150,20 +152,20 @@ def standing(parts: CompensatorParts, name: str, placement: Placement = HERE) ->
     beam = lever.pivot + members.lever / 2 + members.beam.side / 2 + PLAY
     springs = _spring_stations(at)
     along = lever.pivot + lever.reach - complex(lever.anchor)
-    upwards = place(about=(1.0, 0.0, 0.0), angle=-math.pi / 2)
-    leaning = place(about=(0.0, 0.0, 1.0), angle=cmath.phase(along) - math.pi / 2).after(upwards)
+    upwards = placement(about=(1.0, 0.0, 0.0), angle=-math.pi / 2)
+    leaning = placement(about=(0.0, 0.0, 1.0), angle=cmath.phase(along) - math.pi / 2).after(upwards)
     missing = Joint(JointKind.MISSING)
     return (
-        Body(
+        RigidBody(
             part_id(f"{name} beam"),
             (
                 Occurrence(parts.beam, _places([beam], [-at.params.width / 2])),
                 Occurrence(parts.pin, _places([lever.pivot], at.stations, -members.pin - thick)),
             ),
             joint=missing,
-            places=(placement,),
+            positions=(position,),
         ),
-        Body(
+        RigidBody(
             part_id(f"{name} rods"),
             (
                 Occurrence(parts.rod, _places(rods, [-at.params.width / 2])),
@@ -171,9 +173,9 @@ def standing(parts: CompensatorParts, name: str, placement: Placement = HERE) ->
                 *_rollers(parts, np.concatenate([at.saddle(rod, -1) for rod in rods]), 1.5 * thick),
             ),
             joint=missing,
-            places=(placement,),
+            positions=(position,),
         ),
-        Body(
+        RigidBody(
             part_id(f"{name} springs"),
             (
                 Occurrence(parts.spring, tuple(_along(complex(lever.anchor), z).after(leaning) for z in springs)),
@@ -182,7 +184,7 @@ def standing(parts: CompensatorParts, name: str, placement: Placement = HERE) ->
                 ),
             ),
             joint=missing,
-            places=(placement,),
+            positions=(position,),
         ),
     )
 
@@ -216,7 +218,7 @@ def _round(diameter: float) -> str:
 
 
 def _along(point: complex, z: float = 0.0) -> Placement:
-    return place(point.real, point.imag, z)
+    return placement(point.real, point.imag, z)
 
 
 def _places(
@@ -225,7 +227,7 @@ def _places(
     """Each point at each station along the width, further by a shift [m], turned to a direction."""
     angle = cmath.phase(turned)
     return tuple(
-        place(point.real, point.imag, z + shift, about=(0.0, 0.0, 1.0), angle=angle)
+        placement(point.real, point.imag, z + shift, about=(0.0, 0.0, 1.0), angle=angle)
         for point in points
         for z in stations
     )
@@ -269,11 +271,11 @@ def _spring(params: TensionCompensatorParams, sprung: SprungLever) -> Part:
     """The spring, its room that of the coil at rest between its pins."""
     wound, title = sprung.spring, "spring of the compensator"
     if wound is None:
-        return Part(part_id("spring"), title, "spring", purchase=Purchase("none of the table is enough"))
+        return Part(part_id("spring"), title, "spring", purchase=Bought("none of the table is enough"))
     size = f"{params.wire} {wound.wire_diameter / mm:g} mm, {format_quantity(sprung.rate, 'N/mm', 3)}"
     length = sprung.free_length - sprung.preload / sprung.rate
     coil = tube(wound.diameter + wound.wire_diameter, wound.wire_diameter, length)
-    return Part(part_id("spring"), title, "spring", size, coil, purchase=Purchase(size, wound.mass), envelope=True)
+    return Part(part_id("spring"), title, "spring", size, coil, purchase=Bought(size, wound.mass), envelope=True)
 
 
 def _spring_pitch(sprung: SprungLever) -> float:

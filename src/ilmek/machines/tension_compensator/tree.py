@@ -7,8 +7,8 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.machines.tension_compensator.design import TensionCompensator
 from ilmek.machines.tension_compensator.parts import sprung_bar, standing
-from ilmek.part.placement import place
-from ilmek.part.tree import Tree
+from ilmek.part.placement import placement
+from ilmek.part.tree import RigidBody, Tree
 from ilmek.report.scene import SceneMotion
 
 EVEN, ODD = "even", "odd"
@@ -19,9 +19,9 @@ def tree(design: TensionCompensator, motions: dict[str, SceneMotion] | None = No
 
     motions  of the levers of even and odd warps, by these names; default: all stand at rest
     """
-    parts, half = design.parts, place(design.half_depth)
-    turned = {EVEN: half, ODD: place(about=(0.0, 1.0, 0.0), angle=math.pi).after(half)}
-    bodies = []
+    parts, half = design.parts, placement(design.half_depth)
+    turned = {EVEN: half, ODD: placement(about=(0.0, 1.0, 0.0), angle=math.pi).after(half)}
+    bodies: list[RigidBody] = []
     for parity in (EVEN, ODD)[: design.bars]:
         bodies += standing(parts, parity, turned[parity])
         bodies.append(sprung_bar(parts, parity, (motions or {}).get(parity), turned[parity]))

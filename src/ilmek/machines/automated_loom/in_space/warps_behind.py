@@ -25,11 +25,11 @@ def compensator(made: SceneMaker, ground: str) -> SceneGroup:
     if machine is None:
         return SceneGroup((), ())
     bodies = tree(machine.design, _motions(made))
-    position = compensator_place(made.loom)
+    position = compensator_position(made.loom)
     return SceneGroup(frames_of(bodies, ground, position), parts_of(bodies, COMPENSATOR, position, made.checks))
 
 
-def compensator_place(loom: LoomDesign) -> Placement:
+def compensator_position(loom: LoomDesign) -> Placement:
     """Where the middle of the compensator lies: in the middle of the room that the side view keeps for it."""
     room = loom.side.compensator
     middle = room.corner + room.size / 2

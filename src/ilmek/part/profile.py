@@ -22,7 +22,7 @@ _SHARE, _WEIGHT = (_NODES + 1) / 2, _WEIGHTS / 2
 
 
 @record
-class Section:
+class Profile:
     """A plane figure: all within its outline that is in none of its holes [m].
 
     outline  closed, in either direction        holes  closed, inside the outline, apart from each other
@@ -52,15 +52,15 @@ class Section:
     def moment(self, p: int, q: int) -> float:
         """Moment M(p, q) about the origin [m^(p + q + 2)].
 
-        >>> round(Section(circle(0j, 1.0)).moment(2, 0) / math.pi, 12)
+        >>> round(Profile(circle(0j, 1.0)).moment(2, 0) / math.pi, 12)
         0.25
         """
         return math.fsum(contour_moment(contour, p, q) for contour in self.contours)
 
 
-def drilled(outline: Contour, holes: Sequence[Hole], cutouts: Sequence[Contour] = ()) -> Section:
+def drilled(outline: Contour, holes: Sequence[Hole], cutouts: Sequence[Contour] = ()) -> Profile:
     """The section of a plate with round holes and other cutouts."""
-    return Section(outline, (*(circle(hole.at, hole.radius) for hole in holes), *cutouts))
+    return Profile(outline, (*(circle(hole.at, hole.radius) for hole in holes), *cutouts))
 
 
 def _clockwise(contour: Contour) -> Contour:
