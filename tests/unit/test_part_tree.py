@@ -1,6 +1,7 @@
 """The tree of a machine's parts: its list, its frames in space, errors, and the compensator as its first machine."""
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -110,9 +111,9 @@ def test_two_seats_meet() -> None:
         (lambda: Placement(np.zeros(3), np.diag([1.0, 1.0, -1.0])), "no rotation"),
     ],
 )
-def test_what_cannot_be_is_refused(make, words: str) -> None:
+def test_what_cannot_be_is_refused(build: Callable[[], object], words: str) -> None:
     with pytest.raises(ParameterError, match=words):
-        make()
+        build()
 
 
 def test_every_line_of_the_compensator_is_a_part_of_its_tree_and_back() -> None:
