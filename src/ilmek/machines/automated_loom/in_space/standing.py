@@ -6,7 +6,6 @@ from dataclasses import replace
 import numpy as np
 
 from ilmek.elements.columns import HollowSquare
-from ilmek.machines.arrangement.side_view import RoundPart
 from ilmek.machines.automated_loom.cyclogram import HEADS, TAKE_UP
 from ilmek.machines.automated_loom.in_space.maker import (
     COARSE,
@@ -20,6 +19,9 @@ from ilmek.machines.automated_loom.in_space.maker import (
 from ilmek.machines.automated_loom.in_space.warps_behind import compensator
 from ilmek.machines.automated_loom.own_parts import own_tree
 from ilmek.machines.automated_loom.parts import parts_of_loom
+from ilmek.machines.warp_tension.tree import LOWER, SPACER, UPPER, turning
+from ilmek.machines.warp_tension.tree import tree as cylinder_tree
+from ilmek.part.placement import ALONG_WIDTH, placement
 from ilmek.part.space import frames_of, parts_of
 from ilmek.plane.solids import box, lengthwise, moved, square_tube, together, tube, upright
 from ilmek.report.scene import SceneFrame, ScenePart, Solid
@@ -27,9 +29,6 @@ from ilmek.timing.track import sample
 from ilmek.units import mm
 
 GROUND, RAIL = "ground", "heads' rail"
-_ROUND = 0.2 * mm
-"""Deviation of the facets of cylinders [m]."""
-
 _MOTOR_FACE = {"NEMA 17": 42.3 * mm, "NEMA 23": 57.2 * mm, "NEMA 34": 86.4 * mm, "NEMA 42": 107.9 * mm}
 """Sides of stepper motors' faces [NEMA ICS 16]; others: 80 mm. Length: twice the face, assumed by this project."""
 
@@ -40,15 +39,15 @@ def standing(made: SceneMaker) -> SceneGroup:
     rail = made.loom.side.rail
     middle = rail.corner + rail.size / 2
     retreat = along_track(made.loom.row_cyclogram, HEADS, (0.0, 0.0, 1.0))
-    own, behind = own_tree(made.loom), compensator(made, GROUND)
+    own, behind, cylinders = own_tree(made.loom), compensator(made, GROUND), _warp_cylinders(made)
     frames = (
         ground,
         SceneFrame(RAIL, in_side_view(np.array([middle])), motion=retreat),
-        *_cylinder_frames(made),
+        *cylinders.frames,
         *frames_of(own, GROUND),
         *behind.frames,
     )
-    parts = (*_frame_parts(made), *_cylinders(made), *_motors(made))
+    parts = (*_frame_parts(made), *cylinders.parts, *_motors(made))
     return SceneGroup(frames, (*parts, *parts_of(own, "automated-loom", checks=made.checks), *behind.parts))
 
 
@@ -102,43 +101,25 @@ def _feet(made: SceneMaker, section: HollowSquare) -> Solid:
     return together(*(moved(one, (at, side.floor + section.side / 2, z)) for at, z in origins))
 
 
-def _rollers(made: SceneMaker) -> dict[str, tuple[RoundPart, str]]:
-    side = made.loom.side
-    return {
-        "upper cylinder": (side.upper, "cylinder"),
-        "spacer cylinder": (side.spacer, "spacer cylinder"),
-        "lower cylinder": (side.lower, "cylinder"),
-    }
-
-
-def _cylinder_frames(made: SceneMaker) -> Iterator[SceneFrame]:
-    row = made.loom.row_cyclogram
+def _warp_cylinders(made: SceneMaker) -> SceneGroup:
+    """The cylinders of the warps with bearings and drives where the side view has them, and the whole carpet's roll."""
+    side, row = made.loom.side, made.loom.row_cyclogram
+    axes = {UPPER: side.upper, SPACER: side.spacer, LOWER: side.lower}
     track = row.track(TAKE_UP)
     angle = track_angles(track)
     taken = sample(track, angle).position
-    for name, (roller, _) in _rollers(made).items():
-        radius = made.loom.side.roll if name == "lower cylinder" else roller.radius
-        yield SceneFrame(name, in_side_view(np.array([roller.at])), motion=motion(row, angle, rotation=taken / radius))
-
-
-def _cylinders(made: SceneMaker) -> Iterator[ScenePart]:
-    design, half = made.loom.warp_tension, made.width / 2
-    wall = design.outer_radius - design.inner_radius
-    for name, (roller, line) in _rollers(made).items():
-        solid = tube(0j, roller.radius, roller.radius - wall, -half, half, chord_error=_ROUND)
-        checks = ("warp-tension: slope", "warp-tension: deflection", "warp-tension: bending")
-        yield made.part(name, name, solid, machine="warp-tension", line=line, checks=checks)
-    side = made.loom.side
+    radii = {name: side.roll if name == LOWER else axis.radius for name, axis in axes.items()}
+    motions = {name: motion(row, angle, rotation=taken / radius) for name, radius in radii.items()}
+    positions = {name: placement(0.0, axis.at.imag, axis.at.real).after(ALONG_WIDTH) for name, axis in axes.items()}
+    bodies = turning(cylinder_tree(made.loom.warp_tension, positions), motions)
+    parts = parts_of(bodies, "warp-tension", checks=made.checks, deviation=COARSE)
     roll = tube(side.lower.at, side.roll, side.lower.radius, -made.half, made.half, chord_error=COARSE)
-    yield made.part("whole carpet on the lower cylinder", GROUND, roll, machine="automated-loom", envelope=True)
+    carpet = made.part("whole carpet on the lower cylinder", GROUND, roll, machine="automated-loom", envelope=True)
+    return SceneGroup(frames_of(bodies, GROUND), (*parts, carpet))
 
 
 def _motors(made: SceneMaker) -> Iterator[ScenePart]:
-    """Motors of cylinders and cam shafts, at the right column: their position there is assumed by this project."""
-    line = made.lines.get("motor of a cylinder")
-    if line is not None:
-        for name, (roller, _) in _rollers(made).items():
-            yield _motor(made, f"motor of the {name}", "motor of a cylinder", roller.at, "warp-tension")
+    """Motors of the cam shafts, at the right column: their position there is assumed by this project."""
     for index, cam in enumerate(made.loom.side.cams):
         line_name = next((one for one in made.lines if one.startswith("motor of the cam shaft")), "")
         if line_name:
