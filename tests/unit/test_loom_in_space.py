@@ -59,7 +59,7 @@ def test_the_frames_members_weigh_what_the_parts_list_states() -> None:
     mass = sum(volume(part.solids[0]) * part.number for part in members) * STEEL.density
     assert mass == pytest.approx(parts_of_loom(loom).frame.mass, rel=1e-9)
     assert mass == pytest.approx(sum(part.mass * part.number for part in members), rel=1e-9)
-    shaft = _part(found, "cam shaft 1")
+    shaft = _part(found, "shedding/cam-shaft")
     assert volume(shaft.solids[0]) * STEEL.density == pytest.approx(shaft.mass, rel=1e-9)
 
 
@@ -119,17 +119,18 @@ def test_motions_are_those_of_the_cyclograms() -> None:
 
 def test_a_cam_lifts_its_warp_as_the_cyclogram_states() -> None:
     loom, found = _made()
-    cam, turned = loom.shedding.cam, _frame(found, "cam shaft 1").motion
-    even = _frame(found, "shedding-cam on cam shaft 1")
+    cam, turned = loom.shedding.cam, _frame(found, "shedding/cam shaft").motion
+    even = _frame(found, "shedding/cam shaft: shedding/shedding-cam")
     assert turned is not None
     assert even.phases is not None
     lift = sample(loom.row_cyclogram.track(EVEN), turned.angle).position
-    for rotation, lifted in zip(turned.rotation[::7], lift[::7], strict=True):
+    assert _frame(found, "shedding/cam shaft").axis == pytest.approx((-1.0, 0.0, 0.0))  # to the weaver's left
+    for rotation, lifted in zip(-turned.rotation[::7], lift[::7], strict=True):
         angle = -np.linspace(-0.02, 0.02, 2001) - rotation
         outline = _turned(cam.surface(angle), rotation)  # of an even cam: its phase is 0
         at = np.interp(0.0, outline.imag[np.argsort(outline.imag)], outline.real[np.argsort(outline.imag)])
         assert at == pytest.approx(cam.prime_radius + lifted, abs=1e-6)
-    assert sorted(set(np.round(even.phases, 9))) == pytest.approx([0.0, math.pi])
+    assert sorted(set(np.round(np.abs(even.phases), 9))) == pytest.approx([0.0, math.pi])
 
 
 def test_the_links_of_the_beat_up_stay_joined_and_carry_the_beater() -> None:

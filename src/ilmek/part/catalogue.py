@@ -42,6 +42,12 @@ def reducer(name: str, title: str, ratio: float, row: Motor | None) -> Part:
     return Part(name, title, "reducer", shape=box(face, face, REDUCER_LENGTH * face), purchase=bought, envelope=True)
 
 
+def length_of(part: Part) -> float:
+    """Length along its axis of a bought part whose room is one prism [m]."""
+    assert isinstance(part.shape, Prism)
+    return part.shape.length
+
+
 def bearing(name: str, title: str, row: RollingBearing) -> Part:
     """A rolling bearing about z from z = 0, with its square flange if it has one."""
     ring = Placed(tube(row.outer, (row.outer - row.bore) / 2, row.width))

@@ -81,7 +81,8 @@ class Prism:
 
     def mesh(self, deviation: float = CHORD) -> Solid:
         """A closed surface of triangles; arcs become chords inside of them."""
-        return extruded([along(contour, deviation) for contour in self.section.contours], self.length)
+        loops = (along(contour, deviation) for contour in self.section.contours)
+        return extruded([thinned(loop, deviation) if self.section.smooth else loop for loop in loops], self.length)
 
     def pieces(self, deviation: float = CHORD) -> tuple[Points, ...]:
         """Prisms over convex pieces of the outline, without its holes."""

@@ -13,7 +13,7 @@ from ilmek.machines.warp_tension.params import WarpTensionParams
 from ilmek.part import catalogue
 from ilmek.part.part import Part
 from ilmek.part.placement import IDENTITY, Placement, placement
-from ilmek.part.shapes import Prism, Turned, stepped
+from ilmek.part.shapes import Turned, stepped
 from ilmek.part.tree import GROUND, Joint, JointKind, Occurrence, RigidBody, Tree
 from ilmek.report.scene import SceneMotion
 from ilmek.units import format_quantity, mm
@@ -107,8 +107,7 @@ def _drive_parts(design: WarpTensionDesign) -> tuple[Part, Part]:
 
 def _flange(geared: Part, far: float) -> Placement:
     """Where reducer and motor meet, beyond the bearing's end [m]: the reducer towards the cylinder."""
-    assert isinstance(geared.shape, Prism)
-    return placement(z=far + geared.shape.length, about=(1.0, 0.0, 0.0), angle=math.pi)
+    return placement(z=far + catalogue.length_of(geared), about=(1.0, 0.0, 0.0), angle=math.pi)
 
 
 def _side(*, z: float, flipped: bool) -> Placement:

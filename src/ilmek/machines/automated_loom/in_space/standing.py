@@ -1,7 +1,5 @@
 """What stands, and what turns with the warps: frame, heads' rail, cylinders, back rest, carpet roll, motors."""
 
-from collections.abc import Iterator
-
 import numpy as np
 
 from ilmek.machines.automated_loom.cyclogram import HEADS, TAKE_UP
@@ -20,18 +18,15 @@ from ilmek.machines.warp_tension.tree import LOWER, SPACER, UPPER, turning
 from ilmek.machines.warp_tension.tree import tree as cylinder_tree
 from ilmek.part.placement import ALONG_WIDTH, placement
 from ilmek.part.space import frames_of, parts_of
-from ilmek.plane.solids import box, tube
-from ilmek.report.scene import SceneFrame, ScenePart
+from ilmek.plane.solids import tube
+from ilmek.report.scene import SceneFrame
 from ilmek.timing.track import sample
-from ilmek.units import mm
 
 GROUND = "ground"
-_MOTOR_FACE = {"NEMA 17": 42.3 * mm, "NEMA 23": 57.2 * mm, "NEMA 34": 86.4 * mm, "NEMA 42": 107.9 * mm}
-"""Sides of stepper motors' faces [NEMA ICS 16]; others: 80 mm. Length: twice the face, assumed by this project."""
 
 
 def standing(made: SceneMaker) -> SceneGroup:
-    """Frame with its rail, what it carries, cylinders, compensator, and motors of the cam shafts."""
+    """Frame with its rail, what it carries, cylinders, and compensator."""
     retreat = along_track(made.loom.row_cyclogram, HEADS, (0.0, 0.0, 1.0))
     own = frame_tree(made.loom, parts_of_loom(made.loom).frame, retreat)
     carried = carried_tree(made.loom)
@@ -45,9 +40,8 @@ def standing(made: SceneMaker) -> SceneGroup:
         ),
         (
             *parts_of(own, "automated-loom", checks=made.checks),
-            *parts_of(carried, "automated-loom", checks=made.checks, deviation=COARSE),
+            *parts_of(carried, "automated-loom", checks=made.checks, deviations=(COARSE,)),
             *(part for group in groups for part in group.parts),
-            *_motors(made),
         ),
     )
 
@@ -63,34 +57,7 @@ def _warp_cylinders(made: SceneMaker) -> SceneGroup:
     motions = {name: motion(row, angle, rotation=taken / radius) for name, radius in radii.items()}
     positions = {name: placement(0.0, axis.at.imag, axis.at.real).after(ALONG_WIDTH) for name, axis in axes.items()}
     bodies = turning(cylinder_tree(made.loom.warp_tension, positions), motions)
-    parts = parts_of(bodies, "warp-tension", checks=made.checks, deviation=COARSE)
+    parts = parts_of(bodies, "warp-tension", checks=made.checks, deviations=(COARSE,))
     roll = tube(side.lower.at, side.roll, side.lower.radius, -made.half, made.half, chord_error=COARSE)
     carpet = made.part("whole carpet on the lower cylinder", GROUND, roll, machine="automated-loom", envelope=True)
     return SceneGroup(frames_of(bodies, GROUND), (*parts, carpet))
-
-
-def _motors(made: SceneMaker) -> Iterator[ScenePart]:
-    """Motors of the cam shafts, at the right column: their position there is assumed by this project."""
-    for index, cam in enumerate(made.loom.side.cams):
-        line_name = next((one for one in made.lines if one.startswith("motor of the cam shaft")), "")
-        if line_name:
-            suffix = f" {index + 1}" if index else ""
-            yield _motor(made, f"motor of the cam shaft{suffix}", line_name, cam.at, "shedding")
-
-
-def _motor(made: SceneMaker, name: str, line: str, at: complex, machine: str) -> ScenePart:
-    face = next((side for kind, side in _MOTOR_FACE.items() if kind in made.lines[line].description), 80 * mm)
-    section = parts_of_loom(made.loom).frame.column.side
-    low = made.width / 2 + section
-    half = face / 2
-    solid = box((low, at.imag - half, at.real - half), (low + 2 * face, at.imag + half, at.real + half))
-    return made.part(
-        name,
-        GROUND,
-        solid,
-        machine=machine,
-        line=line,
-        checks=(f"{machine}: motor torque",),
-        envelope=True,
-        title=f"{name}: {made.lines[line].description}",
-    )
