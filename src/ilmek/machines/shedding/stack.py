@@ -29,6 +29,11 @@ LEAST_SHARE = 0.1
 """Share of the pitch that counts as cam and guides where the warps alone fill it; their checks then fail."""
 
 
+def part_id(name: str, shaft: int = 0) -> str:
+    """Id of a part or body; of the second shaft and further ones with its number."""
+    return f"shedding/{name}-shaft-{shaft + 1}" if shaft else f"shedding/{name}"
+
+
 @record
 class PitchShares:
     """How the pitch of a cam shaft is shared: along the shaft, all in metres.

@@ -17,7 +17,7 @@ from ilmek.cams.programme import TURN
 from ilmek.elements.materials import MATERIALS, Material
 from ilmek.machines.shedding.cam_shaft import CamShaft
 from ilmek.machines.shedding.design import SheddingDesign
-from ilmek.machines.shedding.stack import POINTS, cam_outline
+from ilmek.machines.shedding.stack import POINTS, cam_outline, part_id
 from ilmek.part import catalogue
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import Placement, placement
@@ -30,11 +30,6 @@ from ilmek.report.scene import SceneMotion
 from ilmek.units import format_quantity, turn
 
 _CUT, _ALONG = "laser-cut part", (0.0, 0.0, 1.0)
-
-
-def part_id(name: str, shaft: int = 0) -> str:
-    """Id of a part or body; of the second shaft and further ones with its number."""
-    return f"shedding/{name}-shaft-{shaft + 1}" if shaft else f"shedding/{name}"
 
 
 def warp_positions(design: SheddingDesign) -> FloatArray:
