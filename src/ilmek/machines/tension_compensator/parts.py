@@ -20,7 +20,7 @@ from ilmek.machines.tension_compensator.synthesis import SprungLever
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import IDENTITY, Placement, placement
 from ilmek.part.profile import drilled
-from ilmek.part.shapes import Prism, Shape, bar, square_tube, tube
+from ilmek.part.shapes import Placed, Prism, Shape, Sum, bar, square_tube, tube
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody
 from ilmek.plane.contours import rounded_hull, strip
 from ilmek.records import record
@@ -149,7 +149,7 @@ def standing(parts: CompensatorParts, name: str, position: Placement = IDENTITY)
     at, thick = parts.supports, parts.supports.params.lever_thickness
     lever, path, members = at.sprung.lever, at.sprung.lever.path, at.members
     rods = [complex(-path.radius, side * path.half) for side in (1, -1)]
-    beam = lever.pivot + members.lever / 2 + members.beam.side / 2 + PLAY
+    beam = lever.pivot - 1j * (members.lever / 2 + members.beam.side / 2 + PLAY)
     springs = _spring_stations(at)
     along = lever.pivot + lever.reach - complex(lever.anchor)
     upwards = placement(about=(1.0, 0.0, 0.0), angle=-math.pi / 2)
@@ -268,14 +268,16 @@ def _beam(params: TensionCompensatorParams, members: Members) -> Shape:
 
 
 def _spring(params: TensionCompensatorParams, sprung: SprungLever) -> Part:
-    """The spring, its room that of the coil at rest between its pins."""
+    """The spring: its room is that of the coil at rest, between the seats at its pins, about z."""
     wound, title = sprung.spring, "spring of the compensator"
     if wound is None:
         return Part(part_id("spring"), title, "spring", purchase=Bought("none of the table is enough"))
     size = f"{params.wire} {wound.wire_diameter / mm:g} mm, {format_quantity(sprung.rate, 'N/mm', 3)}"
-    length = sprung.free_length - sprung.preload / sprung.rate
+    length = wound.free_length - sprung.preload / sprung.rate
     coil = tube(wound.diameter + wound.wire_diameter, wound.wire_diameter, length)
-    return Part(part_id("spring"), title, "spring", size, coil, purchase=Bought(size, wound.mass), envelope=True)
+    seat = (float(sprung.lever.spring_length(0.0)) - length) / 2
+    room = Sum((Placed(coil, (placement(z=seat),)),))
+    return Part(part_id("spring"), title, "spring", size, room, purchase=Bought(size, wound.mass), envelope=True)
 
 
 def _spring_pitch(sprung: SprungLever) -> float:
@@ -284,11 +286,18 @@ def _spring_pitch(sprung: SprungLever) -> float:
 
 
 def _springs_wide(sprung: SprungLever) -> float:
-    """Length of the pin that carries the springs of a lever [m]."""
-    return max(sprung.springs, 1) * max(_spring_pitch(sprung), 10 * PLAY)
+    """Length of the pin that carries the springs of a lever, as far beside it on both sides [m]."""
+    return 2 * max((abs(offset) for offset in _beside(sprung, 0.0)), default=0.0) + max(
+        _spring_pitch(sprung), 10 * PLAY
+    )
 
 
 def _spring_stations(at: BarSupports) -> list[float]:
-    """Positions of the springs along the width [m]: beside one another, in the middle of their lever."""
-    number, pitch = at.sprung.springs, _spring_pitch(at.sprung)
-    return [z + (k - (number - 1) / 2) * pitch for z in at.stations for k in range(number)]
+    """Positions of the springs along the width [m]: beside their lever, on both sides in turn."""
+    return [z + offset for z in at.stations for offset in _beside(at.sprung, at.params.lever_thickness)]
+
+
+def _beside(sprung: SprungLever, thick: float) -> list[float]:
+    """Offsets of the springs from the middle of a lever of a thickness [m]."""
+    pitch = _spring_pitch(sprung)
+    return [(-1) ** k * (thick / 2 + pitch * (k // 2 + 0.5)) for k in range(sprung.springs)]
