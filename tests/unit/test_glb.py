@@ -58,7 +58,7 @@ def test_every_node_has_one_parent_or_is_a_root() -> None:
     children = [one for node in found["nodes"] for one in node.get("children", ())]
     roots = found["scenes"][0]["nodes"]
     assert sorted([*children, *roots]) == list(range(len(found["nodes"])))
-    cams = [node for node in found["nodes"] if node.get("extras", {}).get("part") == "shedding shedding-cam"]
+    cams = [node for node in found["nodes"] if node.get("extras", {}).get("part") == "shedding/shedding-cam"]
     assert len(cams) == _scene().warps.x.size
     assert len({node["mesh"] for node in cams}) == 1
 

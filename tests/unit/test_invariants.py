@@ -13,7 +13,7 @@ from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.invariants import SOURCE, broken
 from ilmek.plane.contours import circle
 from ilmek.records import declared_results, layout
-from ilmek.report import CamTable, Hole, Part, Plate, Report, Result, Work, at_most
+from ilmek.report import BillLine, CamTable, Hole, Plate, Report, Result, Work, at_most
 from ilmek.units import mm
 
 SQUARE = np.array([0, 1, 1 + 1j, 1j])
@@ -33,8 +33,8 @@ def result(value: object, unit: str = "1", **more: object) -> Report:
         (result(None), "m has a value"),
         (result([2.0, -1.0], "kg", least=0.0), "m is not below its bound"),
         (replace(SOUND, checks=(at_most("heat", 1.0, math.inf, "1", ""),)), "heat: value and limit are finite"),
-        (replace(SOUND, parts=(Part("rod", 1, "", "", "", -0.1),)), "mass of the rod is positive"),
-        (replace(SOUND, parts=(Part("rod", -1, "", "", ""),)), "number of the rod is positive"),
+        (replace(SOUND, parts=(BillLine("rod", 1, "", "", "", -0.1),)), "mass of the rod is positive"),
+        (replace(SOUND, parts=(BillLine("rod", -1, "", "", ""),)), "number of the rod is positive"),
         (replace(SOUND, plates=(replace(PLATE, thickness=0.0),)), "thickness of the plate face is positive"),
         (replace(SOUND, plates=(replace(PLATE, outline=SQUARE[::-1]),)), "area of the plate face is positive"),
         (
@@ -78,7 +78,7 @@ def test_work_is_finite_and_not_negative(energy: float) -> None:
         result(0.0, "kg", least=0.0),
         result(None, absent="no load"),
         result({"a": None, "b": "text", "c": True}),
-        replace(SOUND, parts=(Part("rod", 0, "", "", ""),)),
+        replace(SOUND, parts=(BillLine("rod", 0, "", "", ""),)),
         replace(SOUND, plates=(PLATE, replace(PLATE, outline=circle(0.5 + 0.5j, 0.41)))),
     ],
 )

@@ -28,7 +28,7 @@ from dataclasses import dataclass
 from ilmek.machines.component import Component
 from ilmek.params import Params, kind
 from ilmek.records import computed, record
-from ilmek.report import Part, Work, at_most
+from ilmek.report import BillLine, Work, at_most
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +50,7 @@ MACHINE = Component(
     params=LampParams,
     design=Lamp,
     checks=lambda lamp: (at_most("power of the lamp", lamp.params.power, 100.0, "W", "socket"),),
-    parts=lambda lamp: (Part("lamp", 1, "", "", "bearing", mass=2.0),),
+    parts=lambda lamp: (BillLine("lamp", 1, "", "", "bearing", mass=2.0),),
     work=lambda lamp: (Work("light", 60.0, "row"),),
     fit=lambda task: LampParams(width=task.params.width),
 )

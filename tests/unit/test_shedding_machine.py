@@ -40,14 +40,14 @@ def test_load_is_the_vector_sum_of_weight_and_one_parity_with_safety_2() -> None
     design = made()
     weight, across = design.stack.mass * 9.81, 300 * 10.0
     assert design.shaft.load == pytest.approx(2 * math.hypot(weight, across) / 1.2)
-    assert made(safety="1").shaft.load == pytest.approx(design.shaft.load / 2)
+    assert made(safety="1").shaft.load == pytest.approx(design.shaft.load / 2, rel=1e-4)  # of a thinner bar
 
 
 def test_the_stack_weighs_cams_guides_and_the_shaft_in_their_bores() -> None:
     design = made()
     stack, bar = design.stack, design.shaft.bar
     shaft = bar**2 * 1.2 * 7850
-    assert stack.mass == pytest.approx(600 * (stack.cam_mass + stack.guide_mass) + shaft)
+    assert stack.mass == pytest.approx(600 * stack.cam_mass + 601 * stack.guide_mass + shaft)  # guides at both ends
 
 
 def test_overlapping_sheds_load_the_shaft_with_all_warps_and_fail() -> None:

@@ -96,9 +96,9 @@ def test_parts_and_work_of_the_cylinders() -> None:
     assert parts["cylinder"].number == 2
     assert parts["cylinder"].mass == pytest.approx(made.mass)
     assert {name: part.number for name, part in parts.items() if name.startswith("bearing")} == {
-        "bearing of the upper": 2,
-        "bearing of the lower": 2,
-        "bearing of the spacer": 2,
+        "bearing of the upper cylinder": 2,
+        "bearing of the lower cylinder": 2,
+        "bearing of the spacer cylinder": 2,
     }
     assert [(part.name, part.number) for part in parts.values() if part.drives] == [("motor of a cylinder", 3)]
     (work,) = warp_tension.MACHINE.work(made)

@@ -16,7 +16,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from ilmek.errors import ParameterError
-from ilmek.report import Part
+from ilmek.report import BillLine
 
 _RATES = {"each": "each", "per kg": "per_kg", "per m": "per_m", "per W": "per_W"}
 
@@ -46,6 +46,8 @@ PRICES: Mapping[str, PriceRates] = {
     "welded frame": PriceRates(per_kg=5.0),
     "machined link": PriceRates(each=25.0, per_kg=15.0),
     "head mechanism": PriceRates(each=600.0, per_kg=80.0),
+    "pin or bush": PriceRates(each=4.0, per_kg=8.0),
+    "turned part": PriceRates(each=15.0, per_kg=6.0),
     "yarn tube": PriceRates(each=15.0),
     "bearing": PriceRates(each=15.0),
     "spring": PriceRates(each=5.0, per_kg=6.0),
@@ -78,7 +80,7 @@ def read_prices(text: str | None) -> Mapping[str, PriceRates]:
     return prices
 
 
-def price_of(part: Part, prices: Mapping[str, PriceRates]) -> float:
+def price_of(part: BillLine, prices: Mapping[str, PriceRates]) -> float:
     """Price of all pieces of a part, in the currency of the table of prices."""
     weighed = 0.0 if math.isnan(part.mass) else part.mass
     return part.number * prices[part.kind].price(weighed, part.length, part.power)

@@ -18,7 +18,7 @@ import numpy as np
 from ilmek.arrays import ComplexArray, FloatArray, RealField
 from ilmek.machines.loom_task import LoomTask
 from ilmek.records import computed, record, result, value_record
-from ilmek.report import Check, Part, Work, at_least
+from ilmek.report import BillLine, Check, Work, at_least
 from ilmek.timing.track import MotionLaw
 from ilmek.weaving.fell import Fabric
 
@@ -82,7 +82,7 @@ class BeatDrive:
     task: LoomTask
     beat: Beat
     fabric: Fabric
-    parts: tuple[Part, ...]
+    parts: tuple[BillLine, ...]
     work: tuple[Work, ...]
     torque: float
     path: BeatPath

@@ -18,9 +18,12 @@ from ilmek.machines.beat import PlannedBeat
 from ilmek.machines.invariants import broken
 from ilmek.machines.loom_task import LoomTask
 from ilmek.params import Params, Setting
+from ilmek.part.bill import bill
+from ilmek.part.plates import plates_of
+from ilmek.part.tree import Tree
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
-from ilmek.report import CamTable, Check, Choice, Figure, Part, Plate, Report, Table, Work, results_of
+from ilmek.report import BillLine, CamTable, Check, Choice, Figure, Plate, Report, Table, Work, results_of
 from ilmek.report.left_out import LazyFigure, made_figures
 from ilmek.timing.cyclogram import Cyclogram, Track
 
@@ -47,6 +50,7 @@ class Component:
     checks, tables, figures, warnings   analysis -> each; a figure that cannot be made is left out with a warning
     self_tests  analysis -> tests of the computation itself, such as a power balance; listed apart, a failed one is a
                 failed check too, so that such a design is never reported as sound
+    tree        design -> its parts in bodies, from which its parts list and its plates follow
     plates, cam_tables, cyclograms      design -> what is made of it, what its axes follow, its timing
     mechanism   design -> its linkage as an own mechanism, for a file; None where the design has none
     parts       design -> lines of the parts list                work     design -> work of its acts
@@ -74,11 +78,12 @@ class Component:
     tables: Callable[[Any], tuple[Table, ...]] = _nothing
     figures: Callable[[Any], tuple[Figure | LazyFigure, ...]] = _nothing
     warnings: Callable[[Any], tuple[str, ...]] = _nothing
+    tree: Callable[[Any], Tree] | None = None
     plates: Callable[[Any], tuple[Plate, ...]] = _nothing
     cam_tables: Callable[[Any], tuple[CamTable, ...]] = _nothing
     cyclograms: Callable[[Any], tuple[Cyclogram, ...]] | None = None
     mechanism: Callable[[Any], OwnMachine | None] | None = None
-    parts: Callable[[Any], tuple[Part, ...]] = _nothing
+    parts: Callable[[Any], tuple[BillLine, ...]] = _nothing
     work: Callable[[Any], tuple[Work, ...]] = _nothing
     tracks: Callable[[Any], tuple[Track, ...]] = _nothing
     choices: Callable[[Any], tuple[Choice, ...]] = _nothing
@@ -90,6 +95,12 @@ class Component:
     verdict: Callable[[Report], Any] | None = None
     headline: tuple[str, ...] = ()
     long: bool = False
+
+    def __post_init__(self) -> None:
+        tree = self.tree
+        if tree is not None:
+            object.__setattr__(self, "parts", lambda design: bill(tree(design)))
+            object.__setattr__(self, "plates", lambda design: plates_of(tree(design)))
 
     def __repr__(self) -> str:
         return f"<Component {self.name}: {self.summary[:200]}>"
@@ -166,7 +177,7 @@ class Child:
         return self.component.name
 
     @property
-    def parts(self) -> tuple[Part, ...]:
+    def parts(self) -> tuple[BillLine, ...]:
         """Lines of the parts list of one of them."""
         return self.component.parts(self.design)
 

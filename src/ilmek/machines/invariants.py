@@ -15,7 +15,7 @@ import numpy as np
 from ilmek.arrays import ComplexArray
 from ilmek.plane import biarcs, contours
 from ilmek.plane.vectors import dot
-from ilmek.report import CamTable, Check, Contour, Part, Plate, Report, Result, Work
+from ilmek.report import BillLine, CamTable, Check, Contour, Plate, Report, Result, Work
 
 SOURCE = "invariant of every design"
 
@@ -57,7 +57,7 @@ def _of_check(check: Check) -> Iterator[Check]:
         yield _count(f"{check.name}: value and limit are finite", infinite)
 
 
-def _of_part(part: Part) -> Iterator[Check]:
+def _of_part(part: BillLine) -> Iterator[Check]:
     quantities = (("number", part.number, "1"), ("length", part.length, "m"), ("power", part.power, "W"))
     weighed = () if math.isnan(part.mass) else (("mass", part.mass, "kg"),)
     for name, value, unit in (*quantities, *weighed):

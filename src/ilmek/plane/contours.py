@@ -9,11 +9,11 @@ import math
 
 import numpy as np
 
-from ilmek.arrays import Complex, Float, FloatArray
+from ilmek.arrays import Complex, ComplexArray, Float, FloatArray
 from ilmek.errors import ParameterError
 from ilmek.plane.curves import hull
 from ilmek.plane.vectors import cross, dot
-from ilmek.report import Contour
+from ilmek.report import Contour, Hole
 from ilmek.units import format_quantity
 
 STRAIGHT = 1e-8
@@ -30,6 +30,18 @@ def circle(at: complex, radius: float) -> Contour:
     0.25
     """
     return Contour(np.array([at + radius, at - radius]), np.ones(2))
+
+
+def as_hole(contour: Contour) -> Hole | None:
+    """The round hole that a contour of two half turns is; None: it is no circle.
+
+    >>> as_hole(circle(1j, 0.5)), as_hole(keyed_bore(0.010, 0.006, 0.0028))
+    (Hole(at=1j, radius=0.5, label=''), None)
+    """
+    if len(contour.points) != 2 or np.any(np.abs(np.abs(contour.bulges) - 1) > STRAIGHT):
+        return None
+    first, second = contour.points.tolist()
+    return Hole((first + second) / 2, abs(second - first) / 2)
 
 
 def polygon(corners: Complex[np.ndarray, " corners"]) -> Contour:
@@ -191,3 +203,38 @@ def bounds(contour: Contour) -> tuple[complex, complex]:
             reached.append(summits[turned <= abs(sweep)])
     points = np.concatenate(reached)
     return complex(points.real.min(), points.imag.min()), complex(points.real.max(), points.imag.max())
+
+
+def strip(nodes: Complex[np.ndarray, " nodes"], radius: float) -> Contour:
+    """All points within `radius` [m] of a line of straight pieces from node to node, its inner corners sharp.
+
+    Raises ParameterError for fewer than two nodes, a radius that is not above 0, and pieces too short for the radius at
+    their corners.
+    >>> bar = strip(np.array([0, 0.2 + 0j]), 0.02)
+    >>> round(area(bar), 12) == round(0.2 * 0.04 + math.pi * 0.02**2, 12)
+    True
+    """
+    if len(nodes) < 2 or not radius > 0:
+        raise ParameterError(f"a strip of {len(nodes)} nodes and radius {radius:g} m", allowed="two or more; above 0 m")
+    pieces = np.diff(nodes)
+    direction = pieces / np.abs(pieces)
+    half = np.angle(direction[1:] / direction[:-1]) / 2
+    if np.any(radius * np.tan(np.abs(half)) > np.minimum(np.abs(pieces[1:]), np.abs(pieces[:-1]))):
+        raise ParameterError("a strip with pieces shorter than its corners", do="set longer pieces or a smaller radius")
+    right = _strip_side(nodes, direction, radius)
+    left = _strip_side(nodes[::-1], -direction[::-1], radius)
+    points, bulges = zip(*right, *left, strict=True)
+    return Contour(np.array(points), np.array(bulges))
+
+
+def _strip_side(nodes: ComplexArray, direction: ComplexArray, radius: float) -> list[tuple[complex, float]]:
+    """Points of the right side of a strip from its first node to its last, and the bulge of the piece after each."""
+    side = [(nodes[0] - 1j * radius * direction[0], 0.0)]
+    for node, before, after in zip(nodes[1:-1], direction[:-1], direction[1:], strict=True):
+        turned = float(np.angle(after / before))
+        if turned > 0:
+            side += [(node - 1j * radius * before, math.tan(turned / 4)), (node - 1j * radius * after, 0.0)]
+        else:
+            inner = (before + after) / abs(before + after) / math.cos(turned / 2)
+            side.append((node - 1j * radius * inner, 0.0))
+    return [*side, (nodes[-1] - 1j * radius * direction[-1], 1.0)]

@@ -5,7 +5,7 @@ machine. Values are SI; the unit beside a value is the one to show it in.
 """
 
 from ilmek.records import DeclaredResult, computed, declared_results, group, record, result
-from ilmek.report.bill import NOT_WEIGHED, Part, Work
+from ilmek.report.bill import NOT_WEIGHED, BillLine, Work
 from ilmek.report.check import Check, at_least, at_most, in_words, must, shown_value, snap_to_limit
 from ilmek.report.choice import Alternative, Choice, choose, failing
 from ilmek.report.document import NEAREST, Report
@@ -45,6 +45,7 @@ __all__ = [
     "Alternative",
     "Animation",
     "Axis",
+    "BillLine",
     "CamTable",
     "Check",
     "Choice",
@@ -65,7 +66,6 @@ __all__ = [
     "Move",
     "MovingDot",
     "MovingStroke",
-    "Part",
     "Plate",
     "Plot",
     "Reading",

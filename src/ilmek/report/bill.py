@@ -7,12 +7,12 @@ NOT_WEIGHED = math.nan
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
+class BillLine:
     """A line of a parts list.
 
     kind    by which it is priced                  mass    of one [kg]; nan: not weighed
     length  of one [m], power  of one [W]: where its price depends on them
-    drives  whether it drives an axis of the control
+    drives  whether it drives an axis of the control        part    id of the part in the machine's tree; "": in none
     """
 
     name: str
@@ -24,6 +24,7 @@ class Part:
     length: float = 0.0
     power: float = 0.0
     drives: bool = False
+    part: str = ""
 
     @property
     def mass_all(self) -> float:

@@ -15,7 +15,10 @@ ROUNDING = 1e-9
 
 @value_record
 class Check:
-    """A judgement: `value` against `limit` [SI, shown in `unit`], the source of the limit, and what cures a failure."""
+    """A judgement: `value` against `limit` [SI, shown in `unit`], the source of the limit, and what cures a failure.
+
+    parts  ids of the parts that it concerns
+    """
 
     name: str
     value: float
@@ -25,6 +28,7 @@ class Check:
     source: str
     relation: str = "<="
     cure: str = ""
+    parts: tuple[str, ...] = ()
 
     def as_json(self) -> dict[str, Any]:
         """The check as plain data: name, value and limit [SI], their unit, ok, source, relation, cure, shown."""
@@ -58,25 +62,29 @@ def in_si(check: Judged) -> dict[str, str]:
     return {"unit": si_unit(check.unit), "shown": value if limit == "yes" else f"{value} {check.relation} {limit}"}
 
 
-def at_most(name: str, value: float, limit: float, unit: str, source: str, *, cure: str = "") -> Check:
+def at_most(
+    name: str, value: float, limit: float, unit: str, source: str, *, cure: str = "", parts: tuple[str, ...] = ()
+) -> Check:
     """The check value <= limit; a value that differs from the limit by rounding keeps it, NaN fails.
 
     >>> at_most("pressure angle", 0.1 + 0.2, 0.3, "rad", "given").ok
     True
     """
     value = snap_to_limit(value, limit)
-    return Check(name, value, float(limit), unit, bool(value <= limit), source, "<=", cure)
+    return Check(name, value, float(limit), unit, bool(value <= limit), source, "<=", cure, parts)
 
 
-def at_least(name: str, value: float, limit: float, unit: str, source: str, *, cure: str = "") -> Check:
+def at_least(
+    name: str, value: float, limit: float, unit: str, source: str, *, cure: str = "", parts: tuple[str, ...] = ()
+) -> Check:
     """The check value >= limit; a value that differs from the limit by rounding keeps it, NaN fails."""
     value = snap_to_limit(value, limit)
-    return Check(name, value, float(limit), unit, bool(value >= limit), source, ">=", cure)
+    return Check(name, value, float(limit), unit, bool(value >= limit), source, ">=", cure, parts)
 
 
-def must(name: str, holds: bool, source: str, *, cure: str = "") -> Check:
+def must(name: str, holds: bool, source: str, *, cure: str = "", parts: tuple[str, ...] = ()) -> Check:
     """The check of a plain yes or no, 1 or 0: what the machine must do, or a part that it must have."""
-    return Check(name, float(holds), 1.0, "", holds, source, ">=", cure)
+    return Check(name, float(holds), 1.0, "", holds, source, ">=", cure, parts)
 
 
 def in_words(check: Judged) -> tuple[str, str]:

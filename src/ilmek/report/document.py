@@ -6,7 +6,7 @@ from typing import Any, TypeVar
 
 from ilmek.errors import ParameterError, did_you_mean
 from ilmek.records import record, shown_value
-from ilmek.report.bill import Part
+from ilmek.report.bill import BillLine
 from ilmek.report.check import Check
 from ilmek.report.choice import Choice
 from ilmek.report.figure import Figure
@@ -52,7 +52,7 @@ class Report:
     warnings: tuple[str, ...] = ()
     plates: tuple[Plate, ...] = ()
     cam_tables: tuple[CamTable, ...] = ()
-    parts: tuple[Part, ...] = ()
+    parts: tuple[BillLine, ...] = ()
     children: tuple["Report", ...] = ()
     choices: tuple[Choice, ...] = ()
     headline: tuple[str, ...] = ()

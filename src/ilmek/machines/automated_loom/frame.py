@@ -27,6 +27,14 @@ from ilmek.report import Alternative, Check, Choice, at_least, at_most, choose
 EULER = "Euler's load; assumed by this project: parameter buckling_safety"
 
 
+def part_id(name: str) -> str:
+    """Id of a part or body of the loom itself."""
+    return f"automated-loom/{name}"
+
+
+_COLUMN = (part_id("column"),)
+
+
 @dataclass(frozen=True, slots=True)
 class FrameTask:
     """What the frame bears.
@@ -126,16 +134,30 @@ def column_checks(task: FrameTask, section: HollowSquare) -> tuple[Check, ...]:
     (stress, bow), limit = column_load(task, section), STEEL.strength / task.stress_safety
     cure, factor = "set a lower tension, or a narrower carpet", euler(task.height, section)
     return (
-        at_most("frame: stress of a column", stress, limit, "MPa", "yield of S235 over column_safety", cure=cure),
-        at_most("frame: bow of a column", bow, task.bow_limit, "mm", "column_bow", cure=cure),
-        at_least("frame: against buckling", factor / task.force, task.buckling_safety, "1", EULER, cure=cure),
+        at_most(
+            "frame: stress of a column",
+            stress,
+            limit,
+            "MPa",
+            "yield of S235 over column_safety",
+            cure=cure,
+            parts=_COLUMN,
+        ),
+        at_most("frame: bow of a column", bow, task.bow_limit, "mm", "column_bow", cure=cure, parts=_COLUMN),
+        at_least(
+            "frame: against buckling", factor / task.force, task.buckling_safety, "1", EULER, cure=cure, parts=_COLUMN
+        ),
     )
 
 
 def rail_checks(task: FrameTask, section: HollowSquare) -> tuple[Check]:
     """Sag of the heads' rail of a section."""
     cure, sag = "set a shorter rail_span or a larger rail_sag", rail_sag(task, section)
-    return (at_most("frame: sag of the heads' rail", sag, task.sag_limit, "mm", "rail_sag", cure=cure),)
+    return (
+        at_most(
+            "frame: sag of the heads' rail", sag, task.sag_limit, "mm", "rail_sag", cure=cure, parts=(part_id("rail"),)
+        ),
+    )
 
 
 def rail_sag(task: FrameTask, section: HollowSquare) -> float:

@@ -5,15 +5,14 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from functools import lru_cache
 
-from ilmek.elements.drive_parts import belt_motor_part
 from ilmek.elements.prices import PriceRates, price_of, read_prices
-from ilmek.machines.automated_loom.cyclogram import HEADS
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import FrameTask, LoomFrame, frame_for
+from ilmek.machines.automated_loom.own_parts import carried_tree, frame_tree
 from ilmek.machines.weaver import head_mass
+from ilmek.part.bill import bill
 from ilmek.records import computed, group, record
-from ilmek.report import Part
-from ilmek.timing.track import peak_acceleration, peak_speed
+from ilmek.report import BillLine
 
 STEEL = "structural steel"
 
@@ -25,7 +24,7 @@ _DEPTH = 0.3
 class PartsList:
     """The parts of a loom, its frame among them, and the prices used."""
 
-    parts: tuple[Part, ...]
+    parts: tuple[BillLine, ...]
     prices: Mapping[str, PriceRates]
     frame: LoomFrame = group()
 
@@ -42,7 +41,7 @@ class PartsList:
     )
 
 
-def driven_axes(parts: tuple[Part, ...]) -> int:
+def driven_axes(parts: tuple[BillLine, ...]) -> int:
     """Axes of the control: the motors of a parts list."""
     return sum(part.number for part in parts if part.drives)
 
@@ -51,14 +50,13 @@ def driven_axes(parts: tuple[Part, ...]) -> int:
 def parts_of_loom(loom: LoomDesign) -> PartsList:
     """The parts list. Raises ParameterError for unreadable prices."""
     prices = read_prices(loom.params.prices)
-    carried = (*_of_machines(loom), *_own(loom))
+    carried = (*_of_machines(loom), *bill(carried_tree(loom)))
     frame = frame_for(frame_task(loom, sum(part.mass_all for part in carried)))
     axes = driven_axes(carried)
     lines = (
         *carried,
-        Part("frame", 1, f"columns {frame.column.name}, rail {frame.rail.name}", STEEL, "welded frame", frame.mass),
-        Part("control", 1, f"{axes} axes", "", "control"),
-        Part("axis of the control", axes, "amplifier, cable, switch", "", "axis of the control"),
+        *bill(frame_tree(loom, frame)),
+        BillLine("axis of the control", axes, "amplifier, cable, switch", "", "axis of the control"),
     )
     return PartsList(lines, prices, frame)
 
@@ -87,21 +85,9 @@ def frame_task(loom: LoomDesign, carried: float) -> FrameTask:
     )
 
 
-def _of_machines(loom: LoomDesign) -> Iterator[Part]:
+def _of_machines(loom: LoomDesign) -> Iterator[BillLine]:
     """The parts of the machines, as many as there are, and those of the beat."""
     for child in loom.machines.values():
         for part in child.parts:
             yield replace(part, number=child.number * part.number)
     yield from loom.beat.parts
-
-
-def _own(loom: LoomDesign) -> tuple[Part, ...]:
-    """The rail of the heads with the axes of its retreat."""
-    row = loom.row_cyclogram
-    heads = row.track(HEADS)
-    moved = loom.heads * head_mass(loom.weaver) * peak_acceleration(heads, row.period)
-    return (
-        Part("rail of the heads", 1, "with a belt for each head", "", "linear axis", length=loom.task.width),
-        Part("axis of the rail's retreat", 2, "belt drive, one at each column", "", "linear axis", length=heads.stroke),
-        belt_motor_part("motor of the rail's retreat", moved, peak_speed(heads, row.period)),
-    )

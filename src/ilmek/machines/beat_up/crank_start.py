@@ -28,7 +28,7 @@ from ilmek.linkage.solve import solve
 from ilmek.machines.beat_up.design import BeatUp
 from ilmek.machines.beat_up.use_params import STARTS, CrankStartParams
 from ilmek.records import computed, record, result
-from ilmek.report import Alternative, Check, Choice, Json, Part, at_most, choose, must
+from ilmek.report import Alternative, BillLine, Check, Choice, Json, at_most, choose, must
 from ilmek.units import format_quantity, turn
 from ilmek.weaving.fell import Fabric
 
@@ -143,7 +143,7 @@ def start_checks(found: CrankStart) -> tuple[Check, ...]:
     return *made, at_most("torque of the clutch", found.clutch_torque, CLUTCHES[-1], "Nm", largest, cure=slower)
 
 
-def start_parts(found: CrankStart, name: str = "beat-up") -> tuple[Part, ...]:
+def start_parts(found: CrankStart, name: str = "beat-up") -> tuple[BillLine, ...]:
     """Motor, reducer, and clutch, brake and flywheel where there are."""
     speed, pair = found.duty.linkage.params.speed, found.pair
     motor, reducer = pair or (None, DIRECT)
@@ -154,8 +154,10 @@ def start_parts(found: CrankStart, name: str = "beat-up") -> tuple[Part, ...]:
         size = format_quantity(found.clutch or found.clutch_torque, "Nm")
         wheel = found.start_flywheel / FLYWHEEL_RADIUS**2
         mass = CLUTCH_MASS * (found.clutch or found.clutch_torque)
-        lines.append(Part(f"clutch and brake of the {name}", 1, size, "", "clutch and brake", mass))
-        lines.append(Part(f"flywheel of the {name}", 1, "on the motor's side", "structural steel", "steel bar", wheel))
+        lines.append(BillLine(f"clutch and brake of the {name}", 1, size, "", "clutch and brake", mass))
+        lines.append(
+            BillLine(f"flywheel of the {name}", 1, "on the motor's side", "structural steel", "steel bar", wheel)
+        )
     return tuple(lines)
 
 

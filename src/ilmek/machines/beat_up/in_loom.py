@@ -22,7 +22,7 @@ from ilmek.machines.fell_of_loom import loom_fabric
 from ilmek.machines.linkage_strength import FLAT_BARS
 from ilmek.machines.loom_task import LoomTask
 from ilmek.records import record
-from ilmek.report import Part, Work
+from ilmek.report import BillLine, Work
 from ilmek.units import format_quantity, mm, turn
 
 STEEL = "structural steel"
@@ -47,23 +47,25 @@ def fit(task: LoomTask) -> BeatUpParams:
     )
 
 
-def links_parts(linkage: BeatUp, number: int = 1) -> tuple[Part, ...]:
+def links_parts(linkage: BeatUp, number: int = 1) -> tuple[BillLine, ...]:
     """Links of a number of crank-rockers."""
     return tuple(
-        Part(f"{name} of the beat-up", number, format_quantity(linkage.lengths[name], "mm"), STEEL, "machined link", m)
+        BillLine(
+            f"{name} of the beat-up", number, format_quantity(linkage.lengths[name], "mm"), STEEL, "machined link", m
+        )
         for name, m in linkage.masses.items()
     )
 
 
-def parts(linkage: BeatUp) -> tuple[Part, ...]:
+def parts(linkage: BeatUp) -> tuple[BillLine, ...]:
     """Beater, links, and the motor that turns the crank at its speed."""
     torque, speed = linkage.drive_torque_max, linkage.params.speed
     motor = motor_part("motor of the beat-up", smallest_motor(torque, speed), torque, speed)
     return (_beater(linkage), *links_parts(linkage), motor)
 
 
-def _beater(linkage: BeatUp) -> Part:
-    return Part("beater", 1, "a tooth between two warps", STEEL, "laser-cut part", linkage.params.beater_mass)
+def _beater(linkage: BeatUp) -> BillLine:
+    return BillLine("beater", 1, "a tooth between two warps", STEEL, "laser-cut part", linkage.params.beater_mass)
 
 
 def work(linkage: BeatUp) -> tuple[Work, ...]:

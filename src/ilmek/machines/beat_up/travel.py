@@ -25,7 +25,7 @@ from ilmek.machines.beat_up.crank_start import stroke_time
 from ilmek.machines.beat_up.design import BeatUp
 from ilmek.machines.beat_up.use_params import TravelParams
 from ilmek.records import computed, record, result
-from ilmek.report import Check, Part, at_least, at_most, must
+from ilmek.report import BillLine, Check, at_least, at_most, must
 from ilmek.timing.s_curve import AxisLimits, SCurve, s_curve
 from ilmek.units import turn
 
@@ -145,13 +145,13 @@ def _slide_cycle(params: TravelParams, step: SCurve, mass: float, every: float) 
     return LoadCycle(speed / PULLEY, acceleration / PULLEY, friction * PULLEY, mass * PULLEY**2)
 
 
-def travel_parts(found: BeaterTravel) -> tuple[Part, ...]:
+def travel_parts(found: BeaterTravel) -> tuple[BillLine, ...]:
     """The slide along the carpet and its motor."""
     motor = found.slide.motor if found.slide else None
     width = found.params.warps * found.params.warp_pitch
     speed = found.step.speed / PULLEY
     return (
-        Part("slide of the beater", 1, "belt drive along the carpet", "", "linear axis", length=width),
+        BillLine("slide of the beater", 1, "belt drive along the carpet", "", "linear axis", length=width),
         motor_part("motor of the slide", motor, found.thrust * PULLEY, speed),
         *(
             (reducer_part("reducer of the slide", found.slide.reducer.ratio, motor),)

@@ -24,7 +24,7 @@ from ilmek.machines.hammer.params import STEEL, HammerParams
 from ilmek.machines.hammer.report import checks
 from ilmek.machines.loom_task import LoomTask
 from ilmek.records import record
-from ilmek.report import Check, Choice, Part, Work, at_most, must
+from ilmek.report import BillLine, Check, Choice, Work, at_most, must
 from ilmek.units import format_quantity, mm, turn
 
 BEHIND = 5 * mm
@@ -67,10 +67,10 @@ def _of_carpet(task: LoomTask, kind: str) -> HammerParams:
     )
 
 
-def parts(hammer: Hammer) -> tuple[Part, ...]:
+def parts(hammer: Hammer) -> tuple[BillLine, ...]:
     """Comb, and vertical axes or crank-rockers."""
     bar = f"bar {format_quantity(hammer.params.depth, 'mm')} high, a leaf between two warps"
-    comb = Part("comb of the hammer", 1, bar, STEEL.name, "laser-cut part", hammer.comb.mass)
+    comb = BillLine("comb of the hammer", 1, bar, STEEL.name, "laser-cut part", hammer.comb.mass)
     if hammer.linkage is not None:
         return (comb, *linkage_parts(hammer.linkage))
     assert hammer.axis is not None
@@ -79,7 +79,7 @@ def parts(hammer: Hammer) -> tuple[Part, ...]:
     motor, axis = drive.motor if drive else None, "vertical axis"
     return (
         comb,
-        Part(axis, number, hammer.params.axis, "", "linear axis", length=hammer.params.stroke),
+        BillLine(axis, number, hammer.params.axis, "", "linear axis", length=hammer.params.stroke),
         motor_part(f"motor of a {axis}", motor, torque, speed, number),
         *((reducer_part(f"reducer of a {axis}", drive.reducer.ratio, motor, number),) if drive else ()),
     )

@@ -45,7 +45,7 @@ from ilmek.machines.hammer.comb import comb_mass, with_depth
 from ilmek.machines.hammer.params import MOST_BALLAST, MOST_BEATERS, HammerParams
 from ilmek.machines.linkage_strength import FLAT_BARS, LinkageLoads, linkage_strength, pins_bear, strength_checks
 from ilmek.records import computed, group, record, result
-from ilmek.report import Alternative, Check, Choice, Part, at_most, choose
+from ilmek.report import Alternative, BillLine, Check, Choice, at_most, choose
 from ilmek.units import format_quantity, turn
 from ilmek.weaving.fell import Fabric
 
@@ -98,9 +98,9 @@ def linkage_checks(found: CombLinkage) -> tuple[Check, ...]:
     )
 
 
-def linkage_parts(found: CombLinkage) -> tuple[Part, ...]:
+def linkage_parts(found: CombLinkage) -> tuple[BillLine, ...]:
     """Links, ballast, and what drives the crank shaft."""
-    ballast = Part("ballast of the comb", 1, "along its bar", "structural steel", "steel bar", found.ballast)
+    ballast = BillLine("ballast of the comb", 1, "along its bar", "structural steel", "steel bar", found.ballast)
     return (*((ballast,) if found.ballast else ()), *links_parts(found.one, found.number), *start_parts(found.start))
 
 

@@ -12,7 +12,7 @@ from ilmek.machines.knotting_dyad.drives import head_motion, links_of
 from ilmek.machines.knotting_dyad.motion import drive_angles
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.machines.loom_task import LoomTask
-from ilmek.report import Part, Work
+from ilmek.report import BillLine, Work
 from ilmek.units import format_quantity
 
 
@@ -27,7 +27,7 @@ def params_for(task: LoomTask) -> KnottingDyadParams:
     )
 
 
-def parts(dyad: KnottingDyad) -> tuple[Part, ...]:
+def parts(dyad: KnottingDyad) -> tuple[BillLine, ...]:
     """Links, servos and gears of the two arms of one head, and the axis of its centre gripper."""
     if dyad.head is None:
         return ()
@@ -36,7 +36,7 @@ def parts(dyad: KnottingDyad) -> tuple[Part, ...]:
     material = f"of density {format_quantity(dyad.params.density, 'kg/m^3')}"
     return (
         *(
-            Part(f"{name} link of an arm", 2, format_quantity(length, "mm"), material, "machined link", link.mass)
+            BillLine(f"{name} link of an arm", 2, format_quantity(length, "mm"), material, "machined link", link.mass)
             for name, length, link in links
         ),
         *(
@@ -48,7 +48,7 @@ def parts(dyad: KnottingDyad) -> tuple[Part, ...]:
             for one in motion.joints
             if one.gear_ratio != 1
         ),
-        Part("axis of the centre gripper", 1, "straight", "", "linear axis", length=dyad.head.centre_stroke),
+        BillLine("axis of the centre gripper", 1, "straight", "", "linear axis", length=dyad.head.centre_stroke),
     )
 
 

@@ -18,11 +18,12 @@ from ilmek.machines.shedding.choices import choices
 from ilmek.machines.shedding.design import SheddingDesign, design, shed_lengthenings
 from ilmek.machines.shedding.figures import figures
 from ilmek.machines.shedding.guideway import Guideway
-from ilmek.machines.shedding.in_loom import fit, parts, work
+from ilmek.machines.shedding.in_loom import fit, work
 from ilmek.machines.shedding.params import SheddingParams
 from ilmek.machines.shedding.report import tables, warnings
 from ilmek.machines.shedding.stack import CamStack
-from ilmek.machines.shedding.workshop import cam_tables, plates
+from ilmek.machines.shedding.tree import tree
+from ilmek.machines.shedding.workshop import cam_tables
 
 __all__ = ["MACHINE", "SheddingDesign", "SheddingParams", "design", "shed_lengthenings"]
 
@@ -40,9 +41,8 @@ MACHINE = Component(
     tables=tables,
     figures=figures,
     warnings=warnings,
-    plates=plates,
+    tree=tree,
     cam_tables=cam_tables,
-    parts=parts,
     work=work,
     fit=fit,
     own_figures=("shedding-stagger", "shedding-velocity", "shedding-curvature"),

@@ -165,10 +165,13 @@ def cam_shaft(params: SheddingParams, numbers: tuple[int, int], shares: PitchSha
     torque = max(loads.peaks[0].value, -loads.peaks[1].value)
     first = params.prime_radius or max(smallest.value, least_prime(params))
     cam = PlateCam(loads.even, first, roller_radius=params.roller_radius)
+    bar, length = least_bar(params), params.shaft_length or cams * shares.pitch
     while True:
-        mass, inertia = filled(params, cam, shares, cams)
-        length = params.shaft_length or cams * shares.pitch
+        mass, inertia = filled(params, cam, shares, cams, bar)
         shaft = square_shaft(_shaft_task(params, length, mass, across.value, torque))
+        if shaft.bar > bar:  # a thicker bar fills more of the last guide cam: grams
+            bar = shaft.bar
+            continue
         least = _for_bore(params, shaft.bar)
         if params.prime_radius is not None or cam.prime_radius >= least or least > LARGEST_PRIME:
             break
@@ -183,7 +186,7 @@ def cam_shaft(params: SheddingParams, numbers: tuple[int, int], shares: PitchSha
         odd=loads.even.shifted(TURN / 2),
         shed=shed,
         across_max=across,
-        stack=stack_of(params, cam, shares, cams, shaft.bar),
+        stack=stack_of(params, cam, shares, cams, bar),
         shaft=shaft,
         drive=_drive(params, shed, loads, inertia),
         window=loads.window,
@@ -220,7 +223,12 @@ _ROUNDING = 1e-9
 
 def least_prime(params: SheddingParams) -> float:
     """Prime radius that the bore of the smallest bar of stock, or of a given one, needs [m], in whole millimetres."""
-    return math.ceil(_for_bore(params, params.shaft_bar or STOCK_SIDES[0]) / mm - _ROUNDING) * mm
+    return math.ceil(_for_bore(params, least_bar(params)) / mm - _ROUNDING) * mm
+
+
+def least_bar(params: SheddingParams) -> float:
+    """The smallest bar of stock, or the given one [m]."""
+    return params.shaft_bar or STOCK_SIDES[0]
 
 
 def _for_bore(params: SheddingParams, bar: float) -> float:

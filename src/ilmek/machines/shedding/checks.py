@@ -1,7 +1,8 @@
 """The checks of shedding cams. Of checks that every shaft has, the one of the shaft that keeps it worst counts."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from dataclasses import replace
 
 from ilmek.cams.limits import convex_radius_min, pressure_angle_max
 from ilmek.cams.programme import TURN
@@ -9,6 +10,7 @@ from ilmek.machines.shedding.analysis import SheddingAnalysis, lengthening_of, s
 from ilmek.machines.shedding.cam_shaft import CamShaft
 from ilmek.machines.shedding.design import SheddingDesign
 from ilmek.machines.shedding.phases import required_window
+from ilmek.machines.shedding.stack import part_id
 from ilmek.machines.shedding.stack_choice import buckling_check, height_check, line_check, plate_checks
 from ilmek.machines.shedding.warp import nose_radius, shed_warp
 from ilmek.report import Check, at_least, at_most
@@ -22,12 +24,23 @@ def checks(found: SheddingAnalysis) -> tuple[Check, ...]:
     """Cams, plates, shed, shafts, bearings, motors and warps."""
     design = found.design
     params, shares = design.params, design.first.stack.shares
+
+    def of(checks_of: Callable[[CamShaft], Iterator[Check]], *names: str) -> Iterator[Check]:
+        """The worst of the shafts' checks, which concern these parts of every shaft."""
+        parts = tuple(part_id(name, index) for name in names for index in range(len(design.shafts)))
+        return (replace(check, parts=parts) for check in worst([tuple(checks_of(one)) for one in design.shafts]))
+
     return (
-        *worst([tuple(_cam_checks(one)) for one in design.shafts]),
-        *plate_checks(params, shares),
-        *worst([tuple(_nose_checks(one)) for one in design.shafts]),
+        *of(_cam_checks, "shedding-cam"),
+        *(
+            replace(check, parts=(part_id("shedding-cam"), part_id("guide-cam")))
+            for check in plate_checks(params, shares)
+        ),
+        *of(_nose_checks, "shedding-cam"),
         *_shed_checks(found),
-        *worst([tuple(_shaft_checks(one)) for one in design.shafts]),
+        *of(_shaft_checks, "cam-shaft"),
+        *of(_bearing_checks, "bearing"),
+        *of(_motor_checks, "motor", "reducer"),
         *worst([tuple(_warp_checks(one)) for one in design.shafts]),
     )
 
@@ -155,12 +168,18 @@ def _shaft_checks(one: CamShaft) -> Iterator[Check]:
     yield at_least("fatigue of the shaft", shaft.endurance, 1.0, "1", "Goodman, hot rolled, 99 %", cure=STRONGER)
     half = "half of its critical speed"
     yield at_most("speed of the shaft", params.speed, shaft.critical / 2, "rpm", half, cure="set more spans")
-    seat, bar = shaft.seat, shaft.bar
+
+
+def _bearing_checks(one: CamShaft) -> Iterator[Check]:
+    params, seat, bar = one.params, one.shaft.seat, one.shaft.bar
     life, stronger = params.bearing_life, "set more spans, or another bearing"
     yield at_least("life of the bearings", seat.life, life, "h", "ISO 281, bearing_life", cure=stronger)
     bore, torsion = seat.bearing.bore, "torsion, von Mises"
     yield at_least("bore of the bearing for the torque", bore, seat.journal, "mm", torsion, cure=stronger)
     yield at_most("bore of the bearing in the bar", bore, bar, "mm", "journal of the bar", cure=stronger)
+
+
+def _motor_checks(one: CamShaft) -> Iterator[Check]:
     drive = one.drive
     continuous, other = "continuous torque of the motor", "set another ratio, or more shafts"
     yield at_most("motor torque", drive.motor_torque, drive.motor_limit, "Nm", continuous, cure=other)

@@ -1,19 +1,18 @@
 """The shedding cams in a loom: their parameters from its task, their lines in its parts list, their work."""
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import Any
 
-from ilmek.elements.drive_parts import motor_part, positive_work, reducer_part
+from ilmek.elements.drive_parts import positive_work
 from ilmek.machines.arrangement.spans import ShedRoom, shed_room, shed_spans, warp_length
 from ilmek.machines.loom_task import LoomTask
-from ilmek.machines.shedding.cam_shaft import CamShaft, smallest_prime
+from ilmek.machines.shedding.cam_shaft import smallest_prime
 from ilmek.machines.shedding.design import SheddingDesign, design
 from ilmek.machines.shedding.params import SheddingParams
 from ilmek.machines.warp_loads import planned_compensation
 from ilmek.records import value_record
-from ilmek.report import Part, Work
-from ilmek.units import format_quantity
+from ilmek.report import Work
 from ilmek.weaving.shed import shed_lengthening
 
 STEEL = "structural steel"
@@ -101,40 +100,6 @@ def _with_spans(task: LoomTask, room: ShedRoom, outline: _Outline, given: Mappin
         spans=math.ceil(task.width / params.shaft_span - 1e-9),
     )
     return task.parameters("shedding", derived)
-
-
-def parts(made: SheddingDesign) -> tuple[Part, ...]:
-    """Cams, guides and spacers, and of every shaft the bar, its bearings and steadies, motor and reducer."""
-    several = len(made.shafts) > 1
-    return tuple(
-        part
-        for index, one in enumerate(made.shafts)
-        for part in _of_shaft(made, one, f" {index + 1}" if several else "")
-    )
-
-
-def _of_shaft(made: SheddingDesign, one: CamShaft, number: str) -> Iterator[Part]:
-    """Lines of a shaft; `number` is added to the names where there are several."""
-    params, stack, shaft, drive, cams = one.params, one.stack, one.shaft, one.drive, sum(one.numbers)
-    prime, guide, bar = (format_quantity(size, "mm") for size in (one.cam.prime_radius, stack.guide_radius, shaft.bar))
-    cut = "laser-cut part"
-    yield Part(f"shedding cam{number}", cams, f"prime radius {prime}", STEEL, cut, stack.cam_mass)
-    if stack.shares.guides:
-        guides = cams * stack.shares.guides
-        yield Part(f"guide cam{number}", guides, f"radius {guide}", STEEL, cut, stack.guide_mass)
-    else:
-        dents = made.params.warps + 1
-        yield Part(f"dent of the reed{number}", dents, f"round {guide}", STEEL, cut, stack.guide_mass)
-    if stack.spacer_mass > 0:
-        ring = format_quantity(stack.shares.spacer, "mm")
-        yield Part(f"spacer of the cams{number}", cams, f"{ring} thick", STEEL, cut, stack.spacer_mass)
-    mass, ends, name = shaft.bar**2 * shaft.length * params.density, shaft.seat.bearing, f"cam shaft{number}"
-    yield Part(name, 1, f"square {bar}", STEEL, "steel bar", mass, shaft.length)
-    yield Part(f"bearing of the {name}", 2, ends.name, "", "bearing", ends.mass)
-    if params.spans > 1:
-        yield Part(f"steady of the {name}", params.spans - 1, "rollers", "", "bearing")
-    yield motor_part(f"motor of the {name}", drive.motor, drive.motor_torque, drive.motor_speed)
-    yield reducer_part(f"reducer of the {name}", drive.reducer.ratio, drive.motor)
 
 
 def work(made: SheddingDesign) -> tuple[Work, ...]:

@@ -15,7 +15,7 @@ import math
 
 import numpy as np
 
-from ilmek.cams import limits
+from ilmek.arrays import ComplexArray
 from ilmek.cams.plate import PlateCam
 from ilmek.cams.programme import TURN
 from ilmek.machines.shedding.params import REED, SheddingParams
@@ -27,6 +27,11 @@ POINTS = 1440
 
 LEAST_SHARE = 0.1
 """Share of the pitch that counts as cam and guides where the warps alone fill it; their checks then fail."""
+
+
+def part_id(name: str, shaft: int = 0) -> str:
+    """Id of a part or body; of the second shaft and further ones with its number."""
+    return f"shedding/{name}-shaft-{shaft + 1}" if shaft else f"shedding/{name}"
 
 
 @record
@@ -115,25 +120,44 @@ def guide_radius(params: SheddingParams, cam: PlateCam, lift: float) -> float:
     return cam.prime_radius + lift - cam.roller_radius + params.guide_height
 
 
+def cam_outline(cam: PlateCam) -> ComplexArray:
+    """Points of the outline of a cam [m], counter-clockwise: as it is cut, drawn and weighed."""
+    return cam.surface(-np.arange(POINTS) * (TURN / POINTS))
+
+
 def moments(cam: PlateCam) -> tuple[float, float]:
-    """Area [m^2] of a cam and polar moment about the axis [m^4] of its polygon, bore included."""
-    return limits.area(cam), polygon_moments(cam.surface(np.arange(POINTS) * (TURN / POINTS))[::-1])[1]
+    """Area [m^2] of a cam and polar moment about its axis [m^4], bore included."""
+    return polygon_moments(cam_outline(cam))
 
 
-def filled(params: SheddingParams, cam: PlateCam, shares: PitchShares, cams: int) -> tuple[float, float]:
-    """Mass [kg] and moment of inertia [kg m^2] of a stack with so many cams, bores filled."""
+def guides_of(shares: PitchShares, cams: int) -> int:
+    """Guide cams of a shaft: one between two cams and at both ends, or on both sides of each cam.
+
+    >>> guides_of(PitchShares(2e-3, 1e-3, 1e-3, 1, 0.0, 0.0, 0.0), 608)
+    609
+    """
+    return cams + 1 if shares.guides == 1 else cams * shares.guides
+
+
+def filled(params: SheddingParams, cam: PlateCam, shares: PitchShares, cams: int, bar: float) -> tuple[float, float]:
+    """Mass [kg] and moment of inertia [kg m^2] of a stack with so many cams, the bar in its bores.
+
+    Between the ends of the stack the bar is as long as the pitches: the bore of the guide cam beyond them is empty.
+    """
     area, polar = moments(cam)
     outer, base = guide_radius(params, cam, params.lift), cam.prime_radius - cam.roller_radius
-    rings = (outer, shares.guides * shares.guide), (base, shares.spacer)
-    volume = area * shares.thickness + sum(math.pi * radius**2 * width for radius, width in rings)
-    second = polar * shares.thickness + sum(math.pi / 2 * radius**4 * width for radius, width in rings)
-    return cams * params.density * volume, cams * params.density * second
+    guides = guides_of(shares, cams)
+    rings = (outer, guides * shares.guide), (base, cams * shares.spacer)
+    empty = bar**2 * (guides - cams * shares.guides) * shares.guide
+    volume = cams * area * shares.thickness + sum(math.pi * radius**2 * width for radius, width in rings) - empty
+    second = cams * polar * shares.thickness + sum(math.pi / 2 * radius**4 * width for radius, width in rings)
+    return params.density * volume, params.density * (second - empty * bar**2 / 6)
 
 
 def stack_of(params: SheddingParams, cam: PlateCam, shares: PitchShares, cams: int, bar: float) -> CamStack:
     """The stack of a shaft with so many cams on a bar [m]."""
     outer = guide_radius(params, cam, params.lift)
-    mass, inertia = filled(params, cam, shares, cams)
+    mass, inertia = filled(params, cam, shares, cams, bar)
     cam_mass = max(moments(cam)[0] - bar**2, 0.0) * shares.thickness * params.density
     guide_area = max(math.pi * outer**2 - bar**2, 0.0) if shares.guides else dent_area(params, cam)
     guide_mass = guide_area * shares.guide * params.density

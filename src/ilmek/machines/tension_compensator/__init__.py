@@ -12,9 +12,10 @@ from ilmek.machines.component import Component
 from ilmek.machines.tension_compensator.analysis import CompensatorAnalysis, analyse
 from ilmek.machines.tension_compensator.design import TensionCompensator, design
 from ilmek.machines.tension_compensator.figures import figures
-from ilmek.machines.tension_compensator.in_loom import fit, parts
+from ilmek.machines.tension_compensator.in_loom import fit
 from ilmek.machines.tension_compensator.params import TensionCompensatorParams
 from ilmek.machines.tension_compensator.report import checks, choices, tables, warnings
+from ilmek.machines.tension_compensator.tree import tree
 
 __all__ = ["MACHINE", "TensionCompensator", "TensionCompensatorParams", "design"]
 
@@ -30,7 +31,7 @@ MACHINE = Component(
     tables=tables,
     figures=figures,
     warnings=warnings,
-    parts=parts,
+    tree=tree,
     choices=choices,
     fit=fit,
 )

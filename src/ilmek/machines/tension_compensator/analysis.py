@@ -114,14 +114,28 @@ def mean_tension(task: BarTask, lengthening: FloatArray, slack: FloatArray) -> F
     return np.asarray(task.tension + task.rate * (lengthening - slack))
 
 
+def lengthenings(params: TensionCompensatorParams, lift: FloatArray) -> FloatArray:
+    """Mean lengthenings of the warps of a parity [m] at lifts of them [m]."""
+    spans = params.front_span, params.back_span
+    scale = params.longer / float(shed_lengthening(params.lift, *spans))
+    return np.asarray(scale * shed_lengthening(lift, *spans))
+
+
+def lever_rotations(design: TensionCompensator, even: FloatArray, odd: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Rotations of the levers of both parities [rad] at lifts of even and odd warps [m]; of one bar the same."""
+    longer = [lengthenings(design.params, lift) for lift in (even, odd)]
+    if design.bars == 1:
+        longer = [(longer[0] + longer[1]) / 2] * 2
+    of_even, of_odd = (equilibrium(design.one, mean) for mean in longer)
+    return of_even, of_odd
+
+
 def analyse(design: TensionCompensator) -> CompensatorAnalysis:
     """The compensator over a turn, by the linkage engine."""
     params, one = design.params, design.one
     angle = np.linspace(0.0, TURN, SAMPLES)
-    spans = params.front_span, params.back_span
     programme = lifting(params)
-    scale = params.longer / float(shed_lengthening(params.lift, *spans))
-    even, odd = (scale * shed_lengthening(programme.at(angle - lag).s, *spans) for lag in (0.0, math.pi))
+    even, odd = (lengthenings(params, programme.at(angle - lag).s) for lag in (0.0, math.pi))
     mean = even if design.bars == 2 else (even + odd) / 2
     rotation = equilibrium(one, mean)
     tension = mean_tension(one.task, mean, one.lever.slack(rotation))

@@ -1,14 +1,14 @@
 """Design of the tension compensator: number of bars, rollers, synthesised levers with springs, members."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.elements.tubes import Tube
 from ilmek.machines.tension_compensator.members import Loads, Members, bar_checks, bar_tubes, members_for, pick
-from ilmek.machines.tension_compensator.params import STEEL, TensionCompensatorParams
+from ilmek.machines.tension_compensator.params import TensionCompensatorParams
+from ilmek.machines.tension_compensator.parts import CompensatorParts, parts_of, sprung_bar
 from ilmek.machines.tension_compensator.synthesis import BarTask, SprungLever, synthesise
 from ilmek.records import computed, record, result
 from ilmek.report import Check, Choice, at_least, at_most
@@ -28,11 +28,13 @@ class TensionCompensator:
 
     bars      sprung bars                                 one   lever of a bar with its springs
     members   tubes, levers, pins, beams                  loads in the open shed
+    parts     what is made and bought of them
     """
 
     params: TensionCompensatorParams
     one: SprungLever
     members: Members
+    parts: CompensatorParts
     loads: Loads
     choice: Choice
     bars: int = result("1", "sprung bars: one for all warps, or one for each parity", name="bars")
@@ -134,23 +136,24 @@ def design(params: TensionCompensatorParams) -> TensionCompensator:
     if one.angle > 0:
         mean = float(equilibrium_tension(one, np.linspace(0.0, one.angle, STEPS)).max())
     apart = rate * (longer - task.lengthening)
-    found = TensionCompensator(
+    members = members_for(params, tube, loads)
+    parts = parts_of(params, one, members)
+    mass = moving_mass(parts)
+    stiff = min(stiffness(one, angle) for angle in (0.0, one.angle))
+    return TensionCompensator(
         params=params,
         one=one,
-        members=members_for(params, tube, loads),
+        members=members,
+        parts=parts,
         loads=loads,
         choice=choice,
         bars=bars,
         lengthening=longer,
         tension_open=mean + apart,
         tension_low=mean - apart if bars == 1 else params.tension,
-        frequency=0.0,
-        moving_mass=0.0,
+        frequency=math.sqrt(max(stiff, 0.0) / (mass / params.levers * params.bar_arm**2)) / turn,
+        moving_mass=mass,
     )
-    mass = moving_mass(found)
-    stiff = min(stiffness(one, angle) for angle in (0.0, one.angle))
-    frequency = math.sqrt(max(stiff, 0.0) / (mass / params.levers * params.bar_arm**2)) / turn
-    return replace(found, frequency=frequency, moving_mass=mass)
 
 
 def _bars(params: TensionCompensatorParams) -> tuple[int, Choice]:
@@ -225,11 +228,10 @@ def torque(one: SprungLever, angle: float, about: float) -> float:
     return driven - one.springs * force * float(lever.spring_moment_arm(angle))
 
 
-def moving_mass(made: TensionCompensator) -> float:
+def moving_mass(parts: CompensatorParts) -> float:
     """Moment of inertia of a bar with its levers and a third of its springs over the square of its arm [kg]."""
-    params, one = made.params, made.one
-    bar = made.members.tube.mass(STEEL.density) * params.width
-    flat = params.lever_thickness * made.members.lever * STEEL.density / 3
-    levers = flat * (params.bar_arm**3 + params.spring_arm**3) / params.bar_arm**2
-    springs = one.springs * (one.spring.mass if one.spring else 0.0) / 3 * (params.spring_arm / params.bar_arm) ** 2
-    return bar + params.levers * (levers + springs)
+    supports = parts.supports
+    params, sprung = supports.params, supports.sprung
+    body = sprung_bar(parts, "sprung", None).moments
+    springs = params.levers * sprung.springs * (sprung.spring.mass if sprung.spring else 0.0) / 3
+    return float((body.second[0, 0] + body.second[1, 1] + springs * params.spring_arm**2) / params.bar_arm**2)

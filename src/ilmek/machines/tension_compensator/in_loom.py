@@ -1,13 +1,11 @@
-"""The tension compensator in a loom: its parameters from the task, its lines in the parts list."""
+"""The tension compensator in a loom: its parameters from the task."""
 
 import numpy as np
 
 from ilmek.machines.loom_task import LoomTask
 from ilmek.machines.shedding import shed_lengthenings
-from ilmek.machines.tension_compensator.design import TensionCompensator
-from ilmek.machines.tension_compensator.params import STEEL, TensionCompensatorParams
-from ilmek.report import NOT_WEIGHED, Part
-from ilmek.units import format_quantity, mm, turn
+from ilmek.machines.tension_compensator.params import TensionCompensatorParams
+from ilmek.units import turn
 
 SAMPLES = 73
 """Angles of the cam shaft at which the lengthening of the warps is computed, 5 degrees apart."""
@@ -37,25 +35,4 @@ def fit(task: LoomTask) -> TensionCompensatorParams:
             law=shed.law,
             speed=shed.speed,
         ),
-    )
-
-
-def parts(made: TensionCompensator) -> tuple[Part, ...]:
-    """Bars and rods, their rollers, levers, springs, pins and beams."""
-    params, members, number = made.params, made.members, made.bars * made.levers
-    tube = members.tube.mass(STEEL.density) * params.width
-    flat = params.lever_thickness * members.lever * (params.bar_arm + params.spring_arm) * STEEL.density
-    wound = "none of the table is enough"
-    if made.one.spring is not None:
-        diameter = made.one.spring.wire_diameter / mm
-        wound = f"{params.wire} {diameter:g} mm, {format_quantity(made.one.rate, 'N/mm', 3)}"
-    beam = members.beam.line_mass * params.width
-    spring = made.one.spring.mass if made.one.spring else NOT_WEIGHED
-    return (
-        Part("bar of the compensator", made.bars, f"tube {members.tube.name} mm", STEEL.name, "steel tube", tube),
-        Part("rod of the compensator", 2 * made.bars, f"tube {members.tube.name} mm", STEEL.name, "steel tube", tube),
-        Part("roller of bars and rods", 6 * number, "two at every support", "", "bearing"),
-        Part("lever of the compensator", number, "with its pin and bush", STEEL.name, "machined link", flat),
-        Part("spring of the compensator", number * made.springs, wound, "", "spring", spring),
-        Part("beam of the compensator", made.bars, members.beam.name, STEEL.name, "welded frame", beam),
     )

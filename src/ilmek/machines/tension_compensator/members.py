@@ -5,18 +5,21 @@ A bar rests on m levers in the middle of m equal parts p of its width: its ends 
     M = w p^2 / 8,      deflection of an end = 7 w p^4 / (384 E I)   [derived; exact for two levers, more bend less]
 """
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
 
 from ilmek.elements.beam import uniform
+from ilmek.elements.bearing_table import DEEP_GROOVE, RollingBearing
+from ilmek.elements.bearings import ROLLING_BEARINGS, smallest_bearing
 from ilmek.elements.columns import SECTIONS, HollowSquare
 from ilmek.elements.pin_joints import mean_pressure, pin_shear
 from ilmek.elements.tubes import TUBES, Tube, find_tube
 from ilmek.machines.tension_compensator.params import STEEL, TensionCompensatorParams
 from ilmek.records import record
 from ilmek.report import Alternative, Check, Choice, at_most, choose
-from ilmek.units import MPa, format_quantity, mm
+from ilmek.units import MPa, deg, format_quantity, mm
 
 T = TypeVar("T")
 
@@ -26,11 +29,29 @@ HEIGHTS = tuple(size * mm for size in (30, 40, 50, 60, 80, 100, 120, 150, 200, 2
 PINS = tuple(size * mm for size in (12, 16, 20, 25, 30, 40, 50, 60, 80))
 """Diameters of pivot pins [m]."""
 
+BUSH_WALL = 3 * mm
+"""Wall of a pin's bush [m]; assumed by this project."""
+
+WIDEST_BORE = 0.6
+"""Largest bore of a lever for its bush, over its height; assumed by this project."""
+
+SADDLE = 45 * deg
+"""Angle of each roller to the middle of the two that carry a bar; assumed by this project."""
+
+ROLLER_TURNS = 1e7
+"""Turns that a roller lives; assumed by this project."""
+
 PRESSURE = 20 * MPa
 """Allowed pressure of a pin in its bush, twice its diameter long; bronze, assumed by this project."""
 
 SHEAR = 0.577
 """Yield strength in shear over that in tension [von Mises]."""
+
+
+def part_id(name: str) -> str:
+    """Id of a part or body of the compensator."""
+    return f"tension-compensator/{name}"
+
 
 CURE = "set a lower tension or lift, or a shorter support_span"
 
@@ -46,12 +67,13 @@ class Loads:
 
 @record
 class Members:
-    """What was chosen: tube of bars and rods, height of a lever [m], its pin [m], the beam; and the choices."""
+    """What was chosen: tube of bars and rods, height of a lever [m], its pin [m], beam, roller; and the choices."""
 
     tube: Tube
     lever: float
     pin: float
     beam: HollowSquare
+    roller: RollingBearing
     choices: tuple[Choice, ...]
 
 
@@ -65,13 +87,23 @@ def bar_tubes(params: TensionCompensatorParams) -> tuple[Tube, ...]:
 def members_for(params: TensionCompensatorParams, tube: tuple[Tube, Choice], loads: Loads) -> Members:
     """Levers, pins and beam for the loads, with the tube of the bars that was chosen before."""
     sections = sorted((HollowSquare(*size) for size in SECTIONS), key=lambda section: section.area)
-    lever, of_lever = pick(
-        "lever", HEIGHTS, lambda one: format_quantity(one, "mm"), lambda one: lever_checks(params, one, loads)
-    )
     pin, of_pin = pick("pin", PINS, lambda one: format_quantity(one, "mm"), lambda one: pin_checks(params, one, loads))
+    lever, of_lever = pick(
+        "lever", HEIGHTS, lambda one: format_quantity(one, "mm"), lambda one: lever_checks(params, one, pin, loads)
+    )
     beam, of_beam = pick("beam", sections, lambda one: one.name, lambda one: beam_checks(params, one, loads))
     given = () if params.bar_tube else (tube[1],)
-    return Members(tube[0], lever, pin, beam, (*given, of_lever, of_pin, of_beam))
+    return Members(tube[0], lever, pin, beam, roller_for(params, loads.line), (*given, of_lever, of_pin, of_beam))
+
+
+def roller_for(params: TensionCompensatorParams, line: float) -> RollingBearing:
+    """The lightest ball bearing that lives as the roller of bars and rods, else that of the largest load.
+
+    line  load of a bar [N/m]; two rollers carry it at a lever
+    """
+    force = line * params.width / params.levers / (2 * math.cos(SADDLE))
+    balls = [row for row in ROLLING_BEARINGS.values() if row.kind == DEEP_GROOVE]
+    return smallest_bearing(force, ROLLER_TURNS) or max(balls, key=lambda row: row.static)
 
 
 def pick(
@@ -91,15 +123,39 @@ def bar_checks(params: TensionCompensatorParams, tube: Tube, line: float) -> tup
     span = params.width / params.levers
     sag = 7 * line * span**4 / (384 * STEEL.modulus * tube.inertia)
     return (
-        at_most("deflection of a bar", sag, params.bar_deflection, "mm", "parameter bar_deflection", cure=CURE),
-        at_most("stress of a bar", line * span**2 / 8 / tube.modulus, *_limit(params), cure=CURE),
+        at_most(
+            "deflection of a bar",
+            sag,
+            params.bar_deflection,
+            "mm",
+            "parameter bar_deflection",
+            parts=(part_id("bar"),),
+            cure=CURE,
+        ),
+        at_most(
+            "stress of a bar", line * span**2 / 8 / tube.modulus, *_limit(params), parts=(part_id("bar"),), cure=CURE
+        ),
     )
 
 
-def lever_checks(params: TensionCompensatorParams, height: float, loads: Loads) -> tuple[Check, ...]:
-    """Bending of a lever of a height [m] at its pivot, whose bore takes a third of it."""
-    section = params.lever_thickness * height**2 / 6 * (1 - 3.0**-3)
-    return (at_most("stress of a lever", loads.torque / section, *_limit(params), cure="set a larger lever_thickness"),)
+def lever_checks(params: TensionCompensatorParams, height: float, pin: float, loads: Loads) -> tuple[Check, ...]:
+    """Bending of a lever of a height [m] at its pivot, beside the bore of the pin's bush, and the room of that bore."""
+    bored = (pin + 2 * BUSH_WALL) / height
+    section = params.lever_thickness * height**2 / 6 * max(1 - bored**3, 1e-9)
+    return (
+        at_most(
+            "stress of a lever",
+            loads.torque / section,
+            *_limit(params),
+            parts=(part_id("lever"),),
+            cure="set a larger lever_thickness",
+        ),
+        at_most(
+            *("bore of a lever over its height", bored, WIDEST_BORE, "1", "assumed by this project"),
+            parts=(part_id("lever"), part_id("bush")),
+            cure="set a longer spring_arm, or a lower tension",
+        ),
+    )
 
 
 def pin_checks(params: TensionCompensatorParams, pin: float, loads: Loads) -> tuple[Check, ...]:
@@ -107,8 +163,16 @@ def pin_checks(params: TensionCompensatorParams, pin: float, loads: Loads) -> tu
     shear, pressure = pin_shear(loads.pivot, pin), mean_pressure(loads.pivot, pin, 2 * pin)
     cure, source = "set a longer spring_arm", "bronze, assumed by this project"
     return (
-        at_most("shear of a pivot pin", shear, SHEAR * params.strength / params.safety, "MPa", "yield", cure=cure),
-        at_most("pressure of a pivot pin", pressure, PRESSURE, "MPa", source, cure=cure),
+        at_most(
+            "shear of a pivot pin",
+            shear,
+            SHEAR * params.strength / params.safety,
+            "MPa",
+            "yield",
+            parts=(part_id("pin"),),
+            cure=cure,
+        ),
+        at_most("pressure of a pivot pin", pressure, PRESSURE, "MPa", source, parts=(part_id("pin"),), cure=cure),
     )
 
 
@@ -120,8 +184,16 @@ def beam_checks(params: TensionCompensatorParams, section: HollowSquare, loads: 
     source = "assumed by this project: parameter beam_sag"
     cure = "set a lower tension, a narrower loom, or a larger beam_sag"
     return (
-        at_most("deflection of the levers' beam", sag, params.beam_sag * params.width, "mm", source, cure=cure),
-        at_most("stress of the levers' beam", stress, *_limit(params), cure=cure),
+        at_most(
+            "deflection of the levers' beam",
+            sag,
+            params.beam_sag * params.width,
+            "mm",
+            source,
+            parts=(part_id("beam"),),
+            cure=cure,
+        ),
+        at_most("stress of the levers' beam", stress, *_limit(params), parts=(part_id("beam"),), cure=cure),
     )
 
 

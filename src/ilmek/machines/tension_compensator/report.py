@@ -5,7 +5,7 @@ import math
 from ilmek.elements.springs import choose_spring, least_stress_share
 from ilmek.machines.tension_compensator.analysis import CompensatorAnalysis
 from ilmek.machines.tension_compensator.design import TensionCompensator, swing_checks
-from ilmek.machines.tension_compensator.members import bar_checks, beam_checks, lever_checks, pin_checks
+from ilmek.machines.tension_compensator.members import bar_checks, beam_checks, lever_checks, part_id, pin_checks
 from ilmek.machines.tension_compensator.params import TensionCompensatorParams
 from ilmek.machines.tension_compensator.synthesis import SEATS, SPRINGS, SprungLever, shared
 from ilmek.report import Alternative, Check, Choice, Table, at_least, at_most, choose, columns, must
@@ -33,7 +33,7 @@ def checks(found: CompensatorAnalysis) -> tuple[Check, ...]:
         must("equilibrium over the turn", found.balanced, "linkage engine", cure="set a larger rate_share"),
         *_motion_checks(design),
         *bar_checks(params, members.tube, loads.line),
-        *lever_checks(params, members.lever, loads),
+        *lever_checks(params, members.lever, members.pin, loads),
         *pin_checks(params, members.pin, loads),
         *beam_checks(params, members.beam, loads),
     )
@@ -42,7 +42,9 @@ def checks(found: CompensatorAnalysis) -> tuple[Check, ...]:
 def spring_check(design: TensionCompensator) -> Check:
     """Whether there is a spring that is strong enough, lasts, and fits."""
     cure = "set a longer spring_arm or strut, more springs, or a shorter support_span"
-    return must("springs of the table", design.one.spring is not None, SPRING_SOURCE, cure=cure)
+    return must(
+        "springs of the table", design.one.spring is not None, SPRING_SOURCE, cure=cure, parts=(part_id("spring"),)
+    )
 
 
 def _motion_checks(design: TensionCompensator) -> tuple[Check, ...]:
@@ -54,6 +56,7 @@ def _motion_checks(design: TensionCompensator) -> tuple[Check, ...]:
         at_least(
             *("natural frequency", design.frequency, params.frequency_ratio * shed, "Hz"),
             f"{assumed}: parameter frequency_ratio",
+            parts=(part_id("bar"), part_id("lever"), part_id("spring")),
             cure="set a lower speed, or a larger rate_share",
         ),
         at_least(
@@ -62,6 +65,7 @@ def _motion_checks(design: TensionCompensator) -> tuple[Check, ...]:
         ),
         at_least(
             *("room between lever and rod", clearance(design), CLEARANCE, "mm", assumed),
+            parts=(part_id("lever"), part_id("rod")),
             cure="set a larger arm_angle or guide_span",
         ),
     )

@@ -14,9 +14,10 @@ from ilmek.machines.warp_tension.analysis import WarpTensionAnalysis, analyse
 from ilmek.machines.warp_tension.choices import choices
 from ilmek.machines.warp_tension.design import WarpTensionDesign, design
 from ilmek.machines.warp_tension.figures import figures
-from ilmek.machines.warp_tension.in_loom import fit, parts, work
+from ilmek.machines.warp_tension.in_loom import fit, work
 from ilmek.machines.warp_tension.params import WarpTensionParams
 from ilmek.machines.warp_tension.report import checks, tables, warnings
+from ilmek.machines.warp_tension.tree import tree
 
 __all__ = ["MACHINE", "WarpTensionDesign", "WarpTensionParams", "design"]
 
@@ -32,7 +33,7 @@ MACHINE = Component(
     tables=tables,
     figures=figures,
     warnings=warnings,
-    parts=parts,
+    tree=tree,
     work=work,
     choices=choices,
     fit=fit,

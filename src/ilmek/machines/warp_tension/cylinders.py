@@ -35,8 +35,12 @@ from ilmek.elements.bearings import (
 from ilmek.elements.carpet_yarns import usual_warp
 from ilmek.elements.materials import GRAVITY, MATERIALS
 from ilmek.elements.tubes import TUBES, Tube, find_tube
-from ilmek.machines.warp_tension.design import LARGE_TUBES, WarpTensionDesign, keeps_limits, tube_weight, worst_load
+from ilmek.machines.warp_tension.design import LARGE_TUBES, WarpTensionDesign, keeps_limits, worst_load
 from ilmek.machines.warp_tension.params import WarpTensionParams
+from ilmek.part.profile import Profile
+from ilmek.part.shapes import Turned
+from ilmek.part.shapes import tube as hollow
+from ilmek.plane.contours import polygon
 from ilmek.records import computed, record, result
 from ilmek.report import Check, at_least, at_most
 from ilmek.units import hour, mm
@@ -51,11 +55,17 @@ SLIT = 1e-3
 """Share of the wall that counts as left where slots cut through the spacer; its checks fail."""
 
 
+def part_id(name: str) -> str:
+    """Id of a part or body of the warp tension."""
+    return f"warp-tension/{name}"
+
+
 @record
 class Cylinder:
     """A cylinder between its bearings.
 
     inner, outer   radii of its section [m]: of the spacer below the slots      tube  of stock, or None
+    shell          the tube between the bearings, the spacer's with its slots
     load, bare     per length, x to the front, y upwards [N/m], with and without its own weight
     slope, deflection, stress, slope_bare, deflection_bare   by the load; without its own weight
     torque         at its driven end [N m]        mass    of the tube [kg]
@@ -66,6 +76,7 @@ class Cylinder:
     name: str
     outer: float
     inner: float
+    shell: Turned
     tube: Tube | None
     bare: complex
     load: complex
@@ -120,13 +131,32 @@ def cylinders(design: WarpTensionDesign) -> tuple[Cylinder, Cylinder, Cylinder]:
     """Upper and lower cylinder, and the spacer, in the worst case of the warps' loads."""
     params, tube = design.params, stock(design.inner_radius, design.outer_radius)
     load, sizes = design.loads.worst / params.width, (design.outer_radius, design.inner_radius)
-    upper = _cylinder(design, "upper", sizes, tube, -1j * load, design.loads.worst * design.outer_radius)
-    lower = _cylinder(design, "lower", sizes, tube, 1j * load, design.holding_torque)
-    chosen, depth = spacer_tube(params), slots_of(params).depth
-    wall = chosen.wall
-    under = (chosen.inner_radius + max(wall - depth, SLIT * wall), chosen.inner_radius)
-    spacer = _cylinder(design, "spacer", under, chosen, spacer_load(params, load), 0.0)
-    return upper, lower, spacer
+    plain = hollow(2 * design.outer_radius, design.outer_radius - design.inner_radius, params.width)
+    upper = _cylinder(design, "upper", sizes, (plain, tube), -1j * load, design.loads.worst * design.outer_radius)
+    lower = _cylinder(design, "lower", sizes, (plain, tube), 1j * load, design.holding_torque)
+    chosen = spacer_tube(params)
+    under = (chosen.inner_radius + metal_left(params, chosen), chosen.inner_radius)
+    slotted = spacer_shell(params, chosen), chosen
+    return upper, lower, _cylinder(design, "spacer", under, slotted, spacer_load(params, load), 0.0)
+
+
+def metal_left(params: WarpTensionParams, section: Tube) -> float:
+    """Metal under the slots of the spacer [m]."""
+    return max(section.wall - slots_of(params).depth, SLIT * section.wall)
+
+
+def spacer_shell(params: WarpTensionParams, section: Tube) -> Turned:
+    """The spacer's tube with a slot for each warp that has room on it, about z from z = 0."""
+    slots, outer, width = slots_of(params), section.outer_radius, params.width
+    number = min(params.warps, math.floor(width / slots.pitch * (1 - 1e-9)))
+    if slots.depth <= 0 or number == 0:
+        return hollow(section.outer, section.wall, width)
+    under, half = section.inner_radius + metal_left(params, section), min(slots.width, 0.999 * slots.pitch) / 2
+    middles = width / 2 + (np.arange(number)[::-1] - (number - 1) / 2) * slots.pitch
+    edges = np.array([half + 1j * outer, half + 1j * under, -half + 1j * under, -half + 1j * outer])
+    slotted = (middles[:, None] + edges).ravel()
+    inner = np.array([1j * section.inner_radius, width + 1j * section.inner_radius])
+    return Turned(Profile(polygon(np.concatenate([inner, [width + 1j * outer], slotted, [1j * outer]]))))
 
 
 def spacer_load(params: WarpTensionParams, load: float) -> complex:
@@ -145,10 +175,15 @@ def stock(inner: float, outer: float) -> Tube | None:
 
 
 def _cylinder(  # noqa: PLR0917
-    design: WarpTensionDesign, name: str, sizes: tuple[float, float], tube: Tube | None, bare: complex, torque: float
+    design: WarpTensionDesign,
+    name: str,
+    sizes: tuple[float, float],
+    shell: tuple[Turned, Tube | None],
+    bare: complex,
+    torque: float,
 ) -> Cylinder:
-    params, (outer, inner) = design.params, sizes
-    weight = tube_weight(params, inner, outer)
+    params, (outer, inner), (made, tube) = design.params, sizes, shell
+    weight = made.moments.zeroth * params.density * GRAVITY / params.width
     load = bare - 1j * weight
     size, inertia = abs(load), float(uniform.tube_inertia(outer, inner))
     bent = (params.width, params.modulus, inertia)
@@ -160,6 +195,7 @@ def _cylinder(  # noqa: PLR0917
         name=name,
         outer=outer,
         inner=inner,
+        shell=made,
         tube=tube,
         bare=bare,
         load=load,

@@ -1,17 +1,12 @@
-"""The warp tension in a loom: parameters from its task with the lightest tube, lines of its parts list, its work."""
+"""The warp tension in a loom: parameters from its task with the lightest tube, its work."""
 
 from dataclasses import replace
 
-from ilmek.elements.drive_parts import motor_part, reducer_part
 from ilmek.machines.loom_task import LoomTask
 from ilmek.machines.warp_loads import loads_in_loom
-from ilmek.machines.warp_tension.cylinders import Cylinder, cylinders
 from ilmek.machines.warp_tension.design import USUAL, WarpTensionDesign
 from ilmek.machines.warp_tension.params import WarpTensionParams
-from ilmek.report import Part, Work
-from ilmek.units import format_quantity
-
-STEEL = "structural steel"
+from ilmek.report import Work
 
 
 def fit(task: LoomTask) -> WarpTensionParams:
@@ -45,27 +40,6 @@ def fit(task: LoomTask) -> WarpTensionParams:
     if any(one is not None for one in (derived.tube, derived.outer_radius, derived.inner_radius)):
         return derived
     return replace(derived, tube=USUAL)
-
-
-def parts(made: WarpTensionDesign) -> tuple[Part, ...]:
-    """Cylinders, bearings, drives: upper and lower cylinder are alike; a motor for each of the three [thesis 3.1]."""
-    upper, lower, spacer = cylinders(made)
-    return (
-        Part("cylinder", 2, _tube(upper), STEEL, "steel tube", upper.mass),
-        Part("spacer cylinder", 1, _tube(spacer), STEEL, "steel tube", spacer.mass),
-        *(
-            Part(f"bearing of the {one.name}", 2, one.bearing.name, "", "bearing", one.bearing.mass)
-            for one in (upper, lower, spacer)
-        ),
-        motor_part("motor of a cylinder", made.motor, made.motor_torque, made.motor_speed, 3),
-        reducer_part("reducer of a cylinder", made.reducer.ratio, made.motor, 3),
-    )
-
-
-def _tube(one: Cylinder) -> str:
-    """Outer diameter and wall of a cylinder: of the stock tube, or of its own."""
-    outer, wall = (2 * one.outer, one.outer - one.inner) if one.tube is None else (one.tube.outer, one.tube.wall)
-    return f"tube {format_quantity(outer, 'mm')} x {format_quantity(wall, 'mm')}"
 
 
 def work(made: WarpTensionDesign) -> tuple[Work, ...]:

@@ -6,7 +6,7 @@ from ilmek.elements.drive_parts import no_motor
 from ilmek.elements.tubes import TUBES
 from ilmek.machines.warp_loads import WarpLoads
 from ilmek.machines.warp_tension.analysis import WarpTensionAnalysis
-from ilmek.machines.warp_tension.cylinders import LEAST_WALL, STUB, Cylinder
+from ilmek.machines.warp_tension.cylinders import LEAST_WALL, STUB, Cylinder, part_id
 from ilmek.machines.warp_tension.design import WarpTensionDesign, outer_radii_min, tubes_within_limits
 from ilmek.report import Check, Table, at_least, at_most, columns
 from ilmek.units import format_number, format_quantity, mm
@@ -30,6 +30,8 @@ TUBE_CURE = "set a larger tube, a lower tension, or a narrower loom"
 SPACER_CURE = "set a larger spacer_tube, a lower tension, or a narrower loom"
 SLOT_CURE = "set a larger warp_pitch, or thinner warps"
 
+_CYLINDER, _SPACER = (part_id("cylinder"),), (part_id("spacer"),)
+
 
 def _design_checks(design: WarpTensionDesign) -> tuple[Check, ...]:
     params, locking = design.params, f"makers ensure it up to {SURE:g}; in theory 2 - 1/efficiency <= 0, {LOCKING:g}"
@@ -37,15 +39,35 @@ def _design_checks(design: WarpTensionDesign) -> tuple[Check, ...]:
     slope, sag = f"{THESIS}, eq. 3.5 and 3.7; {worst}", f"{THESIS}, eq. 3.4; {worst}"
     locks = at_most(
         *("efficiency, to lock itself", params.efficiency, SURE, "1", locking),
+        parts=(part_id("reducer"),),
         cure="set a lower efficiency, or self_locking=no with a brake",
     )
     return (
-        at_most("slope in the bearings", design.slope_loaded, params.slope_limit, "rad", slope, cure=TUBE_CURE),
-        at_most("deflection", design.deflection_loaded, params.deflection_limit, "mm", sag, cure=TUBE_CURE),
-        at_most("bending stress", design.stress, params.strength, "MPa", f"yield of the tube; {worst}", cure=TUBE_CURE),
+        at_most(
+            "slope in the bearings",
+            design.slope_loaded,
+            params.slope_limit,
+            "rad",
+            slope,
+            parts=_CYLINDER,
+            cure=TUBE_CURE,
+        ),
+        at_most(
+            "deflection", design.deflection_loaded, params.deflection_limit, "mm", sag, parts=_CYLINDER, cure=TUBE_CURE
+        ),
+        at_most(
+            "bending stress",
+            design.stress,
+            params.strength,
+            "MPa",
+            f"yield of the tube; {worst}",
+            parts=_CYLINDER,
+            cure=TUBE_CURE,
+        ),
         *((locks,) if params.self_locking else ()),
         at_most(
             *("motor torque", design.motor_torque, design.motor_limit, "Nm", f"{THESIS}, eq. 3.8"),
+            parts=(part_id("motor"), part_id("reducer")),
             cure="set a larger ratio or a longer take_up_time",
         ),
     )
@@ -57,12 +79,21 @@ def _cylinder_checks(found: WarpTensionAnalysis) -> tuple[Check, ...]:
     weak = min(found.cylinders, key=lambda one: one.stub_safety)
     under, wider, larger = f"under the slots; {case}", "set a stiffer tube", "set a larger bearing, or a lower tension"
     return (
-        at_most("slope of the spacer", spacer.slope, params.slope_limit, "rad", under, cure=SPACER_CURE),
-        at_most("deflection of the spacer", spacer.deflection, params.deflection_limit, "mm", under, cure=SPACER_CURE),
+        at_most("slope of the spacer", spacer.slope, params.slope_limit, "rad", under, parts=_SPACER, cure=SPACER_CURE),
+        at_most(
+            "deflection of the spacer",
+            spacer.deflection,
+            params.deflection_limit,
+            "mm",
+            under,
+            parts=_SPACER,
+            cure=SPACER_CURE,
+        ),
         *(
             # Within the limit, but more than the kind of the bearing allows.
             at_most(
                 *(f"slope of {one.bearing.name}, {one.name}", one.slope, slope_limit(one.bearing), "rad", "its kind"),
+                parts=(part_id(f"{one.name}-bearing"),),
                 cure=wider,
             )
             for one in found.cylinders
@@ -76,11 +107,13 @@ def _cylinder_checks(found: WarpTensionAnalysis) -> tuple[Check, ...]:
                 "1",
                 f"ISO 76; {case}",
             ),
+            parts=(part_id(f"{tired.name}-bearing"),),
             cure=larger,
         ),
         at_least(
             *(f"shaft end of the {weak.name} cylinder", weak.stub_safety, params.stub_safety, "1"),
             f"yield of {STUB.name}; {case}",
+            parts=(part_id(f"{weak.name}-end"),),
             cure=f"{larger}, or a shorter stub",
         ),
         *_warp_checks(found),
@@ -98,9 +131,10 @@ def _warp_checks(found: WarpTensionAnalysis) -> tuple[Check, ...]:
         at_most(
             "warp in its slot", slots.warp, slots.width, "mm", "slots of the spacer", cure="set a wider slot_width"
         ),
-        at_least("land between slots", slots.land, 0.0, "mm", "pitch of the warps", cure=SLOT_CURE),
+        at_least("land between slots", slots.land, 0.0, "mm", "pitch of the warps", parts=_SPACER, cure=SLOT_CURE),
         at_least(
             *("metal under the slots", metal, LEAST_WALL, "mm", "assumed by this project"),
+            parts=_SPACER,
             cure="set a smaller slot_depth, or a spacer_tube with a thicker wall",
         ),
         at_most(

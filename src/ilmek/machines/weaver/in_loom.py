@@ -9,7 +9,7 @@ from ilmek.machines.weaver.design import Weaver, shaft_torque
 from ilmek.machines.weaver.limits import head_mass
 from ilmek.machines.weaver.params import WeaverParams
 from ilmek.machines.weaver.tool_params import OpenerParams, ToolForces
-from ilmek.report import NOT_WEIGHED, Part, Work
+from ilmek.report import NOT_WEIGHED, BillLine, Work
 from ilmek.timing.s_curve import s_curve
 
 LEAST_FRICTION = 0.01
@@ -56,7 +56,7 @@ def opener_for(task: LoomTask) -> OpenerParams:
     )
 
 
-def parts(weaver: Weaver) -> tuple[Part, ...]:
+def parts(weaver: Weaver) -> tuple[BillLine, ...]:
     """The parts of one head and its carriage; those within the head are weighed with it, arms by themselves."""
     params, servo, mass = weaver.params, weaver.drive.servo, head_mass(weaver)
     own = max(mass - (params.arms.mass if params.with_arms else 0.0), 0.0)
@@ -69,8 +69,8 @@ def parts(weaver: Weaver) -> tuple[Part, ...]:
     )
     cam_motor, *colour_motors = (replace(part, mass=NOT_WEIGHED) for part in within)
     return (
-        Part("knotting head", 1, "cams, tools, tubes, motors", "", "head mechanism", own),
-        Part("yarn tube", params.tubes, "one for each colour, weighed with the head", "", "yarn tube"),
+        BillLine("knotting head", 1, "cams, tools, tubes, motors", "", "head mechanism", own),
+        BillLine("yarn tube", params.tubes, "one for each colour, weighed with the head", "", "yarn tube"),
         cam_motor,
         *((reducer_part("reducer of a head", servo.reducer.ratio, motor),) if servo else ()),
         belt_motor_part("motor of a carriage", mass * params.carriage_acceleration, params.carriage_speed),

@@ -23,7 +23,7 @@ from ilmek.machines.weft.rapier import DRIVE, Rapier, rapier_checks, rapier_for,
 from ilmek.machines.weft.shuttle import BOX_END, Shuttle, friction, shuttle_checks, shuttle_for
 from ilmek.machines.weft.tension import draw_off_tension
 from ilmek.records import computed, record, result
-from ilmek.report import Alternative, Check, Choice, Part, at_least, at_most, choose, must
+from ilmek.report import Alternative, BillLine, Check, Choice, at_least, at_most, choose, must
 from ilmek.timing.s_curve import s_curve
 from ilmek.units import turn
 from ilmek.weaving.selvedge import in_front, warps_let_go
@@ -105,7 +105,7 @@ class Weft:
         return tuple(Bobbin(one.name, max(1, one.rows), params.change_time) for one in wound)
 
     @property
-    def parts(self) -> tuple[Part, ...]:
+    def parts(self) -> tuple[BillLine, ...]:
         """Lines of the parts list."""
         return parts_of(self.params, self.carried, self.passage, self.axis)
 

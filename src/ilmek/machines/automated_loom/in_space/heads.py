@@ -23,7 +23,7 @@ from ilmek.machines.automated_loom.in_space.maker import (
     plate_part,
     track_angles,
 )
-from ilmek.machines.automated_loom.in_space.standing import RAIL
+from ilmek.machines.automated_loom.own_parts import RAIL
 from ilmek.machines.weaver.grippers import Grippers
 from ilmek.machines.weaver.knot import led_between
 from ilmek.machines.weaver.motions import CENTRE_MOTION, SIDE_MOTION

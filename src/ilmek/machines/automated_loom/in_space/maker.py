@@ -9,7 +9,7 @@ from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.parts import parts_of_loom
 from ilmek.plane.solids import plate_solid
 from ilmek.records import record
-from ilmek.report import Check, Part, Plate
+from ilmek.report import BillLine, Check, Plate
 from ilmek.report.scene import SceneFrame, SceneMotion, ScenePart, Solid
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.timing.track import Track, laid, sample
@@ -36,7 +36,7 @@ class SceneMaker:
     """A loom, the lines of its parts list by name, and all checks of its report."""
 
     loom: LoomDesign
-    lines: Mapping[str, Part]
+    lines: Mapping[str, BillLine]
     checks: tuple[Check, ...]
 
     @property

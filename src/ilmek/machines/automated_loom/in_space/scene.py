@@ -9,11 +9,12 @@ from ilmek.arrays import Float
 from ilmek.machines.automated_loom.cyclogram import EVEN, ODD
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.beating import beating
-from ilmek.machines.automated_loom.in_space.cams import cams, warp_positions, warp_shafts
+from ilmek.machines.automated_loom.in_space.cams import cams, warp_positions
 from ilmek.machines.automated_loom.in_space.heads import HEAD, heads, knot_yarn
 from ilmek.machines.automated_loom.in_space.maker import KNOT, ROW, SceneMaker, maker_of, track_angles
 from ilmek.machines.automated_loom.in_space.standing import standing
 from ilmek.machines.automated_loom.in_space.weft import weft, wefts
+from ilmek.machines.shedding.tree import warp_shafts
 from ilmek.report import Report
 from ilmek.report.scene import Scene, SceneCarpet, SceneWarps
 from ilmek.timing.track import sample
@@ -49,7 +50,7 @@ def _warps(made: SceneMaker) -> SceneWarps:
     line, lifted = warp_line(made)
     even, odd = row.track(EVEN), row.track(ODD)
     angle = track_angles(even, odd)
-    shaft, is_odd = warp_shafts(made)
+    shaft, is_odd = warp_shafts(made.loom.shedding)
     return SceneWarps(
         x=warp_positions(made),
         shaft=shaft,

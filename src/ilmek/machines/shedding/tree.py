@@ -1,0 +1,261 @@
+"""The shedding cams as bodies: every shaft with its cams, guide cams and spacers, and what carries and drives it.
+
+Axes of a shaft as in the side view: x to the front, y up, z along the width to the weaver's left, 0 in the middle of
+the warps. The rule of the outline: the point at the polar angle a of a cam is under the warp at the cam angle -a, so
+that a cam turns by its angle about z. Even and odd cams are one plate: half a turn of the square bore is the square
+again. Of staggered cams each group has a plate of its own, its bore turned by the lag of the group.
+"""
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from ilmek.arrays import BoolArray, ComplexArray, FloatArray, IntArray
+from ilmek.cams.programme import TURN
+from ilmek.elements.materials import MATERIALS, Material
+from ilmek.machines.shedding.cam_shaft import CamShaft
+from ilmek.machines.shedding.design import SheddingDesign
+from ilmek.machines.shedding.stack import POINTS, cam_outline, part_id
+from ilmek.part import catalogue
+from ilmek.part.part import Bought, Part
+from ilmek.part.placement import Placement, placement
+from ilmek.part.profile import Profile
+from ilmek.part.shapes import Prism, Shape, tube
+from ilmek.part.tree import GROUND, Joint, JointKind, Occurrence, RigidBody, Tree
+from ilmek.plane.contours import circle, polygon
+from ilmek.report import Contour
+from ilmek.report.scene import SceneMotion
+from ilmek.units import format_quantity, turn
+
+_CUT, _ALONG = "laser-cut part", (0.0, 0.0, 1.0)
+
+
+def warp_positions(design: SheddingDesign) -> FloatArray:
+    """Positions of the warps along the width to the weaver's right, 0 in their middle [m]."""
+    number = design.params.warps
+    return (np.arange(number) - (number - 1) / 2) * design.params.warp_pitch
+
+
+def warp_shafts(design: SheddingDesign) -> tuple[IntArray, BoolArray]:
+    """Number of the shaft of each warp, and whether it is an odd one; the first is (see `shedding.positions.dealt`)."""
+    index = np.arange(design.params.warps)
+    return index % len(design.shafts), index % 2 == 0
+
+
+def tree(
+    design: SheddingDesign,
+    positions: Sequence[Placement] = (),
+    turning: SceneMotion | None = None,
+    sinking: SceneMotion | None = None,
+) -> Tree:
+    """The bodies of the shafts.
+
+    positions  of each shaft's axes; default: one above the other
+    turning, sinking   motions of the shafts about their axes, and of all that is on them; default: they stand
+    """
+    where = positions or [placement(y=shaft.beyond) for shaft in design.shafts]
+    bodies = [
+        body
+        for index, position in enumerate(where)
+        for body in _of_shaft(design, index, position, Joint(JointKind.PIN, _ALONG, turning), sinking)
+    ]
+    return Tree(tuple(bodies))
+
+
+def _of_shaft(
+    design: SheddingDesign, index: int, position: Placement, pin: Joint, sinking: SceneMotion | None
+) -> tuple[RigidBody, RigidBody]:
+    """What carries a shaft, and the shaft with all that turns on it. Nothing carries the bearings yet."""
+    standing = RigidBody(
+        part_id("stand", index),
+        (*_reed(design, index), *_bearings(design, index), *_drive(design, index)),
+        GROUND,
+        Joint(JointKind.MISSING, motion=sinking),
+        (position,),
+    )
+    return standing, RigidBody(
+        part_id("cam shaft", index), tuple(_turning(design, index)), standing.id, replace(pin, seats=())
+    )
+
+
+def _turning(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
+    """The square bar, cams by groups, guide cams on both sides of the warps, and spacers."""
+    shaft = design.shafts[index]
+    stack, bar = shaft.stack, shaft.shaft.bar
+    length = shaft.shaft.length
+    square = _made(
+        design, index, "cam-shaft", "cam shaft", Prism(Profile(_square(bar)), length), "steel bar", f"square {_mm(bar)}"
+    )
+    yield Occurrence(square, (placement(z=-length / 2),))
+    x, odd = _of(design, index)
+    group, lag = _groups(shaft, odd)
+    for number in range(shaft.shed.groups):
+        chosen = group == number
+        phases = np.where(odd[chosen], turn / 2, 0.0) + lag[chosen]
+        yield Occurrence(_cam(design, index, number), _row(x[chosen], stack.thickness, phases))
+    if stack.shares.guides:
+        guide = _disc(design, index, ("guide-cam", "guide cam"), stack.guide_radius, stack.guide_thickness)
+        yield Occurrence(guide, _row(_guides(x, shaft), stack.guide_thickness))
+    if stack.shares.spacer > 0:
+        wide = stack.shares.spacer
+        beside = (stack.thickness + wide) / 2 + stack.shares.guides / 2 * stack.guide_thickness
+        ring = _disc(design, index, ("spacer", "spacer of the cams"), shaft.base_radius, wide)
+        yield Occurrence(ring, _row(x + beside, wide))
+
+
+def _guides(x: FloatArray, shaft: CamShaft) -> FloatArray:
+    """Positions of the guide cams: one between two warps and at both ends, or one on both sides of each."""
+    beside = (shaft.stack.thickness + shaft.stack.guide_thickness) / 2
+    if shaft.stack.shares.guides == 1:
+        return np.concatenate([x[:1] - beside, x + beside])
+    return np.concatenate([x - beside, x + beside])
+
+
+def _cam(design: SheddingDesign, index: int, group: int) -> Part:
+    """The cam of a group, its bore turned by the group's lag."""
+    shaft, several = design.shafts[index], design.shafts[index].shed.groups > 1
+    bar, outline = shaft.shaft.bar, cam_outline(shaft.cam)
+    name, title = (
+        (f"shedding-cam-{group + 1}", f"shedding cam, group {group + 1}")
+        if several
+        else ("shedding-cam", "shedding cam")
+    )
+    bores = (_square(bar, float(shaft.shed.offsets[group])),) if _bored(shaft) else ()
+    shape = Prism(Profile(polygon(outline), bores, smooth=True), shaft.stack.thickness)
+    made = _made(design, index, name, title, shape, _CUT, f"prime radius {_mm(shaft.cam.prime_radius)}")
+    pitch = shaft.cam.pitch(-np.arange(POINTS) * (TURN / POINTS)) if shaft.cam.roller_radius > 0 else None
+    return replace(
+        made,
+        marks={"zero": np.array([bar / 2 + 0j, complex(outline[0])])},
+        paths={} if pitch is None else {"pitch curve": pitch},
+    )
+
+
+def _disc(design: SheddingDesign, index: int, names: tuple[str, str], radius: float, thickness: float) -> Part:
+    """A round plate with the square bore."""
+    shaft = design.shafts[index]
+    bar = shaft.shaft.bar
+    bores = (_square(bar),) if _bored(shaft) else ()
+    shape = Prism(Profile(circle(0j, radius), bores), thickness)
+    made = _made(design, index, *names, shape, _CUT, f"radius {_mm(radius)}, {_mm(thickness)} thick")
+    return replace(made, marks={"zero": np.array([bar / 2 + 0j, radius + 0j])})
+
+
+def _reed(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
+    """The dents that stand between the warps, where no guide cams turn: rings from the warps' line over the tip."""
+    shaft = design.shafts[index]
+    stack, high = shaft.stack, shaft.params.guide_height
+    if stack.shares.guides or high <= 0:
+        return
+    outer, inner = stack.guide_radius, stack.guide_radius - high
+    half = math.acos(min(shaft.base_radius / outer, 1.0))
+    ends = np.exp(1j * half * np.array([-1, 1]))
+    bend = math.tan(half / 2)
+    outline = Contour(np.concatenate([outer * ends, inner * ends[::-1]]), np.array([bend, 0.0, -bend, 0.0]))
+    shape = Prism(Profile(outline), stack.guide_thickness)
+    dent = _made(design, index, "reed-dent", "dent of the reed", shape, _CUT, f"round {_mm(outer)}")
+    x, pitch = warp_positions(design), design.params.warp_pitch
+    yield Occurrence(dent, _row(np.append(x - pitch / 2, x[-1] + pitch / 2), stack.guide_thickness))
+
+
+def _bearings(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
+    """The bearings at both ends, and the steadies of rollers between the spans."""
+    shaft = design.shafts[index]
+    title, row, half = (
+        _numbered(design, index, "bearing of the cam shaft"),
+        shaft.shaft.seat.bearing,
+        shaft.shaft.length / 2,
+    )
+    ends = catalogue.bearing(part_id("bearing", index), title, row)
+    flipped = placement(z=-half, about=(1.0, 0.0, 0.0), angle=math.pi)
+    yield Occurrence(ends, (placement(z=half), flipped))
+    spans = shaft.params.spans
+    if spans > 1:
+        bar = shaft.shaft.bar
+        steady = Part(
+            part_id("steady", index),
+            _numbered(design, index, "steady of the cam shaft"),
+            "bearing",
+            shape=tube(2 * bar, bar * (1 - math.sqrt(0.5)), bar),
+            purchase=Bought("rollers"),
+            envelope=True,
+        )
+        between = tuple(placement(z=2 * half * (k / spans - 0.5) - bar / 2) for k in range(1, spans))
+        yield Occurrence(steady, between)
+
+
+def _drive(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
+    """Reducer and motor at the right end, one behind the other: their position there is assumed by this project."""
+    shaft = design.shafts[index]
+    drive = shaft.drive
+    geared = catalogue.reducer(
+        part_id("reducer", index),
+        _numbered(design, index, "reducer of the cam shaft"),
+        drive.reducer.ratio,
+        drive.motor,
+    )
+    motor = catalogue.motor(
+        part_id("motor", index),
+        _numbered(design, index, "motor of the cam shaft"),
+        drive.motor,
+        drive.motor_torque,
+        drive.motor_speed,
+    )
+    far = shaft.shaft.length / 2 + shaft.shaft.seat.bearing.width + catalogue.length_of(geared)
+    flange = placement(z=-far)
+    yield Occurrence(geared, (flange,))
+    yield Occurrence(motor, (flange,))
+
+
+def _made(  # noqa: PLR0917
+    design: SheddingDesign, index: int, name: str, title: str, shape: Shape, process: str, size: str
+) -> Part:
+    return Part(part_id(name, index), _numbered(design, index, title), process, size, shape, _steel(design))
+
+
+def _steel(design: SheddingDesign) -> Material:
+    return replace(MATERIALS["structural steel"], density=design.params.density)
+
+
+def _numbered(design: SheddingDesign, index: int, title: str) -> str:
+    """A title with the number of the shaft where there are several."""
+    return f"{title} {index + 1}" if len(design.shafts) > 1 else title
+
+
+def _mm(length: float) -> str:
+    return format_quantity(length, "mm")
+
+
+def _square(side: float, turned: float = 0.0) -> Contour:
+    """A square bore, turned by an angle [rad]."""
+    corners: ComplexArray = side / 2 * np.array([1 + 1j, -1 + 1j, -1 - 1j, 1 - 1j]) * np.exp(1j * turned)
+    return polygon(corners)
+
+
+def _bored(shaft: CamShaft) -> bool:
+    """Whether the bore has room in the cam: where it has none, a check fails."""
+    return shaft.shaft.bar / math.sqrt(2) < shaft.base_radius
+
+
+def _of(design: SheddingDesign, index: int) -> tuple[FloatArray, BoolArray]:
+    """Positions of the warps of a shaft [m], and which of them are odd."""
+    shaft, odd = warp_shafts(design)
+    return warp_positions(design)[shaft == index], odd[shaft == index]
+
+
+def _groups(shaft: CamShaft, odd: BoolArray) -> tuple[IntArray, FloatArray]:
+    """Number and lag [rad] of each cam's group: those of a parity are taken in turn along the shaft."""
+    order = np.where(odd, np.cumsum(odd) - 1, np.cumsum(~odd) - 1).astype(int)
+    group = order % shaft.shed.groups
+    return group, np.asarray(shaft.shed.offsets)[group]
+
+
+def _row(x: FloatArray, thickness: float, phases: FloatArray | None = None) -> tuple[Placement, ...]:
+    """Plates with their middles at positions along the width, turned back by phases [rad]."""
+    back = np.zeros(len(x)) if phases is None else -phases
+    return tuple(
+        placement(z=-position - thickness / 2, about=_ALONG, angle=angle)
+        for position, angle in zip(x.tolist(), back.tolist(), strict=True)
+    )

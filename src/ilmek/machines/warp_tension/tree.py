@@ -1,0 +1,128 @@
+"""The warp tension as bodies: each cylinder with its shaft ends, in its bearings, with reducer and motor.
+
+Each cylinder has its own axes: z along it, 0 in the middle of its width, the drive at +z.
+"""
+
+import math
+from dataclasses import replace
+
+from ilmek.elements.materials import MATERIALS, Material
+from ilmek.machines.warp_tension.cylinders import STUB, Cylinder, cylinders, part_id
+from ilmek.machines.warp_tension.design import WarpTensionDesign
+from ilmek.machines.warp_tension.params import WarpTensionParams
+from ilmek.part import catalogue
+from ilmek.part.part import Part
+from ilmek.part.placement import IDENTITY, Placement, placement
+from ilmek.part.shapes import Turned, stepped
+from ilmek.part.tree import GROUND, Joint, JointKind, Occurrence, RigidBody, Tree
+from ilmek.report.scene import SceneMotion
+from ilmek.units import format_quantity, mm
+
+PLUG = 20 * mm
+"""Length of a shaft end's plug in its tube [m]; assumed by this project."""
+
+UPPER, LOWER, SPACER = "upper", "lower", "spacer"
+
+
+def tree(design: WarpTensionDesign, positions: dict[str, Placement] | None = None) -> Tree:
+    """The bodies of the three cylinders.
+
+    positions  of each cylinder's axes by its name; default: all in one, as the machine has no side view of its own
+    """
+    where, shells = positions or {}, _shells(design)
+    geared = _drive_parts(design)
+    return Tree(
+        tuple(
+            body
+            for cylinder, shell in zip(cylinders(design), shells, strict=True)
+            for body in _bodies(design.params, cylinder, (shell, *geared), where.get(cylinder.name, IDENTITY))
+        )
+    )
+
+
+def turning(bodies: Tree, motions: dict[str, SceneMotion]) -> Tree:
+    """The tree with motions of the cylinders by their names."""
+    joints = {part_id(f"{name} cylinder"): motion for name, motion in motions.items()}
+    return Tree(
+        tuple(
+            replace(body, joint=replace(body.joint, motion=joints[body.id])) if body.id in joints else body
+            for body in bodies.bodies
+        )
+    )
+
+
+def _bodies(
+    params: WarpTensionParams, cylinder: Cylinder, common: tuple[Part, Part, Part], position: Placement
+) -> tuple[RigidBody, ...]:
+    """A cylinder with its ends, its bearings, and its drive; common: its tube, reducer and motor."""
+    name, row = cylinder.name, cylinder.bearing
+    shell, geared, driving = common
+    far = params.width / 2 + params.stub
+    end = _made(f"{name}-end", f"shaft end of the {name} cylinder", "turned part", _end(params, cylinder), "", STUB)
+    held = catalogue.bearing(part_id(f"{name}-bearing"), f"bearing of the {name} cylinder", row)
+    sides = tuple(_side(z=params.width / 2 - PLUG, flipped=flipped) for flipped in (False, True))
+    seats = tuple(_side(z=far, flipped=flipped) for flipped in (False, True))
+    return (
+        RigidBody(
+            part_id(f"{name} cylinder"),
+            (Occurrence(shell, (placement(z=-params.width / 2),)), Occurrence(end, sides)),
+            GROUND,
+            Joint(JointKind.PIN, seats=(f"{end.id}:journal", f"{held.id}:bore")),
+            (position,),
+        ),
+        RigidBody(
+            part_id(f"{name} bearings"),
+            (Occurrence(held, seats),),
+            joint=Joint(JointKind.MISSING),
+            positions=(position,),
+        ),
+        RigidBody(
+            part_id(f"{name} drive"),
+            tuple(Occurrence(part, (_flange(geared, far + row.width),)) for part in (geared, driving)),
+            joint=Joint(JointKind.MISSING),
+            positions=(position,),
+        ),
+    )
+
+
+def _shells(design: WarpTensionDesign) -> tuple[Part, Part, Part]:
+    """The tubes of upper and lower cylinder, which are alike [thesis 3.1], and of the spacer."""
+    steel = replace(MATERIALS["structural steel"], density=design.params.density)
+    upper, _, spacer = cylinders(design)
+    plain = _made("cylinder", "cylinder", "steel tube", upper.shell, _size(upper), steel)
+    return plain, plain, _made("spacer", "spacer cylinder", "steel tube", spacer.shell, _size(spacer), steel)
+
+
+def _end(params: WarpTensionParams, cylinder: Cylinder) -> Turned:
+    """The plug in the tube, from z = 0, and the journal that reaches through the bearing."""
+    return stepped((2 * cylinder.inner, PLUG), (cylinder.bearing.bore, params.stub + cylinder.bearing.width))
+
+
+def _drive_parts(design: WarpTensionDesign) -> tuple[Part, Part]:
+    """Reducer and motor: one of each for each of the three cylinders [thesis 3.1]."""
+    geared = catalogue.reducer(part_id("reducer"), "reducer of a cylinder", design.reducer.ratio, design.motor)
+    torque, speed = design.motor_torque, design.motor_speed
+    return geared, catalogue.motor(part_id("motor"), "motor of a cylinder", design.motor, torque, speed)
+
+
+def _flange(geared: Part, far: float) -> Placement:
+    """Where reducer and motor meet, beyond the bearing's end [m]: the reducer towards the cylinder."""
+    return placement(z=far + catalogue.length_of(geared), about=(1.0, 0.0, 0.0), angle=math.pi)
+
+
+def _side(*, z: float, flipped: bool) -> Placement:
+    """At a distance from the middle on the side of the drive, or flipped on the other side."""
+    own = placement(z=z)
+    return placement(about=(1.0, 0.0, 0.0), angle=math.pi).after(own) if flipped else own
+
+
+def _made(  # noqa: PLR0917
+    name: str, title: str, process: str, shape: Turned, size: str, material: Material
+) -> Part:
+    return Part(part_id(name), title, process, size, shape, material)
+
+
+def _size(cylinder: Cylinder) -> str:
+    """Outer diameter and wall of the tube."""
+    outer = cylinder.shell.outer_radius
+    return f"tube {format_quantity(2 * outer, 'mm')} x {format_quantity(outer - cylinder.inner, 'mm')}"

@@ -1,0 +1,26 @@
+"""The parts list of a tree: a line for each part, with the number of its pieces."""
+
+from ilmek.part.part import Part
+from ilmek.part.tree import Tree
+from ilmek.report import BillLine
+
+
+def bill(tree: Tree) -> tuple[BillLine, ...]:
+    """The lines of the parts list, in the order of the bodies."""
+    return tuple(_line(part, number) for part, number in tree.occurrences())
+
+
+def _line(part: Part, number: int) -> BillLine:
+    bought = part.purchase
+    return BillLine(
+        name=part.title,
+        number=number,
+        description=part.size or (bought.row if bought else ""),
+        material=part.material.name if part.material else "",
+        kind=part.process,
+        mass=part.mass,
+        length=bought.length if bought else 0.0,
+        power=bought.power if bought else 0.0,
+        drives=bool(bought and bought.drives),
+        part=part.id,
+    )

@@ -1,0 +1,100 @@
+"""Parts: kinds of things, made or bought, each with its shape and its seats; no position."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import field
+
+import numpy as np
+
+from ilmek.arrays import ComplexArray
+from ilmek.elements.materials import Material
+from ilmek.errors import ParameterError
+from ilmek.part.moments import Moments
+from ilmek.part.placement import Placement
+from ilmek.part.shapes import Shape
+from ilmek.records import record
+
+
+@record
+class Bought:
+    """A bought part, by its row of a catalogue.
+
+    row     of the catalogue, as ordered: `NEMA 34`        mass  of one [kg]; nan: not weighed
+    length  of one [m], power  of one [W]: where the price depends on them
+    drives  whether it drives an axis of the control
+    """
+
+    row: str
+    mass: float = math.nan
+    length: float = 0.0
+    power: float = 0.0
+    drives: bool = False
+
+
+@record
+class Seat:
+    """A place on a part where another part sits.
+
+    position  its frame on the part, z along the axis of a bore, journal or screw, or normal to a face
+    size   nominal: diameter of a bore or journal, width of a key [m]
+    """
+
+    position: Placement
+    size: float
+
+
+@record
+class Part:
+    """A kind of thing: what it is, how it is made, of what, and where others sit on it.
+
+    id       unique: machine and part, `tension-compensator/lever`         title   for people
+    size     for people: the section or the length that it is cut to; default: the catalogue's row
+    process  how it is made or bought: the kind by which it is priced      shape   in the part's own axes
+    material  of a part that is made          purchase  of a bought one     seats   by name
+    envelope  the shape is the room that the part takes: its form is not designed, or the maker's
+    paths     closed curves of a flat part that guide a tool, not cut through      marks  lines to scribe, by name
+
+    A made part has a shape and a material, and weighs what these say. A bought part weighs what its catalogue says.
+    Raises ParameterError for a part that is both or neither.
+    """
+
+    id: str
+    title: str
+    process: str
+    size: str = ""
+    shape: Shape | None = None
+    material: Material | None = None
+    purchase: Bought | None = None
+    seats: Mapping[str, Seat] = field(default_factory=dict)
+    envelope: bool = False
+    paths: Mapping[str, ComplexArray] = field(default_factory=dict)
+    marks: Mapping[str, ComplexArray] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        if (self.purchase is None) == (self.material is None):
+            raise ParameterError(f"part {self.id} without one source", allowed="a material, or a purchase")
+        if self.material is not None and self.shape is None:
+            raise ParameterError(f"part {self.id} of {self.material.name} without a shape", do="give its shape")
+
+    @property
+    def moments(self) -> Moments | None:
+        """Moments of its mass (kg, kg m, kg m²); None where it is not weighed.
+
+        A bought part with an envelope has its mass spread over it, one without stands as a point at its origin.
+        """
+        if self.material is not None and self.shape is not None:
+            return self.shape.moments * self.material.density
+        assert self.purchase is not None
+        mass = self.purchase.mass
+        if math.isnan(mass):
+            return None
+        if self.shape is None:
+            return Moments(mass, np.zeros(3), np.zeros((3, 3)))
+        volume = self.shape.moments
+        return volume * (mass / volume.zeroth)
+
+    @property
+    def mass(self) -> float:
+        """Mass of one [kg]; nan: not weighed."""
+        moments = self.moments
+        return math.nan if moments is None else moments.zeroth

@@ -1,0 +1,84 @@
+"""Where a thing lies in the frame of another: r -> origin + rotation r.
+
+Axes of a scene [m]: x across, to the weaver's right; y up; z to the front. A part that lies in the side view has its
+own axes there by `IN_SIDE_VIEW`: its x to the front, its y up, its z to the weaver's left.
+"""
+
+import math
+
+import numpy as np
+
+from ilmek.arrays import Float
+from ilmek.errors import ParameterError
+from ilmek.records import record
+
+_RIGHT_ANGLES = 1e-9
+"""Deviation of R R^T from the identity that counts as rounding."""
+
+
+@record
+class Placement:
+    """A rigid displacement: origin [m] and rotation matrix.
+
+    Raises ParameterError for a matrix that is no rotation.
+    """
+
+    origin: Float[np.ndarray, " 3"]
+    rotation: Float[np.ndarray, "3 3"]
+
+    def __post_init__(self) -> None:
+        error = np.abs(self.rotation @ self.rotation.T - np.eye(3)).max()
+        if not (error < _RIGHT_ANGLES and np.linalg.det(self.rotation) > 0):
+            raise ParameterError("a matrix that is no rotation", allowed="orthogonal, of determinant 1")
+
+    def after(self, inner: "Placement") -> "Placement":
+        """First `inner`, then this: the place in the outer frame of a thing that lies at `inner` in this one."""
+        return Placement(self.points(inner.origin), self.rotation @ inner.rotation)
+
+    def points(self, points: Float[np.ndarray, "*n 3"]) -> Float[np.ndarray, "*n 3"]:
+        """Points of the thing's own frame in the other [m]."""
+        return np.asarray(self.origin + points @ self.rotation.T)
+
+    @property
+    def inverse(self) -> "Placement":
+        """The place of the other frame in the thing's own."""
+        return Placement(-self.rotation.T @ self.origin, self.rotation.T)
+
+
+def placement(
+    x: float = 0.0,
+    y: float = 0.0,
+    z: float = 0.0,
+    *,
+    about: tuple[float, float, float] | None = None,
+    angle: float = 0.0,
+) -> Placement:
+    """Turned about an axis by an angle [rad], then moved to (x, y, z) [m].      [Rodrigues' formula]
+
+    >>> placement(1.0, about=(0, 0, 1), angle=math.pi / 2).points(np.array([1.0, 0.0, 0.0])).round(12).tolist()
+    [1.0, 1.0, 0.0]
+    """
+    return Placement(np.array([x, y, z], dtype=float), np.eye(3) if about is None else rotation(about, angle))
+
+
+def rotation(axis: tuple[float, float, float], angle: float) -> Float[np.ndarray, "3 3"]:
+    """The matrix that turns about an axis by an angle [rad]; raises ParameterError for an axis without direction."""
+    length = math.hypot(*axis)
+    if not length > 0:
+        raise ParameterError(f"an axis of length {length:g}", allowed="above 0")
+    x, y, z = (component / length for component in axis)
+    across = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    return np.asarray(np.eye(3) + math.sin(angle) * across + (1 - math.cos(angle)) * across @ across)
+
+
+IDENTITY = placement()
+"""The frame itself."""
+
+IN_SIDE_VIEW = Placement(np.zeros(3), np.array([[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]]))
+"""A part drawn in the side view: its x to the front, its y up, its z to the weaver's left."""
+
+ALONG_WIDTH = Placement(np.zeros(3), np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]))
+"""A part whose z points along the width, to the weaver's right: its x up, its y to the front."""
+
+UPRIGHT = Placement(np.zeros(3), np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]))
+"""A part whose z points up: its x to the front, its y across."""

@@ -1,0 +1,46 @@
+"""The flat parts of a tree as plates for the workshop: prisms that are cut from plate or flat bar."""
+
+from ilmek.part.part import Part
+from ilmek.part.shapes import Prism
+from ilmek.part.tree import Tree
+from ilmek.plane.contours import area, as_hole, counter_clockwise
+from ilmek.report import Plate
+
+FLAT = ("laser-cut part", "machined link")
+"""Processes by which a contour is cut out of flat stock."""
+
+
+def plates_of(tree: Tree) -> tuple[Plate, ...]:
+    """A plate for each flat part that is made, named by the last part of its id, in the order of the bodies."""
+    return tuple(_plate(part, number) for part, number in tree.occurrences() if is_flat(part))
+
+
+def is_flat(part: Part) -> bool:
+    """Whether a part is drawn as a plate."""
+    return part.process in FLAT and part.material is not None and isinstance(part.shape, Prism)
+
+
+def plate_name(part: Part) -> str:
+    """Name of a part's plate in its machine: the last part of its id."""
+    return part.id.rpartition("/")[2]
+
+
+def _plate(part: Part, number: int) -> Plate:
+    shape = part.shape
+    assert isinstance(shape, Prism)
+    assert part.material is not None
+    outline = counter_clockwise(shape.section.outline)
+    bores = [(cut, as_hole(cut)) for cut in shape.section.holes]
+    return Plate(
+        name=plate_name(part),
+        title=part.title.capitalize(),
+        outline=outline.points if shape.section.smooth else outline,
+        thickness=shape.length,
+        material=part.material.name,
+        holes=tuple(hole for _, hole in bores if hole is not None),
+        cutouts=tuple(counter_clockwise(cut) for cut, hole in bores if hole is None),
+        area=area(outline),
+        number=number,
+        paths=part.paths,
+        marks=part.marks,
+    )

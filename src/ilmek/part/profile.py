@@ -1,0 +1,90 @@
+"""Moments of a plane section, bounded by straight pieces and arcs, exact to rounding.
+
+    M(p, q) = integral of x^p y^q dA = 1/(p + 1) closed integral of x^(p + 1) y^q dy            [Green's theorem]
+
+On a straight piece the integrand is a polynomial, for which Gauss' rule is exact; on an arc it is a trigonometric
+polynomial of its angle of degree p + q + 2, for which `_NODES` nodes leave less than rounding over a whole turn.
+"""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.errors import ParameterError
+from ilmek.plane.contours import STRAIGHT, area, circle, counter_clockwise
+from ilmek.records import record
+from ilmek.report import Contour, Hole
+
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(24)
+_SHARE, _WEIGHT = (_NODES + 1) / 2, _WEIGHTS / 2
+
+
+@record
+class Profile:
+    """A plane figure: all within its outline that is in none of its holes [m].
+
+    outline  closed, in either direction        holes  closed, inside the outline, apart from each other
+    smooth   the corners of the outline are points of a curve, so near that arcs can be laid through them
+
+    Raises ParameterError where its area is not above 0.
+    """
+
+    outline: Contour
+    holes: tuple[Contour, ...] = ()
+    smooth: bool = False
+
+    def __post_init__(self) -> None:
+        if not self.area > 0:
+            raise ParameterError(
+                f"a section of {self.area:g} m²", allowed="above 0", do="set holes that lie within the outline"
+            )
+
+    @property
+    def contours(self) -> tuple[Contour, ...]:
+        """Its outline counter-clockwise, and its holes clockwise: the section lies to the left of each."""
+        return (counter_clockwise(self.outline), *(_clockwise(hole) for hole in self.holes))
+
+    @property
+    def area(self) -> float:
+        """Area [m²]."""
+        return abs(area(self.outline)) - math.fsum(abs(area(hole)) for hole in self.holes)
+
+    def moment(self, p: int, q: int) -> float:
+        """Moment M(p, q) about the origin [m^(p + q + 2)].
+
+        >>> round(Profile(circle(0j, 1.0)).moment(2, 0) / math.pi, 12)
+        0.25
+        """
+        return math.fsum(contour_moment(contour, p, q) for contour in self.contours)
+
+
+def drilled(outline: Contour, holes: Sequence[Hole], cutouts: Sequence[Contour] = ()) -> Profile:
+    """The section of a plate with round holes and other cutouts."""
+    return Profile(outline, (*(circle(hole.at, hole.radius) for hole in holes), *cutouts))
+
+
+def _clockwise(contour: Contour) -> Contour:
+    turned = counter_clockwise(contour)
+    return Contour(turned.points[::-1], -np.roll(turned.bulges[::-1], -1))
+
+
+def contour_moment(contour: Contour, p: int, q: int) -> float:
+    """Moment M(p, q) of all within a contour about the origin [m^(p + q + 2)], negative for a clockwise one."""
+    point, step = _pieces(contour)
+    integrand = point.real ** (p + 1) * point.imag**q * step.imag
+    return float(np.sum(integrand @ _WEIGHT)) / (p + 1)
+
+
+def _pieces(contour: Contour) -> tuple[ComplexArray, ComplexArray]:
+    """Points of each piece at Gauss' nodes [m], and their derivatives by its share of the piece, (pieces, nodes)."""
+    start = contour.points[:, None]
+    chord = np.roll(contour.points, -1)[:, None] - start
+    bulge: FloatArray = contour.bulges[:, None]
+    straight = np.abs(bulge) < STRAIGHT
+    half = 2 * np.arctan(np.where(straight, 1.0, bulge))  # half of the sweep
+    turned = np.exp(-1j * half * (1 - _SHARE)) / np.sin(half)
+    share = np.where(straight, _SHARE, turned * np.sin(half * _SHARE))
+    speed = np.where(straight, 1.0, turned * half * np.exp(1j * half * _SHARE))
+    return start + chord * share, chord * speed

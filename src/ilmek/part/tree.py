@@ -1,0 +1,150 @@
+"""Bodies and their joints: the tree of a machine, from which all its views are made.
+
+    point in the parent = position (shift(q) + R(axis, rotation(q)) point)          q  angle of the joint's drive
+
+`position` is where the body's frame lies in its parent's at rest; a body that is there many times has one for each.
+"""
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import field, replace
+from enum import StrEnum
+
+from ilmek.errors import ParameterError
+from ilmek.part.moments import Moments, together
+from ilmek.part.part import Part, Seat
+from ilmek.part.placement import IDENTITY, Placement
+from ilmek.records import record
+from ilmek.report.scene import SceneMotion
+
+GROUND = ""
+"""Name of what stands."""
+
+Axis = tuple[float, float, float]
+
+
+class JointKind(StrEnum):
+    """How a body is held by its parent."""
+
+    FIXED = "fixed"
+    PIN = "pin"
+    SLIDE = "slide"
+    SCREW = "screw"
+    ROLLING = "rolling"
+    CAM = "cam and follower"
+    MISSING = "missing"
+    """Nothing holds the body yet: its support is not designed."""
+
+
+@record
+class Joint:
+    """The joint of a body to its parent.
+
+    axis    in the body's frame: of a pin, along a slide          motion  what drives it; None: it stands, or hangs free
+    seats   seat of the body and seat of the parent that meet in it, each `part id:seat`; none where it is not designed
+    """
+
+    kind: JointKind = JointKind.FIXED
+    axis: Axis = (0.0, 0.0, 1.0)
+    motion: SceneMotion | None = None
+    seats: tuple[str, ...] = ()
+
+
+@record
+class Occurrence:
+    """A part in a body, at one or more positions in its frame."""
+
+    part: Part
+    positions: tuple[Placement, ...] = (IDENTITY,)
+
+
+@record
+class RigidBody:
+    """What moves as one: parts, and the joint by which its parent holds it.
+
+    id  unique    parent  id of a body, or the ground    positions  of its frame in the parent's, one for each of them
+    """
+
+    id: str
+    occurrences: tuple[Occurrence, ...]
+    parent: str = GROUND
+    joint: Joint = field(default_factory=Joint)
+    positions: tuple[Placement, ...] = (IDENTITY,)
+
+    @property
+    def moments(self) -> Moments:
+        """Moments of its mass in its own frame (kg, kg m, kg m²), of the parts that are weighed."""
+        return together(
+            moments.placed(position)
+            for occurrence in self.occurrences
+            for moments in [occurrence.part.moments]
+            if moments is not None
+            for position in occurrence.positions
+        )
+
+
+@record
+class Tree:
+    """The bodies of a machine, each after its parent.
+
+    Raises ParameterError for an id that is there twice, and for a parent that does not come before its body.
+    """
+
+    bodies: tuple[RigidBody, ...] = ()
+
+    def __post_init__(self) -> None:
+        ids: set[str] = {GROUND}
+        for body in self.bodies:
+            if body.id in ids:
+                raise ParameterError(f"two bodies named {body.id!r}", do="give each its own id")
+            if body.parent not in ids:
+                raise ParameterError(f"body {body.id!r} on {body.parent!r}", allowed="a body before it, or the ground")
+            ids.add(body.id)
+        parts: dict[str, Part] = {}
+        for body in self.bodies:
+            for occurrence in body.occurrences:
+                if parts.setdefault(occurrence.part.id, occurrence.part) is not occurrence.part:
+                    raise ParameterError(f"two parts named {occurrence.part.id!r}", do="give each its own id")
+
+    def body(self, name: str) -> RigidBody:
+        """The body of an id. Raises ParameterError for an unknown one."""
+        for body in self.bodies:
+            if body.id == name:
+                return body
+        raise ParameterError(f"no body {name!r}", allowed=", ".join(body.id for body in self.bodies))
+
+    def counts(self) -> Mapping[str, int]:
+        """How often each body is there: its positions times those of all that carry it."""
+        counts = {GROUND: 1}
+        for body in self.bodies:
+            counts[body.id] = counts[body.parent] * len(body.positions)
+        return counts
+
+    def occurrences(self) -> Iterator[tuple[Part, int]]:
+        """Each part once, in the order of the bodies, with the number of its pieces in the machine."""
+        counts, parts, numbers = self.counts(), dict[str, Part](), dict[str, int]()
+        for body in self.bodies:
+            for occurrence in body.occurrences:
+                part = parts.setdefault(occurrence.part.id, occurrence.part)
+                numbers[part.id] = numbers.get(part.id, 0) + counts[body.id] * len(occurrence.positions)
+        return ((part, numbers[name]) for name, part in parts.items())
+
+    @property
+    def mass(self) -> float:
+        """Mass of all parts that are weighed [kg]."""
+        return math.fsum(number * part.mass for part, number in self.occurrences() if not math.isnan(part.mass))
+
+    def carrying(self, parent: str, tree: "Tree", position: Placement = IDENTITY) -> "Tree":
+        """The tree with another on one of its bodies: the ground of the other at a position in that body's frame."""
+        carried = (
+            replace(body, parent=parent, positions=tuple(position.after(own) for own in body.positions))
+            if body.parent == GROUND
+            else body
+            for body in tree.bodies
+        )
+        return Tree((*self.bodies, *carried))
+
+
+def mated(own: Seat, other: Seat) -> Placement:
+    """Where a part lies in another's frame when a seat of it meets a seat of the other: origins and axes as one."""
+    return other.position.after(own.position.inverse)
