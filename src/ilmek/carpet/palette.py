@@ -12,8 +12,9 @@ import numpy as np
 
 from ilmek.arrays import Float, Float32, FloatArray, Indices, Int, Int32, Int64, IntArray, Rgb, UInt8
 from ilmek.carpet.colour import srgb_to_lab
-from ilmek.carpet.colour_difference import delta_e_2000, nearest
+from ilmek.carpet.colour_difference import delta_e_2000
 from ilmek.carpet.design import PART, bands
+from ilmek.carpet.nearest_colour import nearest
 from ilmek.errors import YarnError
 from ilmek.num.compiled import compiled
 from ilmek.num.threads import in_threads

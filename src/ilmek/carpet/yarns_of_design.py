@@ -15,9 +15,10 @@ import numpy as np
 from ilmek.arrays import Float, FloatArray, UInt8
 from ilmek.carpet.assignment import assign_yarns
 from ilmek.carpet.colour import srgb_to_lab
-from ilmek.carpet.colour_difference import delta_e_2000, nearest
+from ilmek.carpet.colour_difference import delta_e_2000
 from ilmek.carpet.colour_groups import TWIN, ColourGroups, colour_groups
 from ilmek.carpet.edges_kept import edges_kept
+from ilmek.carpet.nearest_colour import nearest
 from ilmek.carpet.palette import Colours, nearest_yarns, paint
 from ilmek.carpet.palette_rules import (
     LEAST_EDGES,
