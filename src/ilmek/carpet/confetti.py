@@ -28,9 +28,9 @@ from ilmek.carpet.design import bands
 from ilmek.carpet.dots import REACH, Sizes, in_row, middle_of
 from ilmek.carpet.halftone import CELL
 from ilmek.carpet.light import LIGHT, lab_of_light
-from ilmek.carpet.patches import Marks, Members, begins, fill, room
+from ilmek.carpet.patches import Marks, Members, begins, fill, grown, room
 from ilmek.carpet.thin_lines import between_areas, on_line
-from ilmek.num.compiled import compiled
+from ilmek.num.compiled import compiled, in_place
 from ilmek.num.threads import MOST_THREADS, in_threads
 from ilmek.progress import SILENT, Progress
 
@@ -52,7 +52,7 @@ VISIBLE = 10.0
 """Contrast [CIEDE2000] at which a patch of the least number of knots is kept."""
 
 
-@compiled
+@in_place
 def is_lone(knots: Indices, row: int, column: int) -> bool:
     """Whether a knot has neighbours and differs from all of them: left, right, above and below (fewer at an edge)."""
     yarn = knots[row, column]
@@ -66,7 +66,7 @@ def is_lone(knots: Indices, row: int, column: int) -> bool:
     )
 
 
-@compiled
+@in_place
 def _add_light(rgb: Rgb, row: int, column: int, sums: IntArray) -> None:
     # Whole numbers: the sum does not depend on the order.
     for channel in range(3):
@@ -80,7 +80,7 @@ def _contrast(one: IntArray, ones: int, other: IntArray, others: int) -> float:
     return ciede2000(l1, a1, b1, l2, a2, b2)
 
 
-@compiled
+@in_place
 def _surround(  # noqa: PLR0917
     knots: Indices, rgb: Rgb, members: Members, number: int, marks: Marks, mark: int, around: IntArray, sums: IntArray
 ) -> int:
@@ -103,10 +103,12 @@ def _surround(  # noqa: PLR0917
     return ring
 
 
-@compiled
+@in_place
 def _nearest_around(own: IntArray, number: int, ring: int, around: IntArray, sums: IntArray) -> tuple[int, float]:
     """The yarn around a patch that it would take, and the contrast to it."""
-    most = around.max()
+    most = 0
+    for number_of_yarn in around:
+        most = max(most, number_of_yarn)
     best, least = -1, np.inf
     for yarn in range(len(around)):
         if around[yarn] > 0 and (4 * around[yarn] >= ring or around[yarn] == most):
@@ -116,7 +118,7 @@ def _nearest_around(own: IntArray, number: int, ring: int, around: IntArray, sum
     return best, least
 
 
-@compiled
+@in_place
 def _measure(  # noqa: PLR0917
     knots: Indices, least: int, side: int, wanted: BoolArray, sizes: Sizes, starts: Starts, members: Members,
     marks: Marks
@@ -143,7 +145,7 @@ def _measure(  # noqa: PLR0917
     return found
 
 
-@compiled
+@in_place
 def _is_kept(kept: BoolArray, members: Members, number: int) -> bool:
     """Whether a knot of a patch lies in a cell of a halftone; `kept` is empty without one."""
     for k in range(number if kept.size else 0):
@@ -195,7 +197,7 @@ def _judge(  # noqa: PLR0917
             loose[members[k, 0], members[k, 1]] = True
 
 
-@compiled
+@in_place
 def _first_of_its_neighbours(  # noqa: PLR0917
     knots: Indices, sizes: Sizes, loose: BoolArray, members: Members, number: int, yarn: int
 ) -> bool:
@@ -209,7 +211,7 @@ def _first_of_its_neighbours(  # noqa: PLR0917
     return True
 
 
-@compiled
+@in_place
 def _merge(  # noqa: PLR0917
     knots: Indices, out: OwnKnots, top: int, least: int, side: int, sizes: Sizes, starts: Starts, targets: Indices,
     loose: BoolArray, again: BoolArray, members: Members, marks: Marks
@@ -261,7 +263,7 @@ def merge_patches(
     share = 0.0
     while wanted.any():
         then = 0.2 * share + 0.8  # the number of rounds is not known
-        wanted = _round(merged, task, _grown(wanted), progress.part(share, then))
+        wanted = _round(merged, task, grown(wanted), progress.part(share, then))
         share = then
     return merged, sum(int(np.count_nonzero(merged[band] != knots[band])) for band in bands(*knots.shape))
 
@@ -307,7 +309,7 @@ def _merge_window(  # noqa: PLR0917
     members, marks = room(least)
     sizes, loose = np.empty(window.shape, dtype=np.uint8), np.zeros(window.shape, dtype=bool)
     starts = np.empty(window.size, dtype=np.int32)
-    found = _measure(window, least, side, _grown(wanted), sizes, starts, members, marks)
+    found = _measure(window, least, side, grown(wanted), sizes, starts, members, marks)
     starts, targets = starts[:found], np.empty(found, dtype=np.uint8)
     rgb, kept = task.rgb[first : first + len(window)], task.kept[first // CELL :]
     near = (top - 2 * least, top + len(out) + 2 * least)
@@ -318,10 +320,3 @@ def _merge_window(  # noqa: PLR0917
 def _side(least: int) -> int:
     """Side of a tile: no judgement depends on a knot as far away."""
     return REACH + 4 * least
-
-
-def _grown(tiles: BoolArray) -> BoolArray:
-    """The tiles and those that touch them."""
-    padded = np.pad(tiles, 1)
-    rows = padded[:-2] | padded[1:-1] | padded[2:]
-    return np.asarray(rows[:, :-2] | rows[:, 1:-1] | rows[:, 2:])

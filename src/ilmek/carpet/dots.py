@@ -11,7 +11,7 @@ import numpy as np
 
 from ilmek.arrays import Indices, IntArray, UInt8
 from ilmek.carpet.patches import Marks, Members, fill
-from ilmek.num.compiled import compiled
+from ilmek.num.compiled import in_place
 
 LARGEST_STEP = 12
 """Knots between two dots, along rows and columns."""
@@ -42,7 +42,7 @@ _OFFSETS = np.stack([_offsets(row, column) for row in (0, 1) for column in (0, 1
 Sizes = UInt8[np.ndarray, "rows columns"]
 
 
-@compiled
+@in_place
 def middle_of(members: Members, number: int) -> tuple[int, int]:
     """The middle of the rectangle around the knots of a patch, in half knots."""
     top, left = members[0]
@@ -53,13 +53,13 @@ def middle_of(members: Members, number: int) -> tuple[int, int]:
     return top + bottom, left + right
 
 
-@compiled
+@in_place
 def _alike(knots: Indices, sizes: Sizes, i: int, j: int, yarn: int, number: int) -> bool:  # noqa: PLR0917
     size = sizes[i, j]
     return bool(size > 0 and knots[i, j] == yarn and 2 * abs(size - number) <= max(2, number))
 
 
-@compiled
+@in_place
 def _dot_at(  # noqa: PLR0917
     knots: Indices, sizes: Sizes, row: int, column: int, off: int, yarn: int, number: int, least: int,
     members: Members, marks: Marks
@@ -79,7 +79,7 @@ def _dot_at(  # noqa: PLR0917
     return found_row, found_column, clear
 
 
-@compiled
+@in_place
 def _dots_along(  # noqa: PLR0917
     knots: Indices, sizes: Sizes, row: int, column: int, down: int, right: int, yarn: int, number: int, least: int,
     members: Members, marks: Marks
@@ -93,7 +93,7 @@ def _dots_along(  # noqa: PLR0917
     return DOTS - 1
 
 
-@compiled
+@in_place
 def in_row(  # noqa: PLR0917
     knots: Indices, sizes: Sizes, own: Members, number: int, least: int, members: Members, marks: Marks
 ) -> bool:
@@ -128,7 +128,7 @@ def in_row(  # noqa: PLR0917
     return False
 
 
-@compiled
+@in_place
 def _is_own(own: Members, number: int, i: int, j: int) -> bool:
     for k in range(number):  # noqa: SIM110 - `any` is not compiled
         if own[k, 0] == i and own[k, 1] == j:

@@ -12,7 +12,7 @@ import math
 
 import numpy as np
 
-from ilmek.arrays import FloatArray, IntArray
+from ilmek.arrays import FloatArray, IntArray, UInt8
 from ilmek.carpet.colour import XYZ_TO_RGB, lab_to_xyz
 from ilmek.carpet.colour_difference import ciede2000
 from ilmek.carpet.light import LIGHT, lab_of_light
@@ -125,10 +125,14 @@ def _allowed(far: FloatArray, labs: FloatArray, a: float, b: float, tried: IntAr
 
 @compiled
 def mix(  # noqa: PLR0917
-    tone: FloatArray, labs: FloatArray, lights: FloatArray, strength: float, yarns: IntArray, aim: IntArray,
-    slope: IntArray
+    tone: FloatArray, labs: FloatArray, lights: FloatArray, strength: float, yarns: UInt8[np.ndarray, "3"],
+    aim: IntArray, place: IntArray, slope: IntArray
 ) -> None:  # fmt: skip
-    """Write the yarns of the mixture of a tone, its light in units of LIGHT, and SLOPES × the slope of CIELAB there.
+    """Write the mixture of a tone in whole numbers.
+
+    yarns  of the mixture      aim  its light in units of LIGHT
+    place  of each yarn, as seen from the mixture: axes of CIELAB in units of 1/(256 SLOPES)
+    slope  of CIELAB with light there, in units of SLOPES
 
     tone  linear light, 1 is white      labs, lights  CIELAB and light of the yarns
     strength  the light aimed at lies at this share of the path from that of the nearest yarn to that of the tone
@@ -157,3 +161,9 @@ def mix(  # noqa: PLR0917
             mixed += shares[k] * lights[yarns[k], channel]
             slope[k, channel] = round(SLOPES * matrix[k, channel])
         aim[channel] = round(WHITE * mixed)
+    for k in range(3):
+        for axis in range(3):
+            seen = 0.0
+            for channel in range(3):
+                seen += matrix[axis, channel] * (WHITE * lights[yarns[k], channel] - aim[channel])
+            place[k, axis] = round(SLOPES * seen / 65536)

@@ -9,10 +9,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ilmek.arrays import Indices, Int32, Int64, UInt8
+from ilmek.arrays import BoolArray, Indices, Int32, Int64, UInt8
 from ilmek.carpet.codes import CODES
 from ilmek.carpet.design import PART, bands
-from ilmek.num.compiled import compiled
+from ilmek.num.compiled import compiled, in_place
 from ilmek.num.threads import in_threads
 from ilmek.progress import SILENT, Progress
 
@@ -25,7 +25,22 @@ def room(least: int) -> tuple[Members, Marks]:
     return np.empty((least + 1, 2), dtype=np.int64), np.zeros((2 * least + 3, 2 * least + 3), dtype=np.int32)
 
 
-@compiled
+def grown(cells: BoolArray) -> BoolArray:
+    """Cells (rows, columns) that are true, and those that touch them.
+
+    >>> grown(np.array([[True, False, False]])).tolist()
+    [[True, True, False]]
+    """
+    wide = cells.copy()
+    wide[1:] |= cells[:-1]
+    wide[:-1] |= cells[1:]
+    out = wide.copy()
+    out[:, 1:] |= wide[:, :-1]
+    out[:, :-1] |= wide[:, 1:]
+    return out
+
+
+@in_place
 def begins(knots: Indices, row: int, column: int) -> bool:
     """Whether no earlier neighbour has the yarn of a knot."""
     yarn = knots[row, column]
@@ -40,7 +55,7 @@ def begins(knots: Indices, row: int, column: int) -> bool:
     )
 
 
-@compiled
+@in_place
 def fill(  # noqa: PLR0917
     knots: Indices, row: int, column: int, least: int, first: bool, members: Members, marks: Marks, mark: int
 ) -> int:
@@ -71,7 +86,7 @@ def fill(  # noqa: PLR0917
     return found
 
 
-@compiled
+@in_place
 def _count(  # noqa: PLR0917
     knots: Indices, first: int, stop: int, members: Members, marks: Marks, found: Int64[np.ndarray, " sizes"]
 ) -> None:
