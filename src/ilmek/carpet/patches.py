@@ -56,6 +56,13 @@ def begins(knots: Indices, row: int, column: int) -> bool:
 
 
 @in_place
+def next_mark(marks: Marks) -> int:
+    """A mark that is at no knot; they are counted in the corner, which no fill reaches."""
+    marks[0, 0] += 1
+    return int(marks[0, 0])
+
+
+@in_place
 def fill(  # noqa: PLR0917
     knots: Indices, row: int, column: int, least: int, first: bool, members: Members, marks: Marks, mark: int
 ) -> int:
