@@ -93,20 +93,6 @@ VISIBLE = 10.0
 
 
 @in_place
-def is_lone(knots: Indices, row: int, column: int) -> bool:
-    """Whether a knot has neighbours and differs from all of them: left, right, above and below (fewer at an edge)."""
-    yarn = knots[row, column]
-    last_row, last_column = knots.shape[0] - 1, knots.shape[1] - 1
-    return bool(
-        (column == 0 or knots[row, column - 1] != yarn)
-        and (column == last_column or knots[row, column + 1] != yarn)
-        and (row == 0 or knots[row - 1, column] != yarn)
-        and (row == last_row or knots[row + 1, column] != yarn)
-        and (last_row > 0 or last_column > 0)
-    )
-
-
-@in_place
 def _add_light(rgb: Rgb, row: int, column: int, sums: IntArray) -> None:
     # Whole numbers: the sum does not depend on the order.
     for channel in range(3):

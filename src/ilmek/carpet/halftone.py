@@ -30,7 +30,7 @@ from ilmek.carpet.design import bands
 from ilmek.carpet.light import LIGHT, code_of_light, lab_of_light
 from ilmek.carpet.mixtures import WHITE, mix, yarn_lights
 from ilmek.carpet.nearest_colour import NearestSearch, nearest_of, nearest_search
-from ilmek.carpet.patches import grown
+from ilmek.carpet.patches import grown, is_lone
 from ilmek.num.compiled import compiled, in_place
 from ilmek.progress import SILENT, Progress
 
@@ -299,20 +299,18 @@ def _join(knots: Indices, rgb: Rgb, labs: FloatArray, first: int, stop: int) -> 
     rows, columns = knots.shape
     for y in range(first, stop):
         for x in range(columns):
-            own, lone = knots[y, x], True
+            if not is_lone(knots, y, x):
+                continue
+            own = knots[y, x]
+            lightness, a, b = lab_of_light(LIGHT[rgb[y, x, 0]], LIGHT[rgb[y, x, 1]], LIGHT[rgb[y, x, 2]])
+            least = ciede2000(lightness, a, b, labs[own, 0], labs[own, 1], labs[own, 2]) + SHOWN
             for i, j in ((y - 1, x), (y + 1, x), (y, x - 1), (y, x + 1)):
-                if 0 <= i < rows and 0 <= j < columns and knots[i, j] == own:
-                    lone = False
-            if lone:
-                lightness, a, b = lab_of_light(LIGHT[rgb[y, x, 0]], LIGHT[rgb[y, x, 1]], LIGHT[rgb[y, x, 2]])
-                least = ciede2000(lightness, a, b, labs[own, 0], labs[own, 1], labs[own, 2]) + SHOWN
-                for i, j in ((y - 1, x), (y + 1, x), (y, x - 1), (y, x + 1)):
-                    if 0 <= i < rows and 0 <= j < columns:
-                        yarn = knots[i, j]
-                        far = ciede2000(lightness, a, b, labs[yarn, 0], labs[yarn, 1], labs[yarn, 2])
-                        if far < least:
-                            least = far
-                            knots[y, x] = yarn
+                if 0 <= i < rows and 0 <= j < columns:
+                    yarn = knots[i, j]
+                    far = ciede2000(lightness, a, b, labs[yarn, 0], labs[yarn, 1], labs[yarn, 2])
+                    if far < least:
+                        least = far
+                        knots[y, x] = yarn
 
 
 def _dots(part: Rgb, tones: Tones) -> BoolArray:

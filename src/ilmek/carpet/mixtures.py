@@ -155,6 +155,15 @@ def mix(  # noqa: PLR0917
                 for channel in range(3):
                     off[yarn, axis] += matrix[axis, channel] * (lights[yarn, channel] - light[channel])
         _best_mixture(off, far, tried[:some], yarns, shares)
+    _in_whole_numbers(lights, shares, matrix, yarns, aim, place, slope)
+
+
+@compiled
+def _in_whole_numbers(  # noqa: PLR0917
+    lights: FloatArray, shares: FloatArray, matrix: FloatArray, yarns: UInt8[np.ndarray, "3"], aim: IntArray,
+    place: IntArray, slope: IntArray
+) -> None:  # fmt: skip
+    """Write the aim, places and slope of a mixture [`mix`]; `matrix`: the slope."""
     for channel in range(3):
         mixed = 0.0
         for k in range(3):

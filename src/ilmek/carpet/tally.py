@@ -6,9 +6,8 @@ import numpy as np
 
 from ilmek.arrays import Indices, IntArray
 from ilmek.carpet.codes import CODES
-from ilmek.carpet.confetti import is_lone
 from ilmek.carpet.design import PART, bands
-from ilmek.carpet.patches import count_patches
+from ilmek.carpet.patches import count_patches, is_lone
 from ilmek.num.compiled import in_place
 from ilmek.num.threads import in_threads
 from ilmek.progress import SILENT, Progress
