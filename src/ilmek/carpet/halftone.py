@@ -37,7 +37,7 @@ from ilmek.progress import SILENT, Progress
 CELL = 2
 """Knots along a side of a cell."""
 
-OUTLINE, OUTLINE_INSIDE = 24, 36
+OUTLINE, OUTLINE_INSIDE = 32, 48
 """Differences of an outline, in codes of a channel."""
 
 MOST_MOVED = 32
@@ -51,7 +51,7 @@ is rounded off is carried on.
 SAME = 3
 """A tone whose codes differ by no more from those of its nearest yarn takes that yarn."""
 
-SHOWN = 4.0
+SHOWN = 5.0
 """A lone knot shows where the yarns beside it are farther from its colour than its own by more [CIEDE2000]."""
 
 _TONES, _COLOURS = 255 // STEP + 2, 256 // FINE

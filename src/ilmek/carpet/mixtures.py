@@ -21,16 +21,16 @@ from ilmek.num.compiled import compiled
 PENALTY = 1 / 160
 """Weight of the contrast of the yarns with the tone, against the difference of the mixture [1/CIEDE2000]."""
 
-MOST_TRIED = 5
+MOST_TRIED = 8
 """Yarns that are tried: those nearest to the tone. Of many shades of one picture, farther ones would only show."""
 
-FLAT = 2.0
+FLAT = 0.5
 """A tone that is as near to a yarn takes that yarn [CIEDE2000]."""
 
-CONTRAST = 26.0
+CONTRAST = 31.0
 """Greatest contrast of a yarn of a mixture with its tone [CIEDE2000]."""
 
-CHROMA = 20.0
+CHROMA = 24.0
 """Greatest difference of a yarn of a mixture to its tone in a, b, weighted as in CIEDE2000."""
 
 SLOPES = 16
