@@ -27,6 +27,9 @@ MOST_TRIED = 8
 FLAT = 0.5
 """A tone that is as near to a yarn takes that yarn [CIEDE2000]."""
 
+SPARSE, SHOWING = 0.05, 8.0
+"""A yarn with a lesser share of a mixture is left out of it if its contrast with the tone is greater [CIEDE2000]."""
+
 CONTRAST = 31.0
 """Greatest contrast of a yarn of a mixture with its tone [CIEDE2000]."""
 
@@ -112,6 +115,21 @@ def _best_mixture(off: FloatArray, far: FloatArray, tried: IntArray, yarns: IntA
 
 
 @compiled
+def _leave_out_specks(far: FloatArray, yarns: UInt8[np.ndarray, "3"], shares: FloatArray) -> None:
+    """Leave a yarn out of a mixture whose dots would be few and each would show; the others keep their proportions."""
+    whole = 0.0
+    for k in range(3):
+        if shares[k] < SPARSE and far[yarns[k]] > SHOWING:
+            shares[k] = 0.0
+        whole += shares[k]
+    first = np.argmax(shares)
+    for k in range(3):
+        shares[k] /= whole
+        if shares[k] == 0.0:
+            yarns[k] = yarns[first]
+
+
+@compiled
 def _allowed(far: FloatArray, labs: FloatArray, a: float, b: float, tried: IntArray) -> int:
     """Write the yarns that a mixture of a tone may have, the nearest first; returns their number."""
     count, weight = 0, 1.0 + 0.045 * math.hypot(a, b)
@@ -155,6 +173,7 @@ def mix(  # noqa: PLR0917
                 for channel in range(3):
                     off[yarn, axis] += matrix[axis, channel] * (lights[yarn, channel] - light[channel])
         _best_mixture(off, far, tried[:some], yarns, shares)
+        _leave_out_specks(far, yarns, shares)
     _in_whole_numbers(lights, shares, matrix, yarns, aim, place, slope)
 
 
