@@ -5,7 +5,8 @@ CIELAB with light at c, its chroma weighted as in CIEDE2000, and d the CIEDE2000
 mixtures of one tone that which shows least is taken. Light mixes linearly.
 
 A yarn is in a mixture only where its contrast d with the tone is at most CONTRAST, and its difference to it in a, b,
-divided by 1 + 0.045 C as in CIEDE2000, at most CHROMA: yarns of opposing hues do not make a grey.
+divided by 1 + 0.045 C as in CIEDE2000, at most CHROMA: yarns of opposing hues do not make a grey. A yarn of few dots,
+each of which shows, is left out.
 """
 
 import math
