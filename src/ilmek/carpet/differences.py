@@ -39,7 +39,7 @@ class Differences(NamedTuple):
 
 @in_place
 def _move(  # noqa: PLR0917
-    rgb: Rgb, index: IntArray, labs: FloatArray, difference: FloatArray, before: Indices, knots: Indices,
+    rgb: Rgb, index: IntArray, labs: FloatArray, difference: IntArray, before: Indices, knots: Indices,
     yarn_labs: FloatArray, known: Known, sums: IntArray, counts: IntArray, worst: FloatArray
 ) -> None:  # fmt: skip
     """Add what the changed knots change; `known`: 1 + differences of colours and yarns, 0 where not known, or none."""
@@ -59,7 +59,7 @@ def _move(  # noqa: PLR0917
                     if known.size:
                         known[colour, yarn] = units + 1
                 sums[yarn] += units
-                sums[old] -= round(difference[colour] * _UNIT)
+                sums[old] -= difference[colour]
                 counts[yarn] += 1
                 counts[old] -= 1
 
@@ -80,11 +80,12 @@ def differences(  # noqa: PLR0917
     (yarn_of, difference), (before, knots), yarns = taken, charts, len(yarn_labs)
     design = np.ascontiguousarray(design)
 
+    units = np.rint(difference * _UNIT).astype(np.int64)
     known = np.zeros((len(difference) if len(difference) * yarns <= _MOST_KNOWN else 0, yarns), dtype=np.int32)
 
     def move(band: slice) -> tuple[IntArray, IntArray, FloatArray]:
         sums, counts, worst = np.zeros(yarns, dtype=np.int64), np.zeros(yarns, dtype=np.int64), np.zeros(yarns)
-        args = (colours.index, colours.labs, difference, before[band], knots[band], yarn_labs, known)
+        args = (colours.index, colours.labs, units, before[band], knots[band], yarn_labs, known)
         _move(design[band], *args, sums, counts, worst)
         return sums, counts, worst
 
