@@ -30,7 +30,7 @@ from ilmek.carpet.halftone import CELL
 from ilmek.carpet.light import LIGHT, lab_of_light
 from ilmek.carpet.patches import Marks, Members, begins, fill, grown, room
 from ilmek.carpet.thin_lines import RADIUS, between_areas, on_line
-from ilmek.num.compiled import in_place
+from ilmek.num.compiled import uncounted
 from ilmek.num.threads import MOST_THREADS, in_threads
 from ilmek.progress import SILENT, Progress
 
@@ -92,14 +92,14 @@ VISIBLE = 10.0
 """Contrast [CIEDE2000] at which a patch of the least number of knots is kept."""
 
 
-@in_place
+@uncounted
 def _add_light(rgb: Rgb, row: int, column: int, sums: IntArray) -> None:
     # Whole numbers: the sum does not depend on the order.
     for channel in range(3):
         sums[channel] += LIGHT[rgb[row, column, channel]]
 
 
-@in_place
+@uncounted
 def _surround(  # noqa: PLR0917
     knots: Indices, rgb: Rgb, members: Members, number: int, marks: Marks, mark: int, around: IntArray, sums: IntArray
 ) -> int:
@@ -122,7 +122,7 @@ def _surround(  # noqa: PLR0917
     return ring
 
 
-@in_place
+@uncounted
 def _nearest_around(own: IntArray, number: int, ring: int, around: IntArray, sums: IntArray) -> tuple[int, float]:
     """The yarn around a patch that it would take, and the contrast to it."""
     most = 0
@@ -140,13 +140,13 @@ def _nearest_around(own: IntArray, number: int, ring: int, around: IntArray, sum
     return best, least
 
 
-@in_place
+@uncounted
 def _is_kept(kept: BoolArray, y: int, x: int) -> bool:
     """Whether a knot lies in a cell of a halftone; `kept` is empty without one."""
     return bool(kept.size and kept[min(y // CELL, kept.shape[0] - 1), min(x // CELL, kept.shape[1] - 1)])
 
 
-@in_place
+@uncounted
 def _any_is_kept(kept: BoolArray, members: Members, number: int) -> bool:
     for k in range(number):  # noqa: SIM110 - `any` is not compiled
         if _is_kept(kept, members[k, 0], members[k, 1]):
@@ -154,7 +154,7 @@ def _any_is_kept(kept: BoolArray, members: Members, number: int) -> bool:
     return False
 
 
-@in_place
+@uncounted
 def _target(  # noqa: PLR0917
     knots: Indices, rgb: Rgb, gap: FloatArray, least: int, number: int, mark: int, rooms: _Rooms
 ) -> tuple[int, bool]:
@@ -181,7 +181,7 @@ def _target(  # noqa: PLR0917
     return other, False
 
 
-@in_place
+@uncounted
 def _judge(  # noqa: PLR0917
     window: _Window, rgb: Rgb, gap: FloatArray, least: int, side: int, kept: BoolArray, rooms: _Rooms, sizes: Sizes,
     starts: Starts, targets: Targets
@@ -214,7 +214,7 @@ def _judge(  # noqa: PLR0917
     return loose
 
 
-@in_place
+@uncounted
 def _first_of_its_neighbours(knots: Indices, sizes: Sizes, members: Members, number: int, yarn: int) -> bool:
     """Whether no loose patch that touches this one is smaller, or equal and of an earlier yarn."""
     for k in range(number):
@@ -226,7 +226,7 @@ def _first_of_its_neighbours(knots: Indices, sizes: Sizes, members: Members, num
     return True
 
 
-@in_place
+@uncounted
 def _merge(  # noqa: PLR0917
     window: _Window, least: int, side: int, members: Members, marks: Marks, sizes: Sizes, starts: Starts,
     targets: Targets

@@ -8,7 +8,7 @@ from ilmek.arrays import Float, FloatArray, Indices, Int32, IntArray, Rgb, UInt8
 from ilmek.carpet.colour_difference import ciede2000
 from ilmek.carpet.design import PART, bands
 from ilmek.carpet.palette import Colours
-from ilmek.num.compiled import in_place
+from ilmek.num.compiled import uncounted
 from ilmek.num.threads import in_threads
 from ilmek.progress import SILENT, Progress
 
@@ -37,7 +37,7 @@ class Differences(NamedTuple):
     of_yarns: tuple[YarnDifference, ...]
 
 
-@in_place
+@uncounted
 def _move(  # noqa: PLR0917
     rgb: Rgb, index: IntArray, labs: FloatArray, difference: IntArray, before: Indices, knots: Indices,
     yarn_labs: FloatArray, known: Known, sums: IntArray, counts: IntArray, worst: FloatArray

@@ -11,7 +11,7 @@ import numpy as np
 
 from ilmek.arrays import Indices, IntArray
 from ilmek.carpet.patches import Marks, Members, fill, next_mark
-from ilmek.num.compiled import in_place
+from ilmek.num.compiled import uncounted
 
 LARGEST_STEP = 12
 """Knots between two dots, along rows and columns."""
@@ -40,7 +40,7 @@ def _offsets(odd_row: int, odd_column: int) -> IntArray:
 _OFFSETS = np.stack([_offsets(row, column) for row in (0, 1) for column in (0, 1)])
 
 
-@in_place
+@uncounted
 def middle_of(members: Members, number: int) -> tuple[int, int]:
     """The middle of the rectangle around the knots of a patch, in half knots."""
     top, left = members[0]
@@ -51,7 +51,7 @@ def middle_of(members: Members, number: int) -> tuple[int, int]:
     return top + bottom, left + right
 
 
-@in_place
+@uncounted
 def _alike(  # noqa: PLR0917
     knots: Indices, i: int, j: int, yarn: int, number: int, least: int, members: Members, marks: Marks
 ) -> int:  # fmt: skip
@@ -62,7 +62,7 @@ def _alike(  # noqa: PLR0917
     return size if size < least and 2 * abs(size - number) <= max(2, number) else 0
 
 
-@in_place
+@uncounted
 def _dot_at(  # noqa: PLR0917
     knots: Indices, row: int, column: int, off: int, yarn: int, number: int, least: int, members: Members, marks: Marks
 ) -> tuple[int, int, bool]:  # fmt: skip
@@ -81,7 +81,7 @@ def _dot_at(  # noqa: PLR0917
     return found_row, found_column, clear
 
 
-@in_place
+@uncounted
 def _dots_along(  # noqa: PLR0917
     knots: Indices, row: int, column: int, down: int, right: int, yarn: int, number: int, least: int,
     members: Members, marks: Marks
@@ -95,7 +95,7 @@ def _dots_along(  # noqa: PLR0917
     return DOTS - 1
 
 
-@in_place
+@uncounted
 def in_row(knots: Indices, own: Members, number: int, least: int, members: Members, marks: Marks) -> bool:  # noqa: PLR0917
     """Whether a patch of fewer than `least` knots belongs to a row of dots.
 
@@ -127,7 +127,7 @@ def in_row(knots: Indices, own: Members, number: int, least: int, members: Membe
     return False
 
 
-@in_place
+@uncounted
 def _is_own(own: Members, number: int, i: int, j: int) -> bool:
     for k in range(number):  # noqa: SIM110 - `any` is not compiled
         if own[k, 0] == i and own[k, 1] == j:

@@ -31,7 +31,7 @@ from ilmek.carpet.light import LIGHT, code_of_light, lab_of_light
 from ilmek.carpet.mixtures import WHITE, mix, yarn_lights
 from ilmek.carpet.nearest_colour import NearestSearch, nearest_of, nearest_search
 from ilmek.carpet.patches import grown, is_lone
-from ilmek.num.compiled import compiled, in_place
+from ilmek.num.compiled import compiled, uncounted
 from ilmek.progress import SILENT, Progress
 
 CELL = 2
@@ -74,7 +74,7 @@ class _Shelf(NamedTuple):
     strength  of the light that is carried on, in shares of _WHOLE
     nearest   of colours in steps of FINE the nearest yarn, _UNKNOWN before it is asked for
     known     of tones in steps of STEP whether the mixture is computed
-    yarns, aims, places, slopes  of mixtures [`mixtures.mix`]
+    yarns, aims, positions, slopes  of mixtures [`mixtures.mix`]
     """
 
     search: NearestSearch
@@ -85,7 +85,7 @@ class _Shelf(NamedTuple):
     known: BoolArray
     yarns: Indices
     aims: IntArray
-    places: IntArray
+    positions: IntArray
     slopes: IntArray
 
 
@@ -105,7 +105,7 @@ def _shelf(labs: FloatArray, strength: float) -> _Shelf:
     )
 
 
-@in_place
+@uncounted
 def _tones(rgb: Rgb, tones: Tones, rough: BoolArray) -> None:
     """The tone of each cell as a code r·65536 + g·256 + b, and whether it holds or touches an outline."""
     rows, columns = tones.shape
@@ -131,7 +131,7 @@ def _tones(rgb: Rgb, tones: Tones, rough: BoolArray) -> None:
                 rough[i, j] = rough[i, j - 1] = True
 
 
-@in_place
+@uncounted
 def _apart(tone: int, other: int) -> bool:
     """Whether an outline lies between two cells."""
     red, green, blue = (
@@ -151,11 +151,11 @@ def _find_mixture(shelf: _Shelf, key: int) -> None:
         light[channel] = LIGHT[min(step * STEP, 255)] / WHITE
     shelf.known[key] = True
     share, lights = shelf.strength / _WHOLE, shelf.lights / WHITE
-    yarns, aim, place, slope = shelf.yarns[key], shelf.aims[key], shelf.places[key], shelf.slopes[key]
-    mix(light, shelf.search.labs, lights, share, yarns, aim, place, slope)
+    yarns, aim, position, slope = shelf.yarns[key], shelf.aims[key], shelf.positions[key], shelf.slopes[key]
+    mix(light, shelf.search.labs, lights, share, yarns, aim, position, slope)
 
 
-@in_place
+@uncounted
 def _find_nearest(shelf: _Shelf, first: int, second: int) -> None:
     """Compute the yarn nearest to a colour, in steps of FINE codes."""
     red, green, blue = FINE * (first // _COLOURS), FINE * (first % _COLOURS), FINE * second
@@ -164,7 +164,7 @@ def _find_nearest(shelf: _Shelf, first: int, second: int) -> None:
     shelf.nearest[first, second] = nearest_of(shelf.search, lightness, a, b)[0]
 
 
-@in_place
+@uncounted
 def _nearest_yarn(shelf: _Shelf, red: int, green: int, blue: int) -> int:
     """The yarn nearest to a colour, in steps of FINE codes."""
     first = min(max(red, 0), 255) // FINE * _COLOURS + min(max(green, 0), 255) // FINE
@@ -174,7 +174,7 @@ def _nearest_yarn(shelf: _Shelf, red: int, green: int, blue: int) -> int:
     return int(shelf.nearest[first, second])
 
 
-@in_place
+@uncounted
 def _dot(shelf: _Shelf, tone: int, light: Light) -> tuple[int, Light]:
     """The yarn of a dot, and the light that is to be carried on; `light`: what was carried on to it."""
     red, green, blue = tone >> 16, tone >> 8 & 255, tone & 255
@@ -184,7 +184,7 @@ def _dot(shelf: _Shelf, tone: int, light: Light) -> tuple[int, Light]:
         key = ((red + half) // STEP * _TONES + (green + half) // STEP) * _TONES + (blue + half) // STEP
         if not shelf.known[key]:
             _find_mixture(shelf, key)
-        places, slopes, lights = shelf.places, shelf.slopes, shelf.lights
+        positions, slopes, lights = shelf.positions, shelf.slopes, shelf.lights
         x = (
             slopes[key, 0, 0] * (light[0] >> 8)
             + slopes[key, 0, 1] * (light[1] >> 8)
@@ -203,7 +203,7 @@ def _dot(shelf: _Shelf, tone: int, light: Light) -> tuple[int, Light]:
         x, y, z = x >> 8, y >> 8, z >> 8
         best, least = 0, np.int64(1) << 62
         for k in range(3):
-            far = (places[key, k, 0] - x) ** 2 + (places[key, k, 1] - y) ** 2 + (places[key, k, 2] - z) ** 2
+            far = (positions[key, k, 0] - x) ** 2 + (positions[key, k, 1] - y) ** 2 + (positions[key, k, 2] - z) ** 2
             if far < least:
                 best, least = k, far
         yarn = int(shelf.yarns[key, best])
@@ -215,20 +215,20 @@ def _dot(shelf: _Shelf, tone: int, light: Light) -> tuple[int, Light]:
     return yarn, light
 
 
-@in_place
+@uncounted
 def _part(light: int, knots: int) -> int:
     """The mean light of the knots of a cell."""
     return light >> 2 if knots == CELL**2 else light // knots  # a division takes as long as all the rest
 
 
-@in_place
+@uncounted
 def _moved(code: int, light: int) -> tuple[int, int]:
     """The light of a code with what was carried on, within MOST_MOVED codes of it, and the codes that it moves."""
     light = min(max(light + LIGHT[code], LIGHT[max(code - MOST_MOVED, 0)]), LIGHT[min(code + MOST_MOVED, 255)])
     return light, code_of_light(light) - code
 
 
-@in_place
+@uncounted
 def _detail(  # noqa: PLR0917
     shelf: _Shelf, tone: int, rgb: Rgb, knots: Indices, place: tuple[int, int, int, int], light: Light
 ) -> Light:
@@ -249,7 +249,7 @@ def _detail(  # noqa: PLR0917
     return first - _part(x, size), second - _part(y, size), third - _part(z, size)
 
 
-@in_place
+@uncounted
 def _carry(  # noqa: PLR0917
     owed: IntArray, rows: tuple[int, int], column: int, ahead: int, channel: int, light: int
 ) -> None:
@@ -262,7 +262,7 @@ def _carry(  # noqa: PLR0917
     owed[below, column + ahead, channel] += light - first - second - third
 
 
-@in_place
+@uncounted
 def _draw(  # noqa: PLR0917
     knots: Indices, rgb: Rgb, tones: Tones, dots: BoolArray, shelf: _Shelf, own: tuple[int, int, int], owed: IntArray
 ) -> None:
@@ -293,7 +293,7 @@ def _draw(  # noqa: PLR0917
             _carry(owed, (here, below), j + 1, ahead, 2, light[2] * shelf.strength >> 8)
 
 
-@in_place
+@uncounted
 def _join(knots: Indices, rgb: Rgb, labs: FloatArray, first: int, stop: int) -> None:
     """Give each lone knot of the rows the yarn beside it that is nearest to its colour, unless it shows there."""
     rows, columns = knots.shape

@@ -145,12 +145,12 @@ def _allowed(far: FloatArray, labs: FloatArray, a: float, b: float, tried: IntAr
 @compiled
 def mix(  # noqa: PLR0917
     tone: FloatArray, labs: FloatArray, lights: FloatArray, strength: float, yarns: UInt8[np.ndarray, "3"],
-    aim: IntArray, place: IntArray, slope: IntArray
+    aim: IntArray, position: IntArray, slope: IntArray
 ) -> None:  # fmt: skip
     """Write the mixture of a tone in whole numbers.
 
     yarns  of the mixture      aim  its light in units of LIGHT
-    place  of each yarn, as seen from the mixture: axes of CIELAB in units of 1/(256 SLOPES)
+    position  of each yarn, as seen from the mixture: axes of CIELAB in units of 1/(256 SLOPES)
     slope  of CIELAB with light there, in units of SLOPES
 
     tone  linear light, 1 is white      labs, lights  CIELAB and light of the yarns
@@ -175,15 +175,15 @@ def mix(  # noqa: PLR0917
                     off[yarn, axis] += matrix[axis, channel] * (lights[yarn, channel] - light[channel])
         _best_mixture(off, far, tried[:some], yarns, shares)
         _leave_out_specks(far, yarns, shares)
-    _in_whole_numbers(lights, shares, matrix, yarns, aim, place, slope)
+    _in_whole_numbers(lights, shares, matrix, yarns, aim, position, slope)
 
 
 @compiled
 def _in_whole_numbers(  # noqa: PLR0917
     lights: FloatArray, shares: FloatArray, matrix: FloatArray, yarns: UInt8[np.ndarray, "3"], aim: IntArray,
-    place: IntArray, slope: IntArray
+    position: IntArray, slope: IntArray
 ) -> None:  # fmt: skip
-    """Write the aim, places and slope of a mixture [`mix`]; `matrix`: the slope."""
+    """Write the aim, positions and slope of a mixture [`mix`]; `matrix`: the slope."""
     for channel in range(3):
         mixed = 0.0
         for k in range(3):
@@ -195,4 +195,4 @@ def _in_whole_numbers(  # noqa: PLR0917
             seen = 0.0
             for channel in range(3):
                 seen += matrix[axis, channel] * (WHITE * lights[yarns[k], channel] - aim[channel])
-            place[k, axis] = round(SLOPES * seen / 65536)
+            position[k, axis] = round(SLOPES * seen / 65536)

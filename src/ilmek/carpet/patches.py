@@ -12,7 +12,7 @@ import numpy as np
 from ilmek.arrays import BoolArray, Indices, Int32, Int64, UInt8
 from ilmek.carpet.codes import CODES
 from ilmek.carpet.design import PART, bands
-from ilmek.num.compiled import compiled, in_place
+from ilmek.num.compiled import compiled, uncounted
 from ilmek.num.threads import in_threads
 from ilmek.progress import SILENT, Progress
 
@@ -40,7 +40,7 @@ def grown(cells: BoolArray) -> BoolArray:
     return out
 
 
-@in_place
+@uncounted
 def is_lone(knots: Indices, row: int, column: int) -> bool:
     """Whether a knot has neighbours and differs from all of them: left, right, above and below (fewer at an edge)."""
     yarn = knots[row, column]
@@ -54,7 +54,7 @@ def is_lone(knots: Indices, row: int, column: int) -> bool:
     )
 
 
-@in_place
+@uncounted
 def begins(knots: Indices, row: int, column: int) -> bool:
     """Whether no earlier neighbour has the yarn of a knot."""
     yarn = knots[row, column]
@@ -69,14 +69,14 @@ def begins(knots: Indices, row: int, column: int) -> bool:
     )
 
 
-@in_place
+@uncounted
 def next_mark(marks: Marks) -> int:
     """A mark that is at no knot; they are counted in the corner, which no fill reaches."""
     marks[0, 0] += 1
     return int(marks[0, 0])
 
 
-@in_place
+@uncounted
 def fill(  # noqa: PLR0917
     knots: Indices, row: int, column: int, least: int, first: bool, members: Members, marks: Marks, mark: int
 ) -> int:
@@ -107,7 +107,7 @@ def fill(  # noqa: PLR0917
     return found
 
 
-@in_place
+@uncounted
 def _count(  # noqa: PLR0917
     knots: Indices, first: int, stop: int, members: Members, marks: Marks, found: Int64[np.ndarray, " sizes"]
 ) -> None:

@@ -57,7 +57,7 @@ def inlined(function: F) -> F:
     return cast(F, Kernel(cast(FunctionType, inspect.unwrap(function)), inline=True))
 
 
-def in_place(function: F) -> F:
+def uncounted(function: F) -> F:
     """As `compiled`, for a kernel that makes no array: without the counts of references, each an atomic step."""
     return cast(F, Kernel(cast(FunctionType, inspect.unwrap(function)), counts=False))
 

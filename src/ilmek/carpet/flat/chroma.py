@@ -22,7 +22,7 @@ import numpy as np
 from ilmek.arrays import Int64, IntArray, Rgb, UInt8
 from ilmek.carpet.design import bands
 from ilmek.carpet.flat.survey import sample_positions
-from ilmek.num.compiled import compiled, in_place
+from ilmek.num.compiled import compiled, uncounted
 from ilmek.num.threads import in_threads
 from ilmek.progress import SILENT, Progress
 
@@ -61,13 +61,13 @@ _SLICE = 1 << 18
 NOT_HALVED = -1
 
 
-@in_place
+@uncounted
 def _luma(rgb: Rgb, y: int, x: int) -> int:
     red, green, blue = int(np.int64(rgb[y, x, 0])), int(np.int64(rgb[y, x, 1])), int(np.int64(rgb[y, x, 2]))
     return _RED * red + _GREEN * green + _BLUE * blue
 
 
-@in_place
+@uncounted
 def _count_clear(rgb: Rgb, lines: IntArray, across: bool, counts: Int64[np.ndarray, "2 2"]) -> None:
     """Clear third differences of chroma and of luma by the parity of the second pixel; clipped pixels do not count."""
     length = rgb.shape[1] if across else rgb.shape[0]
@@ -113,7 +113,7 @@ def _parity(rgb: Rgb, across: bool) -> tuple[int, float]:
     return parity, int(counts[0, parity]) / most
 
 
-@in_place
+@uncounted
 def _begins(position: int, parity: int, length: int) -> tuple[int, int]:
     """The first pixels of the sample of a pixel and of the next nearer one; at the border that is its own."""
     own = position - ((position - parity) & 1)
@@ -121,13 +121,13 @@ def _begins(position: int, parity: int, length: int) -> tuple[int, int]:
     return own, own if other + 1 < 0 or other >= length else other
 
 
-@in_place
+@uncounted
 def _pair(line: IntArray, begin: int) -> int:
     """Sum of a sample's two pixels; one beyond the border is that at the border."""
     return int(line[max(begin, 0)] + line[min(begin + 1, len(line) - 1)])
 
 
-@in_place
+@uncounted
 def _spread(luma: IntArray, parity: int, made: IntArray) -> None:
     """A line averaged over its samples and interpolated, _ALONG times as large."""
     for position in range(len(luma)):
@@ -161,7 +161,7 @@ def _coarse_luma(rgb: Rgb, across: int, down: int, first: int, stop: int) -> Int
     return coarse
 
 
-@in_place
+@uncounted
 def _add_row(  # noqa: PLR0917
     rgb: Rgb, coarse: Int64[np.ndarray, "n w"], y: int, top: int, sign: int, sums: Int64[np.ndarray, "w 7"]
 ) -> None:
@@ -178,7 +178,7 @@ def _add_row(  # noqa: PLR0917
         sums[x, 6] += sign * (blue * blue + red * red)
 
 
-@in_place
+@uncounted
 def _code(value: float) -> int:
     return int(min(max(np.rint(value / _UNIT), 0.0), 255.0))
 
@@ -203,7 +203,7 @@ def _restore(rgb: Rgb, across: int, down: int, first: int, out: Rgb) -> None:
         _restore_row(rgb, y, coarse[y - top], sums, rows, total, out[y - first])
 
 
-@in_place
+@uncounted
 def _restore_row(  # noqa: PLR0917
     rgb: Rgb, y: int, coarse: Int64[np.ndarray, " w"], sums: Int64[np.ndarray, "w 7"], rows: int, total: IntArray,
     made: UInt8[np.ndarray, "w 3"]
@@ -222,13 +222,13 @@ def _restore_row(  # noqa: PLR0917
         _restore_pixel(rgb, y, x, coarse[x], total, number, made)
 
 
-@in_place
+@uncounted
 def _add(total: IntArray, sums: Int64[np.ndarray, "w 7"], x: int, sign: int) -> None:
     for moment in range(7):
         total[moment] += sign * sums[x, moment]
 
 
-@in_place
+@uncounted
 def _restore_pixel(  # noqa: PLR0917
     rgb: Rgb, y: int, x: int, coarse: int, total: IntArray, number: int, made: UInt8[np.ndarray, "w 3"]
 ) -> None:
@@ -256,7 +256,7 @@ def _restore_pixel(  # noqa: PLR0917
     made[x, 0], made[x, 1], made[x, 2] = _code(red), _code(green), _code(blue)
 
 
-@in_place
+@uncounted
 def _rise(value: float, begin: float, end: float) -> float:
     """0 up to the beginning, 1 from the end, linear between them."""
     return min(max((value - begin) / (end - begin), 0.0), 1.0)

@@ -17,7 +17,7 @@ from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.flat.modes import modes
 from ilmek.carpet.flat.nearest import label_rows
 from ilmek.carpet.flat.survey import Survey
-from ilmek.num.compiled import in_place
+from ilmek.num.compiled import uncounted
 from ilmek.records import record
 
 MOST_COLOURS = 200
@@ -176,7 +176,7 @@ def is_mixture(colours: FloatArray, palette: UInt8[np.ndarray, "colours 3"], off
     return mixture
 
 
-@in_place
+@uncounted
 def _mark_mixtures(colours: FloatArray, ends: FloatArray, off: float, mixture: BoolArray) -> None:
     for colour in range(len(colours)):
         for one in range(len(ends)):
@@ -185,7 +185,7 @@ def _mark_mixtures(colours: FloatArray, ends: FloatArray, off: float, mixture: B
                     mixture[colour] = _between(colours, colour, ends, one, two, off)
 
 
-@in_place
+@uncounted
 def _between(colours: FloatArray, colour: int, ends: FloatArray, one: int, two: int, off: float) -> bool:  # noqa: PLR0917
     """Whether a colour lies within `off` of the segment between two ends, and beside neither."""
     along, length = 0.0, 0.0
