@@ -7,7 +7,8 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 from ilmek.carpet.colour import decode, encode, lab_to_srgb, lab_to_xyz, srgb_to_lab, xyz_to_lab
-from ilmek.carpet.colour_difference import delta_e_2000, least_square, nearest
+from ilmek.carpet.colour_difference import delta_e_2000, least_square
+from ilmek.carpet.nearest_colour import SIDE, cube_bound, nearest
 
 LABS = hnp.arrays(float, (8, 3), elements=st.floats(-128, 128)).map(
     lambda lab: np.stack([np.abs(lab[:, 0]) * 100 / 128, lab[:, 1], lab[:, 2]], axis=-1)
@@ -54,6 +55,24 @@ def test_lower_bound_holds(one: np.ndarray, other: np.ndarray) -> None:
     for lab, yarn, found in zip(one.tolist(), other.tolist(), difference.tolist(), strict=True):
         bound = least_square(*lab, *yarn, (np.hypot(*lab[1:]) + np.hypot(*yarn[1:])) / 2)
         assert bound <= found**2 * (1 + 1e-9) + 1e-12
+
+
+@given(LABS, LABS, LABS)
+def test_lower_bound_of_a_cube_holds(middles: np.ndarray, others: np.ndarray, places: np.ndarray) -> None:
+    inside = middles + (places - np.array([50.0, 0.0, 0.0])) / np.array([50.0, 130.0, 130.0]) * SIDE / 2
+    assert np.abs(inside - middles).max() <= SIDE / 2
+    difference = delta_e_2000(inside, others)
+    for middle, other, exact in zip(middles.tolist(), others.tolist(), difference.tolist(), strict=True):
+        assert cube_bound(*middle, SIDE / 2, *other) <= exact**2 * (1 + 1e-9) + 1e-12
+
+
+def test_colours_beyond_the_cubes_have_their_nearest() -> None:
+    yarns = np.array([[50.0, 0.0, 0.0], [90.0, 160.0, 0.0], [104.0, 0.0, -170.0]])
+    colours = np.array([[105.0, 0.0, 0.0], [80.0, 200.0, 5.0], [-3.0, 0.0, 0.0], [100.0, 0.0, -128.5]])
+    index, delta = nearest(colours, yarns)
+    table = delta_e_2000(colours[:, None], yarns[None])
+    assert np.array_equal(index, table.argmin(axis=1))
+    assert np.array_equal(delta, table.min(axis=1))
 
 
 @pytest.mark.parametrize("seed", range(4))

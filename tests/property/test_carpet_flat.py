@@ -10,10 +10,10 @@ from PIL import Image, ImageDraw
 from scipy import ndimage
 
 from ilmek.carpet.colour import srgb_to_lab
-from ilmek.carpet.colour_difference import nearest
 from ilmek.carpet.flat import flat_design, looks_flat, looks_like_itself
 from ilmek.carpet.flat.survey import survey
 from ilmek.carpet.flat.true_colours import true_colours
+from ilmek.carpet.nearest_colour import nearest
 from ilmek.carpet.yarn import yarn_labs
 from ilmek.io.yarn_file import default_yarns
 

@@ -99,14 +99,18 @@ def own_shades(rgb: np.ndarray) -> tuple[Yarn, ...]:
     )
 
 
-@pytest.mark.parametrize("name", ["astronaut.png", "chelsea.png", "coffee.png"])
+UNSEEN = 0.5
+"""Mean CIEDE2000 at viewing distance below which nothing is seen, whatever a peer reaches."""
+
+
+@pytest.mark.parametrize("name", ["astronaut.png", "chelsea.png", "coffee.png", "rocket.jpg", "camera.png"])
 @pytest.mark.parametrize("own", [False, True], ids=["wool", "own shades"])
 def test_the_default_of_a_photo_at_viewing_distance(name: str, own: bool) -> None:
     rgb = photo(name)
     yarns = own_shades(rgb) if own else YARNS
     made, plain, peer = chart(rgb, yarns), chart(rgb, yarns, halftone=0.0), pillow(rgb, yarns)
-    assert far(rgb, made.knots, yarns) <= 1.15 * far(rgb, peer, yarns)
-    assert far(rgb, made.knots, yarns) <= 0.9 * far(rgb, plain.knots, yarns)
+    assert far(rgb, made.knots, yarns) <= max(1.10 * far(rgb, peer, yarns), UNSEEN)
+    assert far(rgb, made.knots, yarns) <= max(0.9 * far(rgb, plain.knots, yarns), UNSEEN)
     assert made.lone_fraction <= 0.01 < tally_of(peer, len(yarns)).lone / peer.size
     assert "(without: --halftone 0%)" in made.reading.reason
     assert "(with: --halftone 100%)" in plain.reading.reason
@@ -137,13 +141,13 @@ def nearest_knots(rgb: np.ndarray) -> np.ndarray:
     return paint(rgb, colours, nearest_yarns(colours, LABS)[0])
 
 
-@pytest.mark.parametrize(("name", "most"), [("sunset", 3.6), ("dusk", 4.8), ("greys", 4.9)])
+@pytest.mark.parametrize(("name", "most"), [("sunset", 3.2), ("dusk", 4.0), ("greys", 4.2)])
 def test_a_sky_at_viewing_distance(name: str, most: float) -> None:
     rgb = sky(name)
     plain, made, peer = chart(rgb, halftone=0.0), chart(rgb), pillow(rgb)
     assert far(rgb, plain.knots) > 9.0
     assert far(rgb, made.knots) < most
-    assert far(rgb, made.knots) < 1.1 * far(rgb, peer)
+    assert far(rgb, made.knots) < far(rgb, peer)
     assert made.lone_fraction == 0.0
     assert tally_of(peer, len(YARNS)).lone / peer.size > 0.35
     assert count_patches(made.knots, CELL**2 - 1) == 0

@@ -14,7 +14,7 @@ from processes import ended, printed, python
 from ilmek.cli import main
 from ilmek.linkage.groups import rrp, rrr
 from ilmek.num import machine_code
-from ilmek.num.compiled import COMPILATIONS, compiled
+from ilmek.num.compiled import COMPILATIONS, compiled, uncounted
 from ilmek.num.machine_code import discarded
 
 RNG = np.random.default_rng(7)
@@ -43,6 +43,25 @@ def test_rrp_position_is_the_same_compiled():
 def test_division_by_zero_is_infinite_not_an_error():
     kernel = compiled(rrp.link_rate)
     assert np.isinf(kernel(1 + 0j, 1 + 1j, 0.0))
+
+
+def test_an_uncounted_kernel_changes_its_arrays_and_makes_none():
+    def halve(numbers: np.ndarray) -> None:
+        part = numbers[1:]
+        for i in range(len(part)):
+            part[i] /= 2.0
+
+    def made(count: int) -> float:
+        return float(np.ones(count)[0])
+
+    numbers = np.array([8.0, 6.0, 4.0])
+    references = sys.getrefcount(numbers)
+    uncounted(halve)(numbers)
+    assert numbers.tolist() == [8.0, 3.0, 2.0]
+    assert sys.getrefcount(numbers) == references
+    assert compiled(made)(3) == 1.0
+    with pytest.raises(Exception, match="array passed into the function"):
+        uncounted(made)(3)
 
 
 FILES = {
@@ -123,10 +142,11 @@ def test_a_compilation_is_announced_before_it_begins(sample, monkeypatch):
         ({"constants": ("SCALE = 2.0", "SCALE = 3.0")}, (10.0, 2.0), {"outer", "leaf"}),
         ({"lone": ("x - 1.0", "x - 2.0")}, (7.0, 1.0), {"lone"}),
         ({"outer": ("+ 1.0", "+ 2.0")}, (8.0, 2.0), {"outer"}),
+        ({"leaf": ("compiled\n", "uncounted\n")}, (7.0, 2.0), {"outer", "leaf"}),
         ({"leaf": ("Doc.", "Other words.")}, (7.0, 2.0), set()),
         ({"constants": ("UNUSED = 1.0", "# a remark\nUNUSED = 5.0")}, (7.0, 2.0), set()),
     ],
-    ids=["callee", "constant", "alone", "caller", "docstring", "unrelated"],
+    ids=["callee", "constant", "alone", "caller", "uncounted", "docstring", "unrelated"],
 )
 def test_an_edit_compiles_the_kernels_that_it_changes_and_no_other(sample, edits, results, compiled_anew):
     sample()

@@ -22,7 +22,7 @@ import math
 
 import numpy as np
 
-from ilmek.arrays import Float, FloatArray, UInt8
+from ilmek.arrays import Float, FloatArray
 from ilmek.num.compiled import compiled
 
 _25_TO_7 = 25.0**7
@@ -82,7 +82,10 @@ def hue_weight(c: float, s: float) -> float:
 @compiled
 def rotation(c: float, s: float, mean_chroma: float) -> float:
     """RT = -RC sin(2 · 30° exp(-((h - 275°)/25°)²)) [eq. 17, 18, 21]."""
-    hue = math.degrees(math.atan2(s, c)) % 360.0
+    if s > 0.0 and c > -0.5:
+        return 0.0  # 0 to 120 degrees: rounded off, below 2^-54
+    hue = math.degrees(math.atan2(s, c))
+    hue += 360.0 if hue < 0.0 else 0.0
     return -2.0 * saturation(mean_chroma) * math.sin(math.radians(60.0 * math.exp(-(((hue - 275.0) / 25.0) ** 2))))
 
 
@@ -108,54 +111,35 @@ def ciede2000(  # noqa: PLR0917
 
 
 @compiled
+def least_turned(b1: float, b2: float, largest: float) -> float:
+    """A lower bound of (x² + y² + RT x y)/(x² + y²) of colours with b >= b1 and b2, and mean C' <= `largest`.
+
+    It is 1 - |RT|/2 with |RT| <= RC sin 60°. With both b >= 0 the mean hue lies in 0 to 180 degrees, at least 95 from
+    275, so that |RT| is below 2e-6.
+    """
+    most = _RT_YELLOW if b1 >= 0.0 and b2 >= 0.0 else 2.0 * _SIN_60 * saturation(largest)
+    return 1.0 - 0.5 * most
+
+
+@compiled
 def least_square(  # noqa: PLR0917
     l1: float, a1: float, b1: float, l2: float, a2: float, b2: float, mean_chroma: float
 ) -> float:
     """A lower bound of CIEDE2000², cheap: no hue is formed. `mean_chroma` is that of (a, b).
 
-    dC² + dH² = |(a', b)1 - (a', b)2|² and SH <= SC (for 0.015 T <= 0.015 · 1.93 < 0.045), C' <= (1 + G) C, and
-    x² + y² + RT x y >= (1 - |RT|/2)(x² + y²) with |RT| <= RC sin 60°. With both b >= 0 the mean hue lies in 0 to 180
-    degrees, at least 95 from 275, so that |RT| is below 2e-6.
+    dC² + dH² = |(a', b)1 - (a', b)2|² and SH <= SC (for 0.015 T <= 0.015 · 1.93 < 0.045), and C' <= (1 + G) C.
     """
     stretch = 1.5 - 0.5 * saturation(mean_chroma)
     largest = stretch * mean_chroma
-    most = _RT_YELLOW if b1 >= 0.0 and b2 >= 0.0 else 2.0 * _SIN_60 * saturation(largest)
     lightness = (l2 - l1) / lightness_weight(0.5 * (l1 + l2))
     plane = ((stretch * (a2 - a1)) ** 2 + (b2 - b1) ** 2) / (1.0 + 0.045 * largest) ** 2
-    return lightness * lightness + (1.0 - 0.5 * most) * plane
+    return lightness * lightness + least_turned(b1, b2, largest) * plane
 
 
 @compiled
 def _pairs(first: FloatArray, second: FloatArray, out: FloatArray) -> None:
     for i in range(len(out)):
         out[i] = ciede2000(first[i, 0], first[i, 1], first[i, 2], second[i, 0], second[i, 1], second[i, 2])
-
-
-@compiled
-def _nearest(
-    colours: FloatArray, yarns: FloatArray, chromas: FloatArray, index: UInt8[np.ndarray, "..."], delta: FloatArray
-) -> None:
-    for i in range(len(colours)):
-        lightness, a, b = colours[i]
-        chroma = math.sqrt(a * a + b * b)
-        # Start with the nearest by Euclidean distance: the bound then excludes most others.
-        best, least = 0, math.inf
-        for j in range(len(yarns)):
-            plain = (yarns[j, 0] - lightness) ** 2 + (yarns[j, 1] - a) ** 2 + (yarns[j, 2] - b) ** 2
-            if plain < least:
-                best, least = j, plain
-        guess = best
-        least = ciede2000(lightness, a, b, yarns[best, 0], yarns[best, 1], yarns[best, 2])
-        for j in range(len(yarns)):
-            l2, a2, b2 = yarns[j]
-            bound = least_square(lightness, a, b, l2, a2, b2, 0.5 * (chroma + chromas[j]))
-            if j == guess or bound > least * least * (1.0 + 1e-9):
-                continue
-            difference = ciede2000(lightness, a, b, l2, a2, b2)
-            if difference < least or (difference == least and j < best):
-                best, least = j, difference
-        index[i] = best
-        delta[i] = least
 
 
 def delta_e_2000(first: Float[np.ndarray, "*#batch 3"], second: Float[np.ndarray, "*#batch 3"]) -> FloatArray:
@@ -166,19 +150,3 @@ def delta_e_2000(first: Float[np.ndarray, "*#batch 3"], second: Float[np.ndarray
     left, right = (np.array(labs, dtype=float, order="C").reshape(-1, 3) for labs in (one, other))
     _pairs(left, right, out.reshape(-1))
     return out
-
-
-def nearest(
-    colours: Float[np.ndarray, "colours 3"], yarns: Float[np.ndarray, "yarns 3"]
-) -> tuple[UInt8[np.ndarray, " colours"], Float[np.ndarray, " colours"]]:
-    """Index of the yarn nearest to each colour by CIEDE2000, and its difference; for equal ones the first in the list.
-
-    colours, yarns  CIELAB, at most 256 yarns
-    Yarns are excluded only by a proven lower bound, so the result is exact.
-    """
-    index = np.empty(len(colours), dtype=np.uint8)
-    delta = np.empty(len(colours))
-    _nearest(
-        np.ascontiguousarray(colours), np.ascontiguousarray(yarns), np.hypot(yarns[:, 1], yarns[:, 2]), index, delta
-    )
-    return index, delta

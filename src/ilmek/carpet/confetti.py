@@ -25,12 +25,12 @@ import numpy as np
 from ilmek.arrays import BoolArray, Float, FloatArray, Indices, Int32, IntArray, Rgb, UInt8
 from ilmek.carpet.colour_difference import ciede2000, delta_e_2000
 from ilmek.carpet.design import bands
-from ilmek.carpet.dots import REACH, Sizes, in_row, middle_of
+from ilmek.carpet.dots import REACH, in_row, middle_of
 from ilmek.carpet.halftone import CELL
 from ilmek.carpet.light import LIGHT, lab_of_light
-from ilmek.carpet.patches import Marks, Members, begins, fill, room
-from ilmek.carpet.thin_lines import between_areas, on_line
-from ilmek.num.compiled import compiled
+from ilmek.carpet.patches import Marks, Members, begins, fill, grown, room
+from ilmek.carpet.thin_lines import RADIUS, between_areas, on_line
+from ilmek.num.compiled import uncounted
 from ilmek.num.threads import MOST_THREADS, in_threads
 from ilmek.progress import SILENT, Progress
 
@@ -40,10 +40,50 @@ KEPT = 255
 OwnKnots = UInt8[np.ndarray, "own columns"]
 """The rows of a window that it merges itself."""
 
+Sizes = UInt8[np.ndarray, "rows columns"]
 Starts = Int32[np.ndarray, " patches"]
 Labs = Float[np.ndarray, "yarns 3"]
 
+Targets = UInt8[np.ndarray, " patches"]
+
 _WINDOW = 1 << 20
+
+
+class _Rooms(NamedTuple):
+    """Room for the judgement of a patch [`patches.room`]: of it, of others, its light, and what lies around it."""
+
+    members: Members
+    marks: Marks
+    others: Members
+    other_marks: Marks
+    own: IntArray
+    around: IntArray
+    sums: IntArray
+
+
+def _rooms(least: int, yarns: int) -> _Rooms:
+    around, sums = np.zeros(yarns, dtype=np.int64), np.zeros((yarns, 3), dtype=np.int64)
+    return _Rooms(*room(least), *room(least), np.zeros(3, dtype=np.int64), around, sums)
+
+
+class _Window(NamedTuple):
+    """A part of the chart.
+
+    knots   rows of the chart, with a margin, as they were      first, top  row of the chart and of the part with which
+            the knots and its own rows begin
+    own     its own rows, which receive the yarns               wanted      tiles of `knots` whose patches are judged
+    again   of the tiles of its own rows, receives where patches are merged or wait for others
+    dotted  the same, receives where rows of dots begin
+    """
+
+    knots: Indices
+    first: int
+    top: int
+    own: OwnKnots
+    wanted: BoolArray
+    again: BoolArray
+    dotted: BoolArray
+
 
 DRAWN = 5.0
 """Least contrast of what is drawn: fainter patches are grain, even along a line."""
@@ -52,35 +92,14 @@ VISIBLE = 10.0
 """Contrast [CIEDE2000] at which a patch of the least number of knots is kept."""
 
 
-@compiled
-def is_lone(knots: Indices, row: int, column: int) -> bool:
-    """Whether a knot has neighbours and differs from all of them: left, right, above and below (fewer at an edge)."""
-    yarn = knots[row, column]
-    last_row, last_column = knots.shape[0] - 1, knots.shape[1] - 1
-    return bool(
-        (column == 0 or knots[row, column - 1] != yarn)
-        and (column == last_column or knots[row, column + 1] != yarn)
-        and (row == 0 or knots[row - 1, column] != yarn)
-        and (row == last_row or knots[row + 1, column] != yarn)
-        and (last_row > 0 or last_column > 0)
-    )
-
-
-@compiled
+@uncounted
 def _add_light(rgb: Rgb, row: int, column: int, sums: IntArray) -> None:
     # Whole numbers: the sum does not depend on the order.
     for channel in range(3):
         sums[channel] += LIGHT[rgb[row, column, channel]]
 
 
-@compiled
-def _contrast(one: IntArray, ones: int, other: IntArray, others: int) -> float:
-    l1, a1, b1 = lab_of_light(one[0] / ones, one[1] / ones, one[2] / ones)
-    l2, a2, b2 = lab_of_light(other[0] / others, other[1] / others, other[2] / others)
-    return ciede2000(l1, a1, b1, l2, a2, b2)
-
-
-@compiled
+@uncounted
 def _surround(  # noqa: PLR0917
     knots: Indices, rgb: Rgb, members: Members, number: int, marks: Marks, mark: int, around: IntArray, sums: IntArray
 ) -> int:
@@ -103,137 +122,127 @@ def _surround(  # noqa: PLR0917
     return ring
 
 
-@compiled
+@uncounted
 def _nearest_around(own: IntArray, number: int, ring: int, around: IntArray, sums: IntArray) -> tuple[int, float]:
     """The yarn around a patch that it would take, and the contrast to it."""
-    most = around.max()
+    most = 0
+    for number_of_yarn in around:
+        most = max(most, number_of_yarn)
     best, least = -1, np.inf
+    lightness, a, b = lab_of_light(own[0] / number, own[1] / number, own[2] / number)
     for yarn in range(len(around)):
-        if around[yarn] > 0 and (4 * around[yarn] >= ring or around[yarn] == most):
-            contrast = _contrast(own, number, sums[yarn], around[yarn])
+        ones = around[yarn]
+        if ones > 0 and (4 * ones >= ring or ones == most):
+            l2, a2, b2 = lab_of_light(sums[yarn, 0] / ones, sums[yarn, 1] / ones, sums[yarn, 2] / ones)
+            contrast = ciede2000(lightness, a, b, l2, a2, b2)
             if contrast < least:
                 best, least = yarn, contrast
     return best, least
 
 
-@compiled
-def _measure(  # noqa: PLR0917
-    knots: Indices, least: int, side: int, wanted: BoolArray, sizes: Sizes, starts: Starts, members: Members,
-    marks: Marks
-) -> int:  # fmt: skip
-    """Number of patches of fewer than `least` knots that begin in the wanted tiles.
-
-    sizes  receives the size of each at its knots, and 0 elsewhere      starts  receives the first knot of each
-    """
-    found, mark = 0, 0
-    marks[:] = 0
-    sizes[:] = 0
-    for row in range(knots.shape[0]):
-        for tile in range(wanted.shape[1]):
-            if wanted[row // side, tile]:
-                for column in range(tile * side, min((tile + 1) * side, knots.shape[1])):
-                    if begins(knots, row, column):
-                        mark += 1
-                        number = fill(knots, row, column, least, True, members, marks, mark)
-                        if 0 < number < least:
-                            starts[found] = row * knots.shape[1] + column
-                            found += 1
-                            for k in range(number):
-                                sizes[members[k, 0], members[k, 1]] = number
-    return found
+@uncounted
+def _is_kept(kept: BoolArray, y: int, x: int) -> bool:
+    """Whether a knot lies in a cell of a halftone; `kept` is empty without one."""
+    return bool(kept.size and kept[min(y // CELL, kept.shape[0] - 1), min(x // CELL, kept.shape[1] - 1)])
 
 
-@compiled
-def _is_kept(kept: BoolArray, members: Members, number: int) -> bool:
-    """Whether a knot of a patch lies in a cell of a halftone; `kept` is empty without one."""
-    for k in range(number if kept.size else 0):
-        y, x = members[k]
-        if kept[min(y // CELL, kept.shape[0] - 1), min(x // CELL, kept.shape[1] - 1)]:
+@uncounted
+def _any_is_kept(kept: BoolArray, members: Members, number: int) -> bool:
+    for k in range(number):  # noqa: SIM110 - `any` is not compiled
+        if _is_kept(kept, members[k, 0], members[k, 1]):
             return True
     return False
 
 
-@compiled
-def _judge(  # noqa: PLR0917
-    knots: Indices, rgb: Rgb, gap: FloatArray, least: int, side: int, wanted: BoolArray, near: tuple[int, int],
-    sizes: Sizes, starts: Starts, targets: Indices, loose: BoolArray, kept: BoolArray, members: Members, marks: Marks
-) -> None:  # fmt: skip
-    """Write the yarn that each patch takes, KEPT if none, and mark the knots of those that take one as loose.
+@uncounted
+def _target(  # noqa: PLR0917
+    knots: Indices, rgb: Rgb, gap: FloatArray, least: int, number: int, mark: int, rooms: _Rooms
+) -> tuple[int, bool]:
+    """The yarn that a patch takes, KEPT if none, and whether that is for a row of dots.
 
-    wanted, near  tiles and rows in which patches that begin there are judged
+    rooms  its first `number` members are the patch, at which the marks are `mark`
     """
-    around, sums = np.zeros(len(gap), dtype=np.int64), np.zeros((len(gap), 3), dtype=np.int64)
-    own = np.zeros(3, dtype=np.int64)
-    others, other_marks = np.empty_like(members), np.zeros_like(marks)
-    mark = 0
-    marks[:] = 0
-    for patch in range(len(starts)):
-        row, column = divmod(starts[patch], knots.shape[1])
-        targets[patch] = KEPT
-        if not (near[0] <= row < near[1] and wanted[row // side, column // side]):
-            continue
-        mark += 2
-        yarn = knots[row, column]
-        number = fill(knots, row, column, least, False, members, marks, mark)
-        if _is_kept(kept, members, number):
-            continue
-        own[:] = 0
-        for k in range(number):
-            _add_light(rgb, members[k, 0], members[k, 1], own)
-        ring = _surround(knots, rgb, members, number, marks, mark, around, sums)
-        other, contrast = _nearest_around(own, number, ring, around, sums)
-        if other < 0 or number * contrast >= VISIBLE * least:
-            continue
-        if contrast >= DRAWN:
-            line = not between_areas(around, ring, yarn, other, gap)
-            if line and on_line(knots, *middle_of(members, number), number, yarn, other, gap):
-                continue
-            if in_row(knots, sizes, members, number, least, others, other_marks):
-                continue
-        targets[patch] = other
-        for k in range(number):
-            loose[members[k, 0], members[k, 1]] = True
+    members, marks, own, around, sums = rooms.members, rooms.marks, rooms.own, rooms.around, rooms.sums
+    yarn = knots[members[0, 0], members[0, 1]]
+    own[:] = 0
+    for k in range(number):
+        _add_light(rgb, members[k, 0], members[k, 1], own)
+    ring = _surround(knots, rgb, members, number, marks, mark, around, sums)
+    other, contrast = _nearest_around(own, number, ring, around, sums)
+    if other < 0 or number * contrast >= VISIBLE * least:
+        return KEPT, False
+    if contrast >= DRAWN:
+        row, column = middle_of(members, number)
+        line = not between_areas(around, ring, yarn, other, gap)
+        if line and on_line(knots, row, column, number, yarn, other, gap):
+            return KEPT, False
+        if in_row(knots, members, number, least, rooms.others, rooms.other_marks):
+            return KEPT, True
+    return other, False
 
 
-@compiled
-def _first_of_its_neighbours(  # noqa: PLR0917
-    knots: Indices, sizes: Sizes, loose: BoolArray, members: Members, number: int, yarn: int
-) -> bool:
-    """Whether no patch that touches this one and takes another yarn is smaller, or equal and of an earlier yarn."""
+@uncounted
+def _judge(  # noqa: PLR0917
+    window: _Window, rgb: Rgb, gap: FloatArray, least: int, side: int, kept: BoolArray, rooms: _Rooms, sizes: Sizes,
+    starts: Starts, targets: Targets
+) -> int:  # fmt: skip
+    """Number of loose patches of fewer than `least` knots, that take another yarn.
+
+    sizes  receives the size of each at its knots      starts, targets  receive the first knot of each, and its yarn
+    """
+    knots, top = window.knots, window.top
+    loose, mark, columns = 0, 0, knots.shape[1]
+    for row in range(max(top - 2 * least, 0), min(top + window.own.shape[0] + 2 * least, knots.shape[0])):
+        for tile in range(window.wanted.shape[1]):
+            if not window.wanted[row // side, tile]:
+                continue
+            for column in range(tile * side, min((tile + 1) * side, columns)):
+                if _is_kept(kept, row, column) or not begins(knots, row, column):
+                    continue
+                mark += 2
+                number = fill(knots, row, column, least, True, rooms.members, rooms.marks, mark)
+                if not 0 < number < least or _any_is_kept(kept, rooms.members, number):
+                    continue
+                target, dotted = _target(knots, rgb, gap, least, number, mark, rooms)
+                if dotted and top <= row < top + window.own.shape[0]:
+                    window.dotted[(row - top) // side, tile] = True
+                if target != KEPT:
+                    starts[loose], targets[loose] = row * columns + column, target
+                    loose += 1
+                    for k in range(number):
+                        sizes[rooms.members[k, 0], rooms.members[k, 1]] = number
+    return loose
+
+
+@uncounted
+def _first_of_its_neighbours(knots: Indices, sizes: Sizes, members: Members, number: int, yarn: int) -> bool:
+    """Whether no loose patch that touches this one is smaller, or equal and of an earlier yarn."""
     for k in range(number):
         y, x = members[k]
         for i in range(max(y - 1, 0), min(y + 2, knots.shape[0])):
             for j in range(max(x - 1, 0), min(x + 2, knots.shape[1])):
-                if loose[i, j] and (sizes[i, j] < number or (sizes[i, j] == number and knots[i, j] < yarn)):
+                if 0 < sizes[i, j] < number or (sizes[i, j] == number and knots[i, j] < yarn):
                     return False
     return True
 
 
-@compiled
+@uncounted
 def _merge(  # noqa: PLR0917
-    knots: Indices, out: OwnKnots, top: int, least: int, side: int, sizes: Sizes, starts: Starts, targets: Indices,
-    loose: BoolArray, again: BoolArray, members: Members, marks: Marks
+    window: _Window, least: int, side: int, members: Members, marks: Marks, sizes: Sizes, starts: Starts,
+    targets: Targets
 ) -> None:  # fmt: skip
-    """Merge the loose patches that are first of their neighbours.
-
-    out    the knots of the window from row `top` on, which receive the yarns
-    again  by tile of `out`, receives where patches are merged or wait for others
-    """
-    mark = 0
-    marks[:] = 0
+    """Merge the loose patches that are first of their neighbours; `marks` are 0."""
+    knots, own, top = window.knots, window.own, window.top
     for patch in range(len(starts)):
-        if targets[patch] == KEPT:
-            continue
         row, column = divmod(starts[patch], knots.shape[1])
-        mark += 1
-        number = fill(knots, row, column, least, False, members, marks, mark)
-        first = _first_of_its_neighbours(knots, sizes, loose, members, number, knots[row, column])
+        number = fill(knots, row, column, least, False, members, marks, patch + 1)
+        first = _first_of_its_neighbours(knots, sizes, members, number, knots[row, column])
         for k in range(number):
             y, x = members[k]
-            if top <= y < top + out.shape[0]:
-                again[(y - top) // side, x // side] = True
+            if top <= y < top + own.shape[0]:
+                window.again[(y - top) // side, x // side] = True
                 if first:
-                    out[y - top, x] = targets[patch]
+                    own[y - top, x] = targets[patch]
 
 
 def merge_patches(
@@ -258,10 +267,16 @@ def merge_patches(
     side = _side(least)
     merged = knots.copy()
     wanted = np.ones((-(-knots.shape[0] // side), -(-knots.shape[1] // side)), dtype=bool)
+    dotted = np.zeros_like(wanted)
     share = 0.0
     while wanted.any():
         then = 0.2 * share + 0.8  # the number of rounds is not known
-        wanted = _round(merged, task, _grown(wanted), progress.part(share, then))
+        again = _round(merged, task, wanted, dotted, progress.part(share, then))
+        wanted = grown(again)
+        far = wanted
+        for _ in range(_margin(least)):
+            far = grown(far)
+        wanted |= far & dotted
         share = then
     return merged, sum(int(np.count_nonzero(merged[band] != knots[band])) for band in bands(*knots.shape))
 
@@ -275,53 +290,48 @@ class _Task(NamedTuple):
     kept: BoolArray
 
 
-def _round(knots: Indices, task: _Task, wanted: BoolArray, progress: Progress) -> BoolArray:
+def _round(knots: Indices, task: _Task, wanted: BoolArray, dotted: BoolArray, progress: Progress) -> BoolArray:
     """Merge the patches of the wanted tiles that are first of their neighbours; the tiles where work remains.
 
-    Windows of rows, with a tile more above and below, are copies of the chart at the begin of the round, so that the
+    Windows of rows, with a margin above and below, are copies of the chart at the begin of the round, so that the
     result does not depend on the windows, nor on the threads.
     """
-    side = _side(task.least)
+    side, margin = _side(task.least), _margin(task.least)
+    rows = margin * side
     again = np.zeros_like(wanted)
-    parts = list(bands(len(wanted), side * knots.shape[1], _WINDOW))
+    parts = list(bands(len(wanted), side * knots.shape[1], max(_WINDOW, rows * knots.shape[1])))
     above = knots[:0]
     for first in range(0, len(parts), MOST_THREADS):
         works = []
         for tiles in parts[first : first + MOST_THREADS]:
             start, stop = tiles.start * side, min(tiles.stop * side, len(knots))
-            window = np.concatenate([above, knots[start : stop + side]])
-            near = wanted[max(tiles.start - 1, 0) : tiles.stop + 1]
+            near = wanted[max(tiles.start - margin, 0) : tiles.stop + margin]
             if near.any():
-                works.append((window, start, len(above), knots[start:stop], near, again[tiles]))
-            above = knots[stop - side : stop].copy()
-        for _ in in_threads(lambda work: _merge_window(task, *work), works):
+                part = np.concatenate([above, knots[start : stop + rows]])
+                works.append(
+                    _Window(part, start - len(above), len(above), knots[start:stop], near, again[tiles], dotted[tiles])
+                )
+            above = knots[max(stop - rows, 0) : stop].copy()
+        for _ in in_threads(lambda window: _merge_window(task, window), works):
             progress(stop / len(knots))
     return again
 
 
-def _merge_window(  # noqa: PLR0917
-    task: _Task, window: Indices, start: int, top: int, out: OwnKnots, wanted: BoolArray, again: BoolArray
-) -> None:
-    """Merge in a window of rows whose own rows, from its row `top` on, are those of `out` and begin at row `start`."""
-    least, side, first = task.least, _side(task.least), start - top
-    members, marks = room(least)
-    sizes, loose = np.empty(window.shape, dtype=np.uint8), np.zeros(window.shape, dtype=bool)
-    starts = np.empty(window.size, dtype=np.int32)
-    found = _measure(window, least, side, _grown(wanted), sizes, starts, members, marks)
-    starts, targets = starts[:found], np.empty(found, dtype=np.uint8)
-    rgb, kept = task.rgb[first : first + len(window)], task.kept[first // CELL :]
-    near = (top - 2 * least, top + len(out) + 2 * least)
-    _judge(window, rgb, task.gap, least, side, wanted, near, sizes, starts, targets, loose, kept, members, marks)
-    _merge(window, out, top, least, side, sizes, starts, targets, loose, again, members, marks)
+def _merge_window(task: _Task, window: _Window) -> None:
+    least, side, rooms = task.least, _side(task.least), _rooms(task.least, len(task.gap))
+    sizes = np.zeros(window.knots.shape, dtype=np.uint8)
+    starts, targets = np.empty(window.knots.size, dtype=np.int32), np.empty(window.knots.size, dtype=np.uint8)
+    rgb, kept = task.rgb[window.first : window.first + len(window.knots)], task.kept[window.first // CELL :]
+    loose = _judge(window, rgb, task.gap, least, side, kept, rooms, sizes, starts, targets)
+    rooms.marks[:] = 0
+    _merge(window, least, side, rooms.members, rooms.marks, sizes, starts[:loose], targets[:loose])
 
 
 def _side(least: int) -> int:
-    """Side of a tile: no judgement depends on a knot as far away."""
-    return REACH + 4 * least
+    """Side of a tile: no judgement but that of a row of dots depends on a knot as far away; a whole number of cells."""
+    return 2 * least + 2 * RADIUS
 
 
-def _grown(tiles: BoolArray) -> BoolArray:
-    """The tiles and those that touch them."""
-    padded = np.pad(tiles, 1)
-    rows = padded[:-2] | padded[1:-1] | padded[2:]
-    return np.asarray(rows[:, :-2] | rows[:, 1:-1] | rows[:, 2:])
+def _margin(least: int) -> int:
+    """Tiles from a patch to the furthest knot on which a judgement depends."""
+    return -(-(REACH + 4 * least) // _side(least))

@@ -4,13 +4,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ilmek.arrays import Float, FloatArray, Indices, IntArray, Rgb, UInt8
+from ilmek.arrays import Float, FloatArray, Indices, Int32, IntArray, Rgb, UInt8
 from ilmek.carpet.colour_difference import ciede2000
 from ilmek.carpet.design import PART, bands
 from ilmek.carpet.palette import Colours
-from ilmek.num.compiled import compiled
+from ilmek.num.compiled import uncounted
 from ilmek.num.threads import in_threads
 from ilmek.progress import SILENT, Progress
+
+Known = Int32[np.ndarray, "colours yarns"]
 
 _UNIT = 2.0**24
 
@@ -35,12 +37,12 @@ class Differences(NamedTuple):
     of_yarns: tuple[YarnDifference, ...]
 
 
-@compiled
+@uncounted
 def _move(  # noqa: PLR0917
-    rgb: Rgb, index: IntArray, labs: FloatArray, difference: FloatArray, before: Indices, knots: Indices,
-    yarn_labs: FloatArray, found: FloatArray, sums: IntArray, counts: IntArray, worst: FloatArray
+    rgb: Rgb, index: IntArray, labs: FloatArray, difference: IntArray, before: Indices, knots: Indices,
+    yarn_labs: FloatArray, known: Known, sums: IntArray, counts: IntArray, worst: FloatArray
 ) -> None:  # fmt: skip
-    """Add what the changed knots change; `found`: differences of colours and yarns, 0 where not known, or none."""
+    """Add what the changed knots change; `known`: 1 + differences of colours and yarns, 0 where not known, or none."""
     # In whole units, so that the sums do not depend on the order.
     for row in range(rgb.shape[0]):
         for column in range(rgb.shape[1]):
@@ -48,18 +50,18 @@ def _move(  # noqa: PLR0917
             if old != yarn:
                 code = np.int32(rgb[row, column, 0]) << 16 | np.int32(rgb[row, column, 1]) << 8 | rgb[row, column, 2]
                 colour = index[code] - 1
-                delta = found[colour, yarn] if found.size else 0.0
-                if delta == 0.0:
-                    l1, a1, b1 = labs[colour]
-                    l2, a2, b2 = yarn_labs[yarn]
-                    delta = ciede2000(l1, a1, b1, l2, a2, b2)
-                    if found.size:
-                        found[colour, yarn] = delta
-                sums[yarn] += round(delta * _UNIT)
-                sums[old] -= round(difference[colour] * _UNIT)
+                units = np.int64(known[colour, yarn]) - 1 if known.size else -1
+                if units < 0:
+                    l1, a1, b1 = labs[colour, 0], labs[colour, 1], labs[colour, 2]
+                    delta = ciede2000(l1, a1, b1, yarn_labs[yarn, 0], yarn_labs[yarn, 1], yarn_labs[yarn, 2])
+                    units = round(delta * _UNIT)
+                    worst[yarn] = max(worst[yarn], delta)
+                    if known.size:
+                        known[colour, yarn] = units + 1
+                sums[yarn] += units
+                sums[old] -= difference[colour]
                 counts[yarn] += 1
                 counts[old] -= 1
-                worst[yarn] = max(worst[yarn], delta)
 
 
 def differences(  # noqa: PLR0917
@@ -78,11 +80,12 @@ def differences(  # noqa: PLR0917
     (yarn_of, difference), (before, knots), yarns = taken, charts, len(yarn_labs)
     design = np.ascontiguousarray(design)
 
-    known = np.zeros((len(difference) if len(difference) * yarns <= _MOST_KNOWN else 0, yarns))
+    units = np.rint(difference * _UNIT).astype(np.int64)
+    known = np.zeros((len(difference) if len(difference) * yarns <= _MOST_KNOWN else 0, yarns), dtype=np.int32)
 
     def move(band: slice) -> tuple[IntArray, IntArray, FloatArray]:
         sums, counts, worst = np.zeros(yarns, dtype=np.int64), np.zeros(yarns, dtype=np.int64), np.zeros(yarns)
-        args = (colours.index, colours.labs, difference, before[band], knots[band], yarn_labs, known)
+        args = (colours.index, colours.labs, units, before[band], knots[band], yarn_labs, known)
         _move(design[band], *args, sums, counts, worst)
         return sums, counts, worst
 

@@ -9,9 +9,9 @@ import math
 
 import numpy as np
 
-from ilmek.arrays import Indices, IntArray, UInt8
-from ilmek.carpet.patches import Marks, Members, fill
-from ilmek.num.compiled import compiled
+from ilmek.arrays import Indices, IntArray
+from ilmek.carpet.patches import Marks, Members, fill, next_mark
+from ilmek.num.compiled import uncounted
 
 LARGEST_STEP = 12
 """Knots between two dots, along rows and columns."""
@@ -39,10 +39,8 @@ def _offsets(odd_row: int, odd_column: int) -> IntArray:
 
 _OFFSETS = np.stack([_offsets(row, column) for row in (0, 1) for column in (0, 1)])
 
-Sizes = UInt8[np.ndarray, "rows columns"]
 
-
-@compiled
+@uncounted
 def middle_of(members: Members, number: int) -> tuple[int, int]:
     """The middle of the rectangle around the knots of a patch, in half knots."""
     top, left = members[0]
@@ -53,24 +51,28 @@ def middle_of(members: Members, number: int) -> tuple[int, int]:
     return top + bottom, left + right
 
 
-@compiled
-def _alike(knots: Indices, sizes: Sizes, i: int, j: int, yarn: int, number: int) -> bool:  # noqa: PLR0917
-    size = sizes[i, j]
-    return bool(size > 0 and knots[i, j] == yarn and 2 * abs(size - number) <= max(2, number))
+@uncounted
+def _alike(  # noqa: PLR0917
+    knots: Indices, i: int, j: int, yarn: int, number: int, least: int, members: Members, marks: Marks
+) -> int:  # fmt: skip
+    """The size of the patch of a knot if it is of a yarn and a small one of like size, else 0; writes its members."""
+    if knots[i, j] != yarn:
+        return 0
+    size = fill(knots, i, j, least, False, members, marks, next_mark(marks))
+    return size if size < least and 2 * abs(size - number) <= max(2, number) else 0
 
 
-@compiled
+@uncounted
 def _dot_at(  # noqa: PLR0917
-    knots: Indices, sizes: Sizes, row: int, column: int, off: int, yarn: int, number: int, least: int,
-    members: Members, marks: Marks
+    knots: Indices, row: int, column: int, off: int, yarn: int, number: int, least: int, members: Members, marks: Marks
 ) -> tuple[int, int, bool]:  # fmt: skip
     """The middle of the dot nearest to a position, at most `off` half knots from it, and whether there is just one."""
     best, found_row, found_column, clear = 1000, 0, 0, False
     for i in range(max(-((off + 1 - row) // 2), 0), min((row + off + 1) // 2 + 1, knots.shape[0])):
         for j in range(max(-((off + 1 - column) // 2), 0), min((column + off + 1) // 2 + 1, knots.shape[1])):
-            if _alike(knots, sizes, i, j, yarn, number):
-                marks[:] = 0
-                y, x = middle_of(members, fill(knots, i, j, least, False, members, marks, 1))
+            size = _alike(knots, i, j, yarn, number, least, members, marks)
+            if size > 0:
+                y, x = middle_of(members, size)
                 distance = max(abs(y - row), abs(x - column))
                 if distance <= off and distance < best:
                     best, found_row, found_column, clear = distance, y, x, True
@@ -79,28 +81,25 @@ def _dot_at(  # noqa: PLR0917
     return found_row, found_column, clear
 
 
-@compiled
+@uncounted
 def _dots_along(  # noqa: PLR0917
-    knots: Indices, sizes: Sizes, row: int, column: int, down: int, right: int, yarn: int, number: int, least: int,
+    knots: Indices, row: int, column: int, down: int, right: int, yarn: int, number: int, least: int,
     members: Members, marks: Marks
 ) -> int:  # fmt: skip
     """How many dots follow at a step, at most DOTS - 1."""
     off = min(max(max(abs(down), abs(right)) // 4, 1), _MOST_OFF)
     for found in range(DOTS - 1):
-        row, column, clear = _dot_at(knots, sizes, row + down, column + right, off, yarn, number, least, members, marks)
+        row, column, clear = _dot_at(knots, row + down, column + right, off, yarn, number, least, members, marks)
         if not clear:
             return found
     return DOTS - 1
 
 
-@compiled
-def in_row(  # noqa: PLR0917
-    knots: Indices, sizes: Sizes, own: Members, number: int, least: int, members: Members, marks: Marks
-) -> bool:
-    """Whether a patch belongs to a row of dots.
+@uncounted
+def in_row(knots: Indices, own: Members, number: int, least: int, members: Members, marks: Marks) -> bool:  # noqa: PLR0917
+    """Whether a patch of fewer than `least` knots belongs to a row of dots.
 
-    sizes  at each knot of a patch of fewer than `least` knots its size, else 0      own  knots of the patch
-    members, marks  room of a fill
+    own  knots of the patch      members, marks  room of a fill
     """
     yarn = knots[own[0, 0], own[0, 1]]
     row, column = middle_of(own, number)
@@ -111,24 +110,24 @@ def in_row(  # noqa: PLR0917
         if down * down + right * right > furthest:
             return False
         i, j = (row + down) // 2, (column + right) // 2
-        if not (0 <= i < knots.shape[0] and 0 <= j < knots.shape[1]) or not _alike(knots, sizes, i, j, yarn, number):
+        if not (0 <= i < knots.shape[0] and 0 <= j < knots.shape[1]) or _is_own(own, number, i, j):
             continue
-        if _is_own(own, number, i, j):
+        size = _alike(knots, i, j, yarn, number, least, members, marks)
+        if size == 0:
             continue
         nearly = int((_NEARLY * math.sqrt(down * down + right * right) + 1.0) ** 2)
         furthest = min(furthest, nearly)
-        marks[:] = 0
-        y, x = middle_of(members, fill(knots, i, j, least, False, members, marks, 1))
+        y, x = middle_of(members, size)
         down, right = y - row, x - column
-        dots = 1 + _dots_along(knots, sizes, row, column, down, right, yarn, number, least, members, marks)
+        dots = 1 + _dots_along(knots, row, column, down, right, yarn, number, least, members, marks)
         if dots < DOTS:
-            dots += _dots_along(knots, sizes, row, column, -down, -right, yarn, number, least, members, marks)
+            dots += _dots_along(knots, row, column, -down, -right, yarn, number, least, members, marks)
         if dots >= DOTS:
             return True
     return False
 
 
-@compiled
+@uncounted
 def _is_own(own: Members, number: int, i: int, j: int) -> bool:
     for k in range(number):  # noqa: SIM110 - `any` is not compiled
         if own[k, 0] == i and own[k, 1] == j:

@@ -23,7 +23,7 @@ from ilmek.carpet.colour_difference import ciede2000, delta_e_2000
 from ilmek.carpet.colour_groups import ColourGroups
 from ilmek.carpet.palette import Colours
 from ilmek.carpet.picture_points import hex_colour
-from ilmek.num.compiled import compiled
+from ilmek.num.compiled import compiled, uncounted
 
 FAINT = 6.0
 """CIEDE2000 below which two blocks are no edge."""
@@ -56,7 +56,7 @@ class LostColour(NamedTuple):
         return hex_colour(self.srgb)
 
 
-@compiled
+@uncounted
 def _mean(  # noqa: PLR0917
     rgb: Rgb, index: IntArray, labs: FloatArray, knots: Indices, yarns: FloatArray, i: int, j: int, out: FloatArray
 ) -> None:

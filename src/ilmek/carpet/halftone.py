@@ -26,16 +26,18 @@ import numpy as np
 from ilmek.arrays import BoolArray, Float, FloatArray, Indices, Int32, IntArray, Rgb
 from ilmek.carpet.colour import lab_to_srgb
 from ilmek.carpet.colour_difference import ciede2000
-from ilmek.carpet.design import bands, encoded
-from ilmek.carpet.light import LIGHT, lab_of_light
+from ilmek.carpet.design import bands
+from ilmek.carpet.light import LIGHT, code_of_light, lab_of_light
 from ilmek.carpet.mixtures import WHITE, mix, yarn_lights
-from ilmek.num.compiled import compiled
+from ilmek.carpet.nearest_colour import NearestSearch, nearest_of, nearest_search
+from ilmek.carpet.patches import grown, is_lone
+from ilmek.num.compiled import compiled, uncounted
 from ilmek.progress import SILENT, Progress
 
 CELL = 2
 """Knots along a side of a cell."""
 
-OUTLINE, OUTLINE_INSIDE = 24, 36
+OUTLINE, OUTLINE_INSIDE = 32, 48
 """Differences of an outline, in codes of a channel."""
 
 MOST_MOVED = 32
@@ -49,276 +51,273 @@ is rounded off is carried on.
 SAME = 3
 """A tone whose codes differ by no more from those of its nearest yarn takes that yarn."""
 
-SHOWN = 4.0
+SHOWN = 5.0
 """A lone knot shows where the yarns beside it are farther from its colour than its own by more [CIEDE2000]."""
 
 _TONES, _COLOURS = 255 // STEP + 2, 256 // FINE
 _UNKNOWN = 255
 """Stands for no yarn: indices of yarns are at most 254."""
 
+_WHOLE = 256
+"""Strength of which all of the light is carried on."""
+
+Tones = Int32[np.ndarray, "rows columns"]
+Light = tuple[int, int, int]
+"""Light of the three channels in units of `light.LIGHT`."""
+
 
 class _Shelf(NamedTuple):
     """The yarns, and what was found of their mixtures so far.
 
-    labs, lights, codes  CIELAB of each yarn, its linear light in units of LIGHT, and its codes
-    strength      share of the light that is carried on
-    nearest       of colours in steps of FINE the nearest yarn, _UNKNOWN before it is asked for
-    found         of tones in steps of STEP whether the mixture is computed
-    yarns, aims, slopes  its yarns, its light and the slope of CIELAB there [`mixtures.mix`]
+    search    of the nearest yarn
+    lights, codes  linear light of each yarn in units of LIGHT, and its codes
+    strength  of the light that is carried on, in shares of _WHOLE
+    nearest   of colours in steps of FINE the nearest yarn, _UNKNOWN before it is asked for
+    known     of tones in steps of STEP whether the mixture is computed
+    yarns, aims, positions, slopes  of mixtures [`mixtures.mix`]
     """
 
-    labs: FloatArray
+    search: NearestSearch
     lights: IntArray
     codes: IntArray
-    strength: float
+    strength: int
     nearest: Indices
-    found: BoolArray
-    yarns: IntArray
+    known: BoolArray
+    yarns: Indices
     aims: IntArray
+    positions: IntArray
     slopes: IntArray
 
 
 def _shelf(labs: FloatArray, strength: float) -> _Shelf:
     tones = _TONES**3  # memory that is never touched costs nothing
     return _Shelf(
-        np.ascontiguousarray(labs),
+        nearest_search(labs),
         np.rint(WHITE * yarn_lights(labs)).astype(np.int64),
         lab_to_srgb(labs).astype(np.int64),
-        strength,
-        np.full(_COLOURS**3, _UNKNOWN, dtype=np.uint8),
+        round(_WHOLE * strength),
+        np.full((_COLOURS**2, _COLOURS), _UNKNOWN, dtype=np.uint8),
         np.zeros(tones, dtype=bool),
-        np.empty((tones, 3), dtype=np.int64),
-        np.empty((tones, 3), dtype=np.int64),
-        np.empty((tones, 3, 3), dtype=np.int64),
+        np.empty((tones, 3), dtype=np.uint8),
+        np.empty((tones, 3), dtype=np.int32),
+        np.empty((tones, 3, 3), dtype=np.int32),
+        np.empty((tones, 3, 3), dtype=np.int32),
     )
 
 
-@compiled
-def _tone(rgb: Rgb, top: int, bottom: int, left: int, right: int, out: IntArray) -> int:  # noqa: PLR0917
-    """Write the mean light of a cell; returns the greatest range of a channel over its knots."""
-    widest = 0
-    for channel in range(3):
-        light, least, most = 0, 255, 0
-        for i in range(top, bottom):
-            for j in range(left, right):
-                code = rgb[i, j, channel]
-                light += LIGHT[code]
-                least, most = min(least, int(code)), max(most, int(code))
-        out[channel] = light // ((bottom - top) * (right - left))
-        widest = max(widest, most - least)
-    return widest
-
-
-@compiled
-def _tones(rgb: Rgb, tones: Int32[np.ndarray, "rows columns"], rough: BoolArray) -> None:
+@uncounted
+def _tones(rgb: Rgb, tones: Tones, rough: BoolArray) -> None:
     """The tone of each cell as a code r·65536 + g·256 + b, and whether it holds or touches an outline."""
     rows, columns = tones.shape
-    own = np.empty(3, dtype=np.int64)
     for i in range(rows):
-        bottom = rgb.shape[0] if i == rows - 1 else CELL * (i + 1)
+        top, bottom = CELL * i, rgb.shape[0] if i == rows - 1 else CELL * (i + 1)
         for j in range(columns):
-            right = rgb.shape[1] if j == columns - 1 else CELL * (j + 1)
-            rough[i, j] = _tone(rgb, CELL * i, bottom, CELL * j, right, own) > OUTLINE_INSIDE
-            tones[i, j] = encoded(own[0] / WHITE) << 16 | encoded(own[1] / WHITE) << 8 | encoded(own[2] / WHITE)
-    for i in range(rows):
-        for j in range(columns):
-            for y, x in ((i, j - 1), (i - 1, j)):
-                if y >= 0 and x >= 0:
-                    apart = 0
-                    for shift in (0, 8, 16):
-                        apart = max(apart, abs((tones[i, j] >> shift & 255) - (tones[y, x] >> shift & 255)))
-                    if apart > OUTLINE:
-                        rough[i, j] = rough[y, x] = True
-
-
-@compiled
-def _mixture(shelf: _Shelf, tone: int) -> int:
-    """The number of the mixture of a tone, which is computed when it is first asked for."""
-    half = STEP // 2
-    red, green, blue = (tone >> 16 & 255) + half, (tone >> 8 & 255) + half, (tone & 255) + half
-    key = ((red // STEP) * _TONES + green // STEP) * _TONES + blue // STEP
-    if not shelf.found[key]:
-        shelf.found[key] = True
-        light = np.empty(3)
-        for channel, code in enumerate((red, green, blue)):
-            light[channel] = LIGHT[min(code // STEP * STEP, 255)] / WHITE
-        mix(
-            light,
-            shelf.labs,
-            shelf.lights / WHITE,
-            shelf.strength,
-            shelf.yarns[key],
-            shelf.aims[key],
-            shelf.slopes[key],
-        )
-    return int(key)
-
-
-@compiled
-def _all_smooth(rough: BoolArray, i: int, j: int) -> bool:
-    """Whether a cell and the cells around it are smooth."""
-    for y in range(max(i - 1, 0), min(i + 2, rough.shape[0])):
-        for x in range(max(j - 1, 0), min(j + 2, rough.shape[1])):
-            if rough[y, x]:
-                return False
-    return True
-
-
-@compiled
-def _in_smooth_area(rough: BoolArray, i: int, j: int) -> bool:
-    """Whether a cell belongs to a smooth square of 3 × 3 cells."""
-    if rough[i, j]:
-        return False
-    for y in range(max(i - 1, 0), min(i + 2, rough.shape[0])):
-        for x in range(max(j - 1, 0), min(j + 2, rough.shape[1])):
-            if _all_smooth(rough, y, x):
-                return True
-    return False
-
-
-@compiled
-def _nearest_light(shelf: _Shelf, mixture: int, aim: IntArray) -> int:
-    """The yarn of a mixture whose light is nearest to what is aimed at."""
-    best, least = -1, 0
-    for k in range(3):
-        yarn, far = shelf.yarns[mixture, k], 0
-        for axis in range(3):
-            off = 0
+            left, right = CELL * j, rgb.shape[1] if j == columns - 1 else CELL * (j + 1)
+            tone, widest = 0, 0
             for channel in range(3):
-                off += shelf.slopes[mixture, axis, channel] * (shelf.lights[yarn, channel] - aim[channel] >> 8)
-            far += (off >> 8) * (off >> 8)
-        if best < 0 or far < least:
-            best, least = yarn, far
-    return int(best)
+                light, least, most = 0, 255, 0
+                for y in range(top, bottom):
+                    for x in range(left, right):
+                        code = int(rgb[y, x, channel])
+                        light += LIGHT[code]
+                        least, most = min(least, code), max(most, code)
+                tone = tone << 8 | code_of_light(_part(light, (bottom - top) * (right - left)))
+                widest = max(widest, most - least)
+            tones[i, j] = tone
+            rough[i, j] = widest > OUTLINE_INSIDE
+            if i > 0 and _apart(tone, tones[i - 1, j]):
+                rough[i, j] = rough[i - 1, j] = True
+            if j > 0 and _apart(tone, tones[i, j - 1]):
+                rough[i, j] = rough[i, j - 1] = True
+
+
+@uncounted
+def _apart(tone: int, other: int) -> bool:
+    """Whether an outline lies between two cells."""
+    red, green, blue = (
+        (tone >> 16) - (other >> 16),
+        (tone >> 8 & 255) - (other >> 8 & 255),
+        (tone & 255) - (other & 255),
+    )
+    return max(abs(red), abs(green), abs(blue)) > OUTLINE
 
 
 @compiled
+def _find_mixture(shelf: _Shelf, key: int) -> None:
+    """Compute the mixture of a tone."""
+    light = np.empty(3)
+    for channel in range(3):
+        step = key // _TONES ** (2 - channel) % _TONES
+        light[channel] = LIGHT[min(step * STEP, 255)] / WHITE
+    shelf.known[key] = True
+    share, lights = shelf.strength / _WHOLE, shelf.lights / WHITE
+    yarns, aim, position, slope = shelf.yarns[key], shelf.aims[key], shelf.positions[key], shelf.slopes[key]
+    mix(light, shelf.search.labs, lights, share, yarns, aim, position, slope)
+
+
+@uncounted
+def _find_nearest(shelf: _Shelf, first: int, second: int) -> None:
+    """Compute the yarn nearest to a colour, in steps of FINE codes."""
+    red, green, blue = FINE * (first // _COLOURS), FINE * (first % _COLOURS), FINE * second
+    half = FINE // 2
+    lightness, a, b = lab_of_light(LIGHT[red + half], LIGHT[green + half], LIGHT[blue + half])
+    shelf.nearest[first, second] = nearest_of(shelf.search, lightness, a, b)[0]
+
+
+@uncounted
 def _nearest_yarn(shelf: _Shelf, red: int, green: int, blue: int) -> int:
     """The yarn nearest to a colour, in steps of FINE codes."""
-    red, green, blue = min(max(red, 0), 255) // FINE, min(max(green, 0), 255) // FINE, min(max(blue, 0), 255) // FINE
-    key, half = (red * _COLOURS + green) * _COLOURS + blue, FINE // 2
-    if shelf.nearest[key] == _UNKNOWN:
-        lightness, a, b = lab_of_light(LIGHT[FINE * red + half], LIGHT[FINE * green + half], LIGHT[FINE * blue + half])
-        least = np.inf
-        for yarn in range(len(shelf.labs)):
-            far = ciede2000(lightness, a, b, shelf.labs[yarn, 0], shelf.labs[yarn, 1], shelf.labs[yarn, 2])
+    first = min(max(red, 0), 255) // FINE * _COLOURS + min(max(green, 0), 255) // FINE
+    second = min(max(blue, 0), 255) // FINE
+    if shelf.nearest[first, second] == _UNKNOWN:
+        _find_nearest(shelf, first, second)
+    return int(shelf.nearest[first, second])
+
+
+@uncounted
+def _dot(shelf: _Shelf, tone: int, light: Light) -> tuple[int, Light]:
+    """The yarn of a dot, and the light that is to be carried on; `light`: what was carried on to it."""
+    red, green, blue = tone >> 16, tone >> 8 & 255, tone & 255
+    yarn, codes = _nearest_yarn(shelf, red, green, blue), shelf.codes
+    if max(abs(red - codes[yarn, 0]), abs(green - codes[yarn, 1]), abs(blue - codes[yarn, 2])) > SAME:
+        half = STEP // 2
+        key = ((red + half) // STEP * _TONES + (green + half) // STEP) * _TONES + (blue + half) // STEP
+        if not shelf.known[key]:
+            _find_mixture(shelf, key)
+        positions, slopes, lights = shelf.positions, shelf.slopes, shelf.lights
+        x = (
+            slopes[key, 0, 0] * (light[0] >> 8)
+            + slopes[key, 0, 1] * (light[1] >> 8)
+            + slopes[key, 0, 2] * (light[2] >> 8)
+        )
+        y = (
+            slopes[key, 1, 0] * (light[0] >> 8)
+            + slopes[key, 1, 1] * (light[1] >> 8)
+            + slopes[key, 1, 2] * (light[2] >> 8)
+        )
+        z = (
+            slopes[key, 2, 0] * (light[0] >> 8)
+            + slopes[key, 2, 1] * (light[1] >> 8)
+            + slopes[key, 2, 2] * (light[2] >> 8)
+        )
+        x, y, z = x >> 8, y >> 8, z >> 8
+        best, least = 0, np.int64(1) << 62
+        for k in range(3):
+            far = (positions[key, k, 0] - x) ** 2 + (positions[key, k, 1] - y) ** 2 + (positions[key, k, 2] - z) ** 2
             if far < least:
-                least = far
-                shelf.nearest[key] = yarn
-    return int(shelf.nearest[key])
+                best, least = k, far
+        yarn = int(shelf.yarns[key, best])
+        light = (
+            light[0] + shelf.aims[key, 0] - lights[yarn, 0],
+            light[1] + shelf.aims[key, 1] - lights[yarn, 1],
+            light[2] + shelf.aims[key, 2] - lights[yarn, 2],
+        )
+    return yarn, light
 
 
-@compiled
-def _draw_dot(shelf: _Shelf, tone: int, knots: Indices, light: IntArray) -> None:
-    """Tie a cell in one yarn of its mixture; `light`: what was carried on, and receives what is to be."""
-    red, green, blue = tone >> 16 & 255, tone >> 8 & 255, tone & 255
-    yarn = _nearest_yarn(shelf, red, green, blue)
-    own = shelf.codes[yarn]
-    if max(abs(red - own[0]), abs(green - own[1]), abs(blue - own[2])) <= SAME:
-        knots[:] = yarn
-        return
-    mixture = _mixture(shelf, tone)
-    for channel in range(3):
-        light[channel] += shelf.aims[mixture, channel]
-    yarn = _nearest_light(shelf, mixture, light)
-    for channel in range(3):
-        light[channel] -= shelf.lights[yarn, channel]
-    knots[:] = yarn
+@uncounted
+def _part(light: int, knots: int) -> int:
+    """The mean light of the knots of a cell."""
+    return light >> 2 if knots == CELL**2 else light // knots  # a division takes as long as all the rest
 
 
-@compiled
-def _draw_detail(shelf: _Shelf, tone: int, rgb: Rgb, knots: Indices, light: IntArray) -> None:
+@uncounted
+def _moved(code: int, light: int) -> tuple[int, int]:
+    """The light of a code with what was carried on, within MOST_MOVED codes of it, and the codes that it moves."""
+    light = min(max(light + LIGHT[code], LIGHT[max(code - MOST_MOVED, 0)]), LIGHT[min(code + MOST_MOVED, 255)])
+    return light, code_of_light(light) - code
+
+
+@uncounted
+def _detail(  # noqa: PLR0917
+    shelf: _Shelf, tone: int, rgb: Rgb, knots: Indices, place: tuple[int, int, int, int], light: Light
+) -> Light:
     """Tie each knot of a cell in the yarn nearest to its colour, moved by what was carried on; `light` as for a dot."""
-    moved = np.empty(3, dtype=np.int64)
-    for channel in range(3):
-        code = tone >> (16 - 8 * channel) & 255
-        least, most = LIGHT[max(code - MOST_MOVED, 0)], LIGHT[min(code + MOST_MOVED, 255)]
-        light[channel] = min(max(light[channel] + LIGHT[code], least), most)
-        moved[channel] = encoded(light[channel] / WHITE) - code
-    still = moved[0] == 0 and moved[1] == 0 and moved[2] == 0
-    for y in range(knots.shape[0]):
-        for x in range(knots.shape[1]):
-            if not still:
-                red, green, blue = rgb[y, x, 0] + moved[0], rgb[y, x, 1] + moved[1], rgb[y, x, 2] + moved[2]
-                knots[y, x] = _nearest_yarn(shelf, red, green, blue)
-            for channel in range(3):
-                light[channel] -= shelf.lights[knots[y, x], channel] // knots.size
+    top, bottom, left, right = place
+    first, red = _moved(tone >> 16, light[0])
+    second, green = _moved(tone >> 8 & 255, light[1])
+    third, blue = _moved(tone & 255, light[2])
+    moves = red != 0 or green != 0 or blue != 0
+    x, y, z = 0, 0, 0
+    for i in range(top, bottom):
+        for j in range(left, right):
+            if moves:
+                knots[i, j] = _nearest_yarn(shelf, rgb[i, j, 0] + red, rgb[i, j, 1] + green, rgb[i, j, 2] + blue)
+            yarn = knots[i, j]
+            x, y, z = x + shelf.lights[yarn, 0], y + shelf.lights[yarn, 1], z + shelf.lights[yarn, 2]
+    size = (bottom - top) * (right - left)
+    return first - _part(x, size), second - _part(y, size), third - _part(z, size)
 
 
-@compiled
-def _carry(light: IntArray, row: int, column: int, ahead: int, owed: IntArray) -> None:
-    """Hand on the light of a cell: 7/16 ahead, 3/16, 5/16 and what is left below.
-
-    owed  to the cells of this row and the next one (2, columns, 3), each at its row modulo 2
-    """
-    columns, here, below = owed.shape[1], row % 2, (row + 1) % 2
-    for channel in range(3):
-        whole = light[channel]
-        first, second, third = 7 * whole >> 4, 3 * whole >> 4, 5 * whole >> 4
-        if 0 <= column + ahead < columns:
-            owed[here, column + ahead, channel] += first
-            owed[below, column + ahead, channel] += whole - first - second - third
-        if 0 <= column - ahead < columns:
-            owed[below, column - ahead, channel] += second
-        owed[below, column, channel] += third
+@uncounted
+def _carry(  # noqa: PLR0917
+    owed: IntArray, rows: tuple[int, int], column: int, ahead: int, channel: int, light: int
+) -> None:
+    """Hand on the light of a cell: 7/16 ahead, 3/16, 5/16 and what is left below."""
+    here, below = rows
+    first, second, third = 7 * light >> 4, 3 * light >> 4, 5 * light >> 4
+    owed[here, column + ahead, channel] += first
+    owed[below, column - ahead, channel] += second
+    owed[below, column, channel] += third
+    owed[below, column + ahead, channel] += light - first - second - third
 
 
-@compiled
+@uncounted
 def _draw(  # noqa: PLR0917
-    knots: Indices, rgb: Rgb, tones: Int32[np.ndarray, "rows columns"], rough: BoolArray, shelf: _Shelf,
-    own: tuple[int, int, int], owed: IntArray, drawn: BoolArray
-) -> None:  # fmt: skip
+    knots: Indices, rgb: Rgb, tones: Tones, dots: BoolArray, shelf: _Shelf, own: tuple[int, int, int], owed: IntArray
+) -> None:
     """Tie the cells of the rows `own[0]` to `own[1]` of a part; `own[2]`: row of the chart with which it begins.
 
-    drawn  receives which cells are dots
+    owed  light that is carried on to the cells of this row and the next one (2, columns + 2, 3), each at its row modulo
+          2, with a column more on both sides
     """
     rows, columns = tones.shape
-    light = np.empty(3, dtype=np.int64)
     for i in range(own[0], own[1]):
-        bottom = knots.shape[0] if i == rows - 1 else CELL * (i + 1)
-        row = own[2] + i
-        for at in range(columns):
-            j = at if row % 2 == 0 else columns - 1 - at
-            right = knots.shape[1] if j == columns - 1 else CELL * (j + 1)
-            cell = knots[CELL * i : bottom, CELL * j : right]
-            light[:] = owed[row % 2, j]
-            owed[row % 2, j] = 0
-            drawn[i, j] = _in_smooth_area(rough, i, j)
-            if drawn[i, j]:
-                _draw_dot(shelf, tones[i, j], cell, light)
+        top, bottom = CELL * i, knots.shape[0] if i == rows - 1 else CELL * (i + 1)
+        here = (own[2] + i) % 2
+        below, ahead = 1 - here, 1 - 2 * here
+        owed[below] = 0
+        for step in range(columns):
+            j = columns - 1 - step if here else step
+            left, right = CELL * j, knots.shape[1] if j == columns - 1 else CELL * (j + 1)
+            light = owed[here, j + 1, 0], owed[here, j + 1, 1], owed[here, j + 1, 2]
+            if dots[i, j]:
+                yarn, light = _dot(shelf, tones[i, j], light)
+                for y in range(top, bottom):
+                    for x in range(left, right):
+                        knots[y, x] = yarn
             else:
-                _draw_detail(shelf, tones[i, j], rgb[CELL * i : bottom, CELL * j : right], cell, light)
-            for channel in range(3):
-                light[channel] = round(shelf.strength * light[channel])
-            _carry(light, row, j, 1 if row % 2 == 0 else -1, owed)
+                light = _detail(shelf, tones[i, j], rgb, knots, (top, bottom, left, right), light)
+            _carry(owed, (here, below), j + 1, ahead, 0, light[0] * shelf.strength >> 8)
+            _carry(owed, (here, below), j + 1, ahead, 1, light[1] * shelf.strength >> 8)
+            _carry(owed, (here, below), j + 1, ahead, 2, light[2] * shelf.strength >> 8)
 
 
-@compiled
+@uncounted
 def _join(knots: Indices, rgb: Rgb, labs: FloatArray, first: int, stop: int) -> None:
     """Give each lone knot of the rows the yarn beside it that is nearest to its colour, unless it shows there."""
     rows, columns = knots.shape
     for y in range(first, stop):
         for x in range(columns):
-            own, lone = knots[y, x], True
+            if not is_lone(knots, y, x):
+                continue
+            own = knots[y, x]
+            lightness, a, b = lab_of_light(LIGHT[rgb[y, x, 0]], LIGHT[rgb[y, x, 1]], LIGHT[rgb[y, x, 2]])
+            least = ciede2000(lightness, a, b, labs[own, 0], labs[own, 1], labs[own, 2]) + SHOWN
             for i, j in ((y - 1, x), (y + 1, x), (y, x - 1), (y, x + 1)):
-                if 0 <= i < rows and 0 <= j < columns and knots[i, j] == own:
-                    lone = False
-            if lone:
-                lightness, a, b = lab_of_light(LIGHT[rgb[y, x, 0]], LIGHT[rgb[y, x, 1]], LIGHT[rgb[y, x, 2]])
-                least = ciede2000(lightness, a, b, labs[own, 0], labs[own, 1], labs[own, 2]) + SHOWN
-                for i, j in ((y - 1, x), (y + 1, x), (y, x - 1), (y, x + 1)):
-                    if 0 <= i < rows and 0 <= j < columns:
-                        yarn = knots[i, j]
-                        far = ciede2000(lightness, a, b, labs[yarn, 0], labs[yarn, 1], labs[yarn, 2])
-                        if far < least:
-                            least = far
-                            knots[y, x] = yarn
+                if 0 <= i < rows and 0 <= j < columns:
+                    yarn = knots[i, j]
+                    far = ciede2000(lightness, a, b, labs[yarn, 0], labs[yarn, 1], labs[yarn, 2])
+                    if far < least:
+                        least = far
+                        knots[y, x] = yarn
 
 
-def _tones_of(part: Rgb, cells: tuple[int, int]) -> tuple[Int32[np.ndarray, "rows columns"], BoolArray]:
-    tones, rough = np.empty(cells, dtype=np.int32), np.zeros(cells, dtype=bool)
+def _dots(part: Rgb, tones: Tones) -> BoolArray:
+    """Write the tones of the cells of a part; those that belong to a smooth square of 3 × 3 cells."""
+    rough = np.empty(tones.shape, dtype=bool)
     _tones(part, tones, rough)
-    return tones, rough
+    return grown(~grown(rough))
 
 
 def draw_halftone(
@@ -330,16 +329,18 @@ def draw_halftone(
     """
     rgb, out, shelf = np.ascontiguousarray(rgb), knots.copy(), _shelf(yarn_labs, strength)
     rows, columns = max(1, knots.shape[0] // CELL), max(1, knots.shape[1] // CELL)
-    drawn, owed = np.zeros((rows, columns), dtype=bool), np.zeros((2, columns, 3), dtype=np.int64)
+    drawn, owed = np.zeros((rows, columns), dtype=bool), np.zeros((2, columns + 2, 3), dtype=np.int64)
     for band in bands(rows, CELL**2 * columns):
         around = slice(max(band.start - 3, 0), min(band.stop + 3, rows))
         part = _knots_of(rgb, around, rows)
-        tones, rough = _tones_of(part, (around.stop - around.start, columns))
+        tones = np.empty((around.stop - around.start, columns), dtype=np.int32)
+        dots = _dots(part, tones)
         own = (band.start - around.start, band.stop - around.start, around.start)
-        _draw(_knots_of(out, around, rows), part, tones, rough, shelf, own, owed, drawn[around])
+        drawn[band] = dots[own[0] : own[1]]
+        _draw(_knots_of(out, around, rows), part, tones, dots, shelf, own, owed)
         progress(0.9 * band.stop / rows)
     for band in bands(*out.shape):
-        _join(out, rgb, shelf.labs, band.start, band.stop)
+        _join(out, rgb, shelf.search.labs, band.start, band.stop)
         progress(0.9 + 0.1 * band.stop / len(out))
     return out, drawn
 

@@ -5,14 +5,15 @@ CIELAB with light at c, its chroma weighted as in CIEDE2000, and d the CIEDE2000
 mixtures of one tone that which shows least is taken. Light mixes linearly.
 
 A yarn is in a mixture only where its contrast d with the tone is at most CONTRAST, and its difference to it in a, b,
-divided by 1 + 0.045 C as in CIEDE2000, at most CHROMA: yarns of opposing hues do not make a grey.
+divided by 1 + 0.045 C as in CIEDE2000, at most CHROMA: yarns of opposing hues do not make a grey. A yarn of few dots,
+each of which shows, is left out.
 """
 
 import math
 
 import numpy as np
 
-from ilmek.arrays import FloatArray, IntArray
+from ilmek.arrays import FloatArray, IntArray, UInt8
 from ilmek.carpet.colour import XYZ_TO_RGB, lab_to_xyz
 from ilmek.carpet.colour_difference import ciede2000
 from ilmek.carpet.light import LIGHT, lab_of_light
@@ -21,16 +22,19 @@ from ilmek.num.compiled import compiled
 PENALTY = 1 / 160
 """Weight of the contrast of the yarns with the tone, against the difference of the mixture [1/CIEDE2000]."""
 
-MOST_TRIED = 5
+MOST_TRIED = 8
 """Yarns that are tried: those nearest to the tone. Of many shades of one picture, farther ones would only show."""
 
-FLAT = 2.0
+FLAT = 0.5
 """A tone that is as near to a yarn takes that yarn [CIEDE2000]."""
 
-CONTRAST = 26.0
+SPARSE, SHOWING = 0.05, 8.0
+"""A yarn with a lesser share of a mixture is left out of it if its contrast with the tone is greater [CIEDE2000]."""
+
+CONTRAST = 31.0
 """Greatest contrast of a yarn of a mixture with its tone [CIEDE2000]."""
 
-CHROMA = 20.0
+CHROMA = 24.0
 """Greatest difference of a yarn of a mixture to its tone in a, b, weighted as in CIEDE2000."""
 
 SLOPES = 16
@@ -112,6 +116,21 @@ def _best_mixture(off: FloatArray, far: FloatArray, tried: IntArray, yarns: IntA
 
 
 @compiled
+def _leave_out_specks(far: FloatArray, yarns: UInt8[np.ndarray, "3"], shares: FloatArray) -> None:
+    """Leave a yarn out of a mixture whose dots would be few and each would show; the others keep their proportions."""
+    whole = 0.0
+    for k in range(3):
+        if shares[k] < SPARSE and far[yarns[k]] > SHOWING:
+            shares[k] = 0.0
+        whole += shares[k]
+    first = np.argmax(shares)
+    for k in range(3):
+        shares[k] /= whole
+        if shares[k] == 0.0:
+            yarns[k] = yarns[first]
+
+
+@compiled
 def _allowed(far: FloatArray, labs: FloatArray, a: float, b: float, tried: IntArray) -> int:
     """Write the yarns that a mixture of a tone may have, the nearest first; returns their number."""
     count, weight = 0, 1.0 + 0.045 * math.hypot(a, b)
@@ -125,10 +144,14 @@ def _allowed(far: FloatArray, labs: FloatArray, a: float, b: float, tried: IntAr
 
 @compiled
 def mix(  # noqa: PLR0917
-    tone: FloatArray, labs: FloatArray, lights: FloatArray, strength: float, yarns: IntArray, aim: IntArray,
-    slope: IntArray
+    tone: FloatArray, labs: FloatArray, lights: FloatArray, strength: float, yarns: UInt8[np.ndarray, "3"],
+    aim: IntArray, position: IntArray, slope: IntArray
 ) -> None:  # fmt: skip
-    """Write the yarns of the mixture of a tone, its light in units of LIGHT, and SLOPES × the slope of CIELAB there.
+    """Write the mixture of a tone in whole numbers.
+
+    yarns  of the mixture      aim  its light in units of LIGHT
+    position  of each yarn, as seen from the mixture: axes of CIELAB in units of 1/(256 SLOPES)
+    slope  of CIELAB with light there, in units of SLOPES
 
     tone  linear light, 1 is white      labs, lights  CIELAB and light of the yarns
     strength  the light aimed at lies at this share of the path from that of the nearest yarn to that of the tone
@@ -151,9 +174,25 @@ def mix(  # noqa: PLR0917
                 for channel in range(3):
                     off[yarn, axis] += matrix[axis, channel] * (lights[yarn, channel] - light[channel])
         _best_mixture(off, far, tried[:some], yarns, shares)
+        _leave_out_specks(far, yarns, shares)
+    _in_whole_numbers(lights, shares, matrix, yarns, aim, position, slope)
+
+
+@compiled
+def _in_whole_numbers(  # noqa: PLR0917
+    lights: FloatArray, shares: FloatArray, matrix: FloatArray, yarns: UInt8[np.ndarray, "3"], aim: IntArray,
+    position: IntArray, slope: IntArray
+) -> None:  # fmt: skip
+    """Write the aim, positions and slope of a mixture [`mix`]; `matrix`: the slope."""
     for channel in range(3):
         mixed = 0.0
         for k in range(3):
             mixed += shares[k] * lights[yarns[k], channel]
             slope[k, channel] = round(SLOPES * matrix[k, channel])
         aim[channel] = round(WHITE * mixed)
+    for k in range(3):
+        for axis in range(3):
+            seen = 0.0
+            for channel in range(3):
+                seen += matrix[axis, channel] * (WHITE * lights[yarns[k], channel] - aim[channel])
+            position[k, axis] = round(SLOPES * seen / 65536)

@@ -12,10 +12,11 @@ import numpy as np
 
 from ilmek.arrays import Float, Float32, FloatArray, Indices, Int, Int32, Int64, IntArray, Rgb, UInt8
 from ilmek.carpet.colour import srgb_to_lab
-from ilmek.carpet.colour_difference import delta_e_2000, nearest
+from ilmek.carpet.colour_difference import delta_e_2000
 from ilmek.carpet.design import PART, bands
+from ilmek.carpet.nearest_colour import nearest
 from ilmek.errors import YarnError
-from ilmek.num.compiled import compiled
+from ilmek.num.compiled import compiled, uncounted
 from ilmek.num.threads import in_threads
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
@@ -47,7 +48,7 @@ class Colours:
     counts: Int64[np.ndarray, " colours"]
 
 
-@compiled
+@uncounted
 def _count(rgb: Rgb, index: IntArray, codes: IntArray, counts: IntArray, found: int) -> int:
     for row in range(rgb.shape[0]):
         for column in range(rgb.shape[1]):
@@ -61,7 +62,7 @@ def _count(rgb: Rgb, index: IntArray, codes: IntArray, counts: IntArray, found: 
     return found
 
 
-@compiled
+@uncounted
 def _paint(rgb: Rgb, index: IntArray, yarn_of: UInt8[np.ndarray, " colours"], knots: Indices) -> None:
     for row in range(rgb.shape[0]):
         for column in range(rgb.shape[1]):

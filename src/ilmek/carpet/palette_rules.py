@@ -19,7 +19,8 @@ import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.carpet.assignment import NEUTRAL_CHROMA
-from ilmek.carpet.colour_difference import delta_e_2000, nearest
+from ilmek.carpet.colour_difference import delta_e_2000
+from ilmek.carpet.nearest_colour import nearest
 from ilmek.carpet.palette import (
     Colours,
     best_of_table,

@@ -9,10 +9,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ilmek.arrays import Indices, Int32, Int64, UInt8
+from ilmek.arrays import BoolArray, Indices, Int32, Int64, UInt8
 from ilmek.carpet.codes import CODES
 from ilmek.carpet.design import PART, bands
-from ilmek.num.compiled import compiled
+from ilmek.num.compiled import compiled, uncounted
 from ilmek.num.threads import in_threads
 from ilmek.progress import SILENT, Progress
 
@@ -25,7 +25,36 @@ def room(least: int) -> tuple[Members, Marks]:
     return np.empty((least + 1, 2), dtype=np.int64), np.zeros((2 * least + 3, 2 * least + 3), dtype=np.int32)
 
 
-@compiled
+def grown(cells: BoolArray) -> BoolArray:
+    """Cells (rows, columns) that are true, and those that touch them.
+
+    >>> grown(np.array([[True, False, False]])).tolist()
+    [[True, True, False]]
+    """
+    wide = cells.copy()
+    wide[1:] |= cells[:-1]
+    wide[:-1] |= cells[1:]
+    out = wide.copy()
+    out[:, 1:] |= wide[:, :-1]
+    out[:, :-1] |= wide[:, 1:]
+    return out
+
+
+@uncounted
+def is_lone(knots: Indices, row: int, column: int) -> bool:
+    """Whether a knot has neighbours and differs from all of them: left, right, above and below (fewer at an edge)."""
+    yarn = knots[row, column]
+    last_row, last_column = knots.shape[0] - 1, knots.shape[1] - 1
+    return bool(
+        (column == 0 or knots[row, column - 1] != yarn)
+        and (column == last_column or knots[row, column + 1] != yarn)
+        and (row == 0 or knots[row - 1, column] != yarn)
+        and (row == last_row or knots[row + 1, column] != yarn)
+        and (last_row > 0 or last_column > 0)
+    )
+
+
+@uncounted
 def begins(knots: Indices, row: int, column: int) -> bool:
     """Whether no earlier neighbour has the yarn of a knot."""
     yarn = knots[row, column]
@@ -40,7 +69,14 @@ def begins(knots: Indices, row: int, column: int) -> bool:
     )
 
 
-@compiled
+@uncounted
+def next_mark(marks: Marks) -> int:
+    """A mark that is at no knot; they are counted in the corner, which no fill reaches."""
+    marks[0, 0] += 1
+    return int(marks[0, 0])
+
+
+@uncounted
 def fill(  # noqa: PLR0917
     knots: Indices, row: int, column: int, least: int, first: bool, members: Members, marks: Marks, mark: int
 ) -> int:
@@ -71,7 +107,7 @@ def fill(  # noqa: PLR0917
     return found
 
 
-@compiled
+@uncounted
 def _count(  # noqa: PLR0917
     knots: Indices, first: int, stop: int, members: Members, marks: Marks, found: Int64[np.ndarray, " sizes"]
 ) -> None:

@@ -18,8 +18,8 @@ import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.carpet.colour import lab_to_srgb, srgb_to_lab
-from ilmek.carpet.colour_difference import nearest
 from ilmek.carpet.colour_names import colour_name, unique_name
+from ilmek.carpet.nearest_colour import nearest
 from ilmek.carpet.palette import Colours, additions, difference_table, pooled, swap_while_better
 from ilmek.carpet.picture_points import hex_colour
 from ilmek.carpet.yarn import Yarn, yarn_labs

@@ -6,10 +6,9 @@ import numpy as np
 
 from ilmek.arrays import Indices, IntArray
 from ilmek.carpet.codes import CODES
-from ilmek.carpet.confetti import is_lone
 from ilmek.carpet.design import PART, bands
-from ilmek.carpet.patches import count_patches
-from ilmek.num.compiled import compiled
+from ilmek.carpet.patches import count_patches, is_lone
+from ilmek.num.compiled import uncounted
 from ilmek.num.threads import in_threads
 from ilmek.progress import SILENT, Progress
 
@@ -31,7 +30,7 @@ class Tally:
     small_patches: int
 
 
-@compiled
+@uncounted
 def _count(knots: Indices, first: int, stop: int, counts: IntArray) -> tuple[int, int]:
     """Changes and lone knots of some rows; the knots of each yarn are added to `counts`."""
     changes, lone = 0, 0

@@ -12,7 +12,7 @@ A patch between two areas is no line but the blend of their edge, where its yarn
 import math
 
 from ilmek.arrays import FloatArray, Indices, IntArray
-from ilmek.num.compiled import compiled
+from ilmek.num.compiled import compiled, uncounted
 
 RADIUS = 5
 """Knots from the middle of a patch to the side of the square."""
@@ -24,7 +24,7 @@ _LEAST = 4
 """Knots of a line beyond those of the patch."""
 
 
-@compiled
+@uncounted
 def between_areas(around: IntArray, ring: int, yarn: int, other: int, gap: FloatArray) -> bool:
     """Whether a patch has two areas around it whose yarns are further from each other than its own is from each.
 
@@ -54,7 +54,7 @@ def _along_a_line(  # noqa: PLR0917
     return lesser <= THICKEST and greater >= SHORTEST and greater >= SLENDER * lesser
 
 
-@compiled
+@uncounted
 def on_line(  # noqa: PLR0917
     knots: Indices, row: int, column: int, number: int, yarn: int, other: int, gap: FloatArray
 ) -> bool:

@@ -22,7 +22,7 @@ from ilmek.carpet.colour import WHITE, lab_to_srgb, lab_to_xyz, srgb_to_lab, xyz
 from ilmek.carpet.design import bands
 from ilmek.carpet.palette import Colours, distinct_colours
 from ilmek.carpet.picture_points import hex_colour
-from ilmek.num.compiled import compiled
+from ilmek.num.compiled import uncounted
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 
@@ -85,7 +85,7 @@ def found_white(colours: Colours) -> FloatArray:
     return np.asarray(np.sum(weights * lab_to_xyz(colours.labs[chosen]), axis=0) / weights.sum())
 
 
-@compiled
+@uncounted
 def _paint(rgb: Rgb, index: Int32[np.ndarray, " codes"], codes: UInt8[np.ndarray, "colours 3"], out: Rgb) -> None:
     for row in range(rgb.shape[0]):
         for column in range(rgb.shape[1]):

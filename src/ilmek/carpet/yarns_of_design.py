@@ -15,9 +15,10 @@ import numpy as np
 from ilmek.arrays import Float, FloatArray, UInt8
 from ilmek.carpet.assignment import assign_yarns
 from ilmek.carpet.colour import srgb_to_lab
-from ilmek.carpet.colour_difference import delta_e_2000, nearest
+from ilmek.carpet.colour_difference import delta_e_2000
 from ilmek.carpet.colour_groups import TWIN, ColourGroups, colour_groups
 from ilmek.carpet.edges_kept import edges_kept
+from ilmek.carpet.nearest_colour import nearest
 from ilmek.carpet.palette import Colours, nearest_yarns, paint
 from ilmek.carpet.palette_rules import (
     LEAST_EDGES,
@@ -101,7 +102,7 @@ def yarns_of_design(
     yarn_of, difference = nearest_yarns(distinct, labs, progress.part(0.6, 0.9))
     least = float(np.sum(distinct.counts * difference)) / float(distinct.counts.sum())
     pairs = _given_pairs(distinct, palette.yarns, rules, drawn=drawn)
-    stretched = False
+    taken, stretched = yarn_of.copy(), False
     if groups is not None:
         fixed = {int(groups.of[of[0]]): yarn for of, yarn in pairs}
         found = assign_yarns(groups, labs, fixed, neutral=rules.neutral != NEUTRAL_NO)[groups.of]
@@ -111,9 +112,9 @@ def yarns_of_design(
         stretched, yarn_of = better is not None, yarn_of if better is None else better
     for of, yarn in pairs:
         yarn_of[of] = yarn
-    return YarnsOfDesign(
-        palette, yarn_of, delta_e_2000(distinct.labs, labs[yarn_of]), least, proposed, groups, stretched
-    )
+    others = np.flatnonzero(yarn_of != taken)
+    difference[others] = delta_e_2000(distinct.labs[others], labs[yarn_of[others]])
+    return YarnsOfDesign(palette, yarn_of, difference, least, proposed, groups, stretched)
 
 
 def _own(

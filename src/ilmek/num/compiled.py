@@ -15,11 +15,16 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 
 class Kernel:
-    """A function that is compiled on its first call. Kernels call each other without leaving the machine code."""
+    """A function that is compiled on its first call. Kernels call each other without leaving the machine code.
 
-    def __init__(self, function: FunctionType, *, inline: bool = False) -> None:
+    inline  its code becomes part of the kernels that call it
+    counts  references to arrays are counted, as a kernel needs that makes one
+    """
+
+    def __init__(self, function: FunctionType, *, inline: bool = False, counts: bool = True) -> None:
         functools.update_wrapper(self, function)
-        self.function, self.inline = function, inline
+        self.function, self.inline, self.counts = function, inline, counts
+        self.counted = "" if counts else " uncounted"
 
     def __call__(self, *args: object) -> object:
         """The function's value, computed by machine code."""
@@ -50,6 +55,11 @@ def compiled(function: F) -> F:
 def inlined(function: F) -> F:
     """As `compiled`, for a small kernel that passes arrays on: its code becomes part of the kernels that call it."""
     return cast(F, Kernel(cast(FunctionType, inspect.unwrap(function)), inline=True))
+
+
+def uncounted(function: F) -> F:
+    """As `compiled`, for a kernel that makes no array: without the counts of references, each an atomic step."""
+    return cast(F, Kernel(cast(FunctionType, inspect.unwrap(function)), counts=False))
 
 
 class Compilations:

@@ -63,9 +63,10 @@ def dispatcher(kernel: Kernel, *, called_by_kernels: bool = False) -> Any:
     """
     function = kernel.function
     inline = {"forceinline": True} if kernel.inline else {}  # without it a kernel follows its caller
-    compiler_of = cast(Any, numba).njit(no_cpython_wrapper=called_by_kernels, **OPTIONS, **inline)(function)
+    kinds = {"no_cpython_wrapper": called_by_kernels, "_nrt": kernel.counts, **OPTIONS, **inline}
+    compiler_of = cast(Any, numba).njit(**kinds)(function)
     with suppress(TypeError, RecursionError):  # no key: compiled in every run
-        key = f"{function.__module__}.{function.__qualname__} {kernel.inline} {code_key(function)}"
+        key = f"{function.__module__}.{function.__qualname__} {kernel.inline}{kernel.counted} {code_key(function)}"
         compiler_of._cache = KernelCache(private_folder("kernels"), key, INNER if called_by_kernels else ENTRY)
     return compiler_of
 
@@ -164,7 +165,7 @@ def _content(value: object, user: FunctionType, names: tuple[str, ...]) -> str:
     match value:
         case Kernel():
             key = value.function.__qualname__ if value.function is user else code_key(value.function)
-            return f"{key} inline" if value.inline else key
+            return key + (" inline" if value.inline else "") + value.counted
         case None | bool() | int() | float() | complex() | str() | bytes() | Enum() | np.generic() | np.dtype():
             return repr(value)
         case tuple() | list():

@@ -3,13 +3,13 @@
 import numpy as np
 
 from ilmek.arrays import Indices, NumberArray, UInt8
-from ilmek.num.compiled import compiled
+from ilmek.num.compiled import uncounted
 
 NONE = 255
 """The label of a knot that nothing has claimed."""
 
 
-@compiled
+@uncounted
 def area_share(  # noqa: PLR0917
     labels: UInt8[np.ndarray, "h w"], rows: int, columns: int, row: int, column: int, label: int
 ) -> int:
@@ -24,7 +24,7 @@ def area_share(  # noqa: PLR0917
     return int(area * 65536 // (height * width))
 
 
-@compiled
+@uncounted
 def take_knot(claims: Indices, shares: NumberArray, row: int, column: int, label: int, share: int) -> None:  # noqa: PLR0917
     """A claim to a knot: of several, that with the largest share of the cell has it; then the darkest colour."""
     before = claims[row, column]

@@ -15,12 +15,14 @@ Halved chroma shows in the pixels: through the two pixels of a sample and those 
 a, b, c, d with a - 3b + 3c - d = 0, whatever the samples. The third difference of the luma does not vanish there.
 """
 
+import math
+
 import numpy as np
 
 from ilmek.arrays import Int64, IntArray, Rgb, UInt8
 from ilmek.carpet.design import bands
 from ilmek.carpet.flat.survey import sample_positions
-from ilmek.num.compiled import compiled
+from ilmek.num.compiled import compiled, uncounted
 from ilmek.num.threads import in_threads
 from ilmek.progress import SILENT, Progress
 
@@ -59,13 +61,13 @@ _SLICE = 1 << 18
 NOT_HALVED = -1
 
 
-@compiled
+@uncounted
 def _luma(rgb: Rgb, y: int, x: int) -> int:
     red, green, blue = int(np.int64(rgb[y, x, 0])), int(np.int64(rgb[y, x, 1])), int(np.int64(rgb[y, x, 2]))
     return _RED * red + _GREEN * green + _BLUE * blue
 
 
-@compiled
+@uncounted
 def _count_clear(rgb: Rgb, lines: IntArray, across: bool, counts: Int64[np.ndarray, "2 2"]) -> None:
     """Clear third differences of chroma and of luma by the parity of the second pixel; clipped pixels do not count."""
     length = rgb.shape[1] if across else rgb.shape[0]
@@ -111,7 +113,7 @@ def _parity(rgb: Rgb, across: bool) -> tuple[int, float]:
     return parity, int(counts[0, parity]) / most
 
 
-@compiled
+@uncounted
 def _begins(position: int, parity: int, length: int) -> tuple[int, int]:
     """The first pixels of the sample of a pixel and of the next nearer one; at the border that is its own."""
     own = position - ((position - parity) & 1)
@@ -119,13 +121,13 @@ def _begins(position: int, parity: int, length: int) -> tuple[int, int]:
     return own, own if other + 1 < 0 or other >= length else other
 
 
-@compiled
+@uncounted
 def _pair(line: IntArray, begin: int) -> int:
     """Sum of a sample's two pixels; one beyond the border is that at the border."""
     return int(line[max(begin, 0)] + line[min(begin + 1, len(line) - 1)])
 
 
-@compiled
+@uncounted
 def _spread(luma: IntArray, parity: int, made: IntArray) -> None:
     """A line averaged over its samples and interpolated, _ALONG times as large."""
     for position in range(len(luma)):
@@ -159,7 +161,7 @@ def _coarse_luma(rgb: Rgb, across: int, down: int, first: int, stop: int) -> Int
     return coarse
 
 
-@compiled
+@uncounted
 def _add_row(  # noqa: PLR0917
     rgb: Rgb, coarse: Int64[np.ndarray, "n w"], y: int, top: int, sign: int, sums: Int64[np.ndarray, "w 7"]
 ) -> None:
@@ -176,7 +178,7 @@ def _add_row(  # noqa: PLR0917
         sums[x, 6] += sign * (blue * blue + red * red)
 
 
-@compiled
+@uncounted
 def _code(value: float) -> int:
     return int(min(max(np.rint(value / _UNIT), 0.0), 255.0))
 
@@ -198,33 +200,50 @@ def _restore(rgb: Rgb, across: int, down: int, first: int, out: Rgb) -> None:
         if y - _RADIUS - 1 >= top:
             _add_row(rgb, coarse, y - _RADIUS - 1, top, -1, sums)
         rows = min(y + _RADIUS, height - 1) - max(y - _RADIUS, 0) + 1
-        total[:] = 0
-        for x in range(min(_RADIUS, width)):
-            total += sums[x]
-        for x in range(width):
-            if x + _RADIUS < width:
-                total += sums[x + _RADIUS]
-            if x > _RADIUS:
-                total -= sums[x - _RADIUS - 1]
-            number = rows * (min(x + _RADIUS, width - 1) - max(x - _RADIUS, 0) + 1)
-            _restore_pixel(rgb, y, x, coarse[y - top, x], total, number, out[y - first, x])
+        _restore_row(rgb, y, coarse[y - top], sums, rows, total, out[y - first])
 
 
-@compiled
+@uncounted
+def _restore_row(  # noqa: PLR0917
+    rgb: Rgb, y: int, coarse: Int64[np.ndarray, " w"], sums: Int64[np.ndarray, "w 7"], rows: int, total: IntArray,
+    made: UInt8[np.ndarray, "w 3"]
+) -> None:  # fmt: skip
+    """One row, from the sums of each column of `rows` rows; `total`: room for those of a square."""
+    width = rgb.shape[1]
+    total[:] = 0
+    for x in range(min(_RADIUS, width)):
+        _add(total, sums, x, 1)
+    for x in range(width):
+        if x + _RADIUS < width:
+            _add(total, sums, x + _RADIUS, 1)
+        if x > _RADIUS:
+            _add(total, sums, x - _RADIUS - 1, -1)
+        number = rows * (min(x + _RADIUS, width - 1) - max(x - _RADIUS, 0) + 1)
+        _restore_pixel(rgb, y, x, coarse[x], total, number, made)
+
+
+@uncounted
+def _add(total: IntArray, sums: Int64[np.ndarray, "w 7"], x: int, sign: int) -> None:
+    for moment in range(7):
+        total[moment] += sign * sums[x, moment]
+
+
+@uncounted
 def _restore_pixel(  # noqa: PLR0917
-    rgb: Rgb, y: int, x: int, coarse: int, total: IntArray, number: int, made: UInt8[np.ndarray, " 3"]
+    rgb: Rgb, y: int, x: int, coarse: int, total: IntArray, number: int, made: UInt8[np.ndarray, "w 3"]
 ) -> None:
     """One pixel, from the sums of its square of `number` pixels."""
     variance = number * total[1] - total[0] * total[0]
     chroma = number * total[6] - total[2] * total[2] - total[3] * total[3]
     if variance == 0 or chroma == 0:
-        made[:] = rgb[y, x]
+        for channel in range(3):
+            made[x, channel] = rgb[y, x, channel]
         return
     with_blue = float(number * total[4] - total[0] * total[2])
     with_red = float(number * total[5] - total[0] * total[3])
     squares = number * number
     explained = (with_blue**2 + with_red**2) / (float(variance) * (chroma + _LEAST_CHROMA * squares))
-    off = (max(chroma - (with_blue**2 + with_red**2) / float(variance), 0.0) / squares) ** 0.5
+    off = math.sqrt(max(chroma - (with_blue**2 + with_red**2) / float(variance), 0.0) / squares)
     two = _rise(explained, _NO_SLOPE, _FULL_SLOPE) * (1.0 - _rise(off, _TWO_COLOURS, _THREE_COLOURS))
     slope = two / (variance + _LEAST_VARIANCE * squares)
     line = _rise(explained, _NO_LINE, _ON_LINE)
@@ -233,10 +252,11 @@ def _restore_pixel(  # noqa: PLR0917
     own_blue, own_red = _UNIT * int(np.int64(rgb[y, x, 2])) - luma, _UNIT * int(np.int64(rgb[y, x, 0])) - luma
     blue = luma + (1.0 - line) * own_blue + line * total[2] / number + step * with_blue
     red = luma + (1.0 - line) * own_red + line * total[3] / number + step * with_red
-    made[0], made[1], made[2] = _code(red), _code((_UNIT * luma - _RED * red - _BLUE * blue) / _GREEN), _code(blue)
+    green = (_UNIT * luma - _RED * red - _BLUE * blue) / _GREEN
+    made[x, 0], made[x, 1], made[x, 2] = _code(red), _code(green), _code(blue)
 
 
-@compiled
+@uncounted
 def _rise(value: float, begin: float, end: float) -> float:
     """0 up to the beginning, 1 from the end, linear between them."""
     return min(max((value - begin) / (end - begin), 0.0), 1.0)

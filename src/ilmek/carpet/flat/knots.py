@@ -15,7 +15,7 @@ import numpy as np
 from ilmek.arrays import Indices, Int64, IntArray, NumberArray, UInt8
 from ilmek.carpet.flat.areas import NONE, area_share, take_knot
 from ilmek.carpet.flat.lines import centre_lines, claim_lines
-from ilmek.num.compiled import compiled
+from ilmek.num.compiled import compiled, uncounted
 from ilmek.progress import SILENT, Progress
 
 _SLICE = 1 << 21
@@ -23,7 +23,7 @@ _LEAST_DOT = 0.25
 """Least area of a dot, in knots."""
 
 
-@compiled
+@uncounted
 def _is_even(labels: UInt8[np.ndarray, "h w"], top: int, bottom: int, left: int, right: int) -> bool:
     """Whether a rectangle has one label."""
     own = labels[top, left]
@@ -34,7 +34,7 @@ def _is_even(labels: UInt8[np.ndarray, "h w"], top: int, bottom: int, left: int,
     return True
 
 
-@compiled
+@uncounted
 def _clear(  # noqa: PLR0917
     labels: UInt8[np.ndarray, "h w"], top: int, bottom: int, left: int, right: int, areas: IntArray
 ) -> None:
@@ -43,7 +43,7 @@ def _clear(  # noqa: PLR0917
             areas[labels[y, x]] = 0
 
 
-@compiled
+@uncounted
 def _largest(labels: UInt8[np.ndarray, "h w"], rows: int, columns: int, row: int, column: int, areas: IntArray) -> int:  # noqa: PLR0917
     """The label with the largest area of a cell; `areas` is zero before and after."""
     height, width = labels.shape
@@ -104,7 +104,7 @@ def _claim_dots(  # noqa: PLR0917
             _clear(labels, top, bottom, left, right, areas)
 
 
-@compiled
+@uncounted
 def _on_frame(  # noqa: PLR0917
     labels: UInt8[np.ndarray, "h w"], top: int, bottom: int, left: int, right: int, label: int
 ) -> bool:
@@ -119,7 +119,7 @@ def _on_frame(  # noqa: PLR0917
     return False
 
 
-@compiled
+@uncounted
 def _claim_dot(  # noqa: PLR0917
     labels: UInt8[np.ndarray, "h w"],
     knots: Indices,

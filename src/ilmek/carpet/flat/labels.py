@@ -12,7 +12,7 @@ from ilmek.arrays import IntArray, Rgb, UInt8
 from ilmek.carpet.design import bands
 from ilmek.carpet.flat.nearest import UNKNOWN, label_rows
 from ilmek.carpet.flat.true_colours import TrueColours
-from ilmek.num.compiled import compiled
+from ilmek.num.compiled import uncounted
 from ilmek.num.threads import in_threads
 from ilmek.progress import SILENT, Progress
 
@@ -20,7 +20,7 @@ _WIDEST = 3
 _SLICE = 1 << 18
 
 
-@compiled
+@uncounted
 def _mixed_share(  # noqa: PLR0917
     rgb: Rgb, y: int, x: int, one: IntArray, two: IntArray, slack: int
 ) -> float:
@@ -38,7 +38,7 @@ def _mixed_share(  # noqa: PLR0917
     return along / length if off <= max(slack * slack, 0.09 * length) else -1.0
 
 
-@compiled
+@uncounted
 def _reach(labels: UInt8[np.ndarray, "h w"], y: int, x: int, down: int, right: int) -> int:
     """Pixels to the first other label in a direction; 0: none within a band, or the border."""
     height, width = labels.shape
@@ -51,7 +51,7 @@ def _reach(labels: UInt8[np.ndarray, "h w"], y: int, x: int, down: int, right: i
     return 0
 
 
-@compiled
+@uncounted
 def _across(  # noqa: PLR0917
     rgb: Rgb, labels: UInt8[np.ndarray, "h w"], colours: IntArray, y: int, x: int, down: int, right: int, slack: int
 ) -> int:
@@ -73,7 +73,7 @@ def _across(  # noqa: PLR0917
     return int(min(one, two) if share == 0.5 else nearer)
 
 
-@compiled
+@uncounted
 def _alone(rgb: Rgb, labels: UInt8[np.ndarray, "h w"], colours: IntArray, y: int, x: int) -> int:
     """The label of a pixel unlike all its neighbours: its own where it is a dot, else the nearest of theirs."""
     height, width = labels.shape
@@ -104,7 +104,7 @@ def _alone(rgb: Rgb, labels: UInt8[np.ndarray, "h w"], colours: IntArray, y: int
     return int(own) if dot and least > 3 * 24 * 24 else best
 
 
-@compiled
+@uncounted
 def _clean(  # noqa: PLR0917
     rgb: Rgb,
     labels: UInt8[np.ndarray, "h w"],

@@ -13,7 +13,7 @@ import numpy as np
 from ilmek.arrays import Indices, Int64, IntArray, NumberArray, UInt8
 from ilmek.carpet.design import bands
 from ilmek.carpet.flat.areas import NONE, area_share, take_knot
-from ilmek.num.compiled import compiled
+from ilmek.num.compiled import uncounted
 from ilmek.progress import Progress
 
 _SLICE = 1 << 21
@@ -27,13 +27,13 @@ _LEAST_SHARE, _LEAST_PART = 0.2, 0.4
 """Least share of a cell that a line has, or part of the run across it."""
 
 
-@compiled
+@uncounted
 def _least_share(run: int, length: int) -> float:
     """Least share of a cell that a run must have; `run` and `length` in the same units, `length` a knot."""
     return 65536 * min(_LEAST_SHARE, _LEAST_PART * run / length)
 
 
-@compiled
+@uncounted
 def _follow(  # noqa: PLR0917
     labels: UInt8[np.ndarray, "h w"], across: bool, pixel: int, begin: int, end: int, step: int, depth: int, wide: int
 ) -> int:
@@ -63,7 +63,7 @@ def _follow(  # noqa: PLR0917
     return 1
 
 
-@compiled
+@uncounted
 def _is_notch(  # noqa: PLR0917
     labels: UInt8[np.ndarray, "h w"], across: bool, pixel: int, begin: int, end: int, rows: int, columns: int
 ) -> bool:
@@ -76,7 +76,7 @@ def _is_notch(  # noqa: PLR0917
     return one + two == 2 and one != two
 
 
-@compiled
+@uncounted
 def _claim_run(  # noqa: PLR0917
     labels: UInt8[np.ndarray, "h w"],
     claims: Indices,
@@ -106,7 +106,7 @@ def _claim_run(  # noqa: PLR0917
         take_knot(claims, shares, other_row, other_column, label, other)
 
 
-@compiled
+@uncounted
 def _move_run(  # noqa: PLR0917
     labels: UInt8[np.ndarray, "h w"],
     knots: Indices,
@@ -138,7 +138,7 @@ def _move_run(  # noqa: PLR0917
         take_knot(moved, shares, row, column, label, share)
 
 
-@compiled
+@uncounted
 def _claims_along(  # noqa: PLR0917
     labels: UInt8[np.ndarray, "h w"],
     lines: UInt8[np.ndarray, "n length"],

@@ -4,18 +4,18 @@ import numpy as np
 
 from ilmek.arrays import FloatArray, Rgb, UInt8
 from ilmek.carpet.colour import LINEAR, RGB_TO_XYZ, WHITE
-from ilmek.num.compiled import compiled
+from ilmek.num.compiled import uncounted
 
 UNKNOWN = 255
 _MATRIX = RGB_TO_XYZ / WHITE[:, None]
 
 
-@compiled
+@uncounted
 def _root(t: float) -> float:
     return t ** (1 / 3) if t > 216 / 24389 else (24389 / 27 * t + 16) / 116
 
 
-@compiled
+@uncounted
 def _nearest(red: int, green: int, blue: int, labs: FloatArray) -> tuple[int, float]:
     """The index of the nearest true colour, and the square of its difference."""
     r, g, b = LINEAR[red], LINEAR[green], LINEAR[blue]
@@ -31,7 +31,7 @@ def _nearest(red: int, green: int, blue: int, labs: FloatArray) -> tuple[int, fl
     return best, least
 
 
-@compiled
+@uncounted
 def raw_label(rgb: Rgb, y: int, x: int, table: UInt8[np.ndarray, " codes"], labs: FloatArray) -> int:
     """The true colour nearest to a pixel's own; `table` keeps those of the codes that have occurred."""
     red, green, blue = int(np.int64(rgb[y, x, 0])), int(np.int64(rgb[y, x, 1])), int(np.int64(rgb[y, x, 2]))
@@ -41,7 +41,7 @@ def raw_label(rgb: Rgb, y: int, x: int, table: UInt8[np.ndarray, " codes"], labs
     return int(table[code])
 
 
-@compiled
+@uncounted
 def label_rows(
     rgb: Rgb, table: UInt8[np.ndarray, " codes"], labs: FloatArray, labels: UInt8[np.ndarray, "h w"]
 ) -> None:
@@ -51,7 +51,7 @@ def label_rows(
             labels[y, x] = raw_label(rgb, y, x, table, labs)
 
 
-@compiled
+@uncounted
 def count_near(
     colours: UInt8[np.ndarray, "pixels 3"], table: UInt8[np.ndarray, " codes"], labs: FloatArray, difference: float
 ) -> int:

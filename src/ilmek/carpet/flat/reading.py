@@ -10,7 +10,7 @@ from ilmek.carpet.flat.nearest import UNKNOWN, raw_label
 from ilmek.carpet.flat.survey import survey
 from ilmek.carpet.flat.symmetry import is_symmetric, make_symmetric
 from ilmek.carpet.flat.true_colours import TrueColours, true_colours
-from ilmek.num.compiled import compiled
+from ilmek.num.compiled import uncounted
 from ilmek.num.threads import in_threads
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
@@ -76,7 +76,7 @@ def flat_design(
     return FlatDesign(colours, true.srgb, foreign, axes, rgb is not given)
 
 
-@compiled
+@uncounted
 def _foreign(  # noqa: PLR0917
     rgb: Rgb, table: UInt8[np.ndarray, " codes"], labs: FloatArray, knots: Indices, first: int, stop: int
 ) -> int:

@@ -10,7 +10,7 @@ The sample is mirrored and turned with the picture.
 import numpy as np
 
 from ilmek.arrays import Int64, Rgb, UInt8
-from ilmek.num.compiled import compiled
+from ilmek.num.compiled import uncounted
 from ilmek.records import record
 
 _SAMPLE = 200_000
@@ -62,12 +62,12 @@ def survey(rgb: Rgb) -> Survey:
     return made
 
 
-@compiled
+@uncounted
 def _inside(position: int, length: int) -> int:
     return min(max(position, 0), length - 1)
 
 
-@compiled
+@uncounted
 def _profile(rgb: Rgb, y: int, x: int, down: int, right: int) -> tuple[int, int]:
     """Contrast of the ridge and of the ramp at a pixel along one direction."""
     height, width = rgb.shape[:2]
@@ -89,7 +89,7 @@ def _profile(rgb: Rgb, y: int, x: int, down: int, right: int) -> tuple[int, int]
     return ridge, min(ramp, 255)
 
 
-@compiled
+@uncounted
 def _survey(  # noqa: PLR0917
     rgb: Rgb,
     rows: Int64[np.ndarray, " rows"],

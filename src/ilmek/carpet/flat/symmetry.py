@@ -9,7 +9,7 @@ import numpy as np
 
 from ilmek.arrays import IntArray, Rgb, UInt8
 from ilmek.carpet.design import bands
-from ilmek.num.compiled import compiled
+from ilmek.num.compiled import compiled, uncounted
 from ilmek.progress import SILENT, Progress
 
 _SLICE = 1 << 22
@@ -20,7 +20,7 @@ _CONTRAST = 48
 """Contrast in codes, beside the noise, of another colour."""
 
 
-@compiled
+@uncounted
 def _differing(  # noqa: PLR0917
     rgb: Rgb,
     labels: UInt8[np.ndarray, "h w"],

@@ -17,6 +17,7 @@ from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.flat.modes import modes
 from ilmek.carpet.flat.nearest import label_rows
 from ilmek.carpet.flat.survey import Survey
+from ilmek.num.compiled import uncounted
 from ilmek.records import record
 
 MOST_COLOURS = 200
@@ -170,15 +171,36 @@ def _with_lines(
 
 def is_mixture(colours: FloatArray, palette: UInt8[np.ndarray, "colours 3"], off: float) -> BoolArray:
     """Whether each colour lies within `off` codes of a segment between two colours of a palette."""
-    ends = palette.astype(float)
     mixture = np.zeros(len(colours), dtype=bool)
-    for number, begin in enumerate(ends[:-1]):
-        along = ends[number + 1 :] - begin
-        length = np.maximum(np.sum(along**2, axis=-1), 1.0)
-        share = np.clip(((colours - begin) @ along.T) / length, 0.0, 1.0)
-        apart = colours[:, None] - begin - share[..., None] * along
-        mixture |= np.any((np.linalg.norm(apart, axis=-1) <= off) & (share > 0) & (share < 1), axis=-1)
+    _mark_mixtures(np.ascontiguousarray(colours), palette.astype(float), off, mixture)
     return mixture
+
+
+@uncounted
+def _mark_mixtures(colours: FloatArray, ends: FloatArray, off: float, mixture: BoolArray) -> None:
+    for colour in range(len(colours)):
+        for one in range(len(ends)):
+            for two in range(one + 1, len(ends)):
+                if not mixture[colour]:
+                    mixture[colour] = _between(colours, colour, ends, one, two, off)
+
+
+@uncounted
+def _between(colours: FloatArray, colour: int, ends: FloatArray, one: int, two: int, off: float) -> bool:  # noqa: PLR0917
+    """Whether a colour lies within `off` of the segment between two ends, and beside neither."""
+    along, length = 0.0, 0.0
+    for channel in range(3):
+        step = ends[two, channel] - ends[one, channel]
+        along += (colours[colour, channel] - ends[one, channel]) * step
+        length += step * step
+    share = along / max(length, 1.0)
+    if not 0.0 < share < 1.0:
+        return False
+    apart = 0.0
+    for channel in range(3):
+        begin = ends[one, channel]
+        apart += (colours[colour, channel] - begin - share * (ends[two, channel] - begin)) ** 2
+    return apart <= off * off
 
 
 def _without_blends(

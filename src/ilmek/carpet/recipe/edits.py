@@ -31,8 +31,8 @@ import numpy as np
 
 from ilmek.arrays import Indices, Int64, UInt8
 from ilmek.carpet.colour import srgb_to_lab
-from ilmek.carpet.colour_difference import nearest
 from ilmek.carpet.design import bands
+from ilmek.carpet.nearest_colour import nearest
 from ilmek.carpet.recipe.anchor import BORDER, REPEATED, Anchor
 from ilmek.carpet.recipe.border import edges
 from ilmek.carpet.recipe.copies import WIDEST_BRUSH, brush_spans, transformed

@@ -8,9 +8,9 @@ import numpy as np
 from ilmek.arrays import Bool, FloatArray, Indices, Pixels
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.colour import srgb_to_lab
-from ilmek.carpet.colour_difference import nearest
 from ilmek.carpet.design import bands
 from ilmek.carpet.differences import YarnDifference
+from ilmek.carpet.nearest_colour import nearest
 from ilmek.carpet.overlay import overlay_of
 from ilmek.carpet.recipe.anchor import Anchor
 from ilmek.carpet.recipe.carry import carry
