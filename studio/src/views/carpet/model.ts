@@ -147,8 +147,7 @@ export class CarpetModel {
     this.chart.value = { about, knots: knots ?? new Uint8Array(), grid: { rows, columns, aspect } };
     if (!about.yarns.some((yarn) => yarn.name === this.yarn.peek())) this.yarn.value = about.yarns[0]?.name ?? "";
     clearTimeout(this.#timer);
-    // A draft differs from the chart where the picture was read as a photo.
-    if (about.draft && about.reading === "photo") {
+    if (about.draft) {
       this.#timer = setTimeout(() => {
         if (this.recipe.peek() === recipe) this.#send({ recipe, draft: false });
       }, PAUSE);

@@ -18,7 +18,7 @@ export function SpecksPanel({ model }: { model: CarpetModel }) {
     const recipe = model.recipe.peek();
     model.specks.value = null;
     // A draft's specks are not those of the carpet.
-    if (chart === null || recipe === null || (chart.about.draft && chart.about.reading === "photo")) return undefined;
+    if (chart === null || recipe === null || chart.about.draft) return undefined;
     const abort = new AbortController();
     findSpecks(recipe, model.path, most, abort.signal).then(
       (found) => {

@@ -52,7 +52,7 @@ from ilmek.jobs.studio.carpet.answers import (
     Specks,
     SpecksRequest,
 )
-from ilmek.jobs.studio.carpet.stages import KeptStages
+from ilmek.jobs.studio.carpet.stages import KeptStages, has_draft
 from ilmek.jobs.studio.checks import shown_check
 from ilmek.jobs.studio.project.folder import ProjectFolder
 from ilmek.jobs.studio.words import all_in_page
@@ -163,7 +163,7 @@ def _charted(request: ChartRequest | RowRequest | SpecksRequest, context: Contex
     with _plain_errors(context):
         order = _order(request, context)
         files = tuple(file_key(path) for path in order.inputs.values() if path != order.picture)
-        key = (context.project, request.path, json.dumps(request.recipe, sort_keys=True), files, stages.draft)
+        key = (context.project, request.path, json.dumps(request.recipe, sort_keys=True), files)
         return stages.keep(
             "charted", key, lambda: make_charted(order, context.progress, with_source=True, stages=stages)
         )
@@ -262,6 +262,6 @@ def _answer(made: ChartResult, draft: bool, seconds: float) -> ChartAnswer:
         notes=all_in_page(made.notes),
         half_knots=sum(chart.tied.half),
         jufti_knots=sum(chart.tied.jufti),
-        draft=draft,
+        draft=draft and has_draft(reading.kind, chart.knots.size),
         seconds=seconds,
     )
