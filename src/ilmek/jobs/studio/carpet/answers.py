@@ -47,7 +47,7 @@ class RowRequest:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class SpecksRequest:
-    """The specks of the chart of a recipe: its patches of at most `most` knots."""
+    """The specks of the chart of a recipe: its patches of at most `most` knots that are no dots of a pattern."""
 
     recipe: dict[str, Any]
     most: int = 3

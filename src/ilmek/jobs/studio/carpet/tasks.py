@@ -16,10 +16,10 @@ from ilmek.carpet.chart import Chart, make_chart
 from ilmek.carpet.design import resampled
 from ilmek.carpet.fitting import FitParams, prepare_picture
 from ilmek.carpet.outline import find_outline
-from ilmek.carpet.patches import small_patches
 from ilmek.carpet.quality import parse_quality
 from ilmek.carpet.rows import row_runs
 from ilmek.carpet.sizes import parse_size
+from ilmek.carpet.specks import specks as lone_patches
 from ilmek.carpet.statistics import chart_statistics
 from ilmek.errors import IlmekError, ParameterError
 from ilmek.io.chart.symbols import symbols
@@ -90,9 +90,9 @@ def specks(request: SpecksRequest, context: Context) -> Binary:
     if not 1 <= request.most <= MOST_SPECK:
         raise ParameterError(f"specks of {request.most} knots", allowed=f"1 to {MOST_SPECK}")
     made = _charted(request, context, KeptStages()).chart
-    found = small_patches(made.knots, request.most, context.progress)
-    about = Specks(tuple(found.sizes[1:].tolist()), len(found.knots), tuple(yarn.name for yarn in made.yarns))
-    return packed(about, found.knots.astype("<u4").tobytes(), found.around.tobytes())
+    patches = lone_patches(made.knots, request.most, context.progress)
+    about = Specks(tuple(patches.sizes[1:].tolist()), len(patches.knots), tuple(yarn.name for yarn in made.yarns))
+    return packed(about, patches.knots.astype("<u4").tobytes(), patches.around.tobytes())
 
 
 def proposal(request: ProposalRequest, context: Context) -> Proposal:
