@@ -274,9 +274,9 @@ export function modelOf(path: string): CarpetModel {
   const known = models.get(path);
   // A file that was made or brought back is another document.
   if (known !== undefined && known.document === openDocument<Recipe>(path)) return known;
-  const made = new CarpetModel(path);
-  models.set(path, made);
-  return made;
+  const model = new CarpetModel(path);
+  models.set(path, model);
+  return model;
 }
 
 /** Names of a list of yarns as the recipe has them: a list, or texts with commas or semicolons. */
