@@ -156,6 +156,12 @@ class Chart:
             self._tallies.append(tally_of(self.knots, len(self.yarns), progress))
         return self._tallies[0]
 
+    def read_as(self, reading: ChartReading) -> "Chart":
+        """The chart with another record of how it was read; its tally stays."""
+        chart = replace(self, reading=reading)
+        chart._tallies.extend(self._tallies)
+        return chart
+
     @property
     def counts(self) -> tuple[int, ...]:
         """Cells of each yarn, in the order of `yarns`: its knots where there is no overlay."""
