@@ -117,18 +117,17 @@ def test_nothing_jumps_while_a_slider_moves(kind: str, context: Context) -> None
     stages.forget()
     before = None
     for least in range(3, 8):
-        moved = {"picture": f"{kind}.png", "least_patch": least}
-        draft = _chart(context, draft=True, **moved)
+        draft = _chart(context, draft=True, picture=f"{kind}.png", least_patch=least)
         assert draft[0]["reading"] == "photo"
         assert before is None or _jumped(before, draft) <= 0.03
         assert before is None or {yarn["srgb"] for yarn in before[0]["yarns"]} == {
             yarn["srgb"] for yarn in draft[0]["yarns"]
         }
         before = draft
-    for moved in ({"brightness": 0.1}, {"brightness": 0.12}, {"colours": 7}, {"halftone": 0.5}):
-        draft = _chart(context, draft=True, picture=f"{kind}.png", **moved)
+    for key, value in (("brightness", 0.1), ("brightness", 0.12), ("colours", 7), ("halftone", 0.5)):
+        draft = _chart(context, draft=True, **{"picture": f"{kind}.png", key: value})
         stages.forget()
-        assert _jumped(draft, _chart(context, picture=f"{kind}.png", **moved)) <= 0.03
+        assert _jumped(draft, _chart(context, **{"picture": f"{kind}.png", key: value})) <= 0.03
         assert not draft[0]["draft"]
 
 

@@ -25,7 +25,7 @@ ROUNDED = 8
 LARGE = 400_000
 """Knots of a photo above which a draft differs from its chart: of a smaller one, the chart is as quick."""
 
-_KEPT: dict[str, OrderedDict[Hashable, Any]] = {}
+_KEPT: dict[str, OrderedDict[tuple[Hashable, bool], Any]] = {}
 
 
 def has_draft(kind: str, knots: int) -> bool:
@@ -54,10 +54,14 @@ class KeptStages(Stages):
             is_draft = isinstance(chart, Chart) and has_draft(chart.reading.kind, chart.knots.size)
             name = draft if self.draft and is_draft else own
             while len(kept) >= MOST.get(stage, 1):
-                kept.popitem(last=False)
+                del kept[next((old for old in kept if old[1]), next(iter(kept)))]  # drafts first
             kept[name] = result
         kept.move_to_end(name)
         return cast("T", kept[name])
+
+    def last(self, stage: str) -> object:
+        """The result of a stage that was taken last, drafts left out; None: there is none."""
+        return next((result for (_, is_draft), result in reversed(_KEPT.get(stage, {}).items()) if not is_draft), None)
 
     def shown(self, design: Design) -> Design:
         """The design with the colours of a draft."""

@@ -165,8 +165,23 @@ def _charted(request: ChartRequest | RowRequest | SpecksRequest, context: Contex
         files = tuple(file_key(path) for path in order.inputs.values() if path != order.picture)
         key = (context.project, request.path, json.dumps(request.recipe, sort_keys=True), files)
         return stages.keep(
-            "charted", key, lambda: make_charted(order, context.progress, with_source=True, stages=stages)
+            "charted",
+            key,
+            lambda: make_charted(_in_shades(order, stages), context.progress, with_source=True, stages=stages),
         )
+
+
+def _in_shades(order: CarpetOrder, stages: KeptStages) -> CarpetOrder:
+    """The order of a draft without a list of yarns: in the shades of the last whole chart, where it chose as this."""
+    last = stages.last("charted")
+    if not stages.draft or not order.dyed or not isinstance(last, ChartResult) or not last.chart.reading.dyed:
+        return order
+    before = last.order.order
+    if any(getattr(before, name) != getattr(order, name) for name in ("yarns", "palette", "fit", "inputs")):
+        return order
+    if not has_draft(last.chart.reading.kind, last.chart.knots.size):
+        return order
+    return replace(order, yarns=last.chart.yarns, palette=replace(order.palette, colours=None))
 
 
 def _folder(context: Context) -> ProjectFolder:
