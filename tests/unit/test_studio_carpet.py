@@ -141,6 +141,11 @@ def test_a_draft_of_a_large_photo_is_nearly_the_chart(context: Context, monkeypa
     assert draft[0]["draft"]
     assert not full[0]["draft"]
     assert _chart(context, draft=True)[1] == full[1]
+    # Where the slider touches no colour, the draft has the shades of the last chart.
+    moved = _chart(context, draft=True, least_patch=6)
+    assert moved[0]["draft"]
+    assert _jumped(full, moved) <= 0.03
+    assert _jumped(moved, _chart(context, least_patch=6)) <= 0.03
 
 
 def test_the_fitted_picture_is_sent_once(context: Context) -> None:

@@ -37,8 +37,9 @@ def has_draft(kind: str, knots: int) -> bool:
 class KeptStages(Stages):
     """Stages that stay in the memory of this process.
 
-    draft  the colours of a photo of more than LARGE knots are rounded to ROUNDED codes, which leaves few of them: the
-           yarns of 1.5 million knots are then chosen within a tenth of the time, but its own shades are others
+    draft  the colours of a photo of more than LARGE knots are rounded to ROUNDED codes before they get their yarns, which
+           leaves few of them. Patterns follow the true colours while no tone is changed, and the shades are those of
+           the last chart while it has the same palette and fit; else some knots have other yarns than later
     """
 
     draft: bool = False
