@@ -8,8 +8,8 @@ from ilmek.carpet.chart import Chart, ChartReading, make_chart
 from ilmek.carpet.ground import GroundParams, sinuous_length
 from ilmek.carpet.palette_rules import PaletteParams
 from ilmek.carpet.pile import PileParams, knot_length
-from ilmek.carpet.quality import Quality
-from ilmek.carpet.sizes import CarpetSize
+from ilmek.carpet.quality import Quality, parse_quality
+from ilmek.carpet.sizes import CarpetSize, parse_size
 from ilmek.carpet.yarn import Yarn
 from ilmek.carpet.yarn_plan import YarnPlanParams
 from ilmek.elements.carpet_yarns import CarpetYarnParams
@@ -198,7 +198,7 @@ def test_a_chart_that_is_read_otherwise_keeps_its_tally() -> None:
     yarns = yarns_from_records(
         [{"name": name, "srgb": code} for name, code in zip("abc", ("#111111", "#888888", "#eeeeee"), strict=True)]
     )
-    chart = Chart(knots, yarns, "20x20cm", "10x10/dm", "symmetric")
+    chart = Chart(knots, yarns, parse_size("20x20cm"), parse_quality("10x10/dm"), "symmetric")
     tally = chart.tally()
     again = chart.read_as(ChartReading("flat", "as a test", 1.0, 0.5))
     assert again.tally() is tally

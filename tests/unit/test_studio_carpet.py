@@ -124,10 +124,11 @@ def test_nothing_jumps_while_a_slider_moves(kind: str, context: Context) -> None
             yarn["srgb"] for yarn in draft[0]["yarns"]
         }
         before = draft
-    for key, value in (("brightness", 0.1), ("brightness", 0.12), ("colours", 7), ("halftone", 0.5)):
-        draft = _chart(context, draft=True, **{"picture": f"{kind}.png", key: value})
+    changes: tuple[dict[str, Any], ...] = ({"brightness": 0.1}, {"brightness": 0.12}, {"colours": 7}, {"halftone": 0.5})
+    for change in changes:
+        draft = _chart(context, draft=True, picture=f"{kind}.png", **change)
         stages.forget()
-        assert _jumped(draft, _chart(context, **{"picture": f"{kind}.png", key: value})) <= 0.03
+        assert _jumped(draft, _chart(context, picture=f"{kind}.png", **change)) <= 0.03
         assert not draft[0]["draft"]
 
 
@@ -146,6 +147,9 @@ def test_a_draft_of_a_large_photo_is_nearly_the_chart(context: Context, monkeypa
     assert moved[0]["draft"]
     assert _jumped(full, moved) <= 0.03
     assert _jumped(moved, _chart(context, least_patch=6)) <= 0.03
+    # Yarns in stock that only an edit or a border names are there too.
+    assert _chart(context, draft=True, brightness=0.1, edits=["set 3,9 ivory"])[0]["edited"] == 1
+    assert "ivory" in str(_chart(context, draft=True, border=[{"yarn": "ivory", "width": 3}])[0]["yarns"])
 
 
 def test_the_fitted_picture_is_sent_once(context: Context) -> None:

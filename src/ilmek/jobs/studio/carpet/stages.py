@@ -37,9 +37,9 @@ def has_draft(kind: str, knots: int) -> bool:
 class KeptStages(Stages):
     """Stages that stay in the memory of this process.
 
-    draft  the colours of a photo of more than LARGE knots are rounded to ROUNDED codes before they get their yarns, which
-           leaves few of them. Patterns follow the true colours while no tone is changed, and the shades are those of
-           the last chart while it has the same palette and fit; else some knots have other yarns than later
+    draft  the colours of a photo of more than LARGE knots are rounded to ROUNDED codes before they get their yarns,
+           which leaves few of them. Patterns follow the true colours while no tone is changed, and the shades are those
+           of the last chart while it has the same recipe, palette and fit; else some knots have other yarns than later
     """
 
     draft: bool = False

@@ -177,7 +177,7 @@ def _in_shades(order: CarpetOrder, stages: KeptStages) -> CarpetOrder:
     if not stages.draft or not order.dyed or not isinstance(last, ChartResult) or not last.chart.reading.dyed:
         return order
     before = last.order.order
-    if any(getattr(before, name) != getattr(order, name) for name in ("yarns", "palette", "fit", "inputs")):
+    if any(getattr(before, name) != getattr(order, name) for name in ("recipe", "palette", "fit", "inputs")):
         return order
     if not has_draft(last.chart.reading.kind, last.chart.knots.size):
         return order
