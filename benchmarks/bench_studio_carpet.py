@@ -43,7 +43,7 @@ PICTURES = "Number(document.querySelector('.carpet-surface canvas')?.dataset.pic
 SHOWN = """new Promise(done => { const look = () => document.querySelector('.carpet-status')?.textContent.includes('%s')
   ? requestAnimationFrame(() => requestAnimationFrame(done)) : setTimeout(look, 10); look(); })"""
 STEP = """new Promise(done => {
-  const slider = document.querySelector('.carpet-side details:last-of-type input[type=range]');
+  const slider = document.querySelector('.carpet-side details:nth-of-type(2) input[type=range]');
   const line = document.querySelector('.carpet-timing'), before = line.textContent, began = performance.now();
   new MutationObserver((_, seen) => {
     if (line.textContent === before || !line.textContent.includes('×')) return;

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from ilmek.carpet.bill import YarnBill, yarn_bill
-from ilmek.carpet.chart import Chart, make_chart
+from ilmek.carpet.chart import Chart, ChartReading, make_chart
 from ilmek.carpet.ground import GroundParams, sinuous_length
 from ilmek.carpet.palette_rules import PaletteParams
 from ilmek.carpet.pile import PileParams, knot_length
-from ilmek.carpet.quality import Quality
-from ilmek.carpet.sizes import CarpetSize
+from ilmek.carpet.quality import Quality, parse_quality
+from ilmek.carpet.sizes import CarpetSize, parse_size
 from ilmek.carpet.yarn import Yarn
 from ilmek.carpet.yarn_plan import YarnPlanParams
 from ilmek.elements.carpet_yarns import CarpetYarnParams
@@ -191,3 +191,16 @@ def test_prices_of_the_shipped_wools_give_way_to_a_currency_and_a_price() -> Non
     assert YarnPlanParams().priced(shipped) == tuple(shipped)
     for plan in (YarnPlanParams(currency="TRY"), YarnPlanParams(pile_price=30.0)):
         assert [yarn.price for yarn in plan.priced(shipped)] == [None, None]
+
+
+def test_a_chart_that_is_read_otherwise_keeps_its_tally() -> None:
+    knots = np.random.default_rng(2).integers(0, 3, (20, 20))
+    yarns = yarns_from_records(
+        [{"name": name, "srgb": code} for name, code in zip("abc", ("#111111", "#888888", "#eeeeee"), strict=True)]
+    )
+    chart = Chart(knots, yarns, parse_size("20x20cm"), parse_quality("10x10/dm"), "symmetric")
+    tally = chart.tally()
+    again = chart.read_as(ChartReading("flat", "as a test", 1.0, 0.5))
+    assert again.tally() is tally
+    assert again.reading.reason == "as a test"
+    assert again.counts == tuple(np.bincount(knots.ravel(), minlength=3))

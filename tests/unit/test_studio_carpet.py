@@ -88,18 +88,68 @@ def test_a_composed_recipe_is_kept_too(context: Context) -> None:
     assert first[0]["reason"].startswith("composed by carpet.toml")
 
 
-def test_a_draft_is_nearly_the_chart(context: Context) -> None:
-    (full, knots), (draft, quick) = _chart(context), _chart(context, draft=True)
-    lab = [
-        srgb_to_lab(np.array([list(bytes.fromhex(yarn["srgb"][1:])) for yarn in about["yarns"]], dtype=np.uint8))
-        for about in (full, draft)
-    ]
+def _shown(answer: tuple[dict[str, Any], bytes]) -> np.ndarray:
+    """CIELAB of each knot."""
+    codes = np.array([list(bytes.fromhex(yarn["srgb"][1:])) for yarn in answer[0]["yarns"]], dtype=np.uint8)
+    return srgb_to_lab(codes)[list(answer[1])]
+
+
+def _jumped(before: tuple[dict[str, Any], bytes], after: tuple[dict[str, Any], bytes]) -> float:
+    """Share of the knots whose colour is another to the eye."""
+    return float((delta_e_2000(_shown(before), _shown(after)) > 4).mean())
+
+
+def _photo(kind: str) -> np.ndarray:
+    """A landscape of soft tones, coloured grain, or a portrait of round shades."""
+    across, down = np.meshgrid(np.linspace(-1, 1, 160), np.linspace(-1, 1, 240))
+    noise = np.random.default_rng(3).normal(0, 20 if kind == "grain" else 6, (240, 160, 3))
+    ramps = {
+        "landscape": (140 + 90 * down, 150 - 60 * down * across, 170 - 110 * down),
+        "grain": (128 + 60 * np.sin(5 * across), 128 + 60 * np.cos(4 * down), 128 + 60 * np.sin(3 * across + 2 * down)),
+        "portrait": tuple(top * np.exp(-(across**2) - 2 * down**2) + 40 for top in (190, 140, 110)),
+    }
+    return (np.stack(ramps[kind], axis=-1) + noise).clip(0, 255).astype(np.uint8)
+
+
+@pytest.mark.parametrize("kind", ["landscape", "grain", "portrait"])
+def test_nothing_jumps_while_a_slider_moves(kind: str, context: Context) -> None:
+    Image.fromarray(_photo(kind)).save(context.folder / f"{kind}.png")
+    stages.forget()
+    before = None
+    for least in range(3, 8):
+        draft = _chart(context, draft=True, picture=f"{kind}.png", least_patch=least)
+        assert draft[0]["reading"] == "photo"
+        assert before is None or _jumped(before, draft) <= 0.03
+        assert before is None or {yarn["srgb"] for yarn in before[0]["yarns"]} == {
+            yarn["srgb"] for yarn in draft[0]["yarns"]
+        }
+        before = draft
+    changes: tuple[dict[str, Any], ...] = ({"brightness": 0.1}, {"brightness": 0.12}, {"colours": 7}, {"halftone": 0.5})
+    for change in changes:
+        draft = _chart(context, draft=True, picture=f"{kind}.png", **change)
+        stages.forget()
+        assert _jumped(draft, _chart(context, picture=f"{kind}.png", **change)) <= 0.03
+        assert not draft[0]["draft"]
+
+
+def test_a_draft_of_a_large_photo_is_nearly_the_chart(context: Context, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(stages, "LARGE", 1000)
+    stages.forget()
+    draft, full = _chart(context, draft=True), _chart(context)
     # Shades that are dyed to order follow the rounded colours of a draft.
-    differences = delta_e_2000(lab[0][list(knots)], lab[1][list(quick)])
-    assert differences.mean() < 5
-    assert draft["mean_delta_e"] < full["mean_delta_e"] + 1
-    assert draft["draft"]
-    assert not full["draft"]
+    assert delta_e_2000(_shown(full), _shown(draft)).mean() < 5
+    assert draft[0]["mean_delta_e"] < full[0]["mean_delta_e"] + 1
+    assert draft[0]["draft"]
+    assert not full[0]["draft"]
+    assert _chart(context, draft=True)[1] == full[1]
+    # Where the slider touches no colour, the draft has the shades of the last chart.
+    moved = _chart(context, draft=True, least_patch=6)
+    assert moved[0]["draft"]
+    assert _jumped(full, moved) <= 0.03
+    assert _jumped(moved, _chart(context, least_patch=6)) <= 0.03
+    # Yarns in stock that only an edit or a border names are there too.
+    assert _chart(context, draft=True, brightness=0.1, edits=["set 3,9 ivory"])[0]["edited"] == 1
+    assert "ivory" in str(_chart(context, draft=True, border=[{"yarn": "ivory", "width": 3}])[0]["yarns"])
 
 
 def test_the_fitted_picture_is_sent_once(context: Context) -> None:

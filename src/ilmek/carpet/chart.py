@@ -156,6 +156,12 @@ class Chart:
             self._tallies.append(tally_of(self.knots, len(self.yarns), progress))
         return self._tallies[0]
 
+    def read_as(self, reading: ChartReading) -> "Chart":
+        """The chart with another record of how it was read; its tally stays."""
+        chart = replace(self, reading=reading)
+        chart._tallies.extend(self._tallies)
+        return chart
+
     @property
     def counts(self) -> tuple[int, ...]:
         """Cells of each yarn, in the order of `yarns`: its knots where there is no overlay."""
@@ -306,10 +312,12 @@ def chart_of_design(
     reading: ReadParams | None = None,
     palette: PaletteParams | None = None,
     dyed: bool = False,
+    exact: Rgb | None = None,
     progress: Progress = SILENT,
 ) -> Chart:
     """As `make_chart`, of a design with one colour for each knot, which the caller need not keep.
 
+    exact  the colours of the design where it has them rounded: the patterns of a halftone are drawn to them
     Yarns without a count take the usual one of the quality.
     """
     yarns = yarn_list(yarns, 2)
@@ -320,9 +328,10 @@ def chart_of_design(
     )
     labs = yarn_labs(own.palette.yarns)
     painted = paint(design.colours, distinct, own.yarn_of, progress.part(0.6, 0.7))
-    knots, drawn = _halftone(painted, design, labs, reading.halftone, progress.part(0.7, 0.8))
+    tones = design if exact is None else replace(design, colours=exact)
+    knots, drawn = _halftone(painted, tones, labs, reading.halftone, progress.part(0.7, 0.8))
     least = reading.least_patch_of(design.kind)
-    knots, changed = merge_patches(knots, design.colours, labs, least, kept=drawn, progress=progress.part(0.8, 0.9))
+    knots, changed = merge_patches(knots, tones.colours, labs, least, kept=drawn, progress=progress.part(0.8, 0.9))
     taken, measuring = (own.yarn_of, own.difference), progress.part(0.9, 0.95)
     to_design = differences(design.colours, distinct, taken, (painted, knots), labs, measuring)
     words = [design.reason, *(["tones stretched onto the yarns"] if own.stretched else [])]

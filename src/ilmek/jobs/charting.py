@@ -103,6 +103,7 @@ def chart_of_order(
             reading=order.reading,
             palette=order.palette,
             dyed=order.dyed,
+            exact=None if order.reading.tone.changes else read.design.colours,
             progress=progress.part(0.5, 1.0, "chart"),
         )
         return _of_indices(made_chart, read, edited=edited)

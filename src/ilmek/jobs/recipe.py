@@ -76,8 +76,7 @@ def _designed(
         with located(recipe.where if isinstance(error, PictureError) else str(recipe.file)):
             raise
     reason = f"{done.chart.reading.reason} (picture of {recipe.file.name})"
-    chart = replace(done.chart, reading=replace(done.chart.reading, reason=reason))
-    return replace(done, chart=chart), None
+    return replace(done, chart=done.chart.read_as(replace(done.chart.reading, reason=reason))), None
 
 
 def _composed_chart(

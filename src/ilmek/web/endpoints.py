@@ -297,7 +297,7 @@ ENDPOINTS: tuple[Endpoint, ...] = (
         "POST",
         "/carpet/specks",
         "studio.carpet.tasks:specks",
-        "The small patches of the chart of a recipe, their knots and the yarns around them (packed).",
+        "The small patches of a chart outside of patterns, their knots and the yarns around them (packed).",
         limit=10 * 60 * SECOND,
         affinity="carpet",
         records=("Specks",),

@@ -72,6 +72,7 @@ export interface Changed {
  *     assignment  the yarn of each colour, most knots first; none of a photo, and of a drawing of too many colours
  *     mass, mass_per_area, price  of all yarns [kg], [kg/m²]
  *     checks, warnings, notes  as in the report      seconds  that it took
+ *     draft  of a large photo: its own chart has other yarns in places
  *
  * This interface was referenced by `Messages`'s JSON-Schema
  * via the `definition` "ChartAnswer".
@@ -204,7 +205,7 @@ export interface SourcePicture {
  * A chart of a recipe.
  *
  *     recipe  data of the recipe, saved or not      path  of its file in the project
- *     draft   quick, while a slider moves: colours of a photo are rounded before their yarns are chosen
+ *     draft   quick, while a slider moves: colours of a large photo are rounded before their yarns are chosen
  *     source  key of the fitted picture that the caller has: it is not sent again
  *
  * This interface was referenced by `Messages`'s JSON-Schema
@@ -2171,7 +2172,7 @@ export interface Specks {
   yarns: string[];
 }
 /**
- * The specks of the chart of a recipe: its patches of at most `most` knots.
+ * The specks of the chart of a recipe: its patches of at most `most` knots that are no dots of a pattern.
  *
  * This interface was referenced by `Messages`'s JSON-Schema
  * via the `definition` "SpecksRequest".

@@ -18,7 +18,7 @@ export default {
   exactChart: "dokunacağı gibi",
   allowed: "İzin verilen: {allowed}",
   edits: "Desenin düzenlemeleri, sonuncusu önce",
-  editTab: "Düzenlemeler ({count})",
+  editTab: "Düzenleme ({count})",
   noEdits:
     "Düzenleme yok. Desenin üstünden bir araç seç: her çizim, çizgi, dolgu, ayna, tekrar ve bordür reçetede bir düzenlemedir.",
   editsHelp: "İlkinden sonuncusuna uygulanırlar; her biri çıkarılabilir.",
@@ -65,7 +65,7 @@ export default {
   cornersHelp:
     "1'den 4'e kadar olan noktaları fotoğraftaki halının köşelerine koyun, sol üstten saat yönünde. Sürükleyin ya da sekme tuşuyla seçip ok tuşlarıyla taşıyın.",
   keepRatio: "Halının oranını koru",
-  cropShare: "resmin % {share} kadarı",
+  cropShare: "resmin %{share} kadarı",
   cropFrame: "Resmin kullanılan bölümü",
   upperLeft: "Sol üst köşe",
   upperRight: "Sağ üst köşe",

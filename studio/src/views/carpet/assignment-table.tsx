@@ -15,7 +15,7 @@ export function Assignment({ model }: { model: CarpetModel }) {
   const about = model.chart.value?.about;
   if (about === undefined) return null;
   const colours = about.assignment;
-  const given = mapOf(model.recipe.value);
+  const chosen = mapOf(model.recipe.value);
   if (colours.length === 0) {
     return <p class="ui-help">{t(about.reading === "photo" ? "carpet.coloursOfPhoto" : "carpet.tooManyColours")}</p>;
   }
@@ -40,15 +40,15 @@ export function Assignment({ model }: { model: CarpetModel }) {
           </tr>
         </thead>
         <tbody>
-          {colours.slice(0, all ? colours.length : SHOWN).map((one) => (
+          {colours.slice(0, all ? colours.length : SHOWN).map((row) => (
             <Row
-              key={one.colour}
+              key={row.colour}
               model={model}
-              one={one}
-              isGiven={given[one.colour] !== undefined}
-              isOpen={opened === one.colour}
-              onOpen={() => setOpened(opened === one.colour ? "" : one.colour)}
-              onGive={(yarn) => give(one.colour, yarn)}
+              row={row}
+              isGiven={chosen[row.colour] !== undefined}
+              isOpen={opened === row.colour}
+              onOpen={() => setOpened(opened === row.colour ? "" : row.colour)}
+              onGive={(yarn) => give(row.colour, yarn)}
             />
           ))}
         </tbody>
@@ -59,7 +59,7 @@ export function Assignment({ model }: { model: CarpetModel }) {
             {t("carpet.allColours", { count: colours.length })}
           </Button>
         )}
-        {Object.keys(given).length > 0 && (
+        {Object.keys(chosen).length > 0 && (
           <Button size="small" onClick={() => model.set({ map: null })}>
             {t("carpet.allAutomatic")}
           </Button>
@@ -71,15 +71,15 @@ export function Assignment({ model }: { model: CarpetModel }) {
 
 interface RowProps {
   model: CarpetModel;
-  one: AssignedColour;
+  row: AssignedColour;
   isGiven: boolean;
   isOpen: boolean;
   onOpen: () => void;
   onGive: (yarn: string) => void;
 }
 
-function Row({ model, one, isGiven, isOpen, onOpen, onGive }: RowProps) {
-  const { colour, yarn, merged_with: merged } = one;
+function Row({ model, row, isGiven, isOpen, onOpen, onGive }: RowProps) {
+  const { colour, yarn, merged_with: merged } = row;
   return (
     <>
       <tr>
@@ -103,13 +103,13 @@ function Row({ model, one, isGiven, isOpen, onOpen, onGive }: RowProps) {
           </button>
           {merged.length > 0 && <Merged colours={merged} />}
         </td>
-        <td class="number">{formatNumber(one.delta_e, 3)}</td>
-        <td class="number">{formatNumber(one.knots)}</td>
+        <td class="number">{formatNumber(row.delta_e, 3)}</td>
+        <td class="number">{formatNumber(row.knots)}</td>
       </tr>
       {isOpen && (
         <tr>
           <td colSpan={4}>
-            <Shelf model={model} one={one} isGiven={isGiven} onGive={onGive} onClose={onOpen} />
+            <Shelf model={model} row={row} isGiven={isGiven} onGive={onGive} onClose={onOpen} />
           </td>
         </tr>
       )}
@@ -131,10 +131,10 @@ function Merged({ colours }: { colours: readonly string[] }) {
   );
 }
 
-/** The yarns of the list, to choose one. */
+/** The yarns of the list, to choose row. */
 function Shelf({
   model,
-  one,
+  row,
   isGiven,
   onGive,
   onClose,
@@ -143,7 +143,7 @@ function Shelf({
   return (
     <fieldset
       class="carpet-shelf"
-      aria-label={t("carpet.chooseYarn", { colour: one.colour })}
+      aria-label={t("carpet.chooseYarn", { colour: row.colour })}
       onKeyDown={(event) => event.key === "Escape" && onClose()}
     >
       {listed.map((yarn) => (
@@ -151,7 +151,7 @@ function Shelf({
           key={yarn.name}
           type="button"
           class="carpet-yarn"
-          aria-pressed={yarn.name === one.yarn}
+          aria-pressed={yarn.name === row.yarn}
           onClick={() => onGive(yarn.name)}
         >
           <span class="carpet-swatch" style={{ background: yarn.srgb }} aria-hidden="true" />

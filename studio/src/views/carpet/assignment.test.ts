@@ -9,11 +9,11 @@ describe("yarns by hand", () => {
   });
 
   it("are given, changed and taken back one by one", () => {
-    const one = mapWith({}, "#6C9136", "dark green");
-    expect(one).toEqual({ "#6c9136": "dark green" });
-    const two = mapWith({ map: one }, "#000000", "ivory");
-    expect(mapWith({ map: two }, "#6c9136", "sage green")).toEqual({ "#6c9136": "sage green", "#000000": "ivory" });
-    expect(mapWith({ map: two }, "#000000", "")).toEqual(one);
-    expect(mapWith({ map: one }, "#6c9136", "")).toBeNull();
+    const green = mapWith({}, "#6C9136", "dark green");
+    expect(green).toEqual({ "#6c9136": "dark green" });
+    const both = mapWith({ map: green }, "#000000", "ivory");
+    expect(mapWith({ map: both }, "#6c9136", "sage green")).toEqual({ "#6c9136": "sage green", "#000000": "ivory" });
+    expect(mapWith({ map: both }, "#000000", "")).toEqual(green);
+    expect(mapWith({ map: green }, "#6c9136", "")).toBeNull();
   });
 });

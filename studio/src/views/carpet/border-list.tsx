@@ -13,34 +13,34 @@ export function Borders({ model }: { model: CarpetModel }) {
     <div class="ui-stack">
       <p class="ui-help">{t("carpet.bordersHelp")}</p>
       <ol class="carpet-borders" aria-label={t("carpet.borders")}>
-        {borders.map((border, at) => (
-          <li key={at}>
+        {borders.map((border, place) => (
+          <li key={place}>
             <BorderForm
               border={border}
-              number={at + 1}
+              number={place + 1}
               yarns={yarns}
-              onChange={(changed) => set(borders.map((one, index) => (index === at ? changed : one)))}
+              onChange={(changed) => set(borders.map((other, index) => (index === place ? changed : other)))}
             />
             <span class="ui-row">
               <IconButton
                 icon="up"
                 size="small"
-                label={t("carpet.outwards", { number: at + 1 })}
-                disabled={at === 0}
-                onClick={() => set(movedBorder(borders, at, at - 1))}
+                label={t("carpet.outwards", { number: place + 1 })}
+                disabled={place === 0}
+                onClick={() => set(movedBorder(borders, place, place - 1))}
               />
               <IconButton
                 icon="down"
                 size="small"
-                label={t("carpet.inwards", { number: at + 1 })}
-                disabled={at === borders.length - 1}
-                onClick={() => set(movedBorder(borders, at, at + 1))}
+                label={t("carpet.inwards", { number: place + 1 })}
+                disabled={place === borders.length - 1}
+                onClick={() => set(movedBorder(borders, place, place + 1))}
               />
               <IconButton
                 icon="remove"
                 size="small"
-                label={t("carpet.dropBorder", { number: at + 1 })}
-                onClick={() => set(borders.filter((_, index) => index !== at))}
+                label={t("carpet.dropBorder", { number: place + 1 })}
+                onClick={() => set(borders.filter((_, index) => index !== place))}
               />
             </span>
           </li>
@@ -81,9 +81,9 @@ function BorderForm({ border, number, yarns, onChange }: FormProps) {
       <Select
         label={t("carpet.borderKind", { number })}
         value={kind}
-        choices={BORDER_KINDS.filter((one) => one !== "tile" || tiles.length > 0).map((one) => ({
-          value: one,
-          label: t(`carpet.${one}Border`),
+        choices={BORDER_KINDS.filter((kind) => kind !== "tile" || tiles.length > 0).map((kind) => ({
+          value: kind,
+          label: t(`carpet.${kind}Border`),
         }))}
         onChange={(chosen) => onChange(asKind(border, chosen, yarns, tiles))}
       />

@@ -19,8 +19,8 @@ export function kindOf(border: Border): BorderKind {
 }
 
 export function bordersOf(recipe: object | null): readonly Border[] {
-  const found = (recipe as { border?: unknown } | null)?.border;
-  return Array.isArray(found) ? (found as Border[]) : [];
+  const borders = (recipe as { border?: unknown } | null)?.border;
+  return Array.isArray(borders) ? (borders as Border[]) : [];
 }
 
 /** A border as another kind, of its own width; the repeats of a tile are adjusted until they fill a side. */
@@ -34,7 +34,7 @@ export function asKind(border: Border, kind: BorderKind, yarns: readonly string[
 
 /** The borders with one in another place. */
 export function movedBorder(borders: readonly Border[], from: number, to: number): Border[] {
-  const rest = borders.filter((_, at) => at !== from);
+  const rest = borders.filter((_, place) => place !== from);
   const moved = borders[from];
   return moved === undefined ? rest : [...rest.slice(0, to), moved, ...rest.slice(to)];
 }
@@ -58,9 +58,9 @@ export function reachesOf(borders: readonly Border[]): Reach[] {
 }
 
 /** The width of a border whose inner edge is dragged to a column: at least a knot, and some of the field remains. */
-export function draggedWidth(borders: readonly Border[], at: number, column: number, grid: Grid): number {
+export function draggedWidth(borders: readonly Border[], place: number, column: number, grid: Grid): number {
   const reaches = reachesOf(borders);
-  const own = reaches[at];
+  const own = reaches[place];
   if (own === undefined) return 1;
   const others = reaches.reduce((sum, reach) => sum + reach.width, 0) - own.width;
   const most = Math.floor((Math.min(grid.columns, grid.rows) - 1) / 2) - others;

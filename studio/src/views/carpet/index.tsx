@@ -167,9 +167,9 @@ function RecipeChoice({ path }: { path: string }) {
 function Timing({ model }: { model: CarpetModel }) {
   const chart = model.chart.value;
   if (chart === null) return null;
-  const { rows, columns, draft, reading } = chart.about;
+  const { rows, columns, draft } = chart.about;
   const waited = formatNumber(model.waited.value, 3);
-  const kind = draft && reading === "photo" ? t("carpet.draft") : t("carpet.exactChart");
+  const kind = draft ? t("carpet.draft") : t("carpet.exactChart");
   return (
     <p class="carpet-timing" aria-live="off">
       {model.busy.value ? t("carpet.making") : t("carpet.timing", { rows, columns, kind, waited })}

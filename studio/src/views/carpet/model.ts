@@ -147,8 +147,7 @@ export class CarpetModel {
     this.chart.value = { about, knots: knots ?? new Uint8Array(), grid: { rows, columns, aspect } };
     if (!about.yarns.some((yarn) => yarn.name === this.yarn.peek())) this.yarn.value = about.yarns[0]?.name ?? "";
     clearTimeout(this.#timer);
-    // A draft differs from the chart where the picture was read as a photo.
-    if (about.draft && about.reading === "photo") {
+    if (about.draft) {
       this.#timer = setTimeout(() => {
         if (this.recipe.peek() === recipe) this.#send({ recipe, draft: false });
       }, PAUSE);
@@ -275,9 +274,9 @@ export function modelOf(path: string): CarpetModel {
   const known = models.get(path);
   // A file that was made or brought back is another document.
   if (known !== undefined && known.document === openDocument<Recipe>(path)) return known;
-  const made = new CarpetModel(path);
-  models.set(path, made);
-  return made;
+  const model = new CarpetModel(path);
+  models.set(path, model);
+  return model;
 }
 
 /** Names of a list of yarns as the recipe has them: a list, or texts with commas or semicolons. */

@@ -7,11 +7,11 @@ export interface PicturePoint {
 
 /** The points of a text like "10%,5% 90%,95%" or "412,180 1150,240", in pixels; null where it has another number. */
 export function pointsOf(text: string, count: number, width: number, height: number): PicturePoint[] | null {
-  const found = [...text.matchAll(/(-?[\d.]+)\s*(%?)\s*,\s*(-?[\d.]+)\s*(%?)/g)];
-  if (found.length !== count) return null;
+  const pairs = [...text.matchAll(/(-?[\d.]+)\s*(%?)\s*,\s*(-?[\d.]+)\s*(%?)/g)];
+  if (pairs.length !== count) return null;
   const side = (value: string | undefined, sign: string | undefined, whole: number) =>
     sign === "%" ? (Number(value) * whole) / 100 : Number(value);
-  return found.map((one) => ({ x: side(one[1], one[2], width), y: side(one[3], one[4], height) }));
+  return pairs.map((pair) => ({ x: side(pair[1], pair[2], width), y: side(pair[3], pair[4], height) }));
 }
 
 /** Two corners in per cent of the sides, which hold for any copy of the picture; "" for the whole picture. */
@@ -41,14 +41,14 @@ interface Sides {
  */
 export function movedCrop(
   points: readonly PicturePoint[],
-  at: number,
+  corner: number,
   to: PicturePoint,
   ratio: number | null = null,
   sides: Sides = { width: Number.POSITIVE_INFINITY, height: Number.POSITIVE_INFINITY },
 ): PicturePoint[] {
   const [first, last] = [points[0] ?? to, points[1] ?? to];
-  const left = at === 0 || at === 3;
-  const top = at === 0 || at === 1;
+  const left = corner === 0 || corner === 3;
+  const top = corner === 0 || corner === 1;
   const rest = { x: left ? last.x : first.x, y: top ? last.y : first.y };
   let moved = { x: between(to.x, 0, sides.width), y: between(to.y, 0, sides.height) };
   if (ratio !== null) {
@@ -69,10 +69,10 @@ export function shiftedCrop(
   by: PicturePoint,
   { width, height }: Sides,
 ): PicturePoint[] {
-  const [xs, ys] = [points.map((one) => one.x), points.map((one) => one.y)];
+  const [xs, ys] = [points.map((point) => point.x), points.map((point) => point.y)];
   const x = between(by.x, -Math.min(...xs), width - Math.max(...xs));
   const y = between(by.y, -Math.min(...ys), height - Math.max(...ys));
-  return points.map((one) => ({ x: one.x + x, y: one.y + y }));
+  return points.map((point) => ({ x: point.x + x, y: point.y + y }));
 }
 
 /** The largest crop of a ratio about the middle of a crop. */

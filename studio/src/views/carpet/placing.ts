@@ -56,7 +56,7 @@ export function shownPiece({ piece, mirrored: flipped, turned: quarters }: Placi
 /** The upper left knot of a piece about a knot; its lower left one lies on the carpet, a tile as a whole. */
 export function placeAbout(knot: Knot, placing: Placing, grid: Grid): Knot {
   const { columns, rows } = shownPiece(placing);
-  const hold = (at: number, least: number, most: number) => Math.max(Math.min(at, most), least);
+  const hold = (place: number, least: number, most: number) => Math.max(Math.min(place, most), least);
   const isTile = placing.kind === "tile";
   return {
     column: hold(knot.column - Math.floor(columns / 2), 0, isTile ? grid.columns - columns : grid.columns - 1),
@@ -65,10 +65,16 @@ export function placeAbout(knot: Knot, placing: Placing, grid: Grid): Knot {
 }
 
 /** The edits that place what is held with its upper left knot at a knot; a moved part leaves the yarn of the brush. */
-export function placingEdits(placing: Placing, at: Knot, brush: Brush, grid: Grid): string[] {
-  if (placing.kind === "motif") return motifEdits(shownPiece(placing), at, brush, grid);
-  const [first, last] = placing.from ?? [at, at];
-  const words = [placing.kind, written(first, grid), written(last, grid), "to", written(lowerLeft(placing, at), grid)];
+export function placingEdits(placing: Placing, place: Knot, brush: Brush, grid: Grid): string[] {
+  if (placing.kind === "motif") return motifEdits(shownPiece(placing), place, brush, grid);
+  const [first, last] = placing.from ?? [place, place];
+  const words = [
+    placing.kind,
+    written(first, grid),
+    written(last, grid),
+    "to",
+    written(lowerLeft(placing, place), grid),
+  ];
   if (placing.turned > 0) words.push(`turned ${90 * placing.turned}deg`);
   if (placing.mirrored) words.push("mirrored across");
   if (placing.kind === "move") words.push(brush.yarn);
@@ -76,11 +82,11 @@ export function placingEdits(placing: Placing, at: Knot, brush: Brush, grid: Gri
 }
 
 /** The knots of a motif and of its images, as far as they lie on the carpet. */
-function motifEdits({ columns, rows, pixels }: Piece, at: Knot, { yarn, symmetry }: Brush, grid: Grid): string[] {
+function motifEdits({ columns, rows, pixels }: Piece, place: Knot, { yarn, symmetry }: Brush, grid: Grid): string[] {
   const knots: Knot[] = [];
   for (let line = 0; line < rows; line += 1)
     for (let column = 0; column < columns; column += 1) {
-      const knot = { column: at.column + column, line: at.line + line };
+      const knot = { column: place.column + column, line: place.line + line };
       if (pixels[4 * (line * columns + column) + 3] && isOn(knot, grid)) knots.push(knot);
     }
   return imagesOf(knots, symmetry, grid).flatMap((image) => setEdits(image, yarn, grid));
@@ -91,25 +97,25 @@ function isOn({ column, line }: Knot, grid: Grid): boolean {
 }
 
 /** The entry [[motif]] of the recipe that places a tile. */
-export function tileEntry(placing: Placing, at: Knot, grid: Grid): Record<string, unknown> {
-  const { row, knot } = weaverNumbers(lowerLeft(placing, at), grid);
+export function tileEntry(placing: Placing, place: Knot, grid: Grid): Record<string, unknown> {
+  const { row, knot } = weaverNumbers(lowerLeft(placing, place), grid);
   const entry = { picture: placing.picture, position: [row, knot] };
   return placing.transparent === undefined ? entry : { ...entry, transparent: placing.transparent };
 }
 
-function lowerLeft(placing: Placing, at: Knot): Knot {
-  return { column: at.column, line: at.line + shownPiece(placing).rows - 1 };
+function lowerLeft(placing: Placing, place: Knot): Knot {
+  return { column: place.column, line: place.line + shownPiece(placing).rows - 1 };
 }
 
 /** A part of a chart as a picture. */
 export function pieceOf(
   knots: Uint8Array,
   grid: Grid,
-  [one, other]: readonly [Knot, Knot],
+  [first, last]: readonly [Knot, Knot],
   colours: readonly string[],
 ): Piece {
-  const [left, right] = [Math.min(one.column, other.column), Math.max(one.column, other.column)];
-  const [top, bottom] = [Math.min(one.line, other.line), Math.max(one.line, other.line)];
+  const [left, right] = [Math.min(first.column, last.column), Math.max(first.column, last.column)];
+  const [top, bottom] = [Math.min(first.line, last.line), Math.max(first.line, last.line)];
   const [columns, rows] = [right - left + 1, bottom - top + 1];
   const pixels = new Uint8ClampedArray(4 * columns * rows);
   for (let line = 0; line < rows; line += 1)

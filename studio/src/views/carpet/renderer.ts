@@ -129,9 +129,9 @@ export class Renderer {
       for (const { column, line, length } of spans) {
         const from = Math.max(column - tile.column, 0);
         const number = Math.min(column + length - tile.column, tile.columns) - from;
-        const at = line - tile.line;
-        if (number < 1 || at < 0 || at >= tile.rows) continue;
-        gl.texSubImage2D(gl.TEXTURE_2D, 0, from, at, number, 1, gl.RED_INTEGER, gl.UNSIGNED_BYTE, value);
+        const row = line - tile.line;
+        if (number < 1 || row < 0 || row >= tile.rows) continue;
+        gl.texSubImage2D(gl.TEXTURE_2D, 0, from, row, number, 1, gl.RED_INTEGER, gl.UNSIGNED_BYTE, value);
       }
     }
     this.draw();

@@ -120,9 +120,9 @@ function ShareSetting({ model, name, label, least, most }: SettingProps & { leas
 
 /** How much of the tones between the yarns patterns render: of photos only. */
 function Halftone({ model }: { model: CarpetModel }) {
-  const given = model.recipe.value?.["halftone"];
-  if (given === undefined && model.chart.value?.about.reading !== "photo") return null;
-  const share = shareOf(given);
+  const written = model.recipe.value?.["halftone"];
+  if (written === undefined && model.chart.value?.about.reading !== "photo") return null;
+  const share = shareOf(written);
   return (
     <div class="carpet-turn">
       <Slider
@@ -131,10 +131,10 @@ function Halftone({ model }: { model: CarpetModel }) {
         min={0}
         max={1}
         step={0.05}
-        text={given === undefined ? t("carpet.auto") : `${formatNumber(Math.round(100 * share))} %`}
+        text={written === undefined ? t("carpet.auto") : `${formatNumber(Math.round(100 * share))} %`}
         onInput={(value) => model.set({ halftone: Math.round(100 * value) / 100 })}
       />
-      <Button size="small" disabled={given === undefined} onClick={() => model.set({ halftone: "" })}>
+      <Button size="small" disabled={written === undefined} onClick={() => model.set({ halftone: "" })}>
         {t("carpet.auto")}
       </Button>
     </div>
@@ -155,17 +155,17 @@ function Specks({ model }: { model: CarpetModel }) {
 /** A share as the recipe may have it: a number, or a text with %. */
 export function shareOf(value: unknown): number {
   if (typeof value === "number") return value;
-  const found = typeof value === "string" ? /^\s*([+-]?[\d.]+)\s*(%?)\s*$/.exec(value) : null;
-  if (found === null) return 0;
-  return Number(found[1]) / (found[2] === "%" ? 100 : 1);
+  const parts = typeof value === "string" ? /^\s*([+-]?[\d.]+)\s*(%?)\s*$/.exec(value) : null;
+  if (parts === null) return 0;
+  return Number(parts[1]) / (parts[2] === "%" ? 100 : 1);
 }
 
 /** An angle of the recipe in degrees. */
 export function degreesOf(value: unknown): number {
   if (typeof value === "number") return (180 * value) / Math.PI;
-  const found = typeof value === "string" ? /^\s*([+-]?[\d.]+)\s*(deg|°|rad)?\s*$/.exec(value) : null;
-  if (found === null) return 0;
-  return found[2] === "deg" || found[2] === "°" ? Number(found[1]) : (180 * Number(found[1])) / Math.PI;
+  const parts = typeof value === "string" ? /^\s*([+-]?[\d.]+)\s*(deg|°|rad)?\s*$/.exec(value) : null;
+  if (parts === null) return 0;
+  return parts[2] === "deg" || parts[2] === "°" ? Number(parts[1]) : (180 * Number(parts[1])) / Math.PI;
 }
 
 function Turn({ model }: { model: CarpetModel }) {

@@ -82,12 +82,12 @@ function Tiles({ model }: { model: CarpetModel }) {
   const [tiles, setTiles] = useState<readonly Tile[]>([]);
   const [shows, setShows] = useState(false);
   const pictures = project.value?.pictures ?? [];
-  const paths = pictures.filter((one) => one.size <= LARGEST_FILE).map((one) => one.path);
+  const paths = pictures.filter((picture) => picture.size <= LARGEST_FILE).map((picture) => picture.path);
   const key = paths.join("\n");
   useEffect(() => {
     const abort = new AbortController();
     void Promise.all(paths.map((path) => tileOf(path, abort.signal))).then(
-      (found) => !abort.signal.aborted && setTiles(found.filter((tile) => tile !== null)),
+      (answers) => !abort.signal.aborted && setTiles(answers.filter((tile) => tile !== null)),
     );
     return () => abort.abort();
   }, [key]);

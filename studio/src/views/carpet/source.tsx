@@ -38,12 +38,12 @@ export function SourceDialog({ model, mode, onClose }: SourceProps) {
     // A crop counts in the picture after it is straightened and turned.
     const before = mode === "crop" ? { corners: model.text("corners"), turn: model.text("turn") } : {};
     postPacked<PictureAbout>("/carpet/picture", { picture, page, most: 1200, ...before }, abort.signal).then(
-      ({ about: found, parts }) => {
-        const { shown_width: width, shown_height: height } = found;
+      ({ about: read, parts }) => {
+        const { shown_width: width, shown_height: height } = read;
         const [pixels] = parts([3 * width * height]);
         draw(canvas.current, width, height, pixels ?? new Uint8Array());
-        setAbout(found);
-        setPoints(startOf(model, mode, found));
+        setAbout(read);
+        setPoints(startOf(model, mode, read));
       },
       (error: unknown) => !abort.signal.aborted && setProblem(textOf(error)),
     );
@@ -54,8 +54,8 @@ export function SourceDialog({ model, mode, onClose }: SourceProps) {
     setBusy(true);
     setProblem("");
     try {
-      const found = await post<Corners>("/carpet/corners", { picture, page });
-      setPoints(found.corners.map(([x, y]) => ({ x, y })));
+      const answer = await post<Corners>("/carpet/corners", { picture, page });
+      setPoints(answer.corners.map(([x, y]) => ({ x, y })));
     } catch (error) {
       setProblem(textOf(error));
     }
@@ -70,13 +70,13 @@ export function SourceDialog({ model, mode, onClose }: SourceProps) {
   };
   const handles = mode === "crop" ? cropHandles(points) : points;
   const ratio = ratioOf(model);
-  const move = (at: number, to: PicturePoint) => {
+  const move = (corner: number, to: PicturePoint) => {
     if (about === null) return;
     const held = { x: between(to.x, 0, about.width), y: between(to.y, 0, about.height) };
     setPoints(
       mode === "crop"
-        ? movedCrop(points, at, to, kept ? ratio : null, about)
-        : points.map((one, index) => (index === at ? held : one)),
+        ? movedCrop(points, corner, to, kept ? ratio : null, about)
+        : points.map((point, index) => (index === corner ? held : point)),
     );
   };
   const shift = (by: PicturePoint) => about !== null && setPoints(shiftedCrop(points, by, about));
@@ -134,8 +134,8 @@ export function SourceDialog({ model, mode, onClose }: SourceProps) {
               />
             </svg>
             {mode === "crop" && <Frame handles={handles} about={about} onShift={shift} />}
-            {handles.map((point, at) => (
-              <Handle key={at} at={at} point={point} about={about} onMove={move} />
+            {handles.map((point, corner) => (
+              <Handle key={corner} corner={corner} point={point} about={about} onMove={move} />
             ))}
           </>
         )}
@@ -220,42 +220,42 @@ function Frame({ handles, about, onShift }: FrameProps) {
 }
 
 interface HandleProps {
-  at: number;
+  corner: number;
   point: PicturePoint;
   about: PictureAbout;
-  onMove: (at: number, to: PicturePoint) => void;
+  onMove: (corner: number, to: PicturePoint) => void;
 }
 
 /** A corner that is dragged, or moved by the arrow keys. */
-function Handle({ at, point, about, onMove }: HandleProps) {
+function Handle({ corner, point, about, onMove }: HandleProps) {
   const names = [t("carpet.upperLeft"), t("carpet.upperRight"), t("carpet.lowerRight"), t("carpet.lowerLeft")];
   const drag = (event: PointerEvent) => {
     const to = heldPoint(event, about);
-    if (to !== null) onMove(at, to);
+    if (to !== null) onMove(corner, to);
   };
   const key = (event: KeyboardEvent) => {
     const by = keyStep(event, about);
-    if (by !== null) onMove(at, { x: point.x + by.x, y: point.y + by.y });
+    if (by !== null) onMove(corner, { x: point.x + by.x, y: point.y + by.y });
   };
   return (
     <button
       type="button"
       class="carpet-handle"
       style={{ left: `${(100 * point.x) / about.width}%`, top: `${(100 * point.y) / about.height}%` }}
-      aria-label={`${names[at] ?? ""}: ${Math.round(point.x)}, ${Math.round(point.y)}`}
+      aria-label={`${names[corner] ?? ""}: ${Math.round(point.x)}, ${Math.round(point.y)}`}
       onPointerDown={(event) => event.currentTarget.setPointerCapture(event.pointerId)}
       onPointerMove={drag}
       onKeyDown={key}
     >
-      {at + 1}
+      {corner + 1}
     </button>
   );
 }
 
 function startOf(model: CarpetModel, mode: "crop" | "corners", about: PictureAbout): PicturePoint[] {
   const { width, height } = about;
-  const given = pointsOf(model.text(mode), mode === "crop" ? 2 : 4, width, height);
-  if (given !== null) return given;
+  const stated = pointsOf(model.text(mode), mode === "crop" ? 2 : 4, width, height);
+  if (stated !== null) return stated;
   const whole = [
     { x: 0, y: 0 },
     { x: width, y: height },

@@ -18,13 +18,13 @@ export function SpecksPanel({ model }: { model: CarpetModel }) {
     const recipe = model.recipe.peek();
     model.specks.value = null;
     // A draft's specks are not those of the carpet.
-    if (chart === null || recipe === null || (chart.about.draft && chart.about.reading === "photo")) return undefined;
+    if (chart === null || recipe === null || chart.about.draft) return undefined;
     const abort = new AbortController();
     findSpecks(recipe, model.path, most, abort.signal).then(
-      (found) => {
+      (specks) => {
         if (abort.signal.aborted) return;
         setProblem(false);
-        model.specks.value = found;
+        model.specks.value = specks;
       },
       () => !abort.signal.aborted && setProblem(true),
     );
@@ -77,8 +77,8 @@ export function SpecksPanel({ model }: { model: CarpetModel }) {
 
 function countText(count: number, sizes: readonly number[]): string {
   const text = t("carpet.speckCount", { count });
-  const each = sizes.flatMap((number, at) =>
-    number > 0 ? [t("carpet.specksOfSize", { number: formatNumber(number), size: at + 1 })] : [],
+  const each = sizes.flatMap((number, index) =>
+    number > 0 ? [t("carpet.specksOfSize", { number: formatNumber(number), size: index + 1 })] : [],
   );
   return each.length > 0 ? `${text}: ${each.join(", ")}` : text;
 }

@@ -24,12 +24,12 @@ function packed(places: readonly number[], around: readonly number[]) {
 }
 
 describe("specks", () => {
-  const found = packed([0, 19, 7, 300], [1, 0, 1, 1]);
+  const three = packed([0, 19, 7, 300], [1, 0, 1, 1]);
 
   it("are read as they are packed", () => {
-    expect([...found.places]).toEqual([0, 19, 7, 300]);
-    expect([...found.around]).toEqual([1, 0, 1, 1]);
-    expect(countOf(found)).toBe(3);
+    expect([...three.places]).toEqual([0, 19, 7, 300]);
+    expect([...three.around]).toEqual([1, 0, 1, 1]);
+    expect(countOf(three)).toBe(3);
   });
 
   it("get the yarn around them, an edit for each yarn", () => {
@@ -39,7 +39,7 @@ describe("specks", () => {
 
   it("are marked where they are seen", () => {
     const size = { width: 100, height: 100 };
-    const path = speckPath(found, GRID, { x: 2.5, y: 2, scale: 10 }, size);
+    const path = speckPath(three, GRID, { x: 2.5, y: 2, scale: 10 }, size);
     // Knot 0 has its upper left corner 25 px left of the middle and 20 px above it; 300 lies far below.
     expect(path.match(/M/g)).toHaveLength(3);
     expect(path).toContain("M25.0 30.0h10v10h-10Z");

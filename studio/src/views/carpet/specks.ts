@@ -19,7 +19,7 @@ export async function findSpecks(recipe: object, path: string, most: number, abo
 export function foundSpecks({ about, parts }: Packed<Specks>): FoundSpecks {
   const [places = new Uint8Array(), around = new Uint8Array()] = parts([4 * about.knots, about.knots]);
   const numbers = new DataView(places.buffer, places.byteOffset, places.byteLength);
-  const knots = Uint32Array.from({ length: about.knots }, (_, at) => numbers.getUint32(4 * at, true));
+  const knots = Uint32Array.from({ length: about.knots }, (_, index) => numbers.getUint32(4 * index, true));
   return { ...about, places: knots, around };
 }
 
@@ -31,9 +31,9 @@ export function countOf(specks: Specks): number {
 /** Edits that give the knots of all specks the yarn around them. */
 export function speckEdits(specks: FoundSpecks, grid: Grid): string[] {
   const ofYarn = new Map<number, Knot[]>();
-  specks.places.forEach((place, at) => {
+  specks.places.forEach((place, index) => {
     const knot = { column: place % grid.columns, line: Math.floor(place / grid.columns) };
-    const yarn = specks.around[at] ?? 0;
+    const yarn = specks.around[index] ?? 0;
     const known = ofYarn.get(yarn);
     if (known === undefined) ofYarn.set(yarn, [knot]);
     else known.push(knot);

@@ -29,19 +29,21 @@ const PEN: Brush = { yarn: "ivory", width: 1, symmetry: "none" };
 
 /** The knots that edits give a yarn, as the recipe reads them, in order of lines and columns. */
 function drawn(edits: readonly string[]): string[] {
-  const found = new Set<string>();
+  const knots = new Set<string>();
   for (const edit of edits) {
-    const points = [...edit.matchAll(/(\d+),(\d+)/g)].map((one) => at(GRID.rows - Number(one[1]), Number(one[2]) - 1));
+    const points = [...edit.matchAll(/(\d+),(\d+)/g)].map((pair) =>
+      at(GRID.rows - Number(pair[1]), Number(pair[2]) - 1),
+    );
     const width = Number(/^stroke (\d+)/.exec(edit)?.[1] ?? 1);
     const paths = edit.startsWith("set") ? points.map((point) => [point]) : [points];
     for (const path of paths)
       path.forEach((point, number) => {
         for (const knot of lineKnots(path[number - 1] ?? point, point))
           for (const { line, column, length } of brushSpans(knot, width, GRID))
-            for (let more = 0; more < length; more += 1) found.add(`${line},${column + more}`);
+            for (let more = 0; more < length; more += 1) knots.add(`${line},${column + more}`);
       });
   }
-  return [...found].sort();
+  return [...knots].sort();
 }
 
 describe("a stroke", () => {

@@ -47,9 +47,9 @@ export function strokeEdits(points: readonly Knot[], brush: Brush, grid: Grid): 
   const path = pathOf(points);
   const paths = imagesOf(path, brush.symmetry, grid);
   if (path.length === 0) return [];
-  if (brush.width > 1) return paths.flatMap((one) => brushEdits(one, brush, grid));
+  if (brush.width > 1) return paths.flatMap((path) => brushEdits(path, brush, grid));
   const isStraight = path.length > 2 && isLine(path);
-  if (isStraight && paths.every(isLine)) return paths.map((one) => lineEdit(one, brush.yarn, grid));
+  if (isStraight && paths.every(isLine)) return paths.map((path) => lineEdit(path, brush.yarn, grid));
   return setEdits(distinct(paths.flat()), brush.yarn, grid);
 }
 
@@ -106,7 +106,7 @@ function isLine(path: readonly Knot[]): boolean {
   const line = lineKnots(first, last);
   return (
     line.length === path.length &&
-    line.every((one, at) => one.column === path[at]?.column && one.line === path[at]?.line)
+    line.every((knot, index) => knot.column === path[index]?.column && knot.line === path[index]?.line)
   );
 }
 
@@ -119,7 +119,7 @@ function lineEdit(path: readonly Knot[], yarn: string, grid: Grid): string {
 /** Fills about a knot and its images. */
 export function fillEdits(knot: Knot, { yarn, symmetry }: Brush, grid: Grid): string[] {
   const knots = distinct(imagesOf([knot], symmetry, grid).flat());
-  return knots.map((one) => `fill ${written(one, grid)} ${yarn}`);
+  return knots.map((knot) => `fill ${written(knot, grid)} ${yarn}`);
 }
 
 /** Two opposite corners of a part; null: the whole carpet. */

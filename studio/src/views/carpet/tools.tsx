@@ -18,7 +18,7 @@ export function Tools({ model }: { model: CarpetModel }) {
         label={t("carpet.tool")}
         labelHidden
         value={tool}
-        choices={TOOLS.map((one) => ({ value: one, label: t(`carpet.${one}Tool`) }))}
+        choices={TOOLS.map((choice) => ({ value: choice, label: t(`carpet.${choice}Tool`) }))}
         onChange={(chosen) => model.takeTool(chosen)}
       />
       {gives && (
@@ -46,7 +46,7 @@ export function Tools({ model }: { model: CarpetModel }) {
         <Select
           label={t("carpet.symmetry")}
           value={model.symmetry.value}
-          choices={SYMMETRIES.map((one) => ({ value: one, label: t(`carpet.${one}Symmetry`) }))}
+          choices={SYMMETRIES.map((symmetry) => ({ value: symmetry, label: t(`carpet.${symmetry}Symmetry`) }))}
           onChange={(symmetry) => {
             model.symmetry.value = symmetry;
           }}

@@ -17,7 +17,7 @@ class ChartRequest:
     """A chart of a recipe.
 
     recipe  data of the recipe, saved or not      path  of its file in the project
-    draft   quick, while a slider moves: colours of a photo are rounded before their yarns are chosen
+    draft   quick, while a slider moves: colours of a large photo are rounded before their yarns are chosen
     source  key of the fitted picture that the caller has: it is not sent again
     """
 
@@ -47,7 +47,7 @@ class RowRequest:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class SpecksRequest:
-    """The specks of the chart of a recipe: its patches of at most `most` knots."""
+    """The specks of the chart of a recipe: its patches of at most `most` knots that are no dots of a pattern."""
 
     recipe: dict[str, Any]
     most: int = 3
@@ -152,6 +152,7 @@ class ChartAnswer:
     assignment  the yarn of each colour, most knots first; none of a photo, and of a drawing of too many colours
     mass, mass_per_area, price  of all yarns [kg], [kg/m²]
     checks, warnings, notes  as in the report      seconds  that it took
+    draft  of a large photo: its own chart has other yarns in places
     """
 
     rows: int

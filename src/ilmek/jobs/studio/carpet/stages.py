@@ -5,11 +5,13 @@ from it.
 from collections import OrderedDict
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass, replace
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 import numpy as np
 
+from ilmek.carpet.chart import Chart
 from ilmek.carpet.reading import Design
+from ilmek.jobs.chart import ChartResult
 from ilmek.jobs.stages import Stages
 
 T = TypeVar("T")
@@ -18,37 +20,53 @@ MOST = {"charted": 2, "chart": 3, "tile": 12}
 """Results that are kept of a stage; default: 1, since each may have the size of the picture."""
 
 ROUNDED = 8
-"""Codes of a channel that a draft takes as one."""
+"""Codes of a channel that a draft of a large photo takes as one."""
 
-_KEPT: dict[str, OrderedDict[Hashable, Any]] = {}
+LARGE = 400_000
+"""Knots of a photo above which a draft differs from its chart: of a smaller one, the chart is as quick."""
+
+_KEPT: dict[str, OrderedDict[tuple[Hashable, bool], Any]] = {}
+
+
+def has_draft(kind: str, knots: int) -> bool:
+    """Whether the draft of a design, read as `kind`, is another chart than its own."""
+    return kind == "photo" and knots > LARGE
 
 
 @dataclass(frozen=True, slots=True)
 class KeptStages(Stages):
     """Stages that stay in the memory of this process.
 
-    draft  the colours of a photo are rounded to ROUNDED codes, which leaves few of them: the yarns of a chart of
-           1.5 million knots are then chosen within a tenth of the time, and few knots have another yarn than later
+    draft  the colours of a photo of more than LARGE knots are rounded to ROUNDED codes before they get their yarns,
+           which leaves few of them. Patterns follow the true colours while no tone is changed, and the shades are those
+           of the last chart while it has the same recipe, palette and fit; else some knots have other yarns than later
     """
 
     draft: bool = False
 
     def keep(self, stage: str, key: Hashable, make: Callable[[], T]) -> T:
-        """The result of a stage, as `Stages.keep`."""
+        """The result of a stage, as `Stages.keep`; where the chart itself is kept, it is its draft too."""
         kept = _KEPT.setdefault(stage, OrderedDict())
-        full_key = (key, self.draft and stage == "chart")
-        if full_key not in kept:
-            most = MOST.get(stage, 1)
-            while len(kept) >= most:
-                kept.popitem(last=False)
-            kept[full_key] = make()
-        kept.move_to_end(full_key)
-        result: T = kept[full_key]
-        return result
+        own, draft = (key, False), (key, True)
+        name = draft if self.draft and own not in kept else own
+        if name not in kept:
+            result: T = make()
+            chart = result.chart if isinstance(result, ChartResult) else result
+            is_draft = isinstance(chart, Chart) and has_draft(chart.reading.kind, chart.knots.size)
+            name = draft if self.draft and is_draft else own
+            while len(kept) >= MOST.get(stage, 1):
+                del kept[next((old for old in kept if old[1]), next(iter(kept)))]  # drafts first
+            kept[name] = result
+        kept.move_to_end(name)
+        return cast("T", kept[name])
+
+    def last(self, stage: str) -> object:
+        """The result of a stage that was taken last, drafts left out; None: there is none."""
+        return next((result for (_, is_draft), result in reversed(_KEPT.get(stage, {}).items()) if not is_draft), None)
 
     def shown(self, design: Design) -> Design:
         """The design with the colours of a draft."""
-        if not self.draft or design.kind != "photo":
+        if not self.draft or not has_draft(design.kind, design.colours.size // 3):
             return design
         colours = (design.colours & np.uint8(256 - ROUNDED)) + np.uint8(ROUNDED // 2)
         return replace(design, colours=colours)

@@ -16,10 +16,10 @@ from ilmek.carpet.chart import Chart, make_chart
 from ilmek.carpet.design import resampled
 from ilmek.carpet.fitting import FitParams, prepare_picture
 from ilmek.carpet.outline import find_outline
-from ilmek.carpet.patches import small_patches
 from ilmek.carpet.quality import parse_quality
 from ilmek.carpet.rows import row_runs
 from ilmek.carpet.sizes import parse_size
+from ilmek.carpet.specks import specks as lone_patches
 from ilmek.carpet.statistics import chart_statistics
 from ilmek.errors import IlmekError, ParameterError
 from ilmek.io.chart.symbols import symbols
@@ -53,7 +53,7 @@ from ilmek.jobs.studio.carpet.answers import (
     Specks,
     SpecksRequest,
 )
-from ilmek.jobs.studio.carpet.stages import KeptStages
+from ilmek.jobs.studio.carpet.stages import KeptStages, has_draft
 from ilmek.jobs.studio.checks import shown_check
 from ilmek.jobs.studio.project.folder import ProjectFolder
 from ilmek.jobs.studio.words import all_in_page
@@ -91,9 +91,9 @@ def specks(request: SpecksRequest, context: Context) -> Binary:
     if not 1 <= request.most <= MOST_SPECK:
         raise ParameterError(f"specks of {request.most} knots", allowed=f"1 to {MOST_SPECK}")
     made = _charted(request, context, KeptStages()).chart
-    found = small_patches(made.knots, request.most, context.progress)
-    about = Specks(tuple(found.sizes[1:].tolist()), len(found.knots), tuple(yarn.name for yarn in made.yarns))
-    return packed(about, found.knots.astype("<u4").tobytes(), found.around.tobytes())
+    patches = lone_patches(made.knots, request.most, context.progress)
+    about = Specks(tuple(patches.sizes[1:].tolist()), len(patches.knots), tuple(yarn.name for yarn in made.yarns))
+    return packed(about, patches.knots.astype("<u4").tobytes(), patches.around.tobytes())
 
 
 def proposal(request: ProposalRequest, context: Context) -> Proposal:
@@ -164,10 +164,25 @@ def _charted(request: ChartRequest | RowRequest | SpecksRequest, context: Contex
     with _plain_errors(context):
         order = _order(request, context)
         files = tuple(file_key(path) for path in order.inputs.values() if path != order.picture)
-        key = (context.project, request.path, json.dumps(request.recipe, sort_keys=True), files, stages.draft)
+        key = (context.project, request.path, json.dumps(request.recipe, sort_keys=True), files)
         return stages.keep(
-            "charted", key, lambda: make_charted(order, context.progress, with_source=True, stages=stages)
+            "charted",
+            key,
+            lambda: make_charted(_in_shades(order, stages), context.progress, with_source=True, stages=stages),
         )
+
+
+def _in_shades(order: CarpetOrder, stages: KeptStages) -> CarpetOrder:
+    """The order of a draft without a list of yarns: in the shades of the last whole chart, where it chose as this."""
+    last = stages.last("charted")
+    if not stages.draft or not order.dyed or not isinstance(last, ChartResult) or not last.chart.reading.dyed:
+        return order
+    before = last.order.order
+    if any(getattr(before, name) != getattr(order, name) for name in ("recipe", "palette", "fit", "inputs")):
+        return order
+    if not has_draft(last.chart.reading.kind, last.chart.knots.size):
+        return order
+    return replace(order, yarns=last.chart.yarns, palette=replace(order.palette, colours=None))
 
 
 def _folder(context: Context) -> ProjectFolder:
@@ -265,6 +280,6 @@ def _answer(made: ChartResult, draft: bool, seconds: float) -> ChartAnswer:
         notes=all_in_page(made.notes),
         half_knots=sum(chart.tied.half),
         jufti_knots=sum(chart.tied.jufti),
-        draft=draft,
+        draft=draft and has_draft(reading.kind, chart.knots.size),
         seconds=seconds,
     )
