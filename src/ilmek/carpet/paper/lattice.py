@@ -46,11 +46,13 @@ BEYOND = 4
 
 @record
 class Tiles:
-    """The lines down, or across, in tiles: wave vectors [cycles/pixel], phases at the centres [cycles], qualities."""
+    """The lines down, or across, in tiles: wave vectors [cycles/pixel], phases at the centres [cycles], qualities,
+    and mean energies [codes]."""
 
     waves: Float[np.ndarray, "rows columns 2"]
     phases: Float[np.ndarray, "rows columns"]
     qualities: Float[np.ndarray, "rows columns"]
+    energies: Float[np.ndarray, "rows columns"]
 
 
 @record
@@ -106,7 +108,7 @@ def find_lattice(energy: LineEnergy) -> Lattice:
     """The lattice of the lines of a sheet. Raises PictureError where it is not found."""
     down = _tiles(energy.all_down, energy.down, energy.pitch_x)
     across = _tiles(energy.all_across.T, energy.across.T, energy.pitch_y)
-    across = Tiles(across.waves.transpose(1, 0, 2)[..., ::-1], across.phases.T, across.qualities.T)
+    across = Tiles(across.waves.transpose(1, 0, 2)[..., ::-1], across.phases.T, across.qualities.T, across.energies.T)
     u, v = _continued(down), _continued(across)
     seen = np.isfinite(u) & np.isfinite(v)
     if np.count_nonzero(seen) < 4:
@@ -121,6 +123,7 @@ def find_lattice(energy: LineEnergy) -> Lattice:
 
 def _tiles(everything: Energy, lines: Energy, pitch: float) -> Tiles:
     """The tiles of the lines down: waves by the spectrum of everything around, phases by the lines alone."""
+    energies = _tiled(lines).mean(axis=(2, 3))
     everything, lines = _windows(levelled(everything, pitch)), _windows(levelled(lines, pitch))
     size = 2 * _TILE
     ky, kx = np.meshgrid(np.fft.fftfreq(size), np.fft.rfftfreq(size), indexing="ij")
@@ -141,13 +144,18 @@ def _tiles(everything: Energy, lines: Energy, pitch: float) -> Tiles:
     sums = lines @ along.real.astype(np.float32) + 1j * (lines @ along.imag.astype(np.float32))
     turned = (down * sums[..., 0]).sum(axis=-1)
     share = power.max(axis=-1) / power.mean(axis=-1).clip(1e-12)
-    return Tiles(waves, np.angle(turned) / (2 * np.pi), np.log(share.clip(1e-9)))
+    return Tiles(waves, np.angle(turned) / (2 * np.pi), np.log(share.clip(1e-9)), energies)
+
+
+def _tiled(energy: Energy) -> Float[np.ndarray, "rows columns side side"]:
+    """The tiles of an energy."""
+    energy = np.pad(energy, [(0, max(0, _TILE - side)) for side in energy.shape], mode="edge")
+    return np.lib.stride_tricks.sliding_window_view(energy, (_TILE, _TILE))[::_STEP, ::_STEP]
 
 
 def _windows(energy: Energy) -> Float[np.ndarray, "rows columns side side"]:
     """The tiles of an energy, each without its mean, under a Hann window."""
-    energy = np.pad(energy, [(0, max(0, _TILE - side)) for side in energy.shape], mode="edge")
-    views = np.lib.stride_tricks.sliding_window_view(energy, (_TILE, _TILE))[::_STEP, ::_STEP]
+    views = _tiled(energy)
     hann = np.hanning(_TILE + 2)[1:-1].astype(np.float32)
     window = hann[:, None] * hann
     mean = (views * window).sum(axis=(2, 3), keepdims=True) / window.sum()
@@ -160,12 +168,26 @@ def _power(tiles: Float[np.ndarray, "columns side side"], allowed: BoolArray) ->
 
 
 def _continued(tiles: Tiles) -> Float[np.ndarray, "rows columns"]:
-    """The number of the line at each tile's centre, from the clearest tile on; NaN: no lines, or not joined."""
-    number = np.full(tiles.phases.shape, np.nan)
-    rows, columns = tiles.qualities.shape
+    """The number of the line at each tile's centre, of those joined tiles that have the most energy; NaN: others.
+
+    The noise of a table and the blocks of a JPEG repeat, too, but have little energy.
+    """
     quality = np.where(tiles.qualities >= _LEAST_QUALITY, tiles.qualities, 0.0)
-    if not quality.any():
-        return number
+    most, kept = 0.0, np.full(quality.shape, np.nan)
+    while quality.any():
+        number = _joined(tiles, quality)
+        joined = np.isfinite(number)
+        quality[joined] = 0.0
+        energy = float(tiles.energies[joined].sum())
+        if energy > most:
+            most, kept = energy, number
+    return kept
+
+
+def _joined(tiles: Tiles, quality: FloatArray) -> Float[np.ndarray, "rows columns"]:
+    """The number of the line at each tile's centre, continued from the clearest tile; NaN: not joined to it."""
+    number = np.full(quality.shape, np.nan)
+    rows, columns = quality.shape
     start = np.unravel_index(int(quality.argmax()), quality.shape)
     number[start] = tiles.phases[start]
     waiting: list[tuple[float, int, int, float]] = []
@@ -177,17 +199,17 @@ def _continued(tiles: Tiles) -> Float[np.ndarray, "rows columns"]:
                 continue
             wave = 0.5 * (tiles.waves[row, column] + tiles.waves[r, c])
             expected = number[row, column] + _STEP * (right * wave[0] + down * wave[1])
-            found = tiles.phases[r, c] + round(expected - tiles.phases[r, c])
+            continued = tiles.phases[r, c] + round(expected - tiles.phases[r, c])
             bend = np.hypot(*(tiles.waves[row, column] - tiles.waves[r, c])) / np.hypot(*wave)
-            cost = abs(found - expected) + bend
-            if abs(found - expected) < 0.3 and bend < 0.25:
-                heapq.heappush(waiting, (cost - quality[r, c], r, c, found))
+            cost = abs(continued - expected) + bend
+            if abs(continued - expected) < 0.3 and bend < 0.25:
+                heapq.heappush(waiting, (cost - quality[r, c], r, c, continued))
 
     spread(int(start[0]), int(start[1]))
     while waiting:
-        _, row, column, found = heapq.heappop(waiting)
+        _, row, column, continued = heapq.heappop(waiting)
         if np.isnan(number[row, column]):
-            number[row, column] = found
+            number[row, column] = continued
             spread(row, column)
     return number
 

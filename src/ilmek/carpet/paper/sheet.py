@@ -12,7 +12,7 @@ from ilmek.arrays import BoolArray, Float, Indices, Int64, Rgb, UInt8
 from ilmek.carpet.paper.cells import Cells, read_cells
 from ilmek.carpet.paper.colours import cell_colours
 from ilmek.carpet.paper.lattice import find_lattice
-from ilmek.carpet.paper.lines import NEARLY_EVERYWHERE, SOMEWHERE, line_energy
+from ilmek.carpet.paper.lines import NEARLY_EVERYWHERE, SOMEWHERE, LineEnergy, Spread, line_energy, no_grid, pitches
 from ilmek.errors import PictureError
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
@@ -21,6 +21,9 @@ from ilmek.units import counted
 _LEAST_CELLS, _LEAST_EVEN, _EVEN, _MOST_DOUBTFUL, _LEAST_LINES, _MOST_COLOURS = 16, 0.9, 10.0, 0.03, 3.0, 64
 """Of such a picture: cells along each side, share of even cells and their range of lightness [codes], share of doubtful
 cells, coherence of the lines, number of colours."""
+
+_CLEAR, _MOST_PITCHES = 2.0, 3
+"""Coherence of the lines from which on no other pitch is tried, and number of those that are."""
 
 MOST_SHOWN, VIEW = 500, 60
 """Largest number of doubtful cells that are shown, and side of the view of each [pixels]."""
@@ -91,17 +94,13 @@ def squared_paper(rgb: Rgb, progress: Progress = SILENT) -> PaperReading | None:
     return found if found.certain else None
 
 
-def read_sheet(rgb: Rgb, progress: Progress = SILENT, least: float = SOMEWHERE) -> PaperReading:
-    """The chart on a sheet of squared paper; `least`: share of the picture in which lines repeat.
+def read_sheet(rgb: Rgb, progress: Progress = SILENT, spread: Spread = SOMEWHERE) -> PaperReading:
+    """The chart on a sheet of squared paper whose lines extend so far.
 
     Raises PictureError where no grid is found.
     """
     rgb = np.ascontiguousarray(rgb)
-    energy = line_energy(rgb, progress.part(0.0, 0.4), least)
-    lattice = find_lattice(energy)
-    progress(0.8)
-    cells = read_cells(rgb, energy, lattice)
-    progress(0.9)
+    energy, cells = _clearest(rgb, progress.part(0.0, 0.9), spread)
     found = cell_colours(cells.colours, cells.spread)
     rows, columns = np.nonzero(found.doubtful)
     order = np.argsort(found.confidence[rows, columns], kind="stable")[:MOST_SHOWN]
@@ -109,6 +108,28 @@ def read_sheet(rgb: Rgb, progress: Progress = SILENT, least: float = SOMEWHERE) 
     pitch = energy.factor * 0.5 * (energy.pitch_x + energy.pitch_y)
     views = _views(rgb, cells.x[rows, columns][order], cells.y[rows, columns][order], pitch)
     return PaperReading(found.palette, found.numbers, found.confidence, found.doubtful, cells, shown, views)
+
+
+def _clearest(rgb: Rgb, progress: Progress, spread: Spread) -> tuple[LineEnergy, Cells]:
+    """The cells of the first pitch whose lines are clear, or else of that with the clearest ones."""
+    likely = pitches(rgb, spread)
+    progress(0.1)
+    if not likely:
+        raise no_grid("no lines at equal distances")
+    readings: list[tuple[LineEnergy, Cells]] = []
+    refusals: list[PictureError] = []
+    for pitch in likely[:_MOST_PITCHES]:
+        energy = line_energy(rgb, pitch, progress.part(0.1, 0.5))
+        try:
+            readings.append((energy, read_cells(rgb, energy, find_lattice(energy))))
+        except PictureError as refusal:
+            refusals.append(refusal)
+            continue
+        if readings[-1][1].usual >= _CLEAR:
+            return readings[-1]
+    if not readings:
+        raise refusals[0]
+    return max(readings, key=lambda reading: reading[1].usual)
 
 
 def _views(
