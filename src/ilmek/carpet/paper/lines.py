@@ -124,9 +124,13 @@ def _filtered(energy: Energy, along: float) -> Energy:
 
 
 def levelled(energy: FloatArray, pitch: float) -> Energy:
-    """The energy over its mean nearby, less 1, at most 2: no shadow hides lines, no sheet's edge outweighs them."""
-    mean = scipy.ndimage.uniform_filter(energy, max(3, round(1.6 * pitch)))
-    return np.asarray(np.minimum(energy / (mean + 1.0) - 1.0, 2.0), dtype=np.float32)
+    """Twice the logarithm of the energy over its geometric mean nearby, at most 2.
+
+    No shadow hides lines; no heavy line, no edge of the sheet outweighs the others.
+    """
+    light = np.log(energy + _THIN)
+    mean = scipy.ndimage.uniform_filter(light, max(3, round(1.6 * pitch)))
+    return np.asarray(np.minimum(2.0 * (light - mean), 2.0), dtype=np.float32)
 
 
 def pitches(rgb: Rgb, spread: Spread = SOMEWHERE) -> tuple[tuple[float, float], ...]:
