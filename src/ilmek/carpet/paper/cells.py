@@ -27,8 +27,8 @@ _MOSTLY = 0.7
 _INNER, _ALONG, _LINE = 0.28, 7, 2.4
 """Half side of the inner part of a cell, at most; the samples along it; its least distance from a line [pixels]."""
 
-_ALL_ALONG, _ALONG_IT, _DIM = 0.8, 0.5, 3
-"""Share of the rows in which the last line of a grid is clear; below this a line is no last one; number of columns whose
+_ALL_ALONG, _ALONG_IT, _DIM = 0.8, 0.7, 3
+"""Share of the rows in which the last line of a grid is clear; below this a line is no last one; columns whose own
 lines may not show."""
 
 _LEAST_CLEARNESS = 0.5
@@ -178,7 +178,7 @@ def _extent(lines: _Lines, seen: BoolArray, lattice: Lattice) -> tuple[slice, sl
 
 
 def _to_the_edge(lines: _Lines, columns: slice, rows: slice, seen: BoolArray) -> slice:
-    """The columns, with those whose own lines do not show but which end at a line that does: cells of the lines' colour.
+    """The columns, with those beside them whose own lines do not show, but which end at a line that does.
 
     The last line of a grid is there all along it. Where the last one that was taken is not, up to _DIM more columns are
     looked at, else one.
