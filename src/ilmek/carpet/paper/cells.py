@@ -18,8 +18,8 @@ from ilmek.records import record
 LEAST_CELLS = 4
 """Least number of rows and of columns of a grid."""
 
-_LEAST_SHARE = 0.3
-"""Least coherence of an outer row or column of cells, of the median one."""
+_LEAST_SHARE, _SURE = 0.2, 0.4
+"""Least coherence of an outer row or column of cells, of the median one; coherence that is enough."""
 
 _MOSTLY = 0.7
 """Quantile of the cells of a row or column that is its coherence: lines may be missing in many."""
@@ -180,21 +180,22 @@ def _extent(lines: _Lines, seen: BoolArray, lattice: Lattice) -> tuple[slice, sl
 def _to_the_edge(lines: _Lines, columns: slice, rows: slice, seen: BoolArray) -> slice:
     """The columns, with those beside them whose own lines do not show, but which end at a line that does.
 
-    The last line of a grid is there all along it. Where the last one that was taken is not, up to _DIM more columns are
-    looked at, else one.
+    The last line of a grid is there all along it. Where that of these columns is not, up to _DIM more columns are looked
+    at, and two less; else one more.
     """
     share = _share_of_lines(lines.down[rows], columns)
     visible = seen[rows].mean(axis=0) > 0.98
 
     def end(last: int, outwards: int) -> int:
-        reach = _DIM if share[last] < _ALONG_IT else 1
-        for line in range(last + outwards, last + (reach + 1) * outwards, outwards):
-            column = line if outwards < 0 else line - 1
-            if not 0 < line < len(share) or not visible[column]:
+        dim = share[last] < _ALONG_IT
+        for step in range(1, _DIM + 1 if dim else 2):
+            line = last + step * outwards
+            if not 0 < line < len(share) or not visible[line if outwards < 0 else line - 1]:
                 break
             if share[line] >= _ALL_ALONG:
                 return line
-        return last
+        inner = [last - outwards, last - 2 * outwards] if dim else []
+        return next((line for line in inner if share[line] >= _ALL_ALONG), last)
 
     return slice(end(columns.start, -1), end(columns.stop, 1))
 
@@ -210,7 +211,7 @@ def _run(coherence: FloatArray, core: slice, seen: BoolArray) -> slice:
     if not seen.any():
         raise no_grid("no whole cell is in the picture")
     usual = float(np.median(coherence[core]))
-    on = (coherence >= _LEAST_SHARE * usual) & seen
+    on = (coherence >= min(_LEAST_SHARE * usual, _SURE)) & seen
     middle = int(core.start + core.stop) // 2
 
     def end(step: int) -> int:

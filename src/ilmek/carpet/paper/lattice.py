@@ -17,7 +17,7 @@ import scipy
 
 from ilmek.arrays import Float, FloatArray
 from ilmek.carpet.paper.lines import LineEnergy, levelled, no_grid
-from ilmek.carpet.paper.tiles import SIDE, STEP, continued, spectra, tiles
+from ilmek.carpet.paper.tiles import SIDE, STEP, Spectra, continued, spectra, tiles
 from ilmek.records import record
 
 _DEGREE, _ROUNDS, _TILES_A_DEGREE = 5, 3, 20
@@ -94,14 +94,20 @@ def find_lattice(energy: LineEnergy) -> Lattice:
     of_v = spectra(energy.all_across.T, energy.across.T, energy.pitch_y)
     row, column = np.indices(of_u.shape)
     centres = (np.stack([column, row], axis=-1) * STEP + 0.5 * SIDE) * energy.factor
-    u, v = continued(tiles(of_u)), continued(tiles(of_v)).T
-    fitted = _fitted(u, v, centres)
+    fitted = _fitted(_numbers(of_u, energy.pitch_x), _numbers(of_v, energy.pitch_y).T, centres)
     waves = _waves(fitted, centres) * energy.factor
     u, v = continued(tiles(of_u, waves[..., 0, :])), continued(tiles(of_v, waves[..., 1, ::-1].swapaxes(0, 1))).T
     fitted = _fitted(u, v, centres)
     for _ in range(_ROUNDS):
         fitted = _corrected(fitted, energy)
     return fitted
+
+
+def _numbers(of: Spectra, pitch: float) -> Float[np.ndarray, "rows columns"]:
+    """The numbers of the lines by waves in a wide range, or near the pitch: those of which more is joined."""
+    everywhere = np.broadcast_to([1 / pitch, 0.0], (*of.shape, 2))
+    both = [continued(tiles(of, expected)) for expected in (None, everywhere)]
+    return max(both, key=lambda number: float(of.energies[np.isfinite(number)].sum()))
 
 
 def _terms(u: FloatArray, v: FloatArray, count: int) -> FloatArray:
