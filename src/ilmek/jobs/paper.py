@@ -34,7 +34,8 @@ def reading_checks(paper: PaperReading) -> tuple[Check, ...]:
         return (sure,)
     cure = f"compare {columns} × {rows} with the sheet; give --size and --quality, or crop the picture to the grid"
     source, cells = "lines that cross the edge of the grid end at it", paper.cells
-    beyond = at_most("squared paper: cells beside the grid with lines", cells.beyond, MOST_BEYOND, "%", source, cure=cure)
+    name = "squared paper: cells beside the grid with lines"
+    beyond = at_most(name, cells.beyond, MOST_BEYOND, "%", source, cure=cure)
     source = "the last line of a grid is there all along it"
     end = at_least("squared paper: last line of the grid", cells.end, LEAST_END, "%", source, cure=cure)
     return sure, beyond, end

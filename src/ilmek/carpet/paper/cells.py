@@ -8,6 +8,7 @@ letters and dots are in the other half.
 """
 
 import numpy as np
+import scipy
 
 from ilmek.arrays import BoolArray, Float, FloatArray, Rgb
 from ilmek.carpet.paper.lattice import SAMPLES, Lattice, rectified, window
@@ -18,7 +19,7 @@ from ilmek.records import record
 LEAST_CELLS = 4
 """Least number of rows and of columns of a grid."""
 
-_LEAST_SHARE, _SURE = 0.2, 0.4
+_LEAST_SHARE, _SURE = 0.3, 0.5
 """Least coherence of an outer row or column of cells, of the median one; coherence that is enough."""
 
 _MOSTLY = 0.7
@@ -27,9 +28,12 @@ _MOSTLY = 0.7
 _INNER, _ALONG, _LINE = 0.28, 7, 2.4
 """Half side of the inner part of a cell, at most; the samples along it; its least distance from a line [pixels]."""
 
-_ALL_ALONG, _ALONG_IT, _DIM = 0.8, 0.7, 3
-"""Share of the rows in which the last line of a grid is clear; below this a line is no last one; columns whose own
-lines may not show."""
+_ALL_ALONG, _ALONG_IT = 0.8, 0.7
+"""Share of the rows in which the last line of a grid is clear, and below which a line is no last one."""
+
+_DIM, _CONTRAST, _WEAK = 3, 2.5, 0.35
+"""Columns whose own lines may hardly show; their least coherence over that beyond; least one of a column, of the
+median, behind a line that could be the last."""
 
 _LEAST_CLEARNESS = 0.5
 """Least difference of the levels of a line that is clear and of the middles of cells."""
@@ -143,7 +147,7 @@ def _lines(lattice: Lattice, energy: LineEnergy) -> _Lines:
 def _clearness(profiles: Float[np.ndarray, "rows columns samples"]) -> Float[np.ndarray, "rows columns+1"]:
     """The levels at the ends of the cells less those in their middles; 0 at the ends of the window."""
     middles = profiles[..., SAMPLES // 2 - 1 : SAMPLES // 2 + 1].mean(axis=-1)
-    ends = np.maximum(profiles[:, 1:, 0], profiles[:, :-1, -1])
+    ends = 0.5 * (profiles[:, 1:, 0] + profiles[:, :-1, -1])
     return np.pad(ends - 0.5 * (middles[:, 1:] + middles[:, :-1]), ((0, 0), (1, 1)))
 
 
@@ -178,32 +182,42 @@ def _extent(lines: _Lines, seen: BoolArray, lattice: Lattice) -> tuple[slice, sl
 
 
 def _to_the_edge(lines: _Lines, columns: slice, rows: slice, seen: BoolArray) -> slice:
-    """The columns, with those beside them whose own lines do not show, but which end at a line that does.
+    """The columns, with those beside them whose own lines hardly show, but which end at a line that does.
 
-    The last line of a grid is there all along it. Where that of these columns is not, up to _DIM more columns are looked
-    at, and two less; else one more.
+    The last line of a grid is there all along it. A margin of paper ends at such a line, too, the edge of the sheet: in
+    more than one column the lines across have to show more than beyond. A column without lines behind one is none.
     """
     share = _share_of_lines(lines.down[rows], columns)
+    coherence = np.quantile(lines.of_columns[rows], _MOSTLY, axis=0)
+    usual = float(np.median(coherence[columns]))
     visible = seen[rows].mean(axis=0) > 0.98
 
+    def beside(last: int, first: int, count: int, outwards: int) -> FloatArray:
+        """The coherence of so many columns outside of the line last, the first ones left out."""
+        step = first if outwards > 0 else -first - count
+        part = slice(max(0, last + step), max(0, last + step + count))
+        return np.asarray(coherence[part][visible[part]])
+
     def end(last: int, outwards: int) -> int:
-        dim = share[last] < _ALONG_IT
-        for step in range(1, _DIM + 1 if dim else 2):
-            line = last + step * outwards
-            if not 0 < line < len(share) or not visible[line if outwards < 0 else line - 1]:
-                break
-            if share[line] >= _ALL_ALONG:
+        for count in range(_DIM, 0, -1):
+            line, between = last + count * outwards, beside(last, 0, count, outwards)
+            if not 0 < line < len(share) or len(between) < count or share[line] < _ALL_ALONG:
+                continue
+            noise = float(np.median(np.append(beside(last, count, 3, outwards), 0.03 * usual)))
+            if count == 1 or between.min() > _CONTRAST * noise:
                 return line
-        inner = [last - outwards, last - 2 * outwards] if dim else []
-        return next((line for line in inner if share[line] >= _ALL_ALONG), last)
+        last_column = last - 1 if outwards > 0 else last
+        weak = share[last] < _ALONG_IT and coherence[last_column] < _WEAK * usual
+        return last - outwards if weak and share[last - outwards] >= _ALL_ALONG else last
 
     return slice(end(columns.start, -1), end(columns.stop, 1))
 
 
 def _share_of_lines(clearness: Float[np.ndarray, "rows lines"], columns: slice) -> Float[np.ndarray, " lines"]:
-    """The share of the rows in which each line down is clear."""
+    """The share of the rows in which each line down is clear, over three rows."""
     usual = float(np.median(clearness[:, columns.start + 1 : columns.stop]))
-    return np.asarray((clearness > max(0.5 * usual, _LEAST_CLEARNESS)).mean(axis=0))
+    mean = scipy.ndimage.uniform_filter1d(clearness, 3, axis=0, mode="nearest")
+    return np.asarray((mean > max(0.5 * usual, _LEAST_CLEARNESS)).mean(axis=0))
 
 
 def _run(coherence: FloatArray, core: slice, seen: BoolArray) -> slice:

@@ -39,8 +39,11 @@ _NEARLY = 0.85
 _LAGS, _THIN = 500, 10.0
 """Number of the lags, in equal ratios; code that is added before the logarithm: thin lines count beside heavy ones."""
 
-_LEAST_VOTES, _HEAVY = 0.1, (3.5, 12.5)
-"""Least score of a pitch, of the likeliest one; ratio of the pitches of heavy lines and of all lines."""
+HEAVY = (3.5, 12.5)
+"""Least and greatest ratio of the pitches of heavy lines and of all lines."""
+
+_LEAST_VOTES = 0.1
+"""Least score of a pitch, of the likeliest one."""
 
 _COARSE = 7.0
 """Pitch in the reduced energy, at least [pixels]."""
@@ -149,7 +152,7 @@ def pitches(rgb: Rgb, spread: Spread = SOMEWHERE) -> tuple[tuple[float, float], 
         rest[np.abs(np.log(lags / lags[mode])) < 2 * _OBLONG] = 0.0
     if modes:
         first, most = modes[0]
-        modes.sort(key=lambda one: not (_HEAVY[0] < first / one[0] < _HEAVY[1] and one[1] >= 2 * _LEAST_VOTES * most))
+        modes.sort(key=lambda one: not (HEAVY[0] < first / one[0] < HEAVY[1] and one[1] >= 2 * _LEAST_VOTES * most))
     pairs = [(_pitch(down, mode, spread), _pitch(across, mode, spread)) for mode, _ in modes]
     return tuple((one, other) for one, other in pairs if one and other)
 

@@ -12,7 +12,16 @@ from ilmek.arrays import BoolArray, Float, Indices, Int64, Rgb, UInt8
 from ilmek.carpet.paper.cells import Cells, read_cells
 from ilmek.carpet.paper.colours import cell_colours
 from ilmek.carpet.paper.lattice import find_lattice
-from ilmek.carpet.paper.lines import NEARLY_EVERYWHERE, SOMEWHERE, LineEnergy, Spread, line_energy, no_grid, pitches
+from ilmek.carpet.paper.lines import (
+    HEAVY,
+    NEARLY_EVERYWHERE,
+    SOMEWHERE,
+    LineEnergy,
+    Spread,
+    line_energy,
+    no_grid,
+    pitches,
+)
 from ilmek.errors import PictureError
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
@@ -22,8 +31,9 @@ _LEAST_CELLS, _LEAST_EVEN, _EVEN, _MOST_DOUBTFUL, _LEAST_LINES, _MOST_COLOURS = 
 """Of such a picture: cells along each side, share of even cells and their range of lightness [codes], share of doubtful
 cells, coherence of the lines, number of colours."""
 
-_CLEAR, _MOST_PITCHES = 2.0, 3
-"""Coherence of the lines from which on no other pitch is tried, and number of those that are."""
+_CLEAR, _CLEARER, _MOST_PITCHES = 1.0, 1.5, 3
+"""Coherence of the lines from which on no heavy lines are looked for; ratio from which on the lines of twice or three
+times a pitch are the lines, and not letters; number of pitches that are tried."""
 
 MOST_SHOWN, VIEW = 500, 60
 """Largest number of doubtful cells that are shown, and side of the view of each [pixels]."""
@@ -111,25 +121,30 @@ def read_sheet(rgb: Rgb, progress: Progress = SILENT, spread: Spread = SOMEWHERE
 
 
 def _clearest(rgb: Rgb, progress: Progress, spread: Spread) -> tuple[LineEnergy, Cells]:
-    """The cells of the first pitch whose lines are clear, or else of that with the clearest ones."""
-    likely = pitches(rgb, spread)
+    """The cells of the pitch whose lines are clearest; heavy lines, clearer still, are at many times the pitch."""
+    likely = pitches(rgb, spread)[:_MOST_PITCHES]
     progress(0.1)
     if not likely:
         raise no_grid("no lines at equal distances")
-    readings: list[tuple[LineEnergy, Cells]] = []
+    clearest: tuple[LineEnergy, Cells] | None = None
     refusals: list[PictureError] = []
-    for pitch in likely[:_MOST_PITCHES]:
+    finest = 0.0
+    for pitch in likely:
+        multiple = pitch[0] / finest if clearest else 1.0
+        doubled = abs(multiple - round(multiple)) < 0.1 * multiple and 2 <= round(multiple) < HEAVY[0]
+        if clearest and clearest[1].usual >= _CLEAR and not doubled:
+            continue
         energy = line_energy(rgb, pitch, progress.part(0.1, 0.5))
         try:
-            readings.append((energy, read_cells(rgb, energy, find_lattice(energy))))
+            cells = read_cells(rgb, energy, find_lattice(energy))
         except PictureError as refusal:
             refusals.append(refusal)
             continue
-        if readings[-1][1].usual >= _CLEAR:
-            return readings[-1]
-    if not readings:
+        if clearest is None or cells.usual > _CLEARER * clearest[1].usual:
+            clearest, finest = (energy, cells), pitch[0]
+    if clearest is None:
         raise refusals[0]
-    return max(readings, key=lambda reading: reading[1].usual)
+    return clearest
 
 
 def _views(
