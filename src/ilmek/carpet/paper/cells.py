@@ -31,12 +31,13 @@ _INNER, _ALONG, _LINE = 0.28, 7, 2.4
 _ALL_ALONG, _ALONG_IT = 0.8, 0.7
 """Share of the rows in which the last line of a grid is clear, and below which a line is no last one."""
 
-_DIM, _CONTRAST, _WEAK = 3, 2.5, 0.35
+_DIM, _CONTRAST, _WEAK = 3, 4.0, 0.35
 """Columns whose own lines may hardly show; their least coherence over that beyond; least one of a column, of the
 median, behind a line that could be the last."""
 
-_LEAST_CLEARNESS = 0.5
-"""Least difference of the levels of a line that is clear and of the middles of cells."""
+_BLANK, _LEAST_CLEARNESS = 0.05, 0.5
+"""Coherence of blank paper, at least, of the median; least difference of the levels of a clear line and of the middles
+of cells."""
 
 _VISIBLE = 0.3
 """Half side of the part of each outer cell that has to be in the picture."""
@@ -203,7 +204,7 @@ def _to_the_edge(lines: _Lines, columns: slice, rows: slice, seen: BoolArray) ->
             line, between = last + count * outwards, beside(last, 0, count, outwards)
             if not 0 < line < len(share) or len(between) < count or share[line] < _ALL_ALONG:
                 continue
-            noise = float(np.median(np.append(beside(last, count, 3, outwards), 0.03 * usual)))
+            noise = float(np.median(np.append(beside(last, count, 3, outwards), _BLANK * usual)))
             if count == 1 or between.min() > _CONTRAST * noise:
                 return line
         last_column = last - 1 if outwards > 0 else last
