@@ -204,8 +204,8 @@ def _to_the_edge(lines: _Lines, columns: slice, rows: slice, seen: BoolArray) ->
             line, between = last + count * outwards, beside(last, 0, count, outwards)
             if not 0 < line < len(share) or len(between) < count or share[line] < _ALL_ALONG:
                 continue
-            noise = float(np.median(np.append(beside(last, count, 3, outwards), _BLANK * usual)))
-            if count == 1 or between.min() > _CONTRAST * noise:
+            noise = np.median(np.append(beside(last, count, 3, outwards), 0.0))
+            if count == 1 or between.min() > _CONTRAST * max(float(noise), _BLANK * usual):
                 return line
         last_column = last - 1 if outwards > 0 else last
         weak = share[last] < _ALONG_IT and coherence[last_column] < _WEAK * usual
