@@ -94,7 +94,7 @@ def read_cells(rgb: Rgb, energy: LineEnergy, lattice: Lattice) -> Cells:
     outwards = np.array([[-0.5, 0.5, 0.5, -0.5], [-0.5, -0.5, 0.5, 0.5]])
     corners = np.stack(lattice.points(*(ends + outwards)), axis=-1)
     beyond = max(_beyond(lines, rows, columns), _beyond(lines.turned, columns, rows))
-    end = min(_end(lines, rows, columns), _end(lines.turned, columns, rows))
+    end = min(_end(lines, rows, columns, seen), _end(lines.turned, columns, rows, seen.T))
     return Cells(colours, spread, x, y, corners, strength / usual, usual, beyond, end)
 
 
@@ -243,10 +243,12 @@ def _run(coherence: FloatArray, core: slice, seen: BoolArray) -> slice:
     return slice(end(-1), end(1) + 1)
 
 
-def _end(lines: _Lines, rows: slice, columns: slice) -> float:
-    """The share of the last line that is clear, on the side of the grid where it is least."""
+def _end(lines: _Lines, rows: slice, columns: slice, seen: BoolArray) -> float:
+    """The share of the last line that is clear, on the side where it is least; 1 where the picture ends at it."""
     share = _share_of_lines(lines.down[rows], columns)
-    return float(min(share[columns.start], share[columns.stop]))
+    sides = ((columns.start, columns.start - 1), (columns.stop, columns.stop))
+    within = [line for line, beyond in sides if 0 <= beyond < seen.shape[1] and seen[rows, beyond].all()]
+    return float(min(share[within], default=1.0))
 
 
 def _beyond(lines: _Lines, rows: slice, columns: slice) -> float:
