@@ -48,7 +48,7 @@ _DOUBTFUL_RATIO, _DOUBTFUL_OFF, _DOUBTFUL_SPREAD, _DOUBTFUL_STRENGTH = 0.4, 3.0,
 the usual distance, where its middle is as uneven as this [codes], or where the lattice is as weak as this."""
 
 _FEW, _RARE = 4, 0.004
-"""A colour of fewer cells than these, or than this share, is doubtful: a smudge, a part of the table, the edge of a shadow."""
+"""A colour of fewer cells than these, or than this share, is doubtful: a smudge, the table, the edge of a shadow."""
 
 _USUAL_OFF = 2.0
 """Least usual distance of the cells to their colour [CIELAB]."""

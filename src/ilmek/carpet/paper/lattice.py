@@ -59,16 +59,21 @@ class Lattice:
 
     def points(self, u: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray]:
         """The points (x, y) of the picture at u, v of any one shape."""
-        at = [(v - self.first[1]) / _BLOCK - 0.5, (u - self.first[0]) / _BLOCK - 0.5]
-        moved = [
-            scipy.ndimage.map_coordinates(self.shift[..., axis], at, order=1, mode="nearest", output=float)
-            for axis in range(2)
-        ]
+        moved = self.moved(u, v)
         s = (u + moved[0] - self.centre[0]) / self.scale
         t = (v + moved[1] - self.centre[1]) / self.scale
         x, y = _projected(self.plane, s, t)
         terms = _terms(s, t, len(self.bend))
         return x + terms @ self.bend[:, 0], y + terms @ self.bend[:, 1]
+
+    def moved(self, u: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """The corrections of u and of v there."""
+        at = [(v - self.first[1]) / _BLOCK - 0.5, (u - self.first[0]) / _BLOCK - 0.5]
+        of_u, of_v = (
+            scipy.ndimage.map_coordinates(self.shift[..., axis], at, order=1, mode="nearest", output=float)
+            for axis in range(2)
+        )
+        return of_u, of_v
 
     def mesh(self, u: Float[np.ndarray, " columns"], v: Float[np.ndarray, " rows"]) -> tuple[FloatArray, FloatArray]:
         """The points (x, y) at all pairs of ascending u and v, (rows, columns), straight between the cells' corners."""
@@ -101,6 +106,20 @@ def find_lattice(energy: LineEnergy) -> Lattice:
     for _ in range(_ROUNDS):
         fitted = _corrected(fitted, energy)
     return fitted
+
+
+def divided(lattice: Lattice, parts: int, energy: LineEnergy) -> Lattice:
+    """The lattice whose cells are so many parts of a cell, along both sides; `energy`: of the finer lines."""
+    low, high = lattice.low * parts, lattice.high * parts
+    finer = replace(lattice, centre=lattice.centre * parts, scale=lattice.scale * parts, low=low, high=high)
+    left, right, upper, lower = window(finer)
+    u = np.arange(left, right, _BLOCK) + 0.5 * _BLOCK
+    v = np.arange(upper, lower, _BLOCK) + 0.5 * _BLOCK
+    shift = parts * np.stack(lattice.moved(*(one / parts for one in np.meshgrid(u, v))), axis=-1)
+    finer = replace(finer, first=np.array([left, upper], dtype=float), shift=shift)
+    for _ in range(_ROUNDS):
+        finer = _corrected(finer, energy)
+    return finer
 
 
 def _numbers(of: Spectra, pitch: float) -> Float[np.ndarray, "rows columns"]:

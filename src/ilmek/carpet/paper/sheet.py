@@ -11,9 +11,8 @@ import numpy as np
 from ilmek.arrays import BoolArray, Float, Indices, Int64, Rgb, UInt8
 from ilmek.carpet.paper.cells import Cells, read_cells
 from ilmek.carpet.paper.colours import cell_colours
-from ilmek.carpet.paper.lattice import find_lattice
+from ilmek.carpet.paper.lattice import divided, find_lattice
 from ilmek.carpet.paper.lines import (
-    HEAVY,
     NEARLY_EVERYWHERE,
     SOMEWHERE,
     LineEnergy,
@@ -22,6 +21,7 @@ from ilmek.carpet.paper.lines import (
     no_grid,
     pitches,
 )
+from ilmek.carpet.paper.parts import parts
 from ilmek.errors import PictureError
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
@@ -31,9 +31,9 @@ _LEAST_CELLS, _LEAST_EVEN, _EVEN, _MOST_DOUBTFUL, _LEAST_LINES, _MOST_COLOURS = 
 """Of such a picture: cells along each side, share of even cells and their range of lightness [codes], share of doubtful
 cells, coherence of the lines, number of colours."""
 
-_CLEAR, _CLEARER, _MOST_PITCHES = 1.0, 1.5, 3
-"""Coherence of the lines from which on no heavy lines are looked for; ratio from which on the lines of twice or three
-times a pitch are the lines, and not letters; number of pitches that are tried."""
+_CLEAR, _CLEARER, _MOST_PITCHES = 1.0, 1.2, 3
+"""Coherence of the lines from which on no heavy lines are looked for; ratio from which on the lines of twice
+a pitch are the lines, and not letters; number of pitches that are tried."""
 
 MOST_SHOWN, VIEW = 500, 60
 """Largest number of doubtful cells that are shown, and side of the view of each [pixels]."""
@@ -131,12 +131,17 @@ def _clearest(rgb: Rgb, progress: Progress, spread: Spread) -> tuple[LineEnergy,
     finest = 0.0
     for pitch in likely:
         multiple = pitch[0] / finest if clearest else 1.0
-        doubled = abs(multiple - round(multiple)) < 0.1 * multiple and 2 <= round(multiple) < HEAVY[0]
-        if clearest and clearest[1].usual >= _CLEAR and not doubled:
+        if clearest and clearest[1].usual >= _CLEAR and abs(multiple - 2) > 0.2:
             continue
         energy = line_energy(rgb, pitch, progress.part(0.1, 0.5))
         try:
-            cells = read_cells(rgb, energy, find_lattice(energy))
+            lattice = find_lattice(energy)
+            number = parts(rgb, lattice, min(pitch))
+            if number > 1:
+                pitch = (pitch[0] / number, pitch[1] / number)
+                energy = line_energy(rgb, pitch, progress.part(0.5, 0.6))
+                lattice = divided(lattice, number, energy)
+            cells = read_cells(rgb, energy, lattice)
         except PictureError as refusal:
             refusals.append(refusal)
             continue
