@@ -10,7 +10,7 @@ from ilmek.units import counted
 
 PAPER_PAGE = "paper.html"
 
-MOST_BEYOND, LEAST_END = 0.25, 0.9
+MOST_BEYOND, LEAST_END = 0.25, 0.95
 """Of the worst side of the grid: largest share of the cells beside it in which lines go on, and least share of its last
 line that is there. Of nearly all sheets read right less, and 100 %."""
 

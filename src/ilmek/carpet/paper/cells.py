@@ -7,11 +7,13 @@ The colour of a cell is the mean of that half of its inner samples whose lightne
 letters and dots are in the other half.
 """
 
+from dataclasses import replace
+
 import numpy as np
 import scipy
 
 from ilmek.arrays import BoolArray, Float, FloatArray, Rgb
-from ilmek.carpet.paper.lattice import SAMPLES, Lattice, rectified, window
+from ilmek.carpet.paper.lattice import SAMPLES, Lattice, divided, rectified, window
 from ilmek.carpet.paper.lines import LineEnergy, levelled, no_grid
 from ilmek.carpet.picture_points import Points
 from ilmek.records import record
@@ -38,6 +40,9 @@ median, behind a line that could be the last."""
 _BLANK, _LEAST_CLEARNESS = 0.05, 0.5
 """Coherence of blank paper, at least, of the median; least difference of the levels of a clear line and of the middles
 of cells."""
+
+_FURTHER, _MOST_WINDOWS = 10, 4
+"""Cells by which the window is made larger where the grid goes on at its edge, and how often."""
 
 _VISIBLE = 0.3
 """Half side of the part of each outer cell that has to be in the picture."""
@@ -67,12 +72,30 @@ class Cells:
     end: float
 
 
+@record
+class _Lines:
+    """The lines in the cells of the window.
+
+    of_columns       how far the lines across are in phase in each cell
+    down             how clear each piece of the lines down is, over the middles beside it
+    of_rows, across  likewise of the lines down, and of each piece of the lines across
+    """
+
+    of_columns: Float[np.ndarray, "rows columns"]
+    of_rows: Float[np.ndarray, "rows columns"]
+    down: Float[np.ndarray, "rows columns+1"]
+    across: Float[np.ndarray, "rows+1 columns"]
+
+    @property
+    def turned(self) -> "_Lines":
+        """Rows as columns."""
+        return _Lines(self.of_rows.T, self.of_columns.T, self.across.T, self.down.T)
+
+
 def read_cells(rgb: Rgb, energy: LineEnergy, lattice: Lattice) -> Cells:
     """The cells of the grid in a picture. Raises PictureError where they are too few."""
+    lattice, lines, seen, rows, columns = _whole_grid(rgb, energy, lattice)
     left, _, upper, _ = window(lattice)
-    lines = _lines(lattice, energy)
-    seen = _visible(lattice, int(rgb.shape[1]), int(rgb.shape[0]))
-    rows, columns = _extent(lines, seen, lattice)
     u = left + np.arange(columns.start, columns.stop) + 0.5
     v = upper + np.arange(rows.start, rows.stop) + 0.5
     strength = lines.of_columns[rows, columns] + lines.of_rows[rows, columns]
@@ -98,6 +121,21 @@ def read_cells(rgb: Rgb, energy: LineEnergy, lattice: Lattice) -> Cells:
     return Cells(colours, spread, x, y, corners, strength / usual, usual, beyond, end)
 
 
+def _whole_grid(rgb: Rgb, energy: LineEnergy, lattice: Lattice) -> tuple[Lattice, _Lines, BoolArray, slice, slice]:
+    """The lattice with a window that holds the whole grid, its lines, visible cells, rows and columns."""
+    for further in range(_MOST_WINDOWS, -1, -1):
+        lines = _lines(lattice, energy)
+        seen = _visible(lattice, int(rgb.shape[1]), int(rgb.shape[0]))
+        rows, columns = _extent(lines, seen, lattice)
+        before = np.array([columns.start == 0, rows.start == 0])
+        after = np.array([columns.stop, rows.stop]) == seen.shape[::-1]
+        if not further or not (before.any() or after.any()):
+            break
+        low, high = lattice.low - _FURTHER * before, lattice.high + _FURTHER * after
+        lattice = divided(replace(lattice, low=low, high=high), 1, energy)
+    return lattice, lines, seen, rows, columns
+
+
 def _steady(samples: Rgb) -> tuple[FloatArray, FloatArray]:
     """Mean and range of lightness of the half of the samples that are nearest together, of each cell."""
     codes = samples.astype(np.float32)
@@ -111,26 +149,6 @@ def _steady(samples: Rgb) -> tuple[FloatArray, FloatArray]:
     chosen = (ranks >= first) & (ranks <= first + half)
     mean = (codes * chosen[..., None]).sum(axis=-2) / chosen.sum(axis=-1)[..., None]
     return mean.astype(float), ranges.min(axis=-1).astype(float)
-
-
-@record
-class _Lines:
-    """The lines in the cells of the window.
-
-    of_columns       how far the lines across are in phase in each cell
-    down             how clear each piece of the lines down is, over the middles beside it
-    of_rows, across  likewise of the lines down, and of each piece of the lines across
-    """
-
-    of_columns: Float[np.ndarray, "rows columns"]
-    of_rows: Float[np.ndarray, "rows columns"]
-    down: Float[np.ndarray, "rows columns+1"]
-    across: Float[np.ndarray, "rows+1 columns"]
-
-    @property
-    def turned(self) -> "_Lines":
-        """Rows as columns."""
-        return _Lines(self.of_rows.T, self.of_columns.T, self.across.T, self.down.T)
 
 
 def _lines(lattice: Lattice, energy: LineEnergy) -> _Lines:

@@ -10,7 +10,7 @@ from ilmek.arrays import BoolArray, Float, Indices, Rgb
 from ilmek.carpet.paper.lattice import Lattice
 from ilmek.carpet.paper.lines import HEAVY, LEAST_PITCH
 
-_SAMPLES, _ACROSS, _MOST = 64, (0.3, 0.5, 0.7), 400_000
+_SAMPLES, _ACROSS, _MOST = 64, (0.3, 0.5, 0.7), 200_000
 """Samples along a cell, places across it, and number of samples, at most."""
 
 _FLOOR = 10.0
@@ -45,12 +45,11 @@ def _profile(rgb: Rgb, lattice: Lattice, turned: bool) -> Float[np.ndarray, " sa
     step = -(-count * _SAMPLES * max(1, int(high[1] - low[1])) * len(_ACROSS) // _MOST)
     along = low[0] + (np.arange(count * _SAMPLES) + 0.5) / _SAMPLES
     across = (np.arange(low[1], max(high[1], low[1] + 1), step)[:, None] + _ACROSS).ravel()
-    u, v = np.meshgrid(along, across)
-    x, y = lattice.points(v, u) if turned else lattice.points(u, v)
+    x, y = (one.T for one in lattice.mesh(across, along)) if turned else lattice.mesh(along, across)
     codes = rgb[
         np.clip(np.floor(y), 0, rgb.shape[0] - 1).astype(np.intp),
         np.clip(np.floor(x), 0, rgb.shape[1] - 1).astype(np.intp),
     ].astype(np.int16)
-    change = np.zeros(u.shape)
+    change = np.zeros(x.shape)
     change[:, 1:-1] = np.abs(codes[:, 2:] - codes[:, :-2]).sum(axis=-1)
     return np.asarray(np.log(change + _FLOOR).reshape(-1, _SAMPLES).mean(axis=0))
