@@ -5,14 +5,14 @@ from typing import Any
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.paper.sheet import PaperReading
 from ilmek.report import Check
-from ilmek.report.check import at_least, at_most
+from ilmek.report.check import at_most
 from ilmek.units import counted
 
 PAPER_PAGE = "paper.html"
 
-MOST_BEYOND, LEAST_END = 0.25, 0.95
-"""Of the worst side of the grid: largest share of the cells beside it in which lines go on, and least share of its last
-line that is there. Of nearly all sheets read right less, and 100 %."""
+MOST_BEYOND, MOST_BEYOND_OPEN, LEAST_END = 0.25, 0.03, 0.95
+"""Largest share of the cells beside a grid in which lines may go on: where its last lines are there, and where less than
+LEAST_END of one is."""
 
 MOST_DOUBTFUL = 0.1
 """Largest share of doubtful cells: a picture with more is no sheet, or one that is better drawn again."""
@@ -33,12 +33,9 @@ def reading_checks(paper: PaperReading) -> tuple[Check, ...]:
     if paper.stated:
         return (sure,)
     cure = f"compare {columns} × {rows} with the sheet; give --size and --quality, or crop the picture to the grid"
-    source, cells = "lines that cross the edge of the grid end at it", paper.cells
-    name = "squared paper: cells beside the grid with lines"
-    beyond = at_most(name, cells.beyond, MOST_BEYOND, "%", source, cure=cure)
-    source = "the last line of a grid is there all along it"
-    end = at_least("squared paper: last line of the grid", cells.end, LEAST_END, "%", source, cure=cure)
-    return sure, beyond, end
+    source, name = "lines that cross the edge of the grid end at it", "squared paper: cells beside the grid with lines"
+    limit = MOST_BEYOND if paper.cells.end >= LEAST_END else MOST_BEYOND_OPEN
+    return sure, at_most(name, paper.cells.beyond, limit, "%", source, cure=cure)
 
 
 def paper_files(chart: Chart) -> tuple[str, ...]:
