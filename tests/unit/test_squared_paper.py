@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 import skimage.data
-from PIL import Image
+from PIL import Image, ImageDraw, ImageFilter
 from sheet_readings import wrong_cells
 from sheets import photographed, printed, random_design, random_palette, random_sheet
 
@@ -89,6 +89,22 @@ def test_a_border_in_nearly_the_colour_of_its_lines_belongs_to_the_grid_or_a_che
     found = read_sheet(photographed(rng, flat, perspective=0.1, bend=0.02, noise=2, blur=0.5, quality=80))
     assert all(check.ok for check in reading_checks(found)) == (border != 140)
     assert border == 140 or same_partition(found.numbers.astype(int), design)
+
+
+def test_rounded_cells_on_a_grid_without_its_last_lines() -> None:
+    """Drawn by Pillow alone: the lines go to the right and the lower edge of the cells, where none is across."""
+    rng = np.random.default_rng(4)
+    design = np.kron(rng.integers(0, 4, (6, 5)), np.ones((5, 5), dtype=int))
+    picture = Image.new("RGB", (25 * 18 + 70, 30 * 18 + 90), "#fdfbf3")
+    draw = ImageDraw.Draw(picture)
+    for (row, column), colour in np.ndenumerate(design):
+        x, y = 30 + 18 * column, 40 + 18 * row
+        fill = ("#fdfbf3", "#b3402e", "#2e4a7d", "#d9a441")[colour]
+        draw.rounded_rectangle((x + 2, y + 2, x + 16, y + 16), 5, fill=fill)
+        draw.line((x, y + 18, x, y, x + 18, y), fill="#999999")
+    found = read_sheet(np.asarray(picture.filter(ImageFilter.GaussianBlur(0.6))))
+    assert same_partition(found.numbers.astype(int), design)
+    assert all(check.ok for check in reading_checks(found))
 
 
 @pytest.mark.parametrize("name", ["astronaut", "brick", "coffee", "grass", "page", "logo", "checkerboard"])

@@ -11,8 +11,8 @@ from ilmek.units import counted
 PAPER_PAGE = "paper.html"
 
 MOST_BEYOND, MOST_BEYOND_OPEN, LEAST_END = 0.25, 0.03, 0.95
-"""Largest share of the cells beside a grid in which lines may go on: where its last lines are there, and where less than
-LEAST_END of one is."""
+"""Largest share of the cells beside a grid in which lines may go on: where its last lines are there, and where there is
+less than LEAST_END of one."""
 
 MOST_DOUBTFUL = 0.1
 """Largest share of doubtful cells: a picture with more is no sheet, or one that is better drawn again."""
