@@ -202,7 +202,7 @@ def _waves(lattice: Lattice, at: Float[np.ndarray, "rows columns 2"]) -> Float[n
     own = lattice.plane[2] @ np.stack([a / depth, b / depth, np.ones_like(a)]).reshape(3, -1)
     depth = np.where(own.reshape(depth.shape) > 0.05, depth, np.nan)
     gradients = [(back[i, :2] * depth[..., None] - one[..., None] * back[2, :2]) for i, one in enumerate((a, b))]
-    return np.stack(gradients, axis=-2) / depth[..., None, None] ** 2 * lattice.scale
+    return np.asarray(np.stack(gradients, axis=-2) / depth[..., None, None] ** 2 * lattice.scale)
 
 
 def window(lattice: Lattice) -> tuple[int, int, int, int]:

@@ -211,4 +211,4 @@ def _first_peaks(scores: Float[np.ndarray, "pieces lags"]) -> Indices:
     inner = scores[:, 1:-1]
     high = inner >= _NEARLY * scores.max(axis=1, keepdims=True)
     peaks = (inner >= scores[:, :-2]) & (inner >= scores[:, 2:]) & high
-    return np.where(peaks.any(axis=1), peaks.argmax(axis=1) + 1, scores.argmax(axis=1))
+    return np.asarray(np.where(peaks.any(axis=1), peaks.argmax(axis=1) + 1, scores.argmax(axis=1)))
