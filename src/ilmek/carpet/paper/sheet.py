@@ -6,6 +6,8 @@ A picture that nobody calls a sheet is one where its lines repeat nearly everywh
 even and of few colours: exports of chart programs are, no photograph, carpet or drawing that was tried.
 """
 
+import math
+
 import numpy as np
 
 from ilmek.arrays import BoolArray, Float, Indices, Int64, Rgb, UInt8
@@ -128,10 +130,10 @@ def _clearest(rgb: Rgb, progress: Progress, spread: Spread) -> tuple[LineEnergy,
         raise no_grid("no lines at equal distances")
     clearest: tuple[LineEnergy, Cells] | None = None
     refusals: list[PictureError] = []
-    finest = 0.0
+    finest = 0.0  # product of both pitches
     for pitch in likely:
-        multiple = pitch[0] / finest if clearest else 1.0
-        if clearest and clearest[1].usual >= _CLEAR and abs(multiple - 2) > 0.2:
+        multiple = math.sqrt(pitch[0] * pitch[1] / finest) if clearest else 1.0
+        if clearest and clearest[1].usual >= _CLEAR and abs(multiple - 2) > 0.3:
             continue
         energy = line_energy(rgb, pitch, progress.part(0.1, 0.5))
         try:
@@ -146,7 +148,7 @@ def _clearest(rgb: Rgb, progress: Progress, spread: Spread) -> tuple[LineEnergy,
             refusals.append(refusal)
             continue
         if clearest is None or cells.usual > _CLEARER * clearest[1].usual:
-            clearest, finest = (energy, cells), pitch[0]
+            clearest, finest = (energy, cells), pitch[0] * pitch[1]
     if clearest is None:
         raise refusals[0]
     return clearest
