@@ -113,6 +113,7 @@ PARTS = (
         "power cuts and kills while carpets are woven",
         _numbered("loom_cuts", ("--carpets", "2", "--runs", "1")),
     ),
+    Part("sheets", "photographed sheets of squared paper", _numbered("sheet_readings", ()), whole=True),
     Part("mutants", "small wrong changes of the sources that a test must notice", _numbered("mutants", ()), whole=True),
 )
 

@@ -3,26 +3,29 @@
 from typing import Any
 
 from ilmek.carpet.chart import Chart
+from ilmek.carpet.paper.sheet import PaperReading
 from ilmek.report import Check
 from ilmek.report.check import at_most
 from ilmek.units import counted
 
 PAPER_PAGE = "paper.html"
 
-MOST_BEYOND = 0.09
-"""Largest share of the cells beside the grid in which lines may go on: of sheets read right up to 26 %, of those with a
-row too few at least 10 %."""
-
+MOST_BEYOND, MOST_BEYOND_OPEN, LEAST_END = 0.25, 0.03, 0.95
+"""Largest share of the cells beside a grid in which lines may go on: where its last lines are there, and where there is
+less than LEAST_END of one."""
 
 MOST_DOUBTFUL = 0.1
 """Largest share of doubtful cells: a picture with more is no sheet, or one that is better drawn again."""
 
 
 def paper_checks(chart: Chart) -> tuple[Check, ...]:
-    """Whether most cells are sure, and whether the grid ends where it was found to end, unless that was stated."""
+    """The checks of the sheet that a chart was read from; none: it was not."""
     paper = chart.reading.paper
-    if paper is None:
-        return ()
+    return () if paper is None else reading_checks(paper)
+
+
+def reading_checks(paper: PaperReading) -> tuple[Check, ...]:
+    """Whether most cells are sure, and whether the grid ends where it was found to end, unless that was stated."""
     rows, columns = paper.grid
     cure = f"is it a sheet of {columns} × {rows} cells? Leave out --paper, or take a clearer picture"
     doubts, source = paper.doubts / paper.numbers.size, "cells whose colour is not clear; assumed by this project"
@@ -30,9 +33,9 @@ def paper_checks(chart: Chart) -> tuple[Check, ...]:
     if paper.stated:
         return (sure,)
     cure = f"compare {columns} × {rows} with the sheet; give --size and --quality, or crop the picture to the grid"
-    source, beyond = "lines that cross the edge of the grid end at it", paper.cells.beyond
-    ends = at_most("squared paper: cells beside the grid with lines", beyond, MOST_BEYOND, "%", source, cure=cure)
-    return sure, ends
+    source, name = "lines that cross the edge of the grid end at it", "squared paper: cells beside the grid with lines"
+    limit = MOST_BEYOND if paper.cells.end >= LEAST_END else MOST_BEYOND_OPEN
+    return sure, at_most(name, paper.cells.beyond, limit, "%", source, cure=cure)
 
 
 def paper_files(chart: Chart) -> tuple[str, ...]:

@@ -7,10 +7,13 @@ The colour of a cell is the mean of that half of its inner samples whose lightne
 letters and dots are in the other half.
 """
 
+from dataclasses import replace
+
 import numpy as np
+import scipy
 
 from ilmek.arrays import BoolArray, Float, FloatArray, Rgb
-from ilmek.carpet.paper.lattice import SAMPLES, Lattice, rectified, window
+from ilmek.carpet.paper.lattice import SAMPLES, Lattice, divided, rectified, window
 from ilmek.carpet.paper.lines import LineEnergy, levelled, no_grid
 from ilmek.carpet.picture_points import Points
 from ilmek.records import record
@@ -18,14 +21,28 @@ from ilmek.records import record
 LEAST_CELLS = 4
 """Least number of rows and of columns of a grid."""
 
-_LEAST_SHARE = 0.3
-"""Least coherence of an outer row or column of cells, of the median one."""
+_LEAST_SHARE, _SURE = 0.3, 0.5
+"""Least coherence of an outer row or column of cells, of the median one; coherence that is enough."""
 
 _MOSTLY = 0.7
 """Quantile of the cells of a row or column that is its coherence: lines may be missing in many."""
 
 _INNER, _ALONG, _LINE = 0.28, 7, 2.4
 """Half side of the inner part of a cell, at most; the samples along it; its least distance from a line [pixels]."""
+
+_ALL_ALONG, _ALONG_IT = 0.8, 0.7
+"""Share of the rows in which the last line of a grid is clear, and below which a line is no last one."""
+
+_DIM, _CONTRAST, _WEAK = 3, 4.0, 0.35
+"""Columns whose own lines may hardly show; their least coherence over that beyond; least one of a column, of the
+median, behind a line that could be the last."""
+
+_BLANK, _LEAST_CLEARNESS = 0.05, 0.5
+"""Coherence of blank paper, at least, of the median; least difference of the levels of a clear line and of the middles
+of cells."""
+
+_FURTHER, _MOST_WINDOWS = 10, 4
+"""Cells by which the window is made larger where the grid goes on at its edge, and how often."""
 
 _VISIBLE = 0.3
 """Half side of the part of each outer cell that has to be in the picture."""
@@ -39,7 +56,8 @@ class Cells:
     spread   range of the lightness of that half [codes]
     x, y     their middles in the picture [pixels]
     corners   of the grid in the picture, clockwise from the upper left
-    beyond    share of the cells next to the grid in which lines go on
+    beyond    share of the cells next to the grid in which lines go on, on the worst side
+    end       share of the last line that is clear, on the worst side
     strength  coherence of the lines about each cell, over `usual`, that of the median cell
     """
 
@@ -51,17 +69,36 @@ class Cells:
     strength: Float[np.ndarray, "rows columns"]
     usual: float
     beyond: float
+    end: float
+
+
+@record
+class _Lines:
+    """The lines in the cells of the window.
+
+    of_columns       how far the lines across are in phase in each cell
+    down             how clear each piece of the lines down is, over the middles beside it
+    of_rows, across  likewise of the lines down, and of each piece of the lines across
+    """
+
+    of_columns: Float[np.ndarray, "rows columns"]
+    of_rows: Float[np.ndarray, "rows columns"]
+    down: Float[np.ndarray, "rows columns+1"]
+    across: Float[np.ndarray, "rows+1 columns"]
+
+    @property
+    def turned(self) -> "_Lines":
+        """Rows as columns."""
+        return _Lines(self.of_rows.T, self.of_columns.T, self.across.T, self.down.T)
 
 
 def read_cells(rgb: Rgb, energy: LineEnergy, lattice: Lattice) -> Cells:
     """The cells of the grid in a picture. Raises PictureError where they are too few."""
+    lattice, lines, seen, rows, columns = _whole_grid(rgb, energy, lattice)
     left, _, upper, _ = window(lattice)
-    of_columns, of_rows = _coherence(lattice, energy)
-    seen = _visible(lattice, int(rgb.shape[1]), int(rgb.shape[0]))
-    rows, columns = _extent(of_columns, of_rows, seen, lattice)
     u = left + np.arange(columns.start, columns.stop) + 0.5
     v = upper + np.arange(rows.start, rows.stop) + 0.5
-    strength = of_columns[rows, columns] + of_rows[rows, columns]
+    strength = lines.of_columns[rows, columns] + lines.of_rows[rows, columns]
     usual = max(float(np.median(strength)), 1e-9)
     pitch = energy.factor * min(energy.pitch_x, energy.pitch_y)
     inner = np.linspace(-1, 1, _ALONG) * min(_INNER, max(0.15, 0.5 - _LINE / pitch))
@@ -79,7 +116,24 @@ def read_cells(rgb: Rgb, energy: LineEnergy, lattice: Lattice) -> Cells:
     ends = np.array([[u[0], u[-1], u[-1], u[0]], [v[0], v[0], v[-1], v[-1]]])
     outwards = np.array([[-0.5, 0.5, 0.5, -0.5], [-0.5, -0.5, 0.5, 0.5]])
     corners = np.stack(lattice.points(*(ends + outwards)), axis=-1)
-    return Cells(colours, spread, x, y, corners, strength / usual, usual, _beyond(of_columns, of_rows, rows, columns))
+    beyond = max(_beyond(lines, rows, columns), _beyond(lines.turned, columns, rows))
+    end = min(_end(lines, rows, columns, seen), _end(lines.turned, columns, rows, seen.T))
+    return Cells(colours, spread, x, y, corners, strength / usual, usual, beyond, end)
+
+
+def _whole_grid(rgb: Rgb, energy: LineEnergy, lattice: Lattice) -> tuple[Lattice, _Lines, BoolArray, slice, slice]:
+    """The lattice with a window that holds the whole grid, its lines, visible cells, rows and columns."""
+    for further in range(_MOST_WINDOWS, -1, -1):
+        lines = _lines(lattice, energy)
+        seen = _visible(lattice, int(rgb.shape[1]), int(rgb.shape[0]))
+        rows, columns = _extent(lines, seen, lattice)
+        before = np.array([columns.start == 0, rows.start == 0])
+        after = np.array([columns.stop, rows.stop]) == seen.shape[::-1]
+        if not further or not (before.any() or after.any()):
+            break
+        low, high = lattice.low - _FURTHER * before, lattice.high + _FURTHER * after
+        lattice = divided(replace(lattice, low=low, high=high), 1, energy)
+    return lattice, lines, seen, rows, columns
 
 
 def _steady(samples: Rgb) -> tuple[FloatArray, FloatArray]:
@@ -97,16 +151,23 @@ def _steady(samples: Rgb) -> tuple[FloatArray, FloatArray]:
     return mean.astype(float), ranges.min(axis=-1).astype(float)
 
 
-def _coherence(lattice: Lattice, energy: LineEnergy) -> tuple[FloatArray, FloatArray]:
-    """How far the lines down are in phase in each cell of the window (as seen along rows), and the lines across."""
+def _lines(lattice: Lattice, energy: LineEnergy) -> _Lines:
     left, right, upper, lower = window(lattice)
     down, across = (levelled(one, SAMPLES) for one in rectified(lattice, energy))
     by_cell = (lower - upper, SAMPLES, right - left, SAMPLES)
     wave = np.cos(2 * np.pi * (np.arange(SAMPLES) + 0.5) / SAMPLES)
     middle = slice(SAMPLES // 4, 3 * SAMPLES // 4)
-    of_rows = down.reshape(by_cell)[:, middle].mean(axis=1) @ wave
-    of_columns = np.einsum("rsc,s->rc", across.reshape(by_cell)[..., middle].mean(axis=-1), wave)
-    return np.asarray(of_columns), np.asarray(of_rows)
+    over_columns = down.reshape(by_cell)[:, middle].mean(axis=1)
+    over_rows = across.reshape(by_cell)[..., middle].mean(axis=-1).swapaxes(1, 2)
+    clear_across = _clearness(over_rows.swapaxes(0, 1)).T
+    return _Lines(over_rows @ wave, over_columns @ wave, _clearness(over_columns), clear_across)
+
+
+def _clearness(profiles: Float[np.ndarray, "rows columns samples"]) -> Float[np.ndarray, "rows columns+1"]:
+    """The levels at the ends of the cells less those in their middles; 0 at the ends of the window."""
+    middles = profiles[..., SAMPLES // 2 - 1 : SAMPLES // 2 + 1].mean(axis=-1)
+    ends = 0.5 * (profiles[:, 1:, 0] + profiles[:, :-1, -1])
+    return np.pad(ends - 0.5 * (middles[:, 1:] + middles[:, :-1]), ((0, 0), (1, 1)))
 
 
 def _visible(lattice: Lattice, width: int, height: int) -> BoolArray:
@@ -121,7 +182,7 @@ def _visible(lattice: Lattice, width: int, height: int) -> BoolArray:
     return inside
 
 
-def _extent(of_columns: FloatArray, of_rows: FloatArray, seen: BoolArray, lattice: Lattice) -> tuple[slice, slice]:
+def _extent(lines: _Lines, seen: BoolArray, lattice: Lattice) -> tuple[slice, slice]:
     """The rows and columns of the window that the grid has."""
     left, _, upper, _ = window(lattice)
     low, high = np.rint(lattice.low).astype(int), np.rint(lattice.high).astype(int)
@@ -130,11 +191,52 @@ def _extent(of_columns: FloatArray, of_rows: FloatArray, seen: BoolArray, lattic
     if rows.stop <= rows.start or columns.stop <= columns.start:
         raise no_grid("its grid has too few cells")
     for _ in range(3):
-        columns = _run(np.quantile(of_columns[rows], _MOSTLY, axis=0), columns, seen[rows].mean(axis=0) > 0.98)
-        rows = _run(np.quantile(of_rows[:, columns], _MOSTLY, axis=1), rows, seen[:, columns].mean(axis=1) > 0.98)
+        columns = _run(np.quantile(lines.of_columns[rows], _MOSTLY, axis=0), columns, seen[rows].mean(axis=0) > 0.98)
+        columns = _to_the_edge(lines, columns, rows, seen)
+        rows = _run(np.quantile(lines.of_rows[:, columns], _MOSTLY, axis=1), rows, seen[:, columns].mean(axis=1) > 0.98)
+        rows = _to_the_edge(lines.turned, rows, columns, seen.T)
     if min(rows.stop - rows.start, columns.stop - columns.start) < LEAST_CELLS:
         raise no_grid("its grid has too few cells")
     return rows, columns
+
+
+def _to_the_edge(lines: _Lines, columns: slice, rows: slice, seen: BoolArray) -> slice:
+    """The columns, with those beside them whose own lines hardly show, but which end at a line that does.
+
+    The last line of a grid is there all along it. A margin of paper ends at such a line, too, the edge of the sheet: in
+    more than one column the lines across have to show more than beyond. A column without lines behind one is none.
+    """
+    share = _share_of_lines(lines.down[rows], columns)
+    coherence = np.quantile(lines.of_columns[rows], _MOSTLY, axis=0)
+    usual = float(np.median(coherence[columns]))
+    visible = seen[rows].mean(axis=0) > 0.98
+
+    def beside(last: int, first: int, count: int, outwards: int) -> FloatArray:
+        """The coherence of so many columns outside of the line last, the first ones left out."""
+        step = first if outwards > 0 else -first - count
+        part = slice(max(0, last + step), max(0, last + step + count))
+        return np.asarray(coherence[part][visible[part]])
+
+    def end(last: int, outwards: int) -> int:
+        for count in range(_DIM, 0, -1):
+            line, between = last + count * outwards, beside(last, 0, count, outwards)
+            if not 0 < line < len(share) or len(between) < count or share[line] < _ALL_ALONG:
+                continue
+            noise = np.median(np.append(beside(last, count, 3, outwards), 0.0))
+            if count == 1 or between.min() > _CONTRAST * max(float(noise), _BLANK * usual):
+                return line
+        last_column = last - 1 if outwards > 0 else last
+        weak = share[last] < _ALONG_IT and coherence[last_column] < _WEAK * usual
+        return last - outwards if weak and share[last - outwards] >= _ALL_ALONG else last
+
+    return slice(end(columns.start, -1), end(columns.stop, 1))
+
+
+def _share_of_lines(clearness: Float[np.ndarray, "rows lines"], columns: slice) -> Float[np.ndarray, " lines"]:
+    """The share of the rows in which each line down is clear, over three rows."""
+    usual = float(np.median(clearness[:, columns.start + 1 : columns.stop]))
+    mean = scipy.ndimage.uniform_filter1d(clearness, 3, axis=0, mode="nearest")
+    return np.asarray((mean > max(0.5 * usual, _LEAST_CLEARNESS)).mean(axis=0))
 
 
 def _run(coherence: FloatArray, core: slice, seen: BoolArray) -> slice:
@@ -142,7 +244,7 @@ def _run(coherence: FloatArray, core: slice, seen: BoolArray) -> slice:
     if not seen.any():
         raise no_grid("no whole cell is in the picture")
     usual = float(np.median(coherence[core]))
-    on = (coherence >= _LEAST_SHARE * usual) & seen
+    on = (coherence >= min(_LEAST_SHARE * usual, _SURE)) & seen
     middle = int(core.start + core.stop) // 2
 
     def end(step: int) -> int:
@@ -159,11 +261,16 @@ def _run(coherence: FloatArray, core: slice, seen: BoolArray) -> slice:
     return slice(end(-1), end(1) + 1)
 
 
-def _beyond(of_columns: FloatArray, of_rows: FloatArray, rows: slice, columns: slice) -> float:
-    """The largest share, of the four sides, of cells just outside in which the lines that cross the side go on."""
-    shares: list[float] = []
-    for coherence, beside, along in ((of_columns.T, columns, rows), (of_rows, rows, columns)):
-        usual = float(np.median(coherence[beside, along]))
-        outside = [one for one in (beside.start - 1, beside.stop) if 0 <= one < len(coherence)]
-        shares += [float(np.mean(coherence[one, along] > 0.5 * usual)) for one in outside]
-    return max(shares, default=0.0)
+def _end(lines: _Lines, rows: slice, columns: slice, seen: BoolArray) -> float:
+    """The share of the last line that is clear, on the side where it is least; 1 where the picture ends at it."""
+    share = _share_of_lines(lines.down[rows], columns)
+    sides = ((columns.start, columns.start - 1), (columns.stop, columns.stop))
+    within = [line for line, beyond in sides if 0 <= beyond < seen.shape[1] and seen[rows, beyond].all()]
+    return float(min(share[within], default=1.0))
+
+
+def _beyond(lines: _Lines, rows: slice, columns: slice) -> float:
+    """The share of cells left or right of the grid in which the lines across go on."""
+    usual = float(np.median(lines.of_columns[rows, columns]))
+    outside = [one for one in (columns.start - 1, columns.stop) if 0 <= one < lines.of_columns.shape[1]]
+    return max((float(np.mean(lines.of_columns[rows, one] > 0.5 * usual)) for one in outside), default=0.0)

@@ -47,6 +47,9 @@ _DOUBTFUL_RATIO, _DOUBTFUL_OFF, _DOUBTFUL_SPREAD, _DOUBTFUL_STRENGTH = 0.4, 3.0,
 """A cell is doubtful where its distance to its colour is above this share of that to the second, above so many times
 the usual distance, where its middle is as uneven as this [codes], or where the lattice is as weak as this."""
 
+_FEW, _RARE = 4, 0.004
+"""A colour of fewer cells than these, or than this share, is doubtful: a smudge, the table, the edge of a shadow."""
+
 _USUAL_OFF = 2.0
 """Least usual distance of the cells to their colour [CIELAB]."""
 
@@ -90,7 +93,8 @@ def cell_colours(
     np.put_along_axis(distance, numbers[..., None], np.inf, axis=-1)
     ratio = own / np.maximum(distance.min(axis=-1), 1e-9)
     usual = max(_USUAL_OFF, float(np.quantile(own, 0.9)))
-    doubtful = (ratio > _DOUBTFUL_RATIO) | (own > _DOUBTFUL_OFF * usual) | (spread > _DOUBTFUL_SPREAD)
+    rare = np.bincount(numbers.ravel(), minlength=len(centres)) < max(_FEW, _RARE * numbers.size)
+    doubtful = (ratio > _DOUBTFUL_RATIO) | (own > _DOUBTFUL_OFF * usual) | (spread > _DOUBTFUL_SPREAD) | rare[numbers]
     evenly = _evenly_lit(colours, light)
     palette = np.stack([np.median(evenly[numbers == one], axis=0) for one in range(len(centres))])
     return CellColours(

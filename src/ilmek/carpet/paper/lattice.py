@@ -1,38 +1,30 @@
 """Lattice: where each line of the grid lies in the picture, on a sheet that is bent and seen at an angle.
 
-1. In tiles of some cells the spectrum of the line energy has a peak at the wave vector of the lines; the phase at the
-   tile's centre says where the nearest line is, as a part of the pitch.
-2. The phases are continued from tile to tile, the clearest first: each tile's centre gets a number of columns u and of
-   rows v that grows by one from line to line.
-3. A polynomial (x, y) = P(u, v) is fitted to the tiles without the outliers.
-4. The energy is read through P, cell by cell, and the phase that is left in blocks of cells, smoothed, corrects P.
+1. Each tile's centre gets a number of columns u and of rows v [`tiles`].
+2. A plane seen in perspective is fitted to the tiles, without the outliers, and to what is left, the bend of the sheet,
+   a polynomial: (x, y) = H(u, v) + P(u, v).
+3. Once more with the waves near those that H has: no heavy line, no letter is taken for a line in a faint part.
+4. The energy is read through H + P, cell by cell, and the phase that is left in blocks of cells, smoothed, corrects it.
    Blocks at the edge of the grid are measured, not extrapolated.
 
-Source of 1 and 2: M. Takeda, H. Ina, S. Kobayashi, Fourier-transform method of fringe-pattern analysis, J. Opt. Soc.
-Am. 72 (1982) 156-160; quality-guided: D. C. Ghiglia, M. D. Pritt, Two-dimensional phase unwrapping (1998), 4.3.
+Source of H: R. Hartley, A. Zisserman, Multiple view geometry (2004), 4.1.
 """
 
-import heapq
 from dataclasses import replace
 
 import numpy as np
 import scipy
 
-from ilmek.arrays import BoolArray, Float, FloatArray
-from ilmek.carpet.paper.lines import Energy, LineEnergy, levelled, no_grid
+from ilmek.arrays import Float, FloatArray
+from ilmek.carpet.paper.lines import LineEnergy, levelled, no_grid
+from ilmek.carpet.paper.tiles import SIDE, STEP, Spectra, continued, spectra, tiles
 from ilmek.records import record
-
-_TILE, _STEP = 64, 32
-"""Side and distance of the tiles [pixels of the reduced energy]."""
-
-_SLOPE = 0.35
-"""Largest tangent of the angle between lines and the picture's sides."""
-
-_LEAST_QUALITY = 1.2
-"""Least logarithm of the highest power of a tile over the mean."""
 
 _DEGREE, _ROUNDS, _TILES_A_DEGREE = 5, 3, 20
 """Greatest degree of P, number of corrections, and least number of tiles for each degree."""
+
+_RIGID = 1e-4
+"""Weight of the coefficients of P, beside that of a tile."""
 
 _BLOCK, SAMPLES = 4, 8
 """Cells of a block, and samples of a cell, along each side."""
@@ -45,26 +37,19 @@ BEYOND = 4
 
 
 @record
-class Tiles:
-    """The lines down, or across, in tiles: wave vectors [cycles/pixel], phases at the centres [cycles], qualities."""
-
-    waves: Float[np.ndarray, "rows columns 2"]
-    phases: Float[np.ndarray, "rows columns"]
-    qualities: Float[np.ndarray, "rows columns"]
-
-
-@record
 class Lattice:
     """The lines of a grid: those of whole u go down, those of whole v across.
 
-    terms       coefficients of P, x and y of the picture [pixels]
-    centre, scale  of (u, v) in the terms of P
+    plane       H, from (u, v) to the picture [pixels]
+    bend        coefficients of P, x and y of the picture [pixels]
+    centre, scale  of (u, v) in H and P
     first       (u, v) of the first block of the corrections, whose blocks have _BLOCK cells
     shift       corrections of (u, v), (blocks down, blocks across, 2)
     low, high   least and greatest (u, v) of the tiles
     """
 
-    terms: Float[np.ndarray, "terms 2"]
+    plane: Float[np.ndarray, "3 3"]
+    bend: Float[np.ndarray, "terms 2"]
     centre: Float[np.ndarray, " 2"]
     scale: float
     first: Float[np.ndarray, " 2"]
@@ -74,15 +59,21 @@ class Lattice:
 
     def points(self, u: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray]:
         """The points (x, y) of the picture at u, v of any one shape."""
+        moved = self.moved(u, v)
+        s = (u + moved[0] - self.centre[0]) / self.scale
+        t = (v + moved[1] - self.centre[1]) / self.scale
+        x, y = _projected(self.plane, s, t)
+        terms = _terms(s, t, len(self.bend))
+        return x + terms @ self.bend[:, 0], y + terms @ self.bend[:, 1]
+
+    def moved(self, u: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """The corrections of u and of v there."""
         at = [(v - self.first[1]) / _BLOCK - 0.5, (u - self.first[0]) / _BLOCK - 0.5]
-        moved = [
+        of_u, of_v = (
             scipy.ndimage.map_coordinates(self.shift[..., axis], at, order=1, mode="nearest", output=float)
             for axis in range(2)
-        ]
-        terms = _terms(
-            (u + moved[0] - self.centre[0]) / self.scale, (v + moved[1] - self.centre[1]) / self.scale, len(self.terms)
         )
-        return terms @ self.terms[:, 0], terms @ self.terms[:, 1]
+        return of_u, of_v
 
     def mesh(self, u: Float[np.ndarray, " columns"], v: Float[np.ndarray, " rows"]) -> tuple[FloatArray, FloatArray]:
         """The points (x, y) at all pairs of ascending u and v, (rows, columns), straight between the cells' corners."""
@@ -104,92 +95,38 @@ def _between(at: Float[np.ndarray, " places"], count: int) -> Float[np.ndarray, 
 
 def find_lattice(energy: LineEnergy) -> Lattice:
     """The lattice of the lines of a sheet. Raises PictureError where it is not found."""
-    down = _tiles(energy.all_down, energy.down, energy.pitch_x)
-    across = _tiles(energy.all_across.T, energy.across.T, energy.pitch_y)
-    across = Tiles(across.waves.transpose(1, 0, 2)[..., ::-1], across.phases.T, across.qualities.T)
-    u, v = _continued(down), _continued(across)
-    seen = np.isfinite(u) & np.isfinite(v)
-    if np.count_nonzero(seen) < 4:
-        raise no_grid("its lines cannot be followed")
-    row, column = np.nonzero(seen)
-    centres = np.stack([column * _STEP + _TILE / 2, row * _STEP + _TILE / 2], axis=-1) * energy.factor
-    fitted = _fitted(u[seen], v[seen], centres)
+    of_u = spectra(energy.all_down, energy.down, energy.pitch_x)
+    of_v = spectra(energy.all_across.T, energy.across.T, energy.pitch_y)
+    row, column = np.indices(of_u.shape)
+    centres = (np.stack([column, row], axis=-1) * STEP + 0.5 * SIDE) * energy.factor
+    fitted = _fitted(_numbers(of_u, energy.pitch_x), _numbers(of_v, energy.pitch_y).T, centres)
+    waves = _waves(fitted, centres) * energy.factor
+    u, v = continued(tiles(of_u, waves[..., 0, :])), continued(tiles(of_v, waves[..., 1, ::-1].swapaxes(0, 1))).T
+    fitted = _fitted(u, v, centres)
     for _ in range(_ROUNDS):
         fitted = _corrected(fitted, energy)
     return fitted
 
 
-def _tiles(everything: Energy, lines: Energy, pitch: float) -> Tiles:
-    """The tiles of the lines down: waves by the spectrum of everything around, phases by the lines alone."""
-    everything, lines = _windows(levelled(everything, pitch)), _windows(levelled(lines, pitch))
-    size = 2 * _TILE
-    ky, kx = np.meshgrid(np.fft.fftfreq(size), np.fft.rfftfreq(size), indexing="ij")
-    length = np.hypot(kx, ky) * pitch
-    allowed = (length > 0.55) & (length < 1.75) & (np.abs(ky) <= _SLOPE * kx)
-    ky, kx = ky[allowed], kx[allowed]
-    power = np.stack(
-        [_power(one, allowed) + _power(other, allowed) for one, other in zip(everything, lines, strict=True)]
-    )
-    power = scipy.ndimage.uniform_filter(power, (3, 3, 1), mode="nearest")
-    peak = power.argmax(axis=-1)
-    near = np.hypot(kx[:, None] - kx, ky[:, None] - ky) < 2.5 / size
-    weights = np.where(near[peak], power - 0.4 * power.max(axis=-1, keepdims=True), 0.0).clip(0)
-    waves = np.stack([weights @ kx, weights @ ky], axis=-1) / weights.sum(axis=-1)[..., None].clip(1e-12)
-    middle = np.arange(_TILE) + 0.5 - _TILE / 2
-    along = np.exp(-2j * np.pi * waves[..., 0, None] * middle)[..., None]
-    down = np.exp(-2j * np.pi * waves[..., 1, None] * middle)
-    sums = lines @ along.real.astype(np.float32) + 1j * (lines @ along.imag.astype(np.float32))
-    turned = (down * sums[..., 0]).sum(axis=-1)
-    share = power.max(axis=-1) / power.mean(axis=-1).clip(1e-12)
-    return Tiles(waves, np.angle(turned) / (2 * np.pi), np.log(share.clip(1e-9)))
+def divided(lattice: Lattice, parts: int, energy: LineEnergy) -> Lattice:
+    """The lattice whose cells are so many parts of a cell, along both sides; `energy`: of the finer lines."""
+    low, high = lattice.low * parts, lattice.high * parts
+    finer = replace(lattice, centre=lattice.centre * parts, scale=lattice.scale * parts, low=low, high=high)
+    left, right, upper, lower = window(finer)
+    u = np.arange(left, right, _BLOCK) + 0.5 * _BLOCK
+    v = np.arange(upper, lower, _BLOCK) + 0.5 * _BLOCK
+    shift = parts * np.stack(lattice.moved(*(one / parts for one in np.meshgrid(u, v))), axis=-1)
+    finer = replace(finer, first=np.array([left, upper], dtype=float), shift=shift)
+    for _ in range(_ROUNDS):
+        finer = _corrected(finer, energy)
+    return finer
 
 
-def _windows(energy: Energy) -> Float[np.ndarray, "rows columns side side"]:
-    """The tiles of an energy, each without its mean, under a Hann window."""
-    energy = np.pad(energy, [(0, max(0, _TILE - side)) for side in energy.shape], mode="edge")
-    views = np.lib.stride_tricks.sliding_window_view(energy, (_TILE, _TILE))[::_STEP, ::_STEP]
-    hann = np.hanning(_TILE + 2)[1:-1].astype(np.float32)
-    window = hann[:, None] * hann
-    mean = (views * window).sum(axis=(2, 3), keepdims=True) / window.sum()
-    return np.asarray((views - mean) * window)
-
-
-def _power(tiles: Float[np.ndarray, "columns side side"], allowed: BoolArray) -> FloatArray:
-    """The square of the spectra of tiles at the allowed waves."""
-    return np.asarray(np.abs(scipy.fft.rfft2(tiles, (2 * _TILE, 2 * _TILE))[:, allowed]) ** 2)
-
-
-def _continued(tiles: Tiles) -> Float[np.ndarray, "rows columns"]:
-    """The number of the line at each tile's centre, from the clearest tile on; NaN: no lines, or not joined."""
-    number = np.full(tiles.phases.shape, np.nan)
-    rows, columns = tiles.qualities.shape
-    quality = np.where(tiles.qualities >= _LEAST_QUALITY, tiles.qualities, 0.0)
-    if not quality.any():
-        return number
-    start = np.unravel_index(int(quality.argmax()), quality.shape)
-    number[start] = tiles.phases[start]
-    waiting: list[tuple[float, int, int, float]] = []
-
-    def spread(row: int, column: int) -> None:
-        for down, right in ((0, 1), (1, 0), (0, -1), (-1, 0)):
-            r, c = row + down, column + right
-            if not (0 <= r < rows and 0 <= c < columns) or quality[r, c] == 0 or np.isfinite(number[r, c]):
-                continue
-            wave = 0.5 * (tiles.waves[row, column] + tiles.waves[r, c])
-            expected = number[row, column] + _STEP * (right * wave[0] + down * wave[1])
-            found = tiles.phases[r, c] + round(expected - tiles.phases[r, c])
-            bend = np.hypot(*(tiles.waves[row, column] - tiles.waves[r, c])) / np.hypot(*wave)
-            cost = abs(found - expected) + bend
-            if abs(found - expected) < 0.3 and bend < 0.25:
-                heapq.heappush(waiting, (cost - quality[r, c], r, c, found))
-
-    spread(int(start[0]), int(start[1]))
-    while waiting:
-        _, row, column, found = heapq.heappop(waiting)
-        if np.isnan(number[row, column]):
-            number[row, column] = found
-            spread(row, column)
-    return number
+def _numbers(of: Spectra, pitch: float) -> Float[np.ndarray, "rows columns"]:
+    """The numbers of the lines by waves in a wide range, or near the pitch: those of which more is joined."""
+    everywhere = np.broadcast_to([1 / pitch, 0.0], (*of.shape, 2))
+    both = [continued(tiles(of, expected)) for expected in (None, everywhere)]
+    return max(both, key=lambda number: float(of.energies[np.isfinite(number)].sum()))
 
 
 def _terms(u: FloatArray, v: FloatArray, count: int) -> FloatArray:
@@ -198,32 +135,80 @@ def _terms(u: FloatArray, v: FloatArray, count: int) -> FloatArray:
     return np.stack([u**i * v**j for i, j in powers[:count]], axis=-1)
 
 
-def _fitted(u: FloatArray, v: FloatArray, points: Float[np.ndarray, "tiles 2"]) -> Lattice:
-    """P by least squares, points weighted down beyond a quarter of a cell."""
+def _fitted(
+    u: Float[np.ndarray, "rows columns"], v: Float[np.ndarray, "rows columns"], at: Float[np.ndarray, "rows columns 2"]
+) -> Lattice:
+    """H and P by least squares, points weighted down beyond a cell, and a quarter of one. NaN: no line is there."""
+    seen = np.isfinite(u) & np.isfinite(v)
+    if np.count_nonzero(seen) < 4:
+        raise no_grid("its lines cannot be followed")
+    u, v, points = u[seen], v[seen], at[seen]
     low, high = np.array([u.min(), v.min()]), np.array([u.max(), v.max()])
     centre, scale = 0.5 * (low + high), float(max(1.0, 0.5 * (high - low).max()))
-    degree = next((degree for degree in range(_DEGREE, 1, -1) if len(u) >= _TILES_A_DEGREE * degree), 1)
-    terms = _terms((u - centre[0]) / scale, (v - centre[1]) / scale, (degree + 1) * (degree + 2) // 2)
     pitch = float(np.ptp(points[:, 0]) + np.ptp(points[:, 1])) / max(1.0, float((high - low).sum()))
+    s, t = (u - centre[0]) / scale, (v - centre[1]) / scale
+    plane = _plane(s, t, points, pitch)
+    bent = points - np.stack(_projected(plane, s, t), axis=-1)
+    degree = next((degree for degree in range(_DEGREE, 1, -1) if len(u) >= _TILES_A_DEGREE * degree), 1)
+    terms = _terms(s, t, (degree + 1) * (degree + 2) // 2)
     weights: FloatArray = np.ones(len(u))
-    ridge = 1e-4 * np.eye(terms.shape[1])
-    ridge[0, 0] = 0
     for _ in range(12):
         weighted = terms * weights[:, None]
-        found = np.linalg.solve(weighted.T @ terms + ridge, weighted.T @ points)
-        off = np.hypot(*(terms @ found - points).T) / pitch
+        bend = np.linalg.solve(weighted.T @ terms + _RIGID * np.eye(terms.shape[1]), weighted.T @ bent)
+        off = np.hypot(*(terms @ bend - bent).T) / pitch
         weights = 1 / (1 + (off / 0.25) ** 2) ** 2
     on = off < 1.0
     if np.count_nonzero(on) < max(4, 0.5 * len(u)):
         raise no_grid("its lines do not form one grid")
     low, high = np.array([u[on].min(), v[on].min()]), np.array([u[on].max(), v[on].max()])
-    return Lattice(found, centre, scale, np.zeros(2), np.zeros((1, 1, 2)), low, high)
+    return Lattice(plane, bend, centre, scale, np.zeros(2), np.zeros((1, 1, 2)), low, high)
+
+
+def _plane(
+    s: FloatArray, t: FloatArray, points: Float[np.ndarray, "tiles 2"], pitch: float
+) -> Float[np.ndarray, "3 3"]:
+    """H: x = (h₀ · p)/(h₂ · p), y = (h₁ · p)/(h₂ · p), p = (s, t, 1), h₂₂ = 1."""
+    middle, size = points.mean(axis=0), float(max(1.0, np.ptp(points, axis=0).max()))
+    x, y = ((points - middle) / size).T
+    ones, none = np.ones_like(s), np.zeros_like(s)
+    equations = np.concatenate(
+        [
+            np.stack([s, t, ones, none, none, none, -x * s, -x * t], axis=-1),
+            np.stack([none, none, none, s, t, ones, -y * s, -y * t], axis=-1),
+        ]
+    )
+    right = np.concatenate([x, y])
+    weights: FloatArray = np.ones(len(s))
+    for _ in range(8):
+        weighted = equations * np.tile(weights, 2)[:, None]
+        values = np.linalg.solve(weighted.T @ equations + 1e-6 * np.eye(8), weighted.T @ right)
+        plane = np.append(values, 1.0).reshape(3, 3)
+        off = np.hypot(*(np.stack(_projected(plane, s, t)) - (x, y))) * size / pitch
+        weights = 1 / (1 + off**2) ** 2
+    return np.asarray(np.array([[size, 0, middle[0]], [0, size, middle[1]], [0, 0, 1]]) @ plane)
+
+
+def _projected(plane: Float[np.ndarray, "3 3"], s: FloatArray, t: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """The points of the picture at s, t of the plane."""
+    x, y, depth = (one[0] * s + one[1] * t + one[2] for one in plane)
+    depth = np.maximum(depth, 0.05)
+    return x / depth, y / depth
+
+
+def _waves(lattice: Lattice, at: Float[np.ndarray, "rows columns 2"]) -> Float[np.ndarray, "rows columns 2 2"]:
+    """The gradients of u and of v at points of the picture, by H [cycles/pixel]; NaN: beyond the horizon."""
+    back = np.linalg.inv(lattice.plane)
+    a, b, depth = np.moveaxis(at @ back[:, :2].T + back[:, 2], -1, 0)
+    own = lattice.plane[2] @ np.stack([a / depth, b / depth, np.ones_like(a)]).reshape(3, -1)
+    depth = np.where(own.reshape(depth.shape) > 0.05, depth, np.nan)
+    gradients = [(back[i, :2] * depth[..., None] - one[..., None] * back[2, :2]) for i, one in enumerate((a, b))]
+    return np.asarray(np.stack(gradients, axis=-2) / depth[..., None, None] ** 2 * lattice.scale)
 
 
 def window(lattice: Lattice) -> tuple[int, int, int, int]:
     """The first and last lines that are looked at: left, right, upper, lower."""
     low, high = np.floor(lattice.low).astype(int), np.ceil(lattice.high).astype(int)
-    reach = _TILE // 10 + BEYOND
+    reach = SIDE // 10 + BEYOND
     return int(low[0]) - reach, int(high[0]) + reach, int(low[1]) - reach, int(high[1]) + reach
 
 

@@ -11,7 +11,7 @@ halfway between.
 import numpy as np
 import scipy
 
-from ilmek.arrays import Float, Float32, FloatArray, Rgb
+from ilmek.arrays import Float, Float32, FloatArray, Indices, Rgb
 from ilmek.errors import PictureError
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
@@ -21,17 +21,14 @@ Energy = Float32[np.ndarray, "height width"]
 LEAST_PITCH, MOST_PITCH = 4.0, 90.0
 """Pitches that are looked for [pixels]."""
 
-_STRIPS, _BROAD, _LONG = 40, 8, 384
+_STRIPS, _BROAD, _LONG = 20, 8, 384
 """Number and width of the strips in which the pitch is looked for, and length of a piece of them [pixels]."""
 
 _LEAST_SCORE = 0.12
 """Least difference of autocorrelation, at the pitch and halfway, of a piece that counts."""
 
 _OBLONG = 0.2
-"""Logarithm of the largest ratio of pitches that are one; twice that of the sides of a cell."""
-
-SOMEWHERE, NEARLY_EVERYWHERE = 0.04, 0.4
-"""Least share of the pieces of a picture in which lines repeat: of a photographed sheet; of the export of a program."""
+"""Logarithm of the largest ratio of pitches that vote for one; twice that of the sides of a cell."""
 
 _FLOOR = 3.0
 """Energy of noise and of the blocks of a JPEG [codes]."""
@@ -39,8 +36,31 @@ _FLOOR = 3.0
 _NEARLY = 0.85
 """Score of a pitch, of the highest one, that counts before that of a multiple."""
 
+_LAGS, _THIN = 500, 10.0
+"""Number of the lags, in equal ratios; code that is added before the logarithm: thin lines count beside heavy ones."""
+
+HEAVY = (3.5, 12.5)
+"""Least and greatest ratio of the pitches of heavy lines and of all lines."""
+
+_LEAST_VOTES = 0.1
+"""Least score of a pitch, of the likeliest one."""
+
 _COARSE = 7.0
 """Pitch in the reduced energy, at least [pixels]."""
+
+
+@record
+class Spread:
+    """How far equal lines extend over a picture: the least share of its pieces that have them, and the logarithm of the
+    ratio of pitches that are one.
+    """
+
+    share: float
+    ratio: float
+
+
+SOMEWHERE, NEARLY_EVERYWHERE = Spread(0.04, 0.4), Spread(0.4, 0.06)
+"""The lines of a photographed sheet; those of the export of a program, or of a scan."""
 
 
 @record
@@ -60,19 +80,12 @@ class LineEnergy:
     pitch_y: float
 
 
-def line_energy(rgb: Rgb, progress: Progress = SILENT, least: float = SOMEWHERE) -> LineEnergy:
-    """The line energy of a picture; `least`: share of it in which lines repeat.
-
-    Raises PictureError where no line repeats.
-    """
-    found = pitches(rgb, least)
-    progress(0.2)
-    if found is None:
-        raise no_grid("no lines at equal distances")
-    pitch_x, pitch_y = found
-    factor = max(1, int(min(pitch_x, pitch_y) / _COARSE))
+def line_energy(rgb: Rgb, pitch: tuple[float, float], progress: Progress = SILENT) -> LineEnergy:
+    """The line energy of a picture whose lines down and across have these pitches [pixels]."""
+    pitch_x, pitch_y = pitch
+    factor = max(1, int(min(pitch) / _COARSE))
     all_down = _reduced(_gradient(rgb), factor)
-    progress(0.6)
+    progress(0.5)
     all_across = _reduced(_gradient(np.swapaxes(rgb, 0, 1)), factor)
     down, across = _filtered(all_down, pitch_y / factor), _filtered(all_across, pitch_x / factor)
     return LineEnergy(all_down, all_across.T, down, across.T, factor, pitch_x / factor, pitch_y / factor)
@@ -114,70 +127,88 @@ def _filtered(energy: Energy, along: float) -> Energy:
 
 
 def levelled(energy: FloatArray, pitch: float) -> Energy:
-    """The energy over its mean nearby, less 1, at most 2: no shadow hides lines, no sheet's edge outweighs them."""
-    mean = scipy.ndimage.uniform_filter(energy, max(3, round(1.6 * pitch)))
-    return np.asarray(np.minimum(energy / (mean + 1.0) - 1.0, 2.0), dtype=np.float32)
+    """Twice the logarithm of the energy over its geometric mean nearby, at most 2.
+
+    No shadow hides lines; no heavy line, no edge of the sheet outweighs the others.
+    """
+    light = np.log(energy + _THIN)
+    mean = scipy.ndimage.uniform_filter(light, max(3, round(1.6 * pitch)))
+    return np.asarray(np.minimum(2.0 * (light - mean), 2.0), dtype=np.float32)
 
 
-def pitches(rgb: Rgb, least: float = SOMEWHERE) -> tuple[float, float] | None:
-    """The pitches of the lines down and across a picture [pixels], of nearly square cells; None: no lines repeat."""
+def pitches(rgb: Rgb, spread: Spread = SOMEWHERE) -> tuple[tuple[float, float], ...]:
+    """Pitches that the lines down and across a picture may have [pixels], of nearly square cells, most likely first.
+
+    Where each fourth to twelfth line is heavy, most pieces repeat at their pitch: the finer pitch is put first.
+    """
     down, across = _lags(rgb), _lags(np.swapaxes(rgb, 0, 1))
-    if min(np.count_nonzero(one[:, 1] > 0) for one in (down, across)) < 3:
-        return None
     lags, scores = np.concatenate([down, across]).T
-    near = np.abs(np.log(lags[:, None] / lags[None])) < _OBLONG
-    mode = lags[int((near * scores).sum(axis=1).argmax())]
-    found = []
-    for one in (down, across):
-        on = (np.abs(np.log(one[:, 0] / mode)) < 2 * _OBLONG) & (one[:, 1] > 0)
-        if np.count_nonzero(on) < max(3, least * len(one)):
-            return None
-        found.append(float(np.median(one[on, 0])))
-    return found[0], found[1]
+    votes = (np.abs(np.log(lags[:, None] / lags)) < _OBLONG) @ scores
+    modes: list[tuple[float, float]] = []
+    rest = np.where(scores > 0, votes, 0.0)
+    while rest.any() and rest.max() >= _LEAST_VOTES * votes.max():
+        mode = int(rest.argmax())
+        modes.append((float(lags[mode]), float(rest[mode])))
+        rest[np.abs(np.log(lags / lags[mode])) < 2 * _OBLONG] = 0.0
+    if modes:
+        first, most = modes[0]
+        modes.sort(key=lambda one: not (HEAVY[0] < first / one[0] < HEAVY[1] and one[1] >= 2 * _LEAST_VOTES * most))
+    pairs = [(_pitch(down, mode, spread), _pitch(across, mode, spread)) for mode, _ in modes]
+    return tuple((one, other) for one, other in pairs if one and other)
+
+
+def _pitch(pieces: Float[np.ndarray, "pieces 2"], mode: float, spread: Spread) -> float | None:
+    """The median of the pitches near the mode; None: too few."""
+    pitches_near = pieces[(np.abs(np.log(pieces[:, 0] / mode)) < 2 * _OBLONG) & (pieces[:, 1] > 0), 0]
+    if not len(pitches_near):
+        return None
+    pitch = float(np.median(pitches_near))
+    equal = np.count_nonzero(np.abs(np.log(pitches_near / pitch)) < spread.ratio)
+    return pitch if equal >= max(3, spread.share * len(pieces)) else None
 
 
 def _lags(rgb: Rgb) -> Float[np.ndarray, "pieces 2"]:
     """The pitches of pieces of lines across the picture, and their scores, 0 for one that does not count."""
     height, width = rgb.shape[:2]
+    long = min(_LONG, width)
+    if long < 6 * LEAST_PITCH:
+        return np.zeros((0, 2))
     starts = np.linspace(0.06 * height, max(0.06 * height, 0.94 * height - _BROAD), _STRIPS).astype(int)
-    found: list[tuple[float, float]] = []
-    for start in starts:
-        strip = _gradient(rgb[start : start + _BROAD]).mean(axis=0)
-        for begin in range(0, max(1, width - _LONG // 2), _LONG // 2):
-            piece = strip[begin : begin + _LONG]
-            if len(piece) < 6 * LEAST_PITCH:
-                continue
-            if piece.mean() < _FLOOR:
-                found.append((LEAST_PITCH, 0.0))
-            else:
-                lag, score = _best_lag(piece)
-                found.append((lag, score if score > _LEAST_SCORE else 0.0))
-    return np.array(found).reshape(-1, 2)
+    begins = np.linspace(0, width - long, -(-2 * (width - long) // _LONG) + 1).astype(int)
+    strips = np.stack([_gradient(rgb[start : start + _BROAD]).mean(axis=0) for start in starts])
+    pieces = np.lib.stride_tricks.sliding_window_view(strips, long, axis=1)[:, begins].reshape(-1, long)
+    lags, scores = _best_lags(np.log(pieces + _THIN))
+    return np.stack([lags, np.where((scores > _LEAST_SCORE) & (pieces.mean(axis=1) >= _FLOOR), scores, 0.0)], axis=-1)
 
 
-def _best_lag(piece: FloatArray) -> tuple[float, float]:
-    """The pitch in a profile, and its score."""
-    piece = np.minimum(piece, np.quantile(piece, 0.97))
-    piece = piece - scipy.ndimage.uniform_filter1d(piece, min(len(piece), 2 * round(MOST_PITCH) // 3))
-    spectrum = np.abs(np.fft.rfft(piece, 2 * len(piece))) ** 2
-    correlation = np.fft.irfft(spectrum)[: len(piece)] / np.arange(len(piece), 0, -1)
-    if correlation[0] <= 0:
-        return LEAST_PITCH, 0.0
-    correlation = correlation / correlation[0]
-    most = min(MOST_PITCH, len(piece) / 4)
-    lags = np.arange(LEAST_PITCH, most, 0.1)
-    where = np.arange(len(correlation))
-    total = np.zeros_like(lags)
-    for times in (1, 2, 3):
-        high = np.interp(times * lags, where, correlation)
-        low = [np.interp((times + half) * lags, where, correlation) for half in (-0.5, 0.5)]
-        total += (high - 0.5 * (low[0] + low[1])) / 3
-    best = _first_peak(total)
-    return float(lags[best]), float(total[best])
+def _best_lags(pieces: Float[np.ndarray, "pieces long"]) -> tuple[FloatArray, FloatArray]:
+    """The pitch in each profile, and its score."""
+    long = pieces.shape[1]
+    pieces = pieces - scipy.ndimage.uniform_filter1d(pieces, min(long, 2 * round(MOST_PITCH) // 3), axis=1)
+    spectra = np.abs(scipy.fft.rfft(pieces, 2 * long, axis=1)) ** 2
+    correlations = scipy.fft.irfft(spectra, axis=1)[:, :long] / np.arange(long, 0, -1)
+    correlations = correlations / np.maximum(correlations[:, :1], 1e-9)
+    lags = np.geomspace(LEAST_PITCH, min(MOST_PITCH, long / 4), _LAGS)
+    scores = correlations @ _combs(lags, long).T
+    best = _first_peaks(scores)
+    return lags[best], np.take_along_axis(scores, best[:, None], axis=1)[:, 0]
 
 
-def _first_peak(scores: FloatArray) -> int:
+def _combs(lags: Float[np.ndarray, " lags"], long: int) -> Float[np.ndarray, "lags long"]:
+    """Of each lag the weights, in a correlation, of its first three multiples less the points halfway."""
+    combs = np.zeros((len(lags), long + 1))
+    for times in range(1, 4):
+        for place, weight in ((times, 1 / 3), (times - 0.5, -1 / 6), (times + 0.5, -1 / 6)):
+            at = np.minimum(place * lags, long - 1)
+            whole = at.astype(int)
+            np.add.at(combs, (np.arange(len(lags)), whole), weight * (1 - at + whole))
+            np.add.at(combs, (np.arange(len(lags)), whole + 1), weight * (at - whole))
+    return combs[:, :long]
+
+
+def _first_peaks(scores: Float[np.ndarray, "pieces lags"]) -> Indices:
     """The first local maximum that is nearly the highest: heavy lines repeat at a multiple of the pitch."""
-    inner = scores[1:-1]
-    peaks = np.flatnonzero((inner >= scores[:-2]) & (inner >= scores[2:]) & (inner >= _NEARLY * scores.max())) + 1
-    return int(peaks[0]) if len(peaks) else int(scores.argmax())
+    inner = scores[:, 1:-1]
+    high = inner >= _NEARLY * scores.max(axis=1, keepdims=True)
+    peaks = (inner >= scores[:, :-2]) & (inner >= scores[:, 2:]) & high
+    return np.asarray(np.where(peaks.any(axis=1), peaks.argmax(axis=1) + 1, scores.argmax(axis=1)))

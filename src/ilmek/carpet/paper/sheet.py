@@ -6,13 +6,24 @@ A picture that nobody calls a sheet is one where its lines repeat nearly everywh
 even and of few colours: exports of chart programs are, no photograph, carpet or drawing that was tried.
 """
 
+import math
+
 import numpy as np
 
 from ilmek.arrays import BoolArray, Float, Indices, Int64, Rgb, UInt8
 from ilmek.carpet.paper.cells import Cells, read_cells
 from ilmek.carpet.paper.colours import cell_colours
-from ilmek.carpet.paper.lattice import find_lattice
-from ilmek.carpet.paper.lines import NEARLY_EVERYWHERE, SOMEWHERE, line_energy
+from ilmek.carpet.paper.lattice import divided, find_lattice
+from ilmek.carpet.paper.lines import (
+    NEARLY_EVERYWHERE,
+    SOMEWHERE,
+    LineEnergy,
+    Spread,
+    line_energy,
+    no_grid,
+    pitches,
+)
+from ilmek.carpet.paper.parts import parts
 from ilmek.errors import PictureError
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
@@ -21,6 +32,10 @@ from ilmek.units import counted
 _LEAST_CELLS, _LEAST_EVEN, _EVEN, _MOST_DOUBTFUL, _LEAST_LINES, _MOST_COLOURS = 16, 0.9, 10.0, 0.03, 3.0, 64
 """Of such a picture: cells along each side, share of even cells and their range of lightness [codes], share of doubtful
 cells, coherence of the lines, number of colours."""
+
+_CLEAR, _CLEARER, _MOST_PITCHES = 1.0, 1.2, 3
+"""Coherence of the lines from which on no heavy lines are looked for; ratio from which on the lines of twice
+a pitch are the lines, and not letters; number of pitches that are tried."""
 
 MOST_SHOWN, VIEW = 500, 60
 """Largest number of doubtful cells that are shown, and side of the view of each [pixels]."""
@@ -91,17 +106,13 @@ def squared_paper(rgb: Rgb, progress: Progress = SILENT) -> PaperReading | None:
     return found if found.certain else None
 
 
-def read_sheet(rgb: Rgb, progress: Progress = SILENT, least: float = SOMEWHERE) -> PaperReading:
-    """The chart on a sheet of squared paper; `least`: share of the picture in which lines repeat.
+def read_sheet(rgb: Rgb, progress: Progress = SILENT, spread: Spread = SOMEWHERE) -> PaperReading:
+    """The chart on a sheet of squared paper whose lines extend so far.
 
     Raises PictureError where no grid is found.
     """
     rgb = np.ascontiguousarray(rgb)
-    energy = line_energy(rgb, progress.part(0.0, 0.4), least)
-    lattice = find_lattice(energy)
-    progress(0.8)
-    cells = read_cells(rgb, energy, lattice)
-    progress(0.9)
+    energy, cells = _clearest(rgb, progress.part(0.0, 0.9), spread)
     found = cell_colours(cells.colours, cells.spread)
     rows, columns = np.nonzero(found.doubtful)
     order = np.argsort(found.confidence[rows, columns], kind="stable")[:MOST_SHOWN]
@@ -109,6 +120,38 @@ def read_sheet(rgb: Rgb, progress: Progress = SILENT, least: float = SOMEWHERE) 
     pitch = energy.factor * 0.5 * (energy.pitch_x + energy.pitch_y)
     views = _views(rgb, cells.x[rows, columns][order], cells.y[rows, columns][order], pitch)
     return PaperReading(found.palette, found.numbers, found.confidence, found.doubtful, cells, shown, views)
+
+
+def _clearest(rgb: Rgb, progress: Progress, spread: Spread) -> tuple[LineEnergy, Cells]:
+    """The cells of the pitch whose lines are clearest; heavy lines, clearer still, are at many times the pitch."""
+    likely = pitches(rgb, spread)[:_MOST_PITCHES]
+    progress(0.1)
+    if not likely:
+        raise no_grid("no lines at equal distances")
+    clearest: tuple[LineEnergy, Cells] | None = None
+    refusals: list[PictureError] = []
+    finest = 0.0  # product of both pitches
+    for pitch in likely:
+        multiple = math.sqrt(pitch[0] * pitch[1] / finest) if clearest else 1.0
+        if clearest and clearest[1].usual >= _CLEAR and abs(multiple - 2) > 0.3:
+            continue
+        energy = line_energy(rgb, pitch, progress.part(0.1, 0.5))
+        try:
+            lattice = find_lattice(energy)
+            number = parts(rgb, lattice, min(pitch))
+            if number > 1:
+                pitch = (pitch[0] / number, pitch[1] / number)
+                energy = line_energy(rgb, pitch, progress.part(0.5, 0.6))
+                lattice = divided(lattice, number, energy)
+            cells = read_cells(rgb, energy, lattice)
+        except PictureError as refusal:
+            refusals.append(refusal)
+            continue
+        if clearest is None or cells.usual > _CLEARER * clearest[1].usual:
+            clearest, finest = (energy, cells), pitch[0] * pitch[1]
+    if clearest is None:
+        raise refusals[0]
+    return clearest
 
 
 def _views(
