@@ -5,7 +5,7 @@
    [CIE 15, 8.2.1, where the cube roots hold].
 2. The colours of the floor are those of the margin, in `_CLUSTERS` clusters.
 3. The difference of a pixel is its distance to the nearest cluster, or to that cluster in shadow, down to the share
-   `_DARKEST` of its L* + 16, in standard deviations of the cluster; 1 is above all but 1 % of the margin.
+   `_DARKEST` of its L* + 16, in standard deviations of the cluster; 1 is above what is usual in the margin.
 """
 
 import numpy as np
@@ -18,7 +18,9 @@ Lab = Float[np.ndarray, "height width 3"]
 _MARGIN = 0.04
 """Width of the margin, of the picture's short side."""
 
-_CLUSTERS = 5
+_CLUSTERS, _LEAST_CLUSTER = 5, 0.04
+"""Largest number of clusters, and least share of the margin of each: the end of a fringe in the margin is none."""
+
 _SAMPLES = 20_000
 """Largest number of pixels of the margin that are used."""
 
@@ -28,7 +30,8 @@ _LEAST_SPREAD = 2.0
 _DARKEST = 0.75
 """L* + 16 of the darkest shadow, of the floor's in the light: four tenths of the light."""
 
-_BLACK = np.array([16.0, 0.0, 0.0], dtype=np.float32)
+BLACK = np.array([16.0, 0.0, 0.0], dtype=np.float32)
+"""What is added to CIELAB so that a factor on the light is a factor on all three."""
 
 
 def evened(lab: Lab) -> Lab:
@@ -47,7 +50,7 @@ def evened(lab: Lab) -> Lab:
     factors[0] = 0.0
     column, row = np.linspace(-1, 1, lab.shape[1]), np.linspace(-1, 1, lab.shape[0])[:, None]
     light = sum(factor * term for factor, term in zip(factors, _terms(column, row), strict=True))
-    even: FloatArray = (lab + _BLACK) * np.exp(-np.asarray(light, dtype=np.float32))[..., None] - _BLACK
+    even: FloatArray = (lab + BLACK) * np.exp(-np.asarray(light, dtype=np.float32))[..., None] - BLACK
     return even
 
 
@@ -64,7 +67,7 @@ def floor_difference(lab: Lab) -> tuple[Float[np.ndarray, "height width"], float
     smooth: FloatArray = scipy.ndimage.uniform_filter(lab, (3, 3, 1))
     colours = smooth[_margin(lab.shape[0], lab.shape[1])]
     clusters = _clusters(colours[:: max(1, len(colours) // _SAMPLES)])
-    unit = 1.2 * float(np.quantile(_distance(colours, clusters), 0.99)) + 1e-3
+    unit = 1.45 * float(np.quantile(_distance(colours, clusters), 0.95)) + 1e-3
     return _distance(smooth, clusters) / unit, float(np.median(colours[:, 0]))
 
 
@@ -85,7 +88,7 @@ def _clusters(colours: Float[np.ndarray, "colours 3"]) -> tuple[tuple[FloatArray
     for _ in range(8):
         nearest = np.argmin([((colours - mean) ** 2).sum(axis=1) for mean in means], axis=0)
         means = [colours[nearest == k].mean(axis=0) if (nearest == k).any() else mean for k, mean in enumerate(means)]
-    large = [k for k in range(_CLUSTERS) if np.count_nonzero(nearest == k) >= 0.01 * len(colours)]
+    large = [k for k in range(_CLUSTERS) if np.count_nonzero(nearest == k) >= _LEAST_CLUSTER * len(colours)]
     return tuple((means[k], np.maximum(colours[nearest == k].std(axis=0), _LEAST_SPREAD)) for k in large)
 
 
@@ -93,7 +96,7 @@ def _distance(lab: FloatArray, clusters: tuple[tuple[FloatArray, FloatArray], ..
     """Distance of colours to the nearest cluster, or to its shadow, in standard deviations."""
     least = np.full(lab.shape[:-1], np.inf, dtype=np.float32)
     for mean, spread in clusters:
-        lit, colour = mean + _BLACK, lab + _BLACK
+        lit, colour = mean + BLACK, lab + BLACK
         dark = np.clip(colour @ lit / (lit @ lit), _DARKEST, 1.0)[..., None]
         np.minimum(least, (((colour - dark * lit) / spread) ** 2).sum(axis=-1), out=least)
     return np.sqrt(least)

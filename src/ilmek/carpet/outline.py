@@ -25,7 +25,7 @@ from ilmek.carpet.floor import evened, floor_difference
 from ilmek.carpet.paper.sheet import squared_paper
 from ilmek.carpet.picture_points import Points
 from ilmek.carpet.projection import MadeRgb
-from ilmek.carpet.straight_edges import Edge, Strip, band_inside, edges_of, fitted_line, sampled, share_of_floor
+from ilmek.carpet.straight_edges import Edge, Strip, band_inside, edges_of, fitted_line, sampled, step_outside
 from ilmek.errors import PictureError
 from ilmek.plane.curves import hull
 from ilmek.progress import SILENT, Progress
@@ -53,6 +53,12 @@ _TOLERANCE = 1.5
 
 _ALIKE = 12.0
 """Largest colour difference within the stripe that runs around a carpet, CIELAB."""
+
+_LEAST_LIGHT, _MOST_CHROMA = 50.0, 30.0
+"""L* and chroma of threads of a fringe, in shadow and with the floor between them."""
+
+_LARGEST_STEP = 1.1
+"""Largest step outside an edge, CIELAB, on three of the sides: a fainter edge has more."""
 
 _TRIED = 4
 """Number of edges of a side that are tried."""
@@ -83,7 +89,9 @@ def find_outline(rgb: Rgb, progress: Progress = SILENT) -> tuple[Points, float]:
     strips = _strips(lab, difference, corners, _NEAR * short, strips)
     middle = Edge(0.5 * len(strips[0].across), 0.0, 0.0)
     corners, shares = _refined(strips, [middle] * 4)
-    clearness = min(*shares)
+    if sorted(map(step_outside, strips))[1] > _LARGEST_STEP:
+        raise _unclear("a fainter edge runs around it")
+    clearness = min(_common_share(region, corners / step), *shares)
     if clearness < LEAST_CLEARNESS or (corners < 0).any() or (corners > (width, height)).any():
         raise _unclear(f"clearness {max(clearness, 0.0):.2f}, at least {LEAST_CLEARNESS:g} is required")
     return corners * (rgb.shape[1] / width, rgb.shape[0] / height), clearness
@@ -104,8 +112,8 @@ def _strips(
 def _edges_around(strips: list[Strip], tilt: float, floor: float) -> list[Edge]:
     """The edge of the carpet of each side.
 
-    The outermost edges, or the next ones inwards of sides with a fringe: what is left out has to be lighter than the
-    floor, whose L* is given, and the bands inside the edges are of one colour then.
+    The outermost edges, or the next ones inwards of sides with a fringe: what is left out may be threads, and the bands
+    inside the edges are of one colour then.
     """
     tried = [edges_of(strip, tilt)[:_TRIED] for strip in strips]
     if not all(tried):
@@ -119,11 +127,16 @@ def _edges_around(strips: list[Strip], tilt: float, floor: float) -> list[Edge]:
         left_out = [band for k, own in zip(choice, bands, strict=True) for band in own[:k]]
         colours = np.array([own[k] for k, own in zip(choice, bands, strict=True)])
         apart = np.linalg.norm(colours - np.median(colours, axis=0), axis=1).max()
-        if apart <= _ALIKE and all(band[0] > floor for band in left_out):
+        if apart <= _ALIKE and all(_of_threads(band, floor) for band in left_out):
             return [edges[k] for k, edges in zip(choice, tried, strict=True)]
-    if any(own[0][0] > floor for own in bands):
+    if any(_of_threads(own[0], floor) for own in bands):
         raise _unclear("what lies along a side may be a fringe")
     return [edges[0] for edges in tried]
+
+
+def _of_threads(band: FloatArray, floor: float) -> bool:
+    """Whether a band may be a fringe on a floor of that L*: undyed threads, and what is seen between them."""
+    return bool(band[0] > min(floor, _LEAST_LIGHT) and np.hypot(band[1], band[2]) < _MOST_CHROMA)
 
 
 def _refined(strips: list[Strip], edges: list[Edge]) -> tuple[Points, list[float]]:

@@ -11,7 +11,7 @@ import numpy as np
 import scipy
 
 from ilmek.arrays import BoolArray, Float, FloatArray
-from ilmek.carpet.floor import Lab
+from ilmek.carpet.floor import BLACK, Lab
 from ilmek.records import record
 
 LEAST_SHARE = 0.55
@@ -43,6 +43,9 @@ _BAND = 6
 """Largest number of samples of the band inside an edge."""
 
 _SLOPES = 41
+
+_CLEAR = 2.5
+"""Distance from an edge at which its own blur has ended [pixels]."""
 
 
 @record
@@ -137,11 +140,16 @@ def band_inside(strip: Strip, edge: Edge, end: float) -> Float[np.ndarray, "3"]:
     return colours
 
 
-def share_of_floor(strip: Strip, edge: Edge, most: float) -> float:
-    """Share of the points outside an edge, 2 to `most` pixels from it, that are the floor's."""
-    place = np.rint(edge.place(strip)[:, None] - np.arange(2.0 / _STEP, most / _STEP)).astype(int)
-    outside = strip.difference[np.arange(_SAMPLES)[:, None], place.clip(0)]
-    return float(np.mean(outside[place >= 0] <= 1)) if (place >= 0).any() else 0.0
+def step_outside(strip: Strip) -> float:
+    """Largest step in the mean colours along a side, from `_CLEAR` pixels outside its middle line outwards, CIELAB.
+
+    A change of light is a factor on L* + 16, a* and b*, and is left out.
+    """
+    colours = strip.lab.mean(axis=0) + BLACK
+    floor = colours[: len(strip.across) // 4].mean(axis=0)
+    unlit = colours - (colours @ floor / (floor @ floor))[:, None] * floor
+    outside = unlit[: len(strip.across) // 2 - round(_CLEAR / _STEP)]
+    return float(np.linalg.norm(outside[_FLANK:] - outside[:-_FLANK], axis=1).max(initial=0.0))
 
 
 def fitted_line(strip: Strip, edge: Edge, tolerance: float) -> tuple[FloatArray, float]:
