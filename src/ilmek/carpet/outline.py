@@ -57,7 +57,13 @@ _ALIKE = 12.0
 _LEAST_LIGHT, _MOST_CHROMA = 50.0, 30.0
 """L* and chroma of threads of a fringe, in shadow and with the floor between them."""
 
-_LARGEST_STEP = 1.1
+_MOST_CUT = 0.03
+"""Largest share of the picture's edge that the carpet may touch, as with the end of a fringe."""
+
+_DARK = 18.0
+"""L* of a floor on which a dark frame is not seen."""
+
+_LARGEST_STEP = 2.8
 """Largest step outside an edge, CIELAB, on three of the sides: a fainter edge has more."""
 
 _TRIED = 4
@@ -77,8 +83,13 @@ def find_outline(rgb: Rgb, progress: Progress = SILENT) -> tuple[Points, float]:
         return inside, 1.0 - sheet.doubts / sheet.numbers.size
     lab: FloatArray = evened(srgb_to_lab(_reduced(rgb, _LONG, progress.part(0.0, 0.8))).astype(np.float32))
     difference, floor = floor_difference(lab)
+    if floor < _DARK:
+        raise _unclear("its floor is so dark that a dark frame of the carpet would not be seen")
     step = max(1, round(max(difference.shape) / _COARSE))
     region = _region(difference, step)
+    border = np.concatenate([region[0], region[-1], region[:, 0], region[:, -1]])
+    if np.count_nonzero(border) > _MOST_CUT * len(border):
+        raise _unclear("the edge of the picture cuts it")
     first = _largest_quadrilateral(_hull(region)) * step
     height, width = difference.shape
     short = min(height, width)
@@ -91,7 +102,7 @@ def find_outline(rgb: Rgb, progress: Progress = SILENT) -> tuple[Points, float]:
     corners, shares = _refined(strips, [middle] * 4)
     if sorted(map(step_outside, strips))[1] > _LARGEST_STEP:
         raise _unclear("a fainter edge runs around it")
-    clearness = min(_common_share(region, corners / step), *shares)
+    clearness = min(_common_share(region, first / step), *shares)
     if clearness < LEAST_CLEARNESS or (corners < 0).any() or (corners > (width, height)).any():
         raise _unclear(f"clearness {max(clearness, 0.0):.2f}, at least {LEAST_CLEARNESS:g} is required")
     return corners * (rgb.shape[1] / width, rgb.shape[0] / height), clearness

@@ -39,7 +39,7 @@ _NEAR = 2
 _AROUND = np.arange(-6, 7)
 """Samples about an edge among which the maximum of the step is sought."""
 
-_BAND = 6
+_BAND = 3
 """Largest number of samples of the band inside an edge."""
 
 _SLOPES = 41
@@ -103,7 +103,7 @@ def sampled(  # noqa: PLR0917
     if grain is None:
         grain = float(np.median(step[:, _FLANK : len(across) // 4]))
     top = step == scipy.ndimage.maximum_filter1d(step, _FLANK + 3, axis=1)
-    inside = scipy.ndimage.maximum_filter1d(unlike, _BAND, axis=1, origin=-(_BAND // 2))
+    inside = scipy.ndimage.maximum_filter1d(unlike, 6, axis=1, origin=-3)
     edge = top & (step > max(_LEAST_STEP, _GRAINS * grain)) & (inside > 1)
     return Strip(start, end, share, across, seen, unlike, step, edge, grain)
 
