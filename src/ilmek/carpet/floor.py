@@ -63,13 +63,13 @@ def _quadratic(x: FloatArray, y: FloatArray) -> FloatArray:
     return np.stack(_terms(x, y), axis=1)
 
 
-def floor_difference(lab: Lab) -> tuple[Float[np.ndarray, "height width"], float]:
-    """Difference of each pixel of an evened picture to the floor, of the mean of 3 × 3 pixels; and the floor's L*."""
+def floor_difference(lab: Lab) -> tuple[Float[np.ndarray, "height width"], Float[np.ndarray, "3"]]:
+    """Difference of each pixel of an evened picture to the floor, of the mean of 3 × 3 pixels; the floor's colour."""
     smooth: FloatArray = scipy.ndimage.uniform_filter(lab, (3, 3, 1))
     colours = smooth[_margin(lab.shape[0], lab.shape[1])]
     clusters = _clusters(colours[:: max(1, len(colours) // _SAMPLES)])
     unit = max(1.0, 2.2 * float(np.quantile(_distance(colours, clusters), 0.75)))
-    return _distance(smooth, clusters) / unit, float(np.median(colours[:, 0]))
+    return _distance(smooth, clusters) / unit, np.median(colours, axis=0)
 
 
 def _margin(height: int, width: int) -> BoolArray:

@@ -30,7 +30,7 @@ from ilmek.errors import PictureError
 from ilmek.plane.curves import hull
 from ilmek.progress import SILENT, Progress
 
-LEAST_CLEARNESS = 0.7
+LEAST_CLEARNESS = 0.75
 """Least clearness of an outline that is used."""
 
 _LONG, _COARSE = 2400, 600
@@ -55,7 +55,7 @@ _ALIKE = 12.0
 """Largest colour difference within the stripe that runs around a carpet, CIELAB."""
 
 _LEAST_LIGHT, _MOST_CHROMA = 50.0, 30.0
-"""L* and chroma of threads of a fringe, in shadow and with the floor between them."""
+"""L* of a fringe in shadow, and chroma of its threads."""
 
 _MOST_CUT = 0.03
 """Largest share of the picture's edge that the carpet may touch, as with the end of a fringe."""
@@ -83,7 +83,7 @@ def find_outline(rgb: Rgb, progress: Progress = SILENT) -> tuple[Points, float]:
         return inside, 1.0 - sheet.doubts / sheet.numbers.size
     lab: FloatArray = evened(srgb_to_lab(_reduced(rgb, _LONG, progress.part(0.0, 0.8))).astype(np.float32))
     difference, floor = floor_difference(lab)
-    if floor < _DARK:
+    if floor[0] < _DARK:
         raise _unclear("its floor is so dark that a dark frame of the carpet would not be seen")
     step = max(1, round(max(difference.shape) / _COARSE))
     region = _region(difference, step)
@@ -120,7 +120,7 @@ def _strips(
     return [sampled(lab, difference, a, b, reach, grain) for a, b, grain in sides]
 
 
-def _edges_around(strips: list[Strip], tilt: float, floor: float) -> list[Edge]:
+def _edges_around(strips: list[Strip], tilt: float, floor: FloatArray) -> list[Edge]:
     """The edge of the carpet of each side.
 
     The outermost edges, or the next ones inwards of sides with a fringe: what is left out may be threads, and the bands
@@ -145,9 +145,10 @@ def _edges_around(strips: list[Strip], tilt: float, floor: float) -> list[Edge]:
     return [edges[0] for edges in tried]
 
 
-def _of_threads(band: FloatArray, floor: float) -> bool:
-    """Whether a band may be a fringe on a floor of that L*: undyed threads, and what is seen between them."""
-    return bool(band[0] > min(floor, _LEAST_LIGHT) and np.hypot(band[1], band[2]) < _MOST_CHROMA)
+def _of_threads(band: FloatArray, floor: FloatArray) -> bool:
+    """Whether a band may be a fringe: undyed threads with that floor between them."""
+    most = max(_MOST_CHROMA, float(np.hypot(floor[1], floor[2])))
+    return bool(band[0] > min(floor[0], _LEAST_LIGHT) and np.hypot(band[1], band[2]) < most)
 
 
 def _refined(strips: list[Strip], edges: list[Edge]) -> tuple[Points, list[float]]:
