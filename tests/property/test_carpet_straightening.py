@@ -116,7 +116,7 @@ def carpet() -> Rgb:
     return rgb
 
 
-@pytest.mark.matrix(light=9)
+@pytest.mark.matrix(light=2)
 @pytest.mark.parametrize("name", QUADS)
 def test_the_outline_on_a_floor_is_found(name: str) -> None:
     """To half a pixel; two knots are four."""

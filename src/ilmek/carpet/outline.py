@@ -21,7 +21,7 @@ import scipy
 from ilmek.arrays import BoolArray, Float, FloatArray, Rgb
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.design import resampled
-from ilmek.carpet.floor import evened, floor_difference
+from ilmek.carpet.floor import BLACK, evened, floor_difference
 from ilmek.carpet.paper.sheet import squared_paper
 from ilmek.carpet.picture_points import Points
 from ilmek.carpet.projection import MadeRgb
@@ -39,8 +39,8 @@ _LONG, _COARSE = 2400, 600
 _LEAST_AREA = 0.05
 """Least area of a carpet in the picture."""
 
-_LEAST_COMMON = 0.75
-"""Least share that a region and its quadrilateral have in common: a fringe is in the region alone."""
+_PLAIN = 2.0
+"""Difference to the floor in the region of the carpet: above that of its grain."""
 
 _REACH, _NEAR = 0.08, 0.015
 """Half length of the lines across a side, of the picture's short side, in the first and the second pass."""
@@ -55,7 +55,10 @@ _ALIKE = 12.0
 """Largest colour difference within the stripe that runs around a carpet, CIELAB."""
 
 _LEAST_LIGHT, _MOST_CHROMA = 50.0, 30.0
-"""L* of a fringe in shadow, and chroma of its threads."""
+"""Least L* of a fringe on a light floor, and most chroma of its threads."""
+
+_SHADOW = 0.8
+"""L* + 16 of a fringe in shadow, of that in the light."""
 
 _MOST_CUT = 0.03
 """Largest share of the picture's edge that the carpet may touch, as with the end of a fringe."""
@@ -148,7 +151,8 @@ def _edges_around(strips: list[Strip], tilt: float, floor: FloatArray) -> list[E
 def _of_threads(band: FloatArray, floor: FloatArray) -> bool:
     """Whether a band may be a fringe: undyed threads with that floor between them."""
     most = max(_MOST_CHROMA, float(np.hypot(floor[1], floor[2])))
-    return bool(band[0] > min(floor[0], _LEAST_LIGHT) and np.hypot(band[1], band[2]) < most)
+    least = _SHADOW * (min(floor[0], _LEAST_LIGHT) + BLACK[0])
+    return bool(band[0] + BLACK[0] > least and np.hypot(band[1], band[2]) < most)
 
 
 def _refined(strips: list[Strip], edges: list[Edge]) -> tuple[Points, list[float]]:
@@ -183,7 +187,7 @@ def _region(difference: FloatArray, step: int) -> BoolArray:
     """The carpet in the picture reduced by `step`: the largest region above the margin's difference."""
     rows, columns = (side // step * step for side in difference.shape)
     blocks = difference[:rows, :columns].reshape(rows // step, step, columns // step, step)
-    mask = scipy.ndimage.binary_fill_holes(blocks.mean(axis=(1, 3)) > 1)
+    mask = scipy.ndimage.binary_fill_holes(blocks.mean(axis=(1, 3)) > _PLAIN)
     radius = max(1, round(0.012 * max(mask.shape)))
     mask = scipy.ndimage.binary_opening(mask, np.ones((2 * radius + 1, 2 * radius + 1), dtype=bool))
     labels, count = scipy.ndimage.label(mask)
