@@ -16,7 +16,9 @@ from PIL import Image, ImageFilter
 from ilmek.arrays import Rgb
 
 MEDALLION = Path(__file__).parents[2] / "examples" / "medallion.png"
-WOODS = {"light": (205, 184, 152), "mid": (158, 118, 82), "dark": (92, 66, 48)}
+WOODS = {"light": (205, 184, 152), "mid": (158, 118, 82), "dark": (92, 66, 48), "black": (46, 38, 33)}
+"""Colours of floors; black is taken where it is asked for."""
+
 PAD = 90
 """Floor around the carpet on its own sheet, for shadow and fringe [pixels of the sheet]."""
 
@@ -71,7 +73,7 @@ def camera_view(rng: np.random.Generator, shape: tuple[int, int], wanted: float)
             inside = (quad > 0.045 * height).all() and (quad < (width - 0.045 * height, 0.955 * height)).all()
             if inside and share <= wanted and view[2] @ (0, -2, 1) > 0.2 and view[2] @ (2, 0, 1) > 0.2:
                 if share > 0.8 * wanted:
-                    return view
+                    return np.asarray(view)
                 break
 
 
@@ -81,7 +83,9 @@ def seen(view: np.ndarray, points: np.ndarray) -> np.ndarray:
     return np.stack([x / z, y / z], axis=1)
 
 
-def wood(rng: np.random.Generator, view: np.ndarray, shape: tuple[int, int], colour: tuple[int, int, int]) -> np.ndarray:
+def wood(
+    rng: np.random.Generator, view: np.ndarray, shape: tuple[int, int], colour: tuple[int, int, int]
+) -> np.ndarray:
     """A floor of planks with soft grain lines, in perspective."""
     height, width = shape
     y, x = np.mgrid[0.5:height, 0.5:width]
@@ -95,7 +99,8 @@ def wood(rng: np.random.Generator, view: np.ndarray, shape: tuple[int, int], col
     grain /= grain.std()
     lines = grain[(across * 400).astype(int) % 2048, ((along + plank * 0.37) * 3).astype(int) % 64]
     values = tones + rng.uniform(1, 4) * lines
-    return np.array(colour) * (1 + values[..., None] / 130)
+    floor: np.ndarray = colour * (1 + values[..., None] / 130)
+    return floor
 
 
 def fringed(rng: np.random.Generator, carpet: Rgb, fringe: str) -> np.ndarray:
@@ -119,10 +124,10 @@ def fringed(rng: np.random.Generator, carpet: Rgb, fringe: str) -> np.ndarray:
 def random_photograph(seed: int, shape: tuple[int, int] = (1200, 1600), **fixed: str) -> Photograph:
     """A photograph; kinds of wood and fringe are random unless they are fixed."""
     rng = np.random.default_rng(seed)
-    kind = fixed.get("wood", str(rng.choice(list(WOODS))))
+    kind = fixed.get("wood", str(rng.choice(["light", "mid", "dark"])))
     fringe = fixed.get("fringe", str(rng.choice(["none", "sparse", "dense"])))
     view = camera_view(rng, shape, rng.uniform(0.25, 0.8))
-    colour = tuple(int(code) for code in np.array(WOODS[kind]) + rng.normal(0, 6, 3))
+    colour = np.trunc(np.array(WOODS[kind]) + rng.normal(0, 6, 3))
     sheet = fringed(rng, medallion(800 * shape[1] // 1600), fringe)
     high, wide = sheet.shape[:2]
     unit = wide - 2 * PAD

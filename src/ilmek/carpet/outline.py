@@ -1,15 +1,15 @@
 """Outline of a carpet in a photograph: its four corners, where it lies on a floor or wall of other colours.
 
-1. What differs from the floor is found in any light [`floor`]. The carpet is the largest region of it, holes filled. Its
-   first corners are those of the largest quadrilateral in its convex hull.
+1. What differs from the floor is found in any light [`floor`]. The carpet is the largest region of it, holes filled.
+   Its first corners are those of the largest quadrilateral in its convex hull.
 2. Each side has straight edges about it [`straight_edges`]. The carpet's is the outermost; but where a stripe of one
    colour runs around the carpet inside the edges, and what lies outside it on some sides is light, that is a fringe,
    and is left out.
 3. Lines are fitted to the points of these edges. The corners are their intersections. Twice, because the lines across
    are then square to the side.
 
-Clearness is the least of: the share of points on their line, of each side, the share of floor outside each side, and
-the share that region and quadrilateral have in common. Below `LEAST_CLEARNESS` the outline is not used.
+Clearness is the least of: the share of points on their line, of each side, and the share that region and quadrilateral
+have in common. Below `LEAST_CLEARNESS` the outline is not used.
 """
 
 import itertools
@@ -118,7 +118,7 @@ def _strips(
     following = np.roll(corners, -1, axis=0)
     if np.hypot(*(following - corners).T).min() < 4:
         raise _unclear("a side has no length")
-    grains = [strip.grain for strip in before] or [None] * 4
+    grains: Sequence[float | None] = [strip.grain for strip in before] or (None,) * 4
     sides = zip(corners, following, grains, strict=True)
     return [sampled(lab, difference, a, b, reach, grain) for a, b, grain in sides]
 

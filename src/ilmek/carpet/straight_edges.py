@@ -52,7 +52,7 @@ _CLEAR = 2.5
 class Strip:
     """The picture across a side: `lab` (along, across, 3), difference to the floor, step and whether it is an edge's.
 
-    start, end  of the side [pixels]     across  distances outwards, falling [pixels]     share  positions along it, 0..1
+    start, end  of the side [pixels]     across  distances outwards, falling [pixels]     share  places along it, 0..1
     grain  step that the floor's grain has
     """
 
