@@ -83,9 +83,7 @@ def seen(view: np.ndarray, points: np.ndarray) -> np.ndarray:
     return np.stack([x / z, y / z], axis=1)
 
 
-def wood(
-    rng: np.random.Generator, view: np.ndarray, shape: tuple[int, int], colour: tuple[int, int, int]
-) -> np.ndarray:
+def wood(rng: np.random.Generator, view: np.ndarray, shape: tuple[int, int], colour: np.ndarray) -> np.ndarray:
     """A floor of planks with soft grain lines, in perspective."""
     height, width = shape
     y, x = np.mgrid[0.5:height, 0.5:width]
