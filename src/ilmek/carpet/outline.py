@@ -1,18 +1,19 @@
 """Outline of a carpet in a photograph: its four corners, where it lies on a floor or wall of other colours.
 
-1. The colours of the floor are those of the picture's margin, in `_FLOORS` clusters. The difference of a pixel is its
-   distance to the nearest cluster in CIELAB, in standard deviations of that cluster.
-2. The carpet is the largest region whose difference is above that of the margin, holes filled, threads of a fringe
-   removed. Its first corners are those of the largest quadrilateral in its convex hull.
-3. Each side is then located to a part of a pixel: on `_SAMPLES` lines across it, from outside, where the difference
-   rises to half of the carpet's. A straight line is fitted to these points by least squares, without the outliers. The
-   corners are the intersections of these lines. Twice, because the lines across are then square to the side.
+1. What differs from the floor is found in any light [`floor`]. The carpet is the largest region of it, holes filled.
+   Its first corners are those of the largest quadrilateral in its convex hull.
+2. Each side has straight edges about it [`straight_edges`]. The carpet's is the outermost; but where a stripe of one
+   colour runs around the carpet inside the edges, and what lies outside it on some sides is light, that is a fringe,
+   and is left out.
+3. Lines are fitted to the points of these edges. The corners are their intersections. Twice, because the lines across
+   are then square to the side.
 
 Clearness is the least of: the share of points on their line, of each side, and the share that region and quadrilateral
 have in common. Below `LEAST_CLEARNESS` the outline is not used.
 """
 
 import itertools
+from collections.abc import Sequence
 
 import numpy as np
 import scipy
@@ -20,51 +21,56 @@ import scipy
 from ilmek.arrays import BoolArray, Float, FloatArray, Rgb
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.design import resampled
+from ilmek.carpet.floor import BLACK, evened, floor_difference
 from ilmek.carpet.paper.sheet import squared_paper
 from ilmek.carpet.picture_points import Points
 from ilmek.carpet.projection import MadeRgb
+from ilmek.carpet.straight_edges import Edge, Strip, band_inside, edges_of, fitted_line, sampled, step_outside
 from ilmek.errors import PictureError
 from ilmek.plane.curves import hull
 from ilmek.progress import SILENT, Progress
-from ilmek.records import record
 
-LEAST_CLEARNESS = 0.7
+LEAST_CLEARNESS = 0.75
 """Least clearness of an outline that is used."""
 
 _LONG, _COARSE = 2400, 600
 """Long side of the pictures in which the sides are located, and in which the region is found [pixels]."""
 
-_FLOORS = 5
-_MARGIN = 0.04
-"""Width of the margin, of the picture's short side."""
-
-_LEAST_SPREAD = 2.0
-"""Least standard deviation of a colour of the floor, CIELAB: an even floor has noise too."""
-
 _LEAST_AREA = 0.05
 """Least area of a carpet in the picture."""
 
-_THREAD = 0.03
-"""Largest width of a thread of the fringe, of the side that it hangs on."""
+_PLAIN = 2.0
+"""Difference to the floor in the region of the carpet: above that of its grain."""
 
-_FAINTEST = 0.15
-"""Difference beside the outline, above that of the margin, that is not the floor's."""
-
-_AROUND = 0.15
-"""Distance from the outline within which no other edge may run along it, of the picture's short side."""
-
-_SAMPLES = 300
-_ENDS = 0.06
-"""Part of a side at each of its ends that is not used: corners are worn and round."""
-
-_REACH = (0.06, 0.015)
+_REACH, _NEAR = 0.08, 0.015
 """Half length of the lines across a side, of the picture's short side, in the first and the second pass."""
 
-_SMOOTHED = 5
-"""Samples across a side that are averaged."""
+_TILT = 0.04
+"""Largest difference of the offsets of an edge at the ends of its side, of the picture's short side."""
 
-_STEP = 0.5
-"""Distance of the samples on a line across [pixels]."""
+_TOLERANCE = 1.5
+"""Largest distance of a point from its line [pixels]."""
+
+_ALIKE = 12.0
+"""Largest colour difference within the stripe that runs around a carpet, CIELAB."""
+
+_LEAST_LIGHT, _MOST_CHROMA = 50.0, 30.0
+"""Least L* of a fringe on a light floor, and most chroma of its threads."""
+
+_SHADOW = 0.8
+"""L* + 16 of a fringe in shadow, of that in the light."""
+
+_MOST_CUT = 0.03
+"""Largest share of the picture's edge that the carpet may touch, as with the end of a fringe."""
+
+_DARK = 18.0
+"""L* of a floor on which a dark frame is not seen."""
+
+_LARGEST_STEP = 2.8
+"""Largest step outside an edge, CIELAB, on three of the sides: a fainter edge has more."""
+
+_TRIED = 4
+"""Number of edges of a side that are tried."""
 
 
 def find_outline(rgb: Rgb, progress: Progress = SILENT) -> tuple[Points, float]:
@@ -78,23 +84,88 @@ def find_outline(rgb: Rgb, progress: Progress = SILENT) -> tuple[Points, float]:
     if sheet is not None:
         inside = np.clip(sheet.cells.corners, 0.0, [rgb.shape[1], rgb.shape[0]])
         return inside, 1.0 - sheet.doubts / sheet.numbers.size
-    lab: FloatArray = srgb_to_lab(_reduced(rgb, _LONG, progress.part(0.0, 0.8))).astype(np.float32)
-    margin = _margin(lab.shape[0], lab.shape[1])
-    floor, difference = _difference(lab, margin)
+    lab: FloatArray = evened(srgb_to_lab(_reduced(rgb, _LONG, progress.part(0.0, 0.8))).astype(np.float32))
+    difference, floor = floor_difference(lab)
+    if floor[0] < _DARK:
+        raise _unclear("its floor is so dark that a dark frame of the carpet would not be seen")
     step = max(1, round(max(difference.shape) / _COARSE))
     region = _region(difference, step)
-    corners = _largest_quadrilateral(_hull(region)) * step
-    alike = _common_share(region, corners / step)
-    shares: tuple[float, ...] = ()
-    for reach in _REACH:
-        corners, shares = _refined(lab, floor, corners, reach * min(difference.shape))
-        progress(0.9)
-    clearness = min(alike, *shares)
+    border = np.concatenate([region[0], region[-1], region[:, 0], region[:, -1]])
+    if np.count_nonzero(border) > _MOST_CUT * len(border):
+        raise _unclear("the edge of the picture cuts it")
+    first = _largest_quadrilateral(_hull(region)) * step
     height, width = difference.shape
+    short = min(height, width)
+    strips = _strips(lab, difference, first, _REACH * short)
+    edges = _edges_around(strips, _TILT * short, floor)
+    corners, _ = _refined(strips, edges)
+    progress(0.9)
+    strips = _strips(lab, difference, corners, _NEAR * short, strips)
+    middle = Edge(0.5 * len(strips[0].across), 0.0, 0.0)
+    corners, shares = _refined(strips, [middle] * 4)
+    if sorted(map(step_outside, strips))[1] > _LARGEST_STEP:
+        raise _unclear("a fainter edge runs around it")
+    clearness = min(_common_share(region, first / step), *shares)
     if clearness < LEAST_CLEARNESS or (corners < 0).any() or (corners > (width, height)).any():
         raise _unclear(f"clearness {max(clearness, 0.0):.2f}, at least {LEAST_CLEARNESS:g} is required")
-    _check_surroundings(lab, floor, difference, margin, corners)
     return corners * (rgb.shape[1] / width, rgb.shape[0] / height), clearness
+
+
+def _strips(
+    lab: FloatArray, difference: FloatArray, corners: Points, reach: float, before: Sequence[Strip] = ()
+) -> list[Strip]:
+    """Strips of the picture across the four sides; their grain is that of those before."""
+    following = np.roll(corners, -1, axis=0)
+    if np.hypot(*(following - corners).T).min() < 4:
+        raise _unclear("a side has no length")
+    grains: Sequence[float | None] = [strip.grain for strip in before] or (None,) * 4
+    sides = zip(corners, following, grains, strict=True)
+    return [sampled(lab, difference, a, b, reach, grain) for a, b, grain in sides]
+
+
+def _edges_around(strips: list[Strip], tilt: float, floor: FloatArray) -> list[Edge]:
+    """The edge of the carpet of each side.
+
+    The outermost edges, or the next ones inwards of sides with a fringe: what is left out may be threads, and the bands
+    inside the edges are of one colour then.
+    """
+    tried = [edges_of(strip, tilt)[:_TRIED] for strip in strips]
+    if not all(tried):
+        raise _unclear("a side has no straight edge")
+    bands = []
+    for strip, edges in zip(strips, tried, strict=True):
+        ends = [edge.middle for edge in edges[1:]] + [np.inf]
+        bands.append([band_inside(strip, edge, end) for edge, end in zip(edges, ends, strict=True)])
+    choices = sorted(itertools.product(*[range(len(edges)) for edges in tried]), key=sum)
+    for choice in choices:
+        left_out = [band for k, own in zip(choice, bands, strict=True) for band in own[:k]]
+        colours = np.array([own[k] for k, own in zip(choice, bands, strict=True)])
+        apart = np.linalg.norm(colours - np.median(colours, axis=0), axis=1).max()
+        if apart <= _ALIKE and all(_of_threads(band, floor) for band in left_out):
+            return [edges[k] for k, edges in zip(choice, tried, strict=True)]
+    if any(_of_threads(own[0], floor) for own in bands):
+        raise _unclear("what lies along a side may be a fringe")
+    return [edges[0] for edges in tried]
+
+
+def _of_threads(band: FloatArray, floor: FloatArray) -> bool:
+    """Whether a band may be a fringe: undyed threads with that floor between them."""
+    most = max(_MOST_CHROMA, float(np.hypot(floor[1], floor[2])))
+    least = _SHADOW * (min(floor[0], _LEAST_LIGHT) + BLACK[0])
+    return bool(band[0] + BLACK[0] > least and np.hypot(band[1], band[2]) < most)
+
+
+def _refined(strips: list[Strip], edges: list[Edge]) -> tuple[Points, list[float]]:
+    """Corners as intersections of lines fitted to the edges, and for each side the share of points on its line."""
+    fitted = [fitted_line(strip, edge, _TOLERANCE) for strip, edge in zip(strips, edges, strict=True)]
+    lines = [line.tolist() for line, _ in fitted]
+    crossings = []
+    for (a, b, c), (d, e, f) in zip([lines[-1], *lines[:-1]], lines, strict=True):
+        determinant = a * e - b * d
+        if abs(determinant) < 1e-6:
+            raise _unclear("two sides that meet are parallel")
+        crossings.append(((c * e - b * f) / determinant, (a * f - c * d) / determinant))
+    return np.array(crossings), [share for _, share in fitted]
 
 
 def _unclear(reason: str) -> PictureError:
@@ -112,57 +183,11 @@ def _reduced(rgb: Rgb, long: int, progress: Progress) -> MadeRgb:
     return resampled(rgb, max(1, round(rgb.shape[0] / factor)), max(1, round(rgb.shape[1] / factor)), progress)
 
 
-@record
-class _Floor:
-    """Colours of the floor: means and standard deviations of the clusters; `unit` of the differences to them."""
-
-    clusters: tuple[tuple[FloatArray, FloatArray], ...]
-    unit: float
-
-    def difference(self, lab: FloatArray) -> FloatArray:
-        """Difference of colours to the nearest cluster; 1 is above all but 1 % of the margin."""
-        least = np.full(lab.shape[:-1], np.inf, dtype=np.float32)
-        for mean, spread in self.clusters:
-            np.minimum(least, (((lab - mean) / spread) ** 2).sum(axis=-1), out=least)
-        return np.asarray(np.sqrt(least) / self.unit)
-
-
-def _margin(height: int, width: int) -> BoolArray:
-    """The margin of a picture."""
-    broad = max(2, round(_MARGIN * min(height, width)))
-    margin = np.ones((height, width), dtype=bool)
-    margin[broad:-broad, broad:-broad] = False
-    return margin
-
-
-def _difference(lab: FloatArray, margin: BoolArray) -> tuple[_Floor, Float[np.ndarray, "height width"]]:
-    """The floor, and the difference of each pixel to it, of the mean of 3 × 3 pixels."""
-    smooth: FloatArray = scipy.ndimage.uniform_filter(lab, (3, 3, 1))
-    colours = smooth[margin]
-    clusters = _floors(colours[:: max(1, len(colours) // 20_000)])
-    usual = _Floor(clusters, 1.0).difference(colours)
-    floor = _Floor(clusters, 1.2 * float(np.quantile(usual, 0.99)) + 1e-3)
-    return floor, floor.difference(smooth)
-
-
-def _floors(colours: Float[np.ndarray, "colours 3"]) -> tuple[tuple[FloatArray, FloatArray], ...]:
-    """Means and standard deviations of the clusters of colours: k-means from the farthest colours."""
-    means = [np.median(colours, axis=0)]
-    for _ in range(_FLOORS - 1):
-        distance = np.min([((colours - mean) ** 2).sum(axis=1) for mean in means], axis=0)
-        means.append(colours[distance.argmax()])
-    for _ in range(8):
-        nearest = np.argmin([((colours - mean) ** 2).sum(axis=1) for mean in means], axis=0)
-        means = [colours[nearest == k].mean(axis=0) if (nearest == k).any() else mean for k, mean in enumerate(means)]
-    large = [k for k in range(_FLOORS) if np.count_nonzero(nearest == k) >= 0.01 * len(colours)]
-    return tuple((means[k], np.maximum(colours[nearest == k].std(axis=0), _LEAST_SPREAD)) for k in large)
-
-
 def _region(difference: FloatArray, step: int) -> BoolArray:
     """The carpet in the picture reduced by `step`: the largest region above the margin's difference."""
     rows, columns = (side // step * step for side in difference.shape)
     blocks = difference[:rows, :columns].reshape(rows // step, step, columns // step, step)
-    mask = scipy.ndimage.binary_fill_holes(blocks.mean(axis=(1, 3)) > 1)
+    mask = scipy.ndimage.binary_fill_holes(blocks.mean(axis=(1, 3)) > _PLAIN)
     radius = max(1, round(0.012 * max(mask.shape)))
     mask = scipy.ndimage.binary_opening(mask, np.ones((2 * radius + 1, 2 * radius + 1), dtype=bool))
     labels, count = scipy.ndimage.label(mask)
@@ -208,118 +233,3 @@ def _common_share(region: BoolArray, corners: Points) -> float:
     for (ax, ay), (bx, by) in zip(corners.tolist(), np.roll(corners, -1, axis=0).tolist(), strict=True):
         inside &= (bx - ax) * (y - ay) - (by - ay) * (x - ax) >= 0
     return int(np.count_nonzero(inside & region)) / max(1, int(np.count_nonzero(inside | region)))
-
-
-def _check_surroundings(
-    lab: FloatArray, floor: _Floor, difference: FloatArray, margin: BoolArray, corners: Points
-) -> None:
-    """Raise PictureError where the outline is that of a part of the carpet: what is beside it is not the floor."""
-    usual, fainter = float(np.median(difference[margin])), 0
-    across = np.arange(_AROUND * min(difference.shape), 3.0, -1.0)
-    for start, end in zip(corners, np.roll(corners, -1, axis=0), strict=True):
-        strip = _strip(lab, floor, start, end, across)
-        fainter += float(np.median(strip[:, across < 9])) > usual + _FAINTEST
-        if (np.median(_without_threads(strip), axis=0) > 1).any():
-            raise _unclear("another edge runs beside it")
-    if fainter >= 3:
-        raise _unclear("a fainter edge runs around it")
-
-
-def _strip(lab: FloatArray, floor: _Floor, start: FloatArray, end: FloatArray, across: FloatArray) -> FloatArray:
-    """The difference at distances `across` outwards of points along a side, (samples, distances).
-
-    Grain is smoothed across the side alone, so that threads of a fringe, which lie across it, are not mixed with the
-    floor between them.
-    """
-    along = (end - start) / np.hypot(*(end - start))
-    share = np.linspace(_ENDS, 1 - _ENDS, _SAMPLES)[:, None, None]
-    points = start + share * (end - start) + across[:, None] * np.array([along[1], -along[0]]) - 0.5
-    pixels = points[..., 1], points[..., 0]
-    seen = [scipy.ndimage.map_coordinates(lab[..., axis], pixels, order=1, mode="nearest") for axis in range(3)]
-    smoothed = scipy.ndimage.uniform_filter1d(np.stack(seen, axis=-1), _SMOOTHED, axis=1, mode="nearest")
-    return floor.difference(smoothed)
-
-
-def _without_threads(strip: FloatArray) -> FloatArray:
-    """A strip without what is narrower than _THREAD along the side."""
-    opened: FloatArray = scipy.ndimage.grey_opening(strip, size=(max(3, round(_THREAD * _SAMPLES)), 1))
-    return opened
-
-
-def _refined(lab: FloatArray, floor: _Floor, corners: Points, reach: float) -> tuple[Points, tuple[float, ...]]:
-    """Corners as intersections of lines fitted to the sides, and for each side the share of points on its line."""
-    sides = [_side(lab, floor, a, b, reach) for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True)]
-    lines = [line for line, _ in sides]
-    crossings = []
-    for (a, b, c), (d, e, f) in zip(np.roll(lines, 1, axis=0).tolist(), [line.tolist() for line in lines], strict=True):
-        determinant = a * e - b * d
-        if abs(determinant) < 1e-6:
-            raise _unclear("two sides that meet are parallel")
-        crossings.append(((c * e - b * f) / determinant, (a * f - c * d) / determinant))
-    return np.array(crossings), tuple(share for _, share in sides)
-
-
-def _side(lab: FloatArray, floor: _Floor, start: FloatArray, end: FloatArray, reach: float) -> tuple[FloatArray, float]:
-    """The line a x + b y = c along a side, and the share of points on it."""
-    length = float(np.hypot(*(end - start)))
-    if length < 4:
-        raise _unclear("a side has no length")
-    along = (end - start) / length
-    outwards = np.array([along[1], -along[0]])
-    across = np.arange(reach, -reach, -_STEP)
-    strip = _without_threads(_strip(lab, floor, start, end, across))
-    share = np.linspace(_ENDS, 1 - _ENDS, _SAMPLES)
-    offsets = np.array([_edge(line, across) for line in strip])
-    return _fitted_line(start, along, outwards, share * length, offsets, max(1.5, 0.004 * length))
-
-
-def _edge(line: FloatArray, across: FloatArray) -> float:
-    """Where the difference, from outside, rises to half of the carpet's; NaN: nowhere."""
-    above = line > 1
-    if not above.any() or above[0]:
-        return np.nan
-    first = int(above.argmax())
-    level = max(0.5, 0.5 * float(line[first : first + 8].max()))
-    while line[first] < level:
-        first += 1
-    while first > 0 and line[first - 1] >= level:
-        first -= 1
-    if first == 0:
-        return np.nan
-    share = (level - line[first - 1]) / (line[first] - line[first - 1])
-    return float(across[first - 1] + share * (across[first] - across[first - 1]))
-
-
-def _fitted_line(  # noqa: PLR0917
-    start: FloatArray,
-    along: FloatArray,
-    outwards: FloatArray,
-    positions: FloatArray,
-    offsets: FloatArray,
-    tolerance: float,
-) -> tuple[FloatArray, float]:
-    """The line through points along a side and `offsets` outwards [pixels], by least squares without outliers.
-
-    The first line is that of the pair of points, a third of the side apart, with the most points within the tolerance;
-    every fifth point is tried with every tenth.
-    """
-    seen = np.flatnonzero(np.isfinite(offsets))
-    if len(seen) < 0.3 * len(offsets):
-        raise _unclear("a side is not found")
-    x, y = positions[seen], offsets[seen]
-    third = len(seen) // 3
-    best, on = -1, np.ones(len(seen), dtype=bool)
-    for first in range(0, len(seen) - third, 5):
-        for other in range(first + third, len(seen), 10):
-            slope = (y[other] - y[first]) / (x[other] - x[first])
-            near = np.abs(y - y[first] - slope * (x - x[first])) <= tolerance
-            if (count := int(np.count_nonzero(near))) > best:
-                best, on = count, near
-    for _ in range(3):
-        mean_x, mean_y = x[on].mean(), y[on].mean()
-        slope = ((x[on] - mean_x) * (y[on] - mean_y)).sum() / ((x[on] - mean_x) ** 2).sum()
-        offset = mean_y - slope * mean_x
-        on = np.abs(y - offset - slope * x) <= tolerance
-    point, direction = start + offset * outwards, along + slope * outwards
-    normal = np.array([-direction[1], direction[0]])
-    return np.array([*normal, normal @ point]), float(np.count_nonzero(on) / len(offsets))

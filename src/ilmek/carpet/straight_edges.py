@@ -1,0 +1,183 @@
+"""Straight edges along a side of a carpet in a photograph, from outside inwards.
+
+A strip of the picture across the side is sampled: `along` × `across`. The step at a point is the difference in CIELAB
+between the means of `_FLANK` pixels on both sides of it. An edge is a straight line on which, at `LEAST_SHARE` of the
+points along it or more, the step is at a maximum, is above the grain, and has other colours than the floor's inside: no
+seam of planks, no shadow, no ragged end of a fringe is one. Lines are counted as in a Hough transform by their offset
+and slope.
+"""
+
+import numpy as np
+import scipy
+
+from ilmek.arrays import BoolArray, Float, FloatArray
+from ilmek.carpet.floor import BLACK, Lab
+from ilmek.records import record
+
+LEAST_SHARE = 0.55
+"""Least share of points on a line that is an edge."""
+
+_ENDS = 0.06
+"""Part of a side at each of its ends that is not used: corners are worn and round."""
+
+_SAMPLES = 400
+_STEP = 0.5
+"""Distance of the samples across a side [pixels]."""
+
+_FLANK = 4
+"""Samples across that are averaged on each side of a step: 2 pixels."""
+
+_SMOOTHED = 5
+"""Samples along a side that are averaged for a step."""
+
+_LEAST_STEP, _GRAINS = 4.0, 3.0
+"""Least step of an edge: CIELAB, and of the median step outside."""
+
+_NEAR = 2
+"""Samples by which points may lie beside their line: a pixel."""
+
+_AROUND = np.arange(-6, 7)
+"""Samples about an edge among which the maximum of the step is sought."""
+
+_BAND = 3
+"""Largest number of samples of the band inside an edge."""
+
+_SLOPES = 41
+
+_CLEAR = 2.5
+"""Distance from an edge at which its own blur has ended [pixels]."""
+
+
+@record
+class Strip:
+    """The picture across a side: `lab` (along, across, 3), difference to the floor, step and whether it is an edge's.
+
+    start, end  of the side [pixels]     across  distances outwards, falling [pixels]     share  places along it, 0..1
+    grain  step that the floor's grain has
+    """
+
+    start: FloatArray
+    end: FloatArray
+    share: FloatArray
+    across: FloatArray
+    lab: FloatArray
+    difference: FloatArray
+    step: FloatArray
+    edge: BoolArray
+    grain: float
+
+
+@record
+class Edge:
+    """A straight edge: sample across it at the side's middle, its slope [samples per side], share of points on it."""
+
+    middle: float
+    slope: float
+    share: float
+
+    def place(self, strip: Strip) -> FloatArray:
+        """Its samples across for each point along."""
+        return self.middle + self.slope * (strip.share - 0.5)
+
+
+def sampled(  # noqa: PLR0917
+    lab: Lab, difference: FloatArray, start: FloatArray, end: FloatArray, reach: float, grain: float | None = None
+) -> Strip:
+    """The strip about the side from `start` to `end`, `reach` to both sides [pixels].
+
+    grain  of the floor; default: the median step in the outer quarter of the strip
+    """
+    direction = (end - start) / np.hypot(*(end - start))
+    outwards = np.array([direction[1], -direction[0]])
+    across = np.arange(reach, -reach, -_STEP)
+    share = np.linspace(_ENDS, 1 - _ENDS, _SAMPLES)
+    points = start + share[:, None, None] * (end - start) + across[:, None] * outwards - 0.5
+    pixels = points[..., 1], points[..., 0]
+    seen = np.stack([scipy.ndimage.map_coordinates(lab[..., k], pixels, order=1, mode="nearest") for k in range(3)], -1)
+    unlike = scipy.ndimage.map_coordinates(difference, pixels, order=1, mode="nearest")
+    smooth = scipy.ndimage.uniform_filter1d(seen, _SMOOTHED, axis=0)
+    sums = np.cumsum(np.pad(smooth, ((0, 0), (1, 0), (0, 0))), axis=1)
+    means = (sums[:, _FLANK:] - sums[:, :-_FLANK]) / _FLANK
+    step = np.zeros(unlike.shape)
+    step[:, _FLANK:-_FLANK] = np.linalg.norm(means[:, _FLANK + 1 :] - means[:, : -_FLANK - 1], axis=-1)
+    if grain is None:
+        grain = float(np.median(step[:, _FLANK : len(across) // 4]))
+    top = step == scipy.ndimage.maximum_filter1d(step, _FLANK + 3, axis=1)
+    inside = scipy.ndimage.maximum_filter1d(unlike, 6, axis=1, origin=-3)
+    edge = top & (step > max(_LEAST_STEP, _GRAINS * grain)) & (inside > 1)
+    return Strip(start, end, share, across, seen, unlike, step, edge, grain)
+
+
+def edges_of(strip: Strip, tilt: float) -> list[Edge]:
+    """Straight edges in a strip, from outside inwards, whose ends are at most `tilt` apart across [pixels]."""
+    wide = scipy.ndimage.maximum_filter1d(strip.edge, 2 * _NEAR + 1, axis=1)
+    columns = np.arange(len(strip.across))
+    slopes = np.linspace(-tilt, tilt, _SLOPES) / _STEP
+    shares = np.empty((_SLOPES, len(columns)))
+    rows = np.arange(_SAMPLES)[:, None]
+    for number, slope in enumerate(slopes):
+        place = np.rint(slope * (strip.share - 0.5)).astype(int)[:, None] + columns
+        within = (place >= 0) & (place < len(columns))
+        shares[number] = (wide[rows, place.clip(0, len(columns) - 1)] & within).mean(axis=0)
+    profile = shares.max(axis=0)
+    peaks = (profile == scipy.ndimage.maximum_filter1d(profile, 4 * _NEAR - 1)) & (profile >= LEAST_SHARE)
+    labels, count = scipy.ndimage.label(scipy.ndimage.maximum_filter1d(peaks, 3))
+    edges = []
+    for number in range(1, count + 1):
+        among = np.flatnonzero((labels == number) & peaks)
+        middle = int(among[len(among) // 2])
+        best = np.flatnonzero(shares[:, middle] == profile[middle])
+        edges.append(Edge(float(middle), float(slopes[best].mean()), float(profile[middle])))
+    return edges
+
+
+def band_inside(strip: Strip, edge: Edge, end: float) -> Float[np.ndarray, "3"]:
+    """Median colour of the band inside an edge, as far as the sample across `end`."""
+    deep = min(_BAND, max(2.0, end - edge.middle - 2.0))
+    place = np.rint(edge.place(strip)[:, None] + np.arange(2.0, 2.0 + deep)).astype(int)
+    place = place.clip(0, len(strip.across) - 1)
+    colours: FloatArray = np.median(strip.lab[np.arange(_SAMPLES)[:, None], place], axis=(0, 1))
+    return colours
+
+
+def step_outside(strip: Strip) -> float:
+    """Largest step in the mean colours along a side, from `_CLEAR` pixels outside its middle line outwards, CIELAB.
+
+    A change of light is a factor on L* + 16, a* and b*, and is left out.
+    """
+    colours = strip.lab.mean(axis=0) + BLACK
+    floor = colours[: len(strip.across) // 4].mean(axis=0)
+    unlit = colours - (colours @ floor / (floor @ floor))[:, None] * floor
+    outside = unlit[: len(strip.across) // 2 - round(_CLEAR / _STEP)]
+    return float(np.linalg.norm(outside[_FLANK:] - outside[:-_FLANK], axis=1).max(initial=0.0))
+
+
+def fitted_line(strip: Strip, edge: Edge, tolerance: float) -> tuple[FloatArray, float]:
+    """The line a x + b y = c of an edge, by least squares without outliers, and the share of points on it.
+
+    The place of a step is the vertex of the parabola through its maximum and the two samples beside it.
+    """
+    rows = np.arange(_SAMPLES)
+    nearest = np.rint(edge.place(strip)).astype(int)[:, None] + _AROUND
+    steps = np.where(strip.edge[rows[:, None], nearest.clip(0, len(strip.across) - 1)], 1.0, 0.0)
+    steps -= 0.01 * np.abs(_AROUND)
+    best = steps.argmax(axis=1)
+    seen = steps[rows, best] > 0.5
+    peak = nearest[rows, best].clip(1, len(strip.across) - 2)
+    before, top, after = (strip.step[rows, peak + k] for k in (-1, 0, 1))
+    bend = before - 2 * top + after
+    vertex = np.where(bend < 0, 0.5 * (before - after) / np.minimum(bend, -1e-9), 0.0).clip(-1, 1)
+    x, y = strip.share[seen], strip.across[0] - _STEP * (peak + vertex)[seen]
+    slope, offset = -_STEP * edge.slope, strip.across[0] - _STEP * (edge.middle - 0.5 * edge.slope)
+    on = np.zeros(len(x), dtype=bool)
+    for width in (2 * tolerance, tolerance, tolerance):
+        on = np.abs(y - offset - slope * x) <= width
+        if np.count_nonzero(on) < 2:
+            break
+        slope, offset = np.polyfit(x[on], y[on], 1)
+    length = float(np.hypot(*(strip.end - strip.start)))
+    along = (strip.end - strip.start) / length
+    outwards = np.array([along[1], -along[0]])
+    direction = along * length + slope * outwards
+    normal = np.array([-direction[1], direction[0]]) / np.hypot(*direction)
+    return np.array([*normal, normal @ (strip.start + offset * outwards)]), float(np.count_nonzero(on)) / _SAMPLES
