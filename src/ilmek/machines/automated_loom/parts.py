@@ -6,6 +6,7 @@ from dataclasses import replace
 from functools import lru_cache
 
 from ilmek.elements.prices import PriceRates, price_of, read_prices
+from ilmek.machines.arrangement.side_view import SideBox, SideView
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import FrameTask, LoomFrame, frame_for
 from ilmek.machines.automated_loom.own_parts import carried_tree, frame_tree
@@ -59,6 +60,13 @@ def parts_of_loom(loom: LoomDesign) -> PartsList:
         BillLine("axis of the control", axes, "amplifier, cable, switch", "", "axis of the control"),
     )
     return PartsList(lines, prices, frame)
+
+
+def built_side(loom: LoomDesign) -> SideView:
+    """The side view with the heads' rail as it is built: its section about the axis that the arrangement gives it."""
+    rail, side = loom.side.rail, parts_of_loom(loom).frame.rail.side
+    size = complex(side, side)
+    return replace(loom.side, rail=SideBox(rail.corner + (rail.size - size) / 2, size))
 
 
 def frame_task(loom: LoomDesign, carried: float) -> FrameTask:

@@ -1,7 +1,6 @@
 """Whether all that moves in a loom has room: the least clearance of every two bodies over both cyclograms."""
 
 from collections.abc import Mapping
-from dataclasses import replace
 from itertools import combinations
 
 import numpy as np
@@ -29,6 +28,7 @@ from ilmek.machines.automated_loom.bodies import (
 )
 from ilmek.machines.automated_loom.cyclogram import EVEN, ODD
 from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.automated_loom.parts import built_side, parts_of_loom
 from ilmek.machines.weaver.motions import LEFT_ARM, RIGHT_ARM
 from ilmek.records import record
 from ilmek.report import Check, Table, at_least, columns
@@ -82,25 +82,29 @@ CURES: Mapping[str, str] = {
 
 @record
 class RoomFound:
-    """The least clearance of two bodies over both cyclograms, and the cyclogram in which it occurs."""
+    """The least clearance of two bodies over both cyclograms, the cyclogram in which it occurs, ids of their parts."""
 
     distance: BodyDistance
     cyclogram: str
+    parts: tuple[str, ...] = ()
 
 
 def clearances(loom: LoomDesign) -> tuple[RoomFound, ...]:
     """The least clearance of every two bodies that must not touch, the least of both cyclograms."""
-    knot, row = loom.cyclograms
+    (knot, row), side = loom.cyclograms, built_side(loom)
+    listed = {line.part for line in parts_of_loom(loom).parts}
     found: dict[frozenset[str], RoomFound] = {}
     for cyclogram, bodies in (
-        (row, row_bodies(loom.side, row, loom.beat.path, stack=loom.params.beat == GUIDED)),
-        (knot, knot_bodies(loom.side, knot)),
+        (row, row_bodies(side, row, loom.beat.path, stack=loom.params.beat == GUIDED)),
+        (knot, knot_bodies(side, knot)),
     ):
         ends = beat_joints(loom.beat.path, row) if cyclogram is row else np.empty(0)
+        parts = {body.name: [name for name in body.parts_in_loom if name in listed] for body in bodies}
         for clearance in _of_cyclogram(cyclogram, bodies, ends, loom.params.clearance):
             pair = frozenset((clearance.first, clearance.second))
             if pair not in found or clearance.value < found[pair].distance.value:
-                found[pair] = RoomFound(clearance, cyclogram.name)
+                concerned = (*parts[clearance.first], *parts[clearance.second])
+                found[pair] = RoomFound(clearance, cyclogram.name, concerned)
     return tuple(sorted(found.values(), key=lambda one: one.distance.value))
 
 
@@ -136,7 +140,8 @@ def _check(found: RoomFound, limit: float) -> Check:
     names = (one.first, one.second)
     limit = 0.0 if FRAME.issuperset(names) else limit
     cure = next((CURES[name] for name in CURES if name in names), "leave the spans of the shed open")
-    return replace(at_least(f"clearance: {one.first} and {one.second}", one.value, limit, "mm", where), cure=cure)
+    name = f"clearance: {one.first} and {one.second}"
+    return at_least(name, one.value, limit, "mm", where, cure=cure, parts=found.parts)
 
 
 def room_tables(found: tuple[RoomFound, ...]) -> tuple[Table, ...]:

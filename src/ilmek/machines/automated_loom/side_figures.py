@@ -7,6 +7,7 @@ import numpy as np
 from ilmek.arrays import ComplexArray
 from ilmek.machines.arrangement.side_view import CamPosition, RoundPart, SideBox, SideView, rectangle
 from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.automated_loom.parts import built_side
 from ilmek.report import Dot, Drawing, Stroke
 from ilmek.units import format_quantity, turn
 
@@ -23,7 +24,7 @@ _APART = 0.062
 
 def side(loom: LoomDesign) -> Drawing:
     """The whole loom from the side, the even shed open, the comb at rest, a head at the fell."""
-    view = loom.side
+    view = built_side(loom)
     left, right = -view.loom_depth + view.retreat + _front(view), _front(view)
     strokes = (
         *_frame(view, left, right),
@@ -40,7 +41,7 @@ def side(loom: LoomDesign) -> Drawing:
 
 def room(loom: LoomDesign) -> Drawing:
     """What moves between fell and guide cams: at rest, and swept."""
-    view, path = loom.side, loom.beat.path
+    view, path = built_side(loom), loom.beat.path
     lowest = view.cams[0]
     sight = complex(lowest.at.real - lowest.guide_radius, lowest.at.imag)
     arc = np.exp(1j * np.linspace(-0.5, 0.15, 40) * turn)
