@@ -1,7 +1,9 @@
 """Moments of shapes beside those of a CAD kernel, which builds the same solids from its own primitives."""
 
+import io
 import math
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,6 +13,7 @@ from ilmek.part.placement import placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Placed, Prism, Shape, Sum, Turned, bar, box, disc, square_tube, stepped, tube
 from ilmek.plane.contours import circle, polygon, rounded_hull, strip
+from ilmek.report import WorkPiece
 
 pytest.importorskip("OCP")  # its wheel is not made for every platform
 
@@ -26,7 +29,10 @@ from OCP.BRepPrimAPI import (
 )
 from OCP.gp import gp_Ax1, gp_Ax2, gp_Dir, gp_Pnt, gp_Trsf, gp_Vec
 from OCP.GProp import GProp_GProps
+from OCP.STEPControl import STEPControl_Reader
 from OCP.TopoDS import TopoDS_Shape
+
+from ilmek.io import step
 
 _UP = gp_Dir(0.0, 0.0, 1.0)
 
@@ -143,3 +149,19 @@ def test_the_moments_are_those_of_the_kernel(name: str) -> None:
     assert own.zeroth == pytest.approx(volume, rel=1e-7)
     assert own.centre == pytest.approx(centre, abs=1e-7 * size)
     assert np.abs(own.inertia - inertia).max() <= 1e-6 * np.trace(inertia)
+
+
+@pytest.mark.parametrize("name", _CASES)
+def test_the_file_of_a_shape_has_the_moments_of_the_shape(name: str, tmp_path: Path) -> None:
+    """Written as STEP, read back by the kernel, lying where the shape says."""
+    shape, _ = _CASES[name]
+    piece = WorkPiece(name, name, "", "steel", 1, shape, shape.moments.zeroth)
+    step.write_piece(tmp_path / "piece.step", piece)
+    reader = STEPControl_Reader()
+    reader.ReadStream("piece", io.BytesIO((tmp_path / "piece.step").read_bytes()))
+    reader.TransferRoots()
+    volume, centre, inertia = _of_kernel(reader.OneShape())
+    own = shape.moments
+    assert volume / 1e9 == pytest.approx(own.zeroth, rel=1e-6)
+    assert centre / 1e3 == pytest.approx(own.centre, abs=1e-7)
+    assert np.abs(inertia / 1e15 - own.inertia).max() <= 1e-5 * np.trace(own.inertia)

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 from OCP.APIHeaderSection import APIHeaderSection_MakeHeader
+from OCP.BRep import BRep_Builder
 from OCP.BRepAlgoAPI import BRepAlgoAPI_Cut, BRepAlgoAPI_Splitter
 from OCP.BRepBuilderAPI import (
     BRepBuilderAPI_MakeEdge,
@@ -21,11 +22,11 @@ from OCP.BRepBuilderAPI import (
 )
 from OCP.BRepCheck import BRepCheck_Analyzer
 from OCP.BRepGProp import BRepGProp
-from OCP.BRepPrimAPI import BRepPrimAPI_MakeCylinder, BRepPrimAPI_MakePrism
+from OCP.BRepPrimAPI import BRepPrimAPI_MakeCylinder, BRepPrimAPI_MakePrism, BRepPrimAPI_MakeRevol
 from OCP.GC import GC_MakeArcOfCircle
 from OCP.GeomAbs import GeomAbs_Shape
 from OCP.GeomAPI import GeomAPI_PointsToBSplineSurface
-from OCP.gp import gp_Ax2, gp_Dir, gp_Pnt, gp_Trsf, gp_Vec
+from OCP.gp import gp_Ax1, gp_Ax2, gp_Dir, gp_Pnt, gp_Trsf, gp_Vec
 from OCP.GProp import GProp_GProps
 from OCP.IFSelect import IFSelect_ReturnStatus
 from OCP.Interface import Interface_Static
@@ -35,13 +36,16 @@ from OCP.STEPControl import STEPControl_Reader, STEPControl_StepModelType, STEPC
 from OCP.TCollection import TCollection_HAsciiString
 from OCP.TopAbs import TopAbs_ShapeEnum
 from OCP.TopExp import TopExp_Explorer
-from OCP.TopoDS import TopoDS, TopoDS_Shape, TopoDS_Wire
+from OCP.TopoDS import TopoDS, TopoDS_Compound, TopoDS_Shape, TopoDS_Wire
 
 from ilmek.arrays import FloatArray
 from ilmek.errors import OutputError
 from ilmek.io.plate_shape import PlateShape
+from ilmek.part.placement import ALONG_WIDTH, Placement
+from ilmek.part.profile import Profile
+from ilmek.part.shapes import Prism, Sum, Turned
 from ilmek.plane.contours import STRAIGHT, circle, on_piece
-from ilmek.report import Contour, Plate, RoundSolid
+from ilmek.report import Contour, Plate, RoundSolid, WorkPiece
 from ilmek.units import mm
 
 TIME_STAMP = "2000-01-01T00:00:00"
@@ -52,16 +56,25 @@ for _printer in Message.DefaultMessenger_s().Printers():
 
 
 def write_step(path: Path, plate: Plate, shape: PlateShape) -> None:
-    """Write a part as a solid. Raises OutputError if the solid is invalid or cannot be written."""
+    """Write a plate as a solid. Raises OutputError if the solid is invalid or cannot be written."""
     solid = _solid(plate, shape) if plate.solid is None else _round_solid(plate.solid)
+    _write(path, solid, plate.name, plate.title)
+
+
+def write_piece(path: Path, piece: WorkPiece) -> None:
+    """Write a piece that is turned, sawn or welded. Raises OutputError as `write_step`."""
+    _write(path, _of_shape(piece.shape), piece.name, piece.title)
+
+
+def _write(path: Path, solid: TopoDS_Shape, name: str, title: str) -> None:
     if not BRepCheck_Analyzer(solid).IsValid():
-        raise OutputError(f"{plate.name} gives no valid solid", do="check whether its outline crosses itself")
+        raise OutputError(f"{name} gives no valid solid", do="check whether its outline crosses itself")
     writer = STEPControl_Writer()  # its constructor registers the settings below
     Interface_Static.SetCVal_s("write.step.unit", "MM")
-    Interface_Static.SetCVal_s("write.step.product.name", plate.name)
+    Interface_Static.SetCVal_s("write.step.product.name", name)
     writer.Transfer(solid, STEPControl_StepModelType.STEPControl_AsIs)
     header = APIHeaderSection_MakeHeader(writer.Model(False))
-    header.SetName(TCollection_HAsciiString(plate.title))
+    header.SetName(TCollection_HAsciiString(title))
     header.SetTimeStamp(TCollection_HAsciiString(TIME_STAMP))
     header.SetAuthorValue(1, TCollection_HAsciiString("ilmek"))
     header.SetOriginatingSystem(TCollection_HAsciiString("ilmek"))
@@ -103,6 +116,40 @@ def _solid(plate: Plate, shape: PlateShape) -> TopoDS_Shape:
         hole.Reverse()
         face.Add(hole)
     return BRepPrimAPI_MakePrism(face.Face(), gp_Vec(0, 0, plate.thickness / mm)).Shape()
+
+
+def _of_shape(shape: object) -> TopoDS_Shape:
+    """A shape of the package `part` [mm]: prisms, turned profiles, and sums of them as one compound of solids."""
+    if isinstance(shape, Prism):
+        return BRepPrimAPI_MakePrism(_face(shape.section), gp_Vec(0, 0, shape.length / mm)).Shape()
+    if isinstance(shape, Turned):
+        around_x = BRepPrimAPI_MakeRevol(_face(shape.profile), gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(1, 0, 0))).Shape()
+        return _placed(around_x, ALONG_WIDTH.inverse)
+    if not isinstance(shape, Sum):
+        raise OutputError(f"no solid of {type(shape).__name__}", allowed="prisms, turned profiles and sums of them")
+    whole, builder = TopoDS_Compound(), BRep_Builder()
+    builder.MakeCompound(whole)
+    for member in shape.members:
+        solid = _of_shape(member.shape)
+        for position in member.positions:
+            builder.Add(whole, _placed(solid, position))
+    return whole
+
+
+def _placed(solid: TopoDS_Shape, position: Placement) -> TopoDS_Shape:
+    motion, (x, y, z) = gp_Trsf(), (position.origin / mm).tolist()
+    first, second, third = position.rotation.tolist()
+    motion.SetValues(*first, x, *second, y, *third, z)
+    return BRepBuilderAPI_Transform(solid, motion, True).Shape()
+
+
+def _face(profile: Profile) -> TopoDS_Shape:
+    """A figure in the plane z = 0."""
+    outline, *holes = profile.contours
+    face = BRepBuilderAPI_MakeFace(_wire(outline), True)
+    for hole in holes:  # they run clockwise
+        face.Add(_wire(hole))
+    return face.Face()
 
 
 def _round_solid(part: RoundSolid) -> TopoDS_Shape:

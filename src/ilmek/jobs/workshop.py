@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
+from types import ModuleType
 from typing import Any, TypeVar
 
 from ilmek.errors import OutputError, ParameterError, UnitError
@@ -15,14 +16,13 @@ from ilmek.io.cam_tables.sampling import sample, stroke
 from ilmek.io.dxf import read_dxf, write_dxf
 from ilmek.io.json_file import write_json
 from ilmek.io.output import Outputs, joined
-from ilmek.io.plate_shape import PlateShape
 from ilmek.plane.contours import area
 from ilmek.records import record
-from ilmek.report import CamTable, Check, Plate, Report, at_most
+from ilmek.report import CamTable, Check, Plate, Report, WorkPiece, at_most
 from ilmek.report.left_out import made_or_left_out
 from ilmek.units import deg, format_quantity, parse_quantity, parse_unit, si_unit, turn, um
 
-_Named = TypeVar("_Named", Plate, CamTable)
+_Named = TypeVar("_Named", Plate, CamTable, WorkPiece)
 
 INDEX = "workshop.json"
 AREA_ERROR = 1e-4
@@ -159,16 +159,19 @@ def write_workshop(
     Raises OutputError if there is nothing to write, a plate does not enclose the area of its design, or the folder
     cannot be written; then nothing is written.
     """
-    if not (report.all_plates or report.all_cam_tables):
+    if not (report.all_plates or report.all_cam_tables or report.all_pieces):
         raise OutputError(
             f"{report.machine} has no plates and no cam tables", do="leave out --workshop; its page: --report FILE.html"
         )
-    plates, tables = _own_names(report.all_plates), _own_names(report.all_cam_tables)
+    plates, tables, pieces = (
+        _own_names(named) for named in (report.all_plates, report.all_cam_tables, report.all_pieces)
+    )
     allowed = tolerance or Tolerance()
     with joined(outputs, force=force) as made, made.folder(folder) as work:
         left_out: list[str] = []
         files = [
             *_files(plates, lambda plate, name: tuple(_plate_files(plate, work, name)), work, left_out),
+            *_files(pieces, lambda piece, name: tuple(_piece_files(piece, work, name)), work, left_out),
             *_files(tables, lambda table, name: tuple(_table_files(table, work, name, allowed)), work, left_out),
         ]
         write_json(work / INDEX, {"machine": report.machine, "parameters": report.parameters, "files": files})
@@ -229,9 +232,8 @@ def _plate_files(plate: Plate, work: Path, name: str) -> Iterator[dict[str, Any]
     }
     step = _step()
     if step is not None:
-        write, volume = step
-        write(work / f"{name}.step", plate, shape)
-        read = volume(work / f"{name}.step")
+        step.write_step(work / f"{name}.step", plate, shape)
+        read = step.read_step_volume(work / f"{name}.step")
         exact = (known - shape.bored) * plate.thickness if plate.solid is None else plate.solid.volume
         off = abs(read / exact - 1)
         if not off <= AREA_ERROR:
@@ -239,13 +241,35 @@ def _plate_files(plate: Plate, work: Path, name: str) -> Iterator[dict[str, Any]
         yield {"file": f"{name}.step", "kind": "step", **common, "volume": read, "volume_error": off}
 
 
-def _step() -> tuple[Callable[[Path, Plate, PlateShape], None], Callable[[Path], float]] | None:
-    """Writer and reader of STEP; None unless the extra `step` is installed."""
+def _piece_files(piece: WorkPiece, work: Path, name: str) -> Iterator[dict[str, Any]]:
+    """The STEP file of a piece that is turned, sawn or welded, its volume read back."""
+    step = _step()
+    if step is None:
+        return
+    step.write_piece(work / f"{name}.step", piece)
+    read = step.read_step_volume(work / f"{name}.step")
+    off = abs(read / piece.volume - 1)
+    if not off <= AREA_ERROR:
+        raise OutputError(f"{piece.name} gives no valid solid: its volume differs by {off:.2%}")
+    yield {
+        "file": f"{name}.step",
+        "kind": "step",
+        "of": piece.name,
+        "title": piece.title,
+        "size": piece.size,
+        "material": piece.material,
+        "number": piece.number,
+        "volume": read,
+        "volume_error": off,
+    }
+
+
+def _step() -> ModuleType | None:
+    """The writer and reader of STEP; None unless the extra `step` is installed."""
     try:
-        adapter = importlib.import_module("ilmek.io.step")
+        return importlib.import_module("ilmek.io.step")
     except ImportError:
         return None
-    return adapter.write_step, adapter.read_step_volume
 
 
 def _table_check(entry: Mapping[str, Any]) -> Check:

@@ -19,11 +19,11 @@ from ilmek.machines.invariants import broken
 from ilmek.machines.loom_task import LoomTask
 from ilmek.params import Params, Setting
 from ilmek.part.bill import bill
-from ilmek.part.plates import plates_of
+from ilmek.part.plates import pieces_of, plates_of
 from ilmek.part.tree import Tree
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
-from ilmek.report import BillLine, CamTable, Check, Choice, Figure, Plate, Report, Table, Work, results_of
+from ilmek.report import BillLine, CamTable, Check, Choice, Figure, Plate, Report, Table, Work, WorkPiece, results_of
 from ilmek.report.left_out import LazyFigure, made_figures
 from ilmek.timing.cyclogram import Cyclogram, Track
 
@@ -50,8 +50,8 @@ class Component:
     checks, tables, figures, warnings   analysis -> each; a figure that cannot be made is left out with a warning
     self_tests  analysis -> tests of the computation itself, such as a power balance; listed apart, a failed one is a
                 failed check too, so that such a design is never reported as sound
-    tree        design -> its parts in bodies, from which its parts list and its plates follow
-    plates, cam_tables, cyclograms      design -> what is made of it, what its axes follow, its timing
+    tree        design -> its parts in bodies, from which its parts list, its plates and its pieces follow
+    plates, pieces, cam_tables, cyclograms   design -> what is made of it, what its axes follow, its timing
     mechanism   design -> its linkage as an own mechanism, for a file; None where the design has none
     parts       design -> lines of the parts list                work     design -> work of its acts
     tracks      design -> its tracks on the loom's cyclogram of a row
@@ -79,6 +79,7 @@ class Component:
     figures: Callable[[Any], tuple[Figure | LazyFigure, ...]] = _nothing
     warnings: Callable[[Any], tuple[str, ...]] = _nothing
     tree: Callable[[Any], Tree] | None = None
+    pieces: Callable[[Any], tuple[WorkPiece, ...]] = _nothing
     plates: Callable[[Any], tuple[Plate, ...]] = _nothing
     cam_tables: Callable[[Any], tuple[CamTable, ...]] = _nothing
     cyclograms: Callable[[Any], tuple[Cyclogram, ...]] | None = None
@@ -101,6 +102,7 @@ class Component:
         if tree is not None:
             object.__setattr__(self, "parts", lambda design: bill(tree(design)))
             object.__setattr__(self, "plates", lambda design: plates_of(tree(design)))
+            object.__setattr__(self, "pieces", lambda design: pieces_of(tree(design)))
 
     def __repr__(self) -> str:
         return f"<Component {self.name}: {self.summary[:200]}>"
@@ -134,6 +136,7 @@ class Component:
             warnings=(*self.warnings(analysis), *left_out),
             plates=self.plates(design),
             cam_tables=self.cam_tables(design),
+            pieces=self.pieces(design),
             parts=self.parts(design),
             children=tuple(child.reported(illustrated=illustrated) for child in self.children(design)),
             choices=self.choices(design),

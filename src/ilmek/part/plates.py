@@ -1,10 +1,10 @@
-"""The flat parts of a tree as plates for the workshop: prisms that are cut from plate or flat bar."""
+"""The made parts of a tree for the workshop: flat ones as plates, all others as solids."""
 
 from ilmek.part.part import Part
 from ilmek.part.shapes import Prism
 from ilmek.part.tree import Tree
 from ilmek.plane.contours import area, as_hole, counter_clockwise
-from ilmek.report import Plate
+from ilmek.report import Plate, WorkPiece
 
 FLAT = ("laser-cut part", "machined link")
 """Processes by which a contour is cut out of flat stock."""
@@ -13,6 +13,17 @@ FLAT = ("laser-cut part", "machined link")
 def plates_of(tree: Tree) -> tuple[Plate, ...]:
     """A plate for each flat part that is made, named by the last part of its id, in the order of the bodies."""
     return tuple(_plate(part, number) for part, number in tree.occurrences() if is_flat(part))
+
+
+def pieces_of(tree: Tree) -> tuple[WorkPiece, ...]:
+    """A piece for each other part that is made: what is turned, sawn or welded."""
+    return tuple(
+        WorkPiece(
+            plate_name(part), part.title, part.size, part.material.name, number, part.shape, part.shape.moments.zeroth
+        )
+        for part, number in tree.occurrences()
+        if part.material is not None and part.shape is not None and not is_flat(part)
+    )
 
 
 def is_flat(part: Part) -> bool:

@@ -37,7 +37,7 @@ from ilmek.report.results import Result, result_text, results_of
 from ilmek.report.rounding import rounded
 from ilmek.report.table import Column, Table, columns
 from ilmek.report.verdict import Reason, reasons, verdict_json
-from ilmek.report.workshop import CamTable, Contour, Hole, Plate, RoundSolid
+from ilmek.report.workshop import CamTable, Contour, Hole, Plate, RoundSolid, WorkPiece
 
 __all__ = [
     "NEAREST",
@@ -80,6 +80,7 @@ __all__ = [
     "Table",
     "Timing",
     "Work",
+    "WorkPiece",
     "at_least",
     "at_most",
     "choose",

@@ -14,12 +14,12 @@ from ilmek.report.json import Json, plain
 from ilmek.report.results import Result
 from ilmek.report.table import Table
 from ilmek.report.verdict import Reason, reasons, verdict_json
-from ilmek.report.workshop import CamTable, Plate
+from ilmek.report.workshop import CamTable, Plate, WorkPiece
 
 NEAREST = "nearest"
 """Name of a result: the nearest tasks that the machine could do, each a wish and its value."""
 
-_Named = TypeVar("_Named", Plate, CamTable)
+_Named = TypeVar("_Named", Plate, CamTable, WorkPiece)
 
 
 class UnknownResult(ParameterError, KeyError):
@@ -52,6 +52,7 @@ class Report:
     warnings: tuple[str, ...] = ()
     plates: tuple[Plate, ...] = ()
     cam_tables: tuple[CamTable, ...] = ()
+    pieces: tuple[WorkPiece, ...] = ()
     parts: tuple[BillLine, ...] = ()
     children: tuple["Report", ...] = ()
     choices: tuple[Choice, ...] = ()
@@ -94,6 +95,11 @@ class Report:
     def all_plates(self) -> tuple[Plate, ...]:
         """The plates of the whole tree."""
         return (*self.plates, *(one for child in self.children for one in _named(child, child.all_plates)))
+
+    @property
+    def all_pieces(self) -> tuple[WorkPiece, ...]:
+        """The pieces of the whole tree that have no plate."""
+        return (*self.pieces, *(one for child in self.children for one in _named(child, child.all_pieces)))
 
     @property
     def all_cam_tables(self) -> tuple[CamTable, ...]:

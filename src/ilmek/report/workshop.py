@@ -81,6 +81,23 @@ class Plate:
 
 
 @record
+class WorkPiece:
+    """A part that is turned, sawn or welded, for the workshop: a solid without a flat drawing.
+
+    size    section and length, for people        number  pieces to be made
+    shape   a shape of the package `part`         volume  of it, exact [m^3]
+    """
+
+    name: str
+    title: str
+    size: str
+    material: str
+    number: int
+    shape: object
+    volume: float
+
+
+@record
 class CamTable:
     """A motion of a slave axis over one turn of the master, for a controller's electronic cam.
 

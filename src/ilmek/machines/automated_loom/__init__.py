@@ -17,7 +17,7 @@ from ilmek.machines.automated_loom.energy import Energy
 from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time
 from ilmek.machines.automated_loom.figures import figures
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
-from ilmek.machines.automated_loom.parts import PartsList, parts_of_loom
+from ilmek.machines.automated_loom.parts import PartsList, own_tree, parts_of_loom
 from ilmek.machines.automated_loom.report import (
     LoomAnalysis,
     LoomVerdict,
@@ -31,6 +31,7 @@ from ilmek.machines.automated_loom.report import (
 from ilmek.machines.automated_loom.selection import design
 from ilmek.machines.beat import BeatDrive
 from ilmek.machines.component import Component
+from ilmek.part.plates import pieces_of
 from ilmek.timing.cyclogram import Cyclogram
 
 __all__ = [
@@ -68,6 +69,7 @@ MACHINE = Component(
     cam_tables=cam_tables,
     cyclograms=cyclograms,
     parts=lambda loom: parts_of_loom(loom).parts,
+    pieces=lambda loom: pieces_of(own_tree(loom)),
     children=lambda loom: loom.children,
     choices=lambda loom: (*loom.choices, *parts_of_loom(loom).frame.choices),
     verdict=LoomVerdict,

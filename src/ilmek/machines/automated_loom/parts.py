@@ -12,6 +12,7 @@ from ilmek.machines.automated_loom.frame import FrameTask, LoomFrame, frame_for
 from ilmek.machines.automated_loom.own_parts import carried_tree, frame_tree
 from ilmek.machines.weaver import head_mass
 from ilmek.part.bill import bill
+from ilmek.part.tree import Tree
 from ilmek.records import computed, group, record
 from ilmek.report import BillLine
 
@@ -60,6 +61,11 @@ def parts_of_loom(loom: LoomDesign) -> PartsList:
         BillLine("axis of the control", axes, "amplifier, cable, switch", "", "axis of the control"),
     )
     return PartsList(lines, prices, frame)
+
+
+def own_tree(loom: LoomDesign) -> Tree:
+    """The loom's own bodies that are in none of its machines."""
+    return Tree((*carried_tree(loom).bodies, *frame_tree(loom, parts_of_loom(loom).frame).bodies))
 
 
 def built_side(loom: LoomDesign) -> SideView:
