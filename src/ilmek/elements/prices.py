@@ -47,6 +47,7 @@ PRICES: Mapping[str, PriceRates] = {
     "machined link": PriceRates(each=25.0, per_kg=15.0),
     "head mechanism": PriceRates(each=600.0, per_kg=80.0),
     "pin or bush": PriceRates(each=4.0, per_kg=8.0),
+    "turned part": PriceRates(each=15.0, per_kg=6.0),
     "yarn tube": PriceRates(each=15.0),
     "bearing": PriceRates(each=15.0),
     "spring": PriceRates(each=5.0, per_kg=6.0),

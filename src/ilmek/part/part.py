@@ -6,6 +6,7 @@ from dataclasses import field
 
 import numpy as np
 
+from ilmek.arrays import ComplexArray
 from ilmek.elements.materials import Material
 from ilmek.errors import ParameterError
 from ilmek.part.moments import Moments
@@ -51,6 +52,7 @@ class Part:
     process  how it is made or bought: the kind by which it is priced      shape   in the part's own axes
     material  of a part that is made          purchase  of a bought one     seats   by name
     envelope  the shape is the room that the part takes: its form is not designed, or the maker's
+    paths     closed curves of a flat part that guide a tool, not cut through      marks  lines to scribe, by name
 
     A made part has a shape and a material, and weighs what these say. A bought part weighs what its catalogue says.
     Raises ParameterError for a part that is both or neither.
@@ -65,6 +67,8 @@ class Part:
     purchase: Bought | None = None
     seats: Mapping[str, Seat] = field(default_factory=dict)
     envelope: bool = False
+    paths: Mapping[str, ComplexArray] = field(default_factory=dict)
+    marks: Mapping[str, ComplexArray] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         if (self.purchase is None) == (self.material is None):

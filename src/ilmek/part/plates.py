@@ -34,11 +34,13 @@ def _plate(part: Part, number: int) -> Plate:
     return Plate(
         name=plate_name(part),
         title=part.title.capitalize(),
-        outline=outline,
+        outline=outline.points if shape.section.smooth else outline,
         thickness=shape.length,
         material=part.material.name,
         holes=tuple(hole for _, hole in bores if hole is not None),
         cutouts=tuple(counter_clockwise(cut) for cut, hole in bores if hole is None),
         area=area(outline),
         number=number,
+        paths=part.paths,
+        marks=part.marks,
     )

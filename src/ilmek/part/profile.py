@@ -26,12 +26,14 @@ class Profile:
     """A plane figure: all within its outline that is in none of its holes [m].
 
     outline  closed, in either direction        holes  closed, inside the outline, apart from each other
+    smooth   the corners of the outline are points of a curve, so near that arcs can be laid through them
 
     Raises ParameterError where its area is not above 0.
     """
 
     outline: Contour
     holes: tuple[Contour, ...] = ()
+    smooth: bool = False
 
     def __post_init__(self) -> None:
         if not self.area > 0:

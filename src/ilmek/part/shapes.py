@@ -25,6 +25,7 @@ from ilmek.part.moments import Moments, together
 from ilmek.part.placement import IDENTITY, Placement
 from ilmek.part.profile import Profile
 from ilmek.plane.contours import along, bounds, circle, counter_clockwise, polygon
+from ilmek.plane.solids import thinned
 from ilmek.records import record
 from ilmek.report import Contour
 from ilmek.report.scene import Solid
@@ -32,6 +33,9 @@ from ilmek.units import format_quantity, mm
 
 _ON_AXIS = 1e-9
 """Radius below 0 that counts as rounding [m]."""
+
+ROUND = 3e-3
+"""Deviation of the rings of a turned mesh over its radius, at most."""
 
 CHORD = 0.05 * mm
 """Deviation of meshes and convex pieces from the shape where none is asked for [m]."""
@@ -77,7 +81,8 @@ class Prism:
 
     def mesh(self, deviation: float = CHORD) -> Solid:
         """A closed surface of triangles; arcs become chords inside of them."""
-        return extruded([along(contour, deviation) for contour in self.section.contours], self.length)
+        loops = (along(contour, deviation) for contour in self.section.contours)
+        return extruded([thinned(loop, deviation) if self.section.smooth else loop for loop in loops], self.length)
 
     def pieces(self, deviation: float = CHORD) -> tuple[Points, ...]:
         """Prisms over convex pieces of the outline, without its holes."""
@@ -99,6 +104,11 @@ class Turned:
             )
 
     @property
+    def outer_radius(self) -> float:
+        """Greatest radius [m]."""
+        return bounds(self.profile.outline)[1].imag
+
+    @property
     def moments(self) -> Moments:
         """Moments of its volume: exact."""
         m = self.profile.moment
@@ -109,8 +119,12 @@ class Turned:
         )
 
     def mesh(self, deviation: float = CHORD) -> Solid:
-        """A closed surface of triangles: chords of the profile, each ring of as many points as the largest needs."""
-        return revolved([along(contour, deviation) for contour in self.profile.contours], deviation)
+        """A closed surface of triangles: chords of the profile, each ring of as many points as the largest needs.
+
+        What is finer than the deviation, such as shallow slots, is left out; the rings are never so coarse.
+        """
+        loops = [thinned(along(contour, deviation), deviation) for contour in self.profile.contours]
+        return revolved(loops, min(deviation, ROUND * self.outer_radius))
 
     def pieces(self, deviation: float = CHORD) -> tuple[Points, ...]:
         """Frustums over the chords of the profile's outer line, from end to end along the axis."""

@@ -44,13 +44,7 @@ def frames_of(tree: Tree, parent: str, position: Placement = IDENTITY) -> tuple[
                 axis=(float(axis[0]), float(axis[1]), float(axis[2])),
             )
         )
-        frames += [
-            SceneFrame(
-                name, np.array([turned[body.id] @ position.origin for position in occurrence.positions]), body.id
-            )
-            for occurrence in body.occurrences
-            if (name := _pattern(body, occurrence))
-        ]
+        frames += (_row(body, occurrence, turned[body.id]) for occurrence in body.occurrences if _alike(occurrence))
     return tuple(frames)
 
 
@@ -71,19 +65,41 @@ def _turned_motion(motion: SceneMotion | None, rotation: Float[np.ndarray, "3 3"
     return SceneMotion(motion.drive, motion.angle, motion.shift @ rotation.T, motion.rotation)
 
 
-def _pattern(body: RigidBody, occurrence: Occurrence) -> str:
-    """Name of the frame of a part that is in its body many times in one direction; "": it lies in the body's frame."""
+def _alike(occurrence: Occurrence) -> bool:
+    """Whether a part is in its body many times, turned about its own z axis only: it then has a frame of its own."""
     first, *others = (position.rotation for position in occurrence.positions)
-    alike = others and all(np.abs(other - first).max() <= _SAME for other in others)
-    return f"{body.id}: {occurrence.part.id}" if alike else ""
+    return bool(others) and all(np.abs(other[:, 2] - first[:, 2]).max() <= _SAME for other in others)
+
+
+def _row_name(body: RigidBody, occurrence: Occurrence) -> str:
+    return f"{body.id}: {occurrence.part.id}"
+
+
+def _row(body: RigidBody, occurrence: Occurrence, rotation: Float[np.ndarray, "3 3"]) -> SceneFrame:
+    """The frame of a part that is in its body many times: an origin and a phase about the part's z axis for each."""
+    first = occurrence.positions[0].rotation
+    relative = np.array([first.T @ position.rotation for position in occurrence.positions])
+    axis = rotation @ first[:, 2]
+    return SceneFrame(
+        name=_row_name(body, occurrence),
+        origins=np.array([rotation @ position.origin for position in occurrence.positions]),
+        parent=body.id,
+        phases=np.arctan2(relative[:, 1, 0], relative[:, 0, 0]),
+        axis=(float(axis[0]), float(axis[1]), float(axis[2])),
+    )
 
 
 def parts_of(
-    tree: Tree, machine: str, position: Placement = IDENTITY, checks: Sequence[Check] = (), deviation: float = CHORD
+    tree: Tree,
+    machine: str,
+    position: Placement = IDENTITY,
+    checks: Sequence[Check] = (),
+    deviations: tuple[float, ...] = (CHORD,),
 ) -> tuple[ScenePart, ...]:
     """The parts of a tree that have a shape, in the frames of `frames_of`, each with the checks that concern it.
 
     machine  that they belong to      position  of the tree's ground, as in `frames_of`
+    deviations  of the meshes, from the finest to the coarsest [m]
     """
     turned = _rotations(tree, position)
     numbers = {part.id: number for part, number in tree.occurrences()}
@@ -93,17 +109,18 @@ def parts_of(
             part = occurrence.part
             if part.shape is None:
                 continue
-            pattern = _pattern(body, occurrence)
-            positions = [Placement(np.zeros(3), occurrence.positions[0].rotation)] if pattern else occurrence.positions
-            mesh = part.shape.mesh(deviation)
+            alike = _alike(occurrence)
+            positions = [Placement(np.zeros(3), occurrence.positions[0].rotation)] if alike else occurrence.positions
             parts.append(
                 ScenePart(
                     name=part.id if len(_bodies_with(tree, part)) == 1 else f"{part.id} of {body.id}",
                     title=f"{part.title}, {part.size}" if part.size else part.title,
                     machine=machine,
-                    frame=pattern or body.id,
-                    solids=(_placed(mesh, positions, turned[body.id]),),
-                    deviations=(deviation,),
+                    frame=_row_name(body, occurrence) if alike else body.id,
+                    solids=tuple(
+                        _placed(part.shape.mesh(deviation), positions, turned[body.id]) for deviation in deviations
+                    ),
+                    deviations=deviations,
                     material=part.material.name if part.material else "",
                     mass=part.mass,
                     number=numbers[part.id],
