@@ -45,7 +45,7 @@ PRICES: Mapping[str, PriceRates] = {
     "steel tube": PriceRates(each=60.0, per_kg=3.0),
     "welded frame": PriceRates(per_kg=5.0),
     "machined link": PriceRates(each=25.0, per_kg=15.0),
-    "head mechanism": PriceRates(each=600.0, per_kg=80.0),
+    "cam plate": PriceRates(each=70.0, per_kg=20.0),
     "pin or bush": PriceRates(each=4.0, per_kg=8.0),
     "turned part": PriceRates(each=15.0, per_kg=6.0),
     "yarn tube": PriceRates(each=15.0),

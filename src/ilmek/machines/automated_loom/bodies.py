@@ -7,10 +7,10 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.machines.arrangement.clearances import ConvexPart, MovingBody, moving, standing
-from ilmek.machines.arrangement.head_shape import HeadTool
 from ilmek.machines.arrangement.side_view import CamPosition, RoundPart, SideBox, SideView, rectangle
 from ilmek.machines.automated_loom.cyclogram import BEATER, EVEN, HEADS, ODD, weft_windows
 from ilmek.machines.beat import BeatPath
+from ilmek.machines.weaver.head_shape import HeadTool
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.timing.track import Track, sample
 from ilmek.units import turn
