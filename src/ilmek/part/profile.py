@@ -7,7 +7,8 @@ polynomial of its angle of degree p + q + 2, for which `_NODES` nodes leave less
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
 
 import numpy as np
 
@@ -20,11 +21,11 @@ from ilmek.report import Contour, Hole
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(24)
 _SHARE, _WEIGHT = (_NODES + 1) / 2, _WEIGHTS / 2
 
-_FEW = 4
-"""Nodes that are exact for the moments up to the third order of straight pieces, of degree 5; 4 are, to degree 7."""
+_ORDERS = 4
+"""Moments of orders below this."""
 
-_FEW_NODES, _FEW_WEIGHTS = np.polynomial.legendre.leggauss(_FEW)
-_FEW_SHARE, _FEW_WEIGHT = (_FEW_NODES + 1) / 2, _FEW_WEIGHTS / 2
+_FEW_NODES, _FEW_WEIGHTS = np.polynomial.legendre.leggauss(3)
+_FEW_SHARE, _FEW_WEIGHT = (_FEW_NODES + 1) / 2, _FEW_WEIGHTS / 2  # exact to degree 5: of straight pieces
 
 
 @record
@@ -58,12 +59,12 @@ class Profile:
         return abs(area(self.outline)) - math.fsum(abs(area(hole)) for hole in self.holes)
 
     def moment(self, p: int, q: int) -> float:
-        """Moment M(p, q) about the origin [m^(p + q + 2)].
+        """Moment M(p, q) about the origin [m^(p + q + 2)], p + q of 0 to 3.
 
         >>> round(Profile(circle(0j, 1.0)).moment(2, 0) / math.pi, 12)
         0.25
         """
-        return math.fsum(contour_moment(contour, p, q) for contour in self.contours)
+        return _moments(self)[p, q]
 
 
 def drilled(outline: Contour, holes: Sequence[Hole], cutouts: Sequence[Contour] = ()) -> Profile:
@@ -76,13 +77,21 @@ def _clockwise(contour: Contour) -> Contour:
     return Contour(turned.points[::-1], -np.roll(turned.bulges[::-1], -1))
 
 
-def contour_moment(contour: Contour, p: int, q: int) -> float:
-    """Moment M(p, q) of all within a contour about the origin [m^(p + q + 2)], negative for a clockwise one."""
-    straight = not contour.bulges.any() and p + q < _FEW
-    share, weight = (_FEW_SHARE, _FEW_WEIGHT) if straight else (_SHARE, _WEIGHT)
+@lru_cache(maxsize=256)
+def _moments(profile: Profile) -> Mapping[tuple[int, int], float]:
+    """All moments up to the third order."""
+    each = [_contour_moments(contour) for contour in profile.contours]
+    return {order: math.fsum(moments[order] for moments in each) for order in each[0]}
+
+
+def _contour_moments(contour: Contour) -> Mapping[tuple[int, int], float]:
+    """The moments of all within a contour, negative for a clockwise one."""
+    share, weight = (_SHARE, _WEIGHT) if contour.bulges.any() else (_FEW_SHARE, _FEW_WEIGHT)
     point, step = _pieces(contour, share)
-    integrand = point.real ** (p + 1) * point.imag**q * step.imag
-    return float(np.sum(integrand @ weight)) / (p + 1)
+    x, y = point.real, point.imag
+    along = step.imag * weight
+    orders = [(p, q) for p in range(_ORDERS) for q in range(_ORDERS - p)]
+    return {(p, q): float(np.sum(x ** (p + 1) * y**q * along)) / (p + 1) for p, q in orders}
 
 
 def _pieces(contour: Contour, share: FloatArray) -> tuple[ComplexArray, ComplexArray]:

@@ -10,6 +10,7 @@ where the pair is widened. Over the travel q the walls spread the warps from whe
 
 import math
 from collections.abc import Mapping
+from functools import lru_cache
 
 import numpy as np
 
@@ -19,14 +20,13 @@ from ilmek.machines.weaver.motions import CENTRE_MOTION, HANDLER, OPENER, SIDE_M
 from ilmek.machines.weaver.opener import STEEL, Opener
 from ilmek.machines.weaver.params import WeaverParams
 from ilmek.part.part import Bought, Part
-from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, UPRIGHT, Placement, placement
+from ilmek.part.placement import ALONG_WIDTH, IDENTITY, IN_SIDE_VIEW, UPRIGHT, Placement, placement
 from ilmek.part.profile import Profile, drilled
 from ilmek.part.shapes import Placed, Prism, Shape, Sum, bar, box, rectangle
 from ilmek.part.tree import GROUND, Joint, JointKind, Occurrence, RigidBody
 from ilmek.plane.contours import polygon, rounded_hull
 from ilmek.records import record
 from ilmek.report import Hole
-from ilmek.report.scene import SceneMotion
 from ilmek.units import format_quantity, mm
 
 HANDLER_ARM = (12 * mm, 4 * mm)
@@ -66,17 +66,14 @@ class ToolBodies:
     tools: HeadTools
     radius: float
 
-    def bodies(self, motions: Mapping[str, SceneMotion], parent: str = GROUND) -> tuple[tuple[str, RigidBody], ...]:
-        """Each body with the track that moves it.
-
-        motions  by id of a body; those without stand      parent  id of the body that guides them
-        """
+    def bodies(self, parent: str = GROUND) -> tuple[tuple[str, RigidBody], ...]:
+        """Each body with the track that moves it; parent: id of the body that guides them."""
         opener_track = OPENER if self.params.with_arms else SIDE_MOTION
-        tied = () if self.params.with_arms else (*self._side_grippers(motions, parent), self._centre(motions, parent))
+        tied = () if self.params.with_arms else (*self._side_grippers(parent), self._centre(parent))
         return (
             *tied,
-            (opener_track, self._slide(PLATES, self._plates(), motions, parent)),
-            (SLEY, self._slide(SLEY_BODY, (self._sley(),), motions, parent)),
+            (opener_track, _sliding(PLATES, self._plates(), parent)),
+            (SLEY, _sliding(SLEY_BODY, (self._sley(),), parent)),
             (HANDLER, self._handler(parent)),
         )
 
@@ -86,7 +83,7 @@ class ToolBodies:
 
     def of_track(self, track: str) -> float:
         """Mass of the parts that a track moves [kg]; of the handler as if all at its tip."""
-        return math.fsum(body.moments.zeroth for name, body in self.bodies({}) if name == track)
+        return _masses(self).get(track, 0.0)
 
     @property
     def tied(self) -> float:
@@ -94,14 +91,7 @@ class ToolBodies:
         params, by = self.params, self.grippers
         return float(params.opener.front_span + params.clearance + (by.lift + by.finger) / 2)
 
-    def _slide(
-        self, name: str, occurrences: tuple[Occurrence, ...], motions: Mapping[str, SceneMotion], parent: str
-    ) -> RigidBody:
-        return RigidBody(name, occurrences, parent, Joint(JointKind.SLIDE, _ALONG, motions.get(name)))
-
-    def _side_grippers(
-        self, motions: Mapping[str, SceneMotion], parent: str
-    ) -> tuple[tuple[str, RigidBody], tuple[str, RigidBody]]:
+    def _side_grippers(self, parent: str) -> tuple[tuple[str, RigidBody], ...]:
         """Two alike, one turned half round: a rod to the front from its tip, and an arm across it to the outside."""
         by, reach = self.grippers, self.tools.tool("side grippers").size.real
         half = by.finger / 2
@@ -113,19 +103,18 @@ class ToolBodies:
         def body(name: str, hand: int) -> tuple[str, RigidBody]:
             turned = placement(about=_ALONG, angle=math.pi if hand < 0 else 0.0)
             origin = placement(hand * by.axis, self.tied + hand * by.lift / 2, front)
-            joint = Joint(JointKind.SCREW, _ALONG, motions.get(name))
+            joint = Joint(JointKind.SCREW, _ALONG)
             return SIDE_MOTION, RigidBody(name, (Occurrence(part, (turned,)),), parent, joint, (origin,))
 
         return body(LEFT, -1), body(RIGHT, 1)
 
-    def _centre(self, motions: Mapping[str, SceneMotion], parent: str) -> tuple[str, RigidBody]:
+    def _centre(self, parent: str) -> tuple[str, RigidBody]:
         by = self.grippers
         length = self.tools.tool("centre gripper").size.real
         size = f"square {format_quantity(by.finger, 'mm')}"
         part = _made(CENTRE_GRIPPER, "centre gripper", "steel bar", box(by.finger, by.finger, length), size)
         origin = placement(0.0, self.tied + by.height, by.stroke - by.depth)
-        joint = Joint(JointKind.SLIDE, _ALONG, motions.get(CENTRE))
-        return CENTRE_MOTION, RigidBody(CENTRE, (Occurrence(part),), parent, joint, (origin,))
+        return CENTRE_MOTION, _sliding(CENTRE, (Occurrence(part),), parent, origin)
 
     def _plates(self) -> tuple[Occurrence]:
         """Both plates, alike."""
@@ -188,6 +177,19 @@ class ToolBodies:
             parent,
             Joint(JointKind.MISSING),
         )
+
+
+@lru_cache(maxsize=8)
+def _masses(made: ToolBodies) -> Mapping[str, float]:
+    """Mass that each track moves [kg]."""
+    masses: dict[str, float] = {}
+    for track, body in made.bodies():
+        masses[track] = masses.get(track, 0.0) + body.moments.zeroth
+    return masses
+
+
+def _sliding(name: str, occurrences: tuple[Occurrence, ...], parent: str, origin: Placement = IDENTITY) -> RigidBody:
+    return RigidBody(name, occurrences, parent, Joint(JointKind.SLIDE, _ALONG), (origin,))
 
 
 def _upright(tool: HeadTool, shift: float = 0.0) -> Placement:

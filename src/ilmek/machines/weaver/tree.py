@@ -5,6 +5,7 @@ Axes of the scene: x along the row, 0 in the middle of the head, y up from the f
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from functools import lru_cache
 
 from ilmek.elements.drive_parts import PULLEY
@@ -15,41 +16,28 @@ from ilmek.machines.weaver.tool_parts import part_id
 from ilmek.part import catalogue
 from ilmek.part.placement import IDENTITY, IN_SIDE_VIEW, UPRIGHT, Placement, placement
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
-from ilmek.report.scene import SceneMotion
 
 HEAD, CAM_SHAFT, MAGAZINE = part_id("head"), part_id("turning cam shaft"), part_id("magazine")
 CARRIAGE = part_id("drive of the carriage")
 """Ids of bodies."""
 
-_ALONG = (0.0, 0.0, 1.0)
 
-
+@lru_cache(maxsize=8)
 def tree(weaver: Weaver) -> Tree:
     """The head, and the motor of its carriage at the end of its share of the rail."""
-    return placed(weaver, {}, (IDENTITY,), (_at_rail(weaver),))
+    return placed(weaver, (IDENTITY,), (_at_rail(weaver),))
 
 
-def placed(
-    weaver: Weaver, motions: Mapping[str, SceneMotion], heads: Sequence[Placement], drives: Sequence[Placement]
-) -> Tree:
-    """The tree of a loom's heads.
-
-    motions  by id of a body      heads, drives  where the heads and the motors of their carriages stand
-    """
-    head = head_tree(weaver, motions)
-    first, *others = head.bodies
+def placed(weaver: Weaver, heads: Sequence[Placement], drives: Sequence[Placement]) -> Tree:
+    """The tree of a loom's heads, and of the motors of their carriages, each at its places."""
+    first, *others = head_tree(weaver).bodies
     mass, params = head_mass(weaver), weaver.params
     torque, turning = mass * params.carriage_acceleration * PULLEY, params.carriage_speed / PULLEY
     motor = catalogue.motor(
         part_id("carriage-motor"), "motor of a carriage", smallest_motor(torque, turning), torque, turning
     )
-    return Tree(
-        (
-            RigidBody(HEAD, first.occurrences, joint=first.joint, positions=tuple(heads)),
-            *others,
-            RigidBody(CARRIAGE, (Occurrence(motor),), joint=Joint(JointKind.MISSING), positions=tuple(drives)),
-        )
-    )
+    drive = RigidBody(CARRIAGE, (Occurrence(motor),), joint=Joint(JointKind.MISSING), positions=tuple(drives))
+    return Tree((replace(first, positions=tuple(heads)), *others, drive))
 
 
 def _at_rail(weaver: Weaver) -> Placement:
@@ -59,7 +47,8 @@ def _at_rail(weaver: Weaver) -> Placement:
     return placement(weaver.width / 2, low, shape.front).after(UPRIGHT)
 
 
-def head_tree(weaver: Weaver, motions: Mapping[str, SceneMotion]) -> Tree:
+@lru_cache(maxsize=8)
+def head_tree(weaver: Weaver) -> Tree:
     """All that a carriage moves.
 
     The case slides on the rail; between cams and tools, and for the magazine, nothing that carries is designed yet.
@@ -70,28 +59,21 @@ def head_tree(weaver: Weaver, motions: Mapping[str, SceneMotion]) -> Tree:
         Occurrence(stands.part, tuple(about.after(position) for position in stands.positions))
         for stands in case_parts(weaver)
     )
-    head = RigidBody(
-        HEAD, (*case, *drive_parts(weaver)), joint=Joint(JointKind.SLIDE, (1.0, 0.0, 0.0), motions.get(HEAD))
+    return Tree(
+        (
+            RigidBody(HEAD, (*case, *drive_parts(weaver)), joint=Joint(JointKind.SLIDE, (1.0, 0.0, 0.0))),
+            RigidBody(CAM_SHAFT, tuple(shaft_parts(weaver)), HEAD, Joint(JointKind.PIN), (about,)),
+            *(body for _, body in weaver.tool_bodies.bodies(HEAD)),
+            RigidBody(MAGAZINE, (tube_parts(weaver),), HEAD, Joint(JointKind.MISSING)),
+        )
     )
-    shaft = RigidBody(
-        CAM_SHAFT,
-        tuple(shaft_parts(weaver)),
-        HEAD,
-        Joint(JointKind.PIN, _ALONG, motions.get(CAM_SHAFT)),
-        (about,),
-    )
-    tools = (body for _, body in weaver.tool_bodies.bodies(motions, HEAD))
-    magazine = RigidBody(MAGAZINE, (tube_parts(weaver),), HEAD, Joint(JointKind.MISSING))
-    return Tree((head, shaft, *tools, magazine))
 
 
 @lru_cache(maxsize=32)
 def mass_of(weaver: Weaver) -> Mapping[str, float]:
     """Masses of the head's parts, all pieces of each [kg], by title; arms that tie the knots among them."""
     parts = {
-        part.title: number * part.mass
-        for part, number in head_tree(weaver, {}).occurrences()
-        if not math.isnan(part.mass)
+        part.title: number * part.mass for part, number in head_tree(weaver).occurrences() if not math.isnan(part.mass)
     }
     arms = {"arms": weaver.params.arms.mass} if weaver.params.with_arms else {}
     return {**parts, **arms}
@@ -99,8 +81,8 @@ def mass_of(weaver: Weaver) -> Mapping[str, float]:
 
 def cam_masses(weaver: Weaver) -> Mapping[str, float]:
     """Mass of the plate of each cam, by its name [kg]."""
-    parts = {turning.part.id: turning.part for turning in shaft_parts(weaver)}
-    return {cam.name: parts[cam_id(cam.name)].mass for cam in weaver.cams}
+    masses = {part.id: part.mass for part, _ in head_tree(weaver).occurrences()}
+    return {cam.name: masses[cam_id(cam.name)] for cam in weaver.cams}
 
 
 def head_mass(weaver: Weaver) -> float:

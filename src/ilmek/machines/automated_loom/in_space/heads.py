@@ -57,10 +57,9 @@ def heads_tree(made: SceneMaker) -> Tree:
     under = -rail.size.imag / 2
     return placed(
         loom.weaver,
-        _motions(made),
         [placement(x, -middle.imag, -middle.real) for x in middles],
         [_drive(x + share / 2, under) for x in middles],
-    )
+    ).moving(_motions(made))
 
 
 def _drive(x: float, height: float) -> Placement:
