@@ -4,13 +4,14 @@ Axes of the head as in the scene: x along the row to the weaver's right, 0 in th
 up from the fell; z to the front, 0 at the axes of the warps.
 
 A plate of the opener, in plan: a point enters between two warps on each side of the pair, and one between the pair,
-where the pair is widened. Over the travel q the walls spread the warps from where they stand to where the tools work
-(`opener`); beyond it teeth of the width of `wall` hold them. Behind the teeth the plate is whole.
+where the pair is widened. Over the travel q the walls, which the warps touch, spread them evenly from where they stand
+to where the tools work (`opener`); beyond it teeth of the width of `wall` hold them. Behind the teeth it is whole.
 """
 
 import math
 from collections.abc import Mapping
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 
@@ -132,16 +133,28 @@ class ToolBodies:
     def _comb(self, tool: HeadTool) -> Profile:
         """A plate in plan, its x to the front from the points, its y along the row."""
         made, tip, deep = self.opener, self.params.opener.tip, tool.size.real
+        pitch, radius = made.pitch, made.diameter / 2
         root = min(max(made.reach, made.travel), 0.9 * deep)
         ramp = min(made.travel, 0.9 * root)
-        middle = max((made.pair - made.diameter) / 2, tip) if made.pair > made.pitch else 0.0
-        outer = max(made.aside - made.diameter / 2, middle + 2 * tip + made.wall)
-        inner = max(outer - made.wall, middle + tip)
-        point = min(max(made.pitch, middle + tip), outer - tip / 2)
-        low, high = max(point - tip / 2, middle + tip / 2), max(point + tip / 2, middle + tip)
-        side = [root + 1j * inner, ramp + 1j * inner, 1j * low, 1j * high, ramp + 1j * outer, deep + 1j * outer]
-        between = [root + 1j * middle, ramp + 1j * middle, 0.5j * tip] if middle else []
-        half = np.array([*reversed(between), *side])
+        lead = min(pitch / 2, 0.1 * ramp)
+        share = lead / ramp
+        centre = _Wall(max(pitch / 2 - radius, tip), max(made.pair / 2 - radius, tip)) if made.pair > pitch else None
+        inside = centre or _Wall(0.0, 0.0)
+        outer = _Wall(
+            max(1.5 * pitch - radius, inside.first + 2 * tip), max(made.aside - radius, inside.last + made.wall)
+        )
+        inner = _Wall(
+            max(outer.first - made.wall, min(pitch / 2 + radius, outer.first - tip), inside.first + tip / 2),
+            max(outer.last - made.wall, inside.last + tip / 2),
+        )
+        middle = (inner.first + outer.first) / 2
+        side = [
+            *(root + 1j * inner.last, ramp + 1j * inner.last, lead + 1j * inner.at(share), 1j * (middle - tip / 2)),
+            *(1j * (middle + tip / 2), lead + 1j * outer.at(share), ramp + 1j * outer.last, deep + 1j * outer.last),
+        ]
+        if centre:
+            side = [0.5j * tip, lead + 1j * centre.at(share), ramp + 1j * centre.last, root + 1j * centre.last, *side]
+        half = np.array(side)
         return Profile(polygon(np.concatenate([half, np.conj(half[::-1])])))
 
     def _sley(self) -> Occurrence:
@@ -170,13 +183,24 @@ class ToolBodies:
         )
         beside = self.opener.aside + BESIDE
         pivot = placement(beside + thick, self.tied, self.tools.face - eye).after(IN_SIDE_VIEW)
-        below = placement(beside - across, self.tied - along, self.tools.face - deep)
+        below = placement(beside - across / 2, self.tied - along, self.tools.face - deep)
         return RigidBody(
             part_id("pile handler and knife"),
             (Occurrence(arm, (pivot,)), Occurrence(knife, (below,))),
             parent,
             Joint(JointKind.MISSING),
         )
+
+
+class _Wall(NamedTuple):
+    """From the middle of the pair to a wall [m]: where the warps begin to bear on it, and after the whole travel."""
+
+    first: float
+    last: float
+
+    def at(self, share: float) -> float:
+        """Where it is at a share of the travel [m]."""
+        return self.first + share * (self.last - self.first)
 
 
 @lru_cache(maxsize=8)

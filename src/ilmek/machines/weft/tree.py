@@ -157,10 +157,10 @@ class WeftBodies:
         return RigidBody(part_id("boxes"), (Occurrence(section, places), Occurrence(motor, below)), joint=_MISSING)
 
     def _spare(self, core: Part, made: Shuttle) -> RigidBody:
-        """A wound bobbin for each shuttle, for the next change: beside the right edge, in front of the box."""
+        """A wound bobbin for each shuttle, for the next change: beside the right edge, behind the box."""
         beside, size = self.half + self.params.edge, made.bobbin
-        front = made.depth + self.params.edge
-        places = tuple(placement(0.0, 0.0, front + k * size.diameter).after(along(beside)) for k in (1, 2))
+        behind = made.depth + self.params.edge
+        places = tuple(placement(0.0, 0.0, -behind - k * size.diameter).after(along(beside)) for k in (1, 2))
         return RigidBody(part_id("spare bobbins"), (Occurrence(core, places),), joint=_MISSING)
 
     def _rapier(self, made: Rapier) -> Iterator[RigidBody]:
