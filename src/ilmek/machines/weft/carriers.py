@@ -37,7 +37,7 @@ def shuttle_wood(params: WeftParams, size: BobbinSize) -> Part:
     bay = Placed(Prism(Profile(rectangle(deep, deep), (circle(0j, size.diameter / 2),)), long), (along(-long / 2),))
     ends = Placed(box(deep, deep, params.wall), (along(-long / 2 - params.wall), along(long / 2)))
     end = long / 2 + params.wall
-    noses = ()
+    noses: tuple[Placed, ...] = ()
     if params.nose > 0:
         wedge = polygon(np.array([-deep / 2 + 0j, deep / 2 + 0j, 1j * params.nose]))
         standing = placement(end, -deep / 2).after(UPRIGHT)
