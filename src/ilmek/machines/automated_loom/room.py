@@ -1,7 +1,6 @@
 """Whether all that moves in a loom has room: the least clearance of every two bodies over both cyclograms."""
 
 from collections.abc import Mapping
-from dataclasses import replace
 from itertools import combinations
 
 import numpy as np
@@ -29,7 +28,12 @@ from ilmek.machines.automated_loom.bodies import (
 )
 from ilmek.machines.automated_loom.cyclogram import EVEN, ODD
 from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.weaver.head_shape import LOWER_PLATE, SLEY_TOOL, UPPER_PLATE
 from ilmek.machines.weaver.motions import LEFT_ARM, RIGHT_ARM
+from ilmek.machines.weaver.parts import TUBE, case_plates
+from ilmek.machines.weaver.tool_parts import CENTRE_GRIPPER, OPENER_PLATE, SIDE_GRIPPER, SLEY_BAR
+from ilmek.machines.weft import Shuttle
+from ilmek.machines.weft.carriers import RAPIER_TUBE, SHUTTLE_WOOD
 from ilmek.records import record
 from ilmek.report import Check, Table, at_least, columns
 from ilmek.timing.cyclogram import Cyclogram
@@ -42,7 +46,7 @@ GUIDED = "guide-cams"
 HORIZON = 50 * mm
 """Bodies that are always farther apart are not reported [m]."""
 
-TOOLS = ("side grippers", LEFT_ARM, RIGHT_ARM, "centre gripper", "opener", "lower plate of the opener", "sley")
+TOOLS = ("side grippers", LEFT_ARM, RIGHT_ARM, "centre gripper", UPPER_PLATE, LOWER_PLATE, SLEY_TOOL)
 SHEETS = (EVEN, ODD, WARPS)
 
 _GROOVES = "warps run in the grooves between the guide cams"
@@ -60,7 +64,7 @@ TOUCHING: Mapping[frozenset[str], str] = {
     frozenset((CARPET, SPACER)): "the carpet runs down the spacer",
     frozenset((CARPET, LOWER)): "the carpet is wound on the lower cylinder",
     **{frozenset((WARPS, tool)): _IN_THE_WARPS for tool in TOOLS},
-    frozenset(("sley", CARPET)): "the sley pushes the knot to the fell",
+    frozenset((SLEY_TOOL, CARPET)): "the sley pushes the knot to the fell",
     **{frozenset(pair): "plan view of the head" for pair in combinations((*TOOLS, HEAD), 2)},
     **{frozenset((COMPENSATOR, sheet)): "warps run through the compensator" for sheet in SHEETS},
     frozenset((COMPENSATOR, BACK_REST)): "warps run from one to the other",
@@ -126,17 +130,35 @@ def room_checks(loom: LoomDesign, found: tuple[RoomFound, ...], column: float) -
         "mm",
         "parameter clearance, assumed by this project; at both ends of its run",
         cure="set a lower tension, for lighter columns",
+        parts=body_parts(loom)[CARRIER],
     )
-    return (*(_check(one, limit) for one in found), columns_clear)
+    return (*(_check(one, limit, body_parts(loom)) for one in found), columns_clear)
 
 
-def _check(found: RoomFound, limit: float) -> Check:
+def body_parts(loom: LoomDesign) -> Mapping[str, tuple[str, ...]]:
+    """Ids of the parts of bodies of heads and weft, by the bodies' names."""
+    tied = {} if loom.weaver.params.with_arms else {"side grippers": SIDE_GRIPPER, "centre gripper": CENTRE_GRIPPER}
+    carrier = SHUTTLE_WOOD if isinstance(loom.weft.carried, Shuttle) else RAPIER_TUBE
+    single = {
+        **tied,
+        UPPER_PLATE: OPENER_PLATE,
+        LOWER_PLATE: OPENER_PLATE,
+        SLEY_TOOL: SLEY_BAR,
+        MAGAZINE: TUBE,
+        CARRIER: carrier,
+    }
+    return {HEAD: case_plates(loom.weaver), **{name: (part,) for name, part in single.items()}}
+
+
+def _check(found: RoomFound, limit: float, bodies: Mapping[str, tuple[str, ...]]) -> Check:
     one = found.distance
     where = f"parameter clearance, assumed by this project; least at {one.angle / deg:.1f} deg of a {found.cyclogram}"
     names = (one.first, one.second)
     limit = 0.0 if FRAME.issuperset(names) else limit
     cure = next((CURES[name] for name in CURES if name in names), "leave the spans of the shed open")
-    return replace(at_least(f"clearance: {one.first} and {one.second}", one.value, limit, "mm", where), cure=cure)
+    parts = tuple(dict.fromkeys(part for name in names for part in bodies.get(name, ())))
+    name = f"clearance: {one.first} and {one.second}"
+    return at_least(name, one.value, limit, "mm", where, cure=cure, parts=parts)
 
 
 def room_tables(found: tuple[RoomFound, ...]) -> tuple[Table, ...]:

@@ -20,7 +20,7 @@ from ilmek.machines.weaver.motions import (
     SLEY,
 )
 from ilmek.machines.weaver.opener_checks import opener_checks, room_checks
-from ilmek.machines.weaver.parts import BEARING, MOTOR, SHAFT, SIDE_PLATE, bearing_of, cam_id, lever_id
+from ilmek.machines.weaver.parts import BEARING, MOTOR, SHAFT, bearing_of, cam_id, case_plates, lever_id
 from ilmek.machines.weaver.rods import ROD_STRESS, ROD_TIME, rod_bend, rod_stress, rod_time_ratio
 from ilmek.machines.weaver.tool_parts import (
     CENTRE_GRIPPER,
@@ -31,7 +31,7 @@ from ilmek.machines.weaver.tool_parts import (
     SLEY_BAR,
 )
 from ilmek.report import Check, at_least, at_most, must
-from ilmek.timing.cyclogram import check_all
+from ilmek.timing.cyclogram import Relation, check_all
 
 LONGER = "set a longer knot_cycle"
 SAME = 1e-9
@@ -57,7 +57,7 @@ def _tool_checks(weaver: Weaver) -> tuple[Check, ...]:
     found: list[Check] = []
     for name, peak in weaver.peaks.items():
         speed, acceleration = (rounded(value, 12) for value in (peak.speed, peak.acceleration))
-        source, moved = ("parameter speed_limit", "acceleration_limit"), (*_MOVED[name], lever_id(name))
+        source, moved = ("parameter speed_limit", "acceleration_limit"), _moved(name)
         found += [
             at_most(f"{name}: speed", speed, params.speed_limit, "m/s", source[0], cure=LONGER, parts=moved),
             at_most(
@@ -71,7 +71,7 @@ def _tool_checks(weaver: Weaver) -> tuple[Check, ...]:
             ),
         ]
     longer = "set a longer cycle (knot_cycle of a loom), or higher limits of speed and acceleration"
-    case = _case(weaver)
+    case = case_plates(weaver)
     step, hand = "set a longer knot_cycle, or a faster carriage", "set a shorter knot_cycle, or higher limits"
     return (
         *found,
@@ -109,8 +109,16 @@ def _cycle_source(weaver: Weaver) -> str:
 
 def _order_checks(weaver: Weaver) -> tuple[Check, ...]:
     cure = "leave the tools' angles to the steps of the turn, or set a longer knot_cycle"
-    checked = check_all(weaver.cyclogram, head_relations(weaver))
-    return tuple(replace(check, cure=cure) for check in checked)
+
+    def moved(relation: Relation) -> tuple[str, ...]:
+        tracks = (track for track in (relation.first.track, relation.then.track) if track in weaver.peaks)
+        return tuple(dict.fromkeys(part for track in tracks for part in _moved(track)))
+
+    return tuple(
+        replace(check, cure=cure, parts=moved(relation))
+        for relation in head_relations(weaver)
+        for check in check_all(weaver.cyclogram, [relation])
+    )
 
 
 def _rod_checks(weaver: Weaver) -> tuple[Check, ...]:
@@ -191,13 +199,11 @@ def cam_checks(weaver: Weaver) -> tuple[Check, ...]:
     params, cams = weaver.params, weaver.cams
     worst, widest = max(cams, key=lambda cam: cam.pressure_max), max(cams, key=lambda cam: cam.radius)
     sharpest, steep = min(cams, key=lambda cam: cam.convex_radius), max(cams, key=lambda cam: cam.pressure_angle)
-    angle = rounded(steep.pressure_angle, 9)
-    roller = params.roller_radius
     larger = "set a larger weaver.cam_room, shorter strokes, or a larger weaver.lever"
-    found = (
+    return (
         at_most(
             f"pressure angle, {steep.name}",
-            angle,
+            rounded(steep.pressure_angle, 9),
             params.pressure_angle_limit,
             "deg",
             "limit",
@@ -206,7 +212,7 @@ def cam_checks(weaver: Weaver) -> tuple[Check, ...]:
         ),
         at_most(
             f"roller, {sharpest.name}",
-            roller,
+            params.roller_radius,
             sharpest.convex_radius,
             "mm",
             "no undercut",
@@ -222,15 +228,7 @@ def cam_checks(weaver: Weaver) -> tuple[Check, ...]:
             cure="set a larger weaver.cam_thickness, or lighter tools",
             parts=(cam_id(worst.name),),
         ),
-        at_most(
-            "cams beside each other",
-            case_width(params, len(cams)),
-            weaver.width,
-            "mm",
-            "head_width",
-            cure="leave head_width to the design, or set thinner cams",
-            parts=(*_case(weaver), SHAFT),
-        ),
+        _case_check(weaver),
         at_most(
             f"diameter, {widest.name}",
             2 * widest.radius,
@@ -240,27 +238,29 @@ def cam_checks(weaver: Weaver) -> tuple[Check, ...]:
             cure=larger,
             parts=(cam_id(widest.name),),
         ),
+        _closure_check(weaver),
     )
+
+
+def _case_check(weaver: Weaver) -> Check:
+    """The case within the head's width."""
+    wide, parts = case_width(weaver.params, len(weaver.cams)), (*case_plates(weaver), SHAFT)
+    cure = "leave head_width to the design, or set thinner cams"
+    return at_most("cams beside each other", wide, weaver.width, "mm", "head_width", cure=cure, parts=parts)
+
+
+def _closure_check(weaver: Weaver) -> Check:
+    """What holds the followers to their cams: room in the groove, or springs up to the speed."""
+    params, cams = weaver.params, weaver.cams
     if params.closure == "groove":
         hollow = min(cams, key=lambda cam: cam.concave_radius)
-        cure = "set a smaller weaver.roller_radius"
-        return (
-            *found,
-            at_most(
-                f"roller in the groove, {hollow.name}",
-                roller,
-                hollow.concave_radius,
-                "mm",
-                "",
-                cure=cure,
-                parts=(cam_id(hollow.name),),
-            ),
-        )
+        name, roller = f"roller in the groove, {hollow.name}", params.roller_radius
+        cure, parts = "set a smaller weaver.roller_radius", (cam_id(hollow.name),)
+        return at_most(name, roller, hollow.concave_radius, "mm", "", cure=cure, parts=parts)
     loose = min(cams, key=lambda cam: cam.lift_off)
-    speed, cure = weaver.cyclogram.speed, "set closure=groove, or lighter tools"
-    name = f"speed before lift-off, {loose.name}"
-    off = at_most(name, speed, loose.lift_off, "rpm", "return springs", cure=cure, parts=(cam_id(loose.name),))
-    return (*found, off)
+    name, speed = f"speed before lift-off, {loose.name}", weaver.cyclogram.speed
+    cure, parts = "set closure=groove, or lighter tools", (cam_id(loose.name),)
+    return at_most(name, speed, loose.lift_off, "rpm", "return springs", cure=cure, parts=parts)
 
 
 def _drive_checks(weaver: Weaver, limits: HeadLimits) -> tuple[Check, ...]:
@@ -298,9 +298,9 @@ def rounded(value: float, digits: int) -> float:
     return float(f"{value:.{digits}g}")
 
 
-def _case(weaver: Weaver) -> tuple[str, ...]:
-    """The side plates, where the head has them."""
-    return (SIDE_PLATE,) if weaver.params.side_plate > 0 else ()
+def _moved(track: str) -> tuple[str, ...]:
+    """Ids of the parts that a track moves."""
+    return (*_MOVED[track], lever_id(track))
 
 
 _MOVED: Mapping[str, tuple[str, ...]] = {

@@ -54,6 +54,11 @@ SHAFT, BEARING, SIDE_PLATE = part_id("cam-shaft"), part_id("bearing"), part_id("
 MOTOR, TUBE = part_id("motor"), part_id("yarn-tube")
 
 
+def case_plates(weaver: Weaver) -> tuple[str, ...]:
+    """Id of the side plates, where the head has them."""
+    return (SIDE_PLATE,) if weaver.params.side_plate > 0 else ()
+
+
 def bearing_of(weaver: Weaver) -> RollingBearing | None:
     """The lightest deep-groove bearing that fits on the cam shaft and lasts under all forces of the cams; None: none.
 
