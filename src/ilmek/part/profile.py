@@ -88,10 +88,14 @@ def _contour_moments(contour: Contour) -> Mapping[tuple[int, int], float]:
     """The moments of all within a contour, negative for a clockwise one."""
     share, weight = (_SHARE, _WEIGHT) if contour.bulges.any() else (_FEW_SHARE, _FEW_WEIGHT)
     point, step = _pieces(contour, share)
-    x, y = point.real, point.imag
-    along = step.imag * weight
-    orders = [(p, q) for p in range(_ORDERS) for q in range(_ORDERS - p)]
-    return {(p, q): float(np.sum(x ** (p + 1) * y**q * along)) / (p + 1) for p, q in orders}
+    moments, x = {}, step.imag * weight
+    for p in range(_ORDERS):
+        x = x * point.real
+        across = x
+        for q in range(_ORDERS - p):
+            moments[p, q] = float(np.sum(across)) / (p + 1)
+            across = across * point.imag
+    return moments
 
 
 def _pieces(contour: Contour, share: FloatArray) -> tuple[ComplexArray, ComplexArray]:
