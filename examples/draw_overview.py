@@ -99,7 +99,7 @@ def draw() -> str:
         figure(figures["beat-up"], 10, 470, 420, 290),
         caption(30, 790, "shedding cams", "sized for pressure angle and shaft"),
         figure(figures["shedding-cam"], 10, 815, 420, 275),
-        caption(460, 440, "and one cyclogram for all", "a knot on one turn of five cams"),
+        caption(460, 440, "and one cyclogram for all", "a knot on one turn of six cams"),
         figure(figures["knot"], 445, 475, 785, 615),
     ]
     return (

@@ -79,6 +79,7 @@ WITNESSES: Mapping[str, tuple[dict[str, str], ...]] = {
         {"knot_yarn": "20mm"},
         {"knot": "asymmetric"},
         {"head_width": "40mm"},
+        {"pressure_angle_limit": "22deg"},
     ),
     "weft": (
         {"carrier": "shuttle", "crossed": "no"},

@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 
 from ilmek.errors import LoomError
+from ilmek.machines import weaver
 from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, LoomDesign, cyclograms, design
 from ilmek.machines.automated_loom.knotting import ARMS, CAMS
 from ilmek.machines.knotting_dyad.section import NEIGHBOURS
+from ilmek.machines.weaver import mass_of
 from ilmek.machines.weaver.knot import PAIR
-from ilmek.machines.weaver.limits import mass_of
 from ilmek.machines.weaver.motions import CENTRE_ARM, HANDLER, LEFT_ARM, OPENER, RIGHT_ARM, SIDE_MOTION, SLEY
 from ilmek.timing.cyclogram import check_all, check_apart
 from ilmek.timing.track import sample
@@ -136,7 +137,11 @@ def test_the_arms_are_parts_of_every_head_and_weighed_once() -> None:
     parts = {part.name: part for part in MACHINE.parts(made)}
     assert parts["first link of an arm"].number == 4
     masses = mass_of(made.weaver)
-    assert parts["knotting head"].mass == pytest.approx(sum(masses.values()) - masses["arms"])
+    own = {line.name: line for line in weaver.MACHINE.parts(made.weaver)}
+    assert {name: parts[name].number for name in own} == {name: 2 * line.number for name, line in own.items()}
+    assert sum(masses.values()) - masses["arms"] == pytest.approx(
+        sum(line.mass_all for name, line in own.items() if name != "motor of a carriage")
+    )
     assert masses["arms"] > 0
 
 

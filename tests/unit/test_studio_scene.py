@@ -87,7 +87,9 @@ def test_a_plates_drawing_encloses_its_area(project: Path) -> None:
         plate(PlateRequest("wheel", "machines/loom.toml"), context)
 
 
-@pytest.mark.parametrize("name", ["beat-up-crank", "beat-up-rocker", "shedding-shedding-cam", "weaver-pile-handler"])
+@pytest.mark.parametrize(
+    "name", ["beat-up-crank", "beat-up-rocker", "shedding-shedding-cam", "weaver-pile-handler-cam"]
+)
 def test_a_part_of_the_scene_is_as_large_as_its_workshop_file(project: Path, tmp_path: Path, name: str) -> None:
     loom = project_loom(project, "machines/loom.toml")
     part = next(one for one in loom.scene.parts if one.plate == name)

@@ -122,7 +122,7 @@ ARMS = WeaverParams(arms=ArmsInHead(time=0.45, yarn=37 * mm, pair=2.2 * mm, oute
 def test_arms_replace_the_grippers_and_keep_opener_handler_and_sley() -> None:
     head = design(ARMS)
     assert [track.name for track in head.cyclogram.tracks] == [OPENER, HANDLER, SLEY]
-    assert [cam.actuator for cam in head.cams] == ["cam 2", "cam 5", "gear"]
+    assert [cam.actuator for cam in head.cams] == ["cam 2", "cam 5", "cam 6"]
     assert head.width == pytest.approx(90 * mm)
     assert head.drawn >= 37 * mm
     assert not MACHINE.report(head).failed

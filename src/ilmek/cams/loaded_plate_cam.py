@@ -139,11 +139,6 @@ class LoadedPlateCam:
         """Largest radius of the cam [m]."""
         return float(np.max(np.abs(self.trace.surface)))
 
-    @property
-    def mass(self) -> float:
-        """Mass of the plate, its bore filled by the shaft [kg]."""
-        return self.area * self.thickness * STEEL.density
-
 
 @record
 class PlateCamTask:

@@ -42,10 +42,11 @@ class PriceRates:
 PRICES: Mapping[str, PriceRates] = {
     "laser-cut part": PriceRates(each=0.5, per_kg=4.0),
     "steel bar": PriceRates(each=20.0, per_kg=2.0),
+    "carbon tube": PriceRates(each=25.0, per_kg=15.0),
     "steel tube": PriceRates(each=60.0, per_kg=3.0),
     "welded frame": PriceRates(per_kg=5.0),
     "machined link": PriceRates(each=25.0, per_kg=15.0),
-    "head mechanism": PriceRates(each=600.0, per_kg=80.0),
+    "cam plate": PriceRates(each=100.0, per_kg=25.0),
     "pin or bush": PriceRates(each=4.0, per_kg=8.0),
     "turned part": PriceRates(each=15.0, per_kg=6.0),
     "yarn tube": PriceRates(each=15.0),

@@ -24,7 +24,7 @@ class Entry:
 
 ENTRIES = {
     "automated-loom": Entry("the loom for one carpet: heads, shedding, beat-up, warp tension, timed together"),
-    "weaver": Entry("knotting head: five cams on one shaft, one knot a turn (thesis, 2.2.3)", part=True),
+    "weaver": Entry("knotting head: six cams on one shaft, one knot a turn (thesis, 2.2.3)", part=True),
     "beat-up": Entry(
         "crank-rocker that beats weft and knots to the fell: links, motion, forces", beats=("travelling",)
     ),

@@ -53,6 +53,7 @@ class Part:
     material  of a part that is made          purchase  of a bought one     seats   by name
     envelope  the shape is the room that the part takes: its form is not designed, or the maker's
     paths     closed curves of a flat part that guide a tool, not cut through      marks  lines to scribe, by name
+    notes     what else the workshop must know: fits, a keyway's standard
 
     A made part has a shape and a material, and weighs what these say. A bought part weighs what its catalogue says.
     Raises ParameterError for a part that is both or neither.
@@ -69,6 +70,7 @@ class Part:
     envelope: bool = False
     paths: Mapping[str, ComplexArray] = field(default_factory=dict)
     marks: Mapping[str, ComplexArray] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         if (self.purchase is None) == (self.material is None):

@@ -6,7 +6,7 @@ from ilmek.part.tree import Tree
 from ilmek.plane.contours import area, as_hole, counter_clockwise
 from ilmek.report import Plate, WorkPiece
 
-FLAT = ("laser-cut part", "machined link")
+FLAT = ("laser-cut part", "machined link", "cam plate")
 """Processes by which a contour is cut out of flat stock."""
 
 
@@ -28,7 +28,8 @@ def pieces_of(tree: Tree) -> tuple[WorkPiece, ...]:
 
 def is_flat(part: Part) -> bool:
     """Whether a part is drawn as a plate."""
-    return part.process in FLAT and part.material is not None and isinstance(part.shape, Prism)
+    made = part.material is not None and not part.envelope
+    return part.process in FLAT and made and isinstance(part.shape, Prism)
 
 
 def plate_name(part: Part) -> str:
@@ -54,4 +55,5 @@ def _plate(part: Part, number: int) -> Plate:
         number=number,
         paths=part.paths,
         marks=part.marks,
+        notes=part.notes,
     )

@@ -7,7 +7,8 @@ polynomial of its angle of degree p + q + 2, for which `_NODES` nodes leave less
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
 
 import numpy as np
 
@@ -19,6 +20,12 @@ from ilmek.report import Contour, Hole
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(24)
 _SHARE, _WEIGHT = (_NODES + 1) / 2, _WEIGHTS / 2
+
+_ORDERS = 4
+"""Moments of orders below this."""
+
+_FEW_NODES, _FEW_WEIGHTS = np.polynomial.legendre.leggauss(3)
+_FEW_SHARE, _FEW_WEIGHT = (_FEW_NODES + 1) / 2, _FEW_WEIGHTS / 2  # exact to degree 5: of straight pieces
 
 
 @record
@@ -52,12 +59,12 @@ class Profile:
         return abs(area(self.outline)) - math.fsum(abs(area(hole)) for hole in self.holes)
 
     def moment(self, p: int, q: int) -> float:
-        """Moment M(p, q) about the origin [m^(p + q + 2)].
+        """Moment M(p, q) about the origin [m^(p + q + 2)], p + q of 0 to 3.
 
         >>> round(Profile(circle(0j, 1.0)).moment(2, 0) / math.pi, 12)
         0.25
         """
-        return math.fsum(contour_moment(contour, p, q) for contour in self.contours)
+        return _moments(self)[p, q]
 
 
 def drilled(outline: Contour, holes: Sequence[Hole], cutouts: Sequence[Contour] = ()) -> Profile:
@@ -70,21 +77,37 @@ def _clockwise(contour: Contour) -> Contour:
     return Contour(turned.points[::-1], -np.roll(turned.bulges[::-1], -1))
 
 
-def contour_moment(contour: Contour, p: int, q: int) -> float:
-    """Moment M(p, q) of all within a contour about the origin [m^(p + q + 2)], negative for a clockwise one."""
-    point, step = _pieces(contour)
-    integrand = point.real ** (p + 1) * point.imag**q * step.imag
-    return float(np.sum(integrand @ _WEIGHT)) / (p + 1)
+@lru_cache(maxsize=256)
+def _moments(profile: Profile) -> Mapping[tuple[int, int], float]:
+    """All moments up to the third order."""
+    each = [_contour_moments(contour) for contour in profile.contours]
+    return {order: math.fsum(moments[order] for moments in each) for order in each[0]}
 
 
-def _pieces(contour: Contour) -> tuple[ComplexArray, ComplexArray]:
-    """Points of each piece at Gauss' nodes [m], and their derivatives by its share of the piece, (pieces, nodes)."""
+def _contour_moments(contour: Contour) -> Mapping[tuple[int, int], float]:
+    """The moments of all within a contour, negative for a clockwise one."""
+    share, weight = (_SHARE, _WEIGHT) if contour.bulges.any() else (_FEW_SHARE, _FEW_WEIGHT)
+    point, step = _pieces(contour, share)
+    moments, x = {}, step.imag * weight
+    for p in range(_ORDERS):
+        x = x * point.real
+        across = x
+        for q in range(_ORDERS - p):
+            moments[p, q] = float(np.sum(across)) / (p + 1)
+            across = across * point.imag
+    return moments
+
+
+def _pieces(contour: Contour, share: FloatArray) -> tuple[ComplexArray, ComplexArray]:
+    """Points of each piece at shares of it [m], and their derivatives by the share, (pieces, shares)."""
     start = contour.points[:, None]
     chord = np.roll(contour.points, -1)[:, None] - start
+    if not contour.bulges.any():
+        return start + chord * share, np.broadcast_to(chord, (len(chord), len(share)))
     bulge: FloatArray = contour.bulges[:, None]
     straight = np.abs(bulge) < STRAIGHT
     half = 2 * np.arctan(np.where(straight, 1.0, bulge))  # half of the sweep
-    turned = np.exp(-1j * half * (1 - _SHARE)) / np.sin(half)
-    share = np.where(straight, _SHARE, turned * np.sin(half * _SHARE))
-    speed = np.where(straight, 1.0, turned * half * np.exp(1j * half * _SHARE))
-    return start + chord * share, chord * speed
+    turned = np.exp(-1j * half * (1 - share)) / np.sin(half)
+    along = np.where(straight, share, turned * np.sin(half * share))
+    speed = np.where(straight, 1.0, turned * half * np.exp(1j * half * share))
+    return start + chord * along, chord * speed

@@ -18,6 +18,7 @@ from typing import Protocol
 
 import numpy as np
 
+from ilmek.arrays import ComplexArray
 from ilmek.errors import ParameterError
 from ilmek.part.convex import Points, circumscribed, convex_pieces, frustums, prism_corners
 from ilmek.part.mesh import extruded, joined, revolved
@@ -82,7 +83,7 @@ class Prism:
     def mesh(self, deviation: float = CHORD) -> Solid:
         """A closed surface of triangles; arcs become chords inside of them."""
         loops = (along(contour, deviation) for contour in self.section.contours)
-        return extruded([thinned(loop, deviation) if self.section.smooth else loop for loop in loops], self.length)
+        return extruded([_fewer(loop, deviation) if self.section.smooth else loop for loop in loops], self.length)
 
     def pieces(self, deviation: float = CHORD) -> tuple[Points, ...]:
         """Prisms over convex pieces of the outline, without its holes."""
@@ -123,7 +124,7 @@ class Turned:
 
         What is finer than the deviation, such as shallow slots, is left out; the rings are never so coarse.
         """
-        loops = [thinned(along(contour, deviation), deviation) for contour in self.profile.contours]
+        loops = [_fewer(along(contour, deviation), deviation) for contour in self.profile.contours]
         return revolved(loops, min(deviation, ROUND * self.outer_radius))
 
     def pieces(self, deviation: float = CHORD) -> tuple[Points, ...]:
@@ -176,6 +177,12 @@ class Sum:
             for piece in pieces
             for position in positions
         )
+
+
+def _fewer(loop: ComplexArray, deviation: float) -> ComplexArray:
+    """The loop with fewer points, as `thinned`; all of them where it is thinner than the deviation."""
+    few = thinned(loop, deviation)
+    return few if len(few) > 2 else loop
 
 
 def box(width: float, height: float, length: float) -> Prism:

@@ -134,6 +134,15 @@ class Tree:
         """Mass of all parts that are weighed [kg]."""
         return math.fsum(number * part.mass for part, number in self.occurrences() if not math.isnan(part.mass))
 
+    def moving(self, motions: Mapping[str, SceneMotion]) -> "Tree":
+        """The tree with motions of bodies by their ids."""
+        return Tree(
+            tuple(
+                replace(body, joint=replace(body.joint, motion=motions[body.id])) if body.id in motions else body
+                for body in self.bodies
+            )
+        )
+
     def carrying(self, parent: str, tree: "Tree", position: Placement = IDENTITY) -> "Tree":
         """The tree with another on one of its bodies: the ground of the other at a position in that body's frame."""
         carried = (

@@ -54,13 +54,11 @@ class MovingBody:
     """A body in a cyclogram.
 
     windows  angles of the turn between which it is where its parts say [rad]; elsewhere it is out of the loom
-    parts_in_loom  ids of what it stands for in the loom's list of parts
     """
 
     name: str
     parts: tuple[ConvexPart, ...]
     windows: tuple[tuple[float, float], ...] = ((0.0, turn),)
-    parts_in_loom: tuple[str, ...] = ()
 
 
 @record

@@ -20,7 +20,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ilmek.arrays import ComplexArray
-from ilmek.machines.arrangement.head_shape import HeadShape, head_shape
 from ilmek.machines.arrangement.spans import (
     BAR,
     LEAF_BEHIND,
@@ -33,6 +32,7 @@ from ilmek.machines.arrangement.spans import (
     warp_length,
 )
 from ilmek.machines.weaver.design import Weaver
+from ilmek.machines.weaver.head_shape import HeadShape
 from ilmek.records import computed, record, result
 from ilmek.units import mm
 
@@ -173,7 +173,7 @@ def laid_out(task: "LoomTask", path: "BeatPath | None" = None) -> SideView:
     along, last = [one.beyond for one in shedding.shafts], shedding.shafts[-1].beyond
     spans = spans_at(room, prime, guide, tuple(front + one for one in along), tuple(back + last - one for one in along))
     radius = cylinder.outer_radius if cylinder else room.tube
-    shape, comb = head_shape(head, room.clearance), _comb(room, spans, path)
+    shape, comb = head.shape, _comb(room, spans, path)
     spacer, lower, roll = _lower_cylinders(task, radius, head)
     behind, rest = cylinder_offset(room), complex(-room.back_rest, spans.back_rest)
     case = shape.body + shape.size

@@ -7,14 +7,10 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.machines.arrangement.clearances import ConvexPart, MovingBody, moving, standing
-from ilmek.machines.arrangement.head_shape import HeadTool
 from ilmek.machines.arrangement.side_view import CamPosition, RoundPart, SideBox, SideView, rectangle
 from ilmek.machines.automated_loom.cyclogram import BEATER, EVEN, HEADS, ODD, weft_windows
-from ilmek.machines.automated_loom.frame import part_id
 from ilmek.machines.beat import BeatPath
-from ilmek.machines.shedding.stack import part_id as shedding_part
-from ilmek.machines.tension_compensator.members import part_id as compensator_part
-from ilmek.machines.warp_tension.cylinders import part_id as cylinder_part
+from ilmek.machines.weaver.head_shape import HeadTool
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.timing.track import Track, sample
 from ilmek.units import turn
@@ -49,7 +45,7 @@ def row_bodies(side: SideView, row: Cyclogram, beat: BeatPath, *, stack: bool) -
             MovingBody(tool.name, (moving(rectangle(SideBox(tool.corner, tool.size)), away),))
             for tool in side.head.tools
         ),
-        MovingBody(RAIL, (moving(rectangle(side.rail), away),), parts_in_loom=(part_id("rail"),)),
+        MovingBody(RAIL, (moving(rectangle(side.rail), away),)),
         *_frame(side),
     )
 
@@ -64,7 +60,7 @@ def knot_bodies(side: SideView, knot: Cyclogram) -> tuple[MovingBody, ...]:
         MovingBody(HEAD, (standing(rectangle(SideBox(side.head.body, side.head.size))),)),
         MovingBody(MAGAZINE, (standing(_magazine(side)),)),
         *(_tool(tool, knot) for tool in side.head.tools),
-        MovingBody(RAIL, (_box(side.rail),), parts_in_loom=(part_id("rail"),)),
+        MovingBody(RAIL, (_box(side.rail),)),
         *_frame(side),
     )
 
@@ -144,8 +140,7 @@ def _cams(side: SideView, stack: Displacement | None) -> MovingBody:
         moving(np.array([cam.at]), stack, cam.guide_radius) if stack else standing(np.array([cam.at]), cam.guide_radius)
         for cam in side.cams
     )
-    names = ("guide-cam", "reed-dent", "shedding-cam")
-    return MovingBody(GUIDE_CAMS, tuple(parts), parts_in_loom=tuple(shedding_part(name) for name in names))
+    return MovingBody(GUIDE_CAMS, tuple(parts))
 
 
 def _comb(side: SideView, down: Displacement | None) -> tuple[MovingBody, ...]:
@@ -167,18 +162,14 @@ def _tool(tool: HeadTool, knot: Cyclogram) -> MovingBody:
 def _frame(side: SideView) -> tuple[MovingBody, ...]:
     """What stands: carpet, back rest and cylinders, the lower one with the whole carpet."""
     carpet = rectangle(SideBox(complex(-side.room.warp, side.lower.at.imag), complex(side.pile, -side.lower.at.imag)))
-    rollers: tuple[tuple[str, RoundPart, float, str], ...] = (
-        (BACK_REST, side.back_rest, side.back_rest.radius, part_id("back-rest")),
-        (UPPER, side.upper, side.upper.radius, cylinder_part("cylinder")),
-        (SPACER, side.spacer, side.spacer.radius, cylinder_part("spacer")),
-        (LOWER, side.lower, side.roll, cylinder_part("cylinder")),
+    rollers: tuple[tuple[str, RoundPart, float], ...] = (
+        (BACK_REST, side.back_rest, side.back_rest.radius),
+        (UPPER, side.upper, side.upper.radius),
+        (SPACER, side.spacer, side.spacer.radius),
+        (LOWER, side.lower, side.roll),
     )
-    room = tuple(compensator_part(name) for name in ("bar", "lever", "rod", "spring", "beam"))
     return (
         MovingBody(CARPET, (standing(carpet),)),
-        MovingBody(COMPENSATOR, (_box(side.compensator),), parts_in_loom=room),
-        *(
-            MovingBody(name, (standing(np.array([roller.at]), radius),), parts_in_loom=(part,))
-            for name, roller, radius, part in rollers
-        ),
+        MovingBody(COMPENSATOR, (_box(side.compensator),)),
+        *(MovingBody(name, (standing(np.array([roller.at]), radius),)) for name, roller, radius in rollers),
     )

@@ -15,12 +15,15 @@ from dataclasses import replace
 from functools import lru_cache
 from typing import TypeVar
 
+import numpy as np
+
 from ilmek.cams.laws import LAWS
 from ilmek.errors import LoomError
 from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.component import Child
 from ilmek.machines.knotting_dyad import KnottingDyad, KnottingDyadParams
 from ilmek.machines.knotting_dyad.drives import head_motion
+from ilmek.machines.knotting_dyad.head import Head
 from ilmek.machines.knotting_dyad.motion import CyclePart
 from ilmek.machines.knotting_dyad.sequence import CENTRE, LEFT, RIGHT
 from ilmek.machines.loom_task import LoomTask
@@ -108,6 +111,7 @@ def _head(kind: str, task: LoomTask) -> KnottingHead:
             outer=inside.outer,
             width=arms.head.width,
             rest=inside.front,
+            stroke=max(_travel(spans) for spans in _arm_positions(arms.head).values()),
             breadth=arms.params.needle_breadth,
             mass=sum(part.mass_all for part in MACHINES[DYAD].parts(arms)),
         ),
@@ -177,14 +181,14 @@ def with_arms(weaver: Weaver, arms: KnottingDyad) -> Cyclogram:
         return opened + (time - first) * speed if time >= first else home + (time - first) * speed
 
     moved = [part for part in parts if not part.grippers]
-    tracks: dict[str, list[TrackSegment]] = {LEFT_ARM: [], RIGHT_ARM: [], CENTRE_ARM: []}
-    stroke, front = arms.head.arm.stroke, arms.head.section.front
-    for part, phase in zip(moved, arms.head.sequence, strict=True):
-        spans = (phase.left, stroke, 0.0), (phase.right, stroke, 0.0), (phase.centre, -1.0, front)
-        for name, (span, scale, offset) in zip(tracks, spans, strict=True):
-            if span[0] != span[1]:
-                begin, finish = (scale * one + offset for one in span)
-                tracks[name].append(TrackSegment(part.name, at(part.start), at(part.end), begin, finish, ARM_LAW))
+    tracks = {
+        name: [
+            TrackSegment(part.name, at(part.start), at(part.end), begin, finish, ARM_LAW)
+            for part, (begin, finish) in zip(moved, spans, strict=True)
+            if begin != finish
+        ]
+        for name, spans in _arm_positions(arms.head).items()
+    }
     made = (
         Track(name, actuator, tuple(tracks[name]), _grips(parts, gripper, at, speed))
         for name, actuator, gripper in (
@@ -195,6 +199,21 @@ def with_arms(weaver: Weaver, arms: KnottingDyad) -> Cyclogram:
     )
     opener, *others = tied.tracks
     return replace(tied, tracks=(opener, *made, *others))
+
+
+def _arm_positions(head: Head) -> dict[str, list[tuple[float, float]]]:
+    """Of each arm the positions of its tip at the begin and the end of each phase of the sequence [m]."""
+    stroke, front = head.arm.stroke, head.section.front
+    return {
+        LEFT_ARM: [(stroke * phase.left[0], stroke * phase.left[1]) for phase in head.sequence],
+        RIGHT_ARM: [(stroke * phase.right[0], stroke * phase.right[1]) for phase in head.sequence],
+        CENTRE_ARM: [(front - phase.centre[0], front - phase.centre[1]) for phase in head.sequence],
+    }
+
+
+def _travel(spans: list[tuple[float, float]]) -> float:
+    ends = np.ravel(spans)
+    return float(ends.max() - ends.min())
 
 
 def _grips(

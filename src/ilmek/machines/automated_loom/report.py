@@ -23,6 +23,7 @@ from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time, t
 from ilmek.machines.automated_loom.parts import PartsList, parts_of_loom
 from ilmek.machines.automated_loom.room import HORIZON, RoomFound, clearances, room_checks, room_tables
 from ilmek.machines.beat import BeatDrive
+from ilmek.machines.weaver.parts import case_plates
 from ilmek.records import computed, record
 from ilmek.report import CamTable, Check, Json, Report, Table, at_least, at_most, columns
 from ilmek.timing.cyclogram import check_all, check_apart
@@ -105,6 +106,16 @@ def results(found: LoomAnalysis) -> tuple[Any, ...]:
     return (found, found.loom.side, found.shares, found.beat, found.energy, found.listed)
 
 
+def _heads_checks(loom: LoomDesign) -> tuple[Check, ...]:
+    """Room of the heads on their row."""
+    wide, plates = loom.head_width, case_plates(loom.weaver)
+    number = at_most("heads that share a row", loom.heads, loom.heads_max, "1", "width and head_width")
+    apart = at_least("distance of two heads", loom.head_distance, wide, "mm", "head_width")
+    return tuple(
+        replace(check, cure=FEWER_HEADS, parts=plates) for check in (number, *((apart,) if loom.heads > 1 else ()))
+    )
+
+
 @lru_cache(maxsize=4)
 def checks(found: LoomAnalysis) -> tuple[Check, ...]:
     """Room of the heads, limits of the weft's carrier, order of the motions, strength and stiffness of the frame."""
@@ -113,12 +124,8 @@ def checks(found: LoomAnalysis) -> tuple[Check, ...]:
     carrier, weft = loom.row_timing.carrier, loom.weft
     moving = row.track(carrier)
     speed, acceleration = peak_speed(moving, row.period), peak_acceleration(moving, row.period)
-    apart = (
-        at_least("distance of two heads", loom.head_distance, loom.head_width, "mm", "head_width", cure=FEWER_HEADS),
-    )
     return (
-        at_most("heads that share a row", loom.heads, loom.heads_max, "1", "width and head_width", cure=FEWER_HEADS),
-        *(apart if loom.heads > 1 else ()),
+        *_heads_checks(loom),
         row_check(found.beat),
         *found.beat.checks,
         *_wishes(found),

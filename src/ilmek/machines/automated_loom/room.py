@@ -28,8 +28,17 @@ from ilmek.machines.automated_loom.bodies import (
 )
 from ilmek.machines.automated_loom.cyclogram import EVEN, ODD
 from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.automated_loom.frame import part_id as loom_part
 from ilmek.machines.automated_loom.parts import built_side, parts_of_loom
+from ilmek.machines.shedding.stack import part_id as shedding_part
+from ilmek.machines.tension_compensator.members import part_id as compensator_part
+from ilmek.machines.warp_tension.cylinders import part_id as cylinder_part
+from ilmek.machines.weaver.head_shape import LOWER_PLATE, SLEY_TOOL, UPPER_PLATE
 from ilmek.machines.weaver.motions import LEFT_ARM, RIGHT_ARM
+from ilmek.machines.weaver.parts import TUBE, case_plates
+from ilmek.machines.weaver.tool_parts import CENTRE_GRIPPER, OPENER_PLATE, SIDE_GRIPPER, SLEY_BAR
+from ilmek.machines.weft import Shuttle
+from ilmek.machines.weft.carriers import RAPIER_TUBE, SHUTTLE_WOOD
 from ilmek.records import record
 from ilmek.report import Check, Table, at_least, columns
 from ilmek.timing.cyclogram import Cyclogram
@@ -42,7 +51,7 @@ GUIDED = "guide-cams"
 HORIZON = 50 * mm
 """Bodies that are always farther apart are not reported [m]."""
 
-TOOLS = ("side grippers", LEFT_ARM, RIGHT_ARM, "centre gripper", "opener", "lower plate of the opener", "sley")
+TOOLS = ("side grippers", LEFT_ARM, RIGHT_ARM, "centre gripper", UPPER_PLATE, LOWER_PLATE, SLEY_TOOL)
 SHEETS = (EVEN, ODD, WARPS)
 
 _GROOVES = "warps run in the grooves between the guide cams"
@@ -60,7 +69,7 @@ TOUCHING: Mapping[frozenset[str], str] = {
     frozenset((CARPET, SPACER)): "the carpet runs down the spacer",
     frozenset((CARPET, LOWER)): "the carpet is wound on the lower cylinder",
     **{frozenset((WARPS, tool)): _IN_THE_WARPS for tool in TOOLS},
-    frozenset(("sley", CARPET)): "the sley pushes the knot to the fell",
+    frozenset((SLEY_TOOL, CARPET)): "the sley pushes the knot to the fell",
     **{frozenset(pair): "plan view of the head" for pair in combinations((*TOOLS, HEAD), 2)},
     **{frozenset((COMPENSATOR, sheet)): "warps run through the compensator" for sheet in SHEETS},
     frozenset((COMPENSATOR, BACK_REST)): "warps run from one to the other",
@@ -82,29 +91,25 @@ CURES: Mapping[str, str] = {
 
 @record
 class RoomFound:
-    """The least clearance of two bodies over both cyclograms, the cyclogram in which it occurs, ids of their parts."""
+    """The least clearance of two bodies over both cyclograms, and the cyclogram in which it occurs."""
 
     distance: BodyDistance
     cyclogram: str
-    parts: tuple[str, ...] = ()
 
 
 def clearances(loom: LoomDesign) -> tuple[RoomFound, ...]:
     """The least clearance of every two bodies that must not touch, the least of both cyclograms."""
     (knot, row), side = loom.cyclograms, built_side(loom)
-    listed = {line.part for line in parts_of_loom(loom).parts}
     found: dict[frozenset[str], RoomFound] = {}
     for cyclogram, bodies in (
         (row, row_bodies(side, row, loom.beat.path, stack=loom.params.beat == GUIDED)),
         (knot, knot_bodies(side, knot)),
     ):
         ends = beat_joints(loom.beat.path, row) if cyclogram is row else np.empty(0)
-        parts = {body.name: [name for name in body.parts_in_loom if name in listed] for body in bodies}
         for clearance in _of_cyclogram(cyclogram, bodies, ends, loom.params.clearance):
             pair = frozenset((clearance.first, clearance.second))
             if pair not in found or clearance.value < found[pair].distance.value:
-                concerned = (*parts[clearance.first], *parts[clearance.second])
-                found[pair] = RoomFound(clearance, cyclogram.name, concerned)
+                found[pair] = RoomFound(clearance, cyclogram.name)
     return tuple(sorted(found.values(), key=lambda one: one.distance.value))
 
 
@@ -130,18 +135,48 @@ def room_checks(loom: LoomDesign, found: tuple[RoomFound, ...], column: float) -
         "mm",
         "parameter clearance, assumed by this project; at both ends of its run",
         cure="set a lower tension, for lighter columns",
+        parts=body_parts(loom)[CARRIER],
     )
-    return (*(_check(one, limit) for one in found), columns_clear)
+    parts = body_parts(loom)
+    return (*(_check(one, limit, parts) for one in found), columns_clear)
 
 
-def _check(found: RoomFound, limit: float) -> Check:
+def body_parts(loom: LoomDesign) -> Mapping[str, tuple[str, ...]]:
+    """Ids of the parts of the bodies by the bodies' names, of those that the loom has."""
+    tied = {} if loom.weaver.params.with_arms else {"side grippers": SIDE_GRIPPER, "centre gripper": CENTRE_GRIPPER}
+    carrier = SHUTTLE_WOOD if isinstance(loom.weft.carried, Shuttle) else RAPIER_TUBE
+    single = {
+        **tied,
+        UPPER_PLATE: OPENER_PLATE,
+        LOWER_PLATE: OPENER_PLATE,
+        SLEY_TOOL: SLEY_BAR,
+        MAGAZINE: TUBE,
+        CARRIER: carrier,
+        RAIL: loom_part("rail"),
+        BACK_REST: loom_part("back-rest"),
+        UPPER: cylinder_part("cylinder"),
+        LOWER: cylinder_part("cylinder"),
+        SPACER: cylinder_part("spacer"),
+    }
+    several = {
+        HEAD: case_plates(loom.weaver),
+        GUIDE_CAMS: tuple(shedding_part(name) for name in ("guide-cam", "reed-dent", "shedding-cam")),
+        COMPENSATOR: tuple(compensator_part(name) for name in ("bar", "lever", "rod", "spring", "beam")),
+    }
+    listed = {line.part for line in parts_of_loom(loom).parts}
+    every = several | {name: (part,) for name, part in single.items()}
+    return {name: tuple(part for part in parts if part in listed) for name, parts in every.items()}
+
+
+def _check(found: RoomFound, limit: float, bodies: Mapping[str, tuple[str, ...]]) -> Check:
     one = found.distance
     where = f"parameter clearance, assumed by this project; least at {one.angle / deg:.1f} deg of a {found.cyclogram}"
     names = (one.first, one.second)
     limit = 0.0 if FRAME.issuperset(names) else limit
     cure = next((CURES[name] for name in CURES if name in names), "leave the spans of the shed open")
+    parts = tuple(dict.fromkeys(part for name in names for part in bodies.get(name, ())))
     name = f"clearance: {one.first} and {one.second}"
-    return at_least(name, one.value, limit, "mm", where, cure=cure, parts=found.parts)
+    return at_least(name, one.value, limit, "mm", where, cure=cure, parts=parts)
 
 
 def room_tables(found: tuple[RoomFound, ...]) -> tuple[Table, ...]:

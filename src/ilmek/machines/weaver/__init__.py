@@ -1,4 +1,4 @@
-"""The knotting head of the thesis, "the weaver": five cams on one shaft that tie a symmetric knot in one turn.
+"""The knotting head of the thesis, "the weaver": six cams on one shaft that tie a symmetric knot in one turn.
 
 Source: thesis, section 2.2.3 and Figures 2.11 to 2.16. The order of the motions is the thesis'; angles, strokes and
 limits are parameters, since the thesis prints none.
@@ -10,8 +10,7 @@ from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
 from ilmek.machines.weaver.choices import choices
 from ilmek.machines.weaver.design import Weaver, design, head_relations
-from ilmek.machines.weaver.in_loom import params_for, parts, work
-from ilmek.machines.weaver.limits import head_mass, mass_of
+from ilmek.machines.weaver.in_loom import params_for, work
 from ilmek.machines.weaver.params import WeaverParams
 from ilmek.machines.weaver.report import (
     WeaverAnalysis,
@@ -19,10 +18,10 @@ from ilmek.machines.weaver.report import (
     cam_tables,
     checks,
     figures,
-    plates,
     tables,
     warnings,
 )
+from ilmek.machines.weaver.tree import head_mass, mass_of, tree
 from ilmek.timing.cyclogram import Cyclogram
 
 __all__ = [
@@ -54,10 +53,9 @@ MACHINE = Component(
     tables=tables,
     figures=figures,
     warnings=warnings,
-    plates=plates,
+    tree=tree,
     cam_tables=cam_tables,
     cyclograms=cyclograms,
-    parts=parts,
     work=work,
     choices=choices,
     fit=params_for,

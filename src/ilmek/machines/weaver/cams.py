@@ -4,8 +4,6 @@ The handler turns in one direction only: its rack drives it forward through a fr
 other tools move through levers. Size, loads, spring and drive: `ilmek.cams.loaded_plate_cam`.
 """
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from ilmek.cams.laws import LAWS
@@ -14,6 +12,7 @@ from ilmek.cams.programme import CamProgramme, CamSegment, dwell
 from ilmek.machines.weaver.forces import HeadForces, load_on
 from ilmek.machines.weaver.motions import HANDLER, SLEY
 from ilmek.machines.weaver.params import WeaverParams
+from ilmek.machines.weaver.tool_parts import ToolBodies
 from ilmek.timing.track import Track
 from ilmek.units import turn
 
@@ -22,19 +21,20 @@ _REST = 0.03
 """Share of the rest of the turn for which the rack stands before and after its return."""
 
 
-def cams_for(head: HeadForces) -> tuple[LoadedPlateCam, ...]:
+def cams_for(head: HeadForces, tools: ToolBodies) -> tuple[LoadedPlateCam, ...]:
     """The cams of a head, one for each track."""
-    return tuple(_cam_for(head, track) for track in head.cyclogram.tracks)
+    return tuple(_cam_for(head, track, tools.moved(track.name)) for track in head.cyclogram.tracks)
 
 
-def _cam_for(head: HeadForces, track: Track) -> LoadedPlateCam:
+def _cam_for(head: HeadForces, track: Track, mass: float) -> LoadedPlateCam:
+    """The cam of a track that moves a mass at its tool [kg]."""
     params, speed, handler_radius = head.params, head.cyclogram.speed, head.radius
     turns = track.name == HANDLER
     ratio = 1 / params.pinion if turns else params.sley_lever if track.name == SLEY else params.lever
-    moved = params.tool_mass * ((handler_radius * ratio) ** 2 if turns else ratio**2)
+    moved = mass * ((handler_radius * ratio) ** 2 if turns else ratio**2)
     task = PlateCamTask(
         speed=speed,
-        mass=(moved, params.tool_mass) if turns else (moved, moved),
+        mass=(moved, mass) if turns else (moved, moved),
         braked=turns,
         closure=params.closure,
         contact_force=params.contact_force,
@@ -75,7 +75,11 @@ def _still(span: float) -> list[CamSegment]:
     return [dwell(span)] if span > _FIT else []
 
 
-def stack_width(params: WeaverParams, cams: Sequence[LoadedPlateCam]) -> float:
-    """Width of the cams that sit on the cam shaft itself, with their gaps, between the side plates [m]."""
-    on_it = sum(1 for cam in cams if cam.actuator.startswith("cam"))
-    return on_it * params.cam_thickness + (on_it + 1) * params.cam_gap
+def stack_width(params: WeaverParams, number: int) -> float:
+    """Width of a number of cams on their shaft, with their gaps, between the side plates [m]."""
+    return number * params.cam_thickness + (number + 1) * params.cam_gap
+
+
+def case_width(params: WeaverParams, number: int) -> float:
+    """Width of the case about a number of cams, over the side plates [m]."""
+    return stack_width(params, number) + 2 * params.side_plate

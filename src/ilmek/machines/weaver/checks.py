@@ -1,25 +1,41 @@
 """The checks of a knotting head: tools, knot, cams, opener, magazine, drive."""
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 from ilmek.cams.loaded_plate_cam import PRESSURE_LIMIT, STEEL
-from ilmek.elements.carpet_yarns import usual_warp
 from ilmek.loom.production import HAND_KNOT
-from ilmek.machines.weaver.cams import stack_width
+from ilmek.machines.weaver.cams import case_width
 from ilmek.machines.weaver.design import Weaver, head_relations
 from ilmek.machines.weaver.forces import cutting_energy
 from ilmek.machines.weaver.grippers import YARN_TOLERANCE
 from ilmek.machines.weaver.limits import HeadLimits
-from ilmek.machines.weaver.opener import LEAST_ROOM
+from ilmek.machines.weaver.motions import (
+    CENTRE_GRASP,
+    CENTRE_MOTION,
+    HANDLER,
+    OPENER,
+    SIDE_GRASP,
+    SIDE_MOTION,
+    SLEY,
+)
+from ilmek.machines.weaver.opener_checks import opener_checks, room_checks
+from ilmek.machines.weaver.parts import BEARING, MOTOR, SHAFT, bearing_of, cam_id, case_plates, lever_id
 from ilmek.machines.weaver.rods import ROD_STRESS, ROD_TIME, rod_bend, rod_stress, rod_time_ratio
+from ilmek.machines.weaver.tool_parts import (
+    CENTRE_GRIPPER,
+    KNIFE_PART,
+    OPENER_PLATE,
+    PILE_HANDLER,
+    SIDE_GRIPPER,
+    SLEY_BAR,
+)
 from ilmek.report import Check, at_least, at_most, must
-from ilmek.timing.cyclogram import check_all
+from ilmek.timing.cyclogram import Relation, check_all
 
 LONGER = "set a longer knot_cycle"
 SAME = 1e-9
 """Relative difference of times that is rounding."""
-
-FINER = "set a coarser quality, or thinner warps"
 
 
 def head_checks(weaver: Weaver, limits: HeadLimits) -> tuple[Check, ...]:
@@ -31,7 +47,7 @@ def head_checks(weaver: Weaver, limits: HeadLimits) -> tuple[Check, ...]:
         *cam_checks(weaver),
         *_drive_checks(weaver, limits),
         *opener_checks(weaver),
-        *_room_checks(weaver),
+        *room_checks(weaver),
     )
 
 
@@ -41,20 +57,45 @@ def _tool_checks(weaver: Weaver) -> tuple[Check, ...]:
     found: list[Check] = []
     for name, peak in weaver.peaks.items():
         speed, acceleration = (rounded(value, 12) for value in (peak.speed, peak.acceleration))
-        source = "parameter speed_limit", "acceleration_limit"
+        source, moved = ("parameter speed_limit", "acceleration_limit"), _moved(name)
         found += [
-            at_most(f"{name}: speed", speed, params.speed_limit, "m/s", source[0], cure=LONGER),
-            at_most(f"{name}: acceleration", acceleration, params.acceleration_limit, "m/s^2", source[1], cure=LONGER),
+            at_most(f"{name}: speed", speed, params.speed_limit, "m/s", source[0], cure=LONGER, parts=moved),
+            at_most(
+                f"{name}: acceleration",
+                acceleration,
+                params.acceleration_limit,
+                "m/s^2",
+                source[1],
+                cure=LONGER,
+                parts=moved,
+            ),
         ]
     longer = "set a longer cycle (knot_cycle of a loom), or higher limits of speed and acceleration"
+    case = case_plates(weaver)
     step, hand = "set a longer knot_cycle, or a faster carriage", "set a shorter knot_cycle, or higher limits"
     return (
         *found,
         at_most(
-            "carriage: step to the next knot", weaver.carriage_step, weaver.carriage_window, "s", "tools out", cure=step
+            "carriage: step to the next knot",
+            weaver.carriage_step,
+            weaver.carriage_window,
+            "s",
+            "tools out",
+            cure=step,
+            parts=case,
         ),
-        at_most("knot cycle", weaver.cycle, HAND_KNOT, "s", "best hand weaver: 25 knots a minute", cure=hand),
-        at_most("knot cycle, as required", weaver.cycle, weaver.params.cycle, "s", _cycle_source(weaver), cure=longer),
+        at_most(
+            "knot cycle", weaver.cycle, HAND_KNOT, "s", "best hand weaver: 25 knots a minute", cure=hand, parts=case
+        ),
+        at_most(
+            "knot cycle, as required",
+            weaver.cycle,
+            weaver.params.cycle,
+            "s",
+            _cycle_source(weaver),
+            cure=longer,
+            parts=case,
+        ),
     )
 
 
@@ -68,8 +109,16 @@ def _cycle_source(weaver: Weaver) -> str:
 
 def _order_checks(weaver: Weaver) -> tuple[Check, ...]:
     cure = "leave the tools' angles to the steps of the turn, or set a longer knot_cycle"
-    checked = check_all(weaver.cyclogram, head_relations(weaver))
-    return tuple(replace(check, cure=cure) for check in checked)
+
+    def moved(relation: Relation) -> tuple[str, ...]:
+        tracks = (track for track in (relation.first.track, relation.then.track) if track in weaver.peaks)
+        return tuple(dict.fromkeys(part for track in tracks for part in _moved(track)))
+
+    return tuple(
+        replace(check, cure=cure, parts=moved(relation))
+        for relation in head_relations(weaver)
+        for check in check_all(weaver.cyclogram, [relation])
+    )
 
 
 def _rod_checks(weaver: Weaver) -> tuple[Check, ...]:
@@ -83,6 +132,7 @@ def _rod_checks(weaver: Weaver) -> tuple[Check, ...]:
             "mm",
             "parameter clearance; pull of the yarn assumed by this project: parameter forces.yarn_pull",
             cure="set a thicker weaver.finger",
+            parts=(SIDE_GRIPPER,),
         ),
         at_most(
             "stress of a side gripper's rod",
@@ -91,6 +141,7 @@ def _rod_checks(weaver: Weaver) -> tuple[Check, ...]:
             "MPa",
             "C45 +QT, fatigue limit over 1.5; pull of the yarn assumed by this project: parameter forces.yarn_pull",
             cure="set a thicker weaver.finger",
+            parts=(SIDE_GRIPPER,),
         ),
         at_least(
             "time of the side grippers' motion, over their rods' natural period",
@@ -99,18 +150,19 @@ def _rod_checks(weaver: Weaver) -> tuple[Check, ...]:
             "1",
             "residual vibration of about 1 %; assumed by this project",
             cure="set a thicker weaver.finger, or a longer cycle",
+            parts=(SIDE_GRIPPER,),
         ),
     )
 
 
 def _knot_checks(weaver: Weaver) -> tuple[Check, ...]:
     """The required knot is tied; the yarn is long enough, for the knot and between the grippers; they have room."""
-    by, params, yarn = weaver.grippers, weaver.params, YARN_TOLERANCE
+    by, params, yarn, grippers = weaver.grippers, weaver.params, YARN_TOLERANCE, (SIDE_GRIPPER, CENTRE_GRIPPER)
     tied = float(weaver.knot_tied == params.knot)
     asymmetric = "set knotting=arms: arms tie it; or knot=symmetric"
     cure = asymmetric if params.knot == "asymmetric" else "leave the grippers' dimensions to the design"
     return (
-        at_least(f"{params.knot} knot tied", tied, 1.0, "", f"proof: {weaver.knot_why}", cure=cure),
+        at_least(f"{params.knot} knot tied", tied, 1.0, "", f"proof: {weaver.knot_why}", cure=cure, parts=grippers),
         at_most(
             "yarn needed between the grippers",
             by.yarn_taut_max,
@@ -118,6 +170,7 @@ def _knot_checks(weaver: Weaver) -> tuple[Check, ...]:
             "mm",
             "yarn held between them",
             cure="set a longer knot_yarn",
+            parts=(SIDE_GRIPPER,),
         ),
         at_least(
             "yarn drawn",
@@ -126,6 +179,7 @@ def _knot_checks(weaver: Weaver) -> tuple[Check, ...]:
             "mm",
             "yarn bill: carpet.pile, of this knot",
             cure="leave knot_yarn to the bill",
+            parts=(PILE_HANDLER,),
         ),
         at_least(
             "room of the side grippers",
@@ -134,6 +188,7 @@ def _knot_checks(weaver: Weaver) -> tuple[Check, ...]:
             "mm",
             "parameter clearance",
             cure="leave crossing_turn to the design, or set thinner fingers",
+            parts=grippers,
         ),
         *_rod_checks(weaver),
     )
@@ -144,20 +199,25 @@ def cam_checks(weaver: Weaver) -> tuple[Check, ...]:
     params, cams = weaver.params, weaver.cams
     worst, widest = max(cams, key=lambda cam: cam.pressure_max), max(cams, key=lambda cam: cam.radius)
     sharpest, steep = min(cams, key=lambda cam: cam.convex_radius), max(cams, key=lambda cam: cam.pressure_angle)
-    angle = rounded(steep.pressure_angle, 9)
-    roller = params.roller_radius
     larger = "set a larger weaver.cam_room, shorter strokes, or a larger weaver.lever"
-    found = (
+    return (
         at_most(
-            f"pressure angle, {steep.name}", angle, params.pressure_angle_limit, "deg", "limit", cure="shorter strokes"
+            f"pressure angle, {steep.name}",
+            rounded(steep.pressure_angle, 9),
+            params.pressure_angle_limit,
+            "deg",
+            "limit",
+            cure="shorter strokes",
+            parts=(cam_id(steep.name),),
         ),
         at_most(
             f"roller, {sharpest.name}",
-            roller,
+            params.roller_radius,
             sharpest.convex_radius,
             "mm",
             "no undercut",
             cure="set a smaller weaver.roller_radius",
+            parts=(cam_id(sharpest.name),),
         ),
         at_most(
             f"Hertz pressure, {worst.name}",
@@ -166,161 +226,69 @@ def cam_checks(weaver: Weaver) -> tuple[Check, ...]:
             "MPa",
             STEEL.name,
             cure="set a larger weaver.cam_thickness, or lighter tools",
+            parts=(cam_id(worst.name),),
         ),
+        _case_check(weaver),
         at_most(
-            "cams beside each other",
-            stack_width(params, cams) + 2 * params.side_plate,
-            weaver.width,
+            f"diameter, {widest.name}",
+            2 * widest.radius,
+            params.cam_room,
             "mm",
-            "head_width",
-            cure="leave head_width to the design, or set thinner cams",
+            "cam_room",
+            cure=larger,
+            parts=(cam_id(widest.name),),
         ),
-        at_most(f"diameter, {widest.name}", 2 * widest.radius, params.cam_room, "mm", "cam_room", cure=larger),
+        _closure_check(weaver),
     )
+
+
+def _case_check(weaver: Weaver) -> Check:
+    """The case within the head's width."""
+    wide, parts = case_width(weaver.params, len(weaver.cams)), (*case_plates(weaver), SHAFT)
+    cure = "leave head_width to the design, or set thinner cams"
+    return at_most("cams beside each other", wide, weaver.width, "mm", "head_width", cure=cure, parts=parts)
+
+
+def _closure_check(weaver: Weaver) -> Check:
+    """What holds the followers to their cams: room in the groove, or springs up to the speed."""
+    params, cams = weaver.params, weaver.cams
     if params.closure == "groove":
         hollow = min(cams, key=lambda cam: cam.concave_radius)
-        cure = "set a smaller weaver.roller_radius"
-        return (
-            *found,
-            at_most(f"roller in the groove, {hollow.name}", roller, hollow.concave_radius, "mm", "", cure=cure),
-        )
+        name, roller = f"roller in the groove, {hollow.name}", params.roller_radius
+        cure, parts = "set a smaller weaver.roller_radius", (cam_id(hollow.name),)
+        return at_most(name, roller, hollow.concave_radius, "mm", "", cure=cure, parts=parts)
     loose = min(cams, key=lambda cam: cam.lift_off)
-    speed, cure = weaver.cyclogram.speed, "set closure=groove, or lighter tools"
-    name = f"speed before lift-off, {loose.name}"
-    return (*found, at_most(name, speed, loose.lift_off, "rpm", "return springs", cure=cure))
+    name, speed = f"speed before lift-off, {loose.name}", weaver.cyclogram.speed
+    cure, parts = "set closure=groove, or lighter tools", (cam_id(loose.name),)
+    return at_most(name, speed, loose.lift_off, "rpm", "return springs", cure=cure, parts=parts)
 
 
 def _drive_checks(weaver: Weaver, limits: HeadLimits) -> tuple[Check, ...]:
-    """The cutter within its time, a motor for the shaft."""
+    """The cutter within its time, a motor and bearings for the shaft."""
     params = weaver.params
     return (
-        at_most("cutter", limits.cutting_time, limits.cutting_window, "s", "draw to presenting", cure=LONGER),
+        at_most(
+            "cutter",
+            limits.cutting_time,
+            limits.cutting_window,
+            "s",
+            "draw to presenting",
+            cure=LONGER,
+            parts=(KNIFE_PART,),
+        ),
         must(
             "motor of the cam shaft",
             weaver.drive.servo is not None,
             f"motors of the table; {weaver.drive.torque_max:.3g} Nm with a cut of {cutting_energy(params):.3g} J",
             cure="set lighter tools, a longer knot_cycle, or a lower tension",
+            parts=(MOTOR, SHAFT),
         ),
-    )
-
-
-def opener_checks(weaver: Weaver) -> tuple[Check, ...]:
-    """The opener enters between two warps, does not overload them, pushes no warp of a neighbour's, and holds."""
-    params, own, opener = weaver.params, weaver.params.opener, weaver.opener
-    pitch, warp = opener.pitch, params.warp
-    strength = own.warp_strength or usual_warp(pitch).breaking_force
-    return (
-        at_most(
-            "opener: points between two warps",
-            own.tip + 2 * own.placing,
-            pitch - warp,
-            "mm",
-            "gap of the warps; assumed by this project: parameters opener.tip, opener.placing",
-            cure=FINER,
-        ),
-        at_most(
-            "opener: tension of a displaced warp",
-            opener.tension,
-            own.strength_used * strength,
-            "N",
-            "breaking force of the warp; share assumed by this project: parameter opener.strength_used",
-            cure="set a lower tension, stronger warps, or longer spans of the warps",
-        ),
-        at_most(
-            "opener: wedge against friction",
-            opener.wedge,
-            1 - LEAST_ROOM,
-            "1",
-            "no self-locking: slope of its walls times the friction",
-            cure="set a longer weaver.opening",
-        ),
-        at_most(
-            "opener: bend of its teeth",
-            opener.bend,
-            own.bend_limit,
-            "mm",
-            "assumed by this project: parameter opener.bend_limit",
-            cure="set a wider weaver.opener.wall, or a lower tension",
-        ),
-        *_opener_room_checks(weaver),
-    )
-
-
-def _opener_room_checks(weaver: Weaver) -> tuple[Check, ...]:
-    """The tools fit between the opener's plates, the sley reaches the fell, the neighbouring head's warps stand."""
-    params, own, opener = weaver.params, weaver.params.opener, weaver.opener
-    return (
-        at_most(
-            "opener: teeth in the gap beside the pair",
-            opener.wall,
-            opener.aside - opener.pair / 2 - opener.diameter,
-            "mm",
-            "from the pair's warps to their neighbours",
-            cure="set a larger opening of the arms, or a smaller weaver.opener.wall",
-        ),
-        at_least(
-            "opener: room of the tools between its plates",
-            own.height,
-            _tools_height(weaver),
-            "mm",
-            "height of the grippers, or of a needle, with their clearances",
-            cure="set a larger weaver.opener.height",
-        ),
-        at_least(
-            "sley: stroke from above the opener to the fell",
-            params.sley_stroke,
-            own.front_span + own.height + own.plate,
-            "mm",
-            "opener.front_span, height and plate",
-            cure="set a longer weaver.sley_stroke",
-        ),
-        at_most(
-            "opener: width of the warps that it displaces",
-            opener.crowd,
-            weaver.width,
-            "mm",
-            "head_width: the neighbouring head's warps stay where they are",
-            cure="leave head_width to the design, or set thinner warps",
-        ),
-    )
-
-
-def _tools_height(weaver: Weaver) -> float:
-    """Height along the warps that the tools take between the opener's plates [m]."""
-    params, by = weaver.params, weaver.grippers
-    if params.with_arms:
-        return params.arms.breadth + 2 * params.clearance
-    return by.height + by.lift + 2 * params.finger + 2 * params.clearance
-
-
-def _room_checks(weaver: Weaver) -> tuple[Check, ...]:
-    """The magazine within the head; the arms too."""
-    params, magazine = weaver.params, weaver.magazine
-    fewer = "set fewer colours, more weaver.tube_tiers, or leave head_width to the design"
-    found = (
-        at_most("tubes on the head", magazine.width, weaver.width, "mm", "head_width", cure=fewer),
-        at_most(
-            "tiers of the tubes",
-            magazine.height,
-            params.magazine_room,
-            "mm",
-            "parameter magazine_room",
-            cure="set a larger weaver.magazine_room, or fewer colours",
-        ),
-    )
-    if not params.with_arms:
-        return found
-    cure = "leave head_width to the design"
-    return (
-        *found,
-        at_most("arms on the head", params.arms.width, weaver.width, "mm", "head_width", cure=cure),
-        at_least(
-            "yarn drawn",
-            weaver.drawn + YARN_TOLERANCE,
-            max(params.billed, params.arms.yarn),
-            "mm",
-            "yarn bill, and need of the arms",
-            cure="set a longer knot_yarn",
+        must(
+            "bearings of the cam shaft",
+            bearing_of(weaver) is not None,
+            "bearing table, ISO 281; 100 million knots, assumed by this project",
+            cure="set a thicker weaver.shaft, or lighter tools",
+            parts=(SHAFT, BEARING) if bearing_of(weaver) else (SHAFT,),
         ),
     )
 
@@ -328,3 +296,20 @@ def _room_checks(weaver: Weaver) -> tuple[Check, ...]:
 def rounded(value: float, digits: int) -> float:
     """The value in significant digits, for a check of what was made for exactly its limit."""
     return float(f"{value:.{digits}g}")
+
+
+def _moved(track: str) -> tuple[str, ...]:
+    """Ids of the parts that a track moves."""
+    return (*_MOVED[track], lever_id(track))
+
+
+_MOVED: Mapping[str, tuple[str, ...]] = {
+    SIDE_GRASP: (),
+    SIDE_MOTION: (SIDE_GRIPPER, OPENER_PLATE),
+    CENTRE_GRASP: (),
+    CENTRE_MOTION: (CENTRE_GRIPPER,),
+    HANDLER: (PILE_HANDLER,),
+    SLEY: (SLEY_BAR,),
+    OPENER: (OPENER_PLATE,),
+}
+"""Parts that a track moves, beside its lever."""

@@ -1,8 +1,9 @@
-"""The cyclogram of the knotting head: five cams on one shaft that turns once for each knot, and a geared one.
+"""The cyclogram of the knotting head: six cams on one shaft that turns once for each knot.
 
-The order is the thesis' (section 2.2.3, Figure 2.11). The angles follow from the steps of the turn (`motions`), or from
-the optimum that `timing.solver` finds: the shortest cycle that the tools' limits allow; where that is shorter than the
-required one, the cyclogram of the required one whose largest acceleration, over its limit, is least.
+The thesis moves the sley by a gear beside its five cams; here it has the sixth. The order is the thesis' (section
+2.2.3, Figure 2.11). The angles follow from the steps of the turn (`motions`), or from the optimum that `timing.solver`
+finds: the shortest cycle that the tools' limits allow; where that is shorter than the required one, the cyclogram of
+the required one whose largest acceleration, over its limit, is least.
 """
 
 import math
@@ -57,7 +58,7 @@ def cyclogram(params: WeaverParams, crossing: float) -> Cyclogram:
             },
             {"grasp": "", "cut": ""},
         ),
-        _track(params, Track(SLEY, "gear", ()), {"down": (0.0, sley), "up": (sley, 0.0)}, {"knot down": "down"}),
+        _track(params, Track(SLEY, "cam 6", ()), {"down": (0.0, sley), "up": (sley, 0.0)}, {"knot down": "down"}),
     )
     return Cyclogram(
         "knot", params.cycle, (*(_opener(params) if params.with_arms else _grippers(params, crossing)), *tools)

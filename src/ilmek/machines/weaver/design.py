@@ -9,16 +9,18 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.cams.loaded_plate_cam import CamShaftDrive, LoadedPlateCam, drive_for, torque_at
 from ilmek.elements.carpet_yarns import usual_warp
-from ilmek.machines.weaver.cams import cams_for, stack_width
+from ilmek.machines.weaver.cams import cams_for, case_width
 from ilmek.machines.weaver.cyclogram import DRAW_TURN, arms_window, optimised, relations
 from ilmek.machines.weaver.cyclogram import cyclogram as knot_cyclogram
 from ilmek.machines.weaver.forces import HeadForces, cutter_torque
 from ilmek.machines.weaver.grippers import Grippers, grippers_for, yarn_needed
+from ilmek.machines.weaver.head_shape import HeadShape, head_shape, head_tools
 from ilmek.machines.weaver.knot import on_the_pair, proof_text, tied_by
 from ilmek.machines.weaver.magazine import Magazine, fewest_tiers
 from ilmek.machines.weaver.motions import CENTRE_MOTION, HANDLER, OPENER, SIDE_MOTION, SLEY
 from ilmek.machines.weaver.opener import TEETH, Opener, opener_for
 from ilmek.machines.weaver.params import WeaverParams
+from ilmek.machines.weaver.tool_parts import ToolBodies
 from ilmek.records import computed, record, result
 from ilmek.timing.cyclogram import Cyclogram, Relation
 from ilmek.timing.s_curve import move_time, travel_time
@@ -52,6 +54,7 @@ class Weaver:
     grippers   in plan view                   tied    the knot that their motions tie, proved; none where arms tie
     cams       one for each track             drive   of the cam shaft
     opener     of the warps                   magazine  of the tubes
+    shape      in the side view           tool_bodies  the tools as bodies
     needs      width of what is in the head [m], by name
     """
 
@@ -71,6 +74,8 @@ class Weaver:
     drive: CamShaftDrive
     opener: Opener
     magazine: Magazine
+    shape: HeadShape
+    tool_bodies: ToolBodies
     width: float = result("mm", "width of the head, along the row", name="head_width_chosen")
     needs: Mapping[str, float] = result("mm", "width that each content of the head needs", name="head_width_needed")
 
@@ -132,10 +137,11 @@ def design(params: WeaverParams) -> Weaver:
     radius, grippers = drawn / DRAW_TURN, grippers_for(params, drawn)
     cycle = _within_limits(params, knot_cyclogram(params, grippers.crossing), radius)
     opener = _opener(params, grippers)
-    forces = HeadForces(params, cycle, opener, radius)
-    window, cams = carriage_window(cycle), cams_for(forces)
+    reaching = head_tools(params, grippers, drawn)
+    tools = ToolBodies(params, grippers, opener, reaching, radius)
+    window, cams = carriage_window(cycle), cams_for(HeadForces(params, cycle, opener, radius), tools)
     rest = {
-        "cams": stack_width(params, cams) + 2 * params.side_plate,
+        "cams": case_width(params, len(cams)),
         "warps pushed aside": min(opener.crowd, params.opener.crowd_limit),
     }
     if params.with_arms:
@@ -159,6 +165,8 @@ def design(params: WeaverParams) -> Weaver:
         drive=drive_for(cams, cycle.speed, lambda angle: cutter_torque(params, cycle, angle)),
         opener=opener,
         magazine=magazine,
+        shape=head_shape(reaching, cams, magazine),
+        tool_bodies=tools,
         width=params.head_width or math.ceil(max(needs.values()) / mm - _WHOLE) * mm,
         needs=needs,
     )

@@ -1,15 +1,13 @@
-"""The knotting head in a loom: its parameters for the carpet, its lines in the parts list, the work of its acts."""
+"""The knotting head in a loom: its parameters for the carpet, the work of its acts."""
 
-from dataclasses import replace
-
-from ilmek.elements.drive_parts import belt_motor_part, motor_part, positive_work, reducer_part
-from ilmek.machines.arrangement.spans import expected_spans, shed_room, warp_length
+from ilmek.elements.drive_parts import positive_work
+from ilmek.machines.arrangement.spans import SPARE, expected_spans, shed_room, warp_length
 from ilmek.machines.loom_task import LoomTask
 from ilmek.machines.weaver.design import Weaver, shaft_torque
-from ilmek.machines.weaver.limits import head_mass
 from ilmek.machines.weaver.params import WeaverParams
 from ilmek.machines.weaver.tool_params import OpenerParams, ToolForces
-from ilmek.report import NOT_WEIGHED, BillLine, Work
+from ilmek.machines.weaver.tree import head_mass
+from ilmek.report import Work
 from ilmek.timing.s_curve import s_curve
 
 LEAST_FRICTION = 0.01
@@ -30,6 +28,7 @@ def params_for(task: LoomTask) -> WeaverParams:
         yarn_pressed=task.yarns.pressed,
         yarn_strength=task.yarns.pile.breaking_force,
         warp_diameter=task.yarns.warp.diameter,
+        standoff=SPARE * loom.clearance,
         acceleration_limit=loom.head_acceleration,
         head_width=loom.head_width,
         head_mass=loom.head_mass,
@@ -53,28 +52,6 @@ def opener_for(task: LoomTask) -> OpenerParams:
         warp_tension=task.tension,
         warp_stiffness=warp.stiffness,
         warp_strength=warp.breaking_force,
-    )
-
-
-def parts(weaver: Weaver) -> tuple[BillLine, ...]:
-    """The parts of one head and its carriage; those within the head are weighed with it, arms by themselves."""
-    params, servo, mass = weaver.params, weaver.drive.servo, head_mass(weaver)
-    own = max(mass - (params.arms.mass if params.with_arms else 0.0), 0.0)
-    motor = servo.motor if servo else None
-    tubes = params.tubes * params.tube_mass * params.selector_acceleration
-    colours = belt_motor_part("motor of the colours", tubes, params.selector_speed)
-    within = (
-        motor_part("motor of a head", motor, weaver.drive.torque_max, weaver.cyclogram.speed),
-        *((colours,) if weaver.magazine.tiers == 1 else (colours, replace(colours, name="motor of the tiers"))),
-    )
-    cam_motor, *colour_motors = (replace(part, mass=NOT_WEIGHED) for part in within)
-    return (
-        BillLine("knotting head", 1, "cams, tools, tubes, motors", "", "head mechanism", own),
-        BillLine("yarn tube", params.tubes, "one for each colour, weighed with the head", "", "yarn tube"),
-        cam_motor,
-        *((reducer_part("reducer of a head", servo.reducer.ratio, motor),) if servo else ()),
-        belt_motor_part("motor of a carriage", mass * params.carriage_acceleration, params.carriage_speed),
-        *colour_motors,
     )
 
 

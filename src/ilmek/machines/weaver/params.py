@@ -96,6 +96,12 @@ class WeaverParams(Params):
     overlap: float = kind.length(1.5 * mm, at_least=5e-4, at_most=0.05, doc="ends past the middle when they cross")
     finger: float = kind.length(2 * mm, above=0.0, at_most=0.05, doc="thickness of the grippers' rods and arms")
     clearance: float = kind.length(0.5 * mm, at_least=0.0, at_most=0.05, doc="least room between moving parts")
+    standoff: float = kind.length(
+        3 * mm,
+        at_least=0.0,
+        at_most=0.2,
+        doc="opener and sley at rest from the warps, and the case from the drawn yarn",
+    )
     pair_opened: float | None = kind.length(
         None, above=0.0, at_most=0.1, doc="the pair of warps in the opener's slots; default: 6 mm, or more for room"
     )

@@ -1,12 +1,11 @@
-"""The report of the knotting head: results of its cams, checks, tables, figures, warnings, plates, cam tables."""
+"""The report of the knotting head: results of its cams, checks, tables, figures, warnings, cam tables."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
 
-from ilmek.cams.loaded_plate_cam import STEEL, CamShaftDrive, LoadedPlateCam
-from ilmek.elements.plates import round_bore, zero_mark
+from ilmek.cams.loaded_plate_cam import CamShaftDrive, LoadedPlateCam
 from ilmek.machines.electronic_cam import cam_table
 from ilmek.machines.weaver.cams import stack_width
 from ilmek.machines.weaver.checks import head_checks
@@ -19,6 +18,7 @@ from ilmek.machines.weaver.opener import Opener
 from ilmek.machines.weaver.opener_figures import opener_figures
 from ilmek.machines.weaver.params import WeaverParams
 from ilmek.machines.weaver.plan_view import animation, plan_view
+from ilmek.machines.weaver.tree import cam_masses
 from ilmek.records import Computed, computed, group, record
 from ilmek.report import (
     Axis,
@@ -26,7 +26,6 @@ from ilmek.report import (
     Check,
     Drawing,
     Figure,
-    Plate,
     Plot,
     Series,
     Stroke,
@@ -49,10 +48,11 @@ def _each(unit: str, meaning: str, value: Callable[[LoadedPlateCam], float]) -> 
 
 @record
 class CamResults:
-    """The results of the cams."""
+    """The results of the cams; masses: of their plates, by name [kg]."""
 
     params: WeaverParams
     cams: tuple[LoadedPlateCam, ...]
+    masses: Mapping[str, float]
 
     cam_lift = _each("mm", "lift of each cam's follower", lambda cam: cam.lift)
     cam_prime_radius = _each("mm", "prime radius", lambda cam: cam.cam.prime_radius)
@@ -60,15 +60,15 @@ class CamResults:
     cam_pressure_angle_max = _each("deg", "largest pressure angle", lambda cam: cam.pressure_angle)
     cam_convex_radius_min = _each("mm", "least convex radius of the pitch curve", lambda cam: cam.convex_radius)
     cam_area = _each("mm^2", "area of the face, bore included", lambda cam: cam.area)
-    cam_mass = _each("kg", "mass of each cam", lambda cam: cam.mass)
+    cam_mass = computed("kg", "mass of each cam", lambda it: it.masses, shown=False)
     cam_force_max = _each("N", "greatest force of roller on cam", lambda cam: cam.contact_max)
     cam_hertz_max = _each("MPa", "greatest Hertz pressure", lambda cam: cam.pressure_max)
     spring_rate = _each("N/m", "rates of the return springs; 0: none", lambda cam: cam.rate)
     spring_preload = _each("N", "preloads of the return springs", lambda cam: cam.preload)
     cam_stack_width = computed(
         "mm",
-        "width of the five cams on their shaft",
-        lambda it: stack_width(it.params, it.cams),
+        "width of the cams on their shaft",
+        lambda it: stack_width(it.params, len(it.cams)),
         least=0.0,
     )
 
@@ -88,7 +88,7 @@ class WeaverAnalysis:
 
 def analyse(weaver: Weaver) -> WeaverAnalysis:
     """The results of a head."""
-    cams = CamResults(weaver.params, weaver.cams)
+    cams = CamResults(weaver.params, weaver.cams, cam_masses(weaver))
     grippers = None if weaver.params.with_arms else weaver.grippers
     return WeaverAnalysis(weaver, grippers, weaver.opener, weaver.magazine, cams, weaver.drive, head_limits(weaver))
 
@@ -174,7 +174,7 @@ def figures(found: WeaverAnalysis) -> tuple[Figure, ...]:
 def timing(weaver: Weaver) -> Timing:
     """The head's cyclogram as a figure."""
     note = "Order of the motions: thesis, 2.2.3; the angles are assumed by this project, the thesis prints none."
-    tied_by = "the arms, and the cams of the head" if weaver.params.with_arms else "the five cams of the head"
+    tied_by = "the arms, and the cams of the head" if weaver.params.with_arms else "the cams of the head"
     return draw(weaver.cyclogram, f"One knot: {tied_by}", note, drive=Axis("cam angle", "deg"))
 
 
@@ -208,6 +208,7 @@ def cams_table(weaver: Weaver) -> Table:
         "load of the work [N]",
         "torque [Nm]",
     )
+    masses = cam_masses(weaver)
     rows = tuple(
         (
             cam.name,
@@ -217,7 +218,7 @@ def cams_table(weaver: Weaver) -> Table:
             cam.radius,
             cam.pressure_angle,
             cam.convex_radius,
-            cam.mass,
+            masses[cam.name],
             cam.rate,
             cam.preload,
             cam.contact_max,
@@ -261,33 +262,9 @@ def torque_plot(weaver: Weaver) -> Plot:
     return Plot("cam-torque", "Torque on the head's cam shaft", *axes, (total, *series), note=note)
 
 
-def plates(weaver: Weaver) -> tuple[Plate, ...]:
-    """The cams as plates, none where no surface can guide its roller."""
-    return tuple(_plate(weaver, cam) for cam in weaver.cams if not cam.undercut)
-
-
 def cam_tables(weaver: Weaver) -> tuple[CamTable, ...]:
     """The tracks' motions, for a head whose tools have axes of their own."""
     return tuple(
         cam_table(track, track.name.replace(" ", "-"), f"{track.name} over the cam angle", weaver.cycle)
         for track in weaver.tools
-    )
-
-
-def _plate(weaver: Weaver, cam: LoadedPlateCam) -> Plate:
-    shaft, surface = weaver.params.shaft, cam.trace.surface[::-1]
-    bore = round_bore(shaft)
-    lift = format_quantity(cam.lift, "mm")
-    return Plate(
-        cam.name.replace(" ", "-"),
-        f"{cam.name}, {cam.actuator}, lift {lift}",
-        surface[:-1],
-        cam.thickness,
-        STEEL.name,
-        bore.holes,
-        bore.cutouts,
-        paths={"pitch curve": cam.trace.pitch[::-1], "cutter path": cam.trace.pitch[::-1]},
-        marks=zero_mark(float(np.abs(surface[-1]))),
-        area=cam.area,
-        notes=(*bore.notes, f"cutter of {format_quantity(2 * cam.cam.roller_radius, 'mm')}"),
     )

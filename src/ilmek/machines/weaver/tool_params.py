@@ -85,4 +85,5 @@ class ArmsInHead(Params):
     depth: float = kind.length(10 * mm, at_least=0.0, at_most=0.5, doc="reach of the opener's teeth past the warps")
     mass: float = kind.mass(0.0, at_least=0.0, at_most=500.0, doc="mass of their links, servos and gears")
     rest: float = kind.length(10 * mm, at_least=0.0, at_most=0.5, doc="their tips above the warps at rest")
+    stroke: float = kind.length(25 * mm, at_least=0.0, at_most=1.0, doc="longest travel of their tips past the warps")
     breadth: float = kind.length(2 * mm, at_least=0.0, at_most=0.5, doc="breadth of their needles, along the warps")

@@ -16,12 +16,14 @@ from ilmek.loom.bobbins import Bobbin, stop_count, stop_time
 from ilmek.machines import WEFT_CARRIERS
 from ilmek.machines.weft.axis import BeltAxis, belt_axis
 from ilmek.machines.weft.bobbin import windings
+from ilmek.machines.weft.carriers import AXIS, BOBBIN, BOX, CARRIAGE, GRIPPER, MOTOR
 from ilmek.machines.weft.params import AUTO, RAPIER, SHUTTLE, WeftParams
-from ilmek.machines.weft.parts import parts_of
 from ilmek.machines.weft.passage import WeftPassage
 from ilmek.machines.weft.rapier import DRIVE, Rapier, rapier_checks, rapier_for, reach
 from ilmek.machines.weft.shuttle import BOX_END, Shuttle, friction, shuttle_checks, shuttle_for
 from ilmek.machines.weft.tension import draw_off_tension
+from ilmek.machines.weft.tree import WeftBodies
+from ilmek.part.bill import bill
 from ilmek.records import computed, record, result
 from ilmek.report import Alternative, BillLine, Check, Choice, at_least, at_most, choose, must
 from ilmek.timing.s_curve import s_curve
@@ -37,6 +39,7 @@ class Weft:
 
     params    those in force, with the carrier        lengths   of each weft for a row
     carried   the carrier                             passage   through the shed      axis  that moves it
+    bodies    of all of these
     """
 
     params: WeftParams
@@ -44,6 +47,7 @@ class Weft:
     carried: Carrier
     passage: WeftPassage
     axis: BeltAxis
+    bodies: WeftBodies
     tension: dict[str, float] = result("N", "largest tension of each weft while it is drawn off", name="weft_tension")
     choices: tuple[Choice, ...] = ()
     alternatives: tuple["Weft", ...] = ()
@@ -107,7 +111,7 @@ class Weft:
     @property
     def parts(self) -> tuple[BillLine, ...]:
         """Lines of the parts list."""
-        return parts_of(self.params, self.carried, self.passage, self.axis)
+        return bill(self.bodies.tree)
 
     @property
     def price(self) -> float:
@@ -160,7 +164,8 @@ def _with(params: WeftParams) -> Weft:
     }
     moved = params.carriage_mass + (carried.full if isinstance(carried, Shuttle) else carried.mass)
     axis = belt_axis(params, passage, moved, _friction(params, carried) + max(tension.values()))
-    return Weft(params, lengths, carried, passage, axis, tension, choices)
+    bodies = WeftBodies(params, carried, passage, axis)
+    return Weft(params, lengths, carried, passage, axis, bodies, tension, choices)
 
 
 def _passage(params: WeftParams, carried: Carrier) -> WeftPassage:
@@ -190,6 +195,7 @@ def _room_check(made: Weft) -> Check:
         "m",
         "assumed by this project: parameter room",
         cure="set more weft.room, or weft=shuttle",
+        parts=(CARRIAGE, AXIS),
     )
 
 
@@ -198,8 +204,17 @@ def _tension_checks(made: Weft) -> tuple[Check, ...]:
     source = "share of the breaking force, assumed by this project: parameter tension_share"
     breaks = {"straight weft": yarns.straight_weft.breaking_force, "sinuous weft": yarns.sinuous_weft.breaking_force}
     cure = "set a lower weft.speed, weft.acceleration or weft.brake, or a heavier weft"
+    pulled = (BOBBIN,) if made.params.carrier == SHUTTLE else (GRIPPER,)
     return tuple(
-        at_most(f"tension of the {name}", tension, made.params.tension_share * breaks[name], "N", source, cure=cure)
+        at_most(
+            f"tension of the {name}",
+            tension,
+            made.params.tension_share * breaks[name],
+            "N",
+            source,
+            cure=cure,
+            parts=pulled,
+        )
         for name, tension in made.tension.items()
     )
 
@@ -207,14 +222,26 @@ def _tension_checks(made: Weft) -> tuple[Check, ...]:
 def _axis_checks(made: Weft) -> tuple[Check, ...]:
     axis, passage, params = made.axis, made.passage, made.params
     reserve = axis.drive.duty.reserve if axis.drive else 0.0
-    cure = "set a lower weft.acceleration or weft.speed"
+    cure, moved = "set a lower weft.acceleration or weft.speed", (CARRIAGE,)
     return (
-        at_most("speed of the passage", passage.speed, params.speed, "m/s", "speed", cure=cure),
+        at_most("speed of the passage", passage.speed, params.speed, "m/s", "speed", cure=cure, parts=moved),
         at_most(
-            "acceleration of the passage", passage.acceleration, params.acceleration, "m/s^2", "acceleration", cure=cure
+            "acceleration of the passage",
+            passage.acceleration,
+            params.acceleration,
+            "m/s^2",
+            "acceleration",
+            cure=cure,
+            parts=moved,
         ),
-        must("belt of the axis", not math.isnan(axis.width), "pull of the teeth in mesh, widths of stock", cure=cure),
-        at_least("torque of the axis' servo", reserve, 1.0, "1", "motor table, margin 1.25", cure=cure),
+        must(
+            "belt of the axis",
+            not math.isnan(axis.width),
+            "pull of the teeth in mesh, widths of stock",
+            cure=cure,
+            parts=(AXIS,),
+        ),
+        at_least("torque of the axis' servo", reserve, 1.0, "1", "motor table, margin 1.25", cure=cure, parts=(MOTOR,)),
     )
 
 
@@ -224,7 +251,7 @@ def _edge_checks(params: WeftParams) -> tuple[Check, ...]:
         return ()
     why = "each weft turns in the same shed: the other holds its turn, where they cross so (weaving.selvedge)"
     cure = "set weft.crossed=yes: exchange the cells of the shuttles' boxes"
-    return (at_most("outermost warps that a turn releases", let_go(params), 0, "1", why, cure=cure),)
+    return (at_most("outermost warps that a turn releases", let_go(params), 0, "1", why, cure=cure, parts=(BOX,)),)
 
 
 def let_go(params: WeftParams) -> int:

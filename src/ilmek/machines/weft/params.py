@@ -5,9 +5,10 @@ from dataclasses import dataclass
 from ilmek.carpet.ground import SELVEDGE_WARPS, WEFT_TURN
 from ilmek.elements.carpet_yarns import CarpetYarnParams, CarpetYarns, carpet_yarns
 from ilmek.machines import WEFT_CARRIERS
+from ilmek.machines.weft.materials import BEECH, CARBON
 from ilmek.params import Params, kind, nested
 from ilmek.timing.s_curve import AxisLimits
-from ilmek.units import GPa, deg, mm
+from ilmek.units import deg, mm
 
 AUTO = "auto"
 SHUTTLE, RAPIER = WEFT_CARRIERS
@@ -51,7 +52,7 @@ class WeftParams(Params):
     change_time: float = kind.time(90.0, at_least=0.0, at_most=1e6, doc="stop of the loom to change a bobbin")
     wall: float = kind.length(3 * mm, at_least=0.1 * mm, at_most=50 * mm, doc="wall of the shuttle about its bobbin")
     nose: float = kind.length(40 * mm, at_least=0.0, at_most=0.5, doc="each pointed end of the shuttle")
-    shuttle_density: float = kind.density(720.0, at_least=1.0, at_most=2e4, doc="density of the shuttle: beech")
+    shuttle_density: float = kind.density(BEECH.density, at_least=1.0, at_most=2e4, doc="density of the shuttle: beech")
     fittings: float = kind.mass(0.15, at_least=0.0, at_most=10.0, doc="mass of the shuttle's magnets, eyes and brake")
     coupling: float = kind.force(60.0, at_least=0.0, at_most=1e4, doc="force at which the shuttle's magnets slip")
     attraction: float = kind.force(40.0, at_least=0.0, at_most=1e4, doc="pull of the magnets across the warps")
@@ -75,9 +76,13 @@ class WeftParams(Params):
         None, at_least=2 * mm, at_most=0.5, doc="height of the rapier's tube along the warps; default: chosen"
     )
     rapier_modulus: float = kind.pressure(
-        120 * GPa, unit="GPa", at_least=1e6, at_most=1e13, doc="Young's modulus of the rapier: carbon fibre, pultruded"
+        CARBON.modulus,
+        unit="GPa",
+        at_least=1e6,
+        at_most=1e13,
+        doc="Young's modulus of the rapier: carbon fibre",
     )
-    rapier_density: float = kind.density(1600.0, at_least=1.0, at_most=2e4, doc="density of the rapier")
+    rapier_density: float = kind.density(CARBON.density, at_least=1.0, at_most=2e4, doc="density of the rapier")
     sag_limit: float = kind.length(8 * mm, at_least=1e-6, at_most=0.5, doc="allowed sag of the rapier's tip")
     belt_efficiency: float = kind.ratio(0.9, at_least=0.05, at_most=1.0, doc="efficiency of belt, pulleys and guide")
     crossed: bool = kind.flag(True, doc="the shuttles' boxes let the wefts cross so that the outermost warps are bound")

@@ -12,6 +12,7 @@ shed. The rapier is a tube that projects from its guide at the edge:
 import math
 
 from ilmek.elements.materials import GRAVITY
+from ilmek.machines.weft.carriers import GRIPPER, NEEDLE, RAPIER_TUBE, hollow
 from ilmek.machines.weft.params import WeftParams
 from ilmek.machines.weft.shed import needed_opening, shed_check
 from ilmek.records import computed, record, result
@@ -84,11 +85,11 @@ def reach(params: WeftParams) -> float:
 def _rapier(params: WeftParams, tall: float) -> Rapier:
     wide, wall = max(LEAST_WIDTH, WIDTH * tall), min(max(LEAST_WALL, WALL * tall), tall / 3, LEAST_WIDTH / 3)
     inner = tall - 2 * wall, wide - 2 * wall
-    area = tall * wide - inner[0] * inner[1]
     rigidity = params.rapier_modulus * (wide * tall**3 - inner[1] * inner[0] ** 3) / 12
     sideways = params.rapier_modulus * (tall * wide**3 - inner[0] * inner[1] ** 3) / 12
     span, length = reach(params), reach(params) + CLAMP
-    weight = params.rapier_density * area * GRAVITY
+    line_mass = params.rapier_density * hollow((tall, wide, wall)).area
+    weight = line_mass * GRAVITY
     sag = (weight * span**4 / 8 + params.gripper_mass * GRAVITY * span**3 / 3) / rigidity
     depth = max(wide, params.gripper_size)
     return Rapier(
@@ -97,7 +98,7 @@ def _rapier(params: WeftParams, tall: float) -> Rapier:
         depth=depth,
         length=length,
         opening=needed_opening(params, depth),
-        mass=params.rapier_density * area * length + params.gripper_mass,
+        mass=line_mass * length + params.gripper_mass,
         rigidity=rigidity,
         sag=sag,
         buckling=math.pi**2 * min(rigidity, sideways) / (4 * span**2),
@@ -114,6 +115,7 @@ def size_checks(params: WeftParams, made: Rapier, acceleration: float) -> tuple[
             "mm",
             "a cantilever from the edge; assumed by this project: parameter sag_limit",
             cure="set weft=shuttle or a narrower carpet",
+            parts=(RAPIER_TUBE,),
         ),
         at_least(
             "safety of the rapier against buckling",
@@ -122,8 +124,9 @@ def size_checks(params: WeftParams, made: Rapier, acceleration: float) -> tuple[
             "1",
             "Euler, one end clamped; safety 3, assumed by this project",
             cure="set a lower weft.acceleration or weft=shuttle",
+            parts=(RAPIER_TUBE,),
         ),
-        shed_check(params, made.opening, "weft=shuttle"),
+        shed_check(params, made.opening, "weft=shuttle", RAPIER_TUBE),
     )
 
 
@@ -140,6 +143,7 @@ def rapier_checks(params: WeftParams, made: Rapier, acceleration: float, tension
             "N",
             "friction on both jaws; assumed by this project: parameter grip_force",
             cure="set a lower weft.speed or weft.brake",
+            parts=(GRIPPER,),
         ),
         at_least(
             "warps that bind a tucked end",
@@ -148,5 +152,6 @@ def rapier_checks(params: WeftParams, made: Rapier, acceleration: float, tension
             "1",
             "over one warp and under the next, assumed by this project; half of parameter turn",
             cure="set a longer weft.turn",
+            parts=(NEEDLE,),
         ),
     )

@@ -23,8 +23,8 @@ def needed_opening(params: WeftParams, depth: float) -> float:
     return depth + 2 * params.play + params.carpet_yarns.warp.diameter
 
 
-def shed_check(params: WeftParams, opening: float, thinner: str) -> Check:
-    """Whether the shed opens far enough; thinner: what to set for a thinner carrier."""
+def shed_check(params: WeftParams, opening: float, thinner: str, part: str) -> Check:
+    """Whether the shed opens far enough; thinner: what to set for a thinner carrier, part: its id."""
     return at_most(
         "opening of the shed for the carrier",
         opening,
@@ -32,4 +32,5 @@ def shed_check(params: WeftParams, opening: float, thinner: str) -> Check:
         "mm",
         "0.8 of the opening at the cams, assumed by this project; parameters lift, open_share, play",
         cure=f"set a higher lift, or {thinner}",
+        parts=(part,),
     )

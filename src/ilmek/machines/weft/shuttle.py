@@ -13,10 +13,12 @@ acts along the warps, which are upright.                                        
 """
 
 import math
+from dataclasses import replace
 
 from ilmek.carpet.ground import WeftLengths
 from ilmek.elements.materials import GRAVITY
 from ilmek.machines.weft.bobbin import BobbinSize, Winding, bobbin_sizes, windings
+from ilmek.machines.weft.carriers import BOBBIN, CARRIAGE, FITTINGS, SHUTTLE_WOOD, bobbin, shuttle_wood
 from ilmek.machines.weft.params import WeftParams
 from ilmek.machines.weft.shed import needed_opening, shed_check
 from ilmek.records import computed, record, result
@@ -62,29 +64,35 @@ class Shuttle:
 
 def shuttle_for(params: WeftParams, lengths: WeftLengths) -> tuple[Shuttle, tuple[Choice, ...]]:
     """The shuttle with the smallest bobbin whose checks hold, or the largest for the least time, and that choice."""
-    tried = [_shuttle(params, size, lengths) for size in bobbin_sizes(params)]
+    tried = [_unweighed(params, size, lengths) for size in bobbin_sizes(params)]
     if params.aim == "time":
         tried.reverse()
     named = [Alternative(one.bobbin.name, size_checks(params, one)) for one in tried]
     index, choice = choose("bobbin", named, params.aim)
-    return tried[index], (choice,) if len(tried) > 1 else ()
+    return _weighed(params, tried[index]), (choice,) if len(tried) > 1 else ()
 
 
-def _shuttle(params: WeftParams, size: BobbinSize, lengths: WeftLengths) -> Shuttle:
+def _unweighed(params: WeftParams, size: BobbinSize, lengths: WeftLengths) -> Shuttle:
+    """The shuttle for a bobbin; its masses do not decide the choice."""
     wound = windings(params, size, lengths)
     depth, bay = size.diameter + 2 * params.wall, size.length + 2 * params.wall
-    hollow = math.pi / 4 * (size.diameter**2 - size.core**2) * size.length
-    empty = params.shuttle_density * (depth**2 * (bay + params.nose) - hollow) + params.fittings
     return Shuttle(
         bobbin=size,
         windings=wound,
         depth=depth,
         length=bay + 2 * params.nose,
         opening=needed_opening(params, depth),
-        empty=empty,
-        full=empty + max(one.mass for one in wound),
+        empty=math.nan,
+        full=math.nan,
         supports=math.floor(bay / (2 * params.warp_pitch) * (1 + 1e-12)),
     )
+
+
+def _weighed(params: WeftParams, made: Shuttle) -> Shuttle:
+    """The shuttle with the masses of its parts."""
+    empty = shuttle_wood(params, made.bobbin).mass + params.fittings
+    full = empty + bobbin(params, made.bobbin).mass + max(winding.mass for winding in made.windings)
+    return replace(made, empty=empty, full=full)
 
 
 def size_checks(params: WeftParams, made: Shuttle) -> tuple[Check, ...]:
@@ -95,8 +103,8 @@ def size_checks(params: WeftParams, made: Shuttle) -> tuple[Check, ...]:
     cure = "set a higher lift, weft=rapier, or a smaller weft.least_rows"
     supports = "every second warp is lifted; three supports, assumed by this project"
     return (
-        at_least("rows between two changes of a bobbin", lasts, least, "1", where, cure=cure),
-        shed_check(params, made.opening, "a smaller weft.bobbin_diameter"),
+        at_least("rows between two changes of a bobbin", lasts, least, "1", where, cure=cure, parts=(BOBBIN,)),
+        shed_check(params, made.opening, "a smaller weft.bobbin_diameter", SHUTTLE_WOOD),
         at_least(
             "lifted warps under the shuttle",
             made.supports,
@@ -104,6 +112,7 @@ def size_checks(params: WeftParams, made: Shuttle) -> tuple[Check, ...]:
             "1",
             supports,
             cure="set a longer weft.bobbin_length",
+            parts=(SHUTTLE_WOOD,),
         ),
         at_most(
             "gap that the shuttle bridges at the edge",
@@ -112,6 +121,7 @@ def size_checks(params: WeftParams, made: Shuttle) -> tuple[Check, ...]:
             "mm",
             "its middle is supported until its tip bears on the first lifted warp",
             cure="set a smaller weft.edge or a longer bobbin",
+            parts=(SHUTTLE_WOOD,),
         ),
     )
 
@@ -127,6 +137,7 @@ def shuttle_checks(params: WeftParams, made: Shuttle, acceleration: float, tensi
             "N",
             "m a, friction, tension and weight, by parameter safety; assumed by this project: parameter coupling",
             cure="set a lower weft.acceleration or stronger magnets, weft.coupling",
+            parts=(FITTINGS, CARRIAGE),
         ),
     )
 

@@ -10,11 +10,12 @@ from ilmek.machines.automated_loom.cyclogram import EVEN, ODD
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.beating import beating
 from ilmek.machines.automated_loom.in_space.cams import cams, warp_positions
-from ilmek.machines.automated_loom.in_space.heads import HEAD, heads, knot_yarn
+from ilmek.machines.automated_loom.in_space.heads import heads, knot_yarn
 from ilmek.machines.automated_loom.in_space.maker import KNOT, ROW, SceneMaker, maker_of, track_angles
 from ilmek.machines.automated_loom.in_space.standing import standing
 from ilmek.machines.automated_loom.in_space.weft import weft, wefts
 from ilmek.machines.shedding.tree import warp_shafts
+from ilmek.machines.weaver.tree import HEAD
 from ilmek.report import Report
 from ilmek.report.scene import Scene, SceneCarpet, SceneWarps
 from ilmek.timing.track import sample

@@ -19,8 +19,8 @@ from ilmek.machines.automated_loom.motion.knot_views import DRIVE as KNOT_DRIVE
 from ilmek.machines.automated_loom.motion.row_views import DRIVE as ROW_DRIVE
 from ilmek.machines.shedding.warp import warp_force
 from ilmek.machines.weaver.forces import HeadForces, tool_force
-from ilmek.machines.weaver.limits import head_mass
 from ilmek.machines.weaver.motions import HANDLER
+from ilmek.machines.weaver.tree import head_mass
 from ilmek.report import Axis, Plot, Series
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.timing.track import laid, sample

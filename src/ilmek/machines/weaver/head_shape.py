@@ -5,19 +5,23 @@ Tools reach out of the body to the warps. Their boxes contain the rods at every 
 machine states are assumed by this project.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
-from ilmek.machines.weaver.design import Weaver
-from ilmek.machines.weaver.magazine import DRUM
+from ilmek.cams.loaded_plate_cam import LoadedPlateCam
+from ilmek.machines.weaver.grippers import Grippers
+from ilmek.machines.weaver.magazine import DRUM, Magazine
 from ilmek.machines.weaver.motions import CENTRE_ARM, CENTRE_MOTION, LEFT_ARM, OPENER, RIGHT_ARM, SIDE_MOTION, SLEY
+from ilmek.machines.weaver.params import WeaverParams
 from ilmek.records import record
 from ilmek.units import mm
 
 CASE = 10 * mm
 """Wall and room around the largest cam of a head [m]."""
 
-SLEY_HEIGHT, SLEY_DEPTH = 15 * mm, 10 * mm
-"""Of the sley, along the warps and to the front [m]."""
+SLEY_HEIGHT = 15 * mm
+"""Of the sley, along the warps [m]."""
+
+LOWER_PLATE, UPPER_PLATE, SLEY_TOOL = "lower plate of the opener", "opener", "sley"
 
 
 @record
@@ -63,16 +67,29 @@ class HeadShape:
         return max(self.body.imag + self.size.imag, *((tool.corner + tool.size).imag for tool in self.tools))
 
 
-def head_shape(weaver: Weaver, clearance: float) -> HeadShape:
-    """The shape of a head; its body keeps a clearance [m] from the yarn that its tools draw."""
-    grippers, params = weaver.grippers, weaver.params
-    if params.with_arms:
-        return _with_arms(weaver, clearance)
+@record
+class HeadTools:
+    """The tools that reach to the warps, and the case's face behind them [m]."""
+
+    tools: tuple[HeadTool, ...]
+    face: float
+
+    def tool(self, name: str) -> HeadTool:
+        """The tool of a name."""
+        return next(tool for tool in self.tools if tool.name == name)
+
+
+def head_tools(params: WeaverParams, grippers: Grippers, drawn: float) -> HeadTools:
+    """The tools of a head, and its face, which keeps the standoff from the yarn that they draw, drawn [m]."""
+    return _with_arms(params, drawn) if params.with_arms else _with_grippers(params, grippers, drawn)
+
+
+def _with_grippers(params: WeaverParams, grippers: Grippers, drawn: float) -> HeadTools:
     low = params.opener.front_span + params.clearance
     height = grippers.lift + grippers.finger
     tied = low + height / 2
-    front, tip = grippers.warp / 2 + clearance, grippers.front + grippers.opening
-    face = max(tip + params.pull_back, weaver.drawn / 2) + clearance
+    front, tip = grippers.warp / 2 + params.standoff, grippers.front + grippers.opening
+    face = max(tip + params.pull_back, drawn / 2) + params.standoff
     forward = grippers.opening + grippers.crossing
     tools = (
         HeadTool(
@@ -82,7 +99,7 @@ def head_shape(weaver: Weaver, clearance: float) -> HeadShape:
             complex(face - tip + forward, height / 2 + grippers.height + grippers.finger / 2),
             -1 + 0j,
         ),
-        *_opener(weaver, SIDE_MOTION, complex(grippers.opening - front, face + forward), grippers.opening),
+        *_opener(params, SIDE_MOTION, complex(grippers.opening - front, face + forward), grippers.opening),
         HeadTool(
             "centre gripper",
             CENTRE_MOTION,
@@ -90,38 +107,51 @@ def head_shape(weaver: Weaver, clearance: float) -> HeadShape:
             complex(face + grippers.depth, grippers.finger),
             -1 + 0j,
         ),
-        _sley(weaver, complex(front, face)),
+        _sley(params, complex(front, face)),
     )
-    return _around(weaver, tools, face)
+    return HeadTools(tools, face)
 
 
-def _opener(weaver: Weaver, track: str, span: complex, limit: float) -> Iterator[HeadTool]:
+def _with_arms(params: WeaverParams, drawn: float) -> HeadTools:
+    """With arms, which swing in a plane across the warps: the side view shows its edge."""
+    arms, radius, standoff = params.arms, params.warp / 2, params.standoff
+    face = max(params.opening + radius, arms.stroke + radius, drawn / 2) + standoff
+    rest, out = arms.rest - radius, params.opening - radius - standoff
+    size = complex(face - rest + arms.stroke, arms.breadth)
+    corner = complex(rest, params.opener.front_span + (params.opener.height - arms.breadth) / 2)
+    tools = (
+        *(HeadTool(name, name, corner, size, -1 + 0j) for name in (LEFT_ARM, RIGHT_ARM, CENTRE_ARM)),
+        *_opener(params, OPENER, complex(out, face + params.opening), params.opening),
+        _sley(params, complex(radius + standoff, face)),
+    )
+    return HeadTools(tools, face)
+
+
+def _opener(params: WeaverParams, track: str, span: complex, limit: float) -> Iterator[HeadTool]:
     """Both plates of the opener; span: from their points at rest to the far end, as x + i x [m]."""
-    own = weaver.params.opener
-    for name, height in (
-        ("lower plate of the opener", own.front_span - own.plate),
-        ("opener", own.front_span + own.height),
-    ):
+    own = params.opener
+    for name, height in ((LOWER_PLATE, own.front_span - own.plate), (UPPER_PLATE, own.front_span + own.height)):
         size = complex(span.imag - span.real, own.plate)
         yield HeadTool(name, track, complex(span.real, height), size, -1 + 0j, limit)
 
 
-def _sley(weaver: Weaver, span: complex) -> HeadTool:
+def _sley(params: WeaverParams, span: complex) -> HeadTool:
     """The sley at rest, above the opener; span: see `_opener`."""
-    own = weaver.params.opener
-    height = max(weaver.params.sley_stroke, own.front_span + own.height + own.plate)
-    return HeadTool("sley", SLEY, complex(span.real, height), complex(span.imag - span.real, SLEY_HEIGHT), -1j)
+    own = params.opener
+    height = max(params.sley_stroke, own.front_span + own.height + own.plate)
+    return HeadTool(SLEY_TOOL, SLEY, complex(span.real, height), complex(span.imag - span.real, SLEY_HEIGHT), -1j)
 
 
-def _around(weaver: Weaver, tools: tuple[HeadTool, ...], face: float) -> HeadShape:
-    """The head with its tools: the body in front of its face [m], as deep as its largest cam, and the magazine.
+def head_shape(reaching: HeadTools, cams: Sequence[LoadedPlateCam], magazine: Magazine) -> HeadShape:
+    """The head with its tools: the body in front of its face, as deep as its largest cam, and the magazine.
 
     The magazine stands in front of the body, and moves each tier to the height at which the knot is tied.
     """
-    magazine, tied = weaver.magazine, (tools[0].corner + tools[0].size / 2).imag
+    tools, face = reaching.tools, reaching.face
+    tied = (tools[0].corner + tools[0].size / 2).imag
     tall = (2 * magazine.tiers - 1) * magazine.pitch
     wide = magazine.width if magazine.kind == DRUM else magazine.pitch
-    deep = 2 * max(cam.radius for cam in weaver.cams) + 2 * CASE
+    deep = 2 * max(cam.radius for cam in cams) + 2 * CASE
     top = max((tool.corner + tool.size).imag for tool in tools) + CASE
     return HeadShape(
         body=complex(face, top - deep),
@@ -131,20 +161,3 @@ def _around(weaver: Weaver, tools: tuple[HeadTool, ...], face: float) -> HeadSha
         magazine=complex(face + deep, tied - tall / 2),
         magazine_size=complex(wide, tall),
     )
-
-
-def _with_arms(weaver: Weaver, clearance: float) -> HeadShape:
-    """The shape of a head with arms: they swing in a plane across the warps, of which the side view shows the edge."""
-    params = weaver.params
-    radius, tracks = params.warp / 2, [weaver.cyclogram.track(name) for name in (LEFT_ARM, RIGHT_ARM, CENTRE_ARM)]
-    travel = max(track.stroke for track in tracks)
-    face = max(params.opening + radius, travel + radius, weaver.drawn / 2) + clearance
-    rest, out = params.arms.rest - radius, params.opening - radius - clearance
-    size = complex(face - rest + travel, params.arms.breadth)
-    corner = complex(rest, params.opener.front_span + (params.opener.height - params.arms.breadth) / 2)
-    tools = (
-        *(HeadTool(track.name, track.name, corner, size, -1 + 0j) for track in tracks),
-        *_opener(weaver, OPENER, complex(out, face + params.opening), params.opening),
-        _sley(weaver, complex(radius + clearance, face)),
-    )
-    return _around(weaver, tools, face)

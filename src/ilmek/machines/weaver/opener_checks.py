@@ -1,0 +1,142 @@
+"""The checks of the opener and of what has room in a head: tools between its plates, tubes, arms."""
+
+from ilmek.elements.carpet_yarns import usual_warp
+from ilmek.machines.weaver.design import Weaver
+from ilmek.machines.weaver.grippers import YARN_TOLERANCE
+from ilmek.machines.weaver.opener import LEAST_ROOM
+from ilmek.machines.weaver.parts import TUBE
+from ilmek.machines.weaver.tool_parts import OPENER_PLATE, PILE_HANDLER, SLEY_BAR
+from ilmek.report import Check, at_least, at_most
+
+FINER = "set a coarser quality, or thinner warps"
+
+
+def opener_checks(weaver: Weaver) -> tuple[Check, ...]:
+    """The opener enters between two warps, does not overload them, pushes no warp of a neighbour's, and holds."""
+    params, own, opener = weaver.params, weaver.params.opener, weaver.opener
+    pitch, warp = opener.pitch, params.warp
+    strength = own.warp_strength or usual_warp(pitch).breaking_force
+    return (
+        at_most(
+            "opener: points between two warps",
+            own.tip + 2 * own.placing,
+            pitch - warp,
+            "mm",
+            "gap of the warps; assumed by this project: parameters opener.tip, opener.placing",
+            cure=FINER,
+            parts=(OPENER_PLATE,),
+        ),
+        at_most(
+            "opener: tension of a displaced warp",
+            opener.tension,
+            own.strength_used * strength,
+            "N",
+            "breaking force of the warp; share assumed by this project: parameter opener.strength_used",
+            cure="set a lower tension, stronger warps, or longer spans of the warps",
+            parts=(OPENER_PLATE,),
+        ),
+        at_most(
+            "opener: wedge against friction",
+            opener.wedge,
+            1 - LEAST_ROOM,
+            "1",
+            "no self-locking: slope of its walls times the friction",
+            cure="set a longer weaver.opening",
+            parts=(OPENER_PLATE,),
+        ),
+        at_most(
+            "opener: bend of its teeth",
+            opener.bend,
+            own.bend_limit,
+            "mm",
+            "assumed by this project: parameter opener.bend_limit",
+            cure="set a wider weaver.opener.wall, or a lower tension",
+            parts=(OPENER_PLATE,),
+        ),
+        *_opener_room_checks(weaver),
+    )
+
+
+def _opener_room_checks(weaver: Weaver) -> tuple[Check, ...]:
+    """The tools fit between the opener's plates, the sley reaches the fell, the neighbouring head's warps stand."""
+    params, own, opener = weaver.params, weaver.params.opener, weaver.opener
+    return (
+        at_most(
+            "opener: teeth in the gap beside the pair",
+            opener.wall,
+            opener.aside - opener.pair / 2 - opener.diameter,
+            "mm",
+            "from the pair's warps to their neighbours",
+            cure="set a larger opening of the arms, or a smaller weaver.opener.wall",
+            parts=(OPENER_PLATE,),
+        ),
+        at_least(
+            "opener: room of the tools between its plates",
+            own.height,
+            _tools_height(weaver),
+            "mm",
+            "height of the grippers, or of a needle, with their clearances",
+            cure="set a larger weaver.opener.height",
+            parts=(OPENER_PLATE,),
+        ),
+        at_least(
+            "sley: stroke from above the opener to the fell",
+            params.sley_stroke,
+            own.front_span + own.height + own.plate,
+            "mm",
+            "opener.front_span, height and plate",
+            cure="set a longer weaver.sley_stroke",
+            parts=(SLEY_BAR, OPENER_PLATE),
+        ),
+        at_most(
+            "opener: width of the warps that it displaces",
+            opener.crowd,
+            weaver.width,
+            "mm",
+            "head_width: the neighbouring head's warps stay where they are",
+            cure="leave head_width to the design, or set thinner warps",
+            parts=(OPENER_PLATE,),
+        ),
+    )
+
+
+def _tools_height(weaver: Weaver) -> float:
+    """Height along the warps that the tools take between the opener's plates [m]."""
+    params, by = weaver.params, weaver.grippers
+    if params.with_arms:
+        return params.arms.breadth + 2 * params.clearance
+    return by.height + by.lift + 2 * params.finger + 2 * params.clearance
+
+
+def room_checks(weaver: Weaver) -> tuple[Check, ...]:
+    """The magazine within the head; the arms too."""
+    params, magazine = weaver.params, weaver.magazine
+    fewer = "set fewer colours, more weaver.tube_tiers, or leave head_width to the design"
+    found = (
+        at_most("tubes on the head", magazine.width, weaver.width, "mm", "head_width", cure=fewer, parts=(TUBE,)),
+        at_most(
+            "tiers of the tubes",
+            magazine.height,
+            params.magazine_room,
+            "mm",
+            "parameter magazine_room",
+            cure="set a larger weaver.magazine_room, or fewer colours",
+            parts=(TUBE,),
+        ),
+    )
+    if not params.with_arms:
+        return found
+    cure = "leave head_width to the design"
+    return (
+        *found,
+        at_most("arms on the head", params.arms.width, weaver.width, "mm", "head_width", cure=cure),
+        at_least(
+            "yarn drawn",
+            weaver.drawn + YARN_TOLERANCE,
+            max(params.billed, params.arms.yarn),
+            "mm",
+            "yarn bill, and need of the arms",
+            cure="set a longer knot_yarn",
+            parts=(PILE_HANDLER,),
+        ),
+    )

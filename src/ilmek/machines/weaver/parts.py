@@ -1,0 +1,221 @@
+"""The parts of a head's case: side plates, cam shaft with cams and spacers, levers, magazine and motors.
+
+What stands in the case lies about the cam shaft's axis, z to the weaver's left, 0 in the middle of the head. From right
+to left: a side plate, then gap and cam in turn, a gap, and the other side plate. So the case is as wide as its cams.
+"""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from ilmek.cams.loaded_plate_cam import STEEL, LoadedPlateCam
+from ilmek.elements.bearing_table import DEEP_GROOVE, ROLLING_BEARINGS, RollingBearing
+from ilmek.elements.bearings import life
+from ilmek.elements.materials import MATERIALS
+from ilmek.elements.plates import round_bore, zero_mark
+from ilmek.machines.weaver.cams import case_width
+from ilmek.machines.weaver.design import Weaver
+from ilmek.machines.weaver.head_shape import CASE
+from ilmek.machines.weaver.magazine import DRUM
+from ilmek.machines.weaver.selector import selector_of
+from ilmek.machines.weaver.tool_parts import part_id
+from ilmek.part import catalogue
+from ilmek.part.part import Bought, Part
+from ilmek.part.placement import UPRIGHT, Placement, placement
+from ilmek.part.profile import Profile, drilled
+from ilmek.part.shapes import Prism, bar, box, rectangle, tube
+from ilmek.part.tree import Occurrence
+from ilmek.plane.contours import circle, polygon
+from ilmek.units import format_quantity, mm, turn
+
+ALUMINIUM = MATERIALS["aluminium alloy"]
+
+BEARING_LIFE = 1e8
+"""Turns of the cam shaft, one for each knot, that its bearings must last; assumed by this project."""
+
+SAMPLES = 720
+"""Angles of the turn at which the force on the bearings is summed."""
+
+SPACER_WALL = 5 * mm
+"""Wall of the rings between the cams [m]; assumed by this project."""
+
+
+def cam_id(track: str) -> str:
+    """Id of the cam of a track."""
+    return part_id(f"{track.replace(' ', '-')}-cam")
+
+
+def lever_id(track: str) -> str:
+    """Id of what leads the motion of a cam to its tool."""
+    return part_id(f"{track.replace(' ', '-')}-lever")
+
+
+SHAFT, BEARING, SIDE_PLATE = part_id("cam-shaft"), part_id("bearing"), part_id("side-plate")
+MOTOR, TUBE = part_id("motor"), part_id("yarn-tube")
+
+
+def case_plates(weaver: Weaver) -> tuple[str, ...]:
+    """Id of the side plates, where the head has them."""
+    return (SIDE_PLATE,) if weaver.params.side_plate > 0 else ()
+
+
+def bearing_of(weaver: Weaver) -> RollingBearing | None:
+    """The lightest deep-groove bearing that fits on the cam shaft and lasts under all forces of the cams; None: none.
+
+    Each bearing is taken to bear the sum of the forces, by its cubic mean over the turn.      [ISO 281]
+    """
+    angle = np.linspace(0.0, turn, SAMPLES, endpoint=False)
+    force = sum(np.interp(angle, cam.angle, cam.contact, period=turn) for cam in weaver.cams)
+    load = float(np.mean(force**3)) ** (1 / 3)
+    bore = max((row.bore for row in _deep_groove() if row.bore <= weaver.params.shaft * (1 + 1e-9)), default=0.0)
+    enough = (row for row in _deep_groove() if row.bore == bore and life(row.dynamic, load, row.kind) >= BEARING_LIFE)
+    return min(enough, key=lambda row: row.mass, default=None)
+
+
+def _deep_groove() -> Iterator[RollingBearing]:
+    return (row for row in ROLLING_BEARINGS.values() if row.kind == DEEP_GROOVE)
+
+
+def case_parts(weaver: Weaver) -> Iterator[Occurrence]:
+    """What stands in the case: the side plates with the bearings, and the levers between cams and tools."""
+    params, deep, wide = weaver.params, weaver.shape.size.real, case_width(weaver.params, len(weaver.cams))
+    row, plate = bearing_of(weaver), params.side_plate
+    if plate > 0:
+        hole = () if row is None or row.outer >= deep else (circle(0j, row.outer / 2),)
+        shape = Prism(Profile(rectangle(deep, deep), hole), plate)
+        size = f"{format_quantity(deep / mm, '')} x {format_quantity(deep / mm, '')} x {_mm(plate)}"
+        part = Part(SIDE_PLATE, "side plate of the head", "machined link", size, shape, ALUMINIUM)
+        yield Occurrence(part, (placement(z=-wide / 2), placement(z=wide / 2 - plate)))
+    if row is not None:
+        part = catalogue.bearing(BEARING, "bearing of the head's cam shaft", row)
+        inside = (plate + row.width) / 2
+        yield Occurrence(part, (placement(z=-wide / 2 + plate - inside), placement(z=wide / 2 - inside)))
+    for cam, z in zip(weaver.cams, _stations(weaver), strict=True):
+        yield Occurrence(_lever(weaver, cam), (placement(-(deep - CASE) / 2, 0.0, z),))
+
+
+def _lever(weaver: Weaver, cam: LoadedPlateCam) -> Part:
+    """Lever, slide and roller between a cam and its tool: their room is the case's wall beside the cam."""
+    rest = weaver.tool_bodies.moved(cam.name) - weaver.tool_bodies.of_track(cam.name)
+    return Part(
+        lever_id(cam.name),
+        f"lever, slide and roller of the {cam.name}",
+        "machined link",
+        f"ratio {cam.ratio:.3g}" if cam.ratio < 100 else "rack and pinion",
+        box(CASE, weaver.shape.size.imag, weaver.params.cam_thickness),
+        purchase=Bought("lever, slide and roller", rest),
+        envelope=True,
+    )
+
+
+def shaft_parts(weaver: Weaver) -> Iterator[Occurrence]:
+    """What turns: the shaft, a cam for each track, and a spacer in each gap."""
+    params, wide = weaver.params, case_width(weaver.params, len(weaver.cams))
+    shaft = Part(SHAFT, "cam shaft of the head", "turned part", _round(params.shaft), bar(params.shaft, wide), STEEL)
+    yield Occurrence(shaft, (placement(z=-wide / 2),))
+    stations = _stations(weaver)
+    for cam, z in zip(weaver.cams, stations, strict=True):
+        yield Occurrence(_cam(weaver, cam), (placement(z=z),))
+    gap = params.cam_gap
+    if gap > 0:
+        outer = params.shaft + 2 * SPACER_WALL
+        ring = tube(outer, SPACER_WALL, gap)
+        spacer = Part(part_id("spacer"), "spacer of the cams", "pin or bush", _round(outer), ring, STEEL)
+        ends = [*(z + params.cam_thickness for z in stations), stations[-1] - gap]
+        yield Occurrence(spacer, tuple(placement(z=z) for z in ends))
+
+
+def _stations(weaver: Weaver) -> list[float]:
+    """Where each cam begins along the axis [m], from the right."""
+    params = weaver.params
+    inner = case_width(params, len(weaver.cams)) / 2 - params.side_plate
+    pitch = params.cam_thickness + params.cam_gap
+    return [inner - (number + 1) * pitch for number in range(len(weaver.cams))]
+
+
+def _cam(weaver: Weaver, cam: LoadedPlateCam) -> Part:
+    """The plate of a cam; its room where no surface can guide the roller."""
+    shaft, thickness = weaver.params.shaft, cam.thickness
+    bore = round_bore(shaft)
+    title, size = f"cam of the {cam.name}", f"{cam.actuator}, lift {format_quantity(cam.lift, 'mm')}"
+    if cam.undercut:
+        room = Prism(drilled(circle(0j, cam.radius), bore.holes, bore.cutouts), thickness)
+        return Part(cam_id(cam.name), title, "cam plate", size, room, STEEL, envelope=True)
+    surface, pitch = cam.trace.surface[::-1], cam.trace.pitch[::-1]
+    holes = drilled(polygon(surface[:-1]), bore.holes, bore.cutouts).holes
+    return Part(
+        cam_id(cam.name),
+        title,
+        "cam plate",
+        size,
+        Prism(Profile(polygon(surface[:-1]), holes, smooth=True), thickness),
+        STEEL,
+        paths={"pitch curve": pitch, "cutter path": pitch},
+        marks=zero_mark(float(np.abs(surface[-1]))),
+        notes=(*bore.notes, f"cutter of {format_quantity(2 * cam.cam.roller_radius, 'mm')}"),
+    )
+
+
+def drive_parts(weaver: Weaver) -> Iterator[Occurrence]:
+    """The motor of the cam shaft with its reducer, upright below the case; that place is assumed by this project."""
+    servo, drive, shape = weaver.drive.servo, weaver.drive, weaver.shape
+    middle = shape.body + shape.size.real / 2
+    low = middle.imag
+    motor = servo.motor if servo else None
+    if servo is not None:
+        geared = catalogue.reducer(part_id("reducer"), "reducer of a head", servo.reducer.ratio, motor)
+        low -= catalogue.length_of(geared)
+        yield Occurrence(geared, (_upright(low, middle.real),))
+    part = catalogue.motor(MOTOR, "motor of a head", motor, drive.torque_max, weaver.cyclogram.speed)
+    yield Occurrence(part, (_upright(low, middle.real),))
+    chosen, under = selector_of(weaver.params), shape.magazine + shape.magazine_size.real / 2
+    colours = [("colour-motor", "motor of the colours"), ("tier-motor", "motor of the tiers")]
+    beside = catalogue.SPECIAL_FACE / 2 if chosen.stepper is None else chosen.stepper.face / 2
+    two = weaver.magazine.tiers > 1
+    for number, (name, title) in enumerate(colours[: 2 if two else 1]):
+        part = catalogue.motor(part_id(name), title, chosen.stepper, chosen.torque, chosen.speed)
+        x = (2 * number - 1) * beside if two else 0.0
+        yield Occurrence(part, (placement(x).after(_upright(under.imag, under.real)),))
+
+
+def tube_parts(weaver: Weaver) -> Occurrence:
+    """The yarn tubes: in each tier on the circle of a drum, or in a line."""
+    magazine, shape = weaver.magazine, weaver.shape
+    number, pitch = magazine.per_tier, magazine.pitch
+    if magazine.kind == DRUM:
+        flat = pitch * number / turn * np.exp(1j * turn * np.arange(number) / number)
+    else:
+        flat = (np.arange(number) - (number - 1) / 2) * pitch + 0j
+    middle = shape.magazine + shape.magazine_size / 2
+    depth = max(middle.real, shape.magazine.real + float(np.max(flat.imag)) + pitch / 2)
+    low = middle.imag - magazine.tiers * pitch / 2
+    part = Part(
+        TUBE,
+        "yarn tube",
+        "yarn tube",
+        "one for each colour, with its share of the slide",
+        tube(0.8 * pitch, 0.1 * pitch, pitch),
+        purchase=Bought("yarn tube", weaver.params.tube_mass),
+        envelope=True,
+    )
+    cells = (divmod(cell, number) for cell in range(magazine.tubes))
+    return Occurrence(
+        part,
+        tuple(
+            placement(float(flat[column].real), low + tier * pitch, depth + float(flat[column].imag)).after(UPRIGHT)
+            for tier, column in cells
+        ),
+    )
+
+
+def _upright(height: float, front: float) -> Placement:
+    """At a height and a distance to the front [m] in the middle of the head, z up."""
+    return placement(0.0, height, front).after(UPRIGHT)
+
+
+def _mm(length: float) -> str:
+    return format_quantity(length, "mm")
+
+
+def _round(diameter: float) -> str:
+    return f"round {_mm(diameter)}"

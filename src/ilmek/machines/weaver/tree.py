@@ -1,0 +1,90 @@
+"""The head as a tree of bodies: the case on its carriage, the cam shaft, the tools that the cams move, the magazine.
+
+Axes of the scene: x along the row, 0 in the middle of the head, y up from the fell, z to the front from the warps.
+"""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from functools import lru_cache
+
+from ilmek.elements.drive_parts import PULLEY
+from ilmek.elements.motors import smallest_motor
+from ilmek.machines.weaver.design import Weaver
+from ilmek.machines.weaver.parts import cam_id, case_parts, drive_parts, shaft_parts, tube_parts
+from ilmek.machines.weaver.tool_parts import part_id
+from ilmek.part import catalogue
+from ilmek.part.placement import IDENTITY, IN_SIDE_VIEW, UPRIGHT, Placement, placement
+from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
+
+HEAD, CAM_SHAFT, MAGAZINE = part_id("head"), part_id("turning cam shaft"), part_id("magazine")
+CARRIAGE = part_id("drive of the carriage")
+"""Ids of bodies."""
+
+
+@lru_cache(maxsize=8)
+def tree(weaver: Weaver) -> Tree:
+    """The head, and the motor of its carriage at the end of its share of the rail."""
+    return placed(weaver, (IDENTITY,), (_at_rail(weaver),))
+
+
+def placed(weaver: Weaver, heads: Sequence[Placement], drives: Sequence[Placement]) -> Tree:
+    """The tree of a loom's heads, and of the motors of their carriages, each at its places."""
+    first, *others = head_tree(weaver).bodies
+    mass, params = head_mass(weaver), weaver.params
+    torque, turning = mass * params.carriage_acceleration * PULLEY, params.carriage_speed / PULLEY
+    motor = catalogue.motor(
+        part_id("carriage-motor"), "motor of a carriage", smallest_motor(torque, turning), torque, turning
+    )
+    drive = RigidBody(CARRIAGE, (Occurrence(motor),), joint=Joint(JointKind.MISSING), positions=tuple(drives))
+    return Tree((replace(first, positions=tuple(heads)), *others, drive))
+
+
+def _at_rail(weaver: Weaver) -> Placement:
+    """Under the rail, which runs in front of the magazine half-way up the case."""
+    shape = weaver.shape
+    low = shape.body.imag + shape.size.imag / 2
+    return placement(weaver.width / 2, low, shape.front).after(UPRIGHT)
+
+
+@lru_cache(maxsize=8)
+def head_tree(weaver: Weaver) -> Tree:
+    """All that a carriage moves.
+
+    The case slides on the rail; between cams and tools, and for the magazine, nothing that carries is designed yet.
+    """
+    axis = weaver.shape.body + weaver.shape.size / 2
+    about = placement(0.0, axis.imag, axis.real).after(IN_SIDE_VIEW)
+    case = (
+        Occurrence(stands.part, tuple(about.after(position) for position in stands.positions))
+        for stands in case_parts(weaver)
+    )
+    return Tree(
+        (
+            RigidBody(HEAD, (*case, *drive_parts(weaver)), joint=Joint(JointKind.SLIDE, (1.0, 0.0, 0.0))),
+            RigidBody(CAM_SHAFT, tuple(shaft_parts(weaver)), HEAD, Joint(JointKind.PIN), (about,)),
+            *(body for _, body in weaver.tool_bodies.bodies(HEAD)),
+            RigidBody(MAGAZINE, (tube_parts(weaver),), HEAD, Joint(JointKind.MISSING)),
+        )
+    )
+
+
+@lru_cache(maxsize=32)
+def mass_of(weaver: Weaver) -> Mapping[str, float]:
+    """Masses of the head's parts, all pieces of each [kg], by title; arms that tie the knots among them."""
+    parts = {
+        part.title: number * part.mass for part, number in head_tree(weaver).occurrences() if not math.isnan(part.mass)
+    }
+    arms = {"arms": weaver.params.arms.mass} if weaver.params.with_arms else {}
+    return {**parts, **arms}
+
+
+def cam_masses(weaver: Weaver) -> Mapping[str, float]:
+    """Mass of the plate of each cam, by its name [kg]."""
+    masses = {part.id: part.mass for part, _ in head_tree(weaver).occurrences()}
+    return {cam.name: masses[cam_id(cam.name)] for cam in weaver.cams}
+
+
+def head_mass(weaver: Weaver) -> float:
+    """Mass of the head on its carriage [kg]: as given, or of its parts."""
+    return weaver.params.head_mass or sum(mass_of(weaver).values())

@@ -1,0 +1,221 @@
+"""Head and weft as trees: each line a part and back, masses by the meshes, six cams in the case, the opener's walls."""
+
+import itertools
+import math
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from matplotlib.path import Path as Outline
+
+from ilmek.errors import ParameterError
+from ilmek.machines.automated_loom import MACHINE as LOOM
+from ilmek.machines.automated_loom.in_space.scene import scene
+from ilmek.machines.automated_loom.parts import parts_of_loom
+from ilmek.machines.component import Component
+from ilmek.machines.weaver import MACHINE as HEAD
+from ilmek.machines.weaver import Weaver, WeaverParams, head_mass
+from ilmek.machines.weaver.cams import case_width
+from ilmek.machines.weaver.motions import SLEY
+from ilmek.machines.weaver.parts import SIDE_PLATE
+from ilmek.machines.weaver.tool_parts import OPENER_PLATE
+from ilmek.machines.weaver.tree import CAM_SHAFT, head_tree
+from ilmek.machines.weft import MACHINE as WEFT
+from ilmek.machines.weft import Rapier, Shuttle, WeftParams
+from ilmek.machines.weft.carriers import BOBBIN, FITTINGS, RAPIER_TUBE, SHUTTLE_WOOD
+from ilmek.part.part import Part
+from ilmek.part.tree import Tree
+from ilmek.plane.solids import bounds, is_closed, volume
+from ilmek.report.scene import Scene
+from ilmek.units import mm
+
+_HEADS = st.fixed_dictionaries(
+    {
+        "knot_pitch": st.floats(1e-3, 12e-3),
+        "tubes": st.integers(1, 60),
+        "magazine": st.sampled_from(["drum", "slide"]),
+        "shaft": st.floats(0.01, 0.04),
+        "cam_thickness": st.floats(2e-3, 20e-3),
+        "cam_gap": st.sampled_from([0.0, 3e-3]),
+        "side_plate": st.sampled_from([0.0, 8e-3]),
+        "opening": st.floats(5e-3, 40e-3),
+        "sley_stroke": st.floats(20e-3, 90e-3),
+        "tool_mass": st.sampled_from([0.0, 0.15, 2.0]),
+    }
+)
+
+_WEFTS = st.fixed_dictionaries(
+    {
+        "carrier": st.sampled_from(["shuttle", "rapier"]),
+        "warps": st.integers(20, 2000),
+        "wall": st.floats(1e-3, 10e-3),
+        "nose": st.sampled_from([0.0, 40e-3]),
+        "fittings": st.sampled_from([0.0, 0.15]),
+        "lift": st.floats(0.03, 0.2),
+        "turn": st.sampled_from([0.0, 0.02]),
+    }
+)
+
+
+def _kept(component: Component, design: Any, bodies: Tree) -> None:
+    """Each line is a part and back; made parts weigh their closed shapes; checks name parts that are there."""
+    report = component.report(design, illustrated=False)
+    parts = {part.id: (part, number) for part, number in bodies.occurrences()}
+    assert [line.part for line in report.parts] == list(parts)
+    for line in report.parts:
+        part, number = parts[line.part]
+        assert (line.name, line.number) == (part.title, number)
+        assert part.shape is not None, part.id
+        solid = part.shape.mesh()
+        assert is_closed(solid), part.id
+        if part.material is not None:
+            assert line.mass == pytest.approx(part.shape.moments.zeroth * part.material.density, rel=1e-12)
+            assert volume(solid) == pytest.approx(part.shape.moments.zeroth, rel=0.03)
+    assert {name for check in report.checks for name in check.parts} <= set(parts)
+
+
+@given(_HEADS)
+def test_every_line_of_a_head_is_a_part_of_its_tree_and_back(settings: dict[str, Any]) -> None:
+    try:
+        made = HEAD.design(WeaverParams(**settings))
+    except ParameterError:
+        return
+    assert HEAD.tree is not None
+    _kept(HEAD, made, HEAD.tree(made))
+
+
+@given(_WEFTS)
+def test_every_line_of_a_weft_is_a_part_of_its_tree_and_back(settings: dict[str, Any]) -> None:
+    made = WEFT.design(WeftParams(**settings))
+    _kept(WEFT, made, made.bodies.tree)
+
+
+@cache
+def _head(**settings: Any) -> Weaver:
+    made: Weaver = HEAD.design(WeaverParams(**settings))
+    return made
+
+
+@pytest.mark.parametrize("settings", [{}, {"tubes": 40}, {"cam_thickness": 12e-3, "cam_gap": 1e-3}])
+def test_six_cams_stand_beside_each_other_between_the_side_plates(settings: dict[str, Any]) -> None:
+    """Along the axis no two plates overlap, the outermost of all are the side plates, and the head is no narrower."""
+    made = _head(**settings)
+    shaft = head_tree(made).body(CAM_SHAFT)
+    spans = [
+        (occurrence.positions[0].origin[2], occurrence.part)
+        for occurrence in shaft.occurrences
+        if occurrence.part.process == "cam plate"
+    ]
+    assert len(spans) == len(made.cams) == 6
+    ends = [(float(z), float(z) + made.params.cam_thickness) for z, _ in sorted(spans, key=lambda one: one[0])]
+    inner = case_width(made.params, 6) / 2 - made.params.side_plate
+    assert ends[0][0] >= -inner + made.params.cam_gap - 1e-12
+    assert ends[-1][1] <= inner - made.params.cam_gap + 1e-12
+    assert all(end <= begin for (_, end), (begin, _) in itertools.pairwise(ends))
+    assert made.width >= case_width(made.params, 6) - 1e-12
+
+
+def test_the_head_weighs_what_its_solids_and_the_catalogue_say() -> None:
+    """Of the made parts the volumes of their meshes in the scene, of the bought ones the rows' masses."""
+    made = _head()
+    total = 0.0
+    for part, number in head_tree(made).occurrences():
+        if part.material is not None and part.shape is not None:
+            total += number * volume(part.shape.mesh(2e-6)) * part.material.density
+        elif part.purchase is not None and not math.isnan(part.purchase.mass):
+            total += number * part.purchase.mass
+    assert head_mass(made) == pytest.approx(total, rel=1e-4)
+    assert any(part.id == SIDE_PLATE and part.mass > 0.5 for part, _ in head_tree(made).occurrences())
+
+
+def test_a_cam_moves_the_mass_of_the_parts_on_its_track() -> None:
+    """Lever and tool together are the parameter's mass, or the tool alone where it is heavier."""
+    usual, light = _head(), _head(tool_mass=0.01)
+    for made in (usual, light):
+        masses = {part.id: number * part.mass for part, number in head_tree(made).occurrences()}
+        cam = next(cam for cam in made.cams if cam.name == SLEY)
+        moved = masses["weaver/sley"] + masses["weaver/sley-lever"]
+        assert moved == pytest.approx(made.tool_bodies.moved(SLEY))
+        assert cam.mass_moved[0] == pytest.approx(moved * made.params.sley_lever**2)
+    assert usual.tool_bodies.moved(SLEY) == pytest.approx(0.15)
+    assert light.tool_bodies.moved(SLEY) > 0.03
+
+
+@pytest.mark.parametrize("pitch", [2 * mm, 4 * mm, 8 * mm])
+def test_the_plates_of_the_opener_pass_between_the_warps_and_spread_them(pitch: float) -> None:
+    """At each depth the warps, spread evenly over the travel, lie outside the plate, and touch its walls at most."""
+    made = _head(knot_pitch=pitch)
+    opener = made.opener
+    part = next(part for part, _ in head_tree(made).occurrences() if part.id == OPENER_PLATE)
+    outline = _outline(part)
+    radius = opener.diameter / 2
+    for depth in np.linspace(1e-5, min(opener.reach, opener.travel) * 0.999, 40):
+        share = min(depth / opener.travel, 1.0)
+        pair = opener.pitch / 2 + share * (opener.pair - opener.pitch) / 2
+        beside = 1.5 * opener.pitch + share * (opener.aside - 1.5 * opener.pitch)
+        for middle in (pair, beside):
+            ring = middle + 0.98 * radius * np.array([-1.0, 0.0, 1.0])
+            assert not outline.contains_points([(depth, y) for y in (*ring, *-ring)]).any(), (depth, middle)
+    assert outline.contains_points([(opener.reach * 0.99, (opener.aside - radius) - opener.wall / 2)]).all()
+
+
+def _outline(part: Part) -> Outline:
+    corners = part.shape.section.outline.points  # type: ignore[union-attr]
+    return Outline(np.stack([corners.real, corners.imag], axis=1))
+
+
+def test_a_shuttle_is_hollow_by_its_bobbin_and_full_with_it() -> None:
+    """By its mesh; the fittings are half in each nose."""
+    made = WEFT.design(WeftParams(carrier="shuttle"))
+    carried = made.carried
+    assert isinstance(carried, Shuttle)
+    parts = {part.id: part for part, _ in made.bodies.tree.occurrences()}
+    wood, core = parts[SHUTTLE_WOOD], parts[BOBBIN]
+    assert wood.shape is not None
+    assert core.shape is not None
+    beech = made.params.shuttle_density
+    empty = volume(wood.shape.mesh(1e-7)) * beech + 2 * parts[FITTINGS].mass
+    assert carried.empty == pytest.approx(empty, rel=1e-4)
+    full = empty + volume(core.shape.mesh(1e-7)) * beech + max(one.mass for one in carried.windings)
+    assert carried.full == pytest.approx(full, rel=1e-4)
+    low, high = bounds(wood.shape.mesh())
+    assert high - low == pytest.approx([carried.length, carried.width, carried.depth], abs=1e-9)
+    assert made.axis.mass >= carried.full + made.params.carriage_mass
+
+
+def test_a_rapier_weighs_its_tube_and_gripper() -> None:
+    made = WEFT.design(WeftParams(carrier="rapier"))
+    assert isinstance(made.carried, Rapier)
+    tube = next(part for part, _ in made.bodies.tree.occurrences() if part.id == RAPIER_TUBE)
+    assert tube.shape is not None
+    mass = volume(tube.shape.mesh()) * made.params.rapier_density
+    assert made.carried.mass == pytest.approx(mass + made.params.gripper_mass, rel=1e-9)
+
+
+@cache
+def _loom(weft: str) -> tuple[Any, Scene]:
+    settings = {"width": "0.4 m", "length": "0.3 m", "heads": "2", "weft": weft, "beat": "travelling"}
+    made = LOOM.designed(LOOM.params.read(settings))
+    return made, scene(made, LOOM.report(made, illustrated=False))
+
+
+@pytest.mark.parametrize("weft", ["shuttle", "rapier"])
+def test_every_part_of_heads_and_weft_in_space_is_a_line_with_its_checks(weft: str) -> None:
+    made, found = _loom(weft)
+    lines = {line.part: line for line in parts_of_loom(made).parts if line.part}
+    shown = {}
+    for part in found.parts:
+        if part.machine in ("weaver", "weft"):
+            name = part.name.split(" of ")[0]
+            shown[name] = part
+            assert part.number * (made.heads if part.machine == "weaver" else 1) >= lines[name].number
+            assert all(name in check.parts for check in part.checks)
+    assert set(shown) == {name for name in lines if name.startswith(("weaver/", "weft/"))}
+    assert shown["weaver/sley-cam"].checks or shown["weaver/side-gripper-motion-cam"].checks
+    assert any(check.name.startswith("clearance: ") for check in shown["weaver/opener-plate"].checks)
+    named = {part for check in LOOM.report(made, illustrated=False).all_checks for part in check.parts}
+    assert {name for name in named if name.startswith(("weaver/", "weft/"))} <= set(shown)
+    assert len(next(frame for frame in found.frames if frame.name == found.heads).origins) == made.heads
