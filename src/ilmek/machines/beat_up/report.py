@@ -6,15 +6,16 @@ from functools import lru_cache
 from ilmek.dynamics.counterweight import Balance
 from ilmek.dynamics.motor_run import REACHED, LastTurn, MotorRun
 from ilmek.elements.plates import link_plates
-from ilmek.machines.beat_up.design import PINS, BeatUp
+from ilmek.machines.beat_up.design import BeatUp
 from ilmek.machines.beat_up.family import QUANTITIES, FamilyResult, limits
 from ilmek.machines.beat_up.family_figures import family_figures
 from ilmek.machines.beat_up.figures import figures_of
+from ilmek.machines.beat_up.linkage import PINS
 from ilmek.machines.beat_up.params import BeatUpParams
-from ilmek.machines.beat_up.strength import beat_up_strength
 from ilmek.machines.beat_up.use import BeatUpUse, in_use, use_checks
 from ilmek.machines.beat_up.use_figures import start_plots, stroke_plot
-from ilmek.machines.linkage_strength import equilibrium_test, strength_table
+from ilmek.machines.linkage_strength import equilibrium_test
+from ilmek.machines.strength_tables import strength_table
 from ilmek.records import record
 from ilmek.report import Check, Column, Figure, Plate, Table, at_least, at_most, columns, group, must
 from ilmek.synthesis.crank_rocker.dead_centres import grashof_margin
@@ -109,8 +110,7 @@ def plates(design: BeatUp) -> tuple[Plate, ...]:
         "coupler": (("C", 0j), ("B", lengths["coupler"])),
         "rocker": (("A", 0j), ("B", lengths["rocker"]), ("E", lengths["beater"])),
     }
-    material = f"of density {format_quantity(params.density, 'kg/m^3')}"
-    pin = beat_up_strength(design, params.strength).found.pin_diameter
+    material, pin = params.link_material.name, design.strength.found.pin_diameter
     return link_plates(links, width=params.width, thickness=params.thickness, material=material, pin=pin)
 
 
@@ -187,7 +187,7 @@ def _link_table(design: BeatUp) -> Table:
         (name, design.lengths[name] / design.lengths["ground"], design.lengths[name], design.masses[name], moment)
         for name, moment in design.inertias.items()
     )
-    return Table("beat-up-links", "Links, with mass and moment of inertia of their bars", heads, rows)
+    return Table("beat-up-links", "Links, with their mass and moment of inertia", heads, rows)
 
 
 def _dead_centre_table(design: BeatUp) -> Table:

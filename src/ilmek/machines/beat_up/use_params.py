@@ -14,7 +14,7 @@ MODES = ("through", "start-stop")
 class CastLinkParams(StrengthParams):
     """What links of grey cast iron bear, and their pins in bushes of sintered bronze."""
 
-    material: str = kind.choice("grey cast iron", LINK_MATERIALS, doc="material of the links, for their strength")
+    material: str = kind.choice("grey cast iron", LINK_MATERIALS, doc="material of the links")
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,7 +9,8 @@ from ilmek.machines.beat_up.report import POWER_LIMIT
 from ilmek.machines.hammer.axis import axis_checks
 from ilmek.machines.hammer.design import Hammer
 from ilmek.machines.hammer.linkage import linkage_checks
-from ilmek.machines.linkage_strength import equilibrium_test, strength_table
+from ilmek.machines.linkage_strength import equilibrium_test
+from ilmek.machines.strength_tables import strength_table
 from ilmek.report import CamTable, Check, Table, at_least, at_most, columns
 from ilmek.units import dm, format_quantity
 
