@@ -13,7 +13,7 @@ from ilmek.arrays import RealField
 from ilmek.dynamics.inertia import Inertia, bar_mass, bar_moment
 from ilmek.elements.materials import MATERIALS
 from ilmek.machines.beat_up.params import BeatUpParams
-from ilmek.part.flat_link import PinHole, LinkMoments, flat_link_moments
+from ilmek.part.flat_link import LinkMoments, PinHole, flat_link_moments
 
 LINKS = ("crank", "coupler", "rocker")
 

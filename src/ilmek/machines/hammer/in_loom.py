@@ -10,25 +10,22 @@ from dataclasses import replace
 
 import numpy as np
 
-from ilmek.arrays import ComplexArray
 from ilmek.cams.laws import LAWS
-from ilmek.elements.drive_parts import motor_part, reducer_part
 from ilmek.elements.materials import GRAVITY
 from ilmek.machines import beat_up
 from ilmek.machines.beat import Beat, BeatDrive, BeatPath, stroke_needed
 from ilmek.machines.beat_up.crank_path import crank_beat, crank_path
 from ilmek.machines.fell_of_loom import USUAL_WARP_LENGTH
 from ilmek.machines.hammer.design import Hammer, design
-from ilmek.machines.hammer.linkage import chosen_linkage, linkage_parts
-from ilmek.machines.hammer.params import STEEL, HammerParams
+from ilmek.machines.hammer.linkage import chosen_linkage
+from ilmek.machines.hammer.params import HammerParams
 from ilmek.machines.hammer.report import checks
+from ilmek.machines.hammer.tree import BAR_ID, LEAF_ID, outline, tree
 from ilmek.machines.loom_task import LoomTask
+from ilmek.part.bill import bill
 from ilmek.records import record
-from ilmek.report import BillLine, Check, Choice, Work, at_most, must
-from ilmek.units import format_quantity, mm, turn
-
-BEHIND = 5 * mm
-"""Reach of the leaves behind the warps [m]: assumed by this project."""
+from ilmek.report import Check, Choice, Work, at_most, must
+from ilmek.units import turn
 
 _SHARES = 181
 
@@ -67,24 +64,6 @@ def _of_carpet(task: LoomTask, kind: str) -> HammerParams:
     )
 
 
-def parts(hammer: Hammer) -> tuple[BillLine, ...]:
-    """Comb, and vertical axes or crank-rockers."""
-    bar = f"bar {format_quantity(hammer.params.depth, 'mm')} high, a leaf between two warps"
-    comb = BillLine("comb of the hammer", 1, bar, STEEL.name, "laser-cut part", hammer.comb.mass)
-    if hammer.linkage is not None:
-        return (comb, *linkage_parts(hammer.linkage))
-    assert hammer.axis is not None
-    number, drive, load = hammer.params.axis_count, hammer.axis.drive, hammer.axis.cycle
-    torque, speed = float(np.max(np.abs(load.torque))), float(np.max(np.abs(load.speed)))
-    motor, axis = drive.motor if drive else None, "vertical axis"
-    return (
-        comb,
-        BillLine(axis, number, hammer.params.axis, "", "linear axis", length=hammer.params.stroke),
-        motor_part(f"motor of a {axis}", motor, torque, speed, number),
-        *((reducer_part(f"reducer of a {axis}", drive.reducer.ratio, motor, number),) if drive else ()),
-    )
-
-
 def work(hammer: Hammer) -> tuple[Work, ...]:
     """Work of a beat: of the comb on its rows, and to lift all that moves; or of the crank-rockers with their start."""
     if hammer.linkage is not None:
@@ -101,14 +80,6 @@ def _carried(task: LoomTask) -> tuple[Check, ...]:
         must("guide cams that carry the leaves", shedding.guides == "cams", "thesis 3.3", cure=cure),
         at_most("cam shafts that go down with the comb", len(shedding.shafts), 1, "1", "thesis 3.3", cure=cure),
     )
-
-
-def outline(params: HammerParams) -> tuple[ComplexArray, ...]:
-    """The comb in the side view [m]: its leaves through the warps, and the bar in front of their roots."""
-    leaf = np.array([-BEHIND, params.leaf_reach, params.leaf_reach, -BEHIND], dtype=complex)
-    bar = np.array([0.0, params.comb_thickness, params.comb_thickness, 0.0]) + params.leaf_reach
-    up = np.array([0, 0, 1j, 1j])
-    return leaf + params.leaf_height * up, bar + params.depth * up
 
 
 @record
@@ -144,7 +115,7 @@ class CombBeat:
             task=task,
             beat=self.beat,
             fabric=hammer.fabric,
-            parts=parts(hammer),
+            parts=bill(tree(hammer)),
             work=work(hammer),
             torque=linkage.start.start_torque if linkage else 0.0,
             path=crank_path(linkage.start, outline(hammer.params)) if linkage else self._path(hammer.params),
@@ -153,6 +124,7 @@ class CombBeat:
             force=hammer.params.warps * hammer.force,
             beaten=hammer.params.warps,
             frame_force=force,
+            striking=(BAR_ID, LEAF_ID),
             loom_checks=_carried(task) if self.kind == "guide-cams" else (),
         )
 

@@ -30,16 +30,15 @@ from ilmek.machines.beat_up.crank_start import (
     CrankStart,
     crank_start,
     start_checks,
-    start_parts,
 )
-from ilmek.machines.beat_up.in_loom import frame_force, links_parts
+from ilmek.machines.beat_up.in_loom import frame_force
 from ilmek.machines.beat_up.strength import POINTS, BeatUpStrength, Duty, beat_up_strength_checks
 from ilmek.machines.beat_up.travel import force_at_beat
 from ilmek.machines.hammer.comb import comb_mass, with_depth
 from ilmek.machines.hammer.params import MOST_BALLAST, MOST_BEATERS, HammerParams
 from ilmek.machines.linkage_strength import FLAT_BARS, linkage_strength, pins_bear, strength_checks
 from ilmek.records import computed, group, record, result
-from ilmek.report import Alternative, BillLine, Check, Choice, at_most, choose
+from ilmek.report import Alternative, Check, Choice, at_most, choose
 from ilmek.units import format_quantity, turn
 from ilmek.weaving.fell import Fabric
 
@@ -90,12 +89,6 @@ def linkage_checks(found: CombLinkage) -> tuple[Check, ...]:
         *beat_up_strength_checks(found.strength),
         *start_checks(found.start),
     )
-
-
-def linkage_parts(found: CombLinkage) -> tuple[BillLine, ...]:
-    """Links, ballast, and what drives the crank shaft."""
-    ballast = BillLine("ballast of the comb", 1, "along its bar", "structural steel", "steel bar", found.ballast)
-    return (*((ballast,) if found.ballast else ()), *links_parts(found.one, found.number), *start_parts(found.start))
 
 
 @lru_cache(maxsize=16)

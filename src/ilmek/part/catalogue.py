@@ -1,0 +1,54 @@
+"""Bought parts from the rows of catalogues, each with the room that it takes: motors, reducers, bearings."""
+
+from ilmek.elements.bearing_table import RollingBearing
+from ilmek.elements.motors import Motor
+from ilmek.part.part import Bought, Part
+from ilmek.part.placement import placement
+from ilmek.part.profile import Profile
+from ilmek.part.shapes import Placed, Prism, Sum, box, rectangle, tube
+from ilmek.plane.contours import circle
+from ilmek.units import format_quantity, mm
+
+SPECIAL_FACE = 80 * mm
+"""Flange of a motor that is in no table [m]; assumed by this project."""
+
+REDUCER_LENGTH = 1.2
+"""Length of a reducer over its flange, that of its motor; assumed by this project."""
+
+FLANGE = 14 * mm
+"""Thickness of the flange of a bearing's housing [m]; makers differ by some millimetres."""
+
+
+def motor(name: str, title: str, row: Motor | None, torque: float, speed: float) -> Part:
+    """A motor, which drives an axis of the control: its flange at z = 0, its shaft towards +z.
+
+    row  of the table; None: a special servo for a torque [N m] at a speed [rad/s], priced by its power
+    """
+    if row is not None:
+        bought = Bought(row.name, row.mass, power=row.power, drives=True)
+        room, kind = box(row.face, row.face, row.length), row.kind
+    else:
+        required = f"to measure: {format_quantity(torque, 'Nm', 3)} at {format_quantity(speed, 'rpm', 3)}"
+        bought = Bought(required, power=torque * speed, drives=True)
+        room, kind = box(SPECIAL_FACE, SPECIAL_FACE, 2 * SPECIAL_FACE), "servo"
+    behind = Sum((Placed(room, (placement(z=-room.length),)),))
+    return Part(name, title, kind, shape=behind, purchase=bought, envelope=True)
+
+
+def reducer(name: str, title: str, ratio: float, row: Motor | None) -> Part:
+    """A reducer, priced by the power of its motor: from the motor's flange at z = 0 towards its output."""
+    face = row.face if row else SPECIAL_FACE
+    bought = Bought(f"{ratio:g}:1", power=row.power if row else 0.0)
+    return Part(name, title, "reducer", shape=box(face, face, REDUCER_LENGTH * face), purchase=bought, envelope=True)
+
+
+def bearing(name: str, title: str, row: RollingBearing) -> Part:
+    """A rolling bearing about z from z = 0, with its square flange if it has one."""
+    ring = Placed(tube(row.outer, (row.outer - row.bore) / 2, row.width))
+    shape = Sum((ring,)) if row.flange <= 0 else Sum((ring, _flange(row)))
+    return Part(name, title, "bearing", shape=shape, purchase=Bought(row.name, row.mass), envelope=True)
+
+
+def _flange(row: RollingBearing) -> Placed:
+    """The housing's flange about the outer ring."""
+    return Placed(Prism(Profile(rectangle(row.flange, row.flange), (circle(0j, row.outer / 2),)), FLANGE))
