@@ -16,7 +16,14 @@ from ilmek.jobs.loom_space import loom_in_space
 from ilmek.jobs.studio.loom.scene import project_loom
 from ilmek.viz.loom_page import LoomPage, loom_page
 
-LOOM = 'machine = "automated-loom"\n\n[settings]\nwidth = "0.3 m"\nlength = "0.4 m"\nbeat = "travelling"\nretreat_speed = "0.5 m/s"\n'
+LOOM = """machine = "automated-loom"
+
+[settings]
+width = "0.3 m"
+length = "0.4 m"
+beat = "travelling"
+retreat_speed = "0.5 m/s"
+"""
 RECIPE = 'picture = "pictures/small.png"\nsize = "20x30cm"\nquality = "20x20/dm"\ncolours = 2\n'
 FAILED = "weft: opening of the shed for the carrier"
 NO_WEBGL = """const context = HTMLCanvasElement.prototype.getContext;

@@ -1,7 +1,6 @@
 """Whether all that moves in a loom has room: the least clearance of every two bodies over both cyclograms."""
 
 from collections.abc import Mapping
-from dataclasses import replace
 from itertools import combinations
 
 import numpy as np
@@ -127,16 +126,21 @@ def room_checks(loom: LoomDesign, found: tuple[RoomFound, ...], column: float) -
         "parameter clearance, assumed by this project; at both ends of its run",
         cure="set a lower tension, for lighter columns",
     )
-    return (*(_check(one, limit) for one in found), columns_clear)
+    leaves, *bar = loom.beat.striking
+    ids = {LEAVES: (leaves,), BAR: tuple(bar)}
+    return (*(_check(one, limit, ids) for one in found), columns_clear)
 
 
-def _check(found: RoomFound, limit: float) -> Check:
+def _check(found: RoomFound, limit: float, ids: Mapping[str, tuple[str, ...]]) -> Check:
+    """The check of a clearance; ids: of the parts of some bodies, by the bodies' names."""
     one = found.distance
     where = f"parameter clearance, assumed by this project; least at {one.angle / deg:.1f} deg of a {found.cyclogram}"
     names = (one.first, one.second)
     limit = 0.0 if FRAME.issuperset(names) else limit
     cure = next((CURES[name] for name in CURES if name in names), "leave the spans of the shed open")
-    return replace(at_least(f"clearance: {one.first} and {one.second}", one.value, limit, "mm", where), cure=cure)
+    parts = tuple(part for name in names for part in ids.get(name, ()))
+    title = f"clearance: {one.first} and {one.second}"
+    return at_least(title, one.value, limit, "mm", where, cure=cure, parts=parts)
 
 
 def room_tables(found: tuple[RoomFound, ...]) -> tuple[Table, ...]:

@@ -34,6 +34,8 @@ class Comb:
     beam_number = computed("1", "width over the length in which the comb bends, l W", lambda it: it.line.number)
 
 
+BAR_ID, LEAF_ID = "hammer/bar", "hammer/leaf"
+
 BEHIND = 5 * mm
 """Reach of the leaves behind the warps [m]: assumed by this project."""
 

@@ -16,11 +16,12 @@ from ilmek.machines import beat_up
 from ilmek.machines.beat import Beat, BeatDrive, BeatPath, stroke_needed
 from ilmek.machines.beat_up.crank_path import crank_beat, crank_path
 from ilmek.machines.fell_of_loom import USUAL_WARP_LENGTH
+from ilmek.machines.hammer.comb import BAR_ID, LEAF_ID
 from ilmek.machines.hammer.design import Hammer, design
 from ilmek.machines.hammer.linkage import chosen_linkage
 from ilmek.machines.hammer.params import HammerParams
 from ilmek.machines.hammer.report import checks
-from ilmek.machines.hammer.tree import BAR_ID, LEAF_ID, outline, tree
+from ilmek.machines.hammer.tree import outline, tree
 from ilmek.machines.loom_task import LoomTask
 from ilmek.part.bill import bill
 from ilmek.records import record
@@ -124,7 +125,7 @@ class CombBeat:
             force=hammer.params.warps * hammer.force,
             beaten=hammer.params.warps,
             frame_force=force,
-            striking=(BAR_ID, LEAF_ID),
+            striking=(LEAF_ID, BAR_ID),
             loom_checks=_carried(task) if self.kind == "guide-cams" else (),
         )
 

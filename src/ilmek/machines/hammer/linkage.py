@@ -34,7 +34,7 @@ from ilmek.machines.beat_up.crank_start import (
 from ilmek.machines.beat_up.in_loom import frame_force
 from ilmek.machines.beat_up.strength import POINTS, BeatUpStrength, Duty, beat_up_strength_checks
 from ilmek.machines.beat_up.travel import force_at_beat
-from ilmek.machines.hammer.comb import comb_mass, with_depth
+from ilmek.machines.hammer.comb import BAR_ID, comb_mass, with_depth
 from ilmek.machines.hammer.params import MOST_BALLAST, MOST_BEATERS, HammerParams
 from ilmek.machines.linkage_strength import FLAT_BARS, linkage_strength, pins_bear, strength_checks
 from ilmek.records import computed, group, record, result
@@ -85,7 +85,11 @@ def linkage_checks(found: CombLinkage) -> tuple[Check, ...]:
     """Whether comb, links, pins and motor bear the beat."""
     cure = "set more beaters, or a deeper comb"
     return (
-        at_most("stress of the comb by its inertia", found.inertia_stress, found.limit, "MPa", "strength", cure=cure),
+        at_most(
+            *("stress of the comb by its inertia", found.inertia_stress, found.limit, "MPa", "strength"),
+            cure=cure,
+            parts=(BAR_ID,),
+        ),
         *beat_up_strength_checks(found.strength),
         *start_checks(found.start),
     )

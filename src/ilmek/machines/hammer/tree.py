@@ -15,7 +15,7 @@ from ilmek.arrays import ComplexArray
 from ilmek.machines.beat_up.crank_start import start_parts
 from ilmek.machines.beat_up.parts import depth_of
 from ilmek.machines.beat_up.tree import CARRIAGE, crank_frame, crank_rockers, moving, on_rocker, rocker_position
-from ilmek.machines.hammer.comb import BEHIND
+from ilmek.machines.hammer.comb import BAR_ID, BEHIND, LEAF_ID
 from ilmek.machines.hammer.design import Hammer
 from ilmek.machines.hammer.params import STEEL, HammerParams
 from ilmek.part import catalogue
@@ -33,8 +33,6 @@ COMB = "hammer/comb"
 
 AXIS_SIDE = 80 * mm
 """Side of the section of a vertical axis [m]; assumed by this project."""
-
-BAR_ID, LEAF_ID = "hammer/bar", "hammer/leaf"
 
 
 def tree(hammer: Hammer, motions: Mapping[str, SceneMotion] | None = None) -> Tree:
