@@ -24,9 +24,9 @@ def test_pins_bear_the_links_that_are_bored_for_them(speed: float, mass: float, 
     """The links of a design are bored for its pins; the next smaller pins of stock, with links of their own, fail."""
     params = BeatUpParams(speed=speed, beater_mass=mass, width=0.04, thickness=0.02, link_mass=link_mass)
     made = design(params)
-    strength = made.strength
-    pin = strength.found.pin_diameter
-    assert strength.hole == pin
+    pin = made.pin
+    assert made.strength.found.pin_diameter == made.hole == pin
+    assert {section.hole for section in made.strength.found.sections.values()} == {pin}
     assert made.masses == pytest.approx(_pinned(params, pin).masses, rel=1e-12)
     smaller = [size for size in PIN_DIAMETERS if size < pin]
     if smaller:

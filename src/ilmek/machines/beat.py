@@ -92,7 +92,7 @@ class BeatDrive:
     fabric        at the fell, for one warp           torque       greatest, on the crank shaft of all [N m]; else 0
     parts, work   of all its mechanisms together      path         in the side view
     machine_checks   of its machine: they are in its report      loom_checks  what it asks of the loom's other machines
-    striking      ids of what strikes, teeth first      use  of its machine in this loom, where the design does not have it
+    striking      ids of what strikes, teeth first      use  of its machine in this loom, where the design has none
     """
 
     name: str

@@ -68,7 +68,7 @@ class BeatUp:
     state     over one turn, both ends included             peaks     greatest values over the turn
     balance   shaking force and counterweights              at        state at the crank angle given, if any
     loads     of links and pins over a turn
-    strength  of links and pins, by whose diameter the links are bored
+    pin       diameter of the pins, for which the links are bored [m]     duty  by which it was chosen
     """
 
     params: BeatUpParams
@@ -81,7 +81,8 @@ class BeatUp:
     balance: Balance
     at: BeatUpState | None
     loads: LinkageLoads
-    strength: BeatUpStrength
+    pin: float
+    duty: Duty
     lengths: Mapping[str, float] = result("mm", "lengths of the links, and of the beater from the rocker's pivot")
     masses: Mapping[str, float] = result("kg", "masses of the links; the rocker reaches to the beater")
     inertias: Mapping[str, float] = result("kg*m^2", "moments of inertia of the links about their centres")
@@ -150,11 +151,21 @@ class BeatUp:
 
     def family(self) -> FamilyResult:
         """All crank-rockers with its dead centres."""
-        return _family(in_motion(self.params), self.strength.duty)
+        return _family(in_motion(self.params), self.duty)
 
     def motor_run(self) -> MotorRun:
         """Its run by the motor, from rest with the beater farthest from the fell."""
-        return _run(in_motion(self.params), self.strength.duty)
+        return _run(in_motion(self.params), self.duty)
+
+    @property
+    def hole(self) -> float:
+        """Diameter of the holes of the links [m]."""
+        return bore_for(self.pin, self.params.width)
+
+    @property
+    def strength(self) -> BeatUpStrength:
+        """Strength of links and pins."""
+        return _strength(in_motion(self.params), self.duty)
 
     def state_at(self, angle: FloatArray) -> BeatUpState:
         """Motion and forces at crank angles [rad]."""
@@ -177,10 +188,16 @@ def design(params: BeatUpParams, duty: Duty = Duty()) -> BeatUp:  # noqa: B008
     return replace(_moved(in_motion(params), duty), params=params)
 
 
+@lru_cache(maxsize=16)
+def _strength(params: BeatUpParams, duty: Duty) -> BeatUpStrength:
+    made = _moved(params, duty)
+    return beat_up_strength(params, made.loads, made.lengths, duty, made.pin)
+
+
 @lru_cache(maxsize=4)
 def _family(params: BeatUpParams, duty: Duty) -> FamilyResult:
     made = _moved(params, duty)
-    return family_of(params, made.links, made.dead_centres, made.strength.hole)
+    return family_of(params, made.links, made.dead_centres, made.hole)
 
 
 @lru_cache(maxsize=4)
@@ -237,9 +254,8 @@ def _with_pins(params: BeatUpParams, duty: Duty) -> _Loaded:
 def _moved(params: BeatUpParams, duty: Duty) -> BeatUp:
     loaded = _with_pins(params, duty)
     lengths, bodies, whole = loaded.lengths, loaded.bodies, loaded.state
-    loads = link_loads(params, whole, bodies, duty.every)
-    strength = beat_up_strength(params, loads, lengths, duty, loaded.pin)
-    links = {name: inertia_of(moments) for name, moments in link_masses(params, lengths, strength.hole).items()}
+    hole = bore_for(loaded.pin, params.width)
+    links = {name: inertia_of(moments) for name, moments in link_masses(params, lengths, hole).items()}
 
     def state(at: FloatArray) -> BeatUpState:
         return evaluate(params, loaded.plan, bodies, at)
@@ -263,8 +279,9 @@ def _moved(params: BeatUpParams, duty: Duty) -> BeatUp:
             radius=params.counterweight_radius or lengths["crank"],
         ),
         at=None if params.crank_angle is None else state(np.array([params.crank_angle])),
-        loads=loads,
-        strength=strength,
+        loads=link_loads(params, whole, bodies, duty.every),
+        pin=loaded.pin,
+        duty=duty,
     )
 
 

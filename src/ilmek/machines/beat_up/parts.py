@@ -22,7 +22,7 @@ JOURNAL = "journal"
 
 def link_parts(linkage: BeatUp) -> dict[str, Part]:
     """Crank, coupler and rocker, bored for their pins."""
-    params, drilled = linkage.params, pin_holes(linkage.lengths, linkage.strength.hole)
+    params, drilled = linkage.params, pin_holes(linkage.lengths, linkage.hole)
     reaches = spans(linkage.lengths)
     section = f"{format_quantity(params.width / mm, '')} x {format_quantity(params.thickness, 'mm')}"
     return {
@@ -42,7 +42,7 @@ def link_parts(linkage: BeatUp) -> dict[str, Part]:
 @lru_cache(maxsize=16)
 def pin_part(linkage: BeatUp) -> Part:
     """The pin of every joint."""
-    diameter = linkage.strength.found.pin_diameter
+    diameter = linkage.pin
     return Part(
         PART_IDS["A"],
         "pin of the beat-up",

@@ -61,22 +61,14 @@ class BeatUpStrength:
         """The choice of the pins."""
         return self.found.choices
 
-    @property
-    def hole(self) -> float:
-        """Diameter of the holes of the links [m]."""
-        return self.found.sections["crank"].hole
-
 
 def beat_up_strength(
-    params: BeatUpParams, loads: LinkageLoads, lengths: Mapping[str, float], duty: Duty, pin: float | None = None
+    params: BeatUpParams, loads: LinkageLoads, lengths: Mapping[str, float], duty: Duty, pin: float
 ) -> BeatUpStrength:
-    """Stresses of the links and pins of a beat-up; of the stock pins the first that is enough, else the largest.
-
-    pin  diameter that the pins have already [m]
-    """
+    """Stresses of the links and pins of a beat-up; pin: diameter that the pins have [m]."""
     limits, sections = params.strength, dict.fromkeys(POINTS, (params.width, params.thickness))
     found = linkage_strength(loads, limits, sections, name=duty.limits)
-    if pin is not None and found.pin_diameter != pin:
+    if found.pin_diameter != pin:
         found = linkage_strength(loads, replace(limits, pin_diameter=pin), sections, name=duty.limits)
     return BeatUpStrength(duty, min(lengths[name] for name in LINKS) / found.pin_diameter, found)
 

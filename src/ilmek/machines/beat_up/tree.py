@@ -8,6 +8,7 @@ import cmath
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -31,6 +32,7 @@ CARRIAGE = "beat-up/carriage"
 _Z = (0.0, 0.0, 1.0)
 
 
+@lru_cache(maxsize=8)
 def tree(design: BeatUp) -> Tree:
     """The bodies of a beat-up as it is used by itself, at the beat in the middle of the carpet."""
     return travelling(design, in_use(design))
