@@ -22,7 +22,7 @@ from ilmek.linkage.quality import grashof
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import Plan, plan
 from ilmek.machines.beat_up.family import FamilyResult, chosen_ratio, family_of, is_chosen
-from ilmek.machines.beat_up.linkage import PINS, BeatUpState, evaluate, lengths_of, magnitudes, mechanism
+from ilmek.machines.beat_up.linkage import PINS, BeatUpState, evaluate, lengths_of, magnitudes, mechanism, state_of
 from ilmek.machines.beat_up.links import inertia_of, link_masses, moving_masses
 from ilmek.machines.beat_up.params import BeatUpParams
 from ilmek.machines.beat_up.strength import POINTS, BeatUpStrength, Duty, beat_up_strength, link_loads
@@ -227,9 +227,10 @@ def _loaded(params: BeatUpParams, pin: float) -> _Loaded:
     lengths = lengths_of(params, links)
     planned = plan(mechanism(lengths))
     angle = np.arange(SAMPLES + 1) * (turn / SAMPLES)
-    _require_swing(links, planned, angle)
+    motion = solve(planned, angle, params.speed).require()
+    _require_swing(links)
     bodies = {name: inertia_of(moments) for name, moments in moving_masses(params, lengths, hole).items()}
-    state = evaluate(params, planned, bodies, angle)
+    state = state_of(params, motion, bodies, angle)
     return _Loaded(pin, links, lengths, planned, bodies, state)
 
 
@@ -306,9 +307,8 @@ def _links(params: BeatUpParams, hole: float) -> LinkRatios:
     return LinkRatios(params.crank / params.ground, params.coupler / params.ground, params.rocker / params.ground)
 
 
-def _require_swing(links: LinkRatios, planned: Plan, angle: FloatArray) -> None:
-    """Raise MechanismError unless the crank turns fully and the rocker swings, away from any toggle."""
-    solve(planned, angle).require()
+def _require_swing(links: LinkRatios) -> None:
+    """Raise MechanismError unless links that close turn the crank fully and swing the rocker, away from any toggle."""
     shown = ", ".join(f"{name} {format_quantity(float(ratio), '1')}" for name, ratio in links._asdict().items())
     margin = float(grashof_margin(links))
     if margin < TOGGLE:

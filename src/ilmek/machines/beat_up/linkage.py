@@ -69,10 +69,14 @@ def lengths_of(params: BeatUpParams, links: LinkRatios) -> dict[str, float]:
 
 def evaluate(params: BeatUpParams, planned: Plan, inertias: Mapping[str, Inertia], angle: FloatArray) -> BeatUpState:
     """Motion and forces at the given crank angles [rad]."""
-    motion = solve(planned, angle, params.speed).require()
+    return state_of(params, solve(planned, angle, params.speed).require(), inertias, angle)
+
+
+def state_of(params: BeatUpParams, motion: Motion, inertias: Mapping[str, Inertia], angle: FloatArray) -> BeatUpState:
+    """A motion at the crank's speed and crank angles [rad], with its forces."""
     gravity = params.gravity_vector
     forces = inverse(motion, inertias, (Gravity(gravity),))
-    beater = attached(motion, "rocker", planned.mechanism.point("rocker", "E"))
+    beater = attached(motion, "rocker", motion.plan.mechanism.point("rocker", "E"))
     return BeatUpState(
         angle=angle,
         motion=motion,
