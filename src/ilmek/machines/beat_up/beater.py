@@ -13,7 +13,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from ilmek.arrays import ComplexArray
-from ilmek.elements.materials import MATERIALS
+from ilmek.elements.materials import MATERIALS, Material
 from ilmek.machines.beat_up.params import BeatUpParams
 from ilmek.part.part import Part
 from ilmek.part.placement import placement
@@ -87,16 +87,16 @@ def beater_of(params: BeatUpParams, warps: int, arm: float) -> Beater:
     travel = params.travel
     number, wide = max(warps - 1, 1), warps * travel.warp_pitch
     front = travel.bar_distance
-    corners = _rectangle(-travel.reach / 2, front, 0.0, TOOTH)
-    tooth = _made("beat-up/tooth", "tooth of the beater", "laser-cut part", corners, travel.tooth)
+    corners = rectangle(-travel.reach / 2, front, 0.0, TOOTH)
+    tooth = across("beat-up/tooth", "tooth of the beater", "laser-cut part", corners, travel.tooth)
     mass = params.beater_mass
     section = (mass - number * tooth.mass) / (STEEL.density * wide)
     bar = None
     if section > 0:
         inertia = mass * arm**2 - number * _about(tooth, complex(arm))
         deep = _depth(section, arm - front, inertia, STEEL.density * wide)
-        corners = _rectangle(front, front + deep, BAR_ABOVE, BAR_ABOVE + section / deep)
-        bar = _made("beat-up/beater-bar", "bar of the beater", "steel bar", corners, wide)
+        corners = rectangle(front, front + deep, BAR_ABOVE, BAR_ABOVE + section / deep)
+        bar = across("beat-up/beater-bar", "bar of the beater", "steel bar", corners, wide)
     return Beater(tooth, bar, number, travel.warp_pitch, wide, mass, arm)
 
 
@@ -145,18 +145,18 @@ def beater_checks(found: Beater) -> tuple[Check, ...]:
     )
 
 
-def _rectangle(left: float, right: float, low: float, high: float) -> ComplexArray:
+def rectangle(left: float, right: float, low: float, high: float) -> ComplexArray:
+    """Corners of a rectangle in the side view, counter-clockwise [m]."""
     return np.array([complex(left, low), complex(right, low), complex(right, high), complex(left, high)])
 
 
-def _made(name: str, title: str, process: str, corners: ComplexArray, length: float) -> Part:
-    wide, high = np.ptp(corners.real), np.ptp(corners.imag)
-    size = f"{' x '.join(format_quantity(float(side) / mm, '', 4) for side in (wide, high))} x "
-    return Part(name, title, process, size + format_quantity(length, "mm", 4), _prism(corners, length), STEEL)
-
-
-def _prism(corners: ComplexArray, length: float) -> Prism:
-    return Prism(Profile(polygon(corners)), length)
+def across(  # noqa: PLR0917
+    name: str, title: str, process: str, corners: ComplexArray, length: float, material: Material = STEEL
+) -> Part:
+    """A part of one section in the side view, with these corners, along the width from z = 0 [m]."""
+    sides = (float(np.ptp(side)) / mm for side in (corners.real, corners.imag))
+    size = f"{' x '.join(format_quantity(side, '', 4) for side in sides)} x {format_quantity(length, 'mm', 4)}"
+    return Part(name, title, process, size, Prism(Profile(polygon(corners)), length), material)
 
 
 def _about(part: Part, pivot: complex) -> float:

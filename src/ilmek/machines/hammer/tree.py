@@ -12,6 +12,7 @@ from functools import lru_cache
 import numpy as np
 
 from ilmek.arrays import ComplexArray
+from ilmek.machines.beat_up.beater import across, rectangle
 from ilmek.machines.beat_up.crank_start import start_parts
 from ilmek.machines.beat_up.parts import depth_of
 from ilmek.machines.beat_up.tree import CARRIAGE, crank_frame, crank_rockers, moving, on_rocker, rocker_position
@@ -21,12 +22,10 @@ from ilmek.machines.hammer.params import STEEL, HammerParams
 from ilmek.part import catalogue
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import Placement, placement
-from ilmek.part.profile import Profile
-from ilmek.part.shapes import Prism, box
+from ilmek.part.shapes import box
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
-from ilmek.plane.contours import polygon
 from ilmek.report.scene import SceneMotion
-from ilmek.units import format_quantity, mm
+from ilmek.units import mm
 
 COMB = "hammer/comb"
 """Body of the comb."""
@@ -44,41 +43,26 @@ def tree(hammer: Hammer, motions: Mapping[str, SceneMotion] | None = None) -> Tr
 def outline(params: HammerParams) -> tuple[ComplexArray, ...]:
     """The comb in the side view [m]: its leaves through the warps, and the bar in front of their roots."""
     front, deep = params.leaf_reach, params.comb_thickness
-    return _rectangle(-BEHIND, front, params.leaf_height), _rectangle(front, front + deep, params.depth)
+    return rectangle(-BEHIND, front, 0.0, params.leaf_height), rectangle(front, front + deep, 0.0, params.depth)
 
 
 def _comb(hammer: Hammer) -> tuple[Occurrence, ...]:
     """Bar and leaves, the bar's ballast in front of it; the axes of the side view, 0 where the leaves strike."""
     params, steel = hammer.params, replace(STEEL, density=hammer.params.density)
     leaf, bar = outline(params)
-    number, pitch, thick, wide = params.warps - 1, params.warp_pitch, params.leaf, params.width
-    leaves = Part(
-        *(LEAF_ID, "leaf of the comb", "laser-cut part", _size(leaf, thick)),
-        Prism(Profile(polygon(leaf)), thick),
-        steel,
-    )
-    whole = Part(
-        *(BAR_ID, "comb of the hammer", "laser-cut part", f"bar {_size(bar, wide)}"),
-        Prism(Profile(polygon(bar)), wide),
-        steel,
-    )
+    number, wide, middle = params.warps - 1, params.width, (placement(z=-params.width / 2),)
+    stations = (np.arange(number) - (number - 1) / 2) * params.warp_pitch - params.leaf / 2
+    leaves = across(LEAF_ID, "leaf of the comb", "laser-cut part", leaf, params.leaf, steel)
     comb = (
-        Occurrence(whole, (placement(z=-wide / 2),)),
-        Occurrence(
-            leaves, tuple(placement(z=float(z)) for z in (np.arange(number) - (number - 1) / 2) * pitch - thick / 2)
-        ),
+        Occurrence(across(BAR_ID, "comb of the hammer", "laser-cut part", bar, wide, steel), middle),
+        Occurrence(leaves, tuple(placement(z=float(z)) for z in stations)),
     )
     ballast = hammer.linkage.ballast if hammer.linkage else 0.0
     if not ballast:
         return comb
-    side = math.sqrt(ballast / (STEEL.density * wide))
-    section = _rectangle(0.0, side, side) + params.leaf_reach + params.comb_thickness
-    weight = Part(
-        *("hammer/ballast", "ballast of the comb", "steel bar", _size(section, wide)),
-        Prism(Profile(polygon(section)), wide),
-        STEEL,
-    )
-    return (*comb, Occurrence(weight, (placement(z=-wide / 2),)))
+    side, front = math.sqrt(ballast / (STEEL.density * wide)), params.leaf_reach + params.comb_thickness
+    section = rectangle(front, front + side, 0.0, side)
+    return (*comb, Occurrence(across("hammer/ballast", "ballast of the comb", "steel bar", section, wide), middle))
 
 
 @lru_cache(maxsize=4)
@@ -124,30 +108,21 @@ def _on_axes(hammer: Hammer) -> Tree:
     )
     motor = catalogue.motor("hammer/motor", "motor of a vertical axis", row, torque, speed)
     edge = params.width / 2 - params.inset
-    across = np.linspace(-edge, edge, number) if number > 1 else np.zeros(1)
+    stations = np.linspace(-edge, edge, number) if number > 1 else np.zeros(1)
     upright = placement(about=(1.0, 0.0, 0.0), angle=-math.pi / 2)
     top = params.stroke + (depth_of(geared[0]) if geared else 0.0)
     flipped = placement(about=(1.0, 0.0, 0.0), angle=math.pi / 2)
 
     def standing(height: float) -> tuple[Placement, ...]:
-        return tuple(placement(front, height, float(z)).after(upright) for z in across)
+        return tuple(placement(front, height, float(z)).after(upright) for z in stations)
 
     axes = RigidBody(
         "hammer/axes",
         (
             Occurrence(axis, standing(0.0)),
             *(Occurrence(part, standing(params.stroke)) for part in geared),
-            Occurrence(motor, tuple(placement(front, top, float(z)).after(flipped) for z in across)),
+            Occurrence(motor, tuple(placement(front, top, float(z)).after(flipped) for z in stations)),
         ),
         joint=Joint(JointKind.MISSING),
     )
     return Tree((axes, RigidBody(COMB, _comb(hammer), axes.id, Joint(JointKind.SLIDE, (0.0, 1.0, 0.0)))))
-
-
-def _rectangle(left: float, right: float, high: float) -> ComplexArray:
-    return np.array([left, right, right, left]) + high * np.array([0, 0, 1j, 1j])
-
-
-def _size(section: ComplexArray, length: float) -> str:
-    wide, high = (format_quantity(float(np.ptp(side)) / mm, "", 4) for side in (section.real, section.imag))
-    return f"{wide} x {high} x {format_quantity(length, 'mm', 4)}"
