@@ -96,7 +96,9 @@ def test_the_comb_that_crank_rockers_swing_weighs_what_they_bear() -> None:
     assert design.linkage is not None
     one = design.linkage.one
     assert comb.moments.zeroth == pytest.approx(design.linkage.number * one.params.beater_mass, rel=1e-9)
-    assert {plate.name for plate in hammer.MACHINE.plates(design)} >= {"crank", "coupler", "rocker"}
+    plates = hammer.MACHINE.plates(design)
+    assert {plate.name for plate in plates} == {"crank", "coupler", "rocker", "leaf"}
+    assert all(plate.thickness < 0.1 for plate in plates)
 
 
 @pytest.mark.parametrize(("mass", "warps", "failed"), [(0.0, 6, 1), (0.01, 20, 2), (2.5, 6, 0), (500.0, 6, 1)])

@@ -54,7 +54,7 @@ def _comb(hammer: Hammer) -> tuple[Occurrence, ...]:
     stations = (np.arange(number) - (number - 1) / 2) * params.warp_pitch - params.leaf / 2
     leaves = across(LEAF_ID, "leaf of the comb", "laser-cut part", leaf, params.leaf, steel)
     comb = (
-        Occurrence(across(BAR_ID, "comb of the hammer", "laser-cut part", bar, wide, steel), middle),
+        Occurrence(across(BAR_ID, "comb of the hammer", "steel bar", bar, wide, steel), middle),
         Occurrence(leaves, tuple(placement(z=float(z)) for z in stations)),
     )
     ballast = hammer.linkage.ballast if hammer.linkage else 0.0
