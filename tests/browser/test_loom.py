@@ -22,7 +22,6 @@ LOOM = """machine = "automated-loom"
 width = "0.3 m"
 length = "0.4 m"
 beat = "travelling"
-retreat_speed = "0.5 m/s"
 """
 RECIPE = 'picture = "pictures/small.png"\nsize = "20x30cm"\nquality = "20x20/dm"\ncolours = 2\n'
 FAILED = "weft: opening of the shed for the carrier"

@@ -186,6 +186,11 @@ class PlannedBeat(Protocol):
         """The beat in time."""
         ...
 
+    @property
+    def path(self) -> BeatPath:
+        """What beats, in the side view."""
+        ...
+
     def drive(self, task: LoomTask) -> BeatDrive:
         """Its drive for the loom's task with the period of the row. Raises the errors of the machine's design."""
         ...

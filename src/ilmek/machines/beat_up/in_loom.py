@@ -6,7 +6,7 @@ from functools import lru_cache
 import numpy as np
 
 from ilmek.machines.arrangement.spans import SPARE
-from ilmek.machines.beat import Beat, BeatDrive, stroke_needed
+from ilmek.machines.beat import Beat, BeatDrive, BeatPath, stroke_needed
 from ilmek.machines.beat_up.crank_path import crank_beat, crank_path
 from ilmek.machines.beat_up.crank_start import crank_start
 from ilmek.machines.beat_up.design import BeatUp, design, ground_for
@@ -72,6 +72,11 @@ class TravellingBeat:
     def beat(self) -> Beat:
         """All strokes across the width, from the start of the crank to its stop."""
         return crank_beat(self.use.start, self.use.travel.slide_run)
+
+    @property
+    def path(self) -> BeatPath:
+        """Path of the beater on its rocker."""
+        return crank_path(self.use.start, self.use.travel.beater.outline)
 
     def drive(self, task: LoomTask) -> BeatDrive:
         """The same for the time from beat to beat."""

@@ -15,6 +15,7 @@ from ilmek.elements.materials import GRAVITY
 from ilmek.machines import beat_up
 from ilmek.machines.beat import Beat, BeatDrive, BeatPath, stroke_needed
 from ilmek.machines.beat_up.crank_path import crank_beat, crank_path
+from ilmek.machines.beat_up.crank_start import CrankStart
 from ilmek.machines.fell_of_loom import USUAL_WARP_LENGTH
 from ilmek.machines.hammer.comb import BAR_ID, LEAF_ID
 from ilmek.machines.hammer.design import Hammer, design
@@ -85,23 +86,30 @@ def _carried(task: LoomTask) -> tuple[Check, ...]:
 
 @record
 class CombBeat:
-    """A beat by the comb, with its parameters as far as they do not depend on the row's time; linkage: chosen."""
+    """A beat by the comb: its parameters without what depends on the row's time, and the start of its crank-rockers."""
 
     params: HammerParams
     acceleration: float
     kind: str
-    made: Beat | None
+    start: CrankStart | None
     choices: tuple[Choice, ...] = ()
 
     @property
     def beat(self) -> Beat:
         """The comb's beat, as quick as its acceleration allows; of crank-rockers a turn of the crank."""
-        if self.made is not None:
-            return self.made
+        if self.start is not None:
+            return crank_beat(self.start)
         params = self.params
         law, share = LAWS[params.law], (1 - params.press_share) / 2
         time = math.sqrt(law.acceleration_peak * params.stroke / self.acceleration) / share
         return Beat(params.stroke, time, share, params.press_share, law, law, "vertical axes")
+
+    @property
+    def path(self) -> BeatPath:
+        """Its path; straight down to the fell and up again where vertical axes drive it."""
+        if self.start is not None:
+            return crank_path(self.start, outline(self.params))
+        return self._path(self.params)
 
     def drive(self, task: LoomTask) -> BeatDrive:
         """The comb at the period of the row, with the shedding's cams on it."""
@@ -140,10 +148,10 @@ class CombBeat:
 def planned_beat(task: LoomTask, kind: str) -> CombBeat:
     """The comb's beat in a loom. Raises ParameterError where values set for it contradict each other."""
     params = task.parameters("hammer", _of_carpet(task, kind))
-    made: Beat | None = None
+    start: CrankStart | None = None
     choices: tuple[Choice, ...] = ()
     if params.drive == "linkage":
         fabric = params.fabric
         params, linkage, choices = chosen_linkage(params, fabric, float(fabric.resistance(params.required_pitch)))
-        made = crank_beat(linkage.start)
-    return CombBeat(params, task.params.comb_acceleration, kind, made, choices)
+        start = linkage.start
+    return CombBeat(params, task.params.comb_acceleration, kind, start, choices)
