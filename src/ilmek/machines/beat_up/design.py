@@ -67,7 +67,6 @@ class BeatUp:
     bodies    the moving bodies: the links, with their pins where they are as made, the beater on the rocker
     state     over one turn, both ends included             peaks     greatest values over the turn
     balance   shaking force and counterweights              at        state at the crank angle given, if any
-    loads     of links and pins over a turn
     pin       diameter of the pins, for which the links are bored [m]     duty  by which it was chosen
     """
 
@@ -80,7 +79,6 @@ class BeatUp:
     peaks: Mapping[str, Extremum]
     balance: Balance
     at: BeatUpState | None
-    loads: LinkageLoads
     pin: float
     duty: Duty
     lengths: Mapping[str, float] = result("mm", "lengths of the links, and of the beater from the rocker's pivot")
@@ -163,6 +161,11 @@ class BeatUp:
         return bore_for(self.pin, self.params.width)
 
     @property
+    def loads(self) -> LinkageLoads:
+        """What links and pins bear over a turn."""
+        return _loads(in_motion(self.params), self.duty)
+
+    @property
     def strength(self) -> BeatUpStrength:
         """Strength of links and pins."""
         return _strength(in_motion(self.params), self.duty)
@@ -189,9 +192,15 @@ def design(params: BeatUpParams, duty: Duty = Duty()) -> BeatUp:  # noqa: B008
 
 
 @lru_cache(maxsize=16)
+def _loads(params: BeatUpParams, duty: Duty) -> LinkageLoads:
+    made = _moved(params, duty)
+    return link_loads(params, made.state, made.bodies, duty.every)
+
+
+@lru_cache(maxsize=16)
 def _strength(params: BeatUpParams, duty: Duty) -> BeatUpStrength:
     made = _moved(params, duty)
-    return beat_up_strength(params, made.loads, made.lengths, duty, made.pin)
+    return beat_up_strength(params, _loads(params, duty), made.lengths, duty, made.pin)
 
 
 @lru_cache(maxsize=4)
@@ -280,7 +289,6 @@ def _moved(params: BeatUpParams, duty: Duty) -> BeatUp:
             radius=params.counterweight_radius or lengths["crank"],
         ),
         at=None if params.crank_angle is None else state(np.array([params.crank_angle])),
-        loads=link_loads(params, whole, bodies, duty.every),
         pin=loaded.pin,
         duty=duty,
     )
