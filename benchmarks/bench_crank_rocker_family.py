@@ -11,16 +11,19 @@ from typing import Any
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.dynamics.inertia import Inertia, bar, bar_mass, combined, point_mass
 from ilmek.linkage.structure import plan
-from ilmek.machines.beat_up.design import evaluate, magnitudes, mechanism
 from ilmek.machines.beat_up.family import tabulate
+from ilmek.machines.beat_up.linkage import evaluate, magnitudes, mechanism
+from ilmek.machines.beat_up.links import inertia_of, moving_masses
 from ilmek.machines.beat_up.params import BEATER_RATIO, BeatUpParams
 from ilmek.num.pareto import front
 from ilmek.synthesis.crank_rocker.family import CrankRockerFamily, family
 from ilmek.units import deg
 
 MEMBERS, LOOPED, STEPS = 10_000, 60, 360
+HOLE = 0.006
+"""Diameter of the holes in the links [m]."""
+
 ROTATIONS = (110, 160, 180, 200, 250)
 FRONT = (("transmission_angle_min", -1), ("force_at_beat", -1), ("drive_torque_max", +1))
 PEAKS = ("beater_acceleration_max", "beater_force_max", "drive_torque_max")
@@ -40,7 +43,7 @@ def timed(work: Callable[[], Any], times: int = 3) -> tuple[float, Any]:
 def whole(params: BeatUpParams, count: int) -> tuple[dict[str, FloatArray], int]:
     """Every quantity of every member, and how many are on the front."""
     members = family(params.rocker_swing, params.crank_rotation, count)
-    table = dict(tabulate(params, members.links, members.beta))
+    table = dict(tabulate(params, members.links, members.beta, HOLE))
     return table, int(front(np.stack([sign * table[name] for name, sign in FRONT], axis=1)).sum())
 
 
@@ -51,21 +54,10 @@ def looped(params: BeatUpParams, members: CrankRockerFamily, places: Sequence[in
         crank, coupler, rocker = (float(np.asarray(link)[place]) * params.ground for link in members.links)
         lengths = {"ground": params.ground, "crank": crank, "coupler": coupler, "rocker": rocker}
         lengths["beater"] = BEATER_RATIO * rocker
-        bodies = {
-            "crank": rod(params, crank),
-            "coupler": rod(params, coupler),
-            "rocker": rod(params, lengths["beater"]),
-        }
-        bodies["rocker"] = combined(bodies["rocker"], point_mass(params.beater_mass, lengths["beater"]))
+        bodies = {name: inertia_of(moments) for name, moments in moving_masses(params, lengths, HOLE).items()}
         curves = magnitudes(evaluate(params, plan(mechanism(lengths)), bodies, ANGLE))
         found.append([float(np.max(curves[name.removesuffix("_max")])) for name in PEAKS])
     return np.array(found)
-
-
-def rod(params: BeatUpParams, length: float) -> Inertia:
-    """A bar of the beat-up."""
-    mass = float(bar_mass(length, params.width, params.thickness, params.density))
-    return bar(0, length, mass=mass, width=params.width)
 
 
 def run() -> None:

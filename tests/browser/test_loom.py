@@ -16,7 +16,13 @@ from ilmek.jobs.loom_space import loom_in_space
 from ilmek.jobs.studio.loom.scene import project_loom
 from ilmek.viz.loom_page import LoomPage, loom_page
 
-LOOM = 'machine = "automated-loom"\n\n[settings]\nwidth = "0.3 m"\nlength = "0.4 m"\nbeat = "travelling"\n'
+LOOM = """machine = "automated-loom"
+
+[settings]
+width = "0.3 m"
+length = "0.4 m"
+beat = "travelling"
+"""
 RECIPE = 'picture = "pictures/small.png"\nsize = "20x30cm"\nquality = "20x20/dm"\ncolours = 2\n'
 FAILED = "weft: opening of the shed for the carrier"
 NO_WEBGL = """const context = HTMLCanvasElement.prototype.getContext;
@@ -212,8 +218,8 @@ def test_the_page_of_a_loom_needs_no_server(browser: Browser, running: Studio, t
         page.get_by_role("button", name="Show the loom in space").click()
         expect(page.locator(".loom canvas")).to_have_attribute("data-pictures", re.compile(r"\d"), timeout=PATIENCE)
         page.get_by_role("tab", name="Parts").click()
-        listed(page).select_option("beat-up crank")
-        crank = next(part for part in loom.scene.parts if part.name == "beat-up crank")
+        listed(page).select_option("beat-up/crank")
+        crank = next(part for part in loom.scene.parts if part.name == "beat-up/crank")
         assert fact(page, "Material") == crank.material
         assert page.evaluate("document.documentElement.scrollWidth") <= 390
         assert violations(page) == []
@@ -227,7 +233,7 @@ def test_without_webgl_the_parts_are_listed(browser: Browser, running: Studio, s
         seen.watch(page, running.base)
         open_view(page, running, "loom/machines/loom.toml")
         expect(page.get_by_text("WebGL 2 is off or missing")).to_be_visible()
-        listed(page).select_option("beat-up crank")
+        listed(page).select_option("beat-up/crank")
         assert float(fact(page, "Mass of one").split()[0]) > 0
         assert violations(page) == []
     assert seen.faults == []

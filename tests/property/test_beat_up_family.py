@@ -12,11 +12,14 @@ from ilmek.errors import ParameterError
 from ilmek.machines.beat_up import MACHINE, BeatUpParams, design
 from ilmek.machines.beat_up.family import QUANTITIES, chosen_ratio, tabulate
 from ilmek.machines.beat_up.params import LIMITS, OBJECTIVES
+from ilmek.machines.beat_up.use_params import CastLinkParams
 from ilmek.synthesis.crank_rocker.dead_centres import beta_of_ratio, links_of_ratio, rotation_limits
 from ilmek.synthesis.crank_rocker.family import family
 from ilmek.units import deg
 
 unit = st.floats(0.03, 0.97)
+PIN = 0.008
+"""Diameter of the pins of all members [m]."""
 
 
 @st.composite
@@ -30,6 +33,8 @@ def asked(draw: st.DrawFn) -> dict[str, Any]:
         "gravity_direction": draw(st.integers(-180, 180)) * deg,
         "beater": draw(st.sampled_from([None, 0.1, 0.5])),
         "speed": draw(st.floats(3, 40)),
+        "link_mass": draw(st.sampled_from(["made", "bars"])),
+        "strength": CastLinkParams(pin_diameter=PIN),
     }
 
 
@@ -38,7 +43,7 @@ def asked(draw: st.DrawFn) -> dict[str, Any]:
 def test_a_member_has_the_peaks_that_its_design_has(asked_of: dict[str, Any], place: int) -> None:
     params = BeatUpParams(**asked_of)
     members = family(params.rocker_swing, params.crank_rotation, 40)
-    table = tabulate(params, members.links, members.beta)
+    table = tabulate(params, members.links, members.beta, PIN)
     assert list(table) == list(QUANTITIES)
     links = [float(np.asarray(link)[place]) * params.ground for link in members.links]
     given = dict(zip(("crank", "coupler", "rocker"), links, strict=True))
@@ -69,7 +74,7 @@ def test_no_member_within_the_limits_beats_the_chosen_one(
 ) -> None:
     params = BeatUpParams(**asked_of)
     members = family(params.rocker_swing, params.crank_rotation, 400)
-    table = tabulate(params, members.links, members.beta)
+    table = tabulate(params, members.links, members.beta, PIN)
     # Two limits that a part of the members keeps.
     picked = ("transmission_min", "torque_max")
     bounds = {
@@ -82,10 +87,11 @@ def test_no_member_within_the_limits_beats_the_chosen_one(
     asked_for = replace(params, **bounds, objective=objective, members=100)
     if not kept.any():
         with pytest.raises(ParameterError, match="clash"):
-            chosen_ratio(asked_for)
+            chosen_ratio(asked_for, PIN)
         return
-    place = params.rocker_swing, params.crank_rotation, np.array([chosen_ratio(asked_for)])
-    own = {name: float(of[0]) for name, of in tabulate(params, links_of_ratio(*place), beta_of_ratio(*place)).items()}
+    place = params.rocker_swing, params.crank_rotation, np.array([chosen_ratio(asked_for, PIN)])
+    found = tabulate(params, links_of_ratio(*place), beta_of_ratio(*place), PIN)
+    own = {name: float(of[0]) for name, of in found.items()}
     for name, bound in bounds.items():
         assert LIMITS[name][1] * (own[LIMITS[name][0]] - bound) >= -1e-8 * bound
     quantity, sign = OBJECTIVES[objective]

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from ilmek.linkage.solve import solve
 from ilmek.machines.beat_up import BeatUp, BeatUpParams, design
+from ilmek.machines.beat_up.use_params import CastLinkParams
 from ilmek.synthesis.crank_rocker.dead_centres import beta_limits, rotation_limits
 from ilmek.units import deg
 
@@ -54,7 +55,8 @@ def test_least_transmission_angle_is_that_of_the_solved_linkage(swing: float, tu
 @settings(max_examples=8)
 @given(scales)
 def test_without_weight_forces_grow_with_the_square_of_the_speed(scale: float) -> None:
-    slow, fast = design(BeatUpParams()), design(BeatUpParams(speed=15.5 * scale))
+    pins = CastLinkParams(pin_diameter=0.006)
+    slow, fast = (design(BeatUpParams(speed=speed, strength=pins)) for speed in (15.5, 15.5 * scale))
     for name, power in (("beater_velocity", 1), ("beater_acceleration", 2), ("drive_torque", 2), ("C", 2), ("A", 2)):
         assert fast.peaks[name].value == pytest.approx(slow.peaks[name].value * scale**power, rel=1e-9)
 
@@ -64,7 +66,13 @@ def test_without_weight_forces_grow_with_the_square_of_the_speed(scale: float) -
 def test_a_loom_of_another_size(scale: float) -> None:
     small = design(BeatUpParams())
     large = design(
-        BeatUpParams(ground=0.3 * scale, width=0.03 * scale, thickness=0.01 * scale, beater_mass=2.5 * scale**3)
+        BeatUpParams(
+            ground=0.3 * scale,
+            width=0.03 * scale,
+            thickness=0.01 * scale,
+            beater_mass=2.5 * scale**3,
+            strength=CastLinkParams(pin_diameter=0.006 * scale),
+        )
     )
     for name, power in (("beater_acceleration", 1), ("beater_force", 4), ("B", 4), ("drive_torque", 5)):
         assert large.peaks[name].value == pytest.approx(small.peaks[name].value * scale**power, rel=1e-9)

@@ -135,7 +135,7 @@ LENGTHS = {"crank": "59.7mm", "coupler": "200.7mm", "rocker": "230.8mm", "beater
 
 
 def printed(**settings: str) -> BeatUp:
-    return design(BeatUpParams.read({**LENGTHS, **settings}))
+    return design(BeatUpParams.read({**LENGTHS, "link_mass": "bars", "density": "7210kg/m^3", **settings}))
 
 
 def test_lengths_of_the_selected_linkage() -> None:

@@ -9,10 +9,12 @@ import pytest
 from ilmek.cams.laws import LAWS
 from ilmek.machines import BEATS
 from ilmek.machines.automated_loom import AutomatedLoomParams, LoomDesign, design
+from ilmek.machines.automated_loom.cyclogram import HEADS
 from ilmek.machines.beat import BeatDrive, stroke_needed
 from ilmek.machines.catalogue import MACHINES
 from ilmek.report import results_of
 from ilmek.timing.cyclogram import Cyclogram, check_all
+from ilmek.timing.track import peak_speed
 from ilmek.units import turn
 
 
@@ -192,3 +194,17 @@ def test_the_motions_of_a_row_follow_each_other(kind) -> None:
 
 def test_every_kind_names_a_machine() -> None:
     assert all(MACHINES[name].beat is not None for name in BEATS.values())
+
+
+@pytest.mark.parametrize(("kind", "width"), [("travelling", "0.3m"), ("travelling", "1.2m"), ("linkage", "0.6m")])
+def test_heads_retreat_in_time_from_what_beats_on_its_path(kind, width) -> None:
+    """The row is timed by the retreat that the path needs; then the comb is clear of the head by the clearance."""
+    made = loom(kind, width=width)
+    heads = made.row_cyclogram.track(HEADS)
+    assert heads.stroke == pytest.approx(made.side.retreat)
+    assert peak_speed(heads, made.row_cyclogram.period) <= made.params.retreat_speed * (1 + 1e-6)
+    corners = np.concatenate(
+        [made.beat.path.carried(one, made.beat.path.tip).ravel() for one in made.beat.path.outline]
+    )
+    low = corners[corners.imag <= made.side.head.top]
+    assert low.real.max() + made.params.clearance <= made.side.head.reach + made.side.retreat + 1e-9

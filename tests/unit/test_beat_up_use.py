@@ -8,7 +8,7 @@ import pytest
 from ilmek.errors import ParameterError
 from ilmek.machines.beat_up import BeatUpParams, design
 from ilmek.machines.beat_up.hand import hand_swing, pivot
-from ilmek.machines.beat_up.strength import beat_up_strength, beat_up_strength_checks
+from ilmek.machines.beat_up.strength import beat_up_strength_checks
 from ilmek.machines.beat_up.use import BeatUpUse, in_use
 from ilmek.machines.beat_up.use_params import CastLinkParams
 from ilmek.units import deg, mm, turn
@@ -51,8 +51,8 @@ def test_positions_that_give_no_swing_are_refused(hand, said) -> None:
 
 def test_stresses_are_those_of_beams_and_pins() -> None:
     """The coupler is pulled by the force of its pins; the rocker is a cantilever beyond B; pins are cut twice."""
-    made = design(BeatUpParams(speed=40.0, beater_mass=20.0))
-    found = beat_up_strength(made, CastLinkParams(pin_diameter=12 * mm))
+    made = design(BeatUpParams(speed=40.0, beater_mass=20.0, strength=CastLinkParams(pin_diameter=12 * mm)))
+    found = made.strength
     w, b, d = 30 * mm, 10 * mm, 12 * mm
     most = max(made.pin_force_max.values())
     assert found.found.pin_shear == pytest.approx(most / (2 * math.pi * d**2 / 4), rel=1e-4)
@@ -72,7 +72,7 @@ def test_stresses_are_those_of_beams_and_pins() -> None:
 
 def test_links_too_weak_fail_and_name_the_cure() -> None:
     made = design(BeatUpParams(speed=40.0, beater_mass=200.0))
-    failed = [check for check in beat_up_strength_checks(beat_up_strength(made, CastLinkParams())) if not check.ok]
+    failed = [check for check in beat_up_strength_checks(made.strength) if not check.ok]
     assert {"stress of the rocker", "stress of the crank"} <= {check.name for check in failed}
     assert all(check.cure for check in failed)
 

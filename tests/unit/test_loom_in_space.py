@@ -1,6 +1,7 @@
 """The loom in space: masses of the parts list, the side view's coordinates, and the cyclograms' motions."""
 
 import math
+from collections.abc import Callable
 from functools import cache
 
 import numpy as np
@@ -8,11 +9,13 @@ import pytest
 
 from ilmek.elements.columns import STEEL
 from ilmek.machines.automated_loom import MACHINE
-from ilmek.machines.automated_loom.bodies import beat_displacement
+from ilmek.machines.automated_loom.bodies import beat_tip
 from ilmek.machines.automated_loom.cyclogram import EVEN, HEADS
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.scene import scene
 from ilmek.machines.automated_loom.parts import parts_of_loom
+from ilmek.machines.beat_up import BeatUp
+from ilmek.machines.beat_up.tree import in_side_view
 from ilmek.plane.contours import area
 from ilmek.plane.solids import bounds, is_closed, plate_solid, volume
 from ilmek.report import Contour
@@ -121,10 +124,6 @@ def test_motions_are_those_of_the_cyclograms() -> None:
     rail = _frame(found, "heads' rail").motion
     assert rail is not None
     assert np.allclose(rail.shift[:, 2], sample(row.track(HEADS), rail.angle).position, atol=1e-9)
-    beater = _frame(found, "beater").motion
-    assert beater is not None
-    expected = beat_displacement(loom.beat.path, row)(beater.angle) + loom.beat.path.tip[0]
-    assert np.allclose(beater.shift[:, 2] + 1j * beater.shift[:, 1], expected, atol=1e-9)
 
 
 def test_a_cam_lifts_its_warp_as_the_cyclogram_states() -> None:
@@ -143,19 +142,72 @@ def test_a_cam_lifts_its_warp_as_the_cyclogram_states() -> None:
     assert sorted(set(np.round(np.abs(even.phases), 9))) == pytest.approx([0.0, math.pi])
 
 
-def test_the_links_of_the_beat_up_stay_joined_and_carry_the_beater() -> None:
-    loom, found = _made()
-    one = loom.beat.design
-    crank, coupler, rocker, beater = (_frame(found, name) for name in ("crank", "coupler", "rocker", "beater"))
-    for index in range(0, len(crank.motion.angle), 97):  # type: ignore[union-attr]
+def _rotated(axis: tuple[float, float, float], angle: float, points: np.ndarray) -> np.ndarray:
+    """Rodrigues' formula."""
+    k = np.array(axis)
+    return (
+        points * math.cos(angle)
+        + np.cross(k, points) * math.sin(angle)
+        + np.outer(points @ k, k) * (1 - math.cos(angle))
+    )
 
-        def turned(frame: SceneFrame, point: complex, index: int = index) -> complex:
-            assert frame.motion is not None
-            phase = 0.0 if frame.phases is None else frame.phases[0]
-            at = complex(frame.origins[0][2], frame.origins[0][1])
-            return complex(at + _turned(np.array(point), phase + frame.motion.rotation[index]))
 
-        pin = turned(crank, turned(coupler, complex(one.lengths["coupler"])))
-        assert pin == pytest.approx(turned(rocker, complex(one.lengths["rocker"])), abs=2e-4)
-        shift = beater.motion.shift[index]  # type: ignore[union-attr]
-        assert turned(rocker, complex(one.lengths["beater"])) == pytest.approx(complex(shift[2], shift[1]), abs=1e-9)
+def _in_space(found: Scene, name: str, points: np.ndarray, drive: str, angle: float) -> np.ndarray:
+    """Points of the first of the frames of a name in the ground's axes, at an angle of a drive."""
+    while name:
+        frame = _frame(found, name)
+        shift, turned = np.zeros(3), 0.0 if frame.phases is None else float(frame.phases[0])
+        if frame.motion is not None and frame.motion.drive == drive:
+            motion = frame.motion
+            turned += float(np.interp(angle, motion.angle, motion.rotation))
+            shift = np.array([np.interp(angle, motion.angle, one) for one in motion.shift.T])
+        points = frame.origins[0] + shift + _rotated(frame.axis, turned, points)
+        name = frame.parent
+    return points
+
+
+BEATS = [(), (("beat", "linkage"), ("heads", "2")), (("beat", "comb"),)]
+
+
+@pytest.mark.parametrize("settings", BEATS)
+def test_what_beats_is_in_space_where_its_clearances_have_it(settings: tuple[tuple[str, str], ...]) -> None:
+    """The solids of teeth and bar, through all frames, fill the polygons of the side view over the row."""
+    loom, found = _made(*settings)
+    names = ("beat-up/tooth", "beat-up/beater-bar") if loom.beat.name == "beat-up" else ("hammer/leaf", "hammer/bar")
+    path = loom.beat.path
+    assert any(check.name.startswith("clearance: ") for check in _part(found, names[1]).checks)
+    for angle in np.linspace(0.0, 2 * math.pi, 23):
+        tip = beat_tip(path, loom.row_cyclogram, np.array([angle]))
+        for name, polygon in zip(names, path.outline, strict=True):
+            part = _part(found, name)
+            points = _in_space(found, part.frame, part.solids[0].points, "row", angle)
+            side = points[:, 2] + 1j * points[:, 1]
+            expected = path.carried(polygon, tip)[0]
+            assert np.abs(side[:, None] - expected).min(axis=0) == pytest.approx(0.0, abs=2e-4)
+            assert np.abs(side[:, None] - expected).min(axis=1) == pytest.approx(0.0, abs=2e-4)
+
+
+@pytest.mark.parametrize("settings", BEATS[:2])
+def test_the_links_of_the_beat_up_stay_joined(settings: tuple[tuple[str, str], ...]) -> None:
+    """Pin B is where the coupler has it and where the rocker has it; the rest is on the ground or on one another."""
+    loom, found = _made(*settings)
+    one = loom.beat.design if loom.beat.name == "beat-up" else loom.beat.design.linkage.one
+    back = _side_of(one)
+    for angle in np.linspace(0.0, 2 * math.pi, 41):
+        at = {}
+        for link in ("coupler", "rocker"):
+            part = _part(found, f"beat-up/{link}")
+            at[link] = _in_space(found, part.frame, back(link, one.lengths[link]), "row", angle)[0, 1:]
+        assert at["coupler"] == pytest.approx(at["rocker"], abs=5e-4)
+
+
+def _side_of(one: BeatUp) -> Callable[[str, float], np.ndarray]:
+    """A point on the line of a link at the beat, at a distance from its first pin, in the scene's axes."""
+    rotation = in_side_view(one).rotation
+    line = {"coupler": one.beta, "rocker": one.rocker_angles[0]}  # at the beat crank and coupler are in line
+
+    def point(link: str, distance: float) -> np.ndarray:
+        direction = np.array([math.cos(line[link]), math.sin(line[link]), 0.0])
+        return (rotation @ direction * distance)[None, :]
+
+    return point

@@ -8,7 +8,7 @@ from pathlib import Path
 import ezdxf
 import numpy as np
 import pytest
-from ezdxf import bbox
+from ezdxf.path import make_path
 
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.quality import Quality
@@ -97,9 +97,19 @@ def test_a_part_of_the_scene_is_as_large_as_its_workshop_file(project: Path, tmp
     write_dxf(tmp_path / "part.dxf", made)
     drawn = ezdxf.readfile(tmp_path / "part.dxf").modelspace().query('LWPOLYLINE[layer=="PROFILE"]')
     low, high = bounds(part.solids[0])
-    # a plate's x and y lie to the front and up, its thickness across
-    sizes = np.array([made.thickness, bbox.extents(drawn).size.y * mm, bbox.extents(drawn).size.x * mm])
-    assert high - low == pytest.approx(sizes, abs=2 * part.deviations[0])
+    assert high[0] - low[0] == pytest.approx(made.thickness, abs=1e-9)
+    # a plate lies in the side view, in any direction: its corners have the distances that they have in the file
+    file = [corner for line in drawn for corner in make_path(line).flattening(part.deviations[0] / mm)]
+    corners = np.array([complex(corner.x, corner.y) for corner in file]) * mm
+    solid = part.solids[0].points[:, 2] + 1j * part.solids[0].points[:, 1]
+    assert _spread(solid) == pytest.approx(_spread(corners), abs=2 * part.deviations[0])
+
+
+def _spread(points: np.ndarray) -> tuple[float, float]:
+    """The greatest distance of two points, and their least width in any direction [m]."""
+    across = np.exp(1j * np.linspace(0.0, turn / 2, 721))
+    widths = np.ptp((points[:, None] * across).real, axis=0)
+    return float(widths.max()), float(widths.min())
 
 
 def test_a_file_that_is_no_loom_is_refused(project: Path) -> None:

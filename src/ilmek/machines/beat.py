@@ -15,7 +15,7 @@ from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 
-from ilmek.arrays import ComplexArray, FloatArray, RealField
+from ilmek.arrays import Complex, ComplexArray, FloatArray, RealField
 from ilmek.machines.loom_task import LoomTask
 from ilmek.records import computed, record, result, value_record
 from ilmek.report import BillLine, Check, Work, at_least
@@ -54,17 +54,34 @@ class BeatPath:
 
     outline  convex polygons of the beater or comb, its tip at the fell [m]
     share    of the beat's time, ascending from 0 to 1 [-]      tip  displacement of the tip from the fell at them [m]
+    pivot    about which it turns, level with the fell [m]; None: it does not turn
     """
 
     outline: tuple[ComplexArray, ...]
     share: FloatArray
     tip: ComplexArray
+    pivot: float | None = None
 
     def __call__(self, share: RealField) -> ComplexArray:
         """Displacement of the tip from the fell [m] at shares of the time of a beat [-]."""
         return np.asarray(
             np.interp(share, self.share, self.tip.real) + 1j * np.interp(share, self.share, self.tip.imag)
         )
+
+    def carried(self, points: ComplexArray, tip: ComplexArray) -> Complex[np.ndarray, "samples points"]:
+        """Points of the outline [m] where the tip is at displacements from the fell [m], (samples,).
+
+        z -> d + z (1 - d / p) / |1 - d / p|            d displacement, p pivot
+        """
+        if self.pivot is None:
+            return np.asarray(tip[:, None] + points)
+        turned = 1 - tip / self.pivot
+        return np.asarray(tip[:, None] + points * (turned / np.abs(turned))[:, None])
+
+    @property
+    def at_rest(self) -> tuple[ComplexArray, ...]:
+        """The outline where the beat begins [m]."""
+        return tuple(self.carried(polygon, self.tip[:1])[0] for polygon in self.outline)
 
 
 @record
@@ -75,6 +92,7 @@ class BeatDrive:
     fabric        at the fell, for one warp           torque       greatest, on the crank shaft of all [N m]; else 0
     parts, work   of all its mechanisms together      path         in the side view
     machine_checks   of its machine: they are in its report      loom_checks  what it asks of the loom's other machines
+    striking      ids of what strikes, teeth first      use  of its machine in this loom, where the design has none
     """
 
     name: str
@@ -94,6 +112,8 @@ class BeatDrive:
     beaten: int = result("1", "warps that are beaten at once", name="beaten_warps", least=0.0)
     frame_force: float = result("N", "greatest force of the beat on the frame", name="beat_frame_force")
     loom_checks: tuple[Check, ...] = ()
+    striking: tuple[str, ...] = ()
+    use: Any = None
 
     beat_strokes = computed("1", "strokes of a beat across the width", lambda it: it.beat.strokes)
     beat_time = computed("s", "time of a beat from rest to rest, all its strokes", lambda it: it.beat.time)
@@ -136,9 +156,13 @@ class BeatDrive:
         cure = "set beat=auto, a lower tension, or a coarser quality along"
         stroke = "room for the weft above the fell"
         return (
-            at_least("beat: force of a warp", self.beat_force_warp, needed, "N", source, cure=cure),
             at_least(
-                "beat: stroke", self.beat.stroke, stroke_needed(self.task), "mm", stroke, cure="set a larger stroke"
+                "beat: force of a warp", self.beat_force_warp, needed, "N", source, cure=cure, parts=self.striking
+            ),
+            at_least(
+                *("beat: stroke", self.beat.stroke, stroke_needed(self.task), "mm", stroke),
+                cure="set a larger stroke",
+                parts=self.striking,
             ),
             *self.loom_checks,
         )
@@ -160,6 +184,11 @@ class PlannedBeat(Protocol):
     @property
     def beat(self) -> Beat:
         """The beat in time."""
+        ...
+
+    @property
+    def path(self) -> BeatPath:
+        """What beats, in the side view."""
         ...
 
     def drive(self, task: LoomTask) -> BeatDrive:

@@ -8,6 +8,7 @@ its fork half as thick; pins between links of the same size have one diameter. T
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from types import MappingProxyType
 
 from ilmek.arrays import FloatArray
 from ilmek.dynamics.inertia import Inertia
@@ -20,7 +21,7 @@ from ilmek.elements.flat_section import FlatSection
 from ilmek.elements.pin_joints import PIN_DIAMETERS
 from ilmek.machines.strength_params import StrengthParams
 from ilmek.records import computed, record
-from ilmek.report import Alternative, Check, Choice, Table, at_least, at_most, choose, columns
+from ilmek.report import Alternative, Check, Choice, at_least, at_most, choose
 from ilmek.units import MPa, format_quantity, mm, turn
 
 FLAT_BARS = tuple(
@@ -181,20 +182,34 @@ def linkage_strength(
         body: max((pins[one.name].diameter for one in loads.pins if body in one.bodies), default=0.0)
         for body in sections
     }
-    made = {body: FlatSection(*size, min(holes[body], 0.99 * size[0])) for body, size in sections.items()}
+    made = {body: FlatSection(*size, bore_for(holes[body], size[0])) for body, size in sections.items()}
     links = {one.body: link_strength(one, made[one.body], limits.of_links) for one in loads.links}
     balance = max((one.equilibrium_error for one in loads.links), default=0.0)
     return LinkageStrength(limits, links, pins, made, loads.speed, balance, tuple(choices))
 
 
-def pins_bear(loads: LinkageLoads, limits: StrengthParams, sections: Mapping[str, tuple[float, float]]) -> bool:
-    """Whether pins of stock between links of given sections are strong enough: quicker than all of `linkage_strength`.
-
-    Arguments as of `linkage_strength`.
-    """
+def pins_of(
+    loads: LinkageLoads, limits: StrengthParams, sections: Mapping[str, tuple[float, float]]
+) -> dict[str, PinStrength]:
+    """The pins of `linkage_strength` alone, with the same arguments."""
     seats = _seats(loads, sections).items()
     tried = (_pins_tried(duties, limits, *seat, loads.share)[-1] for seat, duties in seats)
-    return all(check.ok for pins in tried for check in pin_checks(pins, limits))
+    return {name: pin for pins in tried for name, pin in pins.items()}
+
+
+def pins_bear(loads: LinkageLoads, limits: StrengthParams, sections: Mapping[str, tuple[float, float]]) -> bool:
+    """Whether pins of stock are strong enough; arguments as of `linkage_strength`."""
+    return all(check.ok for check in pin_checks(pins_of(loads, limits, sections), limits))
+
+
+def smallest_pin(limits: StrengthParams, width: float) -> float:
+    """The diameter of pins that is tried first between links of a width [m]."""
+    return _sizes(limits, width)[0]
+
+
+def bore_for(pin: float, width: float) -> float:
+    """Diameter of the hole for a pin in a link of a width [m]: the pin's, where it leaves anything of the link."""
+    return min(pin, 0.99 * width)
 
 
 def _seats(
@@ -213,13 +228,19 @@ def _pins_tried(
     duties: Sequence[PinDuty], limits: StrengthParams, width: float, thickness: float, share: float
 ) -> list[dict[str, PinStrength]]:
     """The pins with each diameter of stock, ascending, up to the first that is enough."""
-    stock = [size for size in PIN_DIAMETERS if size <= WIDEST_PIN * width] or [WIDEST_PIN * width]
     tried: list[dict[str, PinStrength]] = []
-    for size in [limits.pin_diameter] if limits.pin_diameter else stock:
+    for size in _sizes(limits, width):
         tried.append({one.name: pin_strength(one, size, thickness, share=share) for one in duties})
         if all(check.ok for check in pin_checks(tried[-1], limits)):
             break
     return tried
+
+
+def _sizes(limits: StrengthParams, width: float) -> list[float]:
+    """Diameters of pins to try between links of a width, ascending [m]: the given one, or those of stock."""
+    if limits.pin_diameter:
+        return [limits.pin_diameter]
+    return [size for size in PIN_DIAMETERS if size <= WIDEST_PIN * width] or [WIDEST_PIN * width]
 
 
 def _pins_for(  # noqa: PLR0917
@@ -252,31 +273,51 @@ def equilibrium_test(found: LinkageStrength) -> Check:
 
 
 def strength_checks(
-    found: LinkageStrength, *, name: str = "strength", stronger: str = "", drive: str = "the crank's"
+    found: LinkageStrength,
+    *,
+    name: str = "strength",
+    stronger: str = "",
+    drive: str = "the crank's",
+    parts: Mapping[str, str] = MappingProxyType({}),
 ) -> tuple[Check, ...]:
     """Whether links and pins bear the cycle, and the links are stiff enough for the speed.
 
     name  of the parameters in the sources      stronger  what makes links stronger; default: wider or thicker links
-    drive  whose frequency is `found.speed`
+    drive  whose frequency is `found.speed`      parts  ids of the parts of links and pins by name
     """
     limits = found.limits
     cure = stronger or "set wider or thicker links, or a lower speed"
     return (
         *(
-            at_most(_stress_of(link), one.stress, limits.allowed_stress, "MPa", f"parameter {name}.stress", cure=cure)
+            at_most(
+                _stress_of(link),
+                one.stress,
+                limits.allowed_stress,
+                "MPa",
+                f"parameter {name}.stress",
+                cure=cure,
+                parts=_ids(parts, link),
+            )
             for link, one in found.links.items()
         ),
-        *_link_checks(found, name, cure, drive),
-        *_hole_check(found),
-        *pin_checks(found.pins, limits, name=name),
+        *_link_checks(found, name, cure, drive, parts),
+        *_hole_check(found, parts),
+        *pin_checks(found.pins, limits, name=name, parts=parts),
     )
+
+
+def _ids(parts: Mapping[str, str], *names: str) -> tuple[str, ...]:
+    """The ids of named links and pins that are parts of a tree."""
+    return tuple(dict.fromkeys(parts[name] for name in names if name in parts))
 
 
 def _stress_of(link: str) -> str:
     return f"stress of {link}" if link[-1].isdigit() else f"stress of the {link}"
 
 
-def _link_checks(found: LinkageStrength, name: str, cure: str, drive: str) -> tuple[Check, ...]:
+def _link_checks(
+    found: LinkageStrength, name: str, cure: str, drive: str, parts: Mapping[str, str]
+) -> tuple[Check, ...]:
     limits = found.limits
     rows = (
         ("safety of the links against fatigue", "fatigue", 1.0, "Goodman, notch of the holes"),
@@ -294,22 +335,36 @@ def _link_checks(found: LinkageStrength, name: str, cure: str, drive: str) -> tu
         if values and unit > 0:
             link, limit = min(values, key=values.__getitem__), "resonance" if quantity == "frequency" else quantity
             given = f"{link}: {source}: parameter {name}.{limit}"
-            checks.append(at_least(title, values[link] / unit, getattr(limits, limit), "1", given, cure=cure))
+            least, ids = getattr(limits, limit), _ids(parts, link)
+            checks.append(at_least(title, values[link] / unit, least, "1", given, cure=cure, parts=ids))
     return tuple(checks)
 
 
-def _hole_check(found: LinkageStrength) -> tuple[Check, ...]:
+def _hole_check(found: LinkageStrength, parts: Mapping[str, str]) -> tuple[Check, ...]:
     """Whether the pins leave enough of their links."""
     if not found.sections:
         return ()
-    widest = max(one.hole / one.width for one in found.sections.values())
-    cure = "set wider links, or leave the pins' diameter open"
-    source = "assumed by this project"
-    return (at_most("diameter of the pins, over the width of their links", widest, WIDEST_PIN, "1", source, cure=cure),)
+    return (
+        at_most(
+            "diameter of the pins, over the width of their links",
+            max(one.hole / one.width for one in found.sections.values()),
+            WIDEST_PIN,
+            "1",
+            "assumed by this project",
+            cure="set wider links, or leave the pins' diameter open",
+            parts=_ids(parts, *found.sections, *found.pins),
+        ),
+    )
 
 
-def pin_checks(pins: Mapping[str, PinStrength], limits: StrengthParams, *, name: str = "strength") -> tuple[Check, ...]:
-    """Whether the pins bear the cycle."""
+def pin_checks(
+    pins: Mapping[str, PinStrength],
+    limits: StrengthParams,
+    *,
+    name: str = "strength",
+    parts: Mapping[str, str] = MappingProxyType({}),
+) -> tuple[Check, ...]:
+    """Whether the pins bear the cycle; parts: ids of the parts by the pins' names."""
     if not pins:
         return ()
     cure = "set a lower speed, or wider and thicker links for larger pins; or fit rolling bearings there"
@@ -322,47 +377,8 @@ def pin_checks(pins: Mapping[str, PinStrength], limits: StrengthParams, *, name:
         ("wear of the pins, p v", worn.wear / MPa, limits.pin_wear, "1", worn, "pin_wear, in MPa m/s"),
     )
     return tuple(
-        at_most(title, value, limit, unit, f"pin {pin.name}; {assumed}{parameter}", cure=cure)
+        at_most(
+            title, value, limit, unit, f"pin {pin.name}; {assumed}{parameter}", cure=cure, parts=_ids(parts, pin.name)
+        )
         for title, value, limit, unit, pin, parameter in rows
     )
-
-
-def strength_table(found: LinkageStrength, name: str) -> tuple[Table, ...]:
-    """Links with stress, safeties and natural frequency; pins with force, stresses and wear."""
-    links = tuple(
-        (
-            body,
-            _size(found.sections[body]),
-            one.stress,
-            _where(one),
-            *(_finite(v) for v in (one.fatigue, one.buckling, one.frequency / turn)),
-        )
-        for body, one in found.links.items()
-    )
-    pins = tuple(
-        (pin, one.diameter, one.force, one.shear, one.bending, one.pressure, one.wear / MPa)
-        for pin, one in found.pins.items()
-    )
-    heads = columns(
-        "link", "section", "stress [MPa]", "at", "safety, fatigue", "safety, buckling", "natural frequency [Hz]"
-    )
-    of_pins = columns(
-        "pin", "diameter [mm]", "force [N]", "shear [MPa]", "bending [MPa]", "pressure [MPa]", "p v in MPa m/s"
-    )
-    return (
-        Table(f"{name}-link-strength", "Strength of the links", heads, links),
-        Table(f"{name}-pin-strength", "Strength of the pins", of_pins, pins),
-    )
-
-
-def _size(section: FlatSection) -> str:
-    return f"{format_quantity(section.width / mm, '')} x {format_quantity(section.thickness, 'mm')}"
-
-
-def _finite(value: float) -> float | str:
-    return value if math.isfinite(value) else "-"
-
-
-def _where(link: LinkStrength) -> str:
-    start, end, at = link.position
-    return f"{start} to {end}, {format_quantity(at, 'mm', 3)}" if start else ""

@@ -7,10 +7,11 @@ from ilmek.report import BillLine
 
 def bill(tree: Tree) -> tuple[BillLine, ...]:
     """The lines of the parts list, in the order of the bodies."""
-    return tuple(_line(part, number) for part, number in tree.occurrences())
+    return tuple(line_of(part, number) for part, number in tree.occurrences())
 
 
-def _line(part: Part, number: int) -> BillLine:
+def line_of(part: Part, number: int = 1) -> BillLine:
+    """The line of so many pieces of a part."""
     bought = part.purchase
     return BillLine(
         name=part.title,

@@ -98,5 +98,7 @@ class Part:
     @property
     def mass(self) -> float:
         """Mass of one [kg]; nan: not weighed."""
-        moments = self.moments
-        return math.nan if moments is None else moments.zeroth
+        if self.material is not None and self.shape is not None:
+            return self.shape.volume * self.material.density
+        assert self.purchase is not None
+        return self.purchase.mass

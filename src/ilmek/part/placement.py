@@ -12,6 +12,9 @@ from ilmek.arrays import Float
 from ilmek.errors import ParameterError
 from ilmek.records import record
 
+_NOT_TURNED = np.eye(3)
+_NOT_TURNED.flags.writeable = False
+
 _RIGHT_ANGLES = 1e-9
 """Deviation of R R^T from the identity that counts as rounding."""
 
@@ -27,6 +30,8 @@ class Placement:
     rotation: Float[np.ndarray, "3 3"]
 
     def __post_init__(self) -> None:
+        if self.rotation is _NOT_TURNED:
+            return
         error = np.abs(self.rotation @ self.rotation.T - np.eye(3)).max()
         if not (error < _RIGHT_ANGLES and np.linalg.det(self.rotation) > 0):
             raise ParameterError("a matrix that is no rotation", allowed="orthogonal, of determinant 1")
@@ -58,7 +63,7 @@ def placement(
     >>> placement(1.0, about=(0, 0, 1), angle=math.pi / 2).points(np.array([1.0, 0.0, 0.0])).round(12).tolist()
     [1.0, 1.0, 0.0]
     """
-    return Placement(np.array([x, y, z], dtype=float), np.eye(3) if about is None else rotation(about, angle))
+    return Placement(np.array([x, y, z], dtype=float), _NOT_TURNED if about is None else rotation(about, angle))
 
 
 def rotation(axis: tuple[float, float, float], angle: float) -> Float[np.ndarray, "3 3"]:

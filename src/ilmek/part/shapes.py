@@ -46,6 +46,10 @@ class Shape(Protocol):
     """What every shape answers, in the part's own axes."""
 
     @property
+    def volume(self) -> float:
+        """Volume [m³]: the zeroth of the moments."""
+
+    @property
     def moments(self) -> Moments:
         """Moments of its volume: exact."""
 
@@ -67,6 +71,11 @@ class Prism:
 
     def __post_init__(self) -> None:
         _require_above_zero("a prism's length", self.length)
+
+    @property
+    def volume(self) -> float:
+        """Volume [m³]."""
+        return self.section.area * self.length
 
     @property
     def moments(self) -> Moments:
@@ -110,6 +119,11 @@ class Turned:
         return bounds(self.profile.outline)[1].imag
 
     @property
+    def volume(self) -> float:
+        """Volume [m³]."""
+        return 2 * math.pi * self.profile.moment(0, 1)
+
+    @property
     def moments(self) -> Moments:
         """Moments of its volume: exact."""
         m = self.profile.moment
@@ -149,6 +163,11 @@ class Sum:
     def __post_init__(self) -> None:
         if not self.members:
             raise ParameterError("a sum of no shapes", allowed="one or more")
+
+    @property
+    def volume(self) -> float:
+        """Volume [m³]."""
+        return math.fsum(len(member.positions) * member.shape.volume for member in self.members)
 
     @property
     def moments(self) -> Moments:

@@ -167,7 +167,7 @@ def _angles_of_peaks() -> tuple[Claim, ...]:
 def _as_printed() -> BeatUp:
     """The mechanism with the lengths of section 2.1.4."""
     lengths = {"crank": "59.7mm", "coupler": "200.7mm", "rocker": "230.8mm", "beater": "300.1mm"}
-    return design(BeatUpParams.read(lengths))
+    return design(BeatUpParams.read({**lengths, "link_mass": "bars", "density": "7210kg/m^3"}))
 
 
 @cache

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ilmek.arrays import ComplexArray
+from ilmek.arrays import Complex, ComplexArray
 from ilmek.machines.arrangement.spans import (
     BAR,
     LEAF_BEHIND,
@@ -216,7 +216,7 @@ def rectangle(box: SideBox) -> ComplexArray:
 def _comb(room: ShedRoom, spans: ShedSpans, path: "BeatPath | None") -> tuple[ComplexArray, ...]:
     """What beats, at rest; without its path the usual comb, above the carrier."""
     if path is not None:
-        return tuple(np.asarray(polygon + path.tip[0]) for polygon in path.outline)
+        return path.at_rest
     leaves = SideBox(complex(-LEAF_BEHIND, spans.comb), complex(LEAF_BEHIND + LEAF_REACH, room.leaf_height))
     return rectangle(leaves), rectangle(SideBox(complex(LEAF_REACH, spans.comb), complex(BAR, room.leaf_height)))
 
@@ -228,12 +228,18 @@ def _front(comb: tuple[ComplexArray, ...], path: "BeatPath | None", top: float) 
     """
     if path is None:
         return max(float(polygon.real.max()) for polygon in comb) + SWING_ROOM
-    moved = path.tip - path.tip[0]
-    reached = (
-        float((polygon.real.max() + moved.real)[polygon.imag.min() + moved.imag <= top].max(initial=0.0))
-        for polygon in comb
-    )
-    return max(reached)
+    return max(_front_below(path.carried(polygon, path.tip), top) for polygon in path.outline)
+
+
+def _front_below(polygons: Complex[np.ndarray, "samples corners"], top: float) -> float:
+    """The greatest x of convex polygons up to a height [m], at a corner or where an edge crosses it; 0: all above."""
+    following = np.roll(polygons, -1, axis=1)
+    rise = following.imag - polygons.imag
+    share = np.divide(top - polygons.imag, rise, out=np.zeros(rise.shape), where=rise != 0)
+    crossing = polygons + share * (following - polygons)
+    crossed = (share > 0) & (share < 1)
+    corners = float(polygons.real[polygons.imag <= top].max(initial=0.0))
+    return max(corners, float(crossing.real[crossed].max(initial=0.0)))
 
 
 def _lower_cylinders(task: "LoomTask", radius: float, head: Weaver) -> tuple[RoundPart, RoundPart, float]:

@@ -38,7 +38,7 @@ def row_bodies(side: SideView, row: Cyclogram, beat: BeatPath, *, stack: bool) -
     return (
         *_sheets(side, row),
         _cams(side, down if stack else None),
-        *_comb(side, down),
+        *_comb(side, beat, row),
         MovingBody(CARRIER, (_box(side.carrier),), windows),
         MovingBody(HEAD, (moving(rectangle(SideBox(side.head.body, side.head.size)), away),)),
         *(
@@ -56,7 +56,7 @@ def knot_bodies(side: SideView, knot: Cyclogram) -> tuple[MovingBody, ...]:
     return (
         MovingBody(WARPS, (standing(rest, side.room.warp / 2),)),
         _cams(side, None),
-        *_comb(side, None),
+        *_comb(side),
         MovingBody(HEAD, (standing(rectangle(SideBox(side.head.body, side.head.size))),)),
         MovingBody(MAGAZINE, (standing(_magazine(side)),)),
         *(_tool(tool, knot) for tool in side.head.tools),
@@ -76,6 +76,11 @@ def beat_displacement(beat: BeatPath, row: Cyclogram) -> Displacement:
         return np.asarray(beat(share) - beat.tip[0])
 
     return displacement
+
+
+def beat_tip(beat: BeatPath, row: Cyclogram, angle: FloatArray) -> ComplexArray:
+    """The tip of what beats from the fell [m] at angles of the row [rad]."""
+    return np.asarray(beat_displacement(beat, row)(angle) + beat.tip[0])
 
 
 def beat_windows(row: Cyclogram) -> tuple[tuple[float, float], ...]:
@@ -143,10 +148,20 @@ def _cams(side: SideView, stack: Displacement | None) -> MovingBody:
     return MovingBody(GUIDE_CAMS, tuple(parts))
 
 
-def _comb(side: SideView, down: Displacement | None) -> tuple[MovingBody, ...]:
-    """What beats: between the warps its leaves, in front of them its bar."""
-    leaves, *bar = (moving(polygon, down) if down else standing(polygon) for polygon in side.comb)
+def _comb(side: SideView, beat: BeatPath | None = None, row: Cyclogram | None = None) -> tuple[MovingBody, ...]:
+    """What beats: between the warps its leaves, in front of them its bar; at rest, or over the beats of a row."""
+    if beat is None or row is None:
+        leaves, *bar = (standing(polygon) for polygon in side.comb)
+    else:
+        leaves, *bar = (_carried(polygon, beat, row) for polygon in beat.outline)
     return MovingBody(LEAVES, (leaves,)), MovingBody(BAR, tuple(bar))
+
+
+def _carried(polygon: ComplexArray, beat: BeatPath, row: Cyclogram) -> ConvexPart:
+    """A polygon of the outline of what beats, moved by its path."""
+    if beat.pivot is None:
+        return moving(polygon + beat.tip[0], beat_displacement(beat, row))
+    return ConvexPart(lambda angle: beat.carried(polygon, beat_tip(beat, row, angle)))
 
 
 def _tool(tool: HeadTool, knot: Cyclogram) -> MovingBody:

@@ -188,6 +188,7 @@ def with_beat(ready: ReadyLoom, option: BeatOption, choices: tuple[Choice, ...] 
     params, task, knotting = ready.params, ready.task, ready.head
     machines, rows, columns = dict(ready.machines), task.rows, task.columns
     head, weft, cams = knotting.weaver, machines["weft"].design, machines["shedding"].design
+    task = replace(task, side=laid_out(task, option.plan.path))
     timing, period = _timed_row(params, _row_timing(task, cams, option.plan.beat), cams)
     machines["shedding"] = _at_period(machines["shedding"], timing.turning * period)
     times = times_at(head, 2 * params.pitch, period)

@@ -158,7 +158,10 @@ def body_parts(loom: LoomDesign) -> Mapping[str, tuple[str, ...]]:
         LOWER: cylinder_part("cylinder"),
         SPACER: cylinder_part("spacer"),
     }
+    leaves, *bar = loom.beat.striking
     several = {
+        LEAVES: (leaves,),
+        BAR: tuple(bar),
         HEAD: case_plates(loom.weaver),
         GUIDE_CAMS: tuple(shedding_part(name) for name in ("guide-cam", "reed-dent", "shedding-cam")),
         COMPENSATOR: tuple(compensator_part(name) for name in ("bar", "lever", "rod", "spring", "beam")),

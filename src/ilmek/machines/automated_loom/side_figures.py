@@ -46,13 +46,12 @@ def room(loom: LoomDesign) -> Drawing:
     sight = complex(lowest.at.real - lowest.guide_radius, lowest.at.imag)
     arc = np.exp(1j * np.linspace(-0.5, 0.15, 40) * turn)
     stroke = path.tip[np.linspace(0, int(np.argmin(np.abs(path.tip))), 40).astype(int)]
-    down = path.tip[int(np.argmin(np.abs(path.tip)))] - path.tip[0]
     strokes = (
         Stroke(lowest.at + lowest.guide_radius * arc, "outline", "guide cams"),
         *_sheets(view, lowest),
         Stroke(_carpet(view, -0.12), "yarn", "carpet", closed=True, filled=True),
         *(Stroke(polygon, "outline", "comb at rest", closed=True, filled=True) for polygon in view.comb),
-        *(Stroke(polygon + down, "construction", closed=True) for polygon in view.comb),
+        *(Stroke(polygon, "construction", closed=True) for polygon in path.outline),
         *((Stroke(stroke, "path", "path of the comb's tip"),) if np.ptp(stroke.real) > _SEEN else ()),
         Stroke(rectangle(view.carrier), "outline", closed=True, filled=True),
         *_head(view, 0.0, "outline", "head while it knots"),

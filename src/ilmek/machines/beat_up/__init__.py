@@ -10,9 +10,10 @@ It is greatest near the extended dead centre, where the beater reverses at the f
 
 from ilmek.machines import SUMMARIES
 from ilmek.machines.beat_up.design import BeatUp, design, ground_for
-from ilmek.machines.beat_up.in_loom import fit, parts, planned_beat, work
+from ilmek.machines.beat_up.in_loom import fit, planned_beat, work
 from ilmek.machines.beat_up.params import BeatUpParams
-from ilmek.machines.beat_up.report import BeatUpAnalysis, analyse, checks, figures, plates, self_tests, tables, warnings
+from ilmek.machines.beat_up.report import BeatUpAnalysis, analyse, checks, figures, self_tests, tables, warnings
+from ilmek.machines.beat_up.tree import tree
 from ilmek.machines.beat_up.use import use_choices
 from ilmek.machines.component import Component
 
@@ -31,8 +32,7 @@ MACHINE = Component(
     tables=tables,
     figures=figures,
     warnings=warnings,
-    plates=plates,
-    parts=parts,
+    tree=tree,
     work=work,
     choices=use_choices,
     fit=fit,

@@ -71,7 +71,7 @@ def crank_path(start: CrankStart, outline: tuple[ComplexArray, ...]) -> BeatPath
     travels.append(travel[last])
     swing = np.concatenate(travels) / arm
     share: FloatArray = np.concatenate(times) / total
-    return BeatPath(outline, share, arm * (1 - np.cos(swing) + 1j * np.sin(swing)))
+    return BeatPath(outline, share, arm * (1 - np.cos(swing) + 1j * np.sin(swing)), pivot=arm)
 
 
 def _between(start: CrankStart) -> tuple[FloatArray, FloatArray]:

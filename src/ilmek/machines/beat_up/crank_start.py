@@ -13,22 +13,28 @@ the crank has the speed, loses half of what it transmits, and the brake takes th
     E = int M W dt (slipping) + int M w dt (coupled),   J_f = E / (d W^2),   P = E / (time of a beat and its rest)
 """
 
+import math
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.dynamics.reduced import reduce
-from ilmek.elements.drive_parts import motor_part, reducer_part
 from ilmek.elements.duty import MARGIN, LoadCycle, ServoDrive, size_motor
+from ilmek.elements.materials import MATERIALS
 from ilmek.elements.motors import SERVO, Motor, geared_motor
 from ilmek.elements.prices import PRICES, price_of
 from ilmek.elements.reducers import DIRECT, PLANETARY, Reducer
 from ilmek.linkage.solve import solve
 from ilmek.machines.beat_up.design import BeatUp
 from ilmek.machines.beat_up.use_params import STARTS, CrankStartParams
+from ilmek.part import catalogue
+from ilmek.part.bill import line_of
+from ilmek.part.part import Bought, Part
+from ilmek.part.shapes import Turned, bar, tube
 from ilmek.records import computed, record, result
-from ilmek.report import Alternative, BillLine, Check, Choice, Json, at_most, choose, must
+from ilmek.report import Alternative, Check, Choice, Json, at_most, choose, must
 from ilmek.units import format_quantity, turn
 from ilmek.weaving.fell import Fabric
 
@@ -40,6 +46,11 @@ CLUTCH_MASS = 0.1
 
 FLYWHEEL_RADIUS = 0.2
 """Radius of a flywheel's rim [m]: assumed by this project."""
+
+WIDEST_RIM = 0.2
+"""Largest width of a flywheel's rim, across and along, before it gets longer [m]; assumed by this project."""
+
+STEEL = MATERIALS["structural steel"]
 
 _SAMPLES = 96
 """Samples of a run-up, a stop, and a turn between them."""
@@ -125,7 +136,7 @@ def crank_start(duty: CrankDuty, params: CrankStartParams) -> CrankStart:
     load, turns = _load(duty, angle), _turns_work(duty, params)
     drives = (params.drive,) if params.drive else STARTS
     made = [_started(duty, params, drive, (time, rate, rise), load, turns) for drive in drives]
-    made.sort(key=lambda one: sum(price_of(part, PRICES) for part in start_parts(one)))
+    made.sort(key=lambda one: sum(price_of(line_of(part), PRICES) for part in start_parts(one)))
     index, choice = choose("start.drive", [Alternative(one.drive, start_checks(one)) for one in made])
     return replace(made[index], choices=(choice,) if len(made) > 1 else ())
 
@@ -133,32 +144,62 @@ def crank_start(duty: CrankDuty, params: CrankStartParams) -> CrankStart:
 def start_checks(found: CrankStart) -> tuple[Check, ...]:
     """Whether a motor, and a clutch where there is one, start and stop the crank, in the time between two beats."""
     slower = "set a lower speed of the crank, more beaters, or a longer run-up"
-    motor = must("a motor starts and stops the crank", found.pair is not None, "motor table, margin 1.25", cure=slower)
-    every = found.duty.every
-    in_time = every and at_most("time of a beat", found.beat_time, every, "s", "time from beat to beat", cure=slower)
+    source, driven = "motor table, margin 1.25", ("beat-up/motor",)
+    motor = must("a motor starts and stops the crank", found.pair is not None, source, cure=slower, parts=driven)
+    every, source = found.duty.every, "time from beat to beat"
+    in_time = every and at_most("time of a beat", found.beat_time, every, "s", source, cure=slower, parts=driven)
     made = (motor, in_time) if in_time else (motor,)
     if found.drive == "servo":
         return made
     largest = f"sizes of clutches, up to {format_quantity(CLUTCHES[-1], 'Nm')}"
-    return *made, at_most("torque of the clutch", found.clutch_torque, CLUTCHES[-1], "Nm", largest, cure=slower)
+    clutch = ("beat-up/clutch",)
+    torque = at_most(
+        "torque of the clutch", found.clutch_torque, CLUTCHES[-1], "Nm", largest, cure=slower, parts=clutch
+    )
+    return *made, torque
 
 
-def start_parts(found: CrankStart, name: str = "beat-up") -> tuple[BillLine, ...]:
-    """Motor, reducer, and clutch, brake and flywheel where there are."""
-    speed, pair = found.duty.linkage.params.speed, found.pair
-    motor, reducer = pair or (None, DIRECT)
-    lines = [motor_part(f"motor of the {name}", motor, found.start_torque, speed)]
+def start_parts(found: CrankStart) -> tuple[Part, ...]:
+    """What starts and turns the crank shaft, from the shaft on: clutch and brake, flywheel, reducer, motor."""
+    return (*_coupled(found), *_geared(found))
+
+
+def _coupled(found: CrankStart) -> Iterator[Part]:
+    """Clutch and brake as a cylinder of steel, half as long as it is wide, and the flywheel's rim."""
+    if found.drive != "clutch":
+        return
+    size = found.clutch or found.clutch_torque
+    mass = CLUTCH_MASS * size
+    wide = (8 * mass / (math.pi * STEEL.density)) ** (1 / 3)
+    bought = Bought(format_quantity(size, "Nm"), mass)
+    name = "clutch and brake"
+    yield Part(
+        "beat-up/clutch", f"{name} of the beat-up", name, "", bar(wide, wide / 2), purchase=bought, envelope=True
+    )
+    if found.start_flywheel > 0:
+        rim = _rim(found.start_flywheel)
+        size_of = f"rim round {format_quantity(2 * FLYWHEEL_RADIUS, 'mm')}, on the motor's side"
+        yield Part("beat-up/flywheel", "flywheel of the beat-up", "steel bar", size_of, rim, STEEL)
+
+
+def _rim(inertia: float) -> Turned:
+    """A rim of a moment of inertia [kg m²] about its mean radius R, w wide: J = 2 pi rho R w l (R² + w² / 4).
+
+    Square, l = w, up to `WIDEST_RIM`; then longer.
+    """
+    radius = FLYWHEEL_RADIUS
+    area = inertia / (2 * math.pi * STEEL.density * radius)
+    # Of w² (R² + w² / 4) = area the positive root.
+    wide = min(math.sqrt(2 * (math.sqrt(radius**4 + area) - radius**2)), WIDEST_RIM)
+    return tube(2 * radius + wide, wide, area / (wide * (radius**2 + wide**2 / 4)))
+
+
+def _geared(found: CrankStart) -> Iterator[Part]:
+    row, reducer = found.pair or (None, DIRECT)
     if reducer.ratio != 1:
-        lines.append(reducer_part(f"reducer of the {name}", reducer.ratio, motor))
-    if found.drive == "clutch":
-        size = format_quantity(found.clutch or found.clutch_torque, "Nm")
-        wheel = found.start_flywheel / FLYWHEEL_RADIUS**2
-        mass = CLUTCH_MASS * (found.clutch or found.clutch_torque)
-        lines.append(BillLine(f"clutch and brake of the {name}", 1, size, "", "clutch and brake", mass))
-        lines.append(
-            BillLine(f"flywheel of the {name}", 1, "on the motor's side", "structural steel", "steel bar", wheel)
-        )
-    return tuple(lines)
+        yield catalogue.reducer("beat-up/reducer", "reducer of the beat-up", reducer.ratio, row)
+    speed = found.duty.linkage.params.speed
+    yield catalogue.motor("beat-up/motor", "motor of the beat-up", row, found.start_torque, speed)
 
 
 def stroke_time(linkage: BeatUp, run_up: float, strokes: int = 1) -> float:

@@ -13,21 +13,20 @@ from functools import lru_cache
 
 import numpy as np
 
-from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.dynamics.attached import AttachedPoint, attached
+from ilmek.arrays import FloatArray
 from ilmek.dynamics.counterweight import Balance, balance
-from ilmek.dynamics.inertia import Inertia, bar, bar_mass, combined, point_mass
-from ilmek.dynamics.inverse import Forces, inverse
-from ilmek.dynamics.loads import Gravity
+from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.motor_run import MotorRun, MotorTask, motor_run
 from ilmek.errors import MechanismError
-from ilmek.linkage.model import GROUND, Body, Mechanism, Pin, Rotation
-from ilmek.linkage.motion import Motion
 from ilmek.linkage.quality import grashof
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import Plan, plan
 from ilmek.machines.beat_up.family import FamilyResult, chosen_ratio, family_of, is_chosen
-from ilmek.machines.beat_up.params import BEATER_RATIO, BeatUpParams
+from ilmek.machines.beat_up.linkage import PINS, BeatUpState, evaluate, lengths_of, magnitudes, mechanism, state_of
+from ilmek.machines.beat_up.links import inertia_of, link_masses, moving_masses
+from ilmek.machines.beat_up.params import BeatUpParams
+from ilmek.machines.beat_up.strength import POINTS, BeatUpStrength, Duty, beat_up_strength, link_loads
+from ilmek.machines.linkage_strength import LinkageLoads, bore_for, pins_of, smallest_pin
 from ilmek.num.piecewise import Extremum, around, suprema
 from ilmek.records import Computed, computed, record, result
 from ilmek.report import Json
@@ -42,35 +41,17 @@ from ilmek.synthesis.crank_rocker.dead_centres import (
 from ilmek.synthesis.crank_rocker.selection import member
 from ilmek.units import format_quantity, minute, turn
 
-PINS = ("A", "B", "C", "D")
-
-USE = ("beat_force", "interval", "strength", "start", "travel")
+USE = ("beat_force", "interval", "start", "travel")
 """Parameters of its use: they change neither motion nor forces."""
 
 SAMPLES = 720
 """Samples over a turn: half a degree."""
 
+ROUNDS = 3
+"""Most rounds of pins and the links bored for them."""
+
 TOGGLE = 1e-9
 """Least Grashof margin, in ground links, of a crank-rocker that does not stand in a toggle."""
-
-
-@record
-class BeatUpState:
-    """The mechanism at given crank angles, one value a sample.
-
-    pins          pin -> magnitude of the force in it [N]
-    torque        drive torque on the crank, counter-clockwise [N m]
-    beater        position, velocity, acceleration of the beater E [m, s], complex
-    beater_force  force of the rocker on the beater [N], complex: m_E (a_E - g)
-    """
-
-    angle: FloatArray
-    motion: Motion
-    forces: Forces
-    pins: Mapping[str, FloatArray]
-    torque: FloatArray
-    beater: AttachedPoint
-    beater_force: ComplexArray
 
 
 def _peak(unit: str, doc: str, name: str) -> Computed[float]:
@@ -83,9 +64,10 @@ class BeatUp:
     """A designed beat-up mechanism.
 
     links     ratios to the ground link        dead_centres  swing, crank rotation and beta of these links
-    bodies    the moving bodies, the beater on the rocker
+    bodies    the moving bodies: the links, with their pins where they are as made, the beater on the rocker
     state     over one turn, both ends included             peaks     greatest values over the turn
     balance   shaking force and counterweights              at        state at the crank angle given, if any
+    pin       diameter of the pins, for which the links are bored [m]     duty  by which it was chosen
     """
 
     params: BeatUpParams
@@ -97,9 +79,11 @@ class BeatUp:
     peaks: Mapping[str, Extremum]
     balance: Balance
     at: BeatUpState | None
+    pin: float
+    duty: Duty
     lengths: Mapping[str, float] = result("mm", "lengths of the links, and of the beater from the rocker's pivot")
-    masses: Mapping[str, float] = result("kg", "masses of the bars; the rocker's reaches to the beater")
-    inertias: Mapping[str, float] = result("kg*m^2", "moments of inertia of the bars about their centres")
+    masses: Mapping[str, float] = result("kg", "masses of the links; the rocker reaches to the beater")
+    inertias: Mapping[str, float] = result("kg*m^2", "moments of inertia of the links about their centres")
 
     crank = computed("1", "crank over ground (paper, Eq 1)", lambda it: float(it.links.crank))
     coupler = computed("1", "coupler over ground (paper, Eq 1)", lambda it: float(it.links.coupler))
@@ -165,11 +149,26 @@ class BeatUp:
 
     def family(self) -> FamilyResult:
         """All crank-rockers with its dead centres."""
-        return _family(in_motion(self.params))
+        return _family(in_motion(self.params), self.duty)
 
     def motor_run(self) -> MotorRun:
         """Its run by the motor, from rest with the beater farthest from the fell."""
-        return _run(in_motion(self.params))
+        return _run(in_motion(self.params), self.duty)
+
+    @property
+    def hole(self) -> float:
+        """Diameter of the holes of the links [m]."""
+        return bore_for(self.pin, self.params.width)
+
+    @property
+    def loads(self) -> LinkageLoads:
+        """What links and pins bear over a turn."""
+        return _loads(in_motion(self.params), self.duty)
+
+    @property
+    def strength(self) -> BeatUpStrength:
+        """Strength of links and pins."""
+        return _strength(in_motion(self.params), self.duty)
 
     def state_at(self, angle: FloatArray) -> BeatUpState:
         """Motion and forces at crank angles [rad]."""
@@ -183,63 +182,115 @@ def in_motion(params: BeatUpParams) -> BeatUpParams:
 
 
 @lru_cache(maxsize=16)
-def design(params: BeatUpParams) -> BeatUp:
+def design(params: BeatUpParams, duty: Duty = Duty()) -> BeatUp:  # noqa: B008
     """Size, move and load a beat-up mechanism. What its use does not change is computed once.
 
     Raises ParameterError where the family of crank-rockers has no such member or none within the limits, and
     MechanismError where given lengths do not turn or do not swing.
     """
-    return replace(_moved(in_motion(params)), params=params)
+    return replace(_moved(in_motion(params), duty), params=params)
+
+
+@lru_cache(maxsize=16)
+def _loads(params: BeatUpParams, duty: Duty) -> LinkageLoads:
+    made = _moved(params, duty)
+    return link_loads(params, made.state, made.bodies, duty.every)
+
+
+@lru_cache(maxsize=16)
+def _strength(params: BeatUpParams, duty: Duty) -> BeatUpStrength:
+    made = _moved(params, duty)
+    return beat_up_strength(params, _loads(params, duty), made.lengths, duty, made.pin)
 
 
 @lru_cache(maxsize=4)
-def _family(params: BeatUpParams) -> FamilyResult:
-    made = _moved(params)
-    return family_of(params, made.links, made.dead_centres)
+def _family(params: BeatUpParams, duty: Duty) -> FamilyResult:
+    made = _moved(params, duty)
+    return family_of(params, made.links, made.dead_centres, made.hole)
 
 
 @lru_cache(maxsize=4)
-def _run(params: BeatUpParams) -> MotorRun:
-    made = _moved(params)
+def _run(params: BeatUpParams, duty: Duty) -> MotorRun:
+    made = _moved(params, duty)
     task = MotorTask(
         params.speed, params.slip, params.fluctuation, made.back_angle, params.motor_torque, params.flywheel
     )
     return motor_run(made.plan, made.bodies, params.gravity_vector, lambda at: made.state_at(at).torque, task)
 
 
-@lru_cache(maxsize=16)
-def _moved(params: BeatUpParams) -> BeatUp:
-    links = _links(params)
-    lengths = _lengths(params, links)
+@record
+class _Loaded:
+    """A crank-rocker with pins of a diameter [m]: its links, bodies, and state over a turn."""
+
+    pin: float
+    links: LinkRatios
+    lengths: Mapping[str, float]
+    plan: Plan
+    bodies: Mapping[str, Inertia]
+    state: BeatUpState
+
+
+def _loaded(params: BeatUpParams, pin: float) -> _Loaded:
+    hole = bore_for(pin, params.width)
+    links = _links(params, hole)
+    lengths = lengths_of(params, links)
     planned = plan(mechanism(lengths))
-    bars = _bars(params, lengths)
-    inertias = {**bars, "rocker": combined(bars["rocker"], point_mass(params.beater_mass, lengths["beater"]))}
     angle = np.arange(SAMPLES + 1) * (turn / SAMPLES)
-    _require_swing(links, planned, angle)
+    motion = solve(planned, angle, params.speed).require()
+    _require_swing(links)
+    bodies = {name: inertia_of(moments) for name, moments in moving_masses(params, lengths, hole).items()}
+    state = state_of(params, motion, bodies, angle)
+    return _Loaded(pin, links, lengths, planned, bodies, state)
+
+
+def _with_pins(params: BeatUpParams, duty: Duty) -> _Loaded:
+    """The crank-rocker with pins that bear it: larger pins have larger holes, links with these are lighter.
+
+    From the smallest pins of stock on; where smaller pins would bear the links bored for larger ones, the larger stay.
+    """
+    size = params.width, params.thickness
+    loaded = _loaded(params, smallest_pin(params.strength, params.width))
+    for _ in range(ROUNDS - 1):
+        loads = link_loads(params, loaded.state, loaded.bodies, duty.every, {})
+        pins = pins_of(loads, params.strength, dict.fromkeys(POINTS, size))
+        needed = max(pin.diameter for pin in pins.values())
+        if needed <= loaded.pin:
+            break
+        loaded = replace(loaded, pin=needed) if params.link_mass == "bars" else _loaded(params, needed)
+    return loaded
+
+
+@lru_cache(maxsize=16)
+def _moved(params: BeatUpParams, duty: Duty) -> BeatUp:
+    loaded = _with_pins(params, duty)
+    lengths, bodies, whole = loaded.lengths, loaded.bodies, loaded.state
+    hole = bore_for(loaded.pin, params.width)
+    links = {name: inertia_of(moments) for name, moments in link_masses(params, lengths, hole).items()}
 
     def state(at: FloatArray) -> BeatUpState:
-        return evaluate(params, planned, inertias, at)
+        return evaluate(params, loaded.plan, bodies, at)
 
-    whole = state(angle)
     return BeatUp(
         params=params,
-        links=links,
-        dead_centres=dead_centres(links),
+        links=loaded.links,
+        dead_centres=dead_centres(loaded.links),
         lengths=lengths,
-        masses={name: inertia.mass for name, inertia in bars.items()},
-        inertias={name: inertia.moment for name, inertia in bars.items()},
-        bodies=inertias,
-        plan=planned,
+        masses={name: inertia.mass for name, inertia in links.items()},
+        inertias={name: inertia.moment for name, inertia in links.items()},
+        bodies=bodies,
+        plan=loaded.plan,
         state=whole,
         peaks=suprema(lambda at, _: magnitudes(state(at)), around(), samples=SAMPLES),
         balance=balance(
             whole.motion,
             lengths,
-            inertias,
+            bodies,
             share=params.balance_share,
             radius=params.counterweight_radius or lengths["crank"],
         ),
         at=None if params.crank_angle is None else state(np.array([params.crank_angle])),
+        pin=loaded.pin,
+        duty=duty,
     )
 
 
@@ -247,7 +298,7 @@ def _moved(params: BeatUpParams) -> BeatUp:
 def _stroke_of_a_metre() -> float:
     """Stroke of the beater of the paper's linkage with a ground of 1 m, along its path [m]."""
     params = BeatUpParams(ground=1.0)
-    return _lengths(params, _links(params))["beater"] * params.rocker_swing
+    return lengths_of(params, _links(params, 0.0))["beater"] * params.rocker_swing
 
 
 def ground_for(stroke: float) -> float:
@@ -255,83 +306,17 @@ def ground_for(stroke: float) -> float:
     return stroke / _stroke_of_a_metre()
 
 
-def mechanism(lengths: Mapping[str, float]) -> Mechanism:
-    """The crank-rocker with its beater, B above the ground line."""
-    return Mechanism(
-        name="beat-up",
-        bodies=(
-            Body(GROUND, {"D": 0, "A": lengths["ground"]}),
-            Body("crank", {"D": 0, "C": lengths["crank"]}),
-            Body("coupler", {"C": 0, "B": lengths["coupler"]}),
-            Body("rocker", {"A": 0, "B": lengths["rocker"], "E": lengths["beater"]}),
-        ),
-        joints=(
-            Pin("D", GROUND, "crank"),
-            Pin("C", "crank", "coupler"),
-            Pin("B", "coupler", "rocker"),
-            Pin("A", GROUND, "rocker"),
-        ),
-        inputs=(Rotation("crank", "D"),),
-        branches={"B": +1},
-    )
-
-
-def evaluate(params: BeatUpParams, planned: Plan, inertias: Mapping[str, Inertia], angle: FloatArray) -> BeatUpState:
-    """Motion and forces at the given crank angles [rad]."""
-    motion = solve(planned, angle, params.speed).require()
-    gravity = params.gravity_vector
-    forces = inverse(motion, inertias, (Gravity(gravity),))
-    beater = attached(motion, "rocker", planned.mechanism.point("rocker", "E"))
-    return BeatUpState(
-        angle=angle,
-        motion=motion,
-        forces=forces,
-        pins={pin: np.abs(forces.pin(pin)) for pin in PINS},
-        torque=forces.effort("crank"),
-        beater=beater,
-        beater_force=params.beater_mass * (beater.acceleration - gravity),
-    )
-
-
-def magnitudes(state: BeatUpState) -> dict[str, FloatArray]:
-    """The curves whose greatest values are reported, by name; pins by their letters."""
-    return {
-        "beater_velocity": np.abs(state.beater.velocity),
-        "beater_acceleration": np.abs(state.beater.acceleration),
-        "beater_force": np.abs(state.beater_force),
-        "drive_torque": np.abs(state.torque),
-        **state.pins,
-    }
-
-
-def _links(params: BeatUpParams) -> LinkRatios:
+def _links(params: BeatUpParams, hole: float) -> LinkRatios:
+    """Links of the member, which limits may choose by masses; hole: diameter of the holes in them [m]."""
     if is_chosen(params):
-        return links_of_ratio(params.rocker_swing, params.crank_rotation, chosen_ratio(params))
+        return links_of_ratio(params.rocker_swing, params.crank_rotation, chosen_ratio(params, hole))
     if params.crank is None or params.coupler is None or params.rocker is None:
         return member(params.rocker_swing, params.crank_rotation, params.beta).links
     return LinkRatios(params.crank / params.ground, params.coupler / params.ground, params.rocker / params.ground)
 
 
-def _lengths(params: BeatUpParams, links: LinkRatios) -> dict[str, float]:
-    """Lengths [m]; given ones stay as given, to the last bit."""
-    ratios = {"ground": 1.0, "crank": links.crank, "coupler": links.coupler, "rocker": links.rocker}
-    lengths = {name: float(getattr(params, name) or ratio * params.ground) for name, ratio in ratios.items()}
-    return {**lengths, "beater": params.beater or BEATER_RATIO * lengths["rocker"]}
-
-
-def _bars(params: BeatUpParams, lengths: Mapping[str, float]) -> dict[str, Inertia]:
-    """The bars of the moving links, from pin to pin; the rocker's reaches to the beater, or to B if that is farther."""
-    spans = {**lengths, "rocker": max(lengths["rocker"], lengths["beater"])}
-    masses = {
-        name: float(bar_mass(spans[name], params.width, params.thickness, params.density))
-        for name in ("crank", "coupler", "rocker")
-    }
-    return {name: bar(0, spans[name], mass=mass, width=params.width) for name, mass in masses.items()}
-
-
-def _require_swing(links: LinkRatios, planned: Plan, angle: FloatArray) -> None:
-    """Raise MechanismError unless the crank turns fully and the rocker swings, away from any toggle."""
-    solve(planned, angle).require()
+def _require_swing(links: LinkRatios) -> None:
+    """Raise MechanismError unless links that close turn the crank fully and swing the rocker, away from any toggle."""
     shown = ", ".join(f"{name} {format_quantity(float(ratio), '1')}" for name, ratio in links._asdict().items())
     margin = float(grashof_margin(links))
     if margin < TOGGLE:

@@ -1,6 +1,7 @@
 """The family of a beat-up: all crank-rockers with its swing and crank rotation, their motion and forces.
 
-Each is sized, loaded and run at the speed like the beat-up itself, with the ground, beater and bars of its parameters.
+Each is sized, loaded and run at the speed like the beat-up itself, with ground, beater, and links of its section and
+with its pins.
 The best within limits is chosen from them; the Pareto front are the members that no other dominates in the objectives.
 """
 
@@ -9,7 +10,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from ilmek.arrays import BoolArray, FloatArray, IntArray, RealField
-from ilmek.dynamics.inertia import bar_mass, bar_moment
+from ilmek.machines.beat_up.links import moving_masses
 from ilmek.machines.beat_up.params import BEATER_RATIO, LIMITS, OBJECTIVES, BeatUpParams, front_objectives
 from ilmek.num.pareto import front
 from ilmek.num.periodic_maxima import periodic_maxima
@@ -124,13 +125,14 @@ def _ends(interval: OpenInterval) -> list[float]:
     return [end if abs(end) > ROUNDING else 0.0 for end in (float(interval.low), float(interval.high))]
 
 
-def family_of(params: BeatUpParams, links: LinkRatios, dead: DeadCentres) -> FamilyResult:
-    """The family of a beat-up with these links and dead centres."""
+def family_of(params: BeatUpParams, links: LinkRatios, dead: DeadCentres, hole: float) -> FamilyResult:
+    """The family of a beat-up with these links and dead centres; hole: diameter of the holes in its links [m]."""
     objectives = {name: Objective(*OBJECTIVES[name]) for name in front_objectives(params.front)}
     swing, rotation = float(dead.swing), float(dead.rotation)
     members = family(swing, rotation, params.members)
-    table = tabulate(params, members.links, members.beta)
-    own = tabulate(params, LinkRatios(*(np.array([float(link)]) for link in links)), np.array([float(dead.beta)]))
+    table = tabulate(params, members.links, members.beta, hole)
+    single = LinkRatios(*(np.array([float(link)]) for link in links))
+    own = tabulate(params, single, np.array([float(dead.beta)]), hole)
     costs = np.stack([one.cost(table) for one in objectives.values()], axis=1)
     return FamilyResult(
         swing=swing,
@@ -142,9 +144,12 @@ def family_of(params: BeatUpParams, links: LinkRatios, dead: DeadCentres) -> Fam
     )
 
 
-def tabulate(params: BeatUpParams, links: LinkRatios, beta: RealField) -> Table:
-    """The `QUANTITIES` of beat-ups with given links and crank angles of the beat [rad], arrays of one dimension."""
-    made = bodies(params, links)
+def tabulate(params: BeatUpParams, links: LinkRatios, beta: RealField, hole: float) -> Table:
+    """The `QUANTITIES` of beat-ups with given links and crank angles of the beat [rad], arrays of one dimension.
+
+    hole  diameter of the holes in the links [m]
+    """
+    made = bodies(params, links, hole)
     load = CrankRockerLoad(params.ground, params.speed, params.beater_mass, params.gravity_vector)
     beta = np.broadcast_to(beta, made.crank.shape)
 
@@ -175,18 +180,15 @@ def tabulate(params: BeatUpParams, links: LinkRatios, beta: RealField) -> Table:
     }
 
 
-def bodies(params: BeatUpParams, links: LinkRatios) -> CrankRockerBodies:
-    """The bars and the beater of beat-ups with given links, all else as in the parameters."""
+def bodies(params: BeatUpParams, links: LinkRatios, hole: float) -> CrankRockerBodies:
+    """Links and beater of beat-ups with given links, all else as in the parameters; hole: as of `tabulate`."""
     crank, coupler, rocker = (np.asarray(link, dtype=float) * params.ground for link in links)
     beater = np.broadcast_to(np.asarray(params.beater or BEATER_RATIO * rocker), rocker.shape)
-    spans = crank, coupler, np.maximum(rocker, beater)
-    masses = [np.asarray(bar_mass(span, params.width, params.thickness, params.density)) for span in spans]
-    moments = [np.asarray(bar_moment(*pair, params.width)) for pair in zip(masses, spans, strict=True)]
-    centre, mass = spans[2] / 2, params.beater_mass
-    rocker_static = masses[2] * centre + mass * beater
-    rocker_moment = moments[2] + masses[2] * centre**2 + mass * beater**2
-    of_coupler, of_rocker = (masses[1], moments[1]), (masses[2] + mass, rocker_static, rocker_moment)
-    return CrankRockerBodies(crank, coupler, rocker, beater, masses[0], *of_coupler, *of_rocker)
+    lengths = {"crank": crank, "coupler": coupler, "rocker": rocker, "beater": beater}
+    moving = moving_masses(params, lengths, hole)
+    of_coupler = moving["coupler"].zeroth, moving["coupler"].about_centre
+    columns = (*moving["crank"][:2], *of_coupler, *moving["rocker"])
+    return CrankRockerBodies(crank, coupler, rocker, beater, *(np.asarray(column) for column in columns))
 
 
 def is_chosen(params: BeatUpParams) -> bool:
@@ -194,8 +196,8 @@ def is_chosen(params: BeatUpParams) -> bool:
     return params.objective is not None or bool(limits(params))
 
 
-def chosen_ratio(params: BeatUpParams) -> float:
-    """Ratio crank / coupler of the member that limits and objective choose.
+def chosen_ratio(params: BeatUpParams, hole: float) -> float:
+    """Ratio crank / coupler of the member that limits and objective choose; hole: as of `tabulate`.
 
     Ratios below 0.1, whose crank is a stub beside its ground, are chosen only where they are required or no other
     member is within the limits. Raises ParameterError, with the limits that clash, where no member is.
@@ -208,7 +210,7 @@ def chosen_ratio(params: BeatUpParams) -> float:
 
     def table(ratio: FloatArray) -> Table:
         member = params.rocker_swing, params.crank_rotation, ratio
-        return tabulate(params, links_of_ratio(*member), beta_of_ratio(*member))
+        return tabulate(params, links_of_ratio(*member), beta_of_ratio(*member), hole)
 
     quantity, sign = OBJECTIVES[params.objective or next(iter(OBJECTIVES))]
     floor = Limit("crank_coupler_ratio", RATIO_FLOOR, +1, "ratio_min")

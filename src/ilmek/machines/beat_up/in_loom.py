@@ -5,33 +5,24 @@ from functools import lru_cache
 
 import numpy as np
 
-from ilmek.arrays import ComplexArray
-from ilmek.elements.drive_parts import motor_part
-from ilmek.elements.motors import smallest_motor
-from ilmek.machines.beat import Beat, BeatDrive, stroke_needed
+from ilmek.machines.arrangement.spans import SPARE
+from ilmek.machines.beat import Beat, BeatDrive, BeatPath, stroke_needed
 from ilmek.machines.beat_up.crank_path import crank_beat, crank_path
-from ilmek.machines.beat_up.crank_start import crank_start, start_parts
+from ilmek.machines.beat_up.crank_start import crank_start
 from ilmek.machines.beat_up.design import BeatUp, design, ground_for
 from ilmek.machines.beat_up.params import BeatUpParams
 from ilmek.machines.beat_up.report import criteria
 from ilmek.machines.beat_up.strength import beat_up_strength_checks
-from ilmek.machines.beat_up.travel import travel_parts
+from ilmek.machines.beat_up.tree import travelling
 from ilmek.machines.beat_up.use import BeatUpUse, in_use, use_checks
 from ilmek.machines.beat_up.use_params import TravelParams
 from ilmek.machines.fell_of_loom import loom_fabric
 from ilmek.machines.linkage_strength import FLAT_BARS
 from ilmek.machines.loom_task import LoomTask
+from ilmek.part.bill import bill
 from ilmek.records import record
-from ilmek.report import BillLine, Work
-from ilmek.units import format_quantity, mm, turn
-
-STEEL = "structural steel"
-
-TOOTH, BAR = 10 * mm, 30 * mm
-"""Height of the beater's teeth, and height and depth of its bar [m]: assumed by this project."""
-
-BAR_IN_FRONT, BAR_ABOVE = 20 * mm, 5 * mm
-"""The bar in front of the warps, and above the edge that strikes, clear of the pile [m]: assumed by this project."""
+from ilmek.report import Work
+from ilmek.units import turn
 
 
 def fit(task: LoomTask) -> BeatUpParams:
@@ -43,29 +34,19 @@ def fit(task: LoomTask) -> BeatUpParams:
         ground=ground_for(stroke_needed(task)),
         beat_force=needed,
         interval=every if every > 0 else None,
-        travel=TravelParams(warps=task.warps, warp_pitch=task.params.pitch, warp_force=needed),
+        travel=TravelParams(
+            warps=task.warps, warp_pitch=task.params.pitch, warp_force=needed, bar_distance=_bar_distance(task)
+        ),
     )
 
 
-def links_parts(linkage: BeatUp, number: int = 1) -> tuple[BillLine, ...]:
-    """Links of a number of crank-rockers."""
-    return tuple(
-        BillLine(
-            f"{name} of the beat-up", number, format_quantity(linkage.lengths[name], "mm"), STEEL, "machined link", m
-        )
-        for name, m in linkage.masses.items()
-    )
-
-
-def parts(linkage: BeatUp) -> tuple[BillLine, ...]:
-    """Beater, links, and the motor that turns the crank at its speed."""
-    torque, speed = linkage.drive_torque_max, linkage.params.speed
-    motor = motor_part("motor of the beat-up", smallest_motor(torque, speed), torque, speed)
-    return (_beater(linkage), *links_parts(linkage), motor)
-
-
-def _beater(linkage: BeatUp) -> BillLine:
-    return BillLine("beater", 1, "a tooth between two warps", STEEL, "laser-cut part", linkage.params.beater_mass)
+def _bar_distance(task: LoomTask) -> float:
+    """Distance of the beater's bar from the warps [m]: as usual, or in front of the guide cams beside it."""
+    usual = TravelParams().bar_distance
+    if task.side is None:
+        return usual
+    cams = max(cam.at.real + cam.guide_radius for cam in task.side.cams)
+    return max(usual, cams + SPARE * task.params.clearance)
 
 
 def work(linkage: BeatUp) -> tuple[Work, ...]:
@@ -80,14 +61,6 @@ def frame_force(linkage: BeatUp) -> float:
     return float(np.max(np.abs(linkage.state.forces.pin("A") + linkage.state.forces.pin("D"))))
 
 
-def outline(reach: float) -> tuple[ComplexArray, ...]:
-    """The beater in the side view [m]: its teeth through the warps, and the bar in front of them, above the pile."""
-    front = BAR_IN_FRONT
-    tooth = np.array([-reach / 2, front, front, -reach / 2])
-    bar, up = np.array([0.0, BAR, BAR, 0.0]) + front, np.array([0, 0, 1j, 1j])
-    return tooth + TOOTH * up, bar + 1j * BAR_ABOVE + BAR * up
-
-
 @record
 class TravellingBeat:
     """A beat by the travelling beater."""
@@ -99,6 +72,11 @@ class TravellingBeat:
     def beat(self) -> Beat:
         """All strokes across the width, from the start of the crank to its stop."""
         return crank_beat(self.use.start, self.use.travel.slide_run)
+
+    @property
+    def path(self) -> BeatPath:
+        """Path of the beater on its rocker."""
+        return crank_path(self.use.start, self.use.travel.beater.outline)
 
     def drive(self, task: LoomTask) -> BeatDrive:
         """The same for the time from beat to beat."""
@@ -115,15 +93,17 @@ class TravellingBeat:
             task=task,
             beat=crank_beat(use.start, across.slide_run),
             fabric=fabric,
-            parts=(_beater(made), *links_parts(made), *start_parts(use.start), *travel_parts(across)),
+            parts=bill(travelling(made, use)),
             work=(Work("beating", use.start.start_work + sliding, "beat"),),
             torque=use.start.start_torque,
-            path=crank_path(use.start, outline(params.travel.reach)),
+            path=crank_path(use.start, across.beater.outline),
             machine_checks=(*criteria(made), *use_checks(use)),
             crank_rockers=1,
             force=across.stroke_force,
             beaten=across.stroke_warps,
             frame_force=frame_force(made),
+            striking=across.beater.ids,
+            use=use,
         )
 
 

@@ -2,12 +2,14 @@
 
 import difflib
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
+from ilmek.elements.materials import Material
 from ilmek.errors import ParameterError
 from ilmek.machines.beat_up.hand import HAND, hand_positions, hand_swing
 from ilmek.machines.beat_up.use_params import CastLinkParams, CrankStartParams, TravelParams
+from ilmek.machines.strength_params import StrengthParams
 from ilmek.params import Params, kind, nested
 from ilmek.units import deg, format_quantity, turn
 
@@ -16,6 +18,8 @@ SMALL, LARGE = 1e-4, 1e2
 
 BEATER_RATIO = 1.3
 """Beater over rocker, AE / AB: 0.3001 m / 0.2308 m; inferred from the paper, which prints AE only."""
+
+LINK_MASSES = ("made", "bars")
 
 OBJECTIVES = {
     "force_at_beat": ("force_at_beat", +1),
@@ -87,7 +91,14 @@ class BeatUpParams(Params):
     beater: float | None = _length(None, "beater from the rocker's pivot; default: 1.3 times the rocker", "AE")
     speed: float = kind.angular_speed(15.5, unit="rad/s", above=0.0, at_most=1e4, doc="speed of the crank", symbol="ω")
     beater_mass: float = kind.mass(2.5, at_least=0.0, at_most=1e5, doc="mass of the beater", symbol="m_E")
-    density: float = kind.density(7210.0, above=0.0, at_most=1e5, doc="density of the links; cast iron", symbol="ρ")
+    link_mass: str = kind.choice(
+        "made",
+        LINK_MASSES,
+        doc="mass of the links: as made, with round ends, holes and pins, or of bars from pin to pin, as in the paper",
+    )
+    density: float | None = kind.density(
+        None, above=0.0, at_most=1e5, doc="density of the links; default: of strength.material", symbol="ρ"
+    )
     width: float = _length(0.03, "width of the links, in the plane of motion", "w")
     thickness: float = _length(0.01, "thickness of the links")
     gravity: float = kind.acceleration(
@@ -162,7 +173,7 @@ class BeatUpParams(Params):
     interval: float | None = kind.time(
         None, above=0.0, at_most=1e6, doc="time from the start of a beat to that of the next; default: no rest between"
     )
-    strength: CastLinkParams = nested(CastLinkParams, doc="what links and pins bear")
+    strength: StrengthParams = nested(CastLinkParams, doc="material of the links, and what they and their pins bear")
     start: CrankStartParams = nested(CrankStartParams, doc="start and stop of the crank")
     travel: TravelParams = nested(TravelParams, doc="the slide along the carpet")
 
@@ -196,6 +207,15 @@ class BeatUpParams(Params):
     def rocker_swing(self) -> float:
         """Swing of the rocker [rad]: as given, or about the centre of the hand's positions."""
         return self.swing or hand_swing(*hand_positions(self.hand))
+
+    @property
+    def link_material(self) -> Material:
+        """Material of the links, with the given density."""
+        material = self.strength.of_links
+        if self.density in {None, material.density}:
+            return material
+        name = f"{material.name} of {format_quantity(self.density, 'kg/m^3')}"
+        return replace(material, name=name, density=self.density)
 
     @property
     def gravity_vector(self) -> complex:

@@ -4,10 +4,15 @@ The forces are those of the empty beat: the fell's resistance opposes the inerti
 The mean of pressure times speed is that over the time from one turn to the next.
 """
 
-from functools import lru_cache
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from types import MappingProxyType
 
+from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.loads import Gravity
-from ilmek.machines.beat_up.design import PINS, BeatUp
+from ilmek.machines.beat_up.linkage import PINS, BeatUpState
+from ilmek.machines.beat_up.links import BRIDGE, LINKS, PART_IDS
+from ilmek.machines.beat_up.params import BeatUpParams
 from ilmek.machines.linkage_strength import (
     LinkageLoads,
     LinkageStrength,
@@ -15,19 +20,33 @@ from ilmek.machines.linkage_strength import (
     linkage_strength,
     strength_checks,
 )
-from ilmek.machines.strength_params import StrengthParams
-from ilmek.records import computed, group, record
-from ilmek.report import Check, Choice
+from ilmek.records import computed, group, record, value_record
+from ilmek.report import Check, Choice, at_least
+from ilmek.units import turn
 
 WIDER = "set wider or thicker links, a shorter ground, or a lower speed"
 POINTS = {"crank": (), "coupler": (), "rocker": ("E",)}
 """Links, and their points beside the pins."""
 
 
+@value_record
+class Duty:
+    """What the strength of a beat-up depends on beside its parameters.
+
+    every   time from one turn of the crank to the next [s]; None: it turns on
+    limits  name of the limits' parameters
+    """
+
+    every: float | None = None
+    limits: str = "strength"
+
+
 @record
 class BeatUpStrength:
-    """Greatest stresses of links and pins."""
+    """Greatest stresses of links and pins; bridge: least distance of two pins of a link, over their diameter."""
 
+    duty: Duty
+    bridge: float
     found: LinkageStrength = group()
 
     crank_stress = computed("MPa", "greatest stress of the crank", lambda it: it.found.links["crank"].stress)
@@ -43,35 +62,51 @@ class BeatUpStrength:
         return self.found.choices
 
 
-@lru_cache(maxsize=16)
 def beat_up_strength(
-    design: BeatUp, limits: StrengthParams, every: float | None = None, *, name: str = "strength"
+    params: BeatUpParams, loads: LinkageLoads, lengths: Mapping[str, float], duty: Duty, pin: float
 ) -> BeatUpStrength:
-    """Stresses of the links and pins of a beat-up; of the stock pins the first that is enough, else the largest.
+    """Stresses of the links and pins of a beat-up; pin: diameter that the pins have [m]."""
+    limits, sections = params.strength, dict.fromkeys(POINTS, (params.width, params.thickness))
+    found = linkage_strength(loads, limits, sections, name=duty.limits)
+    if found.pin_diameter != pin:
+        found = linkage_strength(loads, replace(limits, pin_diameter=pin), sections, name=duty.limits)
+    return BeatUpStrength(duty, min(lengths[name] for name in LINKS) / found.pin_diameter, found)
 
-    every  time from one turn of the crank to the next [s]; default: it turns on      name  of the limits' parameters
-    """
-    params, loads = design.params, link_loads(design, every)
-    return BeatUpStrength(
-        linkage_strength(loads, limits, dict.fromkeys(POINTS, (params.width, params.thickness)), name=name)
+
+def beat_up_strength_checks(found: BeatUpStrength) -> tuple[Check, ...]:
+    """Whether links and pins bear a beat, and the holes of each link are apart."""
+    return (
+        *strength_checks(found.found, name=found.duty.limits, stronger=WIDER, parts=PART_IDS),
+        at_least(
+            "distance of the pins of a link, over their diameter",
+            found.bridge,
+            BRIDGE,
+            "1",
+            "bridge between the holes, assumed by this project",
+            cure="set a longer ground, thinner pins, or other links",
+            parts=tuple(PART_IDS[name] for name in LINKS),
+        ),
     )
 
 
-def beat_up_strength_checks(found: BeatUpStrength, *, name: str = "strength") -> tuple[Check, ...]:
-    """Whether links and pins bear a beat; name: of the limits' parameters."""
-    return strength_checks(found.found, name=name, stronger=WIDER)
+def link_loads(
+    params: BeatUpParams,
+    state: BeatUpState,
+    bodies: Mapping[str, Inertia],
+    every: float | None = None,
+    links: Mapping[str, Sequence[str]] = MappingProxyType(POINTS),
+) -> LinkageLoads:
+    """What links and pins bear over a turn at the speed.
 
-
-def link_loads(design: BeatUp, every: float | None = None) -> LinkageLoads:
-    """What links and pins bear over a turn at the speed; every: time from turn to turn [s]."""
-    params = design.params
+    every  time from turn to turn [s]      links  those whose internal forces are computed; none: the pins' loads alone
+    """
     return linkage_loads(
-        design.state.forces,
-        design.bodies,
+        state.forces,
+        bodies,
         (Gravity(params.gravity_vector),),
-        POINTS,
+        links,
         PINS,
         speed=params.speed,
-        line_mass=params.width * params.thickness * params.density,
-        share=1.0 if every is None else min(design.period / every, 1.0),
+        line_mass=params.width * params.thickness * params.link_material.density,
+        share=1.0 if every is None else min(turn / params.speed / every, 1.0),
     )

@@ -17,17 +17,26 @@ import math
 import numpy as np
 
 from ilmek.dynamics.attached import attached
-from ilmek.elements.drive_parts import PULLEY, motor_part, reducer_part
+from ilmek.elements.drive_parts import PULLEY
 from ilmek.elements.duty import LoadCycle, ServoDrive, size_motor
 from ilmek.elements.materials import GRAVITY
 from ilmek.linkage.solve import solve
+from ilmek.machines.beat_up.beater import Beater, beater_checks, beater_of
 from ilmek.machines.beat_up.crank_start import stroke_time
 from ilmek.machines.beat_up.design import BeatUp
 from ilmek.machines.beat_up.use_params import TravelParams
+from ilmek.part import catalogue
+from ilmek.part.part import Bought, Part
+from ilmek.part.shapes import box
 from ilmek.records import computed, record, result
-from ilmek.report import BillLine, Check, at_least, at_most, must
+from ilmek.report import Check, at_least, at_most, must
 from ilmek.timing.s_curve import AxisLimits, SCurve, s_curve
-from ilmek.units import turn
+from ilmek.units import mm, turn
+
+AXIS_SIDE = 80 * mm
+"""Side of the section of the belt axis [m]; assumed by this project."""
+
+AXIS, MOTOR, REDUCER = "beat-up/slide", "beat-up/slide-motor", "beat-up/slide-reducer"
 
 _SAMPLES = 200
 _TURN_SAMPLES = 1440
@@ -38,6 +47,7 @@ class BeaterTravel:
     """The beater along the width; step: its motion from stroke to stroke."""
 
     params: TravelParams
+    beater: Beater
     step: SCurve
     slide: ServoDrive | None
     thrust: float
@@ -70,10 +80,11 @@ def travel(design: BeatUp, params: TravelParams, run_up: float) -> BeaterTravel:
     single = stroke_time(design, run_up)
     # Standing at the far dead centre, the slide may begin before the crank stands, and end after it has begun.
     pause = max(0.0, step.time - out) if mode == "start-stop" else 0.0
-    mass = params.slide_mass or 2 * (design.params.beater_mass + sum(design.masses.values()))
+    mass = params.slide_mass or 2 * sum(body.mass for body in design.bodies.values())
     cycle = _slide_cycle(params, step, mass, turn / design.params.speed if mode == "through" else single + pause)
     return BeaterTravel(
         params=params,
+        beater=beater_of(design.params, warps, design.lengths["beater"]),
         step=step,
         slide=size_motor(cycle),
         thrust=float(np.max(np.abs(cycle.effort))) / PULLEY,
@@ -107,6 +118,7 @@ def travel_checks(found: BeaterTravel) -> tuple[Check, ...]:
             "N",
             "force that the rows need, fabric assumed by this project: hammer.packing, laid_pitch, jammed_pitch",
             cure=carried,
+            parts=found.beater.ids,
         ),
         at_least(
             "beater out of the warps, at its farthest",
@@ -115,18 +127,22 @@ def travel_checks(found: BeaterTravel) -> tuple[Check, ...]:
             "mm",
             "parameter travel.reach",
             cure="set shorter teeth, a longer ground, or a larger swing",
+            parts=found.beater.ids[:1],
         ),
+        *beater_checks(found.beater),
         must(
             "a motor moves the slide",
             found.slide is not None,
             "motor table, margin 1.25",
             cure="set a lower acceleration of the slide",
+            parts=(MOTOR,),
         ),
     )
     if found.mode == "start-stop" or found.strokes == 1:
         return checks
     cure = "set travel.mode=start-stop, or a quicker slide"
-    return (*checks, at_most("time of a step of the slide", found.step_time, found.out_time, "s", "turn", cure=cure))
+    title, driven = "time of a step of the slide", (AXIS, MOTOR)
+    return (*checks, at_most(title, found.step_time, found.out_time, "s", "turn", cure=cure, parts=driven))
 
 
 def _out_of_the_warps(design: BeatUp, reach: float) -> tuple[float, float]:
@@ -145,17 +161,26 @@ def _slide_cycle(params: TravelParams, step: SCurve, mass: float, every: float) 
     return LoadCycle(speed / PULLEY, acceleration / PULLEY, friction * PULLEY, mass * PULLEY**2)
 
 
-def travel_parts(found: BeaterTravel) -> tuple[BillLine, ...]:
-    """The slide along the carpet and its motor."""
-    motor = found.slide.motor if found.slide else None
+def travel_parts(found: BeaterTravel) -> tuple[Part, ...]:
+    """The slide along the carpet, and its motor behind its reducer where it has one."""
+    row = found.slide.motor if found.slide else None
     width = found.params.warps * found.params.warp_pitch
     speed = found.step.speed / PULLEY
+    reducers = (
+        (catalogue.reducer(REDUCER, "reducer of the slide", found.slide.reducer.ratio, row),)
+        if found.slide and found.slide.reducer.ratio != 1
+        else ()
+    )
     return (
-        BillLine("slide of the beater", 1, "belt drive along the carpet", "", "linear axis", length=width),
-        motor_part("motor of the slide", motor, found.thrust * PULLEY, speed),
-        *(
-            (reducer_part("reducer of the slide", found.slide.reducer.ratio, motor),)
-            if found.slide and found.slide.reducer.ratio != 1
-            else ()
+        Part(
+            AXIS,
+            "slide of the beater",
+            "linear axis",
+            "belt drive along the carpet",
+            box(AXIS_SIDE, AXIS_SIDE, width),
+            purchase=Bought("belt axis", length=width),
+            envelope=True,
         ),
+        *reducers,
+        catalogue.motor(MOTOR, "motor of the slide", row, found.thrust * PULLEY, speed),
     )

@@ -4,7 +4,7 @@ from functools import lru_cache
 
 from ilmek.machines.beat_up.crank_start import CrankDuty, CrankStart, crank_start, start_checks
 from ilmek.machines.beat_up.design import BeatUp
-from ilmek.machines.beat_up.strength import BeatUpStrength, beat_up_strength, beat_up_strength_checks
+from ilmek.machines.beat_up.strength import BeatUpStrength, beat_up_strength_checks
 from ilmek.machines.beat_up.travel import BeaterTravel, travel, travel_checks
 from ilmek.records import group, record
 from ilmek.report import Check, Choice
@@ -43,7 +43,7 @@ def in_use(design: BeatUp, fabric: Fabric | None = None) -> BeatUpUse:
         pause=across.pause,
         every=params.interval,
     )
-    return BeatUpUse(beat_up_strength(design, params.strength), across, crank_start(duty, params.start))
+    return BeatUpUse(design.strength, across, crank_start(duty, params.start))
 
 
 def use_checks(found: BeatUpUse) -> tuple[Check, ...]:

@@ -14,7 +14,7 @@ MODES = ("through", "start-stop")
 class CastLinkParams(StrengthParams):
     """What links of grey cast iron bear, and their pins in bushes of sintered bronze."""
 
-    material: str = kind.choice("grey cast iron", LINK_MATERIALS, doc="material of the links, for their strength")
+    material: str = kind.choice("grey cast iron", LINK_MATERIALS, doc="material of the links")
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,6 +48,12 @@ class TravelParams(Params):
     mode: str | None = kind.choice(
         None, MODES, doc="crank between two strokes: runs through, or stands; default: through where the step fits"
     )
+    tooth_thickness: float | None = kind.length(
+        None, at_least=1e-3 * mm, at_most=50 * mm, doc="thickness of a tooth; default: 0.4 of the warp pitch"
+    )
+    bar_distance: float = kind.length(
+        20 * mm, at_least=0.0, at_most=1.0, doc="distance of the beater's bar from the warps, to the front"
+    )
     reach: float = kind.length(20 * mm, at_least=0.1 * mm, at_most=1.0, doc="reach of the beater's teeth in the warps")
     slide_mass: float | None = kind.mass(
         None, above=0.0, at_most=1e4, doc="mass on the slide; default: beater, links, and as much again for the rest"
@@ -56,3 +62,8 @@ class TravelParams(Params):
     acceleration: float = kind.acceleration(10.0, above=0.0, at_most=1e4, doc="allowed acceleration of the slide")
     jerk: float = kind.jerk(1000.0, above=0.0, at_most=1e7, doc="allowed jerk of the slide")
     friction: float = kind.ratio(0.02, at_least=0.0, at_most=1.0, doc="friction of the slide's guideway")
+
+    @property
+    def tooth(self) -> float:
+        """Thickness of a tooth [m]."""
+        return self.tooth_thickness or 0.4 * self.warp_pitch

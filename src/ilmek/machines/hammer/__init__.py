@@ -10,10 +10,11 @@ from ilmek.machines.hammer.axis import CombDrive
 from ilmek.machines.hammer.comb import Comb
 from ilmek.machines.hammer.design import Hammer, design
 from ilmek.machines.hammer.figures import figures
-from ilmek.machines.hammer.in_loom import fit, parts, planned_beat, work
+from ilmek.machines.hammer.in_loom import fit, planned_beat, work
 from ilmek.machines.hammer.linkage import CombLinkage
 from ilmek.machines.hammer.params import HammerParams
 from ilmek.machines.hammer.report import cam_tables, checks, self_tests, tables, warnings
+from ilmek.machines.hammer.tree import tree
 
 __all__ = ["MACHINE", "Hammer", "HammerParams", "design"]
 
@@ -31,7 +32,7 @@ MACHINE = Component(
     figures=figures,
     warnings=warnings,
     cam_tables=cam_tables,
-    parts=parts,
+    tree=tree,
     work=work,
     choices=lambda hammer: hammer.choices,
     fit=fit,

@@ -10,6 +10,7 @@ import numpy as np
 
 from ilmek.machines.hammer.params import DEPTHS, HammerParams
 from ilmek.records import computed, record, result
+from ilmek.units import mm
 from ilmek.weaving.comb_on_fell import FellPressure, fell_pressure
 from ilmek.weaving.fell import Fabric
 
@@ -33,10 +34,16 @@ class Comb:
     beam_number = computed("1", "width over the length in which the comb bends, l W", lambda it: it.line.number)
 
 
+BAR_ID, LEAF_ID = "hammer/bar", "hammer/leaf"
+
+BEHIND = 5 * mm
+"""Reach of the leaves behind the warps [m]: assumed by this project."""
+
+
 def comb_mass(params: HammerParams) -> float:
-    """Mass of bar and leaves [kg]."""
+    """Mass of bar and leaves [kg]; a leaf reaches `BEHIND` the fell."""
     bar = params.width * params.depth * params.comb_thickness
-    leaves = (params.warps - 1) * params.leaf_reach * params.leaf_height * params.leaf
+    leaves = (params.warps - 1) * (params.leaf_reach + BEHIND) * params.leaf_height * params.leaf
     return (bar + leaves) * params.density
 
 

@@ -71,9 +71,7 @@ class Hammer:
         if self.axis is not None:
             return self.axis.mass
         linkage = self.linkage
-        return self.comb.mass + (
-            linkage.ballast + linkage.number * sum(linkage.one.masses.values()) if linkage else 0.0
-        )
+        return linkage.number * sum(body.mass for body in linkage.one.bodies.values()) if linkage else self.comb.mass
 
     @property
     def energy(self) -> float:

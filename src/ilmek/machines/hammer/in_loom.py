@@ -10,25 +10,24 @@ from dataclasses import replace
 
 import numpy as np
 
-from ilmek.arrays import ComplexArray
 from ilmek.cams.laws import LAWS
-from ilmek.elements.drive_parts import motor_part, reducer_part
 from ilmek.elements.materials import GRAVITY
 from ilmek.machines import beat_up
 from ilmek.machines.beat import Beat, BeatDrive, BeatPath, stroke_needed
 from ilmek.machines.beat_up.crank_path import crank_beat, crank_path
+from ilmek.machines.beat_up.crank_start import CrankStart
 from ilmek.machines.fell_of_loom import USUAL_WARP_LENGTH
+from ilmek.machines.hammer.comb import BAR_ID, LEAF_ID
 from ilmek.machines.hammer.design import Hammer, design
-from ilmek.machines.hammer.linkage import chosen_linkage, linkage_parts
-from ilmek.machines.hammer.params import STEEL, HammerParams
+from ilmek.machines.hammer.linkage import chosen_linkage
+from ilmek.machines.hammer.params import HammerParams
 from ilmek.machines.hammer.report import checks
+from ilmek.machines.hammer.tree import outline, tree
 from ilmek.machines.loom_task import LoomTask
+from ilmek.part.bill import bill
 from ilmek.records import record
-from ilmek.report import BillLine, Check, Choice, Work, at_most, must
-from ilmek.units import format_quantity, mm, turn
-
-BEHIND = 5 * mm
-"""Reach of the leaves behind the warps [m]: assumed by this project."""
+from ilmek.report import Check, Choice, Work, at_most, must
+from ilmek.units import turn
 
 _SHARES = 181
 
@@ -67,24 +66,6 @@ def _of_carpet(task: LoomTask, kind: str) -> HammerParams:
     )
 
 
-def parts(hammer: Hammer) -> tuple[BillLine, ...]:
-    """Comb, and vertical axes or crank-rockers."""
-    bar = f"bar {format_quantity(hammer.params.depth, 'mm')} high, a leaf between two warps"
-    comb = BillLine("comb of the hammer", 1, bar, STEEL.name, "laser-cut part", hammer.comb.mass)
-    if hammer.linkage is not None:
-        return (comb, *linkage_parts(hammer.linkage))
-    assert hammer.axis is not None
-    number, drive, load = hammer.params.axis_count, hammer.axis.drive, hammer.axis.cycle
-    torque, speed = float(np.max(np.abs(load.torque))), float(np.max(np.abs(load.speed)))
-    motor, axis = drive.motor if drive else None, "vertical axis"
-    return (
-        comb,
-        BillLine(axis, number, hammer.params.axis, "", "linear axis", length=hammer.params.stroke),
-        motor_part(f"motor of a {axis}", motor, torque, speed, number),
-        *((reducer_part(f"reducer of a {axis}", drive.reducer.ratio, motor, number),) if drive else ()),
-    )
-
-
 def work(hammer: Hammer) -> tuple[Work, ...]:
     """Work of a beat: of the comb on its rows, and to lift all that moves; or of the crank-rockers with their start."""
     if hammer.linkage is not None:
@@ -103,33 +84,32 @@ def _carried(task: LoomTask) -> tuple[Check, ...]:
     )
 
 
-def outline(params: HammerParams) -> tuple[ComplexArray, ...]:
-    """The comb in the side view [m]: its leaves through the warps, and the bar in front of their roots."""
-    leaf = np.array([-BEHIND, params.leaf_reach, params.leaf_reach, -BEHIND], dtype=complex)
-    bar = np.array([0.0, params.comb_thickness, params.comb_thickness, 0.0]) + params.leaf_reach
-    up = np.array([0, 0, 1j, 1j])
-    return leaf + params.leaf_height * up, bar + params.depth * up
-
-
 @record
 class CombBeat:
-    """A beat by the comb, with its parameters as far as they do not depend on the row's time; linkage: chosen."""
+    """A beat by the comb: its parameters without what depends on the row's time, and the start of its crank-rockers."""
 
     params: HammerParams
     acceleration: float
     kind: str
-    made: Beat | None
+    start: CrankStart | None
     choices: tuple[Choice, ...] = ()
 
     @property
     def beat(self) -> Beat:
         """The comb's beat, as quick as its acceleration allows; of crank-rockers a turn of the crank."""
-        if self.made is not None:
-            return self.made
+        if self.start is not None:
+            return crank_beat(self.start)
         params = self.params
         law, share = LAWS[params.law], (1 - params.press_share) / 2
         time = math.sqrt(law.acceleration_peak * params.stroke / self.acceleration) / share
         return Beat(params.stroke, time, share, params.press_share, law, law, "vertical axes")
+
+    @property
+    def path(self) -> BeatPath:
+        """Its path; straight down to the fell and up again where vertical axes drive it."""
+        if self.start is not None:
+            return crank_path(self.start, outline(self.params))
+        return self._path(self.params)
 
     def drive(self, task: LoomTask) -> BeatDrive:
         """The comb at the period of the row, with the shedding's cams on it."""
@@ -144,7 +124,7 @@ class CombBeat:
             task=task,
             beat=self.beat,
             fabric=hammer.fabric,
-            parts=parts(hammer),
+            parts=bill(tree(hammer)),
             work=work(hammer),
             torque=linkage.start.start_torque if linkage else 0.0,
             path=crank_path(linkage.start, outline(hammer.params)) if linkage else self._path(hammer.params),
@@ -153,6 +133,7 @@ class CombBeat:
             force=hammer.params.warps * hammer.force,
             beaten=hammer.params.warps,
             frame_force=force,
+            striking=(LEAF_ID, BAR_ID),
             loom_checks=_carried(task) if self.kind == "guide-cams" else (),
         )
 
@@ -167,10 +148,10 @@ class CombBeat:
 def planned_beat(task: LoomTask, kind: str) -> CombBeat:
     """The comb's beat in a loom. Raises ParameterError where values set for it contradict each other."""
     params = task.parameters("hammer", _of_carpet(task, kind))
-    made: Beat | None = None
+    start: CrankStart | None = None
     choices: tuple[Choice, ...] = ()
     if params.drive == "linkage":
         fabric = params.fabric
         params, linkage, choices = chosen_linkage(params, fabric, float(fabric.resistance(params.required_pitch)))
-        made = crank_beat(linkage.start)
-    return CombBeat(params, task.params.comb_acceleration, kind, made, choices)
+        start = linkage.start
+    return CombBeat(params, task.params.comb_acceleration, kind, start, choices)

@@ -30,22 +30,15 @@ from ilmek.machines.beat_up.crank_start import (
     CrankStart,
     crank_start,
     start_checks,
-    start_parts,
 )
-from ilmek.machines.beat_up.in_loom import frame_force, links_parts
-from ilmek.machines.beat_up.strength import (
-    POINTS,
-    BeatUpStrength,
-    beat_up_strength,
-    beat_up_strength_checks,
-    link_loads,
-)
+from ilmek.machines.beat_up.in_loom import frame_force
+from ilmek.machines.beat_up.strength import POINTS, BeatUpStrength, Duty, beat_up_strength_checks
 from ilmek.machines.beat_up.travel import force_at_beat
-from ilmek.machines.hammer.comb import comb_mass, with_depth
+from ilmek.machines.hammer.comb import BAR_ID, comb_mass, with_depth
 from ilmek.machines.hammer.params import MOST_BALLAST, MOST_BEATERS, HammerParams
-from ilmek.machines.linkage_strength import FLAT_BARS, LinkageLoads, linkage_strength, pins_bear, strength_checks
+from ilmek.machines.linkage_strength import FLAT_BARS, linkage_strength, pins_bear, strength_checks
 from ilmek.records import computed, group, record, result
-from ilmek.report import Alternative, BillLine, Check, Choice, at_most, choose
+from ilmek.report import Alternative, Check, Choice, at_most, choose
 from ilmek.units import format_quantity, turn
 from ilmek.weaving.fell import Fabric
 
@@ -92,16 +85,14 @@ def linkage_checks(found: CombLinkage) -> tuple[Check, ...]:
     """Whether comb, links, pins and motor bear the beat."""
     cure = "set more beaters, or a deeper comb"
     return (
-        at_most("stress of the comb by its inertia", found.inertia_stress, found.limit, "MPa", "strength", cure=cure),
-        *beat_up_strength_checks(found.strength, name="links"),
+        at_most(
+            *("stress of the comb by its inertia", found.inertia_stress, found.limit, "MPa", "strength"),
+            cure=cure,
+            parts=(BAR_ID,),
+        ),
+        *beat_up_strength_checks(found.strength),
         *start_checks(found.start),
     )
-
-
-def linkage_parts(found: CombLinkage) -> tuple[BillLine, ...]:
-    """Links, ballast, and what drives the crank shaft."""
-    ballast = BillLine("ballast of the comb", 1, "along its bar", "structural steel", "steel bar", found.ballast)
-    return (*((ballast,) if found.ballast else ()), *links_parts(found.one, found.number), *start_parts(found.start))
 
 
 @lru_cache(maxsize=16)
@@ -173,10 +164,10 @@ def _with_links(params: HammerParams, share: float) -> tuple[HammerParams, bool]
     speed = params.beat_speed or 1.0
     lengths, enough = _unit(params.ground).lengths, False
     for width, thickness in _offered(params):
-        links = width * thickness * params.density
+        links = width * thickness * params.links.of_links.density
         # The links' own inertia counts as that of their whole mass at the beater.
         own = links * (lengths["coupler"] + lengths["beater"])
-        loads = _unit_loads(params.ground).scaled(share + own, speed, turn / speed / (params.turn_time / 2))
+        loads = _unit(params.ground).loads.scaled(share + own, speed, turn / speed / (params.turn_time / 2))
         sections = dict.fromkeys(POINTS, (width, thickness))
         if not pins_bear(loads, params.links, sections):
             continue
@@ -197,12 +188,8 @@ def _offered(params: HammerParams) -> tuple[tuple[float, float], ...]:
 @lru_cache(maxsize=32)
 def _unit(ground: float) -> beat_up.BeatUp:
     """The crank-rocker with a beater of 1 kg at 1 rad/s, its links almost without mass."""
-    return beat_up.design(beat_up.BeatUpParams(ground=ground, speed=1.0, beater_mass=1.0, density=1e-3, beat_force=0.0))
-
-
-@lru_cache(maxsize=32)
-def _unit_loads(ground: float) -> LinkageLoads:
-    return link_loads(_unit(ground))
+    light = beat_up.BeatUpParams(ground=ground, speed=1.0, beater_mass=1.0, link_mass="bars", density=1e-3)
+    return beat_up.design(light)
 
 
 def _estimated(params: HammerParams, fabric: Fabric, needed: float) -> float:
@@ -210,7 +197,7 @@ def _estimated(params: HammerParams, fabric: Fabric, needed: float) -> float:
     speed, number = params.beat_speed or 1.0, params.rockers
     unit, steel, link = _unit(params.ground), PRICES["steel bar"], PRICES["machined link"]
     comb, ballast = comb_mass(params), params.ballast or 0.0
-    section = (params.link_width or 0.0) * (params.link_thickness or 0.0) * params.density
+    section = (params.link_width or 0.0) * (params.link_thickness or 0.0) * params.links.of_links.density
     links = sum(link.price(section * unit.lengths[name]) for name in ("crank", "coupler", "beater"))
     swing = (comb + ballast) * (unit.beater_velocity_max * speed) ** 2 / 2
     work = 2.5 * swing + fabric.energy(params.force or needed) * params.warps
@@ -234,10 +221,11 @@ def linkage_for(params: HammerParams, fabric: Fabric, needed: float) -> CombLink
             speed=speed,
             beater_mass=mass / number,
             beat_force=0.0,
-            density=params.density,
             width=params.link_width or FLAT_BARS[0][0],
             thickness=params.link_thickness or FLAT_BARS[0][1],
-        )
+            strength=params.links,
+        ),
+        Duty(params.turn_time / 2, "links"),
     )
     force = number * force_at_beat(one)
     asked = min(params.force or needed, force / params.warps)
@@ -254,6 +242,6 @@ def linkage_for(params: HammerParams, fabric: Fabric, needed: float) -> CombLink
         # Without weight every force grows with the square of the speed.
         speed_needed=speed * math.sqrt(needed * params.warps / force) if force else None,
         inertia_stress=6 * moment / (params.comb_thickness * params.depth**2),
-        strength=beat_up_strength(one, params.links, params.turn_time / 2, name="links"),
+        strength=one.strength,
         start=crank_start(duty, params.start),
     )

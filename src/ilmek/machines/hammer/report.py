@@ -7,9 +7,11 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.machines.beat_up.report import POWER_LIMIT
 from ilmek.machines.hammer.axis import axis_checks
+from ilmek.machines.hammer.comb import BAR_ID, LEAF_ID
 from ilmek.machines.hammer.design import Hammer
 from ilmek.machines.hammer.linkage import linkage_checks
-from ilmek.machines.linkage_strength import equilibrium_test, strength_table
+from ilmek.machines.linkage_strength import equilibrium_test
+from ilmek.machines.strength_tables import strength_table
 from ilmek.report import CamTable, Check, Table, at_least, at_most, columns
 from ilmek.units import dm, format_quantity
 
@@ -21,14 +23,21 @@ def checks(design: Hammer) -> tuple[Check, ...]:
     params, comb = design.params, design.comb
     harder, tight = "set a larger force", "set a higher tension, or a longer cloth_length"
     deep, leaf = "set a deeper comb, or more supports", "set a higher leaf, or a shorter reach of it"
+    bar, whole = (BAR_ID,), (BAR_ID, LEAF_ID)
     return (
-        at_most("distance of the rows", design.spacing, params.required_pitch, "mm", "row_pitch", cure=harder),
+        at_most(
+            *("distance of the rows", design.spacing, params.required_pitch, "mm", "row_pitch"),
+            cure=harder,
+            parts=whole,
+        ),
         at_most("force before the cloth is slack", design.force, design.fabric.bump, "N", "T (1 + kw/kc)", cure=tight),
         at_least(
-            "uniformity across the width", comb.uniformity, params.uniformity_limit, "1", f"{THESIS}: even", cure=deep
+            *("uniformity across the width", comb.uniformity, params.uniformity_limit, "1", f"{THESIS}: even"),
+            cure=deep,
+            parts=bar,
         ),
-        at_most("stress of the comb", comb.stress, params.strength, "MPa", "strength", cure=deep),
-        at_most("stress of a leaf", comb.leaf_stress, params.strength, "MPa", "strength", cure=leaf),
+        at_most("stress of the comb", comb.stress, params.strength, "MPa", "strength", cure=deep, parts=bar),
+        at_most("stress of a leaf", comb.leaf_stress, params.strength, "MPa", "strength", cure=leaf, parts=whole[1:]),
         *_drive_checks(design),
     )
 
@@ -41,7 +50,11 @@ def _drive_checks(design: Hammer) -> tuple[Check, ...]:
         (design.params.force or design.needed) * design.params.warps,
         "set a higher beat_speed, or more ballast",
     )
-    force = at_least("force of the crank-rockers", design.linkage.force, needed, "N", "inertia at the beat", cure=cure)
+    force = at_least(
+        *("force of the crank-rockers", design.linkage.force, needed, "N", "inertia at the beat"),
+        cure=cure,
+        parts=(BAR_ID, LEAF_ID),
+    )
     return (force, *linkage_checks(design.linkage))
 
 

@@ -8,7 +8,7 @@ from ilmek.machines.knotting_dyad.drives import HeadMotion, head_motion
 from ilmek.machines.knotting_dyad.figures import design_figures, head_figures, motion_figures
 from ilmek.machines.knotting_dyad.head import Head
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
-from ilmek.machines.linkage_strength import strength_table
+from ilmek.machines.strength_tables import strength_table
 from ilmek.records import group, record
 from ilmek.report import Check, Figure, Table, columns
 from ilmek.synthesis.dyad import RootKind

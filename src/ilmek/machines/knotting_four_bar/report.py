@@ -7,7 +7,8 @@ from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams
 from ilmek.machines.knotting_four_bar.posed import PosedFourBar
 from ilmek.machines.knotting_four_bar.sides import SidesAnalysis, analyse_sides
 from ilmek.machines.knotting_four_bar.strength import four_bar_strength
-from ilmek.machines.linkage_strength import LinkageStrength, equilibrium_test, strength_checks, strength_table
+from ilmek.machines.linkage_strength import LinkageStrength, equilibrium_test, strength_checks
+from ilmek.machines.strength_tables import strength_table
 from ilmek.records import group, record
 from ilmek.report import Check, Table, at_least, at_most, columns, must
 from ilmek.units import deg, format_quantity, turn

@@ -1,7 +1,8 @@
 """What is reported of a needle mechanism: checks, tables, warnings and plates."""
 
 from ilmek.elements.plates import link_plates
-from ilmek.machines.linkage_strength import FLAT_BARS, equilibrium_test, strength_table
+from ilmek.machines.linkage_strength import FLAT_BARS, equilibrium_test
+from ilmek.machines.strength_tables import strength_table
 from ilmek.machines.tufting.design import JOINTS, LINKS, Tufting
 from ilmek.machines.tufting.model import inertias
 from ilmek.machines.tufting.strength import NeedleStrength, link_sections, needle_checks, needle_strength

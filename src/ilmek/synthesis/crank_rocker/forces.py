@@ -25,7 +25,8 @@ class CrankRockerBodies(NamedTuple):
     """Lengths, masses and moments of many crank-rockers, each an array of one shape.
 
     crank, coupler, rocker, beater   lengths [m], the beater: the mass on the rocker, from A
-    crank_mass, coupler_mass         of the bars [kg]                          coupler_moment  about its centre [kg m²]
+    crank_mass, crank_static         of the crank [kg], and times its centre's distance from D [kg m]
+    coupler_mass, coupler_moment     of the coupler [kg], whose centre is its middle, and about it [kg m²]
     rocker_mass, rocker_static, rocker_moment   rocker and beater together [kg], mass times its centre's distance from A
                                      [kg m], and moment about A [kg m²]
     """
@@ -35,6 +36,7 @@ class CrankRockerBodies(NamedTuple):
     rocker: FloatArray
     beater: FloatArray
     crank_mass: FloatArray
+    crank_static: FloatArray
     coupler_mass: FloatArray
     coupler_moment: FloatArray
     rocker_mass: FloatArray
@@ -92,7 +94,7 @@ def _forces(
     half = 0.5 * at.coupler
     coupler = (made.coupler_mass * (ground * pull)) * ((1j * at.alpha[0] - at.omega[0] ** 2) * half - at.pin)
     rocker = (made.rocker_static / made.rocker * (ground * pull)) * turned
-    crank = (made.crank_mass * (ground * pull / 2)) * at.pin
+    crank = (made.crank_static / made.crank * (ground * pull)) * at.pin
     M = (made.rocker_moment * (pull / ground)) * at.alpha[1]
     if gravity:
         coupler, rocker = coupler - made.coupler_mass * gravity, rocker - made.rocker_mass * gravity
@@ -103,5 +105,5 @@ def _forces(
     C = B + coupler
     torque = cross(at.pin, C) * ground
     if gravity:
-        torque = torque - (made.crank_mass * (ground / 2)) * cross(at.pin, gravity)
+        torque = torque - (made.crank_static / made.crank * ground) * cross(at.pin, gravity)
     return np.asarray(torque), (rocker - B, B, C, C - crank)

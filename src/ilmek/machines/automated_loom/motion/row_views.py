@@ -6,8 +6,8 @@ behind the warps' plane, so that the weaver stands below the picture.
 
 import numpy as np
 
-from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.machines.automated_loom.bodies import beat_displacement
+from ilmek.arrays import Complex, ComplexArray, FloatArray
+from ilmek.machines.automated_loom.bodies import beat_tip
 from ilmek.machines.automated_loom.cyclogram import BEATER, EVEN, HEADS, ODD, SLIDE, TAKE_UP, weft_windows
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.weft import Shuttle
@@ -66,11 +66,9 @@ def row_from_above(loom: LoomDesign) -> Animation:
     carrier, depth = _carrier(loom, angle), side.carrier
     middle = (depth.corner + depth.size / 2).real
     away = sample(row.track(HEADS), angle).position
-    reach = beat_displacement(loom.beat.path, row)(angle).real
-    depths = np.concatenate([polygon.real for polygon in side.comb])
-    comb = np.array([0, wide, wide, 0]) - 1j * (
-        np.array([depths.min(), depths.min(), depths.max(), depths.max()]) + reach[:, None]
-    )
+    depths = _comb_corners(loom, angle).real
+    near, far = depths.min(axis=1), depths.max(axis=1)
+    comb = np.array([0, wide, wide, 0]) - 1j * np.stack([near, near, far, far], axis=-1)
     heads = [_box(x, side.head.body.real, loom.head_width, side.head.size.real) for x in _parked(loom)]
     rail = _box(0.0, side.rail.corner.real, wide, side.rail.size.real)
     strokes = (
@@ -135,15 +133,22 @@ def _edges(loom: LoomDesign) -> tuple[float, float]:
 
 def _comb(loom: LoomDesign, angle: FloatArray) -> ComplexArray:
     """The comb from the front: its width, its height; one that travels across is as much narrower as its slide runs."""
-    heights = np.concatenate([polygon.imag for polygon in loom.side.comb])
-    down = beat_displacement(loom.beat.path, loom.row_cyclogram)(angle).imag
+    heights = _comb_corners(loom, angle).imag
+    low, high = heights.min(axis=1), heights.max(axis=1)
     wide, run = loom.task.cloth_width, np.zeros(len(angle))
     slide = next((track for track in loom.row_cyclogram.tracks if track.name == SLIDE), None)
     if slide is not None:
         run = sample(slide, angle).position
         wide = max(wide - float(slide.stroke), 0.02 * wide)
-    corners = np.array([0, wide, wide + 1j * np.ptp(heights), 1j * np.ptp(heights)]) + 1j * heights.min()
-    return np.asarray(corners + run[:, None] + 1j * down[:, None])
+    left, right = run, run + wide
+    return np.stack([left + 1j * low, right + 1j * low, right + 1j * high, left + 1j * high], axis=-1)
+
+
+def _comb_corners(loom: LoomDesign, angle: FloatArray) -> Complex[np.ndarray, "frames corners"]:
+    """Corners of the comb in the side view [m]."""
+    path = loom.beat.path
+    tip = beat_tip(path, loom.row_cyclogram, angle)
+    return np.concatenate([path.carried(polygon, tip) for polygon in path.outline], axis=1)
 
 
 def _boxes(ends: FloatArray, middle: complex, half: float) -> ComplexArray:

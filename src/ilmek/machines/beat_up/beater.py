@@ -1,0 +1,177 @@
+"""The beater: teeth between the warps of a stroke, and in front of the warps a bar that makes it as heavy as it is.
+
+    m_E = n m_t + rho w d h,        J_A = m_E AE²          n teeth of m_t, bar of the stroke's width w, d deep, h high
+
+The forces have the mass of the beater in its striking edge, E [`links`]. Depth and height of the bar are such that it
+is as hard to turn about the rocker's pivot A as that; the force in A, which its mass centre decides, is not the same.
+Axes of both parts: those of the side view, x from the fell to the front, y up, z across the carpet.
+"""
+
+import math
+
+import numpy as np
+from scipy.optimize import brentq
+
+from ilmek.arrays import ComplexArray
+from ilmek.elements.materials import MATERIALS, Material
+from ilmek.machines.beat_up.params import BeatUpParams
+from ilmek.part.part import Part
+from ilmek.part.placement import placement
+from ilmek.part.profile import Profile
+from ilmek.part.shapes import Prism
+from ilmek.part.tree import Occurrence
+from ilmek.plane.contours import polygon
+from ilmek.records import record
+from ilmek.report import Check, at_least, at_most
+from ilmek.units import format_quantity, mm
+
+STEEL = MATERIALS["structural steel"]
+
+INERTIA_TOLERANCE = 0.01
+"""Share by which the inertia of the beater may be off."""
+
+_SLENDER = 1e-2
+"""Least depth of the bar over that of a square one."""
+
+TOOTH = 10 * mm
+"""Height of the beater's teeth [m]: assumed by this project."""
+
+BAR_ABOVE = 5 * mm
+"""The bar above the edge that strikes, clear of the pile [m]: assumed by this project."""
+
+
+@record
+class Beater:
+    """The parts of a beater; bar: None where the teeth alone weigh as much as it should.
+
+    teeth  their number      pitch, width  of the warps, and of the stroke [m]      mass  that it should have [kg]
+    arm    of the striking edge from the rocker's pivot, level with it in front [m]
+    """
+
+    tooth: Part
+    bar: Part | None
+    teeth: int
+    pitch: float
+    width: float
+    mass: float
+    arm: float
+
+    @property
+    def ids(self) -> tuple[str, ...]:
+        """Ids of its parts."""
+        return tuple(part.id for part in (self.tooth, self.bar) if part is not None)
+
+    @property
+    def inertia_share(self) -> float:
+        """Moment of inertia of its parts about the pivot, over that of its mass at the striking edge."""
+        pivot, parts = complex(self.arm), [(self.tooth, self.teeth), (self.bar, 1)]
+        about = sum(number * _about(part, pivot) for part, number in parts if part is not None)
+        return about / (self.mass * self.arm**2) if self.mass else math.inf
+
+    @property
+    def outline(self) -> tuple[ComplexArray, ...]:
+        """Its parts in the side view, convex, the striking edge at 0 [m]."""
+        return tuple(_section(part) for part in (self.tooth, self.bar) if part is not None)
+
+    @property
+    def occurrences(self) -> tuple[Occurrence, ...]:
+        """Its parts, the middle of its width at z = 0."""
+        thick = _length(self.tooth)
+        across = (np.arange(self.teeth) - (self.teeth - 1) / 2) * self.pitch - thick / 2
+        teeth = Occurrence(self.tooth, tuple(placement(z=float(z)) for z in across))
+        return (teeth,) if self.bar is None else (teeth, Occurrence(self.bar, (placement(z=-self.width / 2),)))
+
+
+def beater_of(params: BeatUpParams, warps: int, arm: float) -> Beater:
+    """The beater for the warps of a stroke; arm: of its striking edge from the rocker's pivot [m]."""
+    travel = params.travel
+    number, wide = max(warps - 1, 1), warps * travel.warp_pitch
+    front = travel.bar_distance
+    corners = rectangle(-travel.reach / 2, front, 0.0, TOOTH)
+    tooth = across("beat-up/tooth", "tooth of the beater", "laser-cut part", corners, travel.tooth)
+    mass = params.beater_mass
+    section = (mass - number * tooth.mass) / (STEEL.density * wide)
+    bar = None
+    if section > 0:
+        inertia = mass * arm**2 - number * _about(tooth, complex(arm))
+        deep = _depth(section, arm - front, inertia, STEEL.density * wide)
+        corners = rectangle(front, front + deep, BAR_ABOVE, BAR_ABOVE + section / deep)
+        bar = across("beat-up/beater-bar", "bar of the beater", "steel bar", corners, wide)
+    return Beater(tooth, bar, number, travel.warp_pitch, wide, mass, arm)
+
+
+def _depth(section: float, reach: float, inertia: float, line_density: float) -> float:
+    """Depth of a bar of a section [m²] with a moment of inertia about the pivot [kg m²]; square where it has more.
+
+    reach  of its side towards the warps from the pivot [m]
+    line_density  of its material times its length [kg/m²]
+    """
+
+    def excess(depth: float) -> float:
+        high = section / depth
+        centre = complex(reach - depth / 2, BAR_ABOVE + high / 2)
+        return line_density * section * (abs(centre) ** 2 + (depth**2 + high**2) / 12) - inertia
+
+    square = math.sqrt(section)
+    slender = _SLENDER * square
+    if excess(square) >= 0:
+        return square
+    return slender if excess(slender) <= 0 else float(brentq(excess, slender, square, xtol=1e-12))
+
+
+def beater_checks(found: Beater) -> tuple[Check, ...]:
+    """Whether there is a beater as light as its mass states, and as hard to turn as its mass at the striking edge."""
+    lighter = "set a heavier beater_mass, shorter or thinner teeth, or fewer travel.stroke_warps"
+    point = "the forces have its mass at the striking edge; assumed by this project"
+    return (
+        at_least(
+            "mass of the beater, that of its teeth at least",
+            found.mass,
+            found.teeth * found.tooth.mass,
+            "kg",
+            "teeth of the parts list",
+            cure=lighter,
+            parts=found.ids,
+        ),
+        at_most(
+            "inertia of the beater about its pivot, off that of its mass at the striking edge",
+            abs(found.inertia_share - 1) if found.mass else 0.0,
+            INERTIA_TOLERANCE,
+            "1",
+            point,
+            cure="set another beater_mass, or more travel.stroke_warps",
+            parts=found.ids,
+        ),
+    )
+
+
+def rectangle(left: float, right: float, low: float, high: float) -> ComplexArray:
+    """Corners of a rectangle in the side view, counter-clockwise [m]."""
+    return np.array([complex(left, low), complex(right, low), complex(right, high), complex(left, high)])
+
+
+def across(  # noqa: PLR0917
+    name: str, title: str, process: str, corners: ComplexArray, length: float, material: Material = STEEL
+) -> Part:
+    """A part of one section in the side view, with these corners, along the width from z = 0 [m]."""
+    sides = (float(np.ptp(side)) / mm for side in (corners.real, corners.imag))
+    size = f"{' x '.join(format_quantity(side, '', 4) for side in sides)} x {format_quantity(length, 'mm', 4)}"
+    return Part(name, title, process, size, Prism(Profile(polygon(corners)), length), material)
+
+
+def _about(part: Part, pivot: complex) -> float:
+    """Moment of inertia of a prism about an axis along it [kg m²]."""
+    moments = part.moments
+    assert moments is not None
+    centre = complex(moments.centre[0], moments.centre[1])
+    return float(moments.inertia[2, 2] + moments.zeroth * abs(centre - pivot) ** 2)
+
+
+def _section(part: Part) -> ComplexArray:
+    assert isinstance(part.shape, Prism)
+    return part.shape.section.outline.points
+
+
+def _length(part: Part) -> float:
+    assert isinstance(part.shape, Prism)
+    return part.shape.length
