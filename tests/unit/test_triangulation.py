@@ -13,13 +13,10 @@ from ilmek.plane.solids import bounds as box_of
 from ilmek.plane.solids import (
     box,
     is_closed,
-    lengthwise,
     plate_solid,
     prism,
-    square_tube,
     thinned,
     tube,
-    upright,
     volume,
 )
 from ilmek.plane.triangulation import triangles
@@ -109,13 +106,9 @@ def test_an_outline_that_crosses_itself_is_refused() -> None:
 
 
 def test_solids_are_closed_and_have_the_volume_of_their_formulas() -> None:
-    for made, exact in (
-        (box((0, 0, 0), (1, 2, 3)), 6.0),
-        (square_tube(0.08, 0.004, -1, 1), 2 * (0.08**2 - 0.072**2)),
-    ):
-        for turned in (made, upright(made), lengthwise(made)):
-            assert is_closed(turned)
-            assert volume(turned) == pytest.approx(exact, rel=1e-12)
+    solid = box((0, 0, 0), (1, 2, 3))
+    assert is_closed(solid)
+    assert volume(solid) == pytest.approx(6.0, rel=1e-12)
     assert volume(tube(0.1j, 0.07, 0.065, 0, 1, chord_error=1e-6)) == pytest.approx(
         math.pi * (0.07**2 - 0.065**2), rel=1e-3
     )

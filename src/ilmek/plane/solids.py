@@ -71,38 +71,6 @@ def box(low: tuple[float, float, float], high: tuple[float, float, float]) -> So
     return prism(section, low[0], high[0])
 
 
-def square_tube(side: float, wall: float, low: float, high: float) -> Solid:
-    """A square hollow section across, its axis at 0 [m]."""
-    corners = np.array([1 + 1j, -1 + 1j, -1 - 1j, 1 - 1j]) / 2
-    return prism(side * corners, low, high, ((side - 2 * wall) * corners,))
-
-
-def upright(solid: Solid) -> Solid:
-    """A solid that lay across, turned so that it stands: x becomes y."""
-    x, y, z = solid.points.T
-    return Solid(np.stack([-y, x, z], axis=1), solid.triangles)
-
-
-def lengthwise(solid: Solid) -> Solid:
-    """A solid that lay across, turned so that it points to the front: x becomes z."""
-    x, y, z = solid.points.T
-    return Solid(np.stack([-z, y, x], axis=1), solid.triangles)
-
-
-def moved(solid: Solid, by: tuple[float, float, float]) -> Solid:
-    """The solid at another position: (x, y, z) further [m]."""
-    return Solid(solid.points + np.array(by), solid.triangles)
-
-
-def together(*solids: Solid) -> Solid:
-    """Several solids as one."""
-    begins = np.cumsum([0, *(len(one.points) for one in solids[:-1])])
-    return Solid(
-        np.concatenate([one.points for one in solids]),
-        np.concatenate([one.triangles + begin for one, begin in zip(solids, begins, strict=True)]),
-    )
-
-
 def plate_solid(plate: Plate, low: float, deviation: float = 0.0) -> Solid:
     """A plate in the side view, its own frame's x to the front and y up, from `low` across by its thickness [m].
 

@@ -15,6 +15,7 @@ from ilmek.machines.automated_loom.in_space.maker import (
     SceneMaker,
     along_track,
     motion,
+    room_part,
     track_angles,
 )
 from ilmek.machines.automated_loom.own_parts import RAIL
@@ -100,7 +101,7 @@ def _arm(made: SceneMaker, tool: HeadTool) -> ScenePart:
     """An arm as the box of the side view, as wide as the pair that it works on."""
     half, far = made.loom.weaver.grippers.axis, tool.corner + tool.size
     solid = box((-half, tool.corner.imag, tool.corner.real), (half, far.imag, far.real))
-    return made.part(tool.name, tool.name, solid, machine="knotting-dyad", envelope=True)
+    return room_part(tool.name, tool.name, solid, "knotting-dyad")
 
 
 def knot_yarn(made: SceneMaker) -> tuple[SceneYarn, ...]:

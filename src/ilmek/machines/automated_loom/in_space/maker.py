@@ -1,15 +1,11 @@
 """What the parts of a scene are made from: the loom, its parts list and report, and the motions of its tracks."""
 
-from collections.abc import Mapping, Sequence
-
 import numpy as np
 
 from ilmek.arrays import Float, FloatArray
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.parts import parts_of_loom
-from ilmek.plane.solids import plate_solid
 from ilmek.records import record
-from ilmek.report import BillLine, Check, Plate
+from ilmek.report import Check
 from ilmek.report.scene import SceneFrame, SceneMotion, ScenePart, Solid
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.timing.track import Track, laid, sample
@@ -33,10 +29,9 @@ class SceneGroup:
 
 @record
 class SceneMaker:
-    """A loom, the lines of its parts list by name, and all checks of its report."""
+    """A loom, and all checks of its report."""
 
     loom: LoomDesign
-    lines: Mapping[str, BillLine]
     checks: tuple[Check, ...]
 
     @property
@@ -49,68 +44,11 @@ class SceneMaker:
         """Distance of the bearings [m]."""
         return self.loom.task.width
 
-    def checked(self, *words: str) -> tuple[Check, ...]:
-        """The checks whose names begin with any of the words."""
-        return tuple(check for check in self.checks if check.name.startswith(words))
 
-    def part(
-        self,
-        name: str,
-        frame: str,
-        solids: Solid | Sequence[Solid],
-        *,
-        machine: str,
-        line: str = "",
-        checks: Sequence[str] = (),
-        envelope: bool = False,
-        title: str = "",
-    ) -> ScenePart:
-        """A part with material, mass and number from a line of the parts list; default: its own name's."""
-        found = self.lines.get(line or name)
-        return ScenePart(
-            name=name,
-            title=title or name,
-            machine=machine,
-            frame=frame,
-            solids=(solids,) if isinstance(solids, Solid) else tuple(solids),
-            deviations=(0.0,),
-            material=found.material if found else "",
-            mass=found.mass if found else np.nan,
-            number=found.number if found else 1,
-            checks=self.checked(*checks) if checks else (),
-            envelope=envelope,
-        )
-
-
-def maker_of(loom: LoomDesign, checks: tuple[Check, ...]) -> SceneMaker:
-    """The maker of a loom's scene, with all checks of its report."""
-    return SceneMaker(loom, {line.name: line for line in parts_of_loom(loom).parts}, checks)
-
-
-def plate_part(
-    plate: Plate,
-    frame: str,
-    low: float,
-    *,
-    machine: str,
-    mass: float,
-    checks: tuple[Check, ...],
-    deviations: tuple[float, ...] = (FINE,),
-    title: str = "",
-) -> ScenePart:
-    """A plate of the workshop files in a frame, from `low` across [m]."""
+def room_part(name: str, frame: str, solid: Solid, machine: str) -> ScenePart:
+    """A room that the design keeps for what is in no list of parts."""
     return ScenePart(
-        name=f"{machine} {plate.name}",
-        title=title or plate.title,
-        machine=machine,
-        frame=frame,
-        solids=tuple(plate_solid(plate, low, deviation) for deviation in deviations),
-        deviations=deviations,
-        material=plate.material,
-        mass=mass,
-        number=plate.number,
-        checks=checks,
-        plate=f"{machine}-{plate.name}",
+        name=name, title=name, machine=machine, frame=frame, solids=(solid,), deviations=(0.0,), envelope=True
     )
 
 

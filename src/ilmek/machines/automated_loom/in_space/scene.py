@@ -11,7 +11,7 @@ from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.beating import beating
 from ilmek.machines.automated_loom.in_space.cams import cams, warp_positions
 from ilmek.machines.automated_loom.in_space.heads import heads, knot_yarn
-from ilmek.machines.automated_loom.in_space.maker import KNOT, ROW, SceneMaker, maker_of, track_angles
+from ilmek.machines.automated_loom.in_space.maker import KNOT, ROW, SceneMaker, track_angles
 from ilmek.machines.automated_loom.in_space.standing import standing
 from ilmek.machines.automated_loom.in_space.weft import weft, wefts
 from ilmek.machines.shedding.tree import warp_shafts
@@ -28,7 +28,7 @@ _ARC = 7
 @lru_cache(maxsize=2)
 def scene(loom: LoomDesign, report: Report) -> Scene:
     """The scene of a loom, with the checks of its report at the parts that they concern."""
-    made = maker_of(loom, report.all_checks)
+    made = SceneMaker(loom, report.all_checks)
     groups = [build(made) for build in (standing, cams, beating, weft, heads)]
     drawn = {plate.name for plate in report.all_plates}
     parts = (part for group in groups for part in group.parts)

@@ -9,6 +9,7 @@ from ilmek.machines.automated_loom.in_space.maker import (
     SceneMaker,
     along_track,
     motion,
+    room_part,
     track_angles,
 )
 from ilmek.machines.automated_loom.in_space.warps_behind import compensator
@@ -59,5 +60,5 @@ def _warp_cylinders(made: SceneMaker) -> SceneGroup:
     bodies = turning(cylinder_tree(made.loom.warp_tension, positions), motions)
     parts = parts_of(bodies, "warp-tension", checks=made.checks, deviations=(COARSE,))
     roll = tube(side.lower.at, side.roll, side.lower.radius, -made.half, made.half, chord_error=COARSE)
-    carpet = made.part("whole carpet on the lower cylinder", GROUND, roll, machine="automated-loom", envelope=True)
+    carpet = room_part("whole carpet on the lower cylinder", GROUND, roll, "automated-loom")
     return SceneGroup(frames_of(bodies, GROUND), (*parts, carpet))
