@@ -163,9 +163,8 @@ def write_workshop(
         raise OutputError(
             f"{report.machine} has no plates and no cam tables", do="leave out --workshop; its page: --report FILE.html"
         )
-    plates, tables, pieces = (
-        _own_names(named) for named in (report.all_plates, report.all_cam_tables, report.all_pieces)
-    )
+    plates, tables = _own_names(report.all_plates), _own_names(report.all_cam_tables)
+    pieces = _own_names(report.all_pieces)
     allowed = tolerance or Tolerance()
     with joined(outputs, force=force) as made, made.folder(folder) as work:
         left_out: list[str] = []
