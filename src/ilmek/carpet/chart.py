@@ -312,20 +312,21 @@ def chart_of_design(
     reading: ReadParams | None = None,
     palette: PaletteParams | None = None,
     dyed: bool = False,
+    chosen: bool = False,
     exact: Rgb | None = None,
     progress: Progress = SILENT,
 ) -> Chart:
     """As `make_chart`, of a design with one colour for each knot, which the caller need not keep.
 
+    chosen  the yarns are shades that were chosen for this picture: its tones are not stretched onto them
     exact  the colours of the design where it has them rounded: the patterns of a halftone are drawn to them
     Yarns without a count take the usual one of the quality.
     """
     yarns = yarn_list(yarns, 2)
     kind, reading, rules = parse_knot(knot), reading or ReadParams(), palette or PaletteParams()
-    distinct = distinct_colours(design.colours, progress.part(0.0, 0.2))
-    own = yarns_of_design(
-        distinct, design, with_counts(yarns, quality, kind), rules, dyed=dyed, progress=progress.part(0.2, 0.6)
-    )
+    distinct = design.distinct or distinct_colours(design.colours, progress.part(0.0, 0.2))
+    counted_yarns, choosing = with_counts(yarns, quality, kind), progress.part(0.2, 0.6)
+    own = yarns_of_design(distinct, design, counted_yarns, rules, dyed=dyed, chosen=chosen, progress=choosing)
     labs = yarn_labs(own.palette.yarns)
     painted = paint(design.colours, distinct, own.yarn_of, progress.part(0.6, 0.7))
     tones = design if exact is None else replace(design, colours=exact)

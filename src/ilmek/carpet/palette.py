@@ -7,6 +7,7 @@ of them and looked up for every knot, through a table of all 2^24 codes.
 import itertools
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -90,6 +91,15 @@ def distinct_colours(rgb: Rgb, progress: Progress = SILENT) -> Colours:
     for batch, _ in in_threads(convert, bands(found, 1, _BATCH)):
         progress(0.5 + 0.5 * batch.stop / found)
     return Colours(index, labs, counts[:found].copy())
+
+
+def recoloured(colours: Colours, codes: UInt8[np.ndarray, "colours 3"]) -> Colours:
+    """The distinct colours of a picture after each of its colours has become another, of these sRGB codes."""
+    made = distinct_colours(codes[None])
+    red, green, blue = codes.astype(np.int32).T
+    weights = colours.counts.astype(float)  # whole numbers below 2^53: their sums are exact
+    counts = np.bincount(made.index[red << 16 | green << 8 | blue] - 1, weights=weights)
+    return replace(made, counts=counts.astype(np.int64))
 
 
 def nearest_yarns(

@@ -85,11 +85,13 @@ def yarns_of_design(
     rules: PaletteParams,
     *,
     dyed: bool = False,
+    chosen: bool = False,
     progress: Progress = SILENT,
 ) -> YarnsOfDesign:
     """The yarns of a design.
 
     yarns  the list, or with `dyed` the wools in stock, all with their counts      distinct  colours of the design
+    chosen  the yarns are shades that were chosen for this design before
     Raises YarnError for rules that the list cannot meet, and for a given pair whose colour the design does not have.
     """
     drawn = design.kind != "photo"
@@ -107,7 +109,7 @@ def yarns_of_design(
         fixed = {int(groups.of[of[0]]): yarn for of, yarn in pairs}
         found = assign_yarns(groups, labs, fixed, neutral=rules.neutral != NEUTRAL_NO)[groups.of]
         yarn_of = np.where(difference <= _OWN, yarn_of, found)
-    elif not proposed:
+    elif not (proposed or chosen):
         better = _stretched(distinct, design, labs, yarn_of, progress.part(0.9, 1.0))
         stretched, yarn_of = better is not None, yarn_of if better is None else better
     for of, yarn in pairs:

@@ -71,7 +71,7 @@ def chart_of_order(
     Raises PictureError, CarpetError or YarnError.
     """
     file = file_key(order.picture)
-    key = (file, order.size, order.quality, order.fit, order.reading.untoned, with_source)
+    key = (file, order.size, order.quality, order.fit, order.reading.of_picture, with_source)
     chart, notes = stages.keep(
         "own chart", (file, order.fit.ground), lambda: _own_chart(order, progress.part(0.0, 0.4, "picture"))
     )
@@ -89,10 +89,20 @@ def chart_of_order(
         reading = progress.part(0.0, 0.4)
         read = stages.keep("read", key, lambda: _read_file(order, file, reading, stages, with_source=with_source))
     made = _sized(order, read.size, read.quality).resolved()
-    rest = (edited, order.reading, order.palette, made.size, made.quality, made.knot, made.yarns, order.dyed)
+    rest = (
+        edited,
+        order.reading,
+        order.palette,
+        made.size,
+        made.quality,
+        made.knot,
+        made.yarns,
+        order.dyed,
+        stages.in_shades,
+    )
 
     def chart_of() -> Chart:
-        design = toned_design(stages.shown(read.design), order.reading.tone, progress.part(0.4, 0.5, "chart"))
+        design = toned_design(stages.shown(key, read.design), order.reading.tone, progress.part(0.4, 0.5, "chart"))
         made_chart = chart_of_design(
             design,
             made.size,
@@ -103,6 +113,7 @@ def chart_of_order(
             reading=order.reading,
             palette=order.palette,
             dyed=order.dyed,
+            chosen=stages.in_shades,
             exact=None if order.reading.tone.changes else read.design.colours,
             progress=progress.part(0.5, 1.0, "chart"),
         )
@@ -215,7 +226,7 @@ def _read(
 
     fit    what was done to it      drawn  every pixel is a knot, whatever the size
     """
-    params = order.reading.untoned
+    params = order.reading.of_picture
     first = progress.part(0.0, 0.4)
     exact = unfitted_design(
         prepared, order.size, order.quality, fitting=order.fit, reading=params, drawn=drawn, progress=first

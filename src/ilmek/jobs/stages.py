@@ -9,15 +9,21 @@ T = TypeVar("T")
 
 
 class Stages:
-    """The stages of a chart, each made when it is needed; a subclass may keep their results."""
+    """The stages of a chart, each made when it is needed; a subclass may keep their results.
+
+    in_shades  the yarns of the order are shades that were chosen for its picture before
+    """
+
+    in_shades: bool = False
 
     def keep(self, stage: str, key: Hashable, make: Callable[[], T]) -> T:
         """The result of a stage: of `make`, or as it was kept of an equal key. Whoever takes it must not change it."""
         del stage, key
         return make()
 
-    def shown(self, design: Design) -> Design:
-        """The design before its tone is changed and its yarns are chosen: as it is."""
+    def shown(self, key: Hashable, design: Design) -> Design:
+        """The design of a key before its tone is changed and its yarns are chosen: as it is."""
+        del key
         return design
 
 

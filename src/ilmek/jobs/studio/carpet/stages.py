@@ -10,6 +10,7 @@ from typing import Any, TypeVar, cast
 import numpy as np
 
 from ilmek.carpet.chart import Chart
+from ilmek.carpet.palette import distinct_colours
 from ilmek.carpet.reading import Design
 from ilmek.jobs.chart import ChartResult
 from ilmek.jobs.stages import Stages
@@ -43,6 +44,7 @@ class KeptStages(Stages):
     """
 
     draft: bool = False
+    in_shades: bool = False
 
     def keep(self, stage: str, key: Hashable, make: Callable[[], T]) -> T:
         """The result of a stage, as `Stages.keep`; where the chart itself is kept, it is its draft too."""
@@ -64,12 +66,16 @@ class KeptStages(Stages):
         """The result of a stage that was taken last, drafts left out; None: there is none."""
         return next((result for (_, is_draft), result in reversed(_KEPT.get(stage, {}).items()) if not is_draft), None)
 
-    def shown(self, design: Design) -> Design:
-        """The design with the colours of a draft."""
+    def shown(self, key: Hashable, design: Design) -> Design:
+        """The design with the colours of a draft, counted once."""
         if not self.draft or not has_draft(design.kind, design.colours.size // 3):
             return design
-        colours = (design.colours & np.uint8(256 - ROUNDED)) + np.uint8(ROUNDED // 2)
-        return replace(design, colours=colours)
+
+        def rounded() -> Design:
+            colours = (design.colours & np.uint8(256 - ROUNDED)) + np.uint8(ROUNDED // 2)
+            return replace(design, colours=colours, distinct=distinct_colours(colours))
+
+        return self.keep("rounded", key, rounded)
 
 
 def forget() -> None:
