@@ -7,13 +7,14 @@ photo  box averages in linear light [`design`]
 The tone of the design is changed after it is read, whatever the reading [`tone`].
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from types import MappingProxyType
 
 from ilmek.arrays import Rgb
 from ilmek.carpet.design import resampled
 from ilmek.carpet.exact import find_drawing, has_grid, of_grid
-from ilmek.carpet.flat import flat_design, looks_flat, looks_like_itself
+from ilmek.carpet.flat import Flatness, flat_design, looks_flat, looks_like_itself
 from ilmek.carpet.palette import Colours
 from ilmek.carpet.paper.sheet import PaperReading, read_sheet, squared_paper
 from ilmek.carpet.picture_points import read_colour
@@ -176,17 +177,19 @@ def read_design(
     progress: Progress = SILENT,
     *,
     judged: MadeRgb | None = None,
+    look: Callable[[Rgb], Flatness] = looks_flat,
 ) -> Design:
     """The design of a fitted picture that is not exact, on a grid of rows and columns.
 
     judged  the picture before it is fitted, which tells a drawing from a photo: so the size of the carpet changes
             nothing, and an even border makes no drawing of a photo; default: the fitted picture
+    look    tells whether that picture is a drawing
     """
     params = params or ReadParams()
     if params.reading == "photo":
         return _photo(rgb, grid, params, "as required", progress)
     picture = rgb if judged is None else judged
-    seen = looks_flat(picture)
+    seen = look(picture)
     if params.reading == "auto" and not seen.is_flat:
         return _photo(rgb, grid, params, seen.sentence, progress)
     if params.reading == "auto" and not looks_like_itself(picture, seen.true):

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Hashable
 from typing import TypeVar
 
+from ilmek.carpet.flat import Flatness
 from ilmek.carpet.reading import Design
 
 T = TypeVar("T")
@@ -20,6 +21,11 @@ class Stages:
         """The result of a stage: of `make`, or as it was kept of an equal key. Whoever takes it must not change it."""
         del stage, key
         return make()
+
+    def seen(self, picture: Hashable, knots: int, look: Callable[[], Flatness]) -> Flatness:
+        """Whether a part of a picture, for so many knots, is a drawing: as `look` sees it."""
+        del picture, knots
+        return look()
 
     def shown(self, key: Hashable, design: Design) -> Design:
         """The design of a key before its tone is changed and its yarns are chosen: as it is."""

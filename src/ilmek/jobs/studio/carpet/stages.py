@@ -10,6 +10,7 @@ from typing import Any, TypeVar, cast
 import numpy as np
 
 from ilmek.carpet.chart import Chart
+from ilmek.carpet.flat import Flatness
 from ilmek.carpet.palette import distinct_colours
 from ilmek.carpet.reading import Design
 from ilmek.jobs.chart import ChartResult
@@ -40,7 +41,8 @@ class KeptStages(Stages):
 
     draft  the colours of a photo of more than LARGE knots are rounded to ROUNDED codes before they get their yarns,
            which leaves few of them. Patterns follow the true colours while no tone is changed, and the shades are those
-           of the last chart while it has the same recipe, palette and fit; else some knots have other yarns than later
+           of the last chart while it has the same recipe, palette and fit, but for crop and turn; else some knots have
+           other yarns than later. A part of a photo is taken for a photo
     """
 
     draft: bool = False
@@ -65,6 +67,16 @@ class KeptStages(Stages):
     def last(self, stage: str) -> object:
         """The result of a stage that was taken last, drafts left out; None: there is none."""
         return next((result for (_, is_draft), result in reversed(_KEPT.get(stage, {}).items()) if not is_draft), None)
+
+    def seen(self, picture: Hashable, knots: int, look: Callable[[], Flatness]) -> Flatness:
+        """As `Stages.seen`; a draft takes a part of a photo for a photo."""
+        kept = _KEPT.setdefault("seen", OrderedDict())
+        last: Flatness | None = kept.get((picture, False))
+        if self.draft and last is not None and not last.is_flat and has_draft("photo", knots):
+            return last
+        kept.clear()
+        kept[picture, False] = look()
+        return cast("Flatness", kept[picture, False])
 
     def shown(self, key: Hashable, design: Design) -> Design:
         """The design with the colours of a draft, counted once."""

@@ -179,12 +179,19 @@ def _in_shades(order: CarpetOrder, stages: KeptStages) -> tuple[CarpetOrder, Kep
     if not stages.draft or not order.dyed or not isinstance(last, ChartResult) or not last.chart.reading.dyed:
         return order, stages
     before = last.order.order
-    if any(getattr(before, name) != getattr(order, name) for name in ("recipe", "palette", "fit", "inputs")):
+    if any(getattr(before, name) != getattr(order, name) for name in ("recipe", "palette", "inputs")):
+        return order, stages
+    if _whole(before.fit) != _whole(order.fit):
         return order, stages
     if not has_draft(last.chart.reading.kind, last.chart.knots.size):
         return order, stages
     shades = replace(order, yarns=last.chart.yarns, palette=replace(order.palette, colours=None))
     return shades, replace(stages, in_shades=True)
+
+
+def _whole(fit: FitParams) -> FitParams:
+    """The fit of the whole picture, upright: the colours of its parts are taken to be like its own."""
+    return replace(fit, crop=None, turn=0.0)
 
 
 def _folder(context: Context) -> ProjectFolder:
