@@ -18,7 +18,8 @@ from ilmek.arrays import Float, FloatArray, Rgb, UInt8
 from ilmek.carpet.colour import LINEAR
 from ilmek.carpet.design import bands, encoded
 from ilmek.carpet.picture_points import Points
-from ilmek.num.compiled import compiled
+from ilmek.num.compiled import uncounted
+from ilmek.num.threads import in_threads
 from ilmek.progress import SILENT, Progress
 
 Homography = Float[np.ndarray, "3 3"]
@@ -67,7 +68,7 @@ def rotation_about(angle: float, source: tuple[int, int], result: tuple[int, int
     return np.array([[c, s, x - c * u - s * v], [-s, c, y + s * u - c * v], [0.0, 0.0, 1.0]])
 
 
-@compiled
+@uncounted
 def _samples(m: FloatArray, u: float, v: float) -> tuple[int, int]:
     """Samples of the pixel around a point of the result, across and along."""
     z = m[2, 0] * u + m[2, 1] * v + m[2, 2]
@@ -81,7 +82,7 @@ def _samples(m: FloatArray, u: float, v: float) -> tuple[int, int]:
     )
 
 
-@compiled
+@uncounted
 def _project(rgb: Rgb, out: Rgb, first: int, m: FloatArray, outside: FloatArray, keep_edges: bool) -> None:  # noqa: PLR0917
     height, width = rgb.shape[0], rgb.shape[1]
     parallel = m[2, 0] == 0.0 and m[2, 1] == 0.0 and m[2, 2] == 1.0  # parallels stay: no point needs a division
@@ -135,8 +136,10 @@ def projected(
     rgb = np.ascontiguousarray(rgb)
     out = np.empty((*shape, 3), dtype=np.uint8)
     light = LINEAR[np.array(outside or (0, 0, 0))]
-    for band in bands(*shape, _SLICE):
-        _project(rgb, out[band], band.start, homography, light, outside is None)
+    parts = bands(*shape, _SLICE)
+    for band, _ in in_threads(
+        lambda band: _project(rgb, out[band], band.start, homography, light, outside is None), parts
+    ):
         progress(band.stop / shape[0])
     return out
 
