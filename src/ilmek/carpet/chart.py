@@ -16,7 +16,7 @@ from ilmek.carpet.codes import CODES, eight_bits
 from ilmek.carpet.confetti import merge_patches
 from ilmek.carpet.design import bands, knot_grid
 from ilmek.carpet.differences import YarnDifference, differences
-from ilmek.carpet.edges_kept import LostColour, edges_kept, lost_colours
+from ilmek.carpet.edges_kept import LostColour, edges_kept, edges_of, lost_colours
 from ilmek.carpet.fitted import fitted_design, shaped_size, unfitted_design
 from ilmek.carpet.fitting import Fit, FitParams, prepare_picture
 from ilmek.carpet.halftone import draw_halftone
@@ -350,7 +350,7 @@ def chart_of_design(
         proposed=own.proposed if rules.propose is None else _proposed(distinct, design, rules.propose, progress),
         dyed=tuple(shade.name for shade in own.proposed),
         lost=_lost(own, distinct, labs),
-        edges_kept=edges_kept(design.colours, distinct, knots, labs),
+        edges_kept=edges_kept(edges_of(design.colours, distinct), knots, labs),
         paper=design.paper,
     )
     chart = Chart(knots, own.palette.yarns, size, quality, kind, read)

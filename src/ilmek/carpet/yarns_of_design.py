@@ -17,7 +17,7 @@ from ilmek.carpet.assignment import assign_yarns
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.colour_difference import delta_e_2000
 from ilmek.carpet.colour_groups import TWIN, ColourGroups, colour_groups
-from ilmek.carpet.edges_kept import edges_kept
+from ilmek.carpet.edges_kept import edges_kept, edges_of
 from ilmek.carpet.nearest_colour import nearest
 from ilmek.carpet.palette import Colours, nearest_yarns, paint
 from ilmek.carpet.palette_rules import (
@@ -189,7 +189,8 @@ def _stretched(
     distinct: Colours, design: Design, labs: FloatArray, yarn_of: UInt8[np.ndarray, " colours"], progress: Progress
 ) -> UInt8[np.ndarray, " colours"] | None:
     """The nearest yarns of the tones stretched as little as keeps the edges, or most of them; None: as they are."""
-    kept = edges_kept(design.colours, distinct, paint(design.colours, distinct, yarn_of), labs)
+    edges = edges_of(design.colours, distinct)
+    kept = edges_kept(edges, paint(design.colours, distinct, yarn_of), labs)
     if kept is None or kept >= LEAST_EDGES + _MARGIN / 2:
         return None
     order = np.argsort(distinct.labs[:, 0])
@@ -204,7 +205,7 @@ def _stretched(
         toned = distinct.labs.copy()
         toned[:, 0] = own + share * (whole - own)
         found, _ = nearest_yarns(replace(distinct, labs=toned), labs, progress)
-        now = edges_kept(design.colours, distinct, paint(design.colours, distinct, found), labs) or 0.0
+        now = edges_kept(edges, paint(design.colours, distinct, found), labs) or 0.0
         if now > kept:
             best, kept = found, now
         if kept >= LEAST_EDGES + _MARGIN:
