@@ -131,6 +131,16 @@ def edges_of(design: Rgb, colours: Colours) -> Edges:
     return Edges(places[:count], contrasts[:count])
 
 
+def colours_beside(edges: Edges, design: Rgb, colours: Colours) -> IntArray:
+    """The numbers of the distinct colours that the blocks beside the edges have: on no other do they depend."""
+    rows, columns = edges.places.reshape(-1, 2).T
+    is_beside = np.zeros(len(colours.counts), dtype=bool)
+    for down, right in ((0, 0), (0, 1), (1, 0), (1, 1)):
+        red, green, blue = design[rows + down, columns + right].astype(np.int32).T
+        is_beside[colours.index[red << 16 | green << 8 | blue] - 1] = True
+    return np.flatnonzero(is_beside)
+
+
 def edges_kept(edges: Edges, knots: Indices, yarn_labs: Float[np.ndarray, "yarns 3"]) -> float | None:
     """Share of a design's edges that a chart keeps [-]; None: the design has no edge."""
     if not len(edges.contrasts):

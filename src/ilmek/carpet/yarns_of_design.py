@@ -17,7 +17,7 @@ from ilmek.carpet.assignment import assign_yarns
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.colour_difference import delta_e_2000
 from ilmek.carpet.colour_groups import TWIN, ColourGroups, colour_groups
-from ilmek.carpet.edges_kept import edges_kept, edges_of
+from ilmek.carpet.edges_kept import colours_beside, edges_kept, edges_of
 from ilmek.carpet.nearest_colour import nearest
 from ilmek.carpet.palette import Colours, nearest_yarns, paint
 from ilmek.carpet.palette_rules import (
@@ -200,14 +200,16 @@ def _stretched(
         return None
     own, least, most = distinct.labs[:, 0], float(labs[:, 0].min()), float(labs[:, 0].max())
     whole = least + (most - least) * (own - dark) / (light - dark)
-    best = None
+    best, beside = None, colours_beside(edges, design.colours, distinct)
     for share in _STRETCHES:
         toned = distinct.labs.copy()
         toned[:, 0] = own + share * (whole - own)
-        found, _ = nearest_yarns(replace(distinct, labs=toned), labs, progress)
+        found = yarn_of.copy()
+        few = replace(distinct, labs=toned[beside], counts=distinct.counts[beside])
+        found[beside], _ = nearest_yarns(few, labs, progress)
         now = edges_kept(edges, paint(design.colours, distinct, found), labs) or 0.0
         if now > kept:
-            best, kept = found, now
+            best, kept = toned, now
         if kept >= LEAST_EDGES + _MARGIN:
             break
-    return best
+    return None if best is None else nearest_yarns(replace(distinct, labs=best), labs, progress)[0]

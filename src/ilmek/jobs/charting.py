@@ -200,7 +200,8 @@ def _read_file(
     )
     if ground is not None and behind is None and not read.fit.padded:
         notes = (*notes, f"ground={ground!r} is not seen: the picture has no transparent part and no margin")
-    return replace(read, notes=(*notes, *read.notes), indices=indices)
+    whole = shown_source(prepared) if with_source and stages.with_whole and read.fit.kind == "crop" else None
+    return replace(read, notes=(*notes, *read.notes), whole=whole, indices=indices)
 
 
 def _read_chart(
@@ -219,7 +220,8 @@ def _read_chart(
     reading = progress.part(0.3, 1.0)
     seen = partial(ANEW.seen, None)
     read = _read(order, prepared, fit, reading, drawn=drawn, with_source=with_source, seen=seen)
-    return replace(read, notes=(*_flattened(chart), *read.notes))
+    whole = shown_source(prepared) if with_source and read.fit.kind == "crop" else None
+    return replace(read, notes=(*_flattened(chart), *read.notes), whole=whole)
 
 
 def _read(
@@ -262,8 +264,7 @@ def _read(
     )
     notes = fit_notes(fit, fitted.shape[:2], made.size, grid)
     source = shown_source(fitted) if with_source else None
-    whole = shown_source(prepared) if with_source and fit.kind == "crop" else None
-    return _ReadPicture(made.size, made.quality, design, fit, notes, source, whole)
+    return _ReadPicture(made.size, made.quality, design, fit, notes, source)
 
 
 def _sized(order: CarpetOrder, size: CarpetSize, quality: Quality | None) -> CarpetOrder:

@@ -12,10 +12,12 @@ T = TypeVar("T")
 class Stages:
     """The stages of a chart, each made when it is needed; a subclass may keep their results.
 
-    in_shades  the yarns of the order are shades that were chosen for its picture before
+    in_shades   the yarns of the order are shades that were chosen for its picture before
+    with_whole  where the fitted picture is wanted, the picture before it was cropped is wanted too
     """
 
     in_shades: bool = False
+    with_whole: bool = True
 
     def keep(self, stage: str, key: Hashable, make: Callable[[], T]) -> T:
         """The result of a stage: of `make`, or as it was kept of an equal key. Whoever takes it must not change it."""

@@ -47,6 +47,7 @@ class KeptStages(Stages):
 
     draft: bool = False
     in_shades: bool = False
+    with_whole: bool = False
 
     def keep(self, stage: str, key: Hashable, make: Callable[[], T]) -> T:
         """The result of a stage, as `Stages.keep`; where the chart itself is kept, it is its draft too."""
