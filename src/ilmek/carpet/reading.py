@@ -90,8 +90,8 @@ class ReadParams(Params):
     @property
     def of_picture(self) -> "ReadParams":
         """What acts on the design of a picture: the same without tone, patches and halftone, which act on a design."""
-        tone = {"brightness": 0.0, "contrast": 0.0, "saturation": 0.0, "white": None}
-        return replace(self, **tone, least_patch=None, halftone=None)
+        toneless = replace(self, brightness=0.0, contrast=0.0, saturation=0.0, white=None)
+        return replace(toneless, least_patch=None, halftone=None)
 
     def least_patch_of(self, kind: str) -> int:
         """The least patch of a design that was read as this kind."""

@@ -4,7 +4,7 @@ from it.
 
 from collections import OrderedDict
 from collections.abc import Callable, Hashable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any, TypeVar, cast
 
 import numpy as np
@@ -48,6 +48,8 @@ class KeptStages(Stages):
     draft: bool = False
     in_shades: bool = False
     with_whole: bool = False
+    _assumed: list[Flatness] = field(default_factory=list)
+    """The readings that this draft took from another part of its picture: a chart must not take them."""
 
     def keep(self, stage: str, key: Hashable, make: Callable[[], T]) -> T:
         """The result of a stage, as `Stages.keep`; where the chart itself is kept, it is its draft too."""
@@ -58,6 +60,7 @@ class KeptStages(Stages):
             result: T = make()
             chart = result.chart if isinstance(result, ChartResult) else result
             is_draft = isinstance(chart, Chart) and has_draft(chart.reading.kind, chart.knots.size)
+            is_draft |= stage == "read" and bool(self._assumed)
             name = draft if self.draft and is_draft else own
             while len(kept) >= MOST.get(stage, 1):
                 del kept[next((old for old in kept if old[1]), next(iter(kept)))]  # drafts first
@@ -74,6 +77,7 @@ class KeptStages(Stages):
         kept = _KEPT.setdefault("seen", OrderedDict())
         last: Flatness | None = kept.get((picture, False))
         if self.draft and last is not None and not last.is_flat and has_draft("photo", knots):
+            self._assumed.append(last)
             return last
         kept.clear()
         kept[picture, False] = look()
