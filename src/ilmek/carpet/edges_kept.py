@@ -59,7 +59,7 @@ class LostColour(NamedTuple):
 class Edges(NamedTuple):
     """The edges of a design: row and column of the first knots of their two blocks (edges, 4), and the contrasts."""
 
-    places: Int32[np.ndarray, "edges 4"]
+    blocks: Int32[np.ndarray, "edges 4"]
     contrasts: Float[np.ndarray, " edges"]
 
 
@@ -86,7 +86,7 @@ def _mean_yarn(knots: Indices, yarns: FloatArray, i: int, j: int, out: FloatArra
 
 @compiled
 def _find(  # noqa: PLR0917
-    rgb: Rgb, index: IntArray, labs: FloatArray, step: int, places: Int32[np.ndarray, "most 4"], contrasts: FloatArray
+    rgb: Rgb, index: IntArray, labs: FloatArray, step: int, blocks: Int32[np.ndarray, "most 4"], contrasts: FloatArray
 ) -> int:
     """The number of edges, which are written."""
     rows, columns = rgb.shape[:2]
@@ -102,7 +102,7 @@ def _find(  # noqa: PLR0917
                 _mean(rgb, index, labs, y, x, other)
                 contrast = ciede2000(one[0], one[1], one[2], other[0], other[1], other[2])
                 if contrast >= FAINT:
-                    places[count, 0], places[count, 1], places[count, 2], places[count, 3] = i, j, y, x
+                    blocks[count, 0], blocks[count, 1], blocks[count, 2], blocks[count, 3] = i, j, y, x
                     contrasts[count] = contrast
                     count += 1
     return count
@@ -113,7 +113,7 @@ def _kept(edges: Edges, knots: Indices, yarns: FloatArray) -> float:
     """The sum of the contrasts as far as they are kept."""
     one, other, kept = np.empty(3), np.empty(3), 0.0
     for edge in range(len(edges.contrasts)):
-        i, j, y, x = edges.places[edge]
+        i, j, y, x = edges.blocks[edge]
         _mean_yarn(knots, yarns, i, j, one)
         _mean_yarn(knots, yarns, y, x, other)
         drawn = ciede2000(one[0], one[1], one[2], other[0], other[1], other[2])
@@ -126,14 +126,14 @@ def edges_of(design: Rgb, colours: Colours) -> Edges:
     rows, columns = int(design.shape[0]), int(design.shape[1])
     step = max(1, math.ceil(math.sqrt(rows * columns / MOST_BLOCKS)))
     most = 4 * -(-rows // step) * -(-columns // step)
-    places, contrasts = np.empty((most, 4), dtype=np.int32), np.empty(most)
-    count = _find(np.ascontiguousarray(design), colours.index, colours.labs, step, places, contrasts)
-    return Edges(places[:count], contrasts[:count])
+    blocks, contrasts = np.empty((most, 4), dtype=np.int32), np.empty(most)
+    count = _find(np.ascontiguousarray(design), colours.index, colours.labs, step, blocks, contrasts)
+    return Edges(blocks[:count], contrasts[:count])
 
 
 def colours_beside(edges: Edges, design: Rgb, colours: Colours) -> IntArray:
     """The numbers of the distinct colours that the blocks beside the edges have: on no other do they depend."""
-    rows, columns = edges.places.reshape(-1, 2).T
+    rows, columns = edges.blocks.reshape(-1, 2).T
     is_beside = np.zeros(len(colours.counts), dtype=bool)
     for down, right in ((0, 0), (0, 1), (1, 0), (1, 1)):
         red, green, blue = design[rows + down, columns + right].astype(np.int32).T

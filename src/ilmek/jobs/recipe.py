@@ -128,9 +128,8 @@ def _composed_chart(
 
     composition, notes = stages.keep("composition", key, composed)
     chart = stages.keep("chart", (key, made.knot, order.palette, order.dyed, stages.in_shades), charted)
-    made = made.with_dyed(chart.yarns)
     source = shown_source(composition.design.colours) if with_source else None
-    return OrderedChart(made, chart, notes, source), composition
+    return OrderedChart(made.with_dyed(chart.yarns), chart, notes, source), composition
 
 
 def _origins(

@@ -48,7 +48,7 @@ class KeptStages(Stages):
     draft: bool = False
     in_shades: bool = False
     with_whole: bool = False
-    _assumed: list[Flatness] = field(default_factory=list)
+    _assumed: list[Flatness] = field(default_factory=list, compare=False)
     """The readings that this draft took from another part of its picture: a chart must not take them."""
 
     def keep(self, stage: str, key: Hashable, make: Callable[[], T]) -> T:
