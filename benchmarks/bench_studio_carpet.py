@@ -76,8 +76,13 @@ class Change:
 
 CHANGES = (
     Change("brightness of a photo", "photo.png", lambda: ({"brightness": 0.01 * one} for one in count(1))),
+    Change("contrast of a photo", "photo.png", lambda: ({"contrast": 0.01 * one} for one in count(1))),
+    Change("saturation of a photo", "photo.png", lambda: ({"saturation": 0.01 * one} for one in count(1))),
+    Change("halftone of a photo", "photo.png", lambda: ({"halftone": 1 - 0.05 * one} for one in count(1))),
+    Change("least patch of a photo", "photo.png", lambda: ({"least_patch": one} for one in count(5))),
     Change("number of yarns of a photo", "photo.png", lambda: ({"colours": one} for one in count(5))),
     Change("crop of a photo", "photo.png", lambda: ({"crop": f"{one}%,0% 100%,100%"} for one in count(1))),
+    Change("turn of a photo", "photo.png", lambda: ({"turn": f"{one}deg"} for one in count(1))),
     Change("pencil on a photo", "photo.png", lambda: ({"edits": [f"set {one},9 ivory"]} for one in count(1))),
     Change("brightness of a drawing", "drawing.png", lambda: ({"brightness": 0.01 * one} for one in count(1))),
     Change("pencil on a drawing", "drawing.png", lambda: ({"edits": [f"set {one},9 ivory"]} for one in count(1))),
@@ -141,10 +146,10 @@ def write(folder: Path, recipe: dict[str, str]) -> None:
 
 
 def times(change: Change, context: Context) -> Iterator[tuple[float, float]]:
-    """Times of the changes [s]: of the processor and on the clock; the first chart does not count."""
+    """Times of the changes [s]: of the processor and on the clock; the first chart, which is whole, does not count."""
     forget()
     recipe = {**RECIPE, "picture": change.picture}
-    chart(ChartRequest(recipe, draft=True), context)
+    chart(ChartRequest(recipe), context)
     for _, values in zip(range(ROUNDS), change.values(), strict=False):
         request = ChartRequest({**recipe, **values}, draft=True)
         yield timed(partial(chart, request, context))

@@ -8,7 +8,7 @@ from skimage.color import deltaE_ciede2000, rgb2lab
 
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.colour_groups import ColourGroups
-from ilmek.carpet.edges_kept import FAINT, MOST_BLOCKS, REACH, edges_kept, lost_colours
+from ilmek.carpet.edges_kept import FAINT, MOST_BLOCKS, REACH, edges_kept, edges_of, lost_colours
 from ilmek.carpet.palette import distinct_colours, nearest_yarns, paint
 
 YARNS = np.array([(29, 24, 21), (239, 230, 208), (158, 43, 37), (52, 86, 139)], dtype=np.uint8)
@@ -37,7 +37,7 @@ def test_share_is_that_of_all_blocks(rows: int, columns: int, seed: int) -> None
     distinct, labs = distinct_colours(design), srgb_to_lab(YARNS)
     knots = paint(design, distinct, nearest_yarns(distinct, labs)[0])
     expected = plain_share(design, YARNS[knots])
-    found = edges_kept(design, distinct, knots, labs)
+    found = edges_kept(edges_of(design, distinct), knots, labs)
     assert found == (None if expected is None else pytest.approx(expected, abs=2e-3))
 
 
@@ -45,10 +45,10 @@ def test_a_blank_chart_keeps_nothing_and_the_design_itself_all() -> None:
     design = np.repeat(np.repeat(YARNS[np.arange(36).reshape(6, 6) % 4], 9, 0), 9, 1)
     distinct, labs = distinct_colours(design), srgb_to_lab(YARNS)
     knots = paint(design, distinct, nearest_yarns(distinct, labs)[0])
-    assert edges_kept(design, distinct, knots, labs) == 1.0
-    assert edges_kept(design, distinct, np.zeros_like(knots), labs) == 0.0
+    assert edges_kept(edges_of(design, distinct), knots, labs) == 1.0
+    assert edges_kept(edges_of(design, distinct), np.zeros_like(knots), labs) == 0.0
     flat = np.full_like(design, 90)
-    assert edges_kept(flat, distinct_colours(flat), knots, labs) is None
+    assert edges_kept(edges_of(flat, distinct_colours(flat)), knots, labs) is None
 
 
 def test_a_sample_of_a_large_chart_is_near_to_all_of_it() -> None:
@@ -58,7 +58,9 @@ def test_a_sample_of_a_large_chart_is_near_to_all_of_it() -> None:
     distinct, labs = distinct_colours(design), srgb_to_lab(YARNS)
     knots = paint(design, distinct, nearest_yarns(distinct, labs)[0])
     assert knots.size > MOST_BLOCKS
-    assert edges_kept(design, distinct, knots, labs) == pytest.approx(plain_share(design, YARNS[knots]), abs=0.02)
+    assert edges_kept(edges_of(design, distinct), knots, labs) == pytest.approx(
+        plain_share(design, YARNS[knots]), abs=0.02
+    )
 
 
 @pytest.mark.parametrize(("yarns", "lost"), [((0, 0, 1), ["#ff0000"]), ((0, 1, 2), [])])

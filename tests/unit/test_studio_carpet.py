@@ -152,6 +152,41 @@ def test_a_draft_of_a_large_photo_is_nearly_the_chart(context: Context, monkeypa
     assert "ivory" in str(_chart(context, draft=True, border=[{"yarn": "ivory", "width": 3}])[0]["yarns"])
 
 
+def _afar(answer: tuple[dict[str, Any], bytes]) -> np.ndarray:
+    """CIELAB of areas of 8 x 8 knots, whose dots mix."""
+    rows, columns = answer[0]["rows"] // 8, answer[0]["columns"] // 8
+    labs = _shown(answer).reshape(answer[0]["rows"], answer[0]["columns"], 3)[: 8 * rows, : 8 * columns]
+    return labs.reshape(rows, 8, columns, 8, 3).mean(axis=(1, 3))
+
+
+@pytest.mark.parametrize("kind", ["landscape", "grain", "portrait"])
+@pytest.mark.parametrize("change", [{"crop": "5%,0% 100%,100%"}, {"turn": "3deg"}])
+def test_a_draft_of_a_part_keeps_shades_and_reading(
+    kind: str, change: dict[str, str], context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(stages, "LARGE", 1000)
+    Image.fromarray(_photo(kind)).save(context.folder / f"{kind}.png")
+    full = _chart(context, picture=f"{kind}.png")
+    draft = _chart(context, draft=True, picture=f"{kind}.png", **change)
+    whole = _chart(context, picture=f"{kind}.png", **change)
+    assert draft[0]["draft"]
+    assert draft[0]["reason"].split(";")[0] == full[0]["reason"].split(";")[0]
+    assert {yarn["srgb"] for yarn in draft[0]["yarns"]} <= {yarn["srgb"] for yarn in full[0]["yarns"]}
+    assert delta_e_2000(_afar(draft), _afar(whole)).mean() < 3
+
+
+def test_a_part_that_is_a_drawing_is_charted_as_one(context: Context, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(stages, "LARGE", 1000)
+    drawn = np.repeat(np.repeat(np.random.default_rng(2).integers(0, 3, (30, 40)), 4, axis=0), 4, axis=1)
+    flags = np.array([[150, 20, 30], [240, 230, 200], [20, 30, 90]], dtype=np.uint8)[drawn]
+    Image.fromarray(np.concatenate([_photo("grain"), flags])).save(context.folder / "half.png")
+    recipe = {"picture": "half.png", "crop": "0%,67% 100%,100%", "size": "40x30cm"}
+    assert _chart(context, **{**recipe, "crop": "0%,0% 100%,70%"})[0]["reading"] == "photo"
+    assert _chart(context, draft=True, **recipe)[0]["draft"]
+    assert _chart(context, **recipe)[0]["reading"] == "flat"
+    assert not _chart(context, draft=True, **recipe)[0]["draft"]
+
+
 def test_the_fitted_picture_is_sent_once(context: Context) -> None:
     answer = chart(ChartRequest(dict(SMALL)), context)
     source = _parts(answer)[0]["source"]

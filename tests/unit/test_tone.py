@@ -32,7 +32,7 @@ def test_saturation_scales_chroma() -> None:
 @pytest.mark.parametrize("white", [(245, 239, 224), (190, 200, 210), (255, 255, 255)])
 def test_the_white_becomes_white_and_greys_of_its_light_become_grey(white: tuple[int, int, int]) -> None:
     rgb = np.array([[white, (0, 0, 0), (120, 60, 30)]], dtype=np.uint8)
-    made, said = toned(rgb, Tone(white=white))
+    made, _, said = toned(rgb, Tone(white=white))
     assert made[0, 0].tolist() == [255, 255, 255]
     assert made[0, 1].tolist() == [0, 0, 0]
     assert said == "; #{:02x}{:02x}{:02x} becomes white".format(*white)
@@ -51,6 +51,18 @@ def test_no_tone_changes_nothing() -> None:
     rgb = np.random.default_rng(0).integers(0, 256, (9, 7, 3), dtype=np.uint8)
     assert toned(rgb, Tone())[0] is rgb
     assert np.array_equal(toned(rgb, Tone(saturation=1e-9))[0], rgb)
+
+
+@pytest.mark.parametrize("tone", [Tone(brightness=0.3), Tone(contrast=-0.9), Tone(saturation=-1.0, white="auto")])
+def test_the_colours_after_a_tone_are_those_of_its_picture(tone: Tone) -> None:
+    rgb = np.random.default_rng(5).integers(0, 60, (90, 70, 3), dtype=np.uint8)
+    made, colours, _ = toned(rgb, tone)
+    counted = distinct_colours(made)
+    assert colours is not None
+    assert len(counted.counts) < len(distinct_colours(rgb).counts)  # some colours become one
+    assert np.array_equal(colours.index, counted.index)
+    assert np.array_equal(colours.counts, counted.counts)
+    assert np.array_equal(colours.labs, counted.labs)
 
 
 def test_the_tone_acts_on_every_reading_and_is_reported() -> None:

@@ -16,7 +16,7 @@ from ilmek.carpet.codes import CODES, eight_bits
 from ilmek.carpet.confetti import merge_patches
 from ilmek.carpet.design import bands, knot_grid
 from ilmek.carpet.differences import YarnDifference, differences
-from ilmek.carpet.edges_kept import LostColour, edges_kept, lost_colours
+from ilmek.carpet.edges_kept import LostColour, edges_kept, edges_of, lost_colours
 from ilmek.carpet.fitted import fitted_design, shaped_size, unfitted_design
 from ilmek.carpet.fitting import Fit, FitParams, prepare_picture
 from ilmek.carpet.halftone import draw_halftone
@@ -312,20 +312,21 @@ def chart_of_design(
     reading: ReadParams | None = None,
     palette: PaletteParams | None = None,
     dyed: bool = False,
+    chosen: bool = False,
     exact: Rgb | None = None,
     progress: Progress = SILENT,
 ) -> Chart:
     """As `make_chart`, of a design with one colour for each knot, which the caller need not keep.
 
+    chosen  the yarns are shades that were chosen for this picture: its tones are not stretched onto them
     exact  the colours of the design where it has them rounded: the patterns of a halftone are drawn to them
     Yarns without a count take the usual one of the quality.
     """
     yarns = yarn_list(yarns, 2)
     kind, reading, rules = parse_knot(knot), reading or ReadParams(), palette or PaletteParams()
-    distinct = distinct_colours(design.colours, progress.part(0.0, 0.2))
-    own = yarns_of_design(
-        distinct, design, with_counts(yarns, quality, kind), rules, dyed=dyed, progress=progress.part(0.2, 0.6)
-    )
+    distinct = design.distinct or distinct_colours(design.colours, progress.part(0.0, 0.2))
+    counted_yarns, choosing = with_counts(yarns, quality, kind), progress.part(0.2, 0.6)
+    own = yarns_of_design(distinct, design, counted_yarns, rules, dyed=dyed, chosen=chosen, progress=choosing)
     labs = yarn_labs(own.palette.yarns)
     painted = paint(design.colours, distinct, own.yarn_of, progress.part(0.6, 0.7))
     tones = design if exact is None else replace(design, colours=exact)
@@ -349,7 +350,7 @@ def chart_of_design(
         proposed=own.proposed if rules.propose is None else _proposed(distinct, design, rules.propose, progress),
         dyed=tuple(shade.name for shade in own.proposed),
         lost=_lost(own, distinct, labs),
-        edges_kept=edges_kept(design.colours, distinct, knots, labs),
+        edges_kept=edges_kept(edges_of(design.colours, distinct), knots, labs),
         paper=design.paper,
     )
     chart = Chart(knots, own.palette.yarns, size, quality, kind, read)

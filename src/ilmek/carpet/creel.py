@@ -4,7 +4,8 @@ The designer of an indexed picture numbers the yarns: index 2 is the yarn on pos
 chart by colours alone would merge two positions that look alike, and would sort the others by the yarn list.
 """
 
-from dataclasses import replace
+from dataclasses import fields, replace
+from operator import attrgetter
 
 import numpy as np
 
@@ -73,9 +74,12 @@ def names_to_buy(chart: Chart) -> tuple[str, ...]:
     return tuple(first.name for first in firsts)
 
 
+_BESIDES_NAME = attrgetter(*(part.name for part in fields(Yarn) if part.name != "name"))
+
+
 def _is_same(one: Yarn, other: Yarn) -> bool:
     """Whether two yarns of a chart are one yarn of the list."""
-    return one == other or (one.number is not None and replace(one, name=other.name) == other)
+    return one == other or (one.number is not None and _BESIDES_NAME(one) == _BESIDES_NAME(other))
 
 
 def _named_apart(yarns: tuple[Yarn, ...], creel: tuple[int, ...]) -> tuple[Yarn, ...]:

@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ilmek.arrays import Float, FloatArray, Indices, IntArray, Rgb, UInt8
+from ilmek.arrays import Float, FloatArray, Indices, Int32, IntArray, Rgb, UInt8
 from ilmek.carpet.assignment import touching
 from ilmek.carpet.colour import lab_to_srgb
 from ilmek.carpet.colour_difference import ciede2000, delta_e_2000
@@ -56,48 +56,96 @@ class LostColour(NamedTuple):
         return hex_colour(self.srgb)
 
 
+class Edges(NamedTuple):
+    """The edges of a design: row and column of the first knots of their two blocks (edges, 4), and the contrasts."""
+
+    blocks: Int32[np.ndarray, "edges 4"]
+    contrasts: Float[np.ndarray, " edges"]
+
+
 @uncounted
-def _mean(  # noqa: PLR0917
-    rgb: Rgb, index: IntArray, labs: FloatArray, knots: Indices, yarns: FloatArray, i: int, j: int, out: FloatArray
-) -> None:
-    """Write the mean CIELAB of a block: of the design, then of the yarns."""
+def _mean(rgb: Rgb, index: IntArray, labs: FloatArray, i: int, j: int, out: FloatArray) -> None:  # noqa: PLR0917
+    """Write the mean CIELAB of a block of the design."""
     out[:] = 0.0
     for y in range(i, i + 2):
         for x in range(j, j + 2):
             code = np.int32(rgb[y, x, 0]) << 16 | np.int32(rgb[y, x, 1]) << 8 | rgb[y, x, 2]
             for axis in range(3):
                 out[axis] += 0.25 * labs[index[code] - 1, axis]
-                out[3 + axis] += 0.25 * yarns[knots[y, x], axis]
+
+
+@uncounted
+def _mean_yarn(knots: Indices, yarns: FloatArray, i: int, j: int, out: FloatArray) -> None:
+    """Write the mean CIELAB of the yarns of a block."""
+    out[:] = 0.0
+    for y in range(i, i + 2):
+        for x in range(j, j + 2):
+            for axis in range(3):
+                out[axis] += 0.25 * yarns[knots[y, x], axis]
 
 
 @compiled
-def _edges(  # noqa: PLR0917
-    rgb: Rgb, index: IntArray, labs: FloatArray, knots: Indices, yarns: FloatArray, step: int, sums: FloatArray
-) -> None:
-    rows, columns = knots.shape
-    one, other = np.empty(6), np.empty(6)
+def _find(  # noqa: PLR0917
+    rgb: Rgb, index: IntArray, labs: FloatArray, step: int, blocks: Int32[np.ndarray, "most 4"], contrasts: FloatArray
+) -> int:
+    """The number of edges, which are written."""
+    rows, columns = rgb.shape[:2]
+    one, other, count = np.empty(3), np.empty(3), 0
     for i in range(0, rows - 1, step):
         for j in range(i // step * 7 % step, columns - 1, step):
-            _mean(rgb, index, labs, knots, yarns, i, j, one)
+            _mean(rgb, index, labs, i, j, one)
             for turn in range(4):
                 reach = REACH if turn >= 2 else 2
                 y, x = (i + reach, j) if turn % 2 else (i, j + reach)
                 if y + 1 >= rows or x + 1 >= columns:
                     continue
-                _mean(rgb, index, labs, knots, yarns, y, x, other)
+                _mean(rgb, index, labs, y, x, other)
                 contrast = ciede2000(one[0], one[1], one[2], other[0], other[1], other[2])
                 if contrast >= FAINT:
-                    drawn = ciede2000(one[3], one[4], one[5], other[3], other[4], other[5])
-                    sums[0] += contrast
-                    sums[1] += min(contrast, 2.0 * drawn)
+                    blocks[count, 0], blocks[count, 1], blocks[count, 2], blocks[count, 3] = i, j, y, x
+                    contrasts[count] = contrast
+                    count += 1
+    return count
 
 
-def edges_kept(design: Rgb, colours: Colours, knots: Indices, yarn_labs: Float[np.ndarray, "yarns 3"]) -> float | None:
-    """Share of the design's edges that a chart keeps [-]; None: the design has no edge."""
-    sums = np.zeros(2)
-    step = max(1, math.ceil(math.sqrt(knots.size / MOST_BLOCKS)))
-    _edges(np.ascontiguousarray(design), colours.index, colours.labs, knots, yarn_labs, step, sums)
-    return float(sums[1] / sums[0]) if sums[0] > 0 else None
+@compiled
+def _kept(edges: Edges, knots: Indices, yarns: FloatArray) -> float:
+    """The sum of the contrasts as far as they are kept."""
+    one, other, kept = np.empty(3), np.empty(3), 0.0
+    for edge in range(len(edges.contrasts)):
+        i, j, y, x = edges.blocks[edge]
+        _mean_yarn(knots, yarns, i, j, one)
+        _mean_yarn(knots, yarns, y, x, other)
+        drawn = ciede2000(one[0], one[1], one[2], other[0], other[1], other[2])
+        kept += min(edges.contrasts[edge], 2.0 * drawn)
+    return kept
+
+
+def edges_of(design: Rgb, colours: Colours) -> Edges:
+    """The edges of a design (rows, columns, 3)."""
+    rows, columns = int(design.shape[0]), int(design.shape[1])
+    step = max(1, math.ceil(math.sqrt(rows * columns / MOST_BLOCKS)))
+    most = 4 * -(-rows // step) * -(-columns // step)
+    blocks, contrasts = np.empty((most, 4), dtype=np.int32), np.empty(most)
+    count = _find(np.ascontiguousarray(design), colours.index, colours.labs, step, blocks, contrasts)
+    return Edges(blocks[:count], contrasts[:count])
+
+
+def colours_beside(edges: Edges, design: Rgb, colours: Colours) -> IntArray:
+    """The numbers of the distinct colours that the blocks beside the edges have: on no other do they depend."""
+    rows, columns = edges.blocks.reshape(-1, 2).T
+    is_beside = np.zeros(len(colours.counts), dtype=bool)
+    for down, right in ((0, 0), (0, 1), (1, 0), (1, 1)):
+        red, green, blue = design[rows + down, columns + right].astype(np.int32).T
+        is_beside[colours.index[red << 16 | green << 8 | blue] - 1] = True
+    return np.flatnonzero(is_beside)
+
+
+def edges_kept(edges: Edges, knots: Indices, yarn_labs: Float[np.ndarray, "yarns 3"]) -> float | None:
+    """Share of a design's edges that a chart keeps [-]; None: the design has no edge."""
+    if not len(edges.contrasts):
+        return None
+    return float(_kept(edges, knots, yarn_labs) / edges.contrasts.cumsum()[-1])
 
 
 def lost_colours(

@@ -1,10 +1,12 @@
 """From a prepared picture to the design: a drawing is taken before the fit changes it, else it is fitted and read."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 from ilmek.arrays import Rgb
 from ilmek.carpet.design import knot_grid
 from ilmek.carpet.fitting import Fit, FitParams, fit_prepared
+from ilmek.carpet.flat import Flatness, looks_flat
 from ilmek.carpet.projection import MadeRgb
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.reading import Design, ReadParams, exact_design, read_design
@@ -51,11 +53,13 @@ def fitted_design(
     fitting: FitParams,
     reading: ReadParams,
     grid: tuple[int, int] | None = None,
+    look: Callable[[Rgb], Flatness] = looks_flat,
     progress: Progress = SILENT,
 ) -> tuple[Design, MadeRgb, Fit]:
     """The design of a prepared picture, the picture as it is fitted, and all that was done to it.
 
     fit   what was done to it before      grid  rows and columns of knots; default: those of size and quality
+    look  tells whether the picture is a drawing
     Raises CarpetError where the reading is to be exact and the fitted pixels are not the knots.
     """
     grid = grid or knot_grid(size, quality)
@@ -63,4 +67,4 @@ def fitted_design(
     exact = exact_design(fitted, size, quality, reading, progress=progress.part(0.1, 0.3))
     if exact is not None:
         return exact[0], fitted, fit
-    return read_design(fitted, grid, reading, progress.part(0.3, 1.0), judged=prepared), fitted, fit
+    return read_design(fitted, grid, reading, progress.part(0.3, 1.0), judged=prepared, look=look), fitted, fit

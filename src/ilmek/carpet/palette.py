@@ -7,6 +7,7 @@ of them and looked up for every knot, through a table of all 2^24 codes.
 import itertools
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from ilmek.carpet.design import PART, bands
 from ilmek.carpet.nearest_colour import nearest
 from ilmek.errors import YarnError
 from ilmek.num.compiled import compiled, uncounted
+from ilmek.num.stable_order import stable_order
 from ilmek.num.threads import in_threads
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
@@ -27,9 +29,6 @@ _LARGEST_TABLE = 1 << 25
 _MOST_TRIALS = 3_000_000
 _TABLE, _SWAPS = 0.3, 0.4
 """Share of the search for yarns in which the table of differences is made, and share of the rest before the swaps."""
-
-_FEW = 400_000
-"""Number of colours below which sorting is quicker than a table of all cells."""
 
 _CELLS = 256
 """Cells of the Lab space along a and b; both are -108 to 99 in sRGB."""
@@ -90,6 +89,15 @@ def distinct_colours(rgb: Rgb, progress: Progress = SILENT) -> Colours:
     for batch, _ in in_threads(convert, bands(found, 1, _BATCH)):
         progress(0.5 + 0.5 * batch.stop / found)
     return Colours(index, labs, counts[:found].copy())
+
+
+def recoloured(colours: Colours, codes: UInt8[np.ndarray, "colours 3"]) -> Colours:
+    """The distinct colours of a picture after each of its colours has become another, of these sRGB codes."""
+    made = distinct_colours(codes[None])
+    red, green, blue = codes.astype(np.int32).T
+    weights = colours.counts.astype(float)  # whole numbers below 2^53: their sums are exact
+    counts = np.bincount(made.index[red << 16 | green << 8 | blue] - 1, weights=weights)
+    return replace(made, counts=counts.astype(np.int64))
 
 
 def nearest_yarns(
@@ -203,11 +211,9 @@ def _cells(labs: FloatArray, cell: float) -> IntArray:
     for part in bands(len(labs), 1, _BATCH):
         lightness, a, b = np.floor(labs[part] / cell).astype(np.int32).T
         keys[part] = (lightness * _CELLS + a + _CELLS // 2) * _CELLS + b + _CELLS // 2
-    if len(keys) < _FEW:
-        return np.asarray(np.unique(keys, return_inverse=True)[1])
-    occupied = np.zeros(101 * _CELLS**2, dtype=bool)
-    occupied[keys] = True
-    return np.asarray((np.cumsum(occupied, dtype=np.int32) - 1)[keys])
+    order, numbers = stable_order(keys), np.empty(len(keys), dtype=np.int64)
+    numbers[order] = np.cumsum(np.diff(keys[order], prepend=keys[order[:1]]) != 0)
+    return numbers
 
 
 def additions(table: Float[np.ndarray, "yarns colours"], kept: tuple[int, ...] = ()) -> Iterator[tuple[int, float]]:

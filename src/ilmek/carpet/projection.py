@@ -18,7 +18,8 @@ from ilmek.arrays import Float, FloatArray, Rgb, UInt8
 from ilmek.carpet.colour import LINEAR
 from ilmek.carpet.design import bands, encoded
 from ilmek.carpet.picture_points import Points
-from ilmek.num.compiled import compiled
+from ilmek.num.compiled import uncounted
+from ilmek.num.threads import in_threads
 from ilmek.progress import SILENT, Progress
 
 Homography = Float[np.ndarray, "3 3"]
@@ -67,26 +68,37 @@ def rotation_about(angle: float, source: tuple[int, int], result: tuple[int, int
     return np.array([[c, s, x - c * u - s * v], [-s, c, y + s * u - c * v], [0.0, 0.0, 1.0]])
 
 
-@compiled
+@uncounted
+def _samples(m: FloatArray, u: float, v: float) -> tuple[int, int]:
+    """Samples of the pixel around a point of the result, across and along."""
+    z = m[2, 0] * u + m[2, 1] * v + m[2, 2]
+    x = (m[0, 0] * u + m[0, 1] * v + m[0, 2]) / z
+    y = (m[1, 0] * u + m[1, 1] * v + m[1, 2]) / z
+    across = math.hypot(m[0, 0] - x * m[2, 0], m[1, 0] - y * m[2, 0]) / abs(z)
+    along = math.hypot(m[0, 1] - x * m[2, 1], m[1, 1] - y * m[2, 1]) / abs(z)
+    return (
+        min(max(math.ceil(across - _SLACK), 1), _MOST_SAMPLES),
+        min(max(math.ceil(along - _SLACK), 1), _MOST_SAMPLES),
+    )
+
+
+@uncounted
 def _project(rgb: Rgb, out: Rgb, first: int, m: FloatArray, outside: FloatArray, keep_edges: bool) -> None:  # noqa: PLR0917
     height, width = rgb.shape[0], rgb.shape[1]
+    parallel = m[2, 0] == 0.0 and m[2, 1] == 0.0 and m[2, 2] == 1.0  # parallels stay: no point needs a division
+    n, k = _samples(m, 0.5, first + 0.5)
     for row in range(out.shape[0]):
         for column in range(out.shape[1]):
-            u, v = column + 0.5, first + row + 0.5
-            z = m[2, 0] * u + m[2, 1] * v + m[2, 2]
-            x = (m[0, 0] * u + m[0, 1] * v + m[0, 2]) / z
-            y = (m[1, 0] * u + m[1, 1] * v + m[1, 2]) / z
-            across = math.hypot(m[0, 0] - x * m[2, 0], m[1, 0] - y * m[2, 0]) / abs(z)
-            along = math.hypot(m[0, 1] - x * m[2, 1], m[1, 1] - y * m[2, 1]) / abs(z)
-            n = min(max(math.ceil(across - _SLACK), 1), _MOST_SAMPLES)
-            k = min(max(math.ceil(along - _SLACK), 1), _MOST_SAMPLES)
+            if not parallel:
+                n, k = _samples(m, column + 0.5, first + row + 0.5)
             red, green, blue = 0.0, 0.0, 0.0
             for j in range(k):
                 for i in range(n):
                     u, v = column + (i + 0.5) / n, first + row + (j + 0.5) / k
-                    z = m[2, 0] * u + m[2, 1] * v + m[2, 2]
-                    x = (m[0, 0] * u + m[0, 1] * v + m[0, 2]) / z
-                    y = (m[1, 0] * u + m[1, 1] * v + m[1, 2]) / z
+                    x, y = m[0, 0] * u + m[0, 1] * v + m[0, 2], m[1, 0] * u + m[1, 1] * v + m[1, 2]
+                    if not parallel:
+                        z = m[2, 0] * u + m[2, 1] * v + m[2, 2]
+                        x, y = x / z, y / z
                     if not keep_edges and (x < 0.0 or y < 0.0 or x > width or y > height):
                         red += outside[0]
                         green += outside[1]
@@ -124,8 +136,10 @@ def projected(
     rgb = np.ascontiguousarray(rgb)
     out = np.empty((*shape, 3), dtype=np.uint8)
     light = LINEAR[np.array(outside or (0, 0, 0))]
-    for band in bands(*shape, _SLICE):
-        _project(rgb, out[band], band.start, homography, light, outside is None)
+    parts = bands(*shape, _SLICE)
+    for band, _ in in_threads(
+        lambda band: _project(rgb, out[band], band.start, homography, light, outside is None), parts
+    ):
         progress(band.stop / shape[0])
     return out
 

@@ -7,13 +7,15 @@ photo  box averages in linear light [`design`]
 The tone of the design is changed after it is read, whatever the reading [`tone`].
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from types import MappingProxyType
 
 from ilmek.arrays import Rgb
 from ilmek.carpet.design import resampled
 from ilmek.carpet.exact import find_drawing, has_grid, of_grid
-from ilmek.carpet.flat import flat_design, looks_flat, looks_like_itself
+from ilmek.carpet.flat import Flatness, flat_design, looks_flat, looks_like_itself
+from ilmek.carpet.palette import Colours
 from ilmek.carpet.paper.sheet import PaperReading, read_sheet, squared_paper
 from ilmek.carpet.picture_points import read_colour
 from ilmek.carpet.projection import MadeRgb
@@ -86,9 +88,10 @@ class ReadParams(Params):
         return Tone(self.brightness, self.contrast, self.saturation, white)
 
     @property
-    def untoned(self) -> "ReadParams":
-        """The same without changes of the colours."""
-        return replace(self, brightness=0.0, contrast=0.0, saturation=0.0, white=None)
+    def of_picture(self) -> "ReadParams":
+        """What acts on the design of a picture: the same without tone, patches and halftone, which act on a design."""
+        toneless = replace(self, brightness=0.0, contrast=0.0, saturation=0.0, white=None)
+        return replace(toneless, least_patch=None, halftone=None)
 
     def least_patch_of(self, kind: str) -> int:
         """The least patch of a design that was read as this kind."""
@@ -104,6 +107,7 @@ class Design:
     reason   of the decision, one sentence for the user
     foreign  number of knots whose colour is that of no true colour of their cell; None: no true colours
     paper    the sheet of squared paper that it was read from
+    distinct  the distinct colours, where they are known; None: they are to be counted
     """
 
     colours: Rgb
@@ -111,12 +115,13 @@ class Design:
     reason: str
     foreign: int | None = None
     paper: PaperReading | None = None
+    distinct: Colours | None = None
 
 
 def toned_design(design: Design, tone: Tone, progress: Progress = SILENT) -> Design:
     """A design with its tone changed."""
-    colours, words = toned(design.colours, tone, progress)
-    return replace(design, colours=colours, reason=design.reason + words)
+    colours, distinct, words = toned(design.colours, tone, progress, design.distinct)
+    return replace(design, colours=colours, reason=design.reason + words, distinct=distinct)
 
 
 def exact_design(
@@ -172,17 +177,19 @@ def read_design(
     progress: Progress = SILENT,
     *,
     judged: MadeRgb | None = None,
+    look: Callable[[Rgb], Flatness] = looks_flat,
 ) -> Design:
     """The design of a fitted picture that is not exact, on a grid of rows and columns.
 
     judged  the picture before it is fitted, which tells a drawing from a photo: so the size of the carpet changes
             nothing, and an even border makes no drawing of a photo; default: the fitted picture
+    look    tells whether that picture is a drawing
     """
     params = params or ReadParams()
     if params.reading == "photo":
         return _photo(rgb, grid, params, "as required", progress)
     picture = rgb if judged is None else judged
-    seen = looks_flat(picture)
+    seen = look(picture)
     if params.reading == "auto" and not seen.is_flat:
         return _photo(rgb, grid, params, seen.sentence, progress)
     if params.reading == "auto" and not looks_like_itself(picture, seen.true):

@@ -20,7 +20,7 @@ import numpy as np
 from ilmek.arrays import Float, FloatArray, Int32, Rgb, UInt8
 from ilmek.carpet.colour import WHITE, lab_to_srgb, lab_to_xyz, srgb_to_lab, xyz_to_lab
 from ilmek.carpet.design import bands
-from ilmek.carpet.palette import Colours, distinct_colours
+from ilmek.carpet.palette import Colours, distinct_colours, recoloured
 from ilmek.carpet.picture_points import hex_colour
 from ilmek.num.compiled import uncounted
 from ilmek.progress import SILENT, Progress
@@ -94,12 +94,17 @@ def _paint(rgb: Rgb, index: Int32[np.ndarray, " codes"], codes: UInt8[np.ndarray
                 out[row, column, channel] = codes[index[code] - 1, channel]
 
 
-def toned(rgb: Rgb, tone: Tone, progress: Progress = SILENT) -> tuple[Rgb, str]:
-    """A design after the changes of a tone, and what was done, as the end of a sentence."""
+def toned(
+    rgb: Rgb, tone: Tone, progress: Progress = SILENT, colours: Colours | None = None
+) -> tuple[Rgb, Colours | None, str]:
+    """A design after the changes of a tone, its distinct colours, and what was done, as the end of a sentence.
+
+    colours  the distinct colours of the design, where they are known
+    """
     if not tone.changes:
-        return rgb, ""
+        return rgb, colours, ""
     rgb = np.ascontiguousarray(rgb)
-    colours = distinct_colours(rgb, progress.part(0.0, 0.5))
+    colours = colours or distinct_colours(rgb, progress.part(0.0, 0.5))
     white = None
     if isinstance(tone.white, str):
         white = found_white(colours)
@@ -113,7 +118,7 @@ def toned(rgb: Rgb, tone: Tone, progress: Progress = SILENT) -> tuple[Rgb, str]:
     for band in bands(*rgb.shape[:2]):
         _paint(rgb[band], colours.index, codes, out[band])
         progress(0.8 + 0.2 * band.stop / len(rgb))
-    return out, f"; {_in_words(tone, white)}"
+    return out, recoloured(colours, codes), f"; {_in_words(tone, white)}"
 
 
 def _in_words(tone: Tone, white: FloatArray | None) -> str:

@@ -17,7 +17,7 @@ from ilmek.carpet.assignment import assign_yarns
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.colour_difference import delta_e_2000
 from ilmek.carpet.colour_groups import TWIN, ColourGroups, colour_groups
-from ilmek.carpet.edges_kept import edges_kept
+from ilmek.carpet.edges_kept import colours_beside, edges_kept, edges_of
 from ilmek.carpet.nearest_colour import nearest
 from ilmek.carpet.palette import Colours, nearest_yarns, paint
 from ilmek.carpet.palette_rules import (
@@ -85,11 +85,13 @@ def yarns_of_design(
     rules: PaletteParams,
     *,
     dyed: bool = False,
+    chosen: bool = False,
     progress: Progress = SILENT,
 ) -> YarnsOfDesign:
     """The yarns of a design.
 
     yarns  the list, or with `dyed` the wools in stock, all with their counts      distinct  colours of the design
+    chosen  the yarns are shades that were chosen for this design before
     Raises YarnError for rules that the list cannot meet, and for a given pair whose colour the design does not have.
     """
     drawn = design.kind != "photo"
@@ -107,7 +109,7 @@ def yarns_of_design(
         fixed = {int(groups.of[of[0]]): yarn for of, yarn in pairs}
         found = assign_yarns(groups, labs, fixed, neutral=rules.neutral != NEUTRAL_NO)[groups.of]
         yarn_of = np.where(difference <= _OWN, yarn_of, found)
-    elif not proposed:
+    elif not (proposed or chosen):
         better = _stretched(distinct, design, labs, yarn_of, progress.part(0.9, 1.0))
         stretched, yarn_of = better is not None, yarn_of if better is None else better
     for of, yarn in pairs:
@@ -187,7 +189,8 @@ def _stretched(
     distinct: Colours, design: Design, labs: FloatArray, yarn_of: UInt8[np.ndarray, " colours"], progress: Progress
 ) -> UInt8[np.ndarray, " colours"] | None:
     """The nearest yarns of the tones stretched as little as keeps the edges, or most of them; None: as they are."""
-    kept = edges_kept(design.colours, distinct, paint(design.colours, distinct, yarn_of), labs)
+    edges = edges_of(design.colours, distinct)
+    kept = edges_kept(edges, paint(design.colours, distinct, yarn_of), labs)
     if kept is None or kept >= LEAST_EDGES + _MARGIN / 2:
         return None
     order = np.argsort(distinct.labs[:, 0])
@@ -197,14 +200,16 @@ def _stretched(
         return None
     own, least, most = distinct.labs[:, 0], float(labs[:, 0].min()), float(labs[:, 0].max())
     whole = least + (most - least) * (own - dark) / (light - dark)
-    best = None
+    best, beside = None, colours_beside(edges, design.colours, distinct)
     for share in _STRETCHES:
         toned = distinct.labs.copy()
         toned[:, 0] = own + share * (whole - own)
-        found, _ = nearest_yarns(replace(distinct, labs=toned), labs, progress)
-        now = edges_kept(design.colours, distinct, paint(design.colours, distinct, found), labs) or 0.0
+        found = yarn_of.copy()
+        few = replace(distinct, labs=toned[beside], counts=distinct.counts[beside])
+        found[beside], _ = nearest_yarns(few, labs, progress)
+        now = edges_kept(edges, paint(design.colours, distinct, found), labs) or 0.0
         if now > kept:
-            best, kept = found, now
+            best, kept = toned, now
         if kept >= LEAST_EDGES + _MARGIN:
             break
-    return best
+    return None if best is None else nearest_yarns(replace(distinct, labs=best), labs, progress)[0]

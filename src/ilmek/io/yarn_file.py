@@ -23,6 +23,7 @@ A record is one yarn as read from the file: a mapping with the fields `name`, `s
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from functools import cache
 from importlib import resources
 from pathlib import Path
 from typing import TypeAlias
@@ -71,6 +72,7 @@ def read_yarns(path: Path) -> tuple[Yarn, ...]:
         raise YarnError(f"yarn list {path}: {error.given}", allowed=error.allowed, do=error.do) from None
 
 
+@cache
 def default_yarns() -> tuple[Yarn, ...]:
     """The sixteen wool yarns that come with ilmek."""
     text = resources.files("ilmek.data").joinpath("wool16.toml").read_text(encoding="utf-8")

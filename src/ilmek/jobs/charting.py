@@ -1,6 +1,8 @@
 """From the file of an order to its chart: what the file states, and what the order changes of it."""
 
+from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +15,7 @@ from ilmek.carpet.design import knot_grid, resampled
 from ilmek.carpet.exact import few_colours, has_grid, of_grid, stated_quality
 from ilmek.carpet.fitted import fitted_design, shaped_size, unfitted_design
 from ilmek.carpet.fitting import Fit, FitParams, fit_notes, prepare_picture
+from ilmek.carpet.flat import Flatness, looks_flat
 from ilmek.carpet.picture_points import hex_colour
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.reading import Design, ReadParams, toned_design
@@ -71,7 +74,7 @@ def chart_of_order(
     Raises PictureError, CarpetError or YarnError.
     """
     file = file_key(order.picture)
-    key = (file, order.size, order.quality, order.fit, order.reading.untoned, with_source)
+    key = (file, order.size, order.quality, order.fit, order.reading.of_picture, with_source)
     chart, notes = stages.keep(
         "own chart", (file, order.fit.ground), lambda: _own_chart(order, progress.part(0.0, 0.4, "picture"))
     )
@@ -89,10 +92,11 @@ def chart_of_order(
         reading = progress.part(0.0, 0.4)
         read = stages.keep("read", key, lambda: _read_file(order, file, reading, stages, with_source=with_source))
     made = _sized(order, read.size, read.quality).resolved()
-    rest = (edited, order.reading, order.palette, made.size, made.quality, made.knot, made.yarns, order.dyed)
+    yarns = (made.yarns, order.dyed, stages.in_shades)
+    rest = (edited, order.reading, order.palette, made.size, made.quality, made.knot, yarns)
 
     def chart_of() -> Chart:
-        design = toned_design(stages.shown(read.design), order.reading.tone, progress.part(0.4, 0.5, "chart"))
+        design = toned_design(stages.shown(key, read.design), order.reading.tone, progress.part(0.4, 0.5, "chart"))
         made_chart = chart_of_design(
             design,
             made.size,
@@ -103,6 +107,7 @@ def chart_of_order(
             reading=order.reading,
             palette=order.palette,
             dyed=order.dyed,
+            chosen=stages.in_shades,
             exact=None if order.reading.tone.changes else read.design.colours,
             progress=progress.part(0.5, 1.0, "chart"),
         )
@@ -184,10 +189,19 @@ def _read_file(
     )
     del rgb, picture
     reading = progress.part(0.6, 1.0, "chart")
-    read = _read(replace(order, fit=fitting), prepared, fit, reading, drawn=stated is not None, with_source=with_source)
+    read = _read(
+        replace(order, fit=fitting),
+        prepared,
+        fit,
+        reading,
+        drawn=stated is not None,
+        with_source=with_source,
+        seen=partial(stages.seen, of_picture),
+    )
     if ground is not None and behind is None and not read.fit.padded:
         notes = (*notes, f"ground={ground!r} is not seen: the picture has no transparent part and no margin")
-    return replace(read, notes=(*notes, *read.notes), indices=indices)
+    whole = shown_source(prepared) if with_source and stages.with_whole and read.fit.kind == "crop" else None
+    return replace(read, notes=(*notes, *read.notes), whole=whole, indices=indices)
 
 
 def _read_chart(
@@ -204,18 +218,27 @@ def _read_chart(
         quality = order.quality if drawn else given.quality or of_grid((rows, columns), size, None)[1]
         order = replace(order, size=size, quality=quality)
     reading = progress.part(0.3, 1.0)
-    read = _read(order, prepared, fit, reading, drawn=drawn, with_source=with_source)
-    return replace(read, notes=(*_flattened(chart), *read.notes))
+    seen = partial(ANEW.seen, None)
+    read = _read(order, prepared, fit, reading, drawn=drawn, with_source=with_source, seen=seen)
+    whole = shown_source(prepared) if with_source and read.fit.kind == "crop" else None
+    return replace(read, notes=(*_flattened(chart), *read.notes), whole=whole)
 
 
 def _read(
-    order: CarpetOrder, prepared: Rgb, fit: Fit, progress: Progress, *, drawn: bool, with_source: bool
+    order: CarpetOrder,
+    prepared: Rgb,
+    fit: Fit,
+    progress: Progress,
+    *,
+    drawn: bool,
+    with_source: bool,
+    seen: Callable[[int, Callable[[], Flatness]], Flatness],
 ) -> _ReadPicture:
     """Read a picture that is turned and cropped; its tone stays.
 
-    fit    what was done to it      drawn  every pixel is a knot, whatever the size
+    fit    what was done to it      drawn  every pixel is a knot, whatever the size      seen  as `Stages.seen` of it
     """
-    params = order.reading.untoned
+    params = order.reading.of_picture
     first = progress.part(0.0, 0.4)
     exact = unfitted_design(
         prepared, order.size, order.quality, fitting=order.fit, reading=params, drawn=drawn, progress=first
@@ -228,13 +251,20 @@ def _read(
     made = _sized(order, size, order.quality).resolved()
     check_sheets(made.size, made.quality, order)
     reading = progress.part(0.35, 1.0)
+    rows, columns = grid = knot_grid(made.size, made.quality)
     design, fitted, fit = fitted_design(
-        prepared, fit, made.size, made.quality, fitting=order.fit, reading=params, progress=reading
+        prepared,
+        fit,
+        made.size,
+        made.quality,
+        fitting=order.fit,
+        reading=params,
+        look=lambda rgb: seen(rows * columns, partial(looks_flat, rgb)),
+        progress=reading,
     )
-    notes = fit_notes(fit, fitted.shape[:2], made.size, knot_grid(made.size, made.quality))
+    notes = fit_notes(fit, fitted.shape[:2], made.size, grid)
     source = shown_source(fitted) if with_source else None
-    whole = shown_source(prepared) if with_source and fit.kind == "crop" else None
-    return _ReadPicture(made.size, made.quality, design, fit, notes, source, whole)
+    return _ReadPicture(made.size, made.quality, design, fit, notes, source)
 
 
 def _sized(order: CarpetOrder, size: CarpetSize, quality: Quality | None) -> CarpetOrder:

@@ -113,7 +113,7 @@ def _composed_chart(
 
     def charted() -> Chart:
         return chart_of_design(
-            stages.shown(composition.design),
+            stages.shown(key, composition.design),
             made.size,
             made.quality,
             made.yarns,
@@ -122,14 +122,14 @@ def _composed_chart(
             reading=order.reading,
             palette=order.palette,
             dyed=order.dyed,
+            chosen=stages.in_shades,
             progress=progress.part(0.6, 1.0, "chart"),
         )
 
     composition, notes = stages.keep("composition", key, composed)
-    chart = stages.keep("chart", (key, made.knot, order.palette, order.dyed), charted)
-    made = made.with_dyed(chart.yarns)
+    chart = stages.keep("chart", (key, made.knot, order.palette, order.dyed, stages.in_shades), charted)
     source = shown_source(composition.design.colours) if with_source else None
-    return OrderedChart(made, chart, notes, source), composition
+    return OrderedChart(made.with_dyed(chart.yarns), chart, notes, source), composition
 
 
 def _origins(

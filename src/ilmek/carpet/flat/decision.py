@@ -17,6 +17,7 @@ from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.flat.nearest import UNKNOWN, count_near
 from ilmek.carpet.flat.survey import Survey, survey
 from ilmek.carpet.flat.true_colours import TrueColours, is_mixture, true_colours
+from ilmek.num.stable_order import stable_order
 from ilmek.records import record
 from ilmek.units import counted
 
@@ -113,7 +114,7 @@ def _sampled(codes: UInt8[np.ndarray, "pixels 3"], colours: int) -> IntArray:
     red, green, blue = codes.astype(np.int64).T
     code = (red << 16) | (green << 8) | blue
     most = max(1, min(_MOST_PIXELS, _MOST_TRIALS // colours**2))
-    order = np.argsort(code, kind="stable")
+    order = stable_order(code)
     return np.asarray(order[:: -(-len(order) // most) or 1])
 
 

@@ -54,6 +54,7 @@ def draw_line(canvas: Any, x: float, y: float, text: str, size: float) -> None:
         x += size * part.width
 
 
+@lru_cache(maxsize=4096)
 def missing_letters(text: str) -> str:
     """The characters of a text that none of the fonts has, each once.
 

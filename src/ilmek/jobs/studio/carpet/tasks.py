@@ -165,24 +165,33 @@ def _charted(request: ChartRequest | RowRequest | SpecksRequest, context: Contex
         order = _order(request, context)
         files = tuple(file_key(path) for path in order.inputs.values() if path != order.picture)
         key = (context.project, request.path, json.dumps(request.recipe, sort_keys=True), files)
-        return stages.keep(
-            "charted",
-            key,
-            lambda: make_charted(_in_shades(order, stages), context.progress, with_source=True, stages=stages),
-        )
+
+        def made() -> ChartResult:
+            draft, kept = _in_shades(order, stages)
+            return make_charted(draft, context.progress, with_source=True, stages=kept)
+
+        return stages.keep("charted", key, made)
 
 
-def _in_shades(order: CarpetOrder, stages: KeptStages) -> CarpetOrder:
+def _in_shades(order: CarpetOrder, stages: KeptStages) -> tuple[CarpetOrder, KeptStages]:
     """The order of a draft without a list of yarns: in the shades of the last whole chart, where it chose as this."""
     last = stages.last("charted")
     if not stages.draft or not order.dyed or not isinstance(last, ChartResult) or not last.chart.reading.dyed:
-        return order
+        return order, stages
     before = last.order.order
-    if any(getattr(before, name) != getattr(order, name) for name in ("recipe", "palette", "fit", "inputs")):
-        return order
+    if any(getattr(before, name) != getattr(order, name) for name in ("recipe", "palette", "inputs")):
+        return order, stages
+    if _whole(before.fit) != _whole(order.fit):
+        return order, stages
     if not has_draft(last.chart.reading.kind, last.chart.knots.size):
-        return order
-    return replace(order, yarns=last.chart.yarns, palette=replace(order.palette, colours=None))
+        return order, stages
+    shades = replace(order, yarns=last.chart.yarns, palette=replace(order.palette, colours=None))
+    return shades, replace(stages, in_shades=True)
+
+
+def _whole(fit: FitParams) -> FitParams:
+    """The fit of the whole picture, upright: the colours of its parts are taken to be like its own."""
+    return replace(fit, crop=None, turn=0.0)
 
 
 def _folder(context: Context) -> ProjectFolder:
