@@ -61,6 +61,11 @@ LEAST_DETAILS, MOST_DETAILS, LEAST_ALIKE, LEAST_CONTRAST = 0.01, 0.25, 0.6, 0.6
 COARSEST_DRAWN, FINEST_DRAWN, MOST_OBLONG = 150.0, 2000.0, 2.0
 """Qualities [knots/m] and their ratio that a size may give to such a picture."""
 
+LARGEST_STATED = 6.0
+"""Greatest side of the carpet that such a picture may give where no size is given [m]: few carpets are larger, and a
+larger picture of few colours is a scan or a screen. Assumed by this project.
+"""
+
 COARSEST_STATED = 100.0
 """Least number of pixels per metre that are taken for knots."""
 
@@ -178,7 +183,8 @@ def _of_its_own_grid(
             wide, fine = of_grid(grid, size, quality)
         except CarpetError:
             continue
-        if _usual(fine):
+        believable = size is not None or max(wide.width, wide.length) <= LARGEST_STATED
+        if _usual(fine) and believable:
             share = f"{counted(len(few.palette), 'colour')}, {details.fine:.1%} of the knots in details of one knot"
             return KnotDrawing(_reduced(rgb, scale), wide, fine, f"drawn knot by knot{_in_words(grid, scale)}: {share}")
     return None

@@ -25,7 +25,7 @@ from ilmek.carpet.floor import BLACK, evened, floor_difference
 from ilmek.carpet.paper.sheet import squared_paper
 from ilmek.carpet.picture_points import Points
 from ilmek.carpet.projection import MadeRgb
-from ilmek.carpet.straight_edges import Edge, Strip, band_inside, edges_of, fitted_line, sampled, step_outside
+from ilmek.carpet.straight_edges import Edge, SideStrip, band_inside, edges_of, fitted_line, sampled, step_outside
 from ilmek.errors import PictureError
 from ilmek.plane.curves import hull
 from ilmek.progress import SILENT, Progress
@@ -112,8 +112,8 @@ def find_outline(rgb: Rgb, progress: Progress = SILENT) -> tuple[Points, float]:
 
 
 def _strips(
-    lab: FloatArray, difference: FloatArray, corners: Points, reach: float, before: Sequence[Strip] = ()
-) -> list[Strip]:
+    lab: FloatArray, difference: FloatArray, corners: Points, reach: float, before: Sequence[SideStrip] = ()
+) -> list[SideStrip]:
     """Strips of the picture across the four sides; their grain is that of those before."""
     following = np.roll(corners, -1, axis=0)
     if np.hypot(*(following - corners).T).min() < 4:
@@ -123,7 +123,7 @@ def _strips(
     return [sampled(lab, difference, a, b, reach, grain) for a, b, grain in sides]
 
 
-def _edges_around(strips: list[Strip], tilt: float, floor: FloatArray) -> list[Edge]:
+def _edges_around(strips: list[SideStrip], tilt: float, floor: FloatArray) -> list[Edge]:
     """The edge of the carpet of each side.
 
     The outermost edges, or the next ones inwards of sides with a fringe: what is left out may be threads, and the bands
@@ -155,7 +155,7 @@ def _of_threads(band: FloatArray, floor: FloatArray) -> bool:
     return bool(band[0] + BLACK[0] > least and np.hypot(band[1], band[2]) < most)
 
 
-def _refined(strips: list[Strip], edges: list[Edge]) -> tuple[Points, list[float]]:
+def _refined(strips: list[SideStrip], edges: list[Edge]) -> tuple[Points, list[float]]:
     """Corners as intersections of lines fitted to the edges, and for each side the share of points on its line."""
     fitted = [fitted_line(strip, edge, _TOLERANCE) for strip, edge in zip(strips, edges, strict=True)]
     lines = [line.tolist() for line, _ in fitted]

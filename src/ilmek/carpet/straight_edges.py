@@ -49,7 +49,7 @@ _CLEAR = 2.5
 
 
 @record
-class Strip:
+class SideStrip:
     """The picture across a side: `lab` (along, across, 3), difference to the floor, step and whether it is an edge's.
 
     start, end  of the side [pixels]     across  distances outwards, falling [pixels]     share  places along it, 0..1
@@ -75,14 +75,14 @@ class Edge:
     slope: float
     share: float
 
-    def place(self, strip: Strip) -> FloatArray:
+    def column(self, strip: SideStrip) -> FloatArray:
         """Its samples across for each point along."""
         return self.middle + self.slope * (strip.share - 0.5)
 
 
 def sampled(  # noqa: PLR0917
     lab: Lab, difference: FloatArray, start: FloatArray, end: FloatArray, reach: float, grain: float | None = None
-) -> Strip:
+) -> SideStrip:
     """The strip about the side from `start` to `end`, `reach` to both sides [pixels].
 
     grain  of the floor; default: the median step in the outer quarter of the strip
@@ -105,10 +105,10 @@ def sampled(  # noqa: PLR0917
     top = step == scipy.ndimage.maximum_filter1d(step, _FLANK + 3, axis=1)
     inside = scipy.ndimage.maximum_filter1d(unlike, 6, axis=1, origin=-3)
     edge = top & (step > max(_LEAST_STEP, _GRAINS * grain)) & (inside > 1)
-    return Strip(start, end, share, across, seen, unlike, step, edge, grain)
+    return SideStrip(start, end, share, across, seen, unlike, step, edge, grain)
 
 
-def edges_of(strip: Strip, tilt: float) -> list[Edge]:
+def edges_of(strip: SideStrip, tilt: float) -> list[Edge]:
     """Straight edges in a strip, from outside inwards, whose ends are at most `tilt` apart across [pixels]."""
     wide = scipy.ndimage.maximum_filter1d(strip.edge, 2 * _NEAR + 1, axis=1)
     columns = np.arange(len(strip.across))
@@ -116,9 +116,9 @@ def edges_of(strip: Strip, tilt: float) -> list[Edge]:
     shares = np.empty((_SLOPES, len(columns)))
     rows = np.arange(_SAMPLES)[:, None]
     for number, slope in enumerate(slopes):
-        place = np.rint(slope * (strip.share - 0.5)).astype(int)[:, None] + columns
-        within = (place >= 0) & (place < len(columns))
-        shares[number] = (wide[rows, place.clip(0, len(columns) - 1)] & within).mean(axis=0)
+        column = np.rint(slope * (strip.share - 0.5)).astype(int)[:, None] + columns
+        within = (column >= 0) & (column < len(columns))
+        shares[number] = (wide[rows, column.clip(0, len(columns) - 1)] & within).mean(axis=0)
     profile = shares.max(axis=0)
     peaks = (profile == scipy.ndimage.maximum_filter1d(profile, 4 * _NEAR - 1)) & (profile >= LEAST_SHARE)
     labels, count = scipy.ndimage.label(scipy.ndimage.maximum_filter1d(peaks, 3))
@@ -131,16 +131,16 @@ def edges_of(strip: Strip, tilt: float) -> list[Edge]:
     return edges
 
 
-def band_inside(strip: Strip, edge: Edge, end: float) -> Float[np.ndarray, "3"]:
+def band_inside(strip: SideStrip, edge: Edge, end: float) -> Float[np.ndarray, "3"]:
     """Median colour of the band inside an edge, as far as the sample across `end`."""
     deep = min(_BAND, max(2.0, end - edge.middle - 2.0))
-    place = np.rint(edge.place(strip)[:, None] + np.arange(2.0, 2.0 + deep)).astype(int)
-    place = place.clip(0, len(strip.across) - 1)
-    colours: FloatArray = np.median(strip.lab[np.arange(_SAMPLES)[:, None], place], axis=(0, 1))
+    column = np.rint(edge.column(strip)[:, None] + np.arange(2.0, 2.0 + deep)).astype(int)
+    column = column.clip(0, len(strip.across) - 1)
+    colours: FloatArray = np.median(strip.lab[np.arange(_SAMPLES)[:, None], column], axis=(0, 1))
     return colours
 
 
-def step_outside(strip: Strip) -> float:
+def step_outside(strip: SideStrip) -> float:
     """Largest step in the mean colours along a side, from `_CLEAR` pixels outside its middle line outwards, CIELAB.
 
     A change of light is a factor on L* + 16, a* and b*, and is left out.
@@ -152,13 +152,13 @@ def step_outside(strip: Strip) -> float:
     return float(np.linalg.norm(outside[_FLANK:] - outside[:-_FLANK], axis=1).max(initial=0.0))
 
 
-def fitted_line(strip: Strip, edge: Edge, tolerance: float) -> tuple[FloatArray, float]:
+def fitted_line(strip: SideStrip, edge: Edge, tolerance: float) -> tuple[FloatArray, float]:
     """The line a x + b y = c of an edge, by least squares without outliers, and the share of points on it.
 
-    The place of a step is the vertex of the parabola through its maximum and the two samples beside it.
+    The column of a step is the vertex of the parabola through its maximum and the two samples beside it.
     """
     rows = np.arange(_SAMPLES)
-    nearest = np.rint(edge.place(strip)).astype(int)[:, None] + _AROUND
+    nearest = np.rint(edge.column(strip)).astype(int)[:, None] + _AROUND
     steps = np.where(strip.edge[rows[:, None], nearest.clip(0, len(strip.across) - 1)], 1.0, 0.0)
     steps -= 0.01 * np.abs(_AROUND)
     best = steps.argmax(axis=1)
