@@ -31,6 +31,9 @@ SAME = 2.0
 NEAR, FAR = 5.0, 12.0
 """Mean and greatest CIEDE2000 to wools in stock for which nothing is dyed for a drawing; assumed by this project."""
 
+PLAIN = 0.05
+"""Share of the knots above which one colour of a photo is a plain ground: white paper, black night."""
+
 _CANDIDATES = 300
 """Largest number of pooled colours among which the medoids are."""
 
@@ -90,16 +93,19 @@ def propose_shades(
     evenness  0: a colour counts by its knots; 1: all alike; between, by a power of its knots, so that a face is not
               given up for the ground
     least_gain  gain in the mean CIEDE2000, so weighted, below which no shade is added to two
+    A colour of more than PLAIN of a photo's knots is a plain ground, and a shade as it is.
     """
     labs, knots = pooled(colours, _COLOURS, progress)
+    plain = colours.counts > PLAIN * float(colours.counts.sum())
     if len(labs) <= count:
         shades = labs
+    elif drawn or not plain.any():
+        shades = _chosen(colours, count, evenness, least_gain, progress, drawn=drawn)
     else:
-        shades = _medoids(
-            replace(colours, labs=labs, counts=knots), count, evenness, least_gain, progress.part(0.0, 0.6)
-        )
-        if not drawn:
-            shades = _means(labs, knots ** (1.0 - evenness), shades, progress.part(0.6, 1.0))
+        others = replace(colours, labs=colours.labs[~plain], counts=colours.counts[~plain])
+        number = max(count - int(np.count_nonzero(plain)), 1)
+        shades = _chosen(others, number, evenness, least_gain, progress, drawn=False)
+        shades = np.concatenate([colours.labs[plain], shades])
     codes = np.unique(lab_to_srgb(shades), axis=0)
     index, _ = nearest(labs, srgb_to_lab(codes))
     shares = np.bincount(index, weights=knots, minlength=len(codes)) / float(knots.sum())
@@ -109,6 +115,15 @@ def propose_shades(
         name = unique_name(colour_name(srgb_to_lab(codes[number])), shades_by_name)
         shades_by_name[name] = ProposedShade(name, (red, green, blue), float(shares[number]))
     return tuple(shades_by_name.values())
+
+
+def _chosen(
+    colours: Colours, count: int, evenness: float, least_gain: float, progress: Progress, *, drawn: bool
+) -> FloatArray:
+    """At most `count` shades of the colours, in CIELAB: medoids of a drawing, means of a photo."""
+    labs, knots = pooled(colours, _COLOURS, progress)
+    shades = _medoids(replace(colours, labs=labs, counts=knots), count, evenness, least_gain, progress.part(0.0, 0.6))
+    return shades if drawn else _means(labs, knots ** (1.0 - evenness), shades, progress.part(0.6, 1.0))
 
 
 def own_yarns(
