@@ -136,8 +136,14 @@ def _eight_bits(image: Image.Image) -> tuple[_Convert, tuple[str, ...]]:
     return converted, ("16 bits reduced to 8" if whole else "grey scaled from darkest to lightest",)
 
 
+_DIM = 65536 / 16
+
+
 def _limits(image: Image.Image) -> tuple[float, float]:
-    """The greys that become 0 and 255: 0 and 65535 if all are integers between, else the least and greatest."""
+    """The greys that become 0 and 255: 0 and 65535 if all are integers between, else the least and greatest.
+
+    Integers that use less than a sixteenth of that range, as those of a camera of 12 bits, are scaled too.
+    """
     lows, highs = [], []
     for top, bottom in _strips(image):
         grey: FloatArray = np.asarray(image.crop((0, top, image.width, bottom)), dtype=np.float64)
@@ -146,7 +152,7 @@ def _limits(image: Image.Image) -> tuple[float, float]:
             lows.append(float(finite.min()))
             highs.append(float(finite.max()))
     low, high = (min(lows), max(highs)) if lows else (0.0, 1.0)
-    if image.mode != "F" and low >= 0 and high <= 65535:
+    if image.mode != "F" and low >= 0 and _DIM <= high <= 65535:
         return 0.0, 65535.0
     return low, high if high > low else low + 1.0
 
