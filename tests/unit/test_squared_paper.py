@@ -153,5 +153,7 @@ def test_a_picture_that_is_no_sheet_fails_a_check_where_it_is_read_as_one() -> N
     assert [check.name for check in shown.checks if check.name.startswith("squared paper")] == [
         "squared paper: doubtful cells",
         "squared paper: cells beside the grid with lines",
+        "squared paper: lines off their places",
+        "squared paper: changes of colour on every second line",
     ]
     assert all(check.ok for check in shown.checks)

@@ -37,6 +37,9 @@ _CLEAR, _CLEARER, _MOST_PITCHES = 1.0, 1.2, 3
 """Coherence of the lines from which on no heavy lines are looked for; ratio from which on the lines of twice
 a pitch are the lines, and not letters; number of pitches that are tried."""
 
+_LEAST_CHANGING = 8
+"""Least number of lines at which colours change that says whether they are all even, or all odd."""
+
 MOST_SHOWN, VIEW = 500, 60
 """Largest number of doubtful cells that are shown, and side of the view of each [pixels]."""
 
@@ -79,6 +82,11 @@ class PaperReading:
         return int(np.count_nonzero(self.doubtful))
 
     @property
+    def on_every_second(self) -> float:
+        """The share of the changes of colour on every second line, down or across; 0.5 where few lines have changes."""
+        return min(_on_every_second(self.numbers), _on_every_second(self.numbers.T))
+
+    @property
     def words(self) -> str:
         """What was found, for the user."""
         rows, columns = self.grid
@@ -95,6 +103,14 @@ class PaperReading:
             and float(np.mean(self.cells.spread < _EVEN)) >= _LEAST_EVEN
             and self.doubts <= _MOST_DOUBTFUL * self.numbers.size
         )
+
+
+def _on_every_second(numbers: Indices) -> float:
+    """The larger share of the changes along the rows that lie on the odd lines, or on the even ones."""
+    changes = np.count_nonzero(np.diff(numbers, axis=1), axis=0)
+    if np.count_nonzero(changes) < _LEAST_CHANGING:
+        return 0.5
+    return float(max(changes[::2].sum(), changes[1::2].sum()) / changes.sum())
 
 
 def squared_paper(rgb: Rgb, progress: Progress = SILENT) -> PaperReading | None:
