@@ -154,6 +154,7 @@ def test_a_picture_that_is_no_sheet_fails_a_check_where_it_is_read_as_one() -> N
         "squared paper: doubtful cells",
         "squared paper: cells beside the grid with lines",
         "squared paper: lines off their places",
+        "squared paper: difference of even and odd lines",
         "squared paper: changes of colour on every second line",
     ]
     assert all(check.ok for check in shown.checks)

@@ -3,6 +3,7 @@
 from typing import Any
 
 from ilmek.carpet.chart import Chart
+from ilmek.carpet.paper.cells import MOST_ALTERNATING
 from ilmek.carpet.paper.sheet import PaperReading
 from ilmek.report import Check
 from ilmek.report.check import at_most
@@ -46,8 +47,11 @@ def reading_checks(paper: PaperReading) -> tuple[Check, ...]:
     ends = at_most(name, paper.cells.beyond, limit, "%", source, cure=cure)
     source, name = "a sheet is smooth, so its lines follow each other evenly", "squared paper: lines off their places"
     even = at_most(name, paper.cells.uneven, MOST_UNEVEN, "%", source, cure=cure)
+    source, name = "all lines of a grid are drawn", "squared paper: difference of even and odd lines"
+    every = at_most(name, paper.cells.alternating, MOST_ALTERNATING, "%", source, cure=cure)
     source, name = "colours change at any line", "squared paper: changes of colour on every second line"
-    return sure, ends, even, at_most(name, paper.on_every_second, MOST_ON_EVERY_SECOND, "%", source, cure=cure)
+    whole = at_most(name, paper.on_every_second, MOST_ON_EVERY_SECOND, "%", source, cure=cure)
+    return sure, ends, even, every, whole
 
 
 def paper_files(chart: Chart) -> tuple[str, ...]:

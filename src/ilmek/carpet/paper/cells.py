@@ -37,9 +37,15 @@ _DIM, _CONTRAST, _WEAK, _MOST_STRAY = 3, 4.0, 0.35, 6
 """Columns whose own lines may hardly show; their least coherence over that beyond; least one of a column, of the
 median, behind a line that could be the last, and the number of columns behind it that may be none."""
 
+_NONE, _WHOLE = 0.08, 0.95
+"""Coherence, of the median, of a column that hardly is one, and the share of a line that ends it all the same."""
+
 _BLANK, _LEAST_CLEARNESS = 0.05, 0.5
 """Coherence of blank paper, at least, of the median; least difference of the levels of a clear line and of the middles
 of cells."""
+
+MOST_ALTERNATING = 0.3
+"""Largest such difference of the lines of a sheet; 0.4 and more where the pitch is half or half of five."""
 
 _BANDS, _SMOOTH = 6, 5
 """Bands of rows in which the course of the columns is judged, and the degree of a smooth one."""
@@ -62,6 +68,7 @@ class Cells:
     beyond    share of the cells next to the grid in which lines go on, on the worst side
     end       share of the last line that is clear, on the worst side
     uneven    greatest distance of a line from where a smooth sheet has it, of the pitch
+    alternating  difference of the clear shares of even and odd lines, of their sum, down or across: 0 to 1
     strength  coherence of the lines about each cell, over `usual`, that of the median cell
     """
 
@@ -75,6 +82,7 @@ class Cells:
     beyond: float
     end: float
     uneven: float
+    alternating: float
 
 
 @record
@@ -123,9 +131,10 @@ def read_cells(rgb: Rgb, energy: LineEnergy, lattice: Lattice) -> Cells:
     corners = np.stack(lattice.points(*(ends + outwards)), axis=-1)
     beyond = max(_beyond(lines, rows, columns), _beyond(lines.turned, columns, rows))
     end = min(_end(lines, rows, columns, seen), _end(lines.turned, columns, rows, seen.T))
+    alternating = min(_alternating(lines, rows, columns), _alternating(lines.turned, columns, rows))
     points = x + 1j * y
     uneven = max(_uneven(points), _uneven(points.T))
-    return Cells(colours, spread, x, y, corners, strength / usual, usual, beyond, end, uneven)
+    return Cells(colours, spread, x, y, corners, strength / usual, usual, beyond, end, uneven, alternating)
 
 
 def _whole_grid(rgb: Rgb, energy: LineEnergy, lattice: Lattice) -> tuple[Lattice, _Lines, BoolArray, slice, slice]:
@@ -230,11 +239,13 @@ def _to_the_edge(lines: _Lines, columns: slice, rows: slice, seen: BoolArray) ->
             if not 0 < line < len(share) or len(between) < count or share[line] < _ALL_ALONG:
                 continue
             noise = np.median(np.append(beside(last, count, 3, outwards), 0.0))
-            if count == 1 or between.min() > _CONTRAST * max(float(noise), _BLANK * usual):
+            clear = between.min() > _CONTRAST * max(float(noise), _BLANK * usual)
+            if clear or (count == 1 and (between.min() >= _NONE * usual or share[last] < share[line])):
                 return line
         for count in range(1, _MOST_STRAY + 1):
             line, outer = last - count * outwards, coherence[last - count if outwards > 0 else last + count - 1]
-            if share[last] >= _ALONG_IT or outer >= _WEAK * usual or line in (columns.start, columns.stop):
+            none = outer < _NONE * usual and share[last] < min(share[line], _WHOLE)
+            if outer >= _WEAK * usual or not (none or share[last] < _ALONG_IT) or line in (columns.start, columns.stop):
                 break
             if share[line] >= _ALL_ALONG:
                 return line
@@ -283,6 +294,18 @@ def _end(lines: _Lines, rows: slice, columns: slice, seen: BoolArray) -> float:
         if 0 <= beyond < seen.shape[1] and np.count_nonzero(seen[rows, beyond]) >= LEAST_CELLS:
             shares.append(float(clear[seen[rows, beyond], line].mean()))
     return min(shares, default=1.0)
+
+
+def _alternating(lines: _Lines, rows: slice, columns: slice) -> float:
+    """How unequal the shares of clear pieces of even and of odd lines down are, without the outer ones.
+
+    Lines of half the pitch, or of half the distance of heavy lines, are there at every second place only.
+    """
+    share = _clear_lines(lines.down[rows], columns).mean(axis=0)[columns.start + _DIM : columns.stop - _DIM + 1]
+    if len(share) < 2:
+        return 0.0
+    even, odd = float(share[::2].mean()), float(share[1::2].mean())
+    return abs(even - odd) / max(even + odd, 1e-9)
 
 
 def _uneven(points: Complex[np.ndarray, "rows columns"]) -> float:

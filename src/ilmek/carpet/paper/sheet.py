@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from ilmek.arrays import BoolArray, Float, Indices, Int64, Rgb, UInt8
-from ilmek.carpet.paper.cells import Cells, read_cells
+from ilmek.carpet.paper.cells import MOST_ALTERNATING, Cells, read_cells
 from ilmek.carpet.paper.colours import cell_colours
 from ilmek.carpet.paper.lattice import divided, find_lattice
 from ilmek.carpet.paper.lines import (
@@ -149,7 +149,7 @@ def _clearest(rgb: Rgb, progress: Progress, spread: Spread) -> tuple[LineEnergy,
     finest = 0.0  # product of both pitches
     for pitch in likely:
         multiple = math.sqrt(pitch[0] * pitch[1] / finest) if clearest else 1.0
-        if clearest and clearest[1].usual >= _CLEAR and abs(multiple - 2) > 0.3:
+        if clearest and clearest[1].usual >= _CLEAR and _every(clearest[1]) and abs(multiple - 2) > 0.3:
             continue
         energy = line_energy(rgb, pitch, progress.part(0.1, 0.5))
         try:
@@ -163,11 +163,23 @@ def _clearest(rgb: Rgb, progress: Progress, spread: Spread) -> tuple[LineEnergy,
         except PictureError as refusal:
             refusals.append(refusal)
             continue
-        if clearest is None or cells.usual > _CLEARER * clearest[1].usual:
+        if clearest is None or _clearer(cells, clearest[1]):
             clearest, finest = (energy, cells), pitch[0] * pitch[1]
     if clearest is None:
         raise refusals[0]
     return clearest
+
+
+def _every(cells: Cells) -> bool:
+    """Whether lines are at every place, and not at every second one only."""
+    return cells.alternating <= MOST_ALTERNATING
+
+
+def _clearer(cells: Cells, before: Cells) -> bool:
+    """Whether the lines of another pitch are the lines, rather than those before."""
+    if _every(cells) != _every(before):
+        return _every(cells) and cells.usual >= _CLEAR
+    return cells.usual > _CLEARER * before.usual
 
 
 def _views(
