@@ -47,8 +47,9 @@ of cells."""
 MOST_ALTERNATING = 0.3
 """Largest such difference of the lines of a sheet; 0.4 and more where the pitch is half or half of five."""
 
-_BANDS, _SMOOTH = 6, 5
-"""Bands of rows in which the course of the columns is judged, and the degree of a smooth one."""
+_BANDS, _SMOOTH, _PLACES = 6, 5, 12
+"""Bands of rows in which the course of the columns is judged, the greatest degree of a smooth one, and the columns for
+each degree."""
 
 _FURTHER, _MOST_WINDOWS = 10, 4
 """Cells by which the window is made larger where the grid goes on at its edge, and how often."""
@@ -317,7 +318,7 @@ def _uneven(points: Complex[np.ndarray, "rows columns"]) -> float:
     bands = np.array_split(points, min(_BANDS, len(points)))
     places = np.stack([band.mean(axis=0) for band in bands], axis=-1)
     count = len(places)
-    smooth = np.polynomial.legendre.legvander(np.linspace(-1, 1, count), min(_SMOOTH, count // 2))
+    smooth = np.polynomial.legendre.legvander(np.linspace(-1, 1, count), int(np.clip(count // _PLACES, 2, _SMOOTH)))
     off = places - smooth @ (np.linalg.pinv(smooth) @ places)
     pitch = np.abs(places[-1] - places[0]) / (count - 1)
     return float((np.abs(off).max(axis=0) / np.maximum(pitch, 1e-9)).max())
