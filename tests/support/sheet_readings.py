@@ -21,8 +21,9 @@ from ilmek.jobs.paper import reading_checks
 
 @dataclass(frozen=True)
 class Outcome:
-    """How a sheet was read: its verdict, its cells, those wrong, those of them not doubtful, and those doubtful; whether
-    its checks hold.
+    """How a sheet was read: its verdict, its cells, those wrong, those of them not doubtful, and those doubtful.
+
+    holds: none of its checks fails
     """
 
     verdict: str

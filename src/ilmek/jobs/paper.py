@@ -32,8 +32,8 @@ def paper_checks(chart: Chart) -> tuple[Check, ...]:
 
 
 def reading_checks(paper: PaperReading) -> tuple[Check, ...]:
-    """Whether most cells are sure, and, unless the grid was stated, whether it ends where it was found to end, its lines
-    are even, and its cells are not quarters of cells.
+    """Whether most cells are sure; unless the grid was stated, whether it ends where it was found to end, its lines are
+    even, all of them are there, and its cells are no quarters of cells.
     """
     rows, columns = paper.grid
     cure = f"is it a sheet of {columns} × {rows} cells? Leave out --paper, or take a clearer picture"

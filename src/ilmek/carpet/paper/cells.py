@@ -245,8 +245,9 @@ def _to_the_edge(lines: _Lines, columns: slice, rows: slice, seen: BoolArray) ->
                 return line
         for count in range(1, _MOST_STRAY + 1):
             line, outer = last - count * outwards, coherence[last - count if outwards > 0 else last + count - 1]
-            none = outer < _NONE * usual and share[last] < min(share[line], _WHOLE)
-            if outer >= _WEAK * usual or not (none or share[last] < _ALONG_IT) or line in (columns.start, columns.stop):
+            blank = outer < _NONE * usual and share[last] < min(share[line], _WHOLE)
+            stray = outer < _WEAK * usual and (blank or share[last] < _ALONG_IT)
+            if not stray or line in (columns.start, columns.stop):
                 break
             if share[line] >= _ALL_ALONG:
                 return line
@@ -312,8 +313,8 @@ def _alternating(lines: _Lines, rows: slice, columns: slice) -> float:
 def _uneven(points: Complex[np.ndarray, "rows columns"]) -> float:
     """The greatest distance of columns of cells from a smooth course, of their mean distance, in bands of rows.
 
-    A camera, a bend and a turn give a smooth course. A column that was counted twice, or left out, gives a step that the
-    corrections of the lattice spread over some columns.
+    A camera, a bend and a turn give a smooth course. A column that was counted twice, or left out, gives a step, which
+    the corrections of the lattice spread over some columns.
     """
     bands = np.array_split(points, min(_BANDS, len(points)))
     places = np.stack([band.mean(axis=0) for band in bands], axis=-1)
