@@ -37,7 +37,7 @@ _DIM, _CONTRAST, _WEAK, _MOST_STRAY = 3, 4.0, 0.35, 6
 """Columns whose own lines may hardly show; their least coherence over that beyond; least one of a column, of the
 median, behind a line that could be the last, and the number of columns behind it that may be none."""
 
-_NONE, _WHOLE = 0.08, 0.95
+_NONE, _WHOLE = 0.04, 0.95
 """Coherence, of the median, of a column that hardly is one, and the share of a line that ends it all the same."""
 
 _BLANK, _LEAST_CLEARNESS = 0.05, 0.5
