@@ -21,13 +21,17 @@ from ilmek.jobs.paper import reading_checks
 
 @dataclass(frozen=True)
 class Outcome:
-    """How a sheet was read: its verdict, its cells, those wrong, those of them not doubtful, and those doubtful."""
+    """How a sheet was read: its verdict, its cells, those wrong, those of them not doubtful, and those doubtful.
+
+    holds: none of its checks fails
+    """
 
     verdict: str
     cells: int
     wrong: int = 0
     silent: int = 0
     doubtful: int = 0
+    holds: bool = False
 
     @property
     def is_finding(self) -> bool:
@@ -48,12 +52,12 @@ def outcome(sheet: Sheet) -> Outcome:
         paper = read_sheet(sheet.picture)
     except PictureError:
         return Outcome("refused", cells)
+    holds = all(check.ok for check in reading_checks(paper))
     if paper.grid != sheet.truth.shape:
-        holds = all(check.ok for check in reading_checks(paper))
-        return Outcome(f"wrong grid, {'silent' if holds else 'a check fails'}", cells)
+        return Outcome(f"wrong grid, {'silent' if holds else 'a check fails'}", cells, holds=holds)
     wrong = wrong_cells(paper, sheet.truth)
     silent = int(np.count_nonzero(wrong & ~paper.doubtful))
-    return Outcome("read", cells, int(np.count_nonzero(wrong)), silent, paper.doubts)
+    return Outcome("read", cells, int(np.count_nonzero(wrong)), silent, paper.doubts, holds)
 
 
 def main() -> int:
@@ -71,7 +75,8 @@ def main() -> int:
     read = [one for one in outcomes if one.verdict == "read"]
     cells, wrong = sum(one.cells for one in read), sum(one.wrong for one in read)
     sys.stdout.write(
-        f"{len(read)} of {len(outcomes)} sheets have their grid; {wrong:,} of their {cells:,} cells wrong, "
+        f"{len(read)} of {len(outcomes)} sheets have their grid, {sum(not one.holds for one in read)} of these with a "
+        f"check that fails; {wrong:,} of their {cells:,} cells wrong, "
         f"{sum(one.silent for one in read)} of these not doubtful; {sum(one.doubtful for one in read)} cells doubtful\n"
     )
     return int(any(one.is_finding for one in outcomes))

@@ -12,7 +12,7 @@ from PIL import Image, ImageDraw, ImageFilter
 from sheet_readings import wrong_cells
 from sheets import photographed, printed, random_design, random_palette, random_sheet
 
-from ilmek.carpet.paper.sheet import read_sheet, squared_paper
+from ilmek.carpet.paper.sheet import PaperReading, read_sheet, squared_paper
 from ilmek.errors import CarpetError, PictureError
 from ilmek.jobs.chart import chart_order, chart_results, make_charted
 from ilmek.jobs.order import read_order
@@ -78,6 +78,47 @@ def test_neither_heavy_lines_nor_letters_are_taken_for_the_lines(pitch: int, opt
     flat = printed(rng, design, palette, pitch, **options)
     found = read_sheet(photographed(rng, flat, perspective=0.1, bend=0.02, turn=0.05, noise=4, blur=0.7, quality=70))
     assert same_partition(found.numbers.astype(int), design)
+
+
+@pytest.mark.parametrize("seed", [71004, 71002])
+def test_neither_the_table_nor_lines_at_every_second_place_are_taken_for_the_grid(seed: int) -> None:
+    """The table beyond the last line; half the distance of heavy lines."""
+    sheet = random_sheet(seed)
+    found = read_sheet(sheet.picture)
+    assert found.grid == sheet.truth.shape
+    assert all(check.ok for check in reading_checks(found))
+    assert not (wrong_cells(found, sheet.truth) & ~found.doubtful).any()
+
+
+def failed(found: PaperReading) -> set[str]:
+    """The checks of a sheet that fail, without their common part."""
+    checks = reading_checks(found)
+    return {check.name.removeprefix("squared paper: ") for check in checks if not check.ok}
+
+
+def test_a_grid_that_lost_a_column_fails_a_check() -> None:
+    sheet = random_sheet(111009)
+    found = read_sheet(sheet.picture)
+    assert found.grid != sheet.truth.shape
+    assert failed(found) == {"lines off their places"}
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_a_strip_of_other_pitch_and_a_drawing_of_double_cells_fail_a_check(seed: int) -> None:
+    """Pillow makes a strip of nine columns as wide as ten, as a lattice does that counts one column too few."""
+    rng = np.random.default_rng(seed)
+    palette, design = random_palette(rng, 4), random_design(rng, 40, 40, 4)
+    flat = Image.fromarray(printed(rng, design, palette, 16, margin=40))
+    assert failed(read_sheet(np.asarray(flat))) == set()
+    strip = flat.crop((200, 0, 200 + 9 * 16, flat.height)).resize((10 * 16, flat.height))
+    wide = Image.new("RGB", (flat.width + 16, flat.height))
+    wide.paste(flat.crop((0, 0, 200, flat.height)))
+    wide.paste(strip, (200, 0))
+    wide.paste(flat.crop((200 + 9 * 16, 0, flat.width, flat.height)), (360, 0))
+    assert "lines off their places" in failed(read_sheet(np.asarray(wide)))
+    double = np.kron(random_design(rng, 20, 20, 4), np.ones((2, 2), dtype=np.int64))
+    found = read_sheet(printed(rng, double, palette, 16, margin=40))
+    assert failed(found) == {"changes of colour on every second line"}
 
 
 @pytest.mark.parametrize("border", [150, 140])
@@ -153,5 +194,8 @@ def test_a_picture_that_is_no_sheet_fails_a_check_where_it_is_read_as_one() -> N
     assert [check.name for check in shown.checks if check.name.startswith("squared paper")] == [
         "squared paper: doubtful cells",
         "squared paper: cells beside the grid with lines",
+        "squared paper: lines off their places",
+        "squared paper: difference of even and odd lines",
+        "squared paper: changes of colour on every second line",
     ]
     assert all(check.ok for check in shown.checks)

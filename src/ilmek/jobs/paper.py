@@ -3,6 +3,7 @@
 from typing import Any
 
 from ilmek.carpet.chart import Chart
+from ilmek.carpet.paper.cells import MOST_ALTERNATING
 from ilmek.carpet.paper.sheet import PaperReading
 from ilmek.report import Check
 from ilmek.report.check import at_most
@@ -10,9 +11,15 @@ from ilmek.units import counted
 
 PAPER_PAGE = "paper.html"
 
-MOST_BEYOND, MOST_BEYOND_OPEN, LEAST_END = 0.25, 0.03, 0.95
+MOST_BEYOND, MOST_BEYOND_OPEN, LEAST_END = 0.35, 0.03, 0.93
 """Largest share of the cells beside a grid in which lines may go on: where its last lines are there, and where there is
 less than LEAST_END of one."""
+
+MOST_UNEVEN = 0.18
+"""Largest distance of a line from where a smooth sheet has it, of the pitch: a line too many or too few gives more."""
+
+MOST_ON_EVERY_SECOND = 0.95
+"""Largest share of the changes of colour on every second line: all are there where each cell was taken for four."""
 
 MOST_DOUBTFUL = 0.1
 """Largest share of doubtful cells: a picture with more is no sheet, or one that is better drawn again."""
@@ -25,7 +32,9 @@ def paper_checks(chart: Chart) -> tuple[Check, ...]:
 
 
 def reading_checks(paper: PaperReading) -> tuple[Check, ...]:
-    """Whether most cells are sure, and whether the grid ends where it was found to end, unless that was stated."""
+    """Whether most cells are sure; unless the grid was stated, whether it ends where it was found to end, its lines are
+    even, all of them are there, and its cells are no quarters of cells.
+    """
     rows, columns = paper.grid
     cure = f"is it a sheet of {columns} × {rows} cells? Leave out --paper, or take a clearer picture"
     doubts, source = paper.doubts / paper.numbers.size, "cells whose colour is not clear; assumed by this project"
@@ -35,7 +44,14 @@ def reading_checks(paper: PaperReading) -> tuple[Check, ...]:
     cure = f"compare {columns} × {rows} with the sheet; give --size and --quality, or crop the picture to the grid"
     source, name = "lines that cross the edge of the grid end at it", "squared paper: cells beside the grid with lines"
     limit = MOST_BEYOND if paper.cells.end >= LEAST_END else MOST_BEYOND_OPEN
-    return sure, at_most(name, paper.cells.beyond, limit, "%", source, cure=cure)
+    ends = at_most(name, paper.cells.beyond, limit, "%", source, cure=cure)
+    source, name = "a sheet is smooth, so its lines follow each other evenly", "squared paper: lines off their places"
+    even = at_most(name, paper.cells.uneven, MOST_UNEVEN, "%", source, cure=cure)
+    source, name = "all lines of a grid are drawn", "squared paper: difference of even and odd lines"
+    every = at_most(name, paper.cells.alternating, MOST_ALTERNATING, "%", source, cure=cure)
+    source, name = "colours change at any line", "squared paper: changes of colour on every second line"
+    whole = at_most(name, paper.on_every_second, MOST_ON_EVERY_SECOND, "%", source, cure=cure)
+    return sure, ends, even, every, whole
 
 
 def paper_files(chart: Chart) -> tuple[str, ...]:

@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 import scipy
 
-from ilmek.arrays import BoolArray, Float, FloatArray, Rgb
+from ilmek.arrays import BoolArray, Complex, Float, FloatArray, Rgb
 from ilmek.carpet.paper.lattice import SAMPLES, Lattice, divided, rectified, window
 from ilmek.carpet.paper.lines import LineEnergy, levelled, no_grid
 from ilmek.carpet.picture_points import Points
@@ -33,13 +33,23 @@ _INNER, _ALONG, _LINE = 0.28, 7, 2.4
 _ALL_ALONG, _ALONG_IT = 0.8, 0.7
 """Share of the rows in which the last line of a grid is clear, and below which a line is no last one."""
 
-_DIM, _CONTRAST, _WEAK = 3, 4.0, 0.35
+_DIM, _CONTRAST, _WEAK, _MOST_STRAY = 3, 4.0, 0.35, 6
 """Columns whose own lines may hardly show; their least coherence over that beyond; least one of a column, of the
-median, behind a line that could be the last."""
+median, behind a line that could be the last, and the number of columns behind it that may be none."""
+
+_NONE, _WHOLE = 0.04, 0.95
+"""Coherence, of the median, of a column that hardly is one, and the share of a line that ends it all the same."""
 
 _BLANK, _LEAST_CLEARNESS = 0.05, 0.5
 """Coherence of blank paper, at least, of the median; least difference of the levels of a clear line and of the middles
 of cells."""
+
+MOST_ALTERNATING = 0.3
+"""Largest such difference of the lines of a sheet; 0.4 and more where the pitch is half or half of five."""
+
+_BANDS, _SMOOTH, _PLACES = 6, 5, 12
+"""Bands of rows in which the course of the columns is judged, the greatest degree of a smooth one, and the columns for
+each degree."""
 
 _FURTHER, _MOST_WINDOWS = 10, 4
 """Cells by which the window is made larger where the grid goes on at its edge, and how often."""
@@ -58,6 +68,8 @@ class Cells:
     corners   of the grid in the picture, clockwise from the upper left
     beyond    share of the cells next to the grid in which lines go on, on the worst side
     end       share of the last line that is clear, on the worst side
+    uneven    greatest distance of a line from where a smooth sheet has it, of the pitch
+    alternating  difference of the clear shares of even and odd lines, of their sum, down or across: 0 to 1
     strength  coherence of the lines about each cell, over `usual`, that of the median cell
     """
 
@@ -70,6 +82,8 @@ class Cells:
     usual: float
     beyond: float
     end: float
+    uneven: float
+    alternating: float
 
 
 @record
@@ -118,7 +132,10 @@ def read_cells(rgb: Rgb, energy: LineEnergy, lattice: Lattice) -> Cells:
     corners = np.stack(lattice.points(*(ends + outwards)), axis=-1)
     beyond = max(_beyond(lines, rows, columns), _beyond(lines.turned, columns, rows))
     end = min(_end(lines, rows, columns, seen), _end(lines.turned, columns, rows, seen.T))
-    return Cells(colours, spread, x, y, corners, strength / usual, usual, beyond, end)
+    alternating = min(_alternating(lines, rows, columns), _alternating(lines.turned, columns, rows))
+    points = x + 1j * y
+    uneven = max(_uneven(points), _uneven(points.T))
+    return Cells(colours, spread, x, y, corners, strength / usual, usual, beyond, end, uneven, alternating)
 
 
 def _whole_grid(rgb: Rgb, energy: LineEnergy, lattice: Lattice) -> tuple[Lattice, _Lines, BoolArray, slice, slice]:
@@ -206,7 +223,7 @@ def _to_the_edge(lines: _Lines, columns: slice, rows: slice, seen: BoolArray) ->
     The last line of a grid is there all along it. A margin of paper ends at such a line, too, the edge of the sheet: in
     more than one column the lines across have to show more than beyond. A column without lines behind one is none.
     """
-    share = _share_of_lines(lines.down[rows], columns)
+    share = _clear_lines(lines.down[rows], columns).mean(axis=0)
     coherence = np.quantile(lines.of_columns[rows], _MOSTLY, axis=0)
     usual = float(np.median(coherence[columns]))
     visible = seen[rows].mean(axis=0) > 0.98
@@ -223,20 +240,27 @@ def _to_the_edge(lines: _Lines, columns: slice, rows: slice, seen: BoolArray) ->
             if not 0 < line < len(share) or len(between) < count or share[line] < _ALL_ALONG:
                 continue
             noise = np.median(np.append(beside(last, count, 3, outwards), 0.0))
-            if count == 1 or between.min() > _CONTRAST * max(float(noise), _BLANK * usual):
+            clear = between.min() > _CONTRAST * max(float(noise), _BLANK * usual)
+            if clear or (count == 1 and (between.min() >= _NONE * usual or share[last] < share[line])):
                 return line
-        last_column = last - 1 if outwards > 0 else last
-        weak = share[last] < _ALONG_IT and coherence[last_column] < _WEAK * usual
-        return last - outwards if weak and share[last - outwards] >= _ALL_ALONG else last
+        for count in range(1, _MOST_STRAY + 1):
+            line, outer = last - count * outwards, coherence[last - count if outwards > 0 else last + count - 1]
+            blank = outer < _NONE * usual and share[last] < min(share[line], _WHOLE)
+            stray = outer < _WEAK * usual and (blank or share[last] < _ALONG_IT)
+            if not stray or line in (columns.start, columns.stop):
+                break
+            if share[line] >= _ALL_ALONG:
+                return line
+        return last
 
     return slice(end(columns.start, -1), end(columns.stop, 1))
 
 
-def _share_of_lines(clearness: Float[np.ndarray, "rows lines"], columns: slice) -> Float[np.ndarray, " lines"]:
-    """The share of the rows in which each line down is clear, over three rows."""
+def _clear_lines(clearness: Float[np.ndarray, "rows lines"], columns: slice) -> BoolArray:
+    """Where each line down is clear, over three rows."""
     usual = float(np.median(clearness[:, columns.start + 1 : columns.stop]))
     mean = scipy.ndimage.uniform_filter1d(clearness, 3, axis=0, mode="nearest")
-    return np.asarray((mean > max(0.5 * usual, _LEAST_CLEARNESS)).mean(axis=0))
+    return np.asarray(mean > max(0.5 * usual, _LEAST_CLEARNESS))
 
 
 def _run(coherence: FloatArray, core: slice, seen: BoolArray) -> slice:
@@ -262,11 +286,43 @@ def _run(coherence: FloatArray, core: slice, seen: BoolArray) -> slice:
 
 
 def _end(lines: _Lines, rows: slice, columns: slice, seen: BoolArray) -> float:
-    """The share of the last line that is clear, on the side where it is least; 1 where the picture ends at it."""
-    share = _share_of_lines(lines.down[rows], columns)
-    sides = ((columns.start, columns.start - 1), (columns.stop, columns.stop))
-    within = [line for line, beyond in sides if 0 <= beyond < seen.shape[1] and seen[rows, beyond].all()]
-    return float(min(share[within], default=1.0))
+    """The share of the last line that is clear, on the side where it is least; 1 where the picture ends at it.
+
+    Counted where the next cell is in the picture, too.
+    """
+    clear = _clear_lines(lines.down[rows], columns)
+    shares = []
+    for line, beyond in ((columns.start, columns.start - 1), (columns.stop, columns.stop)):
+        if 0 <= beyond < seen.shape[1] and np.count_nonzero(seen[rows, beyond]) >= LEAST_CELLS:
+            shares.append(float(clear[seen[rows, beyond], line].mean()))
+    return min(shares, default=1.0)
+
+
+def _alternating(lines: _Lines, rows: slice, columns: slice) -> float:
+    """How unequal the shares of clear pieces of even and of odd lines down are, without the outer ones.
+
+    Lines of half the pitch, or of half the distance of heavy lines, are there at every second place only.
+    """
+    share = _clear_lines(lines.down[rows], columns).mean(axis=0)[columns.start + _DIM : columns.stop - _DIM + 1]
+    if len(share) < 2:
+        return 0.0
+    even, odd = float(share[::2].mean()), float(share[1::2].mean())
+    return abs(even - odd) / max(even + odd, 1e-9)
+
+
+def _uneven(points: Complex[np.ndarray, "rows columns"]) -> float:
+    """The greatest distance of columns of cells from a smooth course, of their mean distance, in bands of rows.
+
+    A camera, a bend and a turn give a smooth course. A column that was counted twice, or left out, gives a step, which
+    the corrections of the lattice spread over some columns.
+    """
+    bands = np.array_split(points, min(_BANDS, len(points)))
+    places = np.stack([band.mean(axis=0) for band in bands], axis=-1)
+    count = len(places)
+    smooth = np.polynomial.legendre.legvander(np.linspace(-1, 1, count), int(np.clip(count // _PLACES, 2, _SMOOTH)))
+    off = places - smooth @ (np.linalg.pinv(smooth) @ places)
+    pitch = np.abs(places[-1] - places[0]) / (count - 1)
+    return float((np.abs(off).max(axis=0) / np.maximum(pitch, 1e-9)).max())
 
 
 def _beyond(lines: _Lines, rows: slice, columns: slice) -> float:

@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from ilmek.arrays import BoolArray, Float, Indices, Int64, Rgb, UInt8
-from ilmek.carpet.paper.cells import Cells, read_cells
+from ilmek.carpet.paper.cells import MOST_ALTERNATING, Cells, read_cells
 from ilmek.carpet.paper.colours import cell_colours
 from ilmek.carpet.paper.lattice import divided, find_lattice
 from ilmek.carpet.paper.lines import (
@@ -36,6 +36,9 @@ cells, coherence of the lines, number of colours."""
 _CLEAR, _CLEARER, _MOST_PITCHES = 1.0, 1.2, 3
 """Coherence of the lines from which on no heavy lines are looked for; ratio from which on the lines of twice
 a pitch are the lines, and not letters; number of pitches that are tried."""
+
+_LEAST_CHANGING = 8
+"""Least number of lines at which colours change that says whether they are all even, or all odd."""
 
 MOST_SHOWN, VIEW = 500, 60
 """Largest number of doubtful cells that are shown, and side of the view of each [pixels]."""
@@ -79,6 +82,11 @@ class PaperReading:
         return int(np.count_nonzero(self.doubtful))
 
     @property
+    def on_every_second(self) -> float:
+        """The share of the changes of colour on every second line, down or across; 0.5 where few lines have changes."""
+        return min(_on_every_second(self.numbers), _on_every_second(self.numbers.T))
+
+    @property
     def words(self) -> str:
         """What was found, for the user."""
         rows, columns = self.grid
@@ -95,6 +103,14 @@ class PaperReading:
             and float(np.mean(self.cells.spread < _EVEN)) >= _LEAST_EVEN
             and self.doubts <= _MOST_DOUBTFUL * self.numbers.size
         )
+
+
+def _on_every_second(numbers: Indices) -> float:
+    """The larger share of the changes along the rows that lie on the odd lines, or on the even ones."""
+    changes = np.count_nonzero(np.diff(numbers, axis=1), axis=0)
+    if np.count_nonzero(changes) < _LEAST_CHANGING:
+        return 0.5
+    return float(max(changes[::2].sum(), changes[1::2].sum()) / changes.sum())
 
 
 def squared_paper(rgb: Rgb, progress: Progress = SILENT) -> PaperReading | None:
@@ -133,7 +149,7 @@ def _clearest(rgb: Rgb, progress: Progress, spread: Spread) -> tuple[LineEnergy,
     finest = 0.0  # product of both pitches
     for pitch in likely:
         multiple = math.sqrt(pitch[0] * pitch[1] / finest) if clearest else 1.0
-        if clearest and clearest[1].usual >= _CLEAR and abs(multiple - 2) > 0.3:
+        if clearest and clearest[1].usual >= _CLEAR and _every(clearest[1]) and abs(multiple - 2) > 0.3:
             continue
         energy = line_energy(rgb, pitch, progress.part(0.1, 0.5))
         try:
@@ -147,11 +163,23 @@ def _clearest(rgb: Rgb, progress: Progress, spread: Spread) -> tuple[LineEnergy,
         except PictureError as refusal:
             refusals.append(refusal)
             continue
-        if clearest is None or cells.usual > _CLEARER * clearest[1].usual:
+        if clearest is None or _clearer(cells, clearest[1]):
             clearest, finest = (energy, cells), pitch[0] * pitch[1]
     if clearest is None:
         raise refusals[0]
     return clearest
+
+
+def _every(cells: Cells) -> bool:
+    """Whether lines are at every place, and not at every second one only."""
+    return cells.alternating <= MOST_ALTERNATING
+
+
+def _clearer(cells: Cells, before: Cells) -> bool:
+    """Whether the lines of another pitch are the lines, rather than those before."""
+    if _every(cells) != _every(before):
+        return _every(cells) and cells.usual >= _CLEAR
+    return cells.usual > _CLEARER * before.usual
 
 
 def _views(
