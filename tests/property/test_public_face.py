@@ -269,7 +269,7 @@ def test_any_value_gives_a_result_or_an_error_of_the_package(name: str, data: st
 
 # help texts
 
-LONGEST_PARAMETER, LONGEST_CALL, LONGEST_RECORD = 100, 560, 1000
+LONGEST_PARAMETER, LONGEST_CALL, LONGEST_RECORD = 100, 560, 1040
 """Characters of a parameter in the signature of a function, of its whole signature, and of that of a record."""
 
 

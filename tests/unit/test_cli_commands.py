@@ -65,7 +65,7 @@ def test_weave_json_has_its_names(woven: tuple[Path, Any]) -> None:
 def test_checks_name_their_machine_once(woven: tuple[Path, Any]) -> None:
     names = [check["name"] for check in woven[1]["checks"]]
     assert len(names) == len(set(names))
-    assert {name.partition(":")[0] for name in names} >= {"weaver", "hammer", "shedding", "warp-tension"}
+    assert {name.partition(":")[0] for name in names} >= {"weaver", "beat-up", "shedding", "warp-tension"}
 
 
 def test_programme_ties_the_chart(woven: tuple[Path, Any]) -> None:
@@ -87,10 +87,10 @@ def test_programme_ties_the_chart(woven: tuple[Path, Any]) -> None:
 def test_machine_json_has_every_machine(woven: tuple[Path, Any]) -> None:
     machine = json.loads((woven[0] / "machine.json").read_text())
     assert machine["machine"] == "automated-loom"
-    assert set(machine["machines"]) >= {"weaver", "hammer", "shedding", "warp-tension"}
+    assert set(machine["machines"]) >= {"weaver", "beat-up", "shedding", "warp-tension"}
     assert machine["machines"]["shedding"]["parameters"]["warp_pitch"] == machine["results"]["warp_pitch"]
     assert machine["machines"]["weaver"]["parameters"]["knot"] == "symmetric"
-    assert "row_pitch" in machine["machines"]["hammer"]["results"]
+    assert "beater_stroke" in machine["machines"]["beat-up"]["results"]
     assert machine["parameters"]["width"] == 0.4
 
 

@@ -94,7 +94,7 @@ NUMBERS: dict[str, tuple[Callable[[], float], Callable[[], float]]] = {
     ),
     **{
         f"bearings of the {cylinder} cylinder": (
-            lambda one=cylinder: number_of(f"bearing of the {one}"),
+            lambda one=cylinder: number_of(f"bearing of the {one} cylinder"),
             # the parts list has one bearing for each end that a reaction acts on
             lambda one=cylinder: (
                 results("warp-tension")["cylinder_load"][one]
@@ -160,7 +160,7 @@ def test_plates_and_cam_tables_of_the_shedding_fit_the_shaft_and_its_turn() -> N
     """Every plate has a square hole for the shaft's bar; the even and the odd table take a turn at 5 rpm."""
     found = report("shedding")
     for plate in found.plates:
-        (corners,) = (np.asarray(one) for one in plate.cutouts)
+        (corners,) = (cut.points for cut in plate.cutouts)
         sides = np.roll(corners, -1) - corners
         np.testing.assert_allclose(np.abs(sides), results("shedding")["shaft_bar"], rtol=1e-12)
         np.testing.assert_allclose(sides[1:], 1j * sides[:-1], rtol=1e-12)

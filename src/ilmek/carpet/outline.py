@@ -30,7 +30,7 @@ from ilmek.errors import PictureError
 from ilmek.plane.curves import hull
 from ilmek.progress import SILENT, Progress
 
-LEAST_CLEARNESS = 0.75
+LEAST_CLEARNESS = 0.8
 """Least clearness of an outline that is used."""
 
 _LONG, _COARSE = 2400, 600

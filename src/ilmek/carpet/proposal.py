@@ -97,13 +97,13 @@ def propose_shades(
     """
     labs, knots = pooled(colours, _COLOURS, progress)
     plain = colours.counts > PLAIN * float(colours.counts.sum())
+    number = count - int(np.count_nonzero(plain))
     if len(labs) <= count:
         shades = labs
-    elif drawn or not plain.any():
+    elif drawn or not 2 <= number < count:
         shades = _chosen(colours, count, evenness, least_gain, progress, drawn=drawn)
     else:
         others = replace(colours, labs=colours.labs[~plain], counts=colours.counts[~plain])
-        number = max(count - int(np.count_nonzero(plain)), 1)
         shades = _chosen(others, number, evenness, least_gain, progress, drawn=False)
         shades = np.concatenate([colours.labs[plain], shades])
     codes = np.unique(lab_to_srgb(shades), axis=0)

@@ -111,10 +111,11 @@ def parts_of(
                 continue
             alike = _alike(occurrence)
             positions = [Placement(np.zeros(3), occurrence.positions[0].rotation)] if alike else occurrence.positions
+            several = len(_bodies_with(tree, part)) > 1
             parts.append(
                 ScenePart(
-                    name=part.id if len(_bodies_with(tree, part)) == 1 else f"{part.id} of {body.id}",
-                    title=f"{part.title}, {part.size}" if part.size else part.title,
+                    name=f"{part.id} of {body.id}" if several else part.id,
+                    title=_title(part, body, several=several),
                     machine=machine,
                     frame=_row_name(body, occurrence) if alike else body.id,
                     solids=tuple(
@@ -130,6 +131,12 @@ def parts_of(
                 )
             )
     return tuple(parts)
+
+
+def _title(part: Part, body: RigidBody, *, several: bool) -> str:
+    """Title and size of a part; of one that is in several bodies, that of its body too."""
+    named = f"{part.title}, {part.size}" if part.size else part.title
+    return f"{named} ({body.id.rpartition('/')[2]})" if several else named
 
 
 def _bodies_with(tree: Tree, part: Part) -> list[str]:

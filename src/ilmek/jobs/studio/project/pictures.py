@@ -2,12 +2,13 @@
 
 from dataclasses import dataclass
 from itertools import count
-from pathlib import PurePosixPath
+from pathlib import Path, PurePosixPath
 
 from ilmek.errors import ParameterError, shortened
 from ilmek.io.chart.formats import FORMATS
 from ilmek.io.output import disk
-from ilmek.io.rendered.kind import check_reader, drawing_endings
+from ilmek.io.rendered.kind import check_reader, drawing_endings, rendered
+from ilmek.io.rendered.resolution import Rendering
 from ilmek.jobs.studio.answers import Context
 from ilmek.jobs.studio.project.folder import (
     PICTURES,
@@ -35,6 +36,9 @@ BEGINS = {
 }
 """Begins of the pictures that are taken, and the endings of their names."""
 
+_SMALL = (64, 64)
+"""Knots for which a drawing is rendered to see whether it can be."""
+
 CHART_BEGIN = 65_536
 """Bytes by which a chart that is no picture is recognised."""
 
@@ -50,8 +54,8 @@ class UploadRequest:
 def upload_picture(request: UploadRequest, context: Context) -> PictureSummary:
     """Put a picture into pictures/; its type is that of its content. A name that is taken gets a number.
 
-    Raises ParameterError for what is no picture, or is too large; PictureError for a drawing whose reader is not
-    installed; OutputError.
+    Raises ParameterError for what is no picture, or is too large; PictureError for a drawing that is damaged, or whose
+    reader is not installed; OutputError.
     """
     folder = ProjectFolder(context.folder.resolve())
     content, name = request.content, PurePosixPath(request.name.replace("\\", "/")).name
@@ -63,6 +67,7 @@ def upload_picture(request: UploadRequest, context: Context) -> PictureSummary:
         given = f"{shortened(name) or 'the file'} is no picture that can be read"
         raise ParameterError(given, do="use a PNG, JPEG, TIFF, WebP, BMP, GIF, SVG, PDF or PSD file")
     check_reader(shortened(name), content)
+    rendered(Path(shortened(name)), content, Rendering(knots=_SMALL))  # a damaged drawing is refused
     stem, suffix = PurePosixPath(name).stem, PurePosixPath(name).suffix.lower()
     stem = "".join(sign if sign.isalnum() or sign in "_-" else "-" for sign in stem).strip("-_")[:60] or "picture"
     ending = suffix if suffix in endings else endings[0]
