@@ -135,8 +135,8 @@ def parts_of(
 
 def _title(part: Part, body: RigidBody, *, several: bool) -> str:
     """Title and size of a part; of one that is in several bodies, that of its body too."""
-    named = f"{part.title}, {part.size}" if part.size else part.title
-    return f"{named} ({body.id.rpartition('/')[2]})" if several else named
+    named = f"{part.title} ({body.id.rpartition('/')[2]})" if several else part.title
+    return f"{named}, {part.size}" if part.size else named
 
 
 def _bodies_with(tree: Tree, part: Part) -> list[str]:
