@@ -116,6 +116,15 @@ def test_a_part_has_the_numbers_of_the_design_and_its_drawing(page: Page, runnin
     assert violations(page) == []
 
 
+def _is_picked_by_its_label(page: Page, label: Locator) -> bool:
+    """Whether a click on the point that a label names shows the part of that name; another may stand before it."""
+    name, box = label.inner_text().removeprefix("⚠ "), label.bounding_box()
+    assert box is not None
+    page.mouse.click(box["x"] - 6, box["y"] + 10)
+    expect(page.locator(".loom-part h2")).to_have_text(re.compile(r"\w"))
+    return page.locator(".loom-part h2").inner_text().casefold().startswith(name.casefold())
+
+
 def test_the_picture_is_turned_scrubbed_and_worked_by_keys(page: Page, running: Studio) -> None:
     open_view(page, running, "loom")
     page.get_by_role("button", name="Shed", exact=True).click()
@@ -142,15 +151,9 @@ def test_the_picture_is_turned_scrubbed_and_worked_by_keys(page: Page, running: 
     assert listed(page).input_value() == first.get_attribute("value")
     page.get_by_role("tab", name="Picture").click()
     page.get_by_text("Names in the picture").click()
-    box = (
-        page.locator(".loom-labels span")
-        .get_by_text("cylinder (upper cylinder)")
-        .or_(page.locator(".loom-labels span").first)
-        .first.bounding_box()
-    )
-    assert box is not None
-    page.mouse.click(box["x"] - 6, box["y"] + 10)  # the point that the label names
-    expect(page.locator(".loom-part h2")).to_have_text(re.compile(r"\w"))
+    labels = page.locator(".loom-labels span")
+    expect(labels.first).to_be_visible()
+    assert any(_is_picked_by_its_label(page, label) for label in labels.all())
     page.get_by_role("tab", name="Picture").click()
     page.get_by_label("Section").select_option("x")
     assert changed(whole, cut := picture(page)) > 0.05

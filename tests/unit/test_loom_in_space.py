@@ -6,6 +6,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from plate_solids import plate_solid
 
 from ilmek.elements.columns import STEEL
 from ilmek.machines.automated_loom import MACHINE
@@ -17,7 +18,7 @@ from ilmek.machines.automated_loom.parts import parts_of_loom
 from ilmek.machines.beat_up import BeatUp
 from ilmek.machines.beat_up.tree import in_side_view
 from ilmek.plane.contours import area
-from ilmek.plane.solids import bounds, is_closed, plate_solid, volume
+from ilmek.plane.solids import bounds, is_closed, volume
 from ilmek.report import Contour
 from ilmek.report.scene import Scene, SceneFrame, ScenePart
 from ilmek.timing.track import sample
@@ -73,7 +74,7 @@ def test_every_plate_of_the_loom_has_the_volume_of_its_drawing() -> None:
     assert {part.plate for part in drawn} == set(plates)
     for part in drawn:
         plate = plates[part.plate]
-        solid = plate_solid(plate, 0.0, 1e-6)
+        solid = plate_solid(plate, 1e-6)
         cut = math.fsum(math.pi * hole.radius**2 for hole in plate.holes)
         cut += math.fsum(abs(_area(one)) for one in plate.cutouts)
         exact = (abs(_area(plate.outline)) - cut) * plate.thickness

@@ -6,19 +6,14 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from plate_solids import plate_solid
 
 from ilmek.errors import IlmekError
+from ilmek.part.mesh import extruded
+from ilmek.part.shapes import box, tube
 from ilmek.plane.contours import area, bounds, circle, rounded_hull
 from ilmek.plane.solids import bounds as box_of
-from ilmek.plane.solids import (
-    box,
-    is_closed,
-    plate_solid,
-    prism,
-    thinned,
-    tube,
-    volume,
-)
+from ilmek.plane.solids import is_closed, thinned, volume
 from ilmek.plane.triangulation import triangles
 from ilmek.plane.vectors import cross
 from ilmek.report import Hole, Plate
@@ -68,7 +63,7 @@ def test_a_grid_of_aligned_holes_is_closed_and_has_its_volume(wide: int, high: i
     points = np.concatenate([outline, *holes])
     exact = wide * high - float(np.sum(sides**2))
     assert _area(points, triangles(outline, holes)) == pytest.approx(exact, rel=1e-12)
-    plate = prism(outline, 0.0, 2.0, holes)
+    plate = extruded([outline, *holes], 2.0)
     assert is_closed(plate)
     assert volume(plate) == pytest.approx(2 * exact, rel=1e-12)
 
@@ -106,12 +101,10 @@ def test_an_outline_that_crosses_itself_is_refused() -> None:
 
 
 def test_solids_are_closed_and_have_the_volume_of_their_formulas() -> None:
-    solid = box((0, 0, 0), (1, 2, 3))
+    solid = box(1, 2, 3).mesh()
     assert is_closed(solid)
     assert volume(solid) == pytest.approx(6.0, rel=1e-12)
-    assert volume(tube(0.1j, 0.07, 0.065, 0, 1, chord_error=1e-6)) == pytest.approx(
-        math.pi * (0.07**2 - 0.065**2), rel=1e-3
-    )
+    assert volume(tube(0.14, 0.005, 1.0).mesh(1e-6)) == pytest.approx(math.pi * (0.07**2 - 0.065**2), rel=1e-3)
 
 
 def test_a_plate_is_as_thick_and_as_large_as_its_drawing() -> None:
@@ -119,13 +112,13 @@ def test_a_plate_is_as_thick_and_as_large_as_its_drawing() -> None:
     holes = (Hole(0j, 0.005), Hole(0.09 + 0j, 0.005))
     plate = Plate("crank", "Crank", outline, 0.01, "steel", holes, cutouts=(circle(0.045 + 0j, 0.004),))
     exact = (area(outline) - math.pi * (2 * 0.005**2 + 0.004**2)) * 0.01
-    solid = plate_solid(plate, -0.005)
+    solid = plate_solid(plate)
     assert is_closed(solid)
     assert volume(solid) == pytest.approx(exact, rel=2e-3)
     low, high = bounds(outline)
     lower, upper = box_of(solid)
-    assert np.allclose(lower, [-0.005, low.imag, low.real], atol=1e-12)
-    assert np.allclose(upper, [0.005, high.imag, high.real], atol=1e-12)
+    assert np.allclose(lower, [low.real, low.imag, 0.0], atol=1e-12)
+    assert np.allclose(upper, [high.real, high.imag, 0.01], atol=1e-12)
 
 
 def test_a_thinned_line_stays_within_its_deviation() -> None:

@@ -101,9 +101,10 @@ def propose_shades(
     if len(labs) <= count:
         shades = labs
     elif drawn or not 2 <= number < count:
-        shades = _chosen(colours, count, evenness, least_gain, progress, drawn=drawn)
+        shades = _chosen(replace(colours, labs=labs, counts=knots), count, evenness, least_gain, progress, drawn=drawn)
     else:
-        others = replace(colours, labs=colours.labs[~plain], counts=colours.counts[~plain])
+        few, weights = pooled(replace(colours, labs=colours.labs[~plain], counts=colours.counts[~plain]), _COLOURS)
+        others = replace(colours, labs=few, counts=weights)
         shades = _chosen(others, number, evenness, least_gain, progress, drawn=False)
         shades = np.concatenate([colours.labs[plain], shades])
     codes = np.unique(lab_to_srgb(shades), axis=0)
@@ -120,10 +121,11 @@ def propose_shades(
 def _chosen(
     colours: Colours, count: int, evenness: float, least_gain: float, progress: Progress, *, drawn: bool
 ) -> FloatArray:
-    """At most `count` shades of the colours, in CIELAB: medoids of a drawing, means of a photo."""
-    labs, knots = pooled(colours, _COLOURS, progress)
-    shades = _medoids(replace(colours, labs=labs, counts=knots), count, evenness, least_gain, progress.part(0.0, 0.6))
-    return shades if drawn else _means(labs, knots ** (1.0 - evenness), shades, progress.part(0.6, 1.0))
+    """At most `count` shades of pooled colours, in CIELAB: medoids of a drawing, means of a photo."""
+    shades = _medoids(colours, count, evenness, least_gain, progress.part(0.0, 0.6))
+    if drawn:
+        return shades
+    return _means(colours.labs, colours.counts ** (1.0 - evenness), shades, progress.part(0.6, 1.0))
 
 
 def own_yarns(

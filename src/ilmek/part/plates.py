@@ -18,9 +18,7 @@ def plates_of(tree: Tree) -> tuple[Plate, ...]:
 def pieces_of(tree: Tree) -> tuple[WorkPiece, ...]:
     """A piece for each other part that is made: what is turned, sawn or welded."""
     return tuple(
-        WorkPiece(
-            plate_name(part), part.title, part.size, part.material.name, number, part.shape, part.shape.moments.zeroth
-        )
+        WorkPiece(plate_name(part), part.title, part.size, part.material.name, number, part.shape, part.shape.volume)
         for part, number in tree.occurrences()
         if part.material is not None and part.shape is not None and not is_flat(part)
     )

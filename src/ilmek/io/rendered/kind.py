@@ -1,11 +1,10 @@
 """Which files are rendered when they are read: SVG drawings, PDF pages, layers without their merged picture."""
 
 import re
-from importlib.util import find_spec
 from pathlib import Path
 
 from ilmek.errors import PictureError
-from ilmek.io.rendered.layers import is_large, merge_layers, needs_merging
+from ilmek.io.rendered.layers import is_large, merge_layers
 from ilmek.io.rendered.pdf import render_pdf
 from ilmek.io.rendered.resolution import Rendering
 from ilmek.io.rendered.svg import render_svg
@@ -14,10 +13,6 @@ RENDERED = (".svg", ".pdf", ".ai")
 """Endings of files that have other pixels for other knots."""
 
 _PDF, _PSD = b"%PDF", b"8BPS"
-_LAYERS = "psd_tools"
-_READERS = {".svg": "resvg_py", ".pdf": "pypdfium2", ".psd": _LAYERS, ".psb": _LAYERS}
-"""Modules of the extra by the ending of the files that they read."""
-
 EXTRA = "pip install 'ilmek[vector]'"
 
 _MARKUP = re.compile(
@@ -47,15 +42,6 @@ def drawing_endings(data: bytes) -> tuple[str, ...]:
     if data.startswith(_PSD):
         return (".psb",) if is_large(data) else (".psd",)
     return (".pdf", ".ai") if data.startswith(_PDF) else (".svg",) if is_svg(data) else ()
-
-
-def check_reader(name: str, data: bytes) -> None:
-    """Raise PictureError for a drawing whose reader is not installed."""
-    reader = next((_READERS[ending] for ending in drawing_endings(data)[:1]), None)
-    if reader == _LAYERS and not needs_merging(data):
-        return
-    if reader is not None and find_spec(reader) is None:
-        raise _missing_extra(name, reader)
 
 
 def _missing_extra(name: object, reader: str | None) -> PictureError:

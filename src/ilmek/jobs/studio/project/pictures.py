@@ -7,7 +7,7 @@ from pathlib import Path, PurePosixPath
 from ilmek.errors import ParameterError, shortened
 from ilmek.io.chart.formats import FORMATS
 from ilmek.io.output import disk
-from ilmek.io.rendered.kind import check_reader, drawing_endings, rendered
+from ilmek.io.rendered.kind import drawing_endings, rendered
 from ilmek.io.rendered.resolution import Rendering
 from ilmek.jobs.studio.answers import Context
 from ilmek.jobs.studio.project.folder import (
@@ -66,8 +66,8 @@ def upload_picture(request: UploadRequest, context: Context) -> PictureSummary:
     if not endings:
         given = f"{shortened(name) or 'the file'} is no picture that can be read"
         raise ParameterError(given, do="use a PNG, JPEG, TIFF, WebP, BMP, GIF, SVG, PDF or PSD file")
-    check_reader(shortened(name), content)
-    rendered(Path(shortened(name)), content, Rendering(knots=_SMALL))  # a damaged drawing is refused
+    # Refuses a damaged drawing, and one whose reader is not installed.
+    rendered(Path(shortened(name)), content, Rendering(knots=_SMALL))
     stem, suffix = PurePosixPath(name).stem, PurePosixPath(name).suffix.lower()
     stem = "".join(sign if sign.isalnum() or sign in "_-" else "-" for sign in stem).strip("-_")[:60] or "picture"
     ending = suffix if suffix in endings else endings[0]

@@ -24,11 +24,11 @@ from ilmek.machines.weaver.knot import led_between
 from ilmek.machines.weaver.motions import CENTRE_ARM, CENTRE_MOTION, LEFT_ARM, RIGHT_ARM, SIDE_MOTION, SLEY
 from ilmek.machines.weaver.tool_parts import CENTRE, LEFT, PLATES, RIGHT, SLEY_BODY
 from ilmek.machines.weaver.tree import CAM_SHAFT, HEAD, placed
-from ilmek.part.placement import UPRIGHT, Placement, placement
+from ilmek.part.placement import ALONG_WIDTH, UPRIGHT, Placement, placement
+from ilmek.part.shapes import box
 from ilmek.part.space import frames_of, parts_of
 from ilmek.part.tree import Tree
-from ilmek.plane.solids import box
-from ilmek.report.scene import SceneFrame, SceneMotion, ScenePart, SceneYarn
+from ilmek.report.scene import SceneFrame, SceneMotion, ScenePart, SceneYarn, Solid
 from ilmek.timing.track import sample
 from ilmek.units import turn
 
@@ -100,7 +100,9 @@ def _arm_frame(made: SceneMaker, tool: HeadTool) -> SceneFrame:
 def _arm(made: SceneMaker, tool: HeadTool) -> ScenePart:
     """An arm as the box of the side view, as wide as the pair that it works on."""
     half, far = made.loom.weaver.grippers.axis, tool.corner + tool.size
-    solid = box((-half, tool.corner.imag, tool.corner.real), (half, far.imag, far.real))
+    middle = placement(-half, (tool.corner + far).imag / 2, (tool.corner + far).real / 2).after(ALONG_WIDTH)
+    room = box(tool.size.imag, tool.size.real, 2 * half).mesh()
+    solid = Solid(middle.points(room.points), room.triangles)
     return room_part(tool.name, tool.name, solid, "knotting-dyad")
 
 

@@ -18,9 +18,9 @@ from ilmek.machines.automated_loom.parts import parts_of_loom
 from ilmek.machines.warp_tension.tree import LOWER, SPACER, UPPER, turning
 from ilmek.machines.warp_tension.tree import tree as cylinder_tree
 from ilmek.part.placement import ALONG_WIDTH, placement
+from ilmek.part.shapes import tube
 from ilmek.part.space import frames_of, parts_of
-from ilmek.plane.solids import tube
-from ilmek.report.scene import SceneFrame
+from ilmek.report.scene import SceneFrame, Solid
 from ilmek.timing.track import sample
 
 GROUND = "ground"
@@ -59,6 +59,8 @@ def _warp_cylinders(made: SceneMaker) -> SceneGroup:
     positions = {name: placement(0.0, axis.at.imag, axis.at.real).after(ALONG_WIDTH) for name, axis in axes.items()}
     bodies = turning(cylinder_tree(made.loom.warp_tension, positions), motions)
     parts = parts_of(bodies, "warp-tension", checks=made.checks, deviations=(COARSE,))
-    roll = tube(side.lower.at, side.roll, side.lower.radius, -made.half, made.half, chord_error=COARSE)
+    roll = tube(2 * side.roll, side.roll - side.lower.radius, 2 * made.half).mesh(COARSE)
+    along = placement(-made.half, side.lower.at.imag, side.lower.at.real).after(ALONG_WIDTH)
+    roll = Solid(along.points(roll.points), roll.triangles)
     carpet = room_part("whole carpet on the lower cylinder", GROUND, roll, "automated-loom")
     return SceneGroup(frames_of(bodies, GROUND), (*parts, carpet))
