@@ -72,7 +72,7 @@ class _Shelf(NamedTuple):
     search    of the nearest yarn
     lights, codes  linear light of each yarn in units of LIGHT, and its codes
     strength  of the light that is carried on, in shares of _WHOLE
-    nearest   of colours in steps of FINE the nearest yarn, _UNKNOWN before it is asked for
+    nearest   of colours in steps of FINE the nearest yarn, _UNKNOWN before it is computed
     known     of tones in steps of STEP whether the mixture is computed
     yarns, aims, positions, slopes  of mixtures [`mixtures.mix`]
     """

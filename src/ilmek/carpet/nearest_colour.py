@@ -1,6 +1,6 @@
 """Nearest colour of a list by CIEDE2000, exact.
 
-CIELAB is divided into cubes of SIDE. When a colour of a cube is first asked for, the list is put in the order of a
+CIELAB is divided into cubes of SIDE. When a colour of a cube comes first, the list is put in the order of a
 proven lower bound of CIEDE2000 to the cube, its nearest colour in front. A search then ends where the bound is above
 the least difference so far: after two or three of sixteen colours. A colour outside of the cubes goes through the whole
 list.

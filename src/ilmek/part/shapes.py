@@ -39,7 +39,7 @@ ROUND = 3e-3
 """Deviation of the rings of a turned mesh over its radius, at most."""
 
 CHORD = 0.05 * mm
-"""Deviation of meshes and convex pieces from the shape where none is asked for [m]."""
+"""Deviation of meshes and convex pieces from the shape where none is given [m]."""
 
 
 class Shape(Protocol):

@@ -109,7 +109,7 @@ def _placed(corners: tuple[Knot, ...], relation: GridRelation) -> PlacedKnots:
 
 
 def _box(kept: Mask) -> Box:
-    rows, columns = (np.flatnonzero(kept.any(axis=way)) for way in (1, 0))
+    rows, columns = (np.flatnonzero(kept.any(axis=axis)) for axis in (1, 0))
     return int(rows[0]), int(rows[-1]), int(columns[0]), int(columns[-1])
 
 

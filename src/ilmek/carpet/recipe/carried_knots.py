@@ -91,7 +91,7 @@ def placed(relation: GridRelation, rows: IntArray, columns: IntArray, *, least: 
             all_cells |= of_patch.T if patch.transposed else of_patch
     labels, count = scipy.ndimage.label(cells, EIGHT)
     details = count, count - len(np.unique(labels[shown]))
-    joined = [np.concatenate([one[way] for one in found] or [np.empty(0, dtype=np.int64)]) for way in (0, 1)]
+    joined = [np.concatenate([indices[axis] for indices in found] or [np.empty(0, dtype=np.int64)]) for axis in (0, 1)]
     return PlacedKnots(joined[0], joined[1], cells, shown, details, bool((below & ~shown).any()))
 
 

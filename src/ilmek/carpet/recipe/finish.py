@@ -185,7 +185,7 @@ def _part(changed: Bool[np.ndarray, "rows columns"]) -> tuple[Knot, Knot] | None
     """The lowest and the highest row and column of knots, as edits count them; None: there are none."""
     if not changed.any():
         return None
-    rows, columns = (np.flatnonzero(changed.any(axis=way)) for way in (1, 0))
+    rows, columns = (np.flatnonzero(changed.any(axis=axis)) for axis in (1, 0))
     return (len(changed) - int(rows[-1]), int(columns[0]) + 1), (len(changed) - int(rows[0]), int(columns[-1]) + 1)
 
 

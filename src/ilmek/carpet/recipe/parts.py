@@ -159,7 +159,7 @@ def _of_copies(
     rows, columns = copies[0].area
     sides = grid or (rows.stop - rows.start, columns.stop - columns.start)
     axes = [
-        [proportional((0, sides[way]), span(copy.area[way]), reflected=copy.reflected[way]) for way in (0, 1)]
+        [proportional((0, sides[axis]), span(copy.area[axis]), reflected=copy.reflected[axis]) for axis in (0, 1)]
         for copy in copies
     ]
     patches = tuple(Patch(down, across) for down, across in axes)

@@ -118,7 +118,7 @@ def relate(old: DesignStructure, new: DesignStructure) -> GridRelation:
     areas.append(old.field)
     for copies, others in zip(old.motifs, new.motifs, strict=True):
         for one, other in zip(copies, others, strict=True):
-            axes = [proportional(span(one.area[way]), span(other.area[way])) for way in (0, 1)]
+            axes = [proportional(span(one.area[axis]), span(other.area[axis])) for axis in (0, 1)]
             patches.append(Patch(axes[0], axes[1], len(areas)))
             areas.append(one.area)
     covered = painted(new.grid, [patch.area for patch in patches])
@@ -175,7 +175,7 @@ def _field(old: DesignStructure, new: DesignStructure) -> Iterator[Patch]:
         ]
         yield Patch(axes[0], axes[1])
     elif old.recipe.repeat is None:
-        rows, columns = (proportional(span(old.field[way]), span(new.field[way])) for way in (0, 1))
+        rows, columns = (proportional(span(old.field[axis]), span(new.field[axis])) for axis in (0, 1))
         yield Patch(rows, columns)
     else:
         yield from _repeat(old, new, old.recipe.repeat.order)
@@ -184,7 +184,7 @@ def _field(old: DesignStructure, new: DesignStructure) -> Iterator[Patch]:
 def _repeat(old: DesignStructure, new: DesignStructure, order: str) -> Iterator[Patch]:
     """A field of tiles; where every second line of them is shifted, each line is a patch."""
     if order not in ("brick", "half-drop"):
-        axes = [tiled(old.tiling(way), new.tiling(way), mirrored=order == "mirrored") for way in (0, 1)]
+        axes = [tiled(old.tiling(axis), new.tiling(axis), mirrored=order == "mirrored") for axis in (0, 1)]
         yield Patch(axes[0], axes[1])
         return
     way = 0 if order == "brick" else 1
