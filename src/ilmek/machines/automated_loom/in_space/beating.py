@@ -10,15 +10,14 @@ from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.linkage.solve import solve
 from ilmek.machines.automated_loom.bodies import beat_tip, beat_windows
 from ilmek.machines.automated_loom.cyclogram import SLIDE
-from ilmek.machines.automated_loom.in_space.maker import ROW, SceneGroup, SceneMaker, along_track
-from ilmek.machines.automated_loom.in_space.standing import GROUND
+from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.automated_loom.in_space.maker import ROW, Branch, along_track, half_width
 from ilmek.machines.beat_up.design import BeatUp
 from ilmek.machines.beat_up.links import PART_IDS
 from ilmek.machines.beat_up.tree import CARRIAGE, in_side_view, link_motions, travelling
 from ilmek.machines.hammer.tree import COMB
 from ilmek.machines.hammer.tree import tree as hammer_tree
 from ilmek.part.placement import IN_SIDE_VIEW, Placement
-from ilmek.part.space import frames_of, parts_of
 from ilmek.part.tree import Tree
 from ilmek.report.scene import SceneMotion
 from ilmek.units import turn
@@ -26,23 +25,22 @@ from ilmek.units import turn
 _TABLE = 721
 
 
-def beating(made: SceneMaker) -> SceneGroup:
-    """The machine of the beat, in the frame of the ground."""
-    bodies, position = _placed(made)
-    machine = made.loom.beat.name
-    return SceneGroup(frames_of(bodies, GROUND, position), parts_of(bodies, machine, position, made.checks))
+def beating(loom: LoomDesign) -> Branch:
+    """The machine of the beat, on the ground."""
+    bodies, position = _placed(loom)
+    return Branch(loom.beat.name, bodies, position)
 
 
-def _placed(made: SceneMaker) -> tuple[Tree, Placement]:
+def _placed(loom: LoomDesign) -> tuple[Tree, Placement]:
     """The bodies with their motions, and where their axes lie."""
-    beat, row = made.loom.beat, made.loom.row_cyclogram
-    angle, tip = _beat(made)
+    beat, row = loom.beat, loom.row_cyclogram
+    angle, tip = _beat(loom)
     if isinstance(beat.design, BeatUp):
         one = beat.design
-        slide = along_track(row, SLIDE, (0.0, 0.0, 1.0)) if _slides(made) else None
+        slide = along_track(row, SLIDE, (0.0, 0.0, 1.0)) if _slides(loom) else None
         motions = _of_links(one, angle, tip) | ({CARRIAGE: slide} if slide else {})
         # At angle 0 the beater stands at the left edge of the cloth.
-        start = beat.beaten * made.loom.params.pitch / 2 - made.half if slide else 0.0
+        start = beat.beaten * loom.params.pitch / 2 - half_width(loom) if slide else 0.0
         return travelling(one, beat.use, motions, start), in_side_view(one)
     if beat.design.linkage is None:
         shift = np.stack([tip.real, tip.imag, np.zeros(tip.size)], axis=1)
@@ -52,13 +50,13 @@ def _placed(made: SceneMaker) -> tuple[Tree, Placement]:
     return hammer_tree(beat.design, motions | {COMB: motions[PART_IDS["rocker"]]}), in_side_view(one)
 
 
-def _slides(made: SceneMaker) -> bool:
-    return any(track.name == SLIDE for track in made.loom.row_cyclogram.tracks)
+def _slides(loom: LoomDesign) -> bool:
+    return any(track.name == SLIDE for track in loom.row_cyclogram.tracks)
 
 
-def _beat(made: SceneMaker) -> tuple[FloatArray, ComplexArray]:
+def _beat(loom: LoomDesign) -> tuple[FloatArray, ComplexArray]:
     """Angles of the row [rad], and the tip of what beats from the fell in the side view [m]."""
-    row, path = made.loom.row_cyclogram, made.loom.beat.path
+    row, path = loom.row_cyclogram, loom.beat.path
     inner = [start + path.share * (end - start) for start, end in beat_windows(row)]
     angle = np.unique(np.clip(np.concatenate([[0.0, turn], *inner]), 0.0, turn))
     return angle, beat_tip(path, row, angle)

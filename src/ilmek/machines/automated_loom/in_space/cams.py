@@ -5,54 +5,49 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.machines.automated_loom.bodies import beat_displacement, beat_joints
 from ilmek.machines.automated_loom.cyclogram import EVEN, ODD
+from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.maker import (
     COARSE,
     COARSEST,
     FINE,
     ROW,
-    SceneGroup,
-    SceneMaker,
+    Branch,
     track_angles,
 )
-from ilmek.machines.automated_loom.in_space.standing import GROUND
 from ilmek.machines.automated_loom.room import GUIDED
 from ilmek.machines.shedding.tree import tree
 from ilmek.machines.shedding.tree import warp_positions as positions_of
 from ilmek.part.placement import IN_SIDE_VIEW, placement
-from ilmek.part.space import frames_of, parts_of
 from ilmek.report.scene import SceneMotion
 from ilmek.units import turn
 
 
-def warp_positions(made: SceneMaker) -> FloatArray:
+def warp_positions(loom: LoomDesign) -> FloatArray:
     """Positions of the warps across [m]."""
-    return positions_of(made.loom.shedding)
+    return positions_of(loom.shedding)
 
 
-def cams(made: SceneMaker) -> SceneGroup:
+def cams(loom: LoomDesign) -> Branch:
     """Shafts, cams, guide cams, spacers and dents of all shafts, with their bearings and drives."""
-    positions = [placement(0.0, cam.at.imag, cam.at.real).after(IN_SIDE_VIEW) for cam in made.loom.side.cams]
-    bodies = tree(made.loom.shedding, positions, _turning(made), _sinking(made))
-    deviations = (FINE, COARSE, COARSEST)
-    return SceneGroup(
-        frames_of(bodies, GROUND), parts_of(bodies, "shedding", checks=made.checks, deviations=deviations)
-    )
+    positions = [placement(0.0, cam.at.imag, cam.at.real).after(IN_SIDE_VIEW) for cam in loom.side.cams]
+    bodies = tree(loom.shedding, positions, _turning(loom), _sinking(loom))
+    return Branch("shedding", bodies, deviations=(FINE, COARSE, COARSEST))
 
 
-def _turning(made: SceneMaker) -> SceneMotion:
+def _turning(loom: LoomDesign) -> SceneMotion:
     """The cams' angle over the row."""
-    row = made.loom.row_cyclogram
+    row = loom.row_cyclogram
     angle = track_angles(row.track(EVEN), row.track(ODD))
-    cam = made.loom.row_timing.cam_angle(np.minimum(angle, turn * (1 - 1e-15)))
+    cam = loom.row_timing.cam_angle(np.minimum(angle, turn * (1 - 1e-15)))
     cam[-1] = turn
     return SceneMotion(ROW, angle, np.zeros((len(angle), 3)), cam)
 
 
-def _sinking(made: SceneMaker) -> SceneMotion | None:
+def _sinking(loom: LoomDesign) -> SceneMotion | None:
     """The stroke of the whole cam system where the comb is carried by the guide cams, in the axes of a shaft."""
-    if made.loom.params.beat != GUIDED:
+    if loom.params.beat != GUIDED:
         return None
-    row = made.loom.row_cyclogram
-    angle = np.unique(np.concatenate([[0.0, turn], beat_joints(made.loom.beat.path, row)]))
-    down = beat_displacement(made.loom.beat.path, row)(angle)
+    row = loom.row_cyclogram
+    angle = np.unique(np.concatenate([[0.0, turn], beat_joints(loom.beat.path, row)]))
+    down = beat_displacement(loom.beat.path, row)(angle)
     return SceneMotion(ROW, angle, np.stack([down.real, down.imag, np.zeros(len(down))], axis=1), np.zeros(len(angle)))

@@ -6,14 +6,15 @@ import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.machines.automated_loom.cyclogram import CARRIAGE
+from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.maker import (
     COARSE,
     COARSEST,
     FINE,
     KNOT,
-    SceneGroup,
-    SceneMaker,
+    Branch,
     along_track,
+    half_width,
     motion,
     room_part,
     track_angles,
@@ -26,7 +27,6 @@ from ilmek.machines.weaver.tool_parts import CENTRE, LEFT, PLATES, RIGHT, SLEY_B
 from ilmek.machines.weaver.tree import CAM_SHAFT, HEAD, placed
 from ilmek.part.placement import ALONG_WIDTH, UPRIGHT, Placement, placement
 from ilmek.part.shapes import box
-from ilmek.part.space import frames_of, parts_of
 from ilmek.part.tree import Tree
 from ilmek.report.scene import SceneFrame, SceneMotion, ScenePart, SceneYarn, Solid
 from ilmek.timing.track import sample
@@ -35,42 +35,43 @@ from ilmek.units import turn
 _YARN_SAMPLES, _YARN_POINTS, _EACH = 91, 48, 41
 
 
-def heads(made: SceneMaker) -> SceneGroup:
-    """The frames and parts of a head, which stands as often as there are heads, and of its arms."""
-    bodies = heads_tree(made)
-    arms = [tool for tool in made.loom.side.head.tools if tool.name in {LEFT_ARM, RIGHT_ARM, CENTRE_ARM}]
-    shown = arms if made.loom.weaver.params.with_arms else []
-    parts = parts_of(bodies, "weaver", checks=made.checks, deviations=(FINE, COARSE, COARSEST))
-    return SceneGroup(
-        (*frames_of(bodies, RAIL), *(_arm_frame(made, tool) for tool in shown)),
-        (*parts, *(_arm(made, tool) for tool in shown)),
-    )
+def heads(loom: LoomDesign) -> Branch:
+    """The heads on their rail."""
+    return Branch("weaver", heads_tree(loom), parent=RAIL, deviations=(FINE, COARSE, COARSEST))
 
 
-def heads_tree(made: SceneMaker) -> Tree:
+def arms(loom: LoomDesign) -> tuple[tuple[SceneFrame, ...], tuple[ScenePart, ...]]:
+    """The frames and the rooms of a head's arms."""
+    if not loom.weaver.params.with_arms:
+        return (), ()
+    tools = [tool for tool in loom.side.head.tools if tool.name in {LEFT_ARM, RIGHT_ARM, CENTRE_ARM}]
+    return tuple(_arm_frame(loom, tool) for tool in tools), tuple(_arm(loom, tool) for tool in tools)
+
+
+def heads_tree(loom: LoomDesign) -> Tree:
     """The heads in the rail's axes: each in the middle of its share of the row, the motor of its carriage at its end.
 
     A head's origin lies in the side view's: at the fell, in the heads' origin while they knot.
     """
-    loom, rail = made.loom, made.loom.side.rail
+    rail = loom.side.rail
     middle, share = rail.corner + rail.size / 2, loom.task.cloth_width / loom.heads
-    middles = [(number + 0.5) * share - made.half for number in range(loom.heads)]
+    middles = [(number + 0.5) * share - half_width(loom) for number in range(loom.heads)]
     under = -rail.size.imag / 2
     return placed(
         loom.weaver,
         [placement(x, -middle.imag, -middle.real) for x in middles],
         [_drive(x + share / 2, under) for x in middles],
-    ).moving(_motions(made))
+    ).moving(_motions(loom))
 
 
 def _drive(x: float, height: float) -> Placement:
     return placement(x, height).after(UPRIGHT)
 
 
-def _motions(made: SceneMaker) -> Mapping[str, SceneMotion]:
+def _motions(loom: LoomDesign) -> Mapping[str, SceneMotion]:
     """The motions of a head's bodies over a knot."""
-    weaver, knot, angle = made.loom.weaver, made.loom.knot_cyclogram, np.linspace(0.0, turn, 3)
-    (opener,) = (tool for tool in made.loom.side.head.tools if tool.name == LOWER_PLATE)
+    weaver, knot, angle = loom.weaver, loom.knot_cyclogram, np.linspace(0.0, turn, 3)
+    (opener,) = (tool for tool in loom.side.head.tools if tool.name == LOWER_PLATE)
     back = (0.0, 0.0, -1.0)
     moved = {
         HEAD: along_track(knot, CARRIAGE, (1.0, 0.0, 0.0)),
@@ -91,39 +92,39 @@ def _motions(made: SceneMaker) -> Mapping[str, SceneMotion]:
 _HANDS = ((LEFT, -1), (RIGHT, 1))
 
 
-def _arm_frame(made: SceneMaker, tool: HeadTool) -> SceneFrame:
+def _arm_frame(loom: LoomDesign, tool: HeadTool) -> SceneFrame:
     direction = (0.0, tool.direction.imag, tool.direction.real)
-    moves = along_track(made.loom.knot_cyclogram, tool.track, direction, tool.limit)
+    moves = along_track(loom.knot_cyclogram, tool.track, direction, tool.limit)
     return SceneFrame(tool.name, np.zeros((1, 3)), HEAD, moves)
 
 
-def _arm(made: SceneMaker, tool: HeadTool) -> ScenePart:
+def _arm(loom: LoomDesign, tool: HeadTool) -> ScenePart:
     """An arm as the box of the side view, as wide as the pair that it works on."""
-    half, far = made.loom.weaver.grippers.axis, tool.corner + tool.size
+    half, far = loom.weaver.grippers.axis, tool.corner + tool.size
     middle = placement(-half, (tool.corner + far).imag / 2, (tool.corner + far).real / 2).after(ALONG_WIDTH)
     room = box(tool.size.imag, tool.size.real, 2 * half).mesh()
     solid = Solid(middle.points(room.points), room.triangles)
     return room_part(tool.name, tool.name, solid, "knotting-dyad")
 
 
-def knot_yarn(made: SceneMaker) -> tuple[SceneYarn, ...]:
+def knot_yarn(loom: LoomDesign) -> tuple[SceneYarn, ...]:
     """The yarn of a knot over its angle, as its ends are led; none of a head with arms."""
-    weaver = made.loom.weaver
+    weaver = loom.weaver
     if weaver.params.with_arms or weaver.tied.knot is None:
         return ()
     angle = np.linspace(0.0, turn, _YARN_SAMPLES)
     grasped, taken, released = led_between(weaver.cyclogram)
     at = np.concatenate([np.linspace(grasped, taken, 6 * _EACH), np.linspace(taken, released, 2 * _EACH)])
-    ends = [_end(made, at, taken, hand) for hand in (-1, 1)]
+    ends = [_end(loom, at, taken, hand) for hand in (-1, 1)]
     known = np.maximum(np.searchsorted(at, angle, side="right"), 2)
     points = np.stack([_laid(np.concatenate([ends[0][:k][::-1], ends[1][:k]])) for k in known])
-    pile = made.loom.task.yarns.pile.diameter
+    pile = loom.task.yarns.pile.diameter
     return (SceneYarn("yarn of the knot", "yarn of the knot", HEAD, KNOT, angle, points, pile),)
 
 
-def _end(made: SceneMaker, at: FloatArray, taken: float, hand: int) -> FloatArray:
+def _end(loom: LoomDesign, at: FloatArray, taken: float, hand: int) -> FloatArray:
     """An end of the yarn at cam angles [rad]: led by its side gripper, then drawn by the centre gripper [m]."""
-    weaver, by, tied = made.loom.weaver, made.loom.weaver.grippers, made.loom.weaver.tool_bodies.tied
+    weaver, by, tied = loom.weaver, loom.weaver.grippers, loom.weaver.tool_bodies.tied
     side = sample(weaver.cyclogram.track(SIDE_MOTION), at).position
     centre = sample(weaver.cyclogram.track(CENTRE_MOTION), at).position
     tip, drawn, turned = by.tip(side), by.centre(centre), by.turned(side)

@@ -1,17 +1,22 @@
-"""What the parts of a scene are made from: the loom, its parts list and report, and the motions of its tracks."""
+"""The branches of a loom's tree, and the motions of its bodies by the tracks of its cyclograms."""
 
 import numpy as np
 
 from ilmek.arrays import Float, FloatArray
 from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.part.placement import IDENTITY, Placement
+from ilmek.part.shapes import CHORD
+from ilmek.part.tree import GROUND, Tree
 from ilmek.records import record
-from ilmek.report import Check
-from ilmek.report.scene import SceneFrame, SceneMotion, ScenePart, Solid
+from ilmek.report.scene import SceneMotion, ScenePart, Solid
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.timing.track import Track, laid, sample
 from ilmek.units import mm, turn
 
 ROW, KNOT = "row", "knot"
+STANDS = "ground"
+"""Name of the scene's frame that stands."""
+
 FINE, COARSE, COARSEST = 0.05 * mm, 1 * mm, 4 * mm
 """Deviations of the outlines of a plate's solids [m]."""
 
@@ -20,29 +25,23 @@ _STEPS = 24
 
 
 @record
-class SceneGroup:
-    """Frames and parts of one machine of the scene."""
+class Branch:
+    """The tree of a machine of the loom, and where its ground lies.
 
-    frames: tuple[SceneFrame, ...]
-    parts: tuple[ScenePart, ...]
+    parent      id of the body that carries it      position    in that body's frame
+    deviations  of its meshes on a screen, from the finest to the coarsest [m]
+    """
+
+    machine: str
+    tree: Tree
+    position: Placement = IDENTITY
+    parent: str = GROUND
+    deviations: tuple[float, ...] = (CHORD,)
 
 
-@record
-class SceneMaker:
-    """A loom, and all checks of its report."""
-
-    loom: LoomDesign
-    checks: tuple[Check, ...]
-
-    @property
-    def half(self) -> float:
-        """Half of the cloth's width [m]."""
-        return self.loom.task.cloth_width / 2
-
-    @property
-    def width(self) -> float:
-        """Distance of the bearings [m]."""
-        return self.loom.task.width
+def half_width(loom: LoomDesign) -> float:
+    """Half of the cloth's width [m]."""
+    return loom.task.cloth_width / 2
 
 
 def room_part(name: str, frame: str, solid: Solid, machine: str) -> ScenePart:

@@ -10,14 +10,16 @@ from ilmek.machines.automated_loom.cyclogram import EVEN, ODD
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.beating import beating
 from ilmek.machines.automated_loom.in_space.cams import cams, warp_positions
-from ilmek.machines.automated_loom.in_space.heads import heads, knot_yarn
-from ilmek.machines.automated_loom.in_space.maker import KNOT, ROW, SceneMaker, track_angles
-from ilmek.machines.automated_loom.in_space.standing import standing
+from ilmek.machines.automated_loom.in_space.heads import arms, heads, knot_yarn
+from ilmek.machines.automated_loom.in_space.maker import KNOT, ROW, STANDS, Branch, track_angles
+from ilmek.machines.automated_loom.in_space.standing import carpet_roll, standing
 from ilmek.machines.automated_loom.in_space.weft import weft, wefts
 from ilmek.machines.shedding.tree import warp_shafts
 from ilmek.machines.weaver.tree import HEAD
+from ilmek.part.space import frames_of, parts_of
+from ilmek.part.tree import Tree
 from ilmek.report import Report
-from ilmek.report.scene import Scene, SceneCarpet, SceneWarps
+from ilmek.report.scene import Scene, SceneCarpet, SceneFrame, SceneWarps
 from ilmek.timing.track import sample
 from ilmek.units import turn
 
@@ -28,17 +30,28 @@ _ARC = 7
 @lru_cache(maxsize=2)
 def scene(loom: LoomDesign, report: Report) -> Scene:
     """The scene of a loom, with the checks of its report at the parts that they concern."""
-    made = SceneMaker(loom, report.all_checks)
-    groups = [build(made) for build in (standing, cams, beating, weft, heads)]
+    branches, checks = branches_of(loom), report.all_checks
+    arm_frames, arm_parts = arms(loom)
+    parts = (
+        part
+        for branch in branches
+        for part in parts_of(branch.tree, branch.machine, branch.position, checks, branch.deviations)
+    )
+    frames = (
+        frame for branch in branches for frame in frames_of(branch.tree, branch.parent or STANDS, branch.position)
+    )
     drawn = {plate.name for plate in report.all_plates}
-    parts = (part for group in groups for part in group.parts)
     return Scene(
         title=report.title,
-        frames=tuple(frame for group in groups for frame in group.frames),
-        parts=tuple(part if part.plate in drawn else replace(part, plate="") for part in parts),
-        warps=_warps(made),
-        yarns=(*wefts(made), *knot_yarn(made)),
-        carpet=_carpet(made),
+        frames=(SceneFrame(STANDS, np.zeros((1, 3))), *frames, *arm_frames),
+        parts=(
+            *(part if part.plate in drawn else replace(part, plate="") for part in parts),
+            carpet_roll(loom),
+            *arm_parts,
+        ),
+        warps=_warps(loom),
+        yarns=(*wefts(loom), *knot_yarn(loom)),
+        carpet=_carpet(loom),
         periods={ROW: loom.row_cyclogram.period, KNOT: loom.times.knot},
         heads=HEAD,
         floor=loom.side.floor,
@@ -46,14 +59,27 @@ def scene(loom: LoomDesign, report: Report) -> Scene:
     )
 
 
-def _warps(made: SceneMaker) -> SceneWarps:
-    loom, side, row = made.loom, made.loom.side, made.loom.row_cyclogram
-    line, lifted = warp_line(made)
+def branches_of(loom: LoomDesign) -> tuple[Branch, ...]:
+    """The trees of all machines of a loom, each after what carries it."""
+    return (*standing(loom), cams(loom), beating(loom), weft(loom), heads(loom))
+
+
+def loom_tree(loom: LoomDesign) -> Tree:
+    """All bodies of a loom in the axes of the scene, with their motions."""
+    whole = Tree()
+    for branch in branches_of(loom):
+        whole = whole.carrying(branch.parent, branch.tree, branch.position)
+    return whole
+
+
+def _warps(loom: LoomDesign) -> SceneWarps:
+    side, row = loom.side, loom.row_cyclogram
+    line, lifted = warp_line(loom)
     even, odd = row.track(EVEN), row.track(ODD)
     angle = track_angles(even, odd)
-    shaft, is_odd = warp_shafts(made.loom.shedding)
+    shaft, is_odd = warp_shafts(loom.shedding)
     return SceneWarps(
-        x=warp_positions(made),
+        x=warp_positions(loom),
         shaft=shaft,
         odd=is_odd,
         line=line,
@@ -66,12 +92,12 @@ def _warps(made: SceneMaker) -> SceneWarps:
     )
 
 
-def warp_line(made: SceneMaker) -> tuple[Float[np.ndarray, "points 2"], tuple[int, ...]]:
+def warp_line(loom: LoomDesign) -> tuple[Float[np.ndarray, "points 2"], tuple[int, ...]]:
     """A warp at rest in the side view, z and y [m], and the numbers of its points that the cam shafts lift.
 
     From the fell by the cam shafts to the back rest, over it, and level to the upper cylinder.
     """
-    side = made.loom.side
+    side = loom.side
     rest = side.back_rest
     heights = [float(cam.at.imag) for cam in side.cams]
     points = [0j, *(1j * height for height in heights)]
@@ -81,9 +107,9 @@ def warp_line(made: SceneMaker) -> tuple[Float[np.ndarray, "points 2"], tuple[in
     return np.stack([line.real, line.imag], axis=1), tuple(range(1, len(heights) + 1))
 
 
-def _carpet(made: SceneMaker) -> SceneCarpet:
+def _carpet(loom: LoomDesign) -> SceneCarpet:
     """The carpet from the fell down the fronts of spacer and lower cylinder, and half round the roll."""
-    loom, side = made.loom, made.loom.side
+    side = loom.side
     round_ = side.lower.at + side.lower.radius * np.exp(-1j * np.linspace(0.0, turn / 2, 17))
     line = np.concatenate([[0j], round_])
     return SceneCarpet(

@@ -1,13 +1,13 @@
 """What stands, and what turns with the warps: frame, heads' rail, cylinders, back rest, carpet roll, motors."""
 
-import numpy as np
-
 from ilmek.machines.automated_loom.cyclogram import HEADS, TAKE_UP
+from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.maker import (
     COARSE,
-    SceneGroup,
-    SceneMaker,
+    STANDS,
+    Branch,
     along_track,
+    half_width,
     motion,
     room_part,
     track_angles,
@@ -19,37 +19,25 @@ from ilmek.machines.warp_tension.tree import LOWER, SPACER, UPPER, turning
 from ilmek.machines.warp_tension.tree import tree as cylinder_tree
 from ilmek.part.placement import ALONG_WIDTH, placement
 from ilmek.part.shapes import tube
-from ilmek.part.space import frames_of, parts_of
-from ilmek.report.scene import SceneFrame, Solid
+from ilmek.part.tree import Tree
+from ilmek.report.scene import ScenePart, Solid
 from ilmek.timing.track import sample
 
-GROUND = "ground"
 
-
-def standing(made: SceneMaker) -> SceneGroup:
+def standing(loom: LoomDesign) -> tuple[Branch, ...]:
     """Frame with its rail, what it carries, cylinders, and compensator."""
-    retreat = along_track(made.loom.row_cyclogram, HEADS, (0.0, 0.0, 1.0))
-    own = frame_tree(made.loom, parts_of_loom(made.loom).frame, retreat)
-    carried = carried_tree(made.loom)
-    groups = (_warp_cylinders(made), compensator(made, GROUND))
-    return SceneGroup(
-        (
-            SceneFrame(GROUND, np.zeros((1, 3))),
-            *frames_of(own, GROUND),
-            *frames_of(carried, GROUND),
-            *(frame for group in groups for frame in group.frames),
-        ),
-        (
-            *parts_of(own, "automated-loom", checks=made.checks),
-            *parts_of(carried, "automated-loom", checks=made.checks, deviations=(COARSE,)),
-            *(part for group in groups for part in group.parts),
-        ),
+    retreat = along_track(loom.row_cyclogram, HEADS, (0.0, 0.0, 1.0))
+    return (
+        Branch("automated-loom", frame_tree(loom, parts_of_loom(loom).frame, retreat)),
+        Branch("automated-loom", carried_tree(loom), deviations=(COARSE,)),
+        Branch("warp-tension", _warp_cylinders(loom), deviations=(COARSE,)),
+        *compensator(loom),
     )
 
 
-def _warp_cylinders(made: SceneMaker) -> SceneGroup:
-    """The cylinders of the warps with bearings and drives where the side view has them, and the whole carpet's roll."""
-    side, row = made.loom.side, made.loom.row_cyclogram
+def _warp_cylinders(loom: LoomDesign) -> Tree:
+    """The cylinders of the warps with bearings and drives where the side view has them."""
+    side, row = loom.side, loom.row_cyclogram
     axes = {UPPER: side.upper, SPACER: side.spacer, LOWER: side.lower}
     track = row.track(TAKE_UP)
     angle = track_angles(track)
@@ -57,10 +45,13 @@ def _warp_cylinders(made: SceneMaker) -> SceneGroup:
     radii = {name: side.roll if name == LOWER else axis.radius for name, axis in axes.items()}
     motions = {name: motion(row, angle, rotation=taken / radius) for name, radius in radii.items()}
     positions = {name: placement(0.0, axis.at.imag, axis.at.real).after(ALONG_WIDTH) for name, axis in axes.items()}
-    bodies = turning(cylinder_tree(made.loom.warp_tension, positions), motions)
-    parts = parts_of(bodies, "warp-tension", checks=made.checks, deviations=(COARSE,))
-    roll = tube(2 * side.roll, side.roll - side.lower.radius, 2 * made.half).mesh(COARSE)
-    along = placement(-made.half, side.lower.at.imag, side.lower.at.real).after(ALONG_WIDTH)
-    roll = Solid(along.points(roll.points), roll.triangles)
-    carpet = room_part("whole carpet on the lower cylinder", GROUND, roll, "automated-loom")
-    return SceneGroup(frames_of(bodies, GROUND), (*parts, carpet))
+    return turning(cylinder_tree(loom.warp_tension, positions), motions)
+
+
+def carpet_roll(loom: LoomDesign) -> ScenePart:
+    """The room of the whole carpet on the lower cylinder."""
+    side, half = loom.side, half_width(loom)
+    roll = tube(2 * side.roll, side.roll - side.lower.radius, 2 * half).mesh(COARSE)
+    along = placement(-half, side.lower.at.imag, side.lower.at.real).after(ALONG_WIDTH)
+    solid = Solid(along.points(roll.points), roll.triangles)
+    return room_part("whole carpet on the lower cylinder", STANDS, solid, "automated-loom")

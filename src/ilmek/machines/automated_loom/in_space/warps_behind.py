@@ -5,11 +5,10 @@ import numpy as np
 from ilmek.machines.automated_loom.cyclogram import EVEN as EVEN_WARPS
 from ilmek.machines.automated_loom.cyclogram import ODD as ODD_WARPS
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.in_space.maker import ROW, SceneGroup, SceneMaker, track_angles
+from ilmek.machines.automated_loom.in_space.maker import ROW, Branch, track_angles
 from ilmek.machines.tension_compensator.analysis import lever_rotations
 from ilmek.machines.tension_compensator.tree import EVEN, ODD, lever_motion, tree
 from ilmek.part.placement import Placement
-from ilmek.part.space import frames_of, parts_of
 from ilmek.report.scene import SceneMotion
 from ilmek.timing.track import sample
 
@@ -19,14 +18,12 @@ _BEHIND = np.array([[0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.0, -1.0, 0.0]])
 """Axes of a compensator on warps that run level to the back: its x up, its y to the back."""
 
 
-def compensator(made: SceneMaker, ground: str) -> SceneGroup:
-    """The compensator of the loom, in the frame of the ground; nothing where it has none."""
-    machine = made.loom.machines.get(COMPENSATOR)
+def compensator(loom: LoomDesign) -> tuple[Branch, ...]:
+    """The compensator, on the ground; nothing where the loom has none."""
+    machine = loom.machines.get(COMPENSATOR)
     if machine is None:
-        return SceneGroup((), ())
-    bodies = tree(machine.design, _motions(made))
-    position = compensator_position(made.loom)
-    return SceneGroup(frames_of(bodies, ground, position), parts_of(bodies, COMPENSATOR, position, made.checks))
+        return ()
+    return (Branch(COMPENSATOR, tree(machine.design, _motions(loom)), compensator_position(loom)),)
 
 
 def compensator_position(loom: LoomDesign) -> Placement:
@@ -36,11 +33,11 @@ def compensator_position(loom: LoomDesign) -> Placement:
     return Placement(np.array([0.0, middle.imag, middle.real]), _BEHIND)
 
 
-def _motions(made: SceneMaker) -> dict[str, SceneMotion]:
+def _motions(loom: LoomDesign) -> dict[str, SceneMotion]:
     """The motions of the levers over a row: in equilibrium with the warps that the cams lift."""
-    row, design = made.loom.row_cyclogram, made.loom.machines[COMPENSATOR].design
+    row, design = loom.row_cyclogram, loom.machines[COMPENSATOR].design
     tracks = row.track(EVEN_WARPS), row.track(ODD_WARPS)
     angle = track_angles(*tracks)
-    shares = (sample(track, angle).position / made.loom.row_timing.lift for track in tracks)
+    shares = (sample(track, angle).position / loom.row_timing.lift for track in tracks)
     rotations = lever_rotations(design, *(share * design.params.lift for share in shares))
     return {parity: lever_motion(ROW, angle, rotation) for parity, rotation in zip((EVEN, ODD), rotations, strict=True)}

@@ -4,71 +4,69 @@ import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.machines.automated_loom.cyclogram import BEATER, weft_windows
-from ilmek.machines.automated_loom.in_space.maker import ROW, SceneGroup, SceneMaker, motion, track_angles
-from ilmek.machines.automated_loom.in_space.standing import GROUND
+from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.automated_loom.in_space.maker import ROW, STANDS, Branch, half_width, motion, track_angles
 from ilmek.machines.weft import Shuttle
 from ilmek.machines.weft.tree import DRAGGING, RAPIER_BODY, SINUOUS, STRAIGHT
 from ilmek.part.placement import placement
-from ilmek.part.space import frames_of, parts_of
 from ilmek.report.scene import SceneYarn
 from ilmek.timing.track import sample
 from ilmek.units import turn
 
 
-def weft(made: SceneMaker) -> SceneGroup:
+def weft(loom: LoomDesign) -> Branch:
     """The bodies of the weft side over a row.
 
     The shuttle of the straight weft goes to the right and waits there, that of the sinuous weft comes from there.
     """
-    angle, at = _position(made)
-    stroke, half = made.loom.weft.passage.stroke, angle < turn / 2
+    angle, at = _position(loom)
+    stroke, half = loom.weft.passage.stroke, angle < turn / 2
     runs = {
         STRAIGHT: np.where(half, at, stroke),
         SINUOUS: np.where(half, stroke, at),
         DRAGGING: at,
         RAPIER_BODY: at,
     }
-    across, row = np.array([1.0, 0.0, 0.0]), made.loom.row_cyclogram
+    across, row = np.array([1.0, 0.0, 0.0]), loom.row_cyclogram
     motions = {name: motion(row, angle, shift=along[:, None] * across) for name, along in runs.items()}
-    bodies = made.loom.weft.bodies.tree.moving(motions)
-    position = placement(0.0, *_middle(made))
-    return SceneGroup(frames_of(bodies, GROUND, position), parts_of(bodies, "weft", position, made.checks))
+    bodies = loom.weft.bodies.tree.moving(motions)
+    return Branch("weft", bodies, placement(0.0, *_middle(loom)))
 
 
-def _middle(made: SceneMaker) -> tuple[float, float]:
+def _middle(loom: LoomDesign) -> tuple[float, float]:
     """Height and depth of the carrier's middle in the shed [m]."""
-    at = made.loom.side.carrier.corner + made.loom.side.carrier.size / 2
+    at = loom.side.carrier.corner + loom.side.carrier.size / 2
     return float(at.imag), float(at.real)
 
 
-def _position(made: SceneMaker) -> tuple[FloatArray, FloatArray]:
+def _position(loom: LoomDesign) -> tuple[FloatArray, FloatArray]:
     """Angles of the row [rad], and the carrier's position on its axis [m]."""
-    track = made.loom.row_cyclogram.track(made.loom.row_timing.carrier)
+    track = loom.row_cyclogram.track(loom.row_timing.carrier)
     angle = track_angles(track)
     return angle, sample(track, angle).position
 
 
-def wefts(made: SceneMaker) -> tuple[SceneYarn, ...]:
+def wefts(loom: LoomDesign) -> tuple[SceneYarn, ...]:
     """Both wefts over a row: from the edge to the carrier, then across, and beaten to the fell."""
-    loom, row = made.loom, made.loom.row_cyclogram
+    row = loom.row_cyclogram
     carrier = row.track(loom.row_timing.carrier)
     angle = np.unique(np.concatenate([track_angles(carrier), [one.end for one in row.track(BEATER).segments]]))
     at = sample(carrier, angle).position
     shuttle = isinstance(loom.weft.carried, Shuttle)
     run = (loom.weft.passage.stroke - loom.task.cloth_width) / 2 if shuttle else loom.weft.passage.run
-    reached = np.clip(at - run, 0.0, loom.task.cloth_width) - made.half
-    height, depth = _middle(made)
+    reached = np.clip(at - run, 0.0, loom.task.cloth_width) - half_width(loom)
+    height, depth = _middle(loom)
     beats = [part.end for part in row.track(BEATER).segments[::2]]
     names = ("straight weft", "sinuous weft")
     yarns = []
     for number, ((start, end), beaten) in enumerate(zip(weft_windows(row), beats, strict=True)):
-        edge = made.half if number and shuttle else -made.half
-        tip = np.where(angle <= start, edge, np.where(angle < end, reached, -edge if shuttle else made.half))
+        edge = half_width(loom) if number and shuttle else -half_width(loom)
+        tip = np.where(angle <= start, edge, np.where(angle < end, reached, -edge if shuttle else half_width(loom)))
         down = angle >= beaten
         points = np.zeros((len(angle), 2, 3))
         points[:, 0, 0], points[:, 1, 0] = edge, tip
         points[:, :, 1] = np.where(down, 0.0, height)[:, None]
         points[:, :, 2] = np.where(down, 0.0, depth)[:, None]
         yarn = loom.task.yarns.straight_weft if number == 0 else loom.task.yarns.sinuous_weft
-        yarns.append(SceneYarn(names[number], names[number], GROUND, ROW, angle, points, yarn.diameter))
+        yarns.append(SceneYarn(names[number], names[number], STANDS, ROW, angle, points, yarn.diameter))
     return tuple(yarns)
