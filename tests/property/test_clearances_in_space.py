@@ -14,6 +14,7 @@ from scipy.spatial.transform import Rotation
 
 from ilmek.elements.materials import MATERIALS
 from ilmek.part.clearances import TOLERANCE, approaches
+from ilmek.part.contacts import groups
 from ilmek.part.part import Part
 from ilmek.part.placement import placement
 from ilmek.part.profile import Profile
@@ -144,3 +145,21 @@ def test_a_crank_chain_is_nowhere_nearer_than_found(turns, arm, height):
     )
     assert lowest > 0
     assert lowest - 1e-6 <= pair.distance <= lowest + TOLERANCE
+
+
+@settings(max_examples=20, deadline=None)
+@given(number=st.integers(2, 12), gone=st.integers(0, 11), lifted=st.floats(0.3, 5.0))
+def test_a_row_of_cubes_is_one_group_until_one_is_gone_or_lifted(number, gone, lifted):
+    part = cube("a/cube")
+
+    def row(*positions):
+        return Tree((RigidBody("row", (Occurrence(part, tuple(placement(*at) for at in positions)),)),))
+
+    side, gone = 20 * mm, gone % number
+    every = [(k * side, 0.0, 0.0) for k in range(number)]
+    (whole,) = groups(row(*every))
+    assert whole.parts == {"a/cube": number}
+    left = [at for k, at in enumerate(every) if k != gone]
+    assert len(groups(row(*left))) == len({k > gone for k in range(number) if k != gone})
+    raised = [(x, y, side + lifted * mm if k == gone else z) for k, (x, y, z) in enumerate(every)]
+    assert [group.pieces for group in groups(row(*raised))][-1] == 1

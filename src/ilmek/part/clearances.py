@@ -133,11 +133,7 @@ class _Placed:
 
     @cached_property
     def mesh(self) -> fcl.CollisionObject:
-        model = fcl.BVHModel()
-        model.beginModel(len(self.solid.triangles), len(self.solid.points))
-        model.addSubModel(self.solid.points, self.solid.triangles)
-        model.endModel()
-        return fcl.CollisionObject(model)
+        return fcl.CollisionObject(triangle_tree(self.solid))
 
     @cached_property
     def manifold(self) -> Manifold:
@@ -177,6 +173,15 @@ def approaches(
                 pair = _Pair(thing, other, gaps[offset], horizon, enough)
                 met.append(pair.approach() if pair.moving or not moving else None)
     return tuple(sorted((pair for pair in met if pair is not None), key=lambda pair: pair.distance))
+
+
+def triangle_tree(solid: Solid) -> fcl.BVHModel:
+    """The triangles of a solid, to measure distances from."""
+    model = fcl.BVHModel()
+    model.beginModel(len(solid.triangles), len(solid.points))
+    model.addSubModel(solid.points, solid.triangles)
+    model.endModel()
+    return model
 
 
 def _placed(tree: Tree, drive: str, ends: Float[np.ndarray, "intervals samples"]) -> Iterator[_Placed]:
