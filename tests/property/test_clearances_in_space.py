@@ -1,7 +1,7 @@
 """Least distances of parts in space: against closed forms, and against many poses computed without the package's own.
 
 Evidence: a box that passes a box at a known gap; a bar that turns beside a wall; two boxes through each other by a
-known volume; a bar on random cranks above a floor, its corners posed by scipy at 4,000 angles.
+known volume; a bar on random cranks above a floor, its corners posed by scipy at 1,200 angles.
 """
 
 import math
@@ -114,14 +114,14 @@ def test_a_pin_in_its_bore_touches_and_a_part_moved_by_a_millimetre_is_found():
     assert nearest(1 * mm) < 0
 
 
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=5, deadline=None)
 @given(
     turns=st.tuples(st.integers(-2, 2), st.integers(-2, 2)),
     arm=st.floats(30.0, 80.0),
     height=st.floats(150.0, 250.0),
 )
 def test_a_crank_chain_is_nowhere_nearer_than_found(turns, arm, height):
-    """A bar on a crank above a plane: its corners posed here, 4,000 times."""
+    """A bar on a crank above a plane: its corners posed here, 1,200 times."""
     bar_part = Part("a/bar", "bar", "machined link", "", box(10 * mm, 10 * mm, 60 * mm), STEEL)
     crank = Part("a/crank", "crank", "machined link", "", box(10 * mm, 10 * mm, 10 * mm), STEEL)
     floor = Part("b/floor", "floor", "machined link", "", box(600 * mm, 600 * mm, 10 * mm), STEEL)
@@ -136,7 +136,7 @@ def test_a_crank_chain_is_nowhere_nearer_than_found(turns, arm, height):
     near = [pair for pair in approaches(tree, "row", required, required=lambda *_: required) if "bar" in pair.bodies]
     (pair,) = (pair for pair in near if "floor" in pair.bodies)
     corners = np.array([[x, y, z] for x in (-5, 5) for y in (-5, 5) for z in (0, 60)]) * mm
-    angle = np.linspace(0.0, turn, 4001)
+    angle = np.linspace(0.0, turn, 1201)
     carried = Rotation.from_rotvec(np.outer(turns[0] * angle, X))
     own = Rotation.from_rotvec(np.outer(turns[1] * angle, X))
     lowest = min(

@@ -24,7 +24,7 @@ from ilmek.machines.weaver.head_shape import LOWER_PLATE, HeadTool
 from ilmek.machines.weaver.knot import led_between
 from ilmek.machines.weaver.motions import CENTRE_ARM, CENTRE_MOTION, LEFT_ARM, RIGHT_ARM, SIDE_MOTION, SLEY
 from ilmek.machines.weaver.tool_parts import CENTRE, LEFT, PLATES, RIGHT, SLEY_BODY
-from ilmek.machines.weaver.tree import CAM_SHAFT, HEAD, placed
+from ilmek.machines.weaver.tree import CAM_SHAFT, HEAD, head_tree, placed
 from ilmek.part.placement import ALONG_WIDTH, UPRIGHT, Placement, placement
 from ilmek.part.shapes import box
 from ilmek.part.tree import Tree
@@ -61,14 +61,21 @@ def heads_tree(loom: LoomDesign) -> Tree:
         loom.weaver,
         [placement(x, -middle.imag, -middle.real) for x in middles],
         [_drive(x + share / 2, under) for x in middles],
-    ).moving(_motions(loom))
+    ).moving(motions(loom))
+
+
+def head_alone(loom: LoomDesign) -> Tree:
+    """A head in its own axes, over a knot."""
+    bodies = head_tree(loom.weaver).moving(motions(loom))
+    # The carriage steps on at the end of a knot: the head by itself stands.
+    return bodies.moving({HEAD: motion(loom.knot_cyclogram, np.array([0.0, turn]))})
 
 
 def _drive(x: float, height: float) -> Placement:
     return placement(x, height).after(UPRIGHT)
 
 
-def _motions(loom: LoomDesign) -> Mapping[str, SceneMotion]:
+def motions(loom: LoomDesign) -> Mapping[str, SceneMotion]:
     """The motions of a head's bodies over a knot."""
     weaver, knot, angle = loom.weaver, loom.knot_cyclogram, np.linspace(0.0, turn, 3)
     (opener,) = (tool for tool in loom.side.head.tools if tool.name == LOWER_PLATE)

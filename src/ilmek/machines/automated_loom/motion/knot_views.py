@@ -2,13 +2,18 @@
 
 import numpy as np
 
-from ilmek.arrays import Complex, ComplexArray, Float, FloatArray
-from ilmek.machines.automated_loom.bodies import WARPS, knot_bodies
+from ilmek.arrays import Complex, Float, FloatArray
 from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.automated_loom.in_space.heads import arms, head_alone
+from ilmek.machines.automated_loom.in_space.maker import KNOT
+from ilmek.machines.automated_loom.motion.row_views import named_strokes
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.grippers import Grippers
 from ilmek.machines.weaver.knot import led_between
 from ilmek.machines.weaver.motions import CENTRE_MOTION, SIDE_MOTION, SLEY
+from ilmek.machines.weaver.parts import case_plates
+from ilmek.machines.weaver.tree import CAM_SHAFT, HEAD
+from ilmek.part.projection import Outline, View, moving_outlines, outlines
 from ilmek.report import Animation, Axis, Dot, Drawing, MovingStroke, Reading, Stroke
 from ilmek.timing.track import Track, sample
 from ilmek.units import mm, turn
@@ -23,33 +28,53 @@ _ABOVE = 1.6
 
 
 def knot_from_the_side(loom: LoomDesign) -> Animation:
-    """The tools of a head in the side view: grippers, opener and sley at the warps, the head's body behind them."""
-    angle, side = _angles(), loom.side
-    bodies = {body.name: body for body in knot_bodies(side, loom.cyclograms[0])}
-    names = [tool.name for tool in side.head.tools]
-    face = float(side.head.body.real)
-
-    def tool(name: str) -> ComplexArray:
-        corners = bodies[name].parts[0].corners(angle)
-        corners = np.broadcast_to(corners, (FRAMES, corners.shape[1]))
-        return np.asarray(np.minimum(corners.real, face) + 1j * corners.imag)
-
+    """The tools of a head in the side view: grippers, opener and sley at the warps, the head's case behind them."""
+    side, warp = loom.side, loom.task.yarns.warp.diameter / 2
     high = 1j * side.head.top
-    warps = bodies[WARPS].parts[0].radius
+    case = max((curve for outline in _case(loom, View.SIDE) for curve in outline.curves), key=len)
     still = Drawing(
         "loom-knot-side",
         "A knot from the side",
         (
-            Stroke(np.array([-1j * 20 * mm, high]) - warps, "yarn", "warps"),
-            Stroke(np.array([0j, high]) + warps, "yarn"),
-            Stroke(np.array([face, face + high]), "construction", "head"),
+            Stroke(np.array([-1j * 20 * mm, high]) - warp, "yarn", "warps"),
+            Stroke(np.array([0j, high]) + warp, "yarn"),
+            Stroke(case, "construction", "head", closed=True),
         ),
         (Dot(0j, "fell", "point"),),
-        note="tools to scale, drawn as far as the head's face; the fell is at 0",
+        note="to scale; the fell is at 0",
     )
-    strokes = tuple(MovingStroke(tool(name), "path", name, closed=True) for name in names)
-    tracks = {one.track: loom.cyclograms[0].track(one.track) for one in side.head.tools}
-    return Animation(still, DRIVE, angle, strokes, (), period=loom.times.knot, readings=_readings(tracks, angle))
+    strokes = (*_tools(loom, View.SIDE), *_arm_rooms(loom))
+    tracks = {tool.track: loom.knot_cyclogram.track(tool.track) for tool in side.head.tools}
+    return Animation(
+        still, DRIVE, _angles(), strokes, (), period=loom.times.knot, readings=_readings(tracks, _angles())
+    )
+
+
+def _case(loom: LoomDesign, view: View) -> list[Outline]:
+    plates = case_plates(loom.weaver)
+    return [outline for outline in outlines(head_alone(loom), view) if outline.part.id in plates]
+
+
+def _tools(loom: LoomDesign, view: View) -> tuple[MovingStroke, ...]:
+    """The parts that the cams move; the first of each body has the body's name."""
+    tree = head_alone(loom)
+    moved = [body.id for body in tree.bodies if body.joint.motion is not None and body.id not in {HEAD, CAM_SHAFT}]
+    return named_strokes(moving_outlines(tree, view, KNOT, _angles(), moved))
+
+
+def _arm_rooms(loom: LoomDesign) -> tuple[MovingStroke, ...]:
+    """The rooms of arms that tie, as boxes: their parts are not designed."""
+    strokes = []
+    for frame, part in zip(*arms(loom), strict=True):
+        assert frame.motion is not None
+        flat = part.solids[0].points
+        low, high = flat.min(0), flat.max(0)
+        corners = np.array(
+            [complex(z, y) for z, y in ((low[2], low[1]), (high[2], low[1]), (high[2], high[1]), (low[2], high[1]))]
+        )
+        shift = [np.interp(_angles(), frame.motion.angle, frame.motion.shift[:, axis]) for axis in (2, 1)]
+        strokes.append(MovingStroke(corners + (shift[0] + 1j * shift[1])[:, None], "path", part.title, closed=True))
+    return tuple(strokes)
 
 
 def ties_by_grippers(loom: LoomDesign) -> bool:
@@ -62,21 +87,14 @@ def knot_from_the_front(loom: LoomDesign) -> Animation:
     weaver = loom.weaver
     angle, by = _angles(), weaver.grippers
     tracks = {name: weaver.cyclogram.track(name) for name in (SIDE_MOTION, CENTRE_MOTION, SLEY)}
-    side, centre, sley = (sample(track, angle).position for track in tracks.values())
+    side = sample(tracks[SIDE_MOTION], angle).position
     low = weaver.params.opener.front_span + weaver.params.clearance
     tied = low + (by.lift + by.finger) / 2
     top = (weaver.params.opener.front_span + weaver.params.opener.height) * _ABOVE
-    left, right = (_arm(by, side, tied, hand) for hand in (-1, 1))
-    gripper = (1j * (tied + by.height) + 0 * centre)[:, None] + _square(by.finger / 2)
-    height = max(weaver.params.sley_stroke, top / _ABOVE + weaver.params.opener.plate)
-    bar = (height - sley)[:, None] * 1j + np.array([-1, 1, 1 + 0.6j, -1 + 0.6j]) * by.axis
     strokes = (
         *_warps(weaver, side, top),
         MovingStroke(_yarn(weaver, tied, angle), "outline", "yarn"),
-        MovingStroke(left, "link", "left gripper"),
-        MovingStroke(right, "link", "right gripper"),
-        MovingStroke(gripper, "path", "centre gripper", closed=True),
-        MovingStroke(bar, "path", "sley", closed=True),
+        *_tools(loom, View.FRONT),
     )
     still = Drawing(
         "loom-knot-front",
@@ -101,10 +119,6 @@ def _arm(by: Grippers, side: FloatArray, tied: float, hand: int) -> Complex[np.n
     turned = by.turned(side)
     rod = np.full(len(side), hand * by.axis + 1j * (tied + hand * by.lift / 2))
     return np.stack([rod, rod + by.arm * (hand * np.cos(turned) + 1j * np.sin(turned))], -1)
-
-
-def _square(half: float) -> ComplexArray:
-    return half * np.array([-1 - 1j, 1 - 1j, 1 + 1j, -1 + 1j])
 
 
 def _warps(weaver: Weaver, side: Float[np.ndarray, " n"], top: float) -> tuple[MovingStroke, ...]:

@@ -1,16 +1,22 @@
-"""A row in motion from the front and from above: wefts, beats and the heads' retreat, over the angle of the row.
+"""A row in motion from the side, from the front and from above: what moves of the loom's parts, warps and wefts.
 
-Across the loom 0 is the cloth's left edge. From the front y is the height above the fell; from above y is the distance
-behind the warps' plane, so that the weaver stands below the picture.
+Axes as in the views of the whole loom: from the side the front is at the right, across 0 is the middle of the cloth.
 """
+
+from collections.abc import Iterable
 
 import numpy as np
 
-from ilmek.arrays import Complex, ComplexArray, FloatArray
-from ilmek.machines.automated_loom.bodies import beat_tip
-from ilmek.machines.automated_loom.cyclogram import BEATER, EVEN, HEADS, ODD, SLIDE, TAKE_UP, weft_windows
+from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.machines.arrangement.side_view import SideView
+from ilmek.machines.automated_loom.cyclogram import BEATER, EVEN, HEADS, ODD, TAKE_UP
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.weft import Shuttle
+from ilmek.machines.automated_loom.in_space.maker import ROW, half_width
+from ilmek.machines.automated_loom.in_space.scene import loom_tree
+from ilmek.machines.automated_loom.in_space.weft import wefts
+from ilmek.machines.weaver.tree import HEAD
+from ilmek.part.projection import MovingOutline, View, moving_outlines
+from ilmek.part.tree import Tree
 from ilmek.report import Animation, Axis, Dot, Drawing, MovingStroke, Reading, Stroke
 from ilmek.timing.track import sample
 from ilmek.units import turn
@@ -24,145 +30,136 @@ _LINES = 24
 _CLOTH = 0.12
 """Height of the cloth below the fell that is drawn, in widths of the cloth."""
 
+_LARGEST = 3
+"""Parts of a body that are drawn: those that are seen largest."""
+
+
+def row_from_the_side(loom: LoomDesign) -> Animation:
+    """A row from the side; what lays the wefts is drawn only while it is in the shed."""
+    angle, row, view = _angles(), loom.row_cyclogram, loom.side
+    sheets = (MovingStroke(_sheet(view, sample(row.track(name), angle).position), "yarn", name) for name in (EVEN, ODD))
+    strokes = (*sheets, *named_strokes(_in_the_shed(outline, loom) for outline in _moving(loom, View.SIDE)))
+    low = 1j * min(-view.lower.radius, view.head.body.imag)
+    carpet = np.array([-view.room.warp + low, view.pile + low, view.pile, -view.room.warp])
+    still = Drawing(
+        "loom-row-moving",
+        "A row from the side",
+        (Stroke(carpet, "yarn", "carpet", closed=True, filled=True),),
+        (Dot(0j, "fell", "point"),),
+        note="over the angle of the row's cyclogram; shuttles and their carriage are drawn while they are in the shed",
+    )
+    return _animation(loom, still, strokes, (EVEN, ODD, HEADS))
+
 
 def row_from_the_front(loom: LoomDesign) -> Animation:
-    """Carrier, weft and comb before the warps. The heads, which stand in front of them, are not drawn."""
-    angle, wide, side = _angles(), loom.task.cloth_width, loom.side
-    height = (side.carrier.corner + side.carrier.size / 2).imag
-    top = 1.3 * max(float(side.cams[0].at.imag), height)
-    carrier = _carrier(loom, angle)
-    half = side.carrier.size.imag / 2
-    comb = _comb(loom, angle)
-    warps = (Stroke(np.array([x, x + 1j * top]), "construction") for x in np.linspace(0, wide, _LINES))
+    """What beats, and what lays the wefts, before the warps. The heads, which stand in front of them, are not drawn."""
+    half, top = half_width(loom), 1.3 * float(loom.side.cams[0].at.imag)
+    cloth = np.array([-half, half, half - 2j * _CLOTH * half, -half - 2j * _CLOTH * half])
+    warps = (Stroke(np.array([x, x + 1j * top]), "construction") for x in np.linspace(-half, half, _LINES))
     still = Drawing(
         "loom-row-front",
         "A row from the front",
-        (
-            Stroke(
-                np.array([0, wide, wide - 1j * _CLOTH * wide, -1j * _CLOTH * wide]), "yarn", closed=True, filled=True
-            ),
-            *warps,
-        ),
-        (Dot(0j, "fell", "point"),),
+        (Stroke(cloth, "yarn", closed=True, filled=True), *warps),
+        (Dot(complex(-half), "fell", "point"),),
         note=f"{_LINES} of {loom.warps} warps are drawn, and no heads, which stand in front",
     )
-    strokes = (
-        MovingStroke(comb, "path", "comb", closed=True),
-        MovingStroke(_weft(loom, angle, carrier, height), "outline", "weft"),
-        MovingStroke(_boxes(carrier, 1j * height, half), "path", "carrier", closed=True),
-    )
-    readings = (*_readings(loom, angle, (loom.row_timing.carrier, BEATER, TAKE_UP)),)
-    return Animation(still, DRIVE, angle, strokes, (), period=loom.row_cyclogram.period, readings=readings)
+    seen = named_strokes(outline for outline in _moving(loom, View.FRONT) if outline.body != HEAD)
+    strokes = (*seen, *_wefts(loom, View.FRONT))
+    return _animation(loom, still, strokes, (loom.row_timing.carrier, BEATER, TAKE_UP))
 
 
 def row_from_above(loom: LoomDesign) -> Animation:
-    """Both sheets of warps at the height of the carrier, carrier, comb, heads and rail from above."""
-    angle, side, row = _angles(), loom.side, loom.row_cyclogram
-    wide = loom.task.cloth_width
-    height = (side.carrier.corner + side.carrier.size / 2).imag
-    share = height / float(side.cams[0].at.imag)
-    ends = np.array([0.0, wide])
-    sheets = [ends - 1j * share * sample(row.track(name), angle).position[:, None] for name in (EVEN, ODD)]
-    carrier, depth = _carrier(loom, angle), side.carrier
-    middle = (depth.corner + depth.size / 2).real
-    away = sample(row.track(HEADS), angle).position
-    depths = _comb_corners(loom, angle).real
-    near, far = depths.min(axis=1), depths.max(axis=1)
-    comb = np.array([0, wide, wide, 0]) - 1j * np.stack([near, near, far, far], axis=-1)
-    heads = [_box(x, side.head.body.real, loom.head_width, side.head.size.real) for x in _parked(loom)]
-    rail = _box(0.0, side.rail.corner.real, wide, side.rail.size.real)
-    strokes = (
-        *(MovingStroke(line, "path", name) for line, name in zip(sheets, (EVEN, ODD), strict=True)),
-        MovingStroke(comb, "path", "comb", closed=True),
-        MovingStroke(_boxes(carrier, -1j * middle, depth.size.real / 2), "path", "carrier", closed=True),
-        *(MovingStroke(one - 1j * away[:, None], "path", "heads", closed=True) for one in heads),
-        MovingStroke(rail - 1j * away[:, None], "outline", closed=True),
+    """Both sheets of warps at the height of the wefts, and all that moves, from above."""
+    angle, row, half = _angles(), loom.row_cyclogram, half_width(loom)
+    share = loom.side.weft_height / float(loom.side.cams[0].at.imag)
+    ends = np.array([-half, half])
+    sheets = (
+        MovingStroke(ends - 1j * share * sample(row.track(name), angle).position[:, None], "yarn", name)
+        for name in (EVEN, ODD)
     )
     still = Drawing(
         "loom-row-above",
         "A row from above",
         (Stroke(ends + 0j, "yarn", "fell"),),
-        note="the sheets of warps at the height of the carrier; the weaver stands below the picture",
+        note="the sheets of warps at the height of the wefts; the weaver stands below the picture",
     )
-    readings = _readings(loom, angle, (EVEN, ODD, HEADS))
-    return Animation(still, DRIVE, angle, strokes, (), period=row.period, readings=readings)
+    strokes = (*sheets, *named_strokes(_moving(loom, View.TOP)), *_wefts(loom, View.TOP))
+    return _animation(loom, still, strokes, (EVEN, ODD, HEADS))
 
 
 def _angles() -> FloatArray:
     return np.arange(FRAMES) * (turn / FRAMES)
 
 
-def _readings(loom: LoomDesign, angle: FloatArray, names: tuple[str, ...]) -> tuple[Reading, ...]:
-    tracks = [loom.row_cyclogram.track(name) for name in names]
-    return tuple(Reading(one.name, sample(one, angle).position, one.unit) for one in tracks)
+def _animation(
+    loom: LoomDesign, still: Drawing, strokes: tuple[MovingStroke, ...], names: tuple[str, ...]
+) -> Animation:
+    angle, row = _angles(), loom.row_cyclogram
+    tracks = [row.track(name) for name in names]
+    readings = tuple(Reading(track.name, sample(track, angle).position, track.unit) for track in tracks)
+    return Animation(still, DRIVE, angle, strokes, (), period=row.period, readings=readings)
 
 
-def _carrier(loom: LoomDesign, angle: FloatArray) -> FloatArray:
-    """Both ends of the carrier across the loom [m], (frames, 2).
-
-    A shuttle rests at either edge, as far outside the cloth as its stroke is longer; of a rapier that comes from the
-    left the tip rests before the cloth.
-    """
-    at = sample(loom.row_cyclogram.track(loom.row_timing.carrier), angle).position
-    passage, made = loom.weft.passage, loom.weft.carried
-    if isinstance(made, Shuttle):
-        middle = at - (passage.stroke - loom.task.cloth_width) / 2
-        return np.asarray(middle[:, None] + made.length * np.array([-0.5, 0.5]))
-    tip = at - passage.run
-    return np.stack([np.full_like(tip, -passage.run - made.length), tip], -1)
+def _moving(loom: LoomDesign, view: View) -> tuple[MovingOutline, ...]:
+    """What moves over a row but the tools of the heads: of each body the parts that are seen largest."""
+    tree = loom_tree(loom)
+    bodies = _moving_bodies(tree)
+    chosen: dict[str, list[MovingOutline]] = {body: [] for body in bodies}
+    for outline in sorted(moving_outlines(tree, view, ROW, _angles(), bodies), key=_size, reverse=True):
+        if len(chosen[outline.body]) < _LARGEST or (outline.body == HEAD and outline.part is chosen[HEAD][0].part):
+            chosen[outline.body].append(outline)
+    return tuple(outline for outlines in chosen.values() for outline in outlines)
 
 
-def _weft(loom: LoomDesign, angle: FloatArray, carrier: FloatArray, height: float) -> ComplexArray:
-    """The weft from the edge at which the carrier started to the carrier; beaten to the fell with the beat."""
-    wide, row = loom.task.cloth_width, loom.row_cyclogram
-    ends = np.clip(carrier.mean(axis=1), 0.0, wide)
-    beats = [part.end for part in row.track(BEATER).segments[::2]]
-    lines = np.zeros((len(angle), 2), complex)
-    for (start, _), beaten, edge in zip(weft_windows(row), beats, _edges(loom), strict=True):
-        laid = angle >= start
-        down = laid & (angle >= beaten)
-        lines[laid, 0], lines[laid, 1] = edge + 1j * height, ends[laid] + 1j * height
-        lines[down, 0], lines[down, 1] = 0.0, wide
-    return lines
+def _moving_bodies(tree: Tree) -> tuple[str, ...]:
+    """Bodies that move over a row, or are carried by one that does, in the order of the tree."""
+    moving: list[str] = []
+    for body in tree.bodies:
+        motion = body.joint.motion
+        if body.parent != HEAD and (body.parent in moving or (motion is not None and motion.drive == ROW)):
+            moving.append(body.id)
+    return tuple(moving)
 
 
-def _edges(loom: LoomDesign) -> tuple[float, float]:
-    """Edges of the cloth at which the two wefts start [m]: a rapier inserts both from the left."""
-    return (0.0, loom.task.cloth_width) if isinstance(loom.weft.carried, Shuttle) else (0.0, 0.0)
+def _size(outline: MovingOutline) -> float:
+    return float(np.hypot(np.ptp(outline.points[0].real), np.ptp(outline.points[0].imag)))
 
 
-def _comb(loom: LoomDesign, angle: FloatArray) -> ComplexArray:
-    """The comb from the front: its width, its height; one that travels across is as much narrower as its slide runs."""
-    heights = _comb_corners(loom, angle).imag
-    low, high = heights.min(axis=1), heights.max(axis=1)
-    wide, run = loom.task.cloth_width, np.zeros(len(angle))
-    slide = next((track for track in loom.row_cyclogram.tracks if track.name == SLIDE), None)
-    if slide is not None:
-        run = sample(slide, angle).position
-        wide = max(wide - float(slide.stroke), 0.02 * wide)
-    left, right = run, run + wide
-    return np.stack([left + 1j * low, right + 1j * low, right + 1j * high, left + 1j * high], axis=-1)
+def named_strokes(outlines: Iterable[MovingOutline]) -> tuple[MovingStroke, ...]:
+    """Lines of the outlines; the first of each body has the body's name."""
+    named: set[str] = set()
+    strokes = []
+    for outline in outlines:
+        name = "" if outline.body in named else outline.body.rpartition("/")[2]
+        named.add(outline.body)
+        strokes.append(MovingStroke(outline.points, "path", name, closed=True))
+    return tuple(strokes)
 
 
-def _comb_corners(loom: LoomDesign, angle: FloatArray) -> Complex[np.ndarray, "frames corners"]:
-    """Corners of the comb in the side view [m]."""
-    path = loom.beat.path
-    tip = beat_tip(path, loom.row_cyclogram, angle)
-    return np.concatenate([path.carried(polygon, tip) for polygon in path.outline], axis=1)
+def _in_the_shed(outline: MovingOutline, loom: LoomDesign) -> MovingOutline:
+    """The outline as a point while it is beside the cloth and something that lays wefts."""
+    carriers = {body.id for body in loom.weft.bodies.tree.bodies}
+    outside = np.abs(outline.depth) > half_width(loom)
+    if outline.body not in carriers or not outside.any():
+        return outline
+    middle = outline.points.mean(axis=1, keepdims=True)
+    points = np.where(outside[:, None], middle, outline.points)
+    return MovingOutline(outline.part, outline.body, points, outline.depth)
 
 
-def _boxes(ends: FloatArray, middle: complex, half: float) -> ComplexArray:
-    """Rectangles between two ends [m], (frames, 2), about a middle line."""
-    low, high = ends[:, 0], ends[:, 1]
-    return np.asarray(np.stack([low - 1j * half, high - 1j * half, high + 1j * half, low + 1j * half], -1) + middle)
+def _sheet(view: SideView, lift: FloatArray) -> ComplexArray:
+    """From the fell over the point of lift to the back rest, cut above the guide cams."""
+    cam, rest = view.cams[0], 1j * view.spans.back_rest
+    lifted = lift + 1j * float(cam.at.imag)
+    return np.stack([np.zeros_like(lifted), lifted, lifted + 0.5 * (rest - lifted)], axis=1)
 
 
-def _box(x: float, depth: float, wide: float, deep: float) -> ComplexArray:
-    """A rectangle from above: from x on [m], and from a depth towards the weaver."""
-    return np.asarray(np.array([x, x + wide, x + wide, x]) - 1j * (depth + deep * np.array([0, 0, 1, 1])))
-
-
-def _parked(loom: LoomDesign) -> FloatArray:
-    """Left edges of the heads, each in the middle of its share of the row [m]."""
-    share = loom.task.cloth_width / loom.heads
-    return np.asarray((np.arange(loom.heads) + 0.5) * share - loom.head_width / 2)
+def _wefts(loom: LoomDesign, view: View) -> tuple[MovingStroke, ...]:
+    """Both wefts as the scene has them."""
+    strokes = []
+    for yarn in wefts(loom):
+        ends = yarn.points.transpose(1, 2, 0)
+        frames = [np.array([np.interp(_angles(), yarn.angle, axis) for axis in end]) for end in ends]
+        seen = [view.rotation @ frame for frame in frames]
+        strokes.append(MovingStroke(np.stack([at[0] + 1j * at[1] for at in seen], axis=1), "yarn", yarn.title))
+    return tuple(strokes)

@@ -1,0 +1,203 @@
+"""A tree seen from a side: the outlines of its parts, at rest or over the turn of a drive.
+
+The outline of a part is that of its mesh [`manifold3d`], its holes left out. A part that turns about the line of sight
+or does not turn keeps it; of one that turns otherwise the convex hull of what is seen is drawn.
+"""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from enum import Enum
+from functools import lru_cache
+
+import numpy as np
+from manifold3d import Manifold, Mesh
+from scipy.spatial import ConvexHull
+
+from ilmek.arrays import Complex, ComplexArray, Float, FloatArray
+from ilmek.part.clearances import MANY
+from ilmek.part.part import Part
+from ilmek.part.placement import IDENTITY, Placement
+from ilmek.part.poses import Chain, Poses, chains, poses
+from ilmek.part.tree import Tree
+from ilmek.plane.curves import hull
+from ilmek.records import record
+from ilmek.units import mm, turn
+
+COARSE = 0.5 * mm
+"""Deviation of outlines [m]."""
+
+DIRECTIONS = 32
+"""Directions in which the hull of a part is measured that turns out of the plane of the view."""
+
+_SAME = 1e-9
+
+
+class View(Enum):
+    """A side from which a machine is seen: its line of sight, and which axes point to the right and up."""
+
+    SIDE = ((-1.0, 0.0, 0.0), (0.0, 0.0, 1.0), (0.0, 1.0, 0.0))
+    """From the weaver's right: the front is at the right."""
+    FRONT = ((0.0, 0.0, -1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
+    TOP = ((0.0, -1.0, 0.0), (1.0, 0.0, 0.0), (0.0, 0.0, -1.0))
+    """From above: the weaver stands below."""
+
+    @property
+    def rotation(self) -> Float[np.ndarray, "3 3"]:
+        """From the axes of the scene to those of the view: right, up, towards the eye."""
+        sight, right, up = (np.array(axis) for axis in self.value)
+        return np.array([right, up, -sight])
+
+
+@record
+class Outline:
+    """What is seen of a piece of a part: closed curves [m], and its nearest distance towards the eye [m]."""
+
+    part: Part
+    body: str
+    curves: tuple[ComplexArray, ...]
+    near: float
+
+    @property
+    def middle(self) -> complex:
+        """The middle of the box about it."""
+        every = np.concatenate(self.curves)
+        return complex(np.ptp(every.real) / 2 + every.real.min(), np.ptp(every.imag) / 2 + every.imag.min())
+
+
+@record
+class MovingOutline:
+    """What is seen of a piece over the frames of a motion [m]; depth: of its origin, towards the eye [m]."""
+
+    part: Part
+    body: str
+    points: Complex[np.ndarray, "frames points"]
+    depth: FloatArray
+
+
+@dataclass(frozen=True)
+class _Piece:
+    """A part at a position in a body; or many of it, as the corners of their convex hull in the body's axes [m]."""
+
+    part: Part
+    chain: Chain
+    position: Placement
+    corners: Float[np.ndarray, "corners 3"] | None = None
+
+
+def outlines(tree: Tree, view: View, drive: str = "", angle: float = 0.0) -> tuple[Outline, ...]:
+    """The outlines of all pieces that have a shape, the farthest first.
+
+    Pieces that cover each other alike are one; so are those of a part that is in its body `MANY` times, as their hull.
+
+    drive, angle  the angle of a drive [rad]; default: all stand at 0
+    """
+    seen: dict[tuple[str, bytes], Outline] = {}
+    for chain in chains(tree):
+        body = poses(chain, drive, np.array([angle]))
+        for occurrence in chain[-1].body.occurrences:
+            if occurrence.part.shape is None:
+                continue
+            pieces = [_at_rest(occurrence.part, chain, body, position, view) for position in occurrence.positions]
+            if len(pieces) >= MANY:
+                every = np.concatenate([curve for piece in pieces for curve in piece.curves])
+                pieces = [replace(pieces[0], curves=(hull(every),), near=max(piece.near for piece in pieces))]
+            for piece in pieces:
+                key = piece.part.id, np.round(piece.curves[0] / (0.1 * mm)).tobytes()
+                if key not in seen or seen[key].near < piece.near:
+                    seen[key] = piece
+    return tuple(sorted(seen.values(), key=lambda outline: outline.near))
+
+
+def _at_rest(part: Part, chain: Chain, body: Poses, position: Placement, view: View) -> Outline:
+    here = _seen(body, position, view)
+    curves, near = _projected(part, here.rotation[0].tobytes())
+    right, up, towards = here.origin[0].tolist()
+    return Outline(part, chain[-1].name, tuple(curve + complex(right, up) for curve in curves), near + towards)
+
+
+def moving_outlines(
+    tree: Tree, view: View, drive: str, angle: FloatArray, bodies: Iterable[str]
+) -> tuple[MovingOutline, ...]:
+    """The outlines of the pieces of some bodies at angles of a drive [rad]."""
+    chosen = frozenset(bodies)
+    seen: dict[tuple[str, bytes], MovingOutline] = {}
+    for piece in _pieces(tree):
+        if piece.chain[-1].name not in chosen:
+            continue
+        here = _seen(poses(piece.chain, drive, angle), piece.position, view)
+        points = _over_turn(piece, here)
+        key = piece.part.id, np.round(points[0] / (0.1 * mm)).tobytes()
+        seen.setdefault(key, MovingOutline(piece.part, piece.chain[-1].name, points, here.origin[:, 2]))
+    return tuple(seen.values())
+
+
+def _pieces(tree: Tree) -> Iterator[_Piece]:
+    for chain in chains(tree):
+        for occurrence in chain[-1].body.occurrences:
+            part, positions = occurrence.part, occurrence.positions
+            if part.shape is None:
+                continue
+            if len(positions) < MANY:
+                yield from (_Piece(part, chain, position) for position in positions)
+                continue
+            own = _points(part)
+            every = np.concatenate([position.points(own) for position in positions])
+            yield _Piece(part, chain, IDENTITY, every[ConvexHull(every).vertices])
+
+
+def _seen(body: Poses, position: Placement, view: View) -> Poses:
+    """Poses of a part in the axes of the view."""
+    origin = body.origin + body.rotation @ position.origin
+    return Poses(view.rotation @ body.rotation @ position.rotation, origin @ view.rotation.T)
+
+
+def _over_turn(piece: _Piece, here: Poses) -> Complex[np.ndarray, "frames points"]:
+    origin = here.origin[:, 0] + 1j * here.origin[:, 1]
+    relative = here.rotation @ here.rotation[0].T
+    if np.abs(relative[:, 2, 2] - 1).max() < _SAME:
+        curve = _curve(piece, here.rotation[0])
+        turned = relative[:, 0, 0] + 1j * relative[:, 1, 0]
+        return np.asarray(origin[:, None] + turned[:, None] * curve)
+    corners = _points(piece.part) if piece.corners is None else piece.corners
+    flat = np.einsum("fij,pj->fpi", here.rotation[:, :2], corners)
+    away = np.exp(1j * turn * np.arange(DIRECTIONS) / DIRECTIONS)
+    far = flat[:, :, 0, None] * away.real + flat[:, :, 1, None] * away.imag
+    corner = np.take_along_axis(flat, far.argmax(1)[:, :, None], axis=1)
+    return np.asarray(origin[:, None] + corner[:, :, 0] + 1j * corner[:, :, 1])
+
+
+def _curve(piece: _Piece, turned: Float[np.ndarray, "3 3"]) -> ComplexArray:
+    """The outline of a piece at rest, about its origin [m]."""
+    if piece.corners is None:
+        return max(_projected(piece.part, turned.tobytes())[0], key=len)
+    flat = piece.corners @ turned[:2].T
+    return hull(flat[:, 0] + 1j * flat[:, 1])
+
+
+@lru_cache(maxsize=512)
+def _projected(part: Part, rotation: bytes) -> tuple[tuple[ComplexArray, ...], float]:
+    """Outer curves of a part turned about its origin [m], and its nearest distance towards the eye [m]."""
+    turned = np.frombuffer(rotation).reshape(3, 3)
+    seen = _manifold(part).transform(np.column_stack([turned, np.zeros(3)]))
+    curves = [polygon[:, 0] + 1j * polygon[:, 1] for polygon in seen.project().simplify(COARSE / 2).to_polygons()]
+    outer = tuple(curve for curve in curves if _area(curve) > 0)
+    return outer, float(seen.bounding_box()[5])
+
+
+def _area(curve: ComplexArray) -> float:
+    return float((np.conj(curve) * np.roll(curve, -1)).imag.sum()) / 2
+
+
+@lru_cache(maxsize=512)
+def _manifold(part: Part) -> Manifold:
+    assert part.shape is not None
+    mesh = part.shape.mesh(COARSE)
+    return Manifold(Mesh(mesh.points.astype(np.float32), mesh.triangles.astype(np.uint32)))
+
+
+@lru_cache(maxsize=512)
+def _points(part: Part) -> Float[np.ndarray, "points 3"]:
+    """Corners of the convex hull of a part [m]."""
+    assert part.shape is not None
+    points = part.shape.mesh(2 * COARSE).points
+    return np.asarray(points[ConvexHull(points).vertices])
