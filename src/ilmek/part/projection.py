@@ -125,9 +125,9 @@ def moving_outlines(
         if piece.chain[-1].name not in chosen:
             continue
         here = _seen(poses(piece.chain, drive, angle), piece.position, view)
-        points = _over_turn(piece, here)
-        key = piece.part.id, np.round(points[0] / (0.1 * mm)).tobytes()
-        seen.setdefault(key, MovingOutline(piece.part, piece.chain[-1].name, points, here.origin[:, 2]))
+        for points in _over_turn(piece, here):
+            key = piece.part.id, np.round(points[0] / (0.1 * mm)).tobytes()
+            seen.setdefault(key, MovingOutline(piece.part, piece.chain[-1].name, points, here.origin[:, 2]))
     return tuple(seen.values())
 
 
@@ -151,27 +151,28 @@ def _seen(body: Poses, position: Placement, view: View) -> Poses:
     return Poses(view.rotation @ body.rotation @ position.rotation, origin @ view.rotation.T)
 
 
-def _over_turn(piece: _Piece, here: Poses) -> Complex[np.ndarray, "frames points"]:
+def _over_turn(piece: _Piece, here: Poses) -> Iterator[Complex[np.ndarray, "frames points"]]:
     origin = here.origin[:, 0] + 1j * here.origin[:, 1]
     relative = here.rotation @ here.rotation[0].T
     if np.abs(relative[:, 2, 2] - 1).max() < _SAME:
-        curve = _curve(piece, here.rotation[0])
         turned = relative[:, 0, 0] + 1j * relative[:, 1, 0]
-        return np.asarray(origin[:, None] + turned[:, None] * curve)
+        for curve in _curves(piece, here.rotation[0]):
+            yield origin[:, None] + turned[:, None] * curve
+        return
     corners = _points(piece.part) if piece.corners is None else piece.corners
     flat = np.einsum("fij,pj->fpi", here.rotation[:, :2], corners)
     away = np.exp(1j * turn * np.arange(DIRECTIONS) / DIRECTIONS)
     far = flat[:, :, 0, None] * away.real + flat[:, :, 1, None] * away.imag
     corner = np.take_along_axis(flat, far.argmax(1)[:, :, None], axis=1)
-    return np.asarray(origin[:, None] + corner[:, :, 0] + 1j * corner[:, :, 1])
+    yield origin[:, None] + corner[:, :, 0] + 1j * corner[:, :, 1]
 
 
-def _curve(piece: _Piece, turned: Float[np.ndarray, "3 3"]) -> ComplexArray:
+def _curves(piece: _Piece, turned: Float[np.ndarray, "3 3"]) -> tuple[ComplexArray, ...]:
     """The outline of a piece at rest, about its origin [m]."""
     if piece.corners is None:
-        return max(_projected(piece.part, turned.tobytes())[0], key=len)
+        return _projected(piece.part, turned.tobytes())[0]
     flat = piece.corners @ turned[:2].T
-    return hull(flat[:, 0] + 1j * flat[:, 1])
+    return (hull(flat[:, 0] + 1j * flat[:, 1]),)
 
 
 @lru_cache(maxsize=512)
