@@ -84,11 +84,15 @@ class Approach:
 
 @dataclass(frozen=True)
 class _Placed:
-    """A part in a body, at one of its positions in it or at many, over the turn of a drive."""
+    """A part in a body, at one of its positions in it or at many, over the turn of a drive.
+
+    few  of many, the first, the middle and the last
+    """
 
     part: Part
     chain: Chain
     solid: Solid
+    few: Solid
     drive: str
     angles: FloatArray
     ends: Float[np.ndarray, "intervals samples"]
@@ -136,8 +140,12 @@ class _Placed:
         return fcl.CollisionObject(triangle_tree(self.solid))
 
     @cached_property
+    def few_mesh(self) -> fcl.CollisionObject:
+        return fcl.CollisionObject(triangle_tree(self.few))
+
+    @cached_property
     def manifold(self) -> Manifold:
-        return Manifold(Mesh(self.solid.points.astype(np.float32), self.solid.triangles.astype(np.uint32)))
+        return Manifold(Mesh(self.few.points.astype(np.float32), self.few.triangles.astype(np.uint32)))
 
     def poses(self, angle: FloatArray) -> Poses:
         return poses(self.chain, self.drive, angle)
@@ -186,18 +194,27 @@ def triangle_tree(solid: Solid) -> fcl.BVHModel:
 
 def _placed(tree: Tree, drive: str, ends: Float[np.ndarray, "intervals samples"]) -> Iterator[_Placed]:
     """Each piece of each part; of one that is in its body `MANY` times all pieces as one."""
-    angles, solids = drive_angles(tree, drive), dict[str, tuple[Solid, ...]]()
+    angles, solids = drive_angles(tree, drive), dict[str, tuple[tuple[Solid, Solid], ...]]()
     for chain in chains(tree):
         for occurrence in chain[-1].body.occurrences:
             part, positions = occurrence.part, occurrence.positions
             if part.shape is None:
                 continue
-            groups = (positions,) if len(positions) >= MANY else ((position,) for position in positions)
             key = f"{chain[-1].name} {part.id}"
             if key not in solids:
-                mesh = _mesh(part, len(positions))
-                solids[key] = tuple(_row(mesh, group) for group in groups)
-            yield from (_Placed(part, chain, solid, drive, angles, ends) for solid in solids[key])
+                solids[key] = tuple(_solids(part, positions))
+            yield from (_Placed(part, chain, *pair, drive, angles, ends) for pair in solids[key])
+
+
+def _solids(part: Part, positions: tuple[Placement, ...]) -> Iterator[tuple[Solid, Solid]]:
+    """The pieces of a part in a body; of many all as one, and with them three of them."""
+    mesh = _mesh(part, len(positions))
+    if len(positions) >= MANY:
+        yield _row(mesh, positions), _row(mesh, (positions[0], positions[len(positions) // 2], positions[-1]))
+        return
+    for position in positions:
+        piece = _row(mesh, (position,))
+        yield piece, piece
 
 
 def _mesh(part: Part, number: int) -> Solid:
@@ -276,7 +293,8 @@ class _Pair:
         hulls = self._least(self.first.hull, self.other.hull)
         if hulls[1] >= self.horizon:
             return None
-        angle, distance = self._least(self.first.mesh, self.other.mesh)
+        meshes = (self.first.mesh, self.other.mesh) if self.moving else (self.first.few_mesh, self.other.few_mesh)
+        angle, distance = self._least(*meshes)
         if distance >= self.horizon:
             return None
         depth, volume, deepest = self._deepest(angle) if distance <= 0 else (0.0, 0.0, angle)
