@@ -67,7 +67,8 @@ The parameters of a machine, and their limits: ilmek machines MACHINE
     "space_to",
     type=click.Path(path_type=Path),
     metavar="FILE.glb",
-    help="Write a loom in space, with its motions over a row and a knot, as GLB (glTF 2.0).",
+    help="Write a loom in space, with its motions over a row and a knot, as GLB (glTF 2.0), and compare all its parts "
+    "there: those through each other, and those that nothing holds, fail a check.",
 )
 @click.option("--tolerance", metavar="ERROR", help="Tolerance of cam tables: 1um, 0.01deg, or 0.01% of the stroke.")
 @force_option
@@ -109,7 +110,14 @@ def command(  # noqa: PLR0917 - click calls it by name
     workshop = None if parts_to is None else WorkshopOrder(parts_to, tolerance)
     inputs = {**({} if order.file is None else {"FILE": order.file}), **setting_files(given)}
     with call_outputs(files, force=force, inputs=inputs) as call:
-        made = design_machine(order.machine, order.settings, workshop, outputs=call.outputs, progress=call.progress)
+        made = design_machine(
+            order.machine,
+            order.settings,
+            workshop,
+            in_space=space_to is not None,
+            outputs=call.outputs,
+            progress=call.progress,
+        )
         call.give_page("--report", made.report)
         call.give_animation("--animation", made.report, motion)
         if mechanism_to is not None and made.mechanism is not None:

@@ -317,7 +317,8 @@ class _Pair:
         if not near.any():
             return 0.0, self.horizon
         ends, floor = self.first.ends[near][:, [0, -1]], self.apart[near]
-        apart = self._distances(own, its, ends.ravel()).reshape(-1, 2)
+        once, number = np.unique(ends, return_inverse=True)
+        apart = self._distances(own, its, once)[number].reshape(-1, 2)
         best = int(np.argmin(apart))
         angle, least = float(ends.flat[best]), float(apart.flat[best])
         while least > 0:

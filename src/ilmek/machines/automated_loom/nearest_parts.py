@@ -5,6 +5,7 @@ parameter `clearance`. A beat that travels along the row strikes many times over
 the first and the last `STATIONS` are looked at, evenly along the row.
 """
 
+from collections.abc import Mapping
 from functools import lru_cache
 
 import numpy as np
@@ -30,8 +31,7 @@ _AT_FELL = 1e-9
 @lru_cache(maxsize=4)
 def nearest_parts(loom: LoomDesign) -> tuple[Approach, ...]:
     """The least distance of every two parts that come near, of both cyclograms the least; the nearest first."""
-    tree = loom_tree(loom)
-    machine = {body.id: branch.machine for branch in branches_of(loom) for body in branch.tree.bodies}
+    tree, machine = loom_tree(loom), machines_of_bodies(loom)
 
     def required(first: str, other: str) -> float:
         return 0.0 if machine[first] == machine[other] else loom.params.clearance
@@ -44,6 +44,11 @@ def nearest_parts(loom: LoomDesign) -> tuple[Approach, ...]:
         if key not in least or pair.distance < least[key].distance:
             least[key] = pair
     return tuple(sorted(least.values(), key=lambda pair: pair.distance))
+
+
+def machines_of_bodies(loom: LoomDesign) -> Mapping[str, str]:
+    """Name of the machine of each body, by its id."""
+    return {body.id: branch.machine for branch in branches_of(loom) for body in branch.tree.bodies}
 
 
 def row_windows(row: Cyclogram, beat: BeatPath) -> tuple[Window, ...]:
