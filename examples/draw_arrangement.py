@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ilmek.machines.automated_loom import AutomatedLoomParams, design
 from ilmek.machines.automated_loom.room import clearances
-from ilmek.machines.automated_loom.side_figures import room, side
+from ilmek.machines.automated_loom.views import room, side
 from ilmek.units import format_quantity
 from ilmek.viz.svg import svg
 

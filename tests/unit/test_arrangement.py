@@ -19,12 +19,11 @@ from ilmek.machines.arrangement.clearances import (
 from ilmek.machines.arrangement.spans import ShedRoom, shed_spans, spans_at
 from ilmek.machines.automated_loom import LoomDesign, design
 from ilmek.machines.automated_loom.bodies import CARRIER, GUIDE_CAMS, LEAVES, knot_bodies, row_bodies
-from ilmek.machines.automated_loom.figures import front
-from ilmek.machines.automated_loom.motion.row_side import one_row_from_the_side
+from ilmek.machines.automated_loom.motion.row_views import row_from_the_side
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.automated_loom.parts import parts_of_loom
 from ilmek.machines.automated_loom.room import TOUCHING, clearances, room_checks, room_tables
-from ilmek.machines.automated_loom.side_figures import room, side
+from ilmek.machines.automated_loom.views import front, room, side
 from ilmek.units import deg, mm, turn
 
 ROOM = ShedRoom(24 * mm, 36 * mm, 54 * mm, 20 * mm, 80 * mm, 30 * mm, 0.28, 0.35, 70 * mm, 1 * mm, 3 * mm)
@@ -243,8 +242,12 @@ def test_the_side_views_dimensions_are_the_results() -> None:
 
 def test_front_and_side_show_the_same_heights() -> None:
     made = loom()
-    columns = [one for one in front(made).strokes if one.closed and one.points.real.min() < 0]
-    assert max(one.points.imag.max() for one in columns) == pytest.approx(made.side.loom_height)
+    heights = [
+        (min(one.points.imag.min() for one in closed), max(one.points.imag.max() for one in closed))
+        for closed in ([one for one in view(made).strokes if one.role == "outline"] for view in (front, side))
+    ]
+    assert heights[0] == pytest.approx(heights[1], abs=1 * mm)
+    assert heights[0][0] == pytest.approx(made.side.floor, abs=1 * mm)
 
 
 @pytest.mark.matrix(light=3)
@@ -274,15 +277,14 @@ def test_other_looms_have_their_views_and_clearances(settings: dict[str, str]) -
     assert all(all(row) for row in tables[1].rows)
 
 
-def test_the_row_from_the_side_has_its_carrier_only_in_the_shed() -> None:
+def test_the_row_from_the_side_has_its_shuttle_only_in_the_shed() -> None:
     made = loom()
-    moving_row = one_row_from_the_side(made)
-    carrier = next(one for one in moving_row.strokes if one.label == "carrier").points
-    size = np.ptp(carrier.real, axis=1)
+    moving_row = row_from_the_side(made)
+    shuttle = next(one for one in moving_row.strokes if one.label == "shuttle of the straight weft").points
+    size = np.ptp(shuttle.real, axis=1)
     first, last = made.row_timing.window
-    inside = (moving_row.at >= first) & (moving_row.at <= last)
-    assert size[inside] == pytest.approx(made.side.carrier.size.real)
-    assert size[moving_row.at < first] == pytest.approx(0.0, abs=1e-12)
+    assert size.max() == pytest.approx(made.weft.carried.depth, rel=0.02)
+    assert size[(moving_row.at < first) | (moving_row.at > last)] == pytest.approx(0.0, abs=1e-12)
     comb = next(one for one in moving_row.strokes if one.label == "comb").points
     assert comb.imag.min() == pytest.approx(0.0, abs=10 * mm)
 

@@ -107,13 +107,12 @@ def command(  # noqa: PLR0917 - click calls it by name
         "--to": mechanism_to,
         "--glb": space_to,
     }
-    workshop = None if parts_to is None else WorkshopOrder(parts_to, tolerance)
     inputs = {**({} if order.file is None else {"FILE": order.file}), **setting_files(given)}
     with call_outputs(files, force=force, inputs=inputs) as call:
         made = design_machine(
             order.machine,
             order.settings,
-            workshop,
+            WorkshopOrder(parts_to, tolerance) if parts_to else None,
             in_space=space_to is not None,
             outputs=call.outputs,
             progress=call.progress,

@@ -179,7 +179,11 @@ def _curves(piece: _Piece, turned: Float[np.ndarray, "3 3"]) -> tuple[ComplexArr
 def _projected(part: Part, rotation: bytes) -> tuple[tuple[ComplexArray, ...], float]:
     """Outer curves of a part turned about its origin [m], and its nearest distance towards the eye [m]."""
     turned = np.frombuffer(rotation).reshape(3, 3)
-    seen = _manifold(part).transform(np.column_stack([turned, np.zeros(3)]))
+    assert part.shape is not None
+    mesh = part.shape.mesh(COARSE)
+    # Not kept: a Manifold that lives as long as the process is reported as leaked at its end.
+    solid = Manifold(Mesh(mesh.points.astype(np.float32), mesh.triangles.astype(np.uint32)))
+    seen = solid.transform(np.column_stack([turned, np.zeros(3)]))
     curves = [polygon[:, 0] + 1j * polygon[:, 1] for polygon in seen.project().simplify(COARSE / 2).to_polygons()]
     outer = tuple(curve for curve in curves if _area(curve) > 0)
     return outer, float(seen.bounding_box()[5])
@@ -187,13 +191,6 @@ def _projected(part: Part, rotation: bytes) -> tuple[tuple[ComplexArray, ...], f
 
 def _area(curve: ComplexArray) -> float:
     return float((np.conj(curve) * np.roll(curve, -1)).imag.sum()) / 2
-
-
-@lru_cache(maxsize=512)
-def _manifold(part: Part) -> Manifold:
-    assert part.shape is not None
-    mesh = part.shape.mesh(COARSE)
-    return Manifold(Mesh(mesh.points.astype(np.float32), mesh.triangles.astype(np.uint32)))
 
 
 @lru_cache(maxsize=512)
