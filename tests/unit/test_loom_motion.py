@@ -66,7 +66,7 @@ def test_each_weft_spans_the_cloth_when_it_is_beaten(weft: str) -> None:
     moving = row_from_the_front(made)
     beat = made.row_cyclogram.track("beater").segments[0].end
     laid = stroke(moving, "weft").points[np.searchsorted(moving.at, beat)]
-    assert np.sort(laid.real) == pytest.approx([0.0, made.task.cloth_width])
+    assert np.sort(laid.real) == pytest.approx([0.0, made.task.cloth.width])
     assert laid.imag == pytest.approx(0.0)
 
 
@@ -75,7 +75,7 @@ def test_the_comb_from_the_front_reaches_both_edges(beat: str) -> None:
     made = loom(beat=beat)
     comb = stroke(row_from_the_front(made), "comb").points.real
     assert comb.min() == pytest.approx(0.0, abs=1e-12)
-    assert comb.max() == pytest.approx(made.task.cloth_width, rel=0.05)
+    assert comb.max() == pytest.approx(made.task.cloth.width, rel=0.05)
 
 
 def test_sheets_from_above_stand_apart_only_in_the_shed() -> None:

@@ -194,7 +194,7 @@ def test_bill_and_loom_have_the_same_wefts_warps_and_lengths(selvedge: int, pitc
         2 * math.ceil(20 * mm / yarns.sinuous_weft.diameter) * sinuous.length / loom.rows
     )
     assert warp.length / (1.8 + 2 * ground.fringe + ground.loom_waste) == pytest.approx(loom.warps)
-    assert loom.weft.params.cloth_width == pytest.approx(loom.task.cloth_width)
+    assert loom.weft.params.cloth_width == pytest.approx(loom.task.cloth.width)
 
 
 def test_the_bobbins_of_a_shuttle_last_longer_for_a_narrower_cloth_and_a_thinner_weft() -> None:

@@ -1,6 +1,7 @@
 """The yarns of a carpet, warp, two wefts and pile: described once, for the bill and every machine that touches them."""
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 from ilmek.elements.yarns import (
     COTTON,
@@ -36,6 +37,9 @@ class CarpetYarnParams(Params):
     warp_stiffness: float | None = kind.force(
         None, at_least=1.0, at_most=1e7, doc="force over strain of a warp, EA; default: by material and count"
     )
+    warp_strength: float | None = kind.force(
+        None, at_least=1e-6, at_most=1e6, doc="breaking force of a warp; default: by material and count"
+    )
     weft: str = kind.choice(COTTON.name, tuple(MATERIALS), doc="material of both wefts")
     straight_weft_density: float | None = kind.line_density(
         None, unit="g/m", above=0.0, at_most=0.05, doc="mass per length of the straight weft; default: as of a warp"
@@ -50,6 +54,9 @@ class CarpetYarnParams(Params):
         above=0.0,
         at_most=0.1,
         doc="mass per length of the heaviest pile yarn; default: by quality and knot in a loom, else 0.8 g/m",
+    )
+    pile_diameter: float | None = kind.length(
+        None, above=0.0, at_most=50 * mm, doc="diameter of the pile yarn; default: by count and packing"
     )
     pressed_packing: float = kind.ratio(
         PRESSED_PACKING, at_least=0.3, at_most=0.9, doc="packing of pile yarn pressed between warps or jaws; assumed"
@@ -89,20 +96,22 @@ class CarpetYarns:
     pressed: float
 
 
+@lru_cache(maxsize=64)
 def carpet_yarns(params: CarpetYarnParams, pitch: float) -> CarpetYarns:
     """The yarns of a carpet with warps at a pitch [m]; whether they fit beside each other, their machines check."""
     warp, friction = params.warp_density or usual_warp_density(pitch, params.warp), params.friction
     pile = params.pile_density or PILE_DENSITY
-    usual = yarn(params.warp, warp, friction)
+    usual, pile_yarn = yarn(params.warp, warp, friction), yarn(params.pile, pile, friction)
     return CarpetYarns(
         warp=replace(
             usual,
             diameter=params.warp_diameter or usual.diameter,
             stiffness=params.warp_stiffness or usual.stiffness,
+            breaking_force=params.warp_strength or usual.breaking_force,
         ),
         straight_weft=yarn(params.weft, params.straight_weft_density or warp, friction),
         sinuous_weft=yarn(params.weft, params.sinuous_weft_density or warp / 2, friction),
-        pile=yarn(params.pile, pile, friction),
+        pile=replace(pile_yarn, diameter=params.pile_diameter or pile_yarn.diameter),
         pressed=pressed_thickness(pile, MATERIALS[params.pile], params.pressed_packing, params.flattening),
     )
 

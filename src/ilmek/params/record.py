@@ -82,10 +82,11 @@ class Params:
         """Raise ParameterError where parameters contradict each other; nothing by default."""
 
     @classmethod
-    def read(cls: type[P], settings: Mapping[str, Setting], *, prefix: str = "") -> P:
+    def read(cls: type[P], settings: Mapping[str, Setting], *, prefix: str = "", default: P | None = None) -> P:
         """Parameters from settings by name, alias or dotted name; texts with units are allowed.
 
-        prefix  of the names in messages, where these parameters are nested in others
+        prefix   of the names in messages, where these parameters are nested in others
+        default  the record whose values hold for what is not set; without one the defaults of the class
         Raises ParameterError for an unknown name, and for a parameter set by its name and by its alias.
         """
         own, below = _sorted_settings(cls, settings, prefix)
@@ -96,10 +97,11 @@ class Params:
             shown.check(value)
         for one in fields(cls):
             if "nested" in one.metadata and one.name in below:
-                values[one.name] = one.metadata["nested"].read(below[one.name], prefix=f"{prefix}{one.name}.")
+                inner = _default(one) if default is None else getattr(default, one.name)
+                values[one.name] = type(inner).read(below[one.name], prefix=f"{prefix}{one.name}.", default=inner)
             elif "overrides" in one.metadata and below:
                 values[one.name] = Overrides(MappingProxyType(_read_overrides(one.metadata["overrides"](), below)))
-        return cls(**values)
+        return cls(**values) if default is None else replace(default, **values)
 
     def with_values(self: P, values: Mapping[str, Value]) -> P:
         """The same with other values [SI] by name or dotted name. Raises ParameterError as the record itself does."""
@@ -201,7 +203,7 @@ def reachable(cls: type[Params], *, machines: bool = True) -> dict[str, Paramete
 
     machines  False: without those of the machines
     """
-    return dict(_reachable(cls, machines))
+    return dict(_reachable(cls, machines, None))
 
 
 def listed(cls: type[Params]) -> tuple[Parameter, ...]:
@@ -214,19 +216,23 @@ def overridden(cls: type[Params]) -> tuple[str, ...]:
     return tuple(name for one in fields(cls) if "overrides" in one.metadata for name in one.metadata["overrides"]())
 
 
-def _reachable(cls: type[Params], machines: bool) -> Iterator[tuple[str, Parameter]]:
+def _reachable(cls: type[Params], machines: bool, default: Params | None) -> Iterator[tuple[str, Parameter]]:
     own = {parameter.name: parameter for parameter in declared(cls)}
+    if default is not None:
+        own = {name: replace(parameter, default=getattr(default, name)) for name, parameter in own.items()}
     ordered: Any = cls  # as in `declared`
     for one in _ordered(ordered):
         inner: Mapping[str, type[Params]] = {}
+        values: Params | None = None
         if "nested" in one.metadata:
             inner = {one.name: one.metadata["nested"]}
+            values = _default(one) if default is None else getattr(default, one.name)
         elif "overrides" in one.metadata:
             inner = one.metadata["overrides"]() if machines else {}
         else:
             yield one.name, own[one.name]
         for head, below in inner.items():
-            yield from ((f"{head}.{name}", parameter) for name, parameter in _reachable(below, machines))
+            yield from ((f"{head}.{name}", parameter) for name, parameter in _reachable(below, machines, values))
 
 
 @cache

@@ -42,7 +42,7 @@ def _placed(made: SceneMaker) -> tuple[Tree, Placement]:
         slide = along_track(row, SLIDE, (0.0, 0.0, 1.0)) if _slides(made) else None
         motions = _of_links(one, angle, tip) | ({CARRIAGE: slide} if slide else {})
         # At angle 0 the beater stands at the left edge of the cloth.
-        start = beat.beaten * made.loom.params.pitch / 2 - made.half if slide else 0.0
+        start = beat.beaten * made.loom.task.cloth.warp_pitch / 2 - made.half if slide else 0.0
         return travelling(one, beat.use, motions, start), in_side_view(one)
     if beat.design.linkage is None:
         shift = np.stack([tip.real, tip.imag, np.zeros(tip.size)], axis=1)

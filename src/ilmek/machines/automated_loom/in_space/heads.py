@@ -53,7 +53,7 @@ def heads_tree(made: SceneMaker) -> Tree:
     A head's origin lies in the side view's: at the fell, in the heads' origin while they knot.
     """
     loom, rail = made.loom, made.loom.side.rail
-    middle, share = rail.corner + rail.size / 2, loom.task.cloth_width / loom.heads
+    middle, share = rail.corner + rail.size / 2, loom.task.cloth.width / loom.heads
     middles = [(number + 0.5) * share - made.half for number in range(loom.heads)]
     under = -rail.size.imag / 2
     return placed(

@@ -37,7 +37,7 @@ class SceneMaker:
     @property
     def half(self) -> float:
         """Half of the cloth's width [m]."""
-        return self.loom.task.cloth_width / 2
+        return self.loom.task.cloth.width / 2
 
     @property
     def width(self) -> float:

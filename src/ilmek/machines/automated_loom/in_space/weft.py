@@ -55,8 +55,8 @@ def wefts(made: SceneMaker) -> tuple[SceneYarn, ...]:
     angle = np.unique(np.concatenate([track_angles(carrier), [one.end for one in row.track(BEATER).segments]]))
     at = sample(carrier, angle).position
     shuttle = isinstance(loom.weft.carried, Shuttle)
-    run = (loom.weft.passage.stroke - loom.task.cloth_width) / 2 if shuttle else loom.weft.passage.run
-    reached = np.clip(at - run, 0.0, loom.task.cloth_width) - made.half
+    run = (loom.weft.passage.stroke - loom.task.cloth.width) / 2 if shuttle else loom.weft.passage.run
+    reached = np.clip(at - run, 0.0, loom.task.cloth.width) - made.half
     height, depth = _middle(made)
     beats = [part.end for part in row.track(BEATER).segments[::2]]
     names = ("straight weft", "sinuous weft")

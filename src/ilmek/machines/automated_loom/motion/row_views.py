@@ -27,7 +27,7 @@ _CLOTH = 0.12
 
 def row_from_the_front(loom: LoomDesign) -> Animation:
     """Carrier, weft and comb before the warps. The heads, which stand in front of them, are not drawn."""
-    angle, wide, side = _angles(), loom.task.cloth_width, loom.side
+    angle, wide, side = _angles(), loom.task.cloth.width, loom.side
     height = (side.carrier.corner + side.carrier.size / 2).imag
     top = 1.3 * max(float(side.cams[0].at.imag), height)
     carrier = _carrier(loom, angle)
@@ -58,7 +58,7 @@ def row_from_the_front(loom: LoomDesign) -> Animation:
 def row_from_above(loom: LoomDesign) -> Animation:
     """Both sheets of warps at the height of the carrier, carrier, comb, heads and rail from above."""
     angle, side, row = _angles(), loom.side, loom.row_cyclogram
-    wide = loom.task.cloth_width
+    wide = loom.task.cloth.width
     height = (side.carrier.corner + side.carrier.size / 2).imag
     share = height / float(side.cams[0].at.imag)
     ends = np.array([0.0, wide])
@@ -106,7 +106,7 @@ def _carrier(loom: LoomDesign, angle: FloatArray) -> FloatArray:
     at = sample(loom.row_cyclogram.track(loom.row_timing.carrier), angle).position
     passage, made = loom.weft.passage, loom.weft.carried
     if isinstance(made, Shuttle):
-        middle = at - (passage.stroke - loom.task.cloth_width) / 2
+        middle = at - (passage.stroke - loom.task.cloth.width) / 2
         return np.asarray(middle[:, None] + made.length * np.array([-0.5, 0.5]))
     tip = at - passage.run
     return np.stack([np.full_like(tip, -passage.run - made.length), tip], -1)
@@ -114,7 +114,7 @@ def _carrier(loom: LoomDesign, angle: FloatArray) -> FloatArray:
 
 def _weft(loom: LoomDesign, angle: FloatArray, carrier: FloatArray, height: float) -> ComplexArray:
     """The weft from the edge at which the carrier started to the carrier; beaten to the fell with the beat."""
-    wide, row = loom.task.cloth_width, loom.row_cyclogram
+    wide, row = loom.task.cloth.width, loom.row_cyclogram
     ends = np.clip(carrier.mean(axis=1), 0.0, wide)
     beats = [part.end for part in row.track(BEATER).segments[::2]]
     lines = np.zeros((len(angle), 2), complex)
@@ -128,14 +128,14 @@ def _weft(loom: LoomDesign, angle: FloatArray, carrier: FloatArray, height: floa
 
 def _edges(loom: LoomDesign) -> tuple[float, float]:
     """Edges of the cloth at which the two wefts start [m]: a rapier inserts both from the left."""
-    return (0.0, loom.task.cloth_width) if isinstance(loom.weft.carried, Shuttle) else (0.0, 0.0)
+    return (0.0, loom.task.cloth.width) if isinstance(loom.weft.carried, Shuttle) else (0.0, 0.0)
 
 
 def _comb(loom: LoomDesign, angle: FloatArray) -> ComplexArray:
     """The comb from the front: its width, its height; one that travels across is as much narrower as its slide runs."""
     heights = _comb_corners(loom, angle).imag
     low, high = heights.min(axis=1), heights.max(axis=1)
-    wide, run = loom.task.cloth_width, np.zeros(len(angle))
+    wide, run = loom.task.cloth.width, np.zeros(len(angle))
     slide = next((track for track in loom.row_cyclogram.tracks if track.name == SLIDE), None)
     if slide is not None:
         run = sample(slide, angle).position
@@ -164,5 +164,5 @@ def _box(x: float, depth: float, wide: float, deep: float) -> ComplexArray:
 
 def _parked(loom: LoomDesign) -> FloatArray:
     """Left edges of the heads, each in the middle of its share of the row [m]."""
-    share = loom.task.cloth_width / loom.heads
+    share = loom.task.cloth.width / loom.heads
     return np.asarray((np.arange(loom.heads) + 0.5) * share - loom.head_width / 2)
