@@ -180,7 +180,7 @@ def test_the_slide_crosses_the_carpet_while_the_beater_strokes() -> None:
     slide, beater = made.row_cyclogram.track("slide of the beater"), made.row_cyclogram.track("beater")
     assert slide.segment("across").start >= beater.segment("beat 1").end * (1 - 1e-9)
     assert slide.segment("across").end <= beater.segment("back 1").start * (1 + 1e-9)
-    assert slide.stroke == pytest.approx((made.task.cloth.warps - made.beat.beaten) * made.params.pitch)
+    assert slide.stroke == pytest.approx((made.task.cloth.warps - made.beat.beaten) * made.task.cloth.warp_pitch)
 
 
 def check_order(row: Cyclogram) -> list[str]:
