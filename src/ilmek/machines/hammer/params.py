@@ -62,7 +62,7 @@ class HammerParams(Params):
         None,
         at_least=1e-6 * mm,
         at_most=1.0,
-        doc="packing length, how hard rows pack: to be measured; default: a quarter of the rows' distance, 10 N on 15 N",
+        doc="packing length, how hard rows pack: to be measured; default: 1/4 of the rows' pitch, 10 N on 15 N",
         symbol="K",
     )
     warp_length: float = kind.length(1.5, unit="m", at_least=0.01, at_most=100.0, doc="warp from fell to beam")
