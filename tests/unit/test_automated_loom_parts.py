@@ -117,7 +117,7 @@ def test_cylinders_of_the_list_are_those_of_the_warp_tension_at_the_looms_own_pi
     results = {one.name: one.value for one in warp_tension.MACHINE.report(loom.warp_tension).results}
     masses = [part.mass_all for part in parts_of_loom(loom).parts if part.name in ("cylinder", "spacer cylinder")]
     assert sum(masses) == pytest.approx(results["mass_cylinders"])
-    assert results["slot_pitch"] == loom.params.pitch
+    assert results["slot_pitch"] == loom.task.cloth.warp_pitch
     compensator = loom.machines["tension-compensator"].design
     gain = results["tension_woven"] - loom.warp_tension.params.cloth.warp_tension
     assert results["tension_shed"] == pytest.approx(compensator.tension_open + gain)

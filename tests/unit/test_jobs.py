@@ -50,7 +50,7 @@ def test_loom_follows_the_chart() -> None:
     loomed = make_loomed(read_loom_order(order), charted)
     params = loomed.design.params
     assert params.colours == charted.chart.colours <= 6
-    assert params.pitch == 0.0025
+    assert params.cloth.warp_pitch == 0.0025
     # A longer pile takes more yarn a knot, which the handler must draw.
     deep = read_order(MEDALLION, size="20x30cm", quality="20x20/dm", colours=6, pile_height="20mm")
     assert make_loomed(read_loom_order(deep), make_charted(deep)).design.params.knot_yarn > params.knot_yarn + 0.02
