@@ -1,4 +1,4 @@
-"""A cloth is declared once: every machine of a loom has the loom's, and none declares the warps by parameters of its own."""
+"""A cloth is declared once: every machine of a loom has that of the loom, and no other parameters of the warps."""
 
 import math
 from typing import Any
@@ -57,10 +57,9 @@ def test_a_cloth_follows_from_its_pitch_warps_and_yarn(pitch: float, warps: int,
 
 
 def test_what_is_given_is_kept() -> None:
-    woven = cloth(row_pitch=3 * mm, tension=7.0, warp_strength=40.0, pile_diameter=0.9 * mm)
+    woven = cloth(row_pitch=3 * mm, tension=7.0, warp_strength=40.0)
     assert (woven.row_distance, woven.warp_tension) == (3 * mm, 7.0)
     assert woven.carpet_yarns.warp.breaking_force == 40.0
-    assert woven.carpet_yarns.pile.diameter == 0.9 * mm
     assert math.isclose(cloth().carpet_yarns.pile.linear_density, 0.8e-3)
 
 

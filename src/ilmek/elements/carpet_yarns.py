@@ -55,9 +55,6 @@ class CarpetYarnParams(Params):
         at_most=0.1,
         doc="mass per length of the heaviest pile yarn; default: by quality and knot in a loom, else 0.8 g/m",
     )
-    pile_diameter: float | None = kind.length(
-        None, above=0.0, at_most=50 * mm, doc="diameter of the pile yarn; default: by count and packing"
-    )
     pressed_packing: float = kind.ratio(
         PRESSED_PACKING, at_least=0.3, at_most=0.9, doc="packing of pile yarn pressed between warps or jaws; assumed"
     )
@@ -101,7 +98,7 @@ def carpet_yarns(params: CarpetYarnParams, pitch: float) -> CarpetYarns:
     """The yarns of a carpet with warps at a pitch [m]; whether they fit beside each other, their machines check."""
     warp, friction = params.warp_density or usual_warp_density(pitch, params.warp), params.friction
     pile = params.pile_density or PILE_DENSITY
-    usual, pile_yarn = yarn(params.warp, warp, friction), yarn(params.pile, pile, friction)
+    usual = yarn(params.warp, warp, friction)
     return CarpetYarns(
         warp=replace(
             usual,
@@ -111,7 +108,7 @@ def carpet_yarns(params: CarpetYarnParams, pitch: float) -> CarpetYarns:
         ),
         straight_weft=yarn(params.weft, params.straight_weft_density or warp, friction),
         sinuous_weft=yarn(params.weft, params.sinuous_weft_density or warp / 2, friction),
-        pile=replace(pile_yarn, diameter=params.pile_diameter or pile_yarn.diameter),
+        pile=yarn(params.pile, pile, friction),
         pressed=pressed_thickness(pile, MATERIALS[params.pile], params.pressed_packing, params.flattening),
     )
 
