@@ -77,6 +77,22 @@ def test_no_machine_declares_a_parameter_of_a_cloth_again() -> None:
     assert own == {"warp_pitch", "tension", "warp_diameter", "warp_stiffness"}
 
 
+def test_no_machine_of_a_loom_can_have_another_cloth() -> None:
+    """What is set for the warps of one machine is that of the loom; the error says under which name."""
+    assert not [name for name in reachable(AutomatedLoomParams) if "cloth." in name]
+    for wrong, message in (
+        (
+            "shedding.cloth.tension",
+            r"shedding.cloth.tension is that of all machines of the loom; did you mean tension\?",
+        ),
+        ("weaver.cloth.yarns.friction", r"did you mean yarns.friction\?"),
+        ("weft.cloth.warps", "set it for the loom"),
+        ("cloth.tension", r"did you mean tension\?"),
+    ):
+        with pytest.raises(ParameterError, match=message):
+            AutomatedLoomParams.read({wrong: "10"})
+
+
 @pytest.mark.parametrize(
     "machine", [name for name in MACHINES if "cloth.warp_pitch" in reachable(MACHINES[name].params)]
 )

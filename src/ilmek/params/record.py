@@ -57,9 +57,13 @@ class Overrides:
             raise ParameterError(f"{machine}: {error.given}", allowed=error.allowed, do=error.do) from None
 
 
-def overrides(namespaces: Namespaces, *, doc: str) -> Any:
-    """Declare a field of `Overrides`; `namespaces`, called when needed, gives the Params of each machine by name."""
-    return field(default_factory=Overrides, metadata=dict(overrides=namespaces, doc=doc))
+def overrides(namespaces: Namespaces, *, without: tuple[str, ...] = (), doc: str) -> Any:
+    """Declare a field of `Overrides`.
+
+    namespaces  called when needed, gives the Params of each machine by name
+    without     nested records of the machines that are handed to all of them, so that none can have another
+    """
+    return field(default_factory=Overrides, metadata=dict(overrides=namespaces, without=without, doc=doc))
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,7 +104,7 @@ class Params:
                 inner = _default(one) if default is None else getattr(default, one.name)
                 values[one.name] = type(inner).read(below[one.name], prefix=f"{prefix}{one.name}.", default=inner)
             elif "overrides" in one.metadata and below:
-                values[one.name] = Overrides(MappingProxyType(_read_overrides(one.metadata["overrides"](), below)))
+                values[one.name] = Overrides(MappingProxyType(_read_overrides(cls, one, below)))
         return cls(**values) if default is None else replace(default, **values)
 
     def with_values(self: P, values: Mapping[str, Value]) -> P:
@@ -168,6 +172,15 @@ def _sorted_settings(
     return [(known[name], settings[given]) for name, given in given_as.items()], below
 
 
+def _handed_down(loom: type[Params], given: str) -> ParameterError:
+    """For a parameter of a record that every machine has alike: the loom's own of that name is meant."""
+    own = given.split(".", 2)[2]
+    near = own if own in reachable(loom, machines=False) else ""
+    return ParameterError(
+        f"{given} is that of all machines of the loom", do=f"did you mean {near}?" if near else "set it for the loom"
+    )
+
+
 def _unknown(cls: type[Params], given: str, prefix: str) -> ParameterError:
     names = [f"{prefix}{name}" for name in reachable(cls)]
     names += [f"{prefix}{parameter.alias}".casefold() for parameter in declared(cls) if parameter.alias]
@@ -178,12 +191,15 @@ def _unknown(cls: type[Params], given: str, prefix: str) -> ParameterError:
 
 
 def _read_overrides(
-    namespaces: Mapping[str, type[Params]], below: Mapping[str, Mapping[str, Setting]]
+    loom: type[Params], declared_field: "Field[Any]", below: Mapping[str, Mapping[str, Setting]]
 ) -> dict[str, Value]:
     values: dict[str, Value] = {}
-    for machine, cls in namespaces.items():
+    without = declared_field.metadata["without"]
+    for machine, cls in declared_field.metadata["overrides"]().items():
         known = reachable(cls)
         for given, setting in below.get(machine, {}).items():
+            if given.partition(".")[0] in without:
+                raise _handed_down(loom, f"{machine}.{given}")
             if given not in known:
                 raise _unknown(cls, f"{machine}.{given}", f"{machine}.")
             parameter = replace(known[given], name=f"{machine}.{given}")
@@ -224,6 +240,7 @@ def _reachable(cls: type[Params], machines: bool, default: Params | None) -> Ite
     for one in _ordered(ordered):
         inner: Mapping[str, type[Params]] = {}
         values: Params | None = None
+        without = one.metadata.get("without", ())
         if "nested" in one.metadata:
             inner = {one.name: one.metadata["nested"]}
             values = _default(one) if default is None else getattr(default, one.name)
@@ -232,7 +249,11 @@ def _reachable(cls: type[Params], machines: bool, default: Params | None) -> Ite
         else:
             yield one.name, own[one.name]
         for head, below in inner.items():
-            yield from ((f"{head}.{name}", parameter) for name, parameter in _reachable(below, machines, values))
+            yield from (
+                (f"{head}.{name}", parameter)
+                for name, parameter in _reachable(below, machines, values)
+                if name.partition(".")[0] not in without
+            )
 
 
 @cache

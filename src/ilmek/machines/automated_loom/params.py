@@ -169,6 +169,7 @@ class AutomatedLoomParams(Params):
 
     machines: Overrides = overrides(
         lambda: {name: MACHINES[name].params for name in loom_machines()},
+        without=("cloth",),
         doc="parameters of the machines in the loom, shedding.law, in place of those that the loom derives",
     )
 
