@@ -31,7 +31,7 @@ def values(parameter):
 @settings(max_examples=8)
 @given(data=st.data())
 def test_any_parameters_give_a_report_or_one_line(machine, data) -> None:
-    parameters = listed(machine.params)
+    parameters = sorted(listed(machine.params), key=lambda parameter: parameter.name)
     chosen = data.draw(st.lists(st.sampled_from(parameters), max_size=5, unique=True))
     drawn = {parameter.name: data.draw(values(parameter), label=parameter.name) for parameter in chosen}
     try:

@@ -67,12 +67,9 @@ def planned_compensation(task: LoomTask, gain: float) -> float:
     given = task.params.machines.of("tension-compensator")
     usual = {"rate_share": RATE_SHARE, "tension_most": TENSION_MOST, "tension_least": TENSION_LEAST, "bars": 0}
     share, most, least, bars = (_number(given.get(name), value) for name, value in usual.items())
-    number = int(bars) or bars_needed(task.cloth.warp_tension, gain, share, most, least)
-    return (
-        1 - (compensated_tension(task.cloth.warp_tension, gain, number, share)[0] - task.cloth.warp_tension) / gain
-        if gain > 0
-        else 0.0
-    )
+    tension = task.cloth.warp_tension
+    number = int(bars) or bars_needed(tension, gain, share, most, least)
+    return 1 - (compensated_tension(tension, gain, number, share)[0] - tension) / gain if gain > 0 else 0.0
 
 
 def _number(value: object, usual: float) -> float:

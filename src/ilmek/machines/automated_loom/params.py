@@ -218,9 +218,8 @@ class AutomatedLoomParams(Params):
     @property
     def billed(self) -> float:
         """Pile yarn of a knot [m]: as given, or by knot, quality and pile."""
-        return self.knot_yarn or knot_length(
-            self.knot, self.quality, self.cloth.carpet_yarns.pile.linear_density, self.pile
-        )
+        pile = self.cloth.carpet_yarns.pile
+        return self.knot_yarn or knot_length(self.knot, self.quality, pile.linear_density, self.pile)
 
     @property
     def ground(self) -> GroundParams:

@@ -51,11 +51,10 @@ def comb_for(params: HammerParams, fabric: Fabric, force: float) -> Comb:
     """The comb pressing with a force [N] for each warp; the fell as stiff as it is at that force."""
     rigidity = params.modulus * params.comb_thickness * params.depth**3 / 12
     foundation = fabric.rate(float(fabric.spacing(force))) / params.cloth.warp_pitch
-    ends = (
-        (params.inset, params.cloth.width - params.inset) if params.support_count > 1 else (params.cloth.width / 2,) * 2
-    )
+    width = params.cloth.width
+    ends = (params.inset, width - params.inset) if params.support_count > 1 else (width / 2,) * 2
     supports = np.unique(np.linspace(*ends, params.support_count))
-    line = fell_pressure(params.cloth.width, supports, rigidity, foundation)
+    line = fell_pressure(width, supports, rigidity, foundation)
     curvature = float(np.max(np.abs(line.curvature))) * force / params.cloth.warp_pitch
     leaf = params.leaf * params.leaf_height**2
     return Comb(
