@@ -12,7 +12,13 @@ from ilmek.machines.hammer import Hammer, HammerParams, design
 from ilmek.report import Axis, Figure, Plot, Series
 from ilmek.viz.svg import svg
 
-CLAMPED = {"tension": "10N", "front_span": "170mm", "back_span": "170mm", "warp_stiffness": "1.8kN"}
+CLAMPED = {
+    "cloth.tension": "10N",
+    "cloth.yarns.warp_stiffness": "1.8kN",
+    "front_span": "170mm",
+    "back_span": "170mm",
+    "warp_length": "340mm",
+}
 """A warp that is clamped in front of the cams and behind them."""
 
 STATIC = Path(__file__).parents[1] / "docs" / "_static"

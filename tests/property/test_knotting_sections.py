@@ -5,6 +5,7 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from cloths import cloth
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -28,8 +29,7 @@ def asked(draw: st.DrawFn) -> dict[str, Any]:
     return dict(
         knot=draw(st.sampled_from(("symmetric", "asymmetric"))),
         opens=draw(st.sampled_from(("left", "right"))),
-        warp_pitch=pitch,
-        warp_diameter=warp,
+        cloth=cloth(warp_pitch=pitch, warp_diameter=warp),
         needle_diameter=max(1e-5, (pitch - warp) * draw(st.floats(0.1, 0.6))),
         clearance=(pitch - warp) * draw(st.sampled_from((0.0, 0.05, 0.15))),
         opening=pitch * draw(st.sampled_from((0.0, 0.3, 1.0))),

@@ -46,7 +46,7 @@ def thin_tube(loom: LoomDesign) -> tuple[float, float]:
     inertia = math.pi / 64 * ((140 * mm) ** 4 - (130 * mm) ** 4)
     weight = math.pi / 4 * ((140 * mm) ** 2 - (130 * mm) ** 2) * tension.params.density * 9.80665
     worst = max(check.value for check in all_checks(loom) if check.name == "deflection")
-    length = loom.warps * loom.params.pitch + 2 * 50 * mm
+    length = loom.task.cloth.width + 2 * 50 * mm
     load = worst * 384 * tension.params.modulus * inertia / (5 * length**4)
     assert load - weight >= loom.warps * 15.0 / length * (1 - 1e-9), "the worst pull is at least that at rest"
     return worst, 1 * mm

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from ilmek.errors import IlmekError
 from ilmek.machines import hammer, shedding, warp_tension
-from ilmek.params import declared
+from ilmek.params import listed
 
 MACHINES = (shedding.MACHINE, hammer.MACHINE, warp_tension.MACHINE)
 
@@ -31,11 +31,11 @@ def values(parameter):
 @settings(max_examples=8)
 @given(data=st.data())
 def test_any_parameters_give_a_report_or_one_line(machine, data) -> None:
-    parameters = declared(machine.params)
+    parameters = sorted(listed(machine.params), key=lambda parameter: parameter.name)
     chosen = data.draw(st.lists(st.sampled_from(parameters), max_size=5, unique=True))
     drawn = {parameter.name: data.draw(values(parameter), label=parameter.name) for parameter in chosen}
     try:
-        report = machine.report(machine.design(machine.params(**drawn)))
+        report = machine.report(machine.design(machine.params.read(drawn)))
     except IlmekError:
         return
     assert all(math.isfinite(check.value) for check in report.checks)

@@ -20,9 +20,9 @@ def loom() -> LoomDesign:
 
 
 def test_warps_and_knots_of_chapter_3_1(loom: LoomDesign) -> None:
-    assert (loom.warps, loom.params.pitch) == (600, 2 * mm)
+    assert (loom.warps, loom.task.cloth.warp_pitch) == (600, 2 * mm)
     assert loom.columns == 300
-    assert loom.warp_tension.params.tension == pytest.approx(15.0)
+    assert loom.warp_tension.params.cloth.warp_tension == pytest.approx(15.0)
 
 
 def test_cylinder_of_chapter_3_1(loom: LoomDesign) -> None:

@@ -54,17 +54,17 @@ def test_acceleration_jumps_where_cam_leaves_and_meets_its_dwell(thesis) -> None
 def test_torque_from_tension_and_half_span() -> None:
     """15 N over a half span of 169.7056 mm: 119.9063824 N m at 59.45321513 deg, 92.64935264 J a rise."""
     span = 0.12 * math.sqrt(2)
-    found = results(tension="15N", half_span=f"{span!r}m")
+    found = results(half_span=f"{span!r}m")
     assert found["shaft_torque_max"] == pytest.approx(119.9063824, rel=1e-9)
     assert found["shed_work"] == pytest.approx(92.64935264, rel=1e-9)
-    design = MACHINE.design(MACHINE.params.read(dict(tension="15N", half_span=f"{span!r}m")))
+    design = MACHINE.design(MACHINE.params.read(dict(half_span=f"{span!r}m")))
     assert design.drive.torque_max.at % math.pi == pytest.approx(59.45321513 * deg, abs=1e-7)
 
 
 def test_half_span_of_the_thesis_gives_its_lateral_force() -> None:
     """10 N = 2 x 15 N sin 19.4712 deg at the full lift."""
     assert 2 * 15 * math.sin(math.atan2(60, 120 * math.sqrt(2))) == pytest.approx(10.0)
-    alone, drawn = results(), results(tension="15N", half_span=f"{0.12 * math.sqrt(2)!r}m")
+    alone, drawn = results(), results(half_span=f"{0.12 * math.sqrt(2)!r}m")
     assert drawn["shaft_load"] == pytest.approx(alone["shaft_load"])
 
 

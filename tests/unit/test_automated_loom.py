@@ -50,7 +50,7 @@ def test_looms_for_other_carpets_keep_all_limits(settings: dict[str, Any]) -> No
     made = MACHINE.report(loom)
     assert [check.name for check in made.failed] == []
     assert loom.warps == 2 * loom.columns + 8
-    assert loom.shedding.params.warps == loom.warp_tension.params.warps == loom.warps
+    assert loom.shedding.params.cloth.warps == loom.warp_tension.params.cloth.warps == loom.warps
     assert loom.knot_pitch * loom.columns == pytest.approx(loom.params.width, abs=loom.knot_pitch)
     assert loom.head_distance >= loom.head_width
 
@@ -157,7 +157,7 @@ def test_a_slow_beat_lengthens_the_row() -> None:
 )
 def test_pitch_and_quality_follow_each_other(settings: dict[str, Any], pitch: float, across: float) -> None:
     params = AutomatedLoomParams(**settings)
-    assert params.pitch == pytest.approx(pitch)
+    assert params.cloth.warp_pitch == pytest.approx(pitch)
     assert (params.quality.across, params.quality.along) == pytest.approx((across, across))
 
 

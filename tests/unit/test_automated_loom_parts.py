@@ -117,9 +117,9 @@ def test_cylinders_of_the_list_are_those_of_the_warp_tension_at_the_looms_own_pi
     results = {one.name: one.value for one in warp_tension.MACHINE.report(loom.warp_tension).results}
     masses = [part.mass_all for part in parts_of_loom(loom).parts if part.name in ("cylinder", "spacer cylinder")]
     assert sum(masses) == pytest.approx(results["mass_cylinders"])
-    assert results["slot_pitch"] == loom.params.pitch
+    assert results["slot_pitch"] == loom.task.cloth.warp_pitch
     compensator = loom.machines["tension-compensator"].design
-    gain = results["tension_woven"] - loom.warp_tension.params.tension
+    gain = results["tension_woven"] - loom.warp_tension.params.cloth.warp_tension
     assert results["tension_shed"] == pytest.approx(compensator.tension_open + gain)
 
 
@@ -201,7 +201,7 @@ def test_the_beat_bends_a_column_as_a_beam_loaded_in_the_middle():
 
 
 def test_the_frame_bears_the_worst_case_of_the_warps():
-    assert task_of_frame().pull == loom().warp_tension.loads.worst > loom().warp_tension.params.pull
+    assert task_of_frame().pull == loom().warp_tension.loads.worst > loom().warp_tension.params.cloth.pull
     (columns, rail) = listed().frame.choices
     assert (columns.name, rail.name) == ("frame_columns", "frame_rail")
     assert columns.decided_by.startswith("frame: ")
@@ -209,9 +209,9 @@ def test_the_frame_bears_the_worst_case_of_the_warps():
 
 def test_time_at_the_own_pitch_is_the_time_and_half_the_pitch_is_four_times_the_knots():
     own = estimated_time(loom())
-    assert estimated_times_at(loom(), loom().params.pitch, [loom().heads])[0] == pytest.approx(own)
+    assert estimated_times_at(loom(), loom().task.cloth.warp_pitch, [loom().heads])[0] == pytest.approx(own)
     wefts, stops = loom().rows * loom().times.weft, stop_time(loom().bobbins, loom().rows)
-    half = estimated_times_at(loom(), loom().params.pitch / 2, [loom().heads])[0]
+    half = estimated_times_at(loom(), loom().task.cloth.warp_pitch / 2, [loom().heads])[0]
     # Four times the knots, twice the rows, and so at least twice the weft on thinner yarn.
     assert stops < half - 4 * (own - wefts - stops) - 2 * wefts < 4 * stops
 

@@ -293,7 +293,7 @@ OTHER = {
     "not finite": ("design beat-up --set swing=1e999deg", "too large"),
     "no such law": ("design shedding --set law=harmonik", "did you mean harmonic"),
     "negative lift": ("design shedding --set lift=-60mm", "out of bounds"),
-    "half a warp": ("design warp-tension --set warps=600.5", "not a whole number"),
+    "half a warp": ("design warp-tension --set cloth.warps=600.5", "not a whole number"),
     "shaft without wall": ("design warp-tension --set inner_radius=80mm --set outer_radius=50mm", "radius"),
     "mechanism that cannot close": (
         "design beat-up --set crank=59.7mm --set coupler=100mm --set rocker=100mm --set beater=300mm",

@@ -43,7 +43,7 @@ def test_every_drive_is_as_strong_as_the_rows_need(kind, width) -> None:
     assert drive.name == BEATS[kind]
     assert [check.name for check in (*drive.checks, *drive.machine_checks) if not check.ok] == []
     assert drive.beat_force_warp >= drive.beat_force_needed * (1 - 1e-9)
-    assert drive.row_pitch_left <= drive.task.row_pitch * (1 + 1e-9)
+    assert drive.row_pitch_left <= drive.task.cloth.row_distance * (1 + 1e-9)
     assert drive.fabric.resistance(drive.row_pitch_left) == pytest.approx(drive.beat_force_warp)
     assert drive.beat.stroke == pytest.approx(stroke_needed(drive.task))
     assert [work.per for work in drive.work] == ["beat"]
@@ -93,7 +93,7 @@ def test_the_travelling_beater_strokes_across_the_width() -> None:
     """Whole warps as its force is enough for; the crank turns on, once a stroke, between a start and a stop."""
     drive = driven("travelling")
     assert drive.beaten == math.floor(drive.force / drive.beat_force_needed)
-    assert drive.beat.strokes == math.ceil(drive.task.warps / drive.beaten)
+    assert drive.beat.strokes == math.ceil(drive.task.cloth.warps / drive.beaten)
     params = drive.design.params
     assert params.speed == pytest.approx(15.5)
     assert params.beater_mass == pytest.approx(2.5)
@@ -180,7 +180,7 @@ def test_the_slide_crosses_the_carpet_while_the_beater_strokes() -> None:
     slide, beater = made.row_cyclogram.track("slide of the beater"), made.row_cyclogram.track("beater")
     assert slide.segment("across").start >= beater.segment("beat 1").end * (1 - 1e-9)
     assert slide.segment("across").end <= beater.segment("back 1").start * (1 + 1e-9)
-    assert slide.stroke == pytest.approx((made.task.warps - made.beat.beaten) * made.params.pitch)
+    assert slide.stroke == pytest.approx((made.task.cloth.warps - made.beat.beaten) * made.task.cloth.warp_pitch)
 
 
 def check_order(row: Cyclogram) -> list[str]:

@@ -5,6 +5,7 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
+from cloths import cloth
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -39,7 +40,7 @@ MACHINES: dict[str, Callable[[], Made]] = {
     "heavy": lambda: _beat_up(beater_mass=8.0, speed=25.0, width=0.05, thickness=0.02),
     "comb on axes": _hammer,
     "comb on crank-rockers": lambda: _hammer(drive="linkage"),
-    "narrow comb on one crank-rocker": lambda: _hammer(drive="linkage", warps=100, beaters=1),
+    "narrow comb on one crank-rocker": lambda: _hammer(drive="linkage", cloth=cloth(warps=100), beaters=1),
 }
 
 

@@ -88,7 +88,7 @@ def test_machine_json_has_every_machine(woven: tuple[Path, Any]) -> None:
     machine = json.loads((woven[0] / "machine.json").read_text())
     assert machine["machine"] == "automated-loom"
     assert set(machine["machines"]) >= {"weaver", "beat-up", "shedding", "warp-tension"}
-    assert machine["machines"]["shedding"]["parameters"]["warp_pitch"] == machine["results"]["warp_pitch"]
+    assert machine["machines"]["shedding"]["parameters"]["cloth.warp_pitch"] == machine["results"]["warp_pitch"]
     assert machine["machines"]["weaver"]["parameters"]["knot"] == "symmetric"
     assert "beater_stroke" in machine["machines"]["beat-up"]["results"]
     assert machine["parameters"]["width"] == 0.4

@@ -200,7 +200,7 @@ def test_finer_rows_are_taken_up_by_less_and_cost_the_same_force(existing: Exist
     left = next(check for check in checks if check.name == "carpet: distance of the rows that the beat leaves")
     beat = existing.design.beat
     assert left.value == pytest.approx(beat.row_pitch_left * 15 / 20)
-    assert left.ok is (beat.row_pitch_left <= beat.task.row_pitch * 1.02)
+    assert left.ok is (beat.row_pitch_left <= beat.task.cloth.row_distance * 1.02)
     track = for_rows(existing, 5e-3).row_cyclogram.track(TAKE_UP)
     assert track.stroke == pytest.approx(5e-3)
     assert existing.design.row_cyclogram.track(TAKE_UP).stroke == pytest.approx(1 / 150)

@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from cloths import cloth
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -15,6 +16,7 @@ from ilmek.units import mm
 from ilmek.weaving.comb_on_fell import fell_pressure, krylov
 from ilmek.weaving.fell import Fabric
 
+FINE = cloth(warps=2400, warp_pitch=0.25 * mm)
 FELL = Fabric(tension=15.0, laid=6 * mm, jammed=3 * mm, packing=1 * mm, warp_rate=1200.0, cloth_rate=3600.0)
 forces = st.floats(1e-6, 1e4)
 
@@ -232,9 +234,9 @@ def test_axes_are_as_many_as_their_checks_need() -> None:
     assert quick.params.screw_lead > 10 * mm
     (choice,) = quick.choices
     assert choice.decided_by in {"torque of the servo over the required torque", "speed value of the screws"}
-    heavy = made(warps=3000, stack_mass=60_000.0)
+    heavy = made(cloth=cloth(warps=3000), stack_mass=60_000.0)
     assert heavy.params.axis_count > heavy.params.support_count
-    assert answer(warps=3000, stack_mass=60_000.0).failed == ()
+    assert answer(cloth=cloth(warps=3000), stack_mass=60_000.0).failed == ()
 
 
 def test_work_of_the_press_over_a_turn_packs_two_rows() -> None:
@@ -291,7 +293,7 @@ def test_force_of_the_linkage_goes_with_the_square_of_its_speed() -> None:
     assert quick.spacing < slow.spacing
     needed = slow.linkage.speed_needed
     reached = made(**{**PAPER, "beat_speed": needed})
-    assert reached.spacing == pytest.approx(reached.params.required_pitch)
+    assert reached.spacing == pytest.approx(reached.params.cloth.row_distance)
 
 
 def test_a_slow_linkage_leaves_the_rows_loose_and_says_so() -> None:
@@ -300,7 +302,7 @@ def test_a_slow_linkage_leaves_the_rows_loose_and_says_so() -> None:
     assert any("rows a decimetre where 25 are required" in said for said in report.warnings)
 
 
-@pytest.mark.parametrize("asked", [{}, dict(warps=300), dict(warps=3000), dict(warps=2400, warp_pitch=0.25 * mm)])
+@pytest.mark.parametrize("asked", [{}, dict(cloth=cloth(warps=300)), dict(cloth=cloth(warps=3000)), dict(cloth=FINE)])
 def test_crank_rockers_are_as_strong_as_needed(asked) -> None:
     """The comb's inertia at the beat, its ballast included, is the force of all rows; every check holds."""
     design, report = made(drive="linkage", **asked), answer(drive="linkage", **asked)
@@ -310,7 +312,7 @@ def test_crank_rockers_are_as_strong_as_needed(asked) -> None:
     mass = design.comb.mass + linkage.ballast
     at_beat = linkage.one.state_at(np.array([linkage.one.beta])).beater.acceleration[0]
     assert mass * abs(at_beat) == pytest.approx(linkage.force)
-    assert linkage.force >= design.needed * design.params.warps
+    assert linkage.force >= design.needed * design.params.cloth.warps
     assert design.force == pytest.approx(design.needed)
     assert linkage.one.params.beater_mass * linkage.number == pytest.approx(mass)
 
@@ -330,7 +332,7 @@ def test_the_stroke_for_the_controller_comes_back_twice_a_turn() -> None:
 
 
 def test_wide_carpets_hold_the_comb_more_often() -> None:
-    wide = made(warps=4000, warp_pitch=1 * mm)
+    wide = made(cloth=cloth(warps=4000, warp_pitch=1 * mm))
     assert (wide.params.support_count, wide.params.axis_count) == (4, 4)
     assert wide.comb.line.uniformity >= 0.9
 
@@ -343,7 +345,7 @@ def test_wide_carpets_hold_the_comb_more_often() -> None:
         (dict(leaf_thickness="2mm"), "leaf_thickness=2 mm on a warp pitch of 2 mm; below 2 mm"),
         (dict(support_inset="700mm"), "at most half of the width, 600 mm"),
         (dict(drive="hand"), "one of comb, linkage"),
-        (dict(tension="0N"), "out of bounds"),
+        ({"cloth.tension": "0N"}, "out of bounds"),
     ],
 )
 def test_what_cannot_be_is_refused(asked, said) -> None:

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from cloths import cloth
 from hypothesis import given
 from hypothesis import strategies as st
 from matplotlib.path import Path as Outline
@@ -34,7 +35,7 @@ from ilmek.units import mm
 
 _HEADS = st.fixed_dictionaries(
     {
-        "knot_pitch": st.floats(1e-3, 12e-3),
+        "cloth": st.floats(5e-4, 6e-3).map(lambda pitch: cloth(warp_pitch=pitch)),
         "tubes": st.integers(1, 60),
         "magazine": st.sampled_from(["drum", "slide"]),
         "shaft": st.floats(0.01, 0.04),
@@ -50,7 +51,7 @@ _HEADS = st.fixed_dictionaries(
 _WEFTS = st.fixed_dictionaries(
     {
         "carrier": st.sampled_from(["shuttle", "rapier"]),
-        "warps": st.integers(20, 2000),
+        "cloth": st.integers(20, 2000).map(lambda warps: cloth(warps=warps)),
         "wall": st.floats(1e-3, 10e-3),
         "nose": st.sampled_from([0.0, 40e-3]),
         "fittings": st.sampled_from([0.0, 0.15]),
@@ -147,7 +148,7 @@ def test_a_cam_moves_the_mass_of_the_parts_on_its_track() -> None:
 @pytest.mark.parametrize("pitch", [2 * mm, 4 * mm, 8 * mm])
 def test_the_plates_of_the_opener_pass_between_the_warps_and_spread_them(pitch: float) -> None:
     """At each depth the warps, spread evenly over the travel, lie outside the plate, and touch its walls at most."""
-    made = _head(knot_pitch=pitch)
+    made = _head(cloth=cloth(warp_pitch=pitch / 2))
     opener = made.opener
     part = next(part for part, _ in head_tree(made).occurrences() if part.id == OPENER_PLATE)
     outline = _outline(part)

@@ -91,7 +91,7 @@ def test_a_sound_report_gets_no_further_check(report: Report) -> None:
     [
         ("cam", {"kind": "barrel", "bore": "100mm"}, "does not fit into the barrel cam"),
         ("beat-up", {"members": "100000"}, "at most 10000"),
-        ("hammer", {"warps": "100000", "comb_depth": "1mm", "warp_pitch": "50mm"}, "at most 500"),
+        ("hammer", {"cloth.warps": "100000", "comb_depth": "1mm", "cloth.warp_pitch": "50mm"}, "at most 500"),
     ],
 )
 def test_impossible_parameters_are_refused(machine: str, settings: dict[str, str], refused: str) -> None:

@@ -50,7 +50,7 @@ def test_loom_follows_the_chart() -> None:
     loomed = make_loomed(read_loom_order(order), charted)
     params = loomed.design.params
     assert params.colours == charted.chart.colours <= 6
-    assert params.pitch == 0.0025
+    assert params.cloth.warp_pitch == 0.0025
     # A longer pile takes more yarn a knot, which the handler must draw.
     deep = read_order(MEDALLION, size="20x30cm", quality="20x20/dm", colours=6, pile_height="20mm")
     assert make_loomed(read_loom_order(deep), make_charted(deep)).design.params.knot_yarn > params.knot_yarn + 0.02
@@ -64,7 +64,7 @@ def test_a_loom_without_a_carpet_has_the_pile_of_the_default_one(quality: str, k
     alone = read_loom_order(order)
     assert (alone.params.yarns.pile_density, alone.params.pile_height, alone.params.knot_yarn) == (None, None, None)
     woven = params_for(alone, make_charted(order))
-    own, given = alone.params.carpet_yarns, woven.carpet_yarns
+    own, given = alone.params.cloth.carpet_yarns, woven.cloth.carpet_yarns
     assert (own.pile.linear_density, own.pressed) == (given.pile.linear_density, given.pressed)
     assert (alone.params.pile, alone.params.billed) == (woven.pile, woven.billed)
 
@@ -107,8 +107,10 @@ def test_a_cancelled_carpet_leaves_nothing(tmp_path: Path) -> None:
 
 def test_a_design_reports_its_stages_and_can_be_cancelled(tmp_path: Path) -> None:
     stages: list[str] = []
-    made = design_machine("warp-tension", {"warps": "300"}, progress=Progress(lambda stage, _: stages.append(stage)))
-    assert made.as_json()["parameters"]["warps"] == 300
+    made = design_machine(
+        "warp-tension", {"cloth.warps": "300"}, progress=Progress(lambda stage, _: stages.append(stage))
+    )
+    assert made.as_json()["parameters"]["cloth.warps"] == 300
     assert list(dict.fromkeys(stages)) == ["design", "report", "files", ""]
     order = WorkshopOrder(tmp_path / "parts")
     with pytest.raises(Cancelled):

@@ -46,7 +46,7 @@ def test_points_on_a_circle_are_reported_and_fail_where_no_other_arm_is() -> Non
     assert still["a2"] == pytest.approx(0.01, rel=1e-12)
 
 
-@pytest.mark.parametrize("settings", [{}, {"warp_pitch": "10mm"}, {"points": POINTS, "angles": ANGLES}])
+@pytest.mark.parametrize("settings", [{}, {"cloth.warp_pitch": "10mm"}, {"points": POINTS, "angles": ANGLES}])
 def test_the_angle_off_straight_is_that_of_the_triangle_of_each_arm(settings: dict[str, str]) -> None:
     """The sine between two sides of a triangle is twice its area over their product, and the area is Heron's."""
     made = design(KnottingDyadParams.read(settings))
@@ -60,7 +60,7 @@ def test_the_angle_off_straight_is_that_of_the_triangle_of_each_arm(settings: di
 
 
 def test_the_warning_names_the_least_distance_and_what_would_help() -> None:
-    closed = dict(opening="0mm", pair_opened="2mm", warp_diameter="0.8mm")
+    closed = {"opening": "0mm", "pair_opened": "2mm", "cloth.yarns.warp_diameter": "0.8mm"}
     (warning,) = answer(clearance="0.55mm", **closed).warnings
     assert warning.startswith("arms to warps: 0.32 mm, 0.55 mm is required; take a needle of 0.1 mm or less")
 
@@ -116,7 +116,7 @@ def test_figures_show_every_arm_and_the_points() -> None:
         ({"points": LINE, "angles": "95deg 125deg 250deg 125deg"}, "points lie on a line: no arm of finite links"),
         ({"depth": "0.5mm"}, "is among the warps; a depth of 0.723 mm or more"),
         ({"knot": "symmetrical"}, "did you mean symmetric"),
-        ({"warp_pitch": "2"}, "did you mean 2mm"),
+        ({"cloth.warp_pitch": "2"}, "did you mean 2mm"),
     ],
 )
 def test_refuses_in_words(settings: dict[str, str], said: str) -> None:
@@ -128,13 +128,13 @@ def test_refuses_in_words(settings: dict[str, str], said: str) -> None:
 @pytest.mark.parametrize(
     ("settings", "failed"),
     [
-        ({"warp_diameter": "2.2mm"}, "gap between two warps"),
+        ({"cloth.yarns.warp_diameter": "2.2mm"}, "gap between two warps"),
         ({"link_limit": "5mm"}, "longest link of the arm to build"),
         ({"bend_limit": "89deg"}, "angle between its links, off straight, along the path"),
         ({"pivot_room": "1m"}, "room of the motors between the pivots"),
         ({"opening": "0mm", "pair_opened": "2mm"}, "needle and pile yarn together, between the pair"),
         ({"opening": "0mm"}, "needle and pile yarn together, beside the pair"),
-        ({"yarn_pressed": "1.5mm", "pair_opened": "2mm"}, "pile yarn in the gap between the warps"),
+        ({"cloth.yarns.pile_density": "4g/m", "pair_opened": "2mm"}, "pile yarn in the gap between the warps"),
         ({"needle_breadth": "0.02mm", "needle_diameter": "0.1mm"}, "needle against buckling under the yarn's pull"),
         ({"gear_ratio": "9000"}, "servos of the joints"),
     ],
@@ -154,7 +154,7 @@ def test_arms_with_an_opener_tie_both_knots_at_every_pitch_with_needle_and_yarn_
     pitch: str, knot: str
 ) -> None:
     """The widths again, from the coordinates of the warps and the tilt at the hand-over."""
-    made = design(KnottingDyadParams.read({"warp_pitch": pitch, "knot": knot}))
+    made = design(KnottingDyadParams.read({"cloth.warp_pitch": pitch, "knot": knot}))
     report = MACHINE.report(made)
     assert not report.failed
     assert report.as_json()["results"]["knot_tied"] == knot

@@ -30,20 +30,20 @@ def head(**settings: str) -> Head:
     return found
 
 
-CLOSED = dict(opening="0mm", warp_diameter="0.8mm")
+CLOSED = {"opening": "0mm", "cloth.yarns.warp_diameter": "0.8mm"}
 """Warps of 0.8 mm without an opener, with `pair_opened` as the pitch."""
 
 SECTIONS: list[dict[str, str]] = [
     {},
-    {"warp_pitch": "1.25mm", "warp_diameter": "0.5mm", "yarn_diameter": "0.6mm"},
-    {"warp_pitch": "10mm"},
-    {"warp_pitch": "1.5mm", "warp_diameter": "0.5mm", "opening": "0.7mm"},
+    {"cloth.warp_pitch": "1.25mm", "cloth.yarns.warp_diameter": "0.5mm", "cloth.yarns.pile_density": "0.167g/m"},
+    {"cloth.warp_pitch": "10mm"},
+    {"cloth.warp_pitch": "1.5mm", "cloth.yarns.warp_diameter": "0.5mm", "opening": "0.7mm"},
     {
-        "warp_pitch": "0.5mm",
-        "warp_diameter": "0.2mm",
+        "cloth.warp_pitch": "0.5mm",
+        "cloth.yarns.warp_diameter": "0.2mm",
         "needle_diameter": "0.15mm",
         "clearance": "20um",
-        "yarn_diameter": "0.3mm",
+        "cloth.yarns.pile_density": "0.042g/m",
         "yarn_pull": "0.2N",
     },
 ]
@@ -178,7 +178,8 @@ def test_a_hand_over_at_two_positions_is_reported_with_the_distance() -> None:
 
 def test_a_needle_that_just_passes_the_warps_is_distinguished_from_one_that_does_not() -> None:
     """A long way past warps that leave it 0.02 mm: coarse samples do not tell on which side it passes."""
-    fine = dict(warp_pitch="0.54mm", warp_diameter="0.43mm", needle_diameter="0.05mm", clearance="0mm", depth="2.4mm")
+    fine = {"cloth.warp_pitch": "0.54mm", "cloth.yarns.warp_diameter": "0.43mm"}
+    fine |= dict(needle_diameter="0.05mm", clearance="0mm", depth="2.4mm")
     fine |= dict(opening="0mm", pair_opened="0.54mm")
     found = head(**fine, leg="33mm")
     assert 0 < found.clearance_min < 0.03e-3
@@ -221,9 +222,9 @@ def test_a_thin_needle_bends_into_the_warps_and_is_reported() -> None:
 @pytest.mark.parametrize(
     ("settings", "said"),
     [
-        ({"warp_pitch": "1mm", "pair_opened": "1mm"}, "take finer warps, or a pair of warps 1.5 mm apart"),
+        ({"cloth.warp_pitch": "1mm", "pair_opened": "1mm"}, "take finer warps, or a pair of warps 1.5 mm apart"),
         (
-            {"warp_pitch": "1.4mm", "pair_opened": "1.4mm"},
+            {"cloth.warp_pitch": "1.4mm", "pair_opened": "1.4mm"},
             "take a needle of 0.4 mm or less, or a pair of warps 1.5 mm apart",
         ),
         ({"depth": "1mm", "pair_opened": "2mm"}, "try a depth of 2.27 mm or an opening of 4.68 mm"),
@@ -243,7 +244,7 @@ def test_what_a_warning_advises_helps() -> None:
     for better in (
         {"depth": "2.27mm", "pair_opened": "2mm"},
         {"depth": "1mm", "opening": "4.68mm", "pair_opened": "2mm"},
-        {"warp_pitch": "1.4mm", "needle_diameter": "0.3mm", "pair_opened": "1.4mm"},
+        {"cloth.warp_pitch": "1.4mm", "needle_diameter": "0.3mm", "pair_opened": "1.4mm"},
     ):
         assert head(**{**CLOSED, **better}).clearance_min >= 1e-4 - 1e-6
 

@@ -62,7 +62,7 @@ def test_tools_from_the_side_move_as_far_as_their_tracks() -> None:
 @pytest.mark.parametrize("weft", ["shuttle", "rapier"])
 def test_each_weft_spans_the_cloth_when_it_is_beaten(weft: str) -> None:
     made = loom(weft=weft)
-    moving, half = row_from_the_front(made), made.task.cloth_width / 2
+    moving, half = row_from_the_front(made), made.task.cloth.width / 2
     for name, beat in zip(
         ("straight weft", "sinuous weft"), made.row_cyclogram.track("beater").segments[::2], strict=True
     ):
@@ -74,7 +74,7 @@ def test_each_weft_spans_the_cloth_when_it_is_beaten(weft: str) -> None:
 @pytest.mark.parametrize(("beat", "body"), [("travelling", "rocker"), ("comb", "comb")])
 def test_what_beats_reaches_both_edges(beat: str, body: str) -> None:
     made = loom(beat=beat)
-    across, half = stroke(row_from_the_front(made), body).points.real, made.task.cloth_width / 2
+    across, half = stroke(row_from_the_front(made), body).points.real, made.task.cloth.width / 2
     assert across.min() == pytest.approx(-half, rel=0.05)
     assert across.max() == pytest.approx(half, rel=0.05)
 

@@ -106,6 +106,21 @@ def test_dotted_names_reach_nested_parameters_and_those_of_other_machines() -> N
     assert hash(outer) != hash(Outer())
 
 
+@dataclass(frozen=True, slots=True)
+class Steep(Params):
+    handler: Inner = nested(Inner, default=Inner(rise=80 * deg), doc="a handler with defaults of its own")
+    around: Middle = nested(Middle, default=Middle(inner=Inner(density=400.0)), doc="two levels")
+
+
+def test_a_nested_record_may_have_other_defaults_than_its_class() -> None:
+    assert Steep.read({"handler.density": "30/dm"}).handler == Inner(rise=80 * deg, density=300.0)
+    assert Steep.read({"around.inner.rise": "50deg"}).around.inner == Inner(rise=50 * deg, density=400.0)
+    assert Steep.read({}) == Steep()
+    known = reachable(Steep)
+    assert {name: known[name].default for name in known} == Steep().as_dict()
+    assert repr(Steep()) == "Steep()"
+
+
 @pytest.mark.parametrize(
     ("settings", "message"),
     [

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from cloths import cloth
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -159,9 +160,12 @@ def test_the_moving_mass_is_that_of_the_parts_about_the_pivot() -> None:
 
 _PARAMS = st.fixed_dictionaries(
     {
-        "warps": st.integers(20, 3000),
-        "tension": st.floats(1.0, 60.0),
-        "width": st.floats(0.2, 6.0),
+        "cloth": st.builds(
+            lambda warps, tension, width: cloth(warps=warps, tension=tension, warp_pitch=min(width / warps, 50e-3)),
+            st.integers(20, 3000),
+            st.floats(1.0, 60.0),
+            st.floats(0.2, 6.0),
+        ),
         "bar_arm": st.floats(0.02, 0.6),
         "spring_arm": st.floats(0.01, 0.6),
         "strut": st.floats(0.05, 0.5),

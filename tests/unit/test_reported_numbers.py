@@ -71,9 +71,12 @@ def hertz_limit() -> float:
     return found["cycle_time_knot"] * max(found["cam_hertz_max"].values()) / limit
 
 
+STRETCHED = {"half_span": "300mm", "warp_length": "600mm", "cloth.yarns.warp_stiffness": "1800N"}
+
+
 def strained(compensation: float) -> float:
     """Tension of a warp whose cylinder gives way by a share of its lengthening: the rest strains it."""
-    found = results("shedding", tension="15N", half_span="300mm", warp_stiffness="1800N")
+    found = results("shedding", **STRETCHED)
     return 15.0 + (1 - compensation) * 1800.0 * found["warp_strain"]
 
 
@@ -98,7 +101,7 @@ NUMBERS: dict[str, tuple[Callable[[], float], Callable[[], float]]] = {
             # the parts list has one bearing for each end that a reaction acts on
             lambda one=cylinder: (
                 results("warp-tension")["cylinder_load"][one]
-                * find_machine("warp-tension").params().width
+                * find_machine("warp-tension").params().span
                 / results("warp-tension")["cylinder_reaction"][one]
             ),
         )
@@ -107,16 +110,14 @@ NUMBERS: dict[str, tuple[Callable[[], float], Callable[[], float]]] = {
     "cycle limit by Hertz pressure": (lambda: results("weaver")["cycle_limits"]["cams"], hertz_limit),
     **{
         f"tension with a compensation of {share}": (
-            lambda share=share: results(
-                "shedding", tension="15N", half_span="300mm", warp_stiffness="1800N", compensation=str(share)
-            )["warp_tension_max"],
+            lambda share=share: results("shedding", compensation=str(share), **STRETCHED)["warp_tension_max"],
             lambda share=share: strained(share),
         )
         for share in (0.0, 0.4, 1.0)
     },
     **{
         f"torque of {warps} warps": (
-            lambda warps=warps: results("shedding", warps=str(warps))["shaft_torque_max"],
+            lambda warps=warps: results("shedding", **{"cloth.warps": str(warps)})["shaft_torque_max"],
             lambda warps=warps: harmonic_torque(math.ceil(warps / 2)),
         )
         for warps in (2, 7, 8)
@@ -174,7 +175,7 @@ def test_the_supports_of_a_comb_stand_at_its_ends_and_those_on_crank_rockers_in_
 ) -> None:
     params = find_machine("hammer").params.read({"drive": drive, "supports": "3"})
     assert isinstance(params, HammerParams)
-    assert params.inset == pytest.approx(share * params.width / 3)
+    assert params.inset == pytest.approx(share * params.cloth.width / 3)
 
 
 @pytest.mark.parametrize(("drive", "expected"), [("belt", (0.7, 1.9)), ("direct", (0.7, 1.2))])

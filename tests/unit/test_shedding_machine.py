@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from cloths import cloth
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -13,6 +14,8 @@ from ilmek.errors import ParameterError
 from ilmek.machines.shedding import MACHINE, SheddingDesign, SheddingParams
 from ilmek.report import Drawing, Plot, Report
 from ilmek.units import deg, mm
+
+WIDE = {"cloth.warps": "6000", "cloth.warp_pitch": "1mm"}
 
 
 def made(**given_settings: str) -> SheddingDesign:
@@ -92,7 +95,7 @@ def test_a_shed_too_low_for_the_shuttle_fails() -> None:
 )
 def test_work_of_the_torque_is_the_work_on_the_warps(law, lift, rise, tension) -> None:
     """Virtual power: the torque over the rise does what stretches the warps; over the turn nothing is left."""
-    design = MACHINE.design(SheddingParams(lift=lift, rise=rise, law=law, tension=tension, half_span=0.2))
+    design = MACHINE.design(SheddingParams(lift=lift, rise=rise, law=law, cloth=cloth(tension=tension), half_span=0.2))
     angle = np.linspace(0, rise, 4001)
     work = np.trapezoid(design.shed.torque(angle), angle)
     assert work == pytest.approx(300 * 2 * tension * (math.hypot(lift, 0.2) - 0.2), rel=1e-5)
@@ -108,7 +111,8 @@ def test_opposed_cams_are_half_a_turn_apart() -> None:
 
 def test_fine_pitch_takes_thin_cams() -> None:
     """Thin warps between guide cams: half of the pitch each."""
-    design = made(warp_pitch="0.5mm", warps="2400", warp_diameter="0.1mm", shafts="1", guides="cams")
+    fine = {"cloth.warp_pitch": "0.5mm", "cloth.warps": "2400", "cloth.yarns.warp_diameter": "0.1mm"}
+    design = made(shafts="1", guides="cams", **fine)
     assert design.stack.thickness == pytest.approx(0.2 * mm)
     assert design.stack.thickness + design.stack.guide_thickness == pytest.approx(0.5 * mm)
     assert design.shaft.length == pytest.approx(1.2)
@@ -129,7 +133,7 @@ def test_roller_larger_than_the_curvature_undercuts() -> None:
 
 def test_more_cams_than_the_shaft_is_long() -> None:
     assert failed(answer(shaft_length="1m")) == ["width of the cams on the shaft"]
-    several = answer(shaft_length="1m", shafts="2", front_span="0.5m", back_span="0.5m", tension="5N")
+    several = answer(shaft_length="1m", shafts="2", front_span="0.5m", back_span="0.5m", **{"cloth.tension": "5N"})
     assert "width of the cams on the shaft" in failed(several)
 
 
@@ -142,9 +146,9 @@ def test_motor_is_chosen_or_judged() -> None:
 
 
 def test_foil_cams_fail() -> None:
-    foil = failed(answer(warp_pitch="0.3mm", warps="4000", shafts="1", guides="cams"))
+    foil = failed(answer(shafts="1", guides="cams", **{"cloth.warp_pitch": "0.3mm", "cloth.warps": "4000"}))
     assert {"thickness of a cam", "thickness of a guide cam"} <= set(foil)
-    assert failed(answer(warp_pitch="1mm", warps="1200")) == []
+    assert failed(answer(**{"cloth.warp_pitch": "1mm", "cloth.warps": "1200"})) == []
 
 
 def test_a_quick_shaft_is_warned_of() -> None:
@@ -182,7 +186,7 @@ def test_the_bar_of_the_thesis_is_judged() -> None:
 
 
 def test_a_long_thin_shaft_fails_by_twist_and_stress() -> None:
-    report = answer(shaft_bar="20mm", spans="60", warps="6000", warp_pitch="1mm", bore_wall="0mm")
+    report = answer(shaft_bar="20mm", spans="60", bore_wall="0mm", **WIDE)
     assert failed(report) == [
         "step of the shuttle's guideway on the tips",
         "twist of the shaft",
@@ -190,7 +194,7 @@ def test_a_long_thin_shaft_fails_by_twist_and_stress() -> None:
         "fatigue of the shaft",
         "bore of the bearing for the torque",
     ]
-    chosen = made(spans="60", warps="6000", warp_pitch="1mm").shaft
+    chosen = made(spans="60", **WIDE).shaft
     assert chosen.bar >= max(chosen.side_twist, chosen.side_strength) > chosen.side
 
 
@@ -250,12 +254,11 @@ def test_law_table_agrees_with_a_design_by_that_law() -> None:
         ({"lift": "60"}, "did you mean 60mm"),
         ({"lift": "0mm"}, "lift=0 mm is out of bounds"),
         ({"law": "harmonik"}, "did you mean harmonic"),
-        ({"cam_thickness": "2mm"}, "cam_thickness=2 mm does not fit warp_pitch=2 mm; below 2 mm"),
-        ({"cam_thickness": "1mm", "warp_pitch": "0.8mm"}, "leave it out for half the pitch"),
-        ({"tension": "15N"}, "half_span is missing"),
-        ({"half_span": "170mm"}, "tension is missing"),
+        ({"cam_thickness": "2mm"}, "cam_thickness=2 mm does not fit cloth.warp_pitch=2 mm; below 2 mm"),
+        ({"cam_thickness": "1mm", "cloth.warp_pitch": "0.8mm"}, "leave it out for half the pitch"),
+        ({"cloth.tension": "15N"}, "cloth.tension without half_span"),
         ({"pressure_angle_limit": "90deg"}, "below 90 deg"),
-        ({"warps": "1"}, "at least 2"),
+        ({"cloth.warps": "1"}, "at least 2"),
         ({"safety": "0.5"}, "at least 1"),
         ({"prime_radius": "10mm", "roller_radius": "12mm"}, "prime_radius=10 mm is too small; above 12 mm"),
         ({"pressure_angel_limit": "30deg"}, "did you mean pressure_angle_limit"),

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from cloths import cloth
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -30,7 +31,7 @@ def test_groups_of_the_harmonic_cam_add_as_vectors(groups, spread) -> None:
 
 @pytest.mark.parametrize("groups", [1, 3])
 def test_every_warp_has_its_cam_where_their_number_is_odd(groups) -> None:
-    shed = made(warps=401, phase="staggered", stagger_groups=groups).shed
+    shed = made(cloth=cloth(warps=401), phase="staggered", stagger_groups=groups).shed
     assert (sum(shed.even.numbers), sum(shed.odd.numbers)) == (200, 201)
 
 
@@ -55,7 +56,7 @@ def test_flattest_of_harmonic_cams_is_two_halves_at_the_ends_of_what_the_shuttle
 
 
 def test_no_spread_is_flatter_than_the_flattest() -> None:
-    asked = dict(tension=15.0, front_span=0.2, back_span=0.4, warp_stiffness=1800.0, warp_length=1.5, lift=0.08)
+    asked = dict(cloth=cloth(warp_stiffness=1800.0), front_span=0.2, back_span=0.4, warp_length=1.5, lift=0.08)
     flat = made(phase="flattest", stagger_groups=3, shuttle_angle=60 * deg, **asked)
     peak = max(flat.drive.torque_max.value, -flat.drive.torque_min.value)
     for groups in (2, 3):
@@ -79,7 +80,7 @@ def test_half_a_turn_of_spread_takes_the_torque_away() -> None:
 
 def test_more_groups_than_cams_of_a_parity() -> None:
     with pytest.raises(ParameterError, match="stagger_groups=3 of 4 warps; at most 2"):
-        made(warps=4, phase="staggered", stagger_groups=3)
+        made(cloth=cloth(warps=4), phase="staggered", stagger_groups=3)
 
 
 def test_plates_of_the_groups_have_their_bores_turned() -> None:

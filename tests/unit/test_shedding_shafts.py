@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from cloths import cloth
 from scipy.linalg import eigvalsh_tridiagonal
 
 from ilmek.elements.nose_buckling import least_nose_thickness, nose_buckling
@@ -18,7 +19,9 @@ from ilmek.machines.shedding.warp import shed_warp
 from ilmek.report import Report
 from ilmek.units import mm
 
-SPANS = dict(tension=15.0, front_span=0.5, back_span=0.6, warp_stiffness=1350.0, warp_length=1.8)
+CLOTH = dict(tension=15.0, warp_stiffness=1350.0)
+LENGTHS = dict(front_span=0.5, back_span=0.6, warp_length=1.8)
+SPANS = dict(cloth=cloth(**CLOTH), **LENGTHS)
 PITCHES = [0.25 * mm, 0.5 * mm, 1 * mm, 2 * mm, 4 * mm]
 
 
@@ -51,7 +54,7 @@ def test_least_thickness_is_where_the_nose_buckles() -> None:
 
 @pytest.mark.parametrize(("shafts", "guides"), list(itertools.product((1, 2, 3, 4), ("cams", "reed"))))
 def test_cam_guides_and_passing_warps_fill_the_pitch_of_a_shaft(shafts, guides) -> None:
-    params = SheddingParams(warp_pitch=1 * mm, warps=1200, warp_diameter=0.5 * mm)
+    params = SheddingParams(cloth=cloth(warp_pitch=1 * mm, warps=1200, warp_diameter=0.5 * mm))
     shares = shared(params, shafts, guides)
     passing = (shafts - 1) * 0.5 * mm + (shafts * params.warp_clearance if shafts > 1 else 0.0)
     used = shares.thickness + shares.guides * shares.guide + passing
@@ -63,7 +66,7 @@ def test_cam_guides_and_passing_warps_fill_the_pitch_of_a_shaft(shafts, guides) 
 @pytest.mark.parametrize("guides", ["cams", "reed"])
 @pytest.mark.parametrize("diameter", [0.1 * mm, 0.4 * mm, 0.7 * mm])
 def test_more_shafts_have_no_thinner_plates(guides, diameter) -> None:
-    params = SheddingParams(warp_pitch=1 * mm, warps=1200, warp_diameter=diameter)
+    params = SheddingParams(cloth=cloth(warp_pitch=1 * mm, warps=1200, warp_diameter=diameter))
     cams, all_guides = zip(
         *((one.thickness, one.guide) for one in (shared(params, k, guides) for k in (1, 2, 3, 4))), strict=True
     )
@@ -121,7 +124,7 @@ def test_all_shafts_open_one_shed_and_clear_each_other(shafts) -> None:
 @pytest.mark.parametrize("shafts", [1, 2, 3])
 def test_mean_lengthening_of_each_parity(shafts) -> None:
     """Against the lengths of every warp of a small shed."""
-    design = made(shafts=shafts, warps=11, **SPANS)
+    design = made(shafts=shafts, cloth=cloth(warps=11, **CLOTH), **LENGTHS)
     angle = np.linspace(0.0, 6.0, 13)
     found = shed_lengthenings(design, angle)
     totals, counts = [np.zeros_like(angle), np.zeros_like(angle)], [0, 0]
@@ -171,7 +174,7 @@ def test_the_thesis_pitch_needs_one_shaft_with_guide_cams() -> None:
 
 
 def test_fine_pitch_takes_a_reed_and_guide_cams_take_more_shafts() -> None:
-    fine = dict(warp_pitch=0.5 * mm, warps=2400, **{**SPANS, "tension": 1.4, "warp_stiffness": 120.0})
+    fine = dict(cloth=cloth(warp_pitch=0.5 * mm, warps=2400, tension=1.4, warp_stiffness=120.0), **LENGTHS)
     reed, cams = made(**fine), made(guides="cams", **fine)
     assert (len(reed.shafts), reed.guides) == (1, "reed")
     assert (reed.choice.decided_by, reed.choice.next_cheaper) == ("thickness of a guide cam", "1 shaft with guide cams")
@@ -186,10 +189,8 @@ def test_every_pitch_gives_a_design_with_its_checks(pitch, shafts) -> None:
     """From 0.25 to 4 mm on one to four shafts: finite checks, each failed one with its cure; never an error."""
     report = MACHINE.report(
         made(
-            warp_pitch=pitch,
-            warps=round(0.6 / pitch),
+            cloth=cloth(warp_pitch=pitch, warps=round(0.6 / pitch), tension=7500 * pitch),
             shafts=shafts,
-            tension=7500 * pitch,
             front_span=0.17,
             back_span=0.17,
         )
@@ -206,7 +207,9 @@ def test_thinner_cams_are_nearer_to_buckling() -> None:
         ratios.append(force / critical)
     assert ratios[0] / ratios[1] == pytest.approx(8.0)
     assert ratios[1] / ratios[2] == pytest.approx(8.0)
-    assert "buckling of a cam" in failed(MACHINE.report(made(cam_thickness=0.1 * mm, **{**SPANS, "tension": 100.0})))
+    assert "buckling of a cam" in failed(
+        MACHINE.report(made(cam_thickness=0.1 * mm, cloth=cloth(tension=100.0, warp_stiffness=1350.0), **LENGTHS))
+    )
 
 
 def test_staggered_cams_are_no_guideway() -> None:
@@ -217,7 +220,7 @@ def test_staggered_cams_are_no_guideway() -> None:
 
 
 def test_a_motor_bearing_and_bar_beyond_their_tables_are_the_largest_and_fail() -> None:
-    report = MACHINE.report(made(warps=6000, tension=400.0, front_span=0.3, back_span=0.3))
+    report = MACHINE.report(made(cloth=cloth(warps=6000, tension=400.0), front_span=0.3, back_span=0.3))
     assert {"motor torque", "life of the bearings", "slope of the shaft"} <= failed(report)
     parts = {part.name: part.description for part in report.parts}
     assert parts["cam shaft"] == "square 150 mm"
@@ -225,7 +228,7 @@ def test_a_motor_bearing_and_bar_beyond_their_tables_are_the_largest_and_fail() 
 
 
 def test_choices_name_the_check_that_the_next_cheaper_fails() -> None:
-    given = dict(tension=15.0, half_span=0.17, warp_stiffness=1350.0, warp_length=1.5)
+    given = dict(cloth=cloth(**CLOTH), half_span=0.17, warp_length=1.5)
     chosen = {choice.name: choice for choice in MACHINE.report(made(**given)).choices}
     assert set(chosen) == {"cam shafts", "prime_radius", "shaft_bar", "bearing", "motor"}
     bar = chosen["shaft_bar"]
@@ -255,4 +258,4 @@ def test_two_shafts_in_a_loom() -> None:
 
 def test_too_few_warps_for_the_shafts() -> None:
     with pytest.raises(ParameterError, match="3 warps on 2 shafts; two warps a shaft; set fewer shafts"):
-        made(warps=3, shafts=2)
+        made(cloth=cloth(warps=3), shafts=2)

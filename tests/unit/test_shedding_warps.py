@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from cloths import cloth
 
 from ilmek.errors import ParameterError
 from ilmek.machines.shedding import MACHINE, SheddingDesign, SheddingParams
@@ -14,7 +15,8 @@ from ilmek.report import Report
 from ilmek.units import deg, mm
 from ilmek.weaving.tension import capstan
 
-ELASTIC = dict(tension=15.0, front_span=0.25, back_span=0.4, warp_stiffness=1800.0, warp_length=1.5)
+COTTON = cloth(tension=15.0, warp_stiffness=1800.0)
+ELASTIC = dict(cloth=COTTON, front_span=0.25, back_span=0.4, warp_length=1.5)
 
 
 def made(**settings_given) -> SheddingDesign:
@@ -36,15 +38,21 @@ def result(report: Report, name: str):
 )
 def test_force_is_the_rate_of_the_work(front, back, stiffness, give, lift) -> None:
     """Virtual work: F = dW/ds of the stretched warp, whatever its spans."""
-    asked = dict(tension=15.0, front_span=front, back_span=back, warp_stiffness=stiffness, compensation=give)
+    asked = dict(
+        cloth=cloth(tension=15.0, warp_stiffness=stiffness),
+        front_span=front,
+        back_span=back,
+        warp_length=front + back,
+        compensation=give,
+    )
     step = 1e-4 * lift
     low, high = (lifting_work(SheddingParams(lift=lift + side, **asked)) for side in (-step, step))
     force = float(warp_force(SheddingParams(lift=lift, **asked), np.array(lift)))
     assert (high - low) / (2 * step) == pytest.approx(force, rel=1e-6)
 
 
-def test_equal_spans_without_stiffness_are_the_half_span() -> None:
-    one, other = made(tension=15.0, half_span=0.17), made(tension=15.0, front_span=0.17, back_span=0.17)
+def test_equal_spans_of_a_warp_that_is_not_stretched_are_the_half_span() -> None:
+    one, other = made(half_span=0.17), made(front_span=0.17, back_span=0.17)
     assert one.drive.torque_max.value == pytest.approx(other.drive.torque_max.value, rel=1e-14)
 
 
@@ -66,7 +74,7 @@ def test_the_cylinder_takes_up_its_share_of_the_elongation() -> None:
 
 
 def test_a_short_warp_that_nothing_gives_way_for_is_strained_too_far() -> None:
-    report = answer(tension=15.0, front_span=0.17, back_span=0.17, warp_stiffness=1800.0)
+    report = answer(cloth=COTTON, front_span=0.17, back_span=0.17, warp_length=0.34)
     assert [check.name for check in report.failed] == ["tension of a lifted warp", "strain of a lifted warp"]
 
 
@@ -109,15 +117,15 @@ def test_a_draped_yarn_does_the_work_that_lengthens_it() -> None:
 
 def test_holds_within_reach_of_the_guides_fail() -> None:
     """Guides of R + L + 10 mm reach sqrt((R + 70 mm)^2 - R^2) along the warps' line, and the gap."""
-    report = answer(tension=15.0, half_span=0.1)
+    report = answer(half_span=0.1)
     assert result(report, "draped") is None
     names = ["guides and cams clear of the front hold", "guides and cams clear of the back hold"]
     assert [check.name for check in report.failed] == names
     prime = made().cam.prime_radius
     reach = math.sqrt((prime + 0.07) ** 2 - prime**2) + 0.01
     assert [check.value for check in report.failed] == pytest.approx([reach, reach])
-    assert answer(tension=15.0, half_span=1.001 * reach).failed == ()
-    near = answer(tension=15.0, front_span=1.001 * reach, back_span=0.08)
+    assert answer(half_span=1.001 * reach).failed == ()
+    near = answer(front_span=1.001 * reach, back_span=0.08)
     assert [check.name for check in near.failed] == names[1:]
 
 
@@ -178,11 +186,11 @@ def test_motions_for_the_controller_are_those_of_the_warps() -> None:
 @pytest.mark.parametrize(
     ("asked", "said"),
     [
-        (dict(front_span=0.2, tension=15.0), "back_span is missing"),
-        (dict(front_span=0.2, back_span=0.2, half_span=0.1, tension=15.0), "half_span beside front_span"),
-        (dict(front_span=0.2, back_span=0.2), "tension is missing"),
-        (dict(warp_stiffness=1800.0), "warp_stiffness without tension"),
-        (dict(tension=15.0, half_span=0.2, warp_length=0.3), "shorter than the spans; at least 0.4 m"),
+        (dict(front_span=0.2), "back_span is missing"),
+        (dict(front_span=0.2, back_span=0.2, half_span=0.1), "half_span beside front_span"),
+        (dict(cloth=cloth(tension=15.0)), "cloth.tension without half_span; give half_span too"),
+        (dict(warp_length=0.3), "warp_length without half_span; give half_span too"),
+        (dict(half_span=0.2, warp_length=0.3), "shorter than the spans; at least 0.4 m"),
     ],
 )
 def test_half_a_warp_is_refused(asked, said) -> None:

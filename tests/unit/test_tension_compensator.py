@@ -6,6 +6,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from cloths import cloth
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -148,7 +149,7 @@ def test_natural_frequency_from_the_energy_alone() -> None:
 @pytest.mark.parametrize("levers", [2, 3, 5])
 def test_a_bar_bends_no_more_than_its_checks_say(levers: int) -> None:
     width, line, tube = 0.6 * levers, 5000.0, find_tube("60.3x5")
-    params = TensionCompensatorParams(width=width, support_span=0.6)
+    params = TensionCompensatorParams(cloth=cloth(warp_pitch=width / 600), support_span=0.6)
     assert params.levers == levers
     at = tuple(float(one) for one in (np.arange(levers) + 0.5) * 0.6)
     bent = bend(Beam(width, at, (LineLoad(0.0, width, line),)))
@@ -189,12 +190,12 @@ def test_springs_hold_their_force_and_fit() -> None:
 
 
 def test_where_no_spring_is_enough_the_check_fails() -> None:
-    assert "springs of the table" in failed(tension="1000N", warp_stiffness="1e6N")
-    weak = MACHINE.report(design(TensionCompensatorParams(tension=1000.0, warp_stiffness=1e6)))
+    assert "springs of the table" in failed(**{"cloth.tension": "1000N", "cloth.yarns.warp_stiffness": "1e6N"})
+    weak = MACHINE.report(design(TensionCompensatorParams(cloth=cloth(tension=1000.0, warp_stiffness=1e6))))
     assert all(check.cure for check in weak.failed)
 
 
 @pytest.mark.parametrize("width", ["0.6m", "1.2m", "2.4m", "6m"])
 def test_a_compensator_for_every_width(width: str) -> None:
     warps = str(round(float(width[:-1]) / 0.002))
-    assert failed(width=width, warps=warps) == set()
+    assert failed(**{"cloth.warps": warps}) == set()

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from cloths import cloth
 
 from ilmek.machines import shedding, warp_tension
 from ilmek.machines.automated_loom import AutomatedLoomParams, design
@@ -25,7 +26,7 @@ def test_fitted_cams_leave_room_for_the_bore_of_their_own_shaft() -> None:
     assert made.cam.prime_radius > made.prime_radius_min
     assert made.cam.prime_radius >= made.prime_radius_for_bore
     assert made.cam.prime_radius == pytest.approx(round(made.cam.prime_radius / mm) * mm)
-    assert (found.warps, found.shaft_length) == (1508, pytest.approx(1508 * found.warp_pitch + 0.1))
+    assert (found.cloth.warps, found.shaft_length) == (1508, pytest.approx(found.cloth.width + 0.1))
 
 
 def test_a_prime_radius_that_the_user_set_stays() -> None:
@@ -59,7 +60,9 @@ def test_work_of_a_row_is_that_of_lifting_both_parities() -> None:
     (work,) = shedding.MACHINE.work(made)
     assert work.per == "row"
     assert work.energy == pytest.approx(600 * 10 * 0.06, rel=1e-4)
-    stiff = shedding.design(shedding.SheddingParams(tension=15.0, half_span=0.17, warp_stiffness=1050.0))
+    stiff = shedding.design(
+        shedding.SheddingParams(cloth=cloth(warp_stiffness=1050.0), half_span=0.17, warp_length=0.34)
+    )
     angle = np.linspace(0.0, 2 * math.pi, 20001)
     wanted = np.trapezoid(np.maximum(stiff.shed.torque(angle), 0.0), angle)
     assert shedding.MACHINE.work(stiff)[0].energy == pytest.approx(wanted, rel=1e-5)

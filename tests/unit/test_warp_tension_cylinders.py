@@ -5,6 +5,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from cloths import cloth
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -66,7 +67,7 @@ def test_more_tension_in_the_shed_never_relieves_a_cylinder(least: float, more: 
 
 def test_the_worst_case_is_checked_where_standing_warps_would_pass() -> None:
     """608 warps of 15 N and 39.8 N when lifted: the pull is 16.7 kN, not 9.1 kN."""
-    loom = {"warps": "608", "width": "1.316m", "spacer_tube": "114.3x6.3", "bearing": "UCF 207"}
+    loom = {"cloth.warps": "608", "width": "1.316m", "spacer_tube": "114.3x6.3", "bearing": "UCF 207"}
     held = failed(**loom, tension_shed="15N", tension_beat="15N")
     assert held == []
     worst = failed(**loom, tension_shed="39.8N")
@@ -83,7 +84,7 @@ def test_the_spacer_bears_both_strands(wrap: float) -> None:
 
 def test_every_cylinder_bends_as_a_beam_of_its_section() -> None:
     """Against the general beam with the same complex load."""
-    width, modulus = usual().params.width, usual().params.modulus
+    width, modulus = usual().params.span, usual().params.modulus
     for one in cylinders(usual()):
         rigidity = modulus * math.pi / 4 * (one.outer**4 - one.inner**4)
         bent = bend(Beam(width, (0.0, width), (LineLoad(0.0, width, one.load),)))
@@ -129,10 +130,13 @@ def test_the_thesis_bearing_lives_long_and_stands_safe() -> None:
     assert found["bearing_time"]["upper"] == pytest.approx(found["bearing_life"]["upper"] / turns)
 
 
+WIDE = {"cloth.warps": "3200", "cloth.warp_pitch": "1.25mm"}
+
+
 def test_a_wide_loom_takes_larger_bearings_and_small_ones_fail() -> None:
-    wide = results(warps="3200", width="4m")
+    wide = results(**WIDE)
     assert find_bearing(wide["bearing"]["upper"]).static >= 1.5 * wide["cylinder_reaction"]["upper"]
-    assert "static safety, UCF 207" in failed(warps="3200", width="4m", bearing="UCF 207")
+    assert "static safety, UCF 207" in failed(**WIDE, bearing="UCF 207")
 
 
 def test_stress_of_a_shaft_end() -> None:
@@ -144,16 +148,16 @@ def test_stress_of_a_shaft_end() -> None:
 
 @pytest.mark.parametrize("pitch", ["0.5mm", "2mm", "10mm"])
 def test_slots_have_the_warps_pitch_and_leave_metal(pitch: str) -> None:
-    slots = slots_of(WarpTensionParams.read({"warp_pitch": pitch}))
+    slots = slots_of(WarpTensionParams.read({"cloth.warp_pitch": pitch}))
     assert slots.warp < slots.width < slots.pitch
     assert slots.depth == slots.warp
 
 
 def test_slots_that_do_not_fit_fail() -> None:
-    assert failed(warp_diameter="1.8mm") == []
+    assert failed(**{"cloth.yarns.warp_diameter": "1.8mm"}) == []
     assert failed(slot_width="0.9mm") == ["warp in its slot"]
     assert failed(slot_width="2.5mm") == ["land between slots"]
-    assert {"warps beside each other", "land between slots"} <= set(failed(warp_diameter="2.2mm"))
+    assert {"warps beside each other", "land between slots"} <= set(failed(**{"cloth.yarns.warp_diameter": "2.2mm"}))
 
 
 def test_the_tension_over_a_row_is_the_stretch_of_a_spring() -> None:
@@ -183,9 +187,7 @@ def test_every_take_up_brings_the_tension_back(between: int) -> None:
 
 
 def test_warps_that_slip_on_the_spacer_pull_more_behind_it() -> None:
-    assert tension_beyond(WarpTensionParams(spacer_wrap=math.pi / 2, friction=0.2)) == pytest.approx(
-        15 * math.exp(0.1 * math.pi)
-    )
+    assert tension_beyond(WarpTensionParams(spacer_wrap=math.pi / 2)) == pytest.approx(15 * math.exp(0.1 * math.pi))
 
 
 def test_a_step_of_the_motor_is_fine_enough() -> None:
@@ -195,6 +197,6 @@ def test_a_step_of_the_motor_is_fine_enough() -> None:
 
 
 def test_a_spacer_that_no_tube_can_be_fails_its_checks() -> None:
-    made = MACHINE.report(MACHINE.design(WarpTensionParams(tension=1e4, width=6.0)))
+    made = MACHINE.report(MACHINE.design(WarpTensionParams(cloth=cloth(tension=1e4), width=6.0)))
     assert {"slope of the spacer", "deflection of the spacer"} <= {check.name for check in made.failed}
     assert not MACHINE.report(usual()).warnings

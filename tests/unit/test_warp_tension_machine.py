@@ -3,6 +3,7 @@
 import math
 
 import pytest
+from cloths import cloth
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -28,9 +29,10 @@ def test_the_thesis_tube_comes_out_and_passes() -> None:
 
 
 @settings(max_examples=40)
-@given(warps=st.integers(50, 4000), tension=st.floats(2.0, 40.0), width=st.floats(0.3, 4.0))
+@given(warps=st.integers(80, 4000), tension=st.floats(2.0, 40.0), width=st.floats(0.3, 4.0))
 def test_the_tube_chosen_keeps_the_limits_and_a_millimetre_less_does_not(warps, tension, width) -> None:
-    params = WarpTensionParams(warps=warps, tension=tension, width=width)
+    woven = cloth(warps=warps, tension=tension, warp_pitch=width / warps)
+    params = WarpTensionParams(cloth=woven)
     design = MACHINE.design(params)
     assert design.slope < design.slope_loaded <= params.slope_limit
     assert design.deflection < design.deflection_loaded <= params.deflection_limit
@@ -38,13 +40,13 @@ def test_the_tube_chosen_keeps_the_limits_and_a_millimetre_less_does_not(warps, 
     assert design.outer_radius - design.inner_radius == pytest.approx(params.wall)
     if design.inner_radius > 65.5 * mm:
         less = dict(inner_radius=design.inner_radius - mm, outer_radius=design.outer_radius - mm)
-        smaller = MACHINE.design(WarpTensionParams(warps=warps, tension=tension, width=width, **less))
+        smaller = MACHINE.design(WarpTensionParams(cloth=woven, **less))
         assert smaller.deflection_loaded > params.deflection_limit or smaller.slope_loaded > params.slope_limit
 
 
 def test_own_weight_is_added_to_the_pull_where_limits_are_judged() -> None:
     """A tube 610 x 30 mm over 8.1 m weighs half of what the warps pull: too much for the millimetre of sag."""
-    wide = dict(warps="4000", width="8.1m", outer_radius="305mm", inner_radius="275mm")
+    wide = {"cloth.warps": "4000", "width": "8.1m", "outer_radius": "305mm", "inner_radius": "275mm"}
     design, report = made(**wide), answer(**wide)
     weight = math.pi * (0.305**2 - 0.275**2) * 7850 * 9.81
     assert design.self_weight == pytest.approx(weight)
@@ -83,7 +85,7 @@ def test_bearings_for_the_slope() -> None:
 
 
 def test_where_no_tube_is_enough_the_largest_fails_its_checks() -> None:
-    report = answer(warps="100000", tension="1000N", width="20m", wall="1mm")
+    report = answer(wall="1mm", **{"cloth.warps": "100000", "cloth.warp_pitch": "0.2mm", "cloth.tension": "1000N"})
     assert {"slope in the bearings", "deflection"} <= {check.name for check in report.failed}
     assert all(check.cure for check in report.failed)
 
@@ -109,11 +111,14 @@ def test_the_thesis_motor_is_enough_behind_a_reducer_of_200() -> None:
     assert made(ratio="100").motor.power > 10 * design.motor.power
 
 
+WIDE = {"cloth.warps": "3200", "cloth.warp_pitch": "1.25mm"}
+
+
 def test_a_wide_loom_takes_a_larger_ratio_before_it_gives_up() -> None:
-    wide = made(warps="3200", width="4m")
+    wide = made(**WIDE)
     assert wide.reducer.ratio > 100
     assert wide.motor is not None
-    report = answer(warps="3200", width="4m", ratio="10", tension_shed="18N")
+    report = answer(**WIDE, ratio="10", tension_shed="18N")
     assert [check.name for check in report.failed] == ["motor torque"]
     assert "set another ratio" in report.warnings[0]
 
@@ -168,9 +173,10 @@ def test_report_is_whole() -> None:
     [
         ({"outer_radius": "60mm", "inner_radius": "65mm"}, "outer_radius=60 mm is not above inner_radius=65 mm"),
         ({"outer_radius": "65mm", "inner_radius": "65mm"}, "give radii, not diameters"),
-        ({"warps": "0"}, "at least 1"),
-        ({"tension": "15kg"}, "wrong unit"),
+        ({"cloth.warps": "0"}, "at least 2"),
+        ({"cloth.tension": "15kg"}, "wrong unit"),
         ({"width": "0m"}, "at least 0.001 m"),
+        ({"width": "1m"}, "width=1 m for a cloth of 1.2 m; at least the width of the cloth"),
         ({"efficiency": "1.2"}, "at most 1"),
         ({"efficiency": "0"}, "at least 0.01"),
         ({"slope_limit": "4"}, "below 0.5 rad"),

@@ -5,6 +5,7 @@ from itertools import combinations
 
 import numpy as np
 import pytest
+from cloths import cloth
 
 from ilmek.cams.laws import SMOOTH_LAWS
 from ilmek.errors import ParameterError
@@ -96,7 +97,7 @@ def test_colour_change_is_the_mean_over_all_pairs_of_tubes(tubes: int) -> None:
 @pytest.mark.parametrize(("pitch", "speed", "pull"), [(0.004, 0.25, 2.0), (0.0006, 1.0, 0.5), (0.008, 0.05, 40.0)])
 def test_no_move_takes_longer_than_the_window_and_its_further_pitches(cycle, pitch, speed, pull, jerk) -> None:
     params = WeaverParams(
-        knot_pitch=pitch,
+        cloth=cloth(warp_pitch=pitch / 2),
         carriage_speed=speed,
         carriage_acceleration=pull,
         carriage_jerk=jerk,
@@ -207,7 +208,7 @@ def test_work_of_the_moves_is_their_greatest_kinetic_energy() -> None:
         "colours": "colour change",
     }
     for name, mass, travel, limits in (
-        ("carriages", 3.0, params.knot_pitch, carriage),
+        ("carriages", 3.0, params.cloth.knot_pitch, carriage),
         ("colours", tubes, 16 * 12e-3 / 3, selector),
     ):
         time = np.linspace(0.0, move_time(travel, limits), 20001)

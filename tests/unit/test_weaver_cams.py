@@ -77,7 +77,7 @@ def test_the_cams_torque_does_the_work_of_brake_tools_and_cutter(closure: str) -
     braked = handler.brake * turn * params.pinion
     path = np.linspace(0.0, opener.travel, 20_001)
     friction = np.trapezoid(opener.force(path, np.ones(20_001)) - opener.force(path, -np.ones(20_001)), path)
-    along = head.grippers.crossing * 2 * params.forces.friction * 2 * (opener.sides[-1] + opener.slots[-1])
+    along = head.grippers.crossing * 2 * params.friction * 2 * (opener.sides[-1] + opener.slots[-1])
     led = 2 * params.forces.yarn_pull * head.grippers.crossing
     forces = params.forces
     drawn = 2 * forces.yarn_pull * params.centre_stroke

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from cloths import cloth
 
 from ilmek.elements.carpet_yarns import usual_warp
 from ilmek.machines.weaver import MACHINE, WeaverParams, design
@@ -26,7 +27,7 @@ def checks_of(params: WeaverParams) -> dict[str, Check]:
 @pytest.mark.parametrize("pitch", [1 * mm, 2 * mm, 8 * mm])
 def test_the_opener_stores_the_energy_of_the_warps_it_displaces(pitch: float) -> None:
     """Without friction its force over its travel is the energy of all strings, neighbours and pair, both sides."""
-    opener = design(WeaverParams(knot_pitch=pitch)).opener
+    opener = design(WeaverParams(cloth=cloth(warp_pitch=pitch / 2))).opener
     travel = np.linspace(0.0, opener.travel, 20_001)
     work = float(np.trapezoid(opener.force(travel, np.zeros(20_001)), travel))
     moved = np.append(shifts(opener.shift, opener.pitch, opener.diameter), opener.slot_shift)
@@ -52,7 +53,7 @@ def test_grip_and_press() -> None:
     """Jaws with friction on both sides hold n ends; their force begins where they touch the loose yarn."""
     params = WeaverParams()
     force = grip_force(params, 2, params.forces.tightening)
-    assert 2 * params.forces.friction * force == pytest.approx(1.5 * 2 * params.forces.tightening)
+    assert 2 * params.friction * force == pytest.approx(1.5 * 2 * params.forces.tightening)
     touch = params.jaw - 2 * (params.yarn - params.pressed)
     share = pressed(params, np.array([0.0, touch, (touch + params.jaw) / 2, params.jaw]), 2)
     assert share == pytest.approx([0.0, 0.0, 0.5, 1.0])
@@ -101,7 +102,7 @@ def test_200_tubes_on_a_slide_do_not_pass() -> None:
 
 @pytest.mark.parametrize("pitch", [0.25, 0.5, 1, 2, 4])
 def test_the_points_of_the_opener_need_the_gap_of_the_warps(pitch: float) -> None:
-    found = checks_of(WeaverParams(knot_pitch=2 * pitch * mm))["opener: points between two warps"]
+    found = checks_of(WeaverParams(cloth=cloth(warp_pitch=pitch * mm)))["opener: points between two warps"]
     assert found.limit == pytest.approx(pitch * mm - usual_warp(pitch * mm).diameter)
     assert found.ok == (pitch > 0.3)
 
@@ -110,7 +111,14 @@ def test_every_check_of_a_head_has_a_cure_and_no_design_drops_any() -> None:
     usual = checks_of(WeaverParams())
     assert all(check.cure for check in usual.values())
     hard = checks_of(
-        WeaverParams(knot="asymmetric", knot_pitch=0.5 * mm, tubes=255, head_width=0.03, opening=2 * mm, tool_mass=90.0)
+        WeaverParams(
+            knot="asymmetric",
+            cloth=cloth(warp_pitch=0.25 * mm),
+            tubes=255,
+            head_width=0.03,
+            opening=2 * mm,
+            tool_mass=90.0,
+        )
     )
     named = {name.split(",")[0] for name in usual}
     assert {name.split(",")[0] for name in hard} - {"asymmetric knot tied"} == named - {"symmetric knot tied"}

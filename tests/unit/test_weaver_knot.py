@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from cloths import cloth
 
 from ilmek.carpet.pile import PileParams, knot_length
 from ilmek.carpet.quality import Quality
@@ -34,13 +35,13 @@ def moved(cyclogram: Cyclogram, track: str, **ends: tuple[float, float]) -> Cycl
 @pytest.mark.parametrize("law", ["modified-sine", "cycloidal", "parabolic"])
 @pytest.mark.parametrize("pitch", [0.001, 0.004, 0.02, 0.1])
 def test_the_head_ties_the_symmetric_knot_at_any_pitch(law: str, pitch: float) -> None:
-    made = design(WeaverParams(law=law, knot_pitch=pitch))
+    made = design(WeaverParams(law=law, cloth=cloth(warp_pitch=pitch / 2)))
     assert made.knot_tied == "symmetric"
     assert made.tied.word == (-2, -3)
 
 
 def test_the_yarn_drawn_is_the_yarn_bills() -> None:
-    head = design(WeaverParams(pile_height=0.010, cut_waste=0.002, yarn_density=0.9e-3))
+    head = design(WeaverParams(pile_height=0.010, cut_waste=0.002, cloth=cloth(pile_density=0.9e-3)))
     billed = knot_length("symmetric", Quality(250.0, 250.0), 0.9e-3, PileParams(pile_height=0.010, cut_waste=0.002))
     results = MACHINE.report(head).as_json()["results"]
     assert results["yarn_drawn"] == pytest.approx(billed, rel=1e-12)
@@ -49,7 +50,7 @@ def test_the_yarn_drawn_is_the_yarn_bills() -> None:
 
 
 def test_short_yarn_of_a_fine_carpet_is_drawn_longer_and_reported() -> None:
-    made = MACHINE.report(design(WeaverParams(knot_pitch=0.0005, pile_height=0.003)))
+    made = MACHINE.report(design(WeaverParams(cloth=cloth(warp_pitch=0.00025), pile_height=0.003)))
     results = made.as_json()["results"]
     assert results["yarn_drawn"] > results["yarn_billed"] + 0.005
     assert [check.name for check in made.failed] == ["opener: points between two warps"]

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from cloths import cloth
 
 from ilmek.carpet.ground import ground_yarns
 from ilmek.carpet.quality import Quality
@@ -39,7 +40,7 @@ def failed(made: Weft) -> list[str]:
 def test_a_bobbin_holds_yarn_for_its_share_of_the_volume(diameter: float) -> None:
     """Layer by layer, round by round: the yarn's own volume is the packing times that of the winding."""
     made, carried = shuttle(bobbin_diameter=diameter)
-    size, yarns = carried.bobbin, made.params.carpet_yarns
+    size, yarns = carried.bobbin, made.params.cloth.carpet_yarns
     radii = np.linspace(size.core / 2, size.diameter / 2, 100_001)
     winding = float(np.trapezoid(2 * math.pi * radii * size.length, radii))
     for wound, yarn in zip(carried.windings, (yarns.straight_weft, yarns.sinuous_weft), strict=True):
@@ -61,7 +62,7 @@ def test_the_sinuous_weft_is_longer_and_its_bobbin_lasts_longer() -> None:
 @pytest.mark.parametrize("carrier", ["shuttle", "rapier"])
 @pytest.mark.parametrize("width", [0.6, 1.2, 6.0])
 def test_the_motion_keeps_its_limits_and_covers_the_cloth(carrier: str, width: float) -> None:
-    made = design(WeftParams(carrier=carrier, warps=round(width / (2 * mm))))
+    made = design(WeftParams(carrier=carrier, cloth=cloth(warps=round(width / (2 * mm)))))
     passage, params = made.passage, made.params
     time = np.linspace(0.0, passage.time, 200_001)
     position, speed, acceleration, jerk = passage.at(time)
@@ -71,7 +72,7 @@ def test_the_motion_keeps_its_limits_and_covers_the_cloth(carrier: str, width: f
     assert np.abs(np.diff(acceleration) / step).max() <= params.jerk * (1 + 1e-6)
     assert np.abs(jerk).max() <= params.jerk * (1 + 1e-9)
     assert np.gradient(position, step)[1:-1] == pytest.approx(speed[1:-1], abs=1e-3)
-    assert passage.run + params.cloth_width <= position.max() == pytest.approx(passage.stroke)
+    assert passage.run + params.cloth.width <= position.max() == pytest.approx(passage.stroke)
     assert position[-1] == pytest.approx(0.0 if passage.back else passage.stroke, abs=1e-9)
 
 
@@ -85,7 +86,7 @@ def test_a_rapier_goes_there_and_back_and_pauses_to_grip() -> None:
 def test_the_sag_of_a_rapier_is_that_of_a_beam() -> None:
     """Against the integral of the curvature along the rapier."""
     made, carried = rapier()
-    span = made.params.cloth_width + 2 * made.params.edge
+    span = made.params.cloth.width + 2 * made.params.edge
     tall, wide, wall = carried.tube
     area = tall * wide - (tall - 2 * wall) * (wide - 2 * wall)
     x = np.linspace(0, span, 20_001)
@@ -122,7 +123,7 @@ def test_wefts_that_cross_wrongly_let_the_outermost_warps_go() -> None:
     [
         (dict(bobbin_diameter=8 * mm), "rows between two changes of a bobbin"),
         (dict(lift=20 * mm), "opening of the shed for the carrier"),
-        (dict(warp_pitch=40 * mm, warps=30, bobbin_diameter=8 * mm), "lifted warps under the shuttle"),
+        (dict(cloth=cloth(warp_pitch=40 * mm, warps=30), bobbin_diameter=8 * mm), "lifted warps under the shuttle"),
         (dict(edge=300 * mm), "gap that the shuttle bridges at the edge"),
         (dict(acceleration=300.0, jerk=1e5), "force on the shuttle's magnets"),
         (dict(brake=50.0), "tension of the straight weft"),
@@ -144,7 +145,7 @@ def test_an_edge_without_selvedge_is_reported() -> None:
 @pytest.mark.parametrize(
     ("settings", "name"),
     [
-        (dict(warps=3008), "sag of the rapier"),
+        (dict(cloth=cloth(warps=3008)), "sag of the rapier"),
         (dict(rapier_height=3 * mm, acceleration=500.0, jerk=1e5), "safety of the rapier against buckling"),
         (dict(room=0.5), "room of the rapier beside the cloth"),
         (dict(brake=30.0), "pull of the weft in the gripper"),
@@ -158,11 +159,11 @@ def test_rapiers_that_would_not_work_fail_a_check_with_a_cure(settings: dict[str
 
 
 def test_the_cheaper_carrier_is_chosen_or_the_quicker() -> None:
-    cheap, quick = design(WeftParams(warps=308)), design(WeftParams(warps=308, aim="time"))
+    cheap, quick = design(WeftParams(cloth=cloth(warps=308))), design(WeftParams(cloth=cloth(warps=308), aim="time"))
     assert cheap.price <= min(one.price for one in cheap.alternatives)
     assert quick.time <= min(one.time for one in quick.alternatives)
     assert (cheap.carrier, quick.carrier) == ("shuttle", "rapier")
-    assert design(WeftParams(aim="time", warps=1508)).carrier == "shuttle"
+    assert design(WeftParams(aim="time", cloth=cloth(warps=1508))).carrier == "shuttle"
     choice = {one.name: one for one in design(WeftParams()).choices}["bobbin"]
     assert choice.decided_by == "rows between two changes of a bobbin"
 
@@ -194,35 +195,36 @@ def test_bill_and_loom_have_the_same_wefts_warps_and_lengths(selvedge: int, pitc
         2 * math.ceil(20 * mm / yarns.sinuous_weft.diameter) * sinuous.length / loom.rows
     )
     assert warp.length / (1.8 + 2 * ground.fringe + ground.loom_waste) == pytest.approx(loom.warps)
-    assert loom.weft.params.cloth_width == pytest.approx(loom.task.cloth_width)
+    assert loom.weft.params.cloth is loom.task.cloth
 
 
 def test_the_bobbins_of_a_shuttle_last_longer_for_a_narrower_cloth_and_a_thinner_weft() -> None:
     made, carried = shuttle()
-    params = made.params
-    assert made.bobbins_for(params.warps, params.yarns) == made.bobbins
+    params, own = made.params, made.params.cloth
+    assert made.bobbins_for(own.warps, own.yarns) == made.bobbins
     assert [one.rows for one in made.bobbins] == [one.rows for one in carried.windings]
-    narrow = made.bobbins_for(params.warps // 2, params.yarns)
+    narrow = made.bobbins_for(own.warps // 2, own.yarns)
     same = design(
         replace(
             params,
             carrier="shuttle",
-            warps=params.warps // 2,
+            cloth=replace(own, warps=own.warps // 2),
             bobbin_diameter=carried.bobbin.diameter,
             bobbin_length=carried.bobbin.length,
         )
     )
     assert narrow == same.bobbins
-    thin = made.bobbins_for(params.warps, replace(params.yarns, straight_weft_density=2e-4))
+    thin = made.bobbins_for(own.warps, replace(own.yarns, straight_weft_density=2e-4))
     assert thin[0].rows > made.bobbins[0].rows
-    assert rapier()[0].bobbins_for(100, params.yarns) == ()
+    assert rapier()[0].bobbins_for(100, own.yarns) == ()
 
 
 @pytest.mark.parametrize("carrier", ["shuttle", "rapier"])
 @pytest.mark.parametrize("pitch", [0.25 * mm, 4 * mm])
 @pytest.mark.parametrize("width", [0.6, 6.0])
 def test_every_width_and_pitch_has_a_report(carrier: str, pitch: float, width: float) -> None:
-    params = WeftParams(carrier=carrier, warps=round(width / pitch), warp_pitch=pitch, rows=round(1 / pitch))
+    woven = cloth(warps=round(width / pitch), warp_pitch=pitch)
+    params = WeftParams(carrier=carrier, cloth=woven, rows=round(1 / pitch))
     report = MACHINE.report(design(params))
     assert not [warning for warning in report.warnings if "left out" in warning]
     assert all(check.cure for check in report.checks if not check.ok and check.name != "parts")

@@ -33,7 +33,9 @@ def command(name: str | None, force: bool, json_to: str | None) -> None:
         show_table(("machine", "description"), list(machines.items()))
     else:
         say(f"{form.machine}: {form.summary}")
-        show_table(("parameter", "default", "unit", "allowed", "meaning"), [_row(p) for p in form.parameters])
+        show_table(
+            ("parameter", "default", "unit", "allowed", "meaning"), [_row(p) for p in form.parameters], wide=(0,)
+        )
         if form.machines:
             say(f"also every parameter of {', '.join(form.machines)}, as {form.machines[0]}.NAME=VALUE")
 

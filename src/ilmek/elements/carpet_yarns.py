@@ -1,6 +1,7 @@
 """The yarns of a carpet, warp, two wefts and pile: described once, for the bill and every machine that touches them."""
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 from ilmek.elements.yarns import (
     COTTON,
@@ -35,6 +36,9 @@ class CarpetYarnParams(Params):
     )
     warp_stiffness: float | None = kind.force(
         None, at_least=1.0, at_most=1e7, doc="force over strain of a warp, EA; default: by material and count"
+    )
+    warp_strength: float | None = kind.force(
+        None, at_least=1e-6, at_most=1e6, doc="breaking force of a warp; default: by material and count"
     )
     weft: str = kind.choice(COTTON.name, tuple(MATERIALS), doc="material of both wefts")
     straight_weft_density: float | None = kind.line_density(
@@ -89,6 +93,7 @@ class CarpetYarns:
     pressed: float
 
 
+@lru_cache(maxsize=64)
 def carpet_yarns(params: CarpetYarnParams, pitch: float) -> CarpetYarns:
     """The yarns of a carpet with warps at a pitch [m]; whether they fit beside each other, their machines check."""
     warp, friction = params.warp_density or usual_warp_density(pitch, params.warp), params.friction
@@ -99,6 +104,7 @@ def carpet_yarns(params: CarpetYarnParams, pitch: float) -> CarpetYarns:
             usual,
             diameter=params.warp_diameter or usual.diameter,
             stiffness=params.warp_stiffness or usual.stiffness,
+            breaking_force=params.warp_strength or usual.breaking_force,
         ),
         straight_weft=yarn(params.weft, params.straight_weft_density or warp, friction),
         sinuous_weft=yarn(params.weft, params.sinuous_weft_density or warp / 2, friction),

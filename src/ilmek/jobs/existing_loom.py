@@ -114,7 +114,7 @@ def for_rows(existing: ExistingLoom, row_pitch: float) -> LoomDesign:
 def row_pitch_left(existing: ExistingLoom, row_pitch: float) -> float:
     """Distance of the rows [m] that the loom's beat leaves of rows required at a distance [m]."""
     beat = existing.design.beat
-    finer = row_pitch / existing.design.task.row_pitch
+    finer = row_pitch / existing.design.task.cloth.row_distance
     fabric = beat.fabric
     scaled = replace(fabric, laid=fabric.laid * finer, jammed=fabric.jammed * finer, packing=fabric.packing * finer)
     return float(scaled.spacing(beat.beat_force_warp))
@@ -140,7 +140,7 @@ def carpet_checks(
         *_fit_checks(made, chart),
         *_row_checks(existing, chart),
         colours_check(chart, heads, params),
-        *_yarn_checks(made, carpet_yarns(yarns, params.pitch), knot_yarn),
+        *_yarn_checks(made, carpet_yarns(yarns, made.task.cloth.warp_pitch), knot_yarn),
     )
 
 
@@ -159,10 +159,10 @@ def colours_check(chart: Chart, heads: int, params: AutomatedLoomParams) -> Chec
 
 def _fit_checks(made: LoomDesign, chart: Chart) -> tuple[Check, ...]:
     """Warps, their pitch, the knot and the length."""
-    params, quality = made.params, chart.quality
-    own = 0.5 / params.pitch
-    pitch, dense = format_quantity(params.pitch, "mm"), f"{own * dm:.4g}"
-    widest = format_quantity((made.warps - params.selvedge_warps) * params.pitch, "cm")
+    params, quality, warp_pitch = made.params, chart.quality, made.task.cloth.warp_pitch
+    own = 0.5 / warp_pitch
+    pitch, dense = format_quantity(warp_pitch, "mm"), f"{own * dm:.4g}"
+    widest = format_quantity((made.warps - params.selvedge_warps) * warp_pitch, "cm")
     source = f"cams, slots and heads of the loom stand at warps {pitch} apart: {dense} knots/dm"
     return (
         at_most(
@@ -200,7 +200,7 @@ def _fit_checks(made: LoomDesign, chart: Chart) -> tuple[Check, ...]:
 
 def _row_checks(existing: ExistingLoom, chart: Chart) -> tuple[Check, ...]:
     """The distance of rows: what the beat leaves, and what the take-up moves."""
-    row_pitch, own = 1 / chart.quality.along, existing.design.task.row_pitch
+    row_pitch, own = 1 / chart.quality.along, existing.design.task.cloth.row_distance
     most = row_pitch * (1 + existing.design.params.row_tolerance)
     source = "row pitch of the quality, and row_tolerance; fabric as assumed by this project"
     dense = f"{existing.design.params.quality.along * dm:.4g}"

@@ -63,7 +63,7 @@ class LoomOrder:
         return {
             "heads": wishes.heads,
             "deadline": wishes.deadline,
-            "warp_pitch": self.params.pitch,
+            "warp_pitch": self.params.warp_pitch or self.params.quality.warp_pitch,
             "aim": self.params.aim,
             "loom_file": None if self.existing is None else str(self.existing.path),
         }

@@ -44,7 +44,7 @@ def loom_setup(made: LoomDesign, carpet: CarpetPile, programme: Programme) -> Lo
         quality=chart.quality,
         knot=chart.knot,
         yarns=chart.yarns,
-        warp_pitch=params.pitch,
+        warp_pitch=made.task.cloth.warp_pitch,
         rows=chart.rows,
         columns=chart.columns,
         heads=programme.heads,

@@ -173,7 +173,7 @@ def weave_results(woven: WeaveResult) -> dict[str, Any]:
         "changes_naive": programme and programme.naive.changes,
         "package_changes": programme and len(programme.tubes.changes),
         "warps": made and made.warps,
-        "warp_pitch": made and made.params.pitch,
+        "warp_pitch": made and made.task.cloth.warp_pitch,
     }
 
 

@@ -118,7 +118,7 @@ class BeatDrive:
     beat_strokes = computed("1", "strokes of a beat across the width", lambda it: it.beat.strokes)
     beat_time = computed("s", "time of a beat from rest to rest, all its strokes", lambda it: it.beat.time)
     beat_force_width = computed(
-        "N/m", "the same over the width of these warps", lambda it: it.force / (it.beaten * it.task.params.pitch)
+        "N/m", "the same over the width of these warps", lambda it: it.force / (it.beaten * it.task.cloth.warp_pitch)
     )
     beat_force_warp = computed("N", "the same for a warp", lambda it: it.force / it.beaten)
     beat_force_knot = computed("N", "the same for a knot", lambda it: 2 * it.force / it.beaten)
@@ -126,7 +126,7 @@ class BeatDrive:
 
     @computed("N", "force for a warp that the required row pitch needs, with the fabric as assumed")
     def beat_force_needed(self) -> float:
-        return float(self.fabric.resistance(self.task.row_pitch))
+        return float(self.fabric.resistance(self.task.cloth.row_distance))
 
     @computed("mm", "distance of the rows that the beat leaves, with the fabric as assumed")
     def row_pitch_left(self) -> float:

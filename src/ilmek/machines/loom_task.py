@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from ilmek.elements.carpet_yarns import CarpetYarns
 from ilmek.params import Params
 from ilmek.records import record
+from ilmek.weaving.cloth import Cloth
 
 if TYPE_CHECKING:
     from ilmek.machines.arrangement.side_view import SideView
@@ -20,7 +21,7 @@ class LoomTask:
     """The loom's task for one of its machines.
 
     params   of the loom                                   rows, columns  of knots
-    yarns    of the carpet: warp, wefts, pile            tension  of a warp at rest [N]
+    cloth    that is woven: warps, rows, yarns, tension
     period   time of a row's wefts and beats [s]; nan before it is known
     take_up_time, row_time  [s]: of the take-up; of the shortest row; nan before they are known
     designs  of the machines designed before, by their names
@@ -31,8 +32,7 @@ class LoomTask:
     params: "AutomatedLoomParams"
     rows: int
     columns: int
-    yarns: CarpetYarns
-    tension: float
+    cloth: Cloth
     designs: Mapping[str, Any]
     period: float = float("nan")
     take_up_time: float = float("nan")
@@ -41,29 +41,14 @@ class LoomTask:
     beat: "BeatDrive | None" = None
 
     @property
-    def warps(self) -> int:
-        """Warps: two for each knot of a row, and the selvedges'."""
-        return 2 * self.columns + self.params.selvedge_warps
-
-    @property
-    def cloth_width(self) -> float:
-        """Width of all warps [m], selvedges included."""
-        return self.warps * self.params.pitch
+    def yarns(self) -> CarpetYarns:
+        """The yarns of the cloth."""
+        return self.cloth.carpet_yarns
 
     @property
     def width(self) -> float:
         """Distance of the bearings of cylinders and cam shaft [m]."""
-        return self.cloth_width + 2 * self.params.margin
-
-    @property
-    def knot_pitch(self) -> float:
-        """Distance of two neighbouring knots [m]."""
-        return 2 * self.params.pitch
-
-    @property
-    def row_pitch(self) -> float:
-        """Distance of two rows [m]."""
-        return 1 / self.params.quality.along
+        return self.cloth.width + 2 * self.params.margin
 
     def parameters(self, name: str, derived: P) -> P:
         """The parameters of one of its machines: those derived for it, with those that the user set in their place.

@@ -67,8 +67,9 @@ def planned_compensation(task: LoomTask, gain: float) -> float:
     given = task.params.machines.of("tension-compensator")
     usual = {"rate_share": RATE_SHARE, "tension_most": TENSION_MOST, "tension_least": TENSION_LEAST, "bars": 0}
     share, most, least, bars = (_number(given.get(name), value) for name, value in usual.items())
-    number = int(bars) or bars_needed(task.tension, gain, share, most, least)
-    return 1 - (compensated_tension(task.tension, gain, number, share)[0] - task.tension) / gain if gain > 0 else 0.0
+    tension = task.cloth.warp_tension
+    number = int(bars) or bars_needed(tension, gain, share, most, least)
+    return 1 - (compensated_tension(tension, gain, number, share)[0] - tension) / gain if gain > 0 else 0.0
 
 
 def _number(value: object, usual: float) -> float:
@@ -80,7 +81,7 @@ def loads_in_loom(task: LoomTask) -> WarpLoads:
 
     For the beat the compensator is taken as fixed: that stretches the warps most.
     """
-    side, tension, stiffness = task.side, task.tension, task.yarns.warp.stiffness
+    side, tension, stiffness = task.side, task.cloth.warp_tension, task.yarns.warp.stiffness
     assert side is not None
     compensator = task.designs.get("tension-compensator")
     if compensator is None:
@@ -89,5 +90,5 @@ def loads_in_loom(task: LoomTask) -> WarpLoads:
     else:
         lifted, others = compensator.tension_open, compensator.tension_low
     if task.beat is None:
-        return WarpLoads(task.warps, task.warps, tension, lifted, others, tension)
-    return WarpLoads(task.warps, task.beat.beaten, tension, lifted, others, tension + task.beat.warp_force_extra)
+        return WarpLoads(task.cloth.warps, task.cloth.warps, tension, lifted, others, tension)
+    return WarpLoads(task.cloth.warps, task.beat.beaten, tension, lifted, others, tension + task.beat.warp_force_extra)

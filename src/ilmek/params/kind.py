@@ -123,6 +123,9 @@ def text(default: str | None, *, doc: str, symbol: str = "") -> Any:
     return param(default, doc=doc, symbol=symbol)
 
 
-def nested(cls: Callable[[], Any], *, doc: str) -> Any:
-    """Declare a field that holds other `Params`; its parameters are set by dotted names, `pile_handler.rise`."""
-    return field(default_factory=cls, metadata=dict(nested=cls, doc=doc))
+def nested(cls: Callable[[], Any], *, doc: str, default: Any = None) -> Any:
+    """Declare a field that holds other `Params`; its parameters are set by dotted names, `pile_handler.rise`.
+
+    default  the record whose values are the defaults here; without one those of the class
+    """
+    return field(default_factory=cls if default is None else lambda: default, metadata=dict(nested=cls, doc=doc))

@@ -57,9 +57,13 @@ class Overrides:
             raise ParameterError(f"{machine}: {error.given}", allowed=error.allowed, do=error.do) from None
 
 
-def overrides(namespaces: Namespaces, *, doc: str) -> Any:
-    """Declare a field of `Overrides`; `namespaces`, called when needed, gives the Params of each machine by name."""
-    return field(default_factory=Overrides, metadata=dict(overrides=namespaces, doc=doc))
+def overrides(namespaces: Namespaces, *, without: tuple[str, ...] = (), doc: str) -> Any:
+    """Declare a field of `Overrides`.
+
+    namespaces  called when needed, gives the Params of each machine by name
+    without     nested records of the machines that are handed to all of them, so that none can have another
+    """
+    return field(default_factory=Overrides, metadata=dict(overrides=namespaces, without=without, doc=doc))
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,10 +86,11 @@ class Params:
         """Raise ParameterError where parameters contradict each other; nothing by default."""
 
     @classmethod
-    def read(cls: type[P], settings: Mapping[str, Setting], *, prefix: str = "") -> P:
+    def read(cls: type[P], settings: Mapping[str, Setting], *, prefix: str = "", default: P | None = None) -> P:
         """Parameters from settings by name, alias or dotted name; texts with units are allowed.
 
-        prefix  of the names in messages, where these parameters are nested in others
+        prefix   of the names in messages, where these parameters are nested in others
+        default  the record whose values hold for what is not set; without one the defaults of the class
         Raises ParameterError for an unknown name, and for a parameter set by its name and by its alias.
         """
         own, below = _sorted_settings(cls, settings, prefix)
@@ -96,10 +101,11 @@ class Params:
             shown.check(value)
         for one in fields(cls):
             if "nested" in one.metadata and one.name in below:
-                values[one.name] = one.metadata["nested"].read(below[one.name], prefix=f"{prefix}{one.name}.")
+                inner = _default(one) if default is None else getattr(default, one.name)
+                values[one.name] = type(inner).read(below[one.name], prefix=f"{prefix}{one.name}.", default=inner)
             elif "overrides" in one.metadata and below:
-                values[one.name] = Overrides(MappingProxyType(_read_overrides(one.metadata["overrides"](), below)))
-        return cls(**values)
+                values[one.name] = Overrides(MappingProxyType(_read_overrides(cls, one, below)))
+        return cls(**values) if default is None else replace(default, **values)
 
     def with_values(self: P, values: Mapping[str, Value]) -> P:
         """The same with other values [SI] by name or dotted name. Raises ParameterError as the record itself does."""
@@ -166,6 +172,15 @@ def _sorted_settings(
     return [(known[name], settings[given]) for name, given in given_as.items()], below
 
 
+def _handed_down(loom: type[Params], given: str) -> ParameterError:
+    """For a parameter of a record that every machine has alike: the loom's own of that name is meant."""
+    own = given.split(".", 2)[2]
+    near = own if own in reachable(loom, machines=False) else ""
+    return ParameterError(
+        f"{given} is that of all machines of the loom", do=f"did you mean {near}?" if near else "set it for the loom"
+    )
+
+
 def _unknown(cls: type[Params], given: str, prefix: str) -> ParameterError:
     names = [f"{prefix}{name}" for name in reachable(cls)]
     names += [f"{prefix}{parameter.alias}".casefold() for parameter in declared(cls) if parameter.alias]
@@ -176,12 +191,15 @@ def _unknown(cls: type[Params], given: str, prefix: str) -> ParameterError:
 
 
 def _read_overrides(
-    namespaces: Mapping[str, type[Params]], below: Mapping[str, Mapping[str, Setting]]
+    loom: type[Params], declared_field: "Field[Any]", below: Mapping[str, Mapping[str, Setting]]
 ) -> dict[str, Value]:
     values: dict[str, Value] = {}
-    for machine, cls in namespaces.items():
+    without = declared_field.metadata["without"]
+    for machine, cls in declared_field.metadata["overrides"]().items():
         known = reachable(cls)
         for given, setting in below.get(machine, {}).items():
+            if given.partition(".")[0] in without:
+                raise _handed_down(loom, f"{machine}.{given}")
             if given not in known:
                 raise _unknown(cls, f"{machine}.{given}", f"{machine}.")
             parameter = replace(known[given], name=f"{machine}.{given}")
@@ -201,7 +219,7 @@ def reachable(cls: type[Params], *, machines: bool = True) -> dict[str, Paramete
 
     machines  False: without those of the machines
     """
-    return dict(_reachable(cls, machines))
+    return dict(_reachable(cls, machines, None))
 
 
 def listed(cls: type[Params]) -> tuple[Parameter, ...]:
@@ -214,19 +232,28 @@ def overridden(cls: type[Params]) -> tuple[str, ...]:
     return tuple(name for one in fields(cls) if "overrides" in one.metadata for name in one.metadata["overrides"]())
 
 
-def _reachable(cls: type[Params], machines: bool) -> Iterator[tuple[str, Parameter]]:
+def _reachable(cls: type[Params], machines: bool, default: Params | None) -> Iterator[tuple[str, Parameter]]:
     own = {parameter.name: parameter for parameter in declared(cls)}
+    if default is not None:
+        own = {name: replace(parameter, default=getattr(default, name)) for name, parameter in own.items()}
     ordered: Any = cls  # as in `declared`
     for one in _ordered(ordered):
         inner: Mapping[str, type[Params]] = {}
+        values: Params | None = None
+        without = one.metadata.get("without", ())
         if "nested" in one.metadata:
             inner = {one.name: one.metadata["nested"]}
+            values = _default(one) if default is None else getattr(default, one.name)
         elif "overrides" in one.metadata:
             inner = one.metadata["overrides"]() if machines else {}
         else:
             yield one.name, own[one.name]
         for head, below in inner.items():
-            yield from ((f"{head}.{name}", parameter) for name, parameter in _reachable(below, machines))
+            yield from (
+                (f"{head}.{name}", parameter)
+                for name, parameter in _reachable(below, machines, values)
+                if name.partition(".")[0] not in without
+            )
 
 
 @cache

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from ilmek.lazy import lazy_names
 
 PUBLIC = {
+    "Cloth": "ilmek.weaving.cloth",
     "FellPressure": "ilmek.weaving.comb_on_fell",
     "fell_pressure": "ilmek.weaving.comb_on_fell",
     "Bridges": "ilmek.weaving.draping",
@@ -31,6 +32,7 @@ __all__ = list(PUBLIC)
 __getattr__, __dir__ = lazy_names(__name__, PUBLIC)
 
 if TYPE_CHECKING:
+    from ilmek.weaving.cloth import Cloth as Cloth
     from ilmek.weaving.comb_on_fell import FellPressure as FellPressure
     from ilmek.weaving.comb_on_fell import fell_pressure as fell_pressure
     from ilmek.weaving.draping import Bridges as Bridges

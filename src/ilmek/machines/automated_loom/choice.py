@@ -77,7 +77,7 @@ def deadline_check(deadline: float, time: float) -> Check:
 
 def row_check(drive: BeatDrive) -> Check:
     """The distance of the rows that the beat leaves."""
-    most = drive.task.row_pitch * (1 + drive.task.params.row_tolerance)
+    most = drive.task.cloth.row_distance * (1 + drive.task.params.row_tolerance)
     source = (
         "row pitch of the quality; assumed by this project: parameters row_tolerance, hammer.laid_pitch, "
         "hammer.jammed_pitch, hammer.packing"

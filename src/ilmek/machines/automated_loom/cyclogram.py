@@ -121,14 +121,16 @@ def knot_cyclogram(head: Weaver, period: float) -> Cyclogram:
     """
     tied, limits = head.cyclogram, head.params
     names = [track.name for track in tied.tracks]
-    move = s_curve(limits.knot_pitch, limits.carriage)
+    move = s_curve(limits.cloth.knot_pitch, limits.carriage)
     out = max(tied.track(name).segment(motion).end for name, motion in _OUT if name in names)
     law = law_of("s-curve", {"ramp": min(0.25, move.ramp / move.time), "cruise": move.cruise / move.time})
-    step = TrackSegment("step", out, out + turn * move.time / period, 0.0, limits.knot_pitch, law)
-    track = Track(CARRIAGE, "linear axis", (step,), (riding("at the next knot", step),), revolves=limits.knot_pitch)
+    step = TrackSegment("step", out, out + turn * move.time / period, 0.0, limits.cloth.knot_pitch, law)
+    track = Track(
+        CARRIAGE, "linear axis", (step,), (riding("at the next knot", step),), revolves=limits.cloth.knot_pitch
+    )
     apart = tuple(
         Exclusion(
-            Zone(CARRIAGE, 0.0, limits.knot_pitch, "between two knots"),
+            Zone(CARRIAGE, 0.0, limits.cloth.knot_pitch, "between two knots"),
             Zone(name, 0.0, name="in the warps"),
             why=_CLEAR,
         )

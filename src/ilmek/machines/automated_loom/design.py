@@ -6,8 +6,6 @@ from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
-from ilmek.carpet.design import knot_grid
-from ilmek.carpet.sizes import CarpetSize
 from ilmek.errors import LoomError
 from ilmek.loom.bobbins import Bobbin
 from ilmek.loom.programme import least_time
@@ -41,7 +39,6 @@ from ilmek.report import Choice
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.timing.s_curve import move_time, travel_time
 from ilmek.units import format_quantity, turn
-from ilmek.weaving.tension import usual_tension
 
 BEFORE_THE_ROW = ("weft", "weaver", "shedding")
 """Machines whose designs set the timing of a row; all others are designed for it."""
@@ -116,12 +113,12 @@ class LoomDesign:
     @property
     def warps(self) -> int:
         """Warps: two for each knot of a row, and the selvedges'."""
-        return self.task.warps
+        return self.task.cloth.warps
 
     @property
     def knot_pitch(self) -> float:
         """Distance of two neighbouring knots [m]."""
-        return 2 * self.params.pitch
+        return self.task.cloth.knot_pitch
 
     @property
     def head_width(self) -> float:
@@ -168,8 +165,7 @@ def ready_loom(params: AutomatedLoomParams) -> ReadyLoom:
     Raises LoomError where the shed leaves no time for the weft; CarpetError for a carpet without knots; the errors of
     the machines where their parameters contradict each other.
     """
-    rows, columns = knot_grid(CarpetSize(params.width, params.length), params.quality)
-    laid, task = _made("weft", _task(params, rows, columns))
+    laid, task = _made("weft", LoomTask(params, *params.knot_grid, params.cloth, {}))
     knotting, of_knotting = knotting_head(task)
     machines: dict[str, Child] = {**knotting.children, "weft": laid}
     task = replace(task, designs={name: child.design for name, child in machines.items()})
@@ -191,8 +187,8 @@ def with_beat(ready: ReadyLoom, option: BeatOption, choices: tuple[Choice, ...] 
     task = replace(task, side=laid_out(task, option.plan.path))
     timing, period = _timed_row(params, _row_timing(task, cams, option.plan.beat), cams)
     machines["shedding"] = _at_period(machines["shedding"], timing.turning * period)
-    times = times_at(head, 2 * params.pitch, period)
-    most = heads_that_fit(columns, 2 * params.pitch, head.width)
+    times = times_at(head, task.cloth.knot_pitch, period)
+    most = heads_that_fit(columns, task.cloth.knot_pitch, head.width)
     _require_room(params, most, head.width)
     busy = with_changes(times, params.changes_per_knot)
     heads, of_heads = chosen_heads(params, most, lambda number: least_time(rows, columns, number, busy, weft.bobbins))
@@ -231,13 +227,6 @@ def with_beat(ready: ReadyLoom, option: BeatOption, choices: tuple[Choice, ...] 
     )
 
 
-def _task(params: AutomatedLoomParams, rows: int, columns: int) -> LoomTask:
-    """The task of the first machine: carpet, yarns, and tension of the warps."""
-    yarns = params.carpet_yarns
-    tension = params.tension or usual_tension(params.pitch, yarns.warp.linear_density)
-    return LoomTask(params, rows, columns, yarns, tension, {})
-
-
 def _at_period(shedding: Child, period: float) -> Child:
     """The shedding cams at the time of a row's wefts and beats [s], slower where these need more time."""
     params = shedding.design.params
@@ -272,11 +261,9 @@ def times_at(head: Weaver, knot_pitch: float, weft: float) -> Times:
 
     A step to the next knot that is longer than the head leaves for it lengthens the knot.
     """
-    moved = replace(head.params, knot_pitch=knot_pitch)
-    late = max(0.0, move_time(moved.knot_pitch, moved.carriage) - head.carriage_window)
-    return Times(
-        head.cycle + late, head.colour_change, travel_time(moved.knot_pitch, head.carriage_window, moved.carriage), weft
-    )
+    carriage = head.params.carriage
+    late = max(0.0, move_time(knot_pitch, carriage) - head.carriage_window)
+    return Times(head.cycle + late, head.colour_change, travel_time(knot_pitch, head.carriage_window, carriage), weft)
 
 
 def with_changes(times: Times, changes: float) -> Times:
@@ -306,7 +293,7 @@ def _row_timing(task: LoomTask, cams: SheddingDesign, beat: Beat) -> RowTiming:
         passage=weft.passage,
         beat=beat,
         beat_end=params.beat_end,
-        row_pitch=task.row_pitch,
+        row_pitch=task.cloth.row_distance,
         take_up_end=params.take_up_end,
         retreat=task.side.retreat,
     )

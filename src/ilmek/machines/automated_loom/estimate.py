@@ -32,7 +32,7 @@ def estimated_times_at(loom: LoomDesign, pitch: float, heads: Sequence[int]) -> 
     Wefts, beats and the knot itself take what they take on this loom; steps of the carriage are of the other pitch.
     Usual wefts are the thinner the finer the pitch, so that the stops for their bobbins are as many.
     """
-    finer = loom.params.pitch / pitch
+    finer = loom.task.cloth.warp_pitch / pitch
     quality = loom.params.quality
     size = CarpetSize(loom.params.width, loom.params.length)
     rows, columns = knot_grid(size, Quality(quality.across * finer, quality.along * finer))

@@ -66,10 +66,10 @@ _FINER = (0.4, 0.5, 0.75, 1.0, 1.5, 2.0)
 
 def time_against_pitch(loom: LoomDesign) -> Plot:
     """How the weaving time of the same carpet scales: over the number of heads, a curve for each pitch of the warps."""
-    params = loom.params
+    params, own = loom.params, loom.task.cloth.warp_pitch
     series = []
     for factor in _FINER:
-        pitch = factor * params.pitch
+        pitch = factor * own
         if not _finest(loom) <= factor <= _coarsest(loom):
             continue
         columns = round(params.width / (2 * pitch))
@@ -84,23 +84,23 @@ def time_against_pitch(loom: LoomDesign) -> Plot:
 
 def _finest(loom: LoomDesign) -> float:
     """How much narrower the pitch may be: down to the finest quality, and the most knots but for their rounding."""
-    finest = max(0.5 / loom.params.pitch, loom.params.quality.along) / FINEST
+    finest = max(0.5 / loom.task.cloth.warp_pitch, loom.params.quality.along) / FINEST
     return min(1.0, max(finest, math.sqrt(loom.rows * loom.columns / (0.999 * MOST_KNOTS))))
 
 
 def _coarsest(loom: LoomDesign) -> float:
     """How much wider the pitch may be for the carpet still to be one, with two knots across and two rows at least."""
-    params, quality = loom.params, loom.params.quality
-    fewest = min(params.width / (4 * params.pitch), params.length * quality.along / 2)
-    return min(fewest, min(0.5 / params.pitch, quality.along) / COARSEST)
+    params, quality, own = loom.params, loom.params.quality, loom.task.cloth.warp_pitch
+    fewest = min(params.width / (4 * own), params.length * quality.along / 2)
+    return min(fewest, min(0.5 / own, quality.along) / COARSEST)
 
 
 def time_of_one_head(loom: LoomDesign) -> Plot:
     """How the weaving time of a carpet too narrow for a second head scales: over the pitch of the warps."""
-    params = loom.params
-    pitches = params.pitch * np.linspace(max(_FINER[0], _finest(loom)), min(_FINER[-1], max(1.0, _coarsest(loom))), 33)
+    own = loom.task.cloth.warp_pitch
+    pitches = own * np.linspace(max(_FINER[0], _finest(loom)), min(_FINER[-1], max(1.0, _coarsest(loom))), 33)
     total = np.array([float(estimated_times_at(loom, pitch, (1,))[0]) for pitch in pitches.tolist()])
     note = "rows by the same measure; head, wefts and beats as of this loom; there is room for one head"
     axes = Axis("warp pitch", "mm"), Axis("time", "h")
-    marks = (Mark(params.pitch, "this loom"),)
+    marks = (Mark(own, "this loom"),)
     return Plot("weaving-time-pitch", "Weaving time and pitch", *axes, (Series("", pitches, total),), marks, note)

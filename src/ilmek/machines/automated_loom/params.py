@@ -3,18 +3,20 @@
 from dataclasses import dataclass, replace
 
 from ilmek.cams.laws import SMOOTH_LAWS
+from ilmek.carpet.design import knot_grid
 from ilmek.carpet.ground import SELVEDGE_WARPS, WEFT_TURN, GroundParams
 from ilmek.carpet.pile import PileParams, knot_length
 from ilmek.carpet.quality import COARSEST, FINEST, Quality
-from ilmek.carpet.sizes import LARGEST, SMALLEST
+from ilmek.carpet.sizes import LARGEST, SMALLEST, CarpetSize
 from ilmek.carpet.usual_pile import usual_linear_density, usual_pile_height
-from ilmek.elements.carpet_yarns import CarpetYarnParams, CarpetYarns, carpet_yarns
+from ilmek.elements.carpet_yarns import CarpetYarnParams
 from ilmek.elements.knot_kinds import WRAPS
 from ilmek.errors import LoomError
 from ilmek.machines import BEATS, WEFT_CARRIERS, loom_machines
 from ilmek.machines.catalogue import MACHINES
 from ilmek.params import Overrides, Params, kind, nested, overrides, param
 from ilmek.units import deg, dm, format_quantity, mm, rpm, turn
+from ilmek.weaving.cloth import Cloth, warp_pitch_of, warp_tension_of
 
 QUALITY = 25 / dm
 """Knots per metre where neither density nor pitch is given: the thesis' loom."""
@@ -43,9 +45,7 @@ class AutomatedLoomParams(Params):
     knots_along: float | None = kind.knot_density(
         None, at_least=COARSEST, at_most=FINEST, doc="rows along the carpet; default: as across"
     )
-    warp_pitch: float | None = kind.length(
-        None, above=0.0, at_most=0.05, doc="distance of two warps; default: two warps a knot"
-    )
+    warp_pitch: float | None = warp_pitch_of(None, "distance of two warps; default: two warps a knot")
     knot: str = param("symmetric", choices=tuple(WRAPS), doc="kind of knot")
     selvedge_warps: int = param(SELVEDGE_WARPS, at_least=0, at_most=200, doc="warps without knots, both edges together")
     yarns: CarpetYarnParams = nested(CarpetYarnParams, doc="materials and counts of warp, wefts and pile")
@@ -95,12 +95,7 @@ class AutomatedLoomParams(Params):
     changes_per_knot: float = param(
         0.06, at_least=0.0, at_most=1.0, doc="colour changes a knot, to estimate the time before there is a chart"
     )
-    tension: float | None = kind.force(
-        None,
-        at_least=1e-3,
-        at_most=1e3,
-        doc="tension of a warp; default: 15 N at a pitch of 2 mm, proportional to the warp's mass",
-    )
+    tension: float | None = warp_tension_of(None)
     clearance: float = kind.length(
         2 * mm, at_least=0.0, at_most=0.1, doc="least distance of what moves from all that it must not touch"
     )
@@ -174,19 +169,40 @@ class AutomatedLoomParams(Params):
 
     machines: Overrides = overrides(
         lambda: {name: MACHINES[name].params for name in loom_machines()},
+        without=("cloth",),
         doc="parameters of the machines in the loom, shedding.law, in place of those that the loom derives",
     )
 
     @property
-    def pitch(self) -> float:
-        """Distance of two warps [m]: as given, or two warps for each knot."""
-        return self.warp_pitch or 0.5 / (self.knots_across or QUALITY)
-
-    @property
     def quality(self) -> Quality:
         """The carpet's quality; by default knots across follow the warp pitch, and rows follow knots across."""
-        across = self.knots_across or 0.5 / self.pitch
+        across = self.knots_across or 0.5 / self._pitch
         return Quality(across, self.knots_along or across)
+
+    @property
+    def knot_grid(self) -> tuple[int, int]:
+        """Rows of knots, and knots of a row. Raises CarpetError for too few or too many."""
+        return knot_grid(CarpetSize(self.width, self.length), self.quality)
+
+    @property
+    def cloth(self) -> Cloth:
+        """The cloth that is woven: two warps for each knot of a row, and the selvedges'; the pile as of the knots.
+
+        Raises CarpetError for too few or too many knots.
+        """
+        pile = self.yarns.pile_density or usual_linear_density(self.quality, self.knot)
+        return Cloth(
+            warp_pitch=self._pitch,
+            warps=2 * self.knot_grid[1] + self.selvedge_warps,
+            row_pitch=1 / self.quality.along,
+            tension=self.tension,
+            yarns=replace(self.yarns, pile_density=pile),
+        )
+
+    @property
+    def _pitch(self) -> float:
+        """Warp pitch [m]: as given, or two warps for each knot."""
+        return self.warp_pitch or 0.5 / (self.knots_across or QUALITY)
 
     @property
     def pile(self) -> PileParams:
@@ -200,15 +216,10 @@ class AutomatedLoomParams(Params):
         return self.tubes or self.colours
 
     @property
-    def carpet_yarns(self) -> CarpetYarns:
-        """The yarns of the carpet; the pile as given, or the usual one of quality and knot."""
-        pile = self.yarns.pile_density or usual_linear_density(self.quality, self.knot)
-        return carpet_yarns(replace(self.yarns, pile_density=pile), self.pitch)
-
-    @property
     def billed(self) -> float:
         """Pile yarn of a knot [m]: as given, or by knot, quality and pile."""
-        return self.knot_yarn or knot_length(self.knot, self.quality, self.carpet_yarns.pile.linear_density, self.pile)
+        pile = self.cloth.carpet_yarns.pile
+        return self.knot_yarn or knot_length(self.knot, self.quality, pile.linear_density, self.pile)
 
     @property
     def ground(self) -> GroundParams:
@@ -218,9 +229,9 @@ class AutomatedLoomParams(Params):
 
     def check_together(self) -> None:
         """Raise LoomError where the warp pitch does not give the knots across."""
-        gives = 0.5 / self.pitch
+        gives = 0.5 / self._pitch
         if abs(self.quality.across / gives - 1) > _SAME:
-            wanted, pitch = self.quality.across, format_quantity(self.pitch, "mm")
+            wanted, pitch = self.quality.across, format_quantity(self._pitch, "mm")
             needed = format_quantity(0.5 / wanted, "mm")
             finer = wanted > gives
             raise LoomError(

@@ -80,8 +80,8 @@ class LoomAnalysis:
     columns = computed("1", "knots of a row", lambda it: it.loom.columns)
     knots = computed("1", "knots of the carpet", lambda it: it.loom.rows * it.loom.columns)
     warps = computed("1", "warps: two for each knot of a row", lambda it: it.loom.warps)
-    warp_pitch = computed("mm", "distance of two warps", lambda it: it.loom.params.pitch)
-    tension = computed("N", "tension of a warp", lambda it: it.loom.warp_tension.params.tension)
+    warp_pitch = computed("mm", "distance of two warps", lambda it: it.loom.task.cloth.warp_pitch)
+    tension = computed("N", "tension of a warp", lambda it: it.loom.warp_tension.params.cloth.warp_tension)
 
     @computed("mm", "least clearance of two bodies that must not touch, over both cyclograms; below 0 they collide")
     def least_clearance(self) -> float:

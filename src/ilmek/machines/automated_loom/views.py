@@ -105,7 +105,8 @@ def _across(loom: LoomDesign, view: View, name: str, title: str) -> Drawing:
         Stroke(across, "dimension", format_quantity(2 * half, "m")),
         *_names(seen, box),
     )
-    note = f"{loom.warps} warps at {loom.params.pitch * 1e3:.4g} mm; every part where it stands at the start of a row"
+    pitch = format_quantity(loom.task.cloth.warp_pitch, "mm", 4)
+    note = f"{loom.warps} warps at {pitch}; every part where it stands at the start of a row"
     return Drawing(name, title, strokes, (), "m", note)
 
 

@@ -84,11 +84,11 @@ class Beater:
 
 def beater_of(params: BeatUpParams, warps: int, arm: float) -> Beater:
     """The beater for the warps of a stroke; arm: of its striking edge from the rocker's pivot [m]."""
-    travel = params.travel
-    number, wide = max(warps - 1, 1), warps * travel.warp_pitch
+    travel, pitch = params.travel, params.cloth.warp_pitch
+    number, wide, thickness = max(warps - 1, 1), warps * pitch, travel.tooth_thickness or 0.4 * pitch
     front = travel.bar_distance
     corners = rectangle(-travel.reach / 2, front, 0.0, TOOTH)
-    tooth = across("beat-up/tooth", "tooth of the beater", "laser-cut part", corners, travel.tooth)
+    tooth = across("beat-up/tooth", "tooth of the beater", "laser-cut part", corners, thickness)
     mass = params.beater_mass
     section = (mass - number * tooth.mass) / (STEEL.density * wide)
     bar = None
@@ -97,7 +97,7 @@ def beater_of(params: BeatUpParams, warps: int, arm: float) -> Beater:
         deep = _depth(section, arm - front, inertia, STEEL.density * wide)
         corners = rectangle(front, front + deep, BAR_ABOVE, BAR_ABOVE + section / deep)
         bar = across("beat-up/beater-bar", "bar of the beater", "steel bar", corners, wide)
-    return Beater(tooth, bar, number, travel.warp_pitch, wide, mass, arm)
+    return Beater(tooth, bar, number, pitch, wide, mass, arm)
 
 
 def _depth(section: float, reach: float, inertia: float, line_density: float) -> float:

@@ -27,16 +27,15 @@ from ilmek.units import turn
 
 def fit(task: LoomTask) -> BeatUpParams:
     """The paper's beat-up for the loom's warps: the force that its rows need, the time from beat to beat."""
-    needed = float(loom_fabric(task).resistance(task.row_pitch))
+    needed = float(loom_fabric(task).resistance(task.cloth.row_distance))
     every = task.period / 2
     return BeatUpParams(
         speed=task.params.beat_speed,
         ground=ground_for(stroke_needed(task)),
         beat_force=needed,
         interval=every if every > 0 else None,
-        travel=TravelParams(
-            warps=task.warps, warp_pitch=task.params.pitch, warp_force=needed, bar_distance=_bar_distance(task)
-        ),
+        cloth=task.cloth,
+        travel=TravelParams(warp_force=needed, bar_distance=_bar_distance(task)),
     )
 
 

@@ -5,6 +5,7 @@ import math
 from dataclasses import dataclass, replace
 from typing import Any
 
+from ilmek.elements.carpet_yarns import CarpetYarnParams
 from ilmek.elements.materials import Material
 from ilmek.errors import ParameterError
 from ilmek.machines.beat_up.hand import HAND, hand_positions, hand_swing
@@ -12,6 +13,7 @@ from ilmek.machines.beat_up.use_params import CastLinkParams, CrankStartParams, 
 from ilmek.machines.strength_params import StrengthParams
 from ilmek.params import Params, kind, nested
 from ilmek.units import deg, format_quantity, turn
+from ilmek.weaving.cloth import Cloth
 
 SMALL, LARGE = 1e-4, 1e2
 """Plausible range of lengths [m]."""
@@ -47,6 +49,9 @@ LIMITS = {
     "joint_force_max": ("joint_force_max", -1, "N"),
 }
 """Limits: the quantity of a member, whether it must be at least (+1) or at most (-1) that, its unit."""
+
+THESIS_CLOTH = Cloth(yarns=CarpetYarnParams(warp_stiffness=1350.0))
+"""The thesis' warps, by which the fell resists where no loom gives them."""
 
 CHOOSING = ("objective", *LIMITS)
 """Parameters by which the member is chosen."""
@@ -175,6 +180,7 @@ class BeatUpParams(Params):
     )
     strength: StrengthParams = nested(CastLinkParams, doc="material of the links, and what they and their pins bear")
     start: CrankStartParams = nested(CrankStartParams, doc="start and stop of the crank")
+    cloth: Cloth = nested(Cloth, default=THESIS_CLOTH, doc="the warps whose rows are beaten")
     travel: TravelParams = nested(TravelParams, doc="the slide along the carpet")
 
     def check_together(self) -> None:

@@ -32,6 +32,7 @@ from ilmek.records import computed, record, result
 from ilmek.report import Check, at_least, at_most, must
 from ilmek.timing.s_curve import AxisLimits, SCurve, s_curve
 from ilmek.units import mm, turn
+from ilmek.weaving.cloth import Cloth
 
 AXIS_SIDE = 80 * mm
 """Side of the section of the belt axis [m]; assumed by this project."""
@@ -44,9 +45,10 @@ _TURN_SAMPLES = 1440
 
 @record
 class BeaterTravel:
-    """The beater along the width; step: its motion from stroke to stroke."""
+    """The beater along the width of the cloth; step: its motion from stroke to stroke."""
 
     params: TravelParams
+    cloth: Cloth
     beater: Beater
     step: SCurve
     slide: ServoDrive | None
@@ -62,19 +64,19 @@ class BeaterTravel:
     slide_mass: float = result("kg", "mass on the slide")
 
     stroke_warp_force = computed("N", "force of the beat for a warp", lambda it: it.stroke_force / it.stroke_warps)
-    beater_width = computed("mm", "width of the beater", lambda it: it.stroke_warps * it.params.warp_pitch)
+    beater_width = computed("mm", "width of the beater", lambda it: it.stroke_warps * it.cloth.warp_pitch)
     slide_run = computed(
-        "mm", "run of the slide", lambda it: max(it.params.warps - it.stroke_warps, 0) * it.params.warp_pitch
+        "mm", "run of the slide", lambda it: max(it.cloth.warps - it.stroke_warps, 0) * it.cloth.warp_pitch
     )
 
 
 def travel(design: BeatUp, params: TravelParams, run_up: float) -> BeaterTravel:
     """Strokes, steps and time of a beat along the width; run_up: share of the rotation to the beat."""
-    force = force_at_beat(design)
-    able = min(max(int(force / params.warp_force * (1 + 1e-9)), 1), params.warps)
-    warps = min(params.stroke_warps or able, params.warps)
-    strokes = math.ceil(params.warps / warps)
-    step = s_curve(warps * params.warp_pitch, AxisLimits(params.speed, params.acceleration, params.jerk))
+    force, cloth = force_at_beat(design), design.params.cloth
+    able = min(max(int(force / params.warp_force * (1 + 1e-9)), 1), cloth.warps)
+    warps = min(params.stroke_warps or able, cloth.warps)
+    strokes = math.ceil(cloth.warps / warps)
+    step = s_curve(warps * cloth.warp_pitch, AxisLimits(params.speed, params.acceleration, params.jerk))
     clear, out = _out_of_the_warps(design, params.reach)
     mode = params.mode or ("through" if step.time <= out or strokes == 1 else "start-stop")
     single = stroke_time(design, run_up)
@@ -84,6 +86,7 @@ def travel(design: BeatUp, params: TravelParams, run_up: float) -> BeaterTravel:
     cycle = _slide_cycle(params, step, mass, turn / design.params.speed if mode == "through" else single + pause)
     return BeaterTravel(
         params=params,
+        cloth=cloth,
         beater=beater_of(design.params, warps, design.lengths["beater"]),
         step=step,
         slide=size_motor(cycle),
@@ -164,7 +167,7 @@ def _slide_cycle(params: TravelParams, step: SCurve, mass: float, every: float) 
 def travel_parts(found: BeaterTravel) -> tuple[Part, ...]:
     """The slide along the carpet, and its motor behind its reducer where it has one."""
     row = found.slide.motor if found.slide else None
-    width = found.params.warps * found.params.warp_pitch
+    width = found.cloth.width
     speed = found.step.speed / PULLEY
     reducers = (
         (catalogue.reducer(REDUCER, "reducer of the slide", found.slide.reducer.ratio, row),)

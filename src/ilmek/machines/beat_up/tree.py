@@ -47,7 +47,7 @@ def travelling(
     start    of the carriage from the middle of the carpet along z [m]
     """
     across, begin = travel_parts(use.travel), -_clear(design)
-    axis, length = across[0], use.travel.params.warps * use.travel.params.warp_pitch
+    axis, length = across[0], use.travel.cloth.width
     below = -design.params.width - AXIS_SIDE
     rail = RigidBody(
         "beat-up/rail",

@@ -9,10 +9,9 @@ from ilmek.machines.beat_up.travel import BeaterTravel, travel, travel_checks
 from ilmek.records import group, record
 from ilmek.report import Check, Choice
 from ilmek.weaving.fell import Fabric, assumed_fabric
-from ilmek.weaving.tension import usual_tension
 
-WARP_STIFFNESS, WARP_LENGTH = 1350.0, 1.5
-"""Force over strain [N] and length [m] of the thesis' warp: the fell's stiffness where no loom gives it."""
+WARP_LENGTH = 1.5
+"""Length of a warp [m] from fell to beam where no loom gives it."""
 
 
 @record
@@ -30,8 +29,9 @@ def in_use(design: BeatUp, fabric: Fabric | None = None) -> BeatUpUse:
     params = design.params
     across = travel(design, params.travel, params.start.run_up)
     if fabric is None:
-        pitch = params.travel.warp_pitch
-        fabric = assumed_fabric(2 * pitch, usual_tension(pitch), WARP_STIFFNESS, WARP_LENGTH)
+        cloth = params.cloth
+        stiffness = cloth.carpet_yarns.warp.stiffness
+        fabric = assumed_fabric(cloth.row_distance, cloth.warp_tension, stiffness, WARP_LENGTH)
     duty = CrankDuty(
         linkage=design,
         number=1,

@@ -35,10 +35,8 @@ class CrankStartParams(Params):
 
 @dataclass(frozen=True, slots=True)
 class TravelParams(Params):
-    """The slide along the carpet, and what the beater beats there; the defaults are the thesis' loom."""
+    """The slide along the carpet, and what the beater beats there; the defaults are for the thesis' loom."""
 
-    warps: int = kind.count(600, at_least=2, at_most=100_000, doc="warps across the carpet")
-    warp_pitch: float = kind.length(2 * mm, at_least=0.01 * mm, at_most=50 * mm, doc="distance of two warps")
     warp_force: float = kind.force(
         10.0, at_least=1e-6, at_most=1e5, doc="force for each warp that the rows need; 10 N for 15 N of tension"
     )
@@ -62,8 +60,3 @@ class TravelParams(Params):
     acceleration: float = kind.acceleration(10.0, above=0.0, at_most=1e4, doc="allowed acceleration of the slide")
     jerk: float = kind.jerk(1000.0, above=0.0, at_most=1e7, doc="allowed jerk of the slide")
     friction: float = kind.ratio(0.02, at_least=0.0, at_most=1.0, doc="friction of the slide's guideway")
-
-    @property
-    def tooth(self) -> float:
-        """Thickness of a tooth [m]."""
-        return self.tooth_thickness or 0.4 * self.warp_pitch

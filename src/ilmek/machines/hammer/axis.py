@@ -154,10 +154,10 @@ def axis_for(params: HammerParams, fabric: Fabric, force: float) -> CombDrive:
     angle = np.arange(SAMPLES) * (TURN / SAMPLES)
     at, rate = programme.at(angle), params.shed_speed
     speed, acceleration = at.ds * rate, at.dds * rate**2
-    stack = STACK * params.width if params.stack_mass is None else params.stack_mass
+    stack = STACK * params.cloth.width if params.stack_mass is None else params.stack_mass
     mass = comb_mass(params) + stack
     balance = (1 - params.counterbalance) * mass * GRAVITY
-    press = params.warps * fabric.over_stroke(force, params.stroke - at.s, speed < -_STILL)
+    press = params.cloth.warps * fabric.over_stroke(force, params.stroke - at.s, speed < -_STILL)
     total = mass * acceleration - balance + press
     arm = params.screw_lead / TURN if params.axis == "screw" else params.pulley_radius
     resisting = press - balance

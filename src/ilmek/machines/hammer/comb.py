@@ -42,19 +42,20 @@ BEHIND = 5 * mm
 
 def comb_mass(params: HammerParams) -> float:
     """Mass of bar and leaves [kg]; a leaf reaches `BEHIND` the fell."""
-    bar = params.width * params.depth * params.comb_thickness
-    leaves = (params.warps - 1) * (params.leaf_reach + BEHIND) * params.leaf_height * params.leaf
+    bar = params.cloth.width * params.depth * params.comb_thickness
+    leaves = (params.cloth.warps - 1) * (params.leaf_reach + BEHIND) * params.leaf_height * params.leaf
     return (bar + leaves) * params.density
 
 
 def comb_for(params: HammerParams, fabric: Fabric, force: float) -> Comb:
     """The comb pressing with a force [N] for each warp; the fell as stiff as it is at that force."""
     rigidity = params.modulus * params.comb_thickness * params.depth**3 / 12
-    foundation = fabric.rate(float(fabric.spacing(force))) / params.warp_pitch
-    ends = (params.inset, params.width - params.inset) if params.support_count > 1 else (params.width / 2,) * 2
+    foundation = fabric.rate(float(fabric.spacing(force))) / params.cloth.warp_pitch
+    width = params.cloth.width
+    ends = (params.inset, width - params.inset) if params.support_count > 1 else (width / 2,) * 2
     supports = np.unique(np.linspace(*ends, params.support_count))
-    line = fell_pressure(params.width, supports, rigidity, foundation)
-    curvature = float(np.max(np.abs(line.curvature))) * force / params.warp_pitch
+    line = fell_pressure(width, supports, rigidity, foundation)
+    curvature = float(np.max(np.abs(line.curvature))) * force / params.cloth.warp_pitch
     leaf = params.leaf * params.leaf_height**2
     return Comb(
         line=line,

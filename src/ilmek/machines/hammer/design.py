@@ -46,7 +46,7 @@ class Hammer:
     )
     force_warp_min = computed("N", "least force of a warp over the width", lambda it: float(it.force_across().min()))
     force_warp_max = computed("N", "largest force of a warp over the width", lambda it: float(it.force_across().max()))
-    whole_force = computed("N", "force on the whole fell", lambda it: it.force * it.params.warps, name="force")
+    whole_force = computed("N", "force on the whole fell", lambda it: it.force * it.params.cloth.warps, name="force")
     tension = computed("N", "tension of a warp before the beat", lambda it: it.fabric.tension)
     fell = computed(
         "mm", "elastic displacement of the fell", lambda it: float(it.fabric.fell(it.force)), name="fell_movement"
@@ -58,11 +58,11 @@ class Hammer:
         name="comb_way",
     )
     bump_force = computed("N", "force of a warp from which the cloth is slack", lambda it: it.fabric.bump)
-    beat_energy = computed("J", "work of a beat on rows, warps and cloth", lambda it: it.energy * it.params.warps)
+    beat_energy = computed("J", "work of a beat on rows, warps and cloth", lambda it: it.energy * it.params.cloth.warps)
     packing_energy = computed(
         "J",
         "part of it that packs the row and is not returned",
-        lambda it: it.fabric.packing_work(it.spacing) * it.params.warps,
+        lambda it: it.fabric.packing_work(it.spacing) * it.params.cloth.warps,
     )
     beat_power = computed("W", "mean power, two beats a turn", lambda it: 2 * it.beat_energy / it.params.turn_time)
 
@@ -102,11 +102,11 @@ def _ends(values: FloatArray) -> list[float]:
 def design(params: HammerParams) -> Hammer:
     """The hammer for the parameters. Raises MechanismError where its crank-rockers do not move."""
     fabric = params.fabric
-    needed = float(fabric.resistance(params.required_pitch))
+    needed = float(fabric.resistance(params.cloth.row_distance))
     axis = linkage = None
     if params.drive == "linkage":
         params, linkage, choices = chosen_linkage(params, fabric, needed)
-        force = min(params.force or needed, linkage.force / params.warps)
+        force = min(params.force or needed, linkage.force / params.cloth.warps)
     else:
         force = params.force or needed
         params, axis, choices = chosen_axes(with_depth(params, fabric, force), fabric, force)

@@ -89,13 +89,13 @@ def moving(design: Hammer, axis: CombDrive) -> Animation:
     at = np.arange(FRAMES) * (turn / FRAMES)
     travel, press = (np.interp(at, axis.angle, one, period=turn) for one in (axis.travel, axis.press))
     tip = params.stroke - travel
-    fell = np.asarray(fabric.fell(design.force) - fabric.fell(press / params.warps))
+    fell = np.asarray(fabric.fell(design.force) - fabric.fell(press / params.cloth.warps))
     beaten = np.maximum.accumulate(press.reshape(2, -1) > 0, axis=1).ravel()
     going = ~beaten | (press > 0)
     row = np.where(beaten, np.where(going, np.minimum(tip, design.comb_travel), fell), design.comb_travel)
     low = -(ROWS + 0.5) * design.spacing
     high = 1.4 * params.leaf_height + params.stroke
-    wide, wider = (SHOWN / 2 + 1) * params.warp_pitch, _wider(params, high - low)
+    wide, wider = (SHOWN / 2 + 1) * params.cloth.warp_pitch, _wider(params, high - low)
     comb = _widened(_comb(params), wider)
     strokes = [MovingStroke(1j * tip[:, None] + comb, "outline", "comb", closed=True)]
     for one in range(ROWS + 1):
@@ -107,7 +107,7 @@ def moving(design: Hammer, axis: CombDrive) -> Animation:
     still = Drawing("hammer-moving", "The comb beats the rows", warps, note=note)
     readings = (
         Reading("stroke", travel, "mm"),
-        Reading("force of a warp", press / params.warps, "N"),
+        Reading("force of a warp", press / params.cloth.warps, "N"),
         Reading("force of the axes", np.interp(at, axis.angle, axis.force, period=turn), "kN"),
     )
     drive, period = Axis("cam angle", "deg"), turn / params.shed_speed
@@ -117,7 +117,7 @@ def moving(design: Hammer, axis: CombDrive) -> Animation:
 def drawing(design: Hammer) -> Drawing:
     """The comb at the beat, between some warps: its leaves over the last row, the rows below; to scale."""
     params = design.params
-    pitch, top, half = params.warp_pitch, params.leaf_height, SHOWN * params.warp_pitch / 2
+    pitch, top, half = params.cloth.warp_pitch, params.leaf_height, SHOWN * params.cloth.warp_pitch / 2
     gaps = np.arange(SHOWN + 1) * pitch - half
     leaves = tuple(Stroke(_box(x - params.leaf / 2, 0.0, params.leaf, top), "outline", "", True, True) for x in gaps)
     low = -(ROWS + 0.5) * design.spacing
@@ -136,12 +136,12 @@ def drawing(design: Hammer) -> Drawing:
 
 def _middles(params: HammerParams) -> FloatArray:
     """Positions of the warps across the width [m]."""
-    return np.asarray((np.arange(SHOWN) - (SHOWN - 1) / 2) * params.warp_pitch)
+    return np.asarray((np.arange(SHOWN) - (SHOWN - 1) / 2) * params.cloth.warp_pitch)
 
 
 def _comb(params: HammerParams) -> ComplexArray:
     """Outline of the comb, cut off above, the tips of its leaves at y = 0."""
-    pitch, top, wide = params.warp_pitch, params.leaf_height, (SHOWN / 2 + 1) * params.warp_pitch
+    pitch, top, wide = params.cloth.warp_pitch, params.leaf_height, (SHOWN / 2 + 1) * params.cloth.warp_pitch
     gaps = (np.arange(SHOWN + 1) - SHOWN / 2) * pitch
     tooth = params.leaf / 2 * np.array([-1, -1, 1, 1]) + 1j * top * np.array([1, 0, 0, 1])
     corners = (gaps[:, None] + tooth).ravel()
@@ -151,7 +151,7 @@ def _comb(params: HammerParams) -> ComplexArray:
 
 def _wider(params: HammerParams, height: float) -> int:
     """The factor of the width at which the warps are as far apart as they can be seen, 1 or more."""
-    return max(1, round(SLIMMEST * height / (SHOWN + 2) / params.warp_pitch))
+    return max(1, round(SLIMMEST * height / (SHOWN + 2) / params.cloth.warp_pitch))
 
 
 def _widened(points: ComplexArray, wider: float) -> ComplexArray:

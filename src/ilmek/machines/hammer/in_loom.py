@@ -52,11 +52,7 @@ def _of_carpet(task: LoomTask, kind: str) -> HammerParams:
     """The comb for the loom's warps and rows; what depends on the row's time is left as it is."""
     params, stroke = task.params, stroke_needed(task)
     return HammerParams(
-        warps=task.warps,
-        warp_pitch=params.pitch,
-        row_pitch=task.row_pitch,
-        tension=task.tension,
-        warp_stiffness=task.yarns.warp.stiffness,
+        cloth=task.cloth,
         drive="linkage" if kind == "linkage" else "comb",
         warp_length=task.side.warp_length if task.side else USUAL_WARP_LENGTH,
         stroke=stroke,
@@ -71,7 +67,7 @@ def work(hammer: Hammer) -> tuple[Work, ...]:
     if hammer.linkage is not None:
         return (Work("beating", hammer.linkage.start.start_work, "beat"),)
     lifted = (1 - hammer.params.counterbalance) * hammer.mass * GRAVITY * hammer.params.stroke
-    return (Work("beating", hammer.params.warps * hammer.energy + lifted, "beat"),)
+    return (Work("beating", hammer.params.cloth.warps * hammer.energy + lifted, "beat"),)
 
 
 def _carried(task: LoomTask) -> tuple[Check, ...]:
@@ -130,8 +126,8 @@ class CombBeat:
             path=crank_path(linkage.start, outline(hammer.params)) if linkage else self._path(hammer.params),
             machine_checks=checks(hammer),
             crank_rockers=linkage.number if linkage else 0,
-            force=hammer.params.warps * hammer.force,
-            beaten=hammer.params.warps,
+            force=hammer.params.cloth.warps * hammer.force,
+            beaten=hammer.params.cloth.warps,
             frame_force=force,
             striking=(LEAF_ID, BAR_ID),
             loom_checks=_carried(task) if self.kind == "guide-cams" else (),
@@ -152,6 +148,6 @@ def planned_beat(task: LoomTask, kind: str) -> CombBeat:
     choices: tuple[Choice, ...] = ()
     if params.drive == "linkage":
         fabric = params.fabric
-        params, linkage, choices = chosen_linkage(params, fabric, float(fabric.resistance(params.required_pitch)))
+        params, linkage, choices = chosen_linkage(params, fabric, float(fabric.resistance(params.cloth.row_distance)))
         start = linkage.start
     return CombBeat(params, task.params.comb_acceleration, kind, start, choices)

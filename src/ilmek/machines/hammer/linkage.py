@@ -151,7 +151,7 @@ def _options(params: HammerParams, fabric: Fabric, needed: float) -> Iterator[tu
         shared = with_depth(replace(params, beaters=number), fabric, params.force or needed)
         comb = comb_mass(shared)
         for speed in (params.beat_speed,) if params.beat_speed else SPEEDS:
-            mass = _RESERVE * (params.force or needed) * params.warps / (acceleration * speed**2)
+            mass = _RESERVE * (params.force or needed) * params.cloth.warps / (acceleration * speed**2)
             ballast = min(max(mass - comb, 0.0), MOST_BALLAST) if params.ballast is None else params.ballast
             yield replace(shared, beat_speed=speed, ballast=ballast), (comb + ballast) / number
 
@@ -200,7 +200,7 @@ def _estimated(params: HammerParams, fabric: Fabric, needed: float) -> float:
     section = (params.link_width or 0.0) * (params.link_thickness or 0.0) * params.links.of_links.density
     links = sum(link.price(section * unit.lengths[name]) for name in ("crank", "coupler", "beater"))
     swing = (comb + ballast) * (unit.beater_velocity_max * speed) ** 2 / 2
-    work = 2.5 * swing + fabric.energy(params.force or needed) * params.warps
+    work = 2.5 * swing + fabric.energy(params.force or needed) * params.cloth.warps
     torque = unit.drive_torque_max * (comb + ballast) * speed**2 / params.start.efficiency
     wheel = work / (params.start.speed_drop * speed**2 * FLYWHEEL_RADIUS**2)
     clutch = PRICES["clutch and brake"].price(CLUTCH_MASS * torque) + steel.price(wheel) + 200.0
@@ -228,9 +228,9 @@ def linkage_for(params: HammerParams, fabric: Fabric, needed: float) -> CombLink
         Duty(params.turn_time / 2, "links"),
     )
     force = number * force_at_beat(one)
-    asked = min(params.force or needed, force / params.warps)
-    duty = CrankDuty(one, number, fabric, params.warps, asked, every=params.turn_time / 2)
-    moment = force / params.width * (params.width / number) ** 2 / 8
+    asked = min(params.force or needed, force / params.cloth.warps)
+    duty = CrankDuty(one, number, fabric, params.cloth.warps, asked, every=params.turn_time / 2)
+    moment = force / params.cloth.width * (params.cloth.width / number) ** 2 / 8
     return CombLinkage(
         one=one,
         limit=params.strength,
@@ -240,7 +240,7 @@ def linkage_for(params: HammerParams, fabric: Fabric, needed: float) -> CombLink
         torque=number * one.drive_torque_max,
         energy=mass * one.beater_velocity_max**2 / 2,
         # Without weight every force grows with the square of the speed.
-        speed_needed=speed * math.sqrt(needed * params.warps / force) if force else None,
+        speed_needed=speed * math.sqrt(needed * params.cloth.warps / force) if force else None,
         inertia_stress=6 * moment / (params.comb_thickness * params.depth**2),
         strength=one.strength,
         start=crank_start(duty, params.start),

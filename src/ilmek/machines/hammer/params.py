@@ -4,15 +4,14 @@ import math
 from dataclasses import dataclass
 
 from ilmek.cams.laws import SMOOTH_LAWS
-from ilmek.elements.carpet_yarns import usual_warp
 from ilmek.elements.materials import MATERIALS
 from ilmek.errors import ParameterError
 from ilmek.machines.beat_up.use_params import CrankStartParams
 from ilmek.machines.strength_params import StrengthParams
 from ilmek.params import Params, kind, nested
 from ilmek.units import MPa, deg, format_quantity, hour, mm, rpm, turn
+from ilmek.weaving.cloth import Cloth
 from ilmek.weaving.fell import CLOTH_LENGTH, JAMMED, LAID, PACKING, Fabric
-from ilmek.weaving.tension import usual_tension
 
 DRIVES = ("comb", "linkage")
 AXES = ("screw", "belt")
@@ -45,36 +44,26 @@ BEATER_WIDTH = 1.5
 class HammerParams(Params):
     """Fabric, comb and drive of the hammer; the defaults are the thesis' loom."""
 
-    warps: int = kind.count(600, at_least=2, at_most=100_000, doc="warps across")
-    warp_pitch: float = kind.length(2 * mm, at_least=0.01 * mm, at_most=50 * mm, doc="distance of two warps")
-    row_pitch: float | None = kind.length(
-        None, at_least=0.01 * mm, at_most=0.2, doc="required distance of two rows; default: of two knots across"
-    )
-    tension: float | None = kind.force(
-        None,
-        at_least=1e-3,
-        at_most=1e3,
-        doc="tension of a warp; default: 15 N at a pitch of 2 mm, proportional to the pitch",
-        symbol="T",
-    )
+    cloth: Cloth = nested(Cloth, doc="warps, their tension and yarn, and the required distance of rows")
     laid_pitch: float | None = kind.length(
         None,
         at_least=0.01 * mm,
         at_most=0.5,
-        doc="distance of a row from the fell before the beat; default: 1.5 times row_pitch",
+        doc="distance of a row from the fell before the beat; default: 1.5 times the required one",
     )
     jammed_pitch: float | None = kind.length(
-        None, at_least=1e-3 * mm, at_most=0.2, doc="distance of jammed rows; default: 0.75 times row_pitch", symbol="D"
+        None,
+        at_least=1e-3 * mm,
+        at_most=0.2,
+        doc="distance of jammed rows; default: 0.75 times the required one",
+        symbol="D",
     )
     packing: float | None = kind.length(
         None,
         at_least=1e-6 * mm,
         at_most=1.0,
-        doc="packing length, how hard rows pack: to be measured; default: 1/4 of row_pitch, 10 N on 15 N of tension",
+        doc="packing length, how hard rows pack: to be measured; default: 1/4 of the rows' pitch, 10 N on 15 N",
         symbol="K",
-    )
-    warp_stiffness: float | None = kind.force(
-        None, at_least=1.0, at_most=1e7, doc="force over strain of a warp; default: cotton of its mass", symbol="EA"
     )
     warp_length: float = kind.length(1.5, unit="m", at_least=0.01, at_most=100.0, doc="warp from fell to beam")
     cloth_length: float = kind.length(
@@ -85,7 +74,7 @@ class HammerParams(Params):
         None,
         at_least=1e-6,
         at_most=1e4,
-        doc="force on the fell for each warp; default: what row_pitch needs, or what the linkage gives",
+        doc="force on the fell for each warp; default: what the rows need, or what the linkage gives",
     )
     comb_depth: float | None = kind.length(
         None,
@@ -187,44 +176,34 @@ class HammerParams(Params):
 
     def check_together(self) -> None:
         """Raise ParameterError where rows, leaves or supports do not fit."""
-        fabric, rows = self.fabric, self.required_pitch
+        fabric, rows = self.fabric, self.cloth.row_distance
         if not fabric.jammed < rows < fabric.laid:
             given, least, most = (format_quantity(value, "mm") for value in (rows, fabric.jammed, fabric.laid))
             raise ParameterError(
                 f"rows {given} apart",
                 allowed=f"between jammed_pitch={least} and laid_pitch={most}",
-                do="set jammed_pitch below and laid_pitch above row_pitch",
+                do="set jammed_pitch below and laid_pitch above cloth.row_pitch",
             )
-        if self.leaf >= self.warp_pitch:
-            leaf, pitch = format_quantity(self.leaf, "mm"), format_quantity(self.warp_pitch, "mm")
+        if self.leaf >= self.cloth.warp_pitch:
+            leaf, pitch = format_quantity(self.leaf, "mm"), format_quantity(self.cloth.warp_pitch, "mm")
             raise ParameterError(
                 f"leaf_thickness={leaf} on a warp pitch of {pitch}",
                 allowed=f"below {pitch}, less the warp's own thickness",
                 do="leave it out for 0.4 of the pitch",
             )
-        if self.inset * 2 > self.width * (1 + 1e-9):
+        if self.inset * 2 > self.cloth.width * (1 + 1e-9):
             raise ParameterError(
                 f"support_inset={format_quantity(self.inset, 'mm')} on both sides",
-                allowed=f"at most half of the width, {format_quantity(self.width / 2, 'mm')}",
+                allowed=f"at most half of the width, {format_quantity(self.cloth.width / 2, 'mm')}",
                 do="set a smaller one",
             )
 
     @property
-    def required_pitch(self) -> float:
-        """Required distance of two rows [m]."""
-        return self.row_pitch or 2 * self.warp_pitch
-
-    @property
-    def width(self) -> float:
-        """Width of the warps [m]."""
-        return self.warps * self.warp_pitch
-
-    @property
     def fabric(self) -> Fabric:
         """The fabric at the fell, for one warp."""
-        pitch, stiffness = self.required_pitch, self.warp_stiffness or usual_warp(self.warp_pitch).stiffness
+        pitch, stiffness = self.cloth.row_distance, self.cloth.carpet_yarns.warp.stiffness
         return Fabric(
-            tension=self.tension or usual_tension(self.warp_pitch),
+            tension=self.cloth.warp_tension,
             laid=self.laid_pitch or LAID * pitch,
             jammed=self.jammed_pitch or JAMMED * pitch,
             packing=self.packing or PACKING * pitch,
@@ -235,12 +214,12 @@ class HammerParams(Params):
     @property
     def leaf(self) -> float:
         """Thickness of a leaf [m]."""
-        return self.leaf_thickness or 0.4 * self.warp_pitch
+        return self.leaf_thickness or 0.4 * self.cloth.warp_pitch
 
     @property
     def rockers(self) -> int:
         """Crank-rockers of the linkage."""
-        return self.beaters or min(math.ceil(self.width / BEATER_WIDTH - 1e-9), MOST_BEATERS)
+        return self.beaters or min(math.ceil(self.cloth.width / BEATER_WIDTH - 1e-9), MOST_BEATERS)
 
     @property
     def support_count(self) -> int:
@@ -267,7 +246,7 @@ class HammerParams(Params):
         """From the comb's ends to the first support [m]: 0, or half of a crank-rocker's share."""
         if self.support_inset is not None:
             return self.support_inset
-        return 0.0 if self.drive == "comb" and self.support_count > 1 else self.width / self.support_count / 2
+        return 0.0 if self.drive == "comb" and self.support_count > 1 else self.cloth.width / self.support_count / 2
 
     @property
     def turn_time(self) -> float:

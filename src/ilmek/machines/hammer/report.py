@@ -26,7 +26,7 @@ def checks(design: Hammer) -> tuple[Check, ...]:
     bar, whole = (BAR_ID,), (BAR_ID, LEAF_ID)
     return (
         at_most(
-            *("distance of the rows", design.spacing, params.required_pitch, "mm", "row_pitch"),
+            *("distance of the rows", design.spacing, params.cloth.row_distance, "mm", "row_pitch"),
             cure=harder,
             parts=whole,
         ),
@@ -47,7 +47,7 @@ def _drive_checks(design: Hammer) -> tuple[Check, ...]:
         return axis_checks(design.axis)
     assert design.linkage is not None
     needed, cure = (
-        (design.params.force or design.needed) * design.params.warps,
+        (design.params.force or design.needed) * design.params.cloth.warps,
         "set a higher beat_speed, or more ballast",
     )
     force = at_least(
@@ -75,7 +75,7 @@ def tables(design: Hammer) -> tuple[Table, ...]:
 
 def _row_table(design: Hammer) -> Table:
     """What other forces leave, from loose to nearly jammed."""
-    warps, fabric = design.params.warps, design.fabric
+    warps, fabric = design.params.cloth.warps, design.fabric
 
     def row(force: float) -> tuple[float, ...]:
         spacing = float(fabric.spacing(force))
@@ -95,7 +95,7 @@ def _row_table(design: Hammer) -> Table:
 
 def _blow_table(design: Hammer) -> Table:
     """The same row struck instead of pressed: speed and momentum of a mass whose energy goes into the fell."""
-    warps, fabric, speed = design.params.warps, design.fabric, design.speed_max
+    warps, fabric, speed = design.params.cloth.warps, design.fabric, design.speed_max
     energy = fabric.energy(design.needed) * warps
 
     def row(name: str, mass: float) -> tuple[float | str, ...]:
@@ -132,7 +132,7 @@ def _across_table(design: Hammer) -> Table:
 
 def warnings(design: Hammer) -> tuple[str, ...]:
     """A comb that leaves the fell, rows too loose, and axes that no servo drives."""
-    found, required = [], design.params.required_pitch
+    found, required = [], design.params.cloth.row_distance
     if design.comb.line.least <= 0:
         found.append("the comb bends so much that it leaves the fell: set more supports or a deeper comb")
     if design.spacing > required * (1 + 1e-9):

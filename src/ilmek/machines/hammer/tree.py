@@ -50,8 +50,8 @@ def _comb(hammer: Hammer) -> tuple[Occurrence, ...]:
     """Bar and leaves, the bar's ballast in front of it; the axes of the side view, 0 where the leaves strike."""
     params, steel = hammer.params, replace(STEEL, density=hammer.params.density)
     leaf, bar = outline(params)
-    number, wide, middle = params.warps - 1, params.width, (placement(z=-params.width / 2),)
-    stations = (np.arange(number) - (number - 1) / 2) * params.warp_pitch - params.leaf / 2
+    number, wide, middle = params.cloth.warps - 1, params.cloth.width, (placement(z=-params.cloth.width / 2),)
+    stations = (np.arange(number) - (number - 1) / 2) * params.cloth.warp_pitch - params.leaf / 2
     leaves = across(LEAF_ID, "leaf of the comb", "laser-cut part", leaf, params.leaf, steel)
     comb = (
         Occurrence(across(BAR_ID, "comb of the hammer", "steel bar", bar, wide, steel), middle),
@@ -67,7 +67,7 @@ def _comb(hammer: Hammer) -> tuple[Occurrence, ...]:
 
 @lru_cache(maxsize=4)
 def _on_crank_rockers(hammer: Hammer) -> Tree:
-    linkage, wide = hammer.linkage, hammer.params.width
+    linkage, wide = hammer.linkage, hammer.params.cloth.width
     assert linkage is not None
     one, number = linkage.one, linkage.number
     stations = tuple(wide * ((k + 0.5) / number - 0.5) for k in range(number))
@@ -107,7 +107,7 @@ def _on_axes(hammer: Hammer) -> Tree:
         (catalogue.reducer("hammer/reducer", "reducer of a vertical axis", drive.reducer.ratio, row),) if drive else ()
     )
     motor = catalogue.motor("hammer/motor", "motor of a vertical axis", row, torque, speed)
-    edge = params.width / 2 - params.inset
+    edge = params.cloth.width / 2 - params.inset
     stations = np.linspace(-edge, edge, number) if number > 1 else np.zeros(1)
     upright = placement(about=(1.0, 0.0, 0.0), angle=-math.pi / 2)
     top = params.stroke + (depth_of(geared[0]) if geared else 0.0)

@@ -18,13 +18,7 @@ from ilmek.units import format_quantity
 
 def params_for(task: LoomTask) -> KnottingDyadParams:
     """The parameters of the arms of a loom."""
-    return KnottingDyadParams(
-        knot=task.params.knot,
-        warp_pitch=task.params.pitch,
-        warp_diameter=task.yarns.warp.diameter,
-        yarn_diameter=task.yarns.pile.diameter,
-        yarn_pressed=task.yarns.pressed,
-    )
+    return KnottingDyadParams(knot=task.params.knot, cloth=task.cloth)
 
 
 def parts(dyad: KnottingDyad) -> tuple[BillLine, ...]:

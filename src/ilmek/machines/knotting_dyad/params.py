@@ -3,14 +3,13 @@
 from dataclasses import dataclass
 from typing import Any
 
-from ilmek.elements.carpet_yarns import PILE_DENSITY, usual_warp
-from ilmek.elements.yarns import WOOL, pressed_thickness
 from ilmek.errors import ParameterError
 from ilmek.machines.knotting_dyad.strength import ArmStrengthParams
 from ilmek.params import Params, kind, nested
 from ilmek.params.text_lists import read_angles, read_points
 from ilmek.synthesis.burmester.constant_distance import require_task
 from ilmek.units import deg, format_quantity, g, mm, ms
+from ilmek.weaving.cloth import Cloth
 
 
 def _size(default: float | None, doc: str, symbol: str = "", at_most: float = 50 * mm) -> Any:
@@ -23,12 +22,7 @@ class KnottingDyadParams(Params):
 
     knot: str = kind.choice("symmetric", ("symmetric", "asymmetric"), doc="knot to tie")
     opens: str = kind.choice("left", ("left", "right"), doc="side on which an asymmetric knot is open")
-    warp_pitch: float = _size(2 * mm, "distance between two warps", "p")
-    warp_diameter: float | None = _size(None, "diameter of a warp; default: of the usual warp", "D")
-    yarn_diameter: float | None = _size(None, "diameter of the pile yarn; default: of wool, 0.8 g/m")
-    yarn_pressed: float | None = _size(
-        None, "its thickness pressed beside a needle; default: of wool, packed to 0.65, flat", "w"
-    )
+    cloth: Cloth = nested(Cloth, doc="warps and pile yarn")
     opening: float | None = kind.length(
         None,
         at_least=0.0,
@@ -121,17 +115,17 @@ class KnottingDyadParams(Params):
     @property
     def warp(self) -> float:
         """Diameter of a warp [m]."""
-        return self.warp_diameter or usual_warp(self.warp_pitch).diameter
+        return self.cloth.carpet_yarns.warp.diameter
 
     @property
     def yarn(self) -> float:
         """Diameter of the pile yarn [m]."""
-        return self.yarn_diameter or WOOL.diameter(PILE_DENSITY)
+        return self.cloth.carpet_yarns.pile.diameter
 
     @property
     def pressed(self) -> float:
         """Thickness of the pile yarn pressed beside a needle [m]."""
-        return self.yarn_pressed or pressed_thickness(PILE_DENSITY, WOOL)
+        return self.cloth.carpet_yarns.pressed
 
     def _check_section(self) -> None:
         least = (self.warp + self.needle_diameter) / 2

@@ -123,7 +123,7 @@ class WarpSection:
 def section_of(params: KnottingDyadParams) -> WarpSection:
     """The section of the parameters; gaps left open are chosen for needle and yarn, the depth for the clearance."""
     content = params.needle_diameter + max(params.pressed, 2 * params.clearance)
-    pitch, room = params.warp_pitch, params.warp + content
+    pitch, room = params.cloth.warp_pitch, params.warp + content
     pair = params.pair_opened or max(pitch, room)
     outer = max(pitch, _gap(room, pair, params.depth)) if params.opening is None else pitch + params.opening
     return WarpSection(

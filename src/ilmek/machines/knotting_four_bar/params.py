@@ -14,6 +14,7 @@ from ilmek.params.text_lists import read_poses
 from ilmek.synthesis.burmester.constant_distance import require_task
 from ilmek.synthesis.three_poses import ThreePoses, ThreePoseSynthesis
 from ilmek.units import MPa, deg, mm, turn
+from ilmek.weaving.cloth import warp_pitch_of
 
 SMALL, LARGE = 1e-4, 5.0
 """Bounds of plausible lengths [m]."""
@@ -121,7 +122,7 @@ class KnottingFourBarParams(Params):
     gear_stress: float = kind.pressure(
         20 * MPa, above=0.0, at_most=2e9, doc="allowed bending stress of the teeth; a cautious value for acetal"
     )
-    warp_pitch: float = _length(2 * mm, doc="distance of the two warps between the sides, for the proof of the knot")
+    warp_pitch: float = warp_pitch_of(2 * mm, "distance of the two warps between the sides, for the proof of the knot")
 
     def check_together(self) -> None:
         """Raise ParameterError for branch 0, and where links are given beside poses."""
@@ -133,9 +134,15 @@ class KnottingFourBarParams(Params):
             read_three_poses(self.poses)
 
     @classmethod
-    def read(cls, settings: Mapping[str, Setting], *, prefix: str = "") -> "KnottingFourBarParams":
+    def read(
+        cls,
+        settings: Mapping[str, Setting],
+        *,
+        prefix: str = "",
+        default: "KnottingFourBarParams | None" = None,
+    ) -> "KnottingFourBarParams":
         """Parameters from settings, see `Params.read`; beside poses no link may be set, not even to its default."""
-        read = super(KnottingFourBarParams, cls).read(settings, prefix=prefix)
+        read = super(KnottingFourBarParams, cls).read(settings, prefix=prefix, default=default)
         if read.poses is not None:
             given = {name.casefold() for name in settings}
             own = (one for one in declared(cls) if one.name in SYNTHESISED)

@@ -30,19 +30,19 @@ class SheddingAnalysis:
     yarn: DrapedWarp | None
     bridges: Bridges | None
 
-    @computed("mm", "elongation of a lifted warp", absent="no tension is given")
+    @computed("mm", "elongation of a lifted warp", absent="no spans are given")
     def warp_lengthening(self) -> float | None:
         return lengthening_of(self.design.first.params)
 
     @computed(
         "%",
         "strain of a lifted warp, without the share that its cylinder takes up",
-        absent="no tension or no stiffness is given",
+        absent="no spans or no length of the warp are given",
     )
     def warp_strain(self) -> float | None:
         return strain_of(self.design.first.params, self.warp_lengthening)
 
-    @computed("N", "tension of a lifted warp", absent="no tension is given")
+    @computed("N", "tension of a lifted warp", absent="no spans are given")
     def warp_tension_max(self) -> float | None:
         return float(self.warp.tension_at(self.design.first.params.lift)) if self.warp else None
 
@@ -57,9 +57,7 @@ class SheddingAnalysis:
             return None
         return {"arcs": [list(arc) for arc in found.arcs], "excess": found.excess, "at": found.at}
 
-    @computed(
-        "", "the warp as a yarn draped over the cam [N m, m, rad, N/m]", absent="no tension, or a hold is too near"
-    )
+    @computed("", "the warp as a yarn draped over the cam [N m, m, rad, N/m]", absent="no spans, or a hold is too near")
     def draped(self) -> Json:
         yarn, shed = self.yarn, self.design.shed
         if yarn is None:
@@ -72,7 +70,7 @@ class SheddingAnalysis:
             "lifted_angle": yarn.lifted,
             "wrap_max": wrap,
             "pressure_max": tension / radius if radius > 0 else None,
-            "capstan_ratio": capstan(self.design.params.friction, wrap),
+            "capstan_ratio": capstan(self.design.params.cloth.yarns.friction, wrap),
         }
 
 
@@ -92,11 +90,10 @@ def lengthening_of(params: SheddingParams) -> float | None:
 
 
 def strain_of(params: SheddingParams, longer: float | None) -> float | None:
-    """Strain of a warp of a shaft by an elongation [m], without the share of its cylinder; None without stiffness."""
-    spans = params.spans_of_warp
-    if spans is None or longer is None or params.warp_stiffness is None:
+    """Strain of a warp of a shaft by an elongation [m], less its cylinder's share; None where it is not stretched."""
+    if longer is None or params.warp_length is None:
         return None
-    return (1 - params.compensation) * longer / (params.warp_length or sum(spans))
+    return (1 - params.compensation) * longer / params.warp_length
 
 
 def results(found: SheddingAnalysis) -> tuple[object, ...]:

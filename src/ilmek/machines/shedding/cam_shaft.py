@@ -246,7 +246,7 @@ def of_shaft(params: SheddingParams, beyond: float, last: float, number: int) ->
         params,
         shafts=None,
         cam_thickness=None,
-        warps=max(number, 2),
+        cloth=replace(params.cloth, warps=max(number, 2)),
         stagger_groups=max(min(params.stagger_groups, number // 2), 1),
     )
     if spans is None:

@@ -155,7 +155,7 @@ def _neighbour_checks(design: SheddingDesign) -> Iterator[Check]:
 def _shaft_checks(one: CamShaft) -> Iterator[Check]:
     params, shaft = one.params, one.shaft
     width = sum(one.numbers) * one.stack.shares.pitch
-    room = shaft.length + one.stack.shares.pitch - params.warp_pitch
+    room = shaft.length + one.stack.shares.pitch - params.cloth.warp_pitch
     longer = "set a longer shaft_length"
     deflection = f"{THESIS} and eq. 3.4, 1 mm"
     yield at_most("width of the cams on the shaft", width, room, "mm", "shaft_length", cure=longer)
@@ -192,7 +192,7 @@ def _warp_checks(one: CamShaft) -> Iterator[Check]:
         return
     looser = "set a longer warp_length, more compensation, or a lower lift"
     tension = float(warp.tension_at(params.lift))
-    breaking = "breaking_force over breaking_safety (assumed by this project)"
+    breaking = "breaking force of the warp over breaking_safety (assumed by this project)"
     yield at_most("tension of a lifted warp", tension, params.strongest_tension, "N", breaking, cure=looser)
     strain = strain_of(params, lengthening_of(params))
     if strain is not None and math.isfinite(strain):

@@ -233,7 +233,7 @@ def design(params: SheddingParams) -> SheddingDesign:
 
 def _shafts(params: SheddingParams, chosen: ChosenStack, slender: float) -> tuple[CamShaft, ...]:
     """The shafts, so far apart that the guides of neighbours clear each other also where bores enlarge the cams."""
-    numbers, needed = dealt(params.warps, chosen.shafts), least_prime(params)
+    numbers, needed = dealt(params.cloth.warps, chosen.shafts), least_prime(params)
     if chosen.shafts == 1:
         return (cam_shaft(params, numbers[0], chosen.shares),)
     for _ in range(_TRIALS):

@@ -63,8 +63,8 @@ def fit(task: LoomTask) -> SheddingParams:
 def _usual(task: LoomTask, given: Mapping[str, Any]) -> SheddingParams:
     """Parameters with the loom's lift, for spans of which the user may set one or all."""
     if "half_span" in given:
-        return SheddingParams(lift=task.params.lift, tension=task.tension, half_span=given["half_span"])
-    return SheddingParams(lift=task.params.lift, tension=task.tension, front_span=USUAL_SPAN, back_span=USUAL_SPAN)
+        return SheddingParams(cloth=task.cloth, lift=task.params.lift, half_span=given["half_span"])
+    return SheddingParams(cloth=task.cloth, lift=task.params.lift, front_span=USUAL_SPAN, back_span=USUAL_SPAN)
 
 
 def _outline_of(made: SheddingDesign) -> _Outline:
@@ -81,17 +81,11 @@ def _with_spans(task: LoomTask, room: ShedRoom, outline: _Outline, given: Mappin
     length = warp_length(room, spans) + outline.apart + back - spans.back[0]
     gain = warp.stiffness / length * float(shed_lengthening(params.lift, spans.front[0], back))
     derived = SheddingParams(
+        cloth=task.cloth,
         lift=params.lift,
-        warps=task.warps,
-        warp_pitch=params.pitch,
-        warp_diameter=warp.diameter,
-        tension=task.tension,
         **({"half_span": given["half_span"]} if "half_span" in given else both),
-        warp_stiffness=warp.stiffness,
         warp_length=length,
         compensation=planned_compensation(task, gain),
-        breaking_force=warp.breaking_force,
-        friction=warp.friction,
         shuttle_height=room.opening,
         guideway=False,
         speed=params.shed_speed,

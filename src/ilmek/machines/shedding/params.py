@@ -4,11 +4,11 @@ from dataclasses import dataclass
 
 from ilmek.cams.laws import SMOOTH_LAWS
 from ilmek.cams.programme import TURN
-from ilmek.elements.carpet_yarns import usual_warp
 from ilmek.elements.materials import MATERIALS
 from ilmek.errors import ParameterError
-from ilmek.params import Params, kind
+from ilmek.params import Params, kind, nested
 from ilmek.units import GPa, MPa, N, deg, format_quantity, hour, mm, rpm
+from ilmek.weaving.cloth import Cloth
 
 PHASES = ("together", "staggered", "flattest")
 """How the cams of a parity stand on the shaft."""
@@ -47,8 +47,7 @@ class SheddingParams(Params):
         symbol="Rp",
     )
     roller_radius: float = kind.length(0.0, at_least=0.0, at_most=0.5, doc="radius of the warp or roller on the cam")
-    warps: int = kind.count(600, at_least=2, at_most=100_000, doc="warps, one cam each")
-    warp_pitch: float = kind.length(2 * mm, at_least=0.01 * mm, at_most=50 * mm, doc="distance of two warps")
+    cloth: Cloth = nested(Cloth, doc="warps, one cam each, their tension and yarn")
     shafts: int | None = kind.count(
         None,
         at_least=1,
@@ -57,9 +56,6 @@ class SheddingParams(Params):
     )
     guides: str = kind.choice(
         AUTO, (AUTO, DISCS, REED), doc="what keeps the warps on their cams: guide cams, or a fixed reed round the noses"
-    )
-    warp_diameter: float | None = kind.length(
-        None, at_least=0.001 * mm, at_most=50 * mm, doc="diameter of a warp; default: of the usual one at the pitch"
     )
     warp_clearance: float = kind.length(
         0.025 * mm, at_least=0.0, at_most=10 * mm, doc="room of a warp to each side between plates or dents"
@@ -93,8 +89,9 @@ class SheddingParams(Params):
         10 * mm, at_least=0.0, at_most=1.0, doc="gap between the guides of two shafts, and from guides to a hold"
     )
     density: float = kind.density(STEEL.density, at_least=1.0, at_most=25e3, doc="density of cams and shaft")
-    warp_force: float = kind.force(10 * N, at_least=0.0, at_most=1e4, doc="force of a lifted warp across the cam")
-    tension: float | None = kind.force(None, at_least=1e-6, at_most=1e4, doc="tension of a warp, with half_span")
+    warp_force: float = kind.force(
+        10 * N, at_least=0.0, at_most=1e4, doc="force of a lifted warp across the cam, where no span is given"
+    )
     half_span: float | None = kind.length(
         None, at_least=0.1 * mm, at_most=10.0, doc="cam to the next hold of the warp: force from tension and lift"
     )
@@ -107,27 +104,20 @@ class SheddingParams(Params):
     back_span: float | None = kind.length(
         None, at_least=0.1 * mm, at_most=10.0, doc="last shaft to the hold of the warp behind it, with front_span"
     )
-    warp_stiffness: float | None = kind.force(
-        None,
-        at_least=1.0,
-        at_most=1e7,
-        doc="force over strain of a warp, EA; cotton: about 2.1 N/tex; default: its tension does not change",
-        symbol="EA",
-    )
     warp_length: float | None = kind.length(
-        None, unit="m", at_least=0.1 * mm, at_most=100.0, doc="warp that stretches, fell to beam; default: both spans"
+        None,
+        unit="m",
+        at_least=0.1 * mm,
+        at_most=100.0,
+        doc="warp that stretches, fell to beam, with the spans; default: its tension does not change",
     )
     compensation: float = kind.ratio(0.0, at_least=0.0, at_most=1.0, doc="share of elongation that the back rest gives")
     strain_limit: float = kind.ratio(
         3.5e-2, unit="%", at_least=1e-6, at_most=1.0, doc="allowed strain of a warp; half of what breaks cotton"
     )
-    breaking_force: float | None = kind.force(
-        None, at_least=1e-6, at_most=1e5, doc="breaking force of a warp; default: of the usual one at the pitch"
-    )
     breaking_safety: float = kind.ratio(
         2.0, at_least=1.0, at_most=20.0, doc="breaking force over the tension of a lifted warp; assumed by this project"
     )
-    friction: float = kind.ratio(0.25, at_least=0.0, at_most=2.0, doc="friction coefficient, warp on cam", symbol="f")
     shuttle_height: float = kind.length(40 * mm, at_least=0.01 * mm, at_most=1.0, doc="opening that the shuttle needs")
     shuttle_angle: float | None = kind.angle(
         None,
@@ -193,40 +183,38 @@ class SheddingParams(Params):
             raise ParameterError(given, allowed="they must fit one turn, 360 deg", do="shorten one of them")
         self._check_thickness()
         self._check_spans()
-        if self.phase != "together" and self.stagger_groups > self.warps // 2:
+        if self.phase != "together" and self.stagger_groups > self.cloth.warps // 2:
             raise ParameterError(
-                f"stagger_groups={self.stagger_groups} of {self.warps} warps",
-                allowed=f"at most {self.warps // 2}: half of the warps are of a parity",
+                f"stagger_groups={self.stagger_groups} of {self.cloth.warps} warps",
+                allowed=f"at most {self.cloth.warps // 2}: half of the warps are of a parity",
                 do="set fewer groups",
             )
 
     def _check_thickness(self) -> None:
         """Raise ParameterError where a given cam does not fit the pitch of its shaft, the warps of all shafts on it."""
-        room = self.warp_pitch * (self.shafts or 1)
+        room = self.cloth.warp_pitch * (self.shafts or 1)
         if self.cam_thickness is not None and self.cam_thickness >= room:
-            pitch, most = format_quantity(self.warp_pitch, "mm"), format_quantity(room, "mm")
-            given = f"cam_thickness={format_quantity(self.cam_thickness, 'mm')} does not fit warp_pitch={pitch}"
+            pitch, most = format_quantity(self.cloth.warp_pitch, "mm"), format_quantity(room, "mm")
+            given = f"cam_thickness={format_quantity(self.cam_thickness, 'mm')} does not fit cloth.warp_pitch={pitch}"
             raise ParameterError(
                 given, allowed=f"below {most}", do="leave it out for half the pitch, or set more shafts"
             )
-        if self.shafts is not None and self.warps < 2 * self.shafts:
+        if self.shafts is not None and self.cloth.warps < 2 * self.shafts:
             raise ParameterError(
-                f"{self.warps} warps on {self.shafts} shafts", allowed="two warps a shaft", do="set fewer shafts"
+                f"{self.cloth.warps} warps on {self.shafts} shafts", allowed="two warps a shaft", do="set fewer shafts"
             )
 
     def _check_spans(self) -> None:
-        """Raise ParameterError unless tension and spans are given together, and stretching only with them."""
+        """Raise ParameterError unless both spans are given, and a tension or a length that stretches only with them."""
         front, back = self.front_span, self.back_span
         if (front is None) != (back is None):
             missing = "front_span" if front is None else "back_span"
             raise ParameterError(f"{missing} is missing", do="give front_span and back_span, or half_span for both")
         if front is not None and self.half_span is not None:
             raise ParameterError("half_span beside front_span and back_span", do="leave out half_span")
-        if (self.tension is None) != (self.spans_of_warp is None):
-            missing = "half_span" if self.spans_of_warp is None else "tension"
-            raise ParameterError(f"{missing} is missing", do="give tension and half_span together, or warp_force alone")
-        if self.warp_stiffness is not None and self.tension is None:
-            raise ParameterError("warp_stiffness without tension", do="give tension, front_span and back_span too")
+        for name, value in (("cloth.tension", self.cloth.tension), ("warp_length", self.warp_length)):
+            if value is not None and self.spans_of_warp is None:
+                raise ParameterError(f"{name} without half_span", do="give half_span too, or warp_force alone")
         if self.warp_length is not None and self.warp_length < sum(self.spans_of_warp or ()) * (1 - 1e-9):
             raise ParameterError(
                 f"warp_length={format_quantity(self.warp_length, 'm')} is shorter than the spans",
@@ -244,13 +232,12 @@ class SheddingParams(Params):
     @property
     def diameter(self) -> float:
         """Diameter of a warp [m]."""
-        return usual_warp(self.warp_pitch).diameter if self.warp_diameter is None else self.warp_diameter
+        return self.cloth.carpet_yarns.warp.diameter
 
     @property
     def strongest_tension(self) -> float:
         """Allowed tension of a lifted warp [N]: its breaking force over the safety."""
-        breaking = usual_warp(self.warp_pitch).breaking_force if self.breaking_force is None else self.breaking_force
-        return breaking / self.breaking_safety
+        return self.cloth.carpet_yarns.warp.breaking_force / self.breaking_safety
 
     @property
     def fall_angle(self) -> float:

@@ -84,8 +84,8 @@ def shed_of(
 
     numbers  of even and odd cams; default: half of the warps each
     """
-    evens = params.warps // 2
-    cams = parities(even, numbers or (evens, params.warps - evens), spread, groups if spread else 1)
+    evens = params.cloth.warps // 2
+    cams = parities(even, numbers or (evens, params.cloth.warps - evens), spread, groups if spread else 1)
     return Shed(*cams, spread, partial(warp_force, params), params)
 
 
@@ -108,7 +108,7 @@ def flattest(params: SheddingParams, even: CamProgramme, numbers: tuple[int, int
     together = shed_of(params, even, numbers=numbers)
     first, last = together.window()
     widest = _widest(params, even, last - first, required_window(params, last - first))
-    most = min(params.stagger_groups, params.warps // 2)
+    most = min(params.stagger_groups, params.cloth.warps // 2)
     found = [(*flattest_spread(together.torque, groups, widest), groups) for groups in range(2, most + 1)]
     best = min(found, default=(np.inf, 0.0, 1))
     return shed_of(params, even, best[1], best[2], numbers)

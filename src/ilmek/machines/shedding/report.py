@@ -103,7 +103,7 @@ def _stagger_table(found: SheddingAnalysis) -> Table:
     """Torque and shed of cams all at once, in two halves, and in the phases of least torque."""
     design, params = found.design, found.design.params
     sheds = [("all at once", found.together)]
-    if params.warps >= 4:
+    if params.cloth.warps >= 4:
         sheds += [("two halves", shed_of(params, design.even, spread, 2)) for spread in SPREADS]
     sheds += [("flattest", found.flattest)]
     if params.phase == "staggered":

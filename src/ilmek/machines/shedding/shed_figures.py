@@ -62,7 +62,7 @@ def stack_section(design: SheddingDesign) -> Drawing:
     """Section of the first stack along its axis at the warps' line: cams at rest and lifted, guides, other warps."""
     one, params = design.first, design.params
     shares, pitch = one.stack.shares, one.stack.shares.pitch
-    tall, nose, base = (share * params.warp_pitch for share in _SECTION)
+    tall, nose, base = (share * params.cloth.warp_pitch for share in _SECTION)
     strokes: list[Stroke] = []
     for number, top in enumerate((0.0, nose)):
         left, right = number * pitch - shares.thickness / 2, number * pitch + shares.thickness / 2
@@ -74,7 +74,7 @@ def stack_section(design: SheddingDesign) -> Drawing:
         if shares.guides == 2 or (shares.guides and not number):
             strokes.append(_box(left - shares.guide, left, base, tall))
     strokes += _passing(design)
-    low = base - 0.4 * params.warp_pitch
+    low = base - 0.4 * params.cloth.warp_pitch
     strokes.append(Stroke(np.array([1j * low, pitch + 1j * low]), "dimension", f"pitch {format_quantity(pitch, 'mm')}"))
     thick, guide = format_quantity(shares.thickness, "mm"), format_quantity(shares.guide, "mm")
     others = (

@@ -82,7 +82,7 @@ def shared(params: SheddingParams, shafts: int, guides: str) -> PitchShares:
 
 
 def _with_guide_cams(params: SheddingParams, shafts: int) -> PitchShares:
-    d, c, pitch = params.diameter, params.warp_clearance, params.warp_pitch
+    d, c, pitch = params.diameter, params.warp_clearance, params.cloth.warp_pitch
     whole, number = shafts * pitch, 1 if shafts == 1 else 2
     gap = passing_gap(shafts, d, c)
     rest = max(whole - gap, LEAST_SHARE * pitch)
@@ -98,7 +98,7 @@ def _with_guide_cams(params: SheddingParams, shafts: int) -> PitchShares:
 
 
 def _with_reed(params: SheddingParams, shafts: int) -> PitchShares:
-    d, c, pitch = params.diameter, params.warp_clearance, params.warp_pitch
+    d, c, pitch = params.diameter, params.warp_clearance, params.cloth.warp_pitch
     whole, gap = shafts * pitch, passing_gap(shafts, d, c)
     room = min(pitch, 2 * pitch - d - 2 * c) if shafts == 1 else whole - gap
     thickness = params.cam_thickness or max(room, LEAST_SHARE * pitch)

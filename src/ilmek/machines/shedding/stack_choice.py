@@ -35,7 +35,7 @@ def chosen_stack(params: SheddingParams, slender: float) -> ChosenStack:
 
     slender  prime radius for the pressure angle over the lift
     """
-    numbers = (params.shafts,) if params.shafts else range(1, min(MOST_SHAFTS, max(params.warps // 2, 1)) + 1)
+    numbers = (params.shafts,) if params.shafts else range(1, min(MOST_SHAFTS, max(params.cloth.warps // 2, 1)) + 1)
     kinds = (DISCS, REED) if params.guides == AUTO else (params.guides,)
     offered = [(number, kind, shared(params, number, kind)) for number in numbers for kind in kinds]
     if len(offered) == 1:
@@ -55,7 +55,7 @@ def plate_checks(params: SheddingParams, shares: PitchShares) -> tuple[Check, ..
     """Thickness of cams, guide cams or dents, and the room and the play of the warps between them."""
     d, cut = params.diameter, "assumed by this project: parameter least_plate"
     reed = shares.guides == 0
-    groove = 2 * params.warp_pitch - shares.thickness if reed else shares.thickness
+    groove = 2 * params.cloth.warp_pitch - shares.thickness if reed else shares.thickness
     guide = "dent of the reed" if reed else "guide cam"
     return (
         at_least("thickness of a cam", shares.thickness, params.least_plate, "mm", cut, cure=THICKER),
@@ -72,7 +72,7 @@ def plate_checks(params: SheddingParams, shares: PitchShares) -> tuple[Check, ..
             shares.used,
             shares.pitch,
             "mm",
-            "warp_pitch, shafts, warp_diameter and warp_clearance",
+            "warp pitch, shafts, diameter and clearance of the warps",
             cure="set a coarser pitch, or thinner warps",
         ),
         at_least(
@@ -86,7 +86,7 @@ def plate_checks(params: SheddingParams, shares: PitchShares) -> tuple[Check, ..
         at_most(
             "lateral play of a warp",
             shares.play,
-            params.play_limit * params.warp_pitch,
+            params.play_limit * params.cloth.warp_pitch,
             "mm",
             "assumed by this project: parameter play_limit",
             cure="set a thinner cam_thickness, or guides=reed",
@@ -115,7 +115,7 @@ def _standing_checks(params: SheddingParams, shafts: int, shares: PitchShares, s
     """Buckling on the last shaft, where the lift is highest, and the shed line; before the shafts are designed."""
     prime = params.prime_radius
     along = positions(params, shafts, slender if prime is None else prime / params.lift, least_prime(params))
-    last = of_shaft(params, along[-1], along[-1], params.warps)
+    last = of_shaft(params, along[-1], along[-1], params.cloth.warps)
     cosine = math.cos(params.pressure_angle_limit)
     force = float(warp_force(last, np.array(last.lift))) / cosine
     critical = float(nose_buckling(shares.thickness, last.lift, cosine, params.modulus))

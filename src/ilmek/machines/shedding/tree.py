@@ -34,13 +34,13 @@ _CUT, _ALONG = "laser-cut part", (0.0, 0.0, 1.0)
 
 def warp_positions(design: SheddingDesign) -> FloatArray:
     """Positions of the warps along the width to the weaver's right, 0 in their middle [m]."""
-    number = design.params.warps
-    return (np.arange(number) - (number - 1) / 2) * design.params.warp_pitch
+    number = design.params.cloth.warps
+    return (np.arange(number) - (number - 1) / 2) * design.params.cloth.warp_pitch
 
 
 def warp_shafts(design: SheddingDesign) -> tuple[IntArray, BoolArray]:
     """Number of the shaft of each warp, and whether it is an odd one; the first is (see `shedding.positions.dealt`)."""
-    index = np.arange(design.params.warps)
+    index = np.arange(design.params.cloth.warps)
     return index % len(design.shafts), index % 2 == 0
 
 
@@ -156,7 +156,7 @@ def _reed(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
     outline = Contour(np.concatenate([outer * ends, inner * ends[::-1]]), np.array([bend, 0.0, -bend, 0.0]))
     shape = Prism(Profile(outline), stack.guide_thickness)
     dent = _made(design, index, "reed-dent", "dent of the reed", shape, _CUT, f"round {_mm(outer)}")
-    x, pitch = warp_positions(design), design.params.warp_pitch
+    x, pitch = warp_positions(design), design.params.cloth.warp_pitch
     yield Occurrence(dent, _row(np.append(x - pitch / 2, x[-1] + pitch / 2), stack.guide_thickness))
 
 

@@ -18,12 +18,12 @@ ANGLES = np.arange(720) * (TURN / 720)
 
 def shed_warp(params: SheddingParams) -> ShedWarp | None:
     """The warp with its tension; None where only its force across the cam is given."""
-    spans = params.spans_of_warp
-    if params.tension is None or spans is None:
+    spans, length = params.spans_of_warp, params.warp_length
+    if spans is None:
         return None
-    length = params.warp_length or sum(spans)
-    rate = (1 - params.compensation) * (params.warp_stiffness or 0.0) / length
-    return ShedWarp(params.tension, spans[0], spans[1], rate)
+    stiffness = params.cloth.carpet_yarns.warp.stiffness
+    rate = 0.0 if length is None else (1 - params.compensation) * stiffness / length
+    return ShedWarp(params.cloth.warp_tension, spans[0], spans[1], rate)
 
 
 def warp_force(params: SheddingParams, s: FloatArray) -> FloatArray:

@@ -53,7 +53,7 @@ class TensionCompensator:
     relief = computed(
         "1",
         "share of the lengthening that the compensator gives to a lifted warp",
-        lambda it: 1 - (it.tension_open - it.params.tension) / (it.one.task.rate * it.lengthening),
+        lambda it: 1 - (it.tension_open - it.params.cloth.warp_tension) / (it.one.task.rate * it.lengthening),
         name="compensation",
     )
     levers = computed("1", "levers of a bar", lambda it: it.params.levers)
@@ -107,7 +107,7 @@ class TensionCompensator:
     @property
     def fixed_tension(self) -> float:
         """Tension of a lifted warp on fixed bars [N]."""
-        return self.params.tension + self.one.task.rate * self.lengthening
+        return self.params.cloth.warp_tension + self.one.task.rate * self.lengthening
 
     @property
     def radius(self) -> float:
@@ -150,7 +150,7 @@ def design(params: TensionCompensatorParams) -> TensionCompensator:
         bars=bars,
         lengthening=longer,
         tension_open=mean + apart,
-        tension_low=mean - apart if bars == 1 else params.tension,
+        tension_low=mean - apart if bars == 1 else params.cloth.warp_tension,
         frequency=math.sqrt(max(stiff, 0.0) / (mass / params.levers * params.bar_arm**2)) / turn,
         moving_mass=mass,
     )
@@ -164,18 +164,20 @@ def _bars(params: TensionCompensatorParams) -> tuple[int, Choice]:
 
 def bar_task(params: TensionCompensatorParams, bars: int) -> BarTask:
     """Task of one of 1 or 2 bars: the mean lengthening of its warps in the open shed."""
-    return BarTask(params.warps / bars / params.levers, params.rate, params.tension, params.longer * bars / 2)
+    return BarTask(
+        params.cloth.warps / bars / params.levers, params.rate, params.cloth.warp_tension, params.longer * bars / 2
+    )
 
 
 def swing(params: TensionCompensatorParams, bars: int) -> tuple[float, float]:
     """Greatest and least tension of a warp in the open shed [N] with 1 or 2 bars of the rate that is wished."""
     gain = params.rate * params.longer
-    return compensated_tension(params.tension, gain, bars, params.rate_share)
+    return compensated_tension(params.cloth.warp_tension, gain, bars, params.rate_share)
 
 
 def swing_checks(params: TensionCompensatorParams, most: float, least: float) -> tuple[Check, ...]:
     """Greatest and least tension in the open shed [N] against those that are allowed."""
-    rest, source = params.tension, "assumed by this project: parameter "
+    rest, source = params.cloth.warp_tension, "assumed by this project: parameter "
     high, low = params.tension_most * rest, params.tension_least * rest
     cure = "set bars=2, a lower rate_share, or a longer warp"
     return (
@@ -187,7 +189,7 @@ def swing_checks(params: TensionCompensatorParams, most: float, least: float) ->
 def _tube(params: TensionCompensatorParams, task: BarTask) -> tuple[Tube, Choice]:
     """Tube of bars and rods: at rest and in the open shed the strands deflect by nearly the same angle."""
     tension = max(task.tension, task.open_tension(params.rate_share))
-    line = task.warps * params.levers / params.width * tension * 2 * math.sin(params.strand_angle)
+    line = task.warps * params.levers / params.cloth.width * tension * 2 * math.sin(params.strand_angle)
     return pick("bar_tube", bar_tubes(params), lambda one: one.name, lambda one: bar_checks(params, one, line))
 
 
@@ -201,7 +203,7 @@ def _loads(params: TensionCompensatorParams, one: SprungLever) -> Loads:
         turned = complex(math.cos(angle), -math.sin(angle)) * lever.reach + lever.pivot
         along = turned - complex(lever.anchor)
         pivot = max(pivot, abs(pull + one.springs * spring * along / abs(along)))
-        line = max(line, abs(pull) * params.levers / params.width)
+        line = max(line, abs(pull) * params.levers / params.cloth.width)
     return Loads(line, torque, pivot)
 
 

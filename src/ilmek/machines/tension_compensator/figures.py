@@ -20,7 +20,9 @@ def tension_plot(found: CompensatorAnalysis) -> Plot:
     design, x = found.design, found.angle
     ends = np.array([0.0, turn])
     fixed = Series("open shed, fixed rods", ends, np.full(2, design.fixed_tension), dashed=True)
-    allowed = Series("allowed", ends, np.full(2, design.params.tension_most * design.params.tension), dashed=True)
+    allowed = Series(
+        "allowed", ends, np.full(2, design.params.tension_most * design.params.cloth.warp_tension), dashed=True
+    )
     series = (Series("even warps", x, found.even), Series("odd warps", x, found.odd), allowed, fixed)
     axes = Axis("cam angle", "deg"), Axis("tension", "N")
     return Plot("tension-compensator-tension", "Tension of a warp over the turn", *axes, series)

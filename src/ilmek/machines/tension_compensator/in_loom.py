@@ -13,18 +13,14 @@ SAMPLES = 73
 
 def fit(task: LoomTask) -> TensionCompensatorParams:
     """The parameters for a loom: its warps, and the shed of its cams."""
-    params, cams, side = task.params, task.designs["shedding"], task.side
+    cams, side = task.designs["shedding"], task.side
     assert side is not None
     shed, turns = cams.params, np.linspace(0.0, turn, SAMPLES)
     return task.parameters(
         "tension-compensator",
         TensionCompensatorParams(
-            warps=task.warps,
-            tension=task.tension,
-            warp_stiffness=task.yarns.warp.stiffness,
+            cloth=task.cloth,
             warp_length=side.warp_length,
-            warp_pitch=params.pitch,
-            width=task.cloth_width,
             lift=side.lift,
             front_span=side.front_span,
             back_span=side.back_span,

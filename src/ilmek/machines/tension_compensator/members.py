@@ -101,7 +101,7 @@ def roller_for(params: TensionCompensatorParams, line: float) -> RollingBearing:
 
     line  load of a bar [N/m]; two rollers carry it at a lever
     """
-    force = line * params.width / params.levers / (2 * math.cos(SADDLE))
+    force = line * params.cloth.width / params.levers / (2 * math.cos(SADDLE))
     balls = [row for row in ROLLING_BEARINGS.values() if row.kind == DEEP_GROOVE]
     return smallest_bearing(force, ROLLER_TURNS) or max(balls, key=lambda row: row.static)
 
@@ -120,7 +120,7 @@ def pick(
 
 def bar_checks(params: TensionCompensatorParams, tube: Tube, line: float) -> tuple[Check, ...]:
     """Deflection and stress of a bar under a load [N/m]."""
-    span = params.width / params.levers
+    span = params.cloth.width / params.levers
     sag = 7 * line * span**4 / (384 * STEEL.modulus * tube.inertia)
     return (
         at_most(
@@ -178,7 +178,7 @@ def pin_checks(params: TensionCompensatorParams, pin: float, loads: Loads) -> tu
 
 def beam_checks(params: TensionCompensatorParams, section: HollowSquare, loads: Loads) -> tuple[Check, ...]:
     """Deflection and stress of the beam that carries the levers, from column to column."""
-    given = loads.line, params.width
+    given = loads.line, params.cloth.width
     sag = float(uniform.deflection_max(*given, STEEL.modulus, section.inertia))
     stress = float(uniform.bending_stress(uniform.moment_max(*given), section.side / 2, section.inertia))
     source = "assumed by this project: parameter beam_sag"
@@ -187,7 +187,7 @@ def beam_checks(params: TensionCompensatorParams, section: HollowSquare, loads: 
         at_most(
             "deflection of the levers' beam",
             sag,
-            params.beam_sag * params.width,
+            params.beam_sag * params.cloth.width,
             "mm",
             source,
             parts=(part_id("beam"),),

@@ -3,12 +3,12 @@
 from dataclasses import dataclass
 
 from ilmek.cams.laws import SMOOTH_LAWS
-from ilmek.elements.carpet_yarns import usual_warp
 from ilmek.elements.materials import MATERIALS
 from ilmek.elements.springs import WIRES
 from ilmek.errors import ParameterError
-from ilmek.params import Params, kind
-from ilmek.units import MPa, N, deg, m, mm, rpm, turn
+from ilmek.params import Params, kind, nested
+from ilmek.units import MPa, deg, m, mm, rpm, turn
+from ilmek.weaving.cloth import Cloth
 from ilmek.weaving.shed import shed_lengthening
 from ilmek.weaving.tension import RATE_SHARE, TENSION_LEAST, TENSION_MOST
 
@@ -19,16 +19,10 @@ STEEL = MATERIALS["structural steel"]
 class TensionCompensatorParams(Params):
     """Warps and shed, limits of the tension, and the linkage."""
 
-    warps: int = kind.count(600, at_least=2, at_most=100_000, doc="warps", symbol="n")
-    tension: float = kind.force(15 * N, at_least=1e-6, at_most=1e4, doc="tension of a warp at rest", symbol="T0")
-    warp_stiffness: float | None = kind.force(
-        None, at_least=1.0, at_most=1e7, doc="force over strain of a warp; default: of the usual warp", symbol="EA"
-    )
+    cloth: Cloth = nested(Cloth, doc="warps, their tension and yarn; the bars are as wide")
     warp_length: float = kind.length(
         1.5 * m, unit="m", at_least=10 * mm, at_most=100.0, doc="warp that stretches, fell to cylinder"
     )
-    warp_pitch: float = kind.length(2 * mm, above=0.0, at_most=50 * mm, doc="distance of two warps")
-    width: float = kind.length(1.2 * m, unit="m", at_least=10 * mm, at_most=20.0, doc="width of the bars")
     lift: float = kind.length(60 * mm, at_least=0.01 * mm, at_most=0.5, doc="lift of a warp for the shed")
     front_span: float = kind.length(170 * mm, at_least=1 * mm, at_most=10.0, doc="shedding cam to the hold in front")
     back_span: float = kind.length(170 * mm, at_least=1 * mm, at_most=10.0, doc="shedding cam to the hold behind")
@@ -83,7 +77,7 @@ class TensionCompensatorParams(Params):
     @property
     def rate(self) -> float:
         """Gain of a warp's tension over its lengthening, EA / L [N/m]."""
-        return (self.warp_stiffness or usual_warp(self.warp_pitch).stiffness) / self.warp_length
+        return self.cloth.carpet_yarns.warp.stiffness / self.warp_length
 
     @property
     def longer(self) -> float:
@@ -93,7 +87,7 @@ class TensionCompensatorParams(Params):
     @property
     def levers(self) -> int:
         """Levers of a bar, in the middle of equal parts of the width."""
-        return max(2, -int(-self.width / self.support_span * (1 - 1e-9) // 1))
+        return max(2, -int(-self.cloth.width / self.support_span * (1 - 1e-9) // 1))
 
     @property
     def lifted_angle(self) -> float:

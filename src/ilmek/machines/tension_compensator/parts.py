@@ -45,7 +45,7 @@ class BarSupports:
     @property
     def stations(self) -> tuple[float, ...]:
         """Middles of equal parts of the width [m]."""
-        width, number = self.params.width, self.params.levers
+        width, number = self.params.cloth.width, self.params.levers
         return tuple(width * ((k + 0.5) / number - 0.5) for k in range(number))
 
     @property
@@ -91,7 +91,7 @@ def parts_of(params: TensionCompensatorParams, sprung: SprungLever, members: Mem
     thick, pin, roller, section = params.lever_thickness, members.pin, members.roller, members.tube
     flat, turned = "machined link", "pin or bush"
     pins = bar(roller.bore, thick + PLAY + roller.width)
-    cylinder = tube(section.outer, section.wall, params.width)
+    cylinder = tube(section.outer, section.wall, params.cloth.width)
     return CompensatorParts(
         supports,
         bar=_made("bar", "bar of the compensator", "steel tube", cylinder, f"tube {section.name} mm"),
@@ -129,7 +129,7 @@ def sprung_bar(
     return RigidBody(
         part_id(f"{name} bar"),
         (
-            Occurrence(parts.bar, _places([at.bar], [-at.params.width / 2])),
+            Occurrence(parts.bar, _places([at.bar], [-at.params.cloth.width / 2])),
             Occurrence(parts.lever, _places([0j], at.stations, -thick / 2)),
             Occurrence(parts.bush, _places([0j], at.stations, -at.members.pin)),
             Occurrence(parts.saddle, _places([at.bar], at.stations, thick / 2, turned=-at.bar)),
@@ -159,7 +159,7 @@ def standing(parts: CompensatorParts, name: str, position: Placement = IDENTITY)
         RigidBody(
             part_id(f"{name} beam"),
             (
-                Occurrence(parts.beam, _places([beam], [-at.params.width / 2])),
+                Occurrence(parts.beam, _places([beam], [-at.params.cloth.width / 2])),
                 Occurrence(parts.pin, _places([lever.pivot], at.stations, -members.pin - thick)),
             ),
             joint=missing,
@@ -168,7 +168,7 @@ def standing(parts: CompensatorParts, name: str, position: Placement = IDENTITY)
         RigidBody(
             part_id(f"{name} rods"),
             (
-                Occurrence(parts.rod, _places(rods, [-at.params.width / 2])),
+                Occurrence(parts.rod, _places(rods, [-at.params.cloth.width / 2])),
                 Occurrence(parts.saddle, _places(rods, at.stations, thick / 2, turned=-1)),
                 *_rollers(parts, np.concatenate([at.saddle(rod, -1) for rod in rods]), 1.5 * thick),
             ),
@@ -264,7 +264,7 @@ def _bush(pin: float) -> Shape:
 
 
 def _beam(params: TensionCompensatorParams, members: Members) -> Shape:
-    return square_tube(members.beam.side, members.beam.wall, params.width)
+    return square_tube(members.beam.side, members.beam.wall, params.cloth.width)
 
 
 def _spring(params: TensionCompensatorParams, sprung: SprungLever) -> Part:

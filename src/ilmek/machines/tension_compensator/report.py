@@ -122,7 +122,7 @@ def fewer_checks(params: TensionCompensatorParams, one: SprungLever) -> tuple[Ch
 def tables(found: CompensatorAnalysis) -> tuple[Table, ...]:
     """Tensions with and without the compensator."""
     design = found.design
-    rest, held = design.params.tension, design.fixed_tension
+    rest, held = design.params.cloth.warp_tension, design.fixed_tension
     rows = (
         ("fixed rods", held, rest, held / rest),
         (

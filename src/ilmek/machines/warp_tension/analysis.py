@@ -8,11 +8,10 @@ degrees over the ratio: the smallest change that the motor can set.
 from typing import Any
 
 from ilmek.arrays import FloatArray
-from ilmek.elements.carpet_yarns import usual_warp
 from ilmek.elements.motors import FULL_STEPS
 from ilmek.machines.warp_tension.cylinders import Cylinder, Slots, cylinders, slots_of, tension_beyond
 from ilmek.machines.warp_tension.design import WarpTensionDesign
-from ilmek.machines.warp_tension.loads import stiffness_of, tensions_of
+from ilmek.machines.warp_tension.loads import tensions_of
 from ilmek.records import computed, group, record, result
 from ilmek.units import turn
 from ilmek.weaving.tension import TakeUpTension, tension_history
@@ -38,12 +37,13 @@ class WarpTension:
 def tension_of(design: WarpTensionDesign) -> WarpTension:
     """The warps' tensions over the rows between two take-ups."""
     params, over = design.params, tensions_of(design.params)
+    warp = params.cloth.carpet_yarns.warp
     return WarpTension(
         over,
         params.rows_between,
-        stiffness_of(params),
-        params.breaking_force or usual_warp(params.pitch).breaking_force,
-        params.rows_between * params.row_pitch * params.crimp / design.outer_radius,
+        warp.stiffness,
+        warp.breaking_force,
+        params.rows_between * params.cloth.row_distance * params.crimp / design.outer_radius,
         over.rate * design.outer_radius * turn / FULL_STEPS / design.reducer.ratio,
     )
 

@@ -56,7 +56,7 @@ def tube_checks(params: WarpTensionParams, tube: Tube, depth: float, load: compl
     """Slope and deflection of a tube with slots of a depth [m] under a load [N/m] and its own weight."""
     outer, inner = tube.outer_radius - depth, tube.inner_radius
     size = abs(load - 1j * tube_weight(params, inner, outer))
-    bent = size, params.width, params.modulus, float(uniform.tube_inertia(outer, inner))
+    bent = size, params.span, params.modulus, float(uniform.tube_inertia(outer, inner))
     return (
         at_most("slope in the bearings", float(uniform.slope_max(*bent)), params.slope_limit, "rad", "slope_limit"),
         at_most("deflection", float(uniform.deflection_max(*bent)), params.deflection_limit, "mm", "deflection_limit"),

@@ -32,7 +32,6 @@ from ilmek.elements.bearings import (
     slope_limit,
     static_load,
 )
-from ilmek.elements.carpet_yarns import usual_warp
 from ilmek.elements.materials import GRAVITY, MATERIALS
 from ilmek.elements.tubes import TUBES, Tube, find_tube
 from ilmek.machines.warp_tension.design import LARGE_TUBES, WarpTensionDesign, keeps_limits, worst_load
@@ -121,17 +120,17 @@ class Slots:
 
 def slots_of(params: WarpTensionParams) -> Slots:
     """The spacer's slots, one for each warp."""
-    warp = params.warp_diameter or usual_warp(params.pitch).diameter
+    warp, pitch = params.cloth.carpet_yarns.warp.diameter, params.cloth.warp_pitch
     depth = warp if params.slot_depth is None else params.slot_depth
-    width = params.slot_width or min(1.1 * warp, (warp + params.pitch) / 2)
-    return Slots(params.pitch, width, depth, warp)
+    width = params.slot_width or min(1.1 * warp, (warp + pitch) / 2)
+    return Slots(pitch, width, depth, warp)
 
 
 def cylinders(design: WarpTensionDesign) -> tuple[Cylinder, Cylinder, Cylinder]:
     """Upper and lower cylinder, and the spacer, in the worst case of the warps' loads."""
     params, tube = design.params, stock(design.inner_radius, design.outer_radius)
-    load, sizes = design.loads.worst / params.width, (design.outer_radius, design.inner_radius)
-    plain = hollow(2 * design.outer_radius, design.outer_radius - design.inner_radius, params.width)
+    load, sizes = design.loads.worst / params.span, (design.outer_radius, design.inner_radius)
+    plain = hollow(2 * design.outer_radius, design.outer_radius - design.inner_radius, params.span)
     upper = _cylinder(design, "upper", sizes, (plain, tube), -1j * load, design.loads.worst * design.outer_radius)
     lower = _cylinder(design, "lower", sizes, (plain, tube), 1j * load, design.holding_torque)
     chosen = spacer_tube(params)
@@ -147,8 +146,8 @@ def metal_left(params: WarpTensionParams, section: Tube) -> float:
 
 def spacer_shell(params: WarpTensionParams, section: Tube) -> Turned:
     """The spacer's tube with a slot for each warp that has room on it, about z from z = 0."""
-    slots, outer, width = slots_of(params), section.outer_radius, params.width
-    number = min(params.warps, math.floor(width / slots.pitch * (1 - 1e-9)))
+    slots, outer, width = slots_of(params), section.outer_radius, params.span
+    number = min(params.cloth.warps, math.floor(width / slots.pitch * (1 - 1e-9)))
     if slots.depth <= 0 or number == 0:
         return hollow(section.outer, section.wall, width)
     under, half = section.inner_radius + metal_left(params, section), min(slots.width, 0.999 * slots.pitch) / 2
@@ -166,7 +165,7 @@ def spacer_load(params: WarpTensionParams, load: float) -> complex:
 
 def tension_beyond(params: WarpTensionParams) -> float:
     """Tension of a warp on the other side of the spacer while it slips [N]."""
-    return params.tension * capstan(params.friction, params.spacer_wrap)
+    return params.cloth.warp_tension * capstan(params.cloth.yarns.friction, params.spacer_wrap)
 
 
 def stock(inner: float, outer: float) -> Tube | None:
@@ -183,11 +182,11 @@ def _cylinder(  # noqa: PLR0917
     torque: float,
 ) -> Cylinder:
     params, (outer, inner), (made, tube) = design.params, sizes, shell
-    weight = made.moments.zeroth * params.density * GRAVITY / params.width
+    weight = made.moments.zeroth * params.density * GRAVITY / params.span
     load = bare - 1j * weight
     size, inertia = abs(load), float(uniform.tube_inertia(outer, inner))
-    bent = (params.width, params.modulus, inertia)
-    reaction = float(uniform.reaction(size, params.width))
+    bent = (params.span, params.modulus, inertia)
+    reaction = float(uniform.reaction(size, params.span))
     slope = float(uniform.slope_max(size, *bent))
     bearing = bearing_for(params, reaction, torque, slope)
     lives = life(bearing.dynamic, equivalent_load(bearing, reaction), bearing.kind)
@@ -203,13 +202,13 @@ def _cylinder(  # noqa: PLR0917
         deflection_bare=float(uniform.deflection_max(abs(bare), *bent)),
         slope=slope,
         deflection=float(uniform.deflection_max(size, *bent)),
-        stress=float(uniform.bending_stress(uniform.moment_max(size, params.width), outer, inertia)),
+        stress=float(uniform.bending_stress(uniform.moment_max(size, params.span), outer, inertia)),
         reaction=reaction,
         torque=torque,
-        mass=weight / GRAVITY * params.width,
+        mass=weight / GRAVITY * params.span,
         bearing=bearing,
         life=lives,
-        time=hours(lives, params.row_pitch / outer / params.row_time) * hour,
+        time=hours(lives, params.cloth.row_distance / outer / params.row_time) * hour,
         static_safety=bearing.static / static_load(bearing, reaction),
         stub_stress=stub_stress(params, reaction, torque, bearing.bore),
     )

@@ -78,13 +78,13 @@ class WarpTensionDesign:
     motor: Motor | None
     motor_limit: float
 
-    reaction = computed("N", "force on each bearing", lambda it: float(uniform.reaction(it.load, it.params.width)))
-    force = computed("kN", "pull of all warps", lambda it: it.load * it.params.width)
+    reaction = computed("N", "force on each bearing", lambda it: float(uniform.reaction(it.load, it.params.span)))
+    force = computed("kN", "pull of all warps", lambda it: it.load * it.params.span)
     self_weight = computed("N/m", "own weight", lambda it: tube_weight(it.params, it.inner_radius, it.outer_radius))
     mass = computed(
         "kg",
         "mass of the tube between its bearings",
-        lambda it: math.pi * (it.outer_radius**2 - it.inner_radius**2) * it.params.width * it.params.density,
+        lambda it: math.pi * (it.outer_radius**2 - it.inner_radius**2) * it.params.span * it.params.density,
     )
     bearings = computed(
         "",
@@ -104,7 +104,7 @@ class WarpTensionDesign:
         absent=NO_MOTOR,
     )
     take_up_angle = computed(
-        "deg", "rotation of the cylinder per row", lambda it: it.params.row_pitch / it.outer_radius
+        "deg", "rotation of the cylinder per row", lambda it: it.params.cloth.row_distance / it.outer_radius
     )
     take_up_motor_turns = computed("1", "motor turns a row", lambda it: it.take_up_angle * it.ratio / turn)
 
@@ -118,11 +118,11 @@ class WarpTensionDesign:
 
 def design(params: WarpTensionParams) -> WarpTensionDesign:
     """Cylinder and drive for the parameters; with the largest tube where none keeps the limits."""
-    load, pull, loads = params.pull / params.width, params.pull, loads_of(params)
+    load, pull, loads = params.cloth.pull / params.span, params.cloth.pull, loads_of(params)
     inner, outer = _tube(params)
     for_slope, for_deflection = outer_radii_min(params, inner)
-    loaded = loads.worst / params.width + tube_weight(params, inner, outer)
-    bent = (params.width, params.modulus, float(uniform.tube_inertia(outer, inner)))
+    loaded = loads.worst / params.span + tube_weight(params, inner, outer)
+    bent = (params.span, params.modulus, float(uniform.tube_inertia(outer, inner)))
     roll = math.sqrt(outer**2 + params.carpet_length * params.carpet_thickness / math.pi)
     reducer, motor, speed = _drive(params, pull * roll, peak_rate(params, outer))
     return WarpTensionDesign(
@@ -138,7 +138,7 @@ def design(params: WarpTensionParams) -> WarpTensionDesign:
         outer_radius_min=for_slope,
         outer_radius_min_deflection=for_deflection,
         load=load,
-        stress=float(uniform.bending_stress(uniform.moment_max(loaded, params.width), outer, bent[2])),
+        stress=float(uniform.bending_stress(uniform.moment_max(loaded, params.span), outer, bent[2])),
         roll_radius=roll,
         torque_full=pull * roll,
         holding_torque=loads.worst * roll,
@@ -161,7 +161,7 @@ def keeps_limits(params: WarpTensionParams, inner: float, outer: float, load: co
     load  [N/m], complex, the weight along -i
     """
     loaded = abs(load - 1j * tube_weight(params, inner, outer))
-    bent = (loaded, params.width, params.modulus, uniform.tube_inertia(outer, inner))
+    bent = (loaded, params.span, params.modulus, uniform.tube_inertia(outer, inner))
     return bool(
         uniform.slope_max(*bent) <= params.slope_limit and uniform.deflection_max(*bent) <= params.deflection_limit
     )
@@ -169,7 +169,7 @@ def keeps_limits(params: WarpTensionParams, inner: float, outer: float, load: co
 
 def worst_load(params: WarpTensionParams) -> complex:
     """Load of the upper cylinder in the worst case [N/m], downwards."""
-    return -1j * loads_of(params).worst / params.width
+    return -1j * loads_of(params).worst / params.span
 
 
 def tubes_within_limits(params: WarpTensionParams, tubes: Iterable[Tube]) -> tuple[Tube, ...]:
@@ -180,7 +180,7 @@ def tubes_within_limits(params: WarpTensionParams, tubes: Iterable[Tube]) -> tup
 
 def peak_rate(params: WarpTensionParams, outer: float) -> float:
     """Largest speed of the cylinder [rad/s] while a row is taken up."""
-    return TAKE_UP_LAW.velocity_peak * params.row_pitch / outer / params.take_up_time
+    return TAKE_UP_LAW.velocity_peak * params.cloth.row_distance / outer / params.take_up_time
 
 
 def _tube(params: WarpTensionParams) -> tuple[float, float]:
@@ -232,7 +232,7 @@ def _drive(params: WarpTensionParams, torque: float, rate: float) -> tuple[Reduc
 
 def outer_radii_min(params: WarpTensionParams, inner_radius: float) -> tuple[float, float]:
     """Least outer radii [m] for the slope and for the deflection, with an inner radius [m]."""
-    load, width, modulus = params.pull / params.width, params.width, params.modulus
+    load, width, modulus = params.cloth.pull / params.span, params.span, params.modulus
     for_slope = shafts.inertia_for_slope(load, width, modulus, params.slope_limit)
     for_deflection = shafts.inertia_for_deflection(load, width, modulus, params.deflection_limit)
     return shafts.tube_outer_radius(for_slope, inner_radius), shafts.tube_outer_radius(for_deflection, inner_radius)

@@ -21,7 +21,7 @@ def figures(found: WarpTensionAnalysis) -> tuple[Figure, ...]:
     design, params = found.design, found.design.params
     inertia = float(uniform.tube_inertia(design.outer_radius, design.inner_radius))
     load = design.load + design.self_weight
-    line = deflection_plot(load, params.width, params.modulus, inertia, params.deflection_limit)
+    line = deflection_plot(load, params.span, params.modulus, inertia, params.deflection_limit)
     section = tube_drawing(design.outer_radius, design.inner_radius, design.outer_radius_min)
     of_one = (replace(figure, name=f"warp-tension-{figure.name}") for figure in (line, section))
     return (side_view(found), moving(found), *of_one, _tension_plot(found))
@@ -88,7 +88,7 @@ def moving(found: WarpTensionAnalysis) -> Animation:
         if one.name in turned
     )
     marks = MovingDot(_along(side.path, released), "", "point")
-    rows = woven / params.row_pitch
+    rows = woven / params.cloth.row_distance
     readings = (
         Reading("carpet taken up", woven, "mm"),
         Reading("rows", rows),
@@ -98,7 +98,7 @@ def moving(found: WarpTensionAnalysis) -> Animation:
     still = Drawing("warp-tension-moving", "The cylinders take up the carpet", fixed, unit="m", note=note)
     drive, period = (
         Axis("angle of the lower cylinder", "deg"),
-        float(turn * lower.outer / params.row_pitch * params.row_time),
+        float(turn * lower.outer / params.cloth.row_distance * params.row_time),
     )
     return Animation(still, drive, at, spokes, (marks,), period=period, readings=readings)
 

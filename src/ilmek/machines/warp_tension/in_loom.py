@@ -16,25 +16,18 @@ def fit(task: LoomTask) -> WarpTensionParams:
     derived = task.parameters(
         "warp-tension",
         WarpTensionParams(
-            warps=task.warps,
-            tension=task.tension,
+            cloth=task.cloth,
             width=task.width,
-            row_pitch=task.row_pitch,
             take_up_time=task.take_up_time,
             row_time=task.row_time,
             carpet_length=params.length,
-            warp_pitch=params.pitch,
             free_length=task.side.warp_length,
-            warp_stiffness=task.yarns.warp.stiffness,
-            warp_diameter=task.yarns.warp.diameter,
-            friction=task.yarns.warp.friction,
             shed_lift=params.lift,
             shed_span=task.side.front_span,
             tension_shed=loads.lifted,
             tension_shed_low=loads.others,
             tension_beat=loads.beat,
             warps_beaten=loads.beaten,
-            breaking_force=task.yarns.warp.breaking_force,
         ),
     )
     if any(one is not None for one in (derived.tube, derived.outer_radius, derived.inner_radius)):
@@ -45,4 +38,4 @@ def fit(task: LoomTask) -> WarpTensionParams:
 def work(made: WarpTensionDesign) -> tuple[Work, ...]:
     """The work of taking up the carpet against the pull of the warps, the reducer's losses included."""
     params = made.params
-    return (Work("take-up", params.pull * params.carpet_length / made.reducer.efficiency, "carpet"),)
+    return (Work("take-up", params.cloth.pull * params.carpet_length / made.reducer.efficiency, "carpet"),)

@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 
-from ilmek.elements.carpet_yarns import usual_warp
 from ilmek.machines.warp_loads import WarpLoads, beat_tension
 from ilmek.machines.warp_tension.params import WarpTensionParams
 from ilmek.weaving.fell import assumed_fabric
@@ -10,28 +9,26 @@ from ilmek.weaving.shed import shed_lengthening
 from ilmek.weaving.tension import TakeUpTension, take_up_tension
 
 
-def stiffness_of(params: WarpTensionParams) -> float:
-    """Force over strain of a warp [N]."""
-    return params.warp_stiffness or usual_warp(params.pitch).stiffness
-
-
 def tensions_of(params: WarpTensionParams) -> TakeUpTension:
     """The tensions of a warp between two take-ups; that in the open shed as given, or by its lengthening.
 
     Weaving adds to it what it adds to the tension at rest.
     """
-    rate, woven = stiffness_of(params) / params.free_length, params.rows_between * params.row_pitch
+    cloth = params.cloth
+    rate = cloth.carpet_yarns.warp.stiffness / params.free_length
+    woven = params.rows_between * cloth.row_distance
     lengthening = float(shed_lengthening(params.shed_lift, params.shed_span, params.shed_span))
-    found = take_up_tension(params.tension, rate, woven, params.crimp, lengthening)
+    found = take_up_tension(cloth.warp_tension, rate, woven, params.crimp, lengthening)
     given = params.tension_shed
     return found if given is None else replace(found, shed=given + found.woven - found.rest)
 
 
 def loads_of(params: WarpTensionParams) -> WarpLoads:
     """The loads of all warps, standing, with the shed open, and at the beat."""
-    low, beat = params.tension_shed_low, params.tension_beat
+    cloth, low, beat = params.cloth, params.tension_shed_low, params.tension_beat
+    rest, stiffness = cloth.warp_tension, cloth.carpet_yarns.warp.stiffness
     if beat is None:
-        fabric = assumed_fabric(params.row_pitch, params.tension, stiffness_of(params), params.free_length)
-        beat = beat_tension(fabric, params.row_pitch)
-    shed, beaten = tensions_of(params).shed, min(params.warps_beaten or params.warps, params.warps)
-    return WarpLoads(params.warps, beaten, params.tension, shed, params.tension if low is None else low, beat)
+        fabric = assumed_fabric(cloth.row_distance, rest, stiffness, params.free_length)
+        beat = beat_tension(fabric, cloth.row_distance)
+    shed, beaten = tensions_of(params).shed, min(params.warps_beaten or cloth.warps, cloth.warps)
+    return WarpLoads(cloth.warps, beaten, rest, shed, rest if low is None else low, beat)

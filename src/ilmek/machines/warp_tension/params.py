@@ -2,21 +2,27 @@
 
 from dataclasses import dataclass
 
+from ilmek.elements.carpet_yarns import CarpetYarnParams
 from ilmek.elements.materials import MATERIALS
 from ilmek.errors import ParameterError
-from ilmek.params import Params, kind
-from ilmek.units import MPa, N, deg, format_quantity, m, mm, ms, s
+from ilmek.params import Params, kind, nested
+from ilmek.units import MPa, deg, format_quantity, m, mm, ms, s
+from ilmek.weaving.cloth import Cloth
 
 STEEL = MATERIALS["structural steel"]
+
+THESIS_CLOTH = Cloth(yarns=CarpetYarnParams(friction=0.2))
+"""The thesis' warps; their friction on the spacer is assumed by this project."""
 
 
 @dataclass(frozen=True, slots=True)
 class WarpTensionParams(Params):
     """Parameters of the three cylinders, their drive and the warps."""
 
-    warps: int = kind.count(600, at_least=1, at_most=100_000, doc="warps on the cylinder", symbol="n")
-    tension: float = kind.force(15 * N, at_least=1e-6, at_most=1e4, doc="tension of a warp", symbol="T")
-    width: float = kind.length(1.2 * m, unit="m", at_least=1 * mm, at_most=20.0, doc="between its bearings", symbol="l")
+    cloth: Cloth = nested(Cloth, default=THESIS_CLOTH, doc="warps, their tension and yarn, distance of the rows")
+    width: float | None = kind.length(
+        None, unit="m", at_least=1 * mm, at_most=20.0, doc="between its bearings; default: of the cloth", symbol="l"
+    )
     outer_radius: float | None = kind.length(
         None,
         at_least=0.1 * mm,
@@ -47,7 +53,6 @@ class WarpTensionParams(Params):
     motor_torque: float | None = kind.torque(
         None, unit="Nm", at_least=1e-6, at_most=1e4, doc="torque of the motor; default: of the smallest that is enough"
     )
-    row_pitch: float = kind.length(4 * mm, at_least=0.001 * mm, at_most=0.1, doc="carpet taken up for a row of knots")
     take_up_time: float = kind.time(1 * s, at_least=1 * ms, at_most=3600.0, doc="time to take up a row")
     carpet_length: float = kind.length(1.8 * m, unit="m", at_least=1 * mm, at_most=1000.0, doc="length of the carpet")
     carpet_thickness: float = kind.length(
@@ -71,24 +76,14 @@ class WarpTensionParams(Params):
     row_time: float = kind.time(150 * s, at_least=1 * ms, at_most=1e6, doc="time of a row, its knots included")
     spacer_tube: str | None = kind.text(None, doc="tube of the spacer; default: the lightest that keeps the limits")
     spacer_wrap: float = kind.angle(90 * deg, at_least=0.0, at_most=180 * deg, doc="wrap of the warps on the spacer")
-    warp_pitch: float | None = kind.length(
-        None, above=0.0, at_most=50 * mm, doc="pitch of the spacer's slots; default: width over warps"
-    )
-    warp_diameter: float | None = kind.length(
-        None, above=0.0, at_most=10 * mm, doc="diameter of a warp; default: of the usual warp"
-    )
     slot_width: float | None = kind.length(
         None, above=0.0, at_most=50 * mm, doc="width of a slot; default: 1.1 warps, at most the mean of warp and pitch"
     )
     slot_depth: float | None = kind.length(
         None, at_least=0.0, at_most=20 * mm, doc="depth of a slot; default: one warp"
     )
-    friction: float = kind.ratio(0.2, at_least=0.0, at_most=1.0, doc="friction coefficient of a warp on the spacer")
     free_length: float = kind.length(
         1.5 * m, unit="m", at_least=10 * mm, at_most=100.0, doc="warp between the cylinders"
-    )
-    warp_stiffness: float | None = kind.force(
-        None, at_least=1.0, at_most=1e7, doc="force over strain of a warp; default: cotton of the usual mass"
     )
     crimp: float = kind.ratio(0.03, at_least=0.0, at_most=1.0, doc="warp in the carpet over its length, less 1")
     shed_lift: float = kind.length(60 * mm, at_least=0.0, at_most=0.5, doc="lift of a warp for the shed; 0: none")
@@ -110,23 +105,21 @@ class WarpTensionParams(Params):
     warps_beaten: int | None = kind.count(
         None, at_least=1, at_most=100_000, doc="warps that are beaten at once; default: all"
     )
-    breaking_force: float | None = kind.force(
-        None, at_least=1e-6, at_most=1e6, doc="breaking force of a warp; default: of the usual warp, of cotton"
-    )
     rows_between: int = kind.count(1, at_least=1, at_most=1000, doc="rows between two take-ups")
 
     @property
-    def pitch(self) -> float:
-        """Distance of two warps [m]."""
-        return self.warp_pitch or self.width / self.warps
-
-    @property
-    def pull(self) -> float:
-        """Pull of all warps [N]."""
-        return self.warps * self.tension
+    def span(self) -> float:
+        """Distance of the cylinders' bearings [m]: as given, or the width of the cloth."""
+        return self.width or self.cloth.width
 
     def check_together(self) -> None:
-        """Raise ParameterError where the tube has no wall, or is given twice."""
+        """Raise ParameterError where the tube has no wall, is given twice, or is narrower than the cloth."""
+        if self.span < self.cloth.width * (1 - 1e-9):
+            raise ParameterError(
+                f"width={format_quantity(self.span, 'm')} for a cloth of {format_quantity(self.cloth.width, 'm')}",
+                allowed="at least the width of the cloth",
+                do="leave width out, or set fewer cloth.warps or a smaller cloth.warp_pitch",
+            )
         inner, outer = self.inner_radius, self.outer_radius
         if self.tube is not None and not inner is outer is None:
             raise ParameterError(f"tube={self.tube} and its radii", allowed="one of the two", do="leave the radii out")

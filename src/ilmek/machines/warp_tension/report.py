@@ -28,7 +28,7 @@ def checks(found: WarpTensionAnalysis) -> tuple[Check, ...]:
 
 TUBE_CURE = "set a larger tube, a lower tension, or a narrower loom"
 SPACER_CURE = "set a larger spacer_tube, a lower tension, or a narrower loom"
-SLOT_CURE = "set a larger warp_pitch, or thinner warps"
+SLOT_CURE = "set a larger warp pitch, or thinner warps"
 
 _CYLINDER, _SPACER = (part_id("cylinder"),), (part_id("spacer"),)
 
@@ -125,7 +125,7 @@ def _warp_checks(found: WarpTensionAnalysis) -> tuple[Check, ...]:
     params, slots, tension = found.design.params, found.slots, found.tension
     metal = found.spacer_wall - slots.depth
     breaks = "breaking force of the warp"
-    step = STEP_SHARE * params.tension
+    step = STEP_SHARE * params.cloth.warp_tension
     return (
         at_most("warps beside each other", slots.warp, slots.pitch, "mm", "pitch of the warps", cure=SLOT_CURE),
         at_most(
@@ -230,7 +230,7 @@ def _tube_table(design: WarpTensionDesign) -> Table:
 
     def row(inner: float) -> tuple[float, float, float, float]:
         inertia = uniform.tube_inertia(inner + 10 * mm, inner)
-        sag = float(uniform.deflection_max(design.load, params.width, params.modulus, inertia))
+        sag = float(uniform.deflection_max(design.load, params.span, params.modulus, inertia))
         return (inner, *outer_radii_min(params, inner), sag)
 
     heads = columns(

@@ -57,15 +57,15 @@ def _bodies(
     """A cylinder with its ends, its bearings, and its drive; common: its tube, reducer and motor."""
     name, row = cylinder.name, cylinder.bearing
     shell, geared, driving = common
-    far = params.width / 2 + params.stub
+    far = params.span / 2 + params.stub
     end = _made(f"{name}-end", f"shaft end of the {name} cylinder", "turned part", _end(params, cylinder), "", STUB)
     held = catalogue.bearing(part_id(f"{name}-bearing"), f"bearing of the {name} cylinder", row)
-    sides = tuple(_side(z=params.width / 2 - PLUG, flipped=flipped) for flipped in (False, True))
+    sides = tuple(_side(z=params.span / 2 - PLUG, flipped=flipped) for flipped in (False, True))
     seats = tuple(_side(z=far, flipped=flipped) for flipped in (False, True))
     return (
         RigidBody(
             part_id(f"{name} cylinder"),
-            (Occurrence(shell, (placement(z=-params.width / 2),)), Occurrence(end, sides)),
+            (Occurrence(shell, (placement(z=-params.span / 2),)), Occurrence(end, sides)),
             GROUND,
             Joint(JointKind.PIN, seats=(f"{end.id}:journal", f"{held.id}:bore")),
             (position,),

@@ -8,7 +8,6 @@ import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.cams.loaded_plate_cam import CamShaftDrive, LoadedPlateCam, drive_for, torque_at
-from ilmek.elements.carpet_yarns import usual_warp
 from ilmek.machines.weaver.cams import cams_for, case_width
 from ilmek.machines.weaver.cyclogram import DRAW_TURN, arms_window, optimised, relations
 from ilmek.machines.weaver.cyclogram import cyclogram as knot_cyclogram
@@ -27,7 +26,6 @@ from ilmek.timing.s_curve import move_time, travel_time
 from ilmek.timing.track import ActuatorLimits, Track, peak_acceleration, peak_speed, shortest_period
 from ilmek.units import mm, turn
 from ilmek.weaving.knots.proof import TiedKnot, no_knot
-from ilmek.weaving.tension import usual_tension
 from ilmek.weaving.warp_opening import WarpSpans
 
 _WHOLE = 1e-9
@@ -157,9 +155,9 @@ def design(params: WeaverParams) -> Weaver:
         handler_radius=radius,
         grippers=grippers,
         tied=no_knot("arms tie it") if params.with_arms else tied_by(cycle, grippers, params.jaw),
-        carriage_step=move_time(params.knot_pitch, params.carriage),
+        carriage_step=move_time(params.cloth.knot_pitch, params.carriage),
         carriage_window=window,
-        travel=travel_time(params.knot_pitch, window, params.carriage),
+        travel=travel_time(params.cloth.knot_pitch, window, params.carriage),
         colour_change=magazine.mean_time,
         cams=cams,
         drive=drive_for(cams, cycle.speed, lambda angle: cutter_torque(params, cycle, angle)),
@@ -185,26 +183,25 @@ def shaft_torque(weaver: Weaver, angle: FloatArray) -> FloatArray:
 
 def _opener(params: WeaverParams, grippers: Grippers) -> Opener:
     """The opener for the grippers, or for the arms."""
-    own, pitch = params.opener, params.quality.warp_pitch
-    usual = usual_warp(pitch)
+    own, cloth = params.opener, params.cloth
     spans = WarpSpans(
-        tension=usual_tension(pitch) if own.warp_tension is None else own.warp_tension,
-        stiffness=usual.stiffness if own.warp_stiffness is None else own.warp_stiffness,
+        tension=cloth.warp_tension,
+        stiffness=cloth.carpet_yarns.warp.stiffness,
         length=max(own.warp_length, own.front_span + own.height + own.back_span),
         front=own.front_span,
         back=own.back_span,
     )
     arms = params.arms
-    outside = params.pair / 2 + (arms.outer or pitch)
+    outside = params.pair / 2 + (arms.outer or cloth.warp_pitch)
     reach = arms.depth if params.with_arms else params.opening + grippers.crossing
     made = opener_for(
         params.pair,
         outside if params.with_arms else abs(grippers.warps[-1].real),
         params.opening,
-        pitch,
+        cloth.warp_pitch,
         params.warp,
         spans,
-        params.forces.friction,
+        params.friction,
         (own.wall or TEETH[-1], 2 * own.plate, reach),
     )
     if own.wall is not None:

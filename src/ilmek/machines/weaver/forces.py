@@ -53,7 +53,7 @@ class HeadForces:
 
 def grip_force(params: WeaverParams, ends: int, pull: float) -> float:
     """Force of jaws that hold a number of ends, each pulled with a force [N]."""
-    return params.forces.grip_safety * ends * pull / (2 * params.forces.friction)
+    return params.forces.grip_safety * ends * pull / (2 * params.friction)
 
 
 def tool_force(head: HeadForces, name: str, angle: FloatArray) -> FloatArray:

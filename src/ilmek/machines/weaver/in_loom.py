@@ -5,53 +5,40 @@ from ilmek.machines.arrangement.spans import SPARE, expected_spans, shed_room, w
 from ilmek.machines.loom_task import LoomTask
 from ilmek.machines.weaver.design import Weaver, shaft_torque
 from ilmek.machines.weaver.params import WeaverParams
-from ilmek.machines.weaver.tool_params import OpenerParams, ToolForces
+from ilmek.machines.weaver.tool_params import OpenerParams
 from ilmek.machines.weaver.tree import head_mass
 from ilmek.report import Work
 from ilmek.timing.s_curve import s_curve
-
-LEAST_FRICTION = 0.01
-"""Least friction with which jaws hold a yarn."""
 
 
 def params_for(task: LoomTask) -> WeaverParams:
     """The parameters of the heads of a loom."""
     loom = task.params
     return WeaverParams(
+        cloth=task.cloth,
         cycle=loom.knot_cycle,
         law=loom.knot_law,
         knot=loom.knot,
         knot_yarn=loom.billed,
         pile_height=loom.pile.pile_height,
-        yarn_density=task.yarns.pile.linear_density,
-        yarn_diameter=task.yarns.pile.diameter,
-        yarn_pressed=task.yarns.pressed,
-        yarn_strength=task.yarns.pile.breaking_force,
-        warp_diameter=task.yarns.warp.diameter,
         standoff=SPARE * loom.clearance,
         acceleration_limit=loom.head_acceleration,
         head_width=loom.head_width,
         head_mass=loom.head_mass,
-        knot_pitch=task.knot_pitch,
-        row_pitch=task.row_pitch,
         carriage_speed=loom.carriage_speed,
         tubes=loom.head_tubes,
         tube_mass=loom.tube_mass,
         opener=opener_for(task),
-        forces=ToolForces(friction=max(task.yarns.warp.friction, LEAST_FRICTION)),
     )
 
 
 def opener_for(task: LoomTask) -> OpenerParams:
     """The opener's parameters for a loom: its warps, and its position between fell and comb at rest."""
-    usual, warp, room = OpenerParams(), task.yarns.warp, shed_room(task)
+    usual, room = OpenerParams(), shed_room(task)
     spans = expected_spans(room, task.params.lift)
     return OpenerParams(
         back_span=max(spans.comb - usual.front_span - usual.height, usual.front_span),
         warp_length=warp_length(room, spans),
-        warp_tension=task.tension,
-        warp_stiffness=warp.stiffness,
-        warp_strength=warp.breaking_force,
     )
 
 
@@ -61,7 +48,7 @@ def work(weaver: Weaver) -> tuple[Work, ...]:
     A move takes the kinetic energy at its greatest speed, m v² / 2.
     """
     params = weaver.params
-    step = s_curve(params.knot_pitch, params.carriage)
+    step = s_curve(params.cloth.knot_pitch, params.carriage)
     change = s_curve(weaver.magazine.per_tier * params.tube_pitch / 3, params.selector)
     return (
         Work("knotting", positive_work(lambda angle: shaft_torque(weaver, angle)), "knot"),

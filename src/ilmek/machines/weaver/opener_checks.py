@@ -1,6 +1,5 @@
 """The checks of the opener and of what has room in a head: tools between its plates, tubes, arms."""
 
-from ilmek.elements.carpet_yarns import usual_warp
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.grippers import YARN_TOLERANCE
 from ilmek.machines.weaver.opener import LEAST_ROOM
@@ -15,7 +14,7 @@ def opener_checks(weaver: Weaver) -> tuple[Check, ...]:
     """The opener enters between two warps, does not overload them, pushes no warp of a neighbour's, and holds."""
     params, own, opener = weaver.params, weaver.params.opener, weaver.opener
     pitch, warp = opener.pitch, params.warp
-    strength = own.warp_strength or usual_warp(pitch).breaking_force
+    strength = params.cloth.carpet_yarns.warp.breaking_force
     return (
         at_most(
             "opener: points between two warps",

@@ -6,10 +6,8 @@ from typing import Any
 
 from ilmek.cams.laws import SMOOTH_LAWS
 from ilmek.carpet.pile import PileParams, knot_length
-from ilmek.carpet.quality import COARSEST, FINEST, Quality
-from ilmek.elements.carpet_yarns import PILE_DENSITY, usual_warp
+from ilmek.carpet.quality import Quality
 from ilmek.elements.knot_kinds import WRAPS
-from ilmek.elements.yarns import WOOL, pressed_thickness
 from ilmek.errors import ParameterError
 from ilmek.machines.weaver.magazine import DRUM, SLIDE
 from ilmek.machines.weaver.motions import (
@@ -29,9 +27,13 @@ from ilmek.machines.weaver.tool_params import ArmsInHead, OpenerParams, ToolForc
 from ilmek.params import Params, kind, nested
 from ilmek.timing.s_curve import AxisLimits
 from ilmek.units import deg, format_quantity, mm, turn
+from ilmek.weaving.cloth import Cloth
 
 LEAST_STEP = 10 * deg
 """Least angle of a step of the turn."""
+
+LEAST_FRICTION = 0.01
+"""Least friction with which jaws hold a yarn."""
 
 PAIR = 6 * mm
 """Usual distance of the pair of warps in the opener's slots."""
@@ -83,6 +85,7 @@ class WeaverParams(Params):
     pile_handler: ToolAngles = nested(ToolAngles, doc="pile handler: to the tube, draw, present; home")
     sley: ToolAngles = nested(ToolAngles, doc="sley: down; up")
     relation_gap: float = kind.angle(1 * deg, at_least=0.0, below=turn, doc="least gap of motions in sequence")
+    cloth: Cloth = nested(Cloth, doc="warps, their tension, the pile yarn, distances of knots and rows")
     knot: str = kind.choice("symmetric", tuple(WRAPS), doc="required kind of knot")
     jaw: float = kind.length(4 * mm, above=0.0, at_most=0.05, doc="opening of the grippers' jaws")
     pull_back: float = kind.length(8 * mm, above=0.0, at_most=0.1, doc="side grippers back, to free the handler")
@@ -113,19 +116,6 @@ class WeaverParams(Params):
     )
     pile_height: float = kind.length(8 * mm, at_least=0.0, at_most=100 * mm, doc="pile above the knots, shorn")
     cut_waste: float = kind.length(1 * mm, at_least=0.0, at_most=100 * mm, doc="shorn off each end of a knot")
-    yarn_density: float = kind.line_density(PILE_DENSITY, above=0.0, at_most=0.1, doc="mass per length of the pile")
-    yarn_diameter: float | None = kind.length(
-        None, above=0.0, at_most=0.05, doc="diameter of the pile yarn; default: of wool"
-    )
-    yarn_pressed: float | None = kind.length(
-        None, above=0.0, at_most=0.05, doc="its thickness pressed between jaws; default: of wool, packed to 0.65, flat"
-    )
-    yarn_strength: float | None = kind.force(
-        None, above=0.0, at_most=1e5, doc="breaking force of all its fibres together; default: of wool"
-    )
-    warp_diameter: float | None = kind.length(
-        None, above=0.0, at_most=10 * mm, doc="diameter of a warp; default: of the usual warp"
-    )
     opener: OpenerParams = nested(OpenerParams, doc="warp opener, and the warps that it displaces")
     forces: ToolForces = nested(ToolForces, doc="forces of the tools' work")
     arms: ArmsInHead = nested(ArmsInHead, doc="arms in place of the side and centre grippers")
@@ -154,10 +144,6 @@ class WeaverParams(Params):
         None, at_least=0.1, at_most=500.0, doc="mass of the head on its carriage; default: as designed"
     )
     cam_room: float = kind.length(250 * mm, at_least=0.02, at_most=2.0, doc="room for a cam's diameter in the head")
-    knot_pitch: float = kind.length(4 * mm, at_least=1 / FINEST, at_most=1 / COARSEST, doc="distance of two knots")
-    row_pitch: float | None = kind.length(
-        None, at_least=1 / FINEST, at_most=1 / COARSEST, doc="distance of rows; default: as of the knots"
-    )
     carriage_speed: float = _speed(0.25, "speed of the head along the row")
     carriage_acceleration: float = _acceleration(2.0, "acceleration of the head along the row")
     carriage_jerk: float = _jerk(100.0, "jerk of the head along the row")
@@ -219,27 +205,32 @@ class WeaverParams(Params):
     @property
     def quality(self) -> Quality:
         """The carpet's quality by the distances of its knots."""
-        return Quality(1 / self.knot_pitch, 1 / (self.row_pitch or self.knot_pitch))
+        return Quality(1 / self.cloth.knot_pitch, 1 / self.cloth.row_distance)
 
     @property
     def warp(self) -> float:
         """Diameter of a warp [m]."""
-        return self.warp_diameter or usual_warp(self.quality.warp_pitch).diameter
+        return self.cloth.carpet_yarns.warp.diameter
 
     @property
     def yarn(self) -> float:
         """Diameter of the pile yarn [m]."""
-        return self.yarn_diameter or WOOL.diameter(self.yarn_density)
+        return self.cloth.carpet_yarns.pile.diameter
 
     @property
     def pressed(self) -> float:
         """Thickness of the pile yarn pressed between jaws [m]."""
-        return self.yarn_pressed or pressed_thickness(self.yarn_density, WOOL)
+        return self.cloth.carpet_yarns.pressed
 
     @property
     def strength(self) -> float:
         """Breaking force of all fibres of the pile yarn together [N]."""
-        return self.yarn_strength or WOOL.breaking_force(self.yarn_density)
+        return self.cloth.carpet_yarns.pile.breaking_force
+
+    @property
+    def friction(self) -> float:
+        """Friction coefficient of yarn on the tools."""
+        return max(self.cloth.yarns.friction, LEAST_FRICTION)
 
     @property
     def with_arms(self) -> bool:
@@ -251,8 +242,8 @@ class WeaverParams(Params):
         """Pile yarn of a knot by the yarn bill [m], what is shorn off included: as given, or by `carpet.pile`."""
         if self.knot_yarn is not None:
             return self.knot_yarn
-        pile = PileParams(pile_height=self.pile_height, cut_waste=self.cut_waste, warp_diameter=self.warp_diameter)
-        return knot_length(self.knot, self.quality, self.yarn_density, pile)
+        pile = PileParams(pile_height=self.pile_height, cut_waste=self.cut_waste, warp_diameter=self.warp)
+        return knot_length(self.knot, self.quality, self.cloth.carpet_yarns.pile.linear_density, pile)
 
     @property
     def carriage(self) -> AxisLimits:
@@ -278,5 +269,5 @@ class WeaverParams(Params):
     def pair(self) -> float:
         """Distance of the pair of warps in the opener's slots [m]."""
         if self.with_arms:
-            return self.arms.pair or self.quality.warp_pitch
+            return self.arms.pair or self.cloth.warp_pitch
         return self.pair_opened or max(PAIR, self.centre_room)

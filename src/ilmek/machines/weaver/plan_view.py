@@ -100,7 +100,7 @@ def _led(weaver: Weaver) -> tuple[FloatArray, ComplexArray]:
 
 def _warps(weaver: Weaver, side: Float[np.ndarray, " n"]) -> tuple[MovingStroke, ...]:
     """The pair, which the opener parts, and their neighbours, which it pushes aside."""
-    by, pitch = weaver.grippers, weaver.params.quality.warp_pitch
+    by, pitch = weaver.grippers, weaver.params.cloth.warp_pitch
     share = np.clip(side / by.opening, 0.0, 1.0)
     closed = pitch * np.array([-1.5, -0.5, 0.5, 1.5])
     axes = closed + share[:, None] * (by.warps.real - closed)

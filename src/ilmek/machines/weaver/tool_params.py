@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass
 
-from ilmek.elements.carpet_yarns import FRICTION
 from ilmek.params import Params, kind
 from ilmek.units import mm
 
@@ -22,15 +21,6 @@ class OpenerParams(Params):
         125 * mm, at_least=1e-3, at_most=20.0, doc="from its upper plate to the next hold of the warps"
     )
     warp_length: float = kind.length(1.5, unit="m", at_least=0.05, at_most=100.0, doc="warp from cylinder to cylinder")
-    warp_tension: float | None = kind.force(
-        None, at_least=0.0, at_most=1e3, doc="tension of a warp; default: usual for the pitch"
-    )
-    warp_stiffness: float | None = kind.force(
-        None, at_least=0.0, at_most=1e7, doc="force over strain of a warp; default: of the usual warp"
-    )
-    warp_strength: float | None = kind.force(
-        None, above=0.0, at_most=1e5, doc="breaking force of a warp; default: of the usual warp"
-    )
     strength_used: float = kind.ratio(
         0.5, above=0.0, at_most=1.0, doc="tension of a displaced warp over its breaking force, at most"
     )
@@ -54,7 +44,6 @@ class ToolForces(Params):
     """What the tools' work takes; assumed by this project where the yarn does not give it."""
 
     yarn_pull: float = kind.force(0.5, at_least=0.0, at_most=1e3, doc="pull of an end of the pile that is led or drawn")
-    friction: float = kind.ratio(FRICTION, above=0.0, at_most=2.0, doc="friction coefficient of yarn on steel")
     grip_safety: float = kind.ratio(1.5, at_least=1.0, at_most=10.0, doc="grip of the jaws over the yarn's pull")
     tightening: float = kind.force(
         2.5, at_least=0.0, at_most=1e3, doc="pull on each end of a knot that tightens it about its warps"

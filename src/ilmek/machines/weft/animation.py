@@ -42,7 +42,7 @@ def _shuttles(
 
     A shuttle waits in its box while the other passes.
     """
-    distance, cloth = motion[0], made.params.cloth_width
+    distance, cloth = motion[0], made.params.cloth.width
     stroke, rest = float(made.passage.stroke), np.zeros(FRAMES)
     there, back = distance, stroke - distance
     straight = np.concatenate([there, rest + stroke, back, rest])
@@ -66,7 +66,7 @@ def _shuttles(
 def _rapier(made: Weft, length: float, motion: FloatArray, height: float) -> tuple[MovingStroke, ...]:
     """The rapier to the packages' edge; on its path back it draws the weft."""
     head = motion[0] - made.passage.run + 1j * height
-    far = made.params.cloth_width + made.params.edge + 1j * height
+    far = made.params.cloth.width + made.params.edge + 1j * height
     drawn = np.arange(FRAMES) * 2 >= FRAMES
     weft = np.stack([head, np.where(drawn, far, head)], axis=1)
     return (

@@ -75,7 +75,7 @@ class Winding:
 
 def windings(params: WeftParams, size: BobbinSize, lengths: WeftLengths) -> tuple[Winding, Winding]:
     """The straight and the sinuous weft, each on a bobbin of its own."""
-    yarns = params.carpet_yarns
+    yarns = params.cloth.carpet_yarns
     return (
         _winding("straight weft", yarns.straight_weft, params, size, lengths.straight),
         _winding("sinuous weft", yarns.sinuous_weft, params, size, lengths.sinuous),

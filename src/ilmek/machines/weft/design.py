@@ -97,14 +97,14 @@ class Weft:
     @property
     def bobbins(self) -> tuple[Bobbin, ...]:
         """The bobbins in the shuttles; none where the weft comes from packages at rest."""
-        return self.bobbins_for(self.params.warps, self.params.yarns)
+        return self.bobbins_for(self.params.cloth.warps, self.params.cloth.yarns)
 
     def bobbins_for(self, warps: int, yarns: CarpetYarnParams) -> tuple[Bobbin, ...]:
         """The bobbins in the same shuttles for a cloth of another number of warps, or of other yarns."""
         if not isinstance(self.carried, Shuttle):
             return ()
-        params = replace(self.params, warps=warps, yarns=yarns)
-        lengths = weft_lengths(params.cloth_width, params.warp_pitch, params.carpet_yarns, params.turn)
+        params = replace(self.params, cloth=replace(self.params.cloth, warps=warps, yarns=yarns))
+        lengths = weft_lengths(params.cloth.width, params.cloth.warp_pitch, params.cloth.carpet_yarns, params.turn)
         wound = windings(params, self.carried.bobbin, lengths)
         return tuple(Bobbin(one.name, max(1, one.rows), params.change_time) for one in wound)
 
@@ -153,11 +153,11 @@ def design(params: WeftParams) -> Weft:
 
 def _with(params: WeftParams) -> Weft:
     """The weft side with the carrier of the parameters."""
-    yarns = params.carpet_yarns
-    lengths = weft_lengths(params.cloth_width, params.warp_pitch, yarns, params.turn)
+    yarns = params.cloth.carpet_yarns
+    lengths = weft_lengths(params.cloth.width, params.cloth.warp_pitch, yarns, params.turn)
     carried, choices = shuttle_for(params, lengths) if params.carrier == SHUTTLE else rapier_for(params)
     passage = _passage(params, carried)
-    drawn = (params.cloth_width, passage.acceleration) if params.carrier == RAPIER else (0.0, 0.0)
+    drawn = (params.cloth.width, passage.acceleration) if params.carrier == RAPIER else (0.0, 0.0)
     tension = {
         name: draw_off_tension(yarn, _brake(params, yarn), passage.speed, params.wrap, *drawn)
         for name, yarn in (("straight weft", yarns.straight_weft), ("sinuous weft", yarns.sinuous_weft))
@@ -170,7 +170,7 @@ def _with(params: WeftParams) -> Weft:
 
 def _passage(params: WeftParams, carried: Carrier) -> WeftPassage:
     if isinstance(carried, Shuttle):
-        stroke = params.cloth_width + 2 * params.edge + carried.length
+        stroke = params.cloth.width + 2 * params.edge + carried.length
         return WeftPassage(s_curve(stroke, params.limits), False, 0.0, params.edge + carried.length / 2)
     return WeftPassage(s_curve(reach(params), params.limits), True, params.grip_time, params.edge)
 
@@ -184,7 +184,7 @@ def _friction(params: WeftParams, carried: Carrier) -> float:
     """Friction of the carrier on warps or guide [N]."""
     if isinstance(carried, Shuttle):
         return friction(params)
-    return params.yarns.friction * carried.mass * GRAVITY
+    return params.cloth.yarns.friction * carried.mass * GRAVITY
 
 
 def _room_check(made: Weft) -> Check:
@@ -200,7 +200,7 @@ def _room_check(made: Weft) -> Check:
 
 
 def _tension_checks(made: Weft) -> tuple[Check, ...]:
-    yarns = made.params.carpet_yarns
+    yarns = made.params.cloth.carpet_yarns
     source = "share of the breaking force, assumed by this project: parameter tension_share"
     breaks = {"straight weft": yarns.straight_weft.breaking_force, "sinuous weft": yarns.sinuous_weft.breaking_force}
     cure = "set a lower weft.speed, weft.acceleration or weft.brake, or a heavier weft"
@@ -259,5 +259,5 @@ def let_go(params: WeftParams) -> int:
 
     Where the wefts cross rightly, each passes the other at its turn on the side away from that of the outermost warp.
     """
-    fronts = [in_front(warp, shed) for warp in (0, params.warps - 1) for shed in (0, 1)]
+    fronts = [in_front(warp, shed) for warp in (0, params.cloth.warps - 1) for shed in (0, 1)]
     return sum(warps_let_go(front, front != params.crossed) for front in fronts)

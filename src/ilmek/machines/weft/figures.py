@@ -27,7 +27,7 @@ def shed_drawing(made: Weft) -> Drawing:
     above = 2.5 * carried.width
     span = above / max(1 - wide / opening, 0.1)
     low = span * wide / opening
-    left = (params.carpet_yarns.warp.diameter + 2 * params.play) / 2
+    left = (params.cloth.carpet_yarns.warp.diameter + 2 * params.play) / 2
     middle = left + carried.depth / 2 + 1j * (low + carried.width / 2)
     corners = np.array([-1 - 1j, 1 - 1j, 1 + 1j, -1 + 1j]) / 2
     carrier = middle + corners.real * carried.depth + 1j * corners.imag * carried.width
@@ -58,7 +58,7 @@ def _wound(made: Weft, middle: complex) -> tuple[Stroke, ...]:
 
 def plan_drawing(made: Weft) -> Drawing:
     """Cloth, carriers at rest and their room, seen along the warps; depth drawn larger."""
-    cloth, edge, deep = made.params.cloth_width, made.params.edge, _depth(made)
+    cloth, edge, deep = made.params.cloth.width, made.params.edge, _depth(made)
     carried = made.carried
     strokes = [*_standing(made), Stroke(np.array([0, cloth]) - 2j * deep, "dimension", format_quantity(cloth, "m"))]
     if isinstance(carried, Shuttle):
@@ -92,12 +92,12 @@ def moving_plan(made: Weft) -> Animation:
 
 def _depth(made: Weft) -> float:
     """Depth of a cell in plan, drawn larger [m]."""
-    return 0.06 * made.params.cloth_width
+    return 0.06 * made.params.cloth.width
 
 
 def _standing(made: Weft) -> list[Stroke]:
     """What stands still in plan: cloth, and the boxes of shuttles or the drive and the packages of a rapier."""
-    cloth, edge, deep = made.params.cloth_width, made.params.edge, _depth(made)
+    cloth, edge, deep = made.params.cloth.width, made.params.edge, _depth(made)
     length = made.carried.length
     strokes = [_box((0.0, cloth, -deep, 0.0), "yarn", "cloth")]
     if isinstance(made.carried, Shuttle):
@@ -129,7 +129,7 @@ def motion_plots(made: Weft) -> tuple[Plot, Plot]:
     cloth = np.array([0.0, passage.time])
     edges = tuple(
         Series(name, cloth, np.full(2, at), dashed=True)
-        for name, at in (("edge", passage.run), ("other edge", passage.run + made.params.cloth_width))
+        for name, at in (("edge", passage.run), ("other edge", passage.run + made.params.cloth.width))
     )
     over = Axis("time", "s")
     place = Axis("position", "mm")

@@ -15,11 +15,9 @@ def fit(task: LoomTask) -> WeftParams:
     return WeftParams(
         carrier=params.weft,
         aim=params.aim,
+        cloth=task.cloth,
         rows=task.rows,
-        warps=task.warps,
         selvedge_warps=params.selvedge_warps,
-        warp_pitch=params.pitch,
-        yarns=params.yarns,
         lift=params.lift,
         open_share=params.open_share,
         play=SPARE * params.clearance,

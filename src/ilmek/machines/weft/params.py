@@ -3,12 +3,12 @@
 from dataclasses import dataclass
 
 from ilmek.carpet.ground import SELVEDGE_WARPS, WEFT_TURN
-from ilmek.elements.carpet_yarns import CarpetYarnParams, CarpetYarns, carpet_yarns
 from ilmek.machines import WEFT_CARRIERS
 from ilmek.machines.weft.materials import BEECH, CARBON
 from ilmek.params import Params, kind, nested
 from ilmek.timing.s_curve import AxisLimits
 from ilmek.units import deg, mm
+from ilmek.weaving.cloth import Cloth
 
 AUTO = "auto"
 SHUTTLE, RAPIER = WEFT_CARRIERS
@@ -20,13 +20,11 @@ class WeftParams(Params):
 
     carrier: str = kind.choice(AUTO, (AUTO, *WEFT_CARRIERS), doc="what carries the weft; auto: chosen by aim")
     aim: str = kind.choice("price", ("price", "time"), doc="what is least in the choice of what is left open")
+    cloth: Cloth = nested(Cloth, default=Cloth(warps=608), doc="warps and yarns")
     rows: int = kind.count(450, at_least=1, at_most=1_000_000, doc="rows of knots, two wefts after each")
-    warps: int = kind.count(608, at_least=2, at_most=100_000, doc="warps, selvedges included")
     selvedge_warps: int = kind.count(
         SELVEDGE_WARPS, at_least=0, at_most=200, doc="warps without knots, both edges together"
     )
-    warp_pitch: float = kind.length(2 * mm, at_least=0.01 * mm, at_most=50 * mm, doc="distance of two warps")
-    yarns: CarpetYarnParams = nested(CarpetYarnParams, doc="materials and counts of warp and wefts")
     turn: float = kind.length(
         WEFT_TURN, at_least=0.0, at_most=0.5, doc="weft beyond the cloth for a row: its turn, or both ends tucked in"
     )
@@ -90,19 +88,9 @@ class WeftParams(Params):
     prices: str | None = kind.text(None, doc="prices other than those of the table")
 
     @property
-    def cloth_width(self) -> float:
-        """Width of all warps [m]."""
-        return self.warps * self.warp_pitch
-
-    @property
     def limits(self) -> AxisLimits:
         """Limits of the carrier's axis."""
         return AxisLimits(self.speed, self.acceleration, self.jerk)
-
-    @property
-    def carpet_yarns(self) -> CarpetYarns:
-        """The yarns, as of every machine of the loom."""
-        return carpet_yarns(self.yarns, self.warp_pitch)
 
     @property
     def edge_warps(self) -> int:

@@ -79,7 +79,7 @@ def rapier_for(params: WeftParams) -> tuple[Rapier, tuple[Choice, ...]]:
 
 def reach(params: WeftParams) -> float:
     """Length that projects from the guide when the rapier is all through the shed, and its stroke [m]."""
-    return params.cloth_width + 2 * params.edge
+    return params.cloth.width + 2 * params.edge
 
 
 def _rapier(params: WeftParams, tall: float) -> Rapier:
@@ -132,8 +132,8 @@ def size_checks(params: WeftParams, made: Rapier, acceleration: float) -> tuple[
 
 def rapier_checks(params: WeftParams, made: Rapier, acceleration: float, tension: float) -> tuple[Check, ...]:
     """All checks of the rapier at an acceleration [m/s²] and a tension of the weft [N]."""
-    holds = 2 * params.yarns.friction * params.grip_force
-    tucked = params.turn / 2 / params.warp_pitch
+    holds = 2 * params.cloth.yarns.friction * params.grip_force
+    tucked = params.turn / 2 / params.cloth.warp_pitch
     return (
         *size_checks(params, made, acceleration),
         at_most(

@@ -20,7 +20,7 @@ def needed_opening(params: WeftParams, depth: float) -> float:
     >>> round(needed_opening(WeftParams(play=0.003), 0.026), 4)
     0.0329
     """
-    return depth + 2 * params.play + params.carpet_yarns.warp.diameter
+    return depth + 2 * params.play + params.cloth.carpet_yarns.warp.diameter
 
 
 def shed_check(params: WeftParams, opening: float, thinner: str, part: str) -> Check:

@@ -84,7 +84,7 @@ def _unweighed(params: WeftParams, size: BobbinSize, lengths: WeftLengths) -> Sh
         opening=needed_opening(params, depth),
         empty=math.nan,
         full=math.nan,
-        supports=math.floor(bay / (2 * params.warp_pitch) * (1 + 1e-12)),
+        supports=math.floor(bay / (2 * params.cloth.warp_pitch) * (1 + 1e-12)),
     )
 
 
@@ -116,7 +116,7 @@ def size_checks(params: WeftParams, made: Shuttle) -> tuple[Check, ...]:
         ),
         at_most(
             "gap that the shuttle bridges at the edge",
-            params.edge + 2 * params.warp_pitch,
+            params.edge + 2 * params.cloth.warp_pitch,
             made.length / 2,
             "mm",
             "its middle is supported until its tip bears on the first lifted warp",
@@ -144,7 +144,7 @@ def shuttle_checks(params: WeftParams, made: Shuttle, acceleration: float, tensi
 
 def friction(params: WeftParams) -> float:
     """Friction of the shuttle on the warps [N]."""
-    return params.yarns.friction * params.attraction
+    return params.cloth.yarns.friction * params.attraction
 
 
 def coupling_force(params: WeftParams, made: Shuttle, acceleration: float, tension: float) -> float:

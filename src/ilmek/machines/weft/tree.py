@@ -84,13 +84,13 @@ class WeftBodies:
     @property
     def half(self) -> float:
         """Half of the cloth's width [m]."""
-        return self.params.cloth_width / 2
+        return self.params.cloth.width / 2
 
     @property
     def before_warps(self) -> float:
         """From the axis of the carrier to what runs in front of the lifted warps [m]."""
         params = self.params
-        return self.carried.depth / 2 + params.play + params.carpet_yarns.warp.diameter + params.lift
+        return self.carried.depth / 2 + params.play + params.cloth.carpet_yarns.warp.diameter + params.lift
 
     def _shuttles(self, made: Shuttle) -> Iterator[RigidBody]:
         """Both shuttles, each with a bobbin, from the left edge on, and the carriage that drags them."""

@@ -54,7 +54,7 @@ def heads_tree(loom: LoomDesign) -> Tree:
     A head's origin lies in the side view's: at the fell, in the heads' origin while they knot.
     """
     rail = loom.side.rail
-    middle, share = rail.corner + rail.size / 2, loom.task.cloth_width / loom.heads
+    middle, share = rail.corner + rail.size / 2, loom.task.cloth.width / loom.heads
     middles = [(number + 0.5) * share - half_width(loom) for number in range(loom.heads)]
     under = -rail.size.imag / 2
     return placed(

@@ -41,7 +41,7 @@ class Branch:
 
 def half_width(loom: LoomDesign) -> float:
     """Half of the cloth's width [m]."""
-    return loom.task.cloth_width / 2
+    return loom.task.cloth.width / 2
 
 
 def room_part(name: str, frame: str, solid: Solid, machine: str) -> ScenePart:

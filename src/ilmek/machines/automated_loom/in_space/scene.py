@@ -113,11 +113,11 @@ def _carpet(loom: LoomDesign) -> SceneCarpet:
     round_ = side.lower.at + side.lower.radius * np.exp(-1j * np.linspace(0.0, turn / 2, 17))
     line = np.concatenate([[0j], round_])
     return SceneCarpet(
-        width=loom.task.cloth_width,
+        width=loom.task.cloth.width,
         columns=loom.columns,
         rows=loom.rows,
         column_pitch=loom.knot_pitch,
-        row_pitch=loom.task.row_pitch,
+        row_pitch=loom.task.cloth.row_distance,
         pile=side.pile,
         line=np.stack([line.real, line.imag], axis=1),
     )

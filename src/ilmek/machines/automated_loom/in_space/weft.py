@@ -53,8 +53,8 @@ def wefts(loom: LoomDesign) -> tuple[SceneYarn, ...]:
     angle = np.unique(np.concatenate([track_angles(carrier), [one.end for one in row.track(BEATER).segments]]))
     at = sample(carrier, angle).position
     shuttle = isinstance(loom.weft.carried, Shuttle)
-    run = (loom.weft.passage.stroke - loom.task.cloth_width) / 2 if shuttle else loom.weft.passage.run
-    reached = np.clip(at - run, 0.0, loom.task.cloth_width) - half_width(loom)
+    run = (loom.weft.passage.stroke - loom.task.cloth.width) / 2 if shuttle else loom.weft.passage.run
+    reached = np.clip(at - run, 0.0, loom.task.cloth.width) - half_width(loom)
     height, depth = _middle(loom)
     beats = [part.end for part in row.track(BEATER).segments[::2]]
     names = ("straight weft", "sinuous weft")

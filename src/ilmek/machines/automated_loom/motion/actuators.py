@@ -106,4 +106,4 @@ def _beat(loom: LoomDesign, angle: FloatArray) -> FloatArray:
 def _take_up(loom: LoomDesign, angle: FloatArray) -> FloatArray:
     """Pull of all warps [N] while the carpet is taken up."""
     part = loom.row_cyclogram.track(TAKE_UP).segments[0]
-    return np.where((angle > part.start) & (angle < part.end), loom.warps * loom.task.tension, 0.0)
+    return np.where((angle > part.start) & (angle < part.end), loom.warps * loom.task.cloth.warp_tension, 0.0)
