@@ -46,11 +46,14 @@ SPACER_BELOW = 50 * mm
 BETWEEN_CYLINDERS = 50 * mm
 """Between spacer and full lower cylinder [m]."""
 
-ABOVE_FLOOR = 100 * mm
+ABOVE_FLOOR = 150 * mm
 """The full lower cylinder above the floor [m]."""
 
 ABOVE_CYLINDER = 50 * mm
 """The frame's columns above the upper cylinder [m]."""
+
+_HALF_HOUSING = 90 * mm
+"""Half of the housing of a cylinder's bearing, at most [m]."""
 
 SWING_ROOM = 15 * mm
 """Room for a comb that swings to the front, before its path is known [m]."""
@@ -146,8 +149,15 @@ class SideView:
 
     @property
     def column(self) -> float:
-        """Axis of the columns, x [m]: of the lower cylinders that they hold."""
-        return self.spacer.at.real
+        """Axis of the columns, x [m]: in the middle of their room."""
+        return sum(self.column_room) / 2
+
+    @property
+    def column_room(self) -> tuple[float, float]:
+        """Room of the columns along x [m]: outside of all, between the housings of upper and lower cylinders."""
+        upper, lower = self.upper, max(self.lower, self.spacer, key=lambda one: -one.at.real)
+        behind, before = (min(one.radius, _HALF_HOUSING) for one in (upper, lower))
+        return upper.at.real + behind, lower.at.real - before
 
     @property
     def floor(self) -> float:

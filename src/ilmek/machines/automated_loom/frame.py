@@ -85,7 +85,7 @@ class LoomFrame:
     column_bow: float
     buckling_factor: float
     rail_sag: float
-    mass: float = result("kg", "mass of the frame", name="frame_mass")
+    mass: float = result("kg", "mass of the frame with its brackets and its rail", name="frame_mass", default=math.nan)
 
     frame_column = computed("", "square hollow section of the two columns", lambda it: it.column.name)
     frame_rail = computed("", "square hollow section of the heads' rail", lambda it: it.rail.name)
@@ -100,11 +100,8 @@ def frame_for(task: FrameTask) -> LoomFrame:
     """The frame of the lightest sections that keep their checks; of the largest where none of the table does."""
     (column, of_column), (rail, of_rail) = _chosen(task, "columns", column_checks), _chosen(task, "rail", rail_checks)
     stress, bow = column_load(task, column)
-    upright = column.line_mass * task.height * (2 + 0.5 * (task.rail_spans - 1))  # posts reach to the rail, half-way up
-    across = column.line_mass * 2 * (task.width + 2 * task.depth)
-    mass = upright + across + rail.line_mass * task.width
     factor, sag = euler(task.height, column) / task.force, rail_sag(task, rail)
-    return LoomFrame(task, (of_column, of_rail), column, rail, stress, bow, factor, sag, mass)
+    return LoomFrame(task, (of_column, of_rail), column, rail, stress, bow, factor, sag)
 
 
 def _chosen(

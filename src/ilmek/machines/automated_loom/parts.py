@@ -18,6 +18,9 @@ from ilmek.report import BillLine
 
 STEEL = "structural steel"
 
+_OF_FRAME = ("welded frame", "laser-cut part")
+"""Kinds of part whose mass is the frame's."""
+
 _DEPTH = 0.3
 """Feet of the frame to the front and to the back, over its height."""
 
@@ -54,10 +57,11 @@ def parts_of_loom(loom: LoomDesign) -> PartsList:
     prices = read_prices(loom.params.prices)
     carried = (*_of_machines(loom), *bill(carried_tree(loom)))
     frame = frame_for(frame_task(loom, sum(part.mass_all for part in carried)))
-    axes = driven_axes(carried)
+    own, axes = bill(frame_tree(loom, frame)), driven_axes(carried)
+    frame = replace(frame, mass=sum(line.mass_all for line in own if line.kind in _OF_FRAME))
     lines = (
         *carried,
-        *bill(frame_tree(loom, frame)),
+        *own,
         BillLine("axis of the control", axes, "amplifier, cable, switch", "", "axis of the control"),
     )
     return PartsList(lines, prices, frame)
@@ -84,7 +88,7 @@ def frame_task(loom: LoomDesign, carried: float) -> FrameTask:
         height=loom.side.loom_height,
         depth=_DEPTH * loom.side.loom_height,
         pull=cylinder.loads.worst,
-        lever=loom.tube[0] / 2,
+        lever=abs(loom.side.column),
         carried=carried,
         heads=loom.heads,
         head_mass=head_mass(loom.weaver),

@@ -8,6 +8,7 @@ import numpy as np
 
 from ilmek.carpet.pile import pile_check
 from ilmek.elements.prices import price_of
+from ilmek.machines.automated_loom.brackets import bracket_checks, brackets_of
 from ilmek.machines.automated_loom.choice import deadline_check, row_check
 from ilmek.machines.automated_loom.cyclogram import (
     BEATER,
@@ -155,6 +156,7 @@ def checks(found: LoomAnalysis) -> tuple[Check, ...]:
         *room_checks(loom, found.room, found.listed.frame.column.side),
         *_retreat_checks(loom),
         *found.listed.frame.checks,
+        *bracket_checks(loom, brackets_of(loom), found.listed.frame.column),
     )
 
 

@@ -23,6 +23,7 @@ from ilmek.elements.motors import Motor, Reducer, most_torque, smallest_motor, s
 from ilmek.elements.nose_buckling import nose_buckling
 from ilmek.elements.shafts import STOCK_SIDES
 from ilmek.elements.square_shaft import SquareShaft, SquareShaftTask, square_shaft
+from ilmek.machines.bearing_seats import BearingSeat, seat_of
 from ilmek.machines.shedding.params import NO_DWELL, SheddingParams
 from ilmek.machines.shedding.phases import Shed, chosen_shed
 from ilmek.machines.shedding.stack import POINTS, CamStack, PitchShares, filled, stack_of
@@ -115,6 +116,11 @@ class CamShaft:
     def base_radius(self) -> float:
         """Radius on which the warps at rest lie [m]."""
         return self.cam.prime_radius - self.cam.roller_radius
+
+    @property
+    def seat(self) -> BearingSeat:
+        """A bearing of the shaft on the frame's bracket."""
+        return seat_of(self.shaft.seat.bearing)
 
     @property
     def reach(self) -> float:

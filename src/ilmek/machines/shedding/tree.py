@@ -22,12 +22,16 @@ from ilmek.part import catalogue
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import Placement, placement
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Prism, Shape, tube
+from ilmek.part.shapes import Placed, Prism, Shape, Sum, tube
+from ilmek.part.shapes import bar as round_bar
 from ilmek.part.tree import GROUND, Joint, JointKind, Occurrence, RigidBody, Tree
 from ilmek.plane.contours import circle, polygon
 from ilmek.report import Contour
 from ilmek.report.scene import SceneMotion
-from ilmek.units import format_quantity, turn
+from ilmek.units import format_quantity, mm, turn
+
+NUT, _NUT_SHARE = 15 * mm, 1.0
+"""Thickness of the clamping nuts at the ends of the cams [m], and their radius over the side of the bar."""
 
 _CUT, _ALONG = "laser-cut part", (0.0, 0.0, 1.0)
 
@@ -67,12 +71,14 @@ def tree(
 def _of_shaft(
     design: SheddingDesign, index: int, position: Placement, pin: Joint, sinking: SceneMotion | None
 ) -> tuple[RigidBody, RigidBody]:
-    """What carries a shaft, and the shaft with all that turns on it. Nothing carries the bearings yet."""
+    """What carries a shaft, and the shaft with all that turns on it. Its bearings stand on
+    brackets of the frame.
+    """
     standing = RigidBody(
         part_id("stand", index),
         (*_reed(design, index), *_bearings(design, index), *_drive(design, index)),
         GROUND,
-        Joint(JointKind.MISSING, motion=sinking),
+        Joint(motion=sinking) if sinking is None else Joint(JointKind.SLIDE, motion=sinking),
         (position,),
     )
     return standing, RigidBody(
@@ -84,11 +90,7 @@ def _turning(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
     """The square bar, cams by groups, guide cams on both sides of the warps, and spacers."""
     shaft = design.shafts[index]
     stack, bar = shaft.stack, shaft.shaft.bar
-    length = shaft.shaft.length
-    square = _made(
-        design, index, "cam-shaft", "cam shaft", Prism(Profile(_square(bar)), length), "steel bar", f"square {_mm(bar)}"
-    )
-    yield Occurrence(square, (placement(z=-length / 2),))
+    yield Occurrence(_bar(design, index), (placement(z=-bearing_inner(design, index)),))
     x, odd = _of(design, index)
     group, lag = _groups(shaft, odd)
     for number in range(shaft.shed.groups):
@@ -103,6 +105,41 @@ def _turning(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
         beside = (stack.thickness + wide) / 2 + stack.shares.guides / 2 * stack.guide_thickness
         ring = _disc(design, index, ("spacer", "spacer of the cams"), shaft.base_radius, wide)
         yield Occurrence(ring, _row(x + beside, wide))
+    nut = _disc(design, index, ("clamping-nut", "clamping nut of the cams"), _NUT_SHARE * bar, NUT)
+    low, high = _stack_ends(design, index)
+    yield Occurrence(nut, _row(np.array([low - NUT / 2, high + NUT / 2]), NUT))
+
+
+def _stack_ends(design: SheddingDesign, index: int) -> tuple[float, float]:
+    """Both ends of the cams with their guides and spacers along the width [m]."""
+    stack, (x, _) = design.shafts[index].stack, _of(design, index)
+    guide, spacer = min(stack.shares.guides, 1) * stack.guide_thickness, stack.shares.spacer
+    beside = stack.thickness / 2 + guide
+    between = stack.thickness / 2 + stack.shares.guides / 2 * stack.guide_thickness + spacer if spacer > 0 else 0.0
+    return float(x[0]) - beside, float(x[-1]) + max(beside, between)
+
+
+def bearing_inner(design: SheddingDesign, index: int) -> float:
+    """Inner side of a shaft's bearing from the middle of the width [m]: it stands at the shaft's support, or beyond the
+    nut that clamps the cams.
+    """
+    shaft = design.shafts[index]
+    ends = max(abs(end) for end in _stack_ends(design, index))
+    return max((shaft.shaft.length - shaft.seat.bearing.width) / 2, ends + NUT)
+
+
+def _bar(design: SheddingDesign, index: int) -> Part:
+    """The square bar between its bearings, with a journal at both ends through bearing and bracket, from z = 0."""
+    shaft = design.shafts[index]
+    bar, long = shaft.shaft.bar, 2 * bearing_inner(design, index)
+    journal = round_bar(shaft.seat.bearing.bore, shaft.seat.through)
+    shape = Sum(
+        (
+            Placed(Prism(Profile(_square(bar)), long)),
+            Placed(journal, (placement(z=long), placement(z=-shaft.seat.through))),
+        )
+    )
+    return _made(design, index, "cam-shaft", "cam shaft", shape, "steel bar", f"square {_mm(bar)}")
 
 
 def _guides(x: FloatArray, shaft: CamShaft) -> FloatArray:
@@ -163,14 +200,11 @@ def _reed(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
 def _bearings(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
     """The bearings at both ends, and the steadies of rollers between the spans."""
     shaft = design.shafts[index]
-    title, row, half = (
-        _numbered(design, index, "bearing of the cam shaft"),
-        shaft.shaft.seat.bearing,
-        shaft.shaft.length / 2,
-    )
-    ends = catalogue.bearing(part_id("bearing", index), title, row)
-    flipped = placement(z=-half, about=(1.0, 0.0, 0.0), angle=math.pi)
-    yield Occurrence(ends, (placement(z=half), flipped))
+    inner, half = bearing_inner(design, index), shaft.shaft.length / 2
+    flipped = placement(z=-inner, about=(1.0, 0.0, 0.0), angle=math.pi)
+    ids = part_id("bearing", index), part_id("housing", index)
+    title = _numbered(design, index, "bearing of the cam shaft")
+    yield from shaft.seat.occurrences(ids, title, (placement(z=inner), flipped))
     spans = shaft.params.spans
     if spans > 1:
         bar = shaft.shaft.bar
@@ -203,7 +237,7 @@ def _drive(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
         drive.motor_torque,
         drive.motor_speed,
     )
-    far = shaft.shaft.length / 2 + shaft.shaft.seat.bearing.width + catalogue.length_of(geared)
+    far = bearing_inner(design, index) + shaft.seat.through + catalogue.length_of(geared)
     flange = placement(z=-far)
     yield Occurrence(geared, (flange,))
     yield Occurrence(motor, (flange,))

@@ -95,6 +95,15 @@ class TensionCompensator:
     )
 
     @property
+    def beams(self) -> tuple[tuple[complex, complex], ...]:
+        """Axes of the beams that the frame carries, x from the middle plane, y along the warps [m], and the directions
+        of their sides; those of the odd parity are turned half round about the warps.
+        """
+        own = [(axis + self.half_depth, side) for axis, side in self.parts.supports.beams]
+        odd = [(-axis.conjugate(), -side.conjugate()) for axis, side in own]
+        return tuple((own + odd) if self.bars > 1 else own)
+
+    @property
     def swing(self) -> float:
         """Length of the warps' run that it takes, from rod to rod [m]."""
         return 2 * self.span

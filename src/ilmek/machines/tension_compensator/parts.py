@@ -19,10 +19,10 @@ from ilmek.machines.tension_compensator.params import STEEL, TensionCompensatorP
 from ilmek.machines.tension_compensator.synthesis import SprungLever
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import IDENTITY, Placement, placement
-from ilmek.part.profile import drilled
+from ilmek.part.profile import Profile, drilled
 from ilmek.part.shapes import Placed, Prism, Shape, Sum, bar, square_tube, tube
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody
-from ilmek.plane.contours import rounded_hull, strip
+from ilmek.plane.contours import circle, polygon, rounded_hull, strip
 from ilmek.records import record
 from ilmek.report import Contour, Hole
 from ilmek.report.scene import SceneMotion
@@ -58,6 +58,47 @@ class BarSupports:
         """Pin of the springs from the pivot at rest [m]."""
         return complex(self.sprung.lever.reach)
 
+    @property
+    def clear(self) -> float:
+        """From a pivot to the face of its beam, of which the lever keeps clear as it turns [m]."""
+        return self.members.lever / 2 + PLAY + self.members.beam.side / 2 * math.sin(abs(self.sprung.angle))
+
+    @property
+    def apart(self) -> float:
+        """From the springs' anchor to the face of its beam [m]."""
+        return 2 * self.members.pin
+
+    @property
+    def along(self) -> complex:
+        """Direction of the springs at rest, from their anchor to the lever."""
+        lever = self.sprung.lever
+        strut = lever.pivot + lever.reach - complex(lever.anchor)
+        return strut / abs(strut)
+
+    @property
+    def cross(self) -> ComplexArray:
+        """Nodes of the piece that carries the saddles of both rods, inside of the bar at rest [m]."""
+        path, lever = self.sprung.lever.path, self.sprung.lever
+        ends = np.array([complex(self.saddle(complex(-path.radius, side * path.half), -1)[1]) for side in (1, -1)])
+        inside = lever.rest.real - path.radius - self.strip - PLAY
+        if inside >= ends[0].real:
+            return ends
+        low = min(inside, ends[0].real - 2 * self.strip)
+        return np.array([ends[0], low + 1j * ends[0].imag, low + 1j * ends[1].imag, ends[1]])
+
+    @property
+    def strip(self) -> float:
+        """Half of the width of saddles and cross-pieces [m]."""
+        return 0.8 * self.members.roller.bore
+
+    @property
+    def beams(self) -> tuple[tuple[complex, complex], ...]:
+        """Axes of the beams of levers, rods and springs [m], and the directions of their sides."""
+        lever, half = self.sprung.lever, self.members.beam.side / 2
+        rods = complex(float(self.cross.real.min()) - self.strip - half)
+        springs = complex(lever.anchor) - (self.apart + half) * self.along
+        return (lever.pivot - 1j * (self.clear + half), 1 + 0j), (rods, 1 + 0j), (springs, self.along)
+
     def saddle(self, axis: complex, towards: complex) -> ComplexArray:
         """Centres of a roller, of the saddle's corner and of the other roller, behind a bar in a direction [m]."""
         out, radius, roller = towards / abs(towards), self.sprung.lever.path.radius, self.members.roller
@@ -82,14 +123,18 @@ class CompensatorParts:
     roller_pin: Part
     spring_pin: Part
     spring: Part
+    eye: Part
     beam: Part
+    pivot_lug: Part
+    anchor_lug: Part
+    cross_piece: Part
 
 
 def parts_of(params: TensionCompensatorParams, sprung: SprungLever, members: Members) -> CompensatorParts:
     """The parts for a synthesised lever and the members that were chosen."""
     supports = BarSupports(params, sprung, members)
     thick, pin, roller, section = params.lever_thickness, members.pin, members.roller, members.tube
-    flat, turned = "machined link", "pin or bush"
+    flat, turned, plate = "machined link", "pin or bush", f"plate {_mm(thick)}"
     pins = bar(roller.bore, thick + PLAY + roller.width)
     cylinder = tube(section.outer, section.wall, params.cloth.width)
     return CompensatorParts(
@@ -99,7 +144,7 @@ def parts_of(params: TensionCompensatorParams, sprung: SprungLever, members: Mem
         lever=_made("lever", "lever of the compensator", flat, _lever(supports), _flat(members.lever, thick)),
         bush=_made("bush", "bush of a lever", turned, _bush(pin), _round(pin + 2 * BUSH_WALL), BRONZE),
         pin=_made("pin", "pin of a lever", turned, bar(pin, 2 * pin + 2 * thick), _round(pin)),
-        saddle=_made("saddle", "saddle of a bar", "laser-cut part", _saddle(supports), f"plate {_mm(thick)}"),
+        saddle=_made("saddle", "saddle of a bar", "laser-cut part", _saddle(supports), plate),
         roller=Part(
             part_id("roller"),
             "roller of bars and rods",
@@ -111,8 +156,12 @@ def parts_of(params: TensionCompensatorParams, sprung: SprungLever, members: Mem
         ),
         roller_pin=_made("roller-pin", "pin of a roller", turned, pins, _round(roller.bore)),
         spring_pin=_made("spring-pin", "pin of the springs", turned, bar(pin, _springs_wide(sprung)), _round(pin)),
-        spring=_spring(params, sprung),
+        spring=_spring(supports),
+        eye=_made("eye", "eye of a spring", flat, _eye(supports), _mm(_eye_wide(sprung))),
         beam=_made("beam", "beam of the compensator", "welded frame", _beam(params, members), members.beam.name),
+        pivot_lug=_made("pivot-lug", "lug of a pivot", "laser-cut part", _lug(supports, supports.clear), plate),
+        anchor_lug=_made("anchor-lug", "lug of the springs", "laser-cut part", _lug(supports, supports.apart), plate),
+        cross_piece=_made("cross-piece", "cross-piece of the rods", "laser-cut part", _cross(supports), plate),
     )
 
 
@@ -135,57 +184,46 @@ def sprung_bar(
             Occurrence(parts.saddle, _places([at.bar], at.stations, thick / 2, turned=-at.bar)),
             *_rollers(parts, saddle, 1.5 * thick),
             Occurrence(parts.spring_pin, _places([at.reach], at.stations, -wide / 2)),
+            Occurrence(parts.eye, _places([at.reach], _spring_stations(at), turned=-at.along)),
         ),
         joint=Joint(JointKind.PIN, motion=motion),
         positions=(position.after(_along(at.sprung.lever.pivot)),),
     )
 
 
-def standing(parts: CompensatorParts, name: str, position: Placement = IDENTITY) -> tuple[RigidBody, ...]:
-    """The rods of a parity, the rollers that carry them, its beam with the levers' pins, and its springs.
+def standing(parts: CompensatorParts, name: str, position: Placement = IDENTITY) -> RigidBody:
+    """What stands of a parity: beams with the levers' pins, the rods with the rollers that carry them, the springs.
 
-    Nothing carries the rods' saddles, the beam and the springs' anchors yet: these joints are missing.
+    A spring is as long as in the open shed: the lever comes so near to it.
     """
     at, thick = parts.supports, parts.supports.params.lever_thickness
     lever, path, members = at.sprung.lever, at.sprung.lever.path, at.members
     rods = [complex(-path.radius, side * path.half) for side in (1, -1)]
-    beam = lever.pivot - 1j * (members.lever / 2 + members.beam.side / 2 + PLAY)
-    springs = _spring_stations(at)
-    along = lever.pivot + lever.reach - complex(lever.anchor)
+    anchor, middle = complex(lever.anchor), -thick / 2
     upwards = placement(about=(1.0, 0.0, 0.0), angle=-math.pi / 2)
-    leaning = placement(about=(0.0, 0.0, 1.0), angle=cmath.phase(along) - math.pi / 2).after(upwards)
-    missing = Joint(JointKind.MISSING)
-    return (
-        RigidBody(
-            part_id(f"{name} beam"),
-            (
-                Occurrence(parts.beam, _places([beam], [-at.params.cloth.width / 2])),
-                Occurrence(parts.pin, _places([lever.pivot], at.stations, -members.pin - thick)),
-            ),
-            joint=missing,
-            positions=(position,),
+    leaning = placement(about=(0.0, 0.0, 1.0), angle=cmath.phase(at.along) - math.pi / 2).after(upwards)
+    springs = _spring_stations(at)
+    lugs = [pin + aside for pin in at.stations for aside in (-members.pin - thick, members.pin)]
+    own = Occurrence(
+        parts.beam,
+        tuple(seat for axis, side in at.beams for seat in _places([axis], [-at.params.cloth.width / 2], turned=side)),
+    )
+    return RigidBody(
+        part_id(f"{name} stand"),
+        (
+            own,
+            Occurrence(parts.pin, _places([lever.pivot], at.stations, -members.pin - thick)),
+            Occurrence(parts.pivot_lug, _places([lever.pivot], lugs, turned=1j)),
+            Occurrence(parts.rod, _places(rods, [-at.params.cloth.width / 2])),
+            Occurrence(parts.saddle, _places(rods, at.stations, thick / 2, turned=-1)),
+            Occurrence(parts.cross_piece, _places([0j], at.stations, middle)),
+            *_rollers(parts, np.concatenate([at.saddle(rod, -1) for rod in rods]), 1.5 * thick),
+            Occurrence(parts.anchor_lug, _places([anchor], at.stations, middle, turned=at.along)),
+            Occurrence(parts.spring, tuple(_along(anchor, z).after(leaning) for z in springs)),
+            Occurrence(parts.eye, _places([anchor], springs, turned=at.along)),
+            Occurrence(parts.spring_pin, _places([anchor], at.stations, -_springs_wide(at.sprung) / 2)),
         ),
-        RigidBody(
-            part_id(f"{name} rods"),
-            (
-                Occurrence(parts.rod, _places(rods, [-at.params.cloth.width / 2])),
-                Occurrence(parts.saddle, _places(rods, at.stations, thick / 2, turned=-1)),
-                *_rollers(parts, np.concatenate([at.saddle(rod, -1) for rod in rods]), 1.5 * thick),
-            ),
-            joint=missing,
-            positions=(position,),
-        ),
-        RigidBody(
-            part_id(f"{name} springs"),
-            (
-                Occurrence(parts.spring, tuple(_along(complex(lever.anchor), z).after(leaning) for z in springs)),
-                Occurrence(
-                    parts.spring_pin, _places([complex(lever.anchor)], at.stations, -_springs_wide(at.sprung) / 2)
-                ),
-            ),
-            joint=missing,
-            positions=(position,),
-        ),
+        positions=(position,),
     )
 
 
@@ -248,7 +286,7 @@ def _saddle(at: BarSupports) -> Prism:
     """A V from roller to roller, behind a bar in its origin in the direction x."""
     nodes, bore = at.saddle(0j, 1), at.members.roller.bore
     holes = [Hole(complex(axis), bore / 2, "roller") for axis in nodes[::2]]
-    return Prism(drilled(_outline(nodes, 0.8 * bore), holes), at.params.lever_thickness)
+    return Prism(drilled(_outline(nodes, at.strip), holes), at.params.lever_thickness)
 
 
 def _outline(nodes: ComplexArray, radius: float) -> Contour:
@@ -267,15 +305,49 @@ def _beam(params: TensionCompensatorParams, members: Members) -> Shape:
     return square_tube(members.beam.side, members.beam.wall, params.cloth.width)
 
 
-def _spring(params: TensionCompensatorParams, sprung: SprungLever) -> Part:
-    """The spring: its room is that of the coil at rest, between the seats at its pins, about z."""
+def _lug(at: BarSupports, far: float) -> Prism:
+    """A plate with the bore of a pin at its origin, from the face of a beam at x = -far [m]."""
+    pin = at.members.pin
+    corners = np.array([-far - 1j * pin, pin - 1j * pin, pin + 1j * pin, -far + 1j * pin])
+    return Prism(Profile(polygon(corners), (circle(0j, pin / 2),)), at.params.lever_thickness)
+
+
+def _cross(at: BarSupports) -> Prism:
+    """The piece that carries the saddles of both rods, on their beam."""
+    return Prism(Profile(_outline(at.cross, at.strip)), at.params.lever_thickness)
+
+
+def _spring_seat(at: BarSupports) -> float:
+    """From a pin of a spring to its end [m]: its eye reaches there."""
+    wound, pin, sprung = at.sprung.spring, at.members.pin, at.sprung
+    if wound is None:
+        return pin
+    at_rest = float(sprung.lever.spring_length(0.0))
+    return max((at_rest - wound.free_length + sprung.preload / sprung.rate) / 2, 0.75 * pin)
+
+
+def _eye_wide(sprung: SprungLever) -> float:
+    return max(_spring_pitch(sprung) - 2 * PLAY, PLAY)
+
+
+def _eye(at: BarSupports) -> Sum:
+    """A block on a pin along z, from behind it to the end of its spring at x, with the bore of the pin."""
+    pin, wide, far = at.members.pin, _eye_wide(at.sprung), _spring_seat(at)
+    corners = np.array([-pin - 0.5j * wide, far - 0.5j * wide, far + 0.5j * wide, -pin + 0.5j * wide])
+    block = Prism(Profile(polygon(corners), (circle(0j, pin / 2),)), wide)
+    return Sum((Placed(block, (placement(z=-wide / 2),)),))
+
+
+def _spring(at: BarSupports) -> Part:
+    """The spring: its room is that of the coil in the open shed, on the eye at its anchor, about z."""
+    params, sprung = at.params, at.sprung
     wound, title = sprung.spring, "spring of the compensator"
     if wound is None:
         return Part(part_id("spring"), title, "spring", purchase=Bought("none of the table is enough"))
     size = f"{params.wire} {wound.wire_diameter / mm:g} mm, {format_quantity(sprung.rate, 'N/mm', 3)}"
-    length = wound.free_length - sprung.preload / sprung.rate
+    seat = _spring_seat(at)
+    length = max(float(sprung.lever.spring_length(sprung.angle)) - 2 * seat, wound.wire_diameter)
     coil = tube(wound.diameter + wound.wire_diameter, wound.wire_diameter, length)
-    seat = (float(sprung.lever.spring_length(0.0)) - length) / 2
     room = Sum((Placed(coil, (placement(z=seat),)),))
     return Part(part_id("spring"), title, "spring", size, room, purchase=Bought(size, wound.mass), envelope=True)
 

@@ -23,7 +23,7 @@ def tree(design: TensionCompensator, motions: dict[str, SceneMotion] | None = No
     turned = {EVEN: half, ODD: placement(about=(0.0, 1.0, 0.0), angle=math.pi).after(half)}
     bodies: list[RigidBody] = []
     for parity in (EVEN, ODD)[: design.bars]:
-        bodies += standing(parts, parity, turned[parity])
+        bodies.append(standing(parts, parity, turned[parity]))
         bodies.append(sprung_bar(parts, parity, (motions or {}).get(parity), turned[parity]))
     return Tree(tuple(bodies))
 

@@ -34,6 +34,7 @@ from ilmek.elements.bearings import (
 )
 from ilmek.elements.materials import GRAVITY, MATERIALS
 from ilmek.elements.tubes import TUBES, Tube, find_tube
+from ilmek.machines.bearing_seats import BearingSeat, seat_of
 from ilmek.machines.warp_tension.design import LARGE_TUBES, WarpTensionDesign, keeps_limits, worst_load
 from ilmek.machines.warp_tension.params import WarpTensionParams
 from ilmek.part.profile import Profile
@@ -92,6 +93,11 @@ class Cylinder:
     time: float
     static_safety: float
     stub_stress: float
+
+    @property
+    def seat(self) -> BearingSeat:
+        """Its bearing on the frame's bracket."""
+        return seat_of(self.bearing)
 
     @property
     def stub_safety(self) -> float:

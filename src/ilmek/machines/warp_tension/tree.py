@@ -54,32 +54,34 @@ def turning(bodies: Tree, motions: dict[str, SceneMotion]) -> Tree:
 def _bodies(
     params: WarpTensionParams, cylinder: Cylinder, common: tuple[Part, Part, Part], position: Placement
 ) -> tuple[RigidBody, ...]:
-    """A cylinder with its ends, its bearings, and its drive; common: its tube, reducer and motor."""
-    name, row = cylinder.name, cylinder.bearing
+    """A cylinder with its ends, its bearings on the frame's brackets, and its drive; common: tube, reducer, motor.
+
+    A shaft end is a plug that is pressed into the tube, and a journal that reaches through bearing and bracket.
+    """
+    name, seat = cylinder.name, cylinder.seat
     shell, geared, driving = common
     far = params.span / 2 + params.stub
-    end = _made(f"{name}-end", f"shaft end of the {name} cylinder", "turned part", _end(params, cylinder), "", STUB)
-    held = catalogue.bearing(part_id(f"{name}-bearing"), f"bearing of the {name} cylinder", row)
+    shape = stepped((2 * cylinder.inner, PLUG), (seat.bearing.bore, params.stub + seat.through))
+    end = _made(f"{name}-end", f"shaft end of the {name} cylinder", "turned part", shape, "", STUB)
     sides = tuple(_side(z=params.span / 2 - PLUG, flipped=flipped) for flipped in (False, True))
     seats = tuple(_side(z=far, flipped=flipped) for flipped in (False, True))
+    ids = part_id(f"{name}-bearing"), part_id(f"{name}-housing")
     return (
         RigidBody(
             part_id(f"{name} cylinder"),
             (Occurrence(shell, (placement(z=-params.span / 2),)), Occurrence(end, sides)),
             GROUND,
-            Joint(JointKind.PIN, seats=(f"{end.id}:journal", f"{held.id}:bore")),
+            Joint(JointKind.PIN, seats=(f"{end.id}:journal", f"{ids[0]}:bore")),
             (position,),
         ),
         RigidBody(
             part_id(f"{name} bearings"),
-            (Occurrence(held, seats),),
-            joint=Joint(JointKind.MISSING),
+            seat.occurrences(ids, f"bearing of the {name} cylinder", seats),
             positions=(position,),
         ),
         RigidBody(
             part_id(f"{name} drive"),
-            tuple(Occurrence(part, (_flange(geared, far + row.width),)) for part in (geared, driving)),
-            joint=Joint(JointKind.MISSING),
+            tuple(Occurrence(part, (_flange(geared, far + seat.through),)) for part in (geared, driving)),
             positions=(position,),
         ),
     )
@@ -93,11 +95,6 @@ def _shells(design: WarpTensionDesign) -> tuple[Part, Part, Part]:
     return plain, plain, _made("spacer", "spacer cylinder", "steel tube", spacer.shell, _size(spacer), steel)
 
 
-def _end(params: WarpTensionParams, cylinder: Cylinder) -> Turned:
-    """The plug in the tube, from z = 0, and the journal that reaches through the bearing."""
-    return stepped((2 * cylinder.inner, PLUG), (cylinder.bearing.bore, params.stub + cylinder.bearing.width))
-
-
 def _drive_parts(design: WarpTensionDesign) -> tuple[Part, Part]:
     """Reducer and motor: one of each for each of the three cylinders [thesis 3.1]."""
     geared = catalogue.reducer(part_id("reducer"), "reducer of a cylinder", design.reducer.ratio, design.motor)
@@ -106,7 +103,7 @@ def _drive_parts(design: WarpTensionDesign) -> tuple[Part, Part]:
 
 
 def _flange(geared: Part, far: float) -> Placement:
-    """Where reducer and motor meet, beyond the bearing's end [m]: the reducer towards the cylinder."""
+    """Where reducer and motor meet, beyond the bracket's outer face [m]: the reducer towards the cylinder."""
     return placement(z=far + catalogue.length_of(geared), about=(1.0, 0.0, 0.0), angle=math.pi)
 
 

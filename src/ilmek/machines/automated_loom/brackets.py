@@ -1,0 +1,291 @@
+"""The brackets of the frame: plates that carry the bearings of cylinders and cam shafts, back rest, and compensator.
+
+A bracket is a plate of the thickness t beside the column, between the column's face and the seats. A force R at a
+distance d from the column's axis bends it in its plane, and, as the bearing stands o beside its middle, out of it:
+
+    sigma = 6 sum(R d) / (t h²) + 6 sum(R o) / (h t²)        so that the least height h solves
+    s h² - 6 sum(R o) / t² h - 6 sum(R d) / t = 0            s: yield over the safety of the columns      [beam theory]
+
+It is never lower than its housings are wide. Side view: complex, x to the front, y up from the fell [m].
+The back rest lies on a beam from bracket to bracket, which bears the warps' pull P down and to the back, sqrt(2) P.
+"""
+
+import math
+from collections.abc import Iterator
+from functools import lru_cache
+
+import numpy as np
+
+from ilmek.arrays import ComplexArray
+from ilmek.elements.beam import uniform
+from ilmek.elements.columns import SECTIONS, STEEL, HollowSquare
+from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.automated_loom.frame import part_id
+from ilmek.machines.bearing_seats import BRACKET, BearingSeat
+from ilmek.machines.shedding.tree import bearing_inner
+from ilmek.machines.warp_tension.cylinders import cylinders
+from ilmek.part.profile import Profile
+from ilmek.part.shapes import Prism
+from ilmek.plane.contours import circle, rounded_hull
+from ilmek.records import record
+from ilmek.report import Check, Contour, at_least, at_most
+from ilmek.units import mm
+
+BACK_REST_SAG = 2e-3
+"""Deflection of the back rest's beam over its width, as that of the compensator's; assumed by this project."""
+
+ROOM = 3 * mm
+"""Least room between a column's sides and what stands beside it [m]; assumed by this project."""
+
+GUIDED = "guide-cams"
+"""The beat by the cams themselves: they sink with their bearings, along slots of their brackets."""
+
+_STEP = 5 * mm
+"""Heights of brackets are multiples of this [m]."""
+
+_CURE = "set a lower tension, or a narrower carpet"
+
+
+@record
+class Bracket:
+    """A plate of a side of the loom, alike on both sides.
+
+    name, title   of the part                         inner   face from the middle of the width [m]
+    nodes         that its outline surrounds, the column's among them [m]
+    radius        of the outline about them [m]: half of its height at the column
+    bores         through it [m]                      seats   that stand on it
+    load, moment  sum of the forces [N], and of their moments about the column's axis in its plane, out of it [N m]
+    """
+
+    name: str
+    title: str
+    inner: float
+    nodes: ComplexArray
+    radius: float
+    bores: tuple[Contour, ...]
+    load: float
+    moment: tuple[float, float]
+
+    @property
+    def outer(self) -> float:
+        """Outer face from the middle of the width [m]."""
+        return self.inner + BRACKET
+
+    @property
+    def plate(self) -> Prism:
+        """The plate in the side view, from z = 0."""
+        return Prism(Profile(rounded_hull(self.nodes, self.radius), self.bores), BRACKET)
+
+    @property
+    def stress(self) -> float:
+        """Greatest stress at the column [Pa]."""
+        height = 2 * self.radius
+        return 6 * self.moment[0] / (BRACKET * height**2) + 6 * self.moment[1] / (height * BRACKET**2)
+
+    @property
+    def depth(self) -> float:
+        """Height of the outline at the column [m]."""
+        return 2 * self.radius
+
+
+def least_height(moment: tuple[float, float], stress: float) -> float:
+    """Least height of a bracket for moments in its plane and out of it [N m] and a stress [Pa].
+
+    >>> h = least_height((1000.0, 100.0), 100e6)
+    >>> round(6 * 1000.0 / (BRACKET * h**2) + 6 * 100.0 / (h * BRACKET**2), 3)
+    100000000.0
+    """
+    half = 3 * moment[1] / (stress * BRACKET**2)
+    return half + math.sqrt(half**2 + 6 * moment[0] / (stress * BRACKET))
+
+
+@record
+class Brackets:
+    """The brackets of a side.
+
+    shafts   of spacer, lower cylinder, and each cam shaft        upper   of upper cylinder, back rest and compensator
+    beam     section of the back rest's beam, `rest` its axis in the side view [m], `pull` on it [N]
+    """
+
+    upper: Bracket
+    shafts: tuple[Bracket, ...]
+    beam: HollowSquare
+    rest: complex
+    pull: float
+
+    @property
+    def plates(self) -> tuple[Bracket, ...]:
+        """All of them."""
+        return (self.upper, *self.shafts)
+
+    @property
+    def face(self) -> float:
+        """Inner face of the columns from the middle of the width [m]."""
+        return max(one.outer for one in self.plates)
+
+
+@lru_cache(maxsize=4)
+def brackets_of(loom: LoomDesign) -> Brackets:
+    """The brackets of a loom, of the heights that their loads need."""
+    side, far = loom.side, loom.warp_tension.params.width / 2 + loom.warp_tension.params.stub
+    upper, lower, spacer = cylinders(loom.warp_tension)
+    pull = math.sqrt(2) * loom.warp_tension.loads.worst
+    beam = _beam(loom, pull)
+    rest = _beside_the_back_rest(loom, beam)
+    seats = [(spacer.name, side.spacer.at, spacer), (lower.name, side.lower.at, lower)]
+    most = abs(side.spacer.at - side.lower.at) / 2 - ROOM / 2
+    shafts = [
+        _of_seat(loom, f"{name}-bracket", f"bracket of the {name} cylinder", far, (at, one.seat, one.reaction), most)
+        for name, at, one in seats
+    ]
+    return Brackets(
+        _upper(loom, far, (side.upper.at, upper.seat, upper.reaction), (rest, beam, pull / 2)),
+        (*shafts, *_of_cam_shafts(loom)),
+        beam,
+        rest,
+        pull,
+    )
+
+
+@record
+class CarriedBeam:
+    """A beam of a machine from bracket to bracket: axis in the side view [m], direction of its sides, section."""
+
+    axis: complex
+    side: complex
+    section: HollowSquare
+
+
+def compensator_beams(loom: LoomDesign) -> tuple[CarriedBeam, ...]:
+    """The beams of the compensator; none without one."""
+    machine = loom.machines.get("tension-compensator")
+    if machine is None:
+        return ()
+    room, design = loom.side.compensator, machine.design
+    middle, section = room.corner + room.size / 2, design.members.beam
+    return tuple(CarriedBeam(middle + 1j * axis, 1j * side, section) for axis, side in design.beams)
+
+
+def _upper(
+    loom: LoomDesign,
+    far: float,
+    cylinder: tuple[complex, BearingSeat, float],
+    rest: tuple[complex, HollowSquare, float],
+) -> Bracket:
+    """The plate that surrounds upper cylinder, back rest's beam and the compensator's."""
+    (at, seat, reaction), (beam, section, force) = cylinder, rest
+    column, carried = loom.side.column, compensator_beams(loom)
+    nodes = np.array([at, beam, *(one.axis for one in carried)])
+    loads = [(reaction, abs(at.real - column)), (force, abs(beam.real - column))]
+    loads += [(force, abs(one.axis.real - column)) for one in carried]
+    aside = (seat.bearing.width + BRACKET) / 2
+    moment = sum(load * lever for load, lever in loads), sum(load for load, _ in loads) * aside
+    sides = max([section.side, *(one.section.side for one in carried)]) / math.sqrt(2)
+    return Bracket(
+        "upper-bracket",
+        "bracket of upper cylinder, back rest and compensator",
+        far + seat.bearing.width,
+        nodes,
+        _radius(loom, moment, max(seat.radius, sides)),
+        (circle(at, seat.bore / 2),),
+        sum(load for load, _ in loads),
+        moment,
+    )
+
+
+def _of_seat(  # noqa: PLR0917
+    loom: LoomDesign,
+    name: str,
+    title: str,
+    far: float,
+    carried: tuple[complex, BearingSeat, float],
+    most: float = math.inf,
+    shift: ComplexArray | None = None,
+) -> Bracket:
+    """The bracket of a bearing; of one that slides by shifts [m] with a slot.
+
+    far  of the bearing's inner side from the middle [m]      carried  axis, seat and force      most  radius [m]
+    """
+    at, seat, force = carried
+    moved = at + (np.zeros(1, complex) if shift is None else shift)
+    moment = force * abs(at.real - loom.side.column), force * (seat.bearing.width + BRACKET) / 2
+    bore = circle(at, seat.bore / 2) if len(moved) == 1 else rounded_hull(moved, seat.bore / 2)
+    radius = min(_radius(loom, moment, seat.radius), max(most, seat.side / 2))
+    nodes = np.concatenate([moved, loom.side.column + 1j * moved.imag])
+    return Bracket(name, title, far + seat.bearing.width, nodes, radius, (bore,), force, moment)
+
+
+def _of_cam_shafts(loom: LoomDesign) -> Iterator[Bracket]:
+    design, shift = loom.shedding, None
+    if loom.params.beat == GUIDED:
+        assert loom.beat.path is not None
+        shift = loom.beat.path.tip - loom.beat.path.tip[0]
+    for index, (cam, shaft) in enumerate(zip(loom.side.cams, design.shafts, strict=True)):
+        number = f" {index + 1}" if len(design.shafts) > 1 else ""
+        name, title = f"cam-bracket{number.replace(' ', '-')}", f"bracket of the cam shaft{number}"
+        force = shaft.shaft.seat.reaction
+        yield _of_seat(loom, name, title, bearing_inner(design, index), (cam.at, shaft.seat, force), shift=shift)
+
+
+def _radius(loom: LoomDesign, moment: tuple[float, float], least: float) -> float:
+    height = least_height(moment, STEEL.strength / loom.params.column_safety)
+    return max(math.ceil(height / 2 / _STEP) * _STEP, least)
+
+
+def _beam(loom: LoomDesign, pull: float) -> HollowSquare:
+    """The lightest section of the back rest's beam that keeps its checks, else the largest."""
+    offered = sorted((HollowSquare(*size) for size in SECTIONS), key=lambda one: one.area)
+    return next((one for one in offered if all(check.ok for check in _beam_checks(loom, one, pull))), offered[-1])
+
+
+def _beam_checks(loom: LoomDesign, section: HollowSquare, pull: float) -> tuple[Check, Check]:
+    width = loom.task.width
+    load = pull / width
+    sag = float(uniform.deflection_max(load, width, STEEL.modulus, section.inertia))
+    stress = float(uniform.bending_stress(uniform.moment_max(load, width), section.side / 2, section.inertia))
+    parts = (part_id("back-rest-beam"), part_id("back-rest"))
+    limit = STEEL.strength / loom.params.column_safety
+    return (
+        at_most("frame: sag of the back rest", sag, BACK_REST_SAG * width, "mm", "2 mm a m", cure=_CURE, parts=parts),
+        at_most(
+            *("frame: stress of the back rest's beam", stress, limit, "MPa", "yield of S235 over column_safety"),
+            cure=_CURE,
+            parts=parts,
+        ),
+    )
+
+
+def _beside_the_back_rest(loom: LoomDesign, beam: HollowSquare) -> complex:
+    """Axis of the beam under the back rest: they touch, and its front keeps off the warps [m]."""
+    rest = loom.side.back_rest
+    front = rest.at.real + min(beam.side / 4, rest.radius - loom.params.clearance)
+    return complex(front - beam.side / 2, rest.at.imag - rest.radius - beam.side / 2)
+
+
+def bracket_checks(loom: LoomDesign, made: Brackets, column: HollowSquare) -> tuple[Check, ...]:
+    """Stress of each bracket, sag and stress of the back rest's beam, and the room of the columns."""
+    limit, side = STEEL.strength / loom.params.column_safety, loom.side
+    stresses = (
+        at_most(
+            f"frame: stress of the {one.title}",
+            one.stress,
+            limit,
+            "MPa",
+            "yield of S235 over column_safety",
+            cure=_CURE,
+            parts=(part_id(one.name),),
+        )
+        for one in made.plates
+    )
+    behind, before = side.column_room
+    gap = (before - behind - column.side) / 2
+    room = at_least(
+        "frame: room of a column",
+        gap,
+        ROOM,
+        "mm",
+        "between the bearings of upper and lower cylinders; assumed by this project",
+        cure=_CURE,
+        parts=(part_id("column"),),
+    )
+    return (*stresses, *_beam_checks(loom, made.beam, made.pull), room)

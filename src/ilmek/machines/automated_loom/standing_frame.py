@@ -1,0 +1,167 @@
+"""The frame as one body: columns, beams and feet, brackets, back rest, the cabinet of the control.
+
+Axes of the scene: x along the width, 0 in the middle of the cloth, y up from the fell, z to the front. The columns
+stand outside of all bearings; a bracket that ends before a column's face has a spacer of the column's section between.
+"""
+
+import cmath
+from collections.abc import Iterable, Iterator
+
+from ilmek.elements.columns import STEEL, HollowSquare
+from ilmek.elements.tubes import TUBES, Tube
+from ilmek.machines.automated_loom.brackets import ROOM, Bracket, Brackets, CarriedBeam, brackets_of, compensator_beams
+from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.automated_loom.frame import LoomFrame, part_id
+from ilmek.part.part import Bought, Part
+from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, UPRIGHT, Placement, placement
+from ilmek.part.shapes import box, square_tube, stepped, tube
+from ilmek.part.tree import Occurrence, RigidBody
+from ilmek.units import format_quantity, mm
+
+CABINET = (0.8, 1.0, 0.3)
+"""Width, height and depth of the control's cabinet [m]; assumed by this project."""
+
+LEVELLING, PAD = (20 * mm, 40 * mm), (80 * mm, 15 * mm)
+"""Diameter and length of a levelling foot's screw, and of its pad [m]: M20; makers differ by some millimetres."""
+
+FOOT = LEVELLING[1] + PAD[1]
+"""Height of the frame over the floor, on its levelling feet [m]."""
+
+_MASS = 1.1
+"""Mass of a levelling foot [kg]: that of its shape in steel, rounded up."""
+
+_LEAST = 0.05 * mm
+"""Thinner spacers are left out [m]."""
+
+
+def back_rest_tube(loom: LoomDesign) -> Tube:
+    """The tube of the back rest: the thickest of the stock of its diameter."""
+    outer = 2 * loom.side.back_rest.radius
+    return max(TUBES.values(), key=lambda row: (-abs(row.outer - outer), row.wall))
+
+
+def standing_frame(loom: LoomDesign, frame: LoomFrame) -> RigidBody:
+    """Two columns with their feet and brackets, the beams across between them, posts under a rail of several spans."""
+    made = brackets_of(loom)
+    return RigidBody(
+        part_id("frame"),
+        (
+            *_uprights(loom, frame, made),
+            *_across(loom, frame, made),
+            *_feet(loom, frame, made),
+            *(own for one in made.plates for own in _bracket(loom, frame, made, one)),
+            *_carried(loom, made),
+            _control(loom, frame, made),
+        ),
+    )
+
+
+def _uprights(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Occurrence]:
+    side, section = loom.side, frame.column
+    beside, under = made.face + section.side / 2, side.floor + FOOT
+    yield _placed(
+        member("column", "column of the frame", section, side.top - under),
+        (placement(x, under, side.column).after(UPRIGHT) for x in (-beside, beside)),
+    )
+    spans, wide = frame.task.rail_spans, frame.task.width
+    if spans > 1:
+        middles = ((k / spans - 0.5) * wide for k in range(1, spans))
+        yield _placed(
+            member("post", "post of the rail", section, frame.task.height / 2),
+            (placement(x, under + section.side, _front(loom, section)).after(UPRIGHT) for x in middles),
+        )
+
+
+def _front(loom: LoomDesign, section: HollowSquare) -> float:
+    """Axis of what stands before the retreated rail, in the side view [m]."""
+    return (loom.side.rail.corner + loom.side.rail.size).real + loom.side.retreat + section.side / 2
+
+
+def _across(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Occurrence]:
+    """Beams between the columns: at the floor, and behind the cams, above the spacer; at the front for the posts."""
+    side, section = loom.side, frame.column
+    low = side.floor + FOOT + section.side / 2
+    behind = min(cam.at.real - cam.guide_radius for cam in side.cams) - ROOM - section.side / 2
+    lowest = min(cam.at.imag - cam.guide_radius for cam in side.cams)
+    middle = (side.spacer.at.imag + side.spacer.radius + lowest) / 2
+    seats = [(low, side.column), (middle, min(side.column, behind))]
+    if frame.task.rail_spans > 1:
+        seats.append((low, _front(loom, section)))
+    yield _placed(
+        member("beam", "beam across", section, 2 * made.face),
+        (placement(-made.face, y, z).after(ALONG_WIDTH) for y, z in seats),
+    )
+
+
+def _feet(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Occurrence]:
+    """Feet to the back and to the front, under what stands before the heads, on levelling feet at their ends."""
+    side, section = loom.side, frame.column
+    edge, beside, low = section.side / 2, made.face + section.side / 2, side.floor + FOOT + section.side / 2
+    rear, front = frame.task.depth, _front(loom, section) + edge - side.column - edge
+    lengths = (("rear-foot", "rear foot of the frame", rear, side.column - edge - rear),)
+    lengths += (("front-foot", "front foot of the frame", front, side.column + edge),)
+    for name, title, long, start in lengths:
+        yield _placed(member(name, title, section, long), (placement(x, low, start) for x in (-beside, beside)))
+    shape, bought = stepped(PAD, LEVELLING), Bought("M20", _MASS)
+    foot = Part(part_id("levelling-foot"), "levelling foot", "pin or bush", shape=shape, purchase=bought, envelope=True)
+    ends = (side.column - rear, side.column + front)
+    yield _placed(foot, (placement(x, side.floor, z).after(UPRIGHT) for x in (-beside, beside) for z in ends))
+
+
+def _bracket(loom: LoomDesign, frame: LoomFrame, made: Brackets, one: Bracket) -> Iterator[Occurrence]:
+    """A bracket on both sides, and its spacers to the columns."""
+    size = f"plate {format_quantity(one.outer - one.inner, 'mm')}, {format_quantity(one.depth, 'mm')} high"
+    part = Part(part_id(one.name), one.title, "laser-cut part", size, one.plate, STEEL)
+    yield _placed(part, (placement(x).after(IN_SIDE_VIEW) for x in (-one.inner, one.outer)))
+    gap, section = made.face - one.outer, frame.column
+    if gap > _LEAST:
+        spacer = member(f"{one.name}-spacer", f"spacer of the {one.title}", section, gap)
+        height = float(one.nodes.imag.mean())
+        yield _placed(
+            spacer,
+            (placement(x, height, loom.side.column).after(ALONG_WIDTH) for x in (one.outer, -made.face)),
+        )
+
+
+def _carried(loom: LoomDesign, made: Brackets) -> Iterator[Occurrence]:
+    """The back rest on its beam, and the ends of the compensator's beams, all between the upper brackets."""
+    inner, wide, rest = made.upper.inner, loom.task.width, loom.side.back_rest.at
+    section = back_rest_tube(loom)
+    shape = tube(section.outer, section.wall, wide)
+    roller = Part(part_id("back-rest"), "back rest", "steel tube", f"tube {section.name} mm", shape, STEEL)
+    yield _placed(roller, (placement(-wide / 2, rest.imag, rest.real).after(ALONG_WIDTH),))
+    beam = member("back-rest-beam", "beam of the back rest", made.beam, 2 * inner)
+    yield _placed(beam, (placement(-inner, made.rest.imag, made.rest.real).after(ALONG_WIDTH),))
+    carried = compensator_beams(loom)
+    if carried:
+        half = loom.task.cloth.width / 2
+        end = member("beam-end", "end of a compensator's beam", carried[0].section, inner - half)
+        yield _placed(end, (own for one in carried for own in _ends(one, half, inner)))
+
+
+def _ends(beam: CarriedBeam, half: float, inner: float) -> Iterator[Placement]:
+    """Both ends of a beam from the middle machine's width to the brackets, turned as the beam."""
+    turned = placement(about=(0.0, 0.0, 1.0), angle=cmath.phase(beam.side))
+    for x in (half, -inner):
+        yield placement(x, beam.axis.imag, beam.axis.real).after(ALONG_WIDTH).after(turned)
+
+
+def _control(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Occurrence:
+    """The cabinet on the floor behind a rear foot, and bolted to it."""
+    wide, high, deep = CABINET
+    control = Part(
+        part_id("control"), "control", "control", shape=box(wide, high, deep), purchase=Bought("cabinet"), envelope=True
+    )
+    section, rear = frame.column, loom.side.column - frame.column.side / 2 - frame.task.depth
+    middle = made.face + section.side - wide / 2
+    return Occurrence(control, (placement(middle, loom.side.floor + high / 2, rear - deep),))
+
+
+def _placed(part: Part, positions: Iterable[Placement]) -> Occurrence:
+    return Occurrence(part, tuple(positions))
+
+
+def member(name: str, title: str, section: HollowSquare, length: float) -> Part:
+    """A piece of square hollow section, cut to length and welded."""
+    shape = square_tube(section.side, section.wall, length)
+    return Part(part_id(name), title, "welded frame", section.name, shape, STEEL)
