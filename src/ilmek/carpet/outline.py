@@ -25,7 +25,7 @@ from ilmek.carpet.floor import BLACK, evened, floor_difference
 from ilmek.carpet.paper.sheet import squared_paper
 from ilmek.carpet.picture_points import Points
 from ilmek.carpet.projection import MadeRgb
-from ilmek.carpet.straight_edges import Edge, SideStrip, band_inside, edges_of, fitted_line, sampled, step_outside
+from ilmek.carpet.straight_edges import Band, Edge, SideStrip, band_inside, edges_of, fitted_line, sampled, step_outside
 from ilmek.errors import PictureError
 from ilmek.plane.curves import hull
 from ilmek.progress import SILENT, Progress
@@ -78,37 +78,54 @@ def find_outline(rgb: Rgb, progress: Progress = SILENT) -> tuple[Points, float]:
 
     Of a sheet of squared paper those of its grid: the outer field of its drawing may reach to the edge of the picture,
     and is no floor then; the clearness is the share of its cells that are not doubtful.
-    Raises PictureError where the outline is not clear.
+    Raises PictureError where the outline is not clear, with the corners as far as they are known.
     """
     sheet = squared_paper(rgb, progress.part(0.0, 0.4))
     if sheet is not None:
         inside = np.clip(sheet.cells.corners, 0.0, [rgb.shape[1], rgb.shape[0]])
         return inside, 1.0 - sheet.doubts / sheet.numbers.size
     lab: FloatArray = evened(srgb_to_lab(_reduced(rgb, _LONG, progress.part(0.0, 0.8))).astype(np.float32))
+    height, width = lab.shape[:2]
+    scale = (rgb.shape[1] / width, rgb.shape[0] / height)
     difference, floor = floor_difference(lab)
-    if floor[0] < _DARK:
-        raise _unclear("its floor is so dark that a dark frame of the carpet would not be seen")
     step = max(1, round(max(difference.shape) / _COARSE))
     region = _region(difference, step)
-    border = np.concatenate([region[0], region[-1], region[:, 0], region[:, -1]])
-    if np.count_nonzero(border) > _MOST_CUT * len(border):
-        raise _unclear("the edge of the picture cuts it")
     first = _largest_quadrilateral(_hull(region)) * step
-    height, width = difference.shape
-    short = min(height, width)
+    try:
+        corners, shares, doubts = _sides(lab, difference, floor, first)
+    except _NoSides as no_sides:
+        raise _unclear(str(no_sides), np.clip(first, 0, (width, height)) * scale) from None
+    clearness = max(0.0, min(_common_share(region, first / step), *shares))
+    border = np.concatenate([region[0], region[-1], region[:, 0], region[:, -1]])
+    if floor[0] < _DARK:
+        doubts.append("its floor is so dark that a dark frame of the carpet would not be seen")
+    if np.count_nonzero(border) > _MOST_CUT * len(border) or (corners < 0).any() or (corners > (width, height)).any():
+        doubts.append("the edge of the picture cuts it")
+    if clearness < LEAST_CLEARNESS:
+        doubts.append(f"clearness {clearness:.2f}, at least {LEAST_CLEARNESS:g} is required")
+    if doubts:
+        raise _unclear(doubts[-1], np.clip(corners, 0, (width, height)) * scale)
+    return corners * scale, clearness
+
+
+class _NoSides(Exception):
+    """No four sides: why."""
+
+
+def _sides(
+    lab: FloatArray, difference: FloatArray, floor: FloatArray, first: Points
+) -> tuple[Points, list[float], list[str]]:
+    """The corners by lines fitted to the sides, the share of points on each line, and doubts about the sides."""
+    short = min(difference.shape)
     strips = _strips(lab, difference, first, _REACH * short)
-    edges = _edges_around(strips, _TILT * short, floor)
+    edges, doubts = _edges_around(strips, _TILT * short, floor)
     corners, _ = _refined(strips, edges)
-    progress(0.9)
     strips = _strips(lab, difference, corners, _NEAR * short, strips)
     middle = Edge(0.5 * len(strips[0].across), 0.0, 0.0)
     corners, shares = _refined(strips, [middle] * 4)
     if sorted(map(step_outside, strips))[1] > _LARGEST_STEP:
-        raise _unclear("a fainter edge runs around it")
-    clearness = min(_common_share(region, first / step), *shares)
-    if clearness < LEAST_CLEARNESS or (corners < 0).any() or (corners > (width, height)).any():
-        raise _unclear(f"clearness {max(clearness, 0.0):.2f}, at least {LEAST_CLEARNESS:g} is required")
-    return corners * (rgb.shape[1] / width, rgb.shape[0] / height), clearness
+        doubts.append("a fainter edge runs around it")
+    return corners, shares, doubts
 
 
 def _strips(
@@ -117,42 +134,45 @@ def _strips(
     """Strips of the picture across the four sides; their grain is that of those before."""
     following = np.roll(corners, -1, axis=0)
     if np.hypot(*(following - corners).T).min() < 4:
-        raise _unclear("a side has no length")
+        raise _NoSides("a side has no length")
     grains: Sequence[float | None] = [strip.grain for strip in before] or (None,) * 4
     sides = zip(corners, following, grains, strict=True)
     return [sampled(lab, difference, a, b, reach, grain) for a, b, grain in sides]
 
 
-def _edges_around(strips: list[SideStrip], tilt: float, floor: FloatArray) -> list[Edge]:
-    """The edge of the carpet of each side.
+def _edges_around(strips: list[SideStrip], tilt: float, floor: FloatArray) -> tuple[list[Edge], list[str]]:
+    """The edge of the carpet of each side, and the doubt whether what lies along a side is a fringe.
 
-    The outermost edges, or the next ones inwards of sides with a fringe: what is left out may be threads, and the bands
-    inside the edges are of one colour then.
+    The outermost edges, or the next ones inwards of two sides with a fringe. Where it is not sure whether threads show,
+    the bands inside the edges have to be of one colour.
     """
     tried = [edges_of(strip, tilt)[:_TRIED] for strip in strips]
     if not all(tried):
-        raise _unclear("a side has no straight edge")
-    bands = []
-    for strip, edges in zip(strips, tried, strict=True):
-        ends = [edge.middle for edge in edges[1:]] + [np.inf]
-        bands.append([band_inside(strip, edge, end) for edge, end in zip(edges, ends, strict=True)])
-    choices = sorted(itertools.product(*[range(len(edges)) for edges in tried]), key=sum)
-    for choice in choices:
+        raise _NoSides("a side has no straight edge")
+    bands = [
+        [band_inside(strip, edge, end) for edge, end in zip(edges, [*edges[1:], None], strict=True)]
+        for strip, edges in zip(strips, tried, strict=True)
+    ]
+    for choice in sorted(itertools.product(*[range(len(edges)) for edges in tried]), key=sum):
         left_out = [band for k, own in zip(choice, bands, strict=True) for band in own[:k]]
-        colours = np.array([own[k] for k, own in zip(choice, bands, strict=True)])
+        kept = [own[k] for k, own in zip(choice, bands, strict=True)]
+        if any(_of_threads(band, floor, sure=True) for band in kept) or (
+            choice[0] + choice[2] and choice[1] + choice[3]
+        ):
+            continue
+        colours = np.array([band.colour for band in kept])
         apart = np.linalg.norm(colours - np.median(colours, axis=0), axis=1).max()
-        if apart <= _ALIKE and all(_of_threads(band, floor) for band in left_out):
-            return [edges[k] for k, edges in zip(choice, tried, strict=True)]
-    if any(_of_threads(own[0], floor) for own in bands):
-        raise _unclear("what lies along a side may be a fringe")
-    return [edges[0] for edges in tried]
+        sure = apart <= _ALIKE or not any(_of_threads(band, floor) for band in kept)
+        if sure and all(_of_threads(band, floor, sure=apart > _ALIKE) for band in left_out):
+            return [edges[k] for k, edges in zip(choice, tried, strict=True)], []
+    return [edges[0] for edges in tried], ["what lies along a side may be a fringe"]
 
 
-def _of_threads(band: FloatArray, floor: FloatArray) -> bool:
-    """Whether a band may be a fringe: undyed threads with that floor between them."""
+def _of_threads(band: Band, floor: FloatArray, *, sure: bool = False) -> bool:
+    """Whether a band may be, or surely is, a fringe: undyed threads with that floor between them."""
     most = max(_MOST_CHROMA, float(np.hypot(floor[1], floor[2])))
-    least = _SHADOW * (min(floor[0], _LEAST_LIGHT) + BLACK[0])
-    return bool(band[0] + BLACK[0] > least and np.hypot(band[1], band[2]) < most)
+    light = band.colour[0] + BLACK[0] > _SHADOW * (min(floor[0], _LEAST_LIGHT) + BLACK[0])
+    return bool((band.threads if sure else band.perhaps) and light and np.hypot(*band.colour[1:]) < most)
 
 
 def _refined(strips: list[SideStrip], edges: list[Edge]) -> tuple[Points, list[float]]:
@@ -163,16 +183,18 @@ def _refined(strips: list[SideStrip], edges: list[Edge]) -> tuple[Points, list[f
     for (a, b, c), (d, e, f) in zip([lines[-1], *lines[:-1]], lines, strict=True):
         determinant = a * e - b * d
         if abs(determinant) < 1e-6:
-            raise _unclear("two sides that meet are parallel")
+            raise _NoSides("two sides that meet are parallel")
         crossings.append(((c * e - b * f) / determinant, (a * f - c * d) / determinant))
     return np.array(crossings), [share for _, share in fitted]
 
 
-def _unclear(reason: str) -> PictureError:
+def _unclear(reason: str, corners: Points | None = None) -> PictureError:
+    """The error of an outline that is not clear, with the corners that were found, to be pasted where they are right."""
+    points = "x,y x,y x,y x,y" if corners is None else " ".join(f"{x:.1f},{y:.1f}" for x, y in corners.tolist())
     return PictureError(
         f"the outline of the carpet is not clear ({reason})",
         allowed="corners=auto needs the whole carpet on a floor of other colours",
-        do='give the corners: --corners "x,y x,y x,y x,y"',
+        do=f'{"give the corners" if corners is None else "if these are its corners, give them"}: --corners "{points}"',
     )
 
 

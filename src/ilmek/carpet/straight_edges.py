@@ -40,7 +40,19 @@ _AROUND = np.arange(-6, 7)
 """Samples about an edge among which the maximum of the step is sought."""
 
 _BAND = 3
-"""Largest number of samples of the band inside an edge."""
+"""Largest number of samples of the colour inside an edge."""
+
+_DEEP, _BESIDE = 24, 3
+"""Largest number of samples across a band in which threads are sought; samples that are left out at its edges."""
+
+_SLOW = 15
+"""Samples along a side beyond which a change is none of threads."""
+
+_LEAST_THREADS, _NO_THREADS = 1.2, 0.8
+"""Standard deviation of L* from thread to thread, at least, and below which there are none."""
+
+_ALONG, _GREY = 1.2, 0.8
+"""Least ratio of that to the change along the threads; most ratio of a* and b* to L* in it."""
 
 _SLOPES = 41
 
@@ -78,6 +90,18 @@ class Edge:
     def column(self, strip: SideStrip) -> FloatArray:
         """Its samples across for each point along."""
         return self.middle + self.slope * (strip.share - 0.5)
+
+
+@record
+class Band:
+    """A band along a side: its median colour, whether threads across the side show in it, and whether they may.
+
+    Threads are lighter and darker along the side, the same inwards, and of one hue with what shows between them.
+    """
+
+    colour: Float[np.ndarray, "3"]
+    threads: bool
+    perhaps: bool
 
 
 def sampled(  # noqa: PLR0917
@@ -131,13 +155,26 @@ def edges_of(strip: SideStrip, tilt: float) -> list[Edge]:
     return edges
 
 
-def band_inside(strip: SideStrip, edge: Edge, end: float) -> Float[np.ndarray, "3"]:
-    """Median colour of the band inside an edge, as far as the sample across `end`."""
-    deep = min(_BAND, max(2.0, end - edge.middle - 2.0))
-    column = np.rint(edge.column(strip)[:, None] + np.arange(2.0, 2.0 + deep)).astype(int)
-    column = column.clip(0, len(strip.across) - 1)
-    colours: FloatArray = np.median(strip.lab[np.arange(_SAMPLES)[:, None], column], axis=(0, 1))
-    return colours
+def band_inside(strip: SideStrip, edge: Edge, end: Edge | None) -> Band:
+    """The band inside an edge, as far as the edge `end`."""
+    column = edge.column(strip)
+    depth = np.inf if end is None else float(np.median(end.column(strip) - column))
+    near = _samples(strip, column + 2.0, int(min(_BAND, max(2.0, depth - 2.0))))
+    wide = _samples(strip, column + _BESIDE, int(np.clip(depth - 2 * _BESIDE, 2, _DEEP)))
+    means = wide.mean(axis=1)
+    quick = np.abs(means - scipy.ndimage.median_filter(means, (_SLOW, 1)))
+    across, a, b = (1.48 * np.median(quick, axis=0)).tolist()
+    along = float(np.sqrt(np.mean(np.diff(wide[..., 0], axis=1) ** 2)))
+    grey = max(a, b) <= _GREY * across
+    threads = across >= _LEAST_THREADS and across >= _ALONG * along and grey
+    solid = across < _NO_THREADS or across < along or not grey
+    return Band(np.median(near, axis=(0, 1)), threads, not solid)
+
+
+def _samples(strip: SideStrip, column: FloatArray, count: int) -> FloatArray:
+    """The colours at so many samples inwards from a column, (along, count, 3)."""
+    columns = np.rint(column[:, None] + np.arange(count)).astype(int).clip(0, len(strip.across) - 1)
+    return np.asarray(strip.lab[np.arange(_SAMPLES)[:, None], columns])
 
 
 def step_outside(strip: SideStrip) -> float:
