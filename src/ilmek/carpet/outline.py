@@ -25,7 +25,18 @@ from ilmek.carpet.floor import BLACK, evened, floor_difference
 from ilmek.carpet.paper.sheet import squared_paper
 from ilmek.carpet.picture_points import Points
 from ilmek.carpet.projection import MadeRgb
-from ilmek.carpet.straight_edges import Band, Edge, SideStrip, band_inside, edges_of, fitted_line, sampled, step_outside
+from ilmek.carpet.straight_edges import (
+    Band,
+    Edge,
+    SideStrip,
+    band_inside,
+    edges_of,
+    fitted_line,
+    sampled,
+    share_like_floor,
+    sharp_step_outside,
+    step_outside,
+)
 from ilmek.errors import PictureError
 from ilmek.plane.curves import hull
 from ilmek.progress import SILENT, Progress
@@ -63,8 +74,15 @@ _SHADOW = 0.8
 _MOST_CUT = 0.03
 """Largest share of the picture's edge that the carpet may touch, as with the end of a fringe."""
 
-_DARK = 18.0
-"""L* of a floor on which a dark frame is not seen."""
+_LEAST_SHARP, _SHARP = 1.5, 0.1
+"""Largest sharp step of L* outside an edge, at least, and of the floor's L*: planks differ by less, a frame that is
+nearly as dark as the floor by more."""
+
+_THIN = 5.0
+"""Largest width of a frame that the stripe inside it hides: the corners are those of the frame [pixels]."""
+
+_LIKE_FLOOR = 0.5
+"""Share of the band inside an edge that may look like the floor."""
 
 _LARGEST_STEP = 2.8
 """Largest step outside an edge, CIELAB, on three of the sides: a fainter edge has more."""
@@ -97,8 +115,6 @@ def find_outline(rgb: Rgb, progress: Progress = SILENT) -> tuple[Points, float]:
         raise _unclear(str(no_sides), np.clip(first, 0, (width, height)) * scale) from None
     clearness = max(0.0, min(_common_share(region, first / step), *shares))
     border = np.concatenate([region[0], region[-1], region[:, 0], region[:, -1]])
-    if floor[0] < _DARK:
-        doubts.append("its floor is so dark that a dark frame of the carpet would not be seen")
     if np.count_nonzero(border) > _MOST_CUT * len(border) or (corners < 0).any() or (corners > (width, height)).any():
         doubts.append("the edge of the picture cuts it")
     if clearness < LEAST_CLEARNESS:
@@ -122,9 +138,16 @@ def _sides(
     corners, _ = _refined(strips, edges)
     strips = _strips(lab, difference, corners, _NEAR * short, strips)
     middle = Edge(0.5 * len(strips[0].across), 0.0, 0.0)
-    corners, shares = _refined(strips, [middle] * 4)
+    most = max(_LEAST_SHARP, _SHARP * float(floor[0]))
+    wide = [sharp_step_outside(strip) for strip in _strips(lab, difference, corners, _REACH * short, strips)]
+    thin = [distance if step > most and distance <= _THIN else 0.0 for step, distance in wide]
+    corners, shares = _refined(strips, [middle] * 4, thin)
     if sorted(map(step_outside, strips))[1] > _LARGEST_STEP:
         doubts.append("a fainter edge runs around it")
+    if any(step > most and distance > _THIN for step, distance in wide):
+        doubts.append("a fainter edge runs along a side")
+    if max(share_like_floor(strip) for strip in strips) > _LIKE_FLOOR:
+        doubts.append("along a side it has the floor's colour")
     return corners, shares, doubts
 
 
@@ -175,10 +198,15 @@ def _of_threads(band: Band, floor: FloatArray, *, sure: bool = False) -> bool:
     return bool((band.threads if sure else band.perhaps) and light and np.hypot(*band.colour[1:]) < most)
 
 
-def _refined(strips: list[SideStrip], edges: list[Edge]) -> tuple[Points, list[float]]:
-    """Corners as intersections of lines fitted to the edges, and for each side the share of points on its line."""
+def _refined(
+    strips: list[SideStrip], edges: list[Edge], outwards: Sequence[float] = (0.0,) * 4
+) -> tuple[Points, list[float]]:
+    """Corners as intersections of lines fitted to the edges, and for each side the share of points on its line.
+
+    outwards  distance by which each line is moved [pixels]
+    """
     fitted = [fitted_line(strip, edge, _TOLERANCE) for strip, edge in zip(strips, edges, strict=True)]
-    lines = [line.tolist() for line, _ in fitted]
+    lines = [(*line[:2].tolist(), float(line[2]) - far) for (line, _), far in zip(fitted, outwards, strict=True)]
     crossings = []
     for (a, b, c), (d, e, f) in zip([lines[-1], *lines[:-1]], lines, strict=True):
         determinant = a * e - b * d
@@ -189,7 +217,7 @@ def _refined(strips: list[SideStrip], edges: list[Edge]) -> tuple[Points, list[f
 
 
 def _unclear(reason: str, corners: Points | None = None) -> PictureError:
-    """The error of an outline that is not clear, with the corners that were found, to be pasted where they are right."""
+    """The error of an outline that is not clear, with the corners that were found, to be pasted if they are right."""
     points = "x,y x,y x,y x,y" if corners is None else " ".join(f"{x:.1f},{y:.1f}" for x, y in corners.tolist())
     return PictureError(
         f"the outline of the carpet is not clear ({reason})",

@@ -45,16 +45,20 @@ _BAND = 3
 _DEEP, _BESIDE = 24, 3
 """Largest number of samples across a band in which threads are sought; samples that are left out at its edges."""
 
-_SLOW = 15
+_SLOW = 11
 """Samples along a side beyond which a change is none of threads."""
 
 _LEAST_THREADS, _NO_THREADS = 1.2, 0.8
 """Standard deviation of L* from thread to thread, at least, and below which there are none."""
 
-_ALONG, _GREY = 1.2, 0.8
-"""Least ratio of that to the change along the threads; most ratio of a* and b* to L* in it."""
+_ALONG, _HARDLY, _GREY = 0.75, 0.6, 0.8
+"""Ratio of that to the change along the threads, at least, and below which there are none; most ratio of a* and b* to
+L* in it."""
 
 _SLOPES = 41
+
+_SHARP = 6
+"""Distance across at which a sharp step has ended [samples]."""
 
 _CLEAR = 2.5
 """Distance from an edge at which its own blur has ended [pixels]."""
@@ -152,7 +156,13 @@ def edges_of(strip: SideStrip, tilt: float) -> list[Edge]:
         middle = int(among[len(among) // 2])
         best = np.flatnonzero(shares[:, middle] == profile[middle])
         edges.append(Edge(float(middle), float(slopes[best].mean()), float(profile[middle])))
-    return edges
+    return [edge for edge in edges if not any(_crossed(edge, other) for other in edges)]
+
+
+def _crossed(edge: Edge, other: Edge) -> bool:
+    """Whether an edge crosses a clearer one along the side: it consists of parts of others."""
+    apart, turned = edge.middle - other.middle, 0.5 * (edge.slope - other.slope)
+    return other.share > edge.share and abs(apart) < abs(turned)
 
 
 def band_inside(strip: SideStrip, edge: Edge, end: Edge | None) -> Band:
@@ -167,7 +177,7 @@ def band_inside(strip: SideStrip, edge: Edge, end: Edge | None) -> Band:
     along = float(np.sqrt(np.mean(np.diff(wide[..., 0], axis=1) ** 2)))
     grey = max(a, b) <= _GREY * across
     threads = across >= _LEAST_THREADS and across >= _ALONG * along and grey
-    solid = across < _NO_THREADS or across < along or not grey
+    solid = across < _NO_THREADS or across < _HARDLY * along or not grey
     return Band(np.median(near, axis=(0, 1)), threads, not solid)
 
 
@@ -187,6 +197,29 @@ def step_outside(strip: SideStrip) -> float:
     unlit = colours - (colours @ floor / (floor @ floor))[:, None] * floor
     outside = unlit[: len(strip.across) // 2 - round(_CLEAR / _STEP)]
     return float(np.linalg.norm(outside[_FLANK:] - outside[:-_FLANK], axis=1).max(initial=0.0))
+
+
+def sharp_step_outside(strip: SideStrip) -> tuple[float, float]:
+    """Largest step of the mean L* along a side, outside its middle line, over the steps `_SHARP` samples beside it, and
+    its distance from the line [pixels].
+
+    The edge of a shadow is softer. 0 where threads begin at the line: a fringe ends sharply, too.
+    """
+    middle = len(strip.across) // 2
+    if band_inside(strip, Edge(middle - _DEEP, 0.0, 0.0), Edge(middle, 0.0, 0.0)).threads:
+        return 0.0, 0.0
+    light = strip.lab[..., 0].mean(axis=0)
+    step = np.abs(light[_FLANK:] - light[:-_FLANK])[: middle - round(_CLEAR / _STEP) - _FLANK // 2]
+    padded = np.pad(step, (0, _SHARP))
+    prominent = step[_SHARP:] - np.maximum(step[:-_SHARP], padded[2 * _SHARP :])
+    place = int(prominent.argmax()) + _SHARP
+    return float(prominent[place - _SHARP]), _STEP * (middle - place - _FLANK / 2)
+
+
+def share_like_floor(strip: SideStrip) -> float:
+    """Share of what is just inside the middle line of a side that differs from the floor no more than its grain."""
+    first = len(strip.across) // 2 + _FLANK
+    return float(np.mean(strip.difference[:, first : first + 2 * _FLANK] < 1))
 
 
 def fitted_line(strip: SideStrip, edge: Edge, tolerance: float) -> tuple[FloatArray, float]:
