@@ -35,6 +35,7 @@ from ilmek.carpet.straight_edges import (
     sampled,
     share_like_floor,
     sharp_step_outside,
+    step_beside,
     step_outside,
 )
 from ilmek.errors import PictureError
@@ -144,7 +145,11 @@ def _sides(
     corners, shares = _refined(strips, [middle] * 4, thin)
     if sorted(map(step_outside, strips))[1] > _LARGEST_STEP:
         doubts.append("a fainter edge runs around it")
-    if any(step > most and distance > _THIN for step, distance in wide):
+    reach = _REACH * short
+    if any(
+        step > most and distance > _THIN and not _goes_on(lab, difference, strip, reach, wide_step=(step, distance))
+        for strip, (step, distance) in zip(strips, wide, strict=True)
+    ):
         doubts.append("a fainter edge runs along a side")
     if max(share_like_floor(strip) for strip in strips) > _LIKE_FLOOR:
         doubts.append("along a side it has the floor's colour")
@@ -161,6 +166,17 @@ def _strips(
     grains: Sequence[float | None] = [strip.grain for strip in before] or (None,) * 4
     sides = zip(corners, following, grains, strict=True)
     return [sampled(lab, difference, a, b, reach, grain) for a, b, grain in sides]
+
+
+def _goes_on(
+    lab: FloatArray, difference: FloatArray, strip: SideStrip, reach: float, *, wide_step: tuple[float, float]
+) -> bool:
+    """Whether a step beside a side goes on beyond both its ends: it is the floor's, a seam of planks."""
+    step, distance = wide_step
+    along = strip.end - strip.start
+    beyond = ((-0.15, -0.03), (1.03, 1.15))
+    ends = [(strip.start + a * along, strip.start + b * along) for a, b in beyond]
+    return all(step_beside(sampled(lab, difference, *end, reach), distance) > 0.4 * step for end in ends)
 
 
 def _edges_around(strips: list[SideStrip], tilt: float, floor: FloatArray) -> tuple[list[Edge], list[str]]:

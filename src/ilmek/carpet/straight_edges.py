@@ -48,8 +48,8 @@ _DEEP, _BESIDE = 24, 3
 _SLOW = 11
 """Samples along a side beyond which a change is none of threads."""
 
-_LEAST_THREADS, _NO_THREADS = 1.2, 0.8
-"""Standard deviation of L* from thread to thread, at least, and below which there are none."""
+_LEAST_THREADS = 1.0
+"""Least deviation of L* from thread to thread."""
 
 _ALONG, _HARDLY, _GREY = 0.75, 0.6, 0.8
 """Ratio of that to the change along the threads, at least, and below which there are none; most ratio of a* and b* to
@@ -171,14 +171,19 @@ def band_inside(strip: SideStrip, edge: Edge, end: Edge | None) -> Band:
     depth = np.inf if end is None else float(np.median(end.column(strip) - column))
     near = _samples(strip, column + 2.0, int(min(_BAND, max(2.0, depth - 2.0))))
     wide = _samples(strip, column + _BESIDE, int(np.clip(depth - 2 * _BESIDE, 2, _DEEP)))
-    means = wide.mean(axis=1)
+    across, along = _of_threads(wide)
+    at_edge, along_it = _of_threads(wide[:, : _DEEP // 3])
+    threads = across > _ALONG * along and at_edge > _ALONG * along_it
+    return Band(np.median(near, axis=(0, 1)), threads, threads or across > _HARDLY * along)
+
+
+def _of_threads(colours: Float[np.ndarray, "along across 3"]) -> tuple[float, float]:
+    """The deviation of L* from thread to thread, 0 where there is none, and the change along the threads."""
+    means = colours.mean(axis=1)
     quick = np.abs(means - scipy.ndimage.median_filter(means, (_SLOW, 1)))
-    across, a, b = (1.48 * np.median(quick, axis=0)).tolist()
-    along = float(np.sqrt(np.mean(np.diff(wide[..., 0], axis=1) ** 2)))
-    grey = max(a, b) <= _GREY * across
-    threads = across >= _LEAST_THREADS and across >= _ALONG * along and grey
-    solid = across < _NO_THREADS or across < _HARDLY * along or not grey
-    return Band(np.median(near, axis=(0, 1)), threads, not solid)
+    light, a, b = (1.48 * np.median(quick, axis=0)).tolist()
+    along = float(np.sqrt(np.mean(np.diff(colours[..., 0], axis=1) ** 2)))
+    return light if light >= _LEAST_THREADS and max(a, b) <= _GREY * light else 0.0, along
 
 
 def _samples(strip: SideStrip, column: FloatArray, count: int) -> FloatArray:
@@ -208,12 +213,22 @@ def sharp_step_outside(strip: SideStrip) -> tuple[float, float]:
     middle = len(strip.across) // 2
     if band_inside(strip, Edge(middle - _DEEP, 0.0, 0.0), Edge(middle, 0.0, 0.0)).threads:
         return 0.0, 0.0
-    light = strip.lab[..., 0].mean(axis=0)
-    step = np.abs(light[_FLANK:] - light[:-_FLANK])[: middle - round(_CLEAR / _STEP) - _FLANK // 2]
+    step = _steps_of_light(strip)[: middle - round(_CLEAR / _STEP) - _FLANK // 2]
     padded = np.pad(step, (0, _SHARP))
     prominent = step[_SHARP:] - np.maximum(step[:-_SHARP], padded[2 * _SHARP :])
     place = int(prominent.argmax()) + _SHARP
     return float(prominent[place - _SHARP]), _STEP * (middle - place - _FLANK / 2)
+
+
+def step_beside(strip: SideStrip, distance: float) -> float:
+    """Largest step of the mean L* along a side, about that distance outside its middle line [pixels]."""
+    place = len(strip.across) // 2 - round(distance / _STEP + _FLANK / 2)
+    return float(_steps_of_light(strip)[max(0, place - _SHARP) : max(1, place + _SHARP)].max())
+
+
+def _steps_of_light(strip: SideStrip) -> FloatArray:
+    light = strip.lab[..., 0].mean(axis=0)
+    return np.asarray(np.abs(light[_FLANK:] - light[:-_FLANK]))
 
 
 def share_like_floor(strip: SideStrip) -> float:
