@@ -51,6 +51,9 @@ _LONG, _COARSE = 2400, 600
 _LEAST_AREA = 0.05
 """Least area of a carpet in the picture."""
 
+_LEAST_PART, _LEAST_TOGETHER = 0.01, 0.85
+"""Least area of a part of a carpet, of its largest, and least share of a quadrilateral that the parts fill."""
+
 _PLAIN = 2.0
 """Difference to the floor in the region of the carpet: above that of its grain."""
 
@@ -81,6 +84,9 @@ nearly as dark as the floor by more."""
 
 _THIN = 5.0
 """Largest width of a frame that the stripe inside it hides: the corners are those of the frame [pixels]."""
+
+_BEYOND, _GOES_ON = ((-0.2, -0.07), (1.07, 1.2)), 0.4
+"""Where a line is looked at beyond its ends, in lengths of the side, and least step there of one that goes on."""
 
 _LIKE_FLOOR = 0.5
 """Share of the band inside an edge that may look like the floor."""
@@ -139,19 +145,19 @@ def _sides(
     corners, _ = _refined(strips, edges)
     strips = _strips(lab, difference, corners, _NEAR * short, strips)
     middle = Edge(0.5 * len(strips[0].across), 0.0, 0.0)
-    most = max(_LEAST_SHARP, _SHARP * float(floor[0]))
-    wide = [sharp_step_outside(strip) for strip in _strips(lab, difference, corners, _REACH * short, strips)]
+    most, reach = max(_LEAST_SHARP, _SHARP * float(floor[0])), _REACH * short
+    wide = [sharp_step_outside(strip) for strip in _strips(lab, difference, corners, reach, strips)]
     thin = [distance if step > most and distance <= _THIN else 0.0 for step, distance in wide]
     corners, shares = _refined(strips, [middle] * 4, thin)
     if sorted(map(step_outside, strips))[1] > _LARGEST_STEP:
         doubts.append("a fainter edge runs around it")
-    reach = _REACH * short
-    if any(
-        step > most and distance > _THIN and not _goes_on(lab, difference, strip, reach, wide_step=(step, distance))
-        for strip, (step, distance) in zip(strips, wide, strict=True)
-    ):
-        doubts.append("a fainter edge runs along a side")
-    if max(share_like_floor(strip) for strip in strips) > _LIKE_FLOOR:
+    for strip, (step, distance) in zip(strips, wide, strict=True):
+        if step > most and distance > _THIN and not _goes_on(lab, difference, strip, (reach, distance, step)):
+            doubts.append("a fainter edge runs along a side")
+        like_floor = np.linalg.norm(band_inside(strip, middle, None).colour - floor) < _ALIKE
+        if like_floor and _goes_on(lab, difference, strip, (reach, 0.0, step_beside(strip, 0.0))):
+            doubts.append("an edge along a side goes on in the floor")
+    if max(map(share_like_floor, strips)) > _LIKE_FLOOR:
         doubts.append("along a side it has the floor's colour")
     return corners, shares, doubts
 
@@ -168,15 +174,15 @@ def _strips(
     return [sampled(lab, difference, a, b, reach, grain) for a, b, grain in sides]
 
 
-def _goes_on(
-    lab: FloatArray, difference: FloatArray, strip: SideStrip, reach: float, *, wide_step: tuple[float, float]
-) -> bool:
-    """Whether a step beside a side goes on beyond both its ends: it is the floor's, a seam of planks."""
-    step, distance = wide_step
+def _goes_on(lab: FloatArray, difference: FloatArray, strip: SideStrip, edge: tuple[float, float, float]) -> bool:
+    """Whether an edge along a side goes on beyond both its ends: it is the floor's, a seam of planks.
+
+    edge  reach of the strips in which it is looked for, distance outside the side [pixels], and step of L*
+    """
+    reach, distance, step = edge
     along = strip.end - strip.start
-    beyond = ((-0.15, -0.03), (1.03, 1.15))
-    ends = [(strip.start + a * along, strip.start + b * along) for a, b in beyond]
-    return all(step_beside(sampled(lab, difference, *end, reach), distance) > 0.4 * step for end in ends)
+    ends = [(strip.start + a * along, strip.start + b * along) for a, b in _BEYOND]
+    return all(step_beside(sampled(lab, difference, *end, reach), distance) > _GOES_ON * step for end in ends)
 
 
 def _edges_around(strips: list[SideStrip], tilt: float, floor: FloatArray) -> tuple[list[Edge], list[str]]:
@@ -195,16 +201,25 @@ def _edges_around(strips: list[SideStrip], tilt: float, floor: FloatArray) -> tu
     for choice in sorted(itertools.product(*[range(len(edges)) for edges in tried]), key=sum):
         left_out = [band for k, own in zip(choice, bands, strict=True) for band in own[:k]]
         kept = [own[k] for k, own in zip(choice, bands, strict=True)]
+        apart = _apart(kept)
+        if apart <= _ALIKE and not left_out and sum(_of_threads(band, floor, sure=True) for band in kept) == 1:
+            break  # a frame of one colour around the carpet, with a dense pattern on one side; or a fringe on it
         if any(_of_threads(band, floor, sure=True) for band in kept) or (
             choice[0] + choice[2] and choice[1] + choice[3]
         ):
             continue
-        colours = np.array([band.colour for band in kept])
-        apart = np.linalg.norm(colours - np.median(colours, axis=0), axis=1).max()
+        if left_out and _apart(left_out) > _ALIKE:
+            continue  # a fringe has one colour
         sure = apart <= _ALIKE or not any(_of_threads(band, floor) for band in kept)
         if sure and all(_of_threads(band, floor, sure=apart > _ALIKE) for band in left_out):
             return [edges[k] for k, edges in zip(choice, tried, strict=True)], []
     return [edges[0] for edges in tried], ["what lies along a side may be a fringe"]
+
+
+def _apart(bands: list[Band]) -> float:
+    """Largest distance of the bands' colours from their median."""
+    colours = np.array([band.colour for band in bands])
+    return float(np.linalg.norm(colours - np.median(colours, axis=0), axis=1).max())
 
 
 def _of_threads(band: Band, floor: FloatArray, *, sure: bool = False) -> bool:
@@ -250,7 +265,10 @@ def _reduced(rgb: Rgb, long: int, progress: Progress) -> MadeRgb:
 
 
 def _region(difference: FloatArray, step: int) -> BoolArray:
-    """The carpet in the picture reduced by `step`: the largest region above the margin's difference."""
+    """The carpet in the picture reduced by `step`: the largest region above the margin's difference.
+
+    Or all large ones, where they fill one quadrilateral: a stripe of the floor's colour divides the carpet.
+    """
     rows, columns = (side // step * step for side in difference.shape)
     blocks = difference[:rows, :columns].reshape(rows // step, step, columns // step, step)
     mask = scipy.ndimage.binary_fill_holes(blocks.mean(axis=(1, 3)) > _PLAIN)
@@ -259,10 +277,15 @@ def _region(difference: FloatArray, step: int) -> BoolArray:
     labels, count = scipy.ndimage.label(mask)
     if count == 0:
         raise _unclear("nothing differs from the margin of the picture")
-    areas = np.bincount(labels.ravel())[1:]
+    areas = np.bincount(labels.ravel())
+    areas[0] = 0
     if areas.max() < _LEAST_AREA * mask.size:
         raise _unclear("what differs from the margin of the picture is too small")
-    largest: BoolArray = scipy.ndimage.binary_fill_holes(labels == areas.argmax() + 1)
+    largest: BoolArray = scipy.ndimage.binary_fill_holes(labels == areas.argmax())
+    parts = np.flatnonzero(areas > _LEAST_PART * areas.max())
+    together = np.isin(labels, parts)
+    if len(parts) > 1 and _common_share(together, _largest_quadrilateral(_hull(together))) > _LEAST_TOGETHER:
+        return together
     return largest
 
 
