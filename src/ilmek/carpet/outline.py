@@ -37,6 +37,7 @@ from ilmek.carpet.straight_edges import (
     sharp_step_outside,
     step_beside,
     step_outside,
+    unlike_in_any_light,
 )
 from ilmek.errors import PictureError
 from ilmek.plane.curves import hull
@@ -75,10 +76,13 @@ _LEAST_LIGHT, _MOST_CHROMA = 50.0, 30.0
 _SHADOW = 0.8
 """L* + 16 of a fringe in shadow, of that in the light."""
 
+_DEEPEST = 0.4
+"""L* + 16 of a floor in shadow beside a fringe, at least, of that in the light."""
+
 _MOST_CUT = 0.03
 """Largest share of the picture's edge that the carpet may touch, as with the end of a fringe."""
 
-_LEAST_SHARP, _SHARP = 1.5, 0.1
+_LEAST_SHARP, _SHARP = 1.2, 0.1
 """Largest sharp step of L* outside an edge, at least, and of the floor's L*: planks differ by less, a frame that is
 nearly as dark as the floor by more."""
 
@@ -154,6 +158,8 @@ def _sides(
     for strip, (step, distance) in zip(strips, wide, strict=True):
         if step > most and distance > _THIN and not _goes_on(lab, difference, strip, (reach, distance, step)):
             doubts.append("a fainter edge runs along a side")
+        if unlike_in_any_light(strip, floor) > _ALIKE:
+            doubts.append("neither floor nor fringe lies along a side")
         like_floor = np.linalg.norm(band_inside(strip, middle, None).colour - floor) < _ALIKE
         if like_floor and _goes_on(lab, difference, strip, (reach, 0.0, step_beside(strip, 0.0))):
             doubts.append("an edge along a side goes on in the floor")
@@ -226,6 +232,8 @@ def _of_threads(band: Band, floor: FloatArray, *, sure: bool = False) -> bool:
     """Whether a band may be, or surely is, a fringe: undyed threads with that floor between them."""
     most = max(_MOST_CHROMA, float(np.hypot(floor[1], floor[2])))
     light = band.colour[0] + BLACK[0] > _SHADOW * (min(floor[0], _LEAST_LIGHT) + BLACK[0])
+    if band.outside + BLACK[0] < _DEEPEST * (floor[0] + BLACK[0]):
+        return False  # a dark frame lies outside it
     return bool((band.threads if sure else band.perhaps) and light and np.hypot(*band.colour[1:]) < most)
 
 

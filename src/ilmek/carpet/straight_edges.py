@@ -42,8 +42,9 @@ _AROUND = np.arange(-6, 7)
 _BAND = 3
 """Largest number of samples of the colour inside an edge."""
 
-_DEEP, _BESIDE = 24, 3
-"""Largest number of samples across a band in which threads are sought; samples that are left out at its edges."""
+_DEEP, _PART, _BESIDE = 24, 8, 3
+"""Largest number of samples across a band in which threads are sought, number of those at its outer and inner edge, in
+which they have to show, too, and of those at the edges that are left out."""
 
 _SLOW = 11
 """Samples along a side beyond which a change is none of threads."""
@@ -98,12 +99,13 @@ class Edge:
 
 @record
 class Band:
-    """A band along a side: its median colour, whether threads across the side show in it, and whether they may.
+    """A band along a side: its median colour, least mean L* just outside it, whether threads show in it, and may show.
 
     Threads are lighter and darker along the side, the same inwards, and of one hue with what shows between them.
     """
 
     colour: Float[np.ndarray, "3"]
+    outside: float
     threads: bool
     perhaps: bool
 
@@ -171,10 +173,14 @@ def band_inside(strip: SideStrip, edge: Edge, end: Edge | None) -> Band:
     depth = np.inf if end is None else float(np.median(end.column(strip) - column))
     near = _samples(strip, column + 2.0, int(min(_BAND, max(2.0, depth - 2.0))))
     wide = _samples(strip, column + _BESIDE, int(np.clip(depth - 2 * _BESIDE, 2, _DEEP)))
-    across, along = _of_threads(wide)
-    at_edge, along_it = _of_threads(wide[:, : _DEEP // 3])
-    threads = across > _ALONG * along and at_edge > _ALONG * along_it
-    return Band(np.median(near, axis=(0, 1)), threads, threads or across > _HARDLY * along)
+    deep, deeply = _of_threads(wide)
+    outer, outwards = _of_threads(wide[:, :_PART])
+    threads, perhaps = outer > _ALONG * outwards, outer > _HARDLY * outwards or deep > _HARDLY * deeply
+    if end is not None and depth >= 4 * _PART:
+        inner, inwards = _of_threads(_samples(strip, end.column(strip) - _BESIDE - _PART, _PART))
+        threads = threads and inner > _HARDLY * inwards
+    outside = float(_samples(strip, column - _PART, _PART)[..., 0].mean(axis=0).min())
+    return Band(np.median(near, axis=(0, 1)), outside, threads and deep > 0, threads or perhaps)
 
 
 def _of_threads(colours: Float[np.ndarray, "along across 3"]) -> tuple[float, float]:
@@ -229,6 +235,17 @@ def step_beside(strip: SideStrip, distance: float) -> float:
 def _steps_of_light(strip: SideStrip) -> FloatArray:
     light = strip.lab[..., 0].mean(axis=0)
     return np.asarray(np.abs(light[_FLANK:] - light[:-_FLANK]))
+
+
+def unlike_in_any_light(strip: SideStrip, floor: FloatArray) -> float:
+    """Distance of the colour just outside the middle line of a side to that of the floor in any light, CIELAB.
+
+    0 where threads are there.
+    """
+    middle = len(strip.across) // 2
+    band = band_inside(strip, Edge(middle - _DEEP // 2, 0.0, 0.0), Edge(middle, 0.0, 0.0))
+    colour, lit = band.colour + BLACK, floor + BLACK
+    return 0.0 if band.perhaps else float(np.linalg.norm(colour - (colour @ lit / (lit @ lit)) * lit))
 
 
 def share_like_floor(strip: SideStrip) -> float:
