@@ -25,7 +25,20 @@ from ilmek.carpet.floor import BLACK, evened, floor_difference
 from ilmek.carpet.paper.sheet import squared_paper
 from ilmek.carpet.picture_points import Points
 from ilmek.carpet.projection import MadeRgb
-from ilmek.carpet.straight_edges import Edge, SideStrip, band_inside, edges_of, fitted_line, sampled, step_outside
+from ilmek.carpet.straight_edges import (
+    Band,
+    Edge,
+    SideStrip,
+    band_inside,
+    edges_of,
+    fitted_line,
+    sampled,
+    share_like_floor,
+    sharp_step_outside,
+    step_beside,
+    step_outside,
+    unlike_in_any_light,
+)
 from ilmek.errors import PictureError
 from ilmek.plane.curves import hull
 from ilmek.progress import SILENT, Progress
@@ -38,6 +51,9 @@ _LONG, _COARSE = 2400, 600
 
 _LEAST_AREA = 0.05
 """Least area of a carpet in the picture."""
+
+_LEAST_PART, _LEAST_TOGETHER = 0.01, 0.85
+"""Least area of a part of a carpet, of its largest, and least share of a quadrilateral that the parts fill."""
 
 _PLAIN = 2.0
 """Difference to the floor in the region of the carpet: above that of its grain."""
@@ -60,11 +76,24 @@ _LEAST_LIGHT, _MOST_CHROMA = 50.0, 30.0
 _SHADOW = 0.8
 """L* + 16 of a fringe in shadow, of that in the light."""
 
+_DEEPEST = 0.4
+"""L* + 16 of a floor in shadow beside a fringe, at least, of that in the light."""
+
 _MOST_CUT = 0.03
 """Largest share of the picture's edge that the carpet may touch, as with the end of a fringe."""
 
-_DARK = 18.0
-"""L* of a floor on which a dark frame is not seen."""
+_LEAST_SHARP, _SHARP = 1.2, 0.1
+"""Largest sharp step of L* outside an edge, at least, and of the floor's L*: planks differ by less, a frame that is
+nearly as dark as the floor by more."""
+
+_THIN = 5.0
+"""Largest width of a frame that the stripe inside it hides: the corners are those of the frame [pixels]."""
+
+_BEYOND, _GOES_ON = ((-0.2, -0.07), (1.07, 1.2)), 0.4
+"""Where a line is looked at beyond its ends, in lengths of the side, and least step there of one that goes on."""
+
+_LIKE_FLOOR = 0.5
+"""Share of the band inside an edge that may look like the floor."""
 
 _LARGEST_STEP = 2.8
 """Largest step outside an edge, CIELAB, on three of the sides: a fainter edge has more."""
@@ -78,37 +107,65 @@ def find_outline(rgb: Rgb, progress: Progress = SILENT) -> tuple[Points, float]:
 
     Of a sheet of squared paper those of its grid: the outer field of its drawing may reach to the edge of the picture,
     and is no floor then; the clearness is the share of its cells that are not doubtful.
-    Raises PictureError where the outline is not clear.
+    Raises PictureError where the outline is not clear, with the corners as far as they are known.
     """
     sheet = squared_paper(rgb, progress.part(0.0, 0.4))
     if sheet is not None:
         inside = np.clip(sheet.cells.corners, 0.0, [rgb.shape[1], rgb.shape[0]])
         return inside, 1.0 - sheet.doubts / sheet.numbers.size
     lab: FloatArray = evened(srgb_to_lab(_reduced(rgb, _LONG, progress.part(0.0, 0.8))).astype(np.float32))
+    height, width = lab.shape[:2]
+    scale = (rgb.shape[1] / width, rgb.shape[0] / height)
     difference, floor = floor_difference(lab)
-    if floor[0] < _DARK:
-        raise _unclear("its floor is so dark that a dark frame of the carpet would not be seen")
     step = max(1, round(max(difference.shape) / _COARSE))
     region = _region(difference, step)
-    border = np.concatenate([region[0], region[-1], region[:, 0], region[:, -1]])
-    if np.count_nonzero(border) > _MOST_CUT * len(border):
-        raise _unclear("the edge of the picture cuts it")
     first = _largest_quadrilateral(_hull(region)) * step
-    height, width = difference.shape
-    short = min(height, width)
+    try:
+        corners, shares, doubts = _sides(lab, difference, floor, first)
+    except _NoSides as no_sides:
+        raise _unclear(str(no_sides), np.clip(first, 0, (width, height)) * scale) from None
+    clearness = max(0.0, min(_common_share(region, first / step), *shares))
+    border = np.concatenate([region[0], region[-1], region[:, 0], region[:, -1]])
+    if np.count_nonzero(border) > _MOST_CUT * len(border) or (corners < 0).any() or (corners > (width, height)).any():
+        doubts.append("the edge of the picture cuts it")
+    if clearness < LEAST_CLEARNESS:
+        doubts.append(f"clearness {clearness:.2f}, at least {LEAST_CLEARNESS:g} is required")
+    if doubts:
+        raise _unclear(doubts[-1], np.clip(corners, 0, (width, height)) * scale)
+    return corners * scale, clearness
+
+
+class _NoSides(Exception):
+    """No four sides: why."""
+
+
+def _sides(
+    lab: FloatArray, difference: FloatArray, floor: FloatArray, first: Points
+) -> tuple[Points, list[float], list[str]]:
+    """The corners by lines fitted to the sides, the share of points on each line, and doubts about the sides."""
+    short = min(difference.shape)
     strips = _strips(lab, difference, first, _REACH * short)
-    edges = _edges_around(strips, _TILT * short, floor)
+    edges, doubts = _edges_around(strips, _TILT * short, floor)
     corners, _ = _refined(strips, edges)
-    progress(0.9)
     strips = _strips(lab, difference, corners, _NEAR * short, strips)
     middle = Edge(0.5 * len(strips[0].across), 0.0, 0.0)
-    corners, shares = _refined(strips, [middle] * 4)
+    most, reach = max(_LEAST_SHARP, _SHARP * float(floor[0])), _REACH * short
+    wide = [sharp_step_outside(strip) for strip in _strips(lab, difference, corners, reach, strips)]
+    thin = [distance if step > most and distance <= _THIN else 0.0 for step, distance in wide]
+    corners, shares = _refined(strips, [middle] * 4, thin)
     if sorted(map(step_outside, strips))[1] > _LARGEST_STEP:
-        raise _unclear("a fainter edge runs around it")
-    clearness = min(_common_share(region, first / step), *shares)
-    if clearness < LEAST_CLEARNESS or (corners < 0).any() or (corners > (width, height)).any():
-        raise _unclear(f"clearness {max(clearness, 0.0):.2f}, at least {LEAST_CLEARNESS:g} is required")
-    return corners * (rgb.shape[1] / width, rgb.shape[0] / height), clearness
+        doubts.append("a fainter edge runs around it")
+    for strip, (step, distance) in zip(strips, wide, strict=True):
+        if step > most and distance > _THIN and not _goes_on(lab, difference, strip, (reach, distance, step)):
+            doubts.append("a fainter edge runs along a side")
+        if unlike_in_any_light(strip, floor) > _ALIKE:
+            doubts.append("neither floor nor fringe lies along a side")
+        like_floor = np.linalg.norm(band_inside(strip, middle, None).colour - floor) < _ALIKE
+        if like_floor and _goes_on(lab, difference, strip, (reach, 0.0, step_beside(strip, 0.0))):
+            doubts.append("an edge along a side goes on in the floor")
+    if max(map(share_like_floor, strips)) > _LIKE_FLOOR:
+        doubts.append("along a side it has the floor's colour")
+    return corners, shares, doubts
 
 
 def _strips(
@@ -117,62 +174,94 @@ def _strips(
     """Strips of the picture across the four sides; their grain is that of those before."""
     following = np.roll(corners, -1, axis=0)
     if np.hypot(*(following - corners).T).min() < 4:
-        raise _unclear("a side has no length")
+        raise _NoSides("a side has no length")
     grains: Sequence[float | None] = [strip.grain for strip in before] or (None,) * 4
     sides = zip(corners, following, grains, strict=True)
     return [sampled(lab, difference, a, b, reach, grain) for a, b, grain in sides]
 
 
-def _edges_around(strips: list[SideStrip], tilt: float, floor: FloatArray) -> list[Edge]:
-    """The edge of the carpet of each side.
+def _goes_on(lab: FloatArray, difference: FloatArray, strip: SideStrip, edge: tuple[float, float, float]) -> bool:
+    """Whether an edge along a side goes on beyond both its ends: it is the floor's, a seam of planks.
 
-    The outermost edges, or the next ones inwards of sides with a fringe: what is left out may be threads, and the bands
-    inside the edges are of one colour then.
+    edge  reach of the strips in which it is looked for, distance outside the side [pixels], and step of L*
+    """
+    reach, distance, step = edge
+    along = strip.end - strip.start
+    ends = [(strip.start + a * along, strip.start + b * along) for a, b in _BEYOND]
+    return all(step_beside(sampled(lab, difference, *end, reach), distance) > _GOES_ON * step for end in ends)
+
+
+def _edges_around(strips: list[SideStrip], tilt: float, floor: FloatArray) -> tuple[list[Edge], list[str]]:
+    """The edge of the carpet of each side, and the doubt whether what lies along a side is a fringe.
+
+    The outermost edges, or the next ones inwards of two sides with a fringe. Where it is not sure whether threads show,
+    the bands inside the edges have to be of one colour.
     """
     tried = [edges_of(strip, tilt)[:_TRIED] for strip in strips]
     if not all(tried):
-        raise _unclear("a side has no straight edge")
-    bands = []
-    for strip, edges in zip(strips, tried, strict=True):
-        ends = [edge.middle for edge in edges[1:]] + [np.inf]
-        bands.append([band_inside(strip, edge, end) for edge, end in zip(edges, ends, strict=True)])
-    choices = sorted(itertools.product(*[range(len(edges)) for edges in tried]), key=sum)
-    for choice in choices:
+        raise _NoSides("a side has no straight edge")
+    bands = [
+        [band_inside(strip, edge, end) for edge, end in zip(edges, [*edges[1:], None], strict=True)]
+        for strip, edges in zip(strips, tried, strict=True)
+    ]
+    for choice in sorted(itertools.product(*[range(len(edges)) for edges in tried]), key=sum):
         left_out = [band for k, own in zip(choice, bands, strict=True) for band in own[:k]]
-        colours = np.array([own[k] for k, own in zip(choice, bands, strict=True)])
-        apart = np.linalg.norm(colours - np.median(colours, axis=0), axis=1).max()
-        if apart <= _ALIKE and all(_of_threads(band, floor) for band in left_out):
-            return [edges[k] for k, edges in zip(choice, tried, strict=True)]
-    if any(_of_threads(own[0], floor) for own in bands):
-        raise _unclear("what lies along a side may be a fringe")
-    return [edges[0] for edges in tried]
+        kept = [own[k] for k, own in zip(choice, bands, strict=True)]
+        apart = _apart(kept)
+        if apart <= _ALIKE and not left_out and sum(_of_threads(band, floor, sure=True) for band in kept) == 1:
+            break  # a frame of one colour around the carpet, with a dense pattern on one side; or a fringe on it
+        if any(_of_threads(band, floor, sure=True) for band in kept) or (
+            choice[0] + choice[2] and choice[1] + choice[3]
+        ):
+            continue
+        if left_out and _apart(left_out) > _ALIKE:
+            continue  # a fringe has one colour
+        sure = apart <= _ALIKE or not any(_of_threads(band, floor) for band in kept)
+        if sure and all(_of_threads(band, floor, sure=apart > _ALIKE) for band in left_out):
+            return [edges[k] for k, edges in zip(choice, tried, strict=True)], []
+    return [edges[0] for edges in tried], ["what lies along a side may be a fringe"]
 
 
-def _of_threads(band: FloatArray, floor: FloatArray) -> bool:
-    """Whether a band may be a fringe: undyed threads with that floor between them."""
+def _apart(bands: list[Band]) -> float:
+    """Largest distance of the bands' colours from their median."""
+    colours = np.array([band.colour for band in bands])
+    return float(np.linalg.norm(colours - np.median(colours, axis=0), axis=1).max())
+
+
+def _of_threads(band: Band, floor: FloatArray, *, sure: bool = False) -> bool:
+    """Whether a band may be, or surely is, a fringe: undyed threads with that floor between them."""
     most = max(_MOST_CHROMA, float(np.hypot(floor[1], floor[2])))
-    least = _SHADOW * (min(floor[0], _LEAST_LIGHT) + BLACK[0])
-    return bool(band[0] + BLACK[0] > least and np.hypot(band[1], band[2]) < most)
+    light = band.colour[0] + BLACK[0] > _SHADOW * (min(floor[0], _LEAST_LIGHT) + BLACK[0])
+    if band.outside + BLACK[0] < _DEEPEST * (floor[0] + BLACK[0]):
+        return False  # a dark frame lies outside it
+    return bool((band.threads if sure else band.perhaps) and light and np.hypot(*band.colour[1:]) < most)
 
 
-def _refined(strips: list[SideStrip], edges: list[Edge]) -> tuple[Points, list[float]]:
-    """Corners as intersections of lines fitted to the edges, and for each side the share of points on its line."""
+def _refined(
+    strips: list[SideStrip], edges: list[Edge], outwards: Sequence[float] = (0.0,) * 4
+) -> tuple[Points, list[float]]:
+    """Corners as intersections of lines fitted to the edges, and for each side the share of points on its line.
+
+    outwards  distance by which each line is moved [pixels]
+    """
     fitted = [fitted_line(strip, edge, _TOLERANCE) for strip, edge in zip(strips, edges, strict=True)]
-    lines = [line.tolist() for line, _ in fitted]
+    lines = [(*line[:2].tolist(), float(line[2]) - far) for (line, _), far in zip(fitted, outwards, strict=True)]
     crossings = []
     for (a, b, c), (d, e, f) in zip([lines[-1], *lines[:-1]], lines, strict=True):
         determinant = a * e - b * d
         if abs(determinant) < 1e-6:
-            raise _unclear("two sides that meet are parallel")
+            raise _NoSides("two sides that meet are parallel")
         crossings.append(((c * e - b * f) / determinant, (a * f - c * d) / determinant))
     return np.array(crossings), [share for _, share in fitted]
 
 
-def _unclear(reason: str) -> PictureError:
+def _unclear(reason: str, corners: Points | None = None) -> PictureError:
+    """The error of an outline that is not clear, with the corners that were found, to be pasted if they are right."""
+    points = "x,y x,y x,y x,y" if corners is None else " ".join(f"{x:.1f},{y:.1f}" for x, y in corners.tolist())
     return PictureError(
         f"the outline of the carpet is not clear ({reason})",
         allowed="corners=auto needs the whole carpet on a floor of other colours",
-        do='give the corners: --corners "x,y x,y x,y x,y"',
+        do=f'{"give the corners" if corners is None else "if these are its corners, give them"}: --corners "{points}"',
     )
 
 
@@ -184,7 +273,10 @@ def _reduced(rgb: Rgb, long: int, progress: Progress) -> MadeRgb:
 
 
 def _region(difference: FloatArray, step: int) -> BoolArray:
-    """The carpet in the picture reduced by `step`: the largest region above the margin's difference."""
+    """The carpet in the picture reduced by `step`: the largest region above the margin's difference.
+
+    Or all large ones, where they fill one quadrilateral: a stripe of the floor's colour divides the carpet.
+    """
     rows, columns = (side // step * step for side in difference.shape)
     blocks = difference[:rows, :columns].reshape(rows // step, step, columns // step, step)
     mask = scipy.ndimage.binary_fill_holes(blocks.mean(axis=(1, 3)) > _PLAIN)
@@ -193,10 +285,15 @@ def _region(difference: FloatArray, step: int) -> BoolArray:
     labels, count = scipy.ndimage.label(mask)
     if count == 0:
         raise _unclear("nothing differs from the margin of the picture")
-    areas = np.bincount(labels.ravel())[1:]
+    areas = np.bincount(labels.ravel())
+    areas[0] = 0
     if areas.max() < _LEAST_AREA * mask.size:
         raise _unclear("what differs from the margin of the picture is too small")
-    largest: BoolArray = scipy.ndimage.binary_fill_holes(labels == areas.argmax() + 1)
+    largest: BoolArray = scipy.ndimage.binary_fill_holes(labels == areas.argmax())
+    parts = np.flatnonzero(areas > _LEAST_PART * areas.max())
+    together = np.isin(labels, parts)
+    if len(parts) > 1 and _common_share(together, _largest_quadrilateral(_hull(together))) > _LEAST_TOGETHER:
+        return together
     return largest
 
 

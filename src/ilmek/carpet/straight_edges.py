@@ -40,9 +40,26 @@ _AROUND = np.arange(-6, 7)
 """Samples about an edge among which the maximum of the step is sought."""
 
 _BAND = 3
-"""Largest number of samples of the band inside an edge."""
+"""Largest number of samples of the colour inside an edge."""
+
+_DEEP, _PART, _BESIDE = 24, 8, 3
+"""Largest number of samples across a band in which threads are sought, number of those at its outer and inner edge, in
+which they have to show, too, and of those at the edges that are left out."""
+
+_SLOW = 11
+"""Samples along a side beyond which a change is none of threads."""
+
+_LEAST_THREADS = 1.0
+"""Least deviation of L* from thread to thread."""
+
+_ALONG, _HARDLY, _GREY = 0.75, 0.6, 0.8
+"""Ratio of that to the change along the threads, at least, and below which there are none; most ratio of a* and b* to
+L* in it."""
 
 _SLOPES = 41
+
+_SHARP = 6
+"""Distance across at which a sharp step has ended [samples]."""
 
 _CLEAR = 2.5
 """Distance from an edge at which its own blur has ended [pixels]."""
@@ -78,6 +95,19 @@ class Edge:
     def column(self, strip: SideStrip) -> FloatArray:
         """Its samples across for each point along."""
         return self.middle + self.slope * (strip.share - 0.5)
+
+
+@record
+class Band:
+    """A band along a side: its median colour, least mean L* just outside it, whether threads show in it, and may show.
+
+    Threads are lighter and darker along the side, the same inwards, and of one hue with what shows between them.
+    """
+
+    colour: Float[np.ndarray, "3"]
+    outside: float
+    threads: bool
+    perhaps: bool
 
 
 def sampled(  # noqa: PLR0917
@@ -128,16 +158,44 @@ def edges_of(strip: SideStrip, tilt: float) -> list[Edge]:
         middle = int(among[len(among) // 2])
         best = np.flatnonzero(shares[:, middle] == profile[middle])
         edges.append(Edge(float(middle), float(slopes[best].mean()), float(profile[middle])))
-    return edges
+    return [edge for edge in edges if not any(_crossed(edge, other) for other in edges)]
 
 
-def band_inside(strip: SideStrip, edge: Edge, end: float) -> Float[np.ndarray, "3"]:
-    """Median colour of the band inside an edge, as far as the sample across `end`."""
-    deep = min(_BAND, max(2.0, end - edge.middle - 2.0))
-    column = np.rint(edge.column(strip)[:, None] + np.arange(2.0, 2.0 + deep)).astype(int)
-    column = column.clip(0, len(strip.across) - 1)
-    colours: FloatArray = np.median(strip.lab[np.arange(_SAMPLES)[:, None], column], axis=(0, 1))
-    return colours
+def _crossed(edge: Edge, other: Edge) -> bool:
+    """Whether an edge crosses a clearer one along the side: it consists of parts of others."""
+    apart, turned = edge.middle - other.middle, 0.5 * (edge.slope - other.slope)
+    return other.share > edge.share and abs(apart) < abs(turned)
+
+
+def band_inside(strip: SideStrip, edge: Edge, end: Edge | None) -> Band:
+    """The band inside an edge, as far as the edge `end`."""
+    column = edge.column(strip)
+    depth = np.inf if end is None else float(np.median(end.column(strip) - column))
+    near = _samples(strip, column + 2.0, int(min(_BAND, max(2.0, depth - 2.0))))
+    wide = _samples(strip, column + _BESIDE, int(np.clip(depth - 2 * _BESIDE, 2, _DEEP)))
+    deep, deeply = _of_threads(wide)
+    outer, outwards = _of_threads(wide[:, :_PART])
+    threads, perhaps = outer > _ALONG * outwards, outer > _HARDLY * outwards or deep > _HARDLY * deeply
+    if end is not None and depth >= 4 * _PART:
+        inner, inwards = _of_threads(_samples(strip, end.column(strip) - _BESIDE - _PART, _PART))
+        threads = threads and inner > _HARDLY * inwards
+    outside = float(_samples(strip, column - _PART, _PART)[..., 0].mean(axis=0).min())
+    return Band(np.median(near, axis=(0, 1)), outside, threads and deep > 0, threads or perhaps)
+
+
+def _of_threads(colours: Float[np.ndarray, "along across 3"]) -> tuple[float, float]:
+    """The deviation of L* from thread to thread, 0 where there is none, and the change along the threads."""
+    means = colours.mean(axis=1)
+    quick = np.abs(means - scipy.ndimage.median_filter(means, (_SLOW, 1)))
+    light, a, b = (1.48 * np.median(quick, axis=0)).tolist()
+    along = float(np.sqrt(np.mean(np.diff(colours[..., 0], axis=1) ** 2)))
+    return light if light >= _LEAST_THREADS and max(a, b) <= _GREY * light else 0.0, along
+
+
+def _samples(strip: SideStrip, column: FloatArray, count: int) -> FloatArray:
+    """The colours at so many samples inwards from a column, (along, count, 3)."""
+    columns = np.rint(column[:, None] + np.arange(count)).astype(int).clip(0, len(strip.across) - 1)
+    return np.asarray(strip.lab[np.arange(_SAMPLES)[:, None], columns])
 
 
 def step_outside(strip: SideStrip) -> float:
@@ -150,6 +208,50 @@ def step_outside(strip: SideStrip) -> float:
     unlit = colours - (colours @ floor / (floor @ floor))[:, None] * floor
     outside = unlit[: len(strip.across) // 2 - round(_CLEAR / _STEP)]
     return float(np.linalg.norm(outside[_FLANK:] - outside[:-_FLANK], axis=1).max(initial=0.0))
+
+
+def sharp_step_outside(strip: SideStrip) -> tuple[float, float]:
+    """Largest step of the mean L* along a side, outside its middle line, over the steps `_SHARP` samples beside it, and
+    its distance from the line [pixels].
+
+    The edge of a shadow is softer. 0 where threads begin at the line: a fringe ends sharply, too.
+    """
+    middle = len(strip.across) // 2
+    if band_inside(strip, Edge(middle - _DEEP, 0.0, 0.0), Edge(middle, 0.0, 0.0)).threads:
+        return 0.0, 0.0
+    step = _steps_of_light(strip)[: middle - round(_CLEAR / _STEP) - _FLANK // 2]
+    padded = np.pad(step, (0, _SHARP))
+    prominent = step[_SHARP:] - np.maximum(step[:-_SHARP], padded[2 * _SHARP :])
+    place = int(prominent.argmax()) + _SHARP
+    return float(prominent[place - _SHARP]), _STEP * (middle - place - _FLANK / 2)
+
+
+def step_beside(strip: SideStrip, distance: float) -> float:
+    """Largest step of the mean L* along a side, about that distance outside its middle line [pixels]."""
+    place = len(strip.across) // 2 - round(distance / _STEP + _FLANK / 2)
+    return float(_steps_of_light(strip)[max(0, place - _SHARP) : max(1, place + _SHARP)].max())
+
+
+def _steps_of_light(strip: SideStrip) -> FloatArray:
+    light = strip.lab[..., 0].mean(axis=0)
+    return np.asarray(np.abs(light[_FLANK:] - light[:-_FLANK]))
+
+
+def unlike_in_any_light(strip: SideStrip, floor: FloatArray) -> float:
+    """Distance of the colour just outside the middle line of a side to that of the floor in any light, CIELAB.
+
+    0 where threads are there.
+    """
+    middle = len(strip.across) // 2
+    band = band_inside(strip, Edge(middle - _DEEP // 2, 0.0, 0.0), Edge(middle, 0.0, 0.0))
+    colour, lit = band.colour + BLACK, floor + BLACK
+    return 0.0 if band.perhaps else float(np.linalg.norm(colour - (colour @ lit / (lit @ lit)) * lit))
+
+
+def share_like_floor(strip: SideStrip) -> float:
+    """Share of what is just inside the middle line of a side that differs from the floor no more than its grain."""
+    first = len(strip.across) // 2 + _FLANK
+    return float(np.mean(strip.difference[:, first : first + 2 * _FLANK] < 1))
 
 
 def fitted_line(strip: SideStrip, edge: Edge, tolerance: float) -> tuple[FloatArray, float]:

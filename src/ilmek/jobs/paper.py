@@ -15,6 +15,9 @@ MOST_BEYOND, MOST_BEYOND_OPEN, LEAST_END = 0.35, 0.03, 0.93
 """Largest share of the cells beside a grid in which lines may go on: where its last lines are there, and where there is
 less than LEAST_END of one."""
 
+MOST_BESIDE = 0.5
+"""Largest share of a side beside which a colour of the drawing goes on in whole cells."""
+
 MOST_UNEVEN = 0.18
 """Largest distance of a line from where a smooth sheet has it, of the pitch: a line too many or too few gives more."""
 
@@ -32,8 +35,8 @@ def paper_checks(chart: Chart) -> tuple[Check, ...]:
 
 
 def reading_checks(paper: PaperReading) -> tuple[Check, ...]:
-    """Whether most cells are sure; unless the grid was stated, whether it ends where it was found to end, its lines are
-    even, all of them are there, and its cells are no quarters of cells.
+    """Whether most cells are sure; unless the grid was stated, whether lines and drawing end where it ends, its lines
+    are even, all of them are there, and its cells are no quarters of cells.
     """
     rows, columns = paper.grid
     cure = f"is it a sheet of {columns} × {rows} cells? Leave out --paper, or take a clearer picture"
@@ -45,13 +48,15 @@ def reading_checks(paper: PaperReading) -> tuple[Check, ...]:
     source, name = "lines that cross the edge of the grid end at it", "squared paper: cells beside the grid with lines"
     limit = MOST_BEYOND if paper.cells.end >= LEAST_END else MOST_BEYOND_OPEN
     ends = at_most(name, paper.cells.beyond, limit, "%", source, cure=cure)
+    source, name = "a drawing ends with its grid", "squared paper: colours of the drawing beside the grid"
+    whole = at_most(name, paper.beside, MOST_BESIDE, "%", source, cure=cure)
     source, name = "a sheet is smooth, so its lines follow each other evenly", "squared paper: lines off their places"
     even = at_most(name, paper.cells.uneven, MOST_UNEVEN, "%", source, cure=cure)
     source, name = "all lines of a grid are drawn", "squared paper: difference of even and odd lines"
     every = at_most(name, paper.cells.alternating, MOST_ALTERNATING, "%", source, cure=cure)
     source, name = "colours change at any line", "squared paper: changes of colour on every second line"
-    whole = at_most(name, paper.on_every_second, MOST_ON_EVERY_SECOND, "%", source, cure=cure)
-    return sure, ends, even, every, whole
+    single = at_most(name, paper.on_every_second, MOST_ON_EVERY_SECOND, "%", source, cure=cure)
+    return sure, ends, whole, even, every, single
 
 
 def paper_files(chart: Chart) -> tuple[str, ...]:

@@ -15,6 +15,7 @@ import scipy
 from ilmek.arrays import BoolArray, Complex, Float, FloatArray, Rgb
 from ilmek.carpet.paper.lattice import SAMPLES, Lattice, divided, rectified, window
 from ilmek.carpet.paper.lines import LineEnergy, levelled, no_grid
+from ilmek.carpet.paper.placing import RINGS
 from ilmek.carpet.picture_points import Points
 from ilmek.records import record
 
@@ -64,6 +65,7 @@ class Cells:
 
     colours  mean of the steady half of the samples of each, sRGB codes (rows, columns, 3)
     spread   range of the lightness of that half [codes]
+    around   colours, with RINGS rows and columns more on each side (rows, columns, 3)
     x, y     their middles in the picture [pixels]
     corners   of the grid in the picture, clockwise from the upper left
     beyond    share of the cells next to the grid in which lines go on, on the worst side
@@ -75,6 +77,7 @@ class Cells:
 
     colours: Float[np.ndarray, "rows columns 3"]
     spread: Float[np.ndarray, "rows columns"]
+    around: Float[np.ndarray, "wider_rows wider_columns 3"]
     x: Float[np.ndarray, "rows columns"]
     y: Float[np.ndarray, "rows columns"]
     corners: Points
@@ -110,23 +113,14 @@ def read_cells(rgb: Rgb, energy: LineEnergy, lattice: Lattice) -> Cells:
     """The cells of the grid in a picture. Raises PictureError where they are too few."""
     lattice, lines, seen, rows, columns = _whole_grid(rgb, energy, lattice)
     left, _, upper, _ = window(lattice)
-    u = left + np.arange(columns.start, columns.stop) + 0.5
-    v = upper + np.arange(rows.start, rows.stop) + 0.5
     strength = lines.of_columns[rows, columns] + lines.of_rows[rows, columns]
     usual = max(float(np.median(strength)), 1e-9)
-    pitch = energy.factor * min(energy.pitch_x, energy.pitch_y)
-    inner = np.linspace(-1, 1, _ALONG) * min(_INNER, max(0.15, 0.5 - _LINE / pitch))
-    all_u, all_v = (u[:, None] + inner).ravel(), (v[:, None] + inner).ravel()
-    x, y = lattice.mesh(all_u, all_v)
-    samples = rgb[
-        np.clip(np.floor(y), 0, rgb.shape[0] - 1).astype(np.intp),
-        np.clip(np.floor(x), 0, rgb.shape[1] - 1).astype(np.intp),
-    ]
-    shape = (len(v), _ALONG, len(u), _ALONG)
-    by_cell = samples.reshape(*shape, 3).swapaxes(1, 2).reshape(len(v), len(u), _ALONG**2, 3)
-    colours, spread = _steady(by_cell)
-    middle = _ALONG // 2
-    x, y = (one.reshape(shape)[:, middle, :, middle] for one in (x, y))
+    u = left + np.arange(columns.start - RINGS, columns.stop + RINGS) + 0.5
+    v = upper + np.arange(rows.start - RINGS, rows.stop + RINGS) + 0.5
+    around, all_spread, all_x, all_y = _sampled(rgb, lattice, u, v, energy.factor * min(energy.pitch_x, energy.pitch_y))
+    inside = slice(RINGS, -RINGS)
+    colours, spread, x, y = (one[inside, inside] for one in (around, all_spread, all_x, all_y))
+    u, v = u[inside], v[inside]
     ends = np.array([[u[0], u[-1], u[-1], u[0]], [v[0], v[0], v[-1], v[-1]]])
     outwards = np.array([[-0.5, 0.5, 0.5, -0.5], [-0.5, -0.5, 0.5, 0.5]])
     corners = np.stack(lattice.points(*(ends + outwards)), axis=-1)
@@ -135,7 +129,27 @@ def read_cells(rgb: Rgb, energy: LineEnergy, lattice: Lattice) -> Cells:
     alternating = min(_alternating(lines, rows, columns), _alternating(lines.turned, columns, rows))
     points = x + 1j * y
     uneven = max(_uneven(points), _uneven(points.T))
-    return Cells(colours, spread, x, y, corners, strength / usual, usual, beyond, end, uneven, alternating)
+    return Cells(colours, spread, around, x, y, corners, strength / usual, usual, beyond, end, uneven, alternating)
+
+
+def _sampled(
+    rgb: Rgb, lattice: Lattice, u: FloatArray, v: FloatArray, pitch: float
+) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """The colours of the cells with their middles at u, v, the range of lightness in each, and x and y of the middles.
+
+    Cells outside the picture are like those at its edge.
+    """
+    inner = np.linspace(-1, 1, _ALONG) * min(_INNER, max(0.15, 0.5 - _LINE / pitch))
+    x, y = lattice.mesh((u[:, None] + inner).ravel(), (v[:, None] + inner).ravel())
+    samples = rgb[
+        np.clip(np.floor(y), 0, rgb.shape[0] - 1).astype(np.intp),
+        np.clip(np.floor(x), 0, rgb.shape[1] - 1).astype(np.intp),
+    ]
+    shape = (len(v), _ALONG, len(u), _ALONG)
+    by_cell = samples.reshape(*shape, 3).swapaxes(1, 2).reshape(len(v), len(u), _ALONG**2, 3)
+    middle = _ALONG // 2
+    x, y = (one.reshape(shape)[:, middle, :, middle] for one in (x, y))
+    return *_steady(by_cell), x, y
 
 
 def _whole_grid(rgb: Rgb, energy: LineEnergy, lattice: Lattice) -> tuple[Lattice, _Lines, BoolArray, slice, slice]:

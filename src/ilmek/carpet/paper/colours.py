@@ -19,7 +19,7 @@ from ilmek.carpet.colour import RGB_TO_XYZ, decode, xyz_to_lab
 from ilmek.carpet.yarn import MOST_YARNS
 from ilmek.records import record
 
-_DARK = 4.0
+DARK = 4.0
 """Codes that are added before the logarithm: black has noise, too."""
 
 _DEGREE = 5
@@ -29,7 +29,7 @@ _MOST_STEPS = 10_000
 _ONE_COLOUR = 0.03
 """Difference of the logarithms of neighbours beyond which they hardly have one colour."""
 
-_BIN, _APART = 3.0, 9.0
+_BIN, APART = 3.0, 9.0
 """Side of the bins in which colours are counted, and least distance of two colours of a drawing [CIELAB]."""
 
 LUMA = np.array([0.299, 0.587, 0.114])
@@ -75,7 +75,7 @@ def cell_colours(
     spread: Float[np.ndarray, "rows columns"],
 ) -> CellColours:
     """The colours that cells have; `spread`: range of the lightness within each [codes]."""
-    brightness = np.log(colours @ LUMA + _DARK)
+    brightness = np.log(colours @ LUMA + DARK)
     light = _slow_light(brightness)
     for _ in range(_ROUNDS):
         lab = _lab(colours, light)
@@ -83,7 +83,7 @@ def cell_colours(
         numbers = numbers.reshape(spread.shape)
         even = brightness - light
         of_colour = np.array([np.median(even[numbers == one]) for one in range(len(centres))])
-        sure = np.sqrt(((lab - centres[numbers]) ** 2).sum(axis=-1)) < 2 * _APART / 3
+        sure = np.sqrt(((lab - centres[numbers]) ** 2).sum(axis=-1)) < 2 * APART / 3
         light = _smoothed(brightness - of_colour[numbers], sure, light)
     lab = _lab(colours, light)
     centres, numbers = _grouped(lab.reshape(-1, 3))
@@ -104,11 +104,16 @@ def cell_colours(
 
 def _evenly_lit(colours: FloatArray, light: FloatArray) -> FloatArray:
     """The codes of the cells without S."""
-    return np.asarray(np.clip((colours + _DARK) * np.exp(-light)[..., None] - _DARK, 0.0, 255.0))
+    return np.asarray(np.clip((colours + DARK) * np.exp(-light)[..., None] - DARK, 0.0, 255.0))
 
 
 def _lab(colours: FloatArray, light: FloatArray) -> FloatArray:
-    return np.asarray(xyz_to_lab(decode(_evenly_lit(colours, light) / 255) @ RGB_TO_XYZ.T))
+    return cell_lab(_evenly_lit(colours, light))
+
+
+def cell_lab(codes: FloatArray) -> FloatArray:
+    """CIELAB of sRGB codes that need not be whole."""
+    return np.asarray(xyz_to_lab(decode(codes / 255) @ RGB_TO_XYZ.T))
 
 
 def _slow_light(logs: Float[np.ndarray, "rows columns"]) -> FloatArray:
@@ -148,7 +153,7 @@ def _grouped(lab: Float[np.ndarray, "cells 3"]) -> tuple[Float[np.ndarray, "colo
     centres: list[FloatArray] = []
     for one in np.argsort(-density, kind="stable").tolist():
         middle = sums[near[one]].sum(axis=0) / density[one]
-        if density[one] >= _LEAST and all(np.linalg.norm(middle - other) >= _APART for other in centres):
+        if density[one] >= _LEAST and all(np.linalg.norm(middle - other) >= APART for other in centres):
             centres.append(middle)
         if len(centres) == MOST_YARNS:
             break
@@ -164,9 +169,9 @@ def _grouped(lab: Float[np.ndarray, "cells 3"]) -> tuple[Float[np.ndarray, "colo
 
 
 def _merged(centres: FloatArray, counts: FloatArray) -> FloatArray:
-    """The colours without those nearer than _APART to one that has more cells."""
+    """The colours without those nearer than APART to one that has more cells."""
     kept: list[FloatArray] = []
     for one in np.argsort(-counts[: len(centres)], kind="stable").tolist():
-        if all(np.linalg.norm(centres[one] - other) >= _APART for other in kept):
+        if all(np.linalg.norm(centres[one] - other) >= APART for other in kept):
             kept.append(centres[one])
     return np.stack(kept)

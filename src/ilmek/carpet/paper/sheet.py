@@ -24,6 +24,7 @@ from ilmek.carpet.paper.lines import (
     pitches,
 )
 from ilmek.carpet.paper.parts import parts
+from ilmek.carpet.paper.placing import border_beside, off_course
 from ilmek.errors import PictureError
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
@@ -51,6 +52,7 @@ class PaperReading:
     palette     sRGB of its colours, most cells first     numbers   of each cell's colour (rows, columns)
     confidence  of each cell, 0 to 1                      doubtful  the cells to be looked at
     cells       where they lie in the picture, and how they look there
+    beside      share of a side beside which the drawing seems to go on, on the worst side
     shown       row and column of the most doubtful cells, from the top left, 0 first; at most MOST_SHOWN
     views       the picture about each of these, VIEW pixels and three cells wide
     stated      size and quality of the carpet were given, and they state the same grid
@@ -61,6 +63,7 @@ class PaperReading:
     confidence: Float[np.ndarray, "rows columns"]
     doubtful: BoolArray
     cells: Cells
+    beside: float
     shown: Int64[np.ndarray, "shown 2"]
     views: UInt8[np.ndarray, "shown side side 3"]
     stated: bool = False
@@ -130,12 +133,14 @@ def read_sheet(rgb: Rgb, progress: Progress = SILENT, spread: Spread = SOMEWHERE
     rgb = np.ascontiguousarray(rgb)
     energy, cells = _clearest(rgb, progress.part(0.0, 0.9), spread)
     found = cell_colours(cells.colours, cells.spread)
-    rows, columns = np.nonzero(found.doubtful)
+    doubtful = found.doubtful | off_course(cells.x, cells.y)
+    beside = border_beside(cells.around, found.palette, found.numbers)
+    rows, columns = np.nonzero(doubtful)
     order = np.argsort(found.confidence[rows, columns], kind="stable")[:MOST_SHOWN]
     shown = np.stack([rows[order], columns[order]], axis=-1)
     pitch = energy.factor * 0.5 * (energy.pitch_x + energy.pitch_y)
     views = _views(rgb, cells.x[rows, columns][order], cells.y[rows, columns][order], pitch)
-    return PaperReading(found.palette, found.numbers, found.confidence, found.doubtful, cells, shown, views)
+    return PaperReading(found.palette, found.numbers, found.confidence, doubtful, cells, beside, shown, views)
 
 
 def _clearest(rgb: Rgb, progress: Progress, spread: Spread) -> tuple[LineEnergy, Cells]:
