@@ -197,7 +197,7 @@ def _judge(  # noqa: PLR0917
             if not window.wanted[row // side, tile]:
                 continue
             for column in range(tile * side, min((tile + 1) * side, columns)):
-                if _is_kept(kept, row, column) or not begins(knots, row, column):
+                if not begins(knots, row, column) or _is_kept(kept, row, column):
                     continue
                 mark += 2
                 number = fill(knots, row, column, least, True, rooms.members, rooms.marks, mark)

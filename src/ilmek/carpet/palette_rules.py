@@ -276,7 +276,7 @@ def _kept_and_allowed(params: PaletteParams, yarns: Sequence[Yarn]) -> tuple[tup
 
 def _neutrals(distinct: Colours, yarns: Sequence[Yarn], kept: tuple[int, ...], allowed: list[int]) -> list[int]:
     """The yarns of a grey picture: the neutral ones and those kept; none where there is one, and of other pictures."""
-    tinted = distinct.counts[np.hypot(distinct.labs[:, 1], distinct.labs[:, 2]) > GREY].sum()
+    tinted = distinct.counts[(distinct.labs[:, 1:] ** 2).sum(axis=1) > GREY**2].sum()
     if tinted > MOST_TINTED * distinct.counts.sum():
         return []
     chroma = np.hypot(*yarn_labs(yarns)[:, 1:].T)
