@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 
 from ilmek.arrays import BoolArray, FloatArray, Indices, Rgb
-from ilmek.carpet.codes import CODES, eight_bits
+from ilmek.carpet.codes import CODES, eight_bits, recoded
 from ilmek.carpet.confetti import merge_patches
-from ilmek.carpet.design import bands, knot_grid
+from ilmek.carpet.design import knot_grid
 from ilmek.carpet.differences import YarnDifference, differences
 from ilmek.carpet.edges_kept import LostColour, edges_kept, edges_of, lost_colours
 from ilmek.carpet.fitted import fitted_design, shaped_size, unfitted_design
@@ -221,13 +221,10 @@ def used_first(chart: Chart) -> Chart:
         return chart
     moved = np.empty(len(order), dtype=np.uint8)
     moved[list(order)] = np.arange(len(order), dtype=np.uint8)
-    knots = np.empty_like(chart.knots)
-    for band in bands(chart.rows, chart.columns):
-        knots[band] = moved[chart.knots[band]]
     ordered = rearranged(
         chart,
         order,
-        knots,
+        recoded(chart.knots, moved),
         overlay=chart.overlay.with_yarns(moved),
         creel=chart.creel and tuple(chart.creel[yarn] for yarn in order),
     )

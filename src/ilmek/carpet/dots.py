@@ -110,7 +110,9 @@ def in_row(knots: Indices, own: Members, number: int, least: int, members: Membe
         if down * down + right * right > furthest:
             return False
         i, j = (row + down) // 2, (column + right) // 2
-        if not (0 <= i < knots.shape[0] and 0 <= j < knots.shape[1]) or _is_own(own, number, i, j):
+        if not (0 <= i < knots.shape[0] and 0 <= j < knots.shape[1] and knots[i, j] == yarn):
+            continue
+        if _is_own(own, number, i, j):
             continue
         size = _alike(knots, i, j, yarn, number, least, members, marks)
         if size == 0:
