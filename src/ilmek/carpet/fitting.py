@@ -98,6 +98,13 @@ class FitParams(Params):
         """The same without a side of the carpet, once its size is known."""
         return replace(self, width=None, length=None)
 
+    @property
+    def only_turned(self) -> bool:
+        """Whether the picture is turned, not by right angles alone, and all else is in shares of its sides."""
+        quarters = self.turn / (math.pi / 2)
+        in_shares = self.corners is None and (self.crop is None or self.crop.count("%") == 4)
+        return in_shares and abs(quarters - round(quarters)) >= 1e-9
+
     def check_together(self) -> None:
         """Raise ParameterError for texts that are no points or colours."""
         if self.corners not in (None, AUTO):
