@@ -257,7 +257,8 @@ def _kept_and_allowed(params: PaletteParams, yarns: Sequence[Yarn]) -> tuple[tup
     kept, never = (
         _indices(name, yarn_names(name, text), yarns) for name, text in (("keep", params.keep), ("never", params.never))
     )
-    mapped = _indices("map", [name for _, name in mapped_colours(params.mapped)], yarns)
+    pairs = mapped_colours(params.mapped)
+    mapped = tuple(_indices(f"map {hex_colour(srgb)}", (name,), yarns)[0] for srgb, name in pairs)
     kept = tuple(dict.fromkeys((*kept, *mapped)))
     if twice := [number for number in mapped if number in never]:
         raise YarnError(f"{yarns[twice[0]].name!r} is both in map and in never", do="leave it out of one")
