@@ -6,7 +6,7 @@ import type { ChartAnswer, ChartYarn, ListedYarn } from "../../api/messages";
 import { ApiError, type Packed, postPacked } from "../../api/request";
 import { remember, remembered } from "../../app/settings";
 import { type Document, openDocument } from "../../project";
-import { anchored, linesOf, withLines, withoutLine } from "./edit-lines";
+import { type Anchor, anchored, type EditLine, placedLines, withAnchor, withLines, withoutLine } from "./edit-lines";
 import type { Grid, Knot } from "./geometry";
 import { type Placing, pieceOf, placingEdits, recoloured, tileEntry } from "./placing";
 import type { FoundSpecks } from "./specks";
@@ -179,8 +179,16 @@ export class CarpetModel {
   }
 
   /** The edits of the recipe. */
-  edits(): readonly string[] {
-    return linesOf(this.recipe.value);
+  edits(): readonly EditLine[] {
+    return placedLines(this.recipe.value);
+  }
+
+  /** Holds an edit on the design at every size, or on the knots of this size alone. */
+  anchorEdit(at: number, on: Anchor): void {
+    const grid = this.chart.peek()?.grid;
+    if (grid !== undefined) {
+      this.set({ edits: withAnchor(this.recipe.peek(), at, on, `${grid.columns}x${grid.rows}`) });
+    }
   }
 
   /** Takes an edit out. */
