@@ -38,6 +38,7 @@ from ilmek.elements.knot_kinds import parse_knot
 from ilmek.errors import CarpetError, PictureError
 from ilmek.progress import SILENT, Progress
 from ilmek.records import brief, record, shown_value
+from ilmek.sentences import Sentence
 from ilmek.units import counted
 
 
@@ -375,9 +376,9 @@ def _halftone(
         return knots, None
     if not photo:
         raise PictureError(
-            f"halftone={strength:.0%}, but the picture is read as {design.kind} ({design.reason})",
-            allowed="a halftone needs a photo",
-            do="read it as a photo (--read photo), or leave the halftone out",
+            Sentence("picture.halftone", share=f"{strength:.0%}", kind=design.kind, reason=design.reason),
+            allowed=Sentence("picture.halftone-allowed"),
+            do=Sentence("picture.halftone-do"),
         )
     return draw_halftone(knots, design.colours, labs, strength, progress)
 

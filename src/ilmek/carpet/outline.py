@@ -29,6 +29,7 @@ from ilmek.carpet.straight_edges import Edge, SideStrip, band_inside, edges_of, 
 from ilmek.errors import PictureError
 from ilmek.plane.curves import hull
 from ilmek.progress import SILENT, Progress
+from ilmek.sentences import Sentence
 
 LEAST_CLEARNESS = 0.8
 """Least clearness of an outline that is used."""
@@ -87,12 +88,12 @@ def find_outline(rgb: Rgb, progress: Progress = SILENT) -> tuple[Points, float]:
     lab: FloatArray = evened(srgb_to_lab(_reduced(rgb, _LONG, progress.part(0.0, 0.8))).astype(np.float32))
     difference, floor = floor_difference(lab)
     if floor[0] < _DARK:
-        raise _unclear("its floor is so dark that a dark frame of the carpet would not be seen")
+        raise _unclear(Sentence("picture.outline-dark"))
     step = max(1, round(max(difference.shape) / _COARSE))
     region = _region(difference, step)
     border = np.concatenate([region[0], region[-1], region[:, 0], region[:, -1]])
     if np.count_nonzero(border) > _MOST_CUT * len(border):
-        raise _unclear("the edge of the picture cuts it")
+        raise _unclear(Sentence("picture.outline-cut"))
     first = _largest_quadrilateral(_hull(region)) * step
     height, width = difference.shape
     short = min(height, width)
@@ -104,10 +105,12 @@ def find_outline(rgb: Rgb, progress: Progress = SILENT) -> tuple[Points, float]:
     middle = Edge(0.5 * len(strips[0].across), 0.0, 0.0)
     corners, shares = _refined(strips, [middle] * 4)
     if sorted(map(step_outside, strips))[1] > _LARGEST_STEP:
-        raise _unclear("a fainter edge runs around it")
+        raise _unclear(Sentence("picture.outline-fainter"))
     clearness = min(_common_share(region, first / step), *shares)
     if clearness < LEAST_CLEARNESS or (corners < 0).any() or (corners > (width, height)).any():
-        raise _unclear(f"clearness {max(clearness, 0.0):.2f}, at least {LEAST_CLEARNESS:g} is required")
+        raise _unclear(
+            Sentence("picture.outline-clearness", clearness=f"{max(clearness, 0.0):.2f}", least=f"{LEAST_CLEARNESS:g}")
+        )
     return corners * (rgb.shape[1] / width, rgb.shape[0] / height), clearness
 
 
@@ -117,7 +120,7 @@ def _strips(
     """Strips of the picture across the four sides; their grain is that of those before."""
     following = np.roll(corners, -1, axis=0)
     if np.hypot(*(following - corners).T).min() < 4:
-        raise _unclear("a side has no length")
+        raise _unclear(Sentence("picture.outline-no-length"))
     grains: Sequence[float | None] = [strip.grain for strip in before] or (None,) * 4
     sides = zip(corners, following, grains, strict=True)
     return [sampled(lab, difference, a, b, reach, grain) for a, b, grain in sides]
@@ -131,7 +134,7 @@ def _edges_around(strips: list[SideStrip], tilt: float, floor: FloatArray) -> li
     """
     tried = [edges_of(strip, tilt)[:_TRIED] for strip in strips]
     if not all(tried):
-        raise _unclear("a side has no straight edge")
+        raise _unclear(Sentence("picture.outline-no-edge"))
     bands = []
     for strip, edges in zip(strips, tried, strict=True):
         ends = [edge.middle for edge in edges[1:]] + [np.inf]
@@ -144,7 +147,7 @@ def _edges_around(strips: list[SideStrip], tilt: float, floor: FloatArray) -> li
         if apart <= _ALIKE and all(_of_threads(band, floor) for band in left_out):
             return [edges[k] for k, edges in zip(choice, tried, strict=True)]
     if any(_of_threads(own[0], floor) for own in bands):
-        raise _unclear("what lies along a side may be a fringe")
+        raise _unclear(Sentence("picture.outline-fringe"))
     return [edges[0] for edges in tried]
 
 
@@ -163,16 +166,16 @@ def _refined(strips: list[SideStrip], edges: list[Edge]) -> tuple[Points, list[f
     for (a, b, c), (d, e, f) in zip([lines[-1], *lines[:-1]], lines, strict=True):
         determinant = a * e - b * d
         if abs(determinant) < 1e-6:
-            raise _unclear("two sides that meet are parallel")
+            raise _unclear(Sentence("picture.outline-parallel"))
         crossings.append(((c * e - b * f) / determinant, (a * f - c * d) / determinant))
     return np.array(crossings), [share for _, share in fitted]
 
 
 def _unclear(reason: str) -> PictureError:
     return PictureError(
-        f"the outline of the carpet is not clear ({reason})",
-        allowed="corners=auto needs the whole carpet on a floor of other colours",
-        do='give the corners: --corners "x,y x,y x,y x,y"',
+        Sentence("picture.outline", reason=reason),
+        allowed=Sentence("picture.outline-allowed"),
+        do=Sentence("picture.outline-do"),
     )
 
 

@@ -1,8 +1,10 @@
 import { describe, expect, it } from "vitest";
-import { anchored, linesOf, placedLines, withAnchor, withLines, withoutLine } from "./edit-lines";
+import { anchored, placedLines, withAnchor, withLines, withoutLine } from "./edit-lines";
 
 const TABLE = { on: "carpet", grid: "80x120", lines: ["fill 1,1 ivory", "mirror both"] };
 const RECIPE = { edits: ["set 1,1 camel", TABLE, "replace ivory by camel"] };
+
+const linesOf = (recipe: object | null) => placedLines(recipe).map(({ line }) => line);
 
 describe("edits", () => {
   it("are lines, and lines of tables", () => {

@@ -62,11 +62,6 @@ function isSame(table: object, last: Table): boolean {
   return JSON.stringify(Object.entries(table).sort()) === JSON.stringify(Object.entries(other).sort());
 }
 
-/** All lines, in the order in which they are applied. */
-export function linesOf(recipe: object | null): readonly string[] {
-  return entriesOf(recipe).flatMap((entry) => (isTable(entry) ? entry.lines : [entry as string]));
-}
-
 /** The edits with more lines at the end: in the last table, where its knots are those of this grid, else behind it. */
 export function withLines(recipe: object | null, lines: readonly string[], grid: string): readonly Entry[] {
   const entries = entriesOf(recipe);

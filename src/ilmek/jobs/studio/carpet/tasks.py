@@ -58,6 +58,7 @@ from ilmek.jobs.studio.checks import shown_check
 from ilmek.jobs.studio.project.folder import ProjectFolder
 from ilmek.jobs.studio.words import all_in_page
 from ilmek.jobs.yarn_choice import assignment_results, proposed_shades
+from ilmek.sentences import changed
 
 MOST_SHADES = 60
 """Largest number of shades that are proposed."""
@@ -214,9 +215,8 @@ def _plain_errors(context: Context) -> Iterator[None]:
         yield
     except IlmekError as error:
         base = f"{context.folder.resolve()}/"
-        given, allowed, do = (
-            text.replace(base, "").replace(", line 0", "") for text in (error.given, error.allowed, error.do)
-        )
+        parts = (changed(text, lambda part: part.replace(base, "")) for text in (error.given, error.allowed, error.do))
+        given, allowed, do = parts
         raise type(error)(given, allowed=allowed, do=do) from None
 
 
