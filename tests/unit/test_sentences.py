@@ -17,7 +17,7 @@ from ilmek.jobs.studio.carpet import stages
 from ilmek.jobs.studio.carpet.answers import ChartRequest, PictureRequest
 from ilmek.jobs.studio.carpet.tasks import chart, corners
 from ilmek.jobs.studio.words import in_page
-from ilmek.sentences import LANGUAGES, Sentence, catalogue_of, spoken
+from ilmek.sentences import LANGUAGES, Sentence, catalogue_of, in_language
 from ilmek.sentences.english import ENGLISH
 
 SOURCES = Path(ilmek.__file__).parent
@@ -53,7 +53,7 @@ def context(tmp_path: Path) -> Iterator[Context]:
     rgb = np.array([[150, 20, 30], [240, 230, 200], [20, 30, 90]], dtype=np.uint8)[drawn]
     Image.fromarray(rgb).save(tmp_path / "drawing.png")
     (tmp_path / "broken.png").write_bytes(b"no picture at all")
-    with spoken("tr"):
+    with in_language("tr"):
         yield Context(str(tmp_path))
 
 
@@ -110,7 +110,7 @@ def test_a_refusal_is_in_the_language_of_the_page(
     assert given in said
     assert rest in f"{allowed} {do}"
     assert str(context.folder) not in said
-    with spoken("en"):
+    with in_language("en"):
         english = _refusal(recipe, context)
     assert english[0] != said
 
@@ -134,14 +134,14 @@ def test_the_checks_of_a_chart_are_in_the_language_of_the_page(context: Context)
     assert not lost["ok"]
     assert "listeden '" in lost["cure"] or "listeye " in lost["cure"]
     assert lost["source"].startswith("bu proje")
-    with spoken("en"):
+    with in_language("en"):
         assert "edges of the picture kept" in checks()
 
 
 def test_a_sentence_is_its_english_text_until_it_is_said() -> None:
     sentence = Sentence("yarn.listed", names=Sentence("size.units"))
     assert sentence == "the list has mm, cm, dm, m, in or ft"
-    with spoken("tr"):
+    with in_language("tr"):
         assert in_page(sentence) == "listedekiler: mm, cm, dm, m, in ya da ft"
-    with spoken("xx"):
+    with in_language("xx"):
         assert in_page(sentence) == sentence

@@ -58,7 +58,7 @@ from ilmek.io.line_numbers import KeyLines
 from ilmek.io.schema import SourceText, shown
 from ilmek.io.yarn_file import WOOL, default_yarns, read_yarns, yarns_from_records
 from ilmek.params import Parameter, Setting
-from ilmek.sentences import Sentence, place
+from ilmek.sentences import Sentence, location
 from ilmek.units import parse_quantity
 
 MOST_KNOTS_WIDE = 10_000
@@ -161,7 +161,7 @@ class _RecipeReader:
         line = next(
             entry.source.lines[path[:size]] for size in range(len(path), -1, -1) if path[:size] in entry.source.lines
         )
-        return place(str(self.file), line, ".".join(str(part) for part in path))
+        return location(str(self.file), line, ".".join(str(part) for part in path))
 
     @contextmanager
     def _at(self, entry: FileEntry, key: str) -> Iterator[None]:

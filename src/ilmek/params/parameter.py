@@ -8,7 +8,7 @@ from functools import reduce
 
 from ilmek.errors import ParameterError, UnitError
 from ilmek.records import shown_value
-from ilmek.sentences import Sentence, placed
+from ilmek.sentences import Sentence, with_location
 from ilmek.units import GREATEST, LEAST, format_quantity, has_unit, parse_quantity, parse_unit, similar_units
 
 Value: typing.TypeAlias = float | int | bool | str | None
@@ -68,7 +68,7 @@ class Parameter:
                 Sentence("value.no-truth", name=self.name, value=str(setting)), do="write yes or no"
             ) from None
         except UnitError as error:
-            raise ParameterError(placed(self.name, error.given), allowed=error.allowed, do=error.do) from None
+            raise ParameterError(with_location(self.name, error.given), allowed=error.allowed, do=error.do) from None
         if self.unit in _UNIT_REQUIRED and number != 0 and not has_unit(text):
             per = self.unit.removeprefix("1")
             raise ParameterError(f"{self.name}={text} has no unit", do=f"did you mean {text}{per}?")

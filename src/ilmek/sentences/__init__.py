@@ -48,17 +48,17 @@ def changed(text: str, change: Callable[[str], str]) -> str:
     return Sentence(text.key, **{name: changed(value, change) for name, value in text.values.items()})
 
 
-def place(file: str, line: int = 0, key: str = "") -> Sentence:
+def location(file: str, line: int = 0, key: str = "") -> Sentence:
     """A place in a file, or in data of a file that have no lines (0).
 
-    >>> print(place("carpet.toml", 3, "size"), "|", place("carpet.toml", key="size"))
+    >>> print(location("carpet.toml", 3, "size"), "|", location("carpet.toml", key="size"))
     carpet.toml, line 3, size | carpet.toml, size
     """
     about = {"file": file} | ({"line": str(line)} if line else {}) | ({"key": key} if key else {})
     return Sentence("place." + "-".join(about), **about)
 
 
-def placed(where: str, text: str) -> Sentence:
+def with_location(where: str, text: str) -> Sentence:
     """A text with the place that it concerns before it."""
     return Sentence("at", where=where, text=text)
 
@@ -76,7 +76,7 @@ def joined(first: str, second: str) -> str:
 
 
 @contextmanager
-def spoken(language: str) -> Iterator[None]:
+def in_language(language: str) -> Iterator[None]:
     """Say sentences in a language; an unknown one is English."""
     token = _SPOKEN.set(language if language in LANGUAGES else DEFAULT)
     try:
@@ -85,17 +85,17 @@ def spoken(language: str) -> Iterator[None]:
         _SPOKEN.reset(token)
 
 
-def said(text: str) -> str:
+def translated(text: str) -> str:
     """A text in the language that is spoken; one that is no sentence stays as it is.
 
-    >>> with spoken("tr"):
-    ...     said(Sentence("size.one-side", text="120cm")), said("120cm")
+    >>> with in_language("tr"):
+    ...     translated(Sentence("size.one-side", text="120cm")), translated("120cm")
     ("'120cm' boyutunun tek kenarı var", '120cm')
     """
     if not isinstance(text, Sentence):
         return text
     template = catalogue_of(_SPOKEN.get())[text.key]
-    return template.format(**{name: said(value) for name, value in text.values.items()})
+    return template.format(**{name: translated(value) for name, value in text.values.items()})
 
 
 def catalogue_of(language: str) -> Mapping[str, str]:

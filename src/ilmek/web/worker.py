@@ -28,7 +28,7 @@ from ilmek.errors import IlmekError
 from ilmek.jobs.studio.answers import Binary, Context
 from ilmek.jobs.studio.words import in_page
 from ilmek.progress import Cancelled, Progress
-from ilmek.sentences import spoken
+from ilmek.sentences import in_language
 from ilmek.web.framing import (
     JSON,
     Ask,
@@ -81,7 +81,7 @@ class Worker:
         while True:
             ask = self._next(steps)
             began = time.perf_counter()
-            with spoken(ask.language):
+            with in_language(ask.language):
                 status, kind, body = self._answered(ask)
             self._cancelled.discard(ask.number)
             self._send(Reply(ask.number, status, kind, body, time.perf_counter() - began))

@@ -41,7 +41,7 @@ from ilmek.carpet.yarn import Yarn, yarn_labs
 from ilmek.errors import CarpetError, IlmekError, did_you_mean, shortened
 from ilmek.num.compiled import compiled
 from ilmek.progress import SILENT, Progress
-from ilmek.sentences import Sentence, file_of, placed
+from ilmek.sentences import Sentence, file_of, with_location
 
 Knot = tuple[int, int]
 
@@ -392,4 +392,4 @@ def located(where: str) -> Iterator[None]:
     except IlmekError as error:
         if not where or file_of(error.given) == (file_of(where) or where):
             raise
-        raise CarpetError(placed(where, error.given), allowed=error.allowed, do=error.do) from None
+        raise CarpetError(with_location(where, error.given), allowed=error.allowed, do=error.do) from None

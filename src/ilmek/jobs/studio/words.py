@@ -4,7 +4,7 @@ the pages name it.
 
 import re
 
-from ilmek.sentences import said
+from ilmek.sentences import translated
 
 _OPTION = re.compile(r"(?<![\w-])--(?:no-)?([a-z][a-z-]*)(?: [A-Z]+\.\.[A-Z]+)?")
 
@@ -32,7 +32,7 @@ def in_page(text: str) -> str:
     >>> in_page("give a longer --time-limit")
     'give a longer time limit'
     """
-    return _OPTION.sub(lambda found: NAMES.get(found[1], found[1].replace("-", " ")), said(text))
+    return _OPTION.sub(lambda found: NAMES.get(found[1], found[1].replace("-", " ")), translated(text))
 
 
 def all_in_page(texts: tuple[str, ...]) -> tuple[str, ...]:
