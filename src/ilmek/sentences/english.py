@@ -40,6 +40,12 @@ ENGLISH = {
     "cure.more-than": "more --colours than {count}",
     "cure.own-shades": "the picture's own shades (leave out --yarns)",
     "cure.halftone": "{shades}, or a halftone (--halftone 100%)",
+    # Yarns of the ground
+    "ground.warp": "warp",
+    "ground.straight-weft": "straight weft",
+    "ground.sinuous-weft": "sinuous weft",
+    "ground.ends": "ends",
+    "ground.selvedges": "selvedges",
     # Values of parameters
     "value.out-of-bounds": "{name}={value} is out of bounds",
     "value.unknown": "{name}={value} is unknown",

@@ -40,6 +40,12 @@ TURKISH = {
     "cure.more-than": "{count} iplikten daha çok iplik",
     "cure.own-shades": "resmin kendi tonları (iplik listesini kaldırın)",
     "cure.halftone": "{shades} ya da %100 yarım ton",
+    # Yarns of the ground
+    "ground.warp": "çözgü",
+    "ground.straight-weft": "düz atkı",
+    "ground.sinuous-weft": "dalgalı atkı",
+    "ground.ends": "kilim uçları",
+    "ground.selvedges": "kenarlar",
     # Values of parameters
     "value.out-of-bounds": "{name}={value} sınırların dışında",
     "value.unknown": "{name}={value} bilinmiyor",
