@@ -99,7 +99,7 @@ class KeptStages(Stages):
 
     def _is_of_photo(self, picture: Hashable, knots: int) -> bool:
         """Whether a draft takes a part of a picture for a photo, because the last part was one; it is noted then."""
-        last: Flatness | None = _KEPT.get("seen", {}).get((picture, False))
+        last: Flatness | None = _KEPT.setdefault("seen", OrderedDict()).get((picture, False))
         if not self.draft or last is None or last.is_flat or not has_draft("photo", knots):
             return False
         self._assumed.append(last)
