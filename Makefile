@@ -23,7 +23,7 @@ help:
 	@echo "make client  the studio's client from its sources, into the package (needs Node)"
 	@echo "make bench   the benchmarks, side by side with their peers"
 	@echo "make docs    the documentation, in docs/_build/html"
-	@echo "make dist    wheel and sdist, each installed into an empty environment and tried there"
+	@echo "make dist    wheel and sdist, each installed into an empty environment and tried there (five to eight minutes)"
 	@echo "make venv    .venv with everything for development"
 
 $(BIN)/python:
@@ -123,8 +123,9 @@ docs: venv
 	@echo "docs/_build/html/index.html"
 
 # Another Python: make dist PYTHON=python3.13
+# The wheel is built from the sdist. Its kernels are compiled in that time, once; the trial of the sdist leaves them out.
 dist: $(BIN)/python
-	rm -rf dist && $(PIP) install build && $(BIN)/python -m build --quiet --outdir dist .
+	rm -rf dist && $(PIP) install build && $(BIN)/python -m build --outdir dist .
 	$(PYTHON) tests/support/tried_distribution.py dist constraints.txt examples
 
 # Versions move only by this command; the file names no host.

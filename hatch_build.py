@@ -37,11 +37,11 @@ class Kernels(BuildHookInterface):  # type: ignore[type-arg]
         if not archive.exists() or archive.stat().st_mtime < newest:  # pip builds twice, for the metadata too
             archive.unlink(missing_ok=True)
             archive.parent.mkdir(exist_ok=True)
-            self.app.display_waiting("compiling the kernels, about a minute")
+            self.app.display_waiting("compiling the kernels, two to four minutes")
             # The libraries of the build are on the path of this process alone.
             environment = dict(os.environ, PYTHONPATH=os.pathsep.join((str(source), *filter(None, sys.path))))
             command = [sys.executable, "-m", "ilmek.jobs.warm", "--into", str(archive)]
-            done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+            done = subprocess.run(command, env=environment, stderr=subprocess.PIPE, text=True, check=False)
             if done.returncode:
                 reason = (done.stderr.strip() or "no reason").splitlines()[-1]
                 self.app.display_warning(f"no kernels in the wheel: {reason}")

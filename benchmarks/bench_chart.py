@@ -9,6 +9,7 @@ pixels a knot: knots whose yarn is that of no colour of their cell, and pieces o
 import resource
 import subprocess
 import sys
+import tempfile
 import time
 import tomllib
 from collections.abc import Callable
@@ -33,6 +34,8 @@ from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.tally import tally_of
 from ilmek.carpet.yarn import Yarn, yarn_labs
 from ilmek.io.yarn_file import yarns_from_records
+from ilmek.jobs.charting import chart_of_order
+from ilmek.jobs.order import CarpetOrder
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "support"))
 from drawings import FLAT, Drawing, colours_in_cells, rendered
@@ -134,14 +137,18 @@ def pillow(dither: Image.Dither) -> Method:
     """Pillow's box filter and its quantiser onto the given palette."""
 
     def chart(rgb: Rgb, grid: Grid) -> Indices:
-        palette = Image.new("P", (1, 1))
-        codes = [code for yarn in WOOL for code in yarn.srgb]
-        palette.putpalette(codes + list(WOOL[0].srgb) * (256 - len(WOOL)))
-        small = Image.fromarray(rgb).resize((grid[1], grid[0]), Image.Resampling.BOX)
-        quantised = np.asarray(small.quantize(palette=palette, dither=dither))
-        return np.asarray(np.minimum(quantised, len(WOOL) - 1), dtype=np.uint8)
+        return quantised(Image.fromarray(rgb), grid, dither)
 
     return chart
+
+
+def quantised(picture: Image.Image, grid: Grid, dither: Image.Dither) -> Indices:
+    """A picture at the size of a grid in the sixteen yarns, by Pillow."""
+    palette = Image.new("P", (1, 1))
+    codes = [code for yarn in WOOL for code in yarn.srgb]
+    palette.putpalette(codes + list(WOOL[0].srgb) * (256 - len(WOOL)))
+    small = picture.resize((grid[1], grid[0]), Image.Resampling.BOX)
+    return np.minimum(np.asarray(small.quantize(palette=palette, dither=dither)), np.uint8(len(WOOL) - 1))
 
 
 def scikit_image(rgb: Rgb, grid: Grid) -> Indices:
@@ -240,6 +247,33 @@ def line(name: str, runs: int, rgb: Rgb) -> str:
     return f"{name:<34} {figures} {foreign:8.2%} {broken:7d}"
 
 
+def from_files(rgb: Rgb) -> None:
+    """Charts of files of so many pixels as knots, decoding included, beside Pillow's decoding and its quantiser."""
+    drawing = SRGB[ndimage.median_filter(pillow(Image.Dither.NONE)(rgb, (HEIGHT, WIDTH)), 9)]
+    larger = Image.fromarray(drawing).resize((3 * WIDTH // 2, 3 * HEIGHT // 2), Image.Resampling.BICUBIC)
+    nearest, diffused = Image.Dither.NONE, Image.Dither.FLOYDSTEINBERG
+    cases = (
+        ("exact", Image.fromarray(drawing), "auto", nearest, 2.0),
+        ("flat", larger, "flat", diffused, 3.0),
+        ("photo", Image.fromarray(rgb), "photo", diffused, 3.0),
+    )
+    with tempfile.TemporaryDirectory() as folder:
+        for name, picture, reading, dither, limit in cases:
+            path = Path(folder) / f"{name}.png"
+            picture.save(path)
+            order = CarpetOrder(path, SIZE, QUALITY, reading=ReadParams(reading=reading))
+
+            def decoded(path: Path = path, dither: Image.Dither = dither) -> Indices:
+                return quantised(Image.open(path).convert("RGB"), (HEIGHT, WIDTH), dither)
+
+            seconds, _ = best_of(5, lambda order=order: chart_of_order(order).chart.knots)
+            base, _ = best_of(5, decoded)
+            print(
+                f"{name + ', from a file, own shades':<34} {seconds:7.2f} s, Pillow {base:.2f} s: "
+                f"{seconds / base:.2f} (limit {limit:g})"
+            )
+
+
 def large() -> None:
     """Time and memory of 20 million knots, in this process alone."""
     rgb = np.tile(medallion(1000, 1250), (4, 4, 1))
@@ -265,6 +299,7 @@ def run() -> None:
     print(f"{'NumPy CIEDE2000, every knot':<34} {36 * seconds:7.2f} (1/36, × 36)")
     seconds, _ = best_of(5, lambda: ilmek_chart(reading="photo")(rgb, (1500, 1000)))
     print(f"preview of 1,000 × 1,500 knots of the photo: {seconds:.3f} s")
+    from_files(rgb)
     subprocess.run([sys.executable, "-c", "from benchmarks.bench_chart import large; large()"], check=True)
 
 

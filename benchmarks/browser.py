@@ -36,6 +36,24 @@ def installed() -> str | None:
     return next(filter(None, map(shutil.which, NAMES)), None)
 
 
+def processor_time(process: int) -> float:
+    """Processor time of a process with all those that it started and that run [s]; Linux."""
+    return sum(int(fields[11]) + int(fields[12]) for fields in _processes(process)) / os.sysconf("SC_CLK_TCK")
+
+
+def _processes(process: int) -> list[list[str]]:
+    """The fields of /proc/N/stat, from the state on, of a process and all those that it started."""
+    fields = {}
+    for stat in Path("/proc").glob("[0-9]*/stat"):
+        with suppress(OSError):
+            fields[int(stat.parent.name)] = stat.read_text().rpartition(")")[2].split()
+    own, known = {process}, 0
+    while len(own) > known:
+        known = len(own)
+        own |= {child for child, values in fields.items() if int(values[1]) in own}
+    return [fields[one] for one in own if one in fields]
+
+
 class Browser:
     """A running browser; the messages of all its consoles are in `errors`."""
 
@@ -70,24 +88,12 @@ class Browser:
     @property
     def processor_time(self) -> float:
         """Processor time of the browser with all its processes that run [s]; Linux."""
-        return sum(int(fields[11]) + int(fields[12]) for fields in self._processes()) / os.sysconf("SC_CLK_TCK")
+        return processor_time(self._process.pid)
 
     @property
     def memory(self) -> int:
         """Resident memory of the browser with all its processes that run [byte]; what they share counts in each."""
-        return sum(int(fields[21]) for fields in self._processes()) * os.sysconf("SC_PAGE_SIZE")
-
-    def _processes(self) -> list[list[str]]:
-        """The fields of /proc/N/stat, from the state on, of the browser's processes."""
-        fields = {}
-        for stat in Path("/proc").glob("[0-9]*/stat"):
-            with suppress(OSError):
-                fields[int(stat.parent.name)] = stat.read_text().rpartition(")")[2].split()
-        own, found = {self._process.pid}, 0
-        while len(own) > found:
-            found = len(own)
-            own |= {child for child, values in fields.items() if int(values[1]) in own}
-        return [fields[one] for one in own if one in fields]
+        return sum(int(fields[21]) for fields in _processes(self._process.pid)) * os.sysconf("SC_PAGE_SIZE")
 
     def open(self, path: Path, width: int, height: int, *, phone: bool = False) -> "Page":
         """A new page with a file in it, loaded."""

@@ -16,6 +16,8 @@ A message states what was given, what is allowed and what to do, in that order.
 import difflib
 from collections.abc import Iterable
 
+from ilmek.sentences import Sentence
+
 
 def joined_message(given: str, allowed: str, do: str) -> str:
     """A message in one line: what was given, what is allowed, what to do; an empty part is left out."""
@@ -87,7 +89,7 @@ def did_you_mean(name: str, known: Iterable[str], *, otherwise: str = "") -> str
     "did you mean 'length'?"
     """
     nearest = difflib.get_close_matches(name[:100], list(known), n=1)
-    return f"did you mean {nearest[0]!r}?" if nearest else otherwise
+    return Sentence("hint.did-you-mean", name=nearest[0]) if nearest else otherwise
 
 
 JOINERS = "\u200c\u200d"

@@ -12,6 +12,7 @@ from typing import Any
 
 from ilmek.errors import ParameterError
 from ilmek.jobs.studio.answers import Binary, Context, packed
+from ilmek.sentences import Sentence
 from ilmek.web import worker
 from ilmek.web.endpoints import Endpoint
 
@@ -60,7 +61,7 @@ def fault(request: SleepRequest, context: Context) -> None:
 
 
 def refused(request: SleepRequest, context: Context) -> None:
-    raise ParameterError("crank 1 m", allowed="below 0.5 m", do="shorten it")
+    raise ParameterError("crank 1 m", allowed=Sentence("size.units"), do="shorten it")
 
 
 def swallow(request: SleepRequest, context: Context) -> int:

@@ -2,7 +2,9 @@
 
     python tests/support/tried_distribution.py dist constraints.txt examples
 
-Only the standard library is needed. The last lines name the Python, the files and the seconds.
+Only the standard library is needed. The wheel is built from the sdist, so that the sdist itself is tried by a few
+commands without kernels, which would be compiled anew for minutes. The last lines name the Python, the files and the
+seconds.
 """
 
 import os
@@ -31,6 +33,9 @@ COMMANDS = (
 )
 """Commands, and the exit code that each must have."""
 
+OF_SDIST = ("--version", "machines", "chart nothing.png")
+"""Those of them by which an sdist is tried."""
+
 FILES = (
     *("chart/chart.png", "medallion/report.html", "medallion/programme.ilmek"),
     *("beat-up.html", "parts/crank.dxf", "press.html"),
@@ -40,30 +45,43 @@ FILES = (
 
 def tried(distribution: Path, constraints: Path, examples: Path) -> None:
     """Install a distribution into an empty environment and run the commands. Raises SystemExit where one fails."""
+    built = distribution.suffix == ".whl"
+    environment = {key: value for key, value in os.environ.items() if key not in ("PYTHONPATH", "PYTHONHOME")}
+    environment |= {} if built else {"ILMEK_KERNELS": "no"}
     with tempfile.TemporaryDirectory(prefix="ilmek-dist-") as name:
         folder = Path(name)
-        venv.create(folder / "environment", with_pip=True)
-        scripts = folder / "environment" / ("Scripts" if os.name == "nt" else "bin")
-        pip = [str(scripts / "python"), "-m", "pip", "--disable-pip-version-check", "--quiet"]
-        subprocess.run([*pip, "install", "--constraint", str(constraints), str(distribution)], check=True)
-        subprocess.run([*pip, "check"], check=True)
+        scripts = _installed(distribution, constraints, folder / "environment", environment)
         work = folder / "work"
         shutil.copytree(examples, work / "examples")
-        environment = {key: value for key, value in os.environ.items() if key not in ("PYTHONPATH", "PYTHONHOME")}
         for command, code in COMMANDS:
-            begin = time.monotonic()
-            done = subprocess.run(
-                [str(scripts / "ilmek"), *command.split()],
-                cwd=work, env=environment, capture_output=True, text=True, check=False,
-            )  # fmt: skip
-            _show(f"  {time.monotonic() - begin:5.1f} s  ilmek {command}")
-            if done.returncode != code:
-                raise SystemExit(
-                    f"{command!r} ends with {done.returncode} instead of {code}:\n{done.stdout}{done.stderr}"
-                )
-        missing = [file for file in FILES if not (work / file).exists()]
+            if built or command in OF_SDIST:
+                _run([str(scripts / "ilmek"), *command.split()], work, environment, code)
+        missing = [file for file in FILES if built and not (work / file).exists()]
         if missing:
             raise SystemExit(f"not written: {', '.join(missing)}")
+
+
+def _installed(distribution: Path, constraints: Path, folder: Path, environment: dict[str, str]) -> Path:
+    """The folder of the commands of a new environment in which a distribution is installed."""
+    begin = time.monotonic()
+    venv.create(folder, with_pip=True)
+    scripts = folder / ("Scripts" if os.name == "nt" else "bin")
+    pip = [str(scripts / "python"), "-m", "pip", "--disable-pip-version-check", "--quiet"]
+    install = [*pip, "install", "--constraint", str(constraints), str(distribution)]
+    for command in (install, [*pip, "check"]):
+        subprocess.run(command, env=environment, check=True)
+    _show(f"  {time.monotonic() - begin:5.1f} s  installed with what it needs")
+    return scripts
+
+
+def _run(command: list[str], work: Path, environment: dict[str, str], code: int) -> None:
+    """Run a command. Raises SystemExit where it ends with another code."""
+    begin = time.monotonic()
+    done = subprocess.run(command, cwd=work, env=environment, capture_output=True, text=True, check=False)
+    shown = " ".join(command[1:])
+    _show(f"  {time.monotonic() - begin:5.1f} s  ilmek {shown}")
+    if done.returncode != code:
+        raise SystemExit(f"{shown!r} ends with {done.returncode} instead of {code}:\n{done.stdout}{done.stderr}")
 
 
 def _show(line: str) -> None:

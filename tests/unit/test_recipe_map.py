@@ -83,7 +83,7 @@ def test_a_saved_recipe_has_the_table(tmp_path: Path) -> None:
     ("rows", "said"),
     [
         ('"green" = "ivory"', r"line 6, map.green: map='green' is no colour"),
-        ('"#6c9136" = "ivry"', r"has no yarn 'ivry'; did you mean 'ivory'"),
+        ('"#6c9136" = "ivry"', r"map #6c9136: the list has no yarn 'ivry'; did you mean 'ivory'"),
         ('"#6c9136" = 3', r"line 6, map.#6c9136: 3 is no name of a yarn"),
         ('"#6c9136" = ""', r"line 6, map.*is no pair"),
         ('"#6c9136" = "ivory"\n"#6C9136" = "rose"', r"line 5, map: map gives #6c9136 two yarns"),

@@ -173,6 +173,8 @@ def test_a_draft_of_a_part_keeps_shades_and_reading(
     assert draft[0]["reason"].split(";")[0] == full[0]["reason"].split(";")[0]
     assert {yarn["srgb"] for yarn in draft[0]["yarns"]} <= {yarn["srgb"] for yarn in full[0]["yarns"]}
     assert delta_e_2000(_afar(draft), _afar(whole)).mean() < 3
+    stages.forget()
+    assert _chart(context, picture=f"{kind}.png", **change)[1] == whole[1]  # it takes nothing of the draft
 
 
 def test_a_part_that_is_a_drawing_is_charted_as_one(context: Context, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -42,6 +42,15 @@ def test_fields_of_the_path_and_the_query_are_fields_of_the_request(server: Stud
     assert server.send("GET", "/api/sleep/long").status == 400
 
 
+@pytest.mark.parametrize(
+    ("language", "units"), [("tr", "mm, cm, dm, m, in ya da ft"), ("xx", "mm, cm, dm, m, in or ft")]
+)
+def test_a_refusal_is_in_the_language_of_the_page(server: Studio, language: str, units: str) -> None:
+    answer = server.send("POST", "/api/refused", {}, {**server.cookie, "x-language": language})
+    assert answer.json["error"]["allowed"] == units
+    assert server.send("POST", "/api/refused", {}).json["error"]["allowed"] == "mm, cm, dm, m, in or ft"
+
+
 def test_packed_arrays_are_aligned(server: Studio) -> None:
     body = server.send("POST", "/api/arrays", {}).body
     size = int.from_bytes(body[:4], "little")

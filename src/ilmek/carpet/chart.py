@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 
 from ilmek.arrays import BoolArray, FloatArray, Indices, Rgb
-from ilmek.carpet.codes import CODES, eight_bits
+from ilmek.carpet.codes import CODES, eight_bits, recoded
 from ilmek.carpet.confetti import merge_patches
-from ilmek.carpet.design import bands, knot_grid
+from ilmek.carpet.design import knot_grid
 from ilmek.carpet.differences import YarnDifference, differences
 from ilmek.carpet.edges_kept import LostColour, edges_kept, edges_of, lost_colours
 from ilmek.carpet.fitted import fitted_design, shaped_size, unfitted_design
@@ -38,6 +38,7 @@ from ilmek.elements.knot_kinds import parse_knot
 from ilmek.errors import CarpetError, PictureError
 from ilmek.progress import SILENT, Progress
 from ilmek.records import brief, record, shown_value
+from ilmek.sentences import Sentence
 from ilmek.units import counted
 
 
@@ -221,13 +222,10 @@ def used_first(chart: Chart) -> Chart:
         return chart
     moved = np.empty(len(order), dtype=np.uint8)
     moved[list(order)] = np.arange(len(order), dtype=np.uint8)
-    knots = np.empty_like(chart.knots)
-    for band in bands(chart.rows, chart.columns):
-        knots[band] = moved[chart.knots[band]]
     ordered = rearranged(
         chart,
         order,
-        knots,
+        recoded(chart.knots, moved),
         overlay=chart.overlay.with_yarns(moved),
         creel=chart.creel and tuple(chart.creel[yarn] for yarn in order),
     )
@@ -378,9 +376,9 @@ def _halftone(
         return knots, None
     if not photo:
         raise PictureError(
-            f"halftone={strength:.0%}, but the picture is read as {design.kind} ({design.reason})",
-            allowed="a halftone needs a photo",
-            do="read it as a photo (--read photo), or leave the halftone out",
+            Sentence("picture.halftone", share=f"{strength:.0%}", kind=design.kind, reason=design.reason),
+            allowed=Sentence("picture.halftone-allowed"),
+            do=Sentence("picture.halftone-do"),
         )
     return draw_halftone(knots, design.colours, labs, strength, progress)
 

@@ -6,11 +6,55 @@ records that hold such arrays, `carpet.chart.Chart` and `io.picture.Picture`, ch
 
 import numpy as np
 
-from ilmek.arrays import UInt8
+from ilmek.arrays import BoolArray, UInt8
 from ilmek.errors import IlmekError
+from ilmek.num.compiled import uncounted
 
 CODES = 256
 """Entries of a table that every 8-bit code is in."""
+
+
+@uncounted
+def _recode(
+    codes: UInt8[np.ndarray, "rows columns"], table: UInt8[np.ndarray, "256"], out: UInt8[np.ndarray, "rows columns"]
+) -> None:
+    for row in range(codes.shape[0]):
+        for column in range(codes.shape[1]):
+            out[row, column] = table[codes[row, column]]
+
+
+def recoded(
+    codes: UInt8[np.ndarray, "rows columns"], table: UInt8[np.ndarray, " entries"]
+) -> UInt8[np.ndarray, "rows columns"]:
+    """Codes, each replaced by its entry of a table, which has one for each of them.
+
+    >>> recoded(np.array([[0, 1, 1]], dtype=np.uint8), np.array([7, 5], dtype=np.uint8)).tolist()
+    [[7, 5, 5]]
+    """
+    whole, out = np.zeros(CODES, dtype=np.uint8), np.empty(codes.shape, dtype=np.uint8)
+    whole[: len(table)] = table
+    _recode(codes, whole, out)
+    return out
+
+
+@uncounted
+def _mark(first: UInt8[np.ndarray, "rows columns"], second: UInt8[np.ndarray, "rows columns"], seen: BoolArray) -> None:
+    for row in range(first.shape[0]):
+        for column in range(first.shape[1]):
+            seen[first[row, column], second[row, column]] = True
+
+
+def pairs_of_codes(
+    first: UInt8[np.ndarray, "rows columns"], second: UInt8[np.ndarray, "rows columns"]
+) -> UInt8[np.ndarray, "pairs 2"]:
+    """The pairs of codes that two arrays have at one place, in ascending order.
+
+    >>> pairs_of_codes(np.array([[3, 0, 3]], dtype=np.uint8), np.array([[1, 2, 1]], dtype=np.uint8)).tolist()
+    [[0, 2], [3, 1]]
+    """
+    seen = np.zeros((CODES, CODES), dtype=bool)
+    _mark(first, second, seen)
+    return np.argwhere(seen).astype(np.uint8)
 
 
 def eight_bits(

@@ -30,7 +30,7 @@ from ilmek.carpet.halftone import CELL
 from ilmek.carpet.light import LIGHT, lab_of_light
 from ilmek.carpet.patches import Marks, Members, begins, fill, grown, room
 from ilmek.carpet.thin_lines import RADIUS, between_areas, on_line
-from ilmek.num.compiled import uncounted
+from ilmek.num.compiled import embedded, uncounted
 from ilmek.num.threads import MOST_THREADS, in_threads
 from ilmek.progress import SILENT, Progress
 
@@ -140,7 +140,7 @@ def _nearest_around(own: IntArray, number: int, ring: int, around: IntArray, sum
     return best, least
 
 
-@uncounted
+@embedded
 def _is_kept(kept: BoolArray, y: int, x: int) -> bool:
     """Whether a knot lies in a cell of a halftone; `kept` is empty without one."""
     return bool(kept.size and kept[min(y // CELL, kept.shape[0] - 1), min(x // CELL, kept.shape[1] - 1)])
@@ -197,7 +197,7 @@ def _judge(  # noqa: PLR0917
             if not window.wanted[row // side, tile]:
                 continue
             for column in range(tile * side, min((tile + 1) * side, columns)):
-                if _is_kept(kept, row, column) or not begins(knots, row, column):
+                if not begins(knots, row, column) or _is_kept(kept, row, column):
                     continue
                 mark += 2
                 number = fill(knots, row, column, least, True, rooms.members, rooms.marks, mark)

@@ -11,7 +11,7 @@ import numpy as np
 
 from ilmek.arrays import Indices
 from ilmek.carpet.chart import Chart, rearranged
-from ilmek.carpet.codes import CODES
+from ilmek.carpet.codes import CODES, pairs_of_codes, recoded
 from ilmek.carpet.design import bands
 from ilmek.carpet.yarn import MOST_YARNS, Yarn
 
@@ -42,19 +42,19 @@ def in_creel_order(chart: Chart, indices: Indices, obstacle: str = "") -> Chart 
     if obstacle:
         counts = sum(np.bincount(indices[band].ravel(), minlength=CODES) for band in bands(*indices.shape))
         return obstacle if np.count_nonzero(counts) <= MOST_POSITIONS else ""
-    indices = indices[::scale, ::scale]
-    pairs = np.unique(indices.astype(np.int64) * CODES + chart.knots)
-    used, yarn_of = divmod(pairs, CODES)
-    if len(np.unique(used)) > MOST_POSITIONS:
+    indices = np.ascontiguousarray(indices[::scale, ::scale])
+    used, yarn_of = pairs_of_codes(indices, chart.knots).T
+    positions = len(np.unique(used))
+    if positions > MOST_POSITIONS:
         return ""
-    if len(np.unique(used)) < len(used):
+    if positions < len(used):
         return "knots of one index have several yarns"
     order = [*yarn_of.tolist(), *(yarn for yarn in range(len(chart.yarns)) if yarn not in yarn_of)][:MOST_YARNS]
     free = (position for position in range(CODES) if position not in used)
     creel = (*used.tolist(), *(next(free) for _ in order[len(used) :]))
     rank = np.zeros(CODES, dtype=np.uint8)
     rank[used] = np.arange(len(used))
-    made = rearranged(chart, order, rank[indices])
+    made = rearranged(chart, order, recoded(indices, rank))
     return replace(made, yarns=_named_apart(made.yarns, creel), creel=creel)
 
 

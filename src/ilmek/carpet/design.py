@@ -19,6 +19,7 @@ from ilmek.errors import CarpetError
 from ilmek.num.compiled import compiled
 from ilmek.num.threads import in_threads
 from ilmek.progress import SILENT, Progress
+from ilmek.sentences import Sentence
 
 MOST_KNOTS = 200_000_000
 """Largest number of knots: 32 m² of 250 x 250 knots per dm². With a picture of 150 megapixels `weave` takes 70 s and
@@ -53,15 +54,15 @@ def knot_grid(size: CarpetSize, quality: Quality) -> tuple[int, int]:
     rows, columns = round(size.length * quality.along), round(size.width * quality.across)
     if min(rows, columns) < 2:
         raise CarpetError(
-            f"{size} at {quality} has {columns} × {rows} knots",
-            allowed="at least 2 × 2",
-            do="take a larger size or a finer quality",
+            Sentence("grid.knots", size=size, quality=quality, columns=columns, rows=rows),
+            allowed=Sentence("grid.least"),
+            do=Sentence("grid.larger"),
         )
     if rows * columns > MOST_KNOTS:
         raise CarpetError(
-            f"{size} at {quality} has {rows * columns / 1e6:.0f} million knots",
-            allowed=f"at most {MOST_KNOTS // 1_000_000} million",
-            do="take a smaller size or a coarser quality",
+            Sentence("grid.millions", size=size, quality=quality, count=f"{rows * columns / 1e6:.0f}"),
+            allowed=Sentence("grid.most", count=MOST_KNOTS // 1_000_000),
+            do=Sentence("grid.smaller"),
         )
     return rows, columns
 

@@ -34,10 +34,11 @@ def _offsets(odd_row: int, odd_column: int) -> IntArray:
     kept = ((down + odd_row) % 2 == 0) & ((right + odd_column) % 2 == 0) & ((down != 0) | (right != 0))
     order = np.argsort((down * down + right * right)[kept], kind="stable")
     short = np.stack([down[kept], right[kept]], axis=-1)[order]
-    return np.concatenate([short, np.full(((2 * LARGEST_STEP + 1) ** 2 - len(short), 2), 1 << 20)])
+    return np.concatenate([short, np.full(((2 * LARGEST_STEP + 1) ** 2 - len(short), 2), 1 << 14)])
 
 
-_OFFSETS = np.stack([_offsets(row, column) for row in (0, 1) for column in (0, 1)])
+_OFFSETS = np.stack([_offsets(row, column) for row in (0, 1) for column in (0, 1)]).astype(np.int16)
+"""They stay in the nearest cache."""
 
 
 @uncounted
@@ -106,11 +107,13 @@ def in_row(knots: Indices, own: Members, number: int, least: int, members: Membe
     furthest = 8 * LARGEST_STEP * LARGEST_STEP
     offsets = _OFFSETS[2 * (row % 2) + column % 2]
     for k in range(len(offsets)):
-        down, right = offsets[k]
+        down, right = int(offsets[k, 0]), int(offsets[k, 1])
         if down * down + right * right > furthest:
             return False
         i, j = (row + down) // 2, (column + right) // 2
-        if not (0 <= i < knots.shape[0] and 0 <= j < knots.shape[1]) or _is_own(own, number, i, j):
+        if not (0 <= i < knots.shape[0] and 0 <= j < knots.shape[1] and knots[i, j] == yarn):
+            continue
+        if _is_own(own, number, i, j):
             continue
         size = _alike(knots, i, j, yarn, number, least, members, marks)
         if size == 0:

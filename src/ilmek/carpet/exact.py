@@ -38,6 +38,7 @@ from ilmek.errors import CarpetError
 from ilmek.num.compiled import compiled
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
+from ilmek.sentences import Sentence
 from ilmek.units import counted
 
 USUAL = Quality(250.0, 250.0)
@@ -234,9 +235,16 @@ def _of_the_grid(
             )
     if drawn:
         raise CarpetError(
-            f"--read exact: the picture has {rgb.shape[1]} × {rgb.shape[0]} pixels, and {size} at {quality} has "
-            f"{columns} × {rows} knots",
-            do="leave out --size or --quality, which then follows from the pixels, or --read",
+            Sentence(
+                "picture.exact",
+                width=rgb.shape[1],
+                height=rgb.shape[0],
+                size=size,
+                quality=quality,
+                columns=columns,
+                rows=rows,
+            ),
+            do=Sentence("picture.exact-do"),
         )
     return None
 

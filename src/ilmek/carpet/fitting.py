@@ -22,11 +22,12 @@ from ilmek.errors import PictureError, shortened
 from ilmek.params import Params, kind
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
+from ilmek.sentences import Sentence
 from ilmek.units import deg, format_quantity
 
 FITS = ("auto", "crop", "pad", "stretch", "turn")
-CORNERS_EXAMPLE = 'write the four corners, like "412,180 1150,240 1302,1050 300,985", or auto'
-CROP_EXAMPLE = 'write two opposite corners, like "10%,5% 90%,95%" or "120,80 1910,1440" in pixels'
+CORNERS_EXAMPLE = Sentence("picture.corners-example")
+CROP_EXAMPLE = Sentence("picture.crop-example")
 
 MOST_PADDED = 200_000_000
 """Largest number of pixels of a picture with its padding: 0.6 GB."""
@@ -97,6 +98,13 @@ class FitParams(Params):
     def without_sides(self) -> "FitParams":
         """The same without a side of the carpet, once its size is known."""
         return replace(self, width=None, length=None)
+
+    @property
+    def only_turned(self) -> bool:
+        """Whether the picture is turned, not by right angles alone, and all else is in shares of its sides."""
+        quarters = self.turn / (math.pi / 2)
+        in_shares = self.corners is None and (self.crop is None or self.crop.count("%") == 4)
+        return in_shares and abs(quarters - round(quarters)) >= 1e-9
 
     def check_together(self) -> None:
         """Raise ParameterError for texts that are no points or colours."""
@@ -302,11 +310,11 @@ def _cut(rgb: Rgb, text: str) -> MadeRgb:
     height, width = int(rgb.shape[0]), int(rgb.shape[1])
     corners = np.rint(in_pixels(read_points("crop", text, 2, CROP_EXAMPLE), width, height)).astype(int)
     (left, top), (right, bottom) = corners.min(axis=0).tolist(), corners.max(axis=0).tolist()
-    allowed = f"x 0 to {width}, y 0 to {height}: the picture has {width} x {height} pixels"
+    allowed = Sentence("picture.crop-bounds", width=width, height=height)
     if left < 0 or top < 0 or right > width or bottom > height:
-        raise PictureError(f"crop={text!r} reaches outside the picture", allowed=allowed, do=CROP_EXAMPLE)
+        raise PictureError(Sentence("picture.crop-outside", crop=text), allowed=allowed, do=CROP_EXAMPLE)
     if left == right or top == bottom:
-        raise PictureError(f"crop={text!r} leaves no pixel", allowed=allowed, do=CROP_EXAMPLE)
+        raise PictureError(Sentence("picture.empty-part", crop=text), allowed=allowed, do=CROP_EXAMPLE)
     return rgb[top:bottom, left:right]
 
 
@@ -374,7 +382,7 @@ def _padded(rgb: Rgb, size: CarpetSize, border: Colour, progress: Progress) -> M
 def _check_padded(shape: tuple[int, int]) -> None:
     if shape[0] * shape[1] > MOST_PADDED:
         raise PictureError(
-            f"with its border the picture would have {shape[1]} x {shape[0]} pixels",
-            allowed=f"at most {MOST_PADDED // 1_000_000} million pixels",
-            do="crop it, or take a smaller picture",
+            Sentence("picture.padded", width=shape[1], height=shape[0]),
+            allowed=Sentence("picture.padded-most", count=MOST_PADDED // 1_000_000),
+            do=Sentence("picture.padded-do"),
         )

@@ -23,6 +23,7 @@ from ilmek.carpet.sizes import CarpetSize
 from ilmek.elements.carpet_yarns import CarpetYarnParams, CarpetYarns, YarnProperties, carpet_yarns
 from ilmek.elements.yarns import MATERIALS
 from ilmek.params import Params, nested, param
+from ilmek.sentences import Sentence
 from ilmek.units import mm
 
 SELVEDGE_WARPS = 8
@@ -123,7 +124,7 @@ def warp_need(columns: int, length: float, yarn: YarnProperties, params: GroundP
     each = length + 2 * params.fringe + params.loom_waste
     total = (2 * columns + params.selvedge_warps) * each
     mass = total * yarn.linear_density
-    return GroundYarn("warp", "warp", yarn.material, total, mass, 1 - params.loom_waste / each)
+    return GroundYarn(Sentence("ground.warp"), "warp", yarn.material, total, mass, 1 - params.loom_waste / each)
 
 
 def ground_yarns(
@@ -142,9 +143,9 @@ def ground_yarns(
     picks = 2 * math.ceil(params.end_length / thin.diameter)
     return (
         warp_need(columns, size.length, yarns.warp, params),
-        _weft("straight weft", "weft", yarns.straight_weft, rows * a_row.straight),
-        _weft("sinuous weft", "weft", thin, rows * a_row.sinuous),
-        _weft("ends", "end", thin, picks * a_row.sinuous),
+        _weft(Sentence("ground.straight-weft"), "weft", yarns.straight_weft, rows * a_row.straight),
+        _weft(Sentence("ground.sinuous-weft"), "weft", thin, rows * a_row.sinuous),
+        _weft(Sentence("ground.ends"), "end", thin, picks * a_row.sinuous),
     )
 
 
@@ -163,10 +164,10 @@ def selvedge_yarn(
     yarns = carpet_yarns(params.yarns, pitch)
     pile = MATERIALS[params.yarns.pile].diameter(linear_density)
     if params.selvedge_warps == 0:
-        return GroundYarn("selvedges", "selvedge", params.yarns.pile, 0.0, 0.0)
+        return GroundYarn(Sentence("ground.selvedges"), "selvedge", params.yarns.pile, 0.0, 0.0)
     around = 2 * (params.selvedge_warps / 2 * pitch + yarns.warp.diameter + yarns.sinuous_weft.diameter)
     total = 2 * size.length / pile * math.hypot(around + math.pi * pile, pile)
-    return GroundYarn("selvedges", "selvedge", params.yarns.pile, total, total * linear_density)
+    return GroundYarn(Sentence("ground.selvedges"), "selvedge", params.yarns.pile, total, total * linear_density)
 
 
 def _weft(name: str, use: str, yarn: YarnProperties, length: float) -> GroundYarn:

@@ -31,7 +31,7 @@ from ilmek.carpet.light import LIGHT, code_of_light, lab_of_light
 from ilmek.carpet.mixtures import WHITE, mix, yarn_lights
 from ilmek.carpet.nearest_colour import NearestSearch, nearest_of, nearest_search
 from ilmek.carpet.patches import grown, is_lone
-from ilmek.num.compiled import compiled, uncounted
+from ilmek.num.compiled import compiled, embedded, uncounted
 from ilmek.progress import SILENT, Progress
 
 CELL = 2
@@ -115,20 +115,40 @@ def _tones(rgb: Rgb, tones: Tones, rough: BoolArray) -> None:
             left, right = CELL * j, rgb.shape[1] if j == columns - 1 else CELL * (j + 1)
             tone, widest = 0, 0
             for channel in range(3):
-                light, least, most = 0, 255, 0
-                for y in range(top, bottom):
-                    for x in range(left, right):
-                        code = int(rgb[y, x, channel])
-                        light += LIGHT[code]
-                        least, most = min(least, code), max(most, code)
-                tone = tone << 8 | code_of_light(_part(light, (bottom - top) * (right - left)))
-                widest = max(widest, most - least)
+                if bottom - top == CELL and right - left == CELL:
+                    light, width = _of_four(rgb, top, left, channel)
+                else:
+                    light, width = _of_cell(rgb, (top, bottom, left, right), channel)
+                tone = tone << 8 | code_of_light(light)
+                widest = max(widest, width)
             tones[i, j] = tone
             rough[i, j] = widest > OUTLINE_INSIDE
             if i > 0 and _apart(tone, tones[i - 1, j]):
                 rough[i, j] = rough[i - 1, j] = True
             if j > 0 and _apart(tone, tones[i, j - 1]):
                 rough[i, j] = rough[i, j - 1] = True
+
+
+@embedded
+def _of_four(rgb: Rgb, y: int, x: int, channel: int) -> tuple[int, int]:
+    """As `_of_cell`, of a cell of CELL × CELL knots: nearly all are, and no loop is quicker."""
+    one, two = int(rgb[y, x, channel]), int(rgb[y, x + 1, channel])
+    three, four = int(rgb[y + 1, x, channel]), int(rgb[y + 1, x + 1, channel])
+    least, most = min(one, two, three, four), max(one, two, three, four)
+    return (LIGHT[one] + LIGHT[two] + LIGHT[three] + LIGHT[four]) >> 2, most - least
+
+
+@uncounted
+def _of_cell(rgb: Rgb, place: tuple[int, int, int, int], channel: int) -> tuple[int, int]:
+    """The mean light of the knots of a cell, and the width of their codes."""
+    top, bottom, left, right = place
+    light, least, most = 0, 255, 0
+    for y in range(top, bottom):
+        for x in range(left, right):
+            code = int(rgb[y, x, channel])
+            light += LIGHT[code]
+            least, most = min(least, code), max(most, code)
+    return _part(light, (bottom - top) * (right - left)), most - least
 
 
 @uncounted
@@ -164,7 +184,7 @@ def _find_nearest(shelf: _Shelf, first: int, second: int) -> None:
     shelf.nearest[first, second] = nearest_of(shelf.search, lightness, a, b)[0]
 
 
-@uncounted
+@embedded
 def _nearest_yarn(shelf: _Shelf, red: int, green: int, blue: int) -> int:
     """The yarn nearest to a colour, in steps of FINE codes."""
     first = min(max(red, 0), 255) // FINE * _COLOURS + min(max(green, 0), 255) // FINE
@@ -174,7 +194,7 @@ def _nearest_yarn(shelf: _Shelf, red: int, green: int, blue: int) -> int:
     return int(shelf.nearest[first, second])
 
 
-@uncounted
+@embedded
 def _dot(shelf: _Shelf, tone: int, light: Light) -> tuple[int, Light]:
     """The yarn of a dot, and the light that is to be carried on; `light`: what was carried on to it."""
     red, green, blue = tone >> 16, tone >> 8 & 255, tone & 255
@@ -221,14 +241,14 @@ def _part(light: int, knots: int) -> int:
     return light >> 2 if knots == CELL**2 else light // knots  # a division takes as long as all the rest
 
 
-@uncounted
+@embedded
 def _moved(code: int, light: int) -> tuple[int, int]:
     """The light of a code with what was carried on, within MOST_MOVED codes of it, and the codes that it moves."""
     light = min(max(light + LIGHT[code], LIGHT[max(code - MOST_MOVED, 0)]), LIGHT[min(code + MOST_MOVED, 255)])
     return light, code_of_light(light) - code
 
 
-@uncounted
+@embedded
 def _detail(  # noqa: PLR0917
     shelf: _Shelf, tone: int, rgb: Rgb, knots: Indices, place: tuple[int, int, int, int], light: Light
 ) -> Light:
@@ -249,17 +269,11 @@ def _detail(  # noqa: PLR0917
     return first - _part(x, size), second - _part(y, size), third - _part(z, size)
 
 
-@uncounted
-def _carry(  # noqa: PLR0917
-    owed: IntArray, rows: tuple[int, int], column: int, ahead: int, channel: int, light: int
-) -> None:
-    """Hand on the light of a cell: 7/16 ahead, 3/16, 5/16 and what is left below."""
-    here, below = rows
+@embedded
+def _shares(light: int) -> tuple[int, int, int, int]:
+    """The shares of the light of a cell: 7/16 ahead, and below 3/16 behind it, 5/16 beside it, what is left ahead."""
     first, second, third = 7 * light >> 4, 3 * light >> 4, 5 * light >> 4
-    owed[here, column + ahead, channel] += first
-    owed[below, column - ahead, channel] += second
-    owed[below, column, channel] += third
-    owed[below, column + ahead, channel] += light - first - second - third
+    return first, second, third, light - first - second - third
 
 
 @uncounted
@@ -272,15 +286,23 @@ def _draw(  # noqa: PLR0917
           2, with a column more on both sides
     """
     rows, columns = tones.shape
+    strength = shelf.strength
     for i in range(own[0], own[1]):
         top, bottom = CELL * i, knots.shape[0] if i == rows - 1 else CELL * (i + 1)
         here = (own[2] + i) % 2
         below, ahead = 1 - here, 1 - 2 * here
-        owed[below] = 0
+        # What goes to the next cell of the row, to that below this one, and to that below the next one.
+        next_red, next_green, next_blue = 0, 0, 0
+        red, green, blue = 0, 0, 0
+        last_red, last_green, last_blue = 0, 0, 0
         for step in range(columns):
             j = columns - 1 - step if here else step
             left, right = CELL * j, knots.shape[1] if j == columns - 1 else CELL * (j + 1)
-            light = owed[here, j + 1, 0], owed[here, j + 1, 1], owed[here, j + 1, 2]
+            light = (
+                owed[here, j + 1, 0] + next_red,
+                owed[here, j + 1, 1] + next_green,
+                owed[here, j + 1, 2] + next_blue,
+            )
             if dots[i, j]:
                 yarn, light = _dot(shelf, tones[i, j], light)
                 for y in range(top, bottom):
@@ -288,9 +310,17 @@ def _draw(  # noqa: PLR0917
                         knots[y, x] = yarn
             else:
                 light = _detail(shelf, tones[i, j], rgb, knots, (top, bottom, left, right), light)
-            _carry(owed, (here, below), j + 1, ahead, 0, light[0] * shelf.strength >> 8)
-            _carry(owed, (here, below), j + 1, ahead, 1, light[1] * shelf.strength >> 8)
-            _carry(owed, (here, below), j + 1, ahead, 2, light[2] * shelf.strength >> 8)
+            next_red, behind, beside, rest = _shares(light[0] * strength >> 8)
+            owed[below, j + 1 - ahead, 0] = red + behind
+            red, last_red = last_red + beside, rest
+            next_green, behind, beside, rest = _shares(light[1] * strength >> 8)
+            owed[below, j + 1 - ahead, 1] = green + behind
+            green, last_green = last_green + beside, rest
+            next_blue, behind, beside, rest = _shares(light[2] * strength >> 8)
+            owed[below, j + 1 - ahead, 2] = blue + behind
+            blue, last_blue = last_blue + beside, rest
+        end = 1 if here else columns
+        owed[below, end, 0], owed[below, end, 1], owed[below, end, 2] = red, green, blue
 
 
 @uncounted

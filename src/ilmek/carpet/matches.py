@@ -40,8 +40,6 @@ def colour_matches(
     """The match of each distinct colour, most knots first; none where there are more than MOST_MATCHES."""
     if len(distinct.counts) > MOST_MATCHES:
         return ()
-    codes = np.flatnonzero(distinct.index)
-    numbers = distinct.index[codes] - 1
     found = [
         ColourMatch(
             (code >> 16, code >> 8 & 255, code & 255),
@@ -50,6 +48,6 @@ def colour_matches(
             float(difference[number]),
             int(groups.of[number]),
         )
-        for code, number in zip(codes.tolist(), numbers.tolist(), strict=True)
+        for number, code in enumerate(distinct.codes.tolist())
     ]
     return tuple(sorted(found, key=lambda match: (-match.knots, match.srgb)))

@@ -13,7 +13,7 @@ import numpy as np
 
 from ilmek.arrays import BoolArray, Float, FloatArray, Indices, UInt8
 from ilmek.carpet.colour_difference import ciede2000, least_square, least_turned, lightness_weight, saturation
-from ilmek.num.compiled import compiled, uncounted
+from ilmek.num.compiled import compiled, embedded, uncounted
 
 SIDE = 8
 """Side of a cube of CIELAB."""
@@ -97,7 +97,7 @@ def _sort(search: NearestSearch, cube: int) -> None:
             place += 1
 
 
-@uncounted
+@embedded
 def nearest_of(search: NearestSearch, lightness: float, a: float, b: float) -> tuple[int, float]:
     """Index and CIEDE2000 of the colour of a list that is nearest to a colour; of equal ones the first in the list."""
     cube = len(search.known) - 1

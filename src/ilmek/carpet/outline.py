@@ -16,15 +16,12 @@ import itertools
 from collections.abc import Sequence
 
 import numpy as np
-import scipy
 
-from ilmek.arrays import BoolArray, Float, FloatArray, Rgb
+from ilmek.arrays import FloatArray, Rgb
 from ilmek.carpet.colour import srgb_to_lab
-from ilmek.carpet.design import resampled
 from ilmek.carpet.floor import BLACK, evened, floor_difference
 from ilmek.carpet.paper.sheet import squared_paper
 from ilmek.carpet.picture_points import Points
-from ilmek.carpet.projection import MadeRgb
 from ilmek.carpet.straight_edges import (
     Band,
     Edge,
@@ -40,8 +37,8 @@ from ilmek.carpet.straight_edges import (
     unlike_in_any_light,
 )
 from ilmek.errors import PictureError
-from ilmek.plane.curves import hull
 from ilmek.progress import SILENT, Progress
+from ilmek.sentences import Sentence
 
 LEAST_CLEARNESS = 0.8
 """Least clearness of an outline that is used."""
@@ -123,20 +120,25 @@ def find_outline(rgb: Rgb, progress: Progress = SILENT) -> tuple[Points, float]:
     try:
         corners, shares, doubts = _sides(lab, difference, floor, first)
     except _NoSides as no_sides:
-        raise _unclear(str(no_sides), np.clip(first, 0, (width, height)) * scale) from None
+        raise _unclear(no_sides.reason, np.clip(first, 0, (width, height)) * scale) from None
     clearness = max(0.0, min(_common_share(region, first / step), *shares))
     border = np.concatenate([region[0], region[-1], region[:, 0], region[:, -1]])
     if np.count_nonzero(border) > _MOST_CUT * len(border) or (corners < 0).any() or (corners > (width, height)).any():
-        doubts.append("the edge of the picture cuts it")
+        doubts.append(Sentence("picture.outline-cut"))
     if clearness < LEAST_CLEARNESS:
-        doubts.append(f"clearness {clearness:.2f}, at least {LEAST_CLEARNESS:g} is required")
+        values = {"clearness": f"{clearness:.2f}", "least": f"{LEAST_CLEARNESS:g}"}
+        doubts.append(Sentence("picture.outline-clearness", **values))
     if doubts:
         raise _unclear(doubts[-1], np.clip(corners, 0, (width, height)) * scale)
     return corners * scale, clearness
 
 
 class _NoSides(Exception):
-    """No four sides: why."""
+    """No four sides, and why."""
+
+    def __init__(self, reason: str) -> None:
+        super().__init__(reason)
+        self.reason = reason
 
 
 def _sides(
@@ -154,17 +156,17 @@ def _sides(
     thin = [distance if step > most and distance <= _THIN else 0.0 for step, distance in wide]
     corners, shares = _refined(strips, [middle] * 4, thin)
     if sorted(map(step_outside, strips))[1] > _LARGEST_STEP:
-        doubts.append("a fainter edge runs around it")
+        doubts.append(Sentence("picture.outline-fainter"))
     for strip, (step, distance) in zip(strips, wide, strict=True):
         if step > most and distance > _THIN and not _goes_on(lab, difference, strip, (reach, distance, step)):
-            doubts.append("a fainter edge runs along a side")
+            doubts.append(Sentence("picture.outline-fainter-side"))
         if unlike_in_any_light(strip, floor) > _ALIKE:
-            doubts.append("neither floor nor fringe lies along a side")
+            doubts.append(Sentence("picture.outline-unlike"))
         like_floor = np.linalg.norm(band_inside(strip, middle, None).colour - floor) < _ALIKE
         if like_floor and _goes_on(lab, difference, strip, (reach, 0.0, step_beside(strip, 0.0))):
-            doubts.append("an edge along a side goes on in the floor")
+            doubts.append(Sentence("picture.outline-goes-on"))
     if max(map(share_like_floor, strips)) > _LIKE_FLOOR:
-        doubts.append("along a side it has the floor's colour")
+        doubts.append(Sentence("picture.outline-like-floor"))
     return corners, shares, doubts
 
 
@@ -174,7 +176,7 @@ def _strips(
     """Strips of the picture across the four sides; their grain is that of those before."""
     following = np.roll(corners, -1, axis=0)
     if np.hypot(*(following - corners).T).min() < 4:
-        raise _NoSides("a side has no length")
+        raise _NoSides(Sentence("picture.outline-no-length"))
     grains: Sequence[float | None] = [strip.grain for strip in before] or (None,) * 4
     sides = zip(corners, following, grains, strict=True)
     return [sampled(lab, difference, a, b, reach, grain) for a, b, grain in sides]
@@ -199,7 +201,7 @@ def _edges_around(strips: list[SideStrip], tilt: float, floor: FloatArray) -> tu
     """
     tried = [edges_of(strip, tilt)[:_TRIED] for strip in strips]
     if not all(tried):
-        raise _NoSides("a side has no straight edge")
+        raise _NoSides(Sentence("picture.outline-no-edge"))
     bands = [
         [band_inside(strip, edge, end) for edge, end in zip(edges, [*edges[1:], None], strict=True)]
         for strip, edges in zip(strips, tried, strict=True)
@@ -219,7 +221,7 @@ def _edges_around(strips: list[SideStrip], tilt: float, floor: FloatArray) -> tu
         sure = apart <= _ALIKE or not any(_of_threads(band, floor) for band in kept)
         if sure and all(_of_threads(band, floor, sure=apart > _ALIKE) for band in left_out):
             return [edges[k] for k, edges in zip(choice, tried, strict=True)], []
-    return [edges[0] for edges in tried], ["what lies along a side may be a fringe"]
+    return [edges[0] for edges in tried], [Sentence("picture.outline-fringe")]
 
 
 def _apart(bands: list[Band]) -> float:
@@ -250,7 +252,7 @@ def _refined(
     for (a, b, c), (d, e, f) in zip([lines[-1], *lines[:-1]], lines, strict=True):
         determinant = a * e - b * d
         if abs(determinant) < 1e-6:
-            raise _NoSides("two sides that meet are parallel")
+            raise _NoSides(Sentence("picture.outline-parallel"))
         crossings.append(((c * e - b * f) / determinant, (a * f - c * d) / determinant))
     return np.array(crossings), [share for _, share in fitted]
 
@@ -259,74 +261,7 @@ def _unclear(reason: str, corners: Points | None = None) -> PictureError:
     """The error of an outline that is not clear, with the corners that were found, to be pasted if they are right."""
     points = "x,y x,y x,y x,y" if corners is None else " ".join(f"{x:.1f},{y:.1f}" for x, y in corners.tolist())
     return PictureError(
-        f"the outline of the carpet is not clear ({reason})",
-        allowed="corners=auto needs the whole carpet on a floor of other colours",
-        do=f'{"give the corners" if corners is None else "if these are its corners, give them"}: --corners "{points}"',
+        Sentence("picture.outline", reason=reason),
+        allowed=Sentence("picture.outline-allowed"),
+        do=Sentence("picture.outline-do" if corners is None else "picture.outline-paste", corners=points),
     )
-
-
-def _reduced(rgb: Rgb, long: int, progress: Progress) -> MadeRgb:
-    factor = max(rgb.shape[:2]) / long
-    if factor <= 1:
-        return rgb
-    return resampled(rgb, max(1, round(rgb.shape[0] / factor)), max(1, round(rgb.shape[1] / factor)), progress)
-
-
-def _region(difference: FloatArray, step: int) -> BoolArray:
-    """The carpet in the picture reduced by `step`: the largest region above the margin's difference.
-
-    Or all large ones, where they fill one quadrilateral: a stripe of the floor's colour divides the carpet.
-    """
-    rows, columns = (side // step * step for side in difference.shape)
-    blocks = difference[:rows, :columns].reshape(rows // step, step, columns // step, step)
-    mask = scipy.ndimage.binary_fill_holes(blocks.mean(axis=(1, 3)) > _PLAIN)
-    radius = max(1, round(0.012 * max(mask.shape)))
-    mask = scipy.ndimage.binary_opening(mask, np.ones((2 * radius + 1, 2 * radius + 1), dtype=bool))
-    labels, count = scipy.ndimage.label(mask)
-    if count == 0:
-        raise _unclear("nothing differs from the margin of the picture")
-    areas = np.bincount(labels.ravel())
-    areas[0] = 0
-    if areas.max() < _LEAST_AREA * mask.size:
-        raise _unclear("what differs from the margin of the picture is too small")
-    largest: BoolArray = scipy.ndimage.binary_fill_holes(labels == areas.argmax())
-    parts = np.flatnonzero(areas > _LEAST_PART * areas.max())
-    together = np.isin(labels, parts)
-    if len(parts) > 1 and _common_share(together, _largest_quadrilateral(_hull(together))) > _LEAST_TOGETHER:
-        return together
-    return largest
-
-
-def _hull(region: BoolArray) -> Points:
-    """Corners of the convex hull of a region, clockwise in the picture, whose y points down."""
-    rows = np.flatnonzero(region.any(axis=1))
-    left, right = region.argmax(axis=1)[rows], region.shape[1] - region[:, ::-1].argmax(axis=1)[rows]
-    upper = np.concatenate([left, right]) + 1j * np.concatenate([rows, rows])
-    corners = hull(np.concatenate([upper, upper + 1j]))
-    return np.stack([corners.real, corners.imag], axis=1)
-
-
-def _largest_quadrilateral(polygon: Points) -> Float[np.ndarray, "4 2"]:
-    """The largest quadrilateral with corners among those of a convex polygon, clockwise from the upper left."""
-    if len(polygon) < 4:
-        raise _unclear("what differs from the margin of the picture has no four corners")
-    polygon = polygon[:: -(-len(polygon) // 120)] if len(polygon) > 120 else polygon
-    x, y = polygon.T
-    largest, corners = -1.0, (0, 1, 2, 3)
-    for begin, end in itertools.combinations(range(len(polygon)), 2):
-        side = (x[end] - x[begin]) * (y - y[begin]) - (y[end] - y[begin]) * (x - x[begin])
-        if (area := float(side.max() - side.min())) > largest:
-            largest, corners = area, (begin, int(side.argmin()), end, int(side.argmax()))
-    chosen = polygon[list(corners)]
-    centre = chosen.mean(axis=0)
-    chosen = chosen[np.argsort(np.arctan2(*(chosen - centre).T[::-1]), kind="stable")]
-    return np.asarray(np.roll(chosen, -int(chosen.sum(axis=1).argmin()), axis=0))
-
-
-def _common_share(region: BoolArray, corners: Points) -> float:
-    """Area that region and quadrilateral have in common, of the area of both."""
-    y, x = np.mgrid[0.5 : region.shape[0], 0.5 : region.shape[1]]
-    inside = np.ones(region.shape, dtype=bool)
-    for (ax, ay), (bx, by) in zip(corners.tolist(), np.roll(corners, -1, axis=0).tolist(), strict=True):
-        inside &= (bx - ax) * (y - ay) - (by - ay) * (x - ax) >= 0
-    return int(np.count_nonzero(inside & region)) / max(1, int(np.count_nonzero(inside | region)))

@@ -18,13 +18,15 @@ from ilmek.carpet.design import PART, bands
 from ilmek.carpet.nearest_colour import nearest
 from ilmek.errors import YarnError
 from ilmek.num.compiled import compiled, uncounted
-from ilmek.num.stable_order import stable_order
 from ilmek.num.threads import in_threads
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 
 _CODES = 1 << 24
 _BATCH = 1 << 14
+_SEARCHED = 1 << 18
+"""Colours of one search for their nearest yarns: each search puts the list in order anew."""
+
 _LARGEST_TABLE = 1 << 25
 _MOST_TRIALS = 3_000_000
 _TABLE, _SWAPS = 0.3, 0.4
@@ -39,10 +41,12 @@ class Colours:
     """The distinct colours of a picture.
 
     index  for each code r·65536 + g·256 + b the number of the colour, from 1; 0: not in the picture
+    codes  of each colour
     labs   CIELAB of each colour          counts  knots of each colour
     """
 
     index: Int32[np.ndarray, " codes"]
+    codes: Int32[np.ndarray, " colours"]
     labs: Float[np.ndarray, "colours 3"]
     counts: Int64[np.ndarray, " colours"]
 
@@ -88,7 +92,7 @@ def distinct_colours(rgb: Rgb, progress: Progress = SILENT) -> Colours:
 
     for batch, _ in in_threads(convert, bands(found, 1, _BATCH)):
         progress(0.5 + 0.5 * batch.stop / found)
-    return Colours(index, labs, counts[:found].copy())
+    return Colours(index, codes[:found].copy(), labs, counts[:found].copy())
 
 
 def recoloured(colours: Colours, codes: UInt8[np.ndarray, "colours 3"]) -> Colours:
@@ -110,7 +114,7 @@ def nearest_yarns(
     def find(batch: slice) -> None:
         index[batch], delta[batch] = nearest(colours.labs[batch], yarn_labs)
 
-    for batch, _ in in_threads(find, bands(len(index), 1, _BATCH)):
+    for batch, _ in in_threads(find, bands(len(index), 1, _SEARCHED)):
         progress(batch.stop / len(index))
     return index, delta
 
@@ -192,28 +196,45 @@ def total_difference(table: Float[np.ndarray, "yarns colours"], choice: tuple[in
 
 def pooled(colours: Colours, most: int, progress: Progress = SILENT) -> tuple[FloatArray, FloatArray]:
     """CIELAB and knots of the colours; more than `most` colours are pooled by cells of the Lab space."""
-    labs, weights = colours.labs, colours.counts.astype(float)
-    cell = 1.0
-    while len(labs) > most:
+    if len(colours.labs) <= most:
+        return colours.labs, colours.counts.astype(float)
+    labs, cell, table = np.ascontiguousarray(colours.labs), 1.0, np.zeros(_CELLS**3, dtype=np.int32)
+    keys, cells = np.empty(len(labs), dtype=np.int32), np.empty(most, dtype=np.int32)
+    while (number := int(_number_cells(labs, cell, table, keys, cells))) > most:
         progress(0.0)
-        group = _cells(colours.labs, cell)
-        weights = np.bincount(group, weights=colours.counts)
-        labs = np.stack(
-            [np.bincount(group, weights=colours.counts * axis) / weights for axis in colours.labs.T], axis=-1
-        )
+        table[cells] = 0
         cell *= 1.5
-    return labs, weights
+    places = np.empty(number, dtype=np.int64)
+    places[np.argsort(cells[:number])] = np.arange(number)
+    group = places[table[keys] - 1]
+    weights = np.bincount(group, weights=colours.counts)
+    sums = [np.bincount(group, weights=colours.counts * axis) / weights for axis in labs.T]
+    return np.stack(sums, axis=-1), weights
 
 
-def _cells(labs: FloatArray, cell: float) -> IntArray:
-    """The number of each colour's cell of the Lab space, of those that contain a colour."""
-    keys = np.empty(len(labs), dtype=np.int32)
-    for part in bands(len(labs), 1, _BATCH):
-        lightness, a, b = np.floor(labs[part] / cell).astype(np.int32).T
-        keys[part] = (lightness * _CELLS + a + _CELLS // 2) * _CELLS + b + _CELLS // 2
-    order, numbers = stable_order(keys), np.empty(len(keys), dtype=np.int64)
-    numbers[order] = np.cumsum(np.diff(keys[order], prepend=keys[order[:1]]) != 0)
-    return numbers
+@uncounted
+def _number_cells(labs: FloatArray, cell: float, table: IntArray, keys: IntArray, cells: IntArray) -> int:
+    """The number of cells of the Lab space that contain a colour; above the room of `cells` the search ends.
+
+    keys   receives the key of each colour's cell, in the order of lightness, a and b
+    table  0 everywhere; receives for each key the number of its cell, from 1      cells  receives their keys
+    """
+    number = 0
+    for colour in range(len(labs)):
+        lightness, a, b = (
+            math.floor(labs[colour, 0] / cell),
+            math.floor(labs[colour, 1] / cell),
+            math.floor(labs[colour, 2] / cell),
+        )
+        key = (lightness * _CELLS + a + _CELLS // 2) * _CELLS + b + _CELLS // 2
+        if table[key] == 0:
+            if number == len(cells):
+                return number + 1
+            cells[number] = key
+            number += 1
+            table[key] = number
+        keys[colour] = key
+    return number
 
 
 def additions(table: Float[np.ndarray, "yarns colours"], kept: tuple[int, ...] = ()) -> Iterator[tuple[int, float]]:

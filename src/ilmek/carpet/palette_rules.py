@@ -36,6 +36,7 @@ from ilmek.errors import ParameterError, YarnError, did_you_mean, shortened
 from ilmek.params import Params, kind, param
 from ilmek.progress import SILENT, Progress
 from ilmek.records import value_record
+from ilmek.sentences import Sentence
 from ilmek.units import counted
 
 AUTO = "auto"
@@ -120,7 +121,7 @@ class PaletteParams(Params):
         both = {name.casefold() for name in kept} & {name.casefold() for name in never}
         if both:
             name = next(name for name in kept if name.casefold() in both)
-            raise ParameterError(f"{name!r} is both in keep and in never", do="leave it out of one")
+            raise ParameterError(Sentence("yarn.kept-and-never", name=name), do=Sentence("yarn.leave-out"))
         if isinstance(self.colours, int) and len(kept) > self.colours:
             raise ParameterError(f"keep has {counted(len(kept), 'yarn')}, more than colours={self.colours}")
 
@@ -192,10 +193,10 @@ def mapped_colours(text: str | None) -> tuple[tuple[tuple[int, int, int], str], 
     for pair in filter(None, (part.strip() for part in text.split(";"))):
         colour, equals, name = pair.partition("=")
         if not equals or not name.strip():
-            raise ParameterError(f"map={shortened(pair)!r} is no pair", do='write it like "#6c9136=dark green"')
+            raise ParameterError(Sentence("yarn.no-pair", pair=shortened(pair)), do=Sentence("yarn.pair-example"))
         srgb = read_colour("map", colour.strip())
         if found.setdefault(srgb, name.strip().strip('"')) != name.strip().strip('"'):
-            raise ParameterError(f"map gives {hex_colour(srgb)} two yarns", do="give each colour once")
+            raise ParameterError(Sentence("yarn.two-yarns", colour=hex_colour(srgb)), do=Sentence("yarn.colour-once"))
     if not found:
         raise ParameterError(f"map={shortened(text)!r} has no pair", do='write it like "#6c9136=dark green"')
     return tuple(found.items())
@@ -257,26 +258,28 @@ def _kept_and_allowed(params: PaletteParams, yarns: Sequence[Yarn]) -> tuple[tup
     kept, never = (
         _indices(name, yarn_names(name, text), yarns) for name, text in (("keep", params.keep), ("never", params.never))
     )
-    mapped = _indices("map", [name for _, name in mapped_colours(params.mapped)], yarns)
+    pairs = mapped_colours(params.mapped)
+    mapped = tuple(_indices(f"map {hex_colour(srgb)}", (name,), yarns)[0] for srgb, name in pairs)
     kept = tuple(dict.fromkeys((*kept, *mapped)))
     if twice := [number for number in mapped if number in never]:
-        raise YarnError(f"{yarns[twice[0]].name!r} is both in map and in never", do="leave it out of one")
+        raise YarnError(Sentence("yarn.mapped-and-never", name=yarns[twice[0]].name), do=Sentence("yarn.leave-out"))
     allowed = [number for number in range(len(yarns)) if number not in never]
-    without = " without those of --never" if never else ""
+    without = "-without" if never else ""
     if len(allowed) < 2:
-        raise YarnError(f"--never leaves {len(allowed)} of {len(yarns)} yarns", allowed="at least 2")
+        left = Sentence("yarn.never", left=len(allowed), all=len(yarns))
+        raise YarnError(left, allowed=Sentence("yarn.two"))
     if isinstance(params.colours, int) and params.colours > len(allowed):
         raise YarnError(
-            f"--colours {params.colours}",
-            allowed=f"2 to {len(allowed)}, the yarns of the list{without}",
-            do="or leave it out",
+            Sentence("yarn.count", count=params.colours),
+            allowed=Sentence(f"yarn.count-allowed{without}", most=len(allowed)),
+            do=Sentence("yarn.count-do"),
         )
     return kept, allowed
 
 
 def _neutrals(distinct: Colours, yarns: Sequence[Yarn], kept: tuple[int, ...], allowed: list[int]) -> list[int]:
     """The yarns of a grey picture: the neutral ones and those kept; none where there is one, and of other pictures."""
-    tinted = distinct.counts[np.hypot(distinct.labs[:, 1], distinct.labs[:, 2]) > GREY].sum()
+    tinted = distinct.counts[(distinct.labs[:, 1:] ** 2).sum(axis=1) > GREY**2].sum()
     if tinted > MOST_TINTED * distinct.counts.sum():
         return []
     chroma = np.hypot(*yarn_labs(yarns)[:, 1:].T)
@@ -289,8 +292,8 @@ def _indices(option: str, names: Iterable[str], yarns: Sequence[Yarn]) -> tuple[
     found = []
     for name in names:
         if name.casefold() not in numbers:
-            near = did_you_mean(name.casefold(), numbers, otherwise=f"the list has {_listed(yarns)}")
-            raise YarnError(f"--{option}: the list has no yarn {shortened(name)!r}", do=near)
+            near = did_you_mean(name.casefold(), numbers, otherwise=Sentence("yarn.listed", names=_listed(yarns)))
+            raise YarnError(Sentence("yarn.missing", option=option, name=shortened(name)), do=near)
         found.append(numbers[name.casefold()])
     return tuple(found)
 

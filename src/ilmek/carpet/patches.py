@@ -12,7 +12,7 @@ import numpy as np
 from ilmek.arrays import BoolArray, Indices, Int32, Int64, UInt8
 from ilmek.carpet.codes import CODES
 from ilmek.carpet.design import PART, bands
-from ilmek.num.compiled import compiled, uncounted
+from ilmek.num.compiled import compiled, embedded, uncounted
 from ilmek.num.threads import in_threads
 from ilmek.progress import SILENT, Progress
 
@@ -40,7 +40,7 @@ def grown(cells: BoolArray) -> BoolArray:
     return out
 
 
-@uncounted
+@embedded
 def is_lone(knots: Indices, row: int, column: int) -> bool:
     """Whether a knot has neighbours and differs from all of them: left, right, above and below (fewer at an edge)."""
     yarn = knots[row, column]
@@ -54,7 +54,7 @@ def is_lone(knots: Indices, row: int, column: int) -> bool:
     )
 
 
-@uncounted
+@embedded
 def begins(knots: Indices, row: int, column: int) -> bool:
     """Whether no earlier neighbour has the yarn of a knot."""
     yarn = knots[row, column]

@@ -8,7 +8,7 @@ import numpy as np
 
 from ilmek.arrays import Float
 from ilmek.errors import ParameterError, shortened
-from ilmek.units import counted
+from ilmek.sentences import Sentence
 
 Points: TypeAlias = Float[np.ndarray, "points 2"]
 """x to the right and y downwards [pixels]; (0, 0) is the upper left corner of the first pixel."""
@@ -35,19 +35,25 @@ def read_points(name: str, text: str, count: int, example: str) -> tuple[tuple[t
     """
     given = f"{name}={shortened(text)!r}"
     if len(text) > LONGEST:
-        raise ParameterError(f"{given} is too long", allowed=f"at most {LONGEST} characters", do=example)
+        raise ParameterError(
+            Sentence("value.too-long", value=given),
+            allowed=Sentence("value.at-most-characters", count=LONGEST),
+            do=example,
+        )
     points, at = [], 0
     while at < len(text.rstrip(" ;")):
         found = _POINT.match(text, at)
         if found is None:
-            raise ParameterError(f"{given} is no list of points", do=example)
+            raise ParameterError(Sentence("picture.no-points", given=given), do=example)
         pairs = ((found[1], found[2]), (found[3], found[4]))
         points.append(tuple((float(value) * (0.01 if unit == "%" else 1.0), unit == "%") for value, unit in pairs))
         between = _BETWEEN.match(text, found.end())
         at = between.end() if between else found.end()
     if len(points) != count:
         raise ParameterError(
-            f"{given} holds {counted(len(points), 'point')}", allowed=counted(count, "point"), do=example
+            Sentence("picture.one-point" if len(points) == 1 else "picture.points", given=given, count=len(points)),
+            allowed=Sentence("picture.points-allowed", count=count),
+            do=example,
         )
     return tuple(points)
 
@@ -81,6 +87,8 @@ def read_colour(name: str, text: str) -> tuple[int, int, int]:
     found = _COLOUR.fullmatch(text)
     if found is None:
         raise ParameterError(
-            f"{name}={shortened(text)!r} is no colour", allowed="six hexadecimal digits", do="like #e8dfc8"
+            Sentence("picture.no-colour", name=name, text=shortened(text)),
+            allowed=Sentence("picture.colour-digits"),
+            do=Sentence("picture.colour-example"),
         )
     return int(found[1], 16), int(found[2], 16), int(found[3], 16)

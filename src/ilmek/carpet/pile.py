@@ -31,6 +31,7 @@ from ilmek.elements.knot_kinds import parse_knot, wrap_of
 from ilmek.elements.yarns import MATERIALS, WOOL, yarn_diameter
 from ilmek.params import Params, param
 from ilmek.report import Check, at_most
+from ilmek.sentences import Sentence
 from ilmek.units import mm
 
 
@@ -99,9 +100,8 @@ def pile_check(yarn: YarnProperties, quality: Quality) -> Check:
 
 def fill_check(fill: float) -> Check:
     """The check of the share of the ground that the pile fills [-]."""
-    source = "two legs per knot in the knot's cell, fibre packed as in the free yarn"
-    cure = "take a finer yarn or a coarser quality"
-    return at_most("pile: share of the ground filled", fill, 1.0, "%", source, cure=cure)
+    source, cure = Sentence("check.pile-source"), Sentence("check.pile-cure")
+    return at_most(Sentence("check.pile"), fill, 1.0, "%", source, cure=cure)
 
 
 def pile_fill(quality: Quality, linear_density: float, pile: PileParams | None = None) -> float:

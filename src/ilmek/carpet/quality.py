@@ -28,6 +28,7 @@ from fractions import Fraction
 
 from ilmek.errors import CarpetError
 from ilmek.records import shown_value
+from ilmek.sentences import Sentence
 from ilmek.units import LONGEST, format_number, format_quantity, real_number
 
 COARSEST, FINEST = 10.0, 5000.0
@@ -50,15 +51,18 @@ class Quality:
             object.__setattr__(self, name, count)
             if count < COARSEST:
                 raise CarpetError(
-                    f"a quality of {format_number(count / 10)} knots per dm is too coarse",
-                    allowed="at least 1 knot per dm",
+                    Sentence("quality.too-coarse", count=format_number(count / 10)),
+                    allowed=Sentence("quality.least"),
                     do=EXAMPLE,
                 )
             if count > FINEST:
                 raise CarpetError(
-                    f"a quality of {format_number(count / 10)} knots per dm needs a warp every "
-                    f"{format_quantity(0.5 / count, 'mm')}",
-                    allowed=f"at most {format_number(FINEST / 10)} knots per dm (a warp every 0.1 mm)",
+                    Sentence(
+                        "quality.too-fine",
+                        count=format_number(count / 10),
+                        pitch=format_quantity(0.5 / count, "mm"),
+                    ),
+                    allowed=Sentence("quality.most", count=format_number(FINEST / 10)),
                     do=EXAMPLE,
                 )
 
@@ -155,9 +159,7 @@ def parse_quality(text: str) -> Quality:
         matched = notation.pattern.fullmatch(text.strip())
         if matched is not None:
             return _read(notation, *matched.groups())
-    raise CarpetError(
-        f"unknown quality {text!r}", allowed="knots across x along per dm, cm or inch, or one number", do=EXAMPLE
-    )
+    raise CarpetError(Sentence("quality.unknown", text=text), allowed=Sentence("quality.allowed"), do=EXAMPLE)
 
 
 def gereh_note(text: str) -> str:

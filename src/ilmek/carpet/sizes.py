@@ -16,6 +16,7 @@ from fractions import Fraction
 
 from ilmek.errors import CarpetError
 from ilmek.records import shown_value
+from ilmek.sentences import Sentence
 from ilmek.units import LONGEST, cm, format_number, format_quantity, real_number
 
 
@@ -39,9 +40,11 @@ class CarpetSize:
             object.__setattr__(self, name, side)
             if not SMALLEST <= side <= LARGEST:
                 raise CarpetError(
-                    f"a carpet side of {format_quantity(side, 'cm')} cannot be woven",
-                    allowed=f"a side is {format_quantity(SMALLEST, 'cm')} to {format_quantity(LARGEST, 'm')}",
-                    do=EXAMPLE if side > 0 else f"give both sides above zero; {EXAMPLE}",
+                    Sentence("size.not-woven", side=format_quantity(side, "cm")),
+                    allowed=Sentence(
+                        "size.bounds", least=format_quantity(SMALLEST, "cm"), most=format_quantity(LARGEST, "m")
+                    ),
+                    do=EXAMPLE if side > 0 else Sentence("size.above-zero"),
                 )
 
     @property
@@ -55,8 +58,8 @@ class CarpetSize:
 
 
 SMALLEST, LARGEST = 0.01, 50.0
-EXAMPLE = "write it width x length, like 120x180cm"
-OPEN_EXAMPLE = "write the other side, or auto where it follows from the picture: 120cmxauto, autox180cm"
+EXAMPLE = Sentence("size.example")
+OPEN_EXAMPLE = Sentence("size.open-example")
 AUTO = "auto"
 """The side, or the size, that follows from the picture."""
 
@@ -118,7 +121,11 @@ def parse_size(text: str) -> CarpetSize:
     Raises CarpetError for any other text.
     """
     if len(text) > LONGEST:
-        raise CarpetError(f"size {text[:20]!r}... is too long", allowed=f"at most {LONGEST} characters", do=EXAMPLE)
+        raise CarpetError(
+            Sentence("value.too-long", value=f"size {text[:20]!r}..."),
+            allowed=Sentence("value.at-most-characters", count=LONGEST),
+            do=EXAMPLE,
+        )
     named = _BY_KEY.get(_key(text))
     if named is not None:
         return named
@@ -126,9 +133,9 @@ def parse_size(text: str) -> CarpetSize:
         raise CarpetError(f"{text.strip()!r} names no size", allowed=_OPEN_NAMES[_key(text)])
     matched = _SIDES.fullmatch(text)
     if _ONE_SIDE.fullmatch(text):
-        raise CarpetError(f"size {text!r} has one side", allowed="width x length", do=OPEN_EXAMPLE)
+        raise CarpetError(Sentence("size.one-side", text=text), allowed=Sentence("size.sides"), do=OPEN_EXAMPLE)
     if matched is None:
-        raise CarpetError(f"unknown size {text!r}", allowed=_near_names(text), do=f"or {EXAMPLE}")
+        raise CarpetError(Sentence("size.unknown", text=text), allowed=_near_names(text), do=Sentence("size.or"))
     unit = _common_unit(text, matched[2].lower(), matched[4].lower())
     return CarpetSize(float(Fraction(matched[1]) * unit), float(Fraction(matched[3]) * unit))
 
@@ -152,7 +159,7 @@ def parse_open_size(text: str) -> tuple[CarpetSize | None, dict[str, float]]:
     for name, number, unit in (("width", matched[1], matched[2]), ("length", matched[3], matched[4])):
         if number is not None:
             if not unit and Fraction(number) < LEAST_BARE:
-                raise CarpetError(f"size {text!r} has no unit", allowed="mm, cm, dm, m, in or ft", do=OPEN_EXAMPLE)
+                raise CarpetError(Sentence("size.no-unit", text=text), allowed=Sentence("size.units"), do=OPEN_EXAMPLE)
             found[name] = float(Fraction(number) * _common_unit(text, *2 * (unit.lower() or "cm",)))
     return None, found
 
@@ -161,13 +168,15 @@ def _common_unit(text: str, first: str, second: str) -> Fraction:
     """The factor [m] of the common unit, which is given once or twice."""
     for symbol in (first, second):
         if symbol and symbol not in _UNITS:
-            raise CarpetError(f"size {text!r} has the unknown unit {symbol!r}", allowed="mm, cm, dm, m, in or ft")
+            raise CarpetError(Sentence("size.unknown-unit", text=text, unit=symbol), allowed=Sentence("size.units"))
     if not first and not second:
-        raise CarpetError(f"size {text!r} has no unit", allowed="mm, cm, dm, m, in or ft", do=EXAMPLE)
+        raise CarpetError(Sentence("size.no-unit", text=text), allowed=Sentence("size.units"), do=EXAMPLE)
     if not second:
-        raise CarpetError(f"the second side of size {text!r} has no unit", do=EXAMPLE)
+        raise CarpetError(Sentence("size.no-second-unit", text=text), do=EXAMPLE)
     if first and _UNITS[first] != _UNITS[second]:
-        raise CarpetError(f"size {text!r} mixes {first} and {second}", allowed="one unit for both sides", do=EXAMPLE)
+        raise CarpetError(
+            Sentence("size.mixed", text=text, first=first, second=second), allowed=Sentence("size.one-unit"), do=EXAMPLE
+        )
     return _UNITS[second]
 
 
@@ -181,7 +190,8 @@ def _near_names(text: str) -> str:
     """The standard names, the nearest first where one is near."""
     near = difflib.get_close_matches(_key(text), [*_BY_KEY, *_OPEN_NAMES], n=1, cutoff=0.6)
     nearest = _BY_KEY[near[0]].name if near and near[0] in _BY_KEY else "".join(near)
-    return f"{f'did you mean {nearest!r}? ' if nearest else ''}standard sizes: {', '.join(STANDARD_SIZES)}"
+    sizes = ", ".join(STANDARD_SIZES)
+    return Sentence("size.near", name=nearest, sizes=sizes) if nearest else Sentence("size.standard", sizes=sizes)
 
 
 _BY_KEY = {_key(name): size for name, size in STANDARD_SIZES.items()} | {

@@ -15,8 +15,9 @@ from ilmek.carpet.picture_points import Points
 from ilmek.carpet.projection import MadeRgb, onto_corners, projected
 from ilmek.errors import PictureError
 from ilmek.progress import SILENT, Progress
+from ilmek.sentences import Sentence
 
-ORDER = "give top left, top right, bottom right, bottom left of the carpet"
+ORDER = Sentence("picture.corners-order")
 
 _FOCAL = 0.8
 """Focal length where the corners give none, in long sides of the picture: a lens of 29 mm on film of 36 mm."""
@@ -31,19 +32,19 @@ _FLATTEST = 0.01
 def check_corners(corners: Points, width: int, height: int, given: str) -> None:
     """Raise PictureError unless the corners are in the picture and those of a convex quadrilateral, clockwise."""
     if (corners < 0).any() or (corners > (width, height)).any():
-        allowed = f"x 0 to {width}, y 0 to {height}: the picture has {width} x {height} pixels"
-        raise PictureError(f"{given} reaches outside the picture", allowed=allowed)
+        allowed = Sentence("picture.crop-bounds", width=width, height=height)
+        raise PictureError(Sentence("picture.corners-outside", given=given), allowed=allowed)
     ahead, behind = np.roll(corners, -1, axis=0) - corners, corners - np.roll(corners, 1, axis=0)
     turns = behind[:, 0] * ahead[:, 1] - behind[:, 1] * ahead[:, 0]
     lengths = np.hypot(*ahead.T) * np.hypot(*behind.T)
     if (lengths == 0).any():
-        raise PictureError(f"two corners of {given} are one point", do=ORDER)
+        raise PictureError(Sentence("picture.corners-one-point", given=given), do=ORDER)
     if (np.abs(turns) < _FLATTEST * lengths).any():
-        raise PictureError(f"three corners of {given} lie on one line", do=ORDER)
+        raise PictureError(Sentence("picture.corners-on-line", given=given), do=ORDER)
     if (turns < 0).all():
-        raise PictureError(f"the corners of {given} run anticlockwise", do=ORDER)
+        raise PictureError(Sentence("picture.corners-anticlockwise", given=given), do=ORDER)
     if (turns < 0).any():
-        raise PictureError(f"the sides of {given} cross, or a corner points inwards", do=ORDER)
+        raise PictureError(Sentence("picture.corners-cross", given=given), do=ORDER)
 
 
 def true_proportions(corners: Points, width: int, height: int) -> float:

@@ -20,6 +20,7 @@ from ilmek.carpet.sizes import CarpetSize
 from ilmek.errors import CarpetError
 from ilmek.io.file_entry import FileEntry
 from ilmek.io.schema import shown
+from ilmek.sentences import Sentence
 
 EXAMPLE = 'write edits = ["set 12,40 ivory"], or [[edits]] with lines = [...]'
 
@@ -78,5 +79,5 @@ def _anchor(table: FileEntry) -> Anchor:
         grid = parse_grid(table.text("grid")) if table.has("grid") else None
         quality = parse_quality(table.text("quality")) if table.has("quality") else None
     if grid is None and on in (PICTURE, KNOTS):
-        table.refuse(CarpetError(f"edits on {on} state no grid", do='give columns x rows, like grid = "300x450"'))
+        table.refuse(CarpetError(Sentence("recipe.no-grid", on=on), do=Sentence("recipe.give-grid")))
     return Anchor(on, number, grid, quality=quality)

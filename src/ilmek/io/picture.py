@@ -38,6 +38,7 @@ from ilmek.io.rendered.kind import rendered
 from ilmek.io.rendered.resolution import Rendering
 from ilmek.progress import SILENT, Cancelled, Progress
 from ilmek.records import record
+from ilmek.sentences import Sentence
 
 FORMATS = (
     "PNG", "JPEG", "MPO", "TIFF", "BMP", "DIB", "GIF", "WEBP", "AVIF", "JPEG2000", "PPM", "TGA", "PCX", "DCX", "ICO",
@@ -169,9 +170,10 @@ def read_picture(
                     for begin, name in _OTHER.items()
                     if data.startswith(begin)
                 ),
-                "is not a picture that can be read",
+                "",
             )
-            raise PictureError(f"{path} {given}", do=_USE) from None
+            unread = f"{path} {given}" if given else Sentence("picture.not-read", path=path)
+            raise PictureError(unread, do=_USE) from None
         except (Image.DecompressionBombError, Image.DecompressionBombWarning):
             raise PictureError(
                 f"{path} is too large a picture", allowed=_at_most(LARGEST), do="scale it down"
@@ -179,14 +181,14 @@ def read_picture(
         except Exception as error:
             # A decoder may raise any error for a damaged file.
             raise PictureError(
-                f"{path} is damaged or truncated ({shortened(error)})", do="save or copy it again"
+                Sentence("picture.damaged", path=path, reason=shortened(error)), do=Sentence("picture.copy-again")
             ) from None
 
 
 _OTHER = {b"%!PS": "EPS", b"\xc5\xd0\xd3\xc6": "EPS", b"\xd7\xcd\xc6\x9a": "WMF"}
 """Begins of files in formats that a user may take for pictures that can be read."""
 
-_USE = "use a PNG, JPEG, TIFF, WebP, BMP, GIF, SVG or PDF file"
+_USE = Sentence("picture.formats")
 
 
 def _at_most(pixels: int, name: str = "") -> str:
@@ -195,9 +197,10 @@ def _at_most(pixels: int, name: str = "") -> str:
 
 def _check_size(path: Path, opened: Image.Image, smallest: int) -> None:
     width, height = opened.size
-    size = f"{path} is {width} x {height} pixels"
+    size = Sentence("picture.small", path=path, width=width, height=height)
     if width < smallest or height < smallest:
-        raise PictureError(size, allowed=f"at least {smallest} x {smallest}", do="use a larger picture")
+        least = Sentence("picture.small-least", count=smallest)
+        raise PictureError(size, allowed=least, do=Sentence("picture.larger"))
     limit, name, do = LARGEST, "", "scale it down"
     if opened.format == "JPEG2000":
         limit, name, do = LARGEST_JPEG_2000, "JPEG 2000", "save it as PNG"

@@ -159,6 +159,8 @@ def _limits(image: Image.Image) -> tuple[float, float]:
 
 def _flat(image: Image.Image) -> Image.Image:
     """Without palette and alpha channel."""
+    if image.mode == "P" and not image.has_transparency_data:
+        return image.convert("RGB")
     return image.convert("RGBA").convert("RGB") if image.mode in _ALPHA else image
 
 
@@ -201,7 +203,7 @@ def _keeps_colours(convert: _Convert) -> bool:
 
 
 def _plain(strip: Image.Image) -> Image.Image:
-    return strip.convert("RGB")
+    return strip if strip.mode == "RGB" else strip.convert("RGB")
 
 
 def _by_profile(profile: Any, mode: str) -> _Convert:

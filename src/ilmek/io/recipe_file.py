@@ -58,6 +58,7 @@ from ilmek.io.line_numbers import KeyLines
 from ilmek.io.schema import SourceText, shown
 from ilmek.io.yarn_file import WOOL, default_yarns, read_yarns, yarns_from_records
 from ilmek.params import Parameter, Setting
+from ilmek.sentences import Sentence, location
 from ilmek.units import parse_quantity
 
 MOST_KNOTS_WIDE = 10_000
@@ -160,8 +161,7 @@ class _RecipeReader:
         line = next(
             entry.source.lines[path[:size]] for size in range(len(path), -1, -1) if path[:size] in entry.source.lines
         )
-        named = ".".join(str(part) for part in path)
-        return f"{self.file}, line {line}{f', {named}' if named else ''}"
+        return location(str(self.file), line, ".".join(str(part) for part in path))
 
     @contextmanager
     def _at(self, entry: FileEntry, key: str) -> Iterator[None]:
@@ -258,7 +258,9 @@ class _RecipeReader:
         plain, has_tile = root.text("plain", ""), root.has("repeat")
         if picture is None and not plain and not has_tile:
             root.refuse(
-                CarpetError("the recipe has no field", allowed="picture, plain or [repeat]", do='like plain = "ivory"')
+                CarpetError(
+                    Sentence("recipe.no-field"), allowed="picture, plain or [repeat]", do='like plain = "ivory"'
+                )
             )
         if picture is not None and (plain or has_tile):
             root.refuse(
@@ -331,18 +333,16 @@ def file_inside(folder: Path, text: str) -> Path:
     Whether the file is there is seen when it is opened, but it must exist for its links to be followed.
     """
     path = Path(text)
-    do = "copy the file into the recipe's folder"
+    do = Sentence("recipe.copy")
     if not text.strip() or "\0" in text:
         raise CarpetError(f"{text!r} names no file", do='give one, like "tile.png"')
     if path.is_absolute() or ".." in path.parts or "\\" in text or path.drive:
-        raise CarpetError(
-            f"{shown(text)} reaches outside the recipe's folder", allowed="a path below it, with /", do=do
-        )
+        raise CarpetError(Sentence("recipe.outside-folder", file=shown(text)), allowed=Sentence("recipe.below"), do=do)
     try:
         inside = (folder / path).resolve(strict=True)
         base = folder.resolve(strict=True)
     except OSError:
-        raise CarpetError(f"{shown(text)} is not there", do="put it into the folder of the recipe") from None
+        raise CarpetError(Sentence("recipe.not-there", file=shown(text)), do=Sentence("recipe.put")) from None
     if not inside.is_relative_to(base):
         raise CarpetError(f"{shown(text)} is a link to a file outside the recipe's folder", do=do)
     if not inside.is_file():

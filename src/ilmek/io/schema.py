@@ -13,6 +13,7 @@ from typing import Any, NamedTuple, NoReturn, TypeAlias
 from ilmek.errors import IlmekError, MechanismError, ParameterError, did_you_mean, shortened
 from ilmek.io.line_numbers import KeyLines, Path
 from ilmek.records import record
+from ilmek.sentences import location, with_location
 from ilmek.units import GREATEST, parse_quantity, read_number, real_number
 
 Schema: TypeAlias = Mapping[str, Any]
@@ -50,8 +51,7 @@ class SourceText:
         while self.lines and path and path not in self.lines:
             path = path[:-1]
         key = ".".join(str(key) for key in path)
-        at = (*([f"line {self.lines[path]}"] if self.lines else []), *([key] if key else []))
-        given = f"{', '.join((self.name, *at))}: {error.given}"
+        given = with_location(location(self.name, self.lines[path] if self.lines else 0, key), error.given)
         located = LocatedError(given, allowed=error.allowed, do=error.do)
         located.path = path
         raise located from None

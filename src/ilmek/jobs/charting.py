@@ -182,11 +182,13 @@ def _read_file(
     size, fitting = order.size, order.fit
     if behind is not None:
         fitting = replace(fitting, ground=hex_colour(behind))
-    prepared, fit = stages.keep(
-        "prepared",
-        (of_picture, fitting, size),
-        lambda: prepare_picture(rgb, fitting, progress.part(0.5, 0.6), size=size),
-    )
+    rows, columns = rendering.knots
+
+    def prepare() -> tuple[Rgb, Fit, float]:
+        taken = stages.to_turn(of_picture, rgb, rows * columns) if fitting.only_turned else rgb
+        return *prepare_picture(taken, fitting, progress.part(0.5, 0.6), size=size), len(rgb) / len(taken)
+
+    prepared, fit, scale = stages.keep("prepared", (of_picture, fitting, size), prepare)
     del rgb, picture
     reading = progress.part(0.6, 1.0, "chart")
     read = _read(
@@ -197,6 +199,7 @@ def _read_file(
         drawn=stated is not None,
         with_source=with_source,
         seen=partial(stages.seen, of_picture),
+        scale=scale,
     )
     if ground is not None and behind is None and not read.fit.padded:
         notes = (*notes, f"ground={ground!r} is not seen: the picture has no transparent part and no margin")
@@ -233,10 +236,12 @@ def _read(
     drawn: bool,
     with_source: bool,
     seen: Callable[[int, Callable[[], Flatness]], Flatness],
+    scale: float = 1.0,
 ) -> _ReadPicture:
     """Read a picture that is turned and cropped; its tone stays.
 
     fit    what was done to it      drawn  every pixel is a knot, whatever the size      seen  as `Stages.seen` of it
+    scale  to the size that it had before a draft made it smaller
     """
     params = order.reading.of_picture
     first = progress.part(0.0, 0.4)
@@ -262,8 +267,9 @@ def _read(
         look=lambda rgb: seen(rows * columns, partial(looks_flat, rgb)),
         progress=reading,
     )
-    notes = fit_notes(fit, fitted.shape[:2], made.size, grid)
-    source = shown_source(fitted) if with_source else None
+    height, width = fitted.shape[:2]
+    notes = fit_notes(fit, (round(scale * height), round(scale * width)), made.size, grid)
+    source = shown_source(fitted, design) if with_source else None
     return _ReadPicture(made.size, made.quality, design, fit, notes, source)
 
 
@@ -354,8 +360,15 @@ def _keeps_knots(order: CarpetOrder, chart: Chart) -> bool:
     return untouched and has_grid((chart.rows, chart.columns), order.size, order.quality)
 
 
-def shown_source(fitted: Rgb) -> Rgb:
-    """The fitted picture, made smaller until its longer side has at most SHOWN pixels."""
+def shown_source(fitted: Rgb, design: Design | None = None) -> Rgb:
+    """The fitted picture, made smaller until its longer side has at most SHOWN pixels.
+
+    design  read from it: the averages of a photo are taken in its place where they are fine enough
+    """
     height, width = fitted.shape[:2]
     scale = min(1.0, SHOWN / max(height, width))
-    return resampled(fitted, max(1, round(scale * height)), max(1, round(scale * width)))
+    rows, columns = max(1, round(scale * height)), max(1, round(scale * width))
+    if design is not None and design.kind == "photo":
+        fine = design.colours.shape[0] >= rows and design.colours.shape[1] >= columns
+        fitted = design.colours if fine else fitted
+    return resampled(fitted, rows, columns)

@@ -7,6 +7,7 @@ from ilmek.carpet.paper.cells import MOST_ALTERNATING
 from ilmek.carpet.paper.sheet import PaperReading
 from ilmek.report import Check
 from ilmek.report.check import at_most
+from ilmek.sentences import Sentence
 from ilmek.units import counted
 
 PAPER_PAGE = "paper.html"
@@ -39,24 +40,24 @@ def reading_checks(paper: PaperReading) -> tuple[Check, ...]:
     are even, all of them are there, and its cells are no quarters of cells.
     """
     rows, columns = paper.grid
-    cure = f"is it a sheet of {columns} × {rows} cells? Leave out --paper, or take a clearer picture"
-    doubts, source = paper.doubts / paper.numbers.size, "cells whose colour is not clear; assumed by this project"
-    sure = at_most("squared paper: doubtful cells", doubts, MOST_DOUBTFUL, "%", source, cure=cure)
+    doubts, grid = paper.doubts / paper.numbers.size, {"columns": columns, "rows": rows}
+    cure = Sentence("check.paper-doubtful-cure", **grid)
+    sure = _at_most("doubtful", doubts, MOST_DOUBTFUL, cure)
     if paper.stated:
         return (sure,)
-    cure = f"compare {columns} × {rows} with the sheet; give --size and --quality, or crop the picture to the grid"
-    source, name = "lines that cross the edge of the grid end at it", "squared paper: cells beside the grid with lines"
-    limit = MOST_BEYOND if paper.cells.end >= LEAST_END else MOST_BEYOND_OPEN
-    ends = at_most(name, paper.cells.beyond, limit, "%", source, cure=cure)
-    source, name = "a drawing ends with its grid", "squared paper: colours of the drawing beside the grid"
-    whole = at_most(name, paper.beside, MOST_BESIDE, "%", source, cure=cure)
-    source, name = "a sheet is smooth, so its lines follow each other evenly", "squared paper: lines off their places"
-    even = at_most(name, paper.cells.uneven, MOST_UNEVEN, "%", source, cure=cure)
-    source, name = "all lines of a grid are drawn", "squared paper: difference of even and odd lines"
-    every = at_most(name, paper.cells.alternating, MOST_ALTERNATING, "%", source, cure=cure)
-    source, name = "colours change at any line", "squared paper: changes of colour on every second line"
-    single = at_most(name, paper.on_every_second, MOST_ON_EVERY_SECOND, "%", source, cure=cure)
+    cells, cure = paper.cells, Sentence("check.paper-cure", **grid)
+    ends = _at_most("beyond", cells.beyond, MOST_BEYOND if cells.end >= LEAST_END else MOST_BEYOND_OPEN, cure)
+    whole = _at_most("beside", paper.beside, MOST_BESIDE, cure)
+    even = _at_most("uneven", cells.uneven, MOST_UNEVEN, cure)
+    every = _at_most("alternating", cells.alternating, MOST_ALTERNATING, cure)
+    single = _at_most("second", paper.on_every_second, MOST_ON_EVERY_SECOND, cure)
     return sure, ends, whole, even, every, single
+
+
+def _at_most(name: str, share: float, limit: float, cure: str) -> Check:
+    """A check of a share by its key."""
+    key = f"check.paper-{name}"
+    return at_most(Sentence(key), share, limit, "%", Sentence(f"{key}-source"), cure=cure)
 
 
 def paper_files(chart: Chart) -> tuple[str, ...]:

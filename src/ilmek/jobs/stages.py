@@ -3,6 +3,7 @@
 from collections.abc import Callable, Hashable
 from typing import TypeVar
 
+from ilmek.arrays import Rgb
 from ilmek.carpet.flat import Flatness
 from ilmek.carpet.reading import Design
 
@@ -28,6 +29,11 @@ class Stages:
         """Whether a part of a picture, for so many knots, is a drawing: as `look` sees it."""
         del picture, knots
         return look()
+
+    def to_turn(self, picture: Hashable, rgb: Rgb, knots: int) -> Rgb:
+        """A picture of so many knots that is turned by an angle, which makes each of its pixels anew: as it is."""
+        del picture, knots
+        return rgb
 
     def shown(self, key: Hashable, design: Design) -> Design:
         """The design of a key before its tone is changed and its yarns are chosen: as it is."""

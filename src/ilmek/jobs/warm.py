@@ -31,9 +31,13 @@ from ilmek.machines.motion_four_bar import MotionFourBarParams
 from ilmek.machines.motion_four_bar import design as motion_four_bar
 from ilmek.machines.path_four_bar import PathFourBarParams
 from ilmek.machines.path_four_bar import design as path_four_bar
+from ilmek.num.compiled import COMPILATIONS
 from ilmek.num.installed_kernels import compiler_settings, pack
 from ilmek.num.machine_code import INNER
 from ilmek.num.private_files import ENTRY
+
+EACH = 50
+"""Kernels from line to line."""
 
 COLOURS = (
     *("#8f1d21", "#5c1218", "#1f2a52", "#3e5c94", "#86a8c8", "#efe6d0"),
@@ -69,6 +73,17 @@ def warm_all() -> None:
         with Outputs() as outputs:
             convert_programme(file, text, outputs=outputs)
         check_programme(text)
+
+
+def show_compilations() -> None:
+    """Write a line on every EACH-th kernel that is compiled: all of them take minutes."""
+
+    def show(number: int) -> None:
+        if number % EACH == 0:
+            sys.stdout.write(f"  {number} kernels compiled\n")
+            sys.stdout.flush()
+
+    COMPILATIONS.listener = show
 
 
 def drawing() -> Image.Image:
@@ -122,5 +137,8 @@ if __name__ == "__main__":
     options = parser.parse_args()
     if options.into:
         sys.stdout.write(f"{compile_into(options.into)} kernels in {options.into}\n")
+    elif options.all:
+        show_compilations()
+        warm_all()
     else:
-        (warm_all if options.all else warm)()
+        warm()

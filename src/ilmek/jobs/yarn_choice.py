@@ -3,6 +3,8 @@ shades of the picture; and what the chart keeps of the picture, as checks.
 """
 
 import math
+from collections.abc import Iterator
+from functools import reduce
 from typing import Any
 
 import numpy as np
@@ -21,6 +23,7 @@ from ilmek.io.yarn_file import default_yarns
 from ilmek.jobs.order import CarpetOrder
 from ilmek.report import Check
 from ilmek.report.check import at_least, at_most
+from ilmek.sentences import Sentence, joined
 from ilmek.units import counted, format_quantity
 
 PROPOSED = "proposed.toml"
@@ -86,22 +89,31 @@ def kept_checks(chart: Chart, order: CarpetOrder) -> tuple[Check, ...]:
     checks = []
     if made.edges_kept is not None:
         cure = _edges_cure(chart, order)
-        checks.append(at_least("edges of the picture kept", made.edges_kept, rules.least_edges, "%", _KEPT, cure=cure))
+        checks.append(at_least(Sentence("check.edges-kept"), made.edges_kept, rules.least_edges, "%", _KEPT, cure=cure))
     if made.matches:
         share = sum(lost.share for lost in made.lost)
-        named = [f"{lost.hex} in {hex_colour(lost.beside)}: {_lost_cure(lost, chart, order)}" for lost in made.lost]
-        more = len(named) - MOST_CURES
-        cure = "; ".join((*named[:MOST_CURES], *((f"and {counted(more, 'more colour')}",) if more > 0 else ())))
-        checks.append(at_most("colours of the drawing lost", share, rules.most_lost, "%", _KEPT, cure=cure))
+        cure = reduce(joined, _lost_cures(chart, order), "")
+        checks.append(at_most(Sentence("check.colours-lost"), share, rules.most_lost, "%", _KEPT, cure=cure))
     return tuple(checks)
 
 
-_KEPT = "chosen by this project on drawings and photographs"
+_KEPT = Sentence("check.chosen")
+
+
+def _lost_cures(chart: Chart, order: CarpetOrder) -> Iterator[Sentence]:
+    """The cure of each lost colour, of at most MOST_CURES, and how many more there are."""
+    lost = chart.reading.lost
+    for one in lost[:MOST_CURES]:
+        cure = _lost_cure(one, chart, order)
+        yield Sentence("cure.lost", colour=one.hex, beside=hex_colour(one.beside), cure=cure)
+    more = len(lost) - MOST_CURES
+    if more > 0:
+        yield Sentence("cure.one-more") if more == 1 else Sentence("cure.many-more", count=f"{more:,}")
 
 
 def _lost_cure(lost: LostColour, chart: Chart, order: CarpetOrder) -> str:
     if order.dyed:
-        return f"--colours {chart.colours + len(chart.reading.lost)}"
+        return Sentence("cure.more-colours", count=chart.colours + len(chart.reading.lost))
     code, beside = (srgb_to_lab(np.array(srgb, dtype=np.uint8)) for srgb in (lost.srgb, lost.beside))
     left = [yarn for yarn in order.yarns or () if yarn.name not in {one.name for one in chart.yarns}]
     if order.palette.neutral != NEUTRAL_NO and np.hypot(*code[1:]) < NEUTRAL:
@@ -110,15 +122,16 @@ def _lost_cure(lost: LostColour, chart: Chart, order: CarpetOrder) -> str:
     apart = [yarn for yarn in left if float(delta_e_2000(np.array(yarn.lab), beside)) > contrast]
     if apart:
         near = min(apart, key=lambda yarn: float(delta_e_2000(np.array(yarn.lab), code)))
-        return f"take {near.name!r} of the list as well (--keep, more --colours)"
-    return f"add a yarn like {lost.hex}, {colour_name(code)}, to the list, or leave out --yarns"
+        return Sentence("cure.take-yarn", yarn=near.name)
+    return Sentence("cure.add-yarn", colour=lost.hex, name=colour_name(code))
 
 
 def _edges_cure(chart: Chart, order: CarpetOrder) -> str:
     """What brings edges back."""
-    shades = f"more --colours than {chart.colours}" if order.dyed else "the picture's own shades (leave out --yarns)"
+    more = Sentence("cure.more-than", count=chart.colours)
+    shades = more if order.dyed else Sentence("cure.own-shades")
     halftone = chart.reading.kind == "photo" and order.reading.halftone not in (None, 1.0)
-    return f"{shades}, or a halftone (--halftone 100%)" if halftone else shades
+    return Sentence("cure.halftone", shades=shades) if halftone else shades
 
 
 def assignment_results(chart: Chart) -> list[dict[str, Any]]:

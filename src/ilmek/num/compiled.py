@@ -62,6 +62,13 @@ def uncounted(function: F) -> F:
     return cast(F, Kernel(cast(FunctionType, inspect.unwrap(function)), counts=False))
 
 
+def embedded(function: F) -> F:
+    """As `uncounted`, and its code becomes part of the kernels that call it. For a kernel that is called for every knot
+    with a tuple of arrays: to hand over ten arrays takes longer than most of what is done with them.
+    """
+    return cast(F, Kernel(cast(FunctionType, inspect.unwrap(function)), inline=True, counts=False))
+
+
 class Compilations:
     """The compilations of this process: their number, and who is notified of each before it begins."""
 

@@ -4,9 +4,11 @@ import difflib
 import math
 import typing
 from dataclasses import dataclass
+from functools import reduce
 
 from ilmek.errors import ParameterError, UnitError
 from ilmek.records import shown_value
+from ilmek.sentences import Sentence, with_location
 from ilmek.units import GREATEST, LEAST, format_quantity, has_unit, parse_quantity, parse_unit, similar_units
 
 Value: typing.TypeAlias = float | int | bool | str | None
@@ -62,9 +64,11 @@ class Parameter:
                 return None
             number = self._snapped(parse_quantity(text, self.unit))
         except KeyError:
-            raise ParameterError(f"{self.name}={setting!r} is neither true nor false", do="write yes or no") from None
+            raise ParameterError(
+                Sentence("value.no-truth", name=self.name, value=str(setting)), do="write yes or no"
+            ) from None
         except UnitError as error:
-            raise ParameterError(f"{self.name}: {error.given}", allowed=error.allowed, do=error.do) from None
+            raise ParameterError(with_location(self.name, error.given), allowed=error.allowed, do=error.do) from None
         if self.unit in _UNIT_REQUIRED and number != 0 and not has_unit(text):
             per = self.unit.removeprefix("1")
             raise ParameterError(f"{self.name}={text} has no unit", do=f"did you mean {text}{per}?")
@@ -82,7 +86,7 @@ class Parameter:
 
     def _whole(self, number: float, setting: Setting) -> int:
         if number != round(number):
-            raise ParameterError(f"{self.name}={setting} is not a whole number", allowed=self.allowed())
+            raise ParameterError(Sentence("value.not-whole", name=self.name, value=setting), allowed=self.allowed())
         return round(number)
 
     def _check_text(self, text: Value) -> None:
@@ -91,7 +95,10 @@ class Parameter:
             raise ParameterError(f"{self.name}={text!r} is not a text", allowed=self.allowed())
         given = f"{self.name}={text[:20]!r}{'...' if len(text) > 20 else ''}"
         if len(text) > LONGEST_TEXT:
-            raise ParameterError(f"{given} is too long", allowed=f"at most {LONGEST_TEXT} characters")
+            raise ParameterError(
+                Sentence("value.too-long", value=given),
+                allowed=Sentence("value.at-most-characters", count=LONGEST_TEXT),
+            )
         if not "".join(text.split()).isprintable():
             raise ParameterError(f"{given} has characters that cannot be printed")
 
@@ -104,7 +111,9 @@ class Parameter:
             if self.choices and value not in self.choices:
                 near = difflib.get_close_matches(str(value), self.choices, n=1)
                 hint = f"did you mean {near[0]}?" if near else ""
-                raise ParameterError(f"{self.name}={value!r} is unknown", allowed=self.allowed(), do=hint)
+                raise ParameterError(
+                    Sentence("value.unknown", name=self.name, value=repr(value)), allowed=self.allowed(), do=hint
+                )
             return
         if self.kind is bool:
             if not isinstance(value, bool):
@@ -116,11 +125,11 @@ class Parameter:
     def _check_number(self, value: Value) -> None:
         """Raise ParameterError unless the value is a number within the bounds."""
         if isinstance(value, bool | str) or value is None or not abs(value) < math.inf:
-            raise ParameterError(f"{self.name}={value!r} is not a number", allowed=self.allowed())
+            raise ParameterError(Sentence("value.no-number", name=self.name, value=repr(value)), allowed=self.allowed())
         if abs(value) > GREATEST:
             raise ParameterError(f"{self.name} is too large", allowed=self.allowed() or f"at most {GREATEST:g} in SI")
         if self.kind is int and value != int(value):
-            raise ParameterError(f"{self.name}={value!r} is not a whole number", allowed=self.allowed())
+            raise ParameterError(Sentence("value.not-whole", name=self.name, value=repr(value)), allowed=self.allowed())
         if 0 < abs(value) < LEAST:
             raise ParameterError(f"{self.name}={value:g} is too small", allowed=self.allowed(), do="did you mean 0?")
         if not self.within(value):
@@ -128,7 +137,9 @@ class Parameter:
 
     def _out_of_bounds(self, value: float, do: str = "") -> ParameterError:
         shown = format_quantity(value, self.unit)
-        return ParameterError(f"{self.name}={shown} is out of bounds", allowed=self.allowed(), do=do)
+        return ParameterError(
+            Sentence("value.out-of-bounds", name=self.name, value=shown), allowed=self.allowed(), do=do
+        )
 
     def _snapped(self, number: float) -> float:
         """The bound that a number equals but for the rounding of its unit, else the number: 10um is 0.01 mm."""
@@ -147,11 +158,19 @@ class Parameter:
     def allowed(self) -> str:
         """The bounds or choices in words: `allowed: above 0 mm, at most 500 mm`."""
         if self.choices and self.kind is str:
-            return f"one of {', '.join(self.choices)}"
-        limits = (("above", self.above), ("at least", self.at_least), ("below", self.below), ("at most", self.at_most))
-        bounds = [f"{word} {format_quantity(limit, self.unit)}" for word, limit in limits if limit is not None]
-        words = f" or {', '.join(self.choices)}" if self.choices else ""
-        return f"allowed: {', '.join(bounds)}{words}" if bounds else ""
+            return Sentence("value.one-of", choices=", ".join(self.choices))
+        limits = (
+            ("value.above", self.above),
+            ("value.at-least", self.at_least),
+            ("value.below", self.below),
+            ("value.at-most", self.at_most),
+        )
+        found = [Sentence(key, limit=format_quantity(limit, self.unit)) for key, limit in limits if limit is not None]
+        if not found:
+            return ""
+        bounds = reduce(lambda first, second: Sentence("value.both", first=first, second=second), found)
+        choices = ", ".join(self.choices)
+        return Sentence("value.allowed-or" if choices else "value.allowed", bounds=bounds, choices=choices)
 
     def _likely_slip(self, value: float) -> str:
         """The unit that was probably forgotten, where the number is short enough to have been typed as it is."""

@@ -18,7 +18,8 @@ _PAGE = """<!doctype html>
 <title>ilmek studio: API</title></head><body><main><h1>The API of the studio</h1>
 <p>Requests and answers are JSON, in SI units and radians. Types: <a href="/api/openapi.json">openapi.json</a> (OpenAPI
 3.1). Outside the browser: header <code>Authorization: Bearer TOKEN</code>, the token of the studio's first address.</p>
-<p>An error has status 4xx or 5xx and <code>{{"error": {{"given": "", "allowed": "", "do": ""}}}}</code>. A work
+<p>An error has status 4xx or 5xx and <code>{{"error": {{"given": "", "allowed": "", "do": ""}}}}</code>. Header
+<code>x-language: tr</code>: checks and refusals of charts in Turkish. A work
 answers 202 and <code>{{"work": N}}</code>; <code>GET /api/work/N</code> gives its state (202) or its answer (200),
 <code>DELETE /api/work/N</code> cancels it, and the WebSocket <code>/api/events</code> reports its progress.</p>
 <table><thead><tr><th scope="col">request</th><th scope="col">what it does</th></tr></thead><tbody>

@@ -103,10 +103,11 @@ def _route(endpoint: Endpoint, pool: Pool, works: Works, hub: EventHub) -> Route
         if isinstance(taken, Response):
             return taken
         body, content = taken
+        language = request.headers.get("x-language", "")[:8]
         try:
             if endpoint.work:
                 page = request.headers.get("x-page", "")[:64]
-                number = works.start(endpoint.function, body, endpoint.limit, page, content)
+                number = works.start(endpoint.function, body, endpoint.limit, page, content, language)
                 return Response(msgspec.json.encode({"work": number}), 202, media_type=JSON)
             answer = await _while_wanted(
                 request,
@@ -117,6 +118,7 @@ def _route(endpoint: Endpoint, pool: Pool, works: Works, hub: EventHub) -> Route
                     affinity=endpoint.affinity,
                     lax=not endpoint.has_body,
                     content=content,
+                    language=language,
                     follow=follow,
                 ),
             )

@@ -23,6 +23,7 @@ class Ask(msgspec.Struct, tag="ask", array_like=True):
 
     function  "module:name" below ilmek.jobs      body  the JSON of its record      project  folder of the project
     lax       texts may stand for numbers, as in a query      content  the field `content` of the record: an upload
+    language  of the page, of `ilmek.sentences`
     """
 
     number: int
@@ -31,6 +32,7 @@ class Ask(msgspec.Struct, tag="ask", array_like=True):
     project: str
     lax: bool = False
     content: bytes | None = None
+    language: str = ""
 
 
 class Cancel(msgspec.Struct, tag="cancel", array_like=True):

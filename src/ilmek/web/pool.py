@@ -147,13 +147,14 @@ class Pool:
         affinity: str = "",
         lax: bool = False,
         content: bytes | None = None,
+        language: str = "",
         long: bool = False,
         follow: Callable[[StepMessage | News], None] = _ignored,
     ) -> Reply:
         """The answer of a worker. Where the caller is cancelled, so is the request. Raises PoolFull."""
         if len(self._waiting) >= MOST_WAITING or self._closed:
             raise PoolFull
-        ask = Ask(next(self._numbers), function, body, self.project, lax, content)
+        ask = Ask(next(self._numbers), function, body, self.project, lax, content, language)
         request = Request(ask, limit, affinity, long, follow, asyncio.get_running_loop().create_future())
         self._waiting.append(request)
         self._serve()

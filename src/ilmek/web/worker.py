@@ -25,9 +25,10 @@ from typing import Any, BinaryIO, NoReturn, get_type_hints
 import msgspec
 
 from ilmek.errors import IlmekError
-from ilmek.jobs.studio.answers import Binary, Context
+from ilmek.jobs.studio.answers import Binary, Context, text_of
 from ilmek.jobs.studio.words import in_page
 from ilmek.progress import Cancelled, Progress
+from ilmek.sentences import in_language
 from ilmek.web.framing import (
     JSON,
     Ask,
@@ -80,7 +81,8 @@ class Worker:
         while True:
             ask = self._next(steps)
             began = time.perf_counter()
-            status, kind, body = self._answered(ask)
+            with in_language(ask.language):
+                status, kind, body = self._answered(ask)
             self._cancelled.discard(ask.number)
             self._send(Reply(ask.number, status, kind, body, time.perf_counter() - began))
 
@@ -210,10 +212,8 @@ def encoded_json(value: object) -> bytes:
 
 
 def _plain(value: Any) -> object:
-    """The plain data of an array or a number of numpy. Raises TypeError for anything else."""
-    if hasattr(value, "tolist"):
-        return value.tolist()
-    raise TypeError(f"an answer with {type(value).__name__}")
+    """The data of an array or a number of numpy, the text of a sentence. Raises TypeError for anything else."""
+    return value.tolist() if hasattr(value, "tolist") else text_of(value)
 
 
 def limit_memory(most: int) -> None:

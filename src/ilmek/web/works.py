@@ -44,7 +44,9 @@ class Works:
     _works: dict[int, _Work] = field(default_factory=dict)
     _numbers: "itertools.count[int]" = field(default_factory=lambda: itertools.count(1))
 
-    def start(self, function: str, body: bytes, limit: float, page: str, content: bytes | None = None) -> int:
+    def start(  # noqa: PLR0917
+        self, function: str, body: bytes, limit: float, page: str, content: bytes | None = None, language: str = ""
+    ) -> int:
         """The number of a work that begins. Raises PoolFull."""
         if sum(1 for work in self._works.values() if work.answer is None) >= MOST_RUNNING:
             raise PoolFull
@@ -54,19 +56,21 @@ class Works:
         def follow(message: StepMessage | News) -> None:
             self._follow(number, work, message)
 
-        work.task = asyncio.ensure_future(self._run(number, work, (function, body, limit, content), follow))
+        work.task = asyncio.ensure_future(self._run(number, work, (function, body, limit, content, language), follow))
         return number
 
     async def _run(
         self,
         number: int,
         work: _Work,
-        ask: tuple[str, bytes, float, bytes | None],
+        ask: tuple[str, bytes, float, bytes | None, str],
         follow: Callable[[StepMessage | News], None],
     ) -> None:
-        function, body, limit, content = ask
+        function, body, limit, content, language = ask
         try:
-            answer = await self.pool.answer(function, body, limit=limit, content=content, long=True, follow=follow)
+            answer = await self.pool.answer(
+                function, body, limit=limit, content=content, language=language, long=True, follow=follow
+            )
         except PoolFull:
             answer = Reply(0, 503, JSON, error_body("too many requests wait", do="try again"), 0.0)
         except asyncio.CancelledError:

@@ -1,5 +1,7 @@
 /** Requests to the studio's server. Paths are those of the API, below /api. */
 
+import { language } from "../text";
+
 /** What the server refuses: what was given, what is allowed, what to do. */
 export class ApiError extends Error {
   readonly do: string;
@@ -100,7 +102,7 @@ function json(body: unknown): Content {
 
 /** The answer of the server, where it is good. Raises ApiError, ServerLost, or AbortError where `signal` came. */
 export async function answered(method: string, path: string, content?: Content, signal?: AbortSignal) {
-  const headers: Record<string, string> = { "x-page": page };
+  const headers: Record<string, string> = { "x-page": page, "x-language": language.peek() };
   if (content) headers["content-type"] = content.type;
   let response: Response;
   try {

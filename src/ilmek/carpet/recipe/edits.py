@@ -41,6 +41,7 @@ from ilmek.carpet.yarn import Yarn, yarn_labs
 from ilmek.errors import CarpetError, IlmekError, did_you_mean, shortened
 from ilmek.num.compiled import compiled
 from ilmek.progress import SILENT, Progress
+from ilmek.sentences import Sentence, file_of, with_location
 
 Knot = tuple[int, int]
 
@@ -120,7 +121,7 @@ def parse_edit(text: str, where: str = "", anchor: Anchor | None = None) -> Edit
     kind, _, rest = text.strip().partition(" ")
     if kind not in FORMS:
         near = did_you_mean(kind, FORMS)
-        raise CarpetError(f"unknown edit {shortened(kind)!r}", allowed=", ".join(FORMS), do=near)
+        raise CarpetError(Sentence("recipe.unknown-edit", kind=shortened(kind)), allowed=", ".join(FORMS), do=near)
     part: tuple[Knot, ...] = ()
     fits, direction, width, turned = True, "", 0, 0
     if kind in _WITHIN:
@@ -145,7 +146,9 @@ def parse_edit(text: str, where: str = "", anchor: Anchor | None = None) -> Edit
         fits = fits and direction in MIRRORS
     least, most = _KNOTS.get(kind, (0, 0))
     if not (fits and least <= len(knots) <= most) or bool(yarns) == (kind in _WITHOUT_YARN):
-        raise CarpetError(f"{shortened(text.strip())!r} is no edit", do=f"write {FORMS[kind]}")
+        raise CarpetError(
+            Sentence("recipe.no-edit", text=shortened(text.strip())), do=Sentence("recipe.write", form=FORMS[kind])
+        )
     anchor = anchor or Anchor()
     if (kind in _OF_CARPET and anchor.on in REPEATED) or (kind in _UPRIGHT and anchor.on == BORDER):
         raise CarpetError(f"{kind} is no edit of a {anchor.on}", do='write it under on = "carpet"')
@@ -168,7 +171,11 @@ def yarn_number(name: str, yarns: Sequence[Yarn]) -> int:
     names = {yarn.name.casefold(): number for number, yarn in enumerate(yarns)}
     if name.casefold() not in names:
         allowed = f"a yarn of the list, or a colour like #9e2b25: {shortened(', '.join(y.name for y in yarns), 400)}"
-        raise CarpetError(f"unknown yarn {shortened(name)!r}", allowed=allowed, do=did_you_mean(name.casefold(), names))
+        raise CarpetError(
+            Sentence("recipe.unknown-yarn", name=shortened(name)),
+            allowed=allowed,
+            do=did_you_mean(name.casefold(), names),
+        )
     return names[name.casefold()]
 
 
@@ -207,13 +214,13 @@ def named_yarns(edit: Edit, yarns: Sequence[Yarn]) -> tuple[int, ...]:
 def outside_grid(edit: Edit, rows: int, columns: int) -> str | None:
     """The first knot of an edit that lies outside a grid, in words; None: none does."""
     knots = (knot for knot in edit.knots if not (1 <= knot[0] <= rows and 1 <= knot[1] <= columns))
-    return next((f"knot {row},{column} lies outside the carpet" for row, column in knots), None)
+    return next((Sentence("recipe.knot-outside", row=row, column=column) for row, column in knots), None)
 
 
 def check_knots(edit: Edit, rows: int, columns: int) -> None:
     """Raise CarpetError for a knot outside the grid."""
     if outside := outside_grid(edit, rows, columns):
-        raise CarpetError(outside, allowed=f"row 1 (lower edge) to {rows}, column 1 (left) to {columns}")
+        raise CarpetError(outside, allowed=Sentence("recipe.grid", rows=rows, columns=columns))
 
 
 def apply_edit(knots: Indices, edit: Edit, yarns: tuple[int, ...], progress: Progress = SILENT) -> None:
@@ -383,6 +390,6 @@ def located(where: str) -> Iterator[None]:
     try:
         yield
     except IlmekError as error:
-        if not where or error.given.startswith(f"{where.partition(', line')[0]}, line"):
+        if not where or file_of(error.given) == (file_of(where) or where):
             raise
-        raise CarpetError(f"{where}: {error.given}", allowed=error.allowed, do=error.do) from None
+        raise CarpetError(with_location(where, error.given), allowed=error.allowed, do=error.do) from None

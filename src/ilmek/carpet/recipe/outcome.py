@@ -6,6 +6,7 @@ from ilmek.carpet.recipe.anchor import grid_text
 from ilmek.carpet.recipe.edits import Edit, Knot
 from ilmek.records import record
 from ilmek.report.check import Check, at_most
+from ilmek.sentences import Sentence
 from ilmek.units import counted, format_quantity
 
 MOST_CARRIED, MOST_LEFT_OUT = 10, 100
@@ -79,5 +80,5 @@ def edit_checks(outcomes: tuple[EditOutcome, ...]) -> tuple[Check, ...]:
     if not outcomes:
         return ()
     lost = sum(1 for outcome in outcomes if outcome.reason)
-    cure = "take a size at which they have a place, or delete them from the recipe"
-    return (at_most("recipe: edits left out, whole or in part", lost, 0, "", "the recipe", cure=cure),)
+    cure, source = Sentence("check.edits-cure"), Sentence("check.edits-source")
+    return (at_most(Sentence("check.edits"), lost, 0, "", source, cure=cure),)

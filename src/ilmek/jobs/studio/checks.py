@@ -46,7 +46,7 @@ def shown_check(check: Check, machine: str = "") -> ShownCheck:
     """A check as it is shown; machine: in it that the check is of."""
     value, limit = printed(check)
     return ShownCheck(
-        name=check.name,
+        name=in_page(check.name),
         machine=machine,
         ok=check.ok,
         value=finite(check.value),
@@ -55,7 +55,7 @@ def shown_check(check: Check, machine: str = "") -> ShownCheck:
         value_text=value,
         limit_text=limit,
         ratio=ratio_of(check) if limit else None,
-        source=check.source,
+        source=in_page(check.source),
         cure=in_page(check.cure),
     )
 

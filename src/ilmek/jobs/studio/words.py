@@ -1,6 +1,10 @@
-"""Sentences of the engine in the words of the pages: an option of the command line is named as the pages name it."""
+"""Sentences of the engine in the words of the pages: in their language, and an option of the command line is named as
+the pages name it.
+"""
 
 import re
+
+from ilmek.sentences import translated
 
 _OPTION = re.compile(r"(?<![\w-])--(?:no-)?([a-z][a-z-]*)(?: [A-Z]+\.\.[A-Z]+)?")
 
@@ -21,14 +25,14 @@ NAMES = {
 
 
 def in_page(text: str) -> str:
-    """A sentence without options of the command line.
+    """A sentence in the language of the page, without options of the command line.
 
     >>> in_page("forces at 1 rad/s; give --speed")
     'forces at 1 rad/s; give the speed in "Motion"'
     >>> in_page("give a longer --time-limit")
     'give a longer time limit'
     """
-    return _OPTION.sub(lambda found: NAMES.get(found[1], found[1].replace("-", " ")), text)
+    return _OPTION.sub(lambda found: NAMES.get(found[1], found[1].replace("-", " ")), translated(text))
 
 
 def all_in_page(texts: tuple[str, ...]) -> tuple[str, ...]:

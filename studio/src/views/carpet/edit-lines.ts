@@ -16,9 +16,50 @@ function isTable(entry: Entry | undefined): entry is Table {
   return typeof entry === "object" && entry !== null && Array.isArray(entry.lines);
 }
 
-/** All lines, in the order in which they are applied. */
-export function linesOf(recipe: object | null): readonly string[] {
-  return entriesOf(recipe).flatMap((entry) => (isTable(entry) ? entry.lines : [entry as string]));
+/** What the knots of a line are: those of the design at every size, of one size only, or of a part, as "motif 2". */
+export type Anchor = "carpet" | "knots" | (string & {});
+
+export interface EditLine {
+  line: string;
+  on: Anchor;
+}
+
+/** All lines with what their knots are, in the order in which they are applied. */
+export function placedLines(recipe: object | null): readonly EditLine[] {
+  return piecesOf(recipe).map(({ line, table }) => ({ line, on: String(table?.["on"] ?? "carpet") }));
+}
+
+interface Piece {
+  line: string;
+  table: Omit<Table, "lines"> | null;
+}
+
+function piecesOf(recipe: object | null): readonly Piece[] {
+  return entriesOf(recipe).flatMap((entry): Piece[] => {
+    if (!isTable(entry)) return [{ line: entry as string, table: null }];
+    const { lines, ...table } = entry;
+    return lines.map((line) => ({ line, table }));
+  });
+}
+
+/** The edits where the line of a number, counted over all, is on something else; grid: where it states none. */
+export function withAnchor(recipe: object | null, number: number, on: Anchor, grid: string): readonly Entry[] {
+  const entries: Entry[] = [];
+  piecesOf(recipe).forEach(({ line, table: own }, index) => {
+    const stated = own !== null && ("grid" in own || "size" in own) ? own : { grid, ...own };
+    const table: Omit<Table, "lines"> | null = index === number ? { ...stated, on } : own;
+    const last = entries.at(-1);
+    if (table === null) entries.push(line);
+    else if (isTable(last) && isSame(table, last))
+      entries[entries.length - 1] = { ...last, lines: [...last.lines, line] };
+    else entries.push({ ...table, lines: [line] });
+  });
+  return entries;
+}
+
+function isSame(table: object, last: Table): boolean {
+  const { lines: _, ...other } = last;
+  return JSON.stringify(Object.entries(table).sort()) === JSON.stringify(Object.entries(other).sort());
 }
 
 /** The edits with more lines at the end: in the last table, where its knots are those of this grid, else behind it. */

@@ -6,7 +6,8 @@ import type { ChartAnswer, ChartYarn, ListedYarn } from "../../api/messages";
 import { ApiError, type Packed, postPacked } from "../../api/request";
 import { remember, remembered } from "../../app/settings";
 import { type Document, openDocument } from "../../project";
-import { anchored, linesOf, withLines, withoutLine } from "./edit-lines";
+import { language } from "../../text";
+import { type Anchor, anchored, type EditLine, placedLines, withAnchor, withLines, withoutLine } from "./edit-lines";
 import type { Grid, Knot } from "./geometry";
 import { type Placing, pieceOf, placingEdits, recoloured, tileEntry } from "./placing";
 import type { FoundSpecks } from "./specks";
@@ -106,7 +107,11 @@ export class CarpetModel {
 
   /** Follows the document until the returned function is called. */
   follow(): () => void {
+    let spoken = language.peek();
     const end = effect(() => {
+      // What is reported of the chart is in the language of the page.
+      if (language.value !== spoken) this.#sent = null;
+      spoken = language.value;
       const recipe = this.recipe.value;
       // What is in the file as it is, and refused by its reader, has no chart.
       const state = this.document.saved.value;
@@ -179,8 +184,16 @@ export class CarpetModel {
   }
 
   /** The edits of the recipe. */
-  edits(): readonly string[] {
-    return linesOf(this.recipe.value);
+  edits(): readonly EditLine[] {
+    return placedLines(this.recipe.value);
+  }
+
+  /** Holds an edit on the design at every size, or on the knots of this size alone. */
+  anchorEdit(at: number, on: Anchor): void {
+    const grid = this.chart.peek()?.grid;
+    if (grid !== undefined) {
+      this.set({ edits: withAnchor(this.recipe.peek(), at, on, `${grid.columns}x${grid.rows}`) });
+    }
   }
 
   /** Takes an edit out. */

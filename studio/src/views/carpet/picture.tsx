@@ -1,7 +1,7 @@
 import { useRef } from "preact/hooks";
 import { newFile, project, uploadPicture } from "../../project";
 import { t } from "../../text";
-import { Button, Select, toast } from "../../ui";
+import { Button, NumberField, Select, toast } from "../../ui";
 import type { CarpetModel, Recipe } from "./model";
 
 /** The picture: one of the project, or a file that is dropped or chosen. */
@@ -20,6 +20,15 @@ export function Picture({ model }: { model: CarpetModel }) {
         choices={choices}
         onChange={(picture) => choosePicture(model, picture)}
       />
+      {/\.pdf$/i.test(chosen) && (
+        <NumberField
+          label={t("carpet.pdfPage")}
+          value={Number(model.text("page") || 1)}
+          min={1}
+          max={10000}
+          onChange={(page) => Number.isInteger(page) && model.set({ page: page === 1 ? "" : page, ...OF_PAGE })}
+        />
+      )}
       <ChooseFile model={model} />
     </div>
   );
@@ -50,8 +59,9 @@ export function ChooseFile({ model }: { model: CarpetModel }) {
   );
 }
 
-/** What holds of one picture only. */
-const OF_PICTURE: Recipe = { plain: "", repeat: null, crop: "", corners: "", turn: "", edits: null };
+/** What holds of one page only, and of one picture. */
+const OF_PAGE: Recipe = { crop: "", corners: "" };
+const OF_PICTURE: Recipe = { ...OF_PAGE, plain: "", repeat: null, turn: "", page: "", edits: null };
 
 /** Another picture: what held of the one before only is taken out. */
 function choosePicture(model: CarpetModel, picture: string): void {

@@ -2,6 +2,7 @@
 from it.
 """
 
+import math
 from collections import OrderedDict
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass, field, replace
@@ -9,7 +10,9 @@ from typing import Any, TypeVar, cast
 
 import numpy as np
 
+from ilmek.arrays import Rgb
 from ilmek.carpet.chart import Chart
+from ilmek.carpet.design import resampled
 from ilmek.carpet.flat import Flatness
 from ilmek.carpet.palette import distinct_colours
 from ilmek.carpet.reading import Design
@@ -27,6 +30,9 @@ ROUNDED = 8
 LARGE = 400_000
 """Knots of a photo above which a draft differs from its chart: of a smaller one, the chart is as quick."""
 
+TURNED = 1.5
+"""Pixels a knot of which a draft turns a photo by an angle."""
+
 _KEPT: dict[str, OrderedDict[tuple[Hashable, bool], Any]] = {}
 
 
@@ -42,7 +48,8 @@ class KeptStages(Stages):
     draft  the colours of a photo of more than LARGE knots are rounded to ROUNDED codes before they get their yarns,
            which leaves few of them. Patterns follow the true colours while no tone is changed, and the shades are those
            of the last chart while it has the same recipe, palette and fit, but for crop and turn; else some knots have
-           other yarns than later. A part of a photo is taken for a photo
+           other yarns than later. A part of a photo is taken for a photo, and one that is turned by an angle is made
+           smaller before
     """
 
     draft: bool = False
@@ -60,7 +67,7 @@ class KeptStages(Stages):
             result: T = make()
             chart = result.chart if isinstance(result, ChartResult) else result
             is_draft = isinstance(chart, Chart) and has_draft(chart.reading.kind, chart.knots.size)
-            is_draft |= stage == "read" and bool(self._assumed)
+            is_draft |= stage in ("prepared", "read") and bool(self._assumed)
             name = draft if self.draft and is_draft else own
             while len(kept) >= MOST.get(stage, 1):
                 del kept[next((old for old in kept if old[1]), next(iter(kept)))]  # drafts first
@@ -74,14 +81,29 @@ class KeptStages(Stages):
 
     def seen(self, picture: Hashable, knots: int, look: Callable[[], Flatness]) -> Flatness:
         """As `Stages.seen`; a draft takes a part of a photo for a photo."""
+        if self._is_of_photo(picture, knots):
+            return self._assumed[-1]
         kept = _KEPT.setdefault("seen", OrderedDict())
-        last: Flatness | None = kept.get((picture, False))
-        if self.draft and last is not None and not last.is_flat and has_draft("photo", knots):
-            self._assumed.append(last)
-            return last
         kept.clear()
         kept[picture, False] = look()
         return cast("Flatness", kept[picture, False])
+
+    def to_turn(self, picture: Hashable, rgb: Rgb, knots: int) -> Rgb:
+        """As `Stages.to_turn`; a draft takes TURNED pixels a knot of a photo."""
+        height, width = rgb.shape[:2]
+        scale = math.sqrt(TURNED * knots / (height * width))
+        if scale > 1 or not self._is_of_photo(picture, knots):
+            return rgb
+        grid = round(scale * height), round(scale * width)
+        return self.keep("to turn", (picture, grid), lambda: resampled(rgb, *grid))
+
+    def _is_of_photo(self, picture: Hashable, knots: int) -> bool:
+        """Whether a draft takes a part of a picture for a photo, because the last part was one; it is noted then."""
+        last: Flatness | None = _KEPT.setdefault("seen", OrderedDict()).get((picture, False))
+        if not self.draft or last is None or last.is_flat or not has_draft("photo", knots):
+            return False
+        self._assumed.append(last)
+        return True
 
     def shown(self, key: Hashable, design: Design) -> Design:
         """The design with the colours of a draft, counted once."""

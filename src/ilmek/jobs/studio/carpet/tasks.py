@@ -56,8 +56,9 @@ from ilmek.jobs.studio.carpet.answers import (
 from ilmek.jobs.studio.carpet.stages import KeptStages, has_draft
 from ilmek.jobs.studio.checks import shown_check
 from ilmek.jobs.studio.project.folder import ProjectFolder
-from ilmek.jobs.studio.words import all_in_page
+from ilmek.jobs.studio.words import all_in_page, in_page
 from ilmek.jobs.yarn_choice import assignment_results, proposed_shades
+from ilmek.sentences import changed
 
 MOST_SHADES = 60
 """Largest number of shades that are proposed."""
@@ -214,9 +215,8 @@ def _plain_errors(context: Context) -> Iterator[None]:
         yield
     except IlmekError as error:
         base = f"{context.folder.resolve()}/"
-        given, allowed, do = (
-            text.replace(base, "").replace(", line 0", "") for text in (error.given, error.allowed, error.do)
-        )
+        parts = (changed(text, lambda part: part.replace(base, "")) for text in (error.given, error.allowed, error.do))
+        given, allowed, do = parts
         raise type(error)(given, allowed=allowed, do=do) from None
 
 
@@ -271,7 +271,8 @@ def _answer(made: ChartResult, draft: bool, seconds: float) -> ChartAnswer:
         fit=reading.fit.words,
         yarns=_needed(made),
         ground=tuple(
-            GroundNeed(one.name, one.use, one.length, one.mass, one.to_buy, one.hanks, one.price) for one in bill.ground
+            GroundNeed(in_page(one.name), one.use, one.length, one.mass, one.to_buy, one.hanks, one.price)
+            for one in bill.ground
         ),
         listed=tuple(ListedYarn(yarn.name, yarn.hex) for yarn in made.order.yarns),
         assignment=_assignment(chart),

@@ -2,7 +2,7 @@
 
 import re
 import tomllib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from importlib import import_module
 from pathlib import Path
@@ -10,6 +10,7 @@ from pathlib import Path
 from ilmek.errors import IlmekError
 from ilmek.jobs.studio.project.folder import kind_of, read_bytes
 from ilmek.jobs.studio.words import in_page
+from ilmek.sentences import changed
 
 _LINE = re.compile(r"\bline (\d+)")
 _YARN = re.compile(r"\byarn (\d+) ")
@@ -36,9 +37,10 @@ def file_error(base: Path, path: str, digest: str) -> FileError | None:
     digest  of its content
     A recipe is read again whenever it is required: it depends on other files.
     """
-    if kind_of(path) == "carpet":
-        return _read(base, path)
-    return _kept(base, path, digest)
+    found = _read(base, path) if kind_of(path) == "carpet" else _kept(base, path, digest)
+    if found is None:
+        return None
+    return replace(found, given=in_page(found.given), allowed=in_page(found.allowed), do=in_page(found.do))
 
 
 @lru_cache(maxsize=1000)
@@ -51,7 +53,8 @@ def _read(base: Path, path: str) -> FileError | None:
     try:
         _use_reader(kind_of(path) or "carpet", file)
     except IlmekError as error:
-        given, allowed, do = (in_page(part.replace(f"{base}/", "")) for part in (error.given, error.allowed, error.do))
+        parts = (error.given, error.allowed, error.do)
+        given, allowed, do = (changed(part, lambda text: text.replace(f"{base}/", "")) for part in parts)
         return FileError(given, allowed, do, _line_of(given, file), _is_unfinished(kind_of(path), file))
     return None
 

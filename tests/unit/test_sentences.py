@@ -1,0 +1,147 @@
+"""Sentences in two languages: the catalogues agree, and what the studio says of a chart is in the page's language."""
+
+import json
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import ilmek
+from ilmek.errors import IlmekError
+from ilmek.jobs.studio.answers import Context
+from ilmek.jobs.studio.carpet import stages
+from ilmek.jobs.studio.carpet.answers import ChartRequest, PictureRequest
+from ilmek.jobs.studio.carpet.tasks import chart, corners
+from ilmek.jobs.studio.words import in_page
+from ilmek.sentences import LANGUAGES, Sentence, catalogue_of, in_language
+from ilmek.sentences.english import ENGLISH
+
+SOURCES = Path(ilmek.__file__).parent
+FAMILIES = ("place.", "check.paper-", "yarn.count-allowed")
+"""Begins of keys that are put together."""
+
+
+def places(template: str) -> set[str]:
+    return set(re.findall(r"\{(\w+)[^}]*\}", template))
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_every_language_has_every_sentence(language: str) -> None:
+    catalogue = catalogue_of(language)
+    assert catalogue.keys() == ENGLISH.keys()
+    assert [key for key in ENGLISH if not places(catalogue[key]) <= places(ENGLISH[key])] == []
+
+
+def test_every_sentence_is_said_somewhere() -> None:
+    used = {
+        key
+        for file in SOURCES.rglob("*.py")
+        if file.parent.name != "sentences" or file.name == "__init__.py"
+        for key in re.findall(r'"([a-z]+\.[a-z-]+|at|joined)"', file.read_text(encoding="utf-8"))
+    }
+    assert [key for key in ENGLISH if key not in used and not key.startswith(FAMILIES)] == []
+
+
+@pytest.fixture
+def context(tmp_path: Path) -> Iterator[Context]:
+    stages.forget()
+    drawn = np.repeat(np.repeat(np.arange(24).reshape(6, 4) % 3, 40, axis=0), 40, axis=1)
+    rgb = np.array([[150, 20, 30], [240, 230, 200], [20, 30, 90]], dtype=np.uint8)[drawn]
+    Image.fromarray(rgb).save(tmp_path / "drawing.png")
+    (tmp_path / "broken.png").write_bytes(b"no picture at all")
+    with in_language("tr"):
+        yield Context(str(tmp_path))
+
+
+GOOD = {"picture": "drawing.png", "size": "40x60cm", "quality": "20x20/dm", "yarns": "wool"}
+
+
+def _refusal(recipe: dict[str, Any], context: Context) -> tuple[str, str, str]:
+    """What the page shows: given, allowed, and what to do."""
+    with pytest.raises(IlmekError) as caught:
+        chart(ChartRequest({**GOOD, **recipe}), context)
+    error = caught.value
+    return in_page(error.given), in_page(error.allowed), in_page(error.do)
+
+
+@pytest.mark.parametrize(
+    ("recipe", "given", "rest"),
+    [
+        ({"size": "120cm"}, "carpet.toml, size: '120cm' boyutunun tek kenarı var", "en x boy"),
+        ({"size": "sedcade"}, "carpet.toml, size: bilinmeyen boyut 'sedcade'", "'seccade' mi demek istediniz?"),
+        ({"size": "40x60"}, "carpet.toml, size: '40x60' boyutunun birimi yok", "mm, cm, dm, m, in ya da ft"),
+        ({"quality": "fine"}, "carpet.toml, quality: bilinmeyen kalite 'fine'", "dm, cm ya da inç"),
+        ({"quality": "9000x9000/dm"}, "dm başına 9000 ilmekli kalite", "en çok"),
+        ({"size": "2x3cm", "quality": "2x2/dm"}, "0 × 1 ilmektir", "en az 2 × 2"),
+        ({"brightness": 3}, "brightness=300% sınırların dışında", "en az -90%, en çok 90%"),
+        ({"read": "drawn"}, "'drawn' bilinmiyor", "şunlardan biri: auto, exact, flat, photo"),
+        ({"crop": "5000,0 9000,60"}, "crop='5000,0 9000,60' resmin dışına taşıyor", "resim 160 x 240 piksel"),
+        ({"crop": "5,5 5,60"}, "hiç piksel bırakmıyor", "iki karşı köşeyi yazın"),
+        ({"crop": "here"}, "bir nokta listesi değil", "iki karşı köşeyi yazın"),
+        ({"corners": "10,10 100,100 100,10 10,100"}, "kenarlar kesişiyor", "halının sol üst"),
+        (
+            {"halftone": 0.5, "read": "flat"},
+            "halftone=50%, ama resim flat olarak okundu",
+            "yarım ton bir fotoğraf ister",
+        ),
+        ({"picture": "broken.png"}, "broken.png okunabilen bir resim değil", "SVG ya da PDF dosyası kullanın"),
+        ({"picture": "gone.png"}, "'gone.png' yok", "onu reçetenin klasörüne koyun"),
+        ({"picture": "../up.png"}, "reçetenin klasörünün dışına çıkıyor", "dosyayı reçetenin klasörüne kopyalayın"),
+        ({"keep": "ivry"}, "keep: listede 'ivry' ipliği yok", "'ivory' mi demek istediniz?"),
+        ({"map": {"#6c9136": "silk"}}, "map #6c9136: listede 'silk' ipliği yok", "listedekiler: madder red"),
+        ({"colours": 200}, "iplik sayısı 200", "2 ile 16 arası, listedeki iplikler"),
+        (
+            {"edits": [{"on": "knots", "lines": ["set 1,1 ivory"]}]},
+            "carpet.toml, edits.0: knots üzerindeki düzenlemeler bir ızgara belirtmiyor",
+            "sütun x satır verin",
+        ),
+        ({"edits": ["paint 1,1 ivory"]}, "bilinmeyen düzenleme 'paint'", ""),
+        ({"edits": ["set 1,1 silk"]}, "bilinmeyen iplik 'silk'", ""),
+    ],
+)
+def test_a_refusal_is_in_the_language_of_the_page(
+    recipe: dict[str, Any], given: str, rest: str, context: Context
+) -> None:
+    said, allowed, do = _refusal(recipe, context)
+    assert given in said
+    assert rest in f"{allowed} {do}"
+    assert str(context.folder) not in said
+    with in_language("en"):
+        english = _refusal(recipe, context)
+    assert english[0] != said
+
+
+def test_an_unclear_outline_is_in_turkish(context: Context) -> None:
+    with pytest.raises(IlmekError) as caught:
+        corners(PictureRequest("drawing.png"), context)
+    assert in_page(caught.value.given).startswith("halının çevresi açık değil (")
+    assert in_page(caught.value.do) == "köşeleri kendiniz verin"
+
+
+def test_the_checks_of_a_chart_are_in_the_language_of_the_page(context: Context) -> None:
+    def checks(**more: Any) -> dict[str, dict[str, Any]]:
+        body = chart(ChartRequest({**GOOD, **more}), context).body
+        about = json.loads(body[4 : 4 + int.from_bytes(body[:4], "little")])
+        return {check["name"]: check for check in about["checks"]}
+
+    turkish = checks(map={"#961e1e": "ivory"} | {"#f0e6c8": "ivory", "#961420": "ivory"}, least_edges=1.0)
+    assert list(turkish) == ["hav: doldurulan zemin payı", "resmin korunan kenarları", "çizimin kaybolan renkleri"]
+    lost = turkish["çizimin kaybolan renkleri"]
+    assert not lost["ok"]
+    assert "listeden '" in lost["cure"] or "listeye " in lost["cure"]
+    assert lost["source"].startswith("bu proje")
+    with in_language("en"):
+        assert "edges of the picture kept" in checks()
+
+
+def test_a_sentence_is_its_english_text_until_it_is_said() -> None:
+    sentence = Sentence("yarn.listed", names=Sentence("size.units"))
+    assert sentence == "the list has mm, cm, dm, m, in or ft"
+    with in_language("tr"):
+        assert in_page(sentence) == "listedekiler: mm, cm, dm, m, in ya da ft"
+    with in_language("xx"):
+        assert in_page(sentence) == sentence
