@@ -63,11 +63,22 @@ def test_a_sample_of_a_large_chart_is_near_to_all_of_it() -> None:
     )
 
 
-@pytest.mark.parametrize(("yarns", "lost"), [((0, 0, 1), ["#ff0000"]), ((0, 1, 2), [])])
-def test_a_colour_with_the_yarn_beside_it_is_lost(yarns: tuple[int, int, int], lost: list[str]) -> None:
-    colours = srgb_to_lab(np.array([(255, 255, 255), (255, 0, 0), (0, 0, 0)], dtype=np.uint8))
-    contact = np.array([[0.0, 40.0, 12.0], [40.0, 0.0, 0.0], [12.0, 0.0, 0.0]])
-    groups = ColourGroups(np.arange(3, dtype=np.uint8), colours, np.array([900.0, 80.0, 20.0]), contact)
-    found = lost_colours(groups, np.array(yarns, dtype=np.uint8), srgb_to_lab(YARNS))
-    assert [one.hex for one in found] == lost
-    assert sum(one.share for one in found) == pytest.approx(0.08 if lost else 0.0)
+@given(st.integers(2, 9), st.integers(0, 10_000))
+def test_a_colour_is_lost_in_a_larger_one_of_its_yarn_wherever_they_lie(number: int, seed: int) -> None:
+    """By scikit-image and loops over all pairs; no two colours of these groups touch."""
+    random = np.random.default_rng(seed)
+    srgb = random.integers(0, 256, (number, 3)).astype(np.uint8)
+    knots = np.sort(10.0 ** random.uniform(0, 4, number))[::-1]
+    yarn_of = random.integers(0, len(YARNS), number).astype(np.uint8)
+    apart = np.zeros((number, number))
+    groups = ColourGroups(np.arange(number, dtype=np.uint8), srgb_to_lab(srgb), knots, apart)
+    lab, expected = rgb2lab(srgb[None])[0], {}
+    for lesser in range(number):
+        share = knots[lesser] / knots.sum()
+        least = 5.0 if share >= 0.003 else 10.0 if share >= 0.0005 else 1000.0
+        for larger in reversed(range(lesser)):
+            if yarn_of[lesser] == yarn_of[larger] and deltaE_ciede2000(lab[lesser], lab[larger]) >= least:
+                expected[tuple(srgb[lesser])] = (tuple(srgb[larger]), int(yarn_of[lesser]), pytest.approx(share))
+    found = lost_colours(groups, yarn_of, srgb_to_lab(YARNS))
+    assert {one.srgb: (one.other, one.yarn, one.share) for one in found} == expected
+    assert [one.share for one in found] == sorted((one.share for one in found), reverse=True)

@@ -58,7 +58,7 @@ class ChartReading:
     palette        how its yarns were chosen from the list; default: they were not
     proposed       shades of the design itself: those that are dyed for it, or as many as were required
     dyed           names of the yarns that are dyed for it
-    lost           colours of a drawing that vanish, because one beside them has the same yarn
+    lost           colours of a drawing that vanish, because another has the same yarn
     paper          the sheet of squared paper that the design was read from
     edges_kept     share of the design's edges that the chart keeps; None: it has none, or nothing was measured
     """
@@ -246,6 +246,7 @@ def rearranged(chart: Chart, order: Sequence[int], knots: Indices, **changes: An
         reading,
         differences=tuple(differences_of[yarn] for yarn in order) if differences_of else (),
         matches=tuple(match._replace(yarn=order.index(match.yarn)) for match in reading.matches),
+        lost=tuple(lost._replace(yarn=order.index(lost.yarn)) for lost in reading.lost),
     )
     yarns = tuple(chart.yarns[yarn] for yarn in order)
     return replace(chart, **{"knots": knots, "yarns": yarns, "reading": reading, **changes})

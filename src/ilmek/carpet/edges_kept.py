@@ -6,9 +6,9 @@ chart has half of its contrast: by min(1, 2 d / c), d that of the means of their
 mean of all edges, each with the weight c. Up to MOST_BLOCKS blocks of an even lattice begin an edge: of larger charts
 they are a sample.
 
-Colours: two groups of a drawing's colours [`colour_groups`] that touch and differ by VANISHING or more are lost in each
-other where their yarns are one, or within SAME_YARN. That with the fewer knots vanishes; its share is that of what is
-drawn where the two touch [`assignment.touching`].
+Colours: of two groups of a drawing's colours [`colour_groups`] that differ visibly and have one yarn, or two within
+SAME_YARN, that with the fewer knots is lost, wherever they lie. They differ visibly from VISIBLE on; a group of less
+than LEAST_LOST of the knots from VANISHING on, and below LEAST_DETAIL not at all.
 """
 
 import math
@@ -17,7 +17,6 @@ from typing import NamedTuple
 import numpy as np
 
 from ilmek.arrays import Float, FloatArray, Indices, Int32, IntArray, Rgb, UInt8
-from ilmek.carpet.assignment import touching
 from ilmek.carpet.colour import lab_to_srgb
 from ilmek.carpet.colour_difference import ciede2000, delta_e_2000
 from ilmek.carpet.colour_groups import ColourGroups
@@ -31,23 +30,24 @@ FAINT = 6.0
 REACH = 4
 """Knots from block to block over which a soft edge is seen."""
 
-VANISHING = 10.0
-"""CIEDE2000 from which two colours of a drawing are two."""
+VISIBLE, VANISHING = 5.0, 10.0
+"""CIEDE2000 from which two areas of a drawing have two colours, and from which a detail has one of its own."""
 
 SAME_YARN = 3.0
 """CIEDE2000 of two yarns that look like one in the pile."""
 
-LEAST_LOST = 5e-4
-"""Least share of the knots of a colour that is called lost."""
+LEAST_LOST, LEAST_DETAIL = 3e-3, 5e-4
+"""Least shares of the knots of a colour, and of a detail, that is called lost."""
 
 MOST_BLOCKS = 10_000
 
 
 class LostColour(NamedTuple):
-    """A colour of a drawing that vanishes, the colour beside it that has the same yarn, and the share of the knots."""
+    """A colour of a drawing that is lost: in which other, by which yarn (its index), and its share of the knots."""
 
     srgb: tuple[int, int, int]
-    beside: tuple[int, int, int]
+    other: tuple[int, int, int]
+    yarn: int
     share: float
 
     @property
@@ -151,19 +151,18 @@ def edges_kept(edges: Edges, knots: Indices, yarn_labs: Float[np.ndarray, "yarns
 def lost_colours(
     groups: ColourGroups, yarn_of: UInt8[np.ndarray, " groups"], yarn_labs: Float[np.ndarray, "yarns 3"]
 ) -> tuple[LostColour, ...]:
-    """The colours of a drawing that vanish, the largest share first; a colour that vanishes in several is named once.
+    """The colours of a drawing that are lost, the largest share first, each in the largest that has its yarn.
 
     yarn_of  index of each group's yarn
     """
     contrast = delta_e_2000(groups.labs[:, None], groups.labs[None])
     apart = delta_e_2000(yarn_labs[:, None], yarn_labs[None])[yarn_of[:, None], yarn_of[None]]
-    drawn = np.where((contrast >= VANISHING) & (apart < SAME_YARN), touching(groups), 0.0)
+    shares = groups.knots / groups.knots.sum()
+    visible = np.where(shares >= LEAST_LOST, VISIBLE, np.where(shares >= LEAST_DETAIL, VANISHING, np.inf))
     # Groups are in the order of their knots: below the diagonal the first of the two has fewer.
-    shares = np.tril(drawn, -1) / groups.knots.sum()
+    merged = np.tril((contrast >= visible[:, None]) & (apart < SAME_YARN), -1)
     codes = [tuple(srgb) for srgb in lab_to_srgb(groups.labs).tolist()]
-    found = [
-        LostColour(codes[group], codes[int(row.argmax())], float(row.sum()))
-        for group, row in enumerate(shares)
-        if row.sum() >= LEAST_LOST
-    ]
-    return tuple(sorted(found, key=lambda lost: -lost.share))
+    return tuple(
+        LostColour(codes[group], codes[int(merged[group].argmax())], int(yarn_of[group]), float(shares[group]))
+        for group in np.flatnonzero(merged.any(axis=1)).tolist()
+    )

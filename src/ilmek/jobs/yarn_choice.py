@@ -88,10 +88,7 @@ def kept_checks(chart: Chart, order: CarpetOrder) -> tuple[Check, ...]:
         cure = _edges_cure(chart, order)
         checks.append(at_least("edges of the picture kept", made.edges_kept, rules.least_edges, "%", _KEPT, cure=cure))
     if made.matches:
-        share = sum(lost.share for lost in made.lost)
-        named = [f"{lost.hex} in {hex_colour(lost.beside)}: {_lost_cure(lost, chart, order)}" for lost in made.lost]
-        more = len(named) - MOST_CURES
-        cure = "; ".join((*named[:MOST_CURES], *((f"and {counted(more, 'more colour')}",) if more > 0 else ())))
+        share, cure = sum(lost.share for lost in made.lost), _lost_in_words(chart, order)
         checks.append(at_most("colours of the drawing lost", share, rules.most_lost, "%", _KEPT, cure=cure))
     return tuple(checks)
 
@@ -99,10 +96,23 @@ def kept_checks(chart: Chart, order: CarpetOrder) -> tuple[Check, ...]:
 _KEPT = "chosen by this project on drawings and photographs"
 
 
+def _lost_in_words(chart: Chart, order: CarpetOrder) -> str:
+    """The largest colours that are lost, what they became, and what brings them back."""
+    lost, cured = chart.reading.lost[:MOST_CURES], dict[str, list[str]]()
+    for one in lost:
+        share, yarn = format_quantity(one.share, "%", 2), chart.yarns[one.yarn].name
+        cured.setdefault(_lost_cure(one, chart, order), []).append(
+            f"{one.hex}, {share}, is {yarn!r} as {hex_colour(one.other)}"
+        )
+    named = [f"{' and '.join(words)}: {cure}" for cure, words in cured.items()]
+    more = len(chart.reading.lost) - len(lost)
+    return "; ".join((*named, *((f"and {counted(more, 'more colour')}",) if more else ())))
+
+
 def _lost_cure(lost: LostColour, chart: Chart, order: CarpetOrder) -> str:
     if order.dyed:
         return f"--colours {chart.colours + len(chart.reading.lost)}"
-    code, beside = (srgb_to_lab(np.array(srgb, dtype=np.uint8)) for srgb in (lost.srgb, lost.beside))
+    code, beside = (srgb_to_lab(np.array(srgb, dtype=np.uint8)) for srgb in (lost.srgb, lost.other))
     left = [yarn for yarn in order.yarns or () if yarn.name not in {one.name for one in chart.yarns}]
     if order.palette.neutral != NEUTRAL_NO and np.hypot(*code[1:]) < NEUTRAL:
         left = [yarn for yarn in left if math.hypot(*yarn.lab[1:]) <= NEUTRAL_CHROMA]
