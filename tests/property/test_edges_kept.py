@@ -1,31 +1,36 @@
 """The share of the edges that a chart keeps, against loops over all blocks, and its limits."""
 
+from itertools import product
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from PIL import Image
+from scipy.ndimage import maximum_filter, maximum_filter1d, minimum_filter
 from skimage.color import deltaE_ciede2000, rgb2lab
 
-from ilmek.carpet.colour import srgb_to_lab
+from ilmek.carpet.averages import LATTICE, averages_of, reading_loss
+from ilmek.carpet.colour import decode, encode, srgb_to_lab
 from ilmek.carpet.colour_groups import ColourGroups
-from ilmek.carpet.edges_kept import FAINT, MOST_BLOCKS, REACH, edges_kept, edges_of, lost_colours
+from ilmek.carpet.edges_kept import FAINT, REACH, edges_kept, edges_of, lost_colours
 from ilmek.carpet.palette import distinct_colours, nearest_yarns, paint
 
 YARNS = np.array([(29, 24, 21), (239, 230, 208), (158, 43, 37), (52, 86, 139)], dtype=np.uint8)
 
 
 def plain_share(design: np.ndarray, chart: np.ndarray) -> float | None:
-    """The share by scikit-image's CIEDE2000 of the means of all blocks."""
+    """The share by scikit-image's CIEDE2000 of the means of all blocks, the chart's up to a knot beside."""
     labs = [rgb2lab(picture) for picture in (design, chart)]
     means = [(lab[:-1, :-1] + lab[1:, :-1] + lab[:-1, 1:] + lab[1:, 1:]) / 4 for lab in labs]
     seen = kept = 0.0
-    for reach in (2, REACH):
-        for axis in (0, 1):
-            pairs = [(np.delete(mean, np.s_[:reach], axis), np.delete(mean, np.s_[-reach:], axis)) for mean in means]
-            contrast, drawn = (deltaE_ciede2000(*pair) for pair in pairs)
-            edge = contrast >= FAINT
-            seen += contrast[edge].sum()
-            kept += np.minimum(contrast, 2 * drawn)[edge].sum()
+    for reach, axis in product((2, REACH), (0, 1)):
+        pairs = [(np.delete(mean, np.s_[:reach], axis), np.delete(mean, np.s_[-reach:], axis)) for mean in means]
+        contrast, drawn = (deltaE_ciede2000(*pair) for pair in pairs)
+        drawn = maximum_filter1d(drawn, 3, axis, mode="constant")
+        edge = contrast >= FAINT
+        seen += contrast[edge].sum()
+        kept += np.minimum(contrast, 2 * drawn)[edge].sum()
     return kept / seen if seen else None
 
 
@@ -57,10 +62,36 @@ def test_a_sample_of_a_large_chart_is_near_to_all_of_it() -> None:
     design = np.stack([np.clip(grey, 0, 255)] * 3, axis=-1).astype(np.uint8)
     distinct, labs = distinct_colours(design), srgb_to_lab(YARNS)
     knots = paint(design, distinct, nearest_yarns(distinct, labs)[0])
-    assert knots.size > MOST_BLOCKS
+    assert knots.size > LATTICE
     assert edges_kept(edges_of(design, distinct), knots, labs) == pytest.approx(
         plain_share(design, YARNS[knots]), abs=0.02
     )
+
+
+@pytest.mark.parametrize("grid", [(60, 40), (1210, 830)])
+def test_smoothed_edges_are_kept_and_shades_are_not(grid: tuple[int, int]) -> None:
+    """Averages by Pillow's box filter of linear light; a large chart is compared on strips of rows."""
+    rows, columns = grid
+    y, x = np.mgrid[: 2 * rows, : 3 * columns] / (2 * rows)
+    disc = np.hypot(y - 0.5, x - 0.5) < 0.31
+    picture = np.where(disc[..., None], YARNS[2], YARNS[1])
+    averages = averages_of(picture, grid)
+    light = decode(picture / 255).reshape(rows, 2, columns, 3, 3).mean(axis=(1, 3))
+    assert np.abs(encode(light)[averages.rows] * 255 - averages.colours).max() < 1.0
+    design = YARNS[np.where(light[..., 1] < decode(np.array(128 / 255)), 2, 1)]
+    distinct, labs = distinct_colours(design), srgb_to_lab(YARNS)
+    knots = paint(design, distinct, nearest_yarns(distinct, labs)[0])
+    edges = edges_of(design, distinct, averages)
+    assert edges_kept(edges, knots, labs) == pytest.approx(1.0, abs=0.015)
+    assert reading_loss(design, averages, knots, labs) == 0.0
+    shaded = np.clip(picture.astype(float) - 90 * x[..., None] * disc[..., None], 0, 255).astype(np.uint8)
+    seen = averages_of(shaded, grid)
+    full = np.asarray(Image.fromarray(shaded).reduce((3, 2)))
+    off = deltaE_ciede2000(rgb2lab(full), rgb2lab(design))
+    inside = maximum_filter(design, (3, 3, 1)) == minimum_filter(design, (3, 3, 1))
+    within, rim = (np.where(where & (off >= 5.0), off, 0.0).mean() for where in (inside.all(-1), ~inside.all(-1)))
+    assert 0.97 * within <= reading_loss(design, seen, knots, labs) <= 1.03 * (within + rim)
+    assert within > 1.0
 
 
 @given(st.integers(2, 9), st.integers(0, 10_000))

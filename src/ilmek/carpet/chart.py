@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from ilmek.arrays import BoolArray, FloatArray, Indices, Rgb
+from ilmek.carpet.averages import reading_loss
 from ilmek.carpet.codes import CODES, eight_bits
 from ilmek.carpet.confetti import merge_patches
 from ilmek.carpet.design import bands, knot_grid
@@ -46,7 +47,7 @@ class ChartReading:
     """How a picture became a chart.
 
     kind           exact, flat or photo          reason   of that decision, one sentence
-    mean_delta_e   mean CIEDE2000 of the knots' yarns to the design
+    mean_delta_e   mean CIEDE2000 of the knots' yarns to the design, and to the picture where the reading is off
     least_delta_e  the same if each knot had its nearest yarn of the list: the optimum
     changed        number of knots that were changed because their patch was too small
     foreign        number of knots whose yarn is that of no true colour of their cell; None: no true colours
@@ -332,26 +333,29 @@ def chart_of_design(
     painted = paint(design.colours, distinct, own.yarn_of, progress.part(0.6, 0.7))
     tones = design if exact is None else replace(design, colours=exact)
     knots, drawn = _halftone(painted, tones, labs, reading.halftone, progress.part(0.7, 0.8))
-    least = reading.least_patch_of(design.kind)
-    knots, changed = merge_patches(knots, tones.colours, labs, least, kept=drawn, progress=progress.part(0.8, 0.9))
+    least, merging = reading.least_patch_of(design.kind), progress.part(0.8, 0.9)
+    knots, changed = merge_patches(knots, tones.colours, labs, least, kept=drawn, progress=merging)
     taken, measuring = (own.yarn_of, own.difference), progress.part(0.9, 0.95)
     to_design = differences(design.colours, distinct, taken, (painted, knots), labs, measuring)
+    lost_by_reading = reading_loss(design.colours, design.averages, knots, labs)
     words = [design.reason, *(["tones stretched onto the yarns"] if own.stretched else [])]
     read = ChartReading(
         design.kind,
         "; ".join(words) + _halftone_in_words(design, drawn),
-        to_design.mean,
-        own.least,
+        to_design.mean + lost_by_reading,
+        own.least + lost_by_reading,
         changed,
         design.foreign,
         fit or Fit(),
         to_design.of_yarns,
         matches=() if own.groups is None else colour_matches(distinct, own.yarn_of, own.difference, own.groups),
         palette=own.palette,
-        proposed=own.proposed if rules.propose is None else _proposed(distinct, design, rules.propose, progress),
+        proposed=own.proposed
+        if rules.propose is None
+        else propose_shades(distinct, rules.propose, drawn=own.groups is not None, progress=progress),
         dyed=tuple(shade.name for shade in own.proposed),
         lost=_lost(own, distinct, labs),
-        edges_kept=edges_kept(edges_of(design.colours, distinct), knots, labs),
+        edges_kept=edges_kept(edges_of(design.colours, distinct, design.averages), knots, labs),
         paper=design.paper,
     )
     chart = Chart(knots, own.palette.yarns, size, quality, kind, read)
@@ -393,7 +397,3 @@ def _halftone_in_words(design: Design, dots: BoolArray | None) -> str:
     if dots is None:
         return "; no patterns between the yarns (with: --halftone 100%)"
     return f"; patterns on {dots.mean():.1%} of it (without: --halftone 0%)"
-
-
-def _proposed(distinct: Colours, design: Design, count: int, progress: Progress) -> tuple[ProposedShade, ...]:
-    return propose_shades(distinct, count, drawn=design.kind != "photo", progress=progress)

@@ -52,7 +52,7 @@ GREY, MOST_TINTED = 8.0, 2e-3
 LEAST_DIFFERENCE = 2.0
 """CIEDE2000 below which two yarns are near twins; assumed by this project."""
 
-LEAST_EDGES, MOST_LOST = 0.75, 0.003
+LEAST_EDGES, MOST_LOST = 0.85, 0.003
 """Limits of what a chart loses; chosen by this project on drawings and photographs, by looking at their charts."""
 
 MOST_PROPOSED = 64
