@@ -16,14 +16,15 @@ from ilmek.carpet.averages import reading_loss
 from ilmek.carpet.codes import CODES, eight_bits
 from ilmek.carpet.confetti import merge_patches
 from ilmek.carpet.design import bands, knot_grid
+from ilmek.carpet.detail import detail_kept
 from ilmek.carpet.differences import YarnDifference, differences
-from ilmek.carpet.edges_kept import LostColour, edges_kept, edges_of, lost_colours
+from ilmek.carpet.edges_kept import LostColour, edges_kept, edges_of
 from ilmek.carpet.fitted import fitted_design, shaped_size, unfitted_design
 from ilmek.carpet.fitting import Fit, FitParams, prepare_picture
 from ilmek.carpet.halftone import draw_halftone
 from ilmek.carpet.matches import ColourMatch, colour_matches
 from ilmek.carpet.overlay import Overlay, TiedKnots, no_overlay, require_fit, tied_knots
-from ilmek.carpet.palette import Colours, distinct_colours, paint
+from ilmek.carpet.palette import distinct_colours, paint
 from ilmek.carpet.palette_rules import Palette, PaletteParams
 from ilmek.carpet.paper.sheet import PaperReading
 from ilmek.carpet.proposal import ProposedShade, propose_shades
@@ -34,7 +35,7 @@ from ilmek.carpet.sizes import CarpetSize, carpet_size
 from ilmek.carpet.tally import Tally, tally_of
 from ilmek.carpet.usual_pile import with_counts
 from ilmek.carpet.yarn import Yarn, yarn_labs, yarn_list
-from ilmek.carpet.yarns_of_design import YarnsOfDesign, yarns_of_design
+from ilmek.carpet.yarns_of_design import yarns_of_design
 from ilmek.elements.knot_kinds import parse_knot
 from ilmek.errors import CarpetError, PictureError
 from ilmek.progress import SILENT, Progress
@@ -61,7 +62,7 @@ class ChartReading:
     dyed           names of the yarns that are dyed for it
     lost           colours of a drawing that vanish, because another has the same yarn
     paper          the sheet of squared paper that the design was read from
-    edges_kept     share of the design's edges that the chart keeps; None: it has none, or nothing was measured
+    edges_kept, detail_kept  shares of the picture's edges and detail that the chart keeps; None: not measured
     """
 
     kind: str
@@ -80,6 +81,7 @@ class ChartReading:
     dyed: tuple[str, ...] = ()
     lost: tuple[LostColour, ...] = ()
     edges_kept: float | None = None
+    detail_kept: float | None = None
     paper: PaperReading | None = None
 
 
@@ -335,8 +337,8 @@ def chart_of_design(
     knots, drawn = _halftone(painted, tones, labs, reading.halftone, progress.part(0.7, 0.8))
     least, merging = reading.least_patch_of(design.kind), progress.part(0.8, 0.9)
     knots, changed = merge_patches(knots, tones.colours, labs, least, kept=drawn, progress=merging)
-    taken, measuring = (own.yarn_of, own.difference), progress.part(0.9, 0.95)
-    to_design = differences(design.colours, distinct, taken, (painted, knots), labs, measuring)
+    taken, charts = (own.yarn_of, own.difference), (painted, knots)
+    to_design = differences(design.colours, distinct, taken, charts, labs, progress.part(0.9, 0.95))
     lost_by_reading = reading_loss(design.colours, design.averages, knots, labs)
     words = [design.reason, *(["tones stretched onto the yarns"] if own.stretched else [])]
     read = ChartReading(
@@ -354,23 +356,14 @@ def chart_of_design(
         if rules.propose is None
         else propose_shades(distinct, rules.propose, drawn=own.groups is not None, progress=progress),
         dyed=tuple(shade.name for shade in own.proposed),
-        lost=_lost(own, distinct, labs),
+        lost=own.lost(distinct),
         edges_kept=edges_kept(edges_of(design.colours, distinct, design.averages), knots, labs),
+        detail_kept=detail_kept(design.detail, knots, labs),
         paper=design.paper,
     )
     chart = Chart(knots, own.palette.yarns, size, quality, kind, read)
     chart.tally(progress.part(0.95, 1.0))
     return chart
-
-
-def _lost(own: YarnsOfDesign, distinct: Colours, labs: FloatArray) -> tuple[LostColour, ...]:
-    """The colours of a drawing that vanish; the yarn of a group is that of its most frequent colour."""
-    if own.groups is None:
-        return ()
-    lead = np.zeros(len(own.groups), dtype=np.uint8)
-    order = np.argsort(distinct.counts, kind="stable")
-    lead[own.groups.of[order]] = own.yarn_of[order]
-    return lost_colours(own.groups, lead, labs)
 
 
 def _halftone(

@@ -17,7 +17,7 @@ from ilmek.carpet.assignment import assign_yarns
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.colour_difference import delta_e_2000
 from ilmek.carpet.colour_groups import TWIN, ColourGroups, colour_groups
-from ilmek.carpet.edges_kept import colours_beside, edges_kept, edges_of, lost_colours
+from ilmek.carpet.edges_kept import LostColour, colours_beside, edges_kept, edges_of, lost_colours
 from ilmek.carpet.nearest_colour import nearest
 from ilmek.carpet.palette import Colours, nearest_yarns, paint
 from ilmek.carpet.palette_rules import (
@@ -78,6 +78,15 @@ class YarnsOfDesign:
     proposed: tuple[ProposedShade, ...] = ()
     groups: ColourGroups | None = None
     stretched: bool = False
+
+    def lost(self, distinct: Colours) -> tuple[LostColour, ...]:
+        """The colours of a drawing that vanish; the yarn of a group is that of its most frequent colour."""
+        if self.groups is None:
+            return ()
+        lead = np.zeros(len(self.groups), dtype=np.uint8)
+        order = np.argsort(distinct.counts, kind="stable")
+        lead[self.groups.of[order]] = self.yarn_of[order]
+        return lost_colours(self.groups, lead, yarn_labs(self.palette.yarns))
 
 
 def yarns_of_design(

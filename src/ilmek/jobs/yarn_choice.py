@@ -14,7 +14,7 @@ from ilmek.carpet.colour_difference import delta_e_2000
 from ilmek.carpet.colour_names import colour_name
 from ilmek.carpet.edges_kept import LostColour
 from ilmek.carpet.matches import ColourMatch
-from ilmek.carpet.palette_rules import LEAST_DIFFERENCE, LEAST_GAIN, NEUTRAL_NO, TwinYarns, twin_yarns
+from ilmek.carpet.palette_rules import LEAST_DETAILS, LEAST_DIFFERENCE, LEAST_GAIN, NEUTRAL_NO, TwinYarns, twin_yarns
 from ilmek.carpet.picture_points import hex_colour
 from ilmek.carpet.proposal import MatchedShade, match_shades
 from ilmek.io.yarn_file import default_yarns
@@ -87,6 +87,9 @@ def kept_checks(chart: Chart, order: CarpetOrder) -> tuple[Check, ...]:
     if made.edges_kept is not None:
         cure = _edges_cure(chart, order)
         checks.append(at_least("edges of the picture kept", made.edges_kept, rules.least_edges, "%", _KEPT, cure=cure))
+    if made.detail_kept is not None:
+        least = LEAST_DETAILS[made.kind] if rules.least_detail is None else rules.least_detail
+        checks.append(at_least("detail of the picture kept", made.detail_kept, least, "%", _KEPT, cure=_FINER))
     if made.matches:
         share, cure = sum(lost.share for lost in made.lost), _lost_in_words(chart, order)
         checks.append(at_most("colours of the drawing lost", share, rules.most_lost, "%", _KEPT, cure=cure))
@@ -94,6 +97,7 @@ def kept_checks(chart: Chart, order: CarpetOrder) -> tuple[Check, ...]:
 
 
 _KEPT = "chosen by this project on drawings and photographs"
+_FINER = "it is finer than the knots: a larger --size, a finer --quality, or a part of the picture (--crop)"
 
 
 def _lost_in_words(chart: Chart, order: CarpetOrder) -> str:
@@ -155,6 +159,7 @@ def yarn_choice_results(chart: Chart, order: CarpetOrder) -> dict[str, Any]:
     return {
         "assignment": assignment_results(chart),
         "edges_kept": chart.reading.edges_kept,
+        "detail_kept": chart.reading.detail_kept,
         "lost": [
             {"colour": lost.hex, "share": lost.share, "cure": _lost_cure(lost, chart, order)}
             for lost in chart.reading.lost
