@@ -12,8 +12,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from ilmek.arrays import Float, FloatArray, UInt8
+from ilmek.arrays import Float, FloatArray, Rgb, UInt8
 from ilmek.carpet.assignment import assign_yarns
+from ilmek.carpet.blends import blends
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.colour_difference import delta_e_2000
 from ilmek.carpet.colour_groups import TWIN, ColourGroups, colour_groups
@@ -47,6 +48,9 @@ EVENNESS, LEAST_GAIN = 0.5, 0.15
 """How evenly the colours of a photo count for its shades, and the least gain in mean CIEDE2000 of a further one; both
 chosen by looking at charts of photographs.
 """
+
+BLENDED = 100
+"""Knots on edges that count as one for the shades of a photo: smoothed edges make no yarns of their own."""
 
 _OWN = 1.0
 """CIEDE2000 to a yarn within which a colour is drawn in that yarn, whatever the colours like it."""
@@ -109,7 +113,7 @@ def yarns_of_design(
     groups = colour_groups(design.colours, distinct) if drawn else None
     proposed: tuple[ProposedShade, ...] = ()
     if dyed:
-        yarns, proposed, rules = _own(distinct, groups, yarns, rules, progress.part(0.0, 0.3))
+        yarns, proposed, rules = _own(distinct, design.colours, groups, yarns, rules, progress.part(0.0, 0.3))
     palette = choose_yarns(distinct, yarns, rules, progress.part(0.3, 0.6))
     labs = yarn_labs(palette.yarns)
     yarn_of, difference = nearest_yarns(distinct, labs, progress.part(0.6, 0.9))
@@ -130,8 +134,13 @@ def yarns_of_design(
     return YarnsOfDesign(palette, yarn_of, difference, least, proposed, groups, stretched)
 
 
-def _own(
-    distinct: Colours, groups: ColourGroups | None, stock: Sequence[Yarn], rules: PaletteParams, progress: Progress
+def _own(  # noqa: PLR0917
+    distinct: Colours,
+    design: Rgb,
+    groups: ColourGroups | None,
+    stock: Sequence[Yarn],
+    rules: PaletteParams,
+    progress: Progress,
 ) -> tuple[tuple[Yarn, ...], tuple[ProposedShade, ...], PaletteParams]:
     """The picture's own shades as yarns, those that are dyed, and the rules as they act on these yarns."""
     check_palette(replace(rules, colours=None, mapped=None), stock)
@@ -142,7 +151,8 @@ def _own(
         count = max(2, rules.colours - len(needed))
     if groups is None:
         photo = {"evenness": EVENNESS, "least_gain": LEAST_GAIN if rules.colours is None else 0.0}
-        shades = propose_shades(distinct, count, drawn=False, **photo, progress=progress)
+        inner = BLENDED * distinct.counts - (BLENDED - 1) * blends(design, distinct)
+        shades = propose_shades(replace(distinct, counts=inner), count, drawn=False, **photo, progress=progress)
     elif _served(groups, stock):
         return tuple(stock), (), rules
     else:

@@ -1,0 +1,66 @@
+"""Blends: the knots of a photo on its edges, which are the mean of the two sides and no shade of their own.
+
+A knot is a blend if its colour lies between those of the two REACH knots beside it, in row or column: in each channel
+up to SLACK codes, a tenth or more of the way from either, and these differ by CONTRAST or more.
+"""
+
+import numpy as np
+
+from ilmek.arrays import Int64, IntArray, Rgb
+from ilmek.carpet.design import PART, bands
+from ilmek.carpet.palette import Colours
+from ilmek.num.compiled import compiled, uncounted
+from ilmek.num.threads import in_threads
+
+CONTRAST, SLACK = 60, 6
+"""Codes of a channel."""
+
+REACH = 2
+"""Knots to either side of a smoothed edge."""
+
+
+@uncounted
+def _is_between(rgb: Rgb, y: int, x: int, down: int, right: int) -> bool:
+    """Whether a knot is a blend along one direction."""
+    widest, first, second = 0, 0, 0
+    for channel in range(3):
+        one, own = np.int64(rgb[y - down, x - right, channel]), np.int64(rgb[y, x, channel])
+        other = np.int64(rgb[y + down, x + right, channel])
+        if own < min(one, other) - SLACK or own > max(one, other) + SLACK:
+            return False
+        widest = max(widest, abs(other - one))
+        first, second = first + abs(own - one), second + abs(other - own)
+    return widest >= CONTRAST and 9 * min(first, second) >= max(first, second)
+
+
+@compiled
+def _count_blends(rgb: Rgb, index: IntArray, start: int, stop: int, out: IntArray) -> None:
+    """Add the blends of each colour in some rows."""
+    rows, columns = rgb.shape[:2]
+    for y in range(start, stop):
+        for x in range(columns):
+            across = REACH <= x < columns - REACH and _is_between(rgb, y, x, 0, REACH)
+            if across or (REACH <= y < rows - REACH and _is_between(rgb, y, x, REACH, 0)):
+                code = np.int32(rgb[y, x, 0]) << 16 | np.int32(rgb[y, x, 1]) << 8 | rgb[y, x, 2]
+                out[index[code] - 1] += 1
+
+
+def blends(design: Rgb, colours: Colours) -> Int64[np.ndarray, " colours"]:
+    """The number of knots of each distinct colour that are blends.
+
+    >>> from ilmek.carpet.palette import distinct_colours
+    >>> edge = np.array([[[255] * 3, [255] * 3, [140] * 3, [0] * 3, [0] * 3]], dtype=np.uint8)
+    >>> blends(edge, distinct_colours(edge)).tolist()
+    [0, 1, 0]
+    """
+    rgb = np.ascontiguousarray(design)
+
+    def count(band: slice) -> IntArray:
+        found = np.zeros(len(colours.counts), dtype=np.int64)
+        _count_blends(rgb, colours.index, band.start, band.stop, found)
+        return found
+
+    total = np.zeros(len(colours.counts), dtype=np.int64)
+    for _, found in in_threads(count, bands(*rgb.shape[:2], PART)):
+        total += found
+    return total
