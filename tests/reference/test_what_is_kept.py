@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from drawn_colours import PICTURES, charted, colours_of, saved
 from PIL import Image, ImageDraw, ImageFont
-from scipy.ndimage import gaussian_filter
+from scipy.ndimage import gaussian_filter, maximum_filter
 from skimage import data
 from skimage.color import rgb2lab
 
@@ -88,6 +88,16 @@ def ball(highlight: tuple[int, int, int]) -> np.ndarray:
     return np.where(disc[..., None], shaded, 255).astype(np.uint8)
 
 
+def rock(seed: int) -> np.ndarray:
+    """A dark body with light highlights on white, 110 × 150 pixels: three colours explain nearly all of its pixels."""
+    y, x = np.mgrid[:150, :110]
+    body = np.abs(x - 55 - 12 * np.sin(y / 30)) < 22 + 8 * np.cos(y / 22)
+    noise = gaussian_filter(np.random.default_rng(seed).normal(0, 1, (150, 110)), (4.0, 8.0))
+    shine = noise / noise.std() - 0.8
+    grey = np.clip(45 + np.where(shine > 0, shine * 120 + 60, 0), 0, 232)
+    return np.where(body[..., None], grey[..., None] * [1, 1.02, 1.1], 255).clip(0, 255).astype(np.uint8)
+
+
 def hand() -> np.ndarray:
     """A part of a photograph, a tenth of the sheet, on a poster of even colours."""
     sheet = np.full((400, 640, 3), (170, 240, 185), dtype=np.uint8)
@@ -96,13 +106,13 @@ def hand() -> np.ndarray:
     return sheet
 
 
-@pytest.mark.parametrize("picture", [ball((225, 225, 232)), ball((250, 235, 200)), hand()])
+@pytest.mark.parametrize("picture", [rock(2), rock(3), rock(4), hand()])
 def test_shades_are_no_white_patches(tmp_path: Path, picture: np.ndarray) -> None:
     made = charted(saved(tmp_path, "shaded", picture), f"{picture.shape[1] / 8}x{picture.shape[0] / 8}cm")
     assert made.chart.reading.kind == "photo"
     rows, columns = made.chart.knots.shape
     seen = np.asarray(Image.fromarray(picture).resize((columns, rows), Image.Resampling.BOX))
-    patches = (rgb2lab(colours_of(made))[..., 0] > 96) & (rgb2lab(seen)[..., 0] < 86)
+    patches = (rgb2lab(colours_of(made))[..., 0] > 96) & (maximum_filter(rgb2lab(seen)[..., 0], 3) < 92)
     assert np.mean(patches) < 0.002
 
 

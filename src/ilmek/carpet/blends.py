@@ -24,8 +24,8 @@ def _is_between(rgb: Rgb, y: int, x: int, down: int, right: int) -> bool:
     """Whether a knot is a blend along one direction."""
     widest, first, second = 0, 0, 0
     for channel in range(3):
-        one, own = np.int64(rgb[y - down, x - right, channel]), np.int64(rgb[y, x, channel])
-        other = np.int64(rgb[y + down, x + right, channel])
+        one, own = int(np.int64(rgb[y - down, x - right, channel])), int(np.int64(rgb[y, x, channel]))
+        other = int(np.int64(rgb[y + down, x + right, channel]))
         if own < min(one, other) - SLACK or own > max(one, other) + SLACK:
             return False
         widest = max(widest, abs(other - one))
@@ -61,6 +61,6 @@ def blends(design: Rgb, colours: Colours) -> Int64[np.ndarray, " colours"]:
         return found
 
     total = np.zeros(len(colours.counts), dtype=np.int64)
-    for _, found in in_threads(count, bands(*rgb.shape[:2], PART)):
+    for _, found in in_threads(count, bands(rgb.shape[0], rgb.shape[1], PART)):
         total += found
     return total
