@@ -7,13 +7,14 @@ up to SLACK codes, a tenth or more of the way from either, and these differ by C
 import numpy as np
 
 from ilmek.arrays import Int64, IntArray, Rgb
-from ilmek.carpet.design import PART, bands
 from ilmek.carpet.palette import Colours
 from ilmek.num.compiled import compiled, uncounted
-from ilmek.num.threads import in_threads
 
 CONTRAST, SLACK = 60, 6
 """Codes of a channel."""
+
+MOST_KNOTS = 250_000
+"""Number of knots above which rows are left out."""
 
 REACH = 2
 """Knots to either side of a smoothed edge."""
@@ -34,33 +35,26 @@ def _is_between(rgb: Rgb, y: int, x: int, down: int, right: int) -> bool:
 
 
 @compiled
-def _count_blends(rgb: Rgb, index: IntArray, start: int, stop: int, out: IntArray) -> None:
-    """Add the blends of each colour in some rows."""
+def _count_blends(rgb: Rgb, index: IntArray, step: int, out: IntArray) -> None:
+    """Add the blends of each colour in every `step`-th row, for all of these rows."""
     rows, columns = rgb.shape[:2]
-    for y in range(start, stop):
+    for y in range(step // 2, rows, step):
         for x in range(columns):
             across = REACH <= x < columns - REACH and _is_between(rgb, y, x, 0, REACH)
             if across or (REACH <= y < rows - REACH and _is_between(rgb, y, x, REACH, 0)):
                 code = np.int32(rgb[y, x, 0]) << 16 | np.int32(rgb[y, x, 1]) << 8 | rgb[y, x, 2]
-                out[index[code] - 1] += 1
+                out[index[code] - 1] += step
 
 
 def blends(design: Rgb, colours: Colours) -> Int64[np.ndarray, " colours"]:
-    """The number of knots of each distinct colour that are blends.
+    """The number of knots of each distinct colour that are blends, about.
 
     >>> from ilmek.carpet.palette import distinct_colours
     >>> edge = np.array([[[255] * 3, [255] * 3, [140] * 3, [0] * 3, [0] * 3]], dtype=np.uint8)
     >>> blends(edge, distinct_colours(edge)).tolist()
     [0, 1, 0]
     """
-    rgb = np.ascontiguousarray(design)
-
-    def count(band: slice) -> IntArray:
-        found = np.zeros(len(colours.counts), dtype=np.int64)
-        _count_blends(rgb, colours.index, band.start, band.stop, found)
-        return found
-
-    total = np.zeros(len(colours.counts), dtype=np.int64)
-    for _, found in in_threads(count, bands(rgb.shape[0], rgb.shape[1], PART)):
-        total += found
-    return total
+    found = np.zeros(len(colours.counts), dtype=np.int64)
+    step = max(1, design.shape[0] * design.shape[1] // MOST_KNOTS)
+    _count_blends(np.ascontiguousarray(design), colours.index, step, found)
+    return np.minimum(found, colours.counts)

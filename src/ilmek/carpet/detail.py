@@ -29,7 +29,7 @@ DETAILED = 12.0
 COARSE = 1.5
 """Pixels of the picture along a side of a knot below which nothing is finer than the knots."""
 
-MOST_WINDOWS, LEAST_WINDOWS = 2_000, 20
+MOST_WINDOWS, LEAST_WINDOWS = 500, 10
 """Number of windows of the lattice, about; fewest with detail that tell something."""
 
 _RANGE = 24
