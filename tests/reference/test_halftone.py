@@ -18,7 +18,7 @@ from ilmek.carpet.chart import Chart, make_chart
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.design import bands
 from ilmek.carpet.halftone import CELL, STEP, draw_halftone
-from ilmek.carpet.mixtures import CHROMA, CONTRAST
+from ilmek.carpet.mixtures import CHROMA, CONTRAST, NEAR, WIDER
 from ilmek.carpet.palette import distinct_colours, nearest_yarns, paint
 from ilmek.carpet.palette_rules import PaletteParams
 from ilmek.carpet.patches import count_patches
@@ -126,6 +126,8 @@ def test_no_dot_contrasts_with_its_tone(name: str) -> None:
     contrast, nearest = deltaE_ciede2000(tones, yarns), deltaE_ciede2000(tones, seen(codes_of(nearest_knots(rgb)), 0))
     slack = STEP  # a tone is rounded, and a knot of a smooth cell is not its mean
     assert np.all((contrast <= CONTRAST + slack)[where] | (contrast <= nearest + slack)[where])
+    limit = np.minimum(CONTRAST, NEAR + WIDER * (nearest + 2.0) ** 2)
+    assert np.mean((contrast <= limit + 2.0)[where]) > 0.98
     chroma = np.hypot(*np.moveaxis(yarns - tones, -1, 0)[1:]) / (1 + 0.045 * np.hypot(tones[..., 1], tones[..., 2]))
     assert np.mean((chroma <= CHROMA)[where] | (contrast <= nearest + slack)[where]) > 0.98
 

@@ -12,17 +12,19 @@ from typing import Any
 import numpy as np
 
 from ilmek.arrays import BoolArray, FloatArray, Indices, Rgb
+from ilmek.carpet.averages import reading_loss
 from ilmek.carpet.codes import CODES, eight_bits, recoded
 from ilmek.carpet.confetti import merge_patches
 from ilmek.carpet.design import knot_grid
+from ilmek.carpet.detail import detail_kept
 from ilmek.carpet.differences import YarnDifference, differences
-from ilmek.carpet.edges_kept import LostColour, edges_kept, edges_of, lost_colours
+from ilmek.carpet.edges_kept import LostColour, edges_kept, edges_of
 from ilmek.carpet.fitted import fitted_design, shaped_size, unfitted_design
 from ilmek.carpet.fitting import Fit, FitParams, prepare_picture
 from ilmek.carpet.halftone import draw_halftone
 from ilmek.carpet.matches import ColourMatch, colour_matches
 from ilmek.carpet.overlay import Overlay, TiedKnots, no_overlay, require_fit, tied_knots
-from ilmek.carpet.palette import Colours, distinct_colours, paint
+from ilmek.carpet.palette import distinct_colours, paint
 from ilmek.carpet.palette_rules import Palette, PaletteParams
 from ilmek.carpet.paper.sheet import PaperReading
 from ilmek.carpet.proposal import ProposedShade, propose_shades
@@ -33,7 +35,7 @@ from ilmek.carpet.sizes import CarpetSize, carpet_size
 from ilmek.carpet.tally import Tally, tally_of
 from ilmek.carpet.usual_pile import with_counts
 from ilmek.carpet.yarn import Yarn, yarn_labs, yarn_list
-from ilmek.carpet.yarns_of_design import YarnsOfDesign, yarns_of_design
+from ilmek.carpet.yarns_of_design import yarns_of_design
 from ilmek.elements.knot_kinds import parse_knot
 from ilmek.errors import CarpetError, PictureError
 from ilmek.progress import SILENT, Progress
@@ -47,7 +49,7 @@ class ChartReading:
     """How a picture became a chart.
 
     kind           exact, flat or photo          reason   of that decision, one sentence
-    mean_delta_e   mean CIEDE2000 of the knots' yarns to the design
+    mean_delta_e   mean CIEDE2000 of the knots' yarns to the design, and to the picture where the reading is off
     least_delta_e  the same if each knot had its nearest yarn of the list: the optimum
     changed        number of knots that were changed because their patch was too small
     foreign        number of knots whose yarn is that of no true colour of their cell; None: no true colours
@@ -59,9 +61,9 @@ class ChartReading:
     palette        how its yarns were chosen from the list; default: they were not
     proposed       shades of the design itself: those that are dyed for it, or as many as were required
     dyed           names of the yarns that are dyed for it
-    lost           colours of a drawing that vanish, because one beside them has the same yarn
+    lost           colours of a drawing that vanish, because another has the same yarn
     paper          the sheet of squared paper that the design was read from
-    edges_kept     share of the design's edges that the chart keeps; None: it has none, or nothing was measured
+    edges_kept, detail_kept  shares of the picture's edges and detail that the chart keeps; None: not measured
     """
 
     kind: str
@@ -80,6 +82,7 @@ class ChartReading:
     dyed: tuple[str, ...] = ()
     lost: tuple[LostColour, ...] = ()
     edges_kept: float | None = None
+    detail_kept: float | None = None
     paper: PaperReading | None = None
 
 
@@ -244,6 +247,7 @@ def rearranged(chart: Chart, order: Sequence[int], knots: Indices, **changes: An
         reading,
         differences=tuple(differences_of[yarn] for yarn in order) if differences_of else (),
         matches=tuple(match._replace(yarn=order.index(match.yarn)) for match in reading.matches),
+        lost=tuple(lost._replace(yarn=order.index(lost.yarn)) for lost in reading.lost),
     )
     yarns = tuple(chart.yarns[yarn] for yarn in order)
     return replace(chart, **{"knots": knots, "yarns": yarns, "reading": reading, **changes})
@@ -329,41 +333,35 @@ def chart_of_design(
     painted = paint(design.colours, distinct, own.yarn_of, progress.part(0.6, 0.7))
     tones = design if exact is None else replace(design, colours=exact)
     knots, drawn = _halftone(painted, tones, labs, reading.halftone, progress.part(0.7, 0.8))
-    least = reading.least_patch_of(design.kind)
-    knots, changed = merge_patches(knots, tones.colours, labs, least, kept=drawn, progress=progress.part(0.8, 0.9))
-    taken, measuring = (own.yarn_of, own.difference), progress.part(0.9, 0.95)
-    to_design = differences(design.colours, distinct, taken, (painted, knots), labs, measuring)
+    least, merging = reading.least_patch_of(design.kind), progress.part(0.8, 0.9)
+    knots, changed = merge_patches(knots, tones.colours, labs, least, kept=drawn, progress=merging)
+    taken, charts = (own.yarn_of, own.difference), (painted, knots)
+    to_design = differences(design.colours, distinct, taken, charts, labs, progress.part(0.9, 0.95))
+    lost_by_reading = reading_loss(design.colours, design.averages, knots, labs)
     words = [design.reason, *(["tones stretched onto the yarns"] if own.stretched else [])]
     read = ChartReading(
         design.kind,
         "; ".join(words) + _halftone_in_words(design, drawn),
-        to_design.mean,
-        own.least,
+        to_design.mean + lost_by_reading,
+        own.least + lost_by_reading,
         changed,
         design.foreign,
         fit or Fit(),
         to_design.of_yarns,
         matches=() if own.groups is None else colour_matches(distinct, own.yarn_of, own.difference, own.groups),
         palette=own.palette,
-        proposed=own.proposed if rules.propose is None else _proposed(distinct, design, rules.propose, progress),
+        proposed=own.proposed
+        if rules.propose is None
+        else propose_shades(distinct, rules.propose, drawn=own.groups is not None, progress=progress),
         dyed=tuple(shade.name for shade in own.proposed),
-        lost=_lost(own, distinct, labs),
-        edges_kept=edges_kept(edges_of(design.colours, distinct), knots, labs),
+        lost=own.lost(distinct),
+        edges_kept=edges_kept(edges_of(design.colours, distinct, design.averages), knots, labs),
+        detail_kept=detail_kept(design.detail, knots, labs),
         paper=design.paper,
     )
     chart = Chart(knots, own.palette.yarns, size, quality, kind, read)
     chart.tally(progress.part(0.95, 1.0))
     return chart
-
-
-def _lost(own: YarnsOfDesign, distinct: Colours, labs: FloatArray) -> tuple[LostColour, ...]:
-    """The colours of a drawing that vanish; the yarn of a group is that of its most frequent colour."""
-    if own.groups is None:
-        return ()
-    lead = np.zeros(len(own.groups), dtype=np.uint8)
-    order = np.argsort(distinct.counts, kind="stable")
-    lead[own.groups.of[order]] = own.yarn_of[order]
-    return lost_colours(own.groups, lead, labs)
 
 
 def _halftone(
@@ -390,7 +388,3 @@ def _halftone_in_words(design: Design, dots: BoolArray | None) -> str:
     if dots is None:
         return "; no patterns between the yarns (with: --halftone 100%)"
     return f"; patterns on {dots.mean():.1%} of it (without: --halftone 0%)"
-
-
-def _proposed(distinct: Colours, design: Design, count: int, progress: Progress) -> tuple[ProposedShade, ...]:
-    return propose_shades(distinct, count, drawn=design.kind != "photo", progress=progress)

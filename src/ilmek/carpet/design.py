@@ -151,3 +151,12 @@ def resampled_rows(
     for first, _ in in_threads(average, range(0, rows, step)):
         progress(min(first + step, rows) / rows)
     return out
+
+
+def resampled_band(rgb: Rgb, grid: tuple[int, int], band: slice) -> UInt8[np.ndarray, "rows columns 3"]:
+    """The rows of a band of `resampled` alone."""
+    height, (rows, columns) = int(rgb.shape[0]), grid
+    out = np.empty((band.stop - band.start, columns, 3), dtype=np.uint8)
+    top, bottom = band.start * height // rows, -(-band.stop * height // rows)
+    _resample(np.ascontiguousarray(rgb[top:bottom]), out, band.start, rows, top, height)
+    return out

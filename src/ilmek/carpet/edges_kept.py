@@ -1,27 +1,26 @@
-"""What a chart keeps of its design: its edges, and the colours of a drawing.
+"""What a chart keeps of its picture: its edges, and the colours of a drawing.
 
 Edges: two blocks of 2 × 2 knots side by side, or REACH apart, are an edge of contrast c, CIEDE2000 of their mean CIELAB
-in the design, from FAINT on: grain is averaged out, and a pattern counts by what it mixes to. It is kept as far as the
-chart has half of its contrast: by min(1, 2 d / c), d that of the means of their yarns. The share that is kept is the
-mean of all edges, each with the weight c. Up to MOST_BLOCKS blocks of an even lattice begin an edge: of larger charts
-they are a sample.
+in the picture's averages [`averages`], from FAINT on: grain is averaged out, and a pattern counts by what it mixes to.
+It is kept as far as the chart has half of its contrast: by min(1, 2 d / c), d the greatest of the means of the yarns of
+these blocks, and of those a knot farther to either side: the chart has no smoothed edges. The share that is kept is the
+mean of all edges, each with the weight c. The blocks of a lattice begin an edge: of large charts they are a sample.
 
-Colours: two groups of a drawing's colours [`colour_groups`] that touch and differ by VANISHING or more are lost in each
-other where their yarns are one, or within SAME_YARN. That with the fewer knots vanishes; its share is that of what is
-drawn where the two touch [`assignment.touching`].
+Colours: of two groups of a drawing's colours [`colour_groups`] that differ visibly and have one yarn, or two within
+SAME_YARN, that with the fewer knots is lost, wherever they lie. They differ visibly from VISIBLE on; a group of less
+than LEAST_LOST of the knots from VANISHING on, and below LEAST_DETAIL not at all.
 """
 
-import math
 from typing import NamedTuple
 
 import numpy as np
 
 from ilmek.arrays import Float, FloatArray, Indices, Int32, IntArray, Rgb, UInt8
-from ilmek.carpet.assignment import touching
+from ilmek.carpet.averages import Averages, lattice_step
 from ilmek.carpet.colour import lab_to_srgb
 from ilmek.carpet.colour_difference import ciede2000, delta_e_2000
 from ilmek.carpet.colour_groups import ColourGroups
-from ilmek.carpet.palette import Colours
+from ilmek.carpet.palette import Colours, distinct_colours
 from ilmek.carpet.picture_points import hex_colour
 from ilmek.num.compiled import compiled, uncounted
 
@@ -31,23 +30,22 @@ FAINT = 6.0
 REACH = 4
 """Knots from block to block over which a soft edge is seen."""
 
-VANISHING = 10.0
-"""CIEDE2000 from which two colours of a drawing are two."""
+VISIBLE, VANISHING = 5.0, 10.0
+"""CIEDE2000 from which two areas of a drawing have two colours, and from which a detail has one of its own."""
 
 SAME_YARN = 3.0
 """CIEDE2000 of two yarns that look like one in the pile."""
 
-LEAST_LOST = 5e-4
-"""Least share of the knots of a colour that is called lost."""
-
-MOST_BLOCKS = 10_000
+LEAST_LOST, LEAST_DETAIL = 3e-3, 5e-4
+"""Least shares of the knots of a colour, and of a detail, that is called lost."""
 
 
 class LostColour(NamedTuple):
-    """A colour of a drawing that vanishes, the colour beside it that has the same yarn, and the share of the knots."""
+    """A colour of a drawing that is lost: in which other, by which yarn (its index), and its share of the knots."""
 
     srgb: tuple[int, int, int]
-    beside: tuple[int, int, int]
+    other: tuple[int, int, int]
+    yarn: int
     share: float
 
     @property
@@ -86,20 +84,20 @@ def _mean_yarn(knots: Indices, yarns: FloatArray, i: int, j: int, out: FloatArra
 
 @compiled
 def _find(  # noqa: PLR0917
-    rgb: Rgb, index: IntArray, labs: FloatArray, step: int, blocks: Int32[np.ndarray, "most 4"], contrasts: FloatArray
+    rgb: Rgb, place: IntArray, index: IntArray, labs: FloatArray, step: int, blocks: IntArray, contrasts: FloatArray
 ) -> int:
-    """The number of edges, which are written."""
-    rows, columns = rgb.shape[:2]
+    """The number of edges, which are written; `place`: the row of the picture of each row of knots."""
+    rows, columns = len(place), rgb.shape[1]
     one, other, count = np.empty(3), np.empty(3), 0
     for i in range(0, rows - 1, step):
         for j in range(i // step * 7 % step, columns - 1, step):
-            _mean(rgb, index, labs, i, j, one)
+            _mean(rgb, index, labs, place[i], j, one)
             for turn in range(4):
                 reach = REACH if turn >= 2 else 2
                 y, x = (i + reach, j) if turn % 2 else (i, j + reach)
                 if y + 1 >= rows or x + 1 >= columns:
                     continue
-                _mean(rgb, index, labs, y, x, other)
+                _mean(rgb, index, labs, place[y], x, other)
                 contrast = ciede2000(one[0], one[1], one[2], other[0], other[1], other[2])
                 if contrast >= FAINT:
                     blocks[count, 0], blocks[count, 1], blocks[count, 2], blocks[count, 3] = i, j, y, x
@@ -111,23 +109,38 @@ def _find(  # noqa: PLR0917
 @compiled
 def _kept(edges: Edges, knots: Indices, yarns: FloatArray) -> float:
     """The sum of the contrasts as far as they are kept."""
+    rows, columns = knots.shape
     one, other, kept = np.empty(3), np.empty(3), 0.0
     for edge in range(len(edges.contrasts)):
         i, j, y, x = edges.blocks[edge]
-        _mean_yarn(knots, yarns, i, j, one)
-        _mean_yarn(knots, yarns, y, x, other)
-        drawn = ciede2000(one[0], one[1], one[2], other[0], other[1], other[2])
+        down, drawn = int(y > i), 0.0
+        for shift in (0, -1, 1):
+            if 2.0 * drawn >= edges.contrasts[edge]:
+                break
+            top, left, low, right = i + shift * down, j + shift * (1 - down), y + shift * down, x + shift * (1 - down)
+            if top >= 0 and left >= 0 and low + 1 < rows and right + 1 < columns:
+                _mean_yarn(knots, yarns, top, left, one)
+                _mean_yarn(knots, yarns, low, right, other)
+                drawn = max(drawn, ciede2000(one[0], one[1], one[2], other[0], other[1], other[2]))
         kept += min(edges.contrasts[edge], 2.0 * drawn)
     return kept
 
 
-def edges_of(design: Rgb, colours: Colours) -> Edges:
-    """The edges of a design (rows, columns, 3)."""
+def edges_of(design: Rgb, colours: Colours, averages: Averages | None = None) -> Edges:
+    """The edges of a picture on the grid of a design (rows, columns, 3) that was read from it.
+
+    colours  of the design      averages  of the picture; default: the design
+    """
     rows, columns = int(design.shape[0]), int(design.shape[1])
-    step = max(1, math.ceil(math.sqrt(rows * columns / MOST_BLOCKS)))
+    place, picture = np.arange(rows), design
+    if averages is not None:
+        place[averages.rows], picture = np.arange(len(averages.rows)), averages.colours
+        colours = distinct_colours(picture)
+    step = lattice_step(rows, columns)
     most = 4 * -(-rows // step) * -(-columns // step)
     blocks, contrasts = np.empty((most, 4), dtype=np.int32), np.empty(most)
-    count = _find(np.ascontiguousarray(design), colours.index, colours.labs, step, blocks, contrasts)
+    rgb = np.ascontiguousarray(picture)
+    count = _find(rgb, place, colours.index, colours.labs, step, blocks, contrasts)
     return Edges(blocks[:count], contrasts[:count])
 
 
@@ -151,19 +164,18 @@ def edges_kept(edges: Edges, knots: Indices, yarn_labs: Float[np.ndarray, "yarns
 def lost_colours(
     groups: ColourGroups, yarn_of: UInt8[np.ndarray, " groups"], yarn_labs: Float[np.ndarray, "yarns 3"]
 ) -> tuple[LostColour, ...]:
-    """The colours of a drawing that vanish, the largest share first; a colour that vanishes in several is named once.
+    """The colours of a drawing that are lost, the largest share first, each in the largest that has its yarn.
 
     yarn_of  index of each group's yarn
     """
     contrast = delta_e_2000(groups.labs[:, None], groups.labs[None])
     apart = delta_e_2000(yarn_labs[:, None], yarn_labs[None])[yarn_of[:, None], yarn_of[None]]
-    drawn = np.where((contrast >= VANISHING) & (apart < SAME_YARN), touching(groups), 0.0)
+    shares = groups.knots / groups.knots.sum()
+    visible = np.where(shares >= LEAST_LOST, VISIBLE, np.where(shares >= LEAST_DETAIL, VANISHING, np.inf))
     # Groups are in the order of their knots: below the diagonal the first of the two has fewer.
-    shares = np.tril(drawn, -1) / groups.knots.sum()
+    merged = np.tril((contrast >= visible[:, None]) & (apart < SAME_YARN), -1)
     codes = [tuple(srgb) for srgb in lab_to_srgb(groups.labs).tolist()]
-    found = [
-        LostColour(codes[group], codes[int(row.argmax())], float(row.sum()))
-        for group, row in enumerate(shares)
-        if row.sum() >= LEAST_LOST
-    ]
-    return tuple(sorted(found, key=lambda lost: -lost.share))
+    return tuple(
+        LostColour(codes[group], codes[int(merged[group].argmax())], int(yarn_of[group]), float(shares[group]))
+        for group in np.flatnonzero(merged.any(axis=1)).tolist()
+    )

@@ -4,9 +4,10 @@ The shares w make  |M (Σ w l - c)| + PENALTY Σ w d²  least: l is the yarns' l
 CIELAB with light at c, its chroma weighted as in CIEDE2000, and d the CIEDE2000 of each yarn to the tone, so that of
 mixtures of one tone that which shows least is taken. Light mixes linearly.
 
-A yarn is in a mixture only where its contrast d with the tone is at most CONTRAST, and its difference to it in a, b,
-divided by 1 + 0.045 C as in CIEDE2000, at most CHROMA: yarns of opposing hues do not make a grey. A yarn of few dots,
-each of which shows, is left out.
+A yarn is in a mixture only where its contrast d with the tone is at most min(CONTRAST, NEAR + WIDER n²), n that of the
+nearest yarn: a tone that nearly is a yarn has no strong dots, whatever they would better. Its difference to the tone in
+a, b, divided by 1 + 0.045 C as in CIEDE2000, is at most CHROMA where CONTRAST is allowed, and less in proportion: yarns
+of other hues make no skin, and no grey. A yarn of few dots, each of which shows, is left out.
 """
 
 import math
@@ -36,6 +37,11 @@ CONTRAST = 31.0
 
 CHROMA = 24.0
 """Greatest difference of a yarn of a mixture to its tone in a, b, weighted as in CIEDE2000."""
+
+NEAR, WIDER = 8.0, 0.5
+"""Greatest contrast with a tone that is a yarn [CIEDE2000], and what the square of its difference to the nearest adds
+[1/CIEDE2000]; with less, charts of ten photographs are beyond 1.1 times error diffusion across the room.
+"""
 
 SLOPES = 16
 """Whole numbers of a unit of the slope."""
@@ -134,9 +140,12 @@ def _leave_out_specks(far: FloatArray, yarns: UInt8[np.ndarray, "3"], shares: Fl
 def _allowed(far: FloatArray, labs: FloatArray, a: float, b: float, tried: IntArray) -> int:
     """Write the yarns that a mixture of a tone may have, the nearest first; returns their number."""
     count, weight = 0, 1.0 + 0.045 * math.hypot(a, b)
-    for yarn in np.argsort(far, kind="mergesort"):
+    order = np.argsort(far, kind="mergesort")
+    contrast = min(CONTRAST, NEAR + WIDER * far[order[0]] ** 2)
+    chroma = CHROMA / CONTRAST * contrast
+    for yarn in order:
         apart = math.hypot(labs[yarn, 1] - a, labs[yarn, 2] - b) / weight
-        if count < len(tried) and (count == 0 or (far[yarn] <= CONTRAST and apart <= CHROMA)):
+        if count < len(tried) and (count == 0 or (far[yarn] <= contrast and apart <= chroma)):
             tried[count] = yarn
             count += 1
     return count

@@ -14,6 +14,7 @@ import itertools
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 
 import numpy as np
 
@@ -53,8 +54,11 @@ GREY, MOST_TINTED = 8.0, 2e-3
 LEAST_DIFFERENCE = 2.0
 """CIEDE2000 below which two yarns are near twins; assumed by this project."""
 
-LEAST_EDGES, MOST_LOST = 0.75, 0.005
+LEAST_EDGES, MOST_LOST = 0.85, 0.003
 """Limits of what a chart loses; chosen by this project on drawings and photographs, by looking at their charts."""
+
+LEAST_DETAILS = MappingProxyType({"exact": 0.0, "flat": 0.6, "photo": 0.52})
+"""Default of the least detail by the kind of reading, chosen so too: the lines of a drawing are all meant."""
 
 MOST_PROPOSED = 64
 """Largest number of shades that are proposed."""
@@ -99,6 +103,14 @@ class PaletteParams(Params):
         at_least=0.0,
         at_most=1.0,
         doc="least share of the picture's edges that the chart keeps, of which less is a failed check",
+    )
+    least_detail: float | None = param(
+        None,
+        unit="%",
+        at_least=0.0,
+        at_most=1.0,
+        doc="least share of the picture's detail that the chart keeps, of which less is a failed check; default: "
+        "flat 60 %, photo 52 %",
     )
     most_lost: float = param(
         MOST_LOST,

@@ -12,7 +12,9 @@ from dataclasses import dataclass, replace
 from types import MappingProxyType
 
 from ilmek.arrays import Rgb
+from ilmek.carpet.averages import Averages, averages_of
 from ilmek.carpet.design import resampled
+from ilmek.carpet.detail import Detail, detail_of
 from ilmek.carpet.exact import find_drawing, has_grid, of_grid
 from ilmek.carpet.flat import Flatness, flat_design, looks_flat, looks_like_itself
 from ilmek.carpet.palette import Colours
@@ -108,6 +110,8 @@ class Design:
     foreign  number of knots whose colour is that of no true colour of their cell; None: no true colours
     paper    the sheet of squared paper that it was read from
     distinct  the distinct colours, where they are known; None: they are to be counted
+    averages  of the picture on the grid; None: they are the colours, or there is no picture
+    detail    of the picture on the grid; None: too little
     """
 
     colours: Rgb
@@ -116,12 +120,15 @@ class Design:
     foreign: int | None = None
     paper: PaperReading | None = None
     distinct: Colours | None = None
+    averages: Averages | None = None
+    detail: Detail | None = None
 
 
 def toned_design(design: Design, tone: Tone, progress: Progress = SILENT) -> Design:
     """A design with its tone changed."""
     colours, distinct, words = toned(design.colours, tone, progress, design.distinct)
-    return replace(design, colours=colours, reason=design.reason + words, distinct=distinct)
+    averages = design.averages and replace(design.averages, colours=toned(design.averages.colours, tone)[0])
+    return replace(design, colours=colours, reason=design.reason + words, distinct=distinct, averages=averages)
 
 
 def exact_design(
@@ -199,9 +206,12 @@ def read_design(
     required = "as required; " if params.reading == "flat" and not seen.is_flat else ""
     axes = f"; symmetric about the {' and the '.join(flat.symmetric)} axis" if flat.symmetric else ""
     axes += f"; its halved chroma (JPEG) follows its luma: {counted(len(flat.true), 'colour')}" if flat.restored else ""
-    return toned_design(Design(flat.colours, "flat", required + seen.sentence + axes, flat.foreign), params.tone)
+    reason, averages, detail = required + seen.sentence + axes, averages_of(rgb, grid), detail_of(rgb, grid)
+    read = Design(flat.colours, "flat", reason, flat.foreign, averages=averages, detail=detail)
+    return toned_design(read, params.tone)
 
 
 def _photo(rgb: Rgb, grid: tuple[int, int], params: ReadParams, reason: str, progress: Progress) -> Design:
     averages = resampled(rgb, *grid, progress.part(0.0, 0.8))
-    return toned_design(Design(averages, "photo", reason), params.tone, progress.part(0.8, 1.0))
+    read = Design(averages, "photo", reason, detail=detail_of(rgb, grid))
+    return toned_design(read, params.tone, progress.part(0.8, 1.0))

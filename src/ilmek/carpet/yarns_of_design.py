@@ -12,12 +12,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from ilmek.arrays import Float, FloatArray, UInt8
+from ilmek.arrays import Float, FloatArray, Rgb, UInt8
 from ilmek.carpet.assignment import assign_yarns
+from ilmek.carpet.blends import blends
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.colour_difference import delta_e_2000
 from ilmek.carpet.colour_groups import TWIN, ColourGroups, colour_groups
-from ilmek.carpet.edges_kept import colours_beside, edges_kept, edges_of
+from ilmek.carpet.edges_kept import LostColour, colours_beside, edges_kept, edges_of, lost_colours
 from ilmek.carpet.nearest_colour import nearest
 from ilmek.carpet.palette import Colours, nearest_yarns, paint
 from ilmek.carpet.palette_rules import (
@@ -38,13 +39,18 @@ from ilmek.errors import YarnError
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 
-DRAWN_SHADES, PHOTO_SHADES = 24, 16
-"""Largest number of shades of a drawing and of a photo without a yarn list, unless the number of colours is given."""
+DRAWN_SHADES, MOST_DRAWN, PHOTO_SHADES = 24, 48, 16
+"""Largest number of shades of a drawing, of one that would lose colours with fewer, and of a photo, without a yarn list
+and unless the number of colours is given.
+"""
 
 EVENNESS, LEAST_GAIN = 0.5, 0.15
 """How evenly the colours of a photo count for its shades, and the least gain in mean CIEDE2000 of a further one; both
 chosen by looking at charts of photographs.
 """
+
+BLENDED = 100
+"""Knots on edges that count as one for the shades of a photo: smoothed edges make no yarns of their own."""
 
 _OWN = 1.0
 """CIEDE2000 to a yarn within which a colour is drawn in that yarn, whatever the colours like it."""
@@ -77,6 +83,15 @@ class YarnsOfDesign:
     groups: ColourGroups | None = None
     stretched: bool = False
 
+    def lost(self, distinct: Colours) -> tuple[LostColour, ...]:
+        """The colours of a drawing that vanish; the yarn of a group is that of its most frequent colour."""
+        if self.groups is None:
+            return ()
+        lead = np.zeros(len(self.groups), dtype=np.uint8)
+        order = np.argsort(distinct.counts, kind="stable")
+        lead[self.groups.of[order]] = self.yarn_of[order]
+        return lost_colours(self.groups, lead, yarn_labs(self.palette.yarns))
+
 
 def yarns_of_design(
     distinct: Colours,
@@ -98,7 +113,7 @@ def yarns_of_design(
     groups = colour_groups(design.colours, distinct) if drawn else None
     proposed: tuple[ProposedShade, ...] = ()
     if dyed:
-        yarns, proposed, rules = _own(distinct, groups, yarns, rules, progress.part(0.0, 0.3))
+        yarns, proposed, rules = _own(distinct, design.colours, groups, yarns, rules, progress.part(0.0, 0.3))
     palette = choose_yarns(distinct, yarns, rules, progress.part(0.3, 0.6))
     labs = yarn_labs(palette.yarns)
     yarn_of, difference = nearest_yarns(distinct, labs, progress.part(0.6, 0.9))
@@ -119,8 +134,13 @@ def yarns_of_design(
     return YarnsOfDesign(palette, yarn_of, difference, least, proposed, groups, stretched)
 
 
-def _own(
-    distinct: Colours, groups: ColourGroups | None, stock: Sequence[Yarn], rules: PaletteParams, progress: Progress
+def _own(  # noqa: PLR0917
+    distinct: Colours,
+    design: Rgb,
+    groups: ColourGroups | None,
+    stock: Sequence[Yarn],
+    rules: PaletteParams,
+    progress: Progress,
 ) -> tuple[tuple[Yarn, ...], tuple[ProposedShade, ...], PaletteParams]:
     """The picture's own shades as yarns, those that are dyed, and the rules as they act on these yarns."""
     check_palette(replace(rules, colours=None, mapped=None), stock)
@@ -129,22 +149,36 @@ def _own(
     count = PHOTO_SHADES if groups is None else DRAWN_SHADES
     if isinstance(rules.colours, int):
         count = max(2, rules.colours - len(needed))
-    shades_of = distinct
-    if groups is not None and len(distinct.counts) > count:
-        shades_of = replace(distinct, labs=groups.labs, counts=groups.knots.astype(np.int64))
     if groups is None:
         photo = {"evenness": EVENNESS, "least_gain": LEAST_GAIN if rules.colours is None else 0.0}
-        shades = propose_shades(distinct, count, drawn=False, **photo, progress=progress)
+        inner = BLENDED * distinct.counts - (BLENDED - 1) * blends(design, distinct)
+        shades = propose_shades(replace(distinct, counts=inner), count, drawn=False, **photo, progress=progress)
     elif _served(groups, stock):
         return tuple(stock), (), rules
     else:
-        shades = propose_shades(shades_of, count, drawn=True, progress=progress)
+        most = count if isinstance(rules.colours, int) else MOST_DRAWN
+        shades = _shades_of_drawing(distinct, groups, count, most, progress)
     never = frozenset(name.casefold() for name in yarn_names("never", rules.never))
     yarns, dyed = own_yarns(shades, stock, never, needed)
     if not dyed:
         return yarns, (), rules
     few = isinstance(rules.colours, int) and rules.colours >= len(yarns)
     return yarns, dyed, replace(rules, never=None, colours=None if few else rules.colours)
+
+
+def _shades_of_drawing(
+    distinct: Colours, groups: ColourGroups, count: int, most: int, progress: Progress
+) -> tuple[ProposedShade, ...]:
+    """At most `count` shades of a drawing, or as many more, up to `most`, as keep its colours apart."""
+    of_groups = replace(distinct, labs=groups.labs, counts=groups.knots.astype(np.int64))
+    while True:
+        shades_of = distinct if len(distinct.counts) <= count else of_groups
+        shades = propose_shades(shades_of, count, drawn=True, progress=progress)
+        labs = srgb_to_lab(np.array([shade.srgb for shade in shades], dtype=np.uint8))
+        lost = lost_colours(groups, nearest(groups.labs, labs)[0].astype(np.uint8), labs)
+        if not lost or count >= min(most, len(groups)):
+            return shades
+        count = min(most, count + len(lost))
 
 
 def _served(groups: ColourGroups, stock: Sequence[Yarn]) -> bool:

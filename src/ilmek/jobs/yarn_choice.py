@@ -16,7 +16,7 @@ from ilmek.carpet.colour_difference import delta_e_2000
 from ilmek.carpet.colour_names import colour_name
 from ilmek.carpet.edges_kept import LostColour
 from ilmek.carpet.matches import ColourMatch
-from ilmek.carpet.palette_rules import LEAST_DIFFERENCE, LEAST_GAIN, NEUTRAL_NO, TwinYarns, twin_yarns
+from ilmek.carpet.palette_rules import LEAST_DETAILS, LEAST_DIFFERENCE, LEAST_GAIN, NEUTRAL_NO, TwinYarns, twin_yarns
 from ilmek.carpet.picture_points import hex_colour
 from ilmek.carpet.proposal import MatchedShade, match_shades
 from ilmek.io.yarn_file import default_yarns
@@ -90,9 +90,12 @@ def kept_checks(chart: Chart, order: CarpetOrder) -> tuple[Check, ...]:
     if made.edges_kept is not None:
         cure = _edges_cure(chart, order)
         checks.append(at_least(Sentence("check.edges-kept"), made.edges_kept, rules.least_edges, "%", _KEPT, cure=cure))
+    if made.detail_kept is not None:
+        least = LEAST_DETAILS[made.kind] if rules.least_detail is None else rules.least_detail
+        finer = Sentence("cure.finer")
+        checks.append(at_least(Sentence("check.detail-kept"), made.detail_kept, least, "%", _KEPT, cure=finer))
     if made.matches:
-        share = sum(lost.share for lost in made.lost)
-        cure = reduce(joined, _lost_cures(chart, order), "")
+        share, cure = sum(lost.share for lost in made.lost), reduce(joined, _lost_cures(chart, order), "")
         checks.append(at_most(Sentence("check.colours-lost"), share, rules.most_lost, "%", _KEPT, cure=cure))
     return tuple(checks)
 
@@ -101,12 +104,16 @@ _KEPT = Sentence("check.chosen")
 
 
 def _lost_cures(chart: Chart, order: CarpetOrder) -> Iterator[Sentence]:
-    """The cure of each lost colour, of at most MOST_CURES, and how many more there are."""
-    lost = chart.reading.lost
-    for one in lost[:MOST_CURES]:
+    """The largest colours that are lost, at most MOST_CURES, what they became, and what brings them back."""
+    lost, cured = chart.reading.lost[:MOST_CURES], dict[str, str]()
+    for one in lost:
+        share, yarn = format_quantity(one.share, "%", 2), chart.yarns[one.yarn].name
+        words = Sentence("cure.lost", colour=one.hex, share=share, yarn=yarn, other=hex_colour(one.other))
         cure = _lost_cure(one, chart, order)
-        yield Sentence("cure.lost", colour=one.hex, beside=hex_colour(one.beside), cure=cure)
-    more = len(lost) - MOST_CURES
+        cured[cure] = Sentence("cure.both", first=cured[cure], second=words) if cure in cured else words
+    for cure, named in cured.items():
+        yield Sentence("cure.by", what=named, cure=cure)
+    more = len(chart.reading.lost) - len(lost)
     if more > 0:
         yield Sentence("cure.one-more") if more == 1 else Sentence("cure.many-more", count=f"{more:,}")
 
@@ -114,7 +121,7 @@ def _lost_cures(chart: Chart, order: CarpetOrder) -> Iterator[Sentence]:
 def _lost_cure(lost: LostColour, chart: Chart, order: CarpetOrder) -> str:
     if order.dyed:
         return Sentence("cure.more-colours", count=chart.colours + len(chart.reading.lost))
-    code, beside = (srgb_to_lab(np.array(srgb, dtype=np.uint8)) for srgb in (lost.srgb, lost.beside))
+    code, beside = (srgb_to_lab(np.array(srgb, dtype=np.uint8)) for srgb in (lost.srgb, lost.other))
     left = [yarn for yarn in order.yarns or () if yarn.name not in {one.name for one in chart.yarns}]
     if order.palette.neutral != NEUTRAL_NO and np.hypot(*code[1:]) < NEUTRAL:
         left = [yarn for yarn in left if math.hypot(*yarn.lab[1:]) <= NEUTRAL_CHROMA]
@@ -158,6 +165,7 @@ def yarn_choice_results(chart: Chart, order: CarpetOrder) -> dict[str, Any]:
     return {
         "assignment": assignment_results(chart),
         "edges_kept": chart.reading.edges_kept,
+        "detail_kept": chart.reading.detail_kept,
         "lost": [
             {"colour": lost.hex, "share": lost.share, "cure": _lost_cure(lost, chart, order)}
             for lost in chart.reading.lost
