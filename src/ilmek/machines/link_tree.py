@@ -12,6 +12,7 @@ from types import MappingProxyType
 import numpy as np
 
 from ilmek.arrays import FloatArray
+from ilmek.dynamics.inertia import Inertia
 from ilmek.elements.materials import MATERIALS, Material
 from ilmek.linkage.model import GROUND, Mechanism, Pin, Slide
 from ilmek.linkage.motion import Motion
@@ -142,14 +143,24 @@ class LinkageParts:
         return {name: part.id for name, part in (*self.plates.items(), *self.pins.items())}
 
 
-def linkage_parts(machine: str, mechanism: Mechanism, levels: Levels, shafts: Collection[str] = ()) -> LinkageParts:
+def linkage_parts(
+    machine: str,
+    mechanism: Mechanism,
+    levels: Levels,
+    formed: Mapping[str, Part] = MappingProxyType({}),
+    shafts: Collection[str] = (),
+) -> LinkageParts:
     """The plates of a linkage's bodies and the pins of its turning joints; pins of the same size are one part.
 
-    machine  first part of the ids      shafts  joints that are no pins, but shafts
+    machine  first part of the ids      formed  plates of another form, by their bodies
+    shafts   joints that are no pins, but shafts
     """
     plates, pins, sizes = {}, dict[str, Part](), dict[tuple[float, float], Part]()
     joints = [one for one in mechanism.joints if isinstance(one, Pin) and set(one.bodies) <= set(levels.sizes)]
     for body, size in levels.sizes.items():
+        if body in formed:
+            plates[body] = formed[body]
+            continue
         points = mechanism.body(body).points
         if body == GROUND:
             points = {one.name: points[one.name] for one in joints if one.name in points}
@@ -178,10 +189,8 @@ def linkage_tree(
     angle    of the drive at the samples, ascending from 0 to 2 pi [rad]; default: evenly
     What carries the plate that stands is not designed.
     """
-    stands = Joint(JointKind.MISSING)
-    ground = RigidBody(
-        body_id(parts.machine, GROUND), (*_fixed(parts, motion, GROUND), *others.get(GROUND, ())), joint=stands
-    )
+    fixed = (*_fixed(parts, motion.plan.mechanism, GROUND), *others.get(GROUND, ()))
+    ground = RigidBody(body_id(parts.machine, GROUND), fixed, joint=Joint(JointKind.MISSING))
     return Tree((ground, *linkage_bodies(parts, motion, others, angle)))
 
 
@@ -206,7 +215,7 @@ def linkage_bodies(
         bodies.append(
             RigidBody(
                 body_id(parts.machine, body) + suffix,
-                (*_fixed(parts, motion, body), *others.get(body, ())),
+                (*_fixed(parts, mechanism, body), *others.get(body, ())),
                 body_id(parts.machine, parent) + ("" if on_ground else suffix),
                 Joint(kind, _Z, motions.get(body), seats),
                 (placement(z=z if on_ground else 0.0).after(resting(motion, body, parent)),),
@@ -220,11 +229,24 @@ def body_id(machine: str, body: str) -> str:
     return f"{machine}/{FRAME if body == GROUND else body.replace(' ', '-')}"
 
 
-def _fixed(parts: LinkageParts, motion: Motion, body: str) -> tuple[Occurrence, ...]:
+def link_inertias(
+    parts: LinkageParts, mechanism: Mechanism, others: Mapping[str, Sequence[Occurrence]] = MappingProxyType({})
+) -> dict[str, Inertia]:
+    """Inertia of each moving body of a linkage, of all that is fixed in it; others as in `linkage_tree`."""
+    return {body: inertia_of((*_fixed(parts, mechanism, body), *others.get(body, ()))) for body in mechanism.moving}
+
+
+def inertia_of(occurrences: Sequence[Occurrence]) -> Inertia:
+    """Inertia in the plane of motion of parts in the frame of their body; of those that are weighed."""
+    moments = RigidBody("", tuple(occurrences)).moments
+    return Inertia(moments.zeroth, complex(*moments.centre[:2]), float(moments.inertia[2, 2]))
+
+
+def _fixed(parts: LinkageParts, mechanism: Mechanism, body: str) -> tuple[Occurrence, ...]:
     """The plate of a body, and the pins that are fixed in it."""
     if body not in parts.plates:
         return ()
-    mechanism, levels = motion.plan.mechanism, parts.levels
+    levels = parts.levels
     positions: dict[str, list[Placement]] = {}
     pins = {pin.id: pin for pin in parts.pins.values()}
     for joint in mechanism.joints:

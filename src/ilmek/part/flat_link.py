@@ -17,7 +17,7 @@ from ilmek.arrays import RealField
 from ilmek.part.profile import drilled
 from ilmek.part.shapes import Prism
 from ilmek.plane.contours import rounded_hull
-from ilmek.report import Hole
+from ilmek.report import Contour, Hole
 
 
 class LinkMoments(NamedTuple):
@@ -75,6 +75,29 @@ def flat_link_moments(length: RealField, width: float, thickness: float, holes: 
         cut = math.pi * diameter**2 / 4
         area, first, second = area - cut, first - cut * at, second - cut * (diameter**2 / 8 + at**2)
     return LinkMoments(thickness * area, thickness * first, thickness * second)
+
+
+def stepped_link(start: complex, end: complex, width: float, steps: Iterable[tuple[float, float]] = ()) -> Contour:
+    """Outline of a link that is round about its first pin and square at its end, with narrower or wider steps beyond.
+
+    start, end  the pin, and the end on the line through it [m]      width  of the link [m]
+    steps       length and width of each, from the end on [m]
+
+    >>> outline = stepped_link(0j, 0.1 + 0j, 0.02, [(0.01, 0.03)])
+    >>> round(area(outline) / (0.1 * 0.02 + math.pi * 0.01**2 / 2 + 0.01 * 0.03), 12)
+    1.0
+    """
+    reach = abs(end - start)
+    edge, x = [complex(0, width / 2), complex(reach, width / 2)], reach
+    for length, wide in steps:
+        edge += [complex(x, wide / 2), complex(x + length, wide / 2)]
+        x += length
+    upper = [point for point, before in zip(edge, [None, *edge[:-1]], strict=True) if point != before]
+    along = (end - start) / reach
+    points = start + along * np.array([point.conjugate() for point in upper] + upper[::-1])
+    bulges = np.zeros(len(points))
+    bulges[-1] = 1.0  # half a turn about the pin, from the last point to the first
+    return Contour(points, bulges)
 
 
 def flat_link(length: float, width: float, thickness: float, holes: Iterable[PinHole] = ()) -> Prism:

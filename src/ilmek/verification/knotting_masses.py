@@ -5,7 +5,7 @@ from functools import cache, partial
 
 from ilmek.dynamics.inertia import Inertia, bar_moment
 from ilmek.elements.materials import GRAVITY
-from ilmek.machines.knotting_four_bar.model import inertias, parts
+from ilmek.machines.knotting_four_bar.links import inertias, parts
 from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams
 from ilmek.units import g, mm
 from ilmek.verification.claim import Claim, Computation

@@ -18,14 +18,14 @@ from ilmek.machines.beat_up.beater import Beater
 from ilmek.machines.beat_up.crank_start import start_parts
 from ilmek.machines.beat_up.design import BeatUp
 from ilmek.machines.beat_up.links import BESIDE, PART_IDS, pin_length
-from ilmek.machines.beat_up.parts import JOURNAL, in_line, link_parts, pin_part
+from ilmek.machines.beat_up.parts import JOURNAL, link_parts, pin_part
 from ilmek.machines.beat_up.travel import AXIS_SIDE, travel_parts
 from ilmek.machines.beat_up.use import BeatUpUse, in_use
 from ilmek.part.link_motion import carriers
 from ilmek.part.link_motion import link_motions as motions_of
 from ilmek.part.part import Part
 from ilmek.part.placement import Placement, placement
-from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
+from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree, in_line
 from ilmek.report.scene import SceneMotion
 
 CARRIAGE = "beat-up/carriage"

@@ -14,7 +14,6 @@ import numpy as np
 from ilmek.arrays import ComplexArray
 from ilmek.machines.beat_up.beater import across, rectangle
 from ilmek.machines.beat_up.crank_start import start_parts
-from ilmek.machines.beat_up.parts import depth_of
 from ilmek.machines.beat_up.tree import CARRIAGE, crank_frame, crank_rockers, on_rocker, rocker_position
 from ilmek.machines.hammer.comb import BAR_ID, BEHIND, LEAF_ID
 from ilmek.machines.hammer.design import Hammer
@@ -23,7 +22,7 @@ from ilmek.part import catalogue
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import Placement, placement
 from ilmek.part.shapes import box
-from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
+from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree, depth_of
 from ilmek.report.scene import SceneMotion
 from ilmek.units import mm
 

@@ -6,7 +6,6 @@ from ilmek.machines.knotting_four_bar.design import KnottingFourBar
 from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams
 from ilmek.machines.knotting_four_bar.posed import PosedFourBar
 from ilmek.machines.knotting_four_bar.sides import SidesAnalysis, analyse_sides
-from ilmek.machines.knotting_four_bar.strength import four_bar_strength
 from ilmek.machines.linkage_strength import LinkageStrength, equilibrium_test, strength_checks
 from ilmek.machines.strength_tables import strength_table
 from ilmek.records import group, record
@@ -33,7 +32,7 @@ class KnottingFourBarAnalysis:
 def analyse(design: KnottingFourBar) -> KnottingFourBarAnalysis:
     """The design with the analysis of both sides."""
     sides = None if design.sides is None else analyse_sides(design.params, design.sides, design.onward)
-    return KnottingFourBarAnalysis(design, four_bar_strength(design), sides)
+    return KnottingFourBarAnalysis(design, design.strength, sides)
 
 
 def checks(found: KnottingFourBarAnalysis) -> tuple[Check, ...]:
@@ -214,7 +213,9 @@ def _force_table(design: KnottingFourBar) -> Table:
 
 def _part_table(design: KnottingFourBar) -> Table:
     heads = columns("part", "mass [g]", "centre from first pin [mm]", "J about it [g*mm^2]")
-    named = {**design.parts, "coupler with holder and gripper": design.inertias["coupler"]}
+    made, hand = design.inertias, "coupler with holder and gripper"
+    links = {name: made[name] for name in ("crank", "rocker")} if design.params.link_mass == "made" else design.parts
+    named = {**links, hand: made["coupler"]}
     rows = tuple((name, inertia.mass, complex(inertia.centre).real, inertia.moment) for name, inertia in named.items())
     return Table("knotting-parts", "Masses and moments of inertia", heads, rows)
 
