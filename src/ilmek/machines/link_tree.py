@@ -149,11 +149,13 @@ def linkage_parts(
     levels: Levels,
     formed: Mapping[str, Part] = MappingProxyType({}),
     shafts: Collection[str] = (),
+    *,
+    of: str = "",
 ) -> LinkageParts:
     """The plates of a linkage's bodies and the pins of its turning joints; pins of the same size are one part.
 
     machine  first part of the ids      formed  plates of another form, by their bodies
-    shafts   joints that are no pins, but shafts
+    shafts   joints that are no pins, but shafts      of  what the links and pins belong to, for their titles
     """
     plates, pins, sizes = {}, dict[str, Part](), dict[tuple[float, float], Part]()
     joints = [one for one in mechanism.joints if isinstance(one, Pin) and set(one.bodies) <= set(levels.sizes)]
@@ -164,7 +166,7 @@ def linkage_parts(
         points = mechanism.body(body).points
         if body == GROUND:
             points = {one.name: points[one.name] for one in joints if one.name in points}
-        title = "frame plate" if body == GROUND else body
+        title = "frame plate" if body == GROUND else f"{body} {of}".strip()
         plates[body] = link_part(body_id(machine, body), title, points, size)
     for joint in joints:
         if joint.name in shafts:
@@ -172,7 +174,7 @@ def linkage_parts(
         low, high = levels.across(joint.bodies)
         made = min(levels.sizes[body].hole for body in joint.bodies), round(high - low, 9)
         if made not in sizes:
-            sizes[made] = pin_part(f"{machine}/pin{f'-{len(sizes) + 1}' if sizes else ''}", "pin", *made)
+            sizes[made] = pin_part(f"{machine}/pin{f'-{len(sizes) + 1}' if sizes else ''}", f"pin {of}".strip(), *made)
         pins[joint.name] = sizes[made]
     return LinkageParts(machine, levels, plates, pins)
 

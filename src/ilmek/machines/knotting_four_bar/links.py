@@ -86,7 +86,7 @@ def gear_part(params: KnottingFourBarParams, gears: EqualGears, bore: float) -> 
     return Part(
         f"{MACHINE_NAME}/gear",
         "gear of a crank",
-        "gear",
+        "turned part",
         f"module {format_quantity(gears.module, 'mm')}, {gears.teeth} teeth",
         Prism(disc(gears.pitch_radius, *holes), gears.width),
         material_of(params),
