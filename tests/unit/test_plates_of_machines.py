@@ -6,8 +6,8 @@ from default_machines import default_report
 from ilmek.elements.plates import link_plates
 from ilmek.io.plate_shape import plate_shape
 from ilmek.machines.catalogue import MACHINES
-from ilmek.plane.contours import area
-from ilmek.report import Report
+from ilmek.plane.contours import area, bounds
+from ilmek.report import Contour, Report
 
 
 def answer(machine: str) -> Report:
@@ -33,8 +33,19 @@ def spans(machine: str) -> dict[str, list[float]]:
 
 
 def test_tufting_plates_have_the_lengths_of_the_paper() -> None:
-    lengths = {"crank": 0.015, "coupler": 0.138, "rocker": 0.115, "arm": 0.125, "rod": 0.12}
-    assert spans("tufting") == {name: pytest.approx([length]) for name, length in lengths.items()}
+    lengths = {"coupler": 0.138, "rocker": 0.115, "arm": 0.125, "rod": 0.12}
+    found = spans("tufting")
+    assert {name: found[name] for name in lengths} == {name: pytest.approx([one]) for name, one in lengths.items()}
+
+
+def test_the_eccentric_is_bored_as_far_from_its_middle_as_the_crank_is_long() -> None:
+    crank = next(plate for plate in answer("tufting").plates if plate.name == "crank")
+    assert isinstance(crank.outline, Contour)
+    low, high = bounds(crank.outline)
+    assert (low + high) / 2 == pytest.approx(0.015)
+    (bore,) = crank.cutouts
+    assert isinstance(bore, Contour)
+    assert abs(bore.points[0]) == pytest.approx(0.01, rel=0.2)  # about the origin, on the main shaft
 
 
 def test_pins_without_room_are_left_out() -> None:
@@ -51,5 +62,5 @@ def test_pins_without_room_are_left_out() -> None:
 def test_plates_are_bored_for_the_pins_that_were_checked(machine: str) -> None:
     report = default_report(machine)
     largest = next(one.value for one in report.results if one.name == "pin_diameter")
-    holes = [hole.radius for plate in report.plates if plate.name != "crank" for hole in plate.holes]
+    holes = [plate.holes[-1].radius for plate in report.plates if plate.name not in {"crank", "frame"}]
     assert max(holes) == pytest.approx(largest / 2)

@@ -15,7 +15,8 @@ from ilmek.machines.four_bar_figures import crank_range
 from ilmek.machines.link_tree import Levels, LinkSize, linkage_parts, linkage_tree
 from ilmek.part.tree import Tree
 from ilmek.synthesis.candidate import Candidate
-from ilmek.synthesis.selection import FourBarDesign
+from ilmek.synthesis.four_bar import LinkLengths
+from ilmek.synthesis.selection import FourBarDesign, FourBarTaskParams
 from ilmek.units import mm
 
 WIDTH_SHARE, SLENDER, WIDE = 0.2, 4 * mm, 40 * mm
@@ -29,27 +30,23 @@ STEEL = MATERIALS["structural steel"]
 LEVELS = ((GROUND,), ("crank", "rocker"), ("coupler",))
 
 
+@lru_cache(maxsize=8)
 def four_bar_tree(machine: str, made: FourBarDesign) -> Tree:
     """The bodies of the solution that is drawn, at its first position; none without one.
 
     machine  first part of the ids
     """
-    return Tree() if made.best is None else _tree(machine, made.best.candidate, _size(made))
-
-
-@lru_cache(maxsize=8)
-def _tree(machine: str, found: Candidate, size: LinkSize) -> Tree:
-    mechanism = found.four_bar.mechanism()
+    if made.best is None:
+        return Tree()
+    found = made.best.candidate
+    mechanism, size = found.four_bar.mechanism(), _size(made.params, found.four_bar.lengths)
     levels = Levels(LEVELS, {body: size for level in LEVELS for body in level})
     return linkage_tree(linkage_parts(machine, mechanism, levels), solve(plan(mechanism), _angles(found)))
 
 
-def _size(made: FourBarDesign) -> LinkSize:
-    assert made.best is not None
-    params, lengths = made.params, made.best.candidate.four_bar.lengths
-    width = params.link_width or min(
-        max(WIDTH_SHARE * min(lengths.crank, lengths.coupler, lengths.rocker), SLENDER), WIDE
-    )
+def _size(params: FourBarTaskParams, lengths: LinkLengths) -> LinkSize:
+    shortest = min(lengths.crank, lengths.coupler, lengths.rocker)
+    width = params.link_width or min(max(WIDTH_SHARE * shortest, SLENDER), WIDE)
     thickness = params.link_thickness or THICKNESS_SHARE * width
     return LinkSize(width, thickness, PIN_SHARE * width, STEEL)
 

@@ -7,6 +7,7 @@ that stands, else in the link of the lower level; all others turn on it.
 
 import itertools
 from collections.abc import Collection, Mapping, Sequence
+from dataclasses import field
 from types import MappingProxyType
 
 import numpy as np
@@ -63,10 +64,12 @@ class Levels:
     """Planes of a linkage, from the plate that stands on.
 
     bodies  names of those in each plane, the ground in the first      sizes  of each body's plate
+    pins    diameters by name of those that are not as large as the holes of both their links [m]
     """
 
     bodies: tuple[tuple[str, ...], ...]
     sizes: Mapping[str, LinkSize]
+    pins: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def bottoms(self) -> dict[str, float]:
@@ -172,7 +175,8 @@ def linkage_parts(
         if joint.name in shafts:
             continue
         low, high = levels.across(joint.bodies)
-        made = min(levels.sizes[body].hole for body in joint.bodies), round(high - low, 9)
+        least = min(levels.sizes[body].hole for body in joint.bodies)
+        made = levels.pins.get(joint.name, least), round(high - low, 9)
         if made not in sizes:
             sizes[made] = pin_part(f"{machine}/pin{f'-{len(sizes) + 1}' if sizes else ''}", f"pin {of}".strip(), *made)
         pins[joint.name] = sizes[made]

@@ -29,6 +29,9 @@ NAME = "knotting-dyad"
 
 LEVELS = ((GROUND,), ("link 1",), ("link 2",))
 
+SERVOS = (f"{NAME}/first-servo", f"{NAME}/second-servo")
+"""Ids of the servos of first and second links."""
+
 OF = "of an arm"
 """What links and pins belong to."""
 

@@ -16,7 +16,7 @@ from ilmek.linkage.model import GROUND, Body, Displacement, Mechanism, Pin, Rota
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
-from ilmek.machines.knotting_dyad.arms import NAME, arm_mechanism, arm_parts, blade_part, carried, edgewise
+from ilmek.machines.knotting_dyad.arms import NAME, SERVOS, arm_mechanism, arm_parts, blade_part, carried, edgewise
 from ilmek.machines.knotting_dyad.design import KnottingDyad
 from ilmek.machines.knotting_dyad.drives import HeadMotion, JointDrive, head_motion
 from ilmek.machines.knotting_dyad.head import Head
@@ -151,10 +151,10 @@ def _servos(dyad: KnottingDyad, head: Head, motion: HeadMotion) -> Iterator[Occu
     below = -GAP * dyad.params.link_thickness
     first, second = motion.joints
     pivots = head.arm.pivot, complex(2 * head.section.middle - head.arm.pivot.conjugate())
-    rows = [("first", first, 0j)]
+    rows = [(SERVOS[0], first, 0j)]
     if dyad.params.elbow_drive == "belt":
         face = first.motor.face if first.motor else catalogue.SPECIAL_FACE
-        rows.append(("second", second, complex(0, 1.1 * face)))
+        rows.append((SERVOS[1], second, complex(0, 1.1 * face)))
     for name, drive, beside in rows:
         parts = tuple(_drive_parts(name, drive))
         lines = [in_line(parts, below, pivot + beside) for pivot in pivots]
@@ -165,15 +165,13 @@ def _servos(dyad: KnottingDyad, head: Head, motion: HeadMotion) -> Iterator[Occu
 def _drive_parts(name: str, drive: JointDrive) -> Iterator[Part]:
     if drive.gear_ratio != 1:
         title = f"reducer of the {drive.joint}"
-        yield catalogue.reducer(f"{NAME}/{name}-reducer", title, drive.gear_ratio, drive.motor)
-    yield catalogue.motor(
-        f"{NAME}/{name}-servo", f"servo of the {drive.joint}", drive.motor, drive.servo_torque_max, drive.servo_speed
-    )
+        yield catalogue.reducer(f"{name}-reducer", title, drive.gear_ratio, drive.motor)
+    yield catalogue.motor(name, f"servo of the {drive.joint}", drive.motor, drive.servo_torque_max, drive.servo_speed)
 
 
 def _elbow_servo(drive: JointDrive, loads: tuple[Occurrence, ...], x: float) -> Occurrence:
     """The servo in an elbow at x [m]: the load whose mass is given, which the forces count."""
-    part = tuple(_drive_parts("second", drive))[-1]
+    part = tuple(_drive_parts(SERVOS[1], drive))[-1]
     assert part.purchase is not None
     if not loads:
         return Occurrence(replace(part, purchase=replace(part.purchase, mass=0.0)), (placement(x),))
