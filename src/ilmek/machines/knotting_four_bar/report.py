@@ -87,7 +87,7 @@ def _servo_check(design: KnottingFourBar) -> Check:
     torque, speed = format_quantity(drive.torque, "N*m"), format_quantity(drive.speed, "rad/s")
     cure = f"set a lower speed, or poses farther from a dead point: {torque} at {speed} are required"
     return must(
-        "a servo turns the crank", drive.servo is not None, "servo table, gears of stock", cure=cure, parts=motor
+        "a servo turns the crank", drive.servo is not None, "servo table, gears of stock", cure=cure, parts=MOTOR
     )
 
 
