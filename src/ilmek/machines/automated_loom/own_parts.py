@@ -28,6 +28,9 @@ RAIL = "heads' rail"
 CABINET = (0.8, 1.0, 0.3)
 """Width, height and depth of the control's cabinet [m]; assumed by this project."""
 
+_MODULE, _MODULE_PITCH, _MODULE_ROWS = (40 * mm, 170 * mm, 160 * mm), (50 * mm, 230 * mm), 4
+"""Width, height and depth of an axis' amplifier in the cabinet [m], distances of neighbours, rows; assumed."""
+
 _AXIS = 40 * mm
 """Side of a linear axis' section [m]; assumed by this project."""
 
@@ -86,10 +89,10 @@ def _retreat(loom: LoomDesign) -> RigidBody:
     )
 
 
-def frame_tree(loom: LoomDesign, frame: LoomFrame, retreat: SceneMotion | None = None) -> Tree:
+def frame_tree(loom: LoomDesign, frame: LoomFrame, axes: int, retreat: SceneMotion | None = None) -> Tree:
     """Columns, posts, beams and feet as one welded body; the rail that retreats with the heads; the control.
 
-    retreat  motion of the rail to the front; default: it stands
+    axes  of the control      retreat  motion of the rail to the front; default: it stands
     """
     rail = _member("rail", "rail of the heads", frame.rail, frame.task.width)
     axis = Part(
@@ -104,17 +107,6 @@ def frame_tree(loom: LoomDesign, frame: LoomFrame, retreat: SceneMotion | None =
     middle = _rail_middle(loom)
     along = placement(x=-frame.task.width / 2).after(ALONG_WIDTH)
     below = placement(-frame.task.width / 2, -(frame.rail.side + _AXIS) / 2).after(ALONG_WIDTH)
-    wide, high, deep = CABINET
-    control = Part(
-        part_id("control"),
-        "control",
-        "control",
-        shape=box(wide, high, deep),
-        purchase=Bought("cabinet"),
-        envelope=True,
-    )
-    beside = loom.task.width / 2 + frame.column.side + wide
-    cabinet = placement(beside, loom.side.floor + high / 2, loom.side.column - deep / 2)
     return Tree(
         (
             RigidBody(part_id("frame"), tuple(_welded(loom, frame))),
@@ -124,9 +116,45 @@ def frame_tree(loom: LoomDesign, frame: LoomFrame, retreat: SceneMotion | None =
                 joint=Joint(JointKind.SLIDE, motion=retreat),
                 positions=(placement(0.0, middle.imag, middle.real),),
             ),
-            RigidBody(part_id("control"), (Occurrence(control, (cabinet,)),)),
+            _control(loom, frame, axes),
         )
     )
+
+
+def _control(loom: LoomDesign, frame: LoomFrame, axes: int) -> RigidBody:
+    """The cabinet beside the frame, wide enough for the amplifiers of its axes, row by row on its back wall."""
+    columns = -(-axes // _MODULE_ROWS)
+    (across, upwards), (least, high, deep) = _MODULE_PITCH, CABINET
+    wide = max(least, columns * across)
+    control = Part(
+        part_id("control"),
+        "control",
+        "control",
+        shape=box(wide, high, deep),
+        purchase=Bought("cabinet"),
+        envelope=True,
+    )
+    module = Part(
+        part_id("control-axis"),
+        "axis of the control",
+        "axis of the control",
+        "amplifier, cable, switch",
+        box(*_MODULE),
+        purchase=Bought("amplifier"),
+        envelope=True,
+    )
+    beside = loom.task.width / 2 + frame.column.side + wide
+    middle, back = loom.side.floor + high / 2, loom.side.column - deep / 2
+    places = tuple(
+        placement(
+            beside + (at % columns - (columns - 1) / 2) * across,
+            middle + (at // columns - (_MODULE_ROWS - 1) / 2) * upwards,
+            back,
+        )
+        for at in range(axes)
+    )
+    cabinet = Occurrence(control, (placement(beside, middle, back),))
+    return RigidBody(part_id("control"), (cabinet, *([Occurrence(module, places)] if places else [])))
 
 
 def _welded(loom: LoomDesign, frame: LoomFrame) -> Iterable[Occurrence]:

@@ -29,7 +29,8 @@ GROUND = "ground"
 def standing(made: SceneMaker) -> SceneGroup:
     """Frame with its rail, what it carries, cylinders, and compensator."""
     retreat = along_track(made.loom.row_cyclogram, HEADS, (0.0, 0.0, 1.0))
-    own = frame_tree(made.loom, parts_of_loom(made.loom).frame, retreat)
+    listed = parts_of_loom(made.loom)
+    own = frame_tree(made.loom, listed.frame, listed.axes, retreat)
     carried = carried_tree(made.loom)
     groups = (_warp_cylinders(made), compensator(made, GROUND))
     return SceneGroup(
