@@ -74,7 +74,7 @@ class Flanked:
 
     @property
     def _angles(self) -> FloatArray:
-        return np.arange(self.lower.shape[1]) * (2 * math.pi / self.lower.shape[1])
+        return np.asarray(np.arange(self.lower.shape[1]) * (2 * math.pi / self.lower.shape[1]))
 
     def mesh(self, deviation: float = CHORD) -> Solid:
         """A closed surface of triangles: the same points of the section at even angles."""
@@ -113,7 +113,7 @@ class Flanked:
             return np.zeros(self.lower.shape[1])
         edge = along(self.bore, CHORD / 5)
         order = np.argsort(np.angle(edge))
-        return np.interp(self._angles, np.angle(edge)[order], np.abs(edge)[order], period=2 * math.pi)
+        return np.asarray(np.interp(self._angles, np.angle(edge)[order], np.abs(edge)[order], period=2 * math.pi))
 
     def pieces(self, deviation: float = CHORD) -> tuple[Points, ...]:
         """The cylinder about it."""

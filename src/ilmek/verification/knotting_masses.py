@@ -28,7 +28,7 @@ def claims() -> tuple[Claim, ...]:
 @cache
 def part(name: str) -> Inertia:
     """A part of link 2, or another link, by the report's name."""
-    return {**parts(PARAMS), **inertias(PARAMS)}[{**PARTS, **LINKS}[name]]
+    return {**parts(PARAMS), **inertias(PARAMS, hole=0.0)}[{**PARTS, **LINKS}[name]]
 
 
 def _of(name: str, power: int, unit: float) -> Computation:
