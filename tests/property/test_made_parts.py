@@ -105,7 +105,7 @@ def counted(machine: str, design: Any) -> dict[str, Inertia]:
 
 def mass_error(machine: str, design: Any, tree: Tree) -> float:
     """Greatest relative difference of mass, first and second moment of a body in the forces from those of its parts."""
-    worst = 0.0
+    worst = _of_follower(design, tree) if machine == "cam" else 0.0
     for name, inertia in counted(machine, design).items():
         body = tree.body(name)
         weights = [
@@ -121,6 +121,16 @@ def mass_error(machine: str, design: Any, tree: Tree) -> float:
             away = abs(complex(*moments.centre[:2]) - inertia.centre)
             worst = max(worst, away / (abs(inertia.centre) or 1.0), abs(moments.inertia[2, 2] / inertia.moment - 1))
     return worst
+
+
+def _of_follower(design: Any, tree: Tree) -> float:
+    """Relative difference of the moving mass in a cam's forces from the follower's, no less than its rollers'."""
+    if not tree.bodies:
+        return 0.0
+    mass, rollers = tree.body("cam/follower").moments.zeroth, 0.0
+    for one in tree.body("cam/follower").occurrences:
+        rollers += len(one.positions) * one.part.mass if one.part.id == "cam/roller" else 0.0
+    return float(abs(mass - max(design.params.mass, rollers)) / (mass or 1.0))
 
 
 QUICK = ("cam", "function-four-bar", "knotting-four-bar", "tufting", "knotting-dyad")

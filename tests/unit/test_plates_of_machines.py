@@ -1,12 +1,14 @@
-"""Plates of machines: areas as designed; links as long as the design's, none where there is no room for two pins."""
+"""Plates of machines: areas as designed; links as long as the design's, bored where there is room."""
 
 import pytest
 from default_machines import default_report
 
-from ilmek.elements.plates import link_plates
+from ilmek.elements.materials import MATERIALS
 from ilmek.io.plate_shape import plate_shape
 from ilmek.machines.catalogue import MACHINES
-from ilmek.plane.contours import area, bounds
+from ilmek.machines.link_tree import LinkSize, link_part
+from ilmek.part.shapes import Prism
+from ilmek.plane.contours import area, as_hole, bounds
 from ilmek.report import Contour, Report
 
 
@@ -48,14 +50,13 @@ def test_the_eccentric_is_bored_as_far_from_its_middle_as_the_crank_is_long() ->
     assert abs(bore.points[0]) == pytest.approx(0.01, rel=0.2)  # about the origin, on the main shaft
 
 
-def test_pins_without_room_are_left_out() -> None:
-    made = link_plates(
-        {"stub": (("A", 0j), ("B", 0.004 + 0j)), "rod": (("A", 0j), ("B", 0.1 + 0j), ("E", 0.104 + 0j))},
-        width=0.03,
-        thickness=0.01,
-        material="steel",
-    )
-    assert [(plate.name, [hole.label for hole in plate.holes]) for plate in made] == [("rod", ["A", "B"])]
+def test_pins_without_room_are_not_bored() -> None:
+    size = LinkSize(0.03, 0.01, 0.01, MATERIALS["structural steel"])
+    rod = link_part("stub/rod", "rod", {"A": 0j, "B": 0.1 + 0j, "E": 0.104 + 0j}, size)
+    assert isinstance(rod.shape, Prism)
+    found = sorted(hole.at.real for hole in (as_hole(cut) for cut in rod.shape.section.holes) if hole is not None)
+    assert found == pytest.approx([0.0, 0.1])
+    assert set(rod.seats) == {"A", "B", "E"}
 
 
 @pytest.mark.parametrize("machine", ["beat-up", "tufting"])

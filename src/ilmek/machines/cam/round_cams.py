@@ -5,7 +5,7 @@ which the contact lies on it solves rho^2 + Im(w)^2 = R^2, w the contact in the 
 """
 
 import math
-from functools import partial
+from functools import lru_cache, partial
 from typing import Literal
 
 import numpy as np
@@ -75,6 +75,7 @@ def solid_plate(design: CamDesign, title: str, ends: tuple[float, float]) -> Pla
     )
 
 
+@lru_cache(maxsize=4)
 def flanked(design: CamDesign, ends: tuple[float, float]) -> Flanked:
     """The shape of the cam; ends as of `solid_plate`."""
     cam, barrel = design.cam, design.params.led

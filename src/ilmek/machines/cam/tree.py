@@ -85,7 +85,8 @@ def cam_parts(design: CamDesign) -> Iterator[Part]:
 
 def mass_of(design: CamDesign) -> float | None:
     """Mass of the cam, bored, or of both [kg]; None where undercut leaves no face."""
-    return sum(part.mass for part in cam_parts(design)) or None
+    bodies = tree(design)
+    return bodies.body(CAM).moments.zeroth if bodies.bodies else None
 
 
 def _disc(design: CamDesign, cam: CamRole, name: str, title: str) -> Part:
