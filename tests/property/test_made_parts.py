@@ -153,7 +153,7 @@ def test_made_parts_weigh_what_the_forces_count(machine: str, seed: int) -> None
 
 
 @pytest.mark.parametrize("machine", [*QUICK, *OTHERS])
-def test_every_line_of_the_list_is_a_part_with_a_shape(machine: str) -> None:
+def test_every_line_of_the_list_is_a_part_with_a_shape_and_checks_name_them(machine: str) -> None:
     """At the default parameters; drives, rollers and followers too."""
     component = MACHINES[machine]
     assert component.tree is not None
@@ -162,6 +162,8 @@ def test_every_line_of_the_list_is_a_part_with_a_shape(machine: str) -> None:
     assert parts
     assert {line.part: line.number for line in component.parts(design)} == {name: n for name, (_, n) in parts.items()}
     assert all(part.shape is not None for part, _ in parts.values())
+    named = {name for check in component.report(design, illustrated=False).checks for name in check.parts}
+    assert named <= set(parts)
 
 
 @pytest.mark.parametrize("kind", ["plate", "grooved", "conjugate", "barrel", "face", "wedge"])

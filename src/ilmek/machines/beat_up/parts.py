@@ -7,15 +7,13 @@ the coupler beside them; pins reach through both. The drive stands in line with 
 from functools import lru_cache
 
 from ilmek.machines.beat_up.design import BeatUp
-from ilmek.machines.beat_up.links import LINKS, PART_IDS, PIN_MATERIAL, pin_holes, pin_length, spans
+from ilmek.machines.beat_up.links import LINKS, PART_IDS, pin_holes, pin_length, spans
+from ilmek.machines.link_tree import JOURNAL, PIN_STEEL
 from ilmek.part.flat_link import flat_link
 from ilmek.part.part import Part, Seat
 from ilmek.part.placement import placement
 from ilmek.part.shapes import bar
 from ilmek.units import format_quantity, mm
-
-JOURNAL = "journal"
-"""Seat of a pin."""
 
 
 def link_parts(linkage: BeatUp) -> dict[str, Part]:
@@ -47,6 +45,6 @@ def pin_part(linkage: BeatUp) -> Part:
         "pin or bush",
         f"round {format_quantity(diameter, 'mm')}",
         bar(diameter, pin_length(linkage.params.thickness)),
-        PIN_MATERIAL,
+        PIN_STEEL,
         seats={JOURNAL: Seat(placement(), diameter)},
     )

@@ -17,10 +17,11 @@ from ilmek.linkage.solve import solve
 from ilmek.machines.beat_up.beater import Beater
 from ilmek.machines.beat_up.crank_start import start_parts
 from ilmek.machines.beat_up.design import BeatUp
-from ilmek.machines.beat_up.links import BESIDE, PART_IDS, pin_length
-from ilmek.machines.beat_up.parts import JOURNAL, link_parts, pin_part
+from ilmek.machines.beat_up.links import PART_IDS, pin_length
+from ilmek.machines.beat_up.parts import link_parts, pin_part
 from ilmek.machines.beat_up.travel import AXIS_SIDE, travel_parts
 from ilmek.machines.beat_up.use import BeatUpUse, in_use
+from ilmek.machines.link_tree import GAP, JOURNAL
 from ilmek.part.link_motion import carriers
 from ilmek.part.link_motion import link_motions as motions_of
 from ilmek.part.part import Part
@@ -80,7 +81,7 @@ def crank_rockers(
     links, pin, lengths = link_parts(design), pin_part(design), design.lengths
     thick = design.params.thickness
     motion = solve(design.plan, np.array([design.beta]))
-    coupler, beside = float(motion.angle("coupler")[0]) - design.beta, (1 + BESIDE) * thick
+    coupler, beside = float(motion.angle("coupler")[0]) - design.beta, (1 + GAP) * thick
     struck = () if beater is None else tuple(on_rocker(one, lengths["beater"]) for one in beater.occurrences)
     flat = placement(z=-thick / 2)
 
