@@ -36,7 +36,7 @@ def _trees(loom: Any) -> dict[str, Tree]:
         "warp-tension": cylinder_tree(loom.warp_tension),
         "tension-compensator": compensator_tree(machines["tension-compensator"].design),
         "carried": carried_tree(loom),
-        "frame": frame_tree(loom, parts_of_loom(loom).frame),
+        "frame": frame_tree(loom, parts_of_loom(loom).frame, parts_of_loom(loom).axes),
     }
 
 

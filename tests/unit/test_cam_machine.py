@@ -16,7 +16,7 @@ from ilmek.errors import ParameterError
 from ilmek.machines.cam import MACHINE, CamDesign, CamParams, design
 from ilmek.machines.cam.analysis import analyse
 from ilmek.machines.cam.compliant_follower import compliant_follower
-from ilmek.machines.cam.parts import cam_tables, plates
+from ilmek.machines.cam.parts import cam_tables
 from ilmek.machines.catalogue import MACHINES
 from ilmek.plane import contours
 from ilmek.report import results_of
@@ -191,7 +191,7 @@ def test_groove_keeps_the_limit_both_ways_and_is_cut_into_a_disc() -> None:
     numbers_found = numbers(found)
     assert numbers_found["pressure_angle_fall_max"] == pytest.approx(32 * deg, rel=1e-9)
     assert numbers_found["pressure_angle_max"] < 32 * deg
-    (plate,) = plates(found)
+    (plate,) = MACHINE.plates(found)
     assert set(plate.paths) == {"pitch curve", "inner flank", "outer flank", "cutter path"}
     apart = np.abs(np.asarray(plate.paths["outer flank"]) - np.asarray(plate.paths["inner flank"]))
     assert apart == pytest.approx(np.full(apart.size, numbers_found["groove_width"]))
@@ -223,7 +223,7 @@ def test_friction_in_the_guide_of_a_barrel_costs_what_it_rubs() -> None:
 
 def test_wedge_is_a_plate_of_its_area() -> None:
     found = made(law="modified-sine", lift="25mm", rise="120deg", dwell="30deg", kind="wedge", roller="CF 6")
-    (plate,) = plates(found)
+    (plate,) = MACHINE.plates(found)
     points = np.asarray(plate.outline)
     assert 0.5 * np.sum(np.imag(np.conj(points) * np.roll(points, -1))) == pytest.approx(plate.area, rel=1e-5)
     travel = numbers(found)["travel"]
@@ -235,7 +235,7 @@ def test_conjugate_cams_are_two_plates_of_one_prime_circle() -> None:
     other = numbers(found)["second"]
     assert other["prime_radius"] == pytest.approx(found.cam.prime_radius)
     assert other["pressure_angle_max"] == pytest.approx(30 * deg, rel=1e-6)
-    assert [plate.name for plate in plates(found)] == ["cam", "cam-2"]
+    assert [plate.name for plate in MACHINE.plates(found)] == ["cam", "cam-2"]
 
 
 def test_arm_of_the_smallest_size_keeps_the_limit() -> None:
@@ -304,7 +304,7 @@ def test_hub_has_the_keyway_of_its_bore() -> None:
 
 def test_plate_has_the_area_of_the_cam_and_its_cutter_path() -> None:
     found = made(**SHED, prime_radius="80mm", roller="CF 10", bore="20mm")
-    (plate,) = plates(found)
+    (plate,) = MACHINE.plates(found)
     points = np.asarray(plate.outline)
     assert 0.5 * np.sum(np.imag(np.conj(points) * np.roll(points, -1))) == pytest.approx(plate.area, rel=1e-5)
     assert set(plate.paths) == {"pitch curve", "cutter path"}

@@ -10,7 +10,8 @@ import pytest
 
 from ilmek.arrays import FloatArray
 from ilmek.machines.knotting_dyad import MACHINE, design
-from ilmek.machines.knotting_dyad.drives import HeadMotion, drives_of, head_motion, inertias
+from ilmek.machines.knotting_dyad.arms import inertias
+from ilmek.machines.knotting_dyad.drives import HeadMotion, drives_of, head_motion
 from ilmek.machines.knotting_dyad.figures import cyclogram, motion_figures
 from ilmek.machines.knotting_dyad.head import Head
 from ilmek.machines.knotting_dyad.motion import LEFT, RIGHT, KnotCycle
@@ -54,7 +55,7 @@ def equations(params: KnottingDyadParams, head: Head, motion: HeadMotion, side: 
     """
     arm = motion.cycle.arms[side]
     (t1, t2), (w1, w2), (a1, a2) = arm.angle.T, arm.speed.T, arm.acceleration.T
-    one, two = inertias(params, *links_of(head)).values()
+    one, two = inertias(params, head, motion.hole).values()
     l1, l2 = links_of(head)
     c1, c2 = one.centre.real, two.centre.real
     I1, I2, h = one.moment + one.mass * c1**2 + two.mass * l1**2, two.moment + two.mass * c2**2, two.mass * l1 * c2
@@ -179,7 +180,7 @@ def test_servos_are_strong_and_quick_enough_with_their_own_rotors() -> None:
         )
         assert drive.servo_torque_max == pytest.approx(expected, rel=1e-12)
     heavy = dataclasses.replace(params, gripper_mass=9.0, gear_ratio=None)
-    stronger = drives_of(heavy, head, motion.cycle)[1][0].motor
+    stronger = drives_of(heavy, head, motion.cycle, motion.hole)[1][0].motor
     assert stronger is None or stronger.power > 100
 
 
@@ -214,9 +215,11 @@ def test_parts_and_work_of_the_arms_of_a_head() -> None:
     made_ = design(KnottingDyadParams())
     parts = {part.name: part for part in MACHINE.parts(made_)}
     assert made_.head is not None
-    one, two = inertias(made_.params, *links_of(made_.head)).values()
-    assert parts["first link of an arm"].mass == pytest.approx(one.mass)
-    assert parts["second link of an arm"].mass == pytest.approx(two.mass - made_.params.gripper_mass)
+    one, two = inertias(made_.params, made_.head, head_motion(made_.params, made_.head).hole).values()
+    assert parts["link 1 of an arm"].mass + parts["pin of an arm"].mass == pytest.approx(one.mass)
+    own = parts["link 2 of an arm"].mass + parts["blade of a needle"].mass + parts["gripper of an arm"].mass
+    assert own == pytest.approx(two.mass)
+    assert parts["gripper of an arm"].mass == made_.params.gripper_mass
     assert sum(part.number for part in parts.values() if part.drives) == 4
     (work,) = MACHINE.work(made_)
     motion, energy = head_motion(made_.params, made_.head), 0.0

@@ -70,11 +70,17 @@ class CallOutputs:
                 self.give(option, lambda: page)
 
     def give_scene(self, option: str, made: "DesignResult") -> None:
-        """Stage a designed loom in space as GLB."""
-        if option in self._to and made.loom is not None:
+        """Stage a designed loom, or the parts of another machine, in space as GLB."""
+        if option not in self._to:
+            return
+        if made.loom is not None:
             from ilmek.jobs.loom_space import loom_glb
 
             self.outputs.write(Path(self._to[option]), loom_glb(made.loom, made.report))
+        elif made.tree is not None:
+            from ilmek.jobs.machine_space import machine_glb
+
+            self.outputs.write(Path(self._to[option]), machine_glb(made.tree, made.report))
 
     def give_animation(self, option: str, report: "Report", motion: str | None = None) -> None:
         """Stage a motion that a report shows, the first or one by name. Raises ParameterError where there is none."""

@@ -11,7 +11,7 @@ from ilmek.cli.report import headline_of, show_report
 from ilmek.cli.settings import read_settings, setting_files
 from ilmek.cli.terminal import note, say
 from ilmek.cli.verdict import exit_code, note_verdict
-from ilmek.jobs.design import DesignResult, design_machine, mechanism_text, require_loom, require_mechanism
+from ilmek.jobs.design import DesignResult, design_machine, mechanism_text, require_mechanism, require_space
 from ilmek.jobs.machine_file import read_machine_order
 from ilmek.jobs.workshop_order import WorkshopOrder
 
@@ -25,6 +25,7 @@ Examples:
   ilmek design automated-loom --animation knot.gif --motion loom-knot-front
   ilmek design motion-four-bar --to gripper.toml
   ilmek design automated-loom --glb loom.glb
+  ilmek design tufting --glb needles.glb
   ilmek design machines/beat-up.toml --set swing=32deg
 
 The parameters of a machine, and their limits: ilmek machines MACHINE
@@ -67,8 +68,8 @@ The parameters of a machine, and their limits: ilmek machines MACHINE
     "space_to",
     type=click.Path(path_type=Path),
     metavar="FILE.glb",
-    help="Write a loom in space, with its motions over a row and a knot, as GLB (glTF 2.0), and compare all its parts "
-    "there: those through each other, and those that nothing holds, fail a check.",
+    help="Write the parts in space, in motion, as GLB (glTF 2.0); those of a loom, over a row and a knot, are compared "
+    "there too: what is through each other, and what nothing holds, fails a check.",
 )
 @click.option("--tolerance", metavar="ERROR", help="Tolerance of cam tables: 1um, 0.01deg, or 0.01% of the stroke.")
 @force_option
@@ -99,7 +100,7 @@ def command(  # noqa: PLR0917 - click calls it by name
     if mechanism_to is not None:
         require_mechanism(order.machine, mechanism_to)
     if space_to is not None:
-        require_loom(order.machine, space_to)
+        require_space(order.machine, space_to)
     files = {
         "--json": json_to,
         "--report": page_to,
@@ -132,7 +133,7 @@ def _show(made: DesignResult, call: CallOutputs, mechanism_to: Path | None, part
     """The report and the files on the terminal; what was required and not written is noted."""
     if not call.quiet:
         show_report(made.report)
-        call.show_files({"--report": "report", "--animation": "animation", "--glb": "loom in space"})
+        call.show_files({"--report": "report", "--animation": "animation", "--glb": "in space"})
         if mechanism_to is not None and made.mechanism is not None:
             say(f"mechanism: {mechanism_to}")
         if made.workshop is not None:

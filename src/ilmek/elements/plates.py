@@ -61,48 +61,6 @@ def link_plate(
     return Plate(name, title, outline, thickness, material, holes, area=area(outline), number=number)
 
 
-def link_plates(
-    links: Mapping[str, Sequence[tuple[str, complex]]],
-    *,
-    width: float,
-    thickness: float,
-    material: str,
-    number: int = 1,
-    pin: float | None = None,
-) -> tuple[Plate, ...]:
-    """The plates of a linkage's links, bored for their pins.
-
-    links  link -> names and positions of its pins in its own frame [m]
-    pin    diameter of the pins [m]; default: a third of the width
-    A pin without a bridge between its hole and that of an earlier pin is left out; a link with fewer than two remaining
-    pins has no plate.
-    """
-    hole = (PIN_SHARE * width if pin is None else pin) / 2
-    bored = {name: _apart(pins, 3 * hole) for name, pins in links.items()}
-    return tuple(
-        link_plate(
-            name,
-            name.capitalize(),
-            pins,
-            hole_radius=hole,
-            width=width,
-            thickness=thickness,
-            material=material,
-            number=number,
-        )
-        for name, pins in bored.items()
-        if len(pins) > 1
-    )
-
-
-def _apart(pins: Sequence[tuple[str, complex]], least: float) -> list[tuple[str, complex]]:
-    kept: list[tuple[str, complex]] = []
-    for pin in pins:
-        if all(abs(pin[1] - other) >= least for _, other in kept):
-            kept.append(pin)
-    return kept
-
-
 class Bore(NamedTuple):
     """The bore of a disc for its shaft; `Plate(..., **bore._asdict())` is a plate with it."""
 

@@ -25,7 +25,7 @@ from ilmek.errors import OutputError
 from ilmek.io.dxf_dimensions import dimension, text_height
 from ilmek.io.plate_shape import PlateShape, plate_shape
 from ilmek.plane.contours import area
-from ilmek.report import Contour, Plate
+from ilmek.report import Contour, Plate, RoundSolid
 from ilmek.units import format_quantity, mm
 
 options.write_fixed_meta_data_for_testing = True  # no time, no random number: the same plate gives the same bytes
@@ -152,7 +152,8 @@ def _write_texts(space: Modelspace, plate: Plate, shape: PlateShape, low: comple
     pieces = f"{plate.number} piece{'s' if plate.number > 1 else ''}"
     known = f"area {format_quantity(area(shape.outline) - shape.bored, 'cm^2', 6)}, without holes"
     thick = f"{format_quantity(plate.thickness, 'mm')} thick"
-    size = thick if plate.solid is None else f"diameter {format_quantity(2 * plate.solid.outer, 'mm')}"
+    round_solid = plate.solid if isinstance(plate.solid, RoundSolid) else None
+    size = thick if round_solid is None else f"diameter {format_quantity(2 * round_solid.outer, 'mm')}"
     lines = (
         f"{plate.title} ({plate.name})",
         f"{plate.material}, {size}, {pieces}",

@@ -1,4 +1,5 @@
-"""A scene as GLB: glTF 2.0 in one binary file, with its motions as animations `row` and `knot`, in seconds.
+"""A scene as GLB: glTF 2.0 in one binary file, with its motions as animations, of a loom `row` and `knot`, in
+seconds.
 
 A frame is a node for each of its places in each of its parents, a part a node with a mesh; the same mesh is stored
 once. A frame that moves has channels of translation and rotation, linear between its samples.
@@ -16,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.report.scene import Scene, SceneFrame, SceneMotion, ScenePart
+from ilmek.report.scene import Assembly, Scene, SceneFrame, SceneMotion, ScenePart
 from ilmek.units import turn
 
 MAGIC, VERSION, JSON_CHUNK, BINARY_CHUNK = 0x46546C67, 2, 0x4E4F534A, 0x004E4942
@@ -72,7 +73,7 @@ class _File:
         return len(self.nodes) - 1
 
 
-def glb_bytes(scene: Scene) -> bytes:
+def glb_bytes(scene: Scene | Assembly) -> bytes:
     """The scene as the bytes of a GLB file."""
     made = _File()
     carried, parts = defaultdict(list), defaultdict(list)
@@ -147,7 +148,7 @@ def _extras(part: ScenePart) -> dict[str, Any]:
     return found | ({"plate": part.plate} if part.plate else {})
 
 
-def _animations(made: _File, scene: Scene, moved: dict[str, list[int]]) -> list[dict[str, Any]]:
+def _animations(made: _File, scene: Scene | Assembly, moved: dict[str, list[int]]) -> list[dict[str, Any]]:
     """An animation for each drive, in seconds of its period."""
     found = []
     for drive, period in scene.periods.items():

@@ -57,8 +57,13 @@ for _printer in Message.DefaultMessenger_s().Printers():
 
 def write_step(path: Path, plate: Plate, shape: PlateShape) -> None:
     """Write a plate as a solid. Raises OutputError if the solid is invalid or cannot be written."""
-    solid = _solid(plate, shape) if plate.solid is None else _round_solid(plate.solid)
-    _write(path, solid, plate.name, plate.title)
+    _write(path, _plate_solid(plate, shape), plate.name, plate.title)
+
+
+def _plate_solid(plate: Plate, shape: PlateShape) -> TopoDS_Shape:
+    if plate.solid is None:
+        return _solid(plate, shape)
+    return _round_solid(plate.solid) if isinstance(plate.solid, RoundSolid) else _of_shape(plate.solid.shape)
 
 
 def write_piece(path: Path, piece: WorkPiece) -> None:

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from ilmek.dynamics.own_machine import OwnMachine
     from ilmek.jobs.workshop import Workshop
     from ilmek.machines.automated_loom.design import LoomDesign
+    from ilmek.part.tree import Tree
 
 
 WRITERS = {".toml": "mechanism_toml", ".json": "mechanism_json"}
@@ -31,13 +32,14 @@ LOOM = "automated-loom"
 class DesignResult:
     """The report of a design, the workshop files that were written, if any, and its linkage where it has one.
 
-    loom  the design of a loom, for its picture in space; None of any other machine
+    loom, tree  for the picture in space: the design of a loom, the parts of any other machine that has them
     """
 
     report: Report
     workshop: "Workshop | None" = None
     mechanism: "OwnMachine | None" = None
     loom: "LoomDesign | None" = None
+    tree: "Tree | None" = None
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -58,10 +60,11 @@ def require_mechanism(name: str, file: Path) -> None:
         raise ParameterError(f"mechanism file {file} ends in {file.suffix!r}", allowed=" or ".join(WRITERS))
 
 
-def require_loom(name: str, file: Path) -> None:
-    """Raise ParameterError unless the machine is a loom and the file ends in .glb."""
-    if find_machine(name).name != LOOM:
-        raise ParameterError(f"{name} has no picture in space that --glb could write", allowed=LOOM)
+def require_space(name: str, file: Path) -> None:
+    """Raise ParameterError unless the machine is a loom or has parts in bodies, and the file ends in .glb."""
+    if find_machine(name).name != LOOM and find_machine(name).tree is None:
+        able = ", ".join(other for other, machine in MACHINES.items() if other == LOOM or machine.tree is not None)
+        raise ParameterError(f"{name} has no picture in space that --glb could write", allowed=able)
     if file.suffix.lower() != ".glb":
         raise ParameterError(f"--glb {file} ends in {file.suffix!r}", allowed=".glb")
 
@@ -106,7 +109,8 @@ def design_machine(
         made_of_links = machine.mechanism is None or linkage is not None  # without a solution there is nothing to make
         loom = designed if machine.name == LOOM else None
         files = write(report) if write is not None and made_of_links else None
-        return DesignResult(report if files is None else files.judged(report), files, linkage, loom)
+        tree = None if machine.tree is None else machine.tree(designed)
+        return DesignResult(report if files is None else files.judged(report), files, linkage, loom, tree)
 
 
 def _with_assembly(loom: "LoomDesign", report: Report) -> Report:

@@ -82,6 +82,17 @@ def drawn(one: Candidate, still: Drawing) -> Drawing:
     return replace(still, strokes=strokes, dots=(*still.dots, *pins(one.four_bar)))
 
 
+def crank_range(one: Candidate) -> tuple[float, float] | None:
+    """Least and greatest crank angle of the positions on the drawn branch [rad]; None where it does not move."""
+    home = _at_home(one)
+    return (min(home), max(home)) if home and max(home) - min(home) >= STILL else None
+
+
+def _at_home(one: Candidate) -> list[float]:
+    """Crank angles of the positions on the drawn branch [rad]."""
+    return [met.crank_angle for met in one.positions if met.reached and met.branch in (one.four_bar.branch, 0)]
+
+
 def _moving(one: Candidate, drawing: Drawing) -> Animation | None:
     """The four-bar over a turn, or from position to position where its crank rocks; None where it does not move."""
     four_bar = one.four_bar
@@ -89,10 +100,10 @@ def _moving(one: Candidate, drawing: Drawing) -> Animation | None:
     if one.crank_turns:
         at = frames(four_bar.crank_angle)
     else:
-        home = [met.crank_angle for met in one.positions if met.reached and met.branch in (four_bar.branch, 0)]
-        if not home or max(home) - min(home) < STILL:
+        ends = crank_range(one)
+        if ends is None:
             return None
-        first, at = home[0], frames(min(home), max(home))
+        first, at = _at_home(one)[0], frames(*ends)
     motion = solve(plan(four_bar.mechanism()), at).require()
     traces = () if four_bar.tracer is None else (("coupler", TRACER),)
     readings = tuple(Reading("transmission angle", one, "deg") for one in transmission_angles(motion).values())

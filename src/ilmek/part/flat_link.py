@@ -16,8 +16,8 @@ import numpy as np
 from ilmek.arrays import RealField
 from ilmek.part.profile import drilled
 from ilmek.part.shapes import Prism
-from ilmek.plane.contours import rounded_hull
-from ilmek.report import Hole
+from ilmek.plane.contours import circle, rounded_hull
+from ilmek.report import Contour, Hole
 
 
 class LinkMoments(NamedTuple):
@@ -75,6 +75,50 @@ def flat_link_moments(length: RealField, width: float, thickness: float, holes: 
         cut = math.pi * diameter**2 / 4
         area, first, second = area - cut, first - cut * at, second - cut * (diameter**2 / 8 + at**2)
     return LinkMoments(thickness * area, thickness * first, thickness * second)
+
+
+def stepped_link(start: complex, end: complex, width: float, steps: Iterable[tuple[float, float]] = ()) -> Contour:
+    """Outline of a link that is round about its first pin and square at its end, with narrower or wider steps beyond.
+
+    start, end  the pin, and the end on the line through it [m]      width  of the link [m]
+    steps       length and width of each, from the end on [m]
+
+    >>> from ilmek.plane.contours import area
+    >>> outline = stepped_link(0j, 0.1 + 0j, 0.02, [(0.01, 0.03)])
+    >>> round(area(outline) / (0.1 * 0.02 + math.pi * 0.01**2 / 2 + 0.01 * 0.03), 12)
+    1.0
+    """
+    reach = abs(end - start)
+    edge, x = [complex(0, width / 2), complex(reach, width / 2)], reach
+    for length, wide in steps:
+        edge += [complex(x, wide / 2), complex(x + length, wide / 2)]
+        x += length
+    upper = [point for point, before in zip(edge, [None, *edge[:-1]], strict=True) if point != before]
+    along = (end - start) / reach
+    points = start + along * np.array([point.conjugate() for point in upper] + upper[::-1])
+    bulges = np.zeros(len(points))
+    bulges[-1] = 1.0  # half a turn about the pin, from the last point to the first
+    return Contour(points, bulges)
+
+
+def eyed_link(length: float, first: float, other: float) -> Contour:
+    """Outline of a link between two eyes: the hull of a circle about the origin and one about x = length [m].
+
+    first, other  radii of the eyes. One that contains the other is the outline.
+
+    >>> from ilmek.plane.contours import area
+    >>> round(area(eyed_link(0.1, 0.02, 0.02)) / (0.1 * 0.04 + math.pi * 0.02**2), 12)
+    1.0
+    """
+    share = (first - other) / length
+    if abs(share) >= 1:
+        return circle(0j, first) if first > other else circle(complex(length), other)
+    tangent = math.acos(share)
+    side = complex(share, math.sin(tangent))
+    points = np.array(
+        [first * side, first * side.conjugate(), length + other * side.conjugate(), length + other * side]
+    )
+    return Contour(points, np.array([math.tan((math.pi - tangent) / 2), 0.0, math.tan(tangent / 2), 0.0]))
 
 
 def flat_link(length: float, width: float, thickness: float, holes: Iterable[PinHole] = ()) -> Prism:

@@ -13,6 +13,7 @@ from ilmek.part.moments import Moments
 from ilmek.part.placement import Placement
 from ilmek.part.shapes import Shape
 from ilmek.records import record
+from ilmek.report import Plate
 
 
 @record
@@ -54,6 +55,7 @@ class Part:
     envelope  the shape is the room that the part takes: its form is not designed, or the maker's
     paths     closed curves of a flat part that guide a tool, not cut through      marks  lines to scribe, by name
     notes     what else the workshop must know: fits, a keyway's standard
+    drawing   of a made part that is no flat plate, but drawn as one: a groove in a disc, a barrel laid flat
 
     A made part has a shape and a material, and weighs what these say. A bought part weighs what its catalogue says.
     Raises ParameterError for a part that is both or neither.
@@ -71,6 +73,7 @@ class Part:
     paths: Mapping[str, ComplexArray] = field(default_factory=dict)
     marks: Mapping[str, ComplexArray] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    drawing: Plate | None = None
 
     def __post_init__(self) -> None:
         if (self.purchase is None) == (self.material is None):

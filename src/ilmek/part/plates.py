@@ -1,5 +1,7 @@
 """The made parts of a tree for the workshop: flat ones as plates, all others as solids."""
 
+from dataclasses import replace
+
 from ilmek.part.part import Part
 from ilmek.part.shapes import Prism
 from ilmek.part.tree import Tree
@@ -26,6 +28,8 @@ def pieces_of(tree: Tree) -> tuple[WorkPiece, ...]:
 
 def is_flat(part: Part) -> bool:
     """Whether a part is drawn as a plate."""
+    if part.drawing is not None:
+        return True
     made = part.material is not None and not part.envelope
     return part.process in FLAT and made and isinstance(part.shape, Prism)
 
@@ -36,6 +40,8 @@ def plate_name(part: Part) -> str:
 
 
 def _plate(part: Part, number: int) -> Plate:
+    if part.drawing is not None:
+        return replace(part.drawing, name=plate_name(part), title=part.title.capitalize(), number=number)
     shape = part.shape
     assert isinstance(shape, Prism)
     assert part.material is not None

@@ -6,16 +6,17 @@
 """
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import field, replace
 from enum import StrEnum
 
 from ilmek.errors import ParameterError
 from ilmek.part.moments import Moments, together
 from ilmek.part.part import Part, Seat
-from ilmek.part.placement import IDENTITY, Placement
+from ilmek.part.placement import IDENTITY, Placement, placement
 from ilmek.records import record
 from ilmek.report.scene import SceneMotion
+from ilmek.units import mm
 
 GROUND = ""
 """Name of what stands."""
@@ -157,3 +158,21 @@ class Tree:
 def mated(own: Seat, other: Seat) -> Placement:
     """Where a part lies in another's frame when a seat of it meets a seat of the other: origins and axes as one."""
     return other.position.after(own.position.inverse)
+
+
+def in_line(parts: Sequence[Part], begin: float, at: complex = 0j) -> tuple[Occurrence, ...]:
+    """Parts behind one another from z = begin [m] towards -z, the last, a motor, with its flange to the others.
+
+    at  where their axis is [m]
+    """
+    occurrences = []
+    for part in parts[:-1]:
+        begin -= depth_of(part)
+        occurrences.append(Occurrence(part, (placement(at.real, at.imag, begin),)))
+    return (*occurrences, Occurrence(parts[-1], (placement(at.real, at.imag, begin),)))
+
+
+def depth_of(part: Part) -> float:
+    """Length along z of a part from z = 0 [m]."""
+    assert part.shape is not None
+    return max(float(piece[:, 2].max()) for piece in part.shape.pieces(1 * mm))

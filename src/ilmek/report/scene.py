@@ -137,6 +137,16 @@ class SceneCarpet:
 
 
 @record
+class Assembly:
+    """Parts in space without cloth; periods: time of a turn of each drive [s]."""
+
+    title: str
+    frames: tuple[SceneFrame, ...]
+    parts: tuple[ScenePart, ...]
+    periods: Mapping[str, float]
+
+
+@record
 class Scene:
     """A loom in space.
 

@@ -51,36 +51,6 @@ class RoundSolid:
 
 
 @record
-class Plate:
-    """A flat part for the workshop, in its own frame [m].
-
-    outline   the closed contour: exact, as a `Contour`; or points of it, counter-clockwise, the first not said again at
-              the end, close enough that arcs can be laid through them (a curve: 720 a turn or more; corners and both
-              ends of straight edges among them)
-    holes     round holes             cutouts  closed contours inside the outline: a bore with its keyway, a groove
-    paths     closed curves that guide a tool or an eye, not cut through, by name: `cutter path`, `pitch curve`
-    marks     open lines, by name: `zero` to scribe at the angle 0, flanks and cutter path of a groove laid flat
-    area      inside the outline [m^2], holes and cutouts not taken off, reckoned apart from the points; None: not known
-    number    pieces to be made        notes  what else the workshop must know: fits, a keyway's standard
-    solid     the part itself, where the outline is its development; None: the outline, `thickness` thick
-    """
-
-    name: str
-    title: str
-    outline: ComplexArray | Contour
-    thickness: float
-    material: str
-    holes: tuple[Hole, ...] = ()
-    cutouts: tuple[ComplexArray | Contour, ...] = ()
-    paths: Mapping[str, ComplexArray | Contour] = field(default_factory=dict)
-    marks: Mapping[str, ComplexArray] = field(default_factory=dict)
-    area: float | None = None
-    number: int = 1
-    notes: tuple[str, ...] = ()
-    solid: RoundSolid | None = None
-
-
-@record
 class WorkPiece:
     """A part that is turned, sawn or welded, for the workshop: a solid without a flat drawing.
 
@@ -95,6 +65,37 @@ class WorkPiece:
     number: int
     shape: object
     volume: float
+
+
+@record
+class Plate:
+    """A flat part for the workshop, in its own frame [m].
+
+    outline   the closed contour: exact, as a `Contour`; or points of it, counter-clockwise, the first not said again at
+              the end, close enough that arcs can be laid through them (a curve: 720 a turn or more; corners and both
+              ends of straight edges among them)
+    holes     round holes             cutouts  closed contours inside the outline: a bore with its keyway, a groove
+    paths     closed curves that guide a tool or an eye, not cut through, by name: `cutter path`, `pitch curve`
+    marks     open lines, by name: `zero` to scribe at the angle 0, flanks and cutter path of a groove laid flat
+    area      inside the outline [m^2], holes and cutouts not taken off, reckoned apart from the points; None: not known
+    number    pieces to be made        notes  what else the workshop must know: fits, a keyway's standard
+    solid     the part itself, where the outline is its development, or a groove is in it; None: the outline,
+              `thickness` thick
+    """
+
+    name: str
+    title: str
+    outline: ComplexArray | Contour
+    thickness: float
+    material: str
+    holes: tuple[Hole, ...] = ()
+    cutouts: tuple[ComplexArray | Contour, ...] = ()
+    paths: Mapping[str, ComplexArray | Contour] = field(default_factory=dict)
+    marks: Mapping[str, ComplexArray] = field(default_factory=dict)
+    area: float | None = None
+    number: int = 1
+    notes: tuple[str, ...] = ()
+    solid: RoundSolid | WorkPiece | None = None
 
 
 @record

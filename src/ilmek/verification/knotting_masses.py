@@ -5,7 +5,7 @@ from functools import cache, partial
 
 from ilmek.dynamics.inertia import Inertia, bar_moment
 from ilmek.elements.materials import GRAVITY
-from ilmek.machines.knotting_four_bar.model import inertias, parts
+from ilmek.machines.knotting_four_bar.links import inertias, parts
 from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams
 from ilmek.units import g, mm
 from ilmek.verification.claim import Claim, Computation
@@ -28,7 +28,7 @@ def claims() -> tuple[Claim, ...]:
 @cache
 def part(name: str) -> Inertia:
     """A part of link 2, or another link, by the report's name."""
-    return {**parts(PARAMS), **inertias(PARAMS)}[{**PARTS, **LINKS}[name]]
+    return {**parts(PARAMS), **inertias(PARAMS, hole=0.0)}[{**PARTS, **LINKS}[name]]
 
 
 def _of(name: str, power: int, unit: float) -> Computation:

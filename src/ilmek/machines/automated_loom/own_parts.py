@@ -61,10 +61,10 @@ def _retreat(loom: LoomDesign) -> RigidBody:
     )
 
 
-def frame_tree(loom: LoomDesign, frame: LoomFrame, retreat: SceneMotion | None = None) -> Tree:
+def frame_tree(loom: LoomDesign, frame: LoomFrame, axes: int, retreat: SceneMotion | None = None) -> Tree:
     """The frame with all that stands on it, and the rail that retreats with the heads.
 
-    retreat  motion of the rail to the front; default: it stands
+    axes  of the control      retreat  motion of the rail to the front; default: it stands
     """
     rail = member("rail", "rail of the heads", frame.rail, frame.task.width)
     axis = Part(
@@ -81,7 +81,7 @@ def frame_tree(loom: LoomDesign, frame: LoomFrame, retreat: SceneMotion | None =
     below = placement(-frame.task.width / 2, -(frame.rail.side + _AXIS) / 2).after(ALONG_WIDTH)
     return Tree(
         (
-            standing_frame(loom, frame),
+            standing_frame(loom, frame, axes),
             RigidBody(
                 RAIL,
                 (Occurrence(rail, (along,)), Occurrence(axis, (below,))),

@@ -57,19 +57,16 @@ def parts_of_loom(loom: LoomDesign) -> PartsList:
     prices = read_prices(loom.params.prices)
     carried = (*_of_machines(loom), *bill(carried_tree(loom)))
     frame = frame_for(frame_task(loom, sum(part.mass_all for part in carried)))
-    own, axes = bill(frame_tree(loom, frame)), driven_axes(carried)
+    own = bill(frame_tree(loom, frame, driven_axes(carried)))
     frame = replace(frame, mass=sum(line.mass_all for line in own if line.kind in _OF_FRAME))
-    lines = (
-        *carried,
-        *own,
-        BillLine("axis of the control", axes, "amplifier, cable, switch", "", "axis of the control"),
-    )
+    lines = (*carried, *own)
     return PartsList(lines, prices, frame)
 
 
 def own_tree(loom: LoomDesign) -> Tree:
     """The loom's own bodies that are in none of its machines."""
-    return Tree((*carried_tree(loom).bodies, *frame_tree(loom, parts_of_loom(loom).frame).bodies))
+    listed = parts_of_loom(loom)
+    return Tree((*carried_tree(loom).bodies, *frame_tree(loom, listed.frame, listed.axes).bodies))
 
 
 def built_side(loom: LoomDesign) -> SideView:

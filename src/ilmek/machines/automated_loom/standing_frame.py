@@ -14,12 +14,16 @@ from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import LoomFrame, part_id
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, UPRIGHT, Placement, placement
-from ilmek.part.shapes import box, square_tube, stepped, tube
+from ilmek.part.profile import Profile
+from ilmek.part.shapes import Placed, Prism, Sum, box, rectangle, square_tube, stepped, tube
 from ilmek.part.tree import Occurrence, RigidBody
 from ilmek.units import format_quantity, mm
 
-CABINET = (0.8, 1.0, 0.3)
-"""Width, height and depth of the control's cabinet [m]; assumed by this project."""
+CABINET, WALL = (0.8, 1.0, 0.3), 2 * mm
+"""Least width, height and depth of the control's cabinet, and its wall [m]; assumed by this project."""
+
+_MODULE, _MODULE_PITCH, _MODULE_ROWS = (40 * mm, 170 * mm, 160 * mm), (50 * mm, 230 * mm), 4
+"""Width, height and depth of an axis' amplifier in the cabinet [m], distances of neighbours, rows; assumed."""
 
 LEVELLING, PAD = (20 * mm, 40 * mm), (80 * mm, 15 * mm)
 """Diameter and length of a levelling foot's screw, and of its pad [m]: M20; makers differ by some millimetres."""
@@ -40,8 +44,11 @@ def back_rest_tube(loom: LoomDesign) -> Tube:
     return max(TUBES.values(), key=lambda row: (-abs(row.outer - outer), row.wall))
 
 
-def standing_frame(loom: LoomDesign, frame: LoomFrame) -> RigidBody:
-    """Two columns with their feet and brackets, the beams across between them, posts under a rail of several spans."""
+def standing_frame(loom: LoomDesign, frame: LoomFrame, axes: int) -> RigidBody:
+    """Two columns with their feet and brackets, the beams across between them, posts under a rail of several spans.
+
+    axes  of the control
+    """
     made = brackets_of(loom)
     return RigidBody(
         part_id("frame"),
@@ -51,7 +58,7 @@ def standing_frame(loom: LoomDesign, frame: LoomFrame) -> RigidBody:
             *_feet(loom, frame, made),
             *(own for one in made.plates for own in _bracket(loom, frame, made, one)),
             *_carried(loom, made),
-            _control(loom, frame, made),
+            *_control(loom, frame, made, axes),
         ),
     )
 
@@ -146,15 +153,38 @@ def _ends(beam: CarriedBeam, half: float, inner: float) -> Iterator[Placement]:
         yield placement(x, beam.axis.imag, beam.axis.real).after(ALONG_WIDTH).after(turned)
 
 
-def _control(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Occurrence:
-    """The cabinet on the floor behind a rear foot, and bolted to it."""
-    wide, high, deep = CABINET
-    control = Part(
-        part_id("control"), "control", "control", shape=box(wide, high, deep), purchase=Bought("cabinet"), envelope=True
+def _control(loom: LoomDesign, frame: LoomFrame, made: Brackets, axes: int) -> Iterator[Occurrence]:
+    """The cabinet on the floor behind a rear foot, bolted to it, with the amplifiers row by row on its wall there."""
+    columns, (across, upwards), (least, high, deep) = -(-axes // _MODULE_ROWS), _MODULE_PITCH, CABINET
+    wide = max(least, columns * across + 2 * WALL)
+    inside = rectangle(wide - 2 * WALL, high - 2 * WALL)
+    sides = Prism(Profile(rectangle(wide, high), (inside,)), deep)
+    shape = Sum((Placed(sides), Placed(Prism(Profile(inside), WALL), (placement(z=deep - WALL),))))
+    control = Part(part_id("control"), "control", "control", shape=shape, purchase=Bought("cabinet"), envelope=True)
+    module = Part(
+        part_id("control-axis"),
+        "axis of the control",
+        "axis of the control",
+        "amplifier, cable, switch",
+        box(*_MODULE),
+        purchase=Bought("amplifier"),
+        envelope=True,
     )
-    section, rear = frame.column, loom.side.column - frame.column.side / 2 - frame.task.depth
-    middle = made.face + section.side - wide / 2
-    return Occurrence(control, (placement(middle, loom.side.floor + high / 2, rear - deep),))
+    rear = loom.side.column - frame.column.side / 2 - frame.task.depth
+    x, y = made.face + frame.column.side - wide / 2, loom.side.floor + high / 2
+    yield Occurrence(control, (placement(x, y, rear - deep),))
+    if axes:
+        yield Occurrence(
+            module,
+            tuple(
+                placement(
+                    x + (number % columns - (columns - 1) / 2) * across,
+                    y + (number // columns - (_MODULE_ROWS - 1) / 2) * upwards,
+                    rear - WALL - _MODULE[2],
+                )
+                for number in range(axes)
+            ),
+        )
 
 
 def _placed(part: Part, positions: Iterable[Placement]) -> Occurrence:

@@ -11,22 +11,14 @@ import numpy as np
 
 from ilmek.arrays import RealField
 from ilmek.dynamics.inertia import Inertia, bar_mass, bar_moment
-from ilmek.elements.materials import MATERIALS
 from ilmek.machines.beat_up.params import BeatUpParams
+from ilmek.machines.link_tree import BRIDGE, GAP, PIN_STEEL
 from ilmek.part.flat_link import LinkMoments, PinHole, flat_link_moments
 
 LINKS = ("crank", "coupler", "rocker")
 
 PART_IDS = {**{name: f"beat-up/{name}" for name in LINKS}, **dict.fromkeys("ABCD", "beat-up/pin")}
 """Ids of the parts of links and pins."""
-
-BRIDGE = 1.5
-"""Least distance of two holes of a link over their diameter; assumed by this project."""
-
-BESIDE = 0.4
-"""Distance of neighbouring links along their pins, over their thickness: assumed by this project."""
-
-PIN_MATERIAL = MATERIALS["heat-treatable steel"]
 
 CARRIED = {"crank": "crank", "rocker": "rocker"}
 """Links that carry the pin at the end of a length: C of the crank, B of the rocker."""
@@ -89,12 +81,12 @@ def moving_masses(params: BeatUpParams, lengths: Mapping[str, RealField], hole: 
 
 def pin_length(thickness: float) -> float:
     """Length of a pin through two links side by side [m]."""
-    return (2 + BESIDE) * thickness
+    return (2 + GAP) * thickness
 
 
 def pin_mass(thickness: float, diameter: float) -> float:
     """Mass of a pin [kg]."""
-    return PIN_MATERIAL.density * math.pi * diameter**2 / 4 * pin_length(thickness)
+    return PIN_STEEL.density * math.pi * diameter**2 / 4 * pin_length(thickness)
 
 
 def inertia_of(moments: LinkMoments) -> Inertia:

@@ -11,8 +11,9 @@ from types import MappingProxyType
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.loads import Gravity
 from ilmek.machines.beat_up.linkage import PINS, BeatUpState
-from ilmek.machines.beat_up.links import BRIDGE, LINKS, PART_IDS
+from ilmek.machines.beat_up.links import LINKS, PART_IDS
 from ilmek.machines.beat_up.params import BeatUpParams
+from ilmek.machines.link_tree import BRIDGE
 from ilmek.machines.linkage_strength import (
     LinkageLoads,
     LinkageStrength,

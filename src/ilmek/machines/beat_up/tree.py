@@ -17,13 +17,16 @@ from ilmek.linkage.solve import solve
 from ilmek.machines.beat_up.beater import Beater
 from ilmek.machines.beat_up.crank_start import start_parts
 from ilmek.machines.beat_up.design import BeatUp
-from ilmek.machines.beat_up.links import BESIDE, PART_IDS, pin_length
-from ilmek.machines.beat_up.parts import JOURNAL, in_line, link_parts, pin_part
+from ilmek.machines.beat_up.links import PART_IDS, pin_length
+from ilmek.machines.beat_up.parts import link_parts, pin_part
 from ilmek.machines.beat_up.travel import AXIS_SIDE, travel_parts
 from ilmek.machines.beat_up.use import BeatUpUse, in_use
+from ilmek.machines.link_tree import GAP, JOURNAL
+from ilmek.part.link_motion import carriers
+from ilmek.part.link_motion import link_motions as motions_of
 from ilmek.part.part import Part
 from ilmek.part.placement import Placement, placement
-from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
+from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree, in_line
 from ilmek.report.scene import SceneMotion
 
 CARRIAGE = "beat-up/carriage"
@@ -65,7 +68,7 @@ def travelling(
         (placement(z=start),),
     )
     bodies = Tree((rail, carriage, *crank_rockers(design, CARRIAGE, beater=use.travel.beater)))
-    return moving(bodies, motions or {})
+    return bodies.moving(motions or {})
 
 
 def crank_rockers(
@@ -78,7 +81,7 @@ def crank_rockers(
     links, pin, lengths = link_parts(design), pin_part(design), design.lengths
     thick = design.params.thickness
     motion = solve(design.plan, np.array([design.beta]))
-    coupler, beside = float(motion.angle("coupler")[0]) - design.beta, (1 + BESIDE) * thick
+    coupler, beside = float(motion.angle("coupler")[0]) - design.beta, (1 + GAP) * thick
     struck = () if beater is None else tuple(on_rocker(one, lengths["beater"]) for one in beater.occurrences)
     flat = placement(z=-thick / 2)
 
@@ -121,24 +124,9 @@ def link_motions(design: BeatUp, drive: str, angle: FloatArray, crank: FloatArra
 
     drive  of the scene, and its angles [rad]      crank  angle of the crank at them, without jumps [rad]
     """
-    motion, still = solve(design.plan, crank), np.zeros((len(angle), 3))
-    at_beat = float(solve(design.plan, np.array([design.beta])).angle("coupler")[0]) - design.beta
-    coupler = np.unwrap(motion.angle("coupler") - crank) - at_beat
-    coupler -= 2 * math.pi * np.round(coupler[0] / (2 * math.pi))
-    rocker = np.unwrap(motion.angle("rocker")) - design.rocker_angles[0]
-    rocker -= 2 * math.pi * np.round(rocker[0] / (2 * math.pi))
-    rotations = {"crank": crank - design.beta, "coupler": coupler, "rocker": rocker}
-    return {PART_IDS[name]: SceneMotion(drive, angle, still, rotation) for name, rotation in rotations.items()}
-
-
-def moving(bodies: Tree, motions: Mapping[str, SceneMotion]) -> Tree:
-    """The tree with motions of some of its bodies, by their ids."""
-    return Tree(
-        tuple(
-            replace(body, joint=replace(body.joint, motion=motions[body.id])) if body.id in motions else body
-            for body in bodies.bodies
-        )
-    )
+    parents = {body: parent for body, (parent, _) in carriers(design.plan.mechanism).items()}
+    motion, rest = solve(design.plan, crank), solve(design.plan, np.array([design.beta]))
+    return {PART_IDS[name]: one for name, one in motions_of(motion, rest, parents, drive, angle).items()}
 
 
 def in_side_view(design: BeatUp, across: float = 0.0) -> Placement:

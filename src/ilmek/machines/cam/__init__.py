@@ -11,8 +11,9 @@ from ilmek.machines.cam.compliant_follower import CompliantFollower
 from ilmek.machines.cam.design import CamDesign, design
 from ilmek.machines.cam.figures import figures
 from ilmek.machines.cam.params import CamParams
-from ilmek.machines.cam.parts import cam_tables, plates
+from ilmek.machines.cam.parts import cam_tables
 from ilmek.machines.cam.report import checks, tables, warnings
+from ilmek.machines.cam.tree import tree
 from ilmek.machines.component import Component
 
 __all__ = ["MACHINE", "CamDesign", "CamParams", "design"]
@@ -30,6 +31,6 @@ MACHINE = Component(
     tables=tables,
     figures=figures,
     warnings=warnings,
-    plates=plates,
+    tree=tree,
     cam_tables=cam_tables,
 )

@@ -9,7 +9,8 @@ from ilmek.cams.oscillating_flat import OscillatingFlatCam
 from ilmek.cams.programme import Jump, jumps
 from ilmek.machines.cam.compliant_follower import CompliantFollower, compliant_follower
 from ilmek.machines.cam.design import CamDesign
-from ilmek.machines.cam.parts import area_of, mass_of
+from ilmek.machines.cam.parts import area_of
+from ilmek.machines.cam.tree import mass_of
 from ilmek.num.piecewise import Extremum, infimum, supremum
 from ilmek.records import computed, group, record, result
 from ilmek.report import Json

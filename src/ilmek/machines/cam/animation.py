@@ -22,7 +22,7 @@ def moving(design: CamDesign) -> Animation:
     if design.params.laid_flat:
         return developed_cams.moving(design)
     at = frames()
-    up = _up(design)
+    up = upright(design)
     turned = up * np.exp(1j * at)[:, None]
     trace = design.cam.trace(at)
     centre = up * trace.pitch * np.exp(1j * at)
@@ -37,8 +37,8 @@ def moving(design: CamDesign) -> Animation:
         *_second_follower(design, at),
     )
     touched = MovingDot(up * trace.surface * np.exp(1j * at), "", "point")
-    dots = (Dot(0j, "", "pivot"), *((Dot(_pivot(design), "", "pivot"),) if _swings(design) else ()))
-    guide = () if _swings(design) else _guide(design, centre)
+    dots = (Dot(0j, "", "pivot"), *((Dot(pivot_of(design), "", "pivot"),) if swings(design) else ()))
+    guide = () if swings(design) else _guide(design, centre)
     return developed_cams.animated(design, at, strokes, guide, dots, (touched,))
 
 
@@ -58,27 +58,29 @@ def _second_follower(design: CamDesign, at: FloatArray) -> tuple[MovingStroke, .
     pair = design.cams.pair
     if pair is None:
         return ()
-    up, (first, second) = _up(design), pair.traces(at)
+    up, (first, second) = upright(design), pair.traces(at)
     ends = [up * trace.pitch * np.exp(1j * at) for trace in (first, second)]
     if design.cam.flat:
         foot = 1j * np.imag(ends[1]) + design.params.offset
         return (MovingStroke(foot[:, None] + _face(design) * np.array([-1.0, 1.0]), "link", "second face"),)
     circle = pair.second.roller_radius * np.exp(1j * np.linspace(0.0, TURN, 49)[:-1])
-    joint = np.full_like(ends[1], _pivot(design)) if _swings(design) else ends[0]
+    joint = np.full_like(ends[1], pivot_of(design)) if swings(design) else ends[0]
     rod = MovingStroke(np.stack([joint, ends[1]], axis=1), "link", "second roller")
     return (MovingStroke(ends[1][:, None] + circle, "outline", closed=True), rod)
 
 
-def _swings(design: CamDesign) -> bool:
+def swings(design: CamDesign) -> bool:
+    """Whether the follower is an arm."""
     return design.params.motion == "oscillating"
 
 
-def _up(design: CamDesign) -> complex:
+def upright(design: CamDesign) -> complex:
     """Direction in which +x of the formulas is drawn."""
-    return 1 + 0j if _swings(design) else 1j
+    return 1 + 0j if swings(design) else 1j
 
 
-def _pivot(design: CamDesign) -> complex:
+def pivot_of(design: CamDesign) -> complex:
+    """Pivot of an arm [m]."""
     return complex(design.params.pivot_distance)
 
 
@@ -101,24 +103,24 @@ def _follower(design: CamDesign, trace: CamTrace, centre: ComplexArray) -> tuple
 
 def _carrier(design: CamDesign, trace: CamTrace, centre: ComplexArray) -> ComplexArray:
     """Stem, arm or face at every frame."""
-    up = _up(design)
-    if not design.cam.flat and _swings(design):
-        return np.stack([np.full_like(centre, _pivot(design)), centre], axis=1)
+    up = upright(design)
+    if not design.cam.flat and swings(design):
+        return np.stack([np.full_like(centre, pivot_of(design)), centre], axis=1)
     if not design.cam.flat:
         return np.asarray(centre[:, None] + up * _reach(design) * np.array([0.0, 1.0]))
     along = 1j * up * trace.normal * np.exp(1j * trace.angle)
-    if not _swings(design):
+    if not swings(design):
         return np.asarray(
             (up * np.imag(centre) + design.params.offset)[:, None] + _face(design) * np.array([-1.0, 1.0])
         )
-    foot = _pivot(design) + design.params.face_offset * along * -1j
+    foot = pivot_of(design) + design.params.face_offset * along * -1j
     far = centre + 0.2 * (centre - foot)
-    return np.stack([np.full_like(centre, _pivot(design)), foot, far], axis=1)
+    return np.stack([np.full_like(centre, pivot_of(design)), foot, far], axis=1)
 
 
 def _stem(design: CamDesign, centre: ComplexArray) -> tuple[MovingStroke, ...]:
     """The stem of a flat face on a slide."""
-    if _swings(design):
+    if swings(design):
         return ()
     foot = 1j * np.imag(centre)[:, None] + design.params.offset
     return (MovingStroke(foot + 1j * _reach(design) * np.array([0.0, 1.0]), "link"),)

@@ -1,4 +1,4 @@
-"""Barrel, end and wedge cams laid flat: the drawing, the strip passing under its roller, the wedge's plate, masses.
+"""Barrel, end and wedge cams laid flat: the drawing, the strip passing under its roller, the wedge's outline.
 
 In the development the follower moves along +x and the cam along -y (`ilmek.cams.strip`); it is drawn rotated by a
 quarter turn, the follower upwards and the cam moving to the left.
@@ -8,13 +8,12 @@ import math
 
 import numpy as np
 
-from ilmek.arrays import FloatArray
+from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.cams.programme import TURN
 from ilmek.dynamics.animation import FRAMES
-from ilmek.elements.materials import MATERIALS
 from ilmek.machines.cam.design import CamDesign
 from ilmek.num.piecewise import integral
-from ilmek.report import Animation, Axis, Dot, Drawing, MovingDot, MovingStroke, Plate, Reading, Stroke
+from ilmek.report import Animation, Axis, Dot, Drawing, MovingDot, MovingStroke, Reading, Stroke
 from ilmek.units import format_quantity
 
 POINTS = 721
@@ -92,17 +91,14 @@ def animated(  # noqa: PLR0917
     return Animation(still, Axis("cam angle", "deg"), at, strokes, touched, turns, 0, period, readings)
 
 
-def plate(design: CamDesign, title: str) -> Plate:
-    """A wedge as a plate."""
+def wedge_outline(design: CamDesign) -> ComplexArray:
+    """Points of a wedge's outline, its foot below [m]."""
     end = float(design.cam.knots[-1])
     inner = np.asarray(design.cam.knots[1:-1])
-    trace = design.cam.trace(np.unique(np.concatenate([np.linspace(0.0, end, 1441), inner])))
+    trace = design.cam.trace(np.unique(np.concatenate([np.linspace(0.0, end, 2881), inner])))
     low, _ = axial_ends(design)
     foot = np.array([1j * low, design.cam.prime_radius * end + 1j * low])
-    outline = np.concatenate([foot, (1j * trace.surface)[::-1]])
-    cutter = design.params.cutter_radius or design.cam.roller_radius
-    note = (f"cutter of {format_quantity(2 * cutter, 'mm')}",) if cutter > 0 else ()
-    return Plate("cam", title, outline, design.face_width, design.params.material, area=area(design), notes=note)
+    return np.concatenate([foot, (1j * trace.surface)[::-1]])
 
 
 def area(design: CamDesign) -> float:
@@ -131,21 +127,6 @@ def _beyond_ends(design: CamDesign, low: float) -> float:
     first, last = 1j * cam.trace(np.array([0.0, end])).surface
     left, right = first.real, cam.prime_radius * end - last.real
     return float(0.5 * left * (first.imag - low) + 0.5 * right * (last.imag - low))
-
-
-def mass(design: CamDesign) -> float:
-    """Mass [kg] of a wedge; of a barrel, bored, without its groove; of an end cam's ring."""
-    params, cam, width = design.params, design.cam, design.face_width
-    density = MATERIALS[params.material].density
-    low, high = axial_ends(design)
-    if params.kind == "wedge":
-        return density * width * area(design)
-    if params.kind == "face":
-        return density * width * _face(design)
-    outer, hub = cam.prime_radius + width / 2, design.hub
-    bored = hub.area if hub.reach < cam.prime_radius - width / 2 else 0.0
-    groove = 2 * cam.roller_radius * width * integral(lambda at: cam.trace(at).flow, cam.knots)
-    return float(density * ((math.pi * outer**2 - bored) * (high - low) - groove))
 
 
 def axial_ends(design: CamDesign) -> tuple[float, float]:

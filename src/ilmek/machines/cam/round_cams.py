@@ -5,7 +5,7 @@ which the contact lies on it solves rho^2 + Im(w)^2 = R^2, w the contact in the 
 """
 
 import math
-from functools import partial
+from functools import lru_cache, partial
 from typing import Literal
 
 import numpy as np
@@ -14,8 +14,8 @@ from ilmek.arrays import ComplexArray, Float, FloatArray
 from ilmek.cams.barrel import Barrel
 from ilmek.cams.programme import TURN
 from ilmek.machines.cam.design import CamDesign
-from ilmek.plane import contours
-from ilmek.report import Contour, Plate, RoundSolid
+from ilmek.part.flanked import Flanked
+from ilmek.report import Plate, RoundSolid
 from ilmek.units import format_quantity, mm
 
 ANGLES, RADII = 181, 5
@@ -29,6 +29,9 @@ BEYOND = 1 * mm
 
 LAYERS = 12
 """Radii of Gauss's quadrature of the volume; the flanks are smooth along the roller."""
+
+STEPS_ROUND = 1440
+"""Even steps round the axis for the moments."""
 
 STEPS = 6
 """Steps of the iteration for the depth; each divides the error by 50 or more."""
@@ -72,6 +75,32 @@ def solid_plate(design: CamDesign, title: str, ends: tuple[float, float]) -> Pla
     )
 
 
+@lru_cache(maxsize=4)
+def flanked(design: CamDesign, ends: tuple[float, float]) -> Flanked:
+    """The shape of the cam; ends as of `solid_plate`."""
+    cam, barrel = design.cam, design.params.led
+    assert isinstance(cam, Barrel)
+    (inner, outer), (low, high) = cam.depths, ends
+    nodes, weights = np.polynomial.legendre.leggauss(LAYERS)
+    half = 0.5 * (outer - inner)
+    radii = np.concatenate([[inner], inner + half * (1 + nodes), [outer]])
+    angle = np.arange(STEPS_ROUND) * (TURN / STEPS_ROUND)
+
+    def heights(side: Literal[1, -1]) -> FloatArray:
+        lines = [(developed(cam, radius, side), radius) for radius in radii.tolist()]
+        return np.stack([np.interp(angle * radius, line.real, line.imag) for line, radius in lines])
+
+    return Flanked(
+        low,
+        high,
+        radii,
+        np.concatenate([[0.0], half * weights, [0.0]]),
+        heights(-1),
+        heights(1) if barrel else None,
+        design.hub.contour if barrel and design.hub.reach < inner else None,
+    )
+
+
 def solid(design: CamDesign, ends: tuple[float, float]) -> RoundSolid:
     """The cam in space."""
     cam, barrel = design.cam, design.params.led
@@ -79,7 +108,7 @@ def solid(design: CamDesign, ends: tuple[float, float]) -> RoundSolid:
     (inner, outer), (low, high) = cam.depths, ends
     first, last = (inner, outer + BEYOND) if barrel else (inner - BEYOND, outer + BEYOND)
     flank = partial(_grid, cam, np.linspace(first, last, RADII))
-    bore = design.hub.contour if barrel and design.hub.reach < inner else None
+    shape = flanked(design, ends)
     return RoundSolid(
         inner=0.0 if barrel else inner,
         outer=outer,
@@ -87,8 +116,8 @@ def solid(design: CamDesign, ends: tuple[float, float]) -> RoundSolid:
         high=high,
         lower=flank(-1),
         upper=flank(1) if barrel else None,
-        bore=bore,
-        volume=_volume(cam, ends, barrel=barrel, bore=bore),
+        bore=shape.bore,
+        volume=shape.volume,
     )
 
 
@@ -139,21 +168,3 @@ def _grid(cam: Barrel, radii: FloatArray, side: Literal[1, -1]) -> FloatArray:
 def _under(line: ComplexArray, low: float) -> float:
     """Area between a line from left to right and y = low."""
     return float(np.sum(np.diff(line.real) * (0.5 * (line.imag[1:] + line.imag[:-1]) - low)))
-
-
-def _volume(cam: Barrel, ends: tuple[float, float], *, barrel: bool, bore: Contour | None) -> float:
-    """Volume [m^3]: the blank less its groove, or the ring below the flank, by Gauss's quadrature over the radius."""
-    (inner, outer), (low, high) = cam.depths, ends
-    nodes, weights = np.polynomial.legendre.leggauss(LAYERS)
-    radii = 0.5 * (inner + outer) + 0.5 * (outer - inner) * nodes
-    sheets = [
-        _under(developed(cam, radius, 1), 0.0) - _under(developed(cam, radius, -1), 0.0)
-        if barrel
-        else _under(developed(cam, radius, -1), low)
-        for radius in radii.tolist()
-    ]
-    swept = 0.5 * (outer - inner) * float(weights @ np.array(sheets))
-    if not barrel:
-        return swept
-    bored = contours.area(bore) if bore is not None else 0.0
-    return (math.pi * outer**2 - bored) * (high - low) - swept

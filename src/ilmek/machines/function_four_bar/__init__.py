@@ -4,10 +4,12 @@ Exact at three to five points (interpolation), or best over the whole range by l
 with the alternation that proves it.
 """
 
+from functools import partial
+
 from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
 from ilmek.machines.four_bar_figures import own_machine
-from ilmek.machines.four_bar_parts import plates
+from ilmek.machines.four_bar_tree import four_bar_tree
 from ilmek.machines.function_four_bar.design import FunctionFourBar, design
 from ilmek.machines.function_four_bar.params import FunctionFourBarParams
 from ilmek.machines.function_four_bar.report import figures, self_tests, tables
@@ -29,7 +31,7 @@ MACHINE = Component(
     self_tests=self_tests,
     tables=tables,
     figures=figures,
-    plates=plates,
+    tree=partial(four_bar_tree, "function-four-bar"),
     warnings=warnings,
     mechanism=own_machine,
 )

@@ -14,8 +14,7 @@ import numpy as np
 from ilmek.arrays import ComplexArray
 from ilmek.machines.beat_up.beater import across, rectangle
 from ilmek.machines.beat_up.crank_start import start_parts
-from ilmek.machines.beat_up.parts import depth_of
-from ilmek.machines.beat_up.tree import CARRIAGE, crank_frame, crank_rockers, moving, on_rocker, rocker_position
+from ilmek.machines.beat_up.tree import CARRIAGE, crank_frame, crank_rockers, on_rocker, rocker_position
 from ilmek.machines.hammer.comb import BAR_ID, BEHIND, LEAF_ID
 from ilmek.machines.hammer.design import Hammer
 from ilmek.machines.hammer.params import STEEL, HammerParams
@@ -23,7 +22,7 @@ from ilmek.part import catalogue
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import Placement, placement
 from ilmek.part.shapes import box
-from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
+from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree, depth_of
 from ilmek.report.scene import SceneMotion
 from ilmek.units import mm
 
@@ -37,7 +36,7 @@ AXIS_SIDE = 80 * mm
 def tree(hammer: Hammer, motions: Mapping[str, SceneMotion] | None = None) -> Tree:
     """The bodies of a hammer; motions  of them by their ids."""
     bodies = _on_crank_rockers(hammer) if hammer.linkage is not None else _on_axes(hammer)
-    return moving(bodies, motions or {})
+    return bodies.moving(motions or {})
 
 
 def outline(params: HammerParams) -> tuple[ComplexArray, ...]:

@@ -8,9 +8,10 @@ thesis, 2.1.3, by all real roots at once: none to three arms. Four points that a
 from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
 from ilmek.machines.knotting_dyad.design import KnottingDyad, design
-from ilmek.machines.knotting_dyad.in_loom import params_for, parts, work
+from ilmek.machines.knotting_dyad.in_loom import params_for, work
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.machines.knotting_dyad.report import DyadAnalysis, analyse, checks, figures, self_tests, tables, warnings
+from ilmek.machines.knotting_dyad.tree import tree
 
 __all__ = ["MACHINE", "KnottingDyad", "KnottingDyadParams", "design"]
 
@@ -27,7 +28,7 @@ MACHINE = Component(
     tables=tables,
     figures=figures,
     warnings=warnings,
-    parts=parts,
+    tree=tree,
     work=work,
     fit=params_for,
     own_figures=(

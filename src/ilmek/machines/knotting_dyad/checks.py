@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from ilmek.arrays import FloatArray
+from ilmek.machines.knotting_dyad.arms import SERVOS, arm_parts
 from ilmek.machines.knotting_dyad.design import KnottingDyad, longest_link
 from ilmek.machines.knotting_dyad.drives import HeadMotion
 from ilmek.machines.knotting_dyad.head import Head
@@ -29,7 +30,7 @@ def dyad_checks(design: KnottingDyad, motion: HeadMotion | None) -> tuple[Check,
     return (
         *_arm_checks(design),
         *of_head,
-        *(() if motion is None else _motion_checks(motion)),
+        *(() if head is None or motion is None else _motion_checks(params, head, motion)),
     )
 
 
@@ -161,15 +162,16 @@ def _gap_checks(head: Head) -> tuple[Check, ...]:
     )
 
 
-def _motion_checks(motion: HeadMotion) -> tuple[Check, ...]:
+def _motion_checks(params: KnottingDyadParams, head: Head, motion: HeadMotion) -> tuple[Check, ...]:
     return (
         must(
             "servos of the joints",
             all(joint.motor for joint in motion.joints),
             "servos of the table",
             cure="set a lower joint_acceleration, or a gear_ratio",
+            parts=SERVOS,
         ),
-        *arm_strength_checks(motion.strength),
+        *arm_strength_checks(motion.strength, arm_parts(params, head, motion.hole).ids),
     )
 
 

@@ -8,27 +8,25 @@ Behind gears of ratio i and efficiency e a servo of rotor inertia J gives     M 
 
 import math
 from collections.abc import Mapping
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from functools import lru_cache
 
 import numpy as np
 
 from ilmek.arrays import Float, FloatArray
-from ilmek.dynamics.inertia import Inertia, combined, point_mass
 from ilmek.dynamics.inverse import Forces, inverse
 from ilmek.dynamics.loads import Gravity, PointForce
-from ilmek.dynamics.shapes import link
 from ilmek.elements.motors import Motor, Reducer, smallest_motor
 from ilmek.elements.reducers import RATIOS
-from ilmek.linkage.model import GROUND, Body, Mechanism, Pin, Rotation
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
+from ilmek.machines.knotting_dyad.arms import Arm, arm_mechanism, inertias
 from ilmek.machines.knotting_dyad.head import Head
 from ilmek.machines.knotting_dyad.motion import ArmMotion, KnotCycle, cycle_of, drive_angles
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.machines.knotting_dyad.strength import LoadedArm, arm_strength
-from ilmek.machines.linkage_strength import LinkageStrength
+from ilmek.machines.linkage_strength import LinkageStrength, bore_for, smallest_pin
 from ilmek.records import computed, group, record, result
 from ilmek.report import Json, results_of
 
@@ -68,11 +66,15 @@ class JointDrive:
 
 @record
 class HeadMotion:
-    """The cycle of a head in time, torques of both arms, by name, the drive of each joint, and the links' strength."""
+    """The cycle of a head in time, torques of both arms, by name, the drive of each joint, and the links' strength.
+
+    hole  diameter of the links' holes [m]
+    """
 
     cycle: KnotCycle
     arms: Mapping[str, ArmForces]
     joints: tuple[JointDrive, JointDrive]
+    hole: float
     strength: LinkageStrength = group()
 
     cycle_time = computed(
@@ -108,50 +110,28 @@ class HeadMotion:
 
 @lru_cache(maxsize=4)
 def head_motion(params: KnottingDyadParams, head: Head) -> HeadMotion:
-    """The cycle of a head, and the drives that it needs."""
+    """The cycle of a head, and the drives that it needs: the links' holes grow until their pins bear the forces."""
     cycle = cycle_of(params, head)
-    arms, joints = drives_of(params, head, cycle)
     section, rate = (params.link_width, params.link_thickness), params.joint_jerk / params.joint_acceleration
-    loaded = [one.loaded for one in arms.values()]
-    return HeadMotion(cycle, arms, joints, arm_strength(loaded, cycle.time, params.strength, section, rate))
-
-
-def arm_mechanism(first: float, second: float) -> Mechanism:
-    """An arm with its pivot O in the origin, elbow E and tip P, links [m]; inputs turn link 1, and 2 against it."""
-    return Mechanism(
-        name="knotting-dyad",
-        bodies=(
-            Body(GROUND, {"O": 0}),
-            Body("link 1", {"O": 0, "E": first}),
-            Body("link 2", {"E": 0, "P": second}),
-        ),
-        joints=(Pin("O", GROUND, "link 1"), Pin("E", "link 1", "link 2")),
-        inputs=(Rotation("link 1", "O"), Rotation("link 2", "E")),
-        branches={},
-    )
-
-
-def links_of(params: KnottingDyadParams, first: float, second: float) -> tuple[Inertia, Inertia]:
-    """The bare links [m], of the parameters' width, thickness and density."""
-    one, two = (link(0j, end, params.link_width, params.link_thickness, params.density) for end in (first, second))
-    return one, two
-
-
-def inertias(params: KnottingDyadParams, first: float, second: float) -> dict[str, Inertia]:
-    """The links, with the mass in the elbow, and the gripper in the tip."""
-    one, two = links_of(params, first, second)
-    return {
-        "link 1": combined(one, point_mass(params.elbow_mass, first)),
-        "link 2": combined(two, point_mass(params.gripper_mass, second)),
-    }
+    hole, needed = 0.0, smallest_pin(params.strength, params.link_width)
+    while needed > hole:
+        hole = needed
+        arms, joints = drives_of(params, head, cycle, hole)
+        loaded = [one.loaded for one in arms.values()]
+        strength = arm_strength(loaded, cycle.time, params.strength, section, rate)
+        needed = bore_for(strength.pin_diameter, params.link_width)
+    if needed < hole:
+        limits = replace(params.strength, pin_diameter=hole)
+        strength = arm_strength(loaded, cycle.time, limits, section, rate)
+    return HeadMotion(cycle, arms, joints, hole, strength)
 
 
 def drives_of(
-    params: KnottingDyadParams, head: Head, cycle: KnotCycle
+    params: KnottingDyadParams, head: Head, cycle: KnotCycle, hole: float
 ) -> tuple[dict[str, ArmForces], tuple[JointDrive, JointDrive]]:
-    """Torques of the arms and the drives of a head over its cycle."""
-    links = abs(head.arm.first), head.arm.second
-    arms = {name: _arm_forces(params, links, motion) for name, motion in cycle.arms.items()}
+    """Torques of the arms and the drives of a head over its cycle; hole: diameter of the links' holes [m]."""
+    arm = Arm(arm_mechanism(head), inertias(params, head, hole))
+    arms = {name: _arm_forces(params, arm, motion) for name, motion in cycle.arms.items()}
     turned = drive_angles(params).T
     first, second = (
         _drive(
@@ -169,17 +149,16 @@ def drives_of(
     return arms, (first, second)
 
 
-def _arm_forces(params: KnottingDyadParams, links: tuple[float, float], arm: ArmMotion) -> ArmForces:
+def _arm_forces(params: KnottingDyadParams, made: Arm, arm: ArmMotion) -> ArmForces:
     angle, speed, acceleration = (
         {"link 1": one[:, 0], "link 2": one[:, 1] - one[:, 0]} for one in (arm.angle, arm.speed, arm.acceleration)
     )
-    motion = solve(plan(arm_mechanism(*links)), angle, speed, acceleration).require()
+    motion = solve(plan(made.mechanism), angle, speed, acceleration).require()
     loads = (Gravity(-1j * params.gravity), PointForce("link 2", "P", _pull(params, motion, arm)))
-    bodies = inertias(params, *links)
-    forces = inverse(motion, bodies, loads)
+    forces = inverse(motion, made.inertias, loads)
     at_pivot, in_elbow = forces.effort("link 1"), forces.effort("link 2")
     base = at_pivot - in_elbow if params.elbow_drive == "belt" else at_pivot
-    return ArmForces(np.stack([base, in_elbow], axis=1), LoadedArm(forces, bodies, loads))
+    return ArmForces(np.stack([base, in_elbow], axis=1), LoadedArm(forces, made.inertias, loads))
 
 
 def _pull(params: KnottingDyadParams, motion: Motion, arm: ArmMotion) -> np.ndarray:

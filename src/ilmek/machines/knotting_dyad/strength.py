@@ -5,7 +5,7 @@ a motion with limited jerk excites a link little whose period is shorter than th
                                                                     [Biagiotti and Melchiorri, Trajectory Planning, 7]
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from ilmek.arrays import FloatArray
@@ -74,6 +74,6 @@ def arm_strength(
     return max(found, key=lambda one: max(one.link_stress.values()))
 
 
-def arm_strength_checks(found: LinkageStrength) -> tuple[Check, ...]:
-    """Whether links and joints of the arms bear the cycle."""
-    return strength_checks(found, stronger=CURE, drive="that of a change of acceleration")
+def arm_strength_checks(found: LinkageStrength, parts: Mapping[str, str]) -> tuple[Check, ...]:
+    """Whether links and joints of the arms bear the cycle; parts: ids of links and pins by name."""
+    return strength_checks(found, stronger=CURE, drive="that of a change of acceleration", parts=parts)

@@ -21,6 +21,7 @@ from ilmek.machines.knotting_four_bar.report import (
     tables,
     warnings,
 )
+from ilmek.machines.knotting_four_bar.tree import tree
 
 __all__ = ["MACHINE", "KnottingFourBar", "KnottingFourBarParams", "design"]
 
@@ -37,5 +38,6 @@ MACHINE = Component(
     tables=tables,
     figures=lambda found: figures(found.design),
     warnings=warnings,
+    tree=tree,
     parameters=parameters,
 )

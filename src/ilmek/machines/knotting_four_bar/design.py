@@ -14,21 +14,23 @@ from ilmek.errors import ParameterError
 from ilmek.linkage.quality import Grashof, grashof, input_range, least_transmission_angle
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import Plan, plan
+from ilmek.machines.knotting_four_bar.links import inertias, parts
 from ilmek.machines.knotting_four_bar.model import (
     GearedServo,
     KnottingState,
     closing_ground,
     drive_for,
     evaluate,
-    inertias,
     mechanism,
-    parts,
 )
 from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams, PosedParams, read_three_poses
 from ilmek.machines.knotting_four_bar.posed import PosedFourBar, through_poses, through_the_reports_poses
 from ilmek.machines.knotting_four_bar.sides import KnottingSides, both_sides
+from ilmek.machines.knotting_four_bar.strength import four_bar_strength
+from ilmek.machines.linkage_strength import LinkageStrength, bore_for, smallest_pin
+from ilmek.machines.strength_params import StrengthParams
 from ilmek.records import computed, group, record, result
-from ilmek.synthesis.three_poses import synthesised
+from ilmek.synthesis.three_poses import ThreePoseSynthesis, synthesised
 from ilmek.units import deg, format_quantity, turn
 
 SAMPLES = 360
@@ -53,6 +55,7 @@ class KnottingFourBar:
     standing      the same at rest
     load_torque   that the drive is chosen for [N m]: the greatest magnitude, moving or at rest, at the crank angle to
                   report, with poses over the working range
+    hole          diameter of the pins' holes [m]: of the pins' that bear the load
     instead       the four-bar of both arms through the report's poses; None with poses
     sides         both sides over the same motion, coupled by gears; None of one side
     """
@@ -77,6 +80,7 @@ class KnottingFourBar:
     moving: KnottingState
     standing: KnottingState
     load_torque: float
+    hole: float
     drive: GearedServo = group()
     instead: PosedFourBar | None
     sides: KnottingSides | None
@@ -134,6 +138,17 @@ class KnottingFourBar:
     )
 
     @property
+    def strength(self) -> LinkageStrength:
+        """Stresses of links and pins; pins of links as made fit the holes."""
+        made = self.params.link_mass == "made"
+        limits = self.params.strength
+        return self.strength_of(dataclasses.replace(limits, pin_diameter=self.hole) if made else limits)
+
+    def strength_of(self, limits: StrengthParams) -> LinkageStrength:
+        """The same for other limits; near a dead point only the motion through given poses counts."""
+        return four_bar_strength(self.params, self.moving if self.working else self.at, self.inertias, limits)
+
+    @property
     def dead_point_distance(self) -> float:
         """Rotation of the crank from its angle, or its working range, to the nearer dead point [rad].
 
@@ -153,12 +168,29 @@ class KnottingFourBar:
 def design(params: KnottingFourBarParams) -> KnottingFourBar:
     """Position, move and load a knotting four-bar.
 
+    Links as made weigh less by their holes, whose pins bear their forces: the holes grow until their pins do.
     Raises ParameterError where no ground closes the stated pose, or no four-bar takes the poses, MechanismError where
     it does not close at the crank angle.
     """
-    posed = None
+    found = None
     if params.poses is not None:
-        posed = through_poses(params, synthesised(read_three_poses(params.poses), params.ground_angle))
+        found = synthesised(read_three_poses(params.poses), params.ground_angle)
+    hole = smallest_pin(params.strength, params.width)
+    while True:
+        made = _bored(params, found, hole)
+        needed = bore_for(made.strength_of(params.strength).pin_diameter, params.width)
+        if params.link_mass == "bars":
+            return dataclasses.replace(made, hole=needed)
+        if needed <= hole:
+            return made
+        hole = needed
+
+
+def _bored(params: KnottingFourBarParams, found: ThreePoseSynthesis | None, hole: float) -> KnottingFourBar:
+    """The four-bar with holes of a diameter [m]; found: through the poses, where there are some."""
+    posed = None
+    if found is not None:
+        posed = through_poses(params, found, hole)
         params = posed.params
     angle = STATED if params.crank_angle is None else params.crank_angle
     params = dataclasses.replace(params, crank_angle=angle)
@@ -169,11 +201,12 @@ def design(params: KnottingFourBarParams) -> KnottingFourBar:
     closes = _range(params, ground_angle, angle)
     working = None if posed is None else _working(posed, angle)
     angles = _angles(angle, closes) if working is None else np.linspace(*working, SAMPLES + 1)
-    evaluated = partial(evaluate, params, planned)
+    bodies = inertias(params, hole)
+    evaluated = partial(evaluate, params, planned, bodies)
     here, static = evaluated(at, params.speed, params.acceleration), evaluated(at, 0.0)
     moving, standing = evaluated(angles, params.speed, params.acceleration), evaluated(angles, 0.0)
     load = max(state.torque_max for state in ((moving, standing) if working else (here, static)))
-    sides = both_sides(params, planned, moving, standing) if params.sides > 1 else None
+    sides = both_sides(params, planned, moving, standing, hole) if params.sides > 1 else None
     return KnottingFourBar(
         params=params,
         posed=posed,
@@ -184,16 +217,17 @@ def design(params: KnottingFourBarParams) -> KnottingFourBar:
         range=closes,
         working=working,
         parts=parts(params),
-        inertias=inertias(params),
+        inertias=bodies,
         at=here,
         static=static,
         unit=evaluated(at, 1.0),
         moving=moving,
         standing=standing,
         load_torque=load,
+        hole=hole,
         # Without poses the crank angle may be nearer to a dead point than the curves; both sides stand there.
         drive=drive_for(params, max(sides.torque, 2 * load) if sides else load),
-        instead=None if posed else through_the_reports_poses(params),
+        instead=None if posed else through_the_reports_poses(params, hole),
         sides=sides,
     )
 

@@ -10,6 +10,7 @@ from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.dynamics.animation import animated, frames
 from ilmek.dynamics.attached import attached
 from ilmek.dynamics.crank_figures import crank_plot
+from ilmek.dynamics.inertia import Inertia
 from ilmek.linkage.mirror import other
 from ilmek.linkage.model import GROUND
 from ilmek.linkage.motion import Motion
@@ -98,7 +99,7 @@ def _moving(design: KnottingFourBar) -> Animation:
     elif design.range:
         note = f"From one dead point nearly to the other. {note}"
     still = Drawing("knotting-four-bar-moving", "Knotting four-bar in motion", (), dots, note=note)
-    return _animated(design.params, design.plan, at, still, reported)
+    return _animated(design.params, design.plan, design.inertias, at, still, reported)
 
 
 def _instead_moving(made: PosedFourBar) -> Animation:
@@ -108,11 +109,18 @@ def _instead_moving(made: PosedFourBar) -> Animation:
     note = "1, 2, 3: the positions that the hand H passes."
     dots = numbered(made.synthesis.poses.points)
     still = Drawing("knotting-four-bar-instead-moving", title, (), dots, note=note)
-    return _animated(made.params, made.plan, frames(first, last), still, float(made.crank_angles[0]))
+    return _animated(made.params, made.plan, made.bodies, frames(first, last), still, float(made.crank_angles[0]))
 
 
-def _animated(params: KnottingFourBarParams, planned: Plan, at: FloatArray, still: Drawing, start: float) -> Animation:
-    state = evaluate(params, planned, at, params.speed, params.acceleration)
+def _animated(  # noqa: PLR0917
+    params: KnottingFourBarParams,
+    planned: Plan,
+    bodies: Mapping[str, Inertia],
+    at: FloatArray,
+    still: Drawing,
+    start: float,
+) -> Animation:
+    state = evaluate(params, planned, bodies, at, params.speed, params.acceleration)
     readings = (
         Reading("drive torque", state.torque, "N*m"),
         Reading("coupler", np.mod(state.motion.angle("coupler") + np.pi, turn) - np.pi, "deg"),

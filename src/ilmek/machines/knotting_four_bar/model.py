@@ -12,7 +12,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.dynamics.inertia import Inertia, bar, bar_mass, combined
+from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.inverse import Forces, inverse
 from ilmek.dynamics.loads import Gravity, Load, PointForce
 from ilmek.elements.motors import Motor, Reducer, geared_motor
@@ -141,53 +141,23 @@ def mechanism(params: KnottingFourBarParams, ground_angle: float, origin: comple
     )
 
 
-def coupler_ends(params: KnottingFourBarParams) -> tuple[float, float]:
-    """Ends of the coupler's bar on its line from O2 towards O2' [m]: it reaches from pin to pin and to the hand."""
-    return min(0.0, params.hand), max(params.coupler, params.hand)
-
-
-def tool(params: KnottingFourBarParams) -> dict[str, tuple[float, float, float]]:
-    """Holder and gripper beyond the coupler's end on the hand's side: start and end on its line, width [m]."""
-    end, outward = (coupler_ends(params)[1], 1) if params.hand > 0 else (coupler_ends(params)[0], -1)
-    middle = end + outward * params.holder_length
-    tip = middle + outward * params.gripper_length
-    return {"holder": (end, middle, params.holder_width), "gripper": (middle, tip, params.gripper_width)}
-
-
-def parts(params: KnottingFourBarParams) -> dict[str, Inertia]:
-    """The bars of the links, and holder and gripper."""
-    bars = {
-        "crank": (0.0, params.crank, params.width),
-        "coupler bar": (*coupler_ends(params), params.width),
-        **tool(params),
-        "rocker": (0.0, params.rocker, params.width),
-    }
-    masses = {
-        name: float(bar_mass(abs(end - start), width, params.thickness, params.density))
-        for name, (start, end, width) in bars.items()
-    }
-    return {name: bar(start, end, mass=masses[name], width=width) for name, (start, end, width) in bars.items()}
-
-
-def inertias(params: KnottingFourBarParams) -> dict[str, Inertia]:
-    """The moving bodies; coupler, holder and gripper are one."""
-    made = parts(params)
-    hand = combined(made["coupler bar"], made["holder"], made["gripper"])
-    return {"crank": made["crank"], "coupler": hand, "rocker": made["rocker"]}
-
-
 def loads_of(params: KnottingFourBarParams) -> tuple[Load, ...]:
     """Weight, and the yarn's force on the gripping point."""
     pull = PointForce("coupler", "H", params.grip_force * unit(params.grip_angle))
     return Gravity(-1j * params.gravity), pull
 
 
-def evaluate(
-    params: KnottingFourBarParams, planned: Plan, angle: FloatArray, speed: float, acceleration: float = 0.0
+def evaluate(  # noqa: PLR0917
+    params: KnottingFourBarParams,
+    planned: Plan,
+    bodies: Mapping[str, Inertia],
+    angle: FloatArray,
+    speed: float,
+    acceleration: float = 0.0,
 ) -> KnottingState:
     """Motion and forces at the given crank angles [rad], speed [rad/s] and acceleration [rad/s²] of the crank."""
     motion = solve(planned, angle, speed, acceleration).require()
-    forces = inverse(motion, inertias(params), loads_of(params))
+    forces = inverse(motion, bodies, loads_of(params))
     return KnottingState(
         angle=angle,
         motion=motion,

@@ -96,6 +96,11 @@ class KnottingFourBarParams(Params):
     holder_width: float = _length(8 * mm, doc="holder, across the coupler")
     gripper_length: float = _length(5 * mm, doc="gripper beyond the holder, along the coupler")
     gripper_width: float = _length(4 * mm, doc="both jaws of the gripper, across the coupler")
+    link_mass: str = kind.choice(
+        "bars",
+        ("bars", "made"),
+        doc="mass of the links: of bars from pin to pin, as in the report, or as made, with round ends, holes and pins",
+    )
     strength: AcetalStrengthParams = nested(AcetalStrengthParams, doc="what links and pins bear")
     gravity: float = kind.acceleration(9.81, at_least=0.0, at_most=1e3, doc="gravity, towards -y", symbol="g")
     gear_ratio: float | None = kind.ratio(

@@ -5,11 +5,15 @@ takes the differences of their lengths instead, also of their first links, which
 rocker.
 """
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from ilmek.arrays import ComplexArray, Float, FloatArray
+from ilmek.dynamics.inertia import Inertia
 from ilmek.linkage.quality import least_transmission_angle
 from ilmek.linkage.structure import Plan, plan
+from ilmek.machines.knotting_four_bar.links import inertias
 from ilmek.machines.knotting_four_bar.model import KnottingState, drive_for, evaluate, mechanism
 from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams, params_of
 from ilmek.plane.vectors import unit
@@ -30,12 +34,14 @@ class PosedFourBar:
     """A four-bar through three poses.
 
     params  with its links, all others as given        state  at the poses, in their frame
+    bodies  inertias of its links
     """
 
     synthesis: ThreePoseSynthesis = group()
     params: KnottingFourBarParams
     plan: Plan
     state: KnottingState
+    bodies: Mapping[str, Inertia]
 
     @property
     def crank_angles(self) -> FloatArray:
@@ -90,14 +96,18 @@ class PosedFourBar:
         }
 
 
-def through_poses(params: KnottingFourBarParams, found: ThreePoseSynthesis) -> PosedFourBar:
-    """The best four-bar of a synthesis, driven at the arm that leaves the other the better transmission angle."""
+def through_poses(params: KnottingFourBarParams, found: ThreePoseSynthesis, hole: float) -> PosedFourBar:
+    """The best four-bar of a synthesis, driven at the arm that leaves the other the better transmission angle.
+
+    hole  diameter of the pins' holes [m]
+    """
     made = params_of(params, found)
     planned = plan(mechanism(made, made.ground_angle or 0.0, found.crank.pivot))
-    state = evaluate(made, planned, found.crank_angles, params.speed, params.acceleration)
-    return PosedFourBar(found, made, planned, state)
+    bodies = inertias(made, hole)
+    state = evaluate(made, planned, bodies, found.crank_angles, params.speed, params.acceleration)
+    return PosedFourBar(found, made, planned, state, bodies)
 
 
-def through_the_reports_poses(params: KnottingFourBarParams) -> PosedFourBar:
+def through_the_reports_poses(params: KnottingFourBarParams, hole: float) -> PosedFourBar:
     """The four-bar to use instead of the report's: both arms through its three poses, joined."""
-    return through_poses(params, synthesised(ThreePoses(POINTS, COUPLER_ANGLES), GROUND_RAY))
+    return through_poses(params, synthesised(ThreePoses(POINTS, COUPLER_ANGLES), GROUND_RAY), hole)

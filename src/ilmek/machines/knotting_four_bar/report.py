@@ -3,10 +3,10 @@
 import numpy as np
 
 from ilmek.machines.knotting_four_bar.design import KnottingFourBar
+from ilmek.machines.knotting_four_bar.links import MACHINE_NAME, made_parts
 from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams
 from ilmek.machines.knotting_four_bar.posed import PosedFourBar
 from ilmek.machines.knotting_four_bar.sides import SidesAnalysis, analyse_sides
-from ilmek.machines.knotting_four_bar.strength import four_bar_strength
 from ilmek.machines.linkage_strength import LinkageStrength, equilibrium_test, strength_checks
 from ilmek.machines.strength_tables import strength_table
 from ilmek.records import group, record
@@ -16,6 +16,8 @@ from ilmek.units import deg, format_quantity, turn
 BALANCE = 1e-9
 TRANSMISSION, DISTANCE = 40 * deg, 5 * deg
 RULE = "rule of thumb for rockers"
+GEAR, MOTOR = f"{MACHINE_NAME}/gear", (f"{MACHINE_NAME}/motor",)
+STRONGER = "set a larger width or thickness, or a smaller grip_force"
 
 MET = 1e-9
 """Error of a position, of the extent of the poses, and of an angle [rad], that is rounding."""
@@ -33,18 +35,19 @@ class KnottingFourBarAnalysis:
 def analyse(design: KnottingFourBar) -> KnottingFourBarAnalysis:
     """The design with the analysis of both sides."""
     sides = None if design.sides is None else analyse_sides(design.params, design.sides, design.onward)
-    return KnottingFourBarAnalysis(design, four_bar_strength(design), sides)
+    return KnottingFourBarAnalysis(design, design.strength, sides)
 
 
 def checks(found: KnottingFourBarAnalysis) -> tuple[Check, ...]:
     """Dead point and transmission angle, servo; both sides, and the knot that they tie."""
     design = found.design
     distance = design.dead_point_distance
+    parts = made_parts(design.params, design.hole).ids
     dead_point = at_least("crank's distance from its dead point", distance, DISTANCE, "deg", "rule of thumb")
     return (
         *((dead_point,) if design.range else ()),
         at_least("transmission angle", design.transmission_angle, TRANSMISSION, "deg", RULE),
-        *strength_checks(found.strength, stronger="set a larger width or thickness, or a smaller grip_force"),
+        *strength_checks(found.strength, stronger=STRONGER, parts=parts),
         _servo_check(design),
         *(() if found.sides is None else _side_checks(design, found.sides)),
     )
@@ -74,7 +77,7 @@ def _side_checks(design: KnottingFourBar, found: SidesAnalysis) -> tuple[Check, 
     bending = sides.gears.bending(sides.tooth)
     return (
         at_least("clearance of the two sides", found.side_clearance_min, params.side_clearance, "mm", "side_clearance"),
-        at_most("bending of the gears' teeth", bending, params.gear_stress, "MPa", "gear_stress; Lewis"),
+        at_most("bending of the gears' teeth", bending, params.gear_stress, "MPa", "gear_stress; Lewis", parts=(GEAR,)),
         _knot_check(params, found),
     )
 
@@ -83,7 +86,9 @@ def _servo_check(design: KnottingFourBar) -> Check:
     drive = design.drive
     torque, speed = format_quantity(drive.torque, "N*m"), format_quantity(drive.speed, "rad/s")
     cure = f"set a lower speed, or poses farther from a dead point: {torque} at {speed} are required"
-    return must("a servo turns the crank", drive.servo is not None, "servo table, gears of stock", cure=cure)
+    return must(
+        "a servo turns the crank", drive.servo is not None, "servo table, gears of stock", cure=cure, parts=MOTOR
+    )
 
 
 def _knot_check(params: KnottingFourBarParams, found: SidesAnalysis) -> Check:
@@ -214,7 +219,9 @@ def _force_table(design: KnottingFourBar) -> Table:
 
 def _part_table(design: KnottingFourBar) -> Table:
     heads = columns("part", "mass [g]", "centre from first pin [mm]", "J about it [g*mm^2]")
-    named = {**design.parts, "coupler with holder and gripper": design.inertias["coupler"]}
+    made, hand = design.inertias, "coupler with holder and gripper"
+    links = {name: made[name] for name in ("crank", "rocker")} if design.params.link_mass == "made" else design.parts
+    named = {**links, hand: made["coupler"]}
     rows = tuple((name, inertia.mass, complex(inertia.centre).real, inertia.moment) for name, inertia in named.items())
     return Table("knotting-parts", "Masses and moments of inertia", heads, rows)
 

@@ -24,8 +24,11 @@ from ilmek.linkage.motion import Motion
 from ilmek.linkage.one_input import one_input
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import Plan, plan
-from ilmek.machines.knotting_four_bar.model import KnottingState, inertias, tool
+from ilmek.machines.knotting_four_bar.links import gear_part, inertias, tool
+from ilmek.machines.knotting_four_bar.model import KnottingState
 from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams
+from ilmek.machines.link_tree import inertia_of
+from ilmek.part.tree import Occurrence
 from ilmek.plane.outlines import Outline
 from ilmek.plane.vectors import unit
 from ilmek.records import computed, group, record, result
@@ -166,9 +169,9 @@ def hands(motion: Motion) -> tuple[ComplexArray, ComplexArray]:
 
 
 def both_sides(
-    params: KnottingFourBarParams, one: Plan, moving: KnottingState, standing: KnottingState
+    params: KnottingFourBarParams, one: Plan, moving: KnottingState, standing: KnottingState, hole: float
 ) -> KnottingSides:
-    """The mirrored side beside the first one and its states, and the gears between them.
+    """The mirrored side beside the first one and its states, and the gears between them; hole: of the pins [m].
 
     Raises ParameterError where the axes are too close for gears.
     """
@@ -179,7 +182,7 @@ def both_sides(
     gears = _gears(params, least, max(moving.torque_max, standing.torque_max))
     mirror = start.real + facing * gears.distance / 2
     image, planned = plan(mirrored(one.mechanism, mirror)), plan(coupled(one.mechanism, mirror, gears.pressure_angle))
-    run = partial(_coupled_run, params, (one, image, planned), wheel(params, gears), angles)
+    run = partial(_coupled_run, params, (one, image, planned), _side_inertias(params, gears, hole), angles)
     return KnottingSides(
         mirror=mirror,
         facing=facing,
@@ -192,10 +195,11 @@ def both_sides(
     )
 
 
-def wheel(params: KnottingFourBarParams, gears: EqualGears) -> Inertia:
-    """A gear on a crank's pivot, as a solid disc."""
-    mass = math.pi * gears.pitch_radius**2 * gears.width * params.density
-    return Inertia(mass, 0j, mass * gears.pitch_radius**2 / 2)
+def _side_inertias(params: KnottingFourBarParams, gears: EqualGears, hole: float) -> dict[str, Inertia]:
+    """The moving bodies of a side, its crank with a gear: a solid disc beside bars, a bored one beside made links."""
+    bore = hole if params.link_mass == "made" else 0.0
+    bodies, gear = inertias(params, hole), inertia_of((Occurrence(gear_part(params, gears, bore)),))
+    return {**bodies, "crank": combined(bodies["crank"], gear)}
 
 
 def outlines(params: KnottingFourBarParams, mechanism: Mechanism, body: str) -> OutlinedBody:
@@ -237,16 +241,14 @@ def _gears(params: KnottingFourBarParams, least: float, torque: float) -> EqualG
 def _coupled_run(
     params: KnottingFourBarParams,
     plans: tuple[Plan, Plan, Plan],
-    disc: Inertia,
+    bodies: Mapping[str, Inertia],
     angles: FloatArray,
     *,
     speed: float,
     acceleration: float,
 ) -> Coupled:
-    """Both sides coupled, and each alone; plans of the first side, its mirror image, and both; the gear on a crank."""
+    """Both sides coupled, and each alone; plans of the first side, its mirror image, and both; the bodies of a side."""
     one, image, both = plans
-    bodies = inertias(params)
-    bodies["crank"] = combined(bodies["crank"], disc)
     images = {other(body): inertia for body, inertia in bodies.items()}
     force, weight = params.grip_force * complex(unit(params.grip_angle)), Gravity(-1j * params.gravity)
     pull, mirrored_pull = (

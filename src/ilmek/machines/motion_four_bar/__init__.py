@@ -4,10 +4,12 @@ Three poses leave both pivots (or both pins) free, four leave a curve of them: t
 within the limits, and the best that differ are reported. Five leave a few links: all their pairs are judged.
 """
 
+from functools import partial
+
 from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
 from ilmek.machines.four_bar_figures import own_machine
-from ilmek.machines.four_bar_parts import plates
+from ilmek.machines.four_bar_tree import four_bar_tree
 from ilmek.machines.motion_four_bar.design import MotionFourBar, design
 from ilmek.machines.motion_four_bar.params import MotionFourBarParams
 from ilmek.machines.motion_four_bar.report import figures, self_tests, tables, warnings
@@ -29,7 +31,7 @@ MACHINE = Component(
     self_tests=self_tests,
     tables=tables,
     figures=figures,
-    plates=plates,
+    tree=partial(four_bar_tree, "motion-four-bar"),
     warnings=warnings,
     mechanism=own_machine,
     headline=("found", "left_out", "candidates"),

@@ -4,10 +4,12 @@ Any 4 to 200 points are searched for the nearest four-bars within limits; 3 to 5
 points, and poses and points together are also met exactly, by all four-bars that do.
 """
 
+from functools import partial
+
 from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
 from ilmek.machines.four_bar_figures import own_machine
-from ilmek.machines.four_bar_parts import plates
+from ilmek.machines.four_bar_tree import four_bar_tree
 from ilmek.machines.path_four_bar.design import PathFourBar, design
 from ilmek.machines.path_four_bar.params import PathFourBarParams
 from ilmek.machines.path_four_bar.report import figures, tables, warnings
@@ -29,7 +31,7 @@ MACHINE = Component(
     checks=checks,
     tables=tables,
     figures=figures,
-    plates=plates,
+    tree=partial(four_bar_tree, "path-four-bar"),
     warnings=warnings,
     mechanism=own_machine,
 )

@@ -9,10 +9,12 @@ tufting machine's driving system", Fibres and Textiles in Eastern Europe; moved 
 
 from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
-from ilmek.machines.tufting.design import Tufting, design
+from ilmek.machines.tufting.design import Tufting
 from ilmek.machines.tufting.figures import figures
 from ilmek.machines.tufting.params import TuftingParams
-from ilmek.machines.tufting.report import TuftingAnalysis, analyse, checks, plates, self_tests, tables
+from ilmek.machines.tufting.report import TuftingAnalysis, analyse, checks, self_tests, tables
+from ilmek.machines.tufting.strength import design
+from ilmek.machines.tufting.tree import tree
 
 __all__ = ["MACHINE", "Tufting", "TuftingParams", "design"]
 
@@ -28,5 +30,5 @@ MACHINE = Component(
     self_tests=self_tests,
     tables=tables,
     figures=lambda found: figures(found.design),
-    plates=plates,
+    tree=tree,
 )

@@ -20,11 +20,13 @@ import numpy as np
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.dynamics.attached import AttachedPoint, attached
 from ilmek.dynamics.friction import AngleRange
+from ilmek.dynamics.inertia import Inertia
 from ilmek.errors import MechanismError
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.quality import transmission_angle
 from ilmek.linkage.structure import Plan, plan
-from ilmek.machines.tufting.model import PINS, TuftingState, evaluate, mechanism, move
+from ilmek.machines.tufting.links import NeedleSizes, made_inertias
+from ilmek.machines.tufting.model import PINS, TuftingState, evaluate, inertias, mechanism, move
 from ilmek.machines.tufting.params import TuftingParams
 from ilmek.num.piecewise import Extremum, around, integrals, roots_of_turn, suprema
 from ilmek.records import Computed, computed, record, result
@@ -63,6 +65,7 @@ class Tufting:
 
     ranges           least and greatest values: of theta2 ... theta5 [rad], unwrapped as in the paper, and with their
                      signs of main_torque and driven_torque [N m]
+    bodies           inertias of the links              sizes  of shafts and pins of links as made; None: by strength
     breaks           crank angles [rad] at which the friction jumps
     state            over one turn, both ends included; at breaks twice, with both limits
     peaks            greatest values over the turn: magnitudes of main_torque, driven_torque, joints, needle_velocity
@@ -73,6 +76,8 @@ class Tufting:
 
     params: TuftingParams
     plan: Plan
+    bodies: Mapping[str, Inertia]
+    sizes: NeedleSizes | None
     ranges: Mapping[str, tuple[float, float]]
     breaks: tuple[float, ...]
     state: TuftingState
@@ -156,13 +161,17 @@ class Tufting:
         """Crank angles of the first bar [rad] and torque of all bars on the main shaft [N m]; at jumps twice."""
         breaks = tuple(sorted(at % turn for at in _all_breaks(self.params, self.breaks)))
         angle, side = turn_with(breaks)
-        return angle, _shaft(self.params, partial(evaluate, self.params, self.plan), angle, side)[0]
+        return angle, _shaft(self.params, partial(evaluate, self.params, self.plan, bodies=self.bodies), angle, side)[0]
 
 
-def design(params: TuftingParams) -> Tufting:
-    """Move and load a needle mechanism. Raises MechanismError where it does not turn or its rocker does not swing."""
+def loaded(params: TuftingParams, sizes: NeedleSizes | None = None) -> Tufting:
+    """Move and load a needle mechanism; sizes: of the shafts and pins of links as made; None: the masses are given.
+
+    Raises MechanismError where it does not turn or its rocker does not swing.
+    """
     planned = plan(mechanism(params))
-    moved, evaluated = partial(move, params, planned), partial(evaluate, params, planned)
+    bodies = inertias(params) if sizes is None else made_inertias(params, sizes)
+    moved, evaluated = partial(move, params, planned), partial(evaluate, params, planned, bodies=bodies)
     ranges = _ranges(params, moved)
     reversals = roots_of_turn(lambda at: np.imag(_needle(moved(at)).velocity), samples=SAMPLES)
     lowest, highest, stroke = _reversals(moved, reversals)
@@ -176,6 +185,8 @@ def design(params: TuftingParams) -> Tufting:
     return Tufting(
         params=params,
         plan=planned,
+        bodies=bodies,
+        sizes=sizes,
         ranges={**ranges, **torques},
         breaks=breaks,
         state=evaluated(*turn_with(breaks)),

@@ -58,7 +58,7 @@ def drawing(design: Tufting) -> Drawing:
 def moving(design: Tufting) -> Animation:
     """The mechanism over a turn of the crank, from the needle's highest position on."""
     at = frames()
-    state = evaluate(design.params, design.plan, at)
+    state = evaluate(design.params, design.plan, at, bodies=design.bodies)
     backing = _backing(design, _pose(design, design.lowest)["F"])
     readings = (
         Reading("needle above its lowest position", state.height - np.min(design.state.height), "mm"),

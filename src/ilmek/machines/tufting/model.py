@@ -100,11 +100,21 @@ def move(params: TuftingParams, planned: Plan, angle: FloatArray) -> Motion:
     return solve(planned, angles, {"crank": params.speed}).require()
 
 
-def evaluate(params: TuftingParams, planned: Plan, angle: FloatArray, side: RealField = 1.0) -> TuftingState:
-    """Motion and forces at crank angles [rad]; side: which limit counts where the friction jumps, see `Friction`."""
+def evaluate(
+    params: TuftingParams,
+    planned: Plan,
+    angle: FloatArray,
+    side: RealField = 1.0,
+    bodies: Mapping[str, Inertia] | None = None,
+) -> TuftingState:
+    """Motion and forces at crank angles [rad].
+
+    side    which limit counts where the friction jumps, see `Friction`
+    bodies  inertias of the links; default: by the masses that the parameters give
+    """
     motion = move(params, planned, angle)
     load = friction(params, side)
-    forces = inverse(motion, inertias(params), (Gravity(-1j * params.gravity), load))
+    forces = inverse(motion, bodies or inertias(params), (Gravity(-1j * params.gravity), load))
     point = attached(motion, "needle", motion.plan.mechanism.point("needle", "F"))
     return TuftingState(
         angle=angle,

@@ -54,6 +54,11 @@ class TuftingParams(Params):
     arm_mass: float = _mass(1.74, "m4", "mass of the arm")
     rod_mass: float = _mass(0.36, "m5", "mass of the rod")
     needle_mass: float = _mass(1.47, "m6", "mass of needle bar and needles")
+    link_mass: str = kind.choice(
+        "paper",
+        ("paper", "made"),
+        doc="mass of the links in the forces: the masses given, the paper's, or that of the links as made",
+    )
     crank_inertia: float = _inertia(4.34e-3, "J1", "crank")
     coupler_inertia: float = _inertia(26.99e-3, "J2", "coupler")
     rocker_inertia: float = _inertia(10.77e-3, "J3", "rocker")

@@ -1,13 +1,12 @@
-"""What is reported of a needle mechanism: checks, tables, warnings and plates."""
+"""What is reported of a needle mechanism: checks, tables and warnings."""
 
-from ilmek.elements.plates import link_plates
-from ilmek.machines.linkage_strength import FLAT_BARS, equilibrium_test
+from ilmek.machines.linkage_strength import equilibrium_test
 from ilmek.machines.strength_tables import strength_table
 from ilmek.machines.tufting.design import JOINTS, LINKS, Tufting
-from ilmek.machines.tufting.model import inertias
-from ilmek.machines.tufting.strength import NeedleStrength, link_sections, needle_checks, needle_strength
+from ilmek.machines.tufting.links import needle_parts
+from ilmek.machines.tufting.strength import NeedleStrength, needle_checks, needle_sizes, needle_strength
 from ilmek.records import group, record
-from ilmek.report import Check, Plate, Table, at_least, at_most, columns, must
+from ilmek.report import Check, Table, at_least, at_most, columns, must
 from ilmek.units import deg, format_quantity, mm, turn
 
 PAPER = "Xu et al., needle multi-linkage mechanism"
@@ -17,22 +16,6 @@ LEVELS = 0.5 * mm
 
 TRANSMISSION, PRESSURE = 40 * deg, 30 * deg
 SIDES = {-1: "just before", 0: "", 1: "just after"}
-
-
-def plates(design: Tufting) -> tuple[Plate, ...]:
-    """The five links; the needle bar is turned, not cut."""
-    p = design.params
-    pins = {"crank": "OA", "coupler": "AB", "rocker": "CB", "arm": "CD", "rod": "DE"}
-    found: list[Plate] = []
-    crank = p.link_width or FLAT_BARS[0][0], p.link_thickness or FLAT_BARS[0][1]
-    bored = needle_strength(design).linkage.sections
-    for name, (width, thickness) in {"crank": crank, **link_sections(p)}.items():
-        start, end = tuple(pins[name])
-        link = {name: ((start, 0j), (end, complex(getattr(p, name))))}
-        pin = bored[name].hole if name in bored else None
-        material, number = p.strength.material, p.bars
-        found += link_plates(link, width=width, thickness=thickness, material=material, number=number, pin=pin)
-    return tuple(found)
 
 
 @record
@@ -59,7 +42,7 @@ def checks(found: TuftingAnalysis) -> tuple[Check, ...]:
         at_least("transmission angle of rocker", design.transmission, TRANSMISSION, "deg", "rule of thumb for rockers"),
         at_most("pressure angle of the rod", design.pressure_angle, PRESSURE, "deg", "rule of thumb for sliders"),
         *_lowest_check(design),
-        *needle_checks(found.strength),
+        *needle_checks(found.strength, needle_parts(params, needle_sizes(design)).ids),
     )
 
 
@@ -92,7 +75,7 @@ def tables(found: TuftingAnalysis) -> tuple[Table, ...]:
 
 
 def _link_table(design: Tufting) -> Table:
-    params, bodies = design.params, inertias(design.params)
+    params, bodies = design.params, design.bodies
     ranges = {"crank": (0.0, turn), **{body: design.ranges[theta] for theta, body in LINKS.items()}}
     rows = tuple(
         (name, getattr(params, name), bodies[name].mass, bodies[name].moment, *ends) for name, ends in ranges.items()

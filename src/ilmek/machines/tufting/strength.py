@@ -7,6 +7,7 @@ driven shaft. Each mechanism has two bearings on either shaft, one beside each f
     M = F/2 lever,   T from its least to its greatest value over the turn;   safety after Goodman, feather keyway
 """
 
+from collections.abc import Mapping
 from functools import lru_cache
 
 import numpy as np
@@ -17,32 +18,32 @@ from ilmek.dynamics.pin_strength import PinDuty, bearing_life, pin_duty
 from ilmek.elements.bearing_table import DEEP_GROOVE, ROLLING_BEARINGS, RollingBearing
 from ilmek.elements.duty import MARGIN
 from ilmek.elements.fatigue import NOTCHES, Loading, endurance_limit, goodman, notch_factor
-from ilmek.elements.materials import MATERIALS
 from ilmek.elements.motors import SERVO, Motor, geared_motor
 from ilmek.elements.reducers import DIRECT, PLANETARY, Reducer
 from ilmek.elements.sections import round_section
 from ilmek.machines.linkage_strength import (
     LinkageStrength,
-    largest_bar,
+    bore_for,
     linkage_loads,
     linkage_strength,
     strength_checks,
 )
-from ilmek.machines.tufting.design import Tufting, turn_with
-from ilmek.machines.tufting.model import PINS, friction, inertias
+from ilmek.machines.tufting.design import Tufting, loaded, turn_with
+from ilmek.machines.tufting.links import LINKS, NAME, STEEL, NeedleSizes, link_sections
+from ilmek.machines.tufting.model import PINS, friction
 from ilmek.machines.tufting.params import TuftingParams
 from ilmek.machines.tufting.strength_params import NeedleStrengthParams
 from ilmek.records import computed, group, record, result
 from ilmek.report import Check, at_least, must
 from ilmek.units import mm
 
-LINKS = ("coupler", "rocker", "arm", "rod")
-STEEL = MATERIALS["heat-treatable steel"]
 SHAFTS = tuple(size * mm for size in (20, 25, 30, 35, 40, 45, 50, 55, 60, 70, 80))
 """Diameters of shafts to choose from [m]: the bores of the bearings."""
 
 KEYWAY, KEYWAY_RADIUS = NOTCHES["keyway"], 0.02
 """Stress concentration of a keyway, and its radius over the shaft's diameter [Shigley, table 7-1]."""
+
+MOTOR = (f"{NAME}/motor",)
 
 SERVO_PEAK = 3.0
 """Peak over continuous torque of servos, for the choice of the motor."""
@@ -84,16 +85,6 @@ class NeedleStrength:
     )
 
 
-def link_sections(params: TuftingParams) -> dict[str, tuple[float, float]]:
-    """Width and thickness of each link [m]: as given, or by its mass."""
-    density = params.strength.of_links.density
-    found = {}
-    for link in LINKS:
-        width, thickness = largest_bar(getattr(params, f"{link}_mass"), getattr(params, link), density)
-        found[link] = params.link_width or width, params.link_thickness or thickness
-    return found
-
-
 @lru_cache(maxsize=8)
 def needle_strength(design: Tufting) -> NeedleStrength:
     """Stresses, safeties and lives over a turn at the speed."""
@@ -105,7 +96,7 @@ def needle_strength(design: Tufting) -> NeedleStrength:
     line = min(width * thickness for width, thickness in sections.values()) * limits.of_links.density
     found = linkage_loads(
         forces,
-        inertias(params),
+        design.bodies,
         loads,
         dict.fromkeys(LINKS, ()),
         [pin for pin in PINS if pin not in ("O", "C")],
@@ -124,6 +115,35 @@ def needle_strength(design: Tufting) -> NeedleStrength:
         motor_torque=required,
         linkage=linkage_strength(found, limits, sections),
     )
+
+
+def design(params: TuftingParams) -> Tufting:
+    """A needle mechanism; the shafts and holes of links as made grow until they bear the forces of their masses.
+
+    Raises MechanismError where it does not turn or its rocker does not swing.
+    """
+    if params.link_mass == "paper":
+        return loaded(params)
+    sizes = needle_sizes(loaded(params))
+    while True:
+        made = loaded(params, sizes)
+        needed = _required(needle_strength(made))
+        if sizes.covers(needed):
+            return made
+        sizes = sizes.with_least(needed)
+
+
+def needle_sizes(made: Tufting) -> NeedleSizes:
+    """Diameters of shafts and pins: those that the masses were computed with, or that bear the forces."""
+    return made.sizes or _required(needle_strength(made))
+
+
+def _required(found: NeedleStrength) -> NeedleSizes:
+    widths = {link: section.width for link, section in found.linkage.sections.items()}
+    pins = {name: found.linkage.pins[name].diameter for name in "BDE"}
+    least = {"B": ("coupler", "rocker"), "D": ("arm", "rod"), "E": ("rod",)}
+    bored = {name: bore_for(size, min(widths[link] for link in least[name])) for name, size in pins.items()}
+    return NeedleSizes(found.main.diameter, found.driven.diameter, tuple(bored.items()))
 
 
 def _shaft(duty: PinDuty, torque: tuple[float, float], limits: NeedleStrengthParams) -> ShaftStrength:
@@ -157,13 +177,13 @@ def _shaft_safety(loading: Loading, diameter: float) -> float:
     return goodman(loading, section, endurance=limit, tensile=STEEL.tensile, notch=(notch[0], notch[1]))
 
 
-def needle_checks(found: NeedleStrength) -> tuple[Check, ...]:
-    """Whether links, pins, shafts, bearings and motor bear the speed."""
+def needle_checks(found: NeedleStrength, parts: Mapping[str, str]) -> tuple[Check, ...]:
+    """Whether links, pins, shafts, bearings and motor bear the speed; parts: ids of links and pins by name."""
     limits, slower = found.limits, "set a lower speed, or lighter moving links and needle"
     stronger = "set a lower speed, or a heavier and therefore stronger link, or a lighter needle"
     shafts = (("main", found.main), ("driven", found.driven))
     return (
-        *strength_checks(found.linkage, stronger=stronger),
+        *strength_checks(found.linkage, stronger=stronger, parts=parts),
         *(
             at_least(
                 f"safety of the {name} shaft against fatigue",
@@ -172,6 +192,7 @@ def needle_checks(found: NeedleStrength) -> tuple[Check, ...]:
                 "1",
                 "Goodman, keyway, C45 +QT; parameter strength.fatigue",
                 cure=slower,
+                parts=(f"{NAME}/{name}-shaft",),
             )
             for name, shaft in shafts
         ),
@@ -183,8 +204,20 @@ def needle_checks(found: NeedleStrength) -> tuple[Check, ...]:
                 "h",
                 f"ISO 281, {shaft.bearing.name}; parameter strength.bearing_life",
                 cure=slower,
+                parts=(f"{NAME}/{name}-bearing",),
             )
             for name, shaft in shafts
         ),
-        must("a servo turns the main shaft", found.motor is not None, "motor table, margin 1.25", cure=slower),
+        must(
+            "a servo turns the main shaft",
+            found.motor is not None,
+            "motor table, margin 1.25",
+            cure=slower,
+            parts=MOTOR,
+        ),
     )
+
+
+def _motor_check(found: NeedleStrength, cure: str) -> Check:
+    there = found.motor is not None
+    return must("a servo turns the main shaft", there, "motor table, margin 1.25", cure=cure, parts=MOTOR)

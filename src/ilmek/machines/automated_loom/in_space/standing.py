@@ -26,9 +26,9 @@ from ilmek.timing.track import sample
 
 def standing(loom: LoomDesign) -> tuple[Branch, ...]:
     """Frame with its rail, what it carries, cylinders, and compensator."""
-    retreat = along_track(loom.row_cyclogram, HEADS, (0.0, 0.0, 1.0))
+    retreat, listed = along_track(loom.row_cyclogram, HEADS, (0.0, 0.0, 1.0)), parts_of_loom(loom)
     return (
-        Branch("automated-loom", frame_tree(loom, parts_of_loom(loom).frame, retreat)),
+        Branch("automated-loom", frame_tree(loom, listed.frame, listed.axes, retreat)),
         Branch("automated-loom", carried_tree(loom), deviations=(COARSE,)),
         Branch("warp-tension", _warp_cylinders(loom), deviations=(COARSE,)),
         *compensator(loom),

@@ -1,0 +1,180 @@
+"""The head as a tree of bodies: both arms on a plate, their servos behind it, the centre gripper between them.
+
+Axes are those of the section: x from the pair's left warp, y from the warps' axes, the pile upwards. The servos of the
+first links stand in line with the pivots. Those of the second links stand above them, or are in the elbows; belts and
+pulleys are not designed.
+"""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import lru_cache
+
+import numpy as np
+
+from ilmek.linkage.mirror import other
+from ilmek.linkage.model import GROUND, Body, Displacement, Mechanism, Pin, Rotation, Slide
+from ilmek.linkage.motion import Motion
+from ilmek.linkage.solve import solve
+from ilmek.linkage.structure import plan
+from ilmek.machines.knotting_dyad.arms import NAME, SERVOS, arm_mechanism, arm_parts, blade_part, carried, edgewise
+from ilmek.machines.knotting_dyad.design import KnottingDyad
+from ilmek.machines.knotting_dyad.drives import HeadMotion, JointDrive, head_motion
+from ilmek.machines.knotting_dyad.head import Head
+from ilmek.machines.knotting_dyad.sequence import LEFT, RIGHT
+from ilmek.machines.link_tree import FRAME, GAP, Levels, LinkageParts, link_part, linkage_tree
+from ilmek.part import catalogue
+from ilmek.part.part import Bought, Part
+from ilmek.part.placement import placement
+from ilmek.part.shapes import box
+from ilmek.part.tree import Occurrence, Tree, in_line
+from ilmek.units import deg, format_quantity, mm
+
+POSES = 181
+"""Poses of the head over its cycle."""
+
+CENTRE = "centre gripper"
+
+AXIS = 20 * mm
+"""Side of the section of the centre gripper's axis [m]; assumed by this project."""
+
+UP = 90 * deg
+_ALONG = placement(about=(0.0, 0.0, 1.0), angle=UP)
+
+
+@lru_cache(maxsize=4)
+def tree(dyad: KnottingDyad) -> Tree:
+    """The bodies of a head at the beginning of its cycle; none where the points of an arm were given."""
+    if dyad.head is None:
+        return Tree()
+    params, head = dyad.params, dyad.head
+    motion = head_motion(params, head)
+    arm = arm_parts(params, head, motion.hole)
+    loads = carried(params, head, motion.hole)
+    bottom = arm.levels.bottoms["link 2"] + params.link_thickness / 2
+    others = {
+        **loads,
+        **{other(body): occurrences for body, occurrences in loads.items()},
+        CENTRE: _centre(dyad, head, bottom),
+        GROUND: (*_servos(dyad, head, motion), *_axis(head, bottom)),
+    }
+    if params.elbow_drive == "direct":
+        servo = (_elbow_servo(motion.joints[1], loads["link 1"], abs(head.arm.first)),)
+        others |= {"link 1": servo, other("link 1"): servo}
+    return linkage_tree(_both(arm, _mechanism(head)), _moving(head, motion), others)
+
+
+def _mechanism(head: Head) -> Mechanism:
+    """Both arms and the centre gripper, each driven for itself."""
+    arm, pivot, middle = arm_mechanism(head), head.arm.pivot, head.section.middle
+    mirrored = complex(2 * middle - pivot.conjugate())
+    moving = [body for body in arm.bodies if body.name != GROUND]
+    images = [Body(other(body.name), {other(name): point for name, point in body.points.items()}) for body in moving]
+    ground = Body(GROUND, {"O": pivot, other("O"): mirrored, CENTRE: complex(middle)})
+    return Mechanism(
+        name=NAME,
+        bodies=(ground, *moving, *images, Body(CENTRE, {CENTRE: 0})),
+        joints=(
+            *(Pin("O", GROUND, "link 1"), Pin("E", "link 1", "link 2")),
+            *(Pin(other("O"), GROUND, other("link 1")), Pin(other("E"), other("link 1"), other("link 2"))),
+            Slide(CENTRE, CENTRE, GROUND, along=UP, turned=0.0),
+        ),
+        inputs=(
+            *(Rotation("link 1", "O"), Rotation("link 2", "E")),
+            *(Rotation(other("link 1"), other("O")), Rotation(other("link 2"), other("E"))),
+            Displacement(CENTRE),
+        ),
+        branches={},
+    )
+
+
+def _moving(head: Head, motion: HeadMotion) -> Motion:
+    """The motion of a cycle, and back to its beginning."""
+    cycle = motion.cycle
+    time = np.linspace(0.0, cycle.period, POSES)
+    values = {CENTRE: np.interp(time, cycle.time, cycle.centre[0])}
+    for name, named in ((LEFT, str), (RIGHT, other)):
+        first, second = (np.interp(time, cycle.time, angle) for angle in cycle.arms[name].angle.T)
+        values |= {named("link 1"): first, named("link 2"): second - first}
+    return solve(plan(_mechanism(head)), values).require()
+
+
+def _both(arm: LinkageParts, mechanism: Mechanism) -> LinkageParts:
+    """The parts of both arms, which are the same, and the plate that carries their pivots."""
+    sizes = {**arm.levels.sizes, **{other(body): arm.levels.sizes[body] for body in ("link 1", "link 2")}}
+    bodies = tuple((*level, *(other(body) for body in level if body != GROUND)) for level in arm.levels.bodies)
+    pivots = {name: mechanism.body(GROUND).points[name] for name in ("O", other("O"))}
+    plates = {
+        **arm.plates,
+        **{other(body): arm.plates[body] for body in ("link 1", "link 2")},
+        GROUND: link_part(f"{NAME}/{FRAME}", "plate of the arms", pivots, sizes[GROUND]),
+    }
+    pins = {**arm.pins, **{other(name): pin for name, pin in arm.pins.items()}}
+    return LinkageParts(arm.machine, Levels(bodies, sizes), plates, pins)
+
+
+def _centre(dyad: KnottingDyad, head: Head, middle: float) -> tuple[Occurrence, ...]:
+    """Blade and bar of the centre gripper, from its tip upwards, about a height of the planes [m]."""
+    params, section = dyad.params, head.section
+    size, length = dyad.params.strength.of_links, head.centre_stroke
+    text = f"{format_quantity(params.link_width, 'mm')} x {format_quantity(params.link_thickness, 'mm')}"
+    bar = Part(
+        f"{NAME}/centre-bar",
+        "bar of the centre gripper",
+        "machined link",
+        f"{text}, {format_quantity(length, 'mm')}",
+        box(length, params.link_width, params.link_thickness),
+        replace(size, density=params.density),
+    )
+    upright = placement(y=section.needle_length + length / 2, z=middle - params.link_thickness / 2)
+    blade = _ALONG.after(edgewise(params, section.needle_length / 2, middle))
+    return Occurrence(bar, (upright.after(_ALONG),)), Occurrence(blade_part(params, head), (blade,))
+
+
+def _axis(head: Head, middle: float) -> Iterator[Occurrence]:
+    """The axis of the centre gripper, behind its bar at rest."""
+    stroke = head.centre_stroke
+    axis = Part(
+        f"{NAME}/centre-axis",
+        "axis of the centre gripper",
+        "linear axis",
+        "straight",
+        box(stroke, AXIS, AXIS),
+        purchase=Bought("linear axis", length=stroke),
+        envelope=True,
+    )
+    at = placement(head.section.middle, head.section.front + head.section.needle_length + stroke / 2, middle + AXIS / 2)
+    yield Occurrence(axis, (at.after(_ALONG),))
+
+
+def _servos(dyad: KnottingDyad, head: Head, motion: HeadMotion) -> Iterator[Occurrence]:
+    """Servos and reducers that stand, behind the plate at both pivots."""
+    below = -GAP * dyad.params.link_thickness
+    first, second = motion.joints
+    pivots = head.arm.pivot, complex(2 * head.section.middle - head.arm.pivot.conjugate())
+    rows = [(SERVOS[0], first, 0j)]
+    if dyad.params.elbow_drive == "belt":
+        face = first.motor.face if first.motor else catalogue.SPECIAL_FACE
+        rows.append((SERVOS[1], second, complex(0, 1.1 * face)))
+    for name, drive, beside in rows:
+        parts = tuple(_drive_parts(name, drive))
+        lines = [in_line(parts, below, pivot + beside) for pivot in pivots]
+        for each in zip(*lines, strict=True):
+            yield Occurrence(each[0].part, tuple(position for one in each for position in one.positions))
+
+
+def _drive_parts(name: str, drive: JointDrive) -> Iterator[Part]:
+    if drive.gear_ratio != 1:
+        title = f"reducer of the {drive.joint}"
+        yield catalogue.reducer(f"{name}-reducer", title, drive.gear_ratio, drive.motor)
+    yield catalogue.motor(name, f"servo of the {drive.joint}", drive.motor, drive.servo_torque_max, drive.servo_speed)
+
+
+def _elbow_servo(drive: JointDrive, loads: tuple[Occurrence, ...], x: float) -> Occurrence:
+    """The servo in an elbow at x [m]: the load whose mass is given, which the forces count."""
+    part = tuple(_drive_parts(SERVOS[1], drive))[-1]
+    assert part.purchase is not None
+    if not loads:
+        return Occurrence(replace(part, purchase=replace(part.purchase, mass=0.0)), (placement(x),))
+    (load,) = loads
+    purchase = replace(part.purchase, mass=load.part.mass)
+    return replace(load, part=replace(part, shape=load.part.shape, purchase=purchase))

@@ -1,0 +1,179 @@
+"""Parts of a needle mechanism: eccentric, links with eyes, needle bar, pins, driven shaft; and their inertia as made.
+
+    eccentric: a disc about A, bored at O, R = l1 + 0.75 d             coupler: a ring about it, and an eye at B
+    rocker and arm: an eye on the driven shaft at C, and one at the other pin             rod: a flat link
+
+d is the main shaft's diameter. An eye's radius is half the link's width, or what leaves a wall about its hole. The
+needle bar is round and as long as from E to F; its diameter follows from its mass, which counts the needles.
+"""
+
+import math
+from functools import lru_cache
+from typing import NamedTuple
+
+from ilmek.dynamics.inertia import Inertia
+from ilmek.elements.hubs import hub_for
+from ilmek.elements.materials import MATERIALS
+from ilmek.machines.link_tree import GAP, Levels, LinkageParts, LinkSize, link_inertias, linkage_parts
+from ilmek.machines.linkage_strength import largest_bar
+from ilmek.machines.tufting.model import mechanism
+from ilmek.machines.tufting.params import TuftingParams
+from ilmek.part.flat_link import eyed_link
+from ilmek.part.part import Part, Seat
+from ilmek.part.placement import placement
+from ilmek.part.profile import Profile
+from ilmek.part.shapes import Placed, Prism, Sum, bar
+from ilmek.part.tree import Occurrence
+from ilmek.plane.contours import circle
+from ilmek.report import Contour
+from ilmek.units import format_quantity
+
+NAME = "tufting"
+LINKS = ("coupler", "rocker", "arm", "rod")
+STEEL = MATERIALS["heat-treatable steel"]
+
+LEVELS = (("crank", "coupler"), ("rocker",), ("arm",), ("rod",), ("needle",))
+"""Planes of the links; the eccentric turns in the coupler."""
+
+SHAFTS = ("O", "A", "C", "shaft")
+"""Joints without a pin: shafts, and the eccentric."""
+
+WALL = 0.25
+"""Wall of an eye or of the eccentric about its hole, over the hole's diameter; assumed by this project."""
+
+
+class NeedleSizes(NamedTuple):
+    """Diameters of both shafts, and of the pins by name [m]."""
+
+    main: float
+    driven: float
+    pins: tuple[tuple[str, float], ...]
+
+    def covers(self, other: "NeedleSizes") -> bool:
+        """Whether none is less than another's."""
+        return self == self.with_least(other)
+
+    def with_least(self, other: "NeedleSizes") -> "NeedleSizes":
+        """The greater of each."""
+        pins = tuple((name, max(size, dict(other.pins)[name])) for name, size in self.pins)
+        return NeedleSizes(max(self.main, other.main), max(self.driven, other.driven), pins)
+
+
+def link_sections(params: TuftingParams) -> dict[str, tuple[float, float]]:
+    """Width and thickness of each link [m]: as given, or by its mass."""
+    density = params.strength.of_links.density
+    found = {}
+    for link in LINKS:
+        width, thickness = largest_bar(getattr(params, f"{link}_mass"), getattr(params, link), density)
+        found[link] = params.link_width or width, params.link_thickness or thickness
+    return found
+
+
+@lru_cache(maxsize=16)
+def needle_parts(params: TuftingParams, sizes: NeedleSizes) -> LinkageParts:
+    """Plates, needle bar and pins of one mechanism."""
+    sections, material = link_sections(params), params.strength.of_links
+    thick = sections["coupler"][1]
+    pins = dict(sizes.pins)
+    plates = {name: LinkSize(*section, min(pins.values()), material) for name, section in sections.items()}
+    needle = needle_diameter(params)
+    room = {"crank": LinkSize(2 * params.crank, thick, sizes.main, material), **plates}
+    if needle > 0:
+        room["needle"] = LinkSize(needle, needle, pins["E"], material)
+    formed = {
+        "crank": _eccentric(params, sizes, thick),
+        "coupler": _eyed(params, "coupler", _ring(params, sizes), pins["B"]),
+        "rocker": _eyed(params, "rocker", circle(0j, sizes.driven / 2), pins["B"]),
+        "arm": _eyed(params, "arm", circle(0j, sizes.driven / 2), pins["D"]),
+        "rod": _eyed(params, "rod", circle(0j, pins["D"] / 2), pins["E"]),
+        **({"needle": needle_bar(params)} if needle > 0 else {}),
+    }
+    levels = Levels(tuple(level for level in LEVELS if set(level) <= set(room)), room, pins)
+    return linkage_parts(NAME, mechanism(params), levels, formed, SHAFTS)
+
+
+def made_inertias(params: TuftingParams, sizes: NeedleSizes) -> dict[str, Inertia]:
+    """Inertias of the links as made with their pins, the driven shaft with the rocker."""
+    shaft = driven_shaft(params, sizes)
+    found = link_inertias(needle_parts(params, sizes), mechanism(params), {"rocker": (shaft,)})
+    return found | ({} if params.needle_mass > 0 else {"needle": Inertia(0.0, 0j, 0.0)})
+
+
+def mechanism_depth(params: TuftingParams, sizes: NeedleSizes) -> tuple[float, float]:
+    """Least and greatest height of the links of a mechanism, with a gap on both sides [m]."""
+    levels = needle_parts(params, sizes).levels
+    low, high = levels.across(list(levels.sizes))
+    gap = GAP * max(size.thickness for size in levels.sizes.values())
+    return low - gap, high + gap
+
+
+def driven_shaft(params: TuftingParams, sizes: NeedleSizes) -> Occurrence:
+    """The driven shaft of one mechanism, in the frame of the rocker: through the links and the plates beside them."""
+    low, high = mechanism_depth(params, sizes)
+    beyond = sizes.driven
+    return Occurrence(
+        shaft_part("driven-shaft", "driven shaft", sizes.driven, high - low + 2 * beyond), (placement(z=low - beyond),)
+    )
+
+
+def shaft_part(name: str, title: str, diameter: float, length: float) -> Part:
+    """A shaft about z from z = 0 [m]."""
+    size = f"round {format_quantity(diameter, 'mm')}, {format_quantity(length, 'mm')}"
+    return Part(f"{NAME}/{name}", title, "steel bar", size, bar(diameter, length), STEEL)
+
+
+def needle_diameter(params: TuftingParams) -> float:
+    """Diameter of a round bar from E to F that weighs as much as bar and needles [m]."""
+    return math.sqrt(4 * params.needle_mass / (math.pi * STEEL.density * params.needle))
+
+
+def needle_bar(params: TuftingParams) -> Part:
+    """The needle bar from E downwards, its lower side at z = 0."""
+    diameter, length = needle_diameter(params), params.needle
+    down = placement(z=diameter / 2, about=(1.0, 0.0, 0.0), angle=math.pi / 2)
+    size = f"round {format_quantity(diameter, 'mm')}, {format_quantity(length, 'mm')}"
+    shape = Sum((Placed(bar(diameter, length), (down,)),))
+    return Part(f"{NAME}/needle", "needle bar with its needles", "steel bar", size, shape, STEEL, envelope=True)
+
+
+def _eccentric_radius(params: TuftingParams, sizes: NeedleSizes) -> float:
+    return params.crank + (0.5 + WALL) * sizes.main
+
+
+def _ring(params: TuftingParams, sizes: NeedleSizes) -> Contour:
+    """The coupler's hole for the eccentric, about its first pin."""
+    return circle(0j, _eccentric_radius(params, sizes))
+
+
+def _eccentric(params: TuftingParams, sizes: NeedleSizes, thickness: float) -> Part:
+    """The crank: a disc about A with the bore of the main shaft at O, keyed."""
+    radius = _eccentric_radius(params, sizes)
+    size = f"round {format_quantity(2 * radius, 'mm')}, {format_quantity(thickness, 'mm')}"
+    return Part(
+        f"{NAME}/crank",
+        "eccentric of the crank",
+        "machined link",
+        size,
+        Prism(Profile(circle(complex(params.crank), radius), (hub_for(sizes.main).contour,)), thickness),
+        params.strength.of_links,
+        seats={"O": Seat(placement(), sizes.main), "A": Seat(placement(params.crank), 2 * radius)},
+    )
+
+
+def _eyed(params: TuftingParams, link: str, hole: Contour, pin: float) -> Part:
+    """A link with a hole about its first pin and one for the pin at its other end; diameter of the pin [m]."""
+    (width, thickness), length = link_sections(params)[link], getattr(params, link)
+    ends = {"coupler": "AB", "rocker": "CB", "arm": "CD", "rod": "DE"}[link]
+    inner = float(abs(hole.points[0]))
+    eyes = [max(width / 2, radius * (1 + 2 * WALL)) for radius in (inner, pin / 2)]
+    cut = (hole, circle(complex(length), pin / 2))
+    section = f"{format_quantity(width, 'mm')} x {format_quantity(thickness, 'mm')}, {format_quantity(length, 'mm')}"
+    return Part(
+        f"{NAME}/{link}",
+        link,
+        "machined link",
+        section,
+        Prism(Profile(eyed_link(length, *eyes), cut), thickness),
+        params.strength.of_links,
+        seats={ends[0]: Seat(placement(), 2 * inner), ends[1]: Seat(placement(length), pin)},
+    )

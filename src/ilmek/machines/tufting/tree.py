@@ -1,0 +1,130 @@
+"""The needle mechanisms as a tree of bodies: side by side along the main shaft, each with its own driven shaft.
+
+Axes are those of the paper, z along the shafts. Each mechanism runs between two bearing plates; its main shaft is
+driven in line. What guides the needle bars and what carries the bearing plates is not designed.
+"""
+
+import cmath
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from functools import lru_cache
+
+import numpy as np
+
+from ilmek.elements.materials import MATERIALS
+from ilmek.elements.reducers import DIRECT
+from ilmek.linkage.model import GROUND
+from ilmek.linkage.motion import Motion
+from ilmek.machines.link_tree import TURN, body_id, linkage_bodies
+from ilmek.machines.tufting.design import Tufting
+from ilmek.machines.tufting.links import NAME, WALL, driven_shaft, mechanism_depth, needle_parts, shaft_part
+from ilmek.machines.tufting.model import move
+from ilmek.machines.tufting.strength import needle_sizes, needle_strength
+from ilmek.part import catalogue
+from ilmek.part.flat_link import eyed_link
+from ilmek.part.part import Part, Seat
+from ilmek.part.placement import Placement, placement
+from ilmek.part.profile import Profile
+from ilmek.part.shapes import Prism
+from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree, in_line
+from ilmek.plane.contours import circle
+from ilmek.report.scene import SceneMotion
+from ilmek.units import format_quantity, turn
+
+POSES = 91
+"""Poses over a turn of the main shaft."""
+
+
+@lru_cache(maxsize=8)
+def tree(design: Tufting) -> Tree:
+    """The bodies where the crank of the first mechanism lies along x."""
+    params, sizes = design.params, needle_sizes(design)
+    (low, high), bearings = mechanism_depth(params, sizes), _bearings(design)
+    plate, away = _bearing_plate(design), _driven_shaft_at(design)
+    thick, leaning = catalogue.length_of(plate), cmath.phase(away)
+    pitch, stations = high - low + 2 * max(thick, sizes.driven), range(params.bars)
+    heights = [low + side + station * pitch for station in stations for side in (-thick, high - low)]
+    beside = [placement(z=height, about=(0.0, 0.0, 1.0), angle=leaning) for height in heights]
+    frame = RigidBody(
+        body_id(NAME, GROUND),
+        (
+            Occurrence(plate, tuple(beside)),
+            *(_at(part, x, beside) for part, x in zip(bearings, (0.0, abs(away)), strict=True)),
+            *in_line(tuple(_drive(design)), low - thick - sizes.main),
+        ),
+        joint=Joint(JointKind.MISSING),
+    )
+    main = shaft_part("main-shaft", "main shaft", sizes.main, params.bars * pitch + 2 * sizes.main)
+    turned = Joint(JointKind.PIN, motion=_turning())
+    start = placement(z=low - thick - sizes.main)
+    bodies = [frame, RigidBody(f"{NAME}/main-shaft", (Occurrence(main, (start,)),), frame.id, turned)]
+    parts, shaft = needle_parts(params, sizes), driven_shaft(params, sizes)
+    for station in stations:
+        suffix = "" if params.bars == 1 else f" {station + 1}"
+        moved = _motion(design, station)
+        own = linkage_bodies(parts, moved, {"rocker": (shaft,)}, z=station * pitch, suffix=suffix)
+        bodies += (_keyed(body) if body.id.startswith(body_id(NAME, "arm")) else body for body in own)
+    return Tree(tuple(bodies))
+
+
+def _at(part: Part, x: float, plates: Sequence[Placement]) -> Occurrence:
+    """A bearing in each plate, at x of the plate [m]."""
+    return Occurrence(part, tuple(plate.after(placement(x)) for plate in plates))
+
+
+def _keyed(arm: RigidBody) -> RigidBody:
+    """The arm, which is keyed on the driven shaft as the rocker is."""
+    return replace(arm, joint=replace(arm.joint, kind=JointKind.FIXED, motion=None))
+
+
+def _turning() -> SceneMotion:
+    """The main shaft over a turn."""
+    angle = np.linspace(0.0, turn, POSES)
+    return SceneMotion(TURN, angle, np.zeros((POSES, 3)), angle)
+
+
+def _motion(design: Tufting, station: int) -> Motion:
+    """A mechanism over a turn of the first: its crank lags."""
+    angle = np.linspace(0.0, turn, POSES) - station * design.params.phase
+    return move(design.params, design.plan, angle)
+
+
+def _bearings(design: Tufting) -> tuple[Part, Part]:
+    """Bearings of the main and of the driven shaft."""
+    strength = needle_strength(design)
+    return (
+        catalogue.bearing(f"{NAME}/main-bearing", "bearing of the main shaft", strength.main.bearing),
+        catalogue.bearing(f"{NAME}/driven-bearing", "bearing of the driven shaft", strength.driven.bearing),
+    )
+
+
+def _bearing_plate(design: Tufting) -> Part:
+    """A plate with the seats of both bearings, x from the main to the driven shaft, as thick as the wider of them."""
+    strength, away = needle_strength(design), abs(_driven_shaft_at(design))
+    rows = strength.main.bearing, strength.driven.bearing
+    thick, (first, second) = max(row.width for row in rows), (row.outer / 2 for row in rows)
+    holes = [circle(0j, first), *([circle(complex(away), second)] if away > first + second else [])]
+    outline = eyed_link(away, *(radius * (1 + 2 * WALL) for radius in (first, second)))
+    return Part(
+        body_id(NAME, GROUND),
+        "bearing plate",
+        "laser-cut part",
+        f"plate {format_quantity(thick, 'mm')}",
+        Prism(Profile(outline, tuple(holes)), thick),
+        MATERIALS["structural steel"],
+        seats={"O": Seat(placement(), 2 * first), "C": Seat(placement(away), 2 * second)},
+    )
+
+
+def _driven_shaft_at(design: Tufting) -> complex:
+    return complex(design.params.shaft_distance, design.params.shaft_height)
+
+
+def _drive(design: Tufting) -> Iterator[Part]:
+    """The servo of the main shaft behind its reducer, from the shaft on."""
+    strength = needle_strength(design)
+    row, reducer = strength.motor or (None, DIRECT)
+    if reducer.ratio != 1:
+        yield catalogue.reducer(f"{NAME}/reducer", "reducer of the main shaft", reducer.ratio, row)
+    torque, speed = reducer.motor_torque(strength.motor_torque), design.params.speed * reducer.ratio
+    yield catalogue.motor(f"{NAME}/motor", "servo of the main shaft", row, torque, speed)
