@@ -57,4 +57,4 @@ def blends(design: Rgb, colours: Colours) -> Int64[np.ndarray, " colours"]:
     found = np.zeros(len(colours.counts), dtype=np.int64)
     step = max(1, design.shape[0] * design.shape[1] // MOST_KNOTS)
     _count_blends(np.ascontiguousarray(design), colours.index, step, found)
-    return np.minimum(found, colours.counts)
+    return np.asarray(np.minimum(found, colours.counts))
