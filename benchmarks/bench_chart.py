@@ -148,7 +148,8 @@ def quantised(picture: Image.Image, grid: Grid, dither: Image.Dither) -> Indices
     codes = [code for yarn in WOOL for code in yarn.srgb]
     palette.putpalette(codes + list(WOOL[0].srgb) * (256 - len(WOOL)))
     small = picture.resize((grid[1], grid[0]), Image.Resampling.BOX)
-    return np.asarray(np.minimum(small.quantize(palette=palette, dither=dither), len(WOOL) - 1), dtype=np.uint8)
+    numbers = np.asarray(small.quantize(palette=palette, dither=dither))
+    return np.asarray(np.minimum(numbers, len(WOOL) - 1), dtype=np.uint8)
 
 
 def scikit_image(rgb: Rgb, grid: Grid) -> Indices:
