@@ -148,7 +148,8 @@ def quantised(picture: Image.Image, grid: Grid, dither: Image.Dither) -> Indices
     codes = [code for yarn in WOOL for code in yarn.srgb]
     palette.putpalette(codes + list(WOOL[0].srgb) * (256 - len(WOOL)))
     small = picture.resize((grid[1], grid[0]), Image.Resampling.BOX)
-    return np.minimum(np.asarray(small.quantize(palette=palette, dither=dither)), np.uint8(len(WOOL) - 1))
+    numbers = np.asarray(small.quantize(palette=palette, dither=dither))
+    return np.asarray(np.minimum(numbers, len(WOOL) - 1), dtype=np.uint8)
 
 
 def scikit_image(rgb: Rgb, grid: Grid) -> Indices:
@@ -266,7 +267,10 @@ def from_files(rgb: Rgb) -> None:
             def decoded(path: Path = path, dither: Image.Dither = dither) -> Indices:
                 return quantised(Image.open(path).convert("RGB"), (HEIGHT, WIDTH), dither)
 
-            seconds, _ = best_of(5, lambda order=order: chart_of_order(order).chart.knots)
+            def charted(order: CarpetOrder = order) -> Indices:
+                return chart_of_order(order).chart.knots
+
+            seconds, _ = best_of(5, charted)
             base, _ = best_of(5, decoded)
             print(
                 f"{name + ', from a file, own shades':<34} {seconds:7.2f} s, Pillow {base:.2f} s: "
