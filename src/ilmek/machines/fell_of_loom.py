@@ -20,5 +20,5 @@ def loom_fabric(task: LoomTask) -> Fabric:
             "warp_length": task.side.warp_length if task.side else USUAL_WARP_LENGTH,
         }
     )
-    fabric: Fabric = task.parameters("hammer", carpet).fabric  # type: ignore[attr-defined]
+    fabric: Fabric = task.parameters("hammer", carpet).fabric
     return fabric

@@ -5,7 +5,7 @@ with the alternation that proves it.
 """
 
 from ilmek.machines import SUMMARIES
-from ilmek.machines.component import Component
+from ilmek.machines.component import Component, itself
 from ilmek.machines.four_bar_figures import own_machine
 from ilmek.machines.four_bar_parts import plates
 from ilmek.machines.function_four_bar.design import FunctionFourBar, design
@@ -22,6 +22,7 @@ MACHINE = Component(
     summary=SUMMARIES["function-four-bar"],
     params=FunctionFourBarParams,
     design=design,
+    analysis=itself,
     results=lambda made: (made, made.choice),
     reported=(FunctionFourBar, FourBarSelection),
     headline=("found", "left_out", "candidates"),

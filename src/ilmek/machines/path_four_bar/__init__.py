@@ -5,7 +5,7 @@ points, and poses and points together are also met exactly, by all four-bars tha
 """
 
 from ilmek.machines import SUMMARIES
-from ilmek.machines.component import Component
+from ilmek.machines.component import Component, itself
 from ilmek.machines.four_bar_figures import own_machine
 from ilmek.machines.four_bar_parts import plates
 from ilmek.machines.path_four_bar.design import PathFourBar, design
@@ -22,7 +22,8 @@ MACHINE = Component(
     summary=SUMMARIES["path-four-bar"],
     params=PathFourBarParams,
     design=design,
-    long=True,
+    long_design=design,
+    analysis=itself,
     results=lambda made: (made, made.choice),
     reported=(PathFourBar, FourBarSelection),
     headline=("found", "left_out", "candidates"),
