@@ -25,7 +25,7 @@ STUB = '''
 
 from dataclasses import dataclass
 
-from ilmek.machines.component import Component
+from ilmek.machines.component import Component, itself
 from ilmek.params import Params, kind
 from ilmek.records import computed, record
 from ilmek.report import BillLine, Work, at_most
@@ -49,6 +49,7 @@ MACHINE = Component(
     summary="light over the fell",
     params=LampParams,
     design=Lamp,
+    analysis=itself,
     checks=lambda lamp: (at_most("power of the lamp", lamp.params.power, 100.0, "W", "socket"),),
     parts=lambda lamp: (BillLine("lamp", 1, "", "", "bearing", mass=2.0),),
     work=lambda lamp: (Work("light", 60.0, "row"),),

@@ -15,7 +15,7 @@ from ilmek.elements.plates import link_plate
 from ilmek.errors import OutputError, ParameterError
 from ilmek.io.cam_tables import FORMATS
 from ilmek.jobs.workshop import Tolerance, read_tolerance, write_workshop
-from ilmek.machines.component import Component
+from ilmek.machines.component import Component, itself
 from ilmek.params import Params, param
 from ilmek.report import CamTable, Plate, Report
 from ilmek.report.left_out import SWITCH
@@ -157,6 +157,7 @@ def made_up(monkeypatch: pytest.MonkeyPatch) -> None:
         summary="for this test",
         params=Made,
         design=lambda params: params,
+        analysis=itself,
         results=lambda _: (),
         parameters=lambda params: params,
         plates=lambda _: made.plates,

@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from ilmek.errors import LoomError, shortened
+from ilmek.report import Json
 
 LONGEST_REQUEST = 500
 """Largest length of a request [bytes]."""
@@ -165,7 +166,7 @@ def _sent(client: _Client) -> bool:
     return not client.answer
 
 
-def _answer(line: bytes, handler: Handler) -> dict[str, Any]:
+def _answer(line: bytes, handler: Handler) -> dict[str, Json]:
     if len(line) > LONGEST_REQUEST:
         return {"ok": False, "reason": f"a request has at most {LONGEST_REQUEST} bytes"}
     try:
@@ -177,7 +178,7 @@ def _answer(line: bytes, handler: Handler) -> dict[str, Any]:
     return handler(shortened(found["command"]))
 
 
-def _line(data: dict[str, Any]) -> bytes:
+def _line(data: dict[str, Json]) -> bytes:
     return json.dumps(data).encode() + b"\n"
 
 

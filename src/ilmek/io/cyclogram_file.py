@@ -44,6 +44,7 @@ from ilmek.io.data_text import DataText, parse_data, read_data
 from ilmek.io.output import write_file
 from ilmek.io.schema import SourceText
 from ilmek.io.toml_text import toml_section, toml_text, written_quantity
+from ilmek.report import Json
 from ilmek.timing.crossings import passing_share
 from ilmek.timing.cyclogram import (
     ActuatorLimits,
@@ -88,7 +89,7 @@ def parse_cyclogram(text: str, *, name: str = "cyclogram", toml: bool = True) ->
     return _read(parse_data(text, name=name, toml=toml, error=ParameterError), name)
 
 
-def cyclogram_of_data(data: Mapping[str, Any], *, name: str = "cyclogram") -> Cyclogram:
+def cyclogram_of_data(data: Mapping[str, object], *, name: str = "cyclogram") -> Cyclogram:
     """The cyclogram of the plain data of a file, as `tomllib` or `json` reads them; messages call it `name`.
 
     Raises ParameterError with the key.
@@ -297,7 +298,7 @@ def _presence(entry: CyclogramEntry, units: Mapping[str, str]) -> Presence:
 def cyclogram_data(cyclogram: Cyclogram) -> dict[str, Any]:
     """The cyclogram as the data of a file."""
     units = cyclogram.units
-    data: dict[str, Any] = {
+    data: dict[str, Json] = {
         "name": cyclogram.name,
         "period": written_quantity(cyclogram.period, "s"),
         "tracks": {track.name: _track_data(track) for track in cyclogram.tracks},
@@ -307,7 +308,7 @@ def cyclogram_data(cyclogram: Cyclogram) -> dict[str, Any]:
     return {key: value for key, value in data.items() if value != []}
 
 
-def _track_data(track: Track) -> dict[str, Any]:
+def _track_data(track: Track) -> dict[str, Json]:
     limits = {
         key: written_quantity(getattr(track.limits, key), track.unit + per)
         for key, per in _LIMITS.items()
@@ -327,22 +328,22 @@ def _track_data(track: Track) -> dict[str, Any]:
     return {key: value for key, value in data.items() if value or key in ("actuator", "unit")}
 
 
-def _motion_data(part: TrackSegment, unit: str) -> dict[str, Any]:
+def _motion_data(part: TrackSegment, unit: str) -> dict[str, Json]:
     angles = {key: written_quantity(value, "deg") for key, value in (("start", part.start), ("end", part.end))}
     ends = {key: written_quantity(value, unit) for key, value in (("from", part.begin), ("to", part.finish))}
     return {**angles, **ends, "law": _law_data(part.law)}
 
 
-def _law_data(law: MotionLaw) -> str | dict[str, Any]:
+def _law_data(law: MotionLaw) -> str | dict[str, Json]:
     if law.name in LAWS and LAWS[law.name].parameters == law.parameters:
         return law.name
     found = {key: list(value) if isinstance(value, tuple) else value for key, value in law.parameters.items()}
     return {"name": law.name, **found} if found else law.name
 
 
-def _events_data(events: Sequence[TrackEvent]) -> dict[str, Any]:
+def _events_data(events: Sequence[TrackEvent]) -> dict[str, Json]:
     """Events by name; further ones of the same name get a number."""
-    found: dict[str, Any] = {}
+    found: dict[str, Json] = {}
     for event in events:
         numbered = (f"{event.name} {number}" for number in itertools.count(2))
         name = event.name if event.name not in found else next(name for name in numbered if name not in found)
@@ -355,8 +356,8 @@ def _event_data(event: TrackEvent) -> dict[str, Any]:
     return {"angle": written_quantity(event.angle, "deg"), **rides}
 
 
-def _relation_data(one: Relation, units: Mapping[str, str]) -> dict[str, Any]:
-    data: dict[str, Any] = {"then": _moment_data(one.then, units), "first": _moment_data(one.first, units)}
+def _relation_data(one: Relation, units: Mapping[str, str]) -> dict[str, Json]:
+    data: dict[str, Json] = {"then": _moment_data(one.then, units), "first": _moment_data(one.first, units)}
     if one.gap > -math.inf:
         data["gap"] = written_quantity(one.gap, "deg")
     if one.most < math.inf:
@@ -364,7 +365,7 @@ def _relation_data(one: Relation, units: Mapping[str, str]) -> dict[str, Any]:
     return data | {key: getattr(one, key) for key in ("turns", "delay", "why") if getattr(one, key)}
 
 
-def _moment_data(one: Moment, units: Mapping[str, str]) -> dict[str, Any]:
+def _moment_data(one: Moment, units: Mapping[str, str]) -> dict[str, Json]:
     if one.edge == "angle":
         return {"angle": written_quantity(one.at, "deg")}
     edge = next(key for key, value in _EDGES.items() if value == one.edge)
@@ -372,12 +373,12 @@ def _moment_data(one: Moment, units: Mapping[str, str]) -> dict[str, Any]:
     return {"track": one.track, edge: one.motion, **at}
 
 
-def _exclusion_data(one: Exclusion, units: Mapping[str, str]) -> dict[str, Any]:
+def _exclusion_data(one: Exclusion, units: Mapping[str, str]) -> dict[str, Json]:
     both = {key: _presence_data(getattr(one, key), units) for key in ("first", "second")}
     return {**both, "gap": written_quantity(one.gap, "deg"), "why": one.why}
 
 
-def _presence_data(one: Presence, units: Mapping[str, str]) -> dict[str, Any]:
+def _presence_data(one: Presence, units: Mapping[str, str]) -> dict[str, Json]:
     if isinstance(one, Spans):
         return {"name": one.name, "windows": [[window.start, window.end] for window in one.windows]}
     ends = {key: written_quantity(at, units[one.track]) for key, at in (("above", one.low), ("below", one.high))

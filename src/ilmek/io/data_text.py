@@ -72,7 +72,7 @@ def parse_data(text: str, *, name: str, toml: bool, error: type[IlmekError], lon
     return DataText(data, lines, text)
 
 
-def plain_data(data: Any, name: str, error: type[IlmekError]) -> Any:
+def plain_data(data: object, name: str, error: type[IlmekError]) -> Any:
     """Data that were no text, checked as those of a text are; messages call them `name`. Raises `error`."""
     try:
         _check_depth(data, DEEPEST)
@@ -86,7 +86,7 @@ def plain_data(data: Any, name: str, error: type[IlmekError]) -> Any:
     return data
 
 
-def _check_depth(data: Any, left: int) -> None:
+def _check_depth(data: object, left: int) -> None:
     """Raise IlmekError for tables and lists in one another that are too deep."""
     if left < 0:
         raise IlmekError("is nested too deeply", allowed=f"at most {DEEPEST} levels")
@@ -94,7 +94,7 @@ def _check_depth(data: Any, left: int) -> None:
         _check_depth(inner, left - 1)
 
 
-def _toml(text: str, found: list[Token]) -> tuple[Any, KeyLines]:
+def _toml(text: str, found: list[Token]) -> tuple[object, KeyLines]:
     try:
         return tomllib.loads(text), toml_lines(found)
     except tomllib.TOMLDecodeError as failed:
@@ -104,7 +104,7 @@ def _toml(text: str, found: list[Token]) -> tuple[Any, KeyLines]:
         raise IlmekError(f"not TOML: {failed}", do="correct that value") from None
 
 
-def _json(text: str, found: list[Token]) -> tuple[Any, KeyLines]:
+def _json(text: str, found: list[Token]) -> tuple[object, KeyLines]:
     try:
         return json.loads(text), json_lines(found)
     except json.JSONDecodeError as failed:
@@ -127,7 +127,7 @@ def _check_tokens(found: list[Token], longest: int) -> None:
             raise IlmekError(f"line {line}: is nested too deeply", allowed=f"at most {DEEPEST} levels")
 
 
-def _check_texts(data: Any, lines: KeyLines) -> None:
+def _check_texts(data: object, lines: KeyLines) -> None:
     """Raise IlmekError for a name or text that cannot be printed, and for a number that is not finite."""
     for path, value in values(data, ()):
         at = f"line {_line(path, lines)}"
@@ -142,7 +142,7 @@ def _check_texts(data: Any, lines: KeyLines) -> None:
             raise IlmekError(f"{at}, {'.'.join(map(str, path))}: {value} is not a finite number")
 
 
-def values(data: Any, path: KeyPath) -> Iterator[tuple[KeyPath, Any]]:
+def values(data: object, path: KeyPath) -> Iterator[tuple[KeyPath, Any]]:
     """Every value with its path, tables and lists before what is in them; the depth is bounded by the tokens."""
     yield path, data
     inner = data.items() if isinstance(data, dict) else enumerate(data) if isinstance(data, list) else ()

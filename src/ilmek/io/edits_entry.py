@@ -20,6 +20,7 @@ from ilmek.carpet.sizes import CarpetSize
 from ilmek.errors import CarpetError
 from ilmek.io.file_entry import FileEntry
 from ilmek.io.schema import shown
+from ilmek.report import Json
 from ilmek.sentences import Sentence
 
 EXAMPLE = 'write edits = ["set 12,40 ivory"], or [[edits]] with lines = [...]'
@@ -64,7 +65,7 @@ def _edit(entry: FileEntry, line: object, where: Callable[[FileEntry], str], anc
         return parse_edit(line, where(entry), anchor)
 
 
-def _lines(table: FileEntry) -> list[Any]:
+def _lines(table: FileEntry) -> list[Json]:
     lines = table.data["lines"]
     if not isinstance(lines, list):
         table.refuse(CarpetError(f"{shown(lines)} is not a list", do='write lines = ["set 12,40 ivory"]'), "lines")

@@ -114,7 +114,7 @@ class FileEntry:
             self.refuse(ParameterError(f"{shown(rows)} is not a list of pairs", allowed="[[start, end], ...]"), key)
         return [(self._number(row[0], unit, key), self._number(row[1], unit, key)) for row in rows]
 
-    def _number(self, value: Any, unit: str, key: str) -> float:
+    def _number(self, value: object, unit: str, key: str) -> float:
         try:
             return read_quantity(value, unit)
         except IlmekError as error:

@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from ilmek.arrays import FloatArray
+from ilmek.report import Json
 from ilmek.report.scene import Assembly, Scene, SceneFrame, SceneMotion, ScenePart
 from ilmek.units import turn
 
@@ -50,12 +51,12 @@ class _File:
     def store(self, values: np.ndarray, kind: str, *, target: int | None = None, bounds: bool = False) -> int:
         """The number of the accessor of an array, (elements,) or (elements, components)."""
         array = np.ascontiguousarray(values, "<u4" if values.dtype.kind in "ui" else "<f4")
-        view: dict[str, Any] = {"buffer": 0, "byteOffset": len(self.data), "byteLength": array.nbytes}
+        view: dict[str, Json] = {"buffer": 0, "byteOffset": len(self.data), "byteLength": array.nbytes}
         if target is not None:
             view["target"] = target
         self.data += array.tobytes()
         self.views.append(view)
-        accessor: dict[str, Any] = {
+        accessor: dict[str, Json] = {
             "bufferView": len(self.views) - 1,
             "componentType": _UNSIGNED if array.dtype.kind == "u" else _FLOAT,
             "count": len(array),
@@ -67,7 +68,7 @@ class _File:
         self.accessors.append(accessor)
         return len(self.accessors) - 1
 
-    def node(self, **keys: Any) -> int:
+    def node(self, **keys: object) -> int:
         """The number of a new node."""
         self.nodes.append({name: value for name, value in keys.items() if value is not None})
         return len(self.nodes) - 1
@@ -127,7 +128,7 @@ def _material(made: _File, part: ScenePart) -> int:
     if key not in made.material_numbers:
         colour = _ENVELOPE if part.envelope else _COLOURS.get(part.material, _OTHER)
         metal = 0.0 if part.envelope or part.material == "beech" else 0.4
-        look: dict[str, Any] = {
+        look: dict[str, Json] = {
             "name": key[0] or "material not stated",
             "pbrMetallicRoughness": {
                 "baseColorFactor": [*colour, 0.35 if part.envelope else 1.0],
@@ -140,8 +141,8 @@ def _material(made: _File, part: ScenePart) -> int:
     return made.material_numbers[key]
 
 
-def _extras(part: ScenePart) -> dict[str, Any]:
-    found: dict[str, Any] = {"part": part.name, "machine": part.machine, "material": part.material}
+def _extras(part: ScenePart) -> dict[str, Json]:
+    found: dict[str, Json] = {"part": part.name, "machine": part.machine, "material": part.material}
     found |= {"number": part.number, "envelope": part.envelope}
     if not math.isnan(part.mass):
         found["mass"] = part.mass
@@ -171,8 +172,8 @@ def _channels(  # noqa: PLR0917
     frame: SceneFrame,
     motion: SceneMotion,
     node: tuple[int, int, int],
-    samplers: list[dict[str, Any]],
-    channels: list[dict[str, Any]],
+    samplers: list[dict[str, Json]],
+    channels: list[dict[str, Json]],
 ) -> None:
     """The channels of a node: number of its place, its own, and that of the times."""
     index, number, times = node
@@ -205,7 +206,7 @@ def _quaternions(axis: tuple[float, float, float], rotation: FloatArray) -> Floa
     return np.column_stack([np.sin(half)[:, None] * np.array(axis), np.cos(half)])
 
 
-def _joined(made: _File, title: str, roots: list[int], animations: list[dict[str, Any]]) -> bytes:
+def _joined(made: _File, title: str, roots: list[int], animations: list[dict[str, Json]]) -> bytes:
     made.data += bytes(-len(made.data) % 4)
     content = {
         "asset": {"version": "2.0", "generator": "ilmek"},

@@ -2,7 +2,6 @@
 
 import json
 from pathlib import Path
-from typing import Any
 
 from ilmek.progress import SILENT, Progress
 from ilmek.report import plain
@@ -11,7 +10,7 @@ CHUNKS = 10_000
 """Pieces of text between two reports of progress."""
 
 
-def json_text(data: Any, progress: Progress = SILENT) -> str:
+def json_text(data: object, progress: Progress = SILENT) -> str:
     """The data as JSON text with a newline at the end. Raises Cancelled.
 
     >>> print(json_text({"crank": 0.25, "slope": float("nan")}), end="")
@@ -29,13 +28,13 @@ def json_text(data: Any, progress: Progress = SILENT) -> str:
     return "".join(parts) + "\n"
 
 
-def _values(data: Any) -> int:
+def _values(data: object) -> int:
     """The number of values in plain data, at least 1."""
     inner = list(data.values()) if isinstance(data, dict) else data if isinstance(data, list) else []
     deep = inner and any(isinstance(value, dict | list) for value in inner)
     return 1 + (sum(map(_values, inner)) if deep else len(inner))
 
 
-def write_json(path: Path, data: Any, progress: Progress = SILENT) -> None:
+def write_json(path: Path, data: object, progress: Progress = SILENT) -> None:
     """Write the data to a file. Raises OSError, Cancelled."""
     path.write_text(json_text(data, progress), encoding="utf-8")

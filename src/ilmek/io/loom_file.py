@@ -84,7 +84,7 @@ class _Source:
             self.refuse(path, LoomError(f"{shown(value)} is not a table"))
         return dict(value)
 
-    def settings(self, value: Any, path: KeyPath) -> dict[str, Any]:
+    def settings(self, value: object, path: KeyPath) -> dict[str, Any]:
         """A table of plain values: numbers, texts, yes or no, null."""
         found = self.table(value, path)
         for key, one in found.items():

@@ -106,7 +106,7 @@ def parse_mechanism(text: str, *, name: str = "mechanism", toml: bool = True) ->
     return _read(parse_data(text, name=name, toml=toml, error=MechanismError), name)
 
 
-def mechanism_of_data(data: Mapping[str, Any], *, name: str = "mechanism") -> MechanismFile:
+def mechanism_of_data(data: Mapping[str, object], *, name: str = "mechanism") -> MechanismFile:
     """The mechanism of the plain data of a file, as `tomllib` or `json` reads them; messages call it `name`.
 
     Raises MechanismError with the key.

@@ -30,6 +30,7 @@ from ilmek.loom.operations import EMPTY, LONGEST_PACKAGE, ROW_ENDS, LoomSetup, O
 from ilmek.loom.programme import MOST_PER_SIDE
 from ilmek.loom.sharing import MOST_HEADS
 from ilmek.loom.times import LONGEST_TIME
+from ilmek.report import Json
 from ilmek.timing.cyclogram import Cyclogram, Track, TrackEvent, TrackSegment
 from ilmek.units import parse_unit, turn
 
@@ -155,7 +156,7 @@ def _bobbins(entry: MetaEntry) -> tuple[Bobbin, ...]:
     return tuple(found)
 
 
-def _cyclogram_record(cyclogram: Cyclogram) -> dict[str, Any]:
+def _cyclogram_record(cyclogram: Cyclogram) -> dict[str, Json]:
     """A cyclogram as plain data; a law by its name and parameters."""
     return {
         "name": cyclogram.name,
@@ -229,10 +230,10 @@ class _CyclogramReader:
             law_of(given["law"].text(), self._parameters(given["parameters"])),
         )
 
-    def _parameters(self, entry: MetaEntry) -> dict[str, Any]:
+    def _parameters(self, entry: MetaEntry) -> dict[str, Json]:
         if not isinstance(entry.value, dict):
             entry.refuse("a table of numbers and lists of numbers")
-        found: dict[str, Any] = {}
+        found: dict[str, Json] = {}
         for key, value in entry.value.items():
             MetaEntry(f"{entry.path}: a name", key).text()
             one = MetaEntry(f"{entry.path}.{shortened(key)}", value)

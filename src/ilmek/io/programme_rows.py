@@ -82,7 +82,7 @@ def unpacked_row(
     return RowOperations(number, columns, tubes, counts, tuple(RowEnd(one) for one in ends), stops)
 
 
-def change_records(stops: Iterable[Stop]) -> Iterator[tuple[Any, ...]]:
+def change_records(stops: Iterable[Stop]) -> Iterator[tuple[object, ...]]:
     """The changes of a row's stops as (row, phase, number, weft, head, tube, yarn, length), in order."""
     for (row, phase), ones in groupby(stops, key=lambda stop: (stop.row, stop.phase)):
         (stop,) = ones
@@ -92,7 +92,7 @@ def change_records(stops: Iterable[Stop]) -> Iterator[tuple[Any, ...]]:
             yield row, phase, number, None, one.head, one.tube, one.yarn, one.length
 
 
-def read_stops(setup: LoomSetup, row: int, records: Iterable[tuple[Any, ...]]) -> tuple[Stop, ...]:
+def read_stops(setup: LoomSetup, row: int, records: Iterable[tuple[object, ...]]) -> tuple[Stop, ...]:
     """The stops of a row from records (phase, weft, head, tube, yarn, length). Raises LoomError for a damaged one."""
     stops = []
     for phase, ones in groupby(records, key=lambda one: one[0]):

@@ -255,7 +255,7 @@ def _entry(data: bytes, line: int) -> tuple[str, str]:
         raise LoomError(f"line {line} is not JSON ({shortened(str(error), 100)})", do="correct that line") from None
 
 
-def _from_zero(loaded: Any, line: int) -> list[int]:
+def _from_zero(loaded: object, line: int) -> list[int]:
     """The yarns of a head's tubes, from 0; given from 1, and 0 for an empty tube. Raises LoomError for others."""
     if not isinstance(loaded, list) or not all(type(yarn) is int and 0 <= yarn <= EMPTY for yarn in loaded):
         raise LoomError(f"line {line}: loading", allowed="the yarn of each tube of a head, 0 for none: [1, 2, 0]")

@@ -119,7 +119,7 @@ def read_recipe(path: Path, parameters: Mapping[str, Parameter]) -> RecipeFile:
 
 
 def recipe_of_data(
-    data: Mapping[str, Any], path: Path, parameters: Mapping[str, Parameter], lines: KeyLines | None = None
+    data: Mapping[str, object], path: Path, parameters: Mapping[str, Parameter], lines: KeyLines | None = None
 ) -> RecipeFile:
     """As `read_recipe`, of the data of a file; lines: of its keys, default: all of them line 0."""
     known = {key: 0 for key, _ in values(data, ())} if lines is None else lines

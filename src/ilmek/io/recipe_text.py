@@ -15,6 +15,7 @@ from ilmek.errors import CarpetError
 from ilmek.io.recipe_file import RecipeFile
 from ilmek.io.toml_text import toml_list, toml_section, toml_text
 from ilmek.io.yarn_file import WOOL, default_yarns
+from ilmek.report import Json
 from ilmek.units import cm
 
 SECTIONS = ("repeat", "border", "motif")
@@ -99,7 +100,7 @@ def _same(one: CarpetSize, other: CarpetSize) -> bool:
 def _yarn(yarn: Yarn) -> Mapping[str, Any]:
     """A yarn as an entry of a yarn list."""
     lab = tuple(srgb_to_lab(np.array(yarn.srgb, dtype=np.uint8)).tolist())
-    colour: dict[str, Any] = {"srgb": yarn.hex} if lab == yarn.lab else {"lab": list(yarn.lab)}
+    colour: dict[str, Json] = {"srgb": yarn.hex} if lab == yarn.lab else {"lab": list(yarn.lab)}
     count = {} if yarn.metric_count is None else {"nm": yarn.metric_count, "ply": yarn.ply}
     price = {} if yarn.price is None else {"price": yarn.price}
     return {"name": yarn.name, **colour, **count, **price}

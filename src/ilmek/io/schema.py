@@ -75,11 +75,11 @@ class Reader:
     source: SourceText
     quantity: QuantityReader
 
-    def read(self, data: Any) -> Any:
+    def read(self, data: object) -> Any:
         """The data with every quantity as an SI number, or `Measured`. Raises MechanismError for the first error."""
         return self._value(data, self.schema, ())
 
-    def _value(self, value: Any, schema: Schema, path: Path) -> Any:
+    def _value(self, value: object, schema: Schema, path: Path) -> Any:
         schema = self._resolved(value, schema, path)
         if "enum" in schema:
             return self._one_of(value, schema["enum"], path)
@@ -98,7 +98,7 @@ class Reader:
             return self._table(given, schema, path)
         return self._list(given, schema, path) if kind == "array" else given
 
-    def _resolved(self, value: Any, schema: Schema, path: Path) -> Schema:
+    def _resolved(self, value: object, schema: Schema, path: Path) -> Schema:
         """The schema itself, for a reference or a choice."""
         if "$ref" in schema:
             found: Any = self.schema
@@ -109,7 +109,7 @@ class Reader:
             return self._resolved(value, self._chosen(value, schema, path), path)
         return schema
 
-    def _chosen(self, value: Any, schema: Schema, path: Path) -> Schema:
+    def _chosen(self, value: object, schema: Schema, path: Path) -> Schema:
         """The choice of a `oneOf` that fits the value's type, and of tables the one whose first key is given."""
         found = [self._resolved(None, one, path) if "$ref" in one else one for one in schema["oneOf"]]
         tables = [one for one in found if one.get("type") == "object"]
@@ -128,7 +128,7 @@ class Reader:
             self._refuse(path, f"{shown(value)} is not {'a table' if not plain else 'allowed here'}", allowed)
         return fitting
 
-    def _table(self, table: Mapping[str, Any], schema: Schema, path: Path) -> dict[str, Any]:
+    def _table(self, table: Mapping[str, object], schema: Schema, path: Path) -> dict[str, Any]:
         known, others = schema.get("properties", {}), schema.get("additionalProperties", False)
         allowed = known if others is False else table
         for key, error in key_faults(table, allowed, needs=schema.get("required", ())):
@@ -149,13 +149,13 @@ class Reader:
             self._refuse(path, f"is {shown(value)}", f"allowed: {', '.join(str(choice) for choice in choices)}", near)
         return value
 
-    def _whole(self, value: Any, schema: Schema, path: Path) -> int:
+    def _whole(self, value: object, schema: Schema, path: Path) -> int:
         least, most = schema["minimum"], schema["maximum"]
         if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= most:
             self._refuse(path, f"{shown(value)} is not a whole number from {least} to {most}")
         return value
 
-    def _quantity(self, value: Any, units: Sequence[str], path: Path) -> Measured:
+    def _quantity(self, value: object, units: Sequence[str], path: Path) -> Measured:
         try:
             return self.quantity(value, units)
         except IlmekError as error:
@@ -166,7 +166,7 @@ class Reader:
 
 
 def key_faults(
-    table: Mapping[str, Any], known: Iterable[str], *, needs: Iterable[str] = (), noun: str = "key"
+    table: Mapping[str, object], known: Iterable[str], *, needs: Iterable[str] = (), noun: str = "key"
 ) -> Iterator[tuple[str, IlmekError]]:
     """Errors of the keys of a table: missing keys, with "", and unknown ones.
 
@@ -184,7 +184,7 @@ def key_faults(
             yield key, ParameterError(f"unknown {noun} {key!r}", allowed=allowed, do=did_you_mean(str(key), known))
 
 
-def read_quantity(value: Any, unit: str) -> float:
+def read_quantity(value: object, unit: str) -> float:
     """A number in SI, or a text with its unit, as a number in SI.
 
     unit  a unit of the same dimension; "" or "1" for a plain number
@@ -203,7 +203,7 @@ def read_quantity(value: Any, unit: str) -> float:
     return number
 
 
-def finite_number(value: Any) -> float | None:
+def finite_number(value: object) -> float | None:
     """A number, or a text that is one, as a float within the bounds of `ilmek.units`; None for everything else.
 
     >>> finite_number(2), finite_number(" 2.5"), finite_number("two"), finite_number(True), finite_number(1e999)
@@ -212,7 +212,7 @@ def finite_number(value: Any) -> float | None:
     return read_number(value) if isinstance(value, str) else real_number(value)
 
 
-def shown(value: Any) -> str:
+def shown(value: object) -> str:
     """The value, shortened for a message."""
     text = (
         {True: "true", False: "false", None: "null"}.get(value, "") if isinstance(value, bool | None) else repr(value)

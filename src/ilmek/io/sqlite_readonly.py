@@ -8,7 +8,6 @@ An authorizer allows nothing but reading the columns of the given tables, and ea
 import sqlite3
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any
 
 from ilmek.errors import LoomError, shortened
 from ilmek.io.regular_file import open_regular
@@ -123,7 +122,7 @@ class ReadOnlyDatabase:
             self.close()
             raise
 
-    def select(self, query: str, *parameters: int) -> Iterator[tuple[Any, ...]]:
+    def select(self, query: str, *parameters: int) -> Iterator[tuple[object, ...]]:
         """The rows of a query, one by one."""
         self._slices = 0
         try:

@@ -20,7 +20,7 @@ MOST_MERGED = 60_000
 """Largest length of a text whose comments are kept [characters]; it takes about 0.1 s."""
 
 
-def merged_toml(text: str, data: Mapping[str, Any]) -> str:
+def merged_toml(text: str, data: Mapping[str, object]) -> str:
     """The text with the values of `data`; only what differs is written anew.
 
     A text that is not TOML, or longer than MOST_MERGED, is written anew as a whole.
@@ -41,7 +41,7 @@ def merged_toml(text: str, data: Mapping[str, Any]) -> str:
     return toml_text(data)
 
 
-def _check(value: Any, path: tuple[str, ...]) -> None:
+def _check(value: object, path: tuple[str, ...]) -> None:
     if value is None:
         raise ParameterError(f"{'.'.join(path)} is null", do="leave the key out")
     if isinstance(value, Mapping):
@@ -63,12 +63,12 @@ def _same_kinds(old: Any, new: Any) -> bool:
     return True
 
 
-def _equal(old: Any, new: Any) -> bool:
+def _equal(old: object, new: object) -> bool:
     plain = old.unwrap() if hasattr(old, "unwrap") else old
     return bool(plain == new) and _same_kinds(plain, new)
 
 
-def _merge(table: MutableMapping[str, Any], data: Mapping[str, Any]) -> None:
+def _merge(table: MutableMapping[str, object], data: Mapping[str, object]) -> None:
     for key in [key for key in table if key not in data]:
         del table[key]
     for key, value in data.items():
@@ -88,7 +88,7 @@ def _merge(table: MutableMapping[str, Any], data: Mapping[str, Any]) -> None:
             table[key] = _made(value)
 
 
-def _merge_tables(rows: AoT, data: list[Mapping[str, Any]]) -> None:
+def _merge_tables(rows: AoT, data: list[Mapping[str, object]]) -> None:
     for index, entry in enumerate(data):
         if index >= len(rows):
             rows.append(_made(entry))
@@ -108,7 +108,7 @@ def _merge_list(entries: Array, data: list[Any]) -> None:
         entries.append(_inline(value))
 
 
-def _made(value: Any) -> Any:
+def _made(value: object) -> Any:
     """A value as it is written at a new key: a table of tables under headings, other tables in one line."""
     if isinstance(value, Mapping):
         return _heading(value)
@@ -128,7 +128,7 @@ def _heading(value: Mapping[str, Any]) -> Any:
     return table
 
 
-def _inline(value: Any) -> Any:
+def _inline(value: object) -> Any:
     if isinstance(value, Mapping):
         table = tomlkit.inline_table()
         for key, inner in value.items():

@@ -22,7 +22,7 @@ from ilmek.units import in_bounds, parse_quantity, parse_unit
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
 
 
-def toml_text(data: Mapping[str, Any]) -> str:
+def toml_text(data: Mapping[str, object]) -> str:
     """The data as TOML text: texts, integers, reals, lists and tables, nested to any depth.
 
     An entry of a table of tables has its own heading if it contains a table, else one line. Reals are written with
@@ -36,7 +36,7 @@ def toml_text(data: Mapping[str, Any]) -> str:
     return "\n\n".join(parts) + "\n"
 
 
-def toml_section(path: Sequence[str], table: Mapping[str, Any], *, many: bool = False) -> str:
+def toml_section(path: Sequence[str], table: Mapping[str, object], *, many: bool = False) -> str:
     """A table, or an entry of a list of tables, under its own heading; one line per entry.
 
     >>> print(toml_section(("tracks", "the die"), {"unit": "mm"}))
@@ -48,7 +48,7 @@ def toml_section(path: Sequence[str], table: Mapping[str, Any], *, many: bool = 
     return "\n".join([f"[[{heading}]]" if many else f"[{heading}]", *lines])
 
 
-def toml_list(key: str, entries: Sequence[Any]) -> str:
+def toml_list(key: str, entries: Sequence[object]) -> str:
     """A list with one line per entry.
 
     >>> print(toml_list("edits", ["set 1,1 ivory"]))
@@ -72,7 +72,7 @@ def _tables(heading: str, table: Mapping[str, Any]) -> list[str]:
     return ["\n".join([f"[{heading}]", *(_line(key, value) for key, value in table.items())])]
 
 
-def _line(key: str, value: Any) -> str:
+def _line(key: str, value: object) -> str:
     return f"{_key(key)} = {_value(value)}"
 
 
@@ -80,7 +80,7 @@ def _key(key: str) -> str:
     return key if _BARE.fullmatch(key) else _text(key)
 
 
-def _value(value: Any) -> str:
+def _value(value: object) -> str:
     if isinstance(value, Mapping):
         inside = ", ".join(_line(key, inner) for key, inner in value.items())
         return f"{{ {inside} }}" if inside else "{}"

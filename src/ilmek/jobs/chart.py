@@ -40,7 +40,7 @@ from ilmek.jobs.yarn_choice import (
 from ilmek.jobs.yarn_warnings import yarn_warnings
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
-from ilmek.report import Check, plain, verdict_json
+from ilmek.report import Check, Json, plain, verdict_json
 from ilmek.report.left_out import made_or_left_out
 from ilmek.viz.carpet_page import CarpetPage, carpet_page
 from ilmek.viz.carpet_picture import DrawnCarpet, check_carpet_width, draw_carpet
@@ -196,7 +196,7 @@ def _left_out(order: CarpetOrder, chart: Chart) -> tuple[str, ...]:
     return (f"chart.pdf would have {sheets:,} sheets and is left out; {remedy}", *rows)
 
 
-def chart_results(charted: ChartResult) -> dict[str, Any]:
+def chart_results(charted: ChartResult) -> dict[str, Json]:
     """The results of a chart by their JSON names, SI."""
     chart, bill, reading = charted.chart, charted.bill, charted.chart.reading
     return {
@@ -234,7 +234,7 @@ def chart_results(charted: ChartResult) -> dict[str, Any]:
     }
 
 
-def _statistics(charted: ChartResult) -> dict[str, Any]:
+def _statistics(charted: ChartResult) -> dict[str, Json]:
     chart, found = charted.chart, charted.statistics
     return {
         "mean_changes": found.mean_changes,
@@ -248,7 +248,7 @@ def _statistics(charted: ChartResult) -> dict[str, Any]:
     }
 
 
-def fit_results(fit: Fit) -> dict[str, Any]:
+def fit_results(fit: Fit) -> dict[str, Json]:
     """How a picture was fitted, by the JSON names, SI."""
     return {one.name: getattr(fit, one.name) for one in fields(fit)}
 
@@ -256,7 +256,7 @@ def fit_results(fit: Fit) -> dict[str, Any]:
 _NEED = ("name", "use", "knots", "length", "mass", "price", "count", "to_buy", "hanks", "lots", "lot_rows")
 
 
-def _need(need: YarnNeed) -> dict[str, Any]:
+def _need(need: YarnNeed) -> dict[str, Json]:
     return {name: plain(getattr(need, name)) for name in _NEED}
 
 
@@ -303,7 +303,7 @@ def _print_chart(charted: ChartResult, folder: Path, left_out: list[str], progre
     return names
 
 
-def chart_json(charted: ChartResult, files: Sequence[str]) -> dict[str, Any]:
+def chart_json(charted: ChartResult, files: Sequence[str]) -> dict[str, Json]:
     """The JSON of a chart and the paths of its files."""
     return job_json(
         "chart",

@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -13,7 +12,7 @@ from ilmek.io.table_csv import check_size
 from ilmek.machines.catalogue import MACHINES, find_machine
 from ilmek.params import Setting
 from ilmek.progress import SILENT, Progress
-from ilmek.report import Check, Column, Report, Result, Table, at_most
+from ilmek.report import Check, Column, Json, Report, Result, Table, at_most
 from ilmek.timing.cyclogram import Cyclogram, Track, check_cyclogram
 from ilmek.timing.figures import draw
 from ilmek.timing.solver import Binding, Solution, least_acceleration, least_period, require_possible
@@ -159,7 +158,7 @@ def _rounded(value: float) -> float:
     return float(f"{value:.9g}")
 
 
-def _peaks(cyclogram: Cyclogram) -> dict[str, Any]:
+def _peaks(cyclogram: Cyclogram) -> dict[str, Json]:
     return {
         track.name: {
             "speed": peak_speed(track, cyclogram.period),
@@ -170,7 +169,9 @@ def _peaks(cyclogram: Cyclogram) -> dict[str, Any]:
 
 
 def _improvement(solution: Solution) -> list[Result]:
-    binding = [{"said": one.label, "kind": one.kind, "share": one.share, "cost": one.cost} for one in solution.binding]
+    binding: list[Json] = [
+        {"said": one.label, "kind": one.kind, "share": one.share, "cost": one.cost} for one in solution.binding
+    ]
     return [
         Result("goal", solution.goal, "", "quantity that was minimised"),
         Result("before", solution.before, solution.unit, f"{solution.measure}, as given"),

@@ -64,7 +64,7 @@ def _differences(file: LoomFile, report: Report) -> Iterator[str]:
     yield from (name for name in _differing(file.results, report.results_as_json(), "") if name not in judged)
 
 
-def _differing(given: Any, found: Any, path: str) -> Iterator[str]:
+def _differing(given: object, found: object, path: str) -> Iterator[str]:
     if isinstance(given, Mapping) and isinstance(found, Mapping):
         for name in given.keys() & found.keys():
             yield from _differing(given[name], found[name], f"{path}.{name}" if path else name)

@@ -15,6 +15,7 @@ from ilmek.loom.account import stop_duration
 from ilmek.loom.operations import RowOperations, Stop
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
+from ilmek.report import Json
 
 
 @record
@@ -88,7 +89,7 @@ class InspectionResult:
             },
         }
 
-    def _stop_json(self, stop: Stop) -> dict[str, Any]:
+    def _stop_json(self, stop: Stop) -> dict[str, Json]:
         setup = self.programme.setup
         return {
             "row": stop.row + 1,

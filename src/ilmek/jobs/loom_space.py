@@ -3,7 +3,6 @@
 import base64
 import gzip
 from importlib.resources import files
-from typing import Any
 
 import numpy as np
 
@@ -12,7 +11,7 @@ from ilmek.io.glb import glb_bytes
 from ilmek.jobs.studio.answers import Binary, packed
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.scene import scene
-from ilmek.report import Report
+from ilmek.report import Json, Report
 from ilmek.report.scene import Scene
 from ilmek.viz.loom_page import LoomInSpace
 from ilmek.viz.scene_data import scene_data
@@ -39,7 +38,7 @@ def scene_answer(made: Scene, chart: Chart | None, *, most: int | None = None) -
     if chart is not None and len(chart.yarns) <= np.iinfo(np.uint8).max + 1:
         every = 1 if most is None else max(1, int(np.ceil(np.sqrt(chart.knots.size / most))))
         knots = np.ascontiguousarray(chart.knots[::every, ::every]).astype(np.uint8)
-    shown: dict[str, Any] | None = None
+    shown: dict[str, Json] | None = None
     if chart is not None and knots.size:
         shown = {
             "rows": knots.shape[0],

@@ -1,7 +1,6 @@
 """The nearest carpets that a loom could weave, in the report of one that cannot weave what is required."""
 
 from dataclasses import replace
-from typing import Any
 
 from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams
 from ilmek.machines.automated_loom.nearest import nearest_fits
@@ -11,7 +10,7 @@ from ilmek.report import NEAREST, Report, Result
 _MEANING = "nearest quality, width or knot that the loom could weave, each with all other wishes kept"
 
 
-def with_nearest(report: Report, params: Any, progress: Progress = SILENT) -> Report:
+def with_nearest(report: Report, params: object, progress: Progress = SILENT) -> Report:
     """A loom's report with the result `nearest`, a list of wish and value; empty where it weaves.
 
     params  of the loom as the user gave them. The report of any other machine is returned as it is.

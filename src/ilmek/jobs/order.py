@@ -248,7 +248,7 @@ def recipe_key(parameter: Parameter) -> str:
     return (parameter.alias or parameter.name).replace("-", "_")
 
 
-def _given(settings: Mapping[str, Any]) -> dict[str, Any]:
+def _given(settings: Mapping[str, object]) -> dict[str, Any]:
     return {name: setting for name, setting in settings.items() if setting is not None}
 
 

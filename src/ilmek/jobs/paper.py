@@ -1,11 +1,9 @@
 """What was read from squared paper: results, notes, and the page on which doubtful cells are corrected."""
 
-from typing import Any
-
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.paper.cells import MOST_ALTERNATING
 from ilmek.carpet.paper.sheet import PaperReading
-from ilmek.report import Check
+from ilmek.report import Check, Json
 from ilmek.report.check import at_most
 from ilmek.sentences import Sentence
 from ilmek.units import counted
@@ -76,7 +74,7 @@ def paper_notes(chart: Chart) -> tuple[str, ...]:
     return (f"{doubts} of the squared paper may be wrong: the folder's {PAPER_PAGE} shows picture and reading",)
 
 
-def paper_results(chart: Chart) -> dict[str, Any] | None:
+def paper_results(chart: Chart) -> dict[str, Json] | None:
     """The JSON of a sheet: its grid and its doubtful cells; None: no sheet was read.
 
     Rows are counted from 1 at the lower edge, columns from 1 at the left, as in edits.

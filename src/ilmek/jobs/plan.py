@@ -20,7 +20,7 @@ from ilmek.jobs.order import recipe_parameters
 from ilmek.jobs.plan_inputs import FactoryInputs, PlannedOrder, read_inputs
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
-from ilmek.report import Check, at_most
+from ilmek.report import Check, Json, at_most
 from ilmek.units import g, minute, parse_quantity
 
 LEAST_LIMIT, MOST_LIMIT = 1.0, 3600.0
@@ -253,7 +253,7 @@ def _iso(done: PlanResult, minutes: int) -> str:
     return done.inputs.time(minutes).isoformat(timespec="minutes")
 
 
-def _order_json(done: PlanResult, index: int) -> dict[str, Any]:
+def _order_json(done: PlanResult, index: int) -> dict[str, Json]:
     entry, carpets = done.inputs.orders[index].entry, done.carpets(index)
     looms = done.inputs.factory.looms
     return {
@@ -270,7 +270,7 @@ def _order_json(done: PlanResult, index: int) -> dict[str, Any]:
     }
 
 
-def _carpet_json(done: PlanResult, one: PlannedCarpet) -> dict[str, Any]:
+def _carpet_json(done: PlanResult, one: PlannedCarpet) -> dict[str, Json]:
     factory = done.inputs.factory
     return {
         "loom": factory.looms[one.loom].name,
@@ -285,7 +285,7 @@ def _carpet_json(done: PlanResult, one: PlannedCarpet) -> dict[str, Any]:
     }
 
 
-def _loom_json(done: PlanResult, index: int) -> dict[str, Any]:
+def _loom_json(done: PlanResult, index: int) -> dict[str, Json]:
     factory, carpets = done.inputs.factory, done.plan.on_loom(index)
     loom = factory.looms[index]
     busy = sum(
@@ -301,7 +301,7 @@ def _loom_json(done: PlanResult, index: int) -> dict[str, Any]:
     }
 
 
-def _rescue_json(done: PlanResult, rescue: Rescue) -> dict[str, Any]:
+def _rescue_json(done: PlanResult, rescue: Rescue) -> dict[str, Json]:
     return {
         "measure": rescue.kind,
         "loom": done.inputs.looms_file.looms[rescue.loom].name if rescue.loom >= 0 else None,

@@ -203,7 +203,7 @@ def _programme_fit(digest: str, time: float, loom: ExistingLoom) -> LoomFit:
     return LoomFit(None if failed else time, failed)
 
 
-def setup_of(chart: Chart) -> tuple[Any, ...]:
+def setup_of(chart: Chart) -> tuple[object, ...]:
     """What two carpets have in common that need no new warp and no new tubes: warps, quality, knot, tubes."""
     # Two carpets may each have a yarn dyed for them of one name and two shades.
     names = names_to_buy(chart)

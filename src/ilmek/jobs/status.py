@@ -11,10 +11,11 @@ from ilmek.io.journal_folder import CHANNEL, journal_bytes, require_journal, run
 from ilmek.loom.control.journal import RecordKind, read_journal
 from ilmek.loom.control.packml import PackState, state_name
 from ilmek.loom.operations import RowEnd
+from ilmek.report import Json
 from ilmek.units import BILLION, format_quantity
 
 
-def run_status(folder: Path) -> dict[str, Any]:
+def run_status(folder: Path) -> dict[str, Json]:
     """The state of a run, SI: a snapshot where a controller runs, else what the journal has.
 
     Raises LoomError for a folder without a journal, and for a damaged one.
@@ -53,7 +54,7 @@ def status_in_words(found: dict[str, Any]) -> list[tuple[str, str]]:
     return [*pairs, *(("alarm", str(one["cause"])) for one in found.get("alarms", ()))]
 
 
-def _of_journal(folder: Path) -> dict[str, Any]:
+def _of_journal(folder: Path) -> dict[str, Json]:
     """What a journal states about its carpet; uncertain: the most knots that may be tied without a record."""
     content = journal_bytes(folder)
     found = read_journal(content)

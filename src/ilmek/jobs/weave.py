@@ -19,7 +19,7 @@ from ilmek.jobs.yarn_warnings import currency_warning
 from ilmek.loom.explicit import CompiledProgramme
 from ilmek.loom.programme import Programme
 from ilmek.progress import SILENT, Progress
-from ilmek.report import NEAREST, Check, Report, must, verdict_json
+from ilmek.report import NEAREST, Check, Json, Report, must, verdict_json
 from ilmek.report.left_out import made_or_left_out
 from ilmek.units import counted, format_quantity, hour
 from ilmek.viz.carpet_page import CarpetPage, carpet_page
@@ -177,7 +177,7 @@ def weave_results(woven: WeaveResult) -> dict[str, Any]:
     }
 
 
-def weave_json(woven: WeaveResult) -> dict[str, Any]:
+def weave_json(woven: WeaveResult) -> dict[str, Json]:
     """The JSON of the job."""
     return job_json(
         "weave",
@@ -191,7 +191,7 @@ def weave_json(woven: WeaveResult) -> dict[str, Any]:
     )
 
 
-def machine_json(woven: WeaveResult) -> dict[str, Any]:
+def machine_json(woven: WeaveResult) -> dict[str, Json]:
     """The loom's report as JSON, and under `machines` those of its machines by name."""
     machines = {child.machine: child.as_json() for child in woven.loom.children}
     return {**woven.loom.own().as_json(), **verdict_json(woven.loom.all_checks), "machines": machines}

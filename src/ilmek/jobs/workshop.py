@@ -18,7 +18,7 @@ from ilmek.io.json_file import write_json
 from ilmek.io.output import Outputs, joined
 from ilmek.plane.contours import area
 from ilmek.records import record
-from ilmek.report import CamTable, Check, Plate, Report, WorkPiece, at_most
+from ilmek.report import CamTable, Check, Json, Plate, Report, WorkPiece, at_most
 from ilmek.report.left_out import made_or_left_out
 from ilmek.units import deg, format_quantity, parse_quantity, parse_unit, si_unit, turn, um
 
@@ -179,10 +179,10 @@ def write_workshop(
 
 def _files(
     parts: Mapping[str, _Named],
-    write: Callable[[_Named, str], tuple[dict[str, Any], ...]],
+    write: Callable[[_Named, str], tuple[dict[str, Json], ...]],
     work: Path,
     left_out: list[str],
-) -> Iterator[dict[str, Any]]:
+) -> Iterator[dict[str, Json]]:
     """The entries of the files of parts by name; the files of a part that cannot be made are left out together."""
     for name, part in parts.items():
         entries = made_or_left_out(f"part {part.name!r}", partial(write, part, name), left_out)
@@ -240,7 +240,7 @@ def _plate_files(plate: Plate, work: Path, name: str) -> Iterator[dict[str, Any]
         yield {"file": f"{name}.step", "kind": "step", **common, "volume": read, "volume_error": off}
 
 
-def _piece_files(piece: WorkPiece, work: Path, name: str) -> Iterator[dict[str, Any]]:
+def _piece_files(piece: WorkPiece, work: Path, name: str) -> Iterator[dict[str, Json]]:
     """The STEP file of a piece that is turned, sawn or welded, its volume read back."""
     step = _step()
     if step is None:
@@ -277,7 +277,7 @@ def _table_check(entry: Mapping[str, Any]) -> Check:
     return at_most(name, entry["error"], entry["tolerance"], entry["file_unit"], points, cure=cure)
 
 
-def _table_files(table: CamTable, work: Path, name: str, tolerance: Tolerance) -> Iterator[dict[str, Any]]:
+def _table_files(table: CamTable, work: Path, name: str, tolerance: Tolerance) -> Iterator[dict[str, Json]]:
     named = replace(table, name=name)
     for kind in FORMATS.values():
         yield {"of": table.name} | _table_file(
@@ -285,7 +285,7 @@ def _table_files(table: CamTable, work: Path, name: str, tolerance: Tolerance) -
         )
 
 
-def _table_file(table: CamTable, work: Path, file: str, kind: Format, tolerance: float) -> dict[str, Any]:
+def _table_file(table: CamTable, work: Path, file: str, kind: Format, tolerance: float) -> dict[str, Json]:
     sampled = sample(table, kind.rule, tolerance)
     _write_ascii(work / file, kind.text(table, sampled))
     if kind.headless:

@@ -21,7 +21,7 @@ from ilmek.carpet.picture_points import hex_colour
 from ilmek.carpet.proposal import MatchedShade, match_shades
 from ilmek.io.yarn_file import default_yarns
 from ilmek.jobs.order import CarpetOrder
-from ilmek.report import Check
+from ilmek.report import Check, Json
 from ilmek.report.check import at_least, at_most
 from ilmek.sentences import Sentence, joined
 from ilmek.units import counted, format_quantity
@@ -158,7 +158,7 @@ def assignment_results(chart: Chart) -> list[dict[str, Any]]:
     ]
 
 
-def yarn_choice_results(chart: Chart, order: CarpetOrder) -> dict[str, Any]:
+def yarn_choice_results(chart: Chart, order: CarpetOrder) -> dict[str, Json]:
     """Results by their JSON names."""
     palette = chart.reading.palette
     knee = palette.knee

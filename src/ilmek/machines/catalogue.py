@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from ilmek.errors import ParameterError, joined_message
 from ilmek.machines import ENTRIES
-from ilmek.machines.component import Component
+from ilmek.machines.component import AnyComponent, Component
 
 
 class UnknownMachineError(ParameterError, KeyError):
@@ -16,10 +16,10 @@ class UnknownMachineError(ParameterError, KeyError):
         return joined_message(self.given, self.allowed, self.do)
 
 
-class Catalogue(Mapping[str, Component]):
+class Catalogue(Mapping[str, AnyComponent]):
     """Every machine by its name. A machine's package is imported when the machine is looked up: most jobs need one."""
 
-    def __getitem__(self, name: str) -> Component:
+    def __getitem__(self, name: str) -> AnyComponent:
         """The machine of a name. Raises UnknownMachineError, a KeyError that names the nearest machine."""
         if name not in ENTRIES:
             near = difflib.get_close_matches(name.lower().replace("_", "-"), ENTRIES, n=1)
@@ -40,6 +40,6 @@ MACHINES = Catalogue()
 """Every machine by its name, in the order of the catalogue."""
 
 
-def find_machine(name: str) -> Component:
+def find_machine(name: str) -> AnyComponent:
     """The machine of a name. Raises ParameterError, naming the nearest."""
     return MACHINES[name]

@@ -6,17 +6,20 @@
 
 A machine is a component with children; `report` makes its report and those of its children. In a loom a component
 gets its parameters from the loom's task (`fit`), and the loom sums what its components return.
+
+`Component[P, D, A]` is typed by its parameters, its design and its analysis: a checker refuses checks that do not take
+what the analysis returns. Machines of all types together, as in the catalogue, are of the type `AnyComponent`.
 """
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Hashable, Mapping
+from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any
+from typing import Any, Generic, TypeAlias, TypeVar
 
 from ilmek.dynamics.own_machine import OwnMachine
 from ilmek.machines.beat import PlannedBeat
 from ilmek.machines.invariants import broken
-from ilmek.machines.loom_task import LoomTask
+from ilmek.machines.loom_task import LoomTask, MachineDesign, P
 from ilmek.params import Params, Setting
 from ilmek.part.bill import bill
 from ilmek.part.plates import pieces_of, plates_of
@@ -27,24 +30,33 @@ from ilmek.report import BillLine, CamTable, Check, Choice, Figure, Plate, Repor
 from ilmek.report.left_out import LazyFigure, made_figures
 from ilmek.timing.cyclogram import Cyclogram, Track
 
+D = TypeVar("D", bound=MachineDesign)
+A = TypeVar("A")
+Item = TypeVar("Item")
 
-def _itself(design: Any) -> Any:
-    return design
+
+def itself(item: Item) -> Item:
+    """The analysis of a machine whose design is all that its report needs."""
+    return item
 
 
-def _nothing(_design: Any) -> tuple[Any, ...]:
+def _nothing(_item: object) -> tuple[()]:
     return ()
 
 
+def _parameters(design: MachineDesign) -> Params:
+    return design.params
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Component:
+class Component(Generic[P, D, A]):
     """A machine of the catalogue, or of a loom.
 
     name        as typed on the command line: `beat-up`          title    heading of its report
     summary     one line for `ilmek machines`                    params   its declared parameters
     design      parameters -> design, a frozen record of the machine's own
-    long        whether `design` also takes a `Progress`: it can take more than 2 s
-    analysis    design -> what is computed for its report only; default: the design
+    long_design parameters, progress -> the same design, for one that can take more than 2 s
+    analysis    design -> what is computed for its report only; `itself`: the design is
     results     analysis -> records with declared results (one, or a tuple of them); default: the analysis
     reported    the classes of these records, from which the reference of its JSON names is made
     checks, tables, figures, warnings   analysis -> each; a figure that cannot be made is left out with a warning
@@ -68,34 +80,34 @@ class Component:
     name: str
     title: str
     summary: str
-    params: type[Params]
-    design: Callable[..., Any]
-    analysis: Callable[[Any], Any] = _itself
-    results: Callable[[Any], Any] = _itself
+    params: type[P]
+    design: Callable[[P], D]
+    analysis: Callable[[D], A]
+    results: Callable[[A], object] = itself
     reported: tuple[type, ...] = ()
-    checks: Callable[[Any], tuple[Check, ...]] = _nothing
-    self_tests: Callable[[Any], tuple[Check, ...]] = _nothing
-    tables: Callable[[Any], tuple[Table, ...]] = _nothing
-    figures: Callable[[Any], tuple[Figure | LazyFigure, ...]] = _nothing
-    warnings: Callable[[Any], tuple[str, ...]] = _nothing
-    tree: Callable[[Any], Tree] | None = None
-    pieces: Callable[[Any], tuple[WorkPiece, ...]] = _nothing
-    plates: Callable[[Any], tuple[Plate, ...]] = _nothing
-    cam_tables: Callable[[Any], tuple[CamTable, ...]] = _nothing
-    cyclograms: Callable[[Any], tuple[Cyclogram, ...]] | None = None
-    mechanism: Callable[[Any], OwnMachine | None] | None = None
-    parts: Callable[[Any], tuple[BillLine, ...]] = _nothing
-    work: Callable[[Any], tuple[Work, ...]] = _nothing
-    tracks: Callable[[Any], tuple[Track, ...]] = _nothing
-    choices: Callable[[Any], tuple[Choice, ...]] = _nothing
-    children: Callable[[Any], "tuple[Child, ...]"] = _nothing
-    parameters: Callable[[Any], Params] = field(default=lambda design: design.params)
-    fit: Callable[[LoomTask], Any] | None = None
+    checks: Callable[[A], tuple[Check, ...]] = _nothing
+    self_tests: Callable[[A], tuple[Check, ...]] = _nothing
+    tables: Callable[[A], tuple[Table, ...]] = _nothing
+    figures: Callable[[A], tuple[Figure | LazyFigure, ...]] = _nothing
+    warnings: Callable[[A], tuple[str, ...]] = _nothing
+    tree: Callable[[D], Tree] | None = None
+    pieces: Callable[[D], tuple[WorkPiece, ...]] = _nothing
+    plates: Callable[[D], tuple[Plate, ...]] = _nothing
+    cam_tables: Callable[[D], tuple[CamTable, ...]] = _nothing
+    cyclograms: Callable[[D], tuple[Cyclogram, ...]] | None = None
+    mechanism: Callable[[D], OwnMachine | None] | None = None
+    parts: Callable[[D], tuple[BillLine, ...]] = _nothing
+    work: Callable[[D], tuple[Work, ...]] = _nothing
+    tracks: Callable[[D], tuple[Track, ...]] = _nothing
+    choices: Callable[[D], tuple[Choice, ...]] = _nothing
+    children: Callable[[D], "tuple[Child, ...]"] = _nothing
+    parameters: Callable[[D], Params] = _parameters
+    fit: Callable[[LoomTask], P] | None = None
     beat: Callable[[LoomTask, str], PlannedBeat] | None = None
     own_figures: tuple[str, ...] = ()
-    verdict: Callable[[Report], Any] | None = None
+    verdict: Callable[[Report], object] | None = None
     headline: tuple[str, ...] = ()
-    long: bool = False
+    long_design: Callable[[P, Progress], D] | None = None
 
     def __post_init__(self) -> None:
         tree = self.tree
@@ -107,12 +119,12 @@ class Component:
     def __repr__(self) -> str:
         return f"<Component {self.name}: {self.summary[:200]}>"
 
-    def designed(self, params: Params, progress: Progress = SILENT) -> Any:
+    def designed(self, params: P, progress: Progress = SILENT) -> D:
         """The design for parameters. Raises any IlmekError, and Cancelled."""
         progress(0.0)
-        return self.design(params, progress) if self.long else self.design(params)
+        return self.long_design(params, progress) if self.long_design else self.design(params)
 
-    def report(self, design: Any, *, in_a_loom: bool = False, illustrated: bool = True) -> Report:
+    def report(self, design: D, *, in_a_loom: bool = False, illustrated: bool = True) -> Report:
         """The report of a design, with those of the machines in it.
 
         A broken invariant is a failed check of it (`ilmek.machines.invariants`).
@@ -145,7 +157,7 @@ class Component:
         made = replace(made, checks=(*made.checks, *broken(made, self.work(design))))
         return replace(made, results=(*results_of(self.verdict(made)), *made.results)) if self.verdict else made
 
-    def drawn(self, design: Any, *, in_a_loom: bool = False) -> tuple[tuple[Figure, ...], tuple[str, ...]]:
+    def drawn(self, design: D, *, in_a_loom: bool = False) -> tuple[tuple[Figure, ...], tuple[str, ...]]:
         """The figures of a design, and a warning for each that cannot be made.
 
         in_a_loom  True: without those that only the machine's own page shows
@@ -161,6 +173,10 @@ class Component:
         return self.report(self.design(self.params.read(settings)))
 
 
+AnyComponent: TypeAlias = Component[Any, Any, Any]
+"""A machine of any parameters, design and analysis."""
+
+
 @record
 class Child:
     """A machine in another: its component, its design, and the number of them.
@@ -169,7 +185,7 @@ class Child:
     made    its report, where it was made already
     """
 
-    component: Component
+    component: AnyComponent
     design: Any
     number: int = 1
     made: Report | None = None
@@ -178,6 +194,13 @@ class Child:
     def name(self) -> str:
         """The component's name."""
         return self.component.name
+
+    def design_as(self, kind: type[D]) -> D:
+        """Its design, of a class. Raises TypeError where it is of another."""
+        design = self.design
+        if not isinstance(design, kind):
+            raise TypeError(f"{self.name}: the design is a {type(design).__name__}, not a {kind.__name__}")
+        return design
 
     @property
     def parts(self) -> tuple[BillLine, ...]:
@@ -195,6 +218,6 @@ class Child:
 
 
 @lru_cache(maxsize=32)
-def _report_in_a_loom(component: Component, design: Any, illustrated: bool) -> Report:
+def _report_in_a_loom(component: AnyComponent, design: Hashable, illustrated: bool) -> Report:
     """The report of a machine in a loom, made once for a design: looms that differ elsewhere share it."""
     return component.report(design, in_a_loom=True, illustrated=illustrated)

@@ -1,7 +1,7 @@
 """What a loom requires of a machine in it: the carpet, the warps, and the machines designed before."""
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 from ilmek.elements.carpet_yarns import CarpetYarns
 from ilmek.params import Params
@@ -12,8 +12,22 @@ if TYPE_CHECKING:
     from ilmek.machines.arrangement.side_view import SideView
     from ilmek.machines.automated_loom.params import AutomatedLoomParams
     from ilmek.machines.beat import BeatDrive
+    from ilmek.machines.shedding.design import SheddingDesign
+    from ilmek.machines.tension_compensator.design import TensionCompensator
+    from ilmek.machines.warp_tension.design import WarpTensionDesign
+    from ilmek.machines.weaver.design import Weaver
+    from ilmek.machines.weft.design import Weft
 
 P = TypeVar("P", bound=Params)
+
+
+class MachineDesign(Protocol):
+    """A design of any machine: it has the parameters that it was made from."""
+
+    @property
+    def params(self) -> Params:
+        """Its parameters."""
+        ...
 
 
 @record
@@ -44,6 +58,34 @@ class LoomTask:
     def yarns(self) -> CarpetYarns:
         """The yarns of the cloth."""
         return self.cloth.carpet_yarns
+
+    @property
+    def weft(self) -> "Weft":
+        """What lays the wefts. Raises KeyError before it is designed, as the next two do."""
+        design: Weft = self.designs["weft"]
+        return design
+
+    @property
+    def weaver(self) -> "Weaver":
+        """The knotting head."""
+        design: Weaver = self.designs["weaver"]
+        return design
+
+    @property
+    def shedding(self) -> "SheddingDesign":
+        """The shedding cams."""
+        design: SheddingDesign = self.designs["shedding"]
+        return design
+
+    @property
+    def compensator(self) -> "TensionCompensator | None":
+        """The tension compensator; None before it is designed."""
+        return self.designs.get("tension-compensator")
+
+    @property
+    def warp_tension(self) -> "WarpTensionDesign | None":
+        """The warp cylinders; None before they are designed."""
+        return self.designs.get("warp-tension")
 
     @property
     def width(self) -> float:

@@ -83,7 +83,7 @@ def loads_in_loom(task: LoomTask) -> WarpLoads:
     """
     side, tension, stiffness = task.side, task.cloth.warp_tension, task.yarns.warp.stiffness
     assert side is not None
-    compensator = task.designs.get("tension-compensator")
+    compensator = task.compensator
     if compensator is None:
         longer = float(shed_lengthening(side.lift, side.front_span, side.back_span))
         lifted, others = tension + stiffness / side.warp_length * longer, tension

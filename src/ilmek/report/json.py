@@ -2,17 +2,20 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import PurePath
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
 from ilmek.errors import encodable
 
-Json: TypeAlias = float | int | bool | str | Mapping[str, Any] | Sequence[Any] | None
-"""A value that JSON can hold; what is inside of groups is Json again, which a checker at run time cannot follow."""
+if TYPE_CHECKING:
+    Json: TypeAlias = float | int | bool | str | Mapping[str, "Json"] | Sequence["Json"] | None
+else:  # a checker at run time cannot follow what is inside
+    Json: TypeAlias = float | int | bool | str | Mapping[str, object] | Sequence[object] | None
+"""A value that JSON can hold."""
 
 
-def plain(value: Any) -> Any:
+def plain(value: object) -> Any:
     """The value as JSON holds it: arrays become lists, complex numbers [x, y], numbers that are not finite None."""
     if isinstance(value, np.ndarray | np.generic):
         value = value.tolist()

@@ -5,7 +5,6 @@ A click or a key chooses another yarn. The corrections are edits of a recipe, to
 
 import base64
 import io
-from typing import Any
 
 import numpy as np
 from PIL import Image
@@ -14,6 +13,7 @@ from ilmek.carpet.chart import Chart
 from ilmek.carpet.colour import takes_white
 from ilmek.carpet.paper.sheet import VIEW, PaperReading
 from ilmek.carpet.picture_points import hex_colour
+from ilmek.report import Json
 from ilmek.units import counted
 from ilmek.viz.page import render
 
@@ -40,7 +40,7 @@ def paper_page(chart: Chart, title: str) -> str:
     )
 
 
-def _cells(chart: Chart, paper: PaperReading) -> list[dict[str, Any]]:
+def _cells(chart: Chart, paper: PaperReading) -> list[dict[str, Json]]:
     """Of each cell shown: row and column as in edits, confidence, the yarns about it (-1: outside), row by row."""
     place = {yarn: number for number, yarn in enumerate(chart.used)}
     padded = np.pad(chart.knots.astype(int), 1, constant_values=-1)

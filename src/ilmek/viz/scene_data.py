@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ilmek.arrays import FloatArray, Int32, IntArray
+from ilmek.report import Json
 from ilmek.report.scene import Scene, SceneFrame, SceneMotion, ScenePart, SceneYarn, Solid
 
 SHIFT_ERROR, TURN_ERROR = 2e-5, 2e-4
@@ -86,7 +87,7 @@ def _bytes(values: Iterable[FloatArray | IntArray], kind: str) -> bytes:
     return np.concatenate([np.zeros(0), *values]).astype(kind).tobytes()
 
 
-def _frame(blocks: _Blocks, one: SceneFrame) -> dict[str, Any]:
+def _frame(blocks: _Blocks, one: SceneFrame) -> dict[str, Json]:
     return {
         "name": one.name,
         "parent": one.parent,
@@ -97,7 +98,7 @@ def _frame(blocks: _Blocks, one: SceneFrame) -> dict[str, Any]:
     }
 
 
-def _motion(blocks: _Blocks, one: SceneMotion) -> dict[str, Any]:
+def _motion(blocks: _Blocks, one: SceneMotion) -> dict[str, Json]:
     kept = needed_samples(one)
     return {
         "drive": one.drive,
@@ -129,7 +130,7 @@ def needed_samples(one: SceneMotion) -> Int32[np.ndarray, " kept"]:
     return np.array(sorted(kept), np.int32)
 
 
-def _part(blocks: _Blocks, one: ScenePart) -> dict[str, Any]:
+def _part(blocks: _Blocks, one: ScenePart) -> dict[str, Json]:
     return {
         "name": one.name,
         "title": one.title,
@@ -147,7 +148,7 @@ def _part(blocks: _Blocks, one: ScenePart) -> dict[str, Any]:
     }
 
 
-def _solid(blocks: _Blocks, one: Solid, deviation: float) -> dict[str, Any]:
+def _solid(blocks: _Blocks, one: Solid, deviation: float) -> dict[str, Json]:
     return {
         "points": blocks.put(one.points),
         "triangles": blocks.put_integers(one.triangles),

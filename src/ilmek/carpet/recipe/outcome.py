@@ -1,10 +1,9 @@
 """Outcome: what became of an edit that was written on another grid, or that has no place on the carpet."""
 
-from typing import Any
-
 from ilmek.carpet.recipe.anchor import grid_text
 from ilmek.carpet.recipe.edits import Edit, Knot
 from ilmek.records import record
+from ilmek.report import Json
 from ilmek.report.check import Check, at_most
 from ilmek.sentences import Sentence
 from ilmek.units import counted, format_quantity
@@ -46,7 +45,7 @@ class EditOutcome:
         share = f"{format_quantity(self.lost, '%', 3)} of its knots" if self.lost else "a part of it"
         return done + (f"; left out of it: {groups}{share}: {self.reason}" if self.reason else "")
 
-    def as_plain(self) -> dict[str, Any]:
+    def as_plain(self) -> dict[str, Json]:
         """The outcome by its JSON names; rows and columns are lists of the first and the last one."""
         part = self.part or (None, None)
         sides = [[low, high] if part[0] else None for low, high in zip(*(end or (0, 0) for end in part), strict=True)]

@@ -1,13 +1,12 @@
 """The first page of a printed knot chart: the whole carpet with its sheets."""
 
-from typing import Any
-
 import numpy as np
 from PIL import Image
 from reportlab.lib.utils import ImageReader
 
 from ilmek.carpet.chart import Chart
 from ilmek.io.chart.legend import thousands
+from ilmek.io.chart.printing import PrintCanvas
 from ilmek.io.chart.sheets import SheetLayout
 from ilmek.io.chart.symbols import STRONG, TEXT
 from ilmek.units import counted, format_number
@@ -16,7 +15,7 @@ _LEFT, _TOP, _WIDTH, _HEIGHT = 54.0, 800.0, 487.0, 620.0
 _GREY = (0.36, 0.40, 0.44)
 
 
-def draw_overview(canvas: Any, chart: Chart, plan: SheetLayout, name: str) -> None:
+def draw_overview(canvas: PrintCanvas, chart: Chart, plan: SheetLayout, name: str) -> None:
     """Draw the carpet in true proportion under the grid of sheets; each number is a link to its sheet."""
     canvas.bookmarkPage("overview")
     canvas.addOutlineEntry("The whole carpet", "overview", 0)
@@ -58,7 +57,7 @@ def _thumbnail(chart: Chart) -> Image.Image:
     return picture.reduce(max(1, -(-max(picture.size) // 1200)))
 
 
-def _sheet_grid(canvas: Any, plan: SheetLayout, wide: float, high: float) -> None:
+def _sheet_grid(canvas: PrintCanvas, plan: SheetLayout, wide: float, high: float) -> None:
     """Draw the borders of the sheets, white under black to be visible on any colour, and their numbers."""
     boxes = [
         (s.left * wide, s.low * high, (s.right - s.left) * wide, (s.high - s.low) * high, s.number)

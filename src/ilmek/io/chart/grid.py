@@ -8,6 +8,7 @@ from ilmek.arrays import Indices
 from ilmek.carpet.chart import Chart
 from ilmek.io.chart.inks import Inks
 from ilmek.io.chart.overlay_marks import draw_marks
+from ilmek.io.chart.printing import PrintCanvas
 from ilmek.io.chart.sheets import ChartSheet, SheetLayout
 from ilmek.io.chart.symbols import ADVANCE, SIGNS, STRONG, TEXT
 
@@ -16,7 +17,7 @@ _LEFT, _TOP = 54.0, 800.0
 _GREY, _LIGHT = (0.36, 0.40, 0.44), (0.55, 0.58, 0.62)
 
 
-def draw_sheet(canvas: Any, chart: Chart, plan: SheetLayout, sheet: ChartSheet, inks: Inks) -> None:
+def draw_sheet(canvas: PrintCanvas, chart: Chart, plan: SheetLayout, sheet: ChartSheet, inks: Inks) -> None:
     """Draw a sheet on a page of its own."""
     canvas.bookmarkPage(f"sheet-{sheet.number}")
     canvas.addOutlineEntry(f"Sheet {sheet.number}: {sheet.title}", f"sheet-{sheet.number}", 1)
@@ -28,7 +29,7 @@ def draw_sheet(canvas: Any, chart: Chart, plan: SheetLayout, sheet: ChartSheet, 
     canvas.showPage()
 
 
-def draw_cells(canvas: Any, chart: Chart, plan: SheetLayout, sheet: ChartSheet, inks: Inks) -> None:
+def draw_cells(canvas: PrintCanvas, chart: Chart, plan: SheetLayout, sheet: ChartSheet, inks: Inks) -> None:
     """Draw the knots of a sheet with their symbols, marks, lines and numbers; the origin is their lower left corner."""
     rows = slice(chart.rows - sheet.shown_high, chart.rows - sheet.low)
     cells = chart.knots[rows, sheet.left : sheet.shown_right][::-1]
@@ -61,7 +62,7 @@ def runs(cells: Indices) -> dict[int, list[tuple[int, int, int]]]:
     return by_yarn
 
 
-def _fill_cells(canvas: Any, cells: Indices, plan: SheetLayout, inks: Inks) -> None:
+def _fill_cells(canvas: PrintCanvas, cells: Indices, plan: SheetLayout, inks: Inks) -> None:
     """One filled path per yarn, one rectangle per run; the unit is a cell."""
     canvas.saveState()
     canvas.scale(plan.cell_width, plan.cell_height)
@@ -72,7 +73,7 @@ def _fill_cells(canvas: Any, cells: Indices, plan: SheetLayout, inks: Inks) -> N
     canvas.restoreState()
 
 
-def _write_symbols(canvas: Any, cells: Indices, plan: SheetLayout, inks: Inks) -> None:
+def _write_symbols(canvas: PrintCanvas, cells: Indices, plan: SheetLayout, inks: Inks) -> None:
     """Each row as two texts, black and white, spaced so that every symbol is in its cell."""
     size = min(0.74 * plan.cell_height, 0.98 * plan.cell_width)
     indent = (plan.cell_width - ADVANCE * size) / 2
@@ -93,7 +94,7 @@ def _write_symbols(canvas: Any, cells: Indices, plan: SheetLayout, inks: Inks) -
     canvas.restoreState()
 
 
-def _shade_overlap(canvas: Any, plan: SheetLayout, sheet: ChartSheet) -> None:
+def _shade_overlap(canvas: PrintCanvas, plan: SheetLayout, sheet: ChartSheet) -> None:
     """Lighten the knots that belong to the next sheets."""
     width, height = sheet.right - sheet.left, sheet.high - sheet.low
     canvas.saveState()
@@ -106,7 +107,7 @@ def _shade_overlap(canvas: Any, plan: SheetLayout, sheet: ChartSheet) -> None:
     canvas.restoreState()
 
 
-def _draw_lines(canvas: Any, plan: SheetLayout, sheet: ChartSheet) -> None:
+def _draw_lines(canvas: PrintCanvas, plan: SheetLayout, sheet: ChartSheet) -> None:
     """Hairlines around each cell, a bold line every 10 knots of the carpet."""
     wide, high = plan.cell_width, plan.cell_height
     columns, rows = sheet.shown_right - sheet.left, sheet.shown_high - sheet.low
@@ -123,7 +124,7 @@ def _draw_lines(canvas: Any, plan: SheetLayout, sheet: ChartSheet) -> None:
     canvas.rect(0, 0, columns * wide, rows * high, stroke=1, fill=0)
 
 
-def _write_numbers(canvas: Any, plan: SheetLayout, sheet: ChartSheet) -> None:
+def _write_numbers(canvas: PrintCanvas, plan: SheetLayout, sheet: ChartSheet) -> None:
     """Row numbers at both sides, every fifth knot number above and below; tens in bold."""
     wide, high = plan.cell_width, plan.cell_height
     right, top = (sheet.shown_right - sheet.left) * wide, (sheet.shown_high - sheet.low) * high
@@ -141,13 +142,13 @@ def _write_numbers(canvas: Any, plan: SheetLayout, sheet: ChartSheet) -> None:
             canvas.drawCentredString(x, top + 4.0, str(knot))
 
 
-def _ink(canvas: Any, number: int, size: float, own: bool) -> None:
+def _ink(canvas: PrintCanvas, number: int, size: float, own: bool) -> None:
     """Font and grey of a number: tens bold and black, those of the overlap pale."""
     canvas.setFont(STRONG if number % 10 == 0 else TEXT, size)
     canvas.setFillColorRGB(*((0.1, 0.1, 0.1) if number % 10 == 0 and own else _GREY if own else _LIGHT))
 
 
-def _mark_middle(canvas: Any, plan: SheetLayout, sheet: ChartSheet) -> None:
+def _mark_middle(canvas: PrintCanvas, plan: SheetLayout, sheet: ChartSheet) -> None:
     """Arrowheads on the edges at the carpet's middle column and row, if the sheet contains them."""
     right, top = (sheet.shown_right - sheet.left) * plan.cell_width, (sheet.shown_high - sheet.low) * plan.cell_height
     x = (plan.columns / 2 - sheet.left) * plan.cell_width
@@ -170,7 +171,7 @@ def _triangle(path: Any, *corners: tuple[float, float]) -> None:
     path.close()
 
 
-def _write_title(canvas: Any, plan: SheetLayout, sheet: ChartSheet) -> None:
+def _write_title(canvas: PrintCanvas, plan: SheetLayout, sheet: ChartSheet) -> None:
     """Write the title of the sheet, and links to its neighbours."""
     canvas.setFillColorRGB(0.1, 0.1, 0.1)
     canvas.setFont(STRONG, 11)

@@ -1,14 +1,13 @@
 """The legend of a printed chart: the yarns with their symbols, knots and need, the ground, and the mounting."""
 
 from collections.abc import Sequence
-from typing import Any
 
 from ilmek.carpet.bill import YarnBill, YarnNeed
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.mounting import TENS, Mounting
 from ilmek.io.chart.inks import Inks
 from ilmek.io.chart.lettering import cut_line, draw_line, line_width, two_lines
-from ilmek.io.chart.printing import Printing
+from ilmek.io.chart.printing import PrintCanvas, Printing
 from ilmek.io.chart.symbols import SIGNS, STRONG, TEXT
 from ilmek.units import counted, format_number, g
 
@@ -32,7 +31,7 @@ def thousands(number: int) -> str:
     return f"{number:,}".replace(",", "\u202f")
 
 
-def draw_legend(canvas: Any, chart: Chart, inks: Inks, printing: Printing) -> None:
+def draw_legend(canvas: PrintCanvas, chart: Chart, inks: Inks, printing: Printing) -> None:
     """Draw the legend: swatch with symbol, symbol alone, name, count, share and need of every yarn that is used, then
     the need of the ground, and the mounting.
     """
@@ -55,7 +54,7 @@ def draw_legend(canvas: Any, chart: Chart, inks: Inks, printing: Printing) -> No
 
 
 def draw_entry(
-    canvas: Any, chart: Chart, inks: Inks, counts: tuple[int, int, int], box: tuple[float, float, float]
+    canvas: PrintCanvas, chart: Chart, inks: Inks, counts: tuple[int, int, int], box: tuple[float, float, float]
 ) -> None:
     """Draw the entry of a yarn in the legend.
 
@@ -79,7 +78,7 @@ def draw_entry(
     _write_name(canvas, chart.yarns[index].name, (x + 52.0, y), width - 106.0 - canvas.stringWidth(number, TEXT, 9))
 
 
-def _write_name(canvas: Any, name: str, at: tuple[float, float], room: float) -> None:
+def _write_name(canvas: PrintCanvas, name: str, at: tuple[float, float], room: float) -> None:
     """Write a name in one line, or smaller in two."""
     x, y = at
     if line_width(name, _NAME) <= room:
@@ -90,7 +89,7 @@ def _write_name(canvas: Any, name: str, at: tuple[float, float], room: float) ->
     draw_line(canvas, x, y - 3.5, cut_line(more, _SMALL, room), _SMALL)
 
 
-def _begin(canvas: Any, title: str, needs: bool) -> float:
+def _begin(canvas: PrintCanvas, title: str, needs: bool) -> float:
     """Write the title of a page and the headings of its columns; the baseline above the first entry [pt]."""
     canvas.setFillColorRGB(0.1, 0.1, 0.1)
     canvas.setFont(STRONG, 13)
@@ -100,7 +99,7 @@ def _begin(canvas: Any, title: str, needs: bool) -> float:
     return _TOP - 17.0
 
 
-def _room(canvas: Any, y: float, height: float, needs: bool = False) -> float:
+def _room(canvas: PrintCanvas, y: float, height: float, needs: bool = False) -> float:
     """The baseline below y, on a new page where the height [pt] does not fit."""
     if y - height < _LOW:
         canvas.showPage()
@@ -108,14 +107,14 @@ def _room(canvas: Any, y: float, height: float, needs: bool = False) -> float:
     return y - _LINE
 
 
-def _write_headings(canvas: Any, y: float, headings: Sequence[tuple[str, float]]) -> None:
+def _write_headings(canvas: PrintCanvas, y: float, headings: Sequence[tuple[str, float]]) -> None:
     canvas.setFont(TEXT, 7)
     canvas.setFillColorRGB(*_GREY)
     for heading, right in headings:
         canvas.drawRightString(_LEFT + right, y, heading)
 
 
-def _write_need(canvas: Any, need: YarnNeed, y: float) -> None:
+def _write_need(canvas: PrintCanvas, need: YarnNeed, y: float) -> None:
     """Length, mass, mass to buy and hanks of a line of the bill."""
     canvas.setFont(TEXT, 9)
     canvas.setFillGray(0.1)
@@ -125,7 +124,7 @@ def _write_need(canvas: Any, need: YarnNeed, y: float) -> None:
         canvas.drawRightString(_LEFT + right, y, text)
 
 
-def _draw_ground(canvas: Any, bill: YarnBill, y: float) -> float:
+def _draw_ground(canvas: PrintCanvas, bill: YarnBill, y: float) -> float:
     """Draw the lines of the ground's yarns and of all yarns; the last baseline [pt]."""
     y = _heading(canvas, "Ground and edges", y, _LINE * (len(bill.ground) + 1))
     for need in bill.ground:
@@ -143,7 +142,7 @@ def _draw_ground(canvas: Any, bill: YarnBill, y: float) -> float:
     return y
 
 
-def _draw_mounting(canvas: Any, chart: Chart, made: Mounting, y: float) -> None:
+def _draw_mounting(canvas: PrintCanvas, chart: Chart, made: Mounting, y: float) -> None:
     """Draw what the loom is set up and the weaving is checked by."""
     lines = mounting_lines(chart, made)
     y = _heading(canvas, "On the loom", y, _LINE * len(lines))
@@ -156,7 +155,7 @@ def _draw_mounting(canvas: Any, chart: Chart, made: Mounting, y: float) -> None:
         canvas.drawString(_LEFT + 150.0, y, text)
 
 
-def _heading(canvas: Any, title: str, y: float, height: float) -> float:
+def _heading(canvas: PrintCanvas, title: str, y: float, height: float) -> float:
     """A rule and the title of a part of a height, on a new page where it does not fit; its baseline [pt]."""
     if y - height - 2 * _GAP < _LOW:
         canvas.showPage()

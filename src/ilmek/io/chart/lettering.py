@@ -16,6 +16,7 @@ from reportlab.pdfbase.ttfonts import ShapeData, ShapedStr
 
 from ilmek.errors import JOINERS
 from ilmek.io.chart.bidi import visual_runs
+from ilmek.io.chart.printing import PrintCanvas
 from ilmek.io.chart.symbols import ARABIC, DEVANAGARI, HAN, HANGUL, HEBREW, TEXT, register_fonts
 
 _SCRIPTS = {
@@ -41,7 +42,7 @@ def line_width(text: str, size: float) -> float:
     return size * sum(part.width for part in _parts(text))
 
 
-def draw_line(canvas: Any, x: float, y: float, text: str, size: float) -> None:
+def draw_line(canvas: PrintCanvas, x: float, y: float, text: str, size: float) -> None:
     """Draw a line of text with its left edge at x and its baseline at y [pt]."""
     for part in _parts(text):
         canvas.setFont(part.font, size)

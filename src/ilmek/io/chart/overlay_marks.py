@@ -4,16 +4,15 @@ A cell of half knots is divided upright, each half with the colour and symbol of
 its two cells.
 """
 
-from typing import Any
-
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.overlay import HALF, KnotMark
 from ilmek.io.chart.inks import Inks
+from ilmek.io.chart.printing import PrintCanvas
 from ilmek.io.chart.sheets import ChartSheet, SheetLayout
 from ilmek.io.chart.symbols import SIGNS
 
 
-def draw_marks(canvas: Any, chart: Chart, plan: SheetLayout, sheet: ChartSheet, inks: Inks) -> None:
+def draw_marks(canvas: PrintCanvas, chart: Chart, plan: SheetLayout, sheet: ChartSheet, inks: Inks) -> None:
     """Draw the marks of a sheet's cells; the origin is the lower left corner of its cells."""
     if not len(chart.overlay):
         return
@@ -31,7 +30,9 @@ def draw_marks(canvas: Any, chart: Chart, plan: SheetLayout, sheet: ChartSheet, 
     canvas.restoreState()
 
 
-def _draw_half(canvas: Any, chart: Chart, plan: SheetLayout, inks: Inks, at: tuple[KnotMark, float, float]) -> None:
+def _draw_half(
+    canvas: PrintCanvas, chart: Chart, plan: SheetLayout, inks: Inks, at: tuple[KnotMark, float, float]
+) -> None:
     mark, x, y = at
     size = min(0.5 * plan.cell_height, 0.75 * plan.cell_width)
     half = plan.cell_width / 2

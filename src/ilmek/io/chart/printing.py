@@ -37,7 +37,7 @@ PLAIN = Printing()
 class PrintCanvas(Canvas):  # type: ignore[misc]
     """A canvas that writes numbers in the digits of a script; symbols and names stay as they are."""
 
-    def __init__(self, path: Path, digits: str, **more: Any) -> None:
+    def __init__(self, path: Path, digits: str, **more: object) -> None:
         super().__init__(str(path), pageCompression=1, invariant=1, **more)
         self._digits = str.maketrans(DIGITS["latin"], DIGITS[digits])
 
@@ -67,7 +67,7 @@ class PrintCanvas(Canvas):  # type: ignore[misc]
 
 
 @contextmanager
-def printed_file(path: Path, title: str, digits: str = "latin", **more: Any) -> Iterator[PrintCanvas]:
+def printed_file(path: Path, title: str, digits: str = "latin", **more: object) -> Iterator[PrintCanvas]:
     """The canvas of a PDF file, which is saved at the end; the same pages make the same file.
 
     more  of reportlab's Canvas: pagesize (default: A4), pdfVersion

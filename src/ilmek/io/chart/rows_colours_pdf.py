@@ -3,7 +3,6 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from reportlab.lib.pagesizes import A4
 
@@ -12,7 +11,7 @@ from ilmek.carpet.rows import Run, directions, row_codes, runs_of, span_text, sp
 from ilmek.io.chart.inks import Inks
 from ilmek.io.chart.legend import draw_legend
 from ilmek.io.chart.lettering import cut_line, draw_line
-from ilmek.io.chart.printing import PLAIN, Printing, printed_file
+from ilmek.io.chart.printing import PLAIN, PrintCanvas, Printing, printed_file
 from ilmek.io.chart.symbols import ADVANCE, SIGNS, STRONG, TEXT, symbols
 from ilmek.progress import SILENT, Progress
 
@@ -101,7 +100,7 @@ def write_colours_pdf(
             progress(number / pages)
 
 
-def _draw_line(canvas: Any, line: ColourLine, chart: Chart, inks: Inks, y: float) -> None:
+def _draw_line(canvas: PrintCanvas, line: ColourLine, chart: Chart, inks: Inks, y: float) -> None:
     canvas.setFillGray(0.1)
     if line.yarn is None:
         canvas.setStrokeGray(0.75)

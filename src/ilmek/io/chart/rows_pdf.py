@@ -6,13 +6,12 @@ numbers of the knots, and the knots of each yarn. The same chart gives the same 
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.rows import directions, row_codes, runs_of
 from ilmek.io.chart.inks import Inks
 from ilmek.io.chart.legend import draw_legend
-from ilmek.io.chart.printing import PLAIN, Printing, printed_file
+from ilmek.io.chart.printing import PLAIN, PrintCanvas, Printing, printed_file
 from ilmek.io.chart.rows_layout import FOOT, HEAD, LEFT, MARGIN, RIGHT, RULER, SMALLEST, RowsLayout, rows_layout
 from ilmek.io.chart.rows_strip import Strip, Typesetter, draw_strip, knots_in_words
 from ilmek.io.chart.symbols import SIGNS, STRONG, TEXT, symbols
@@ -116,7 +115,7 @@ def _about_marks(chart: Chart) -> str:
     return " ".join([*([half] if chart.overlay.halves else []), *([jufti] if chart.overlay.juftis else [])])
 
 
-def _write_head(canvas: Any, plan: RowsLayout, titles: tuple[str, str], direction: str, marks: str) -> None:
+def _write_head(canvas: PrintCanvas, plan: RowsLayout, titles: tuple[str, str], direction: str, marks: str) -> None:
     top = plan.height - MARGIN
     canvas.setFillGray(0.1)
     canvas.setFont(STRONG, 12)

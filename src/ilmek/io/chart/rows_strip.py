@@ -2,13 +2,13 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
 
 from reportlab.pdfbase.pdfmetrics import stringWidth
 
 from ilmek.carpet.overlay import HALF, JUFTI
 from ilmek.carpet.rows import Run
 from ilmek.io.chart.inks import Inks
+from ilmek.io.chart.printing import PrintCanvas
 from ilmek.io.chart.rows_layout import LABEL_GAP, LEFT, RULER, SMALLEST, STRIP, RowsLayout
 from ilmek.io.chart.symbols import ADVANCE, SIGNS, STRONG, TEXT
 
@@ -40,7 +40,7 @@ class RunLabel:
 class Typesetter:
     """Text in SIGNS at any position, much quicker than one call of the library for each: texts are encoded once."""
 
-    canvas: Any
+    canvas: PrintCanvas
     size: float
     _encoded: dict[str, str] = field(default_factory=dict)
 
@@ -123,7 +123,7 @@ def draw_strip(setter: Typesetter, strip: Strip, plan: RowsLayout, inks: Inks, r
     _numbers(canvas, strip, wide)
 
 
-def _dividers(canvas: Any, strip: Strip, plan: RowsLayout, labels: list[RunLabel]) -> None:
+def _dividers(canvas: PrintCanvas, strip: Strip, plan: RowsLayout, labels: list[RunLabel]) -> None:
     """A fine line between neighbouring labels that keep within their runs, so that 2 and 2 are not read as 22."""
     runs = [run for run in strip.runs if run.first < strip.stop and run.first + run.cells > strip.first]
     within = [label.width <= run.cells * plan.cell for run, label in zip(runs, labels, strict=True)]
@@ -139,7 +139,7 @@ def _dividers(canvas: Any, strip: Strip, plan: RowsLayout, labels: list[RunLabel
         canvas.lines(lines)
 
 
-def _cells(canvas: Any, strip: Strip, plan: RowsLayout, inks: Inks) -> None:
+def _cells(canvas: PrintCanvas, strip: Strip, plan: RowsLayout, inks: Inks) -> None:
     """Fill the runs, mark half knots and jufti knots, frame the strip."""
     code = canvas._code
     for run in strip.runs:
@@ -163,7 +163,7 @@ def _cells(canvas: Any, strip: Strip, plan: RowsLayout, inks: Inks) -> None:
     canvas.rect(0, 0, (strip.stop - strip.first) * plan.cell, STRIP, stroke=1, fill=0)
 
 
-def _rulers(canvas: Any, strip: Strip, plan: RowsLayout, reading: str) -> None:
+def _rulers(canvas: PrintCanvas, strip: Strip, plan: RowsLayout, reading: str) -> None:
     """The numbers below the cells, which are drawn once for all strips of the same knots."""
     name = f"ruler-{strip.first}-{reading}"
     if not canvas.hasForm(name):
@@ -174,7 +174,7 @@ def _rulers(canvas: Any, strip: Strip, plan: RowsLayout, reading: str) -> None:
     canvas.doForm(name)
 
 
-def _ruler(canvas: Any, strip: Strip, plan: RowsLayout, line: int, rightward: bool) -> None:
+def _ruler(canvas: PrintCanvas, strip: Strip, plan: RowsLayout, line: int, rightward: bool) -> None:
     """Ticks below the cells, longer at fives and tens, and the numbers of the tens, in grey where they count from the
     right.
     """
@@ -193,7 +193,7 @@ def _ruler(canvas: Any, strip: Strip, plan: RowsLayout, line: int, rightward: bo
     canvas.drawRightString(-4.0, low, "→" if rightward else "←")
 
 
-def _numbers(canvas: Any, strip: Strip, wide: float) -> None:
+def _numbers(canvas: PrintCanvas, strip: Strip, wide: float) -> None:
     """The box to tick and the number of the row, at both sides."""
     canvas.setStrokeGray(0.2)
     canvas.setLineWidth(0.6)

@@ -25,12 +25,13 @@ from ilmek.io.mechanism.names import driven_body
 from ilmek.io.mechanism.points import LARGEST_RATIO, extreme_lengths
 from ilmek.io.toml_text import written_quantity
 from ilmek.linkage.model import Body, Coupling, Joint, Mechanism, Pin, Rotation
+from ilmek.report import Json
 
 _SI_UNITS = {"mm": "m", "deg": "rad", "mm/rad": "m/rad", "MPa": "Pa", "MPa*m/s": "Pa*m/s", "h": "s"}
 """Unit in which a quantity is written -> the SI unit that is exact for any number."""
 
 
-def machine_data(machine: OwnMachine, *, si: bool) -> dict[str, Any]:
+def machine_data(machine: OwnMachine, *, si: bool) -> dict[str, Json]:
     """The data of a machine that satisfy the schema; with `si` plain numbers, else texts with units.
 
     Raises MechanismError for a load or motion that no file can express.
@@ -58,7 +59,7 @@ class _Writer:
 
     def machine(self, one: OwnMachine) -> dict[str, Any]:
         mechanism = one.mechanism
-        data: dict[str, Any] = {"name": mechanism.name}
+        data: dict[str, Json] = {"name": mechanism.name}
         if self.si:
             data["units"] = "SI"
         if _needs_confirmation(mechanism):
@@ -66,7 +67,7 @@ class _Writer:
         if one.gravity:
             data["gravity"] = self.xy(one.gravity, "m/s^2")
         turning = {entry.name: isinstance(entry, Rotation) for entry in mechanism.inputs}
-        further: dict[str, Any] = {
+        further: dict[str, Json] = {
             "servo": one.servo,
             "paths": [list(spot) for spot in one.paths],
             "transmission": list(one.transmission),
@@ -77,7 +78,7 @@ class _Writer:
             for body in mechanism.bodies
         }
         data["joints"] = {joint.name: self.joint(joint) for joint in mechanism.joints}
-        tables: dict[str, Any] = {
+        tables: dict[str, Json] = {
             "couplings": {coupling.name: self.coupling(coupling) for coupling in mechanism.couplings},
             "inputs": {entry.joint: driven_body(entry, mechanism) for entry in mechanism.inputs},
             "branches": dict(mechanism.branches),
@@ -123,7 +124,7 @@ class _Writer:
         angles = {key: self.quantity(float(getattr(joint, key)), "deg") for key in ("along", "turned")}
         return {"slide": list(joint.bodies), **angles}
 
-    def coupling(self, one: Coupling) -> dict[str, Any]:
+    def coupling(self, one: Coupling) -> dict[str, Json]:
         rack = one.kind == "rack"
         units = {"ratio": "mm/rad" if rack else "1", "first_at": "deg", "second_at": "mm" if rack else "deg"}
         if one.kind != "belt":
@@ -161,7 +162,7 @@ class _Writer:
             return {"friction": force, "on": [load.body, load.point], "over": load.input_name, **window}
         raise MechanismError(f"load {name!r} is a function that no file expresses", do="write the others to the file")
 
-    def window(self, window: AngleRange | ValueRange, name: str, turning: Mapping[str, bool]) -> dict[str, Any]:
+    def window(self, window: AngleRange | ValueRange, name: str, turning: Mapping[str, bool]) -> dict[str, Json]:
         unit = "deg" if turning.get(name) else "mm"
         return {"input": name, "from": self.quantity(window.start, unit), "to": self.quantity(window.end, unit)}
 
@@ -186,7 +187,7 @@ class _Writer:
     def pin(self, pin: PinMember) -> dict[str, Any]:
         units = {"diameter": "mm", "length": "mm", "life": "h", "wear": "MPa*m/s"}
         units |= dict.fromkeys(("shear", "bending", "pressure"), "MPa")
-        data: dict[str, Any] = {key: self.quantity(getattr(pin, key), unit) for key, unit in units.items()}
+        data: dict[str, Json] = {key: self.quantity(getattr(pin, key), unit) for key, unit in units.items()}
         data["fork"] = pin.fork
         return data if pin.bearing is None else {**data, "bearing": pin.bearing}
 
@@ -205,7 +206,7 @@ class _Writer:
             return {"start": self.quantity(law.start, unit), "steps": steps, "repeat": law.repeats}
         raise MechanismError(f"the motion of {name!r} is a function that no file expresses")
 
-    def step(self, step: MotionStep, unit: str) -> dict[str, Any]:
+    def step(self, step: MotionStep, unit: str) -> dict[str, Json]:
         parameters = {
             key: list(value) if isinstance(value, tuple) else value for key, value in step.law.parameters.items()
         }
@@ -214,7 +215,7 @@ class _Writer:
 
     def forward(self, task: ForwardTask, turning: bool) -> dict[str, Any]:
         unit, speed = ("deg", "rad/s") if turning else ("mm", "m/s")
-        data: dict[str, Any] = {
+        data: dict[str, Json] = {
             "duration": self.quantity(task.duration, "s"),
             "position": self.quantity(task.position, unit),
             "speed": self.quantity(task.speed, speed),
@@ -228,7 +229,7 @@ class _Writer:
 
     def motor(self, drive: MotorDrive, turning: bool) -> dict[str, Any]:
         effort, unit, inertia = ("torque", "N*m", "kg*m^2") if turning else ("force", "N", "kg")
-        data: dict[str, Any] = {effort: self.quantity(drive.effort, unit)}
+        data: dict[str, Json] = {effort: self.quantity(drive.effort, unit)}
         if drive.speed is not None:
             data["speed"] = self.quantity(drive.speed, "rad/s" if turning else "m/s")
         return {**data, "slip": self.quantity(drive.slip, "1"), "inertia": self.quantity(drive.inertia, inertia)}

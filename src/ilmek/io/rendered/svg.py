@@ -59,7 +59,7 @@ def render_svg(path: Path, data: bytes, knots: tuple[int, int]) -> tuple[bytes, 
     root.set("viewBox", " ".join(repr(side) for side in box))
     text = ET.tostring(root, encoding="unicode")
     letters = any(element.tag.rpartition("}")[2] == "text" for element in root.iter())
-    fonts: dict[str, Any] = (
+    fonts: dict[str, object] = (
         {"font_dirs": [str(FONTS)], "sans_serif_family": "DejaVu Sans"} if letters else {"skip_system_fonts": True}
     )
     try:

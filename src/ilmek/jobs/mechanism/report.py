@@ -13,7 +13,7 @@ from ilmek.jobs.mechanism.tables import tables
 from ilmek.linkage.mobility import mobility
 from ilmek.linkage.model import degrees_of_freedom
 from ilmek.linkage.motion import Status
-from ilmek.report import Report, Result, results_of
+from ilmek.report import Json, Report, Result, results_of
 
 HEADLINE = ("closing_ranges", "pin_forces_max", "drive_torque_max", "power_residual")
 """Results that stand at the top level of the JSON too; None without forces."""
@@ -74,7 +74,7 @@ def _dead_centres(run: MechanismRun) -> tuple[Result, ...]:
     """Dead centres of the driving input, with the bodies in line there."""
     if run.closed is None:
         return ()
-    found = [{"at": at, "bodies": list(bodies)} for at, bodies in run.closed.dead_centres]
+    found: list[Json] = [{"at": at, "bodies": list(bodies)} for at, bodies in run.closed.dead_centres]
     meaning = "ends of the ranges at which the driving input reverses [rad; m], and the bodies in line there"
     return (Result("dead_centres", found, "", meaning, shown=False),)
 

@@ -11,7 +11,6 @@ from collections.abc import Callable
 from contextlib import ExitStack
 from pathlib import Path
 from types import TracebackType
-from typing import Any
 
 from ilmek.drivers.twin_port import TwinPort
 from ilmek.errors import LoomError
@@ -35,6 +34,7 @@ from ilmek.loom.twin.comparison import compare
 from ilmek.loom.twin.model import FaultRates, plant_model
 from ilmek.loom.twin.recording import Recorder
 from ilmek.progress import SILENT, Progress
+from ilmek.report import Json
 
 INTERVAL = 0.05
 """Time between two looks at the commands, and the longest wait for the loom [s]."""
@@ -203,7 +203,7 @@ class LoomRun:
             taken.set()
         show(self._snapshot)
 
-    def _handled(self, name: str) -> dict[str, Any]:
+    def _handled(self, name: str) -> dict[str, Json]:
         if name == "status":
             return snapshot_json(self._snapshot, self.programme.setup)
         answer = self._commanded(name)

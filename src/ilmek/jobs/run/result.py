@@ -7,6 +7,7 @@ from ilmek.loom.control.view import Snapshot
 from ilmek.loom.operations import LoomSetup
 from ilmek.loom.twin.comparison import WovenResult
 from ilmek.records import record
+from ilmek.report import Json
 from ilmek.units import BILLION, format_quantity
 
 COMPLETE = "Complete"
@@ -77,7 +78,7 @@ class RunResult:
         ]
 
 
-def snapshot_json(snapshot: Snapshot, setup: LoomSetup) -> dict[str, Any]:
+def snapshot_json(snapshot: Snapshot, setup: LoomSetup) -> dict[str, Json]:
     """A snapshot as JSON, SI; rows, warp pairs, heads and tubes count from 1, yarns are names."""
     names = [one.name for one in setup.yarns]
 

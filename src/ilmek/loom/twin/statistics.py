@@ -24,6 +24,7 @@ from ilmek.loom.twin.faults import CAUSES, StopParams
 from ilmek.loom.twin.kernel import ALL_CALLS, COUNTS, FAILED, STOPPED, TIME, WORK
 from ilmek.loom.twin.packages import PackageUse
 from ilmek.records import computed, record
+from ilmek.report import Json
 from ilmek.units import BILLION, hour
 
 CURES: Mapping[str, str] = {
@@ -276,7 +277,7 @@ class CarpetStatistics:
         "weaving time over the seeds [s]: mean, median, 5 and 95 % of the runs, least, most; number of runs",
         shown=False,
     )
-    def time_band(self) -> dict[str, Any]:
+    def time_band(self) -> dict[str, Json]:
         return {**self.times.as_json(), "runs": len(self.times.values)}
 
     @computed("", "overall equipment effectiveness over the seeds, as `time_band`", shown=False)

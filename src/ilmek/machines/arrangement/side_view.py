@@ -176,9 +176,10 @@ def laid_out(task: "LoomTask", path: "BeatPath | None" = None) -> SideView:
 
     path  of what beats; default: of a comb that goes straight down
     """
-    shedding, head = task.designs["shedding"], task.designs["weaver"]
-    room, cylinder = shed_room(task), task.designs.get("warp-tension")
+    shedding, head = task.shedding, task.weaver
+    room, cylinder = shed_room(task), task.warp_tension
     prime, guide = shedding.cam.prime_radius, shedding.stack.guide_radius
+    assert shedding.params.spans_of_warp is not None  # the loom sets the spans of its cams
     front, back = shedding.params.spans_of_warp
     along, last = [one.beyond for one in shedding.shafts], shedding.shafts[-1].beyond
     spans = spans_at(room, prime, guide, tuple(front + one for one in along), tuple(back + last - one for one in along))

@@ -112,8 +112,8 @@ class ShedSpans:
 
 def shed_room(task: "LoomTask") -> ShedRoom:
     """What must have room in the shed of a loom; parts that are not yet designed have their usual size."""
-    params, weft = task.params, task.designs["weft"]
-    spare, made = SPARE * params.clearance, task.designs.get("tension-compensator")
+    params, weft = task.params, task.weft
+    spare, made = SPARE * params.clearance, task.compensator
     return ShedRoom(
         carrier_depth=weft.carrier_depth,
         carrier_width=weft.carrier_width,

@@ -53,7 +53,7 @@ def cyclograms(loom: LoomDesign) -> tuple[Cyclogram, ...]:
     return knot, replace(row, tracks=made)
 
 
-MACHINE = Component(
+MACHINE: Component[AutomatedLoomParams, LoomDesign, LoomAnalysis] = Component(
     name="automated-loom",
     title="Automated loom",
     summary=SUMMARIES["automated-loom"],

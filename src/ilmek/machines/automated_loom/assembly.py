@@ -19,7 +19,7 @@ NEAREST = 10
 
 
 @record
-class Assembly:
+class LoomAssembly:
     """The parts of a loom against each other.
 
     nearest  least distances of parts, the nearest first        groups  of parts that touch, the largest first
@@ -57,12 +57,12 @@ class Assembly:
 
 
 @lru_cache(maxsize=4)
-def assembly(loom: LoomDesign) -> Assembly:
+def assembly(loom: LoomDesign) -> LoomAssembly:
     """The parts of a loom against each other; takes seconds."""
-    return Assembly(loom, nearest_parts(loom), groups(loom_tree(loom)))
+    return LoomAssembly(loom, nearest_parts(loom), groups(loom_tree(loom)))
 
 
-def assembly_checks(found: Assembly) -> tuple[Check, ...]:
+def assembly_checks(found: LoomAssembly) -> tuple[Check, ...]:
     """Parts through each other, parts of two machines that come too near, and parts that nothing holds."""
     titles = _titles(found.loom)
     through = tuple(dict.fromkeys(part for pair in found.through for part in pair.parts))
@@ -90,7 +90,7 @@ def assembly_checks(found: Assembly) -> tuple[Check, ...]:
     )
 
 
-def _too_near(found: Assembly, titles: Mapping[str, str]) -> tuple[Check, ...]:
+def _too_near(found: LoomAssembly, titles: Mapping[str, str]) -> tuple[Check, ...]:
     """The least clearance of the parts of each two machines that move against each other, and do not touch."""
     machines, limit = machines_of_bodies(found.loom), found.loom.params.clearance
     least: dict[frozenset[str], Approach] = {}
@@ -125,7 +125,7 @@ def with_assembly(loom: LoomDesign, report: Report) -> Report:
     return replace(whole, results=(*results_of(LoomVerdict(whole)), *whole.results))
 
 
-def _nearest_table(found: Assembly) -> Table:
+def _nearest_table(found: LoomAssembly) -> Table:
     """The nearest pairs of parts; below 0 they are through each other, by the mean depth of what they share."""
     titles, apart = _titles(found.loom), (pair for pair in found.nearest if pair.moving and pair.distance >= 0)
     rows = tuple(

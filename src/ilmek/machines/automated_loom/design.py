@@ -4,7 +4,6 @@ import math
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import lru_cache
-from typing import Any
 
 from ilmek.errors import LoomError
 from ilmek.loom.bobbins import Bobbin
@@ -28,7 +27,7 @@ from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.beat import Beat, BeatDrive
 from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.component import Child
-from ilmek.machines.loom_task import LoomTask
+from ilmek.machines.loom_task import LoomTask, MachineDesign
 from ilmek.machines.shedding import SheddingDesign
 from ilmek.machines.warp_tension import WarpTensionDesign
 from ilmek.machines.weaver import Weaver
@@ -76,14 +75,12 @@ class LoomDesign:
     @property
     def weaver(self) -> Weaver:
         """The knotting head."""
-        design: Weaver = self.machines["weaver"].design
-        return design
+        return self.machines["weaver"].design_as(Weaver)
 
     @property
     def weft(self) -> Weft:
         """What lays the wefts."""
-        design: Weft = self.machines["weft"].design
-        return design
+        return self.machines["weft"].design_as(Weft)
 
     @property
     def bobbins(self) -> tuple[Bobbin, ...]:
@@ -93,14 +90,12 @@ class LoomDesign:
     @property
     def shedding(self) -> SheddingDesign:
         """The shedding cams."""
-        design: SheddingDesign = self.machines["shedding"].design
-        return design
+        return self.machines["shedding"].design_as(SheddingDesign)
 
     @property
     def warp_tension(self) -> WarpTensionDesign:
         """The warp cylinders."""
-        design: WarpTensionDesign = self.machines["warp-tension"].design
-        return design
+        return self.machines["warp-tension"].design_as(WarpTensionDesign)
 
     @property
     def children(self) -> tuple[Child, ...]:
@@ -171,7 +166,7 @@ def ready_loom(params: AutomatedLoomParams) -> ReadyLoom:
     task = replace(task, designs={name: child.design for name, child in machines.items()})
     machines["shedding"], task = _made("shedding", task)
     task = replace(task, side=laid_out(task))
-    cams = machines["shedding"].design
+    cams = task.shedding
     options = beat_options(task, lambda plan: _timed_row(params, _row_timing(task, cams, plan.beat), cams)[1])
     return ReadyLoom(params, machines, task, knotting, of_knotting, options)
 
@@ -183,7 +178,7 @@ def with_beat(ready: ReadyLoom, option: BeatOption, choices: tuple[Choice, ...] 
     """
     params, task, knotting = ready.params, ready.task, ready.head
     machines, rows, columns = dict(ready.machines), task.rows, task.columns
-    head, weft, cams = knotting.weaver, machines["weft"].design, machines["shedding"].design
+    head, weft, cams = knotting.weaver, task.weft, task.shedding
     task = replace(task, side=laid_out(task, option.plan.path))
     timing, period = _timed_row(params, _row_timing(task, cams, option.plan.beat), cams)
     machines["shedding"] = _at_period(machines["shedding"], timing.turning * period)
@@ -229,7 +224,7 @@ def with_beat(ready: ReadyLoom, option: BeatOption, choices: tuple[Choice, ...] 
 
 def _at_period(shedding: Child, period: float) -> Child:
     """The shedding cams at the time of a row's wefts and beats [s], slower where these need more time."""
-    params = shedding.design.params
+    params = shedding.design_as(SheddingDesign).params
     if period <= turn / params.speed:
         return shedding
     return Child(shedding.component, _designed("shedding", replace(params, speed=turn / period)))
@@ -251,9 +246,10 @@ def _made(name: str, task: LoomTask) -> tuple[Child, LoomTask]:
 
 
 @lru_cache(maxsize=64)
-def _designed(name: str, params: Params) -> Any:
+def _designed(name: str, params: Params) -> MachineDesign:
     """A machine, designed once for each set of parameters: looms that differ elsewhere share it."""
-    return MACHINES[name].design(params)
+    design: MachineDesign = MACHINES[name].design(params)
+    return design
 
 
 def times_at(head: Weaver, knot_pitch: float, weft: float) -> Times:
@@ -283,7 +279,7 @@ def _require_room(params: AutomatedLoomParams, most: int, wide: float) -> None:
 
 
 def _row_timing(task: LoomTask, cams: SheddingDesign, beat: Beat) -> RowTiming:
-    params, weft = task.params, task.designs["weft"]
+    params, weft = task.params, task.weft
     assert task.side is not None
     return RowTiming(
         lift=cams.params.lift,

@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 
@@ -102,7 +101,7 @@ def analyse(loom: LoomDesign) -> LoomAnalysis:
     return LoomAnalysis(loom, estimated_time(loom), time_shares(loom), listed, energy, loom.beat, clearances(loom))
 
 
-def results(found: LoomAnalysis) -> tuple[Any, ...]:
+def results(found: LoomAnalysis) -> tuple[object, ...]:
     """The records whose results are reported, in order."""
     return (found, found.loom.side, found.shares, found.beat, found.energy, found.listed)
 

@@ -7,7 +7,7 @@ with the alternation that proves it.
 from functools import partial
 
 from ilmek.machines import SUMMARIES
-from ilmek.machines.component import Component
+from ilmek.machines.component import Component, itself
 from ilmek.machines.four_bar_figures import own_machine
 from ilmek.machines.four_bar_tree import four_bar_tree
 from ilmek.machines.function_four_bar.design import FunctionFourBar, design
@@ -24,6 +24,7 @@ MACHINE = Component(
     summary=SUMMARIES["function-four-bar"],
     params=FunctionFourBarParams,
     design=design,
+    analysis=itself,
     results=lambda made: (made, made.choice),
     reported=(FunctionFourBar, FourBarSelection),
     headline=("found", "left_out", "candidates"),

@@ -5,7 +5,7 @@ Either leaves on the guide cams, which a vertical axis pulls down with the whole
 """
 
 from ilmek.machines import SUMMARIES
-from ilmek.machines.component import Component
+from ilmek.machines.component import Component, itself
 from ilmek.machines.hammer.axis import CombDrive
 from ilmek.machines.hammer.comb import Comb
 from ilmek.machines.hammer.design import Hammer, design
@@ -24,6 +24,7 @@ MACHINE = Component(
     summary=SUMMARIES["hammer"],
     params=HammerParams,
     design=design,
+    analysis=itself,
     results=lambda hammer: (hammer, hammer.comb, hammer.axis, hammer.linkage),
     reported=(Hammer, Comb, CombDrive, CombLinkage),
     checks=checks,

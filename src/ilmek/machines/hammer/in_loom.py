@@ -44,7 +44,7 @@ def _in_the_row(params: HammerParams, task: LoomTask, beat: Beat, kind: str) -> 
         params,
         shed_speed=turn / task.period,
         step=min(beat.time / task.period, 0.5) * turn,
-        stack_mass=task.designs["shedding"].stack.mass if kind == "guide-cams" else 0.0,
+        stack_mass=task.shedding.stack.mass if kind == "guide-cams" else 0.0,
     )
 
 
@@ -72,7 +72,7 @@ def work(hammer: Hammer) -> tuple[Work, ...]:
 
 def _carried(task: LoomTask) -> tuple[Check, ...]:
     """Whether there are guide cams that carry the leaves, on one shaft."""
-    shedding = task.designs["shedding"]
+    shedding = task.shedding
     cure = "set another beat, or shedding.guides=cams and a coarser pitch"
     return (
         must("guide cams that carry the leaves", shedding.guides == "cams", "thesis 3.3", cure=cure),

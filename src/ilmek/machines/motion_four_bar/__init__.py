@@ -7,7 +7,7 @@ within the limits, and the best that differ are reported. Five leave a few links
 from functools import partial
 
 from ilmek.machines import SUMMARIES
-from ilmek.machines.component import Component
+from ilmek.machines.component import Component, itself
 from ilmek.machines.four_bar_figures import own_machine
 from ilmek.machines.four_bar_tree import four_bar_tree
 from ilmek.machines.motion_four_bar.design import MotionFourBar, design
@@ -24,7 +24,8 @@ MACHINE = Component(
     summary=SUMMARIES["motion-four-bar"],
     params=MotionFourBarParams,
     design=design,
-    long=True,
+    long_design=design,
+    analysis=itself,
     results=lambda made: (made, made.choice),
     reported=(MotionFourBar, FourBarSelection),
     checks=checks,

@@ -5,6 +5,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -94,12 +95,13 @@ class MotionFourBar(FourBarDesign):
 
 def _link(one: Guide) -> Json:
     """A link; None for a pivot, pin or length that is infinite or free."""
-    sizes = {"pivot": one.pivot, "pin": one.pin, "length": one.length}
+    sizes: dict[str, Any] = {"pivot": one.pivot, "pin": one.pin, "length": one.length}
     return {"kind": str(one.kind), **{name: size if cmath.isfinite(size) else None for name, size in sizes.items()}}
 
 
 def _branches(branches: Sequence[CurveBranch]) -> Json:
-    return [{"closed": branch.closed, "places": branch.points} for branch in branches]
+    places: list[Any] = [{"closed": branch.closed, "places": branch.points} for branch in branches]
+    return places
 
 
 def design(params: MotionFourBarParams, progress: Progress = SILENT) -> MotionFourBar:

@@ -7,7 +7,7 @@ points, and poses and points together are also met exactly, by all four-bars tha
 from functools import partial
 
 from ilmek.machines import SUMMARIES
-from ilmek.machines.component import Component
+from ilmek.machines.component import Component, itself
 from ilmek.machines.four_bar_figures import own_machine
 from ilmek.machines.four_bar_tree import four_bar_tree
 from ilmek.machines.path_four_bar.design import PathFourBar, design
@@ -24,7 +24,8 @@ MACHINE = Component(
     summary=SUMMARIES["path-four-bar"],
     params=PathFourBarParams,
     design=design,
-    long=True,
+    long_design=design,
+    analysis=itself,
     results=lambda made: (made, made.choice),
     reported=(PathFourBar, FourBarSelection),
     headline=("found", "left_out", "candidates"),

@@ -13,7 +13,7 @@ SAMPLES = 73
 
 def fit(task: LoomTask) -> TensionCompensatorParams:
     """The parameters for a loom: its warps, and the shed of its cams."""
-    cams, side = task.designs["shedding"], task.side
+    cams, side = task.shedding, task.side
     assert side is not None
     shed, turns = cams.params, np.linspace(0.0, turn, SAMPLES)
     return task.parameters(

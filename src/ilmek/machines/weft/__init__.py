@@ -6,7 +6,7 @@ robot that the thesis names as future work.
 """
 
 from ilmek.machines import SUMMARIES
-from ilmek.machines.component import Component
+from ilmek.machines.component import Component, itself
 from ilmek.machines.weft.axis import BeltAxis
 from ilmek.machines.weft.design import Weft, design
 from ilmek.machines.weft.figures import figures
@@ -25,6 +25,7 @@ MACHINE = Component(
     summary=SUMMARIES["weft"],
     params=WeftParams,
     design=design,
+    analysis=itself,
     results=results,
     reported=(Weft, Shuttle, Rapier, WeftPassage, BeltAxis),
     checks=lambda made: made.checks,

@@ -9,7 +9,7 @@ from ilmek.jobs.studio.figures.plain import shown_figures, shown_table
 from ilmek.jobs.studio.machine.view import designed
 from ilmek.jobs.studio.words import all_in_page
 from ilmek.machines.catalogue import find_machine
-from ilmek.machines.component import Child, Component
+from ilmek.machines.component import AnyComponent, Child
 from ilmek.params import Setting
 from ilmek.report import Figure
 
@@ -107,7 +107,7 @@ def tables(request: TablesRequest, context: Context) -> MachineTables:
     return MachineTables([shown_table(table) for table in component.tables(component.analysis(design))])
 
 
-def _part(machine: Component, children: tuple[Child, ...], part: str) -> Child:
+def _part(machine: AnyComponent, children: tuple[Child, ...], part: str) -> Child:
     child = next((one for one in children if one.name == part), None)
     if child is None:
         names = ", ".join(one.name for one in children) or "none"
@@ -116,7 +116,7 @@ def _part(machine: Component, children: tuple[Child, ...], part: str) -> Child:
 
 
 def _drawn(
-    machine: Component, design: object, children: tuple[Child, ...], part: str
+    machine: AnyComponent, design: object, children: tuple[Child, ...], part: str
 ) -> tuple[tuple[Figure, ...], tuple[str, ...]]:
     if not part:
         return machine.drawn(design)

@@ -182,7 +182,7 @@ def form_of(name: str) -> MachineFields:
     machine = find_machine(name)
     others = overridden(machine.params)
     fields = tuple(_field(one, others) for one in parameters_of(name).values())
-    return MachineFields(machine.name, machine.title, machine.summary, fields, others, machine.long)
+    return MachineFields(machine.name, machine.title, machine.summary, fields, others, machine.long_design is not None)
 
 
 def _field(one: Parameter, others: tuple[str, ...]) -> FormField:
