@@ -7,7 +7,7 @@ from ilmek.machines.automated_loom.cyclogram import BEATER, weft_windows
 from ilmek.machines.automated_loom.in_space.maker import ROW, SceneGroup, SceneMaker, motion, track_angles
 from ilmek.machines.automated_loom.in_space.standing import GROUND
 from ilmek.machines.weft import Shuttle
-from ilmek.machines.weft.tree import DRAGGING, RAPIER_BODY, SINUOUS, STRAIGHT
+from ilmek.machines.weft.tree import DRAGGING, RAPIER_BODY, RIGHT_BOX, SINUOUS, STRAIGHT
 from ilmek.part.placement import placement
 from ilmek.part.space import frames_of, parts_of
 from ilmek.report.scene import SceneYarn
@@ -22,17 +22,30 @@ def weft(made: SceneMaker) -> SceneGroup:
     """
     angle, at = _position(made)
     stroke, half = made.loom.weft.passage.stroke, angle < turn / 2
-    runs = {
-        STRAIGHT: np.where(half, at, stroke),
-        SINUOUS: np.where(half, stroke, at),
-        DRAGGING: at,
-        RAPIER_BODY: at,
-    }
-    across, row = np.array([1.0, 0.0, 0.0]), made.loom.row_cyclogram
-    motions = {name: motion(row, angle, shift=along[:, None] * across) for name, along in runs.items()}
+    across, up, row = np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0]), made.loom.row_cyclogram
+    runs = {DRAGGING: at[:, None] * across, RAPIER_BODY: at[:, None] * across}
+    if isinstance(made.loom.weft.carried, Shuttle):
+        low = _shifted(made, angle)[:, None] * up
+        kept = np.minimum.accumulate(low)
+        runs |= {
+            STRAIGHT: np.where(half, at, stroke)[:, None] * across + low,
+            SINUOUS: np.where(half, 0.0, at - stroke)[:, None] * across + kept,
+            RIGHT_BOX: low,
+        }
+    motions = {name: motion(row, angle, shift=shift) for name, shift in runs.items()}
     bodies = made.loom.weft.bodies.tree.moving(motions)
     position = placement(0.0, *_middle(made))
     return SceneGroup(frames_of(bodies, GROUND, position), parts_of(bodies, "weft", position, made.checks))
+
+
+def _shifted(made: SceneMaker, angle: FloatArray) -> FloatArray:
+    """Shift of the right box [m]: its upper cell comes in line between the passages, and leaves after the second.
+
+    Both shuttles are in it while it shifts; the sinuous weft's has left it when it shifts back.
+    """
+    (_, first), (second, last) = weft_windows(made.loom.row_cyclogram)
+    share = np.interp(angle, [first, second, last, turn], [0.0, 1.0, 1.0, 0.0])
+    return -share * made.loom.weft.bodies.guide.pitch
 
 
 def _middle(made: SceneMaker) -> tuple[float, float]:
@@ -43,8 +56,10 @@ def _middle(made: SceneMaker) -> tuple[float, float]:
 
 def _position(made: SceneMaker) -> tuple[FloatArray, FloatArray]:
     """Angles of the row [rad], and the carrier's position on its axis [m]."""
-    track = made.loom.row_cyclogram.track(made.loom.row_timing.carrier)
+    row = made.loom.row_cyclogram
+    track = row.track(made.loom.row_timing.carrier)
     angle = track_angles(track)
+    angle = np.unique(np.concatenate([angle, np.ravel(weft_windows(row))]))
     return angle, sample(track, angle).position
 
 
