@@ -262,8 +262,8 @@ def test_leaves_of_the_comb_bend_as_cantilevers() -> None:
     design = made()
     p, comb = design.params, design.comb
     force, inertia = design.needed * comb.line.most, p.leaf * p.leaf_height**3 / 12
-    assert comb.leaf_sag == pytest.approx(force * p.leaf_reach**3 / (3 * p.modulus * inertia))
-    assert comb.leaf_stress == pytest.approx(force * p.leaf_reach * (p.leaf_height / 2) / inertia)
+    assert comb.leaf_sag == pytest.approx(force * p.reach**3 / (3 * p.modulus * inertia))
+    assert comb.leaf_stress == pytest.approx(force * p.reach * (p.leaf_height / 2) / inertia)
 
 
 def test_work_of_a_beat_packs_a_row_and_lifts_what_is_not_balanced() -> None:

@@ -5,7 +5,7 @@ from itertools import pairwise
 import numpy as np
 
 from ilmek.arrays import ComplexArray
-from ilmek.machines.arrangement.side_view import CamPosition, RoundPart, SideBox, SideView, rectangle
+from ilmek.machines.arrangement.side_view import RETREAT, CamPosition, RoundPart, SideBox, SideView, rectangle
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.parts import built_side
 from ilmek.report import Dot, Drawing, Stroke
@@ -25,7 +25,7 @@ _APART = 0.062
 def side(loom: LoomDesign) -> Drawing:
     """The whole loom from the side, the even shed open, the comb at rest, a head at the fell."""
     view = built_side(loom)
-    left, right = -view.loom_depth + view.retreat + _front(view), _front(view)
+    left, right = -view.loom_depth + view.retreat * RETREAT.real + _front(view), _front(view)
     strokes = (
         *_frame(view, left, right),
         *_warps(view),
@@ -55,7 +55,7 @@ def room(loom: LoomDesign) -> Drawing:
         *((Stroke(stroke, "path", "path of the comb's tip"),) if np.ptp(stroke.real) > _SEEN else ()),
         Stroke(rectangle(view.carrier), "outline", closed=True, filled=True),
         *_head(view, 0.0, "outline", "head while it knots"),
-        *_head(view, view.retreat, "construction"),
+        *_head(view, view.retreat * RETREAT, "construction"),
         *_room_dimensions(view, sight.real),
     )
     note = "the even shed is open; dashed: the comb at the fell, the heads retreated as in the row"
@@ -126,14 +126,14 @@ def _moving(view: SideView) -> tuple[Stroke, ...]:
         *(Stroke(polygon, "outline", closed=True, filled=True) for polygon in view.comb),
         Stroke(rectangle(view.carrier), "outline", closed=True, filled=True),
         *_head(view, 0.0, "outline"),
-        *_head(view, view.retreat, "construction"),
+        *_head(view, view.retreat * RETREAT, "construction"),
         Stroke(rectangle(SideBox(view.head.magazine, view.head.magazine_size)), "outline", closed=True),
         Stroke(rectangle(view.rail), "outline", closed=True),
-        Stroke(rectangle(view.rail) + view.retreat, "construction", closed=True),
+        Stroke(rectangle(view.rail) + view.retreat * RETREAT, "construction", closed=True),
     )
 
 
-def _head(view: SideView, away: float, role: str, label: str = "") -> tuple[Stroke, ...]:
+def _head(view: SideView, away: complex, role: str, label: str = "") -> tuple[Stroke, ...]:
     """The head's body and its tools, at a distance from where they knot [m]."""
     body = SideBox(view.head.body, view.head.size)
     face = body.corner.real
@@ -173,7 +173,7 @@ def _heights(view: SideView, left: float) -> tuple[Stroke, ...]:
 def _room_dimensions(view: SideView, left: float) -> tuple[Stroke, ...]:
     """Front span, height of the weft and stroke of the beat at the left, the retreat below the head."""
     corner = view.head.body
-    away = np.array([corner.real, corner.real + view.retreat]) + 1j * (corner.imag - 0.06)
+    away = corner - 0.06j + np.array([0.0, view.retreat]) * RETREAT
     return (
         _upright(left - 0.02, 0.0, view.front_span, "front span"),
         _upright(left + 0.05, 0.0, view.weft_height, "weft"),
@@ -184,7 +184,8 @@ def _room_dimensions(view: SideView, left: float) -> tuple[Stroke, ...]:
 
 def _names(view: SideView, right: float) -> tuple[Stroke, ...]:
     """Leaders from the parts to their names at the right, in the order of their heights."""
-    kink, end = right + view.retreat + 0.06, right + view.retreat + 0.62
+    kink = right + view.retreat * RETREAT.real + 0.06
+    end = kink + 0.56
     named = {
         "upper cylinder": view.upper.at + view.upper.radius,
         "back rest": view.back_rest.at + view.back_rest.radius,

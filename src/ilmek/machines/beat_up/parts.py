@@ -44,7 +44,7 @@ def pin_part(linkage: BeatUp) -> Part:
     """The pin of every joint."""
     diameter = linkage.pin
     return Part(
-        PART_IDS["A"],
+        PART_IDS["B"],
         "pin of the beat-up",
         "pin or bush",
         f"round {format_quantity(diameter, 'mm')}",

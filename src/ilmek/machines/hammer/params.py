@@ -111,7 +111,12 @@ class HammerParams(Params):
     )
     density: float = kind.density(STEEL.density, at_least=1.0, at_most=25e3, doc="density of the comb")
     strength: float = kind.pressure(235 * MPa, at_least=1 * MPa, at_most=1e10, doc="yield strength of the comb")
-    leaf_reach: float = kind.length(80 * mm, at_least=1 * mm, at_most=1.0, doc="leaf from its root to the fell")
+    leaf_reach: float | None = kind.length(
+        None,
+        at_least=1 * mm,
+        at_most=1.0,
+        doc="leaf from its root to the fell; default: 80 mm, before the guide cams; 30 mm on crank-rockers",
+    )
     leaf_height: float = kind.length(20 * mm, at_least=0.5 * mm, at_most=0.5, doc="height of a leaf, along the beat")
     leaf_thickness: float | None = kind.length(
         None, at_least=1e-3 * mm, at_most=50 * mm, doc="thickness of a leaf; default: 0.4 of the warp pitch"
@@ -236,6 +241,11 @@ class HammerParams(Params):
     def leaf(self) -> float:
         """Thickness of a leaf [m]."""
         return self.leaf_thickness or 0.4 * self.warp_pitch
+
+    @property
+    def reach(self) -> float:
+        """Leaf from its root to the fell [m]: as given, or as usual of the drive."""
+        return self.leaf_reach or (30 * mm if self.drive == "linkage" else 80 * mm)
 
     @property
     def rockers(self) -> int:

@@ -5,7 +5,7 @@ the linkage (`beat_up.tree`). The middle of the width is at z = 0; bodies lie at
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
 
@@ -13,11 +13,11 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray
 from ilmek.machines.beat_up.beater import across, rectangle
-from ilmek.machines.beat_up.crank_start import start_parts
 from ilmek.machines.beat_up.parts import depth_of
 from ilmek.machines.beat_up.tree import CARRIAGE, crank_frame, crank_rockers, moving, on_rocker, rocker_position
 from ilmek.machines.hammer.comb import BAR_ID, BEHIND, LEAF_ID
 from ilmek.machines.hammer.design import Hammer
+from ilmek.machines.hammer.linkage import bracket
 from ilmek.machines.hammer.params import STEEL, HammerParams
 from ilmek.part import catalogue
 from ilmek.part.part import Bought, Part
@@ -41,15 +41,20 @@ def tree(hammer: Hammer, motions: Mapping[str, SceneMotion] | None = None) -> Tr
 
 
 def outline(params: HammerParams) -> tuple[ComplexArray, ...]:
-    """The comb in the side view [m]: its leaves through the warps, and the bar in front of their roots."""
-    front, deep = params.leaf_reach, params.comb_thickness
-    return rectangle(-BEHIND, front, 0.0, params.leaf_height), rectangle(front, front + deep, 0.0, params.depth)
+    """The comb in the side view [m]: its leaves through the warps, the bar in front of their roots, ballast on it."""
+    front, deep = params.reach, params.comb_thickness
+    comb = rectangle(-BEHIND, front, 0.0, params.leaf_height), rectangle(front, front + deep, 0.0, params.depth)
+    ballast = params.ballast or 0.0
+    if params.drive != "linkage" or not ballast:
+        return comb
+    high = ballast / (STEEL.density * params.width * deep)
+    return (*comb, rectangle(front, front + deep, params.depth, params.depth + high))
 
 
 def _comb(hammer: Hammer) -> tuple[Occurrence, ...]:
-    """Bar and leaves, the bar's ballast in front of it; the axes of the side view, 0 where the leaves strike."""
+    """Bar and leaves, the bar's ballast on it; the axes of the side view, 0 where the leaves strike."""
     params, steel = hammer.params, replace(STEEL, density=hammer.params.density)
-    leaf, bar = outline(params)
+    leaf, bar, *ballast = outline(params)
     number, wide, middle = params.warps - 1, params.width, (placement(z=-params.width / 2),)
     stations = (np.arange(number) - (number - 1) / 2) * params.warp_pitch - params.leaf / 2
     leaves = across(LEAF_ID, "leaf of the comb", "laser-cut part", leaf, params.leaf, steel)
@@ -57,12 +62,22 @@ def _comb(hammer: Hammer) -> tuple[Occurrence, ...]:
         Occurrence(across(BAR_ID, "comb of the hammer", "steel bar", bar, wide, steel), middle),
         Occurrence(leaves, tuple(placement(z=float(z)) for z in stations)),
     )
-    ballast = hammer.linkage.ballast if hammer.linkage else 0.0
-    if not ballast:
-        return comb
-    side, front = math.sqrt(ballast / (STEEL.density * wide)), params.leaf_reach + params.comb_thickness
-    section = rectangle(front, front + side, 0.0, side)
-    return (*comb, Occurrence(across("hammer/ballast", "ballast of the comb", "steel bar", section, wide), middle))
+    return (
+        *comb,
+        *(
+            Occurrence(across("hammer/ballast", "ballast of the comb", "steel bar", section, wide), middle)
+            for section in ballast
+        ),
+    )
+
+
+def _brackets(hammer: Hammer, stations: Sequence[float]) -> Occurrence:
+    """Plates beside the rockers, in the axes of the side view: each joins the comb's bar to its rocker."""
+    assert hammer.linkage is not None
+    one = hammer.linkage.one
+    plate = bracket(one.params, hammer.params)
+    beside = 0.5 * one.params.thickness
+    return Occurrence(plate, tuple(placement(z=beside - z) for z in stations))
 
 
 @lru_cache(maxsize=4)
@@ -71,16 +86,17 @@ def _on_crank_rockers(hammer: Hammer) -> Tree:
     assert linkage is not None
     one, number = linkage.one, linkage.number
     stations = tuple(wide * ((k + 0.5) / number - 0.5) for k in range(number))
+    parts = (*_comb(hammer), _brackets(hammer, stations))
     comb = RigidBody(
         COMB,
-        tuple(on_rocker(occurrence, one.lengths["beater"]) for occurrence in _comb(hammer)),
+        tuple(on_rocker(occurrence, one.lengths["beater"]) for occurrence in parts),
         CARRIAGE,
         Joint(JointKind.PIN),
         (rocker_position(one),),
     )
     return Tree(
         (
-            crank_frame(one, start_parts(linkage.start), stations),
+            crank_frame(one, linkage.beam, linkage.start, stations),
             *crank_rockers(one, CARRIAGE, stations),
             comb,
         )
@@ -93,7 +109,7 @@ def _on_axes(hammer: Hammer) -> Tree:
     assert found is not None
     number, drive, load = params.axis_count, found.drive, found.cycle
     torque, speed = float(np.max(np.abs(load.torque))), float(np.max(np.abs(load.speed)))
-    row, front = drive.motor if drive else None, params.leaf_reach + params.comb_thickness + AXIS_SIDE / 2
+    row, front = drive.motor if drive else None, params.reach + params.comb_thickness + AXIS_SIDE / 2
     axis = Part(
         "hammer/axis",
         "vertical axis",

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ilmek.machines.arrangement.side_view import RETREAT
 from ilmek.machines.automated_loom.cyclogram import HEADS, TAKE_UP
 from ilmek.machines.automated_loom.in_space.maker import (
     COARSE,
@@ -28,7 +29,7 @@ GROUND = "ground"
 
 def standing(made: SceneMaker) -> SceneGroup:
     """Frame with its rail, what it carries, cylinders, and compensator."""
-    retreat = along_track(made.loom.row_cyclogram, HEADS, (0.0, 0.0, 1.0))
+    retreat = along_track(made.loom.row_cyclogram, HEADS, (0.0, RETREAT.imag, RETREAT.real))
     own = frame_tree(made.loom, parts_of_loom(made.loom).frame, retreat)
     carried = carried_tree(made.loom)
     groups = (_warp_cylinders(made), compensator(made, GROUND))

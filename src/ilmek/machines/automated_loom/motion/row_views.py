@@ -7,6 +7,7 @@ behind the warps' plane, so that the weaver stands below the picture.
 import numpy as np
 
 from ilmek.arrays import Complex, ComplexArray, FloatArray
+from ilmek.machines.arrangement.side_view import RETREAT
 from ilmek.machines.automated_loom.bodies import beat_tip
 from ilmek.machines.automated_loom.cyclogram import BEATER, EVEN, HEADS, ODD, SLIDE, TAKE_UP, weft_windows
 from ilmek.machines.automated_loom.design import LoomDesign
@@ -65,7 +66,7 @@ def row_from_above(loom: LoomDesign) -> Animation:
     sheets = [ends - 1j * share * sample(row.track(name), angle).position[:, None] for name in (EVEN, ODD)]
     carrier, depth = _carrier(loom, angle), side.carrier
     middle = (depth.corner + depth.size / 2).real
-    away = sample(row.track(HEADS), angle).position
+    away = sample(row.track(HEADS), angle).position * RETREAT.real
     depths = _comb_corners(loom, angle).real
     near, far = depths.min(axis=1), depths.max(axis=1)
     comb = np.array([0, wide, wide, 0]) - 1j * np.stack([near, near, far, far], axis=-1)
