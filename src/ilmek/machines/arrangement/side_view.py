@@ -35,7 +35,7 @@ from ilmek.machines.arrangement.spans import (
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.head_shape import HeadShape
 from ilmek.records import computed, record, result
-from ilmek.units import mm
+from ilmek.units import deg, mm
 
 if TYPE_CHECKING:
     from ilmek.machines.beat import BeatPath
@@ -57,8 +57,8 @@ RAIL = 80 * mm
 """Side of the heads' rail in the side view, before the frame is designed [m]."""
 
 
-RETREAT = cmath.exp(-0.25j * math.pi)
-"""Direction in which the heads retreat, in the side view: down and to the front."""
+RETREAT = cmath.exp(-55j * deg)
+"""Direction in which the heads retreat, in the side view: down and to the front; assumed by this project."""
 
 
 @record

@@ -3,15 +3,18 @@
 Axes of the scene: x along the width, 0 in the middle of the cloth, y up from the fell, z to the front.
 """
 
+import cmath
 from collections.abc import Iterable
 
 from ilmek.elements.columns import STEEL, HollowSquare
 from ilmek.elements.drive_parts import PULLEY
 from ilmek.elements.motors import smallest_motor
 from ilmek.elements.tubes import TUBES, Tube
+from ilmek.machines.arrangement.side_view import RETREAT
 from ilmek.machines.automated_loom.cyclogram import HEADS
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import LoomFrame, part_id
+from ilmek.machines.automated_loom.supports import support_bodies
 from ilmek.machines.weaver import head_mass
 from ilmek.part import catalogue
 from ilmek.part.part import Bought, Part
@@ -78,10 +81,11 @@ def _retreat(loom: LoomDesign) -> RigidBody:
     )
     middle = _rail_middle(loom)
     beside = loom.task.width / 2 + _AXIS / 2
-    ends = [placement(x, middle.imag, middle.real) for x in (-beside, beside)]
+    slope = -cmath.phase(RETREAT)
+    ends = [placement(x, middle.imag, middle.real, about=(1.0, 0.0, 0.0), angle=slope) for x in (-beside, beside)]
     return RigidBody(
         part_id("retreat"),
-        (Occurrence(axis, tuple(ends)), Occurrence(motor, (placement(beside, middle.imag, middle.real),))),
+        (Occurrence(axis, tuple(ends)), Occurrence(motor, tuple(ends[1:]))),
         joint=_MISSING,
     )
 
@@ -117,7 +121,7 @@ def frame_tree(loom: LoomDesign, frame: LoomFrame, retreat: SceneMotion | None =
     cabinet = placement(beside, loom.side.floor + high / 2, loom.side.column - deep / 2)
     return Tree(
         (
-            RigidBody(part_id("frame"), tuple(_welded(loom, frame))),
+            RigidBody(part_id("frame"), (*_welded(loom, frame), *support_bodies(loom, frame))),
             RigidBody(
                 RAIL,
                 (Occurrence(rail, (along,)), Occurrence(axis, (below,))),

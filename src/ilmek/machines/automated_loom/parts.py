@@ -10,6 +10,7 @@ from ilmek.machines.arrangement.side_view import SideBox, SideView
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import FrameTask, LoomFrame, frame_for
 from ilmek.machines.automated_loom.own_parts import carried_tree, frame_tree
+from ilmek.machines.automated_loom.supports import beat_beam
 from ilmek.machines.weaver import head_mass
 from ilmek.part.bill import bill
 from ilmek.part.tree import Tree
@@ -53,7 +54,8 @@ def parts_of_loom(loom: LoomDesign) -> PartsList:
     """The parts list. Raises ParameterError for unreadable prices."""
     prices = read_prices(loom.params.prices)
     carried = (*_of_machines(loom), *bill(carried_tree(loom)))
-    frame = frame_for(frame_task(loom, sum(part.mass_all for part in carried)))
+    on_posts = sum(part.mass_all for part in loom.beat.parts) if beat_beam(loom) else 0.0
+    frame = frame_for(frame_task(loom, sum(part.mass_all for part in carried) - on_posts))
     axes = driven_axes(carried)
     lines = (
         *carried,
@@ -76,9 +78,9 @@ def built_side(loom: LoomDesign) -> SideView:
 
 
 def frame_task(loom: LoomDesign, carried: float) -> FrameTask:
-    """The load of this loom's frame, with the mass of the parts that it carries [kg]."""
+    """The load of this loom's frame, with the mass that its columns carry [kg]; posts bear crank-rockers."""
     params, cylinder, beat = loom.params, loom.warp_tension, loom.beat
-    wide, turning = loom.task.width, beat.crank_rockers > 0
+    wide = loom.task.width
     return FrameTask(
         width=wide,
         height=loom.side.loom_height,
@@ -94,8 +96,7 @@ def frame_task(loom: LoomDesign, carried: float) -> FrameTask:
         stress_safety=params.column_safety,
         buckling_safety=params.buckling_safety,
         bow_limit=params.column_bow,
-        across=beat.frame_force if turning else 0.0,
-        along=0.0 if turning else beat.frame_force,
+        along=0.0 if beat_beam(loom) else beat.frame_force,
     )
 
 

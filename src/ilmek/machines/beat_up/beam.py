@@ -3,13 +3,12 @@
     F = m g + F_f,   s = F l³ / (48 E I) + 5 q l⁴ / (384 E I),   M = F l / 4 + q l² / 8
 
 F_f is the greatest force of the beat on the frame, whatever its direction, in the middle of the span l, with the mass m
-that the beam carries; q its own weight.                                       [simply supported beams: `elements.beam`]
+that the beam carries; q its own weight.                                       [`elements.columns`]
 The lightest square hollow section that keeps both limits, the largest of the table where none does. It lies in front of
 the pivot of the rocker, A, beyond its round end, its lower side level with that of the rocker at the beat.
 """
 
-from ilmek.elements.beam import uniform
-from ilmek.elements.columns import SECTIONS, STEEL, HollowSquare
+from ilmek.elements.columns import STEEL, HollowSquare, ascending, mid_loaded
 from ilmek.elements.materials import GRAVITY
 from ilmek.part.part import Part
 from ilmek.part.shapes import square_tube
@@ -63,16 +62,16 @@ class BeatBeam:
 def beam_for(length: float, mass: float, force: float) -> BeatBeam:
     """The beam of a length [m] on its posts for a mass that it carries [kg] and a force of the beat [N]."""
     carried, span = mass * GRAVITY + force, length - POST
-    sections = sorted((HollowSquare(*size) for size in SECTIONS), key=lambda section: section.area)
+    sections = ascending()
     named = [Alternative(section.name, beam_checks(section, span, carried)) for section in sections]
     index, choice = choose("beat_beam", named)
     section = sections[index] if not named[index].failed else sections[-1]
-    return BeatBeam(section, length, span, carried, choice, *_bent(section, span, carried))
+    return BeatBeam(section, length, span, carried, choice, *mid_loaded(section, span, carried))
 
 
 def beam_checks(section: HollowSquare, span: float, carried: float) -> tuple[Check, Check]:
     """Whether a section bears a force in the middle of a span, and how far it bends."""
-    sag, stress = _bent(section, span, carried)
+    sag, stress = mid_loaded(section, span, carried)
     cure = "set a lower speed of the crank, or a narrower carpet"
     return (
         at_most(
@@ -94,11 +93,3 @@ def beam_checks(section: HollowSquare, span: float, carried: float) -> tuple[Che
             parts=(BEAM,),
         ),
     )
-
-
-def _bent(section: HollowSquare, span: float, carried: float) -> tuple[float, float]:
-    """Deflection [m] and stress [Pa]."""
-    own, stiff = section.line_mass * GRAVITY, STEEL.modulus * section.inertia
-    sag = carried * span**3 / (48 * stiff) + uniform.deflection_max(own, span, STEEL.modulus, section.inertia)
-    moment = carried * span / 4 + uniform.moment_max(own, span)
-    return float(sag), float(uniform.bending_stress(moment, section.side / 2, section.inertia))

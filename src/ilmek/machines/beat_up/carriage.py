@@ -35,7 +35,7 @@ BLOCK_HEIGHT, BLOCK_LENGTH, BLOCK_MASS = 20 * mm, 120 * mm, 1.5
 """Carriage of the belt axis: height, length [m], mass [kg]; usual of axes of 80 mm, makers' data."""
 
 SHEAR = 40e6
-"""Allowed shear stress of the shaft that drives several cranks [Pa]; assumed by this project."""
+"""Allowed shear stress of the shaft that drives the cranks of a comb [Pa]; assumed by this project."""
 
 BELT_WIDTH = 30 * mm
 """Room for the belt from it to a crank, along the pins [m]: assumed by this project."""
@@ -65,7 +65,7 @@ def plate_part(linkage: BeatUp, wide: float, top: float, high: float, shared: fl
     """The plate over a beam, or over the slide on it.
 
     wide    of what it is bolted to [m]      top, high  of that, over the lower side of the beam: from, by [m]
-    shared  diameter of the shaft that drives several cranks [m]; 0: none
+    shared  diameter of the shaft that drives the cranks of a comb [m]; 0: none
     """
     eye, centre, arm = linkage.params.width / 2, shaft(linkage), linkage.lengths["beater"]
     corner, about, driving = beam_corner(linkage), eye + _AROUND, shared_axis(linkage)
@@ -99,7 +99,7 @@ def plate_part(linkage: BeatUp, wide: float, top: float, high: float, shared: fl
 
 
 def shared_axis(linkage: BeatUp) -> complex:
-    """Axis of the shaft that drives several cranks, in the side view, beyond their circles [m]."""
+    """Axis of the shaft that drives the cranks of a comb, in the side view, beyond their circles [m]."""
     away = linkage.lengths["crank"] + linkage.params.width + 2 * _AROUND
     return shaft(linkage) + away * cmath.exp(0.25j * math.pi)
 

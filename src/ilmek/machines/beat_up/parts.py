@@ -23,7 +23,7 @@ JOURNAL = "journal"
 def link_parts(linkage: BeatUp) -> dict[str, Part]:
     """Crank, coupler and rocker, bored for their pins."""
     params, drilled = linkage.params, pin_holes(linkage.lengths, linkage.hole)
-    reaches = spans(linkage.lengths)
+    reaches = spans(linkage.lengths, params.before_beater)
     section = f"{format_quantity(params.width / mm, '')} x {format_quantity(params.thickness, 'mm')}"
     return {
         name: Part(

@@ -151,17 +151,15 @@ def crank_rockers(
 
 def crank_frame(design: BeatUp, beam: BeatBeam, start: CrankStart, stations: Sequence[float]) -> RigidBody:
     """What stands of crank-rockers at stations along z [m]: the beam, a plate with its pins at each, and the drive."""
-    several, thickness = len(stations) > 1, design.params.thickness
-    shared = shared_diameter(start.start_torque) if several else 0.0
+    shared = shared_diameter(start.start_torque)
     plate = plate_part(design, beam.section.side, beam.section.side, design.params.width, shared)
     parts: dict[str, Occurrence] = {}
     for one in (part for z in stations for part in carried(design, plate, z)):
         before = parts[one.part.id].positions if one.part.id in parts else ()
         parts[one.part.id] = replace(one, positions=(*before, *one.positions))
-    end, axis, belts = max(stations) + plate_begin(design) + thickness, 0j, tuple[Occurrence, ...]()
-    if several:
-        belts = shared_drive(design, start.start_torque, stations)
-        end, axis = end + BELT_WIDTH, complex(in_links_axes(design, np.array([shared_axis(design)]))[0])
+    end = max(stations) + plate_begin(design) + design.params.thickness + BELT_WIDTH
+    axis = complex(in_links_axes(design, np.array([shared_axis(design)]))[0])
+    belts = shared_drive(design, start.start_torque, stations)
     drive = driving(start_parts(start), end, axis)
     return RigidBody(CARRIAGE, (*beam_in_place(design, beam), *parts.values(), *belts, *drive))
 
