@@ -14,7 +14,7 @@ from ilmek.machines.arrangement.side_view import RETREAT
 from ilmek.machines.automated_loom.cyclogram import HEADS
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import LoomFrame, part_id
-from ilmek.machines.automated_loom.supports import support_bodies
+from ilmek.machines.automated_loom.supports import column_front, support_bodies
 from ilmek.machines.weaver import head_mass
 from ilmek.part import catalogue
 from ilmek.part.part import Bought, Part
@@ -137,9 +137,10 @@ def _welded(loom: LoomDesign, frame: LoomFrame) -> Iterable[Occurrence]:
     """Two columns, posts under the rail where it has more than one span, beams across at top and bottom, four feet."""
     side, task, section = loom.side, frame.task, frame.column
     beside, edge = task.width / 2 + section.side / 2, section.side / 2
+    axis = column_front(loom) - edge
     yield _placed(
         _member("column", "column of the frame", section, task.height),
-        (placement(x, side.floor, side.column).after(UPRIGHT) for x in (-beside, beside)),
+        (placement(x, side.floor, axis).after(UPRIGHT) for x in (-beside, beside)),
     )
     if task.rail_spans > 1:
         front = (side.rail.corner + side.rail.size).real + side.retreat + edge
@@ -150,14 +151,14 @@ def _welded(loom: LoomDesign, frame: LoomFrame) -> Iterable[Occurrence]:
         )
     yield _placed(
         _member("beam", "beam across", section, task.width),
-        (placement(-task.width / 2, y, side.column).after(ALONG_WIDTH) for y in (side.floor + edge, side.top - edge)),
+        (placement(-task.width / 2, y, axis).after(ALONG_WIDTH) for y in (side.floor + edge, side.top - edge)),
     )
     yield _placed(
         _member("foot", "foot of the frame", section, task.depth),
         (
             placement(x, side.floor + edge, z)
             for x in (-beside, beside)
-            for z in (side.column + edge, side.column - edge - task.depth)
+            for z in (axis + edge, axis - edge - task.depth)
         ),
     )
 

@@ -10,7 +10,6 @@ from ilmek.machines.arrangement.side_view import SideBox, SideView
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import FrameTask, LoomFrame, frame_for
 from ilmek.machines.automated_loom.own_parts import carried_tree, frame_tree
-from ilmek.machines.automated_loom.supports import beat_beam
 from ilmek.machines.weaver import head_mass
 from ilmek.part.bill import bill
 from ilmek.part.tree import Tree
@@ -54,7 +53,7 @@ def parts_of_loom(loom: LoomDesign) -> PartsList:
     """The parts list. Raises ParameterError for unreadable prices."""
     prices = read_prices(loom.params.prices)
     carried = (*_of_machines(loom), *bill(carried_tree(loom)))
-    on_posts = sum(part.mass_all for part in loom.beat.parts) if beat_beam(loom) else 0.0
+    on_posts = sum(part.mass_all for part in loom.beat.parts)
     frame = frame_for(frame_task(loom, sum(part.mass_all for part in carried) - on_posts))
     axes = driven_axes(carried)
     lines = (
@@ -79,7 +78,7 @@ def built_side(loom: LoomDesign) -> SideView:
 
 def frame_task(loom: LoomDesign, carried: float) -> FrameTask:
     """The load of this loom's frame, with the mass that its columns carry [kg]; posts bear crank-rockers."""
-    params, cylinder, beat = loom.params, loom.warp_tension, loom.beat
+    params, cylinder = loom.params, loom.warp_tension
     wide = loom.task.width
     return FrameTask(
         width=wide,
@@ -96,7 +95,6 @@ def frame_task(loom: LoomDesign, carried: float) -> FrameTask:
         stress_safety=params.column_safety,
         buckling_safety=params.buckling_safety,
         bow_limit=params.column_bow,
-        along=0.0 if beat_beam(loom) else beat.frame_force,
     )
 
 

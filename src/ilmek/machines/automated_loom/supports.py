@@ -8,23 +8,30 @@ bears the pull of the magnets, across, in its middle.
 
 from collections.abc import Iterator
 
-from ilmek.elements.columns import STEEL, HollowSquare, ascending
+from ilmek.elements.columns import STEEL, HollowSquare, ascending, euler
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import LoomFrame, part_id
 from ilmek.machines.beat_up.beam import POST, BeatBeam
 from ilmek.machines.beat_up.carriage import beam_corner
 from ilmek.machines.beat_up.design import BeatUp
+from ilmek.machines.hammer.tree import beam_of
 from ilmek.machines.weft import Shuttle
 from ilmek.part.part import Part
 from ilmek.part.placement import ALONG_WIDTH, UPRIGHT, placement
 from ilmek.part.shapes import square_tube
 from ilmek.part.tree import Occurrence
 from ilmek.records import record
-from ilmek.report import Check, at_most
+from ilmek.report import Check, at_least, at_most
 from ilmek.units import format_quantity, mm
+
+COLUMN_FRONT = 40 * mm
+"""Front of the columns before the axis of the spacer cylinder [m]: thicker ones reach farther back; assumed here."""
 
 POST_SAFETY = 2.0
 """Of the posts against yielding; assumed by this project."""
+
+BUCKLING = 3.0
+"""Of a post against buckling; assumed by this project."""
 
 POST_SWAY = 1 / 1000
 """Allowed deflection of a post's end over its height; assumed by this project."""
@@ -35,11 +42,14 @@ TUBE_SAG = 0.5 * mm
 
 @record
 class LoomSupports:
-    """Section and height [m] of the posts, section of the tube; None where there is nothing to hold."""
+    """Section, height [m] and force [N] of a post, whether it is across; section of the tube, None where there is none,
+    its span [m] and the pull on it [N].
+    """
 
-    post: HollowSquare | None
+    post: HollowSquare
     height: float
     force: float
+    across: bool
     tube: HollowSquare | None
     span: float
     pull: float
@@ -47,42 +57,47 @@ class LoomSupports:
     @property
     def checks(self) -> tuple[Check, ...]:
         """Strength and stiffness of both."""
-        posts = () if self.post is None else _post_checks(self.post, self.height, self.force)
+        posts = _post_checks(self.post, self.height, self.force, across=self.across)
         return (*posts, *(() if self.tube is None else _tube_checks(self.tube, self.span, self.pull)))
 
 
 def supports(loom: LoomDesign, frame: LoomFrame) -> LoomSupports:
     """The lightest sections that keep their checks; the largest where none does."""
-    beat, made = beat_beam(loom), loom.weft.carried
-    post, height, force = None, 0.0, 0.0
-    if beat is not None:
-        linkage, beam = beat
-        height = beam_corner(linkage).imag - loom.side.floor - frame.column.side
-        force = beam.carried / 2
-        post = next(
-            (one for one in ascending() if all(check.ok for check in _post_checks(one, height, force))), ascending()[-1]
-        )
+    made, (beam, corner) = loom.weft.carried, beat_beam(loom)
+    height, across = corner.imag - loom.side.floor - frame.column.side, loom.beat.crank_rockers > 0
+    # The axes of a comb press along the posts; their beam counts half of what is spread over it.
+    force = beam.carried / 2 if across else beam.carried
+    posts = (one for one in ascending() if all(check.ok for check in _post_checks(one, height, force, across=across)))
+    post = next(posts, ascending()[-1])
     pull = made.coupling.pull if isinstance(made, Shuttle) else 0.0
     tube = None
     if isinstance(made, Shuttle):
         sections = (one for one in ascending() if all(c.ok for c in _tube_checks(one, loom.task.width, pull)))
         tube = next(sections, ascending()[-1])
-    return LoomSupports(post, height, force, tube, loom.task.width, pull)
+    return LoomSupports(post, height, force, across, tube, loom.task.width, pull)
 
 
-def beat_beam(loom: LoomDesign) -> tuple[BeatUp, BeatBeam] | None:
-    """The crank-rocker and the beam that carries all of them; None where there is none."""
+def column_front(loom: LoomDesign) -> float:
+    """Front of the columns, behind the shuttle's bar, whatever their section [m]."""
+    return loom.side.column + COLUMN_FRONT
+
+
+def beat_beam(loom: LoomDesign) -> tuple[BeatBeam, complex]:
+    """The beam that carries what beats, and its lower corner towards the warps in the side view [m]."""
     beat = loom.beat
-    if isinstance(beat.design, BeatUp):
-        return beat.design, beat.use.beam
-    linkage = beat.design.linkage
-    return None if linkage is None else (linkage.one, linkage.beam)
+    return (beat.use.beam, beam_corner(beat.design)) if isinstance(beat.design, BeatUp) else beam_of(beat.design)
 
 
-def _post_checks(section: HollowSquare, height: float, force: float) -> tuple[Check, Check]:
+def _post_checks(section: HollowSquare, height: float, force: float, *, across: bool) -> tuple[Check, ...]:
+    """A force across at the end of a post, or along it, free at its end: buckling of twice its height."""
+    parts = (part_id("beat-post"),)
+    if not across:
+        cure = "set a lower comb_acceleration"
+        share, source = euler(2 * height, section) / force, "Euler's load, assumed by this project"
+        return (at_least("posts of the beat against buckling", share, BUCKLING, "1", source, cure=cure, parts=parts),)
     stress = force * height * section.side / 2 / section.inertia
     sway = force * height**3 / (3 * STEEL.modulus * section.inertia)
-    cure, parts = "set a lower speed of the crank", (part_id("beat-post"),)
+    cure = "set a lower speed of the crank"
     return (
         at_most(
             "stress of a post of the beat",
@@ -122,23 +137,20 @@ def _tube_checks(section: HollowSquare, span: float, pull: float) -> tuple[Check
 def support_bodies(loom: LoomDesign, frame: LoomFrame) -> Iterator[Occurrence]:
     """Posts with what lengthens the feet, and the tube; they belong to the frame's body."""
     held = supports(loom, frame)
-    if held.post is not None:
-        yield from _posts(loom, frame, held.post, held.height)
+    yield from _posts(loom, frame, held.post, held.height)
     if held.tube is not None:
         yield _tube(loom, held.tube)
 
 
 def _posts(loom: LoomDesign, frame: LoomFrame, post: HollowSquare, height: float) -> Iterator[Occurrence]:
-    beat, side, foot = beat_beam(loom), loom.side, frame.column.side
-    assert beat is not None
-    linkage, beam = beat
-    front = beam_corner(linkage).real + beam.section.side / 2
+    (beam, corner), side, foot = beat_beam(loom), loom.side, frame.column.side
+    front = corner.real + beam.section.side / 2
     ends = [(loom.task.width + POST) / 2 * sign for sign in (-1, 1)]
     yield Occurrence(
         _member("beat-post", "post of the beat", post, height),
         tuple(placement(x, side.floor + foot, front).after(UPRIGHT) for x in ends),
     )
-    begin = side.column + foot / 2 + frame.task.depth
+    begin = column_front(loom) + frame.task.depth
     short = front + post.side / 2 - begin
     if short > 0:
         beside = (loom.task.width + foot) / 2

@@ -13,7 +13,9 @@ import numpy as np
 from ilmek.cams.laws import LAWS
 from ilmek.elements.materials import GRAVITY
 from ilmek.machines import beat_up
+from ilmek.machines.arrangement.spans import SPARE
 from ilmek.machines.beat import Beat, BeatDrive, BeatPath, stroke_needed
+from ilmek.machines.beat_up.beam import POST
 from ilmek.machines.beat_up.crank_path import crank_beat, crank_path, rocker_outline
 from ilmek.machines.beat_up.crank_start import CrankStart
 from ilmek.machines.fell_of_loom import USUAL_WARP_LENGTH
@@ -61,7 +63,8 @@ def _of_carpet(task: LoomTask, kind: str) -> HammerParams:
         warp_length=task.side.warp_length if task.side else USUAL_WARP_LENGTH,
         stroke=stroke,
         shed_speed=params.shed_speed,
-        ground=beat_up.ground_for(stroke),
+        ground=beat_up.ground_for(stroke + SPARE * params.clearance),
+        beam_length=task.width + 2 * POST,
         stack_mass=0.0 if kind == "comb" else None,
     )
 

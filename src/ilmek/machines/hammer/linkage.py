@@ -22,7 +22,7 @@ from ilmek.elements.duty import MARGIN
 from ilmek.elements.motors import MOTORS, SERVO
 from ilmek.elements.prices import PRICES
 from ilmek.machines import beat_up
-from ilmek.machines.beat_up.beam import POST, BeatBeam, beam_for
+from ilmek.machines.beat_up.beam import BeatBeam, beam_for
 from ilmek.machines.beat_up.beater import across, rectangle
 from ilmek.machines.beat_up.crank_start import (
     CLUTCH_MASS,
@@ -257,7 +257,7 @@ def linkage_for(params: HammerParams, fabric: Fabric, needed: float) -> CombLink
         inertia_stress=6 * moment / (params.comb_thickness * params.depth**2),
         strength=one.strength,
         start=crank_start(duty, params.start),
-        beam=beam_for(params.width + 2 * POST, mass + number * _links_mass(one), number * frame_force(one.state)),
+        beam=beam_for(params.beam_reach, mass + number * _links_mass(one), number * frame_force(one.state)),
     )
 
 

@@ -7,6 +7,7 @@ from ilmek.cams.laws import SMOOTH_LAWS
 from ilmek.elements.carpet_yarns import usual_warp
 from ilmek.elements.materials import MATERIALS
 from ilmek.errors import ParameterError
+from ilmek.machines.beat_up.beam import POST
 from ilmek.machines.beat_up.use_params import CrankStartParams
 from ilmek.machines.strength_params import StrengthParams
 from ilmek.params import Params, kind, nested
@@ -111,6 +112,12 @@ class HammerParams(Params):
     )
     density: float = kind.density(STEEL.density, at_least=1.0, at_most=25e3, doc="density of the comb")
     strength: float = kind.pressure(235 * MPa, at_least=1 * MPa, at_most=1e10, doc="yield strength of the comb")
+    beam_length: float | None = kind.length(
+        None,
+        at_least=10 * mm,
+        at_most=50.0,
+        doc="length of the beam that carries axes or crank-rockers; default: the width, and posts beside it",
+    )
     leaf_reach: float | None = kind.length(
         None,
         at_least=1 * mm,
@@ -241,6 +248,11 @@ class HammerParams(Params):
     def leaf(self) -> float:
         """Thickness of a leaf [m]."""
         return self.leaf_thickness or 0.4 * self.warp_pitch
+
+    @property
+    def beam_reach(self) -> float:
+        """Length of the beam that carries the axes or the crank-rockers [m]."""
+        return self.beam_length or self.width + 2 * POST
 
     @property
     def reach(self) -> float:

@@ -12,7 +12,9 @@ from functools import lru_cache
 import numpy as np
 
 from ilmek.arrays import ComplexArray
+from ilmek.machines.beat_up.beam import BeatBeam, beam_for
 from ilmek.machines.beat_up.beater import across, rectangle
+from ilmek.machines.beat_up.carriage import beam_corner
 from ilmek.machines.beat_up.parts import depth_of
 from ilmek.machines.beat_up.tree import CARRIAGE, crank_frame, crank_rockers, moving, on_rocker, rocker_position
 from ilmek.machines.hammer.comb import BAR_ID, BEHIND, LEAF_ID
@@ -32,6 +34,13 @@ COMB = "hammer/comb"
 
 AXIS_SIDE = 80 * mm
 """Side of the section of a vertical axis [m]; assumed by this project."""
+
+
+BLOCK_HEIGHT, BLOCK_DEPTH, BLOCK_MASS = 20 * mm, 20 * mm, 1.0
+"""Carriage of a vertical axis: height, least depth [m], mass [kg]; assumed by this project."""
+
+ABOVE_HEADS = 90 * mm
+"""Lower end of the axes over the fell [m]: above heads that knot; assumed by this project."""
 
 
 def tree(hammer: Hammer, motions: Mapping[str, SceneMotion] | None = None) -> Tree:
@@ -103,30 +112,86 @@ def _on_crank_rockers(hammer: Hammer) -> Tree:
     )
 
 
+def beam_of(hammer: Hammer) -> tuple[BeatBeam, complex]:
+    """The beam that carries the crank-rockers, or the vertical axes, and its lower corner towards the warps [m]."""
+    if hammer.linkage is not None:
+        return hammer.linkage.beam, beam_corner(hammer.linkage.one)
+    drive, params = hammer.axis, hammer.params
+    assert drive is not None
+    # Spread over the beam, as if half of it were in the middle.
+    force = float(np.max(np.abs(drive.force)))
+    corner = complex(_before_axes(hammer) + AXIS_SIDE, _low(params))
+    return beam_for(params.beam_reach, drive.mass / 2, force / 2), corner
+
+
+def _beam_before_axes(hammer: Hammer) -> tuple[Occurrence, ...]:
+    beam, corner = beam_of(hammer)
+    middle = corner + beam.section.side / 2 * (1 + 1j)
+    return (Occurrence(beam.part, (placement(middle.real, middle.imag, -beam.length / 2),)),)
+
+
+def _low(params: HammerParams) -> float:
+    """Lower end of the vertical axes over the fell [m]."""
+    return max(params.depth - BLOCK_HEIGHT, ABOVE_HEADS)
+
+
+def _before_axes(hammer: Hammer) -> float:
+    """From the fell to the vertical axes [m]: their carriages lead past the reducers."""
+    params = hammer.params
+    wide = max(_face(part) for part in _driving(hammer))
+    deep = max(BLOCK_DEPTH, (wide - AXIS_SIDE) / 2 + BLOCK_DEPTH / 2)
+    return params.reach + params.comb_thickness + deep
+
+
+@lru_cache(maxsize=4)
+def _driving(hammer: Hammer) -> tuple[Part, ...]:
+    """Reducer and motor of a vertical axis."""
+    found = hammer.axis
+    assert found is not None
+    drive, load = found.drive, found.cycle
+    torque, speed = float(np.max(np.abs(load.torque))), float(np.max(np.abs(load.speed)))
+    row = drive.motor if drive else None
+    motor = catalogue.motor("hammer/motor", "motor of a vertical axis", row, torque, speed)
+    if drive is None:
+        return (motor,)
+    return catalogue.reducer("hammer/reducer", "reducer of a vertical axis", drive.reducer.ratio, row), motor
+
+
+def _face(part: Part) -> float:
+    """Width of a motor or reducer [m]."""
+    assert part.shape is not None
+    return float(np.ptp(np.concatenate(part.shape.pieces(mm))[:, 0]))
+
+
 @lru_cache(maxsize=4)
 def _on_axes(hammer: Hammer) -> Tree:
-    params, found = hammer.params, hammer.axis
-    assert found is not None
-    number, drive, load = params.axis_count, found.drive, found.cycle
-    torque, speed = float(np.max(np.abs(load.torque))), float(np.max(np.abs(load.speed)))
-    row, front = drive.motor if drive else None, params.reach + params.comb_thickness + AXIS_SIDE / 2
+    params, (*geared, motor) = hammer.params, _driving(hammer)
+    number, low, before = params.axis_count, _low(params), params.reach + params.comb_thickness
     axis = Part(
         "hammer/axis",
         "vertical axis",
         "linear axis",
         params.axis,
-        box(AXIS_SIDE, AXIS_SIDE, params.stroke),
+        box(AXIS_SIDE, AXIS_SIDE, params.stroke + BLOCK_HEIGHT),
         purchase=Bought(params.axis, length=params.stroke),
         envelope=True,
     )
-    geared = (
-        (catalogue.reducer("hammer/reducer", "reducer of a vertical axis", drive.reducer.ratio, row),) if drive else ()
-    )
-    motor = catalogue.motor("hammer/motor", "motor of a vertical axis", row, torque, speed)
     edge = params.width / 2 - params.inset
     stations = np.linspace(-edge, edge, number) if number > 1 else np.zeros(1)
     upright = placement(about=(1.0, 0.0, 0.0), angle=-math.pi / 2)
-    top = params.stroke + (depth_of(geared[0]) if geared else 0.0)
+    deep = _before_axes(hammer) - before
+    front, end = before + deep + AXIS_SIDE / 2, low + params.stroke + BLOCK_HEIGHT
+    top = end + (depth_of(geared[0]) if geared else 0.0)
+    block = Part(
+        "hammer/carriage",
+        "carriage of a vertical axis",
+        "guide carriage",
+        shape=box(deep, low + BLOCK_HEIGHT - (params.depth - BLOCK_HEIGHT), AXIS_SIDE),
+        purchase=Bought("carriage of the vertical axis", BLOCK_MASS),
+        envelope=True,
+    )
+    middle = (low + params.depth) / 2
+    blocks = tuple(placement(before + deep / 2, middle, float(z) - AXIS_SIDE / 2) for z in stations)
     flipped = placement(about=(1.0, 0.0, 0.0), angle=math.pi / 2)
 
     def standing(height: float) -> tuple[Placement, ...]:
@@ -135,10 +200,11 @@ def _on_axes(hammer: Hammer) -> Tree:
     axes = RigidBody(
         "hammer/axes",
         (
-            Occurrence(axis, standing(0.0)),
-            *(Occurrence(part, standing(params.stroke)) for part in geared),
+            *_beam_before_axes(hammer),
+            Occurrence(axis, standing(low)),
+            *(Occurrence(part, standing(end)) for part in geared),
             Occurrence(motor, tuple(placement(front, top, float(z)).after(flipped) for z in stations)),
         ),
-        joint=Joint(JointKind.MISSING),
     )
-    return Tree((axes, RigidBody(COMB, _comb(hammer), axes.id, Joint(JointKind.SLIDE, (0.0, 1.0, 0.0)))))
+    comb = (*_comb(hammer), Occurrence(block, blocks))
+    return Tree((axes, RigidBody(COMB, comb, axes.id, Joint(JointKind.SLIDE, (0.0, 1.0, 0.0)))))
