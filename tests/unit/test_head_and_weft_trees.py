@@ -26,6 +26,7 @@ from ilmek.machines.weaver.tree import CAM_SHAFT, head_tree
 from ilmek.machines.weft import MACHINE as WEFT
 from ilmek.machines.weft import Rapier, Shuttle, WeftParams
 from ilmek.machines.weft.carriers import BOBBIN, FITTINGS, MAGNET, RAPIER_TUBE, SHUTTLE_WOOD
+from ilmek.machines.weft.tree import DRAGGING
 from ilmek.part.part import Part
 from ilmek.part.tree import Tree
 from ilmek.plane.solids import bounds, is_closed, volume
@@ -183,7 +184,7 @@ def test_a_shuttle_is_hollow_by_its_bobbin_and_full_with_it() -> None:
     assert carried.full == pytest.approx(full, rel=1e-4)
     low, high = bounds(wood.shape.mesh())
     assert high - low == pytest.approx([carried.length, carried.width, carried.depth], abs=1e-9)
-    assert made.axis.mass >= carried.full + made.params.carriage_mass
+    assert made.axis.mass >= carried.full + made.bodies.tree.body(DRAGGING).moments.zeroth
 
 
 def test_a_rapier_weighs_its_tube_and_gripper() -> None:

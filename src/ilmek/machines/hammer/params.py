@@ -122,7 +122,7 @@ class HammerParams(Params):
         None,
         at_least=1 * mm,
         at_most=1.0,
-        doc="leaf from its root to the fell; default: 80 mm, before the guide cams; 30 mm on crank-rockers",
+        doc="leaf from its root to the fell; default: 80 mm, before the guide cams; 14 mm on crank-rockers",
     )
     leaf_height: float = kind.length(20 * mm, at_least=0.5 * mm, at_most=0.5, doc="height of a leaf, along the beat")
     leaf_thickness: float | None = kind.length(
@@ -257,7 +257,7 @@ class HammerParams(Params):
     @property
     def reach(self) -> float:
         """Leaf from its root to the fell [m]: as given, or as usual of the drive."""
-        return self.leaf_reach or (30 * mm if self.drive == "linkage" else 80 * mm)
+        return self.leaf_reach or (14 * mm if self.drive == "linkage" else 80 * mm)
 
     @property
     def rockers(self) -> int:

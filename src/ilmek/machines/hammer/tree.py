@@ -5,7 +5,7 @@ the linkage (`beat_up.tree`). The middle of the width is at z = 0; bodies lie at
 """
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
 
@@ -15,19 +15,23 @@ from ilmek.arrays import ComplexArray
 from ilmek.machines.beat_up.beam import BeatBeam, beam_for
 from ilmek.machines.beat_up.beater import across, rectangle
 from ilmek.machines.beat_up.carriage import beam_corner
+from ilmek.machines.beat_up.links import BESIDE, layer
 from ilmek.machines.beat_up.parts import depth_of
 from ilmek.machines.beat_up.tree import CARRIAGE, crank_frame, crank_rockers, moving, on_rocker, rocker_position
 from ilmek.machines.hammer.comb import BAR_ID, BEHIND, LEAF_ID
 from ilmek.machines.hammer.design import Hammer
 from ilmek.machines.hammer.linkage import bracket
 from ilmek.machines.hammer.params import STEEL, HammerParams
+from ilmek.machines.linkage_strength import FLAT_BARS
 from ilmek.part import catalogue
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import Placement, placement
-from ilmek.part.shapes import box
+from ilmek.part.profile import Profile
+from ilmek.part.shapes import Placed, Prism, Sum, box
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
+from ilmek.plane.contours import polygon
 from ilmek.report.scene import SceneMotion
-from ilmek.units import mm
+from ilmek.units import format_quantity, mm
 
 COMB = "hammer/comb"
 """Body of the comb."""
@@ -38,6 +42,9 @@ AXIS_SIDE = 80 * mm
 
 BLOCK_HEIGHT, BLOCK_DEPTH, BLOCK_MASS = 20 * mm, 20 * mm, 1.0
 """Carriage of a vertical axis: height, least depth [m], mass [kg]; assumed by this project."""
+
+ABOVE_PILE = 12 * mm
+"""Bar of a comb on crank-rockers over its striking edge [m]; assumed by this project."""
 
 ABOVE_HEADS = 90 * mm
 """Lower end of the axes over the fell [m]: above heads that knot; assumed by this project."""
@@ -50,18 +57,39 @@ def tree(hammer: Hammer, motions: Mapping[str, SceneMotion] | None = None) -> Tr
 
 
 def outline(params: HammerParams) -> tuple[ComplexArray, ...]:
-    """The comb in the side view [m]: its leaves through the warps, the bar in front of their roots, ballast on it."""
+    """The comb in the side view [m]: its leaves through the warps, the bar in front of their roots, ballast before it.
+
+    On crank-rockers the bar is above the pile, so that it may stand nearer to the warps, clear of the coupler.
+    """
     front, deep = params.reach, params.comb_thickness
-    comb = rectangle(-BEHIND, front, 0.0, params.leaf_height), rectangle(front, front + deep, 0.0, params.depth)
+    low = ABOVE_PILE if params.drive == "linkage" else 0.0
+    bar = rectangle(front, front + deep, low, low + params.depth)
+    comb = rectangle(-BEHIND, front, 0.0, params.leaf_height), bar
     ballast = params.ballast or 0.0
     if params.drive != "linkage" or not ballast:
         return comb
-    high = ballast / (STEEL.density * params.width * deep)
-    return (*comb, rectangle(front, front + deep, params.depth, params.depth + high))
+    side = math.sqrt(ballast / (STEEL.density * math.fsum(high - first for first, high in _between(params))))
+    return (*comb, rectangle(front + deep, front + deep + side, low, low + side))
+
+
+def rocker_stations(params: HammerParams) -> tuple[float, ...]:
+    """Middles of the rockers across the width, 0 in its middle [m]."""
+    return tuple(params.width * ((k + 0.5) / params.rockers - 0.5) for k in range(params.rockers))
+
+
+def _between(params: HammerParams) -> Iterator[tuple[float, float]]:
+    """Spans of the width between the planes of the links, where the bar's front is free [m]."""
+    thickness = params.link_thickness or FLAT_BARS[0][1]
+    ends = [-params.width / 2]
+    for station in rocker_stations(params):
+        first = station - (1 + BESIDE) * thickness
+        ends += [max(first, ends[-1]), station + layer("plate", thickness) + thickness]
+    ends.append(params.width / 2)
+    return ((low, high) for low, high in zip(ends[::2], ends[1::2], strict=True) if high > low)
 
 
 def _comb(hammer: Hammer) -> tuple[Occurrence, ...]:
-    """Bar and leaves, the bar's ballast on it; the axes of the side view, 0 where the leaves strike."""
+    """Bar and leaves, the bar's ballast before it; the axes of the side view, 0 where the leaves strike."""
     params, steel = hammer.params, replace(STEEL, density=hammer.params.density)
     leaf, bar, *ballast = outline(params)
     number, wide, middle = params.warps - 1, params.width, (placement(z=-params.width / 2),)
@@ -71,13 +99,16 @@ def _comb(hammer: Hammer) -> tuple[Occurrence, ...]:
         Occurrence(across(BAR_ID, "comb of the hammer", "steel bar", bar, wide, steel), middle),
         Occurrence(leaves, tuple(placement(z=float(z)) for z in stations)),
     )
-    return (
-        *comb,
-        *(
-            Occurrence(across("hammer/ballast", "ballast of the comb", "steel bar", section, wide), middle)
-            for section in ballast
-        ),
+    return (*comb, *(Occurrence(_ballast(params, section)) for section in ballast))
+
+
+def _ballast(params: HammerParams, section: ComplexArray) -> Part:
+    """Bars between the links; z is turned where the comb is on its rockers, so that they lie mirrored here."""
+    bars = (
+        Placed(Prism(Profile(polygon(section)), high - low), (placement(z=-high),)) for low, high in _between(params)
     )
+    side = format_quantity(float(np.ptp(section.real)), "mm", 4)
+    return Part("hammer/ballast", "ballast of the comb", "steel bar", f"square {side}", Sum(tuple(bars)), STEEL)
 
 
 def _brackets(hammer: Hammer, stations: Sequence[float]) -> Occurrence:
@@ -91,10 +122,10 @@ def _brackets(hammer: Hammer, stations: Sequence[float]) -> Occurrence:
 
 @lru_cache(maxsize=4)
 def _on_crank_rockers(hammer: Hammer) -> Tree:
-    linkage, wide = hammer.linkage, hammer.params.width
+    linkage = hammer.linkage
     assert linkage is not None
-    one, number = linkage.one, linkage.number
-    stations = tuple(wide * ((k + 0.5) / number - 0.5) for k in range(number))
+    one = linkage.one
+    stations = rocker_stations(hammer.params)
     parts = (*_comb(hammer), _brackets(hammer, stations))
     comb = RigidBody(
         COMB,
