@@ -36,7 +36,7 @@ def test_unasked_design_meets_every_check() -> None:
     said = answer()
     assert not said.failed
     assert not said.warnings
-    assert len(said.checks) == 26
+    assert len(said.checks) == 29
     assert len(said.self_tests) == 3
     assert "at" not in said.as_json()["results"]
 

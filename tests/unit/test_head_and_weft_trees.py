@@ -26,7 +26,8 @@ from ilmek.machines.weaver.tool_parts import OPENER_PLATE
 from ilmek.machines.weaver.tree import CAM_SHAFT, head_tree
 from ilmek.machines.weft import MACHINE as WEFT
 from ilmek.machines.weft import Rapier, Shuttle, WeftParams
-from ilmek.machines.weft.carriers import BOBBIN, FITTINGS, RAPIER_TUBE, SHUTTLE_WOOD
+from ilmek.machines.weft.carriers import BOBBIN, FITTINGS, MAGNET, RAPIER_TUBE, SHUTTLE_WOOD
+from ilmek.machines.weft.tree import DRAGGING
 from ilmek.part.part import Part
 from ilmek.part.tree import Tree
 from ilmek.plane.solids import bounds, is_closed, volume
@@ -169,7 +170,7 @@ def _outline(part: Part) -> Outline:
 
 
 def test_a_shuttle_is_hollow_by_its_bobbin_and_full_with_it() -> None:
-    """By its mesh; the fittings are half in each nose."""
+    """By its mesh; a magnet in each nose, an eye in each end wall."""
     made = WEFT.design(WeftParams(carrier="shuttle"))
     carried = made.carried
     assert isinstance(carried, Shuttle)
@@ -178,13 +179,13 @@ def test_a_shuttle_is_hollow_by_its_bobbin_and_full_with_it() -> None:
     assert wood.shape is not None
     assert core.shape is not None
     beech = made.params.shuttle_density
-    empty = volume(wood.shape.mesh(1e-7)) * beech + 2 * parts[FITTINGS].mass
+    empty = volume(wood.shape.mesh(1e-7)) * beech + 2 * (parts[FITTINGS].mass + parts[MAGNET].mass)
     assert carried.empty == pytest.approx(empty, rel=1e-4)
     full = empty + volume(core.shape.mesh(1e-7)) * beech + max(one.mass for one in carried.windings)
     assert carried.full == pytest.approx(full, rel=1e-4)
     low, high = bounds(wood.shape.mesh())
     assert high - low == pytest.approx([carried.length, carried.width, carried.depth], abs=1e-9)
-    assert made.axis.mass >= carried.full + made.params.carriage_mass
+    assert made.axis.mass >= carried.full + made.bodies.tree.body(DRAGGING).moments.zeroth
 
 
 def test_a_rapier_weighs_its_tube_and_gripper() -> None:

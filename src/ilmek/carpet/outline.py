@@ -16,12 +16,15 @@ import itertools
 from collections.abc import Sequence
 
 import numpy as np
+import scipy
 
-from ilmek.arrays import FloatArray, Rgb
+from ilmek.arrays import BoolArray, Float, FloatArray, Rgb
 from ilmek.carpet.colour import srgb_to_lab
+from ilmek.carpet.design import resampled
 from ilmek.carpet.floor import BLACK, evened, floor_difference
 from ilmek.carpet.paper.sheet import squared_paper
 from ilmek.carpet.picture_points import Points
+from ilmek.carpet.projection import MadeRgb
 from ilmek.carpet.straight_edges import (
     Band,
     Edge,
@@ -37,6 +40,7 @@ from ilmek.carpet.straight_edges import (
     unlike_in_any_light,
 )
 from ilmek.errors import PictureError
+from ilmek.plane.curves import hull
 from ilmek.progress import SILENT, Progress
 from ilmek.sentences import Sentence
 
@@ -265,3 +269,70 @@ def _unclear(reason: str, corners: Points | None = None) -> PictureError:
         allowed=Sentence("picture.outline-allowed"),
         do=Sentence("picture.outline-do" if corners is None else "picture.outline-paste", corners=points),
     )
+
+
+def _reduced(rgb: Rgb, long: int, progress: Progress) -> MadeRgb:
+    factor = max(rgb.shape[:2]) / long
+    if factor <= 1:
+        return rgb
+    return resampled(rgb, max(1, round(rgb.shape[0] / factor)), max(1, round(rgb.shape[1] / factor)), progress)
+
+
+def _region(difference: FloatArray, step: int) -> BoolArray:
+    """The carpet in the picture reduced by `step`: the largest region above the margin's difference.
+
+    Or all large ones, where they fill one quadrilateral: a stripe of the floor's colour divides the carpet.
+    """
+    rows, columns = (side // step * step for side in difference.shape)
+    blocks = difference[:rows, :columns].reshape(rows // step, step, columns // step, step)
+    mask = scipy.ndimage.binary_fill_holes(blocks.mean(axis=(1, 3)) > _PLAIN)
+    radius = max(1, round(0.012 * max(mask.shape)))
+    mask = scipy.ndimage.binary_opening(mask, np.ones((2 * radius + 1, 2 * radius + 1), dtype=bool))
+    labels, count = scipy.ndimage.label(mask)
+    if count == 0:
+        raise _unclear("nothing differs from the margin of the picture")
+    areas = np.bincount(labels.ravel())
+    areas[0] = 0
+    if areas.max() < _LEAST_AREA * mask.size:
+        raise _unclear("what differs from the margin of the picture is too small")
+    largest: BoolArray = scipy.ndimage.binary_fill_holes(labels == areas.argmax())
+    parts = np.flatnonzero(areas > _LEAST_PART * areas.max())
+    together = np.isin(labels, parts)
+    if len(parts) > 1 and _common_share(together, _largest_quadrilateral(_hull(together))) > _LEAST_TOGETHER:
+        return together
+    return largest
+
+
+def _hull(region: BoolArray) -> Points:
+    """Corners of the convex hull of a region, clockwise in the picture, whose y points down."""
+    rows = np.flatnonzero(region.any(axis=1))
+    left, right = region.argmax(axis=1)[rows], region.shape[1] - region[:, ::-1].argmax(axis=1)[rows]
+    upper = np.concatenate([left, right]) + 1j * np.concatenate([rows, rows])
+    corners = hull(np.concatenate([upper, upper + 1j]))
+    return np.stack([corners.real, corners.imag], axis=1)
+
+
+def _largest_quadrilateral(polygon: Points) -> Float[np.ndarray, "4 2"]:
+    """The largest quadrilateral with corners among those of a convex polygon, clockwise from the upper left."""
+    if len(polygon) < 4:
+        raise _unclear("what differs from the margin of the picture has no four corners")
+    polygon = polygon[:: -(-len(polygon) // 120)] if len(polygon) > 120 else polygon
+    x, y = polygon.T
+    largest, corners = -1.0, (0, 1, 2, 3)
+    for begin, end in itertools.combinations(range(len(polygon)), 2):
+        side = (x[end] - x[begin]) * (y - y[begin]) - (y[end] - y[begin]) * (x - x[begin])
+        if (area := float(side.max() - side.min())) > largest:
+            largest, corners = area, (begin, int(side.argmin()), end, int(side.argmax()))
+    chosen = polygon[list(corners)]
+    centre = chosen.mean(axis=0)
+    chosen = chosen[np.argsort(np.arctan2(*(chosen - centre).T[::-1]), kind="stable")]
+    return np.asarray(np.roll(chosen, -int(chosen.sum(axis=1).argmin()), axis=0))
+
+
+def _common_share(region: BoolArray, corners: Points) -> float:
+    """Area that region and quadrilateral have in common, of the area of both."""
+    y, x = np.mgrid[0.5 : region.shape[0], 0.5 : region.shape[1]]
+    inside = np.ones(region.shape, dtype=bool)
+    for (ax, ay), (bx, by) in zip(corners.tolist(), np.roll(corners, -1, axis=0).tolist(), strict=True):
+        inside &= (bx - ax) * (y - ay) - (by - ay) * (x - ax) >= 0
+    return int(np.count_nonzero(inside & region)) / max(1, int(np.count_nonzero(inside | region)))

@@ -11,7 +11,7 @@ import math
 from dataclasses import dataclass
 
 from ilmek.elements.beam import uniform
-from ilmek.elements.materials import MATERIALS
+from ilmek.elements.materials import GRAVITY, MATERIALS
 from ilmek.units import format_quantity, mm
 
 STEEL = MATERIALS["structural steel"]
@@ -84,3 +84,19 @@ def eccentric(force: float, lever: float, height: float, section: HollowSquare) 
 def euler(height: float, section: HollowSquare) -> float:
     """Load at which a column pinned at both ends buckles [N]: pi^2 E I / h^2."""
     return math.pi**2 * STEEL.modulus * section.inertia / height**2
+
+
+def mid_loaded(section: HollowSquare, span: float, force: float) -> tuple[float, float]:
+    """Deflection [m] and stress [Pa] of a simply supported beam under its own weight and a force in its middle [N].
+
+    F l^3 / (48 E I) + 5 q l^4 / (384 E I),   (F l / 4 + q l^2 / 8) c / I          [elements.beam; theory of beams]
+    """
+    own, stiff = section.line_mass * GRAVITY, STEEL.modulus * section.inertia
+    sag = force * span**3 / (48 * stiff) + uniform.deflection_max(own, span, STEEL.modulus, section.inertia)
+    moment = force * span / 4 + uniform.moment_max(own, span)
+    return float(sag), float(uniform.bending_stress(moment, section.side / 2, section.inertia))
+
+
+def ascending() -> tuple[HollowSquare, ...]:
+    """All sections in ascending order of their mass."""
+    return tuple(sorted((HollowSquare(*size) for size in SECTIONS), key=lambda section: section.area))

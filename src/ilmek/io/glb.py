@@ -90,10 +90,13 @@ def glb_bytes(scene: Scene | Assembly) -> bytes:
             children += [
                 made.node(name=part.title, mesh=mesh, extras=_extras(part)) for part, mesh in parts[frame.name]
             ]
-            phase = 0.0 if frame.phases is None else float(frame.phases[index])
+            phase, moved_by = 0.0 if frame.phases is None else float(frame.phases[index]), np.zeros(3)
+            if frame.motion is not None:
+                # At rest a motion stands at the zero of its cyclogram.
+                phase, moved_by = phase + float(frame.motion.rotation[0]), frame.motion.shift[0]
             number = made.node(
                 name=frame.name,
-                translation=origin.tolist(),
+                translation=(origin + moved_by).tolist(),
                 rotation=_quaternions(frame.axis, np.array([phase]))[0].tolist() if phase else None,
                 children=children or None,
             )

@@ -79,6 +79,11 @@ class BeatPath:
         return np.asarray(tip[:, None] + points * (turned / np.abs(turned))[:, None])
 
     @property
+    def rise(self) -> float:
+        """Greatest height of the tip above the fell [m]."""
+        return float(self.tip.imag.max())
+
+    @property
     def at_rest(self) -> tuple[ComplexArray, ...]:
         """The outline where the beat begins [m]."""
         return tuple(self.carried(polygon, self.tip[:1])[0] for polygon in self.outline)
@@ -154,13 +159,13 @@ class BeatDrive:
             "force that the rows need, 5 % less allowed; fabric assumed by this project: hammer.packing, laid_pitch"
         )
         cure = "set beat=auto, a lower tension, or a coarser quality along"
-        stroke = "room for the weft above the fell"
+        stroke = "height above the fell: room for the weft"
         return (
             at_least(
                 "beat: force of a warp", self.beat_force_warp, needed, "N", source, cure=cure, parts=self.striking
             ),
             at_least(
-                *("beat: stroke", self.beat.stroke, stroke_needed(self.task), "mm", stroke),
+                *("beat: stroke", self.path.rise, stroke_needed(self.task), "mm", stroke),
                 cure="set a larger stroke",
                 parts=self.striking,
             ),

@@ -1,12 +1,15 @@
-"""Bought parts from the rows of catalogues, each with the room that it takes: motors, reducers, bearings."""
+"""Bought parts from the rows of catalogues, each with the room that it takes: motors, reducers, bearings, guides."""
+
+import numpy as np
 
 from ilmek.elements.bearing_table import RollingBearing
+from ilmek.elements.linear_guides import LinearGuide
 from ilmek.elements.motors import Motor
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Placed, Prism, Sum, box, rectangle, tube
-from ilmek.plane.contours import circle
+from ilmek.plane.contours import circle, polygon
 from ilmek.units import format_quantity, mm
 
 SPECIAL_FACE = 80 * mm
@@ -58,3 +61,22 @@ def bearing(name: str, title: str, row: RollingBearing) -> Part:
 def _flange(row: RollingBearing) -> Placed:
     """The housing's flange about the outer ring."""
     return Placed(Prism(Profile(rectangle(row.flange, row.flange), (circle(0j, row.outer / 2),)), FLANGE))
+
+
+def guide_rail(name: str, title: str, row: LinearGuide, length: float) -> Part:
+    """The rail of a linear guide along z, its base on y = 0, upwards."""
+    section = polygon(rectangle(row.rail, row.rail_height).points + 0.5j * row.rail_height)
+    bought = Bought(f"rail {row.name}", row.line_mass * length, length=length)
+    return Part(
+        name, title, "linear guide", format_quantity(length, "mm", 4), Prism(Profile(section), length), purchase=bought
+    )
+
+
+def guide_block(name: str, title: str, row: LinearGuide) -> Part:
+    """The carriage of a linear guide along z from z = 0, over its rail, whose base is on y = 0."""
+    half, inner, low = row.block / 2, row.rail / 2, row.height / 5
+    corners = [-half, -inner, -inner, inner, inner, half, half, -half]
+    heights = [low, low, row.rail_height, row.rail_height, low, low, row.height, row.height]
+    section = Profile(polygon(np.array(corners) + 1j * np.array(heights)))
+    shape = Prism(section, row.block_length)
+    return Part(name, title, "guide carriage", shape=shape, purchase=Bought(f"carriage {row.name}", row.block_mass))

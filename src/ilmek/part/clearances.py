@@ -275,7 +275,7 @@ class _Pair:
         if not any(travel[-1] for travel in self.first.travels[: self.shared]):
             return self.gaps
         seen = _gaps(self.first.boxes(self.shared), self.other.boxes(self.shared)[None])[0]
-        return np.maximum(self.gaps, seen)
+        return np.asarray(np.maximum(self.gaps, seen))
 
     @cached_property
     def moved(self) -> FloatArray:

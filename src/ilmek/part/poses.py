@@ -188,14 +188,14 @@ class _Pivot:
             return np.asarray(np.linalg.norm(shift, axis=1))
         outside = shift @ turned.T
         if self.axis is None:
-            return np.abs(outside[:, axis])
+            return np.asarray(np.abs(outside[:, axis]))
         own, rest = self.axis[axis], np.linalg.norm(np.cross(outside, self.axis), axis=1)
         return np.asarray(np.abs(outside @ self.axis) * abs(own) + rest * math.sqrt(max(1 - own**2, 0.0)))
 
 
 def _unit(axis: Sequence[float]) -> FloatArray:
     vector = np.array(axis, dtype=float)
-    return vector / np.linalg.norm(vector)
+    return np.asarray(vector / np.linalg.norm(vector))
 
 
 def _largest_shift(motion: SceneMotion | None) -> float:

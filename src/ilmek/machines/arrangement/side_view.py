@@ -14,12 +14,13 @@
 The lower cylinder has room for the whole carpet; only what lies between it and the spacer stays flat [thesis 3.1].
 """
 
+import cmath
 import math
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ilmek.arrays import Complex, ComplexArray
+from ilmek.arrays import ComplexArray
 from ilmek.machines.arrangement.spans import (
     BAR,
     LEAF_BEHIND,
@@ -34,7 +35,7 @@ from ilmek.machines.arrangement.spans import (
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.head_shape import HeadShape
 from ilmek.records import computed, record, result
-from ilmek.units import mm
+from ilmek.units import deg, mm
 
 if TYPE_CHECKING:
     from ilmek.machines.beat import BeatPath
@@ -55,11 +56,12 @@ ABOVE_CYLINDER = 50 * mm
 _HALF_HOUSING = 90 * mm
 """Half of the housing of a cylinder's bearing, at most [m]."""
 
-SWING_ROOM = 15 * mm
-"""Room for a comb that swings to the front, before its path is known [m]."""
-
 RAIL = 80 * mm
 """Side of the heads' rail in the side view, before the frame is designed [m]."""
+
+
+RETREAT = cmath.exp(-55j * deg)
+"""Direction in which the heads retreat, in the side view: down and to the front; assumed by this project."""
 
 
 @record
@@ -114,7 +116,9 @@ class SideView:
     pile: float
     head: HeadShape
     rail: SideBox
-    retreat: float = result("mm", "retreat of the heads from the warps for wefts and beats", name="head_retreat")
+    retreat: float = result(
+        "mm", "retreat of the heads for wefts and beats, down and to the front", name="head_retreat"
+    )
 
     front_span = computed("mm", "from the fell to the lowest cam shaft", lambda it: it.spans.front[0])
     back_span = computed("mm", "from the highest cam shaft to the back rest", lambda it: it.spans.back[-1])
@@ -140,7 +144,7 @@ class SideView:
             *(one.at.real - one.radius for one in (self.upper, self.spacer)),
             self.lower.at.real - self.roll,
         )
-        return (self.rail.corner + self.rail.size).real + self.retreat - rear
+        return (self.rail.corner + self.rail.size + self.retreat * RETREAT).real - rear
 
     @property
     def lift(self) -> float:
@@ -209,7 +213,7 @@ def laid_out(task: "LoomTask", path: "BeatPath | None" = None) -> SideView:
         pile=head.drawn / 2,
         head=shape,
         rail=SideBox(complex(shape.front, case.imag - (shape.size.imag + RAIL) / 2), complex(RAIL, RAIL)),
-        retreat=max(0.0, _front(comb, path, shape.top + room.clearance) + room.clearance - shape.reach),
+        retreat=(shape.top + room.clearance + below(path)) / -RETREAT.imag,
     )
 
 
@@ -232,25 +236,11 @@ def _comb(room: ShedRoom, spans: ShedSpans, path: "BeatPath | None") -> tuple[Co
     return rectangle(leaves), rectangle(SideBox(complex(LEAF_REACH, spans.comb), complex(BAR, room.leaf_height)))
 
 
-def _front(comb: tuple[ComplexArray, ...], path: "BeatPath | None", top: float) -> float:
-    """The greatest x of what beats while it is below a height above the fell [m]; 0: it never is.
-
-    Without its path: that of a usual comb on a swinging arm.
-    """
+def below(path: "BeatPath | None") -> float:
+    """How far what beats reaches below the fell [m]: the heads stand lower meanwhile."""
     if path is None:
-        return max(float(polygon.real.max()) for polygon in comb) + SWING_ROOM
-    return max(_front_below(path.carried(polygon, path.tip), top) for polygon in path.outline)
-
-
-def _front_below(polygons: Complex[np.ndarray, "samples corners"], top: float) -> float:
-    """The greatest x of convex polygons up to a height [m], at a corner or where an edge crosses it; 0: all above."""
-    following = np.roll(polygons, -1, axis=1)
-    rise = following.imag - polygons.imag
-    share = np.divide(top - polygons.imag, rise, out=np.zeros(rise.shape), where=rise != 0)
-    crossing = polygons + share * (following - polygons)
-    crossed = (share > 0) & (share < 1)
-    corners = float(polygons.real[polygons.imag <= top].max(initial=0.0))
-    return max(corners, float(crossing.real[crossed].max(initial=0.0)))
+        return 0.0
+    return max(0.0, -min(float(path.carried(polygon, path.tip).imag.min()) for polygon in path.outline))
 
 
 def _lower_cylinders(task: "LoomTask", radius: float, head: Weaver) -> tuple[RoundPart, RoundPart, float]:

@@ -129,7 +129,7 @@ def _nearest_table(found: LoomAssembly) -> Table:
     """The nearest pairs of parts; below 0 they are through each other, by the mean depth of what they share."""
     titles, apart = _titles(found.loom), (pair for pair in found.nearest if pair.moving and pair.distance >= 0)
     rows = tuple(
-        (*(titles[part] for part in pair.parts), pair.distance, pair.drive, pair.angle)
+        (titles[pair.parts[0]], titles[pair.parts[1]], pair.distance, pair.drive, pair.angle)
         for pair in (*found.through, *apart)[: 3 * NEAREST]
     )
     heads = columns("part", "and", "least [mm]", "cyclogram", "at [deg]")

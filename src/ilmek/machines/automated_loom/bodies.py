@@ -7,7 +7,7 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.machines.arrangement.clearances import ConvexPart, MovingBody, moving, standing
-from ilmek.machines.arrangement.side_view import CamPosition, RoundPart, SideBox, SideView, rectangle
+from ilmek.machines.arrangement.side_view import RETREAT, CamPosition, RoundPart, SideBox, SideView, rectangle
 from ilmek.machines.automated_loom.cyclogram import BEATER, EVEN, HEADS, ODD, weft_windows
 from ilmek.machines.beat import BeatPath
 from ilmek.machines.weaver.head_shape import HeadTool
@@ -33,7 +33,7 @@ def row_bodies(side: SideView, row: Cyclogram, beat: BeatPath, *, stack: bool) -
 
     beat   path of what beats        stack  whether the cams go down with it
     """
-    down, away = beat_displacement(beat, row), _along(row.track(HEADS), 1 + 0j)
+    down, away = beat_displacement(beat, row), _along(row.track(HEADS), RETREAT)
     windows = weft_windows(row)
     return (
         *_sheets(side, row),

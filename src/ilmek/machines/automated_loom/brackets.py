@@ -127,7 +127,7 @@ class Brackets:
 @lru_cache(maxsize=4)
 def brackets_of(loom: LoomDesign) -> Brackets:
     """The brackets of a loom, of the heights that their loads need."""
-    side, far = loom.side, loom.warp_tension.params.width / 2 + loom.warp_tension.params.stub
+    side, far = loom.side, loom.warp_tension.params.span / 2 + loom.warp_tension.params.stub
     upper, lower, spacer = cylinders(loom.warp_tension)
     pull = math.sqrt(2) * loom.warp_tension.loads.worst
     beam = _beam(loom, pull)

@@ -19,7 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.elements.beam import uniform
-from ilmek.elements.columns import SECTIONS, STEEL, HollowSquare, eccentric, euler
+from ilmek.elements.columns import STEEL, HollowSquare, ascending, eccentric, euler
 from ilmek.elements.materials import GRAVITY
 from ilmek.records import computed, record, result
 from ilmek.report import Alternative, Check, Choice, at_least, at_most, choose
@@ -108,7 +108,7 @@ def _chosen(
     task: FrameTask, name: str, checks_of: Callable[[FrameTask, HollowSquare], tuple[Check, ...]]
 ) -> tuple[HollowSquare, Choice]:
     """The lightest section that keeps its checks, or the largest, and the choice."""
-    sections = sorted((HollowSquare(*size) for size in SECTIONS), key=lambda section: section.area)
+    sections = ascending()
     candidates = [Alternative(section.name, checks_of(task, section)) for section in sections]
     index, choice = choose(f"frame_{name}", candidates)
     if not candidates[index].failed:

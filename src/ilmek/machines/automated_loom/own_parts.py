@@ -3,8 +3,11 @@
 Axes of the scene: x along the width, 0 in the middle of the cloth, y up from the fell, z to the front.
 """
 
+import cmath
+
 from ilmek.elements.drive_parts import PULLEY
 from ilmek.elements.motors import smallest_motor
+from ilmek.machines.arrangement.side_view import RETREAT
 from ilmek.machines.automated_loom.cyclogram import HEADS
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import LoomFrame, part_id
@@ -53,10 +56,11 @@ def _retreat(loom: LoomDesign) -> RigidBody:
     )
     middle = _rail_middle(loom)
     beside = loom.task.width / 2 + _AXIS / 2
-    ends = [placement(x, middle.imag, middle.real) for x in (-beside, beside)]
+    slope = -cmath.phase(RETREAT)
+    ends = [placement(x, middle.imag, middle.real, about=(1.0, 0.0, 0.0), angle=slope) for x in (-beside, beside)]
     return RigidBody(
         part_id("retreat"),
-        (Occurrence(axis, tuple(ends)), Occurrence(motor, (placement(beside, middle.imag, middle.real),))),
+        (Occurrence(axis, tuple(ends)), Occurrence(motor, tuple(ends[1:]))),
         joint=_MISSING,
     )
 

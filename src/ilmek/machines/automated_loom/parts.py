@@ -56,7 +56,8 @@ def parts_of_loom(loom: LoomDesign) -> PartsList:
     """The parts list. Raises ParameterError for unreadable prices."""
     prices = read_prices(loom.params.prices)
     carried = (*_of_machines(loom), *bill(carried_tree(loom)))
-    frame = frame_for(frame_task(loom, sum(part.mass_all for part in carried)))
+    on_posts = sum(part.mass_all for part in loom.beat.parts)
+    frame = frame_for(frame_task(loom, sum(part.mass_all for part in carried) - on_posts))
     own = bill(frame_tree(loom, frame, driven_axes(carried)))
     frame = replace(frame, mass=sum(line.mass_all for line in own if line.kind in _OF_FRAME))
     lines = (*carried, *own)
@@ -77,9 +78,9 @@ def built_side(loom: LoomDesign) -> SideView:
 
 
 def frame_task(loom: LoomDesign, carried: float) -> FrameTask:
-    """The load of this loom's frame, with the mass of the parts that it carries [kg]."""
-    params, cylinder, beat = loom.params, loom.warp_tension, loom.beat
-    wide, turning = loom.task.width, beat.crank_rockers > 0
+    """The load of this loom's frame, with the mass that its columns carry [kg]; posts bear crank-rockers."""
+    params, cylinder = loom.params, loom.warp_tension
+    wide = loom.task.width
     return FrameTask(
         width=wide,
         height=loom.side.loom_height,
@@ -95,8 +96,6 @@ def frame_task(loom: LoomDesign, carried: float) -> FrameTask:
         stress_safety=params.column_safety,
         buckling_safety=params.buckling_safety,
         bow_limit=params.column_bow,
-        across=beat.frame_force if turning else 0.0,
-        along=0.0 if turning else beat.frame_force,
     )
 
 

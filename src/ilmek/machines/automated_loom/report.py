@@ -22,6 +22,7 @@ from ilmek.machines.automated_loom.energy import Energy, energy_of
 from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time, time_shares
 from ilmek.machines.automated_loom.parts import PartsList, parts_of_loom
 from ilmek.machines.automated_loom.room import HORIZON, RoomFound, clearances, room_checks, room_tables
+from ilmek.machines.automated_loom.supports import supports
 from ilmek.machines.beat import BeatDrive
 from ilmek.machines.weaver.parts import case_plates
 from ilmek.records import computed, record
@@ -156,6 +157,7 @@ def checks(found: LoomAnalysis) -> tuple[Check, ...]:
         *_retreat_checks(loom),
         *found.listed.frame.checks,
         *bracket_checks(loom, brackets_of(loom), found.listed.frame.column),
+        *supports(loom, found.listed.frame).checks,
     )
 
 

@@ -12,6 +12,7 @@ from ilmek.elements.tubes import TUBES, Tube
 from ilmek.machines.automated_loom.brackets import ROOM, Bracket, Brackets, CarriedBeam, brackets_of, compensator_beams
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import LoomFrame, part_id
+from ilmek.machines.automated_loom.supports import support_bodies
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, UPRIGHT, Placement, placement
 from ilmek.part.profile import Profile
@@ -59,6 +60,7 @@ def standing_frame(loom: LoomDesign, frame: LoomFrame, axes: int) -> RigidBody:
             *(own for one in made.plates for own in _bracket(loom, frame, made, one)),
             *_carried(loom, made),
             *_control(loom, frame, made, axes),
+            *support_bodies(loom, frame),
         ),
     )
 
@@ -105,8 +107,10 @@ def _feet(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Occurr
     side, section = loom.side, frame.column
     edge, beside, low = section.side / 2, made.face + section.side / 2, side.floor + FOOT + section.side / 2
     rear, front = frame.task.depth, _front(loom, section) + edge - side.column - edge
-    lengths = (("rear-foot", "rear foot of the frame", rear, side.column - edge - rear),)
-    lengths += (("front-foot", "front foot of the frame", front, side.column + edge),)
+    lengths = (
+        ("rear-foot", "rear foot of the frame", rear, side.column - edge - rear),
+        ("front-foot", "front foot of the frame", front, side.column + edge),
+    )
     for name, title, long, start in lengths:
         yield _placed(member(name, title, section, long), (placement(x, low, start) for x in (-beside, beside)))
     shape, bought = stepped(PAD, LEVELLING), Bought("M20", _MASS)

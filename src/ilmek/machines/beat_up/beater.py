@@ -1,9 +1,11 @@
 """The beater: teeth between the warps of a stroke, and in front of the warps a bar that makes it as heavy as it is.
 
-    m_E = n m_t + rho w d h,        J_A = m_E AE²          n teeth of m_t, bar of the stroke's width w, d deep, h high
+    m_E = n m_t + m_p + rho w d h,   J_A = m_E AE²     n teeth of m_t, plate of m_p, bar of the stroke's width w, d deep
 
 The forces have the mass of the beater in its striking edge, E [`links`]. Depth and height of the bar are such that it
 is as hard to turn about the rocker's pivot A as that; the force in A, which its mass centre decides, is not the same.
+The bar's end is bolted to a plate, the plate to the side of the rocker, which ends where the bar begins. The plate
+bends by the bar's inertia at the beat, m_b a at the height of its centre: stress 6 M / (t b²).
 Axes of both parts: those of the side view, x from the fell to the front, y up, z across the carpet.
 """
 
@@ -15,6 +17,7 @@ from scipy.optimize import brentq
 from ilmek.arrays import ComplexArray
 from ilmek.elements.materials import MATERIALS, Material
 from ilmek.machines.beat_up.params import BeatUpParams
+from ilmek.machines.link_tree import GAP
 from ilmek.part.part import Part
 from ilmek.part.placement import placement
 from ilmek.part.profile import Profile
@@ -36,13 +39,19 @@ _SLENDER = 1e-2
 TOOTH = 10 * mm
 """Height of the beater's teeth [m]: assumed by this project."""
 
+PLATE_WIDTH, PLATE_HEIGHT = 1.2, 4.0
+"""Width of the beater's plate, and its height above the middle of the rocker, over the rocker's width; assumed here."""
+
+PLATE_SAFETY = 3.0
+"""Of the plate against yielding: it is loaded at every beat; assumed by this project."""
+
 BAR_ABOVE = 5 * mm
 """The bar above the edge that strikes, clear of the pile [m]: assumed by this project."""
 
 
 @record
 class Beater:
-    """The parts of a beater; bar: None where the teeth alone weigh as much as it should.
+    """The parts of a beater; bar and plate: None where the teeth alone weigh as much as it should.
 
     teeth  their number      pitch, width  of the warps, and of the stroke [m]      mass  that it should have [kg]
     arm    of the striking edge from the rocker's pivot, level with it in front [m]
@@ -50,6 +59,7 @@ class Beater:
 
     tooth: Part
     bar: Part | None
+    plate: Part | None
     teeth: int
     pitch: float
     width: float
@@ -59,12 +69,12 @@ class Beater:
     @property
     def ids(self) -> tuple[str, ...]:
         """Ids of its parts."""
-        return tuple(part.id for part in (self.tooth, self.bar) if part is not None)
+        return tuple(part.id for part in (self.tooth, self.bar, self.plate) if part is not None)
 
     @property
     def inertia_share(self) -> float:
         """Moment of inertia of its parts about the pivot, over that of its mass at the striking edge."""
-        pivot, parts = complex(self.arm), [(self.tooth, self.teeth), (self.bar, 1)]
+        pivot, parts = complex(self.arm), [(self.tooth, self.teeth), (self.bar, 1), (self.plate, 1)]
         about = sum(number * _about(part, pivot) for part, number in parts if part is not None)
         return about / (self.mass * self.arm**2) if self.mass else math.inf
 
@@ -79,7 +89,20 @@ class Beater:
         thick = _length(self.tooth)
         across = (np.arange(self.teeth) - (self.teeth - 1) / 2) * self.pitch - thick / 2
         teeth = Occurrence(self.tooth, tuple(placement(z=float(z)) for z in across))
-        return (teeth,) if self.bar is None else (teeth, Occurrence(self.bar, (placement(z=-self.width / 2),)))
+        if self.bar is None or self.plate is None:
+            return (teeth,)
+        beside = placement(z=-self.width / 2 - _length(self.plate))
+        return teeth, Occurrence(self.bar, (placement(z=-self.width / 2),)), Occurrence(self.plate, (beside,))
+
+    @property
+    def plate_stress(self) -> float:
+        """Bending stress of the plate for an acceleration of 1 m/s² of the striking edge [Pa]; 0 without a bar."""
+        if self.bar is None or self.plate is None:
+            return 0.0
+        moments = self.bar.moments
+        assert moments is not None
+        wide = float(np.ptp(_section(self.plate).real))
+        return 6 * self.bar.mass * float(moments.centre[1]) / (_length(self.plate) * wide**2)
 
 
 def beater_of(params: BeatUpParams, warps: int, arm: float) -> Beater:
@@ -90,14 +113,17 @@ def beater_of(params: BeatUpParams, warps: int, arm: float) -> Beater:
     corners = rectangle(-travel.reach / 2, front, 0.0, TOOTH)
     tooth = across("beat-up/tooth", "tooth of the beater", "laser-cut part", corners, thickness)
     mass = params.beater_mass
-    section = (mass - number * tooth.mass) / (STEEL.density * wide)
+    side = rectangle(front, front + PLATE_WIDTH * params.width, -params.width / 2, PLATE_HEIGHT * params.width)
+    plate = across("beat-up/beater-plate", "plate of the beater", "laser-cut part", side, GAP * params.thickness)
+    section = (mass - number * tooth.mass - plate.mass) / (STEEL.density * wide)
     bar = None
     if section > 0:
-        inertia = mass * arm**2 - number * _about(tooth, complex(arm))
+        pivot = complex(arm)
+        inertia = mass * arm**2 - number * _about(tooth, pivot) - _about(plate, pivot)
         deep = _depth(section, arm - front, inertia, STEEL.density * wide)
         corners = rectangle(front, front + deep, BAR_ABOVE, BAR_ABOVE + section / deep)
         bar = across("beat-up/beater-bar", "bar of the beater", "steel bar", corners, wide)
-    return Beater(tooth, bar, number, pitch, wide, mass, arm)
+    return Beater(tooth, bar, plate if bar else None, number, pitch, wide, mass, arm)
 
 
 def _depth(section: float, reach: float, inertia: float, line_density: float) -> float:
@@ -117,6 +143,23 @@ def _depth(section: float, reach: float, inertia: float, line_density: float) ->
     if excess(square) >= 0:
         return square
     return slender if excess(slender) <= 0 else float(brentq(excess, slender, square, xtol=1e-12))
+
+
+def plate_check(found: Beater, acceleration: float) -> tuple[Check, ...]:
+    """Whether the plate bears the bar at an acceleration of the striking edge [m/s²]; none without a bar."""
+    if found.plate is None:
+        return ()
+    return (
+        at_most(
+            "stress of the beater's plate",
+            found.plate_stress * acceleration,
+            STEEL.strength / PLATE_SAFETY,
+            "MPa",
+            "yield of S235 over 3, assumed by this project",
+            cure="set wider or thicker links, or a lighter beater_mass",
+            parts=(found.plate.id,),
+        ),
+    )
 
 
 def beater_checks(found: Beater) -> tuple[Check, ...]:

@@ -9,6 +9,7 @@ from ilmek.cams.laws import Law, law_of
 from ilmek.linkage.solve import solve
 from ilmek.machines.beat import Beat, BeatPath
 from ilmek.machines.beat_up.crank_start import CrankStart
+from ilmek.machines.beat_up.design import BeatUp
 from ilmek.units import turn
 
 _POINTS = np.linspace(0.0, 1.0, 26)[1:-1]
@@ -51,6 +52,13 @@ def _times(start: CrankStart) -> tuple[float, float]:
     linkage, share = start.duty.linkage, 1 + start.params.run_up
     speed, back = linkage.params.speed, linkage.crank_rotation
     return (turn - back) * share / speed, back * share / speed
+
+
+def rocker_outline(linkage: BeatUp) -> ComplexArray:
+    """The rocker at the beat in the side view, from the beater's bar to beyond its pivot: corners [m]."""
+    eye, arm = linkage.params.width / 2, linkage.lengths["beater"]
+    end = arm - max(linkage.lengths["rocker"], arm - linkage.params.before_beater) - eye
+    return np.array([complex(end, -eye), complex(arm + eye, -eye), complex(arm + eye, eye), complex(end, eye)])
 
 
 def crank_path(start: CrankStart, outline: tuple[ComplexArray, ...]) -> BeatPath:

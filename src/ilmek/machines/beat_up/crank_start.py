@@ -32,7 +32,8 @@ from ilmek.machines.beat_up.use_params import STARTS, CrankStartParams
 from ilmek.part import catalogue
 from ilmek.part.bill import line_of
 from ilmek.part.part import Bought, Part
-from ilmek.part.shapes import Turned, bar, tube
+from ilmek.part.placement import placement
+from ilmek.part.shapes import Placed, Sum, Turned, bar, tube
 from ilmek.records import computed, record, result
 from ilmek.report import Alternative, Check, Choice, Json, at_most, choose, must
 from ilmek.units import format_quantity, turn
@@ -46,6 +47,9 @@ CLUTCH_MASS = 0.1
 
 FLYWHEEL_RADIUS = 0.2
 """Radius of a flywheel's rim [m]: assumed by this project."""
+
+WEB_SHARES, HUB = (0.1, 0.05, 0.02, 0.01, 0.005, 0.002), 0.2
+"""Inertia of a flywheel's web and hub over that of all; radius of the hub over that of the web; assumed here."""
 
 WIDEST_RIM = 0.2
 """Largest width of a flywheel's rim, across and along, before it gets longer [m]; assumed by this project."""
@@ -177,9 +181,28 @@ def _coupled(found: CrankStart) -> Iterator[Part]:
         "beat-up/clutch", f"{name} of the beat-up", name, "", bar(wide, wide / 2), purchase=bought, envelope=True
     )
     if found.start_flywheel > 0:
-        rim = _rim(found.start_flywheel)
+        wheel = _wheel(found.start_flywheel)
         size_of = f"rim round {format_quantity(2 * FLYWHEEL_RADIUS, 'mm')}, on the motor's side"
-        yield Part("beat-up/flywheel", "flywheel of the beat-up", "steel bar", size_of, rim, STEEL)
+        yield Part("beat-up/flywheel", "flywheel of the beat-up", "steel bar", size_of, wheel, STEEL)
+
+
+def _wheel(inertia: float) -> Sum:
+    """A flywheel of a moment of inertia [kg m²], from z = 0: a rim, and inside of it a web and its hub.
+
+    Web and hub have a share of the inertia, the largest of `WEB_SHARES` whose web is thinner than half the rim.
+    """
+    for share in WEB_SHARES:
+        rim = _rim((1 - share) * inertia)
+        points = rim.profile.outline.points
+        length, inner = float(points.real.max()), float(points.imag.min())
+        web, hub = (math.pi * STEEL.density * radius**4 / 2 for radius in (inner, HUB * inner))
+        thick = (share * inertia - hub * length) / (web - hub)
+        if 0 < thick < length / 2:
+            break
+    else:
+        return Sum((Placed(rim),))
+    boss = Placed(bar(2 * HUB * inner, length - thick), (placement(z=thick),))
+    return Sum((Placed(rim), Placed(bar(2 * inner, thick)), boss))
 
 
 def _rim(inertia: float) -> Turned:

@@ -295,15 +295,15 @@ def _moved(params: BeatUpParams, duty: Duty) -> BeatUp:
 
 
 @lru_cache(maxsize=8)
-def _stroke_of_a_metre() -> float:
-    """Stroke of the beater of the paper's linkage with a ground of 1 m, along its path [m]."""
+def _rise_of_a_metre() -> float:
+    """Height that the beater of the paper's linkage with a ground of 1 m rises above the fell [m]."""
     params = BeatUpParams(ground=1.0)
-    return lengths_of(params, _links(params, 0.0))["beater"] * params.rocker_swing
+    return lengths_of(params, _links(params, 0.0))["beater"] * math.sin(params.rocker_swing)
 
 
-def ground_for(stroke: float) -> float:
-    """Distance of the pivots [m] of the paper's linkage with a stroke of the beater [m], along its path."""
-    return stroke / _stroke_of_a_metre()
+def ground_for(rise: float) -> float:
+    """Distance of the pivots [m] of the paper's linkage whose beater rises to a height above the fell [m]."""
+    return rise / _rise_of_a_metre()
 
 
 def _links(params: BeatUpParams, hole: float) -> LinkRatios:

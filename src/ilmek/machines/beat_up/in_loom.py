@@ -5,16 +5,18 @@ from functools import lru_cache
 
 import numpy as np
 
+from ilmek.arrays import ComplexArray
 from ilmek.machines.arrangement.spans import SPARE
 from ilmek.machines.beat import Beat, BeatDrive, BeatPath, stroke_needed
-from ilmek.machines.beat_up.crank_path import crank_beat, crank_path
+from ilmek.machines.beat_up.beam import POST
+from ilmek.machines.beat_up.crank_path import crank_beat, crank_path, rocker_outline
 from ilmek.machines.beat_up.crank_start import crank_start
 from ilmek.machines.beat_up.design import BeatUp, design, ground_for
 from ilmek.machines.beat_up.params import BeatUpParams
 from ilmek.machines.beat_up.report import criteria
-from ilmek.machines.beat_up.strength import beat_up_strength_checks
+from ilmek.machines.beat_up.strength import beat_up_strength_checks, frame_force
 from ilmek.machines.beat_up.tree import travelling
-from ilmek.machines.beat_up.use import BeatUpUse, in_use, use_checks
+from ilmek.machines.beat_up.use import BeatUpUse, in_use, on_its_beam, use_checks
 from ilmek.machines.beat_up.use_params import TravelParams
 from ilmek.machines.fell_of_loom import loom_fabric
 from ilmek.machines.linkage_strength import FLAT_BARS
@@ -35,7 +37,7 @@ def fit(task: LoomTask) -> BeatUpParams:
         beat_force=needed,
         interval=every if every > 0 else None,
         cloth=task.cloth,
-        travel=TravelParams(warp_force=needed, bar_distance=_bar_distance(task)),
+        travel=TravelParams(warp_force=needed, bar_distance=_bar_distance(task), beam_length=task.width + 2 * POST),
     )
 
 
@@ -55,11 +57,6 @@ def work(linkage: BeatUp) -> tuple[Work, ...]:
     return (Work("beating", float(np.sum(np.maximum(state.torque[:-1], 0.0)) * step), "beat"),)
 
 
-def frame_force(linkage: BeatUp) -> float:
-    """Greatest force on the frame over a turn [N]: of both pivots together, at the speed, on an empty beat."""
-    return float(np.max(np.abs(linkage.state.forces.pin("A") + linkage.state.forces.pin("D"))))
-
-
 @record
 class TravellingBeat:
     """A beat by the travelling beater."""
@@ -75,7 +72,12 @@ class TravellingBeat:
     @property
     def path(self) -> BeatPath:
         """Path of the beater on its rocker."""
-        return crank_path(self.use.start, self.use.travel.beater.outline)
+        return crank_path(self.use.start, self._outline)
+
+    @property
+    def _outline(self) -> tuple[ComplexArray, ...]:
+        """The beater, and the rocker behind it."""
+        return (*self.use.travel.beater.outline, rocker_outline(self.design))
 
     def drive(self, task: LoomTask) -> BeatDrive:
         """The same for the time from beat to beat."""
@@ -83,7 +85,7 @@ class TravellingBeat:
         params = task.parameters("beat-up", replace(self.design.params, interval=fit(task).interval))
         made = _at_interval(self.design, params)
         duty = replace(self.use.start.duty, linkage=made, every=params.interval)
-        use = replace(self.use, start=crank_start(duty, params.start))
+        use = on_its_beam(made, self.use.travel, crank_start(duty, params.start))
         across = use.travel
         sliding = across.strokes * across.slide_mass * across.step.speed**2 / 2
         return BeatDrive(
@@ -95,12 +97,12 @@ class TravellingBeat:
             parts=bill(travelling(made, use)),
             work=(Work("beating", use.start.start_work + sliding, "beat"),),
             torque=use.start.start_torque,
-            path=crank_path(use.start, across.beater.outline),
+            path=crank_path(use.start, self._outline),
             machine_checks=(*criteria(made), *use_checks(use)),
             crank_rockers=1,
             force=across.stroke_force,
             beaten=across.stroke_warps,
-            frame_force=frame_force(made),
+            frame_force=frame_force(made.state),
             striking=across.beater.ids,
             use=use,
         )

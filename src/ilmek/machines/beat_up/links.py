@@ -1,7 +1,10 @@
 """Links of a beat-up, of one or of a whole family: their holes, moments of mass, and what moves with them.
 
 As made they are flat links with a hole at each pin [`part.flat_link`]; crank and rocker carry a pin each, the rocker
-the beater, whose mass counts as a point in E. As bars, the paper's, they are rectangles from pin to pin without pins.
+the beater, whose mass counts as a point in E. The rocker ends in front of the warps, where the beater's bar is. As
+bars, the paper's, they are rectangles from pin to pin without pins, the rocker to E.
+
+Rocker, coupler and crank run in planes next to each other along the width, so that no shaft crosses a link.
 """
 
 import math
@@ -17,23 +20,37 @@ from ilmek.part.flat_link import LinkMoments, PinHole, flat_link_moments
 
 LINKS = ("crank", "coupler", "rocker")
 
-PART_IDS = {**{name: f"beat-up/{name}" for name in LINKS}, **dict.fromkeys("ABCD", "beat-up/pin")}
+PART_IDS = {
+    **{name: f"beat-up/{name}" for name in LINKS},
+    **dict.fromkeys("BCD", "beat-up/pin"),
+    "A": "beat-up/pivot-pin",
+}
 """Ids of the parts of links and pins."""
+
+LAYERS = {"rocker": 0, "coupler": 1, "crank": 2, "plate": 3}
+"""Planes of the links and of the plate that carries crank and rocker, from the beater's side on."""
+
+
+def layer(name: str, thickness: float) -> float:
+    """Middle of a link's plane from that of the rocker's, along the pins [m]."""
+    return LAYERS[name] * (1 + GAP) * thickness
+
 
 CARRIED = {"crank": "crank", "rocker": "rocker"}
 """Links that carry the pin at the end of a length: C of the crank, B of the rocker."""
 
 
-def spans(lengths: Mapping[str, RealField]) -> dict[str, RealField]:
-    """Distance of the outermost pins of each link [m]; the rocker's reaches to the beater, or to B if that is farther.
+def spans(lengths: Mapping[str, RealField], short: float = 0.0) -> dict[str, RealField]:
+    """Distance of the centres of the round ends of each link [m]; the rocker's reaches beyond B towards the beater.
 
-    lengths  of the links and of the beater from A [m], any shape
+    lengths  of the links and of the beater from A [m], any shape      short  of the beater's edge [m]
     """
-    return {**{name: lengths[name] for name in LINKS}, "rocker": np.maximum(lengths["rocker"], lengths["beater"])}
+    rocker = np.maximum(lengths["rocker"], np.asarray(lengths["beater"]) - short)
+    return {**{name: lengths[name] for name in LINKS}, "rocker": rocker}
 
 
 def pin_holes(lengths: Mapping[str, RealField], diameter: float) -> dict[str, dict[str, PinHole]]:
-    """Holes of each link by its pins, and that of the beater, E; those without a bridge between them are not bored.
+    """Holes of each link by its pins; those without a bridge between them are not bored.
 
     diameter  of all [m]
     """
@@ -43,12 +60,10 @@ def pin_holes(lengths: Mapping[str, RealField], diameter: float) -> dict[str, di
         bored = np.where(np.asarray(length) >= least, diameter, 0.0)
         return {first: PinHole(0.0, bored), second: PinHole(length, bored)}
 
-    rocker, beater = lengths["rocker"], np.asarray(lengths["beater"])
-    held = (np.asarray(rocker) >= least) & (beater >= least) & (np.abs(beater - rocker) >= least)
     return {
         "crank": pair("D", "C", lengths["crank"]),
         "coupler": pair("C", "B", lengths["coupler"]),
-        "rocker": {**pair("A", "B", rocker), "E": PinHole(beater, np.where(held, diameter, 0.0))},
+        "rocker": pair("A", "B", lengths["rocker"]),
     }
 
 
@@ -59,7 +74,7 @@ def link_masses(params: BeatUpParams, lengths: Mapping[str, RealField], hole: fl
         holes = pin_holes(lengths, hole)
         return {
             name: flat_link_moments(span, width, thickness, holes[name].values()).of_density(density)
-            for name, span in spans(lengths).items()
+            for name, span in spans(lengths, params.before_beater).items()
         }
     masses = {name: bar_mass(span, width, thickness, density) for name, span in spans(lengths).items()}
     nothing = LinkMoments(0.0, 0.0, 0.0)

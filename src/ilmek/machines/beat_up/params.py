@@ -215,6 +215,11 @@ class BeatUpParams(Params):
         return self.swing or hand_swing(*hand_positions(self.hand))
 
     @property
+    def before_beater(self) -> float:
+        """From the beater's edge to the middle of the round end of the rocker, which ends where the bar begins [m]."""
+        return self.travel.bar_distance + self.width / 2
+
+    @property
     def link_material(self) -> Material:
         """Material of the links, with the given density."""
         material = self.strength.of_links

@@ -19,7 +19,7 @@ from ilmek.units import format_quantity, mm
 def link_parts(linkage: BeatUp) -> dict[str, Part]:
     """Crank, coupler and rocker, bored for their pins."""
     params, drilled = linkage.params, pin_holes(linkage.lengths, linkage.hole)
-    reaches = spans(linkage.lengths)
+    reaches = spans(linkage.lengths, params.before_beater)
     section = f"{format_quantity(params.width / mm, '')} x {format_quantity(params.thickness, 'mm')}"
     return {
         name: Part(
@@ -40,7 +40,7 @@ def pin_part(linkage: BeatUp) -> Part:
     """The pin of every joint."""
     diameter = linkage.pin
     return Part(
-        PART_IDS["A"],
+        PART_IDS["B"],
         "pin of the beat-up",
         "pin or bush",
         f"round {format_quantity(diameter, 'mm')}",

@@ -8,6 +8,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType
 
+import numpy as np
+
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.loads import Gravity
 from ilmek.machines.beat_up.linkage import PINS, BeatUpState
@@ -111,3 +113,8 @@ def link_loads(
         line_mass=params.width * params.thickness * params.link_material.density,
         share=1.0 if every is None else min(turn / params.speed / every, 1.0),
     )
+
+
+def frame_force(state: BeatUpState) -> float:
+    """Greatest force on the frame over a turn [N]: of both pivots together, at the speed, on an empty beat."""
+    return float(np.max(np.abs(state.forces.pin("A") + state.forces.pin("D"))))

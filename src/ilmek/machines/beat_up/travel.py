@@ -13,6 +13,7 @@ reach, the crank can turn on where the step's time t <= t_out.
 """
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -21,7 +22,8 @@ from ilmek.elements.drive_parts import PULLEY
 from ilmek.elements.duty import LoadCycle, ServoDrive, size_motor
 from ilmek.elements.materials import GRAVITY
 from ilmek.linkage.solve import solve
-from ilmek.machines.beat_up.beater import Beater, beater_checks, beater_of
+from ilmek.machines.beat_up.beater import Beater, beater_checks, beater_of, plate_check
+from ilmek.machines.beat_up.carriage import AXIS_SIDE, BLOCK_LENGTH
 from ilmek.machines.beat_up.crank_start import stroke_time
 from ilmek.machines.beat_up.design import BeatUp
 from ilmek.machines.beat_up.use_params import TravelParams
@@ -34,8 +36,8 @@ from ilmek.timing.s_curve import AxisLimits, SCurve, s_curve
 from ilmek.units import mm, turn
 from ilmek.weaving.cloth import Cloth
 
-AXIS_SIDE = 80 * mm
-"""Side of the section of the belt axis [m]; assumed by this project."""
+SLIDE_END = 20 * mm
+"""Of the slide beyond its carriage, at each end [m]: assumed by this project."""
 
 AXIS, MOTOR, REDUCER = "beat-up/slide", "beat-up/slide-motor", "beat-up/slide-reducer"
 
@@ -45,14 +47,13 @@ _TURN_SAMPLES = 1440
 
 @record
 class BeaterTravel:
-    """The beater along the width of the cloth; step: its motion from stroke to stroke."""
+    """The beater along the width of the cloth; step: its motion from stroke to stroke; every: time between [s]."""
 
     params: TravelParams
     cloth: Cloth
     beater: Beater
     step: SCurve
-    slide: ServoDrive | None
-    thrust: float
+    every: float
     stroke_force: float = result("N", "force of the beater at the beat")
     stroke_warps: int = result("1", "warps of a stroke", least=0.0)
     strokes: int = result("1", "strokes across the width")
@@ -62,6 +63,8 @@ class BeaterTravel:
     clear: float = result("mm", "distance of the beater from the warps, at its farthest", name="beater_out")
     pause: float = result("s", "time for which the crank stands between two strokes", name="stroke_pause")
     slide_mass: float = result("kg", "mass on the slide")
+    slide: ServoDrive | None = None
+    thrust: float = 0.0
 
     stroke_warp_force = computed("N", "force of the beat for a warp", lambda it: it.stroke_force / it.stroke_warps)
     beater_width = computed("mm", "width of the beater", lambda it: it.stroke_warps * it.cloth.warp_pitch)
@@ -82,15 +85,12 @@ def travel(design: BeatUp, params: TravelParams, run_up: float) -> BeaterTravel:
     single = stroke_time(design, run_up)
     # Standing at the far dead centre, the slide may begin before the crank stands, and end after it has begun.
     pause = max(0.0, step.time - out) if mode == "start-stop" else 0.0
-    mass = params.slide_mass or 2 * sum(body.mass for body in design.bodies.values())
-    cycle = _slide_cycle(params, step, mass, turn / design.params.speed if mode == "through" else single + pause)
     return BeaterTravel(
         params=params,
         cloth=cloth,
         beater=beater_of(design.params, warps, design.lengths["beater"]),
         step=step,
-        slide=size_motor(cycle),
-        thrust=float(np.max(np.abs(cycle.effort))) / PULLEY,
+        every=turn / design.params.speed if mode == "through" else single + pause,
         stroke_force=force,
         stroke_warps=warps,
         strokes=strokes,
@@ -99,8 +99,15 @@ def travel(design: BeatUp, params: TravelParams, run_up: float) -> BeaterTravel:
         out_time=out,
         clear=clear,
         pause=pause,
-        slide_mass=mass,
+        slide_mass=math.nan,
     )
+
+
+def with_slide_mass(found: BeaterTravel, mass: float) -> BeaterTravel:
+    """The same with a mass on the slide [kg], and the motor that moves it."""
+    cycle = _slide_cycle(found.params, found.step, mass, found.every)
+    thrust = float(np.max(np.abs(cycle.effort))) / PULLEY
+    return replace(found, slide=size_motor(cycle), thrust=thrust, slide_mass=mass)
 
 
 def force_at_beat(design: BeatUp) -> float:
@@ -133,6 +140,7 @@ def travel_checks(found: BeaterTravel) -> tuple[Check, ...]:
             parts=found.beater.ids[:1],
         ),
         *beater_checks(found.beater),
+        *plate_check(found.beater, found.stroke_force / found.beater.mass if found.beater.mass else 0.0),
         must(
             "a motor moves the slide",
             found.slide is not None,
@@ -164,10 +172,15 @@ def _slide_cycle(params: TravelParams, step: SCurve, mass: float, every: float) 
     return LoadCycle(speed / PULLEY, acceleration / PULLEY, friction * PULLEY, mass * PULLEY**2)
 
 
+def slide_length(found: BeaterTravel) -> float:
+    """Length of the slide: its run, its carriage, and room at both ends [m]."""
+    return float(found.slide_run + BLOCK_LENGTH + 2 * SLIDE_END)
+
+
 def travel_parts(found: BeaterTravel) -> tuple[Part, ...]:
     """The slide along the carpet, and its motor behind its reducer where it has one."""
     row = found.slide.motor if found.slide else None
-    width = found.cloth.width
+    length = slide_length(found)
     speed = found.step.speed / PULLEY
     reducers = (
         (catalogue.reducer(REDUCER, "reducer of the slide", found.slide.reducer.ratio, row),)
@@ -180,8 +193,8 @@ def travel_parts(found: BeaterTravel) -> tuple[Part, ...]:
             "slide of the beater",
             "linear axis",
             "belt drive along the carpet",
-            box(AXIS_SIDE, AXIS_SIDE, width),
-            purchase=Bought("belt axis", length=width),
+            box(AXIS_SIDE, AXIS_SIDE, length),
+            purchase=Bought("belt axis", length=length),
             envelope=True,
         ),
         *reducers,

@@ -1,12 +1,12 @@
 """The beat-up as a tree of bodies: crank-rockers on what carries them, the travelling beater on its rocker.
 
-Axes are those of the linkage: D the origin, A on x, z along the pins, 0 in the middle of crank and rocker. Bodies lie
-at rest as at the beat; motions are counted from there.
+Axes are those of the linkage: D the origin, A on x, z along the pins, 0 in the middle of the rocker. Bodies lie at rest
+as at the beat; motions are counted from there. Along z follow each other beater, rocker, coupler, crank, the plate that
+carries them, and the drive [`links.layer`, `carriage`].
 """
 
-import cmath
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
 
@@ -14,18 +14,36 @@ import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.linkage.solve import solve
+from ilmek.machines.beat_up.beam import BeatBeam
 from ilmek.machines.beat_up.beater import Beater
-from ilmek.machines.beat_up.crank_start import start_parts
+from ilmek.machines.beat_up.carriage import (
+    AXIS_SIDE,
+    BELT_WIDTH,
+    BLOCK_HEIGHT,
+    BLOCK_LENGTH,
+    beam_corner,
+    carried,
+    driving,
+    in_links_axes,
+    on_slide,
+    plate_begin,
+    plate_part,
+    shaft,
+    shared_axis,
+    shared_diameter,
+    shared_drive,
+    slide_block,
+)
+from ilmek.machines.beat_up.crank_start import CrankStart, start_parts
 from ilmek.machines.beat_up.design import BeatUp
-from ilmek.machines.beat_up.links import PART_IDS, pin_length
+from ilmek.machines.beat_up.links import PART_IDS, layer
 from ilmek.machines.beat_up.parts import link_parts, pin_part
-from ilmek.machines.beat_up.travel import AXIS_SIDE, travel_parts
+from ilmek.machines.beat_up.travel import slide_length, travel_parts
 from ilmek.machines.beat_up.use import BeatUpUse, in_use
 from ilmek.machines.link_tree import GAP, JOURNAL
 from ilmek.part.link_motion import carriers
 from ilmek.part.link_motion import link_motions as motions_of
-from ilmek.part.part import Part
-from ilmek.part.placement import Placement, placement
+from ilmek.part.placement import IN_SIDE_VIEW, Placement, placement
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree, in_line
 from ilmek.report.scene import SceneMotion
 
@@ -47,28 +65,49 @@ def travelling(
     """The bodies of a beater that travels on its slide.
 
     motions  of the bodies by their ids, of `link_motions` and of the carriage along z
-    start    of the carriage from the middle of the carpet along z [m]
+    start    of the beater from the middle of the carpet along z [m]
     """
-    across, begin = travel_parts(use.travel), -_clear(design)
-    axis, length = across[0], use.travel.cloth.width
-    below = -design.params.width - AXIS_SIDE
-    rail = RigidBody(
-        "beat-up/rail",
-        (
-            Occurrence(axis, (placement(y=below, z=-length / 2),)),
-            *(_moved(one, y=below) for one in in_line(across[1:], -length / 2)),
-        ),
-        joint=Joint(JointKind.MISSING),
+    across, length = use.travel, slide_length(use.travel)
+    shift = beater_shift(design, across.beater)
+    middle = plate_begin(design) - BLOCK_LENGTH / 2 - shift
+    axis, *drive = travel_parts(across)
+    high = use.beam.section.side
+    on_beam = beam_corner(design) + complex(AXIS_SIDE / 2, high + AXIS_SIDE / 2)
+    standing = (
+        *beam_in_place(design, use.beam),
+        _in_loom(design, Occurrence(axis, (placement(z=-length / 2),)), on_beam, middle),
+        *(_in_loom(design, one, on_beam, middle) for one in in_line(drive, -length / 2)),
     )
-    carriage = RigidBody(
-        CARRIAGE,
-        (*_fixed_pins(design, [0.0]), *in_line(start_parts(use.start), begin)),
-        rail.id,
-        Joint(JointKind.SLIDE, _Z),
-        (placement(z=start),),
-    )
-    bodies = Tree((rail, carriage, *crank_rockers(design, CARRIAGE, beater=use.travel.beater)))
+    rail = RigidBody("beat-up/rail", standing)
+    on_block = beam_corner(design) + complex(AXIS_SIDE / 2, high + AXIS_SIDE + BLOCK_HEIGHT / 2)
+    block = _in_loom(design, Occurrence(slide_block()), on_block, plate_begin(design) - BLOCK_LENGTH)
+    parts = (*on_slide(design, high, start_parts(use.start)), block)
+    carriage = RigidBody(CARRIAGE, parts, rail.id, Joint(JointKind.SLIDE, _Z), (placement(z=start - shift),))
+    bodies = Tree((rail, carriage, *crank_rockers(design, CARRIAGE, beater=across.beater)))
     return bodies.moving(motions or {})
+
+
+def beater_shift(design: BeatUp, beater: Beater) -> float:
+    """Middle of the beater from that of the rocker along z [m]: beside it, with its plate between."""
+    return -((0.5 + GAP) * design.params.thickness + beater.width / 2)
+
+
+def beam_in_place(design: BeatUp, beam: BeatBeam) -> tuple[Occurrence, ...]:
+    """The beam where it carries the plates, its middle at z = 0."""
+    side = beam.section.side
+    part = Occurrence(beam.part, (placement(z=-beam.length / 2),))
+    return (_in_loom(design, part, beam_corner(design) + complex(side, side) / 2, 0.0),)
+
+
+def _in_loom(design: BeatUp, one: Occurrence, middle: complex, z: float) -> Occurrence:
+    """A part along z with its section upright, its middle at a point of the side view [m]; z: where it lies."""
+    upright = in_side_view(design).inverse.after(placement(0.0, middle.imag, middle.real)).after(_ACROSS)
+    along = placement(z=z).after(upright)
+    return replace(one, positions=tuple(along.after(position) for position in one.positions))
+
+
+_ACROSS = Placement(np.zeros(3), IN_SIDE_VIEW.rotation @ np.diag([-1.0, 1.0, -1.0]))
+"""A part whose z points to the weaver's right in the scene, its y up."""
 
 
 def crank_rockers(
@@ -81,8 +120,8 @@ def crank_rockers(
     links, pin, lengths = link_parts(design), pin_part(design), design.lengths
     thick = design.params.thickness
     motion = solve(design.plan, np.array([design.beta]))
-    coupler, beside = float(motion.angle("coupler")[0]) - design.beta, (1 + GAP) * thick
-    struck = () if beater is None else tuple(on_rocker(one, lengths["beater"]) for one in beater.occurrences)
+    coupler, crank = float(motion.angle("coupler")[0]) - design.beta, layer("crank", thick)
+    struck = () if beater is None else tuple(_struck(design, beater))
     flat = placement(z=-thick / 2)
 
     def body(link: str, on: str, joined: str, positions: Sequence[Placement], *others: Occurrence) -> RigidBody:
@@ -92,31 +131,40 @@ def crank_rockers(
             part.id, (Occurrence(part, (flat,)), *others), on, Joint(JointKind.PIN, _Z, seats=seats), tuple(positions)
         )
 
-    def carried(length: str) -> Occurrence:
-        return Occurrence(pin, (placement(x=lengths[length], z=-thick / 2),))
+    def pinned(length: str, depth: float) -> Occurrence:
+        """The pin at the end of a link, from the plane of the rocker or of the coupler on."""
+        return Occurrence(pin, (placement(x=lengths[length], z=-depth - thick / 2),))
 
     return (
-        body("crank", parent, "D", [_turned(0.0, z, design.beta) for z in stations], carried("crank")),
-        body("coupler", PART_IDS["crank"], "C", [_turned(lengths["crank"], beside, coupler)]),
+        body(
+            *("crank", parent, "D", [_turned(0.0, z + crank, design.beta) for z in stations]),
+            pinned("crank", layer("coupler", thick)),
+        ),
+        body("coupler", PART_IDS["crank"], "C", [_turned(lengths["crank"], -layer("coupler", thick), coupler)]),
         body(
             "rocker",
             parent,
             "A",
             [rocker_position(design, z) for z in stations],
-            carried("rocker"),
+            pinned("rocker", 0.0),
             *struck,
         ),
     )
 
 
-def crank_frame(design: BeatUp, use_parts: Sequence[Part], stations: Sequence[float]) -> RigidBody:
-    """What stands of crank-rockers at stations along z [m]: pins of their pivots, and the drive of the crank shaft."""
-    begin = min(stations) - _clear(design)
-    return RigidBody(
-        CARRIAGE,
-        (*_fixed_pins(design, stations), *in_line(use_parts, begin)),
-        joint=Joint(JointKind.MISSING),
-    )
+def crank_frame(design: BeatUp, beam: BeatBeam, start: CrankStart, stations: Sequence[float]) -> RigidBody:
+    """What stands of crank-rockers at stations along z [m]: the beam, a plate with its pins at each, and the drive."""
+    shared = shared_diameter(start.start_torque)
+    plate = plate_part(design, beam.section.side, beam.section.side, design.params.width, shared)
+    parts: dict[str, Occurrence] = {}
+    for one in (part for z in stations for part in carried(design, plate, z)):
+        before = parts[one.part.id].positions if one.part.id in parts else ()
+        parts[one.part.id] = replace(one, positions=(*before, *one.positions))
+    end = max(stations) + plate_begin(design) + design.params.thickness + BELT_WIDTH
+    axis = complex(in_links_axes(design, np.array([shared_axis(design)]))[0])
+    belts = shared_drive(design, start.start_torque, stations)
+    drive = driving(start_parts(start), end, axis)
+    return RigidBody(CARRIAGE, (*beam_in_place(design, beam), *parts.values(), *belts, *drive))
 
 
 def link_motions(design: BeatUp, drive: str, angle: FloatArray, crank: FloatArray) -> dict[str, SceneMotion]:
@@ -135,22 +183,10 @@ def in_side_view(design: BeatUp, across: float = 0.0) -> Placement:
     It stands mirrored in the side view: a direction e^(i t) of it is e^(i (g - t)) there, g = pi + r0, with r0 the
     angle of the rocker at the beat. Its z points across, to the weaver's right.
     """
-    first, arm = design.rocker_angles[0], design.lengths["beater"]
-    shaft = arm + design.lengths["ground"] * cmath.exp(1j * first)
+    first, axis = design.rocker_angles[0], shaft(design)
     up, front = math.sin(math.pi + first), math.cos(math.pi + first)
     rotation = np.array([[0.0, 0.0, 1.0], [up, -front, 0.0], [front, up, 0.0]])
-    return Placement(np.array([across, shaft.imag, shaft.real]), rotation)
-
-
-def _clear(design: BeatUp) -> float:
-    """From the middle plane of the crank to the drive, beyond the pins of the pivots [m]."""
-    return pin_length(design.params.thickness) - design.params.thickness / 2
-
-
-def _fixed_pins(design: BeatUp, stations: Sequence[float]) -> tuple[Occurrence, ...]:
-    """Pins A and D at each station, towards -z."""
-    low, ground = -_clear(design), design.lengths["ground"]
-    return (Occurrence(pin_part(design), tuple(placement(x, z=low + z) for z in stations for x in (0.0, ground))),)
+    return Placement(np.array([across, axis.imag, axis.real]), rotation)
 
 
 def rocker_position(design: BeatUp, z: float = 0.0) -> Placement:
@@ -162,8 +198,12 @@ def _turned(x: float, z: float, angle: float) -> Placement:
     return placement(x, z=z, about=_Z, angle=angle)
 
 
-def _moved(one: Occurrence, y: float) -> Occurrence:
-    return replace(one, positions=tuple(placement(y=y).after(position) for position in one.positions))
+def _struck(design: BeatUp, beater: Beater) -> Iterator[Occurrence]:
+    """The parts of a beater on its rocker, beside it."""
+    shift = placement(z=beater_shift(design, beater))
+    for one in beater.occurrences:
+        placed = on_rocker(one, design.lengths["beater"])
+        yield replace(placed, positions=tuple(shift.after(position) for position in placed.positions))
 
 
 def on_rocker(one: Occurrence, arm: float) -> Occurrence:

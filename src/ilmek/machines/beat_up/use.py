@@ -1,14 +1,19 @@
 """A beat-up in use: strength of links and pins, start and stop of its crank, its travel along the carpet."""
 
+import math
 from functools import lru_cache
 
-from ilmek.machines.beat_up.crank_start import CrankDuty, CrankStart, crank_start, start_checks
+from ilmek.machines.beat_up.beam import POST, BeatBeam, beam_for
+from ilmek.machines.beat_up.carriage import BLOCK_MASS, on_slide
+from ilmek.machines.beat_up.crank_start import CrankDuty, CrankStart, crank_start, start_checks, start_parts
 from ilmek.machines.beat_up.design import BeatUp
-from ilmek.machines.beat_up.strength import BeatUpStrength, beat_up_strength_checks
-from ilmek.machines.beat_up.travel import BeaterTravel, travel, travel_checks
+from ilmek.machines.beat_up.strength import BeatUpStrength, beat_up_strength_checks, frame_force
+from ilmek.machines.beat_up.travel import BeaterTravel, slide_length, travel, travel_checks, with_slide_mass
 from ilmek.records import group, record
 from ilmek.report import Check, Choice
 from ilmek.weaving.fell import Fabric, assumed_fabric
+
+_ROUNDS = 3
 
 WARP_LENGTH = 1.5
 """Length of a warp [m] from fell to beam where no loom gives it."""
@@ -21,6 +26,7 @@ class BeatUpUse:
     strength: BeatUpStrength = group()
     travel: BeaterTravel = group()
     start: CrankStart = group()
+    beam: BeatBeam = group()
 
 
 @lru_cache(maxsize=8)
@@ -43,15 +49,37 @@ def in_use(design: BeatUp, fabric: Fabric | None = None) -> BeatUpUse:
         pause=across.pause,
         every=params.interval,
     )
-    return BeatUpUse(design.strength, across, crank_start(duty, params.start))
+    return on_its_beam(design, across, crank_start(duty, params.start))
+
+
+def on_its_beam(design: BeatUp, across: BeaterTravel, start: CrankStart) -> BeatUpUse:
+    """The beat-up with the slide for all that stands on it, and the beam that carries both.
+
+    A heavier beam raises the slide, whose carriage then has a larger plate; the mass follows the beam's in rounds.
+    """
+    length = max(across.params.beam_length or 0.0, slide_length(across) + 2 * POST)
+    force, drive = frame_force(design.state), start_parts(start)
+    moving = math.fsum(body.mass for body in design.bodies.values())
+    high = 0.0
+    for _ in range(_ROUNDS):
+        standing = math.fsum(
+            one.part.mass * len(one.positions) for one in on_slide(design, high, drive) if not math.isnan(one.part.mass)
+        )
+        mass = across.params.slide_mass or moving + standing + BLOCK_MASS
+        beam = beam_for(length, mass, force)
+        if beam.section.side == high:
+            break
+        high = beam.section.side
+    return BeatUpUse(design.strength, with_slide_mass(across, mass), start, beam)
 
 
 def use_checks(found: BeatUpUse) -> tuple[Check, ...]:
     """Whether links, pins, motor and slide do their work."""
-    return (*beat_up_strength_checks(found.strength), *travel_checks(found.travel), *start_checks(found.start))
+    own = (*travel_checks(found.travel), *start_checks(found.start), *found.beam.checks)
+    return (*beat_up_strength_checks(found.strength), *own)
 
 
 def use_choices(design: BeatUp) -> tuple[Choice, ...]:
     """What was chosen of pins, start and stop."""
     found = in_use(design)
-    return (*found.strength.choices, *found.start.choices)
+    return (*found.strength.choices, *found.start.choices, found.beam.choice)

@@ -53,8 +53,11 @@ class TravelParams(Params):
         20 * mm, at_least=0.0, at_most=1.0, doc="distance of the beater's bar from the warps, to the front"
     )
     reach: float = kind.length(20 * mm, at_least=0.1 * mm, at_most=1.0, doc="reach of the beater's teeth in the warps")
+    beam_length: float | None = kind.length(
+        None, at_least=10 * mm, at_most=50.0, doc="length of the beam that carries the slide; default: the slide's"
+    )
     slide_mass: float | None = kind.mass(
-        None, above=0.0, at_most=1e4, doc="mass on the slide; default: beater, links, and as much again for the rest"
+        None, above=0.0, at_most=1e4, doc="mass on the slide; default: of all parts that stand on it"
     )
     speed: float = kind.speed(1.0, above=0.0, at_most=100.0, doc="allowed speed of the slide")
     acceleration: float = kind.acceleration(10.0, above=0.0, at_most=1e4, doc="allowed acceleration of the slide")

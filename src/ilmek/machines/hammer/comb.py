@@ -43,7 +43,7 @@ BEHIND = 5 * mm
 def comb_mass(params: HammerParams) -> float:
     """Mass of bar and leaves [kg]; a leaf reaches `BEHIND` the fell."""
     bar = params.cloth.width * params.depth * params.comb_thickness
-    leaves = (params.cloth.warps - 1) * (params.leaf_reach + BEHIND) * params.leaf_height * params.leaf
+    leaves = (params.cloth.warps - 1) * (params.reach + BEHIND) * params.leaf_height * params.leaf
     return (bar + leaves) * params.density
 
 
@@ -64,8 +64,8 @@ def comb_for(params: HammerParams, fabric: Fabric, force: float) -> Comb:
         rigidity=rigidity,
         foundation=foundation,
         stress=params.modulus * curvature * params.depth / 2,
-        leaf_stress=6 * force * line.most * params.leaf_reach / leaf,
-        leaf_sag=4 * force * line.most * params.leaf_reach**3 / (params.modulus * leaf * params.leaf_height),
+        leaf_stress=6 * force * line.most * params.reach / leaf,
+        leaf_sag=4 * force * line.most * params.reach**3 / (params.modulus * leaf * params.leaf_height),
     )
 
 

@@ -13,8 +13,10 @@ import numpy as np
 from ilmek.cams.laws import LAWS
 from ilmek.elements.materials import GRAVITY
 from ilmek.machines import beat_up
+from ilmek.machines.arrangement.spans import SPARE
 from ilmek.machines.beat import Beat, BeatDrive, BeatPath, stroke_needed
-from ilmek.machines.beat_up.crank_path import crank_beat, crank_path
+from ilmek.machines.beat_up.beam import POST
+from ilmek.machines.beat_up.crank_path import crank_beat, crank_path, rocker_outline
 from ilmek.machines.beat_up.crank_start import CrankStart
 from ilmek.machines.fell_of_loom import USUAL_WARP_LENGTH
 from ilmek.machines.hammer.comb import BAR_ID, LEAF_ID
@@ -57,7 +59,8 @@ def _of_carpet(task: LoomTask, kind: str) -> HammerParams:
         warp_length=task.side.warp_length if task.side else USUAL_WARP_LENGTH,
         stroke=stroke,
         shed_speed=params.shed_speed,
-        ground=beat_up.ground_for(stroke),
+        ground=beat_up.ground_for(stroke + SPARE * params.clearance),
+        beam_length=task.width + 2 * POST,
         stack_mass=0.0 if kind == "comb" else None,
     )
 
@@ -104,7 +107,8 @@ class CombBeat:
     def path(self) -> BeatPath:
         """Its path; straight down to the fell and up again where vertical axes drive it."""
         if self.start is not None:
-            return crank_path(self.start, outline(self.params))
+            rocker = rocker_outline(self.start.duty.linkage)
+            return crank_path(self.start, (*outline(self.params), rocker))
         return self._path(self.params)
 
     def drive(self, task: LoomTask) -> BeatDrive:
@@ -123,7 +127,9 @@ class CombBeat:
             parts=bill(tree(hammer)),
             work=work(hammer),
             torque=linkage.start.start_torque if linkage else 0.0,
-            path=crank_path(linkage.start, outline(hammer.params)) if linkage else self._path(hammer.params),
+            path=crank_path(linkage.start, (*outline(hammer.params), rocker_outline(linkage.one)))
+            if linkage
+            else self._path(hammer.params),
             machine_checks=checks(hammer),
             crank_rockers=linkage.number if linkage else 0,
             force=hammer.params.cloth.warps * hammer.force,

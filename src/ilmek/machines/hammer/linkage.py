@@ -22,6 +22,8 @@ from ilmek.elements.duty import MARGIN
 from ilmek.elements.motors import MOTORS, SERVO
 from ilmek.elements.prices import PRICES
 from ilmek.machines import beat_up
+from ilmek.machines.beat_up.beam import BeatBeam, beam_for
+from ilmek.machines.beat_up.beater import across, rectangle
 from ilmek.machines.beat_up.crank_start import (
     CLUTCH_MASS,
     CLUTCHES,
@@ -31,14 +33,17 @@ from ilmek.machines.beat_up.crank_start import (
     crank_start,
     start_checks,
 )
-from ilmek.machines.beat_up.in_loom import frame_force
-from ilmek.machines.beat_up.strength import POINTS, BeatUpStrength, Duty, beat_up_strength_checks
+from ilmek.machines.beat_up.links import PART_IDS
+from ilmek.machines.beat_up.strength import POINTS, BeatUpStrength, Duty, beat_up_strength_checks, frame_force
 from ilmek.machines.beat_up.travel import force_at_beat
+from ilmek.machines.beat_up.use_params import TravelParams
 from ilmek.machines.hammer.comb import BAR_ID, comb_mass, with_depth
 from ilmek.machines.hammer.params import MOST_BALLAST, MOST_BEATERS, HammerParams
+from ilmek.machines.link_tree import GAP
 from ilmek.machines.linkage_strength import FLAT_BARS, linkage_strength, pins_bear, strength_checks
+from ilmek.part.part import Part
 from ilmek.records import computed, group, record, result
-from ilmek.report import Alternative, Check, Choice, at_most, choose
+from ilmek.report import Alternative, Check, Choice, at_least, at_most, choose
 from ilmek.units import format_quantity, turn
 from ilmek.weaving.fell import Fabric
 
@@ -69,6 +74,7 @@ class CombLinkage:
     inertia_stress: float = result("MPa", "stress of the comb by its own inertia at the beat")
     strength: BeatUpStrength = group()
     start: CrankStart = group()
+    beam: BeatBeam = group()
 
     transmission_angle_min = computed(
         "deg", "least transmission angle of the crank-rockers", lambda it: it.one.transmission_angle_min
@@ -77,7 +83,7 @@ class CombLinkage:
     frame_force = computed(
         "N",
         "greatest force of all crank-rockers on the frame, on an empty beat",
-        lambda it: it.number * frame_force(it.one),
+        lambda it: it.number * frame_force(it.one.state),
     )
 
 
@@ -90,8 +96,18 @@ def linkage_checks(found: CombLinkage) -> tuple[Check, ...]:
             cure=cure,
             parts=(BAR_ID,),
         ),
+        at_least(
+            "end of the rocker in front of the comb's bar",
+            found.one.lengths["beater"] - found.one.lengths["rocker"] - found.one.params.width / 2,
+            found.one.params.travel.bar_distance,
+            "mm",
+            "from the warps: leaf_reach and comb_thickness",
+            cure="set a smaller hammer.leaf_reach, or narrower links",
+            parts=(PART_IDS["rocker"], BAR_ID),
+        ),
         *beat_up_strength_checks(found.strength),
         *start_checks(found.start),
+        *found.beam.checks,
     )
 
 
@@ -214,19 +230,17 @@ def _estimated(params: HammerParams, fabric: Fabric, needed: float) -> float:
 def linkage_for(params: HammerParams, fabric: Fabric, needed: float) -> CombLinkage:
     """The crank-rockers of given speed, ballast and links; needed: force of a warp that the required rows need [N]."""
     number, speed, ballast = params.rockers, params.beat_speed or 1.0, params.ballast or 0.0
-    mass = comb_mass(params) + ballast
-    one = beat_up.design(
-        beat_up.BeatUpParams(
-            ground=params.ground,
-            speed=speed,
-            beater_mass=mass / number,
-            beat_force=0.0,
-            width=params.link_width or FLAT_BARS[0][0],
-            thickness=params.link_thickness or FLAT_BARS[0][1],
-            strength=params.links,
-        ),
-        Duty(params.turn_time / 2, "links"),
+    links = beat_up.BeatUpParams(
+        ground=params.ground,
+        speed=speed,
+        beat_force=0.0,
+        width=params.link_width or FLAT_BARS[0][0],
+        thickness=params.link_thickness or FLAT_BARS[0][1],
+        strength=params.links,
+        travel=TravelParams(bar_distance=params.reach + params.comb_thickness),
     )
+    mass = comb_mass(params) + ballast + number * bracket(links, params).mass
+    one = beat_up.design(replace(links, beater_mass=mass / number), Duty(params.turn_time / 2, "links"))
     force = number * force_at_beat(one)
     asked = min(params.force or needed, force / params.cloth.warps)
     duty = CrankDuty(one, number, fabric, params.cloth.warps, asked, every=params.turn_time / 2)
@@ -244,4 +258,17 @@ def linkage_for(params: HammerParams, fabric: Fabric, needed: float) -> CombLink
         inertia_stress=6 * moment / (params.comb_thickness * params.depth**2),
         strength=one.strength,
         start=crank_start(duty, params.start),
+        beam=beam_for(params.beam_reach, mass + number * _links_mass(one), number * frame_force(one.state)),
     )
+
+
+def _links_mass(one: beat_up.BeatUp) -> float:
+    """Mass of the links and pins of a crank-rocker, without the comb [kg]."""
+    return math.fsum(body.mass for body in one.bodies.values()) - one.params.beater_mass
+
+
+def bracket(links: beat_up.BeatUpParams, params: HammerParams) -> Part:
+    """A plate beside a rocker, in the side view from the comb's bar along the rocker, from z = 0."""
+    front, half = params.reach + params.comb_thickness, links.width / 2
+    corners = rectangle(front, front + 2 * links.width, -half, half)
+    return across("hammer/bracket", "bracket of the comb", "laser-cut part", corners, GAP * links.thickness)

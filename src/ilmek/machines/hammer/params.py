@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from ilmek.cams.laws import SMOOTH_LAWS
 from ilmek.elements.materials import MATERIALS
 from ilmek.errors import ParameterError
+from ilmek.machines.beat_up.beam import POST
 from ilmek.machines.beat_up.use_params import CrankStartParams
 from ilmek.machines.strength_params import StrengthParams
 from ilmek.params import Params, kind, nested
@@ -100,7 +101,18 @@ class HammerParams(Params):
     )
     density: float = kind.density(STEEL.density, at_least=1.0, at_most=25e3, doc="density of the comb")
     strength: float = kind.pressure(235 * MPa, at_least=1 * MPa, at_most=1e10, doc="yield strength of the comb")
-    leaf_reach: float = kind.length(80 * mm, at_least=1 * mm, at_most=1.0, doc="leaf from its root to the fell")
+    beam_length: float | None = kind.length(
+        None,
+        at_least=10 * mm,
+        at_most=50.0,
+        doc="length of the beam that carries axes or crank-rockers; default: the width, and posts beside it",
+    )
+    leaf_reach: float | None = kind.length(
+        None,
+        at_least=1 * mm,
+        at_most=1.0,
+        doc="leaf from its root to the fell; default: 80 mm, before the guide cams; 14 mm on crank-rockers",
+    )
     leaf_height: float = kind.length(20 * mm, at_least=0.5 * mm, at_most=0.5, doc="height of a leaf, along the beat")
     leaf_thickness: float | None = kind.length(
         None, at_least=1e-3 * mm, at_most=50 * mm, doc="thickness of a leaf; default: 0.4 of the warp pitch"
@@ -215,6 +227,16 @@ class HammerParams(Params):
     def leaf(self) -> float:
         """Thickness of a leaf [m]."""
         return self.leaf_thickness or 0.4 * self.cloth.warp_pitch
+
+    @property
+    def beam_reach(self) -> float:
+        """Length of the beam that carries the axes or the crank-rockers [m]."""
+        return self.beam_length or self.cloth.width + 2 * POST
+
+    @property
+    def reach(self) -> float:
+        """Leaf from its root to the fell [m]: as given, or as usual of the drive."""
+        return self.leaf_reach or (14 * mm if self.drive == "linkage" else 80 * mm)
 
     @property
     def rockers(self) -> int:

@@ -5,32 +5,49 @@ the linkage (`beat_up.tree`). The middle of the width is at z = 0; bodies lie at
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
 
 from ilmek.arrays import ComplexArray
+from ilmek.machines.beat_up.beam import BeatBeam, beam_for
 from ilmek.machines.beat_up.beater import across, rectangle
-from ilmek.machines.beat_up.crank_start import start_parts
+from ilmek.machines.beat_up.carriage import beam_corner
+from ilmek.machines.beat_up.links import layer
 from ilmek.machines.beat_up.tree import CARRIAGE, crank_frame, crank_rockers, on_rocker, rocker_position
 from ilmek.machines.hammer.comb import BAR_ID, BEHIND, LEAF_ID
 from ilmek.machines.hammer.design import Hammer
+from ilmek.machines.hammer.linkage import bracket
 from ilmek.machines.hammer.params import STEEL, HammerParams
+from ilmek.machines.link_tree import GAP
+from ilmek.machines.linkage_strength import FLAT_BARS
 from ilmek.part import catalogue
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import Placement, placement
-from ilmek.part.shapes import box
+from ilmek.part.profile import Profile
+from ilmek.part.shapes import Placed, Prism, Sum, box
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree, depth_of
+from ilmek.plane.contours import polygon
 from ilmek.report.scene import SceneMotion
-from ilmek.units import mm
+from ilmek.units import format_quantity, mm
 
 COMB = "hammer/comb"
 """Body of the comb."""
 
 AXIS_SIDE = 80 * mm
 """Side of the section of a vertical axis [m]; assumed by this project."""
+
+
+BLOCK_HEIGHT, BLOCK_DEPTH, BLOCK_MASS = 20 * mm, 20 * mm, 1.0
+"""Carriage of a vertical axis: height, least depth [m], mass [kg]; assumed by this project."""
+
+ABOVE_PILE = 12 * mm
+"""Bar of a comb on crank-rockers over its striking edge [m]; assumed by this project."""
+
+ABOVE_HEADS = 90 * mm
+"""Lower end of the axes over the fell [m]: above heads that knot; assumed by this project."""
 
 
 def tree(hammer: Hammer, motions: Mapping[str, SceneMotion] | None = None) -> Tree:
@@ -40,15 +57,41 @@ def tree(hammer: Hammer, motions: Mapping[str, SceneMotion] | None = None) -> Tr
 
 
 def outline(params: HammerParams) -> tuple[ComplexArray, ...]:
-    """The comb in the side view [m]: its leaves through the warps, and the bar in front of their roots."""
-    front, deep = params.leaf_reach, params.comb_thickness
-    return rectangle(-BEHIND, front, 0.0, params.leaf_height), rectangle(front, front + deep, 0.0, params.depth)
+    """The comb in the side view [m]: its leaves through the warps, the bar in front of their roots, ballast before it.
+
+    On crank-rockers the bar is above the pile, so that it may stand nearer to the warps, clear of the coupler.
+    """
+    front, deep = params.reach, params.comb_thickness
+    low = ABOVE_PILE if params.drive == "linkage" else 0.0
+    bar = rectangle(front, front + deep, low, low + params.depth)
+    comb = rectangle(-BEHIND, front, 0.0, params.leaf_height), bar
+    ballast = params.ballast or 0.0
+    if params.drive != "linkage" or not ballast:
+        return comb
+    side = math.sqrt(ballast / (STEEL.density * math.fsum(high - first for first, high in _between(params))))
+    return (*comb, rectangle(front + deep, front + deep + side, low, low + side))
+
+
+def rocker_stations(params: HammerParams) -> tuple[float, ...]:
+    """Middles of the rockers across the width, 0 in its middle [m]."""
+    return tuple(params.cloth.width * ((k + 0.5) / params.rockers - 0.5) for k in range(params.rockers))
+
+
+def _between(params: HammerParams) -> Iterator[tuple[float, float]]:
+    """Spans of the width between the planes of the links, where the bar's front is free [m]."""
+    thickness = params.link_thickness or FLAT_BARS[0][1]
+    ends = [-params.cloth.width / 2]
+    for station in rocker_stations(params):
+        first = station - (1 + GAP) * thickness
+        ends += [max(first, ends[-1]), station + layer("plate", thickness) + thickness]
+    ends.append(params.cloth.width / 2)
+    return ((low, high) for low, high in zip(ends[::2], ends[1::2], strict=True) if high > low)
 
 
 def _comb(hammer: Hammer) -> tuple[Occurrence, ...]:
-    """Bar and leaves, the bar's ballast in front of it; the axes of the side view, 0 where the leaves strike."""
+    """Bar and leaves, the bar's ballast before it; the axes of the side view, 0 where the leaves strike."""
     params, steel = hammer.params, replace(STEEL, density=hammer.params.density)
-    leaf, bar = outline(params)
+    leaf, bar, *ballast = outline(params)
     number, wide, middle = params.cloth.warps - 1, params.cloth.width, (placement(z=-params.cloth.width / 2),)
     stations = (np.arange(number) - (number - 1) / 2) * params.cloth.warp_pitch - params.leaf / 2
     leaves = across(LEAF_ID, "leaf of the comb", "laser-cut part", leaf, params.leaf, steel)
@@ -56,60 +99,130 @@ def _comb(hammer: Hammer) -> tuple[Occurrence, ...]:
         Occurrence(across(BAR_ID, "comb of the hammer", "steel bar", bar, wide, steel), middle),
         Occurrence(leaves, tuple(placement(z=float(z)) for z in stations)),
     )
-    ballast = hammer.linkage.ballast if hammer.linkage else 0.0
-    if not ballast:
-        return comb
-    side, front = math.sqrt(ballast / (STEEL.density * wide)), params.leaf_reach + params.comb_thickness
-    section = rectangle(front, front + side, 0.0, side)
-    return (*comb, Occurrence(across("hammer/ballast", "ballast of the comb", "steel bar", section, wide), middle))
+    return (*comb, *(Occurrence(_ballast(params, section)) for section in ballast))
+
+
+def _ballast(params: HammerParams, section: ComplexArray) -> Part:
+    """Bars between the links; z is turned where the comb is on its rockers, so that they lie mirrored here."""
+    bars = (
+        Placed(Prism(Profile(polygon(section)), high - low), (placement(z=-high),)) for low, high in _between(params)
+    )
+    side = format_quantity(float(np.ptp(section.real)), "mm", 4)
+    return Part("hammer/ballast", "ballast of the comb", "steel bar", f"square {side}", Sum(tuple(bars)), STEEL)
+
+
+def _brackets(hammer: Hammer, stations: Sequence[float]) -> Occurrence:
+    """Plates beside the rockers, in the axes of the side view: each joins the comb's bar to its rocker."""
+    assert hammer.linkage is not None
+    one = hammer.linkage.one
+    plate = bracket(one.params, hammer.params)
+    beside = 0.5 * one.params.thickness
+    return Occurrence(plate, tuple(placement(z=beside - z) for z in stations))
 
 
 @lru_cache(maxsize=4)
 def _on_crank_rockers(hammer: Hammer) -> Tree:
-    linkage, wide = hammer.linkage, hammer.params.cloth.width
+    linkage = hammer.linkage
     assert linkage is not None
-    one, number = linkage.one, linkage.number
-    stations = tuple(wide * ((k + 0.5) / number - 0.5) for k in range(number))
+    one = linkage.one
+    stations = rocker_stations(hammer.params)
+    parts = (*_comb(hammer), _brackets(hammer, stations))
     comb = RigidBody(
         COMB,
-        tuple(on_rocker(occurrence, one.lengths["beater"]) for occurrence in _comb(hammer)),
+        tuple(on_rocker(occurrence, one.lengths["beater"]) for occurrence in parts),
         CARRIAGE,
         Joint(JointKind.PIN),
         (rocker_position(one),),
     )
     return Tree(
         (
-            crank_frame(one, start_parts(linkage.start), stations),
+            crank_frame(one, linkage.beam, linkage.start, stations),
             *crank_rockers(one, CARRIAGE, stations),
             comb,
         )
     )
 
 
+def beam_of(hammer: Hammer) -> tuple[BeatBeam, complex]:
+    """The beam that carries the crank-rockers, or the vertical axes, and its lower corner towards the warps [m]."""
+    if hammer.linkage is not None:
+        return hammer.linkage.beam, beam_corner(hammer.linkage.one)
+    drive, params = hammer.axis, hammer.params
+    assert drive is not None
+    # Spread over the beam, as if half of it were in the middle.
+    force = float(np.max(np.abs(drive.force)))
+    corner = complex(_before_axes(hammer) + AXIS_SIDE, _low(params))
+    return beam_for(params.beam_reach, drive.mass / 2, force / 2), corner
+
+
+def _beam_before_axes(hammer: Hammer) -> tuple[Occurrence, ...]:
+    beam, corner = beam_of(hammer)
+    middle = corner + beam.section.side / 2 * (1 + 1j)
+    return (Occurrence(beam.part, (placement(middle.real, middle.imag, -beam.length / 2),)),)
+
+
+def _low(params: HammerParams) -> float:
+    """Lower end of the vertical axes over the fell [m]."""
+    return max(params.depth - BLOCK_HEIGHT, ABOVE_HEADS)
+
+
+def _before_axes(hammer: Hammer) -> float:
+    """From the fell to the vertical axes [m]: their carriages lead past the reducers."""
+    params = hammer.params
+    wide = max(_face(part) for part in _driving(hammer))
+    deep = max(BLOCK_DEPTH, (wide - AXIS_SIDE) / 2 + BLOCK_DEPTH / 2)
+    return params.reach + params.comb_thickness + deep
+
+
+@lru_cache(maxsize=4)
+def _driving(hammer: Hammer) -> tuple[Part, ...]:
+    """Reducer and motor of a vertical axis."""
+    found = hammer.axis
+    assert found is not None
+    drive, load = found.drive, found.cycle
+    torque, speed = float(np.max(np.abs(load.torque))), float(np.max(np.abs(load.speed)))
+    row = drive.motor if drive else None
+    motor = catalogue.motor("hammer/motor", "motor of a vertical axis", row, torque, speed)
+    if drive is None:
+        return (motor,)
+    return catalogue.reducer("hammer/reducer", "reducer of a vertical axis", drive.reducer.ratio, row), motor
+
+
+def _face(part: Part) -> float:
+    """Width of a motor or reducer [m]."""
+    assert part.shape is not None
+    return float(np.ptp(np.concatenate(part.shape.pieces(mm))[:, 0]))
+
+
 @lru_cache(maxsize=4)
 def _on_axes(hammer: Hammer) -> Tree:
-    params, found = hammer.params, hammer.axis
-    assert found is not None
-    number, drive, load = params.axis_count, found.drive, found.cycle
-    torque, speed = float(np.max(np.abs(load.torque))), float(np.max(np.abs(load.speed)))
-    row, front = drive.motor if drive else None, params.leaf_reach + params.comb_thickness + AXIS_SIDE / 2
+    params, (*geared, motor) = hammer.params, _driving(hammer)
+    number, low, before = params.axis_count, _low(params), params.reach + params.comb_thickness
     axis = Part(
         "hammer/axis",
         "vertical axis",
         "linear axis",
         params.axis,
-        box(AXIS_SIDE, AXIS_SIDE, params.stroke),
+        box(AXIS_SIDE, AXIS_SIDE, params.stroke + BLOCK_HEIGHT),
         purchase=Bought(params.axis, length=params.stroke),
         envelope=True,
     )
-    geared = (
-        (catalogue.reducer("hammer/reducer", "reducer of a vertical axis", drive.reducer.ratio, row),) if drive else ()
-    )
-    motor = catalogue.motor("hammer/motor", "motor of a vertical axis", row, torque, speed)
     edge = params.cloth.width / 2 - params.inset
     stations = np.linspace(-edge, edge, number) if number > 1 else np.zeros(1)
     upright = placement(about=(1.0, 0.0, 0.0), angle=-math.pi / 2)
-    top = params.stroke + (depth_of(geared[0]) if geared else 0.0)
+    deep = _before_axes(hammer) - before
+    front, end = before + deep + AXIS_SIDE / 2, low + params.stroke + BLOCK_HEIGHT
+    top = end + (depth_of(geared[0]) if geared else 0.0)
+    block = Part(
+        "hammer/carriage",
+        "carriage of a vertical axis",
+        "guide carriage",
+        shape=box(deep, low + BLOCK_HEIGHT - (params.depth - BLOCK_HEIGHT), AXIS_SIDE),
+        purchase=Bought("carriage of the vertical axis", BLOCK_MASS),
+        envelope=True,
+    )
+    middle = (low + params.depth) / 2
+    blocks = tuple(placement(before + deep / 2, middle, float(z) - AXIS_SIDE / 2) for z in stations)
     flipped = placement(about=(1.0, 0.0, 0.0), angle=math.pi / 2)
 
     def standing(height: float) -> tuple[Placement, ...]:
@@ -118,10 +231,11 @@ def _on_axes(hammer: Hammer) -> Tree:
     axes = RigidBody(
         "hammer/axes",
         (
-            Occurrence(axis, standing(0.0)),
-            *(Occurrence(part, standing(params.stroke)) for part in geared),
+            *_beam_before_axes(hammer),
+            Occurrence(axis, standing(low)),
+            *(Occurrence(part, standing(end)) for part in geared),
             Occurrence(motor, tuple(placement(front, top, float(z)).after(flipped) for z in stations)),
         ),
-        joint=Joint(JointKind.MISSING),
     )
-    return Tree((axes, RigidBody(COMB, _comb(hammer), axes.id, Joint(JointKind.SLIDE, (0.0, 1.0, 0.0)))))
+    comb = (*_comb(hammer), Occurrence(block, blocks))
+    return Tree((axes, RigidBody(COMB, comb, axes.id, Joint(JointKind.SLIDE, (0.0, 1.0, 0.0)))))

@@ -2,23 +2,25 @@
 
 Axes: x along the width to the weaver's right, 0 in the middle of a shuttle and at the tip of a rapier; y up along the
 warps; z to the front. A shuttle's bay is a bored square bar with an end wall on each side, its noses are wedges in
-plan.
+plan: the back glides along the warps at rest, in the pockets of the noses it has its magnets.
 """
 
-import math
+from collections.abc import Iterator
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 
 from ilmek.machines.weft.bobbin import BobbinSize
-from ilmek.machines.weft.materials import BEECH, CARBON
+from ilmek.machines.weft.coupling import magnet_sides
+from ilmek.machines.weft.materials import BEECH, CARBON, NEODYMIUM
 from ilmek.machines.weft.params import WeftParams
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import ALONG_WIDTH, UPRIGHT, Placement, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Placed, Prism, Sum, bar, box, rectangle
 from ilmek.plane.contours import circle, polygon
-from ilmek.units import format_quantity
+from ilmek.units import format_quantity, mm
 
 
 def part_id(name: str) -> str:
@@ -29,41 +31,69 @@ def part_id(name: str) -> str:
 SHUTTLE_WOOD, FITTINGS, BOBBIN = part_id("shuttle"), part_id("fittings"), part_id("bobbin")
 CARRIAGE, AXIS, MOTOR, BOX = part_id("carriage"), part_id("axis"), part_id("motor"), part_id("box")
 RAPIER_TUBE, GRIPPER, NEEDLE = part_id("rapier"), part_id("gripper"), part_id("needle")
+MAGNET = part_id("magnet")
 
 
 def shuttle_wood(params: WeftParams, size: BobbinSize) -> Part:
-    """A shuttle for a bobbin, without what is fitted to it."""
-    deep, long = size.diameter + 2 * params.wall, size.length
+    """A shuttle for a bobbin, without what is fitted to it: its back is flat, its noses have pockets for magnets."""
+    deep, long, end = size.diameter + 2 * params.wall, size.length, size.length / 2 + params.wall
     bay = Placed(Prism(Profile(rectangle(deep, deep), (circle(0j, size.diameter / 2),)), long), (along(-long / 2),))
-    ends = Placed(box(deep, deep, params.wall), (along(-long / 2 - params.wall), along(long / 2)))
-    end = long / 2 + params.wall
-    noses: tuple[Placed, ...] = ()
-    if params.nose > 0:
-        wedge = polygon(np.array([-deep / 2 + 0j, deep / 2 + 0j, 1j * params.nose]))
-        standing = placement(end, -deep / 2).after(UPRIGHT)
-        turned = placement(about=(0.0, 1.0, 0.0), angle=math.pi).after(standing)
-        noses = (Placed(Prism(Profile(wedge), deep), (standing, turned)),)
+    wall = Prism(Profile(rectangle(deep, deep), (circle(0j, _eye(size) / 2),)), params.wall)
+    ends = Placed(wall, (along(-long / 2 - params.wall), along(long / 2)))
+    noses = [*_nose(params, size, 1), *_nose(params, size, -1)] if params.nose > 0 else []
     wood = replace(BEECH, density=params.shuttle_density)
     length = format_quantity(2 * (end + params.nose), "mm")
     text = f"{length} long, for a bobbin of {size.name}"
     return Part(SHUTTLE_WOOD, "shuttle", "machined link", text, Sum((bay, ends, *noses)), wood)
 
 
-def fittings(params: WeftParams, size: BobbinSize) -> tuple[Part, tuple[Placement, ...]]:
-    """What is fitted to a shuttle: half of it within each nose; its form is not designed."""
+def _nose(params: WeftParams, size: BobbinSize, side: int) -> Iterator[Placed]:
+    """The nose to the right (side 1) or left (-1): a wedge in plan, within its height a pocket at the back."""
     deep, end = size.diameter + 2 * params.wall, size.length / 2 + params.wall
-    long = max(params.nose / 2, params.wall / 2)
+    back, (long, tall, thick) = -deep / 2, magnet_sides(params, size.diameter)
+    plan = np.array([back, -back, back + 1j * params.nose])
+    pocket = np.array([back + thick, -back, back + 1j * params.nose, back + 1j * long, back + thick + 1j * long])
+    for corners, low, high in (
+        (plan, -deep / 2, params.wall),
+        (pocket, -tall / 2, tall),
+        (plan, tall / 2, params.wall),
+    ):
+        outline = corners if side > 0 else np.conj(corners)[::-1]
+        yield Placed(Prism(Profile(polygon(outline)), high), (placement(side * end, low).after(UPRIGHT),))
+
+
+def _eye(size: BobbinSize) -> float:
+    """Diameter of the eyes in the end walls [m]."""
+    return size.diameter / 2
+
+
+@lru_cache(maxsize=64)
+def magnet(params: WeftParams, size: BobbinSize) -> Part:
+    """A magnet of a shuttle or of its carriage: along the width, up, and from z = 0 to the front."""
+    long, tall, thick = magnet_sides(params, size.diameter)
+    text = " x ".join(format_quantity(side / mm, "") for side in (long, tall, thick)) + " mm"
+    return Part(MAGNET, "magnet", "magnet", text, box(long, tall, thick), NEODYMIUM)
+
+
+def magnet_places(params: WeftParams, size: BobbinSize) -> tuple[float, float]:
+    """Middles of the magnets along the shuttle [m]."""
+    middle = size.length / 2 + params.wall + magnet_sides(params, size.diameter)[0] / 2
+    return -middle, middle
+
+
+def fittings(params: WeftParams, size: BobbinSize) -> tuple[Part, tuple[Placement, ...]]:
+    """What is fitted to a shuttle: an eye with its brake in each end wall; their form is not designed."""
     part = Part(
         FITTINGS,
-        "magnets, eyes and brake of a shuttle",
+        "eye and brake of a shuttle",
         "pin or bush",
-        "half of them in each nose",
-        box(deep / 3, deep / 3, long),
-        purchase=Bought("magnets, eyes and brake", params.fittings / 2),
+        "one in each end wall",
+        bar(_eye(size), params.wall),
+        purchase=Bought("eye and brake", params.fittings / 2),
         envelope=True,
     )
-    inside = 0.0 if params.nose > 0 else long
-    return part, (along(end - inside), along(-end + inside - long))
+    end = size.length / 2
+    return part, (along(end), along(-end - params.wall))
 
 
 def bobbin(params: WeftParams, size: BobbinSize) -> Part:

@@ -9,7 +9,8 @@ from dataclasses import replace
 from typing import TypeAlias
 
 from ilmek.carpet.ground import WeftLengths, weft_lengths
-from ilmek.elements.carpet_yarns import CarpetYarnParams, YarnProperties
+from ilmek.elements.carpet_yarns import CarpetYarnParams
+from ilmek.elements.linear_guides import LINEAR_GUIDES
 from ilmek.elements.materials import GRAVITY
 from ilmek.elements.prices import price_of, read_prices
 from ilmek.loom.bobbins import Bobbin, stop_count, stop_time
@@ -17,11 +18,12 @@ from ilmek.machines import WEFT_CARRIERS
 from ilmek.machines.weft.axis import BeltAxis, belt_axis
 from ilmek.machines.weft.bobbin import windings
 from ilmek.machines.weft.carriers import AXIS, BOBBIN, BOX, CARRIAGE, GRIPPER, MOTOR
+from ilmek.machines.weft.guide import carriage_mass, guide_for
 from ilmek.machines.weft.params import AUTO, RAPIER, SHUTTLE, WeftParams
 from ilmek.machines.weft.passage import WeftPassage
 from ilmek.machines.weft.rapier import DRIVE, Rapier, rapier_checks, rapier_for, reach
 from ilmek.machines.weft.shuttle import BOX_END, Shuttle, friction, shuttle_checks, shuttle_for
-from ilmek.machines.weft.tension import draw_off_tension
+from ilmek.machines.weft.tension import braked, draw_off_tension
 from ilmek.machines.weft.tree import WeftBodies
 from ilmek.part.bill import bill
 from ilmek.records import computed, record, result
@@ -159,13 +161,25 @@ def _with(params: WeftParams) -> Weft:
     passage = _passage(params, carried)
     drawn = (params.cloth.width, passage.acceleration) if params.carrier == RAPIER else (0.0, 0.0)
     tension = {
-        name: draw_off_tension(yarn, _brake(params, yarn), passage.speed, params.wrap, *drawn)
+        name: draw_off_tension(yarn, braked(params, yarn), passage.speed, params.wrap, *drawn)
         for name, yarn in (("straight weft", yarns.straight_weft), ("sinuous weft", yarns.sinuous_weft))
     }
-    moved = params.carriage_mass + (carried.full if isinstance(carried, Shuttle) else carried.mass)
-    axis = belt_axis(params, passage, moved, _friction(params, carried) + max(tension.values()))
+    axis = _axis(params, passage, carried, _friction(params, carried) + max(tension.values()))
     bodies = WeftBodies(params, carried, passage, axis)
     return Weft(params, lengths, carried, passage, axis, bodies, tension, choices)
+
+
+def _axis(params: WeftParams, passage: WeftPassage, carried: Carrier, resisting: float) -> BeltAxis:
+    """The belt axis with the carriage on it; the guide of a shuttle's is as high as its belt is wide."""
+    if not isinstance(carried, Shuttle):
+        return belt_axis(params, passage, params.carriage_mass + carried.mass, resisting)
+    row = LINEAR_GUIDES[0]
+    while True:
+        axis = belt_axis(params, passage, carriage_mass(params, carried, row) + carried.full, resisting)
+        found = guide_for(axis)
+        if found.height <= row.height:
+            return axis
+        row = found
 
 
 def _passage(params: WeftParams, carried: Carrier) -> WeftPassage:
@@ -175,15 +189,10 @@ def _passage(params: WeftParams, carried: Carrier) -> WeftPassage:
     return WeftPassage(s_curve(reach(params), params.limits), True, params.grip_time, params.edge)
 
 
-def _brake(params: WeftParams, yarn: YarnProperties) -> float:
-    """Tension of a weft behind its brake [N]."""
-    return params.brake_share * yarn.breaking_force if params.brake is None else params.brake
-
-
 def _friction(params: WeftParams, carried: Carrier) -> float:
     """Friction of the carrier on warps or guide [N]."""
     if isinstance(carried, Shuttle):
-        return friction(params)
+        return friction(params, carried)
     return params.cloth.yarns.friction * carried.mass * GRAVITY
 
 

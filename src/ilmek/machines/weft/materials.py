@@ -28,3 +28,16 @@ CARBON = Material(
     fatigue=None,
     hertz=None,
 )
+
+NEODYMIUM = Material(
+    "neodymium magnet",
+    modulus=160 * GPa,
+    density=7500.0,
+    strength=80 * MPa,
+    source="sintered Nd-Fe-B of grade N42: makers' data; it is brittle",
+    tensile=80 * MPa,
+    poisson=0.24,
+    hardness=570.0,
+    fatigue=None,
+    hertz=None,
+)

@@ -51,11 +51,9 @@ class WeftParams(Params):
     wall: float = kind.length(3 * mm, at_least=0.1 * mm, at_most=50 * mm, doc="wall of the shuttle about its bobbin")
     nose: float = kind.length(40 * mm, at_least=0.0, at_most=0.5, doc="each pointed end of the shuttle")
     shuttle_density: float = kind.density(BEECH.density, at_least=1.0, at_most=2e4, doc="density of the shuttle: beech")
-    fittings: float = kind.mass(0.15, at_least=0.0, at_most=10.0, doc="mass of the shuttle's magnets, eyes and brake")
-    coupling: float = kind.force(60.0, at_least=0.0, at_most=1e4, doc="force at which the shuttle's magnets slip")
-    attraction: float = kind.force(40.0, at_least=0.0, at_most=1e4, doc="pull of the magnets across the warps")
+    fittings: float = kind.mass(0.1, at_least=0.0, at_most=10.0, doc="mass of the shuttle's eyes and brake")
     safety: float = kind.ratio(1.5, at_least=1.0, at_most=20.0, doc="required safety of coupling and grip")
-    carriage_mass: float = kind.mass(0.6, at_least=0.0, at_most=50.0, doc="mass of the carriage on the belt")
+    carriage_mass: float = kind.mass(0.6, at_least=0.0, at_most=50.0, doc="mass of the rapier's carriage on the belt")
     brake: float | None = kind.force(
         None, at_least=0.0, at_most=100.0, doc="tension of a weft behind its brake; default: by brake_share"
     )

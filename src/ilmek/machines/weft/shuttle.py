@@ -1,15 +1,15 @@
 """The shuttles: one for each weft, with its bobbin, dragged through the shed by a carriage on a belt axis.
 
-The carriage runs in front of the warps and drags a shuttle by magnets through the lifted ones, which glide between the
-two. A guideway on the tips of the cams [thesis, Fig 3.18] would move with the cams while they turn, so that the
-carriage's axis is the guide. At each edge a box with two cells holds both shuttles: one arrives, the box shifts, the
-other leaves. The straight weft is laid one way, the sinuous weft back; in every second row both start at the other
-edge, to which the carriage runs empty while the knots are tied.
+The carriage runs behind the warps and drags a shuttle by magnets; the warps at rest glide between the two, the lifted
+ones are before the shuttle. A guideway on the tips of the cams [thesis, Fig 3.18] would move with the cams while they
+turn, so that the carriage's axis is the guide. At each edge a box with two cells, one above the other, holds the
+shuttles: one arrives, the box shifts, the other leaves. The straight weft is laid one way, the sinuous weft back; in
+every second row both start at the other edge, to which the carriage runs empty while the knots are tied.
 
-    force on the magnets   sqrt( (m a + f N + T)² + (m g)² )
+    force on the magnets   sqrt( (m a + T)² + (m g)² )
 
-m full shuttle, a its acceleration, f friction on the warps, N pull of the magnets, T tension of the weft; the weight
-acts along the warps, which are upright.                                                                       [derived]
+m full shuttle, a its acceleration, T tension of the weft; the weight acts along the warps, which are upright. What the
+magnets hold beside the friction of their pull on the warps: `coupling`.                                       [derived]
 """
 
 import math
@@ -18,10 +18,12 @@ from dataclasses import replace
 from ilmek.carpet.ground import WeftLengths
 from ilmek.elements.materials import GRAVITY
 from ilmek.machines.weft.bobbin import BobbinSize, Winding, bobbin_sizes, windings
-from ilmek.machines.weft.carriers import BOBBIN, CARRIAGE, FITTINGS, SHUTTLE_WOOD, bobbin, shuttle_wood
+from ilmek.machines.weft.carriers import BOBBIN, CARRIAGE, MAGNET, SHUTTLE_WOOD, bobbin, magnet, shuttle_wood
+from ilmek.machines.weft.coupling import PAIRS, MagneticCoupling, coupling
 from ilmek.machines.weft.params import WeftParams
 from ilmek.machines.weft.shed import needed_opening, shed_check
-from ilmek.records import computed, record, result
+from ilmek.machines.weft.tension import braked, draw_off_tension
+from ilmek.records import computed, group, record, result
 from ilmek.report import Alternative, Check, Choice, Json, at_least, at_most, choose
 
 SUPPORTS = 3
@@ -43,6 +45,7 @@ class Shuttle:
     empty: float = result("kg", "mass of a shuttle without its bobbin", name="mass_empty")
     full: float = result("kg", "mass of a shuttle with its full bobbin, the heavier of both", name="mass_full")
     supports: int = result("1", "lifted warps on which a shuttle bears, at least", least=0.0)
+    coupling: MagneticCoupling = group()
 
     @computed("", "diameter, core and length of a bobbin's winding [m]", name="bobbin")
     def bobbin_size(self) -> Json:
@@ -63,34 +66,47 @@ class Shuttle:
 
 
 def shuttle_for(params: WeftParams, lengths: WeftLengths) -> tuple[Shuttle, tuple[Choice, ...]]:
-    """The shuttle with the smallest bobbin whose checks hold, or the largest for the least time, and that choice."""
+    """The shuttle with the smallest bobbin whose checks hold, or the largest for the least time, and that choice.
+
+    Its magnets, which grow with the bobbin, are to bear the allowed acceleration.
+    """
     tried = [_unweighed(params, size, lengths) for size in bobbin_sizes(params)]
     if params.aim == "time":
         tried.reverse()
-    named = [Alternative(one.bobbin.name, size_checks(params, one)) for one in tried]
+    tension = most_tension(params)
+    named: list[Alternative] = []
+    enough = False
+    for number, one in enumerate(tried):
+        checks = size_checks(params, one)
+        if not enough and all(check.ok for check in checks):
+            tried[number] = _weighed(params, one)
+            checks = (*checks, magnet_check(params, tried[number], params.acceleration, tension))
+            enough = checks[-1].ok
+        named.append(Alternative(one.bobbin.name, checks))
     index, choice = choose("bobbin", named, params.aim)
     return _weighed(params, tried[index]), (choice,) if len(tried) > 1 else ()
 
 
 def _unweighed(params: WeftParams, size: BobbinSize, lengths: WeftLengths) -> Shuttle:
-    """The shuttle for a bobbin; its masses do not decide the choice."""
-    wound = windings(params, size, lengths)
+    """The shuttle for a bobbin, without its masses."""
     depth, bay = size.diameter + 2 * params.wall, size.length + 2 * params.wall
     return Shuttle(
         bobbin=size,
-        windings=wound,
+        windings=windings(params, size, lengths),
         depth=depth,
         length=bay + 2 * params.nose,
         opening=needed_opening(params, depth),
         empty=math.nan,
         full=math.nan,
         supports=math.floor(bay / (2 * params.cloth.warp_pitch) * (1 + 1e-12)),
+        coupling=coupling(params, size.diameter),
     )
 
 
 def _weighed(params: WeftParams, made: Shuttle) -> Shuttle:
     """The shuttle with the masses of its parts."""
-    empty = shuttle_wood(params, made.bobbin).mass + params.fittings
+    magnets = PAIRS * magnet(params, made.bobbin).mass if params.nose > 0 else 0.0
+    empty = shuttle_wood(params, made.bobbin).mass + magnets + params.fittings
     full = empty + bobbin(params, made.bobbin).mass + max(winding.mass for winding in made.windings)
     return replace(made, empty=empty, full=full)
 
@@ -128,25 +144,36 @@ def size_checks(params: WeftParams, made: Shuttle) -> tuple[Check, ...]:
 
 def shuttle_checks(params: WeftParams, made: Shuttle, acceleration: float, tension: float) -> tuple[Check, ...]:
     """All checks of the shuttle at an acceleration [m/s²] and a tension of its weft [N]."""
-    return (
-        *size_checks(params, made),
-        at_most(
-            "force on the shuttle's magnets",
-            params.safety * coupling_force(params, made, acceleration, tension),
-            params.coupling,
-            "N",
-            "m a, friction, tension and weight, by parameter safety; assumed by this project: parameter coupling",
-            cure="set a lower weft.acceleration or stronger magnets, weft.coupling",
-            parts=(FITTINGS, CARRIAGE),
-        ),
+    return (*size_checks(params, made), magnet_check(params, made, acceleration, tension))
+
+
+def magnet_check(params: WeftParams, made: Shuttle, acceleration: float, tension: float) -> Check:
+    """Whether the magnets drag the full shuttle at an acceleration [m/s²] and a tension of its weft [N]."""
+    return at_most(
+        "force on the shuttle's magnets",
+        params.safety * coupling_force(made, acceleration, tension),
+        made.coupling.hold,
+        "N",
+        "m a, tension and weight, by parameter safety; block magnets of the noses [Akoun and Yonnet, 1984]",
+        cure="set a lower weft.acceleration, a longer weft.nose, a smaller weft.play, or weft=rapier",
+        parts=(MAGNET, CARRIAGE) if params.nose > 0 else (CARRIAGE,),
     )
 
 
-def friction(params: WeftParams) -> float:
+def friction(params: WeftParams, made: Shuttle) -> float:
     """Friction of the shuttle on the warps [N]."""
-    return params.cloth.yarns.friction * params.attraction
+    return params.cloth.yarns.friction * made.coupling.pull
 
 
-def coupling_force(params: WeftParams, made: Shuttle, acceleration: float, tension: float) -> float:
-    """Force on the magnets of the full shuttle [N]."""
-    return math.hypot(made.full * acceleration + friction(params) + tension, made.full * GRAVITY)
+def most_tension(params: WeftParams) -> float:
+    """Largest tension of both wefts at the allowed speed [N]."""
+    yarns = params.cloth.carpet_yarns
+    return max(
+        draw_off_tension(yarn, braked(params, yarn), params.speed, params.wrap)
+        for yarn in (yarns.straight_weft, yarns.sinuous_weft)
+    )
+
+
+def coupling_force(made: Shuttle, acceleration: float, tension: float) -> float:
+    """Force on the magnets of the full shuttle, beside the friction of their own pull [N]."""
+    return math.hypot(made.full * acceleration + tension, made.full * GRAVITY)

@@ -9,7 +9,13 @@ its balloon at these speeds.  [momentum of the yarn that is set in motion, mu vÂ
 """
 
 from ilmek.elements.carpet_yarns import YarnProperties
+from ilmek.machines.weft.params import WeftParams
 from ilmek.weaving.tension import capstan
+
+
+def braked(params: WeftParams, yarn: YarnProperties) -> float:
+    """Tension of a weft behind its brake [N]: as given, or a share of its breaking force."""
+    return params.brake_share * yarn.breaking_force if params.brake is None else params.brake
 
 
 def draw_off_tension(  # noqa: PLR0917

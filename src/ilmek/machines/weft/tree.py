@@ -1,50 +1,47 @@
 """The weft side as bodies: the carrier with its carriage, the axis that moves it, boxes or what serves a rapier.
 
 Axes: x along the width to the weaver's right, 0 in the middle of the cloth; y up along the warps and z to the front,
-both 0 at the axis of the carrier. What holds the axis, and boxes and devices at the edges, is not designed.
+both 0 at the axis of the carrier. Bodies lie at rest as a row begins. What holds the axis of a rapier, and the devices
+at its edges, is not designed.
 """
 
 import math
 from collections.abc import Iterator
 from functools import lru_cache
 
-from ilmek.elements.drive_parts import PULLEY
-from ilmek.elements.materials import GRAVITY
 from ilmek.elements.motors import STEPPER, smallest_motor
 from ilmek.machines.weft.axis import BeltAxis
 from ilmek.machines.weft.carriers import (
     AXIS,
-    BOX,
     CARRIAGE,
     GRIPPER,
     MOTOR,
     along,
     bobbin,
     fittings,
+    magnet,
+    magnet_places,
     part_id,
     rapier_tube,
     shuttle_wood,
 )
+from ilmek.machines.weft.guide import ShuttleGuide
 from ilmek.machines.weft.params import WeftParams
 from ilmek.machines.weft.passage import WeftPassage
 from ilmek.machines.weft.rapier import CLAMP, Rapier
-from ilmek.machines.weft.shuttle import BOX_END, Shuttle
+from ilmek.machines.weft.shuttle import Shuttle
 from ilmek.part import catalogue
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import UPRIGHT, Placement, placement
-from ilmek.part.profile import Profile
-from ilmek.part.shapes import Prism, Shape, box, rectangle
+from ilmek.part.shapes import Shape, box
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
-from ilmek.plane.contours import polygon
 from ilmek.records import record
 from ilmek.units import format_quantity, mm
 
 STRAIGHT, SINUOUS = part_id("shuttle of the straight weft"), part_id("shuttle of the sinuous weft")
+LEFT_BOX, RIGHT_BOX = part_id("box at the left edge"), part_id("box at the right edge")
 DRAGGING, RAPIER_BODY = part_id("carriage of the shuttle"), part_id("rapier with its carriage")
 """Ids of the bodies that move."""
-
-SHIFT_SPEED = 0.1
-"""Speed of a box from cell to cell [m/s]."""
 
 CUTTER, SELECTOR, TUCKER = 0.3, 0.2, 0.5
 """Masses of a weft cutter, of the fingers of the selector and of a tuck-in needle [kg]; assumed by this project."""
@@ -76,7 +73,6 @@ class WeftBodies:
         """Each body."""
         if isinstance(self.carried, Shuttle):
             yield from self._shuttles(self.carried)
-            yield self._boxes(self.carried)
         else:
             yield from self._rapier(self.carried)
             yield self._devices(self.carried)
@@ -87,32 +83,36 @@ class WeftBodies:
         return self.params.cloth.width / 2
 
     @property
-    def before_warps(self) -> float:
-        """From the axis of the carrier to what runs in front of the lifted warps [m]."""
-        params = self.params
-        return self.carried.depth / 2 + params.play + params.cloth.carpet_yarns.warp.diameter + params.lift
+    def guide(self) -> ShuttleGuide:
+        """What moves the shuttles. Raises TypeError for a rapier."""
+        if not isinstance(self.carried, Shuttle):
+            raise TypeError("a rapier has no guide behind the warps")
+        return ShuttleGuide(self.params, self.carried, self.axis, self.passage.stroke)
 
     def _shuttles(self, made: Shuttle) -> Iterator[RigidBody]:
-        """Both shuttles, each with a bobbin, from the left edge on, and the carriage that drags them."""
-        wood, core = shuttle_wood(self.params, made.bobbin), bobbin(self.params, made.bobbin)
-        fitted, noses = fittings(self.params, made.bobbin)
-        start, wide = placement(-self.passage.stroke / 2), made.bobbin.length
-        for name in (STRAIGHT, SINUOUS):
-            inside = Occurrence(core, (along(-wide / 2),))
-            yield _sliding(name, (Occurrence(wood), Occurrence(fitted, noses), inside), start)
-        carriage = _bought(
-            (CARRIAGE, "carriage of the shuttle", "with magnets"),
-            "machined link",
-            box(made.width, SIDE, made.length / 2),
-            Bought("carriage", self.params.carriage_mass),
+        """Both shuttles in their boxes, as a row begins, the carriage behind the left one, and what guides them."""
+        wood, core, (fitted, eyes) = (
+            shuttle_wood(self.params, made.bobbin),
+            bobbin(self.params, made.bobbin),
+            fittings(self.params, made.bobbin),
         )
-        front = placement(-made.length / 4, 0.0, self.before_warps + SIDE / 2).after(along(0.0))
-        yield _sliding(DRAGGING, (Occurrence(carriage, (front,)),), start)
-        yield self._axis(self.passage.stroke, placement(0.0, 0.0, self.before_warps + 1.5 * SIDE))
-        yield self._spare(core, made)
+        guide, wide = self.guide, made.bobbin.length
+        cells = guide.box()
+        parts = [Occurrence(wood), Occurrence(fitted, eyes), Occurrence(core, (along(-wide / 2),))]
+        if self.params.nose > 0:
+            backs = (placement(x, z=-made.depth / 2) for x in magnet_places(self.params, made.bobbin))
+            parts.append(Occurrence(magnet(self.params, made.bobbin), tuple(backs)))
+        half = guide.stroke / 2
+        yield RigidBody(part_id("guide"), (*guide.standing(), *guide.slides(), self._spare(core, made)))
+        for name, side in ((LEFT_BOX, -1), (RIGHT_BOX, 1)):
+            shifted = Joint(JointKind.SLIDE, (0.0, 1.0, 0.0))
+            yield RigidBody(name, (Occurrence(cells, (guide.box_place(side),)),), joint=shifted)
+        yield _sliding(STRAIGHT, tuple(parts), placement(-half))
+        yield _sliding(SINUOUS, tuple(parts), placement(half, guide.pitch))
+        yield _sliding(DRAGGING, tuple(guide.carried()), placement(-half))
 
     def _axis(self, length: float, middle: Placement) -> RigidBody:
-        """The belt axis about a place in its middle, and its drive, upright below its right end."""
+        """The belt axis of a rapier about a place in its middle, and its drive, upright below its right end."""
         axis, carrier = self.axis, self.params.carrier
         wide = "wider than any of the table" if math.isnan(axis.width) else f"{format_quantity(axis.width, 'mm')} wide"
         belt = _bought(
@@ -133,35 +133,18 @@ class WeftBodies:
         parts = (along_axis, *stands, Occurrence(driving, (_upright(length / 2, low),)))
         return RigidBody(part_id("belt axis"), parts, joint=_MISSING, positions=(middle,))
 
-    def _boxes(self, made: Shuttle) -> RigidBody:
-        """A box of two cells at each edge, one of them in line with the shed, and what shifts it."""
-        wall, cell = self.params.wall, made.width + self.params.play
-        tall, deep = 2 * cell + 3 * wall, made.depth + self.params.play + 2 * wall
-        shift = (cell + wall) / 2
-        cells = tuple(polygon(rectangle(cell, deep - 2 * wall).points + side * shift) for side in (-1, 1))
-        length = made.length + 2 * BOX_END
-        section = _bought(
-            (BOX, "box of the shuttles", "two cells"),
-            "linear axis",
-            Prism(Profile(rectangle(tall, deep), cells), length),
-            Bought("slide", length=2 * made.width),
+    def _spare(self, core: Part, made: Shuttle) -> Occurrence:
+        """A wound bobbin for each shuttle, for the next change: on the left end of the bar."""
+        guide, radius = self.guide, made.bobbin.core / 2
+        middle = (guide.front + guide.rear) / 2
+        left = -guide.reach + self.params.wall
+        return Occurrence(
+            core,
+            tuple(
+                placement(left + k * (made.bobbin.length + self.params.wall), radius, middle).after(along(0.0))
+                for k in range(2)
+            ),
         )
-        force = 2 * made.full * GRAVITY
-        torque, turning = force * PULLEY, SHIFT_SPEED / PULLEY
-        motor = catalogue.motor(
-            part_id("box-motor"), "motor of a box", smallest_motor(torque, turning, STEPPER), torque, turning
-        )
-        ends = (-self.passage.stroke / 2, self.passage.stroke / 2)
-        places = tuple(placement(0.0, -shift).after(along(x - length / 2)) for x in ends)
-        below = tuple(_upright(x, -shift - tall / 2) for x in ends)
-        return RigidBody(part_id("boxes"), (Occurrence(section, places), Occurrence(motor, below)), joint=_MISSING)
-
-    def _spare(self, core: Part, made: Shuttle) -> RigidBody:
-        """A wound bobbin for each shuttle, for the next change: beside the right edge, behind the box."""
-        beside, size = self.half + self.params.edge, made.bobbin
-        behind = made.depth + self.params.edge
-        places = tuple(placement(0.0, 0.0, -behind - k * size.diameter).after(along(beside)) for k in (1, 2))
-        return RigidBody(part_id("spare bobbins"), (Occurrence(core, places),), joint=_MISSING)
 
     def _rapier(self, made: Rapier) -> Iterator[RigidBody]:
         """The rapier from the left, its tip at rest before the cloth, clamped at its far end."""

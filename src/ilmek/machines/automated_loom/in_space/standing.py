@@ -1,5 +1,6 @@
 """What stands, and what turns with the warps: frame, heads' rail, cylinders, back rest, carpet roll, motors."""
 
+from ilmek.machines.arrangement.side_view import RETREAT
 from ilmek.machines.automated_loom.cyclogram import HEADS, TAKE_UP
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.maker import (
@@ -26,7 +27,8 @@ from ilmek.timing.track import sample
 
 def standing(loom: LoomDesign) -> tuple[Branch, ...]:
     """Frame with its rail, what it carries, cylinders, and compensator."""
-    retreat, listed = along_track(loom.row_cyclogram, HEADS, (0.0, 0.0, 1.0)), parts_of_loom(loom)
+    listed = parts_of_loom(loom)
+    retreat = along_track(loom.row_cyclogram, HEADS, (0.0, RETREAT.imag, RETREAT.real))
     return (
         Branch("automated-loom", frame_tree(loom, listed.frame, listed.axes, retreat)),
         Branch("automated-loom", carried_tree(loom), deviations=(COARSE,)),

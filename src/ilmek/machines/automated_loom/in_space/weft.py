@@ -7,7 +7,7 @@ from ilmek.machines.automated_loom.cyclogram import BEATER, weft_windows
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.maker import ROW, STANDS, Branch, half_width, motion, track_angles
 from ilmek.machines.weft import Shuttle
-from ilmek.machines.weft.tree import DRAGGING, RAPIER_BODY, SINUOUS, STRAIGHT
+from ilmek.machines.weft.tree import DRAGGING, RAPIER_BODY, RIGHT_BOX, SINUOUS, STRAIGHT
 from ilmek.part.placement import placement
 from ilmek.report.scene import SceneYarn
 from ilmek.timing.track import sample
@@ -21,16 +21,28 @@ def weft(loom: LoomDesign) -> Branch:
     """
     angle, at = _position(loom)
     stroke, half = loom.weft.passage.stroke, angle < turn / 2
-    runs = {
-        STRAIGHT: np.where(half, at, stroke),
-        SINUOUS: np.where(half, stroke, at),
-        DRAGGING: at,
-        RAPIER_BODY: at,
-    }
-    across, row = np.array([1.0, 0.0, 0.0]), loom.row_cyclogram
-    motions = {name: motion(row, angle, shift=along[:, None] * across) for name, along in runs.items()}
-    bodies = loom.weft.bodies.tree.moving(motions)
-    return Branch("weft", bodies, placement(0.0, *_middle(loom)))
+    across, up, row = np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0]), loom.row_cyclogram
+    runs = {DRAGGING: at[:, None] * across, RAPIER_BODY: at[:, None] * across}
+    if isinstance(loom.weft.carried, Shuttle):
+        low = _shifted(loom, angle)[:, None] * up
+        kept = np.minimum.accumulate(low)
+        runs |= {
+            STRAIGHT: np.where(half, at, stroke)[:, None] * across + low,
+            SINUOUS: np.where(half, 0.0, at - stroke)[:, None] * across + kept,
+            RIGHT_BOX: low,
+        }
+    motions = {name: motion(row, angle, shift=shift) for name, shift in runs.items()}
+    return Branch("weft", loom.weft.bodies.tree.moving(motions), placement(0.0, *_middle(loom)))
+
+
+def _shifted(loom: LoomDesign, angle: FloatArray) -> FloatArray:
+    """Shift of the right box [m]: its upper cell comes in line between the passages, and leaves after the second.
+
+    Both shuttles are in it while it shifts; the sinuous weft's has left it when it shifts back.
+    """
+    (_, first), (second, last) = weft_windows(loom.row_cyclogram)
+    share = np.interp(angle, [first, second, last, turn], [0.0, 1.0, 1.0, 0.0])
+    return np.asarray(-share * loom.weft.bodies.guide.pitch)
 
 
 def _middle(loom: LoomDesign) -> tuple[float, float]:
@@ -41,8 +53,10 @@ def _middle(loom: LoomDesign) -> tuple[float, float]:
 
 def _position(loom: LoomDesign) -> tuple[FloatArray, FloatArray]:
     """Angles of the row [rad], and the carrier's position on its axis [m]."""
-    track = loom.row_cyclogram.track(loom.row_timing.carrier)
+    row = loom.row_cyclogram
+    track = row.track(loom.row_timing.carrier)
     angle = track_angles(track)
+    angle = np.unique(np.concatenate([angle, np.ravel(weft_windows(row))]))
     return angle, sample(track, angle).position
 
 

@@ -1,0 +1,189 @@
+"""The plate that carries a crank-rocker, its pins, and the slide or the beam that it is bolted to.
+
+Axes of the linkage, as in `tree`. The plate stands beside the crank, in the last of the planes along the pins: it
+carries the crank's pin D, the longer one of the rocker, A, and reaches over beam and slide in front of A. The drive of
+the crank is flanged to its other side.
+"""
+
+import cmath
+import math
+from collections.abc import Sequence
+from functools import lru_cache
+
+import numpy as np
+
+from ilmek.arrays import ComplexArray
+from ilmek.elements.columns import STEEL
+from ilmek.elements.pin_joints import PIN_DIAMETERS
+from ilmek.machines.beat_up.beam import BEFORE_PIVOT
+from ilmek.machines.beat_up.design import BeatUp
+from ilmek.machines.beat_up.links import PART_IDS, layer
+from ilmek.machines.beat_up.parts import pin_part
+from ilmek.machines.link_tree import PIN_STEEL
+from ilmek.part.part import Bought, Part
+from ilmek.part.placement import placement
+from ilmek.part.profile import drilled
+from ilmek.part.shapes import Prism, bar, box
+from ilmek.part.tree import Occurrence, in_line
+from ilmek.plane.contours import polygon, rounded_hull
+from ilmek.report import Hole
+from ilmek.units import format_quantity, mm
+
+AXIS_SIDE = 80 * mm
+"""Side of the section of the belt axis [m]; assumed by this project."""
+
+BLOCK_HEIGHT, BLOCK_LENGTH, BLOCK_MASS = 20 * mm, 120 * mm, 1.5
+"""Carriage of the belt axis: height, length [m], mass [kg]; usual of axes of 80 mm, makers' data."""
+
+SHEAR = 40e6
+"""Allowed shear stress of the shaft that drives the cranks of a comb [Pa]; assumed by this project."""
+
+BELT_WIDTH = 30 * mm
+"""Room for the belt from it to a crank, along the pins [m]: assumed by this project."""
+
+_AROUND = 10 * mm
+"""Of the plate about the crank's pin, beyond the width of a link [m]: assumed by this project."""
+
+
+def in_links_axes(linkage: BeatUp, points: ComplexArray) -> ComplexArray:
+    """Points of the side view, the fell at 0, in the axes of the linkage [m]: z -> e^(i g) conj(z - D), g = pi + r0."""
+    turned = cmath.exp(1j * (math.pi + linkage.rocker_angles[0]))
+    return np.asarray(turned * np.conj(points - shaft(linkage)))
+
+
+def shaft(linkage: BeatUp) -> complex:
+    """The crank's axis in the side view, the fell at 0 [m]."""
+    return linkage.lengths["beater"] + linkage.lengths["ground"] * cmath.exp(1j * linkage.rocker_angles[0])
+
+
+def beam_corner(linkage: BeatUp) -> complex:
+    """Lower corner of the beam towards the warps, in the side view [m]."""
+    eye = linkage.params.width / 2
+    return complex(linkage.lengths["beater"] + eye + BEFORE_PIVOT, -eye)
+
+
+def plate_part(linkage: BeatUp, wide: float, top: float, high: float, shared: float = 0.0) -> Part:
+    """The plate over a beam, or over the slide on it.
+
+    wide    of what it is bolted to [m]      top, high  of that, over the lower side of the beam: from, by [m]
+    shared  diameter of the shaft that drives the cranks of a comb [m]; 0: none
+    """
+    eye, centre, arm = linkage.params.width / 2, shaft(linkage), linkage.lengths["beater"]
+    corner, about, driving = beam_corner(linkage), eye + _AROUND, shared_axis(linkage)
+    low, end = corner.imag + top, corner.real + wide
+    corners = np.array(
+        [
+            complex(arm - eye, -eye),
+            complex(arm + eye, -eye),
+            complex(arm + eye, low),
+            complex(end, low),
+            complex(end, low + high),
+            *((driving + about * (1 - 1j), driving + about * (1 + 1j)) if shared else ()),
+            *((driving + about * (-1 + 1j),) if shared else (centre + about * (1 + 1j),)),
+            centre + about * (-1 + 1j),
+            centre - about * (1 + 1j),
+        ]
+    )
+    radius = linkage.pin / 2
+    holes = [Hole(0j, radius), Hole(complex(linkage.lengths["ground"]), radius)]
+    if shared:
+        holes.append(Hole(complex(in_links_axes(linkage, np.array([driving]))[0]), shared / 2))
+    thickness = linkage.params.thickness
+    return Part(
+        "beat-up/carriage-plate",
+        "plate of crank and rocker",
+        "laser-cut part",
+        format_quantity(thickness, "mm"),
+        Prism(drilled(polygon(in_links_axes(linkage, corners)[::-1]), holes), thickness),
+        STEEL,
+    )
+
+
+def shared_axis(linkage: BeatUp) -> complex:
+    """Axis of the shaft that drives the cranks of a comb, in the side view, beyond their circles [m]."""
+    away = linkage.lengths["crank"] + linkage.params.width + 2 * _AROUND
+    return shaft(linkage) + away * cmath.exp(0.25j * math.pi)
+
+
+def shared_diameter(torque: float) -> float:
+    """The thinnest stock that bears a torque [N m]: 16 M / (pi d³) within `SHEAR`; the thickest where none does."""
+    least = (16 * torque / (math.pi * SHEAR)) ** (1 / 3)
+    return next((size for size in PIN_DIAMETERS if size >= least), PIN_DIAMETERS[-1])
+
+
+def shared_drive(linkage: BeatUp, torque: float, stations: Sequence[float]) -> tuple[Occurrence, ...]:
+    """The shaft along z from the first station's plate to the last one's belt, and a belt from it to each crank."""
+    diameter, thickness = shared_diameter(torque), linkage.params.thickness
+    begin, belt_begin = min(stations) + plate_begin(linkage), plate_begin(linkage) + thickness
+    axis = complex(in_links_axes(linkage, np.array([shared_axis(linkage)]))[0])
+    length = max(stations) + belt_begin + BELT_WIDTH - begin
+    size = f"round {format_quantity(diameter, 'mm')}"
+    shared = Part("beat-up/shared-shaft", "shaft of all cranks", "turned part", size, bar(diameter, length), PIN_STEEL)
+    ring = rounded_hull(np.array([0, axis]), linkage.params.width / 2)
+    belt = Part(
+        "beat-up/shared-belt",
+        "belt and pulleys of a crank",
+        "belt and pulleys",
+        shape=Prism(drilled(ring, [Hole(axis, diameter / 2)]), BELT_WIDTH),
+        purchase=Bought("belt HTD 8M, ratio 1", length=2 * abs(axis) + math.pi * linkage.params.width),
+        envelope=True,
+    )
+    places = tuple(placement(z=station + belt_begin) for station in stations)
+    return Occurrence(shared, (placement(axis.real, axis.imag, begin),)), Occurrence(belt, places)
+
+
+def plate_begin(linkage: BeatUp) -> float:
+    """Where the plate begins along the pins [m]."""
+    thickness = linkage.params.thickness
+    return layer("plate", thickness) - thickness / 2
+
+
+def pivot_pin(linkage: BeatUp) -> Part:
+    """The pin A, from the rocker through the planes of coupler and crank to the plate."""
+    return _pivot_pin(linkage.pin, linkage.params.thickness)
+
+
+@lru_cache(maxsize=16)
+def _pivot_pin(diameter: float, thickness: float) -> Part:
+    size = f"round {format_quantity(diameter, 'mm')}"
+    shape = bar(diameter, layer("plate", thickness) + thickness)
+    return Part(PART_IDS["A"], "pin of the rocker's pivot", "pin or bush", size, shape, PIN_STEEL)
+
+
+def carried(linkage: BeatUp, plate: Part, station: float = 0.0) -> tuple[Occurrence, ...]:
+    """The plate of a crank-rocker at a station along z [m], and both pins in it."""
+    thickness, begin = linkage.params.thickness, plate_begin(linkage)
+    crank = layer("crank", thickness) - thickness / 2
+    return (
+        Occurrence(plate, (placement(z=station + begin),)),
+        Occurrence(pin_part(linkage), (placement(z=station + crank),)),
+        Occurrence(pivot_pin(linkage), (placement(linkage.lengths["ground"], z=station - thickness / 2),)),
+    )
+
+
+def driving(drive: Sequence[Part], z: float, axis: complex = 0j) -> tuple[Occurrence, ...]:
+    """A drive behind one another from z [m] on, in line with an axis [m]."""
+    behind = placement(axis.real, axis.imag, z, about=(1.0, 0.0, 0.0), angle=math.pi)
+    parts = in_line(drive, 0.0)
+    return tuple(Occurrence(one.part, tuple(behind.after(at) for at in one.positions)) for one in parts)
+
+
+def on_slide(linkage: BeatUp, high: float, drive: Sequence[Part]) -> tuple[Occurrence, ...]:
+    """The plate over the slide on a beam of a height [m], its pins, and the drive of the crank on it."""
+    plate = plate_part(linkage, AXIS_SIDE, high + AXIS_SIDE, BLOCK_HEIGHT)
+    return (*carried(linkage, plate), *driving(drive, plate_begin(linkage) + linkage.params.thickness))
+
+
+def slide_block() -> Part:
+    """The carriage of the belt axis, along z from z = 0, its base on y = 0."""
+    return _BLOCK
+
+
+_BLOCK = Part(
+    "beat-up/slide-carriage",
+    "carriage of the slide",
+    "guide carriage",
+    shape=box(AXIS_SIDE, BLOCK_HEIGHT, BLOCK_LENGTH),
+    purchase=Bought("carriage of the belt axis", BLOCK_MASS),
+    envelope=True,
+)
