@@ -1,13 +1,14 @@
 """A carpet photographed at an angle comes back straight, and its outline is found where it is clear."""
 
 import math
+import re
 from pathlib import Path
 
 import effort
 import numpy as np
 import photographs
 import pytest
-from carpet_photographs import random_photograph
+from carpet_photographs import kilim, medallion, random_photograph
 from effort import examples
 from fitted_picture import fit_picture
 from hypothesis import given, settings
@@ -168,6 +169,49 @@ def test_the_outline_in_a_small_cropped_photograph_is_found() -> None:
     assert clearness > 0.9
 
 
+IN_QUADS = [
+    [(612.2, 30.2), (1158.6, 69.0), (1220.0, 818.1), (293.2, 704.1)],
+    [(180.0, 90.0), (900.0, 60.0), (1010.0, 640.0), (90.0, 690.0)],
+    [(420.0, 60.0), (830.0, 50.0), (930.0, 780.0), (380.0, 800.0)],
+]
+
+
+@pytest.mark.matrix(light=1)
+@pytest.mark.parametrize("quad", IN_QUADS)
+def test_a_frame_of_few_pixels_beside_a_light_stripe_belongs_to_the_carpet(quad: photographs.Quad) -> None:
+    photo = photographs.photograph(medallion(600), quad, (848, 1259), floor=(190, 165, 130), noise=4.0, fringe=0)
+    corners, _ = find_outline(photo)
+    assert off(corners, np.array(quad)) < 1.5
+
+
+@pytest.mark.parametrize(("seed", "wood", "fringe"), [(1, "mid", "none"), (3, "dark", "none"), (9, "mid", "dense")])
+def test_the_stripes_at_the_ends_of_a_kilim_are_no_fringe(seed: int, wood: str, fringe: str) -> None:
+    """A cream stripe is as light as threads; a fringe beside it is none of the kilim."""
+    taken = random_photograph(seed, (750, 1000), kilim, wood=wood, fringe=fringe)
+    corners, _ = find_outline(taken.rgb)
+    assert off(corners, taken.corners) < 1.0
+
+
+@pytest.mark.parametrize("seed", [102, 524])
+def test_a_dark_frame_on_a_black_floor_is_found_or_refused(seed: int) -> None:
+    taken = random_photograph(seed, (600, 800), wood="black", fringe="none")
+    try:
+        corners, _ = find_outline(taken.rgb)
+    except PictureError:
+        return
+    assert off(corners, taken.corners) < 2.0
+
+
+def test_a_refusal_shows_the_corners_so_that_they_can_be_pasted() -> None:
+    photo = photographs.photograph(carpet(), QUADS["aslant"], floor=(165, 55, 50))
+    with pytest.raises(PictureError) as refused:
+        find_outline(photo)
+    pasted = re.search('--corners "(.+)"', str(refused.value))
+    assert pasted is not None
+    _, done = fit_picture(photo, SIZE, FitParams(fit="stretch", corners=pasted[1]))
+    assert np.array(done.corners).shape == (4, 2)
+
+
 def test_auto_is_straight_to_two_knots() -> None:
     photo = photographs.photograph(carpet(), QUADS["aslant"])
     made, done = fit_picture(photo, SIZE, FitParams(corners="auto", fit="stretch"))
@@ -188,7 +232,6 @@ UNCLEAR = {
     "noise": lambda: np.random.default_rng(1).integers(0, 256, (300, 400, 3), dtype=np.uint8),
     "one colour": lambda: np.full((300, 400, 3), 120, dtype=np.uint8),
     "a carpet that is not whole": cut,
-    "a floor as dark as its frame": lambda: random_photograph(102, (600, 800), wood="black").rgb,
     "a floor of the carpet's colour": lambda: photographs.photograph(carpet(), QUADS["aslant"], floor=(165, 55, 50)),
     "a round carpet": lambda: np.where(
         np.hypot(np.arange(400) - 200, np.arange(300)[:, None] - 150)[..., None] < 100, 40, 200
@@ -202,7 +245,7 @@ UNCLEAR = {
 @pytest.mark.matrix(light=3)
 @pytest.mark.parametrize("name", UNCLEAR)
 def test_an_outline_that_is_not_clear_is_refused(name: str) -> None:
-    with pytest.raises(PictureError, match="outline of the carpet is not clear.*give the corners"):
+    with pytest.raises(PictureError, match="outline of the carpet is not clear.*give (the corners|them): --corners"):
         find_outline(UNCLEAR[name]())
 
 

@@ -4,6 +4,7 @@ Nothing here knows how an outline is searched: the corners are those of the pinh
 """
 
 import io
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -119,14 +120,31 @@ def fringed(rng: np.random.Generator, carpet: Rgb, fringe: str) -> np.ndarray:
     return sheet
 
 
-def random_photograph(seed: int, shape: tuple[int, int] = (1200, 1600), **fixed: str) -> Photograph:
-    """A photograph; kinds of wood and fringe are random unless they are fixed."""
+def kilim(width: int) -> Rgb:
+    """A kilim of that width [pixels]: stripes at its ends, cream the outermost, and a field without a frame."""
+    rgb = np.empty((width * 3 // 2, width, 3), dtype=np.uint8)
+    rgb[:] = (45, 60, 120)
+    across = np.arange(width) // max(1, width // 12) % 2 == 0
+    rgb[width // 4 : -width // 4, across] = (190, 120, 50)
+    for number, colour in enumerate([(228, 218, 192), (160, 40, 35), (60, 90, 60)]):
+        stripe = slice(number * width // 30, (number + 1) * width // 30)
+        rgb[stripe] = rgb[::-1][stripe] = colour
+    return rgb
+
+
+def random_photograph(
+    seed: int,
+    shape: tuple[int, int] = (1200, 1600),
+    carpet: Callable[[int], Rgb] = medallion,
+    **fixed: str,
+) -> Photograph:
+    """A photograph of a carpet; kinds of wood and fringe are random unless they are fixed."""
     rng = np.random.default_rng(seed)
     kind = fixed.get("wood", str(rng.choice(["light", "mid", "dark"])))
     fringe = fixed.get("fringe", str(rng.choice(["none", "sparse", "dense"])))
     view = camera_view(rng, shape, rng.uniform(0.25, 0.8))
     colour = np.trunc(np.array(WOODS[kind]) + rng.normal(0, 6, 3))
-    sheet = fringed(rng, medallion(800 * shape[1] // 1600), fringe)
+    sheet = fringed(rng, carpet(800 * shape[1] // 1600), fringe)
     high, wide = sheet.shape[:2]
     unit = wide - 2 * PAD
     edge = np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)]) / 2

@@ -12,6 +12,7 @@ from PIL import Image, ImageDraw, ImageFilter
 from sheet_readings import wrong_cells
 from sheets import photographed, printed, random_design, random_palette, random_sheet
 
+from ilmek.carpet.paper.placing import RINGS, border_beside
 from ilmek.carpet.paper.sheet import PaperReading, read_sheet, squared_paper
 from ilmek.errors import CarpetError, PictureError
 from ilmek.jobs.chart import chart_order, chart_results, make_charted
@@ -100,7 +101,34 @@ def test_a_grid_that_lost_a_column_fails_a_check() -> None:
     sheet = random_sheet(111009)
     found = read_sheet(sheet.picture)
     assert found.grid != sheet.truth.shape
-    assert failed(found) == {"lines off their places"}
+    assert failed(found) == {"lines off their places", "doubtful cells"}
+
+
+@pytest.mark.parametrize("seed", [303012, 304008])
+def test_a_border_in_which_no_lines_show_fails_a_check(seed: int) -> None:
+    """Its colour is nearly that of the lines: the grid ends before it, and nothing else says so."""
+    found = read_sheet(random_sheet(seed).picture)
+    assert "colours of the drawing beside the grid" in failed(found)
+
+
+def test_cells_off_the_course_of_the_others_are_doubtful() -> None:
+    sheet = random_sheet(304057)
+    found = read_sheet(sheet.picture)
+    wrong = wrong_cells(found, sheet.truth)
+    assert wrong.any()
+    assert not (wrong & ~found.doubtful).any()
+    assert found.doubts < 0.1 * sheet.truth.size
+
+
+@pytest.mark.parametrize("beside", [0, 2])
+def test_colours_beside_a_grid(beside: int) -> None:
+    """A border of so many cells at the right that is no part of the grid, then paper."""
+    rng = np.random.default_rng(4)
+    palette, numbers = random_palette(rng, 3), random_design(rng, 20, 16, 3)
+    around = np.full((20 + 2 * RINGS, 16 + 2 * RINGS, 3), 252.0)
+    around[RINGS:-RINGS, RINGS:-RINGS] = palette[numbers]
+    around[RINGS:-RINGS, 16 + RINGS : 16 + RINGS + beside] = palette[1]
+    assert border_beside(around, palette, numbers) == (1.0 if beside else 0.0)
 
 
 @pytest.mark.parametrize("seed", [1, 2])
@@ -194,6 +222,7 @@ def test_a_picture_that_is_no_sheet_fails_a_check_where_it_is_read_as_one() -> N
     assert [check.name for check in shown.checks if check.name.startswith("squared paper")] == [
         "squared paper: doubtful cells",
         "squared paper: cells beside the grid with lines",
+        "squared paper: colours of the drawing beside the grid",
         "squared paper: lines off their places",
         "squared paper: difference of even and odd lines",
         "squared paper: changes of colour on every second line",

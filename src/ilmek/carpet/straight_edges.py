@@ -49,6 +49,9 @@ which they have to show, too, and of those at the edges that are left out."""
 _SLOW = 11
 """Samples along a side beyond which a change is none of threads."""
 
+_UNDYED = 45.0
+"""L* of the lightest tenth of a band of undyed threads, at least."""
+
 _LEAST_THREADS = 1.0
 """Least deviation of L* from thread to thread."""
 
@@ -179,6 +182,8 @@ def band_inside(strip: SideStrip, edge: Edge, end: Edge | None) -> Band:
     if end is not None and depth >= 4 * _PART:
         inner, inwards = _of_threads(_samples(strip, end.column(strip) - _BESIDE - _PART, _PART))
         threads = threads and inner > _HARDLY * inwards
+    if np.quantile(wide[..., 0], 0.9) < _UNDYED:
+        threads = perhaps = False
     outside = float(_samples(strip, column - _PART, _PART)[..., 0].mean(axis=0).min())
     return Band(np.median(near, axis=(0, 1)), outside, threads and deep > 0, threads or perhaps)
 
