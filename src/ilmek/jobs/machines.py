@@ -1,10 +1,9 @@
 """The catalogue of machines, and the parameters of one of them."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ilmek.machines import SUMMARIES
-from ilmek.report import Json
 from ilmek.units import si_unit
 
 if TYPE_CHECKING:
@@ -26,7 +25,7 @@ class MachineForm:
     parameters: "tuple[Parameter, ...]"
     machines: tuple[str, ...] = ()
 
-    def as_json(self) -> dict[str, Json]:
+    def as_json(self) -> dict[str, Any]:
         """The parameters as plain data: default and bounds in SI, their unit, and the unit in which they are shown."""
         parameters = [
             {name: getattr(parameter, name) for name in FIELDS}
