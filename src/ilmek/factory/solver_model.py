@@ -12,7 +12,7 @@ must be never costs less.
 import itertools
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ilmek.factory.axes import WorkAxes, gaps_after, time_before, work_axes
 from ilmek.factory.model import (
@@ -30,6 +30,9 @@ from ilmek.factory.search import searched
 from ilmek.factory.yarn_stock import scarce_yarns, waiting_in
 from ilmek.records import record
 
+if TYPE_CHECKING:
+    from ortools.sat.python.cp_model import CpSolver, IntVar
+
 
 @record
 class SolverRun:
@@ -45,21 +48,21 @@ class SolverRun:
 class _Timed:
     """Variables of a job on looms of common axes: start and end on both axes, and whether it is there."""
 
-    present: Any
-    start: Any
-    dressed: Any
-    woven: Any
-    met: Any
-    end: Any
-    woven_start: Any
-    woven_end: Any
+    present: "IntVar"
+    start: "IntVar"
+    dressed: "IntVar"
+    woven: "IntVar"
+    met: "IntVar"
+    end: "IntVar"
+    woven_start: "IntVar"
+    woven_end: "IntVar"
 
 
 @dataclass(frozen=True, slots=True)
 class _Switch:
     """A Boolean that is true where a value of a job on some axes is above a bound; `name`: which value."""
 
-    variable: Any
+    variable: "IntVar"
     job: int
     group: int
     name: str
@@ -73,13 +76,13 @@ class FactoryModel:
         self.cp, self.factory, self.horizon, self.in_time = cp, factory, horizon, in_time
         self.model = cp.CpModel()
         self.axes = work_axes(factory.looms, horizon)
-        self.on: dict[tuple[int, int], Any] = {}
+        self.on: dict[tuple[int, int], IntVar] = {}
         self.timed: dict[tuple[int, int], _Timed] = {}
-        self.follows: dict[tuple[int, int, int], Any] = {}
-        self.late: dict[int, Any] = {}
+        self.follows: dict[tuple[int, int, int], IntVar] = {}
+        self.late: dict[int, IntVar] = {}
         self.switches: list[_Switch] = []
-        self.sizes: list[tuple[Any, int, int, int, int]] = []
-        self.early: list[tuple[Any, int, int]] = []
+        self.sizes: list[tuple[IntVar, int, int, int, int]] = []
+        self.early: list[tuple[IntVar, int, int]] = []
         for job, what in enumerate(factory.jobs):
             for loom in what.weaving:
                 self.on[job, loom] = self.model.new_bool_var(f"on {job} {loom}")
@@ -168,7 +171,7 @@ class FactoryModel:
         self.switches.append(_Switch(variable, job, group, name, bound))
         return variable
 
-    def _end_on_weaving(self, at: Any, job: int, group: int, name: str) -> Any:
+    def _end_on_weaving(self, at: "IntVar", job: int, group: int, name: str) -> Any:
         """The weaving time of an end on the attended axis: every gap before it is added."""
         axes = self.axes[group]
         total = at + axes.offset
@@ -178,7 +181,7 @@ class FactoryModel:
             total += gap * passed
         return total
 
-    def _begin_on_weaving(self, at: Any, job: int, group: int) -> Any:
+    def _begin_on_weaving(self, at: "IntVar", job: int, group: int) -> Any:
         """The weaving time of a begin on the attended axis: a gap is added only where it is before it."""
         axes = self.axes[group]
         total = at + axes.offset
@@ -188,7 +191,7 @@ class FactoryModel:
             total += gap * passed
         return total
 
-    def _on_attended(self, woven: Any, job: int, group: int) -> Any:
+    def _on_attended(self, woven: "IntVar", job: int, group: int) -> Any:
         """The attended time of an instant on the axis of weaving, or later."""
         axes = self.axes[group]
         found = self.model.new_int_var(0, axes.attended_total, "")
@@ -368,7 +371,7 @@ class FactoryModel:
         bound = int(-(-(solver.best_objective_bound - 0.5) // 1))
         return SolverRun(self._sequences(solver), self._floors(solver), max(bound, 0), repeatable)
 
-    def _sequences(self, solver: Any) -> list[list[int]]:
+    def _sequences(self, solver: "CpSolver") -> list[list[int]]:
         sequences: list[list[tuple[int, int, int]]] = [[] for _ in self.factory.looms]
         for (job, group), timed in self.timed.items():
             for loom in self.axes[group].looms:
@@ -377,7 +380,7 @@ class FactoryModel:
                     sequences[loom].append(key)
         return [[job for _, _, job in sorted(sequence)] for sequence in sequences]
 
-    def _floors(self, solver: Any) -> dict[int, int]:
+    def _floors(self, solver: "CpSolver") -> dict[int, int]:
         """The least starts of the jobs that wait for yarn in the solution."""
         carpets = []
         for (job, group), timed in self.timed.items():

@@ -42,7 +42,7 @@ _LONGEST_ADDRESS = 103
 
 _BLOCKED = (errno.EAGAIN, errno.EWOULDBLOCK, errno.EINTR)
 
-Handler: TypeAlias = Callable[[str], dict[str, Any]]
+Handler: TypeAlias = Callable[[str], dict[str, Json]]
 """A command's name -> the answer."""
 
 

@@ -12,7 +12,6 @@ import struct
 from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 
@@ -40,11 +39,11 @@ _OTHER, _ENVELOPE = (0.62, 0.64, 0.67), (0.45, 0.6, 0.8)
 class _File:
     """The parts of a file while it is made."""
 
-    nodes: list[dict[str, Any]] = field(default_factory=list)
-    meshes: list[dict[str, Any]] = field(default_factory=list)
-    materials: list[dict[str, Any]] = field(default_factory=list)
-    accessors: list[dict[str, Any]] = field(default_factory=list)
-    views: list[dict[str, Any]] = field(default_factory=list)
+    nodes: list[dict[str, Json]] = field(default_factory=list)
+    meshes: list[dict[str, Json]] = field(default_factory=list)
+    materials: list[dict[str, Json]] = field(default_factory=list)
+    accessors: list[dict[str, Json]] = field(default_factory=list)
+    views: list[dict[str, Json]] = field(default_factory=list)
     data: bytearray = field(default_factory=bytearray)
     material_numbers: dict[tuple[str, bool], int] = field(default_factory=dict)
 
@@ -68,7 +67,7 @@ class _File:
         self.accessors.append(accessor)
         return len(self.accessors) - 1
 
-    def node(self, **keys: object) -> int:
+    def node(self, **keys: Json) -> int:
         """The number of a new node."""
         self.nodes.append({name: value for name, value in keys.items() if value is not None})
         return len(self.nodes) - 1
@@ -152,12 +151,12 @@ def _extras(part: ScenePart) -> dict[str, Json]:
     return found | ({"plate": part.plate} if part.plate else {})
 
 
-def _animations(made: _File, scene: Scene | Assembly, moved: dict[str, list[int]]) -> list[dict[str, Any]]:
+def _animations(made: _File, scene: Scene | Assembly, moved: dict[str, list[int]]) -> list[dict[str, Json]]:
     """An animation for each drive, in seconds of its period."""
-    found = []
+    found: list[dict[str, Json]] = []
     for drive, period in scene.periods.items():
-        samplers: list[dict[str, Any]] = []
-        channels: list[dict[str, Any]] = []
+        samplers: list[dict[str, Json]] = []
+        channels: list[dict[str, Json]] = []
         for frame in scene.frames:
             if frame.motion is None or frame.motion.drive != drive:
                 continue

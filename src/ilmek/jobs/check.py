@@ -4,7 +4,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -15,6 +14,7 @@ from ilmek.io.programme_text_rows import RowText
 from ilmek.loom.operations import LoomSetup
 from ilmek.loom.proof import MOST_FAULTS, FaultyPart, Proof, ProvedTotals, RuleFault, prove
 from ilmek.progress import SILENT, Progress
+from ilmek.report import Json
 from ilmek.units import BILLION
 
 _SAME = 1e-9
@@ -45,7 +45,7 @@ class CheckResult:
         """Whether no rule is broken."""
         return self.count == 0
 
-    def as_json(self) -> dict[str, Any]:
+    def as_json(self) -> dict[str, Json]:
         """The outcome, SI. Lines count from 1."""
         totals, setup = self.totals, self.setup
         return {

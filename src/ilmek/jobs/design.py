@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ilmek.errors import ParameterError
 from ilmek.io.output import Outputs, joined
@@ -12,7 +12,7 @@ from ilmek.jobs.workshop_order import WorkshopOrder, workshop_writer
 from ilmek.machines.catalogue import MACHINES, find_machine
 from ilmek.params import Params, Setting
 from ilmek.progress import SILENT, Progress
-from ilmek.report import Report
+from ilmek.report import Json, Report
 
 if TYPE_CHECKING:
     from ilmek.dynamics.own_machine import OwnMachine
@@ -46,7 +46,7 @@ class DesignResult:
         """Warnings of the design and of its workshop files."""
         return (*self.report.all_warnings, *(self.workshop.notes if self.workshop else ()))
 
-    def as_json(self) -> dict[str, Any]:
+    def as_json(self) -> dict[str, Json]:
         """The report as plain data, SI; with workshop files also their paths."""
         return {**self.report.as_json(), **({"files": self.workshop.files} if self.workshop else {})}
 

@@ -49,7 +49,7 @@ class PlannedOrder:
 
     entry: FactoryOrder
     bill: YarnBill
-    setup: tuple[Any, ...]
+    setup: tuple[object, ...]
     fits: tuple[LoomFit, ...]
 
     @property
@@ -89,7 +89,7 @@ def read_inputs(orders: FactoryOrders, looms: FactoryLooms, progress: Progress =
     names = _yarn_names(planned)
     found: list[CarpetJob] = []
     indices: list[tuple[int, ...]] = []
-    setups: dict[tuple[Any, ...], int] = {}
+    setups: dict[tuple[object, ...], int] = {}
     for number, order in enumerate(planned):
         setup = setups.setdefault(order.setup, len(setups))
         job = replace(_job(order, looms, origin, names), order=number, setup=setup)
@@ -116,7 +116,7 @@ def _minutes(time: datetime, origin: datetime) -> int:
 
 def _ready_looms(looms: FactoryLooms, progress: Progress) -> list[ExistingLoom]:
     """The looms of the file; equal ones are designed once."""
-    made: dict[tuple[Any, ...], ExistingLoom] = {}
+    made: dict[tuple[object, ...], ExistingLoom] = {}
     found = []
     for index, entry in enumerate(looms.looms):
         key = entry.file, tuple(sorted(entry.design.items()))
@@ -139,7 +139,7 @@ def _planned_orders(
     orders: FactoryOrders, looms: Sequence[ExistingLoom], progress: Progress
 ) -> tuple[PlannedOrder, ...]:
     """The orders; carpets of the same file and settings are charted once."""
-    made: dict[tuple[Any, ...], PlannedOrder] = {}
+    made: dict[tuple[object, ...], PlannedOrder] = {}
     found = []
     for index, entry in enumerate(orders.orders):
         key = entry.picture, entry.programme, entry.yarns, tuple(sorted(entry.carpet.items()))

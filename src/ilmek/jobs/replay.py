@@ -1,7 +1,6 @@
 """A recorded run is replayed on the simulated loom."""
 
 from pathlib import Path
-from typing import Any
 
 from ilmek.io.any_programme import open_any_programme
 from ilmek.io.recording_file import read_recording
@@ -9,6 +8,7 @@ from ilmek.loom.control.ports import Done, Failed, Tie
 from ilmek.loom.twin.recording import replay
 from ilmek.progress import SILENT, Progress
 from ilmek.records import value_record
+from ilmek.report import Json
 from ilmek.units import BILLION, format_quantity
 
 
@@ -34,7 +34,7 @@ class ReplayResult:
         """Whether the run was the recorded one."""
         return self.digest == self.recorded
 
-    def as_json(self) -> dict[str, Any]:
+    def as_json(self) -> dict[str, Json]:
         """The result, SI."""
         return {
             "ok": self.ok,

@@ -1,4 +1,4 @@
-"""A component: a machine, or a part of one, by what it can do; everything but parameters and design is optional.
+"""A component: a machine, or a part of one, by what it can do; all but parameters, design and analysis is optional.
 
     params --design--> design --analysis--> analysis --> results, checks, tables, figures, warnings
                         |

@@ -9,7 +9,7 @@ call and write to the user's right.
 import asyncio
 import socket
 import time
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Iterable
 from typing import Any
 
 from asyncua import Server, ua
@@ -153,13 +153,15 @@ class GatedSession(InternalSession):
 
     right: UserRight | None = None
 
-    def activate_session(self, params: Any, peer_certificate: bytes | None) -> Any:
+    def activate_session(
+        self, params: ua.ActivateSessionParameters, peer_certificate: bytes | None
+    ) -> ua.ActivateSessionResult:
         self.iserver.address = str(self.name[0]) if isinstance(self.name, tuple) else str(self.name)
         result = super().activate_session(params, peer_certificate)
         self.right = getattr(self.user, "right", None)
         return result
 
-    async def call(self, params: Any) -> list[ua.CallMethodResult]:
+    async def call(self, params: list[ua.CallMethodRequest]) -> list[ua.CallMethodResult]:
         results = []
         for request in _bounded(params):
             if self.right is UserRight.OPERATOR and request.MethodId == _ACKNOWLEDGE:
@@ -170,14 +172,14 @@ class GatedSession(InternalSession):
                 results.append(ua.CallMethodResult(StatusCode=ua.StatusCode(ua.StatusCodes.BadUserAccessDenied)))
         return results
 
-    async def read(self, params: Any) -> Any:
+    async def read(self, params: ua.ReadParameters) -> list[ua.DataValue]:
         _bounded(params.NodesToRead)
         return await super().read(params)
 
-    async def write(self, params: Any) -> Any:
+    async def write(self, params: ua.WriteParameters) -> list[ua.StatusCode]:
         return [ua.StatusCode(ua.StatusCodes.BadUserAccessDenied) for _ in _bounded(params.NodesToWrite)]
 
-    async def browse(self, params: Any) -> Any:
+    async def browse(self, params: ua.BrowseParameters) -> list[ua.BrowseResult]:
         _bounded(params.NodesToBrowse)
         return await super().browse(params)
 
@@ -187,36 +189,40 @@ class GatedSession(InternalSession):
         params.RequestedPublishingInterval = max(LEAST_INTERVAL, params.RequestedPublishingInterval or 0.0)
         return await super().create_subscription(params, callback, request_callback)
 
-    async def create_monitored_items(self, params: Any) -> Any:
+    async def create_monitored_items(
+        self, params: ua.CreateMonitoredItemsParameters
+    ) -> list[ua.MonitoredItemCreateResult]:
         subscription = self._own(params.SubscriptionId)
         if len(subscription.monitored_item_srv._monitored_items) + len(_bounded(params.ItemsToCreate)) > MOST_ITEMS:
             raise ServiceError(ua.StatusCodes.BadTooManyMonitoredItems)
         return await super().create_monitored_items(params)
 
-    async def modify_monitored_items(self, params: Any) -> Any:
+    async def modify_monitored_items(
+        self, params: ua.ModifyMonitoredItemsParameters
+    ) -> list[ua.MonitoredItemModifyResult]:
         self._own(params.SubscriptionId)
         return await super().modify_monitored_items(params)
 
-    async def delete_monitored_items(self, params: Any) -> Any:
+    async def delete_monitored_items(self, params: ua.DeleteMonitoredItemsParameters) -> list[ua.StatusCode]:
         self._own(params.SubscriptionId)
         return await super().delete_monitored_items(params)
 
-    async def set_monitoring_mode(self, params: Any) -> Any:
+    async def set_monitoring_mode(self, params: ua.SetMonitoringModeParameters) -> list[ua.StatusCode]:
         self._own(params.SubscriptionId)
         return await super().set_monitoring_mode(params)
 
-    async def set_publishing_mode(self, params: Any) -> Any:
+    async def set_publishing_mode(self, params: ua.SetPublishingModeParameters) -> list[ua.StatusCode]:
         for number in _bounded(params.SubscriptionIds):
             self._own(number)
         return await super().set_publishing_mode(params)
 
-    async def delete_subscriptions(self, ids: Any) -> Any:
+    async def delete_subscriptions(self, ids: list[int]) -> list[ua.StatusCode]:
         for number in ids:
             if number in self._subscriptions:
                 self._own(number)
         return await super().delete_subscriptions(ids)
 
-    def publish(self, acks: Any = None) -> Any:
+    def publish(self, acks: Iterable[ua.SubscriptionAcknowledgement] | None = None) -> tuple[int, list[ua.StatusCode]]:
         known = self._subscriptions
         own = [
             ack
@@ -225,11 +231,11 @@ class GatedSession(InternalSession):
         ]
         return super().publish(own)
 
-    def republish(self, params: Any) -> Any:
+    def republish(self, params: ua.RepublishParameters) -> ua.NotificationMessage:
         self._own(params.SubscriptionId)
         return super().republish(params)
 
-    def modify_subscription(self, params: Any) -> Any:
+    def modify_subscription(self, params: ua.ModifySubscriptionParameters) -> ua.ModifySubscriptionResult:
         self._own(params.SubscriptionId)
         return super().modify_subscription(params)
 
@@ -253,7 +259,7 @@ def _bounded(items: Any) -> Any:
     return items
 
 
-async def _unknown(_: Any) -> ua.CallMethodResult:
+async def _unknown(_: ua.CallMethodRequest) -> ua.CallMethodResult:
     return ua.CallMethodResult(StatusCode=ua.StatusCode(ua.StatusCodes.BadNodeIdUnknown))
 
 
@@ -270,7 +276,7 @@ class GatedInternalServer(InternalServer):
             ua.NodeId(_I.ConditionType_ConditionRefresh),
             ua.NodeId(_I.ConditionType_ConditionRefresh2),
         }
-        self.acknowledged: Callable[[Any], Awaitable[Any]] = _unknown
+        self.acknowledged: Callable[[ua.CallMethodRequest], Awaitable[ua.CallMethodResult]] = _unknown
         self.bind_condition_methods = True
         self.max_connections = MOST_CONNECTIONS
         self.max_subscriptions = MOST_SUBSCRIPTIONS
@@ -280,12 +286,12 @@ class GatedInternalServer(InternalServer):
         anonymous = (ua.AnonymousIdentityToken,) if users.anonymous else ()
         self.supported_tokens = (ua.UserNameIdentityToken, *anonymous)
 
-    def create_session(self, name: Any, user: Any = None, external: bool = False) -> InternalSession:
+    def create_session(self, name: str, user: User | None = None, external: bool = False) -> InternalSession:
         if not external:
             return super().create_session(name) if user is None else super().create_session(name, user)
         return GatedSession(self, self.aspace, self.subscription_service, name, external=True)
 
-    def lookup_external_session(self, auth_token: Any) -> None:
+    def lookup_external_session(self, auth_token: ua.NodeId) -> None:
         """No session is continued on another channel: the client opens a new one."""
 
     def get_user(self, _: Any, username: Any = None, password: Any = None, certificate: Any = None) -> User | None:  # noqa: ARG002

@@ -204,7 +204,7 @@ def job_of(given: Any, state: JobState) -> Job:
     return Job(order, programme, description, int(given.Priority or 0), state)
 
 
-def job_values(space: AddressSpace, jobs: Sequence[Job]) -> dict[str, Any]:
+def job_values(space: AddressSpace, jobs: Sequence[Job]) -> dict[str, object]:
     """The variables of job control by path."""
     listed = [ua.ISA95JobOrderAndStateDataType(JobOrder=job_order(job), State=job_state(space, job)) for job in jobs]
     begun = [job for job in jobs if job.start is not None or job.over]

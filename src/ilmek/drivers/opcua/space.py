@@ -50,7 +50,7 @@ _CHILD_REFERENCES = {_I.HasComponent, _I.HasProperty, _I.HasAddIn, _I.Organizes,
 class SharedValue(ua.DataValue):
     """A value that nobody changes: all subscribers have the same one, of which asyncua would make a copy for each."""
 
-    def __deepcopy__(self, _: Any) -> "SharedValue":
+    def __deepcopy__(self, _: object) -> "SharedValue":
         return self
 
 
@@ -62,7 +62,7 @@ class AddressSpace:
         self.spaces: dict[str, int] = {"UA": 0}
         self._types: dict[str, ua.NodeId] = {}
         self._variant: dict[str, tuple[ua.VariantType, bool]] = {}
-        self._last: dict[str, Any] = {}
+        self._last: dict[str, object] = {}
         self._methods: dict[str, tuple[ua.NodeId, ua.NodeId]] = {}
 
     async def build(self) -> None:
@@ -94,13 +94,13 @@ class AddressSpace:
         """The paths of all methods of the loom."""
         return tuple(self._methods)
 
-    def bind(self, path: str, called: Callable[..., Any]) -> tuple[ua.NodeId, ua.NodeId]:
+    def bind(self, path: str, called: Callable[..., object]) -> tuple[ua.NodeId, ua.NodeId]:
         """Answer calls of a method, at the instance and at its type, by a coroutine function."""
         for identifier in self._methods[path]:
             self.server.iserver.isession.add_method_callback(identifier, called)
         return self._methods[path]
 
-    async def write(self, values: Mapping[str, Any]) -> int:
+    async def write(self, values: Mapping[str, object]) -> int:
         """Write the values that have changed; the number of nodes written."""
         now, written = datetime.now(UTC), 0
         for path, value in values.items():
@@ -114,7 +114,7 @@ class AddressSpace:
             written += 1
         return written
 
-    async def _write(self, path: str, value: Any, now: datetime, bad: int = ua.StatusCodes.BadNoData) -> None:
+    async def _write(self, path: str, value: object, now: datetime, bad: int = ua.StatusCodes.BadNoData) -> None:
         kind, array = self._variant[path]
         if value is None:
             written = SharedValue(StatusCode=ua.StatusCode(bad), SourceTimestamp=now, ServerTimestamp=now)

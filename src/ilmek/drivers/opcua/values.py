@@ -1,7 +1,5 @@
 """A snapshot of the controller as values of the server's nodes, by path. None: the node has no value now."""
 
-from typing import Any
-
 from ilmek.drivers.opcua.model import LOOM, LoomNameplate
 from ilmek.drivers.opcua.states import MODE_NUMBERS, STATE_NUMBERS, item_state, nested_states, operation_mode
 from ilmek.loom.control.view import Snapshot
@@ -31,7 +29,7 @@ class CurrentState:
     name: str
 
 
-def fixed_values(plate: LoomNameplate) -> dict[str, Any]:
+def fixed_values(plate: LoomNameplate) -> dict[str, object]:
     """The values that do not change while the loom runs."""
     nameplate = f"{LOOM}.Identification"
     return {
@@ -50,7 +48,7 @@ def fixed_values(plate: LoomNameplate) -> dict[str, Any]:
     }
 
 
-def snapshot_values(plate: LoomNameplate, snapshot: Snapshot) -> dict[str, Any]:
+def snapshot_values(plate: LoomNameplate, snapshot: Snapshot) -> dict[str, object]:
     """The values that a snapshot gives."""
     yarn_empty = any("yarn" in alarm.name or "weft" in alarm.name for alarm in snapshot.alarms if alarm.stops)
     return {
@@ -66,7 +64,7 @@ def snapshot_values(plate: LoomNameplate, snapshot: Snapshot) -> dict[str, Any]:
     }
 
 
-def _states(snapshot: Snapshot) -> dict[str, Any]:
+def _states(snapshot: Snapshot) -> dict[str, object]:
     nested = zip(NESTED.items(), nested_states(snapshot.state), strict=True)
     machines = {
         f"{BLOCKS}.MachineryItemState": ("Machinery:MachineryItemState_StateMachineType", item_state(snapshot.state)),
@@ -89,7 +87,7 @@ def _states(snapshot: Snapshot) -> dict[str, Any]:
     }
 
 
-def _carpet(snapshot: Snapshot) -> dict[str, Any]:
+def _carpet(snapshot: Snapshot) -> dict[str, object]:
     carpet = {
         "Row": snapshot.row,
         "Knots": snapshot.knots,
@@ -103,8 +101,8 @@ def _carpet(snapshot: Snapshot) -> dict[str, Any]:
     return {f"{LOOM}.Carpet.{name}": value for name, value in carpet.items()}
 
 
-def _heads(plate: LoomNameplate, snapshot: Snapshot) -> dict[str, Any]:
-    found: dict[str, Any] = {}
+def _heads(plate: LoomNameplate, snapshot: Snapshot) -> dict[str, object]:
+    found: dict[str, object] = {}
     for number, head in enumerate(snapshot.heads):
         values = {
             "Column": head.column,
@@ -118,8 +116,8 @@ def _heads(plate: LoomNameplate, snapshot: Snapshot) -> dict[str, Any]:
     return found
 
 
-def _yarn(plate: LoomNameplate, snapshot: Snapshot) -> dict[str, Any]:
-    found: dict[str, Any] = {}
+def _yarn(plate: LoomNameplate, snapshot: Snapshot) -> dict[str, object]:
+    found: dict[str, object] = {}
     for head in range(plate.heads):
         for tube in range(plate.tubes):
             found |= {f"{LOOM}.Heads.Head{head}.Tube{tube}.{name}": None for name in ("Yarn", "Left")}
@@ -131,7 +129,7 @@ def _yarn(plate: LoomNameplate, snapshot: Snapshot) -> dict[str, Any]:
     return found
 
 
-def _alarms(snapshot: Snapshot) -> dict[str, Any]:
+def _alarms(snapshot: Snapshot) -> dict[str, object]:
     path = f"{LOOM}.Alarms"
     return {
         f"{path}.Count": len(snapshot.alarms),

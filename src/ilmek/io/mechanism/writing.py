@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, TypeGuard
+from typing import TypeGuard
 
 from ilmek.dynamics.friction import AngleRange, Friction, ValueRange, WindowedLoad
 from ilmek.dynamics.inertia import Inertia
@@ -57,7 +57,7 @@ class _Writer:
     def xy(self, point: complex, unit: str = "mm") -> list[float | str]:
         return [self.quantity(float(point.real), unit), self.quantity(float(point.imag), unit)]
 
-    def machine(self, one: OwnMachine) -> dict[str, Any]:
+    def machine(self, one: OwnMachine) -> dict[str, Json]:
         mechanism = one.mechanism
         data: dict[str, Json] = {"name": mechanism.name}
         if self.si:
@@ -104,8 +104,8 @@ class _Writer:
         }
         return data | {key: value for key, value in tables.items() if value or key == "inputs"}
 
-    def body(self, body: Body, inertia: Inertia | None, member: FlatMember | None) -> dict[str, Any]:
-        data: dict[str, Any] = {"points": {name: self.xy(point) for name, point in body.points.items()}}
+    def body(self, body: Body, inertia: Inertia | None, member: FlatMember | None) -> dict[str, Json]:
+        data: dict[str, Json] = {"points": {name: self.xy(point) for name, point in body.points.items()}}
         if inertia is not None:
             data["mass"] = self.quantity(float(inertia.mass), "kg")
             data["centre"] = self.xy(inertia.centre)
@@ -113,12 +113,12 @@ class _Writer:
         if member is not None:
             units = {"width": "mm", "thickness": "mm", "stress": "MPa", "safety": "1"}
             given = {key: getattr(member, key) for key in units if getattr(member, key) is not None}
-            data["section"] = {key: self.quantity(value, units[key]) for key, value in given.items()}
-            data["section"]["material"] = member.material
+            section = {key: self.quantity(value, units[key]) for key, value in given.items()}
+            data["section"] = {**section, "material": member.material}
             data.setdefault("mass", 0)  # else the section would give the body a mass
         return data
 
-    def joint(self, joint: Joint) -> dict[str, Any]:
+    def joint(self, joint: Joint) -> dict[str, Json]:
         if isinstance(joint, Pin):
             return {"pin": list(joint.bodies)}
         angles = {key: self.quantity(float(getattr(joint, key)), "deg") for key in ("along", "turned")}
@@ -132,7 +132,7 @@ class _Writer:
         numbers = {key: self.quantity(float(getattr(one, key)), unit) for key, unit in units.items()}
         return {one.kind: [list(one.first), list(one.second)], "carrier": one.carrier, **numbers}
 
-    def load(self, name: str, load: Load, turning: Mapping[str, bool]) -> dict[str, Any]:
+    def load(self, name: str, load: Load, turning: Mapping[str, bool]) -> dict[str, Json]:
         if isinstance(load, WindowedLoad) and _is_default(load.side):
             return {
                 **self.load(name, load.load, turning),
@@ -166,7 +166,7 @@ class _Writer:
         unit = "deg" if turning.get(name) else "mm"
         return {"input": name, "from": self.quantity(window.start, unit), "to": self.quantity(window.end, unit)}
 
-    def spring(self, load: Load) -> dict[str, Any]:
+    def spring(self, load: Load) -> dict[str, Json]:
         if isinstance(load, Spring):
             ends = [[load.first, load.first_point], [load.second, load.second_point]]
             units = {"stiffness": "N/m", "length": "mm", "damping": "N*s/m"}
@@ -175,7 +175,7 @@ class _Writer:
         ends_of = [getattr(load, key) for key in ("first", "second")]
         return {"torsion": ends_of, **{key: self.quantity(getattr(load, key), unit) for key, unit in units.items()}}
 
-    def friction(self, one: JointFriction) -> dict[str, Any]:
+    def friction(self, one: JointFriction) -> dict[str, Json]:
         pin = isinstance(one, PinFriction)
         size, unit = ("radius", "N*m*s/rad") if pin else ("breadth", "N*s/m")
         return {
@@ -184,14 +184,14 @@ class _Writer:
             "drag": self.quantity(one.drag, unit),
         }
 
-    def pin(self, pin: PinMember) -> dict[str, Any]:
+    def pin(self, pin: PinMember) -> dict[str, Json]:
         units = {"diameter": "mm", "length": "mm", "life": "h", "wear": "MPa*m/s"}
         units |= dict.fromkeys(("shear", "bending", "pressure"), "MPa")
         data: dict[str, Json] = {key: self.quantity(getattr(pin, key), unit) for key, unit in units.items()}
         data["fork"] = pin.fork
         return data if pin.bearing is None else {**data, "bearing": pin.bearing}
 
-    def motion(self, name: str, motion: GivenMotion, turning: bool) -> dict[str, Any]:
+    def motion(self, name: str, motion: GivenMotion, turning: bool) -> dict[str, Json]:
         unit = "deg" if turning else "mm"
         law = motion.law
         if isinstance(law, ConstantSpeed):
@@ -213,7 +213,7 @@ class _Writer:
         law = {"name": step.law.name, **parameters} if parameters else step.law.name
         return {"to": self.quantity(step.to, unit), "time": self.quantity(step.time, "s"), "law": law}
 
-    def forward(self, task: ForwardTask, turning: bool) -> dict[str, Any]:
+    def forward(self, task: ForwardTask, turning: bool) -> dict[str, Json]:
         unit, speed = ("deg", "rad/s") if turning else ("mm", "m/s")
         data: dict[str, Json] = {
             "duration": self.quantity(task.duration, "s"),
@@ -227,14 +227,14 @@ class _Writer:
             data["events"] = {event.name: self.event(event, units[event.of]) for event in task.events}
         return data
 
-    def motor(self, drive: MotorDrive, turning: bool) -> dict[str, Any]:
+    def motor(self, drive: MotorDrive, turning: bool) -> dict[str, Json]:
         effort, unit, inertia = ("torque", "N*m", "kg*m^2") if turning else ("force", "N", "kg")
         data: dict[str, Json] = {effort: self.quantity(drive.effort, unit)}
         if drive.speed is not None:
             data["speed"] = self.quantity(drive.speed, "rad/s" if turning else "m/s")
         return {**data, "slip": self.quantity(drive.slip, "1"), "inertia": self.quantity(drive.inertia, inertia)}
 
-    def event(self, event: StopEvent, unit: str) -> dict[str, Any]:
+    def event(self, event: StopEvent, unit: str) -> dict[str, Json]:
         direction = {1: "up", -1: "down", 0: "both"}[event.direction]
         return {event.of: self.quantity(event.value, unit), "direction": direction, "stop": event.terminal}
 

@@ -1,7 +1,6 @@
 """What came of a run: the carpet compared with its chart, the controller's state; as texts and as JSON."""
 
 from dataclasses import asdict
-from typing import Any
 
 from ilmek.loom.control.view import Snapshot
 from ilmek.loom.operations import LoomSetup
@@ -38,7 +37,7 @@ class RunResult:
         """Knots that are missing, double or in a wrong yarn."""
         return self.woven.missing + self.woven.double + self.woven.wrong
 
-    def as_json(self) -> dict[str, Any]:
+    def as_json(self) -> dict[str, Json]:
         """The result, SI; rows and warp pairs count from 1, rows from the bottom edge."""
         now, found = self.snapshot, self.woven
         return {
