@@ -88,8 +88,9 @@ def kept_checks(chart: Chart, order: CarpetOrder) -> tuple[Check, ...]:
         cure = _edges_cure(chart, order)
         checks.append(at_least("edges of the picture kept", made.edges_kept, rules.least_edges, "%", _KEPT, cure=cure))
     if made.detail_kept is not None:
+        cure = _FINER if order.dyed else f"{_FINER}; or the yarns lack its colours (leave out --yarns)"
         least = LEAST_DETAILS[made.kind] if rules.least_detail is None else rules.least_detail
-        checks.append(at_least("detail of the picture kept", made.detail_kept, least, "%", _KEPT, cure=_FINER))
+        checks.append(at_least("detail of the picture kept", made.detail_kept, least, "%", _KEPT, cure=cure))
     if made.matches:
         share, cure = sum(lost.share for lost in made.lost), _lost_in_words(chart, order)
         checks.append(at_most("colours of the drawing lost", share, rules.most_lost, "%", _KEPT, cure=cure))
