@@ -91,9 +91,10 @@ def kept_checks(chart: Chart, order: CarpetOrder) -> tuple[Check, ...]:
         cure = _edges_cure(chart, order)
         checks.append(at_least(Sentence("check.edges-kept"), made.edges_kept, rules.least_edges, "%", _KEPT, cure=cure))
     if made.detail_kept is not None:
-        least = LEAST_DETAILS[made.kind] if rules.least_detail is None else rules.least_detail
         finer = Sentence("cure.finer")
-        checks.append(at_least(Sentence("check.detail-kept"), made.detail_kept, least, "%", _KEPT, cure=finer))
+        cure = finer if order.dyed else joined(finer, Sentence("cure.lack"))
+        least = LEAST_DETAILS[made.kind] if rules.least_detail is None else rules.least_detail
+        checks.append(at_least(Sentence("check.detail-kept"), made.detail_kept, least, "%", _KEPT, cure=cure))
     if made.matches:
         share, cure = sum(lost.share for lost in made.lost), reduce(joined, _lost_cures(chart, order), "")
         checks.append(at_most(Sentence("check.colours-lost"), share, rules.most_lost, "%", _KEPT, cure=cure))

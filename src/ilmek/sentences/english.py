@@ -37,6 +37,7 @@ ENGLISH = {
     "cure.lost": "{colour}, {share}, is '{yarn}' as {other}",
     "cure.both": "{first} and {second}",
     "cure.by": "{what}: {cure}",
+    "cure.lack": "or the yarns lack its colours (leave out --yarns)",
     "cure.finer": "it is finer than the knots: a larger --size, a finer --quality, or a part of the picture (--crop)",
     "cure.more-colours": "--colours {count}",
     "cure.take-yarn": "take {yarn!r} of the list as well (--keep, more --colours)",

@@ -37,6 +37,7 @@ TURKISH = {
     "cure.lost": "{colour}, {share}, {other} gibi '{yarn}' ile",
     "cure.both": "{first} ve {second}",
     "cure.by": "{what}: {cure}",
+    "cure.lack": "ya da ipliklerde renkleri yok (iplik listesini bırakın)",
     "cure.finer": "düğümlerden ince: daha büyük bir boyut, daha ince bir kalite ya da resmin bir parçası",
     "cure.more-colours": "iplik sayısını {count} yapın",
     "cure.take-yarn": "listeden {yarn!r} ipliğini de alın (tutulan iplikler ya da daha çok iplik)",
