@@ -16,6 +16,7 @@ from ilmek.machines.arrangement.clearances import (
     samples,
     standing,
 )
+from ilmek.machines.arrangement.side_view import RETREAT
 from ilmek.machines.arrangement.spans import ShedRoom, shed_spans, spans_at
 from ilmek.machines.automated_loom import LoomDesign, design
 from ilmek.machines.automated_loom.bodies import CARRIER, GUIDE_CAMS, LEAVES, knot_bodies, row_bodies
@@ -182,10 +183,11 @@ def test_a_shed_too_low_for_its_carrier_fails_its_clearance() -> None:
     assert not next(check for check in room_checks(made, clearances(made), 0.1) if CARRIER in check.name).ok
 
 
-def test_heads_retreat_until_the_combs_bar_passes_them() -> None:
+def test_heads_retreat_until_they_are_below_what_beats() -> None:
     made = loom()
-    bar = made.side.comb[1]
-    assert made.side.head.reach + made.side.retreat == pytest.approx(bar.real.max() + made.side.room.clearance)
+    lowest = min(made.beat.path.carried(one, made.beat.path.tip).imag.min() for one in made.beat.path.outline)
+    top = made.side.head.top + made.side.retreat * RETREAT.imag
+    assert top == pytest.approx(min(lowest, 0.0) - made.side.room.clearance, abs=1e-12)
     track = made.row_cyclogram.track("heads")
     assert track.stroke == made.side.retreat
     axes = [part.length for part in parts_of_loom(made).parts if part.name == "axis of the rail's retreat"]
@@ -211,7 +213,7 @@ def test_tools_reach_behind_the_warps_while_they_knot_and_stand_clear_in_the_row
     clear = {body.name: body.parts[0].corners(np.array([turn / 4])).real.min() for body in in_row}
     for tool in ("side grippers", "opener", "centre gripper"):
         assert deepest[tool] < -made.side.room.warp / 2
-        assert clear[tool] > made.side.retreat
+        assert clear[tool] > made.side.retreat * RETREAT.real
 
 
 def test_coordinates_agree() -> None:

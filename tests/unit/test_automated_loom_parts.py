@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from ilmek.elements.columns import SECTIONS
 from ilmek.elements.drive_parts import positive_work
 from ilmek.elements.prices import PRICES, read_prices
 from ilmek.errors import ParameterError
@@ -19,7 +20,6 @@ from ilmek.machines.automated_loom.cyclogram import BEATER
 from ilmek.machines.automated_loom.energy import energy_of
 from ilmek.machines.automated_loom.estimate import estimated_time, estimated_times_at, time_shares
 from ilmek.machines.automated_loom.frame import (
-    SECTIONS,
     STEEL,
     FrameTask,
     HollowSquare,

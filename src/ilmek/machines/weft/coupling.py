@@ -41,7 +41,9 @@ class MagneticCoupling:
 
     sides: tuple[float, float, float]
     gap: float = result("mm", "between the magnets of shuttle and carriage", name="magnet_gap")
-    hold: float = result("N", "force at which the shuttle's magnets slip, friction of their pull taken off")
+    hold: float = result(
+        "N", "force at which the shuttle's magnets slip, friction of their pull taken off", name="magnet_hold"
+    )
     pull: float = result("N", "pull of the magnets across the warps", name="magnet_pull", least=0.0)
 
 
