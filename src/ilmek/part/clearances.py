@@ -293,8 +293,7 @@ class _Pair:
         hulls = self._least(self.first.hull, self.other.hull)
         if hulls[1] >= self.horizon:
             return None
-        meshes = (self.first.mesh, self.other.mesh) if self.moving else (self.first.few_mesh, self.other.few_mesh)
-        angle, distance = self._least(*meshes)
+        angle, distance = self._least(*self._meshes())
         if distance >= self.horizon:
             return None
         depth, volume, deepest = self._deepest(angle) if distance <= 0 else (0.0, 0.0, angle)
@@ -307,6 +306,13 @@ class _Pair:
             deepest,
             self.moving,
         )
+
+    def _meshes(self) -> tuple[fcl.CollisionObject, fcl.CollisionObject]:
+        """What is compared: of two rows of many parts three of one of them, of two that stand three of each."""
+        if not self.moving:
+            return self.first.few_mesh, self.other.few_mesh
+        many = self.first.few is not self.first.solid and self.other.few is not self.other.solid
+        return self.first.few_mesh if many else self.first.mesh, self.other.mesh
 
     def _least(self, own: fcl.CollisionObject, its: fcl.CollisionObject) -> tuple[float, float]:
         """Angle and least distance of two colliders over the near intervals; the first angle at which it is 0."""

@@ -23,8 +23,19 @@ from ilmek.elements.columns import STEEL, HollowSquare, ascending, eccentric, eu
 from ilmek.elements.materials import GRAVITY
 from ilmek.records import computed, record, result
 from ilmek.report import Alternative, Check, Choice, at_least, at_most, choose
+from ilmek.units import mm
 
 EULER = "Euler's load; assumed by this project: parameter buckling_safety"
+
+
+LEVELLING, PAD = (20 * mm, 40 * mm), (80 * mm, 15 * mm)
+"""Diameter and length of a levelling foot's screw, and of its pad [m]: M20; makers differ by some millimetres."""
+
+FOOT = LEVELLING[1] + PAD[1]
+"""Height of the frame over the floor, on its levelling feet [m]."""
+
+RETREAT_AXIS = 40 * mm
+"""Side of the section of a linear axis of the rail [m]; assumed by this project."""
 
 
 def part_id(name: str) -> str:
@@ -44,6 +55,7 @@ class FrameTask:
     across, along   force of the beat on the frame, across and along the columns [N]
     carried         mass on the columns [kg]
     heads           that ride on the rail                      head_mass, head_width  of one [kg, m]
+    rail            length of the rail [m]
     rail_spans      of the rail, between columns and posts     sag_limit  of the rail [m]
     stress_safety, buckling_safety   of a column, against yield and Euler's load      bow_limit  of a column [m]
     """
@@ -55,6 +67,7 @@ class FrameTask:
     lever: float
     carried: float
     heads: int
+    rail: float
     head_mass: float
     head_width: float
     rail_spans: int
@@ -162,7 +175,7 @@ def rail_sag(task: FrameTask, section: HollowSquare) -> float:
 
     Of a load w over the middle b of a span l: w b (8 l^3 - 4 l b^2 + b^3) / (384 E I); for b = l the whole span's.
     """
-    span, stiff = task.width / task.rail_spans, STEEL.modulus * section.inertia
+    span, stiff = task.rail / task.rail_spans, STEEL.modulus * section.inertia
     own = uniform.deflection_max(section.line_mass * GRAVITY, span, STEEL.modulus, section.inertia)
     number = min(task.heads, math.ceil(span / task.head_width))
     wide = min(number * task.head_width, span)

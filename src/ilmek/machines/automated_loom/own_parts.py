@@ -4,13 +4,15 @@ Axes of the scene: x along the width, 0 in the middle of the cloth, y up from th
 """
 
 import cmath
+import math
 
 from ilmek.elements.drive_parts import PULLEY
 from ilmek.elements.motors import smallest_motor
 from ilmek.machines.arrangement.side_view import RETREAT
+from ilmek.machines.automated_loom.brackets import brackets_of
 from ilmek.machines.automated_loom.cyclogram import HEADS
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.frame import LoomFrame, part_id
+from ilmek.machines.automated_loom.frame import RETREAT_AXIS, LoomFrame, part_id
 from ilmek.machines.automated_loom.standing_frame import member, standing_frame
 from ilmek.machines.weaver import head_mass
 from ilmek.part import catalogue
@@ -20,15 +22,9 @@ from ilmek.part.shapes import box
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
 from ilmek.report.scene import SceneMotion
 from ilmek.timing.track import peak_acceleration, peak_speed
-from ilmek.units import mm
 
 RAIL = "heads' rail"
 """Id of the body that carries the heads."""
-
-_AXIS = 40 * mm
-"""Side of a linear axis' section [m]; assumed by this project."""
-
-_MISSING = Joint(JointKind.MISSING)
 
 
 def carried_tree(loom: LoomDesign) -> Tree:
@@ -39,7 +35,7 @@ def carried_tree(loom: LoomDesign) -> Tree:
 def _retreat(loom: LoomDesign) -> RigidBody:
     """The axes of the rail's retreat at its ends, and their motor."""
     row = loom.row_cyclogram
-    heads = row.track(HEADS)
+    heads, room = row.track(HEADS), loom.side.rail.size.real / 2  # the axes carry the rail beyond both ends of its run
     moved = loom.heads * head_mass(loom.weaver) * peak_acceleration(heads, row.period)
     torque, turning = moved * PULLEY, peak_speed(heads, row.period) / PULLEY
     axis = Part(
@@ -47,21 +43,23 @@ def _retreat(loom: LoomDesign) -> RigidBody:
         "axis of the rail's retreat",
         "linear axis",
         "belt drive, one at each column",
-        box(_AXIS, _AXIS, heads.stroke),
+        box(RETREAT_AXIS, RETREAT_AXIS, heads.stroke + 2 * room),
         purchase=Bought("belt drive", length=heads.stroke),
         envelope=True,
     )
-    motor = catalogue.motor(
-        part_id("retreat-motor"), "motor of the rail's retreat", smallest_motor(torque, turning), torque, turning
-    )
-    middle = _rail_middle(loom)
-    beside = loom.task.width / 2 + _AXIS / 2
-    slope = -cmath.phase(RETREAT)
+    chosen = smallest_motor(torque, turning)
+    motor = catalogue.motor(part_id("retreat-motor"), "motor of the rail's retreat", chosen, torque, turning)
+    # Wider than its axis, it reaches outwards, before the post.
+    outwards = ((chosen.face if chosen else catalogue.SPECIAL_FACE) - RETREAT_AXIS) / 2
+    middle, beside, slope = _rail_middle(loom), brackets_of(loom).face - RETREAT_AXIS / 2, -cmath.phase(RETREAT)
     ends = [placement(x, middle.imag, middle.real, about=(1.0, 0.0, 0.0), angle=slope) for x in (-beside, beside)]
+    flange = placement(outwards, z=heads.stroke + room, about=(1.0, 0.0, 0.0), angle=math.pi)
     return RigidBody(
         part_id("retreat"),
-        (Occurrence(axis, tuple(ends)), Occurrence(motor, tuple(ends[1:]))),
-        joint=_MISSING,
+        (
+            Occurrence(axis, tuple(end.after(placement(z=-room)) for end in ends)),
+            Occurrence(motor, (ends[1].after(flange),)),
+        ),
     )
 
 
@@ -70,19 +68,19 @@ def frame_tree(loom: LoomDesign, frame: LoomFrame, axes: int, retreat: SceneMoti
 
     axes  of the control      retreat  motion of the rail to the front; default: it stands
     """
-    rail = member("rail", "rail of the heads", frame.rail, frame.task.width)
+    rail = member("rail", "rail of the heads", frame.rail, frame.task.rail)
     axis = Part(
         part_id("rail-axis"),
         "axes of the heads on their rail",
         "linear axis",
         "with a belt for each head",
-        box(_AXIS, _AXIS, frame.task.width),
+        box(RETREAT_AXIS, RETREAT_AXIS, frame.task.width),
         purchase=Bought("linear axis", length=frame.task.width),
         envelope=True,
     )
     middle = _rail_middle(loom)
-    along = placement(x=-frame.task.width / 2).after(ALONG_WIDTH)
-    below = placement(-frame.task.width / 2, -(frame.rail.side + _AXIS) / 2).after(ALONG_WIDTH)
+    along = placement(x=-frame.task.rail / 2).after(ALONG_WIDTH)
+    below = placement(-frame.task.width / 2, -(frame.rail.side + RETREAT_AXIS) / 2).after(ALONG_WIDTH)
     return Tree(
         (
             standing_frame(loom, frame, axes),

@@ -11,8 +11,8 @@ from ilmek.elements.columns import STEEL, HollowSquare
 from ilmek.elements.tubes import TUBES, Tube
 from ilmek.machines.automated_loom.brackets import ROOM, Bracket, Brackets, CarriedBeam, brackets_of, compensator_beams
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.frame import LoomFrame, part_id
-from ilmek.machines.automated_loom.supports import support_bodies
+from ilmek.machines.automated_loom.frame import FOOT, LEVELLING, PAD, RETREAT_AXIS, LoomFrame, part_id
+from ilmek.machines.automated_loom.supports import post_depth, support_bodies
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, UPRIGHT, Placement, placement
 from ilmek.part.profile import Profile
@@ -25,12 +25,6 @@ CABINET, WALL = (0.8, 1.0, 0.3), 2 * mm
 
 _MODULE, _MODULE_PITCH, _MODULE_ROWS = (40 * mm, 170 * mm, 160 * mm), (50 * mm, 230 * mm), 4
 """Width, height and depth of an axis' amplifier in the cabinet [m], distances of neighbours, rows; assumed."""
-
-LEVELLING, PAD = (20 * mm, 40 * mm), (80 * mm, 15 * mm)
-"""Diameter and length of a levelling foot's screw, and of its pad [m]: M20; makers differ by some millimetres."""
-
-FOOT = LEVELLING[1] + PAD[1]
-"""Height of the frame over the floor, on its levelling feet [m]."""
 
 _MASS = 1.1
 """Mass of a levelling foot [kg]: that of its shape in steel, rounded up."""
@@ -60,7 +54,7 @@ def standing_frame(loom: LoomDesign, frame: LoomFrame, axes: int) -> RigidBody:
             *(own for one in made.plates for own in _bracket(loom, frame, made, one)),
             *_carried(loom, made),
             *_control(loom, frame, made, axes),
-            *support_bodies(loom, frame),
+            *support_bodies(loom, frame, made.face),
         ),
     )
 
@@ -72,6 +66,7 @@ def _uprights(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Oc
         member("column", "column of the frame", section, side.top - under),
         (placement(x, under, side.column).after(UPRIGHT) for x in (-beside, beside)),
     )
+    yield _rail_posts(loom, frame, made)
     spans, wide = frame.task.rail_spans, frame.task.width
     if spans > 1:
         middles = ((k / spans - 0.5) * wide for k in range(1, spans))
@@ -81,19 +76,29 @@ def _uprights(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Oc
         )
 
 
+def _rail_posts(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Occurrence:
+    """Posts on the front feet that carry the axes of the rail's retreat, at their upper ends, behind their motor."""
+    side, section = loom.side, frame.column
+    bottom, axis = side.floor + FOOT + section.side, side.rail.corner + side.rail.size / 2
+    beside, depth = made.face + section.side / 2, axis.real + RETREAT_AXIS / 2 - section.side / 2
+    post = member("rail-post", "post of the rail's axes", section, axis.imag - bottom)
+    return _placed(post, (placement(x, bottom, depth).after(UPRIGHT) for x in (-beside, beside)))
+
+
 def _front(loom: LoomDesign, section: HollowSquare) -> float:
-    """Axis of what stands before the retreated rail, in the side view [m]."""
-    return (loom.side.rail.corner + loom.side.rail.size).real + loom.side.retreat + section.side / 2
+    """Axis of what stands before the retreated rail and under the beat's beam, in the side view [m]."""
+    rail = (loom.side.rail.corner + loom.side.rail.size).real + loom.side.retreat
+    return max(rail + section.side / 2, post_depth(loom))
 
 
 def _across(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Occurrence]:
-    """Beams between the columns: at the floor, and behind the cams, above the spacer; at the front for the posts."""
+    """Beams between the columns: at the floor, and behind the cams, above the spacer; at the front under the posts."""
     side, section = loom.side, frame.column
     low = side.floor + FOOT + section.side / 2
     behind = min(cam.at.real - cam.guide_radius for cam in side.cams) - ROOM - section.side / 2
     lowest = min(cam.at.imag - cam.guide_radius for cam in side.cams)
     middle = (side.spacer.at.imag + side.spacer.radius + lowest) / 2
-    seats = [(low, side.column), (middle, min(side.column, behind))]
+    seats = [(low, side.column), (middle, min(side.column, behind)), (low, post_depth(loom))]
     if frame.task.rail_spans > 1:
         seats.append((low, _front(loom, section)))
     yield _placed(

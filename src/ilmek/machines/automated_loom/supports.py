@@ -1,16 +1,16 @@
 """What the frame holds beat and weft with: posts under the beat's beam, and the tube behind the shuttle's bar.
 
-Axes of the scene, as in `own_parts`. The posts stand on the feet of the frame, beside the cylinders; a foot too short
-for that is lengthened. Each bears half of what the beam carries, across at its end: stress F h c / (2 I) and deflection
-F h³ / (6 E I) [cantilevers]. The tube lies between the columns and stiffens the bar, which reaches beyond them: it
-bears the pull of the magnets, across, in its middle.
+Axes of the scene, as in `own_parts`. The posts stand on a beam across between the front feet. Each bears half of what
+the beat's beam carries, across at its end: stress F h c / (2 I) and deflection F h³ / (6 E I) [cantilevers]. The tube
+lies before the columns, on arms, and stiffens the bar, which reaches beyond them: it bears the pull of the magnets,
+across, in its middle.
 """
 
 from collections.abc import Iterator
 
 from ilmek.elements.columns import STEEL, HollowSquare, ascending, euler
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.frame import LoomFrame, part_id
+from ilmek.machines.automated_loom.frame import FOOT, LoomFrame, part_id
 from ilmek.machines.beat_up.beam import POST, BeatBeam
 from ilmek.machines.beat_up.carriage import beam_corner
 from ilmek.machines.beat_up.design import BeatUp
@@ -24,8 +24,8 @@ from ilmek.records import record
 from ilmek.report import Check, at_least, at_most
 from ilmek.units import format_quantity, mm
 
-COLUMN_FRONT = 40 * mm
-"""Front of the columns before the axis of the spacer cylinder [m]: thicker ones reach farther back; assumed here."""
+_LEAST = 0.05 * mm
+"""Shorter arms are left out [m]."""
 
 POST_SAFETY = 2.0
 """Of the posts against yielding; assumed by this project."""
@@ -64,7 +64,7 @@ class LoomSupports:
 def supports(loom: LoomDesign, frame: LoomFrame) -> LoomSupports:
     """The lightest sections that keep their checks; the largest where none does."""
     made, (beam, corner) = loom.weft.carried, beat_beam(loom)
-    height, across = corner.imag - loom.side.floor - frame.column.side, loom.beat.crank_rockers > 0
+    height, across = corner.imag - _bottom(loom, frame), loom.beat.crank_rockers > 0
     # The axes of a comb press along the posts; their beam counts half of what is spread over it.
     force = beam.carried / 2 if across else beam.carried
     posts = (one for one in ascending() if all(check.ok for check in _post_checks(one, height, force, across=across)))
@@ -75,11 +75,6 @@ def supports(loom: LoomDesign, frame: LoomFrame) -> LoomSupports:
         sections = (one for one in ascending() if all(c.ok for c in _tube_checks(one, loom.task.width, pull)))
         tube = next(sections, ascending()[-1])
     return LoomSupports(post, height, force, across, tube, loom.task.width, pull)
-
-
-def column_front(loom: LoomDesign) -> float:
-    """Front of the columns, behind the shuttle's bar, whatever their section [m]."""
-    return loom.side.column + COLUMN_FRONT
 
 
 def beat_beam(loom: LoomDesign) -> tuple[BeatBeam, complex]:
@@ -134,38 +129,44 @@ def _tube_checks(section: HollowSquare, span: float, pull: float) -> tuple[Check
     )
 
 
-def support_bodies(loom: LoomDesign, frame: LoomFrame) -> Iterator[Occurrence]:
-    """Posts with what lengthens the feet, and the tube; they belong to the frame's body."""
+def post_depth(loom: LoomDesign) -> float:
+    """Axis of the posts of the beat in the side view [m]: under the middle of its beam."""
+    beam, corner = beat_beam(loom)
+    return corner.real + beam.section.side / 2
+
+
+def _bottom(loom: LoomDesign, frame: LoomFrame) -> float:
+    """Where the posts stand: on the beam across between the front feet [m]."""
+    return loom.side.floor + FOOT + frame.column.side
+
+
+def support_bodies(loom: LoomDesign, frame: LoomFrame, face: float) -> Iterator[Occurrence]:
+    """Posts, and the tube with its arms; they belong to the frame's body.
+
+    face  of the columns from the middle of the width [m]
+    """
     held = supports(loom, frame)
-    yield from _posts(loom, frame, held.post, held.height)
-    if held.tube is not None:
-        yield _tube(loom, held.tube)
-
-
-def _posts(loom: LoomDesign, frame: LoomFrame, post: HollowSquare, height: float) -> Iterator[Occurrence]:
-    (beam, corner), side, foot = beat_beam(loom), loom.side, frame.column.side
-    front = corner.real + beam.section.side / 2
     ends = [(loom.task.width + POST) / 2 * sign for sign in (-1, 1)]
     yield Occurrence(
-        _member("beat-post", "post of the beat", post, height),
-        tuple(placement(x, side.floor + foot, front).after(UPRIGHT) for x in ends),
+        _member("beat-post", "post of the beat", held.post, held.height),
+        tuple(placement(x, _bottom(loom, frame), post_depth(loom)).after(UPRIGHT) for x in ends),
     )
-    begin = column_front(loom) + frame.task.depth
-    short = front + post.side / 2 - begin
-    if short > 0:
-        beside = (loom.task.width + foot) / 2
-        yield Occurrence(
-            _member("longer-foot", "end of a foot", frame.column, short),
-            tuple(placement(x, side.floor + foot / 2, begin) for x in (-beside, beside)),
-        )
+    if held.tube is not None:
+        yield from _tube(loom, frame, held.tube, face)
 
 
-def _tube(loom: LoomDesign, section: HollowSquare) -> Occurrence:
-    """Behind the bar, its upper side level with that of the bar."""
+def _tube(loom: LoomDesign, frame: LoomFrame, section: HollowSquare, face: float) -> Iterator[Occurrence]:
+    """Behind the bar, its upper side level with that of the bar, on arms from the fronts of the columns."""
     middle = loom.side.carrier.corner + loom.side.carrier.size / 2
     depth = middle.real + loom.weft.bodies.guide.rear - section.side / 2
-    along = placement(-loom.task.width / 2, middle.imag - section.side / 2, depth).after(ALONG_WIDTH)
-    return Occurrence(_member("weft-tube", "tube behind the shuttle's bar", section, loom.task.width), (along,))
+    height, reach = middle.imag - section.side / 2, face + section.side
+    along = placement(-reach, height, depth).after(ALONG_WIDTH)
+    yield Occurrence(_member("weft-tube", "tube behind the shuttle's bar", section, 2 * reach), (along,))
+    front = loom.side.column + frame.column.side / 2
+    gap, beside = depth - section.side / 2 - front, face + section.side / 2
+    if gap > _LEAST:
+        arm = _member("weft-arm", "arm of the tube", section, gap)
+        yield Occurrence(arm, tuple(placement(x, height, front) for x in (-beside, beside)))
 
 
 def _member(name: str, title: str, section: HollowSquare, length: float) -> Part:
