@@ -78,12 +78,13 @@ def _front(loom: LoomDesign, section: HollowSquare) -> float:
 
 
 def _across(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Occurrence]:
-    """Beams between the columns: at the floor, and behind the cams, above the spacer; at the front for the posts."""
+    """Beams between the columns: at the floor, behind the cams between the brackets, at the front for the posts."""
     side, section = loom.side, frame.column
     low = side.floor + FOOT + section.side / 2
     behind = min(cam.at.real - cam.guide_radius for cam in side.cams) - ROOM - section.side / 2
-    lowest = min(cam.at.imag - cam.guide_radius for cam in side.cams)
-    middle = (side.spacer.at.imag + side.spacer.radius + lowest) / 2
+    spacer, _, *of_cams = made.shafts
+    lowest = min(float(one.nodes.imag.min()) - one.radius for one in of_cams)
+    middle = (float(spacer.nodes.imag.max()) + spacer.radius + lowest) / 2
     seats = [(low, side.column), (middle, min(side.column, behind))]
     if frame.task.rail_spans > 1:
         seats.append((low, _front(loom, section)))
