@@ -99,8 +99,10 @@ def _feet(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Occurr
     side, section = loom.side, frame.column
     edge, beside, low = section.side / 2, made.face + section.side / 2, side.floor + FOOT + section.side / 2
     rear, front = frame.task.depth, _front(loom, section) + edge - side.column - edge
-    lengths = (("rear-foot", "rear foot of the frame", rear, side.column - edge - rear),)
-    lengths += (("front-foot", "front foot of the frame", front, side.column + edge),)
+    lengths = (
+        ("rear-foot", "rear foot of the frame", rear, side.column - edge - rear),
+        ("front-foot", "front foot of the frame", front, side.column + edge),
+    )
     for name, title, long, start in lengths:
         yield _placed(member(name, title, section, long), (placement(x, low, start) for x in (-beside, beside)))
     shape, bought = stepped(PAD, LEVELLING), Bought("M20", _MASS)
