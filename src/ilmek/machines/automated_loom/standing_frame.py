@@ -7,7 +7,7 @@ stand outside of all bearings; a bracket that ends before a column's face has a 
 import cmath
 from collections.abc import Iterable, Iterator
 
-from ilmek.elements.columns import STEEL, HollowSquare
+from ilmek.elements.columns import SECTIONS, STEEL, HollowSquare
 from ilmek.elements.tubes import TUBES, Tube
 from ilmek.machines.automated_loom.brackets import ROOM, Bracket, Brackets, CarriedBeam, brackets_of, compensator_beams
 from ilmek.machines.automated_loom.design import LoomDesign
@@ -68,8 +68,21 @@ def _uprights(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Oc
         middles = ((k / spans - 0.5) * wide for k in range(1, spans))
         yield _placed(
             member("post", "post of the rail", section, frame.task.height / 2),
-            (placement(x, under + section.side, _front(loom, section)).after(UPRIGHT) for x in middles),
+            (
+                placement(x, under + _base(loom, section, made).side, _front(loom, section)).after(UPRIGHT)
+                for x in middles
+            ),
         )
+
+
+def _base(loom: LoomDesign, column: HollowSquare, made: Brackets) -> HollowSquare:
+    """Section of feet and beams at the floor: the columns', or the largest that has room under the lowest bracket."""
+    lowest = min(float(one.nodes.imag.min()) - one.radius for one in made.plates)
+    room = lowest - ROOM - loom.side.floor - FOOT
+    if column.side <= room:
+        return column
+    offered = [HollowSquare(*size) for size in SECTIONS]
+    return max((one for one in offered if one.side <= room), key=lambda one: one.area, default=offered[0])
 
 
 def _front(loom: LoomDesign, section: HollowSquare) -> float:
@@ -79,32 +92,34 @@ def _front(loom: LoomDesign, section: HollowSquare) -> float:
 
 def _across(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Occurrence]:
     """Beams between the columns: at the floor, behind the cams between the brackets, at the front for the posts."""
-    side, section = loom.side, frame.column
-    low = side.floor + FOOT + section.side / 2
+    side, section, base = loom.side, frame.column, _base(loom, frame.column, made)
+    low = side.floor + FOOT + base.side / 2
     behind = min(cam.at.real - cam.guide_radius for cam in side.cams) - ROOM - section.side / 2
     spacer, _, *of_cams = made.shafts
     lowest = min(float(one.nodes.imag.min()) - one.radius for one in of_cams)
     middle = (float(spacer.nodes.imag.max()) + spacer.radius + lowest) / 2
-    seats = [(low, side.column), (middle, min(side.column, behind))]
+    seats = [(low, side.column)]
     if frame.task.rail_spans > 1:
         seats.append((low, _front(loom, section)))
-    yield _placed(
-        member("beam", "beam across", section, 2 * made.face),
-        (placement(-made.face, y, z).after(ALONG_WIDTH) for y, z in seats),
-    )
+    for name, title, chosen, own in (
+        ("beam", "beam across", section, [(middle, min(side.column, behind))]),
+        ("floor-beam", "beam across at the floor", base, seats),
+    ):
+        places = [placement(-made.face, y, z).after(ALONG_WIDTH) for y, z in own]
+        yield _placed(member(name, title, chosen, 2 * made.face), places)
 
 
 def _feet(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Occurrence]:
     """Feet to the back and to the front, under what stands before the heads, on levelling feet at their ends."""
-    side, section = loom.side, frame.column
-    edge, beside, low = section.side / 2, made.face + section.side / 2, side.floor + FOOT + section.side / 2
+    side, section, base = loom.side, frame.column, _base(loom, frame.column, made)
+    edge, beside, low = section.side / 2, made.face + section.side / 2, side.floor + FOOT + base.side / 2
     rear, front = frame.task.depth, _front(loom, section) + edge - side.column - edge
     lengths = (
         ("rear-foot", "rear foot of the frame", rear, side.column - edge - rear),
         ("front-foot", "front foot of the frame", front, side.column + edge),
     )
     for name, title, long, start in lengths:
-        yield _placed(member(name, title, section, long), (placement(x, low, start) for x in (-beside, beside)))
+        yield _placed(member(name, title, base, long), (placement(x, low, start) for x in (-beside, beside)))
     shape, bought = stepped(PAD, LEVELLING), Bought("M20", _MASS)
     foot = Part(part_id("levelling-foot"), "levelling foot", "pin or bush", shape=shape, purchase=bought, envelope=True)
     ends = (side.column - rear, side.column + front)
