@@ -12,7 +12,9 @@ from ilmek.errors import IlmekError
 from ilmek.machines.automated_loom import MACHINE
 from ilmek.machines.automated_loom.own_parts import carried_tree, frame_tree
 from ilmek.machines.automated_loom.parts import parts_of_loom
+from ilmek.machines.bearing_seats import BRACKET
 from ilmek.machines.shedding import MACHINE as SHEDDING
+from ilmek.machines.shedding.tree import NUT, bearing_inner
 from ilmek.machines.shedding.tree import tree as shedding_tree
 from ilmek.machines.tension_compensator.tree import tree as compensator_tree
 from ilmek.machines.warp_tension.tree import tree as cylinder_tree
@@ -70,12 +72,17 @@ def test_the_stacks_of_cams_weigh_what_their_parts_do(shafts: int) -> None:
 
 
 def _spare(design: Any) -> float:
-    """Mass of the bars beyond their stacks [kg]."""
+    """Mass of the bars beyond their stacks, of their journals and of the clamping nuts [kg]."""
     steel = MATERIALS["structural steel"].density
-    return math.fsum(
-        shaft.shaft.bar**2 * (shaft.shaft.length - sum(shaft.numbers) * shaft.stack.shares.pitch) * steel
-        for shaft in design.shafts
-    )
+    return math.fsum(_spare_volume(design, index) for index in range(len(design.shafts))) * steel
+
+
+def _spare_volume(design: Any, index: int) -> float:
+    shaft = design.shafts[index]
+    bar, seat = shaft.shaft.bar, shaft.seat
+    square = bar**2 * (2 * bearing_inner(design, index) - sum(shaft.numbers) * shaft.stack.shares.pitch)
+    journals = 2 * math.pi / 4 * seat.bearing.bore**2 * (seat.bearing.width + BRACKET)
+    return float(square + journals + 2 * NUT * (math.pi * bar**2 - bar**2))
 
 
 def test_the_spacer_weighs_its_tube_less_its_slots() -> None:

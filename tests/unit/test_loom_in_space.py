@@ -16,6 +16,7 @@ from ilmek.machines.automated_loom.cyclogram import EVEN, HEADS
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.scene import scene
 from ilmek.machines.automated_loom.parts import parts_of_loom
+from ilmek.machines.automated_loom.standing_frame import FOOT
 from ilmek.machines.beat_up import BeatUp
 from ilmek.machines.beat_up.tree import in_side_view
 from ilmek.plane.contours import area
@@ -60,12 +61,17 @@ def test_every_solid_is_closed_and_stands_in_a_frame_of_the_scene(settings: tupl
 
 def test_the_frames_members_weigh_what_the_parts_list_states() -> None:
     loom, found = _made()
-    members = [_part(found, f"automated-loom/{name}") for name in ("column", "beam", "foot", "rail")]
+    kinds = {line.part for line in parts_of_loom(loom).parts if line.kind in ("welded frame", "laser-cut part")}
+    members = [part for part in found.parts if part.name.startswith("automated-loom/") and part.name in kinds]
+    assert {"automated-loom/column", "automated-loom/upper-bracket", "automated-loom/rail"} <= {
+        one.name for one in members
+    }
     mass = sum(volume(part.solids[0]) * part.number for part in members) * STEEL.density
-    assert mass == pytest.approx(parts_of_loom(loom).frame.mass, rel=1e-9)
-    assert mass == pytest.approx(sum(part.mass * part.number for part in members), rel=1e-9)
+    assert mass == pytest.approx(parts_of_loom(loom).frame.mass, rel=1e-4)  # round ends of brackets are chords
+    weighed = sum(part.mass * part.number for part in members)
+    assert weighed == pytest.approx(parts_of_loom(loom).frame.mass, rel=1e-9)
     shaft = _part(found, "shedding/cam-shaft")
-    assert volume(shaft.solids[0]) * STEEL.density == pytest.approx(shaft.mass, rel=1e-9)
+    assert volume(shaft.solids[0]) * STEEL.density == pytest.approx(shaft.mass, rel=1e-4)
 
 
 def test_every_plate_of_the_loom_has_the_volume_of_its_drawing() -> None:
@@ -95,7 +101,7 @@ def test_boxes_and_rollers_have_the_coordinates_of_the_side_view() -> None:
     column = _part(found, "automated-loom/column")
     lower, upper = bounds(column.solids[0])
     origin = _frame(found, column.frame).origins[0]
-    assert np.allclose([lower[1] + origin[1], upper[1] + origin[1]], [side.floor, side.top], atol=1e-9)
+    assert np.allclose([lower[1] + origin[1], upper[1] + origin[1]], [side.floor + FOOT, side.top], atol=1e-9)
     assert origin[2] + (lower[2] + upper[2]) / 2 == pytest.approx(side.column, abs=1e-9)
     for name, roller in (("upper", side.upper), ("lower", side.lower)):
         at = _frame(found, f"warp-tension/{name} cylinder").origins[0]

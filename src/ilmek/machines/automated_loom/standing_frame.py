@@ -12,7 +12,7 @@ from ilmek.elements.tubes import TUBES, Tube
 from ilmek.machines.automated_loom.brackets import ROOM, Bracket, Brackets, CarriedBeam, brackets_of, compensator_beams
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import FOOT, LEVELLING, PAD, RETREAT_AXIS, LoomFrame, part_id
-from ilmek.machines.automated_loom.supports import post_depth, support_bodies
+from ilmek.machines.automated_loom.supports import base_section, post_depth, support_bodies
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, UPRIGHT, Placement, placement
 from ilmek.part.profile import Profile
@@ -72,14 +72,17 @@ def _uprights(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Oc
         middles = ((k / spans - 0.5) * wide for k in range(1, spans))
         yield _placed(
             member("post", "post of the rail", section, frame.task.height / 2),
-            (placement(x, under + section.side, _front(loom, section)).after(UPRIGHT) for x in middles),
+            (
+                placement(x, under + base_section(loom, frame).side, _front(loom, section)).after(UPRIGHT)
+                for x in middles
+            ),
         )
 
 
 def _rail_posts(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Occurrence:
     """Posts on the front feet that carry the axes of the rail's retreat, at their upper ends, behind their motor."""
     side, section = loom.side, frame.column
-    bottom, axis = side.floor + FOOT + section.side, side.rail.corner + side.rail.size / 2
+    bottom, axis = side.floor + FOOT + base_section(loom, frame).side, side.rail.corner + side.rail.size / 2
     beside, depth = made.face + section.side / 2, axis.real + RETREAT_AXIS / 2 - section.side / 2
     post = member("rail-post", "post of the rail's axes", section, axis.imag - bottom)
     return _placed(post, (placement(x, bottom, depth).after(UPRIGHT) for x in (-beside, beside)))
@@ -92,32 +95,35 @@ def _front(loom: LoomDesign, section: HollowSquare) -> float:
 
 
 def _across(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Occurrence]:
-    """Beams between the columns: at the floor, and behind the cams, above the spacer; at the front under the posts."""
-    side, section = loom.side, frame.column
-    low = side.floor + FOOT + section.side / 2
+    """Beams between the columns: at the floor, behind the cams between the brackets, at the front under the posts."""
+    side, section, base = loom.side, frame.column, base_section(loom, frame)
+    low = side.floor + FOOT + base.side / 2
     behind = min(cam.at.real - cam.guide_radius for cam in side.cams) - ROOM - section.side / 2
-    lowest = min(cam.at.imag - cam.guide_radius for cam in side.cams)
-    middle = (side.spacer.at.imag + side.spacer.radius + lowest) / 2
-    seats = [(low, side.column), (middle, min(side.column, behind)), (low, post_depth(loom))]
+    spacer, _, *of_cams = made.shafts
+    lowest = min(float(one.nodes.imag.min()) - one.radius for one in of_cams)
+    middle = (float(spacer.nodes.imag.max()) + spacer.radius + lowest) / 2
+    seats = [(low, side.column), (low, post_depth(loom))]
     if frame.task.rail_spans > 1:
         seats.append((low, _front(loom, section)))
-    yield _placed(
-        member("beam", "beam across", section, 2 * made.face),
-        (placement(-made.face, y, z).after(ALONG_WIDTH) for y, z in seats),
-    )
+    for name, title, chosen, own in (
+        ("beam", "beam across", section, [(middle, min(side.column, behind))]),
+        ("floor-beam", "beam across at the floor", base, seats),
+    ):
+        places = [placement(-made.face, y, z).after(ALONG_WIDTH) for y, z in own]
+        yield _placed(member(name, title, chosen, 2 * made.face), places)
 
 
 def _feet(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Occurrence]:
     """Feet to the back and to the front, under what stands before the heads, on levelling feet at their ends."""
-    side, section = loom.side, frame.column
-    edge, beside, low = section.side / 2, made.face + section.side / 2, side.floor + FOOT + section.side / 2
+    side, section, base = loom.side, frame.column, base_section(loom, frame)
+    edge, beside, low = section.side / 2, made.face + section.side / 2, side.floor + FOOT + base.side / 2
     rear, front = frame.task.depth, _front(loom, section) + edge - side.column - edge
     lengths = (
         ("rear-foot", "rear foot of the frame", rear, side.column - edge - rear),
         ("front-foot", "front foot of the frame", front, side.column + edge),
     )
     for name, title, long, start in lengths:
-        yield _placed(member(name, title, section, long), (placement(x, low, start) for x in (-beside, beside)))
+        yield _placed(member(name, title, base, long), (placement(x, low, start) for x in (-beside, beside)))
     shape, bought = stepped(PAD, LEVELLING), Bought("M20", _MASS)
     foot = Part(part_id("levelling-foot"), "levelling foot", "pin or bush", shape=shape, purchase=bought, envelope=True)
     ends = (side.column - rear, side.column + front)

@@ -8,7 +8,8 @@ across, in its middle.
 
 from collections.abc import Iterator
 
-from ilmek.elements.columns import STEEL, HollowSquare, ascending, euler
+from ilmek.elements.columns import SECTIONS, STEEL, HollowSquare, ascending, euler
+from ilmek.machines.automated_loom.brackets import ROOM, brackets_of
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import FOOT, LoomFrame, part_id
 from ilmek.machines.beat_up.beam import POST, BeatBeam
@@ -135,9 +136,19 @@ def post_depth(loom: LoomDesign) -> float:
     return corner.real + beam.section.side / 2
 
 
+def base_section(loom: LoomDesign, frame: LoomFrame) -> HollowSquare:
+    """Section of feet and beams at the floor: the columns', or the largest that has room under the lowest bracket."""
+    lowest = min(float(one.nodes.imag.min()) - one.radius for one in brackets_of(loom).plates)
+    room = lowest - ROOM - loom.side.floor - FOOT
+    if frame.column.side <= room:
+        return frame.column
+    offered = [HollowSquare(*size) for size in SECTIONS]
+    return max((one for one in offered if one.side <= room), key=lambda one: one.area, default=offered[0])
+
+
 def _bottom(loom: LoomDesign, frame: LoomFrame) -> float:
     """Where the posts stand: on the beam across between the front feet [m]."""
-    return loom.side.floor + FOOT + frame.column.side
+    return loom.side.floor + FOOT + base_section(loom, frame).side
 
 
 def support_bodies(loom: LoomDesign, frame: LoomFrame, face: float) -> Iterator[Occurrence]:

@@ -213,7 +213,7 @@ def _loads(params: TensionCompensatorParams, one: SprungLever) -> Loads:
         along = turned - complex(lever.anchor)
         pivot = max(pivot, abs(pull + one.springs * spring * along / abs(along)))
         line = max(line, abs(pull) * params.levers / params.cloth.width)
-    return Loads(line, torque, pivot)
+    return Loads(line, torque, pivot, 2 * lever.path.half)
 
 
 def equilibrium_tension(one: SprungLever, angle: FloatArray) -> FloatArray:

@@ -58,22 +58,29 @@ CURE = "set a lower tension or lift, or a shorter support_span"
 
 @dataclass(frozen=True, slots=True)
 class Loads:
-    """Loads in the open shed: of a bar [N/m], torque of the warps on a lever [N m], force on its pivot [N]."""
+    """Loads in the open shed: of a bar [N/m], torque of the warps on a lever [N m], force on its pivot [N].
+
+    spread  distance of the two rods that bear the bar's load too [m]
+    """
 
     line: float
     torque: float
     pivot: float
+    spread: float
 
 
 @record
 class Members:
-    """What was chosen: tube of bars and rods, height of a lever [m], its pin [m], beam, roller; and the choices."""
+    """What was chosen: tube of bars and rods, height of a lever [m], its pin [m], beam, roller, height of a
+    cross-piece [m]; and the choices.
+    """
 
     tube: Tube
     lever: float
     pin: float
     beam: HollowSquare
     roller: RollingBearing
+    cross: float
     choices: tuple[Choice, ...]
 
 
@@ -93,7 +100,29 @@ def members_for(params: TensionCompensatorParams, tube: tuple[Tube, Choice], loa
     )
     beam, of_beam = pick("beam", sections, lambda one: one.name, lambda one: beam_checks(params, one, loads))
     given = () if params.bar_tube else (tube[1],)
-    return Members(tube[0], lever, pin, beam, roller_for(params, loads.line), (*given, of_lever, of_pin, of_beam))
+    roller = roller_for(params, loads.line)
+    cross = max(math.ceil(cross_height(params, loads) / mm) * mm, 1.6 * roller.bore)
+    return Members(tube[0], lever, pin, beam, roller, cross, (*given, of_lever, of_pin, of_beam))
+
+
+def cross_height(params: TensionCompensatorParams, loads: Loads) -> float:
+    """Least height [m] of the pieces that carry both rods, on a beam below the rear one.
+
+    Each rod bears half of the bar's load, w p / 2, the front one at the rods' distance g: h² = 6 w p g / (2 t sigma).
+    """
+    return math.sqrt(6 * _cross_moment(params, loads) / (params.lever_thickness * params.strength / params.safety))
+
+
+def cross_check(params: TensionCompensatorParams, height: float, loads: Loads) -> Check:
+    """Bending of the pieces that carry the rods, of a height [m]."""
+    stress = 6 * _cross_moment(params, loads) / (params.lever_thickness * height**2)
+    return at_most(
+        *("stress of a cross-piece of the rods", stress, *_limit(params)), parts=(part_id("cross-piece"),), cure=CURE
+    )
+
+
+def _cross_moment(params: TensionCompensatorParams, loads: Loads) -> float:
+    return loads.line * params.cloth.width / params.levers / 2 * loads.spread
 
 
 def roller_for(params: TensionCompensatorParams, line: float) -> RollingBearing:

@@ -34,6 +34,10 @@ PLAY = 1 * mm
 """Play of rollers and springs to what is beside them along their axis [m]; assumed by this project."""
 
 
+BEHIND = 5 * mm
+"""The rods' beam before the axis of the rear rod [m]: it leaves room for that of the back rest; assumed."""
+
+
 @record
 class BarSupports:
     """Where the bars and rods of a compensator are supported: at the levers along the width, by saddles of rollers."""
@@ -77,25 +81,31 @@ class BarSupports:
 
     @property
     def cross(self) -> ComplexArray:
-        """Nodes of the piece that carries the saddles of both rods, inside of the bar at rest [m]."""
-        path, lever = self.sprung.lever.path, self.sprung.lever
-        ends = np.array([complex(self.saddle(complex(-path.radius, side * path.half), -1)[1]) for side in (1, -1)])
-        inside = lever.rest.real - path.radius - self.strip - PLAY
-        if inside >= ends[0].real:
-            return ends
-        low = min(inside, ends[0].real - 2 * self.strip)
-        return np.array([ends[0], low + 1j * ends[0].imag, low + 1j * ends[1].imag, ends[1]])
+        """Corners of the piece that carries the saddles of both rods [m]: inside of the bar at rest, flat on its beam.
+
+        Its front is half as high as its rear: (1 + u) / 2 is nowhere below sqrt(u), the height of equal stress.
+        """
+        path, lever, strip, members = self.sprung.lever.path, self.sprung.lever, self.strip, self.members
+        high, half = members.cross, path.half
+        top = float(self.saddle(complex(-path.radius), -1)[1].real) + strip
+        inside = min(top, lever.rest.real - path.radius - PLAY)
+        flat = max(half - BEHIND - members.beam.side / 2, -half)
+        corners = [top - 1j * (half + strip), top - 1j * (half - strip), inside - 1j * (half - strip)]
+        corners += [inside + 1j * (half - strip), top + 1j * (half - strip), top + 1j * (half + strip)]
+        corners += [inside - high + 1j * (half + strip), inside - high + 1j * flat]
+        corners += [inside - max(high / 2, 2 * strip) - 1j * (half + strip)]
+        return np.array([one for k, one in enumerate(corners) if abs(one - corners[k - 1]) > 1e-9])
 
     @property
     def strip(self) -> float:
-        """Half of the width of saddles and cross-pieces [m]."""
+        """Half of the width of a saddle [m]."""
         return 0.8 * self.members.roller.bore
 
     @property
     def beams(self) -> tuple[tuple[complex, complex], ...]:
         """Axes of the beams of levers, rods and springs [m], and the directions of their sides."""
         lever, half = self.sprung.lever, self.members.beam.side / 2
-        rods = complex(float(self.cross.real.min()) - self.strip - half)
+        rods = complex(float(self.cross.real.min()) - half, lever.path.half - BEHIND)
         springs = complex(lever.anchor) - (self.apart + half) * self.along
         return (lever.pivot - 1j * (self.clear + half), 1 + 0j), (rods, 1 + 0j), (springs, self.along)
 
@@ -314,7 +324,7 @@ def _lug(at: BarSupports, far: float) -> Prism:
 
 def _cross(at: BarSupports) -> Prism:
     """The piece that carries the saddles of both rods, on their beam."""
-    return Prism(Profile(_outline(at.cross, at.strip)), at.params.lever_thickness)
+    return Prism(Profile(polygon(at.cross)), at.params.lever_thickness)
 
 
 def _spring_seat(at: BarSupports) -> float:
@@ -333,7 +343,8 @@ def _eye_wide(sprung: SprungLever) -> float:
 def _eye(at: BarSupports) -> Sum:
     """A block on a pin along z, from behind it to the end of its spring at x, with the bore of the pin."""
     pin, wide, far = at.members.pin, _eye_wide(at.sprung), _spring_seat(at)
-    corners = np.array([-pin - 0.5j * wide, far - 0.5j * wide, far + 0.5j * wide, -pin + 0.5j * wide])
+    high = 0.5j * max(wide, 2 * pin)
+    corners = np.array([-pin - high, far - high, far + high, -pin + high])
     block = Prism(Profile(polygon(corners), (circle(0j, pin / 2),)), wide)
     return Sum((Placed(block, (placement(z=-wide / 2),)),))
 
@@ -346,7 +357,8 @@ def _spring(at: BarSupports) -> Part:
         return Part(part_id("spring"), title, "spring", purchase=Bought("none of the table is enough"))
     size = f"{params.wire} {wound.wire_diameter / mm:g} mm, {format_quantity(sprung.rate, 'N/mm', 3)}"
     seat = _spring_seat(at)
-    length = max(float(sprung.lever.spring_length(sprung.angle)) - 2 * seat, wound.wire_diameter)
+    dips = PLAY + max(_eye_wide(sprung), 2 * at.members.pin) / 2 * math.sin(abs(sprung.angle))
+    length = max(float(sprung.lever.spring_length(sprung.angle)) - 2 * seat - dips, wound.wire_diameter)
     coil = tube(wound.diameter + wound.wire_diameter, wound.wire_diameter, length)
     room = Sum((Placed(coil, (placement(z=seat),)),))
     return Part(part_id("spring"), title, "spring", size, room, purchase=Bought(size, wound.mass), envelope=True)

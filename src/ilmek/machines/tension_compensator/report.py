@@ -5,7 +5,14 @@ import math
 from ilmek.elements.springs import choose_spring, least_stress_share
 from ilmek.machines.tension_compensator.analysis import CompensatorAnalysis
 from ilmek.machines.tension_compensator.design import TensionCompensator, swing_checks
-from ilmek.machines.tension_compensator.members import bar_checks, beam_checks, lever_checks, part_id, pin_checks
+from ilmek.machines.tension_compensator.members import (
+    bar_checks,
+    beam_checks,
+    cross_check,
+    lever_checks,
+    part_id,
+    pin_checks,
+)
 from ilmek.machines.tension_compensator.params import TensionCompensatorParams
 from ilmek.machines.tension_compensator.synthesis import SEATS, SPRINGS, SprungLever, shared
 from ilmek.report import Alternative, Check, Choice, Table, at_least, at_most, choose, columns, must
@@ -36,6 +43,7 @@ def checks(found: CompensatorAnalysis) -> tuple[Check, ...]:
         *lever_checks(params, members.lever, members.pin, loads),
         *pin_checks(params, members.pin, loads),
         *beam_checks(params, members.beam, loads),
+        cross_check(params, members.cross, loads),
     )
 
 

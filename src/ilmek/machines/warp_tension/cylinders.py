@@ -139,7 +139,7 @@ def cylinders(design: WarpTensionDesign) -> tuple[Cylinder, Cylinder, Cylinder]:
     plain = hollow(2 * design.outer_radius, design.outer_radius - design.inner_radius, params.span)
     upper = _cylinder(design, "upper", sizes, (plain, tube), -1j * load, design.loads.worst * design.outer_radius)
     lower = _cylinder(design, "lower", sizes, (plain, tube), 1j * load, design.holding_torque)
-    chosen = spacer_tube(params)
+    chosen = spacer_tube(params, design.outer_radius)
     under = (chosen.inner_radius + metal_left(params, chosen), chosen.inner_radius)
     slotted = spacer_shell(params, chosen), chosen
     return upper, lower, _cylinder(design, "spacer", under, slotted, spacer_load(params, load), 0.0)
@@ -267,11 +267,14 @@ def spacer_tubes(params: WarpTensionParams) -> tuple[Tube, ...]:
     return tuple(sorted(thick or [max(TUBES.values(), key=lambda tube: tube.wall)], key=lambda tube: tube.area))
 
 
-def spacer_tube(params: WarpTensionParams) -> Tube:
-    """The spacer's tube: as given, or the lightest that keeps the limits below its slots; the stiffest if none does."""
+def spacer_tube(params: WarpTensionParams, radius: float = math.inf) -> Tube:
+    """The spacer's tube: as given, or the lightest that keeps the limits below its slots; the stiffest if none does.
+
+    One within the radius of the other cylinders [m] is preferred: it has their room.
+    """
     if params.spacer_tube is not None:
         return find_tube(params.spacer_tube)
     depth, pull = slots_of(params).depth, spacer_load(params, abs(worst_load(params)))
-    offered = spacer_tubes(params)
+    offered = sorted(spacer_tubes(params), key=lambda one: one.outer_radius > radius + 0.5 * mm)
     kept = (one for one in offered if keeps_limits(params, one.inner_radius, one.outer_radius - depth, pull))
     return next(kept, max(offered, key=lambda tube: tube.inertia))
