@@ -139,13 +139,14 @@ def support_bodies(loom: LoomDesign, frame: LoomFrame) -> Iterator[Occurrence]:
     held = supports(loom, frame)
     yield from _posts(loom, frame, held.post, held.height)
     if held.tube is not None:
-        yield _tube(loom, held.tube)
+        yield from _tube(loom, held.tube)
 
 
 def _posts(loom: LoomDesign, frame: LoomFrame, post: HollowSquare, height: float) -> Iterator[Occurrence]:
     (beam, corner), side, foot = beat_beam(loom), loom.side, frame.column.side
     front = corner.real + beam.section.side / 2
-    ends = [(loom.task.width + POST) / 2 * sign for sign in (-1, 1)]
+    beside = loom.task.width / 2 + POST - post.side / 2
+    ends = [beside * sign for sign in (-1, 1)]
     yield Occurrence(
         _member("beat-post", "post of the beat", post, height),
         tuple(placement(x, side.floor + foot, front).after(UPRIGHT) for x in ends),
@@ -153,19 +154,24 @@ def _posts(loom: LoomDesign, frame: LoomFrame, post: HollowSquare, height: float
     begin = column_front(loom) + frame.task.depth
     short = front + post.side / 2 - begin
     if short > 0:
-        beside = (loom.task.width + foot) / 2
+        apart = (loom.task.width + foot) / 2
         yield Occurrence(
             _member("longer-foot", "end of a foot", frame.column, short),
-            tuple(placement(x, side.floor + foot / 2, begin) for x in (-beside, beside)),
+            tuple(placement(x, side.floor + foot / 2, begin) for x in (-apart, apart)),
         )
 
 
-def _tube(loom: LoomDesign, section: HollowSquare) -> Occurrence:
-    """Behind the bar, its upper side level with that of the bar."""
+def _tube(loom: LoomDesign, section: HollowSquare) -> Iterator[Occurrence]:
+    """Behind the bar, its upper side level with the bar's; distance pieces where the columns stand farther back."""
     middle = loom.side.carrier.corner + loom.side.carrier.size / 2
-    depth = middle.real + loom.weft.bodies.guide.rear - section.side / 2
-    along = placement(-loom.task.width / 2, middle.imag - section.side / 2, depth).after(ALONG_WIDTH)
-    return Occurrence(_member("weft-tube", "tube behind the shuttle's bar", section, loom.task.width), (along,))
+    rear, half = middle.real + loom.weft.bodies.guide.rear, section.side / 2
+    wide, height = loom.task.width, middle.imag - half
+    along = placement(-wide / 2, height, rear - half).after(ALONG_WIDTH)
+    yield Occurrence(_member("weft-tube", "tube behind the shuttle's bar", section, wide), (along,))
+    front = column_front(loom)
+    if rear - front > section.wall:
+        ends = tuple(placement(side * (wide / 2 + half), height, front) for side in (-1, 1))
+        yield Occurrence(_member("weft-distance", "distance piece of the shuttle's bar", section, rear - front), ends)
 
 
 def _member(name: str, title: str, section: HollowSquare, length: float) -> Part:

@@ -134,17 +134,11 @@ class WeftBodies:
         return RigidBody(part_id("belt axis"), parts, joint=_MISSING, positions=(middle,))
 
     def _spare(self, core: Part, made: Shuttle) -> Occurrence:
-        """A wound bobbin for each shuttle, for the next change: on the left end of the bar."""
-        guide, radius = self.guide, made.bobbin.core / 2
-        middle = (guide.front + guide.rear) / 2
-        left = -guide.reach + self.params.wall
-        return Occurrence(
-            core,
-            tuple(
-                placement(left + k * (made.bobbin.length + self.params.wall), radius, middle).after(along(0.0))
-                for k in range(2)
-            ),
-        )
+        """A wound bobbin for each shuttle, for the next change: on the ends of the bar, behind the boxes."""
+        guide, radius, wall = self.guide, made.bobbin.core / 2, self.params.wall
+        depth = max((guide.front + guide.rear) / 2, guide.rear + radius)
+        starts = (wall - guide.box_end, guide.box_end - wall - made.bobbin.length)
+        return Occurrence(core, tuple(placement(x, radius, depth).after(along(0.0)) for x in starts))
 
     def _rapier(self, made: Rapier) -> Iterator[RigidBody]:
         """The rapier from the left, its tip at rest before the cloth, clamped at its far end."""
