@@ -171,7 +171,8 @@ def _slide_cycle(params: TravelParams, step: SCurve, mass: float, every: float) 
 
 def slide_length(found: BeaterTravel) -> float:
     """Length of the slide: its run, its carriage, and room at both ends [m]."""
-    return found.slide_run + BLOCK_LENGTH + 2 * SLIDE_END
+    run: float = found.slide_run
+    return run + BLOCK_LENGTH + 2 * SLIDE_END
 
 
 def travel_parts(found: BeaterTravel) -> tuple[Part, ...]:

@@ -20,7 +20,7 @@ from ilmek.machines.weft.carriers import (
     bobbin,
     fittings,
     magnet,
-    magnet_places,
+    magnet_positions,
     part_id,
     rapier_tube,
     shuttle_wood,
@@ -100,13 +100,13 @@ class WeftBodies:
         cells = guide.box()
         parts = [Occurrence(wood), Occurrence(fitted, eyes), Occurrence(core, (along(-wide / 2),))]
         if self.params.nose > 0:
-            backs = (placement(x, z=-made.depth / 2) for x in magnet_places(self.params, made.bobbin))
+            backs = (placement(x, z=-made.depth / 2) for x in magnet_positions(self.params, made.bobbin))
             parts.append(Occurrence(magnet(self.params, made.bobbin), tuple(backs)))
         half = guide.stroke / 2
         yield RigidBody(part_id("guide"), (*guide.standing(), *guide.slides(), self._spare(core, made)))
         for name, side in ((LEFT_BOX, -1), (RIGHT_BOX, 1)):
             shifted = Joint(JointKind.SLIDE, (0.0, 1.0, 0.0))
-            yield RigidBody(name, (Occurrence(cells, (guide.box_place(side),)),), joint=shifted)
+            yield RigidBody(name, (Occurrence(cells, (guide.box_position(side),)),), joint=shifted)
         yield _sliding(STRAIGHT, tuple(parts), placement(-half))
         yield _sliding(SINUOUS, tuple(parts), placement(half, guide.pitch))
         yield _sliding(DRAGGING, tuple(guide.carried()), placement(-half))

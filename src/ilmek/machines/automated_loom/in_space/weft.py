@@ -45,7 +45,7 @@ def _shifted(made: SceneMaker, angle: FloatArray) -> FloatArray:
     """
     (_, first), (second, last) = weft_windows(made.loom.row_cyclogram)
     share = np.interp(angle, [first, second, last, turn], [0.0, 1.0, 1.0, 0.0])
-    return -share * made.loom.weft.bodies.guide.pitch
+    return np.asarray(-share * made.loom.weft.bodies.guide.pitch)
 
 
 def _middle(made: SceneMaker) -> tuple[float, float]:
