@@ -78,7 +78,7 @@ def rocker_stations(params: HammerParams) -> tuple[float, ...]:
 
 
 def _between(params: HammerParams) -> Iterator[tuple[float, float]]:
-    """Spans of the width between the planes of the links, where the bar's front is free [m]; all of it where none is."""
+    """Spans of the width between the planes of the links, where the bar is free [m]; all of it where none is."""
     thickness = params.link_thickness or FLAT_BARS[0][1]
     ends = [-params.width / 2]
     for station in rocker_stations(params):
