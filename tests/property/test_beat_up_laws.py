@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from ilmek.linkage.solve import solve
 from ilmek.machines.beat_up import BeatUp, BeatUpParams, design
-from ilmek.machines.beat_up.use_params import CastLinkParams
+from ilmek.machines.beat_up.use_params import CastLinkParams, TravelParams
 from ilmek.synthesis.crank_rocker.dead_centres import beta_limits, rotation_limits
 from ilmek.units import deg
 
@@ -72,6 +72,7 @@ def test_a_loom_of_another_size(scale: float) -> None:
             thickness=0.01 * scale,
             beater_mass=2.5 * scale**3,
             strength=CastLinkParams(pin_diameter=0.006 * scale),
+            travel=TravelParams(bar_distance=0.02 * scale),
         )
     )
     for name, power in (("beater_acceleration", 1), ("beater_force", 4), ("B", 4), ("drive_torque", 5)):

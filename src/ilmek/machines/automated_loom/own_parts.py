@@ -4,7 +4,6 @@ Axes of the scene: x along the width, 0 in the middle of the cloth, y up from th
 """
 
 import cmath
-import math
 
 from ilmek.elements.drive_parts import PULLEY
 from ilmek.elements.motors import smallest_motor
@@ -49,11 +48,11 @@ def _retreat(loom: LoomDesign) -> RigidBody:
     )
     chosen = smallest_motor(torque, turning)
     motor = catalogue.motor(part_id("retreat-motor"), "motor of the rail's retreat", chosen, torque, turning)
-    # Wider than its axis, it reaches outwards, before the post.
+    # At the upper end, above the post; wider than its axis, it reaches outwards.
     outwards = ((chosen.face if chosen else catalogue.SPECIAL_FACE) - RETREAT_AXIS) / 2
     middle, beside, slope = _rail_middle(loom), brackets_of(loom).face - RETREAT_AXIS / 2, -cmath.phase(RETREAT)
     ends = [placement(x, middle.imag, middle.real, about=(1.0, 0.0, 0.0), angle=slope) for x in (-beside, beside)]
-    flange = placement(outwards, z=heads.stroke + room, about=(1.0, 0.0, 0.0), angle=math.pi)
+    flange = placement(outwards, z=-room)
     return RigidBody(
         part_id("retreat"),
         (

@@ -80,7 +80,7 @@ def _uprights(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Oc
 
 
 def _rail_posts(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Occurrence:
-    """Posts on the front feet that carry the axes of the rail's retreat, at their upper ends, behind their motor."""
+    """Posts on the front feet that carry the axes of the rail's retreat, at their upper ends."""
     side, section = loom.side, frame.column
     bottom, axis = side.floor + FOOT + base_section(loom, frame).side, side.rail.corner + side.rail.size / 2
     beside, depth = made.face + section.side / 2, axis.real + RETREAT_AXIS / 2 - section.side / 2
@@ -102,15 +102,17 @@ def _across(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Occu
     spacer, _, *of_cams = made.shafts
     lowest = min(float(one.nodes.imag.min()) - one.radius for one in of_cams)
     middle = (float(spacer.nodes.imag.max()) + spacer.radius + lowest) / 2
-    seats = [(low, side.column), (low, post_depth(loom))]
+    front = [(low, post_depth(loom))]
     if frame.task.rail_spans > 1:
-        seats.append((low, _front(loom, section)))
-    for name, title, chosen, own in (
-        ("beam", "beam across", section, [(middle, min(side.column, behind))]),
-        ("floor-beam", "beam across at the floor", base, seats),
+        front.append((low, _front(loom, section)))
+    between = 2 * made.face + section.side - base.side  # the feet stand in the middle of the columns' sections
+    for name, title, chosen, own, long in (
+        ("beam", "beam across", section, [(middle, min(side.column, behind))], 2 * made.face),
+        ("floor-beam", "beam across at the floor", base, [(low, side.column)], 2 * made.face),
+        ("front-beam", "beam across between the front feet", base, front, between),
     ):
-        places = [placement(-made.face, y, z).after(ALONG_WIDTH) for y, z in own]
-        yield _placed(member(name, title, chosen, 2 * made.face), places)
+        places = [placement(-long / 2, y, z).after(ALONG_WIDTH) for y, z in own]
+        yield _placed(member(name, title, chosen, long), places)
 
 
 def _feet(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Occurrence]:

@@ -157,7 +157,8 @@ def support_bodies(loom: LoomDesign, frame: LoomFrame, face: float) -> Iterator[
     face  of the columns from the middle of the width [m]
     """
     held = supports(loom, frame)
-    ends = [(loom.task.width + POST) / 2 * sign for sign in (-1, 1)]
+    aside = loom.task.width / 2 + POST - held.post.side / 2
+    ends = (-aside, aside)
     yield Occurrence(
         _member("beat-post", "post of the beat", held.post, held.height),
         tuple(placement(x, _bottom(loom, frame), post_depth(loom)).after(UPRIGHT) for x in ends),

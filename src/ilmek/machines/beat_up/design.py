@@ -178,7 +178,8 @@ class BeatUp:
 def in_motion(params: BeatUpParams) -> BeatUpParams:
     """The parameters from which motion, forces, run and family follow: those of its use have their defaults."""
     usual = BeatUpParams()
-    return replace(params, **{name: getattr(usual, name) for name in USE})
+    kept = replace(params, **{name: getattr(usual, name) for name in USE})
+    return replace(kept, travel=replace(usual.travel, bar_distance=params.travel.bar_distance))
 
 
 @lru_cache(maxsize=16)

@@ -74,7 +74,7 @@ def travelling(
     high = use.beam.section.side
     on_beam = beam_corner(design) + complex(AXIS_SIDE / 2, high + AXIS_SIDE / 2)
     standing = (
-        *beam_in_place(design, use.beam),
+        *beam_occurrences(design, use.beam),
         _in_loom(design, Occurrence(axis, (placement(z=-length / 2),)), on_beam, middle),
         *(_in_loom(design, one, on_beam, middle) for one in in_line(drive, -length / 2)),
     )
@@ -92,7 +92,7 @@ def beater_shift(design: BeatUp, beater: Beater) -> float:
     return -((0.5 + GAP) * design.params.thickness + beater.width / 2)
 
 
-def beam_in_place(design: BeatUp, beam: BeatBeam) -> tuple[Occurrence, ...]:
+def beam_occurrences(design: BeatUp, beam: BeatBeam) -> tuple[Occurrence, ...]:
     """The beam where it carries the plates, its middle at z = 0."""
     side = beam.section.side
     part = Occurrence(beam.part, (placement(z=-beam.length / 2),))
@@ -164,7 +164,7 @@ def crank_frame(design: BeatUp, beam: BeatBeam, start: CrankStart, stations: Seq
     axis = complex(in_links_axes(design, np.array([shared_axis(design)]))[0])
     belts = shared_drive(design, start.start_torque, stations)
     drive = driving(start_parts(start), end, axis)
-    return RigidBody(CARRIAGE, (*beam_in_place(design, beam), *parts.values(), *belts, *drive))
+    return RigidBody(CARRIAGE, (*beam_occurrences(design, beam), *parts.values(), *belts, *drive))
 
 
 def link_motions(design: BeatUp, drive: str, angle: FloatArray, crank: FloatArray) -> dict[str, SceneMotion]:

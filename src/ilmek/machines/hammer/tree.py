@@ -78,14 +78,15 @@ def rocker_stations(params: HammerParams) -> tuple[float, ...]:
 
 
 def _between(params: HammerParams) -> Iterator[tuple[float, float]]:
-    """Spans of the width between the planes of the links, where the bar's front is free [m]."""
+    """Spans of the width between the planes of the links, where the bar is free [m]; all of it where none is."""
     thickness = params.link_thickness or FLAT_BARS[0][1]
     ends = [-params.cloth.width / 2]
     for station in rocker_stations(params):
         first = station - (1 + GAP) * thickness
         ends += [max(first, ends[-1]), station + layer("plate", thickness) + thickness]
     ends.append(params.cloth.width / 2)
-    return ((low, high) for low, high in zip(ends[::2], ends[1::2], strict=True) if high > low)
+    free = [(low, high) for low, high in zip(ends[::2], ends[1::2], strict=True) if high > low]
+    return iter(free or [(-params.cloth.width / 2, params.cloth.width / 2)])
 
 
 def _comb(hammer: Hammer) -> tuple[Occurrence, ...]:

@@ -75,7 +75,7 @@ def magnet(params: WeftParams, size: BobbinSize) -> Part:
     return Part(MAGNET, "magnet", "magnet", text, box(long, tall, thick), NEODYMIUM)
 
 
-def magnet_places(params: WeftParams, size: BobbinSize) -> tuple[float, float]:
+def magnet_positions(params: WeftParams, size: BobbinSize) -> tuple[float, float]:
     """Middles of the magnets along the shuttle [m]."""
     middle = size.length / 2 + params.wall + magnet_sides(params, size.diameter)[0] / 2
     return -middle, middle

@@ -12,7 +12,7 @@ from ilmek.elements.linear_guides import LINEAR_GUIDES, LinearGuide, guide_of_he
 from ilmek.elements.materials import GRAVITY, MATERIALS
 from ilmek.elements.motors import STEPPER, smallest_motor
 from ilmek.machines.weft.axis import BELT_DENSITY, BeltAxis
-from ilmek.machines.weft.carriers import AXIS, BOX, CARRIAGE, MOTOR, along, magnet, magnet_places, part_id
+from ilmek.machines.weft.carriers import AXIS, BOX, CARRIAGE, MOTOR, along, magnet, magnet_positions, part_id
 from ilmek.machines.weft.coupling import BOX_WALL, magnet_sides
 from ilmek.machines.weft.params import WeftParams
 from ilmek.machines.weft.shuttle import BOX_END, Shuttle
@@ -54,7 +54,7 @@ def guide_for(axis: BeltAxis) -> LinearGuide:
 
 def carriage_mass(params: WeftParams, made: Shuttle, row: LinearGuide) -> float:
     """Mass of a shuttle's carriage with its magnets and the carriages of its guide [kg]."""
-    magnets = magnet(params, made.bobbin).mass * len(magnet_places(params, made.bobbin)) if params.nose > 0 else 0.0
+    magnets = magnet(params, made.bobbin).mass * len(magnet_positions(params, made.bobbin)) if params.nose > 0 else 0.0
     return carriage(params, made, row).mass + magnets + 2 * row.block_mass
 
 
@@ -65,7 +65,7 @@ def carriage(params: WeftParams, made: Shuttle, row: LinearGuide) -> Part:
     length, middle = carriage_length(params, made), (low + high) / 2 * 1j
     outline = polygon(rectangle(length, high - low).points + middle)
     pockets = (
-        tuple(polygon(rectangle(long, tall).points + x) for x in magnet_places(params, made.bobbin)) if long else ()
+        tuple(polygon(rectangle(long, tall).points + x) for x in magnet_positions(params, made.bobbin)) if long else ()
     )
     back, front = Prism(Profile(outline), COVER), Prism(Profile(outline, pockets), thick)
     text = f"{format_quantity(length, 'mm', 4)} long"
@@ -143,7 +143,7 @@ class ShuttleGuide:
         params, made, row = self.params, self.made, self.row
         yield Occurrence(carriage(params, made, row), (placement(z=self.back),))
         if params.nose > 0:
-            places = (placement(x, z=self.back + COVER) for x in magnet_places(params, made.bobbin))
+            places = (placement(x, z=self.back + COVER) for x in magnet_positions(params, made.bobbin))
             yield Occurrence(magnet(params, made.bobbin), tuple(places))
         block = catalogue.guide_block(part_id("guide-carriage"), "carriage of the shuttle's guide", row)
         end = carriage_length(params, made) / 2
@@ -202,7 +202,7 @@ class ShuttleGuide:
         section, length = Profile(rectangle(tall, deep + 2 * BOX_WALL), cells), made.length + 2 * BOX_END
         return Part(BOX, "box of the shuttles", "welded frame", "two cells", Prism(section, length), ALUMINIUM)
 
-    def box_place(self, side: int) -> Placement:
+    def box_position(self, side: int) -> Placement:
         """Where a box lies with its lower cell in line, its floor under the shuttle: at the right (side 1) or left."""
         middle = side * (self.box_end - self.made.length / 2 - BOX_END)
         return placement(y=(self.pitch + self.params.play) / 2).after(along(middle - self.made.length / 2 - BOX_END))

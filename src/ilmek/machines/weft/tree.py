@@ -20,7 +20,7 @@ from ilmek.machines.weft.carriers import (
     bobbin,
     fittings,
     magnet,
-    magnet_places,
+    magnet_positions,
     part_id,
     rapier_tube,
     shuttle_wood,
@@ -100,13 +100,13 @@ class WeftBodies:
         cells = guide.box()
         parts = [Occurrence(wood), Occurrence(fitted, eyes), Occurrence(core, (along(-wide / 2),))]
         if self.params.nose > 0:
-            backs = (placement(x, z=-made.depth / 2) for x in magnet_places(self.params, made.bobbin))
+            backs = (placement(x, z=-made.depth / 2) for x in magnet_positions(self.params, made.bobbin))
             parts.append(Occurrence(magnet(self.params, made.bobbin), tuple(backs)))
         half = guide.stroke / 2
         yield RigidBody(part_id("guide"), (*guide.standing(), *guide.slides(), self._spare(core, made)))
         for name, side in ((LEFT_BOX, -1), (RIGHT_BOX, 1)):
             shifted = Joint(JointKind.SLIDE, (0.0, 1.0, 0.0))
-            yield RigidBody(name, (Occurrence(cells, (guide.box_place(side),)),), joint=shifted)
+            yield RigidBody(name, (Occurrence(cells, (guide.box_position(side),)),), joint=shifted)
         yield _sliding(STRAIGHT, tuple(parts), placement(-half))
         yield _sliding(SINUOUS, tuple(parts), placement(half, guide.pitch))
         yield _sliding(DRAGGING, tuple(guide.carried()), placement(-half))
@@ -134,17 +134,11 @@ class WeftBodies:
         return RigidBody(part_id("belt axis"), parts, joint=_MISSING, positions=(middle,))
 
     def _spare(self, core: Part, made: Shuttle) -> Occurrence:
-        """A wound bobbin for each shuttle, for the next change: on the left end of the bar."""
-        guide, radius = self.guide, made.bobbin.core / 2
-        middle = (guide.front + guide.rear) / 2
-        left = -guide.reach + self.params.wall
-        return Occurrence(
-            core,
-            tuple(
-                placement(left + k * (made.bobbin.length + self.params.wall), radius, middle).after(along(0.0))
-                for k in range(2)
-            ),
-        )
+        """A wound bobbin for each shuttle, for the next change: on the ends of the bar, behind the boxes."""
+        guide, radius, wall = self.guide, made.bobbin.core / 2, self.params.wall
+        depth = max((guide.front + guide.rear) / 2, guide.rear + radius)
+        starts = (wall - guide.box_end, guide.box_end - wall - made.bobbin.length)
+        return Occurrence(core, tuple(placement(x, radius, depth).after(along(0.0)) for x in starts))
 
     def _rapier(self, made: Rapier) -> Iterator[RigidBody]:
         """The rapier from the left, its tip at rest before the cloth, clamped at its far end."""
