@@ -18,6 +18,9 @@ from ilmek.units import mm
 CASE = 10 * mm
 """Wall and room around the largest cam of a head [m]."""
 
+APART = 0.5 * mm
+"""From the tools' ends to the levers behind them [m]."""
+
 SLEY_HEIGHT = 15 * mm
 """Of the sley, along the warps [m]."""
 
@@ -45,16 +48,23 @@ class HeadShape:
     """A head while it knots.
 
     body   its lower corner next to the warps [m]     size   depth + i height of the body [m]
+    bay    depth behind its face for the tools' ends, before levers and cams [m]
     tools  that reach to the warps                    reach  the least x of any tool at rest [m]
     magazine, magazine_size   of the yarn tubes, in front of the body, with its motion from tier to tier [m]
     """
 
     body: complex
     size: complex
+    bay: float
     tools: tuple[HeadTool, ...]
     reach: float
     magazine: complex
     magazine_size: complex
+
+    @property
+    def axis(self) -> complex:
+        """The axis of the cam shaft [m]."""
+        return self.body + self.bay + (self.size - self.bay) / 2
 
     @property
     def front(self) -> float:
@@ -69,10 +79,16 @@ class HeadShape:
 
 @record
 class HeadTools:
-    """The tools that reach to the warps, and the case's face behind them [m]."""
+    """The tools that reach to the warps, the case's face behind them, and the most that they are pulled back [m]."""
 
     tools: tuple[HeadTool, ...]
     face: float
+    back: float = 0.0
+
+    @property
+    def bay(self) -> float:
+        """Depth of the case that the tools' ends take [m]."""
+        return max((tool.corner + tool.size).real for tool in self.tools) + self.back - self.face
 
     def tool(self, name: str) -> HeadTool:
         """The tool of a name."""
@@ -109,7 +125,7 @@ def _with_grippers(params: WeaverParams, grippers: Grippers, drawn: float) -> He
         ),
         _sley(params, complex(front, face)),
     )
-    return HeadTools(tools, face)
+    return HeadTools(tools, face, params.pull_back)
 
 
 def _with_arms(params: WeaverParams, drawn: float) -> HeadTools:
@@ -143,7 +159,7 @@ def _sley(params: WeaverParams, span: complex) -> HeadTool:
 
 
 def head_shape(reaching: HeadTools, cams: Sequence[LoadedPlateCam], magazine: Magazine) -> HeadShape:
-    """The head with its tools: the body in front of its face, as deep as its largest cam, and the magazine.
+    """The head with its tools: the body in front of its face, as deep as tools' ends and its largest cam, the magazine.
 
     The magazine stands in front of the body, and moves each tier to the height at which the knot is tied.
     """
@@ -152,12 +168,13 @@ def head_shape(reaching: HeadTools, cams: Sequence[LoadedPlateCam], magazine: Ma
     tall = (2 * magazine.tiers - 1) * magazine.pitch
     wide = magazine.width if magazine.kind == DRUM else magazine.pitch
     deep = 2 * max(cam.radius for cam in cams) + 2 * CASE
-    top = max((tool.corner + tool.size).imag for tool in tools) + CASE
+    top, bay = max((tool.corner + tool.size).imag for tool in tools) + CASE, reaching.bay + APART
     return HeadShape(
         body=complex(face, top - deep),
-        size=complex(deep, deep),
+        size=complex(bay + deep, deep),
+        bay=bay,
         tools=tools,
         reach=min(tool.corner.real for tool in tools),
-        magazine=complex(face + deep, tied - tall / 2),
+        magazine=complex(face + bay + deep, tied - tall / 2),
         magazine_size=complex(wide, tall),
     )

@@ -78,20 +78,27 @@ def _deep_groove() -> Iterator[RollingBearing]:
 
 def case_parts(weaver: Weaver) -> Iterator[Occurrence]:
     """What stands in the case: the side plates with the bearings, and the levers between cams and tools."""
-    params, deep, wide = weaver.params, weaver.shape.size.real, case_width(weaver.params, len(weaver.cams))
-    row, plate = bearing_of(weaver), params.side_plate
+    params, high, wide = weaver.params, weaver.shape.size.imag, case_width(weaver.params, len(weaver.cams))
+    row, plate, bay = bearing_of(weaver), params.side_plate, weaver.shape.bay
     if plate > 0:
-        hole = () if row is None or row.outer >= deep else (circle(0j, row.outer / 2),)
-        shape = Prism(Profile(rectangle(deep, deep), hole), plate)
-        size = f"{format_quantity(deep / mm, '')} x {format_quantity(deep / mm, '')} x {_mm(plate)}"
+        deep = weaver.shape.size.real
+        hole = () if row is None or row.outer >= high else (circle(complex(bay / 2), row.outer / 2),)
+        shape = Prism(Profile(rectangle(deep, high), hole), plate)
+        size = f"{format_quantity(deep / mm, '')} x {format_quantity(high / mm, '')} x {_mm(plate)}"
         part = Part(SIDE_PLATE, "side plate of the head", "machined link", size, shape, ALUMINIUM)
-        yield Occurrence(part, (placement(z=-wide / 2), placement(z=wide / 2 - plate)))
+        yield Occurrence(part, (placement(-bay / 2, z=-wide / 2), placement(-bay / 2, z=wide / 2 - plate)))
     if row is not None:
         part = catalogue.bearing(BEARING, "bearing of the head's cam shaft", row)
-        inside = (plate + row.width) / 2
-        yield Occurrence(part, (placement(z=-wide / 2 + plate - inside), placement(z=wide / 2 - inside)))
+        face = wide / 2 - plate - _into_gap(weaver)
+        yield Occurrence(part, (placement(z=-face - row.width), placement(z=face)))
     for cam, z in zip(weaver.cams, _stations(weaver), strict=True):
-        yield Occurrence(_lever(weaver, cam), (placement(-(deep - CASE) / 2, 0.0, z),))
+        yield Occurrence(_lever(weaver, cam), (placement(-(high - CASE) / 2, 0.0, z),))
+
+
+def _into_gap(weaver: Weaver) -> float:
+    """How far a bearing wider than its side plate stands into the gap before the first cam, at most half of it [m]."""
+    row, params = bearing_of(weaver), weaver.params
+    return 0.0 if row is None else min(max(row.width - params.side_plate, 0.0), params.cam_gap / 2)
 
 
 def _lever(weaver: Weaver, cam: LoadedPlateCam) -> Part:
@@ -116,13 +123,19 @@ def shaft_parts(weaver: Weaver) -> Iterator[Occurrence]:
     stations = _stations(weaver)
     for cam, z in zip(weaver.cams, stations, strict=True):
         yield Occurrence(_cam(weaver, cam), (placement(z=z),))
-    gap = params.cam_gap
+    gap, within = params.cam_gap, _into_gap(weaver)
     if gap > 0:
         outer = params.shaft + 2 * SPACER_WALL
-        ring = tube(outer, SPACER_WALL, gap)
-        spacer = Part(part_id("spacer"), "spacer of the cams", "pin or bush", _round(outer), ring, STEEL)
-        ends = [*(z + params.cam_thickness for z in stations), stations[-1] - gap]
-        yield Occurrence(spacer, tuple(placement(z=z) for z in ends))
+
+        def spacer(name: str, title: str, length: float) -> Part:
+            ring = tube(outer, SPACER_WALL, length)
+            return Part(part_id(name), title, "pin or bush", f"{_round(outer)}, {_mm(length)}", ring, STEEL)
+
+        first = stations[0] + params.cam_thickness
+        between = [z + params.cam_thickness for z in stations[1:]]
+        yield Occurrence(spacer("spacer", "spacer of the cams", gap), tuple(placement(z=z) for z in between))
+        ends = placement(z=first), placement(z=stations[-1] - gap + within)
+        yield Occurrence(spacer("end-spacer", "spacer of cam and bearing", gap - within), ends)
 
 
 def _stations(weaver: Weaver) -> list[float]:
@@ -159,8 +172,7 @@ def _cam(weaver: Weaver, cam: LoadedPlateCam) -> Part:
 def drive_parts(weaver: Weaver) -> Iterator[Occurrence]:
     """The motor of the cam shaft with its reducer, upright below the case; that place is assumed by this project."""
     servo, drive, shape = weaver.drive.servo, weaver.drive, weaver.shape
-    middle = shape.body + shape.size.real / 2
-    low = middle.imag
+    middle, low = shape.axis, shape.body.imag
     motor = servo.motor if servo else None
     if servo is not None:
         geared = catalogue.reducer(part_id("reducer"), "reducer of a head", servo.reducer.ratio, motor)

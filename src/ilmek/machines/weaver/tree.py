@@ -53,7 +53,7 @@ def head_tree(weaver: Weaver) -> Tree:
 
     The case slides on the rail; between cams and tools, and for the magazine, nothing that carries is designed yet.
     """
-    axis = weaver.shape.body + weaver.shape.size / 2
+    axis = weaver.shape.axis
     about = placement(0.0, axis.imag, axis.real).after(IN_SIDE_VIEW)
     case = (
         Occurrence(stands.part, tuple(about.after(position) for position in stands.positions))
