@@ -176,7 +176,6 @@ def laid_out(task: "LoomTask", path: "BeatPath | None" = None) -> SideView:
     shape, comb = head.shape, _comb(room, spans, path)
     spacer, lower, roll = _lower_cylinders(task, radius, head)
     behind, rest = cylinder_offset(room), complex(-room.back_rest, spans.back_rest)
-    case = shape.body + shape.size
     return SideView(
         room=room,
         spans=spans,
@@ -197,7 +196,7 @@ def laid_out(task: "LoomTask", path: "BeatPath | None" = None) -> SideView:
         roll=roll,
         pile=head.drawn / 2,
         head=shape,
-        rail=SideBox(complex(shape.front, case.imag - (shape.size.imag + RAIL) / 2), complex(RAIL, RAIL)),
+        rail=SideBox(complex(shape.front, shape.rail - RAIL / 2), complex(RAIL, RAIL)),
         retreat=max(0.0, _front(comb, path, shape.top + room.clearance) + room.clearance - shape.reach),
     )
 

@@ -13,6 +13,7 @@ from ilmek.machines.automated_loom.cyclogram import HEADS
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import LoomFrame, part_id
 from ilmek.machines.weaver import head_mass
+from ilmek.machines.weaver.head_shape import APART, RAIL_AXIS
 from ilmek.part import catalogue
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import ALONG_WIDTH, UPRIGHT, Placement, placement
@@ -20,16 +21,12 @@ from ilmek.part.shapes import box, square_tube, tube
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
 from ilmek.report.scene import SceneMotion
 from ilmek.timing.track import peak_acceleration, peak_speed
-from ilmek.units import mm
 
 RAIL = "heads' rail"
 """Id of the body that carries the heads."""
 
 CABINET = (0.8, 1.0, 0.3)
 """Width, height and depth of the control's cabinet [m]; assumed by this project."""
-
-_AXIS = 40 * mm
-"""Side of a linear axis' section [m]; assumed by this project."""
 
 _MISSING = Joint(JointKind.MISSING)
 
@@ -69,19 +66,19 @@ def _retreat(loom: LoomDesign) -> RigidBody:
         "axis of the rail's retreat",
         "linear axis",
         "belt drive, one at each column",
-        box(_AXIS, _AXIS, heads.stroke),
+        box(RAIL_AXIS, RAIL_AXIS, heads.stroke),
         purchase=Bought("belt drive", length=heads.stroke),
         envelope=True,
     )
-    motor = catalogue.motor(
-        part_id("retreat-motor"), "motor of the rail's retreat", smallest_motor(torque, turning), torque, turning
-    )
+    drive = smallest_motor(torque, turning)
+    motor = catalogue.motor(part_id("retreat-motor"), "motor of the rail's retreat", drive, torque, turning)
     middle = _rail_middle(loom)
-    beside = loom.task.width / 2 + _AXIS / 2
+    beside = loom.task.width / 2 + RAIL_AXIS / 2
+    outside = loom.task.width / 2 + APART + (drive.face if drive else catalogue.SPECIAL_FACE) / 2
     ends = [placement(x, middle.imag, middle.real) for x in (-beside, beside)]
     return RigidBody(
         part_id("retreat"),
-        (Occurrence(axis, tuple(ends)), Occurrence(motor, (placement(beside, middle.imag, middle.real),))),
+        (Occurrence(axis, tuple(ends)), Occurrence(motor, (placement(outside, middle.imag, middle.real),))),
         joint=_MISSING,
     )
 
@@ -97,13 +94,13 @@ def frame_tree(loom: LoomDesign, frame: LoomFrame, retreat: SceneMotion | None =
         "axes of the heads on their rail",
         "linear axis",
         "with a belt for each head",
-        box(_AXIS, _AXIS, frame.task.width),
+        box(RAIL_AXIS, RAIL_AXIS, frame.task.width),
         purchase=Bought("linear axis", length=frame.task.width),
         envelope=True,
     )
     middle = _rail_middle(loom)
-    along = placement(x=-frame.task.width / 2).after(ALONG_WIDTH)
-    below = placement(-frame.task.width / 2, -(frame.rail.side + _AXIS) / 2).after(ALONG_WIDTH)
+    along = placement(-frame.task.width / 2, z=frame.rail.side / 2).after(ALONG_WIDTH)
+    before = placement(-frame.task.width / 2, z=-RAIL_AXIS / 2).after(ALONG_WIDTH)
     wide, high, deep = CABINET
     control = Part(
         part_id("control"),
@@ -120,7 +117,7 @@ def frame_tree(loom: LoomDesign, frame: LoomFrame, retreat: SceneMotion | None =
             RigidBody(part_id("frame"), tuple(_welded(loom, frame))),
             RigidBody(
                 RAIL,
-                (Occurrence(rail, (along,)), Occurrence(axis, (below,))),
+                (Occurrence(rail, (along,)), Occurrence(axis, (before,))),
                 joint=Joint(JointKind.SLIDE, motion=retreat),
                 positions=(placement(0.0, middle.imag, middle.real),),
             ),

@@ -9,20 +9,27 @@ from collections.abc import Iterator, Sequence
 
 from ilmek.cams.loaded_plate_cam import LoadedPlateCam
 from ilmek.machines.weaver.grippers import Grippers
-from ilmek.machines.weaver.magazine import DRUM, Magazine
+from ilmek.machines.weaver.magazine import CARRIER, DRUM, Magazine
 from ilmek.machines.weaver.motions import CENTRE_ARM, CENTRE_MOTION, LEFT_ARM, OPENER, RIGHT_ARM, SIDE_MOTION, SLEY
 from ilmek.machines.weaver.params import WeaverParams
+from ilmek.machines.weaver.selector import Selector
 from ilmek.records import record
 from ilmek.units import mm
 
 CASE = 10 * mm
 """Wall and room around the largest cam of a head [m]."""
 
+RAIL_AXIS = 40 * mm
+"""Side of the section of the linear axis that carries the heads [m]; assumed by this project."""
+
+AXLE = 5 * mm
+"""From the flange of the colours' motor to the tubes' carrier [m]; assumed by this project."""
+
 APART = 0.5 * mm
 """From the tools' ends to the levers behind them [m]."""
 
-SLEY_HEIGHT = 15 * mm
-"""Of the sley, along the warps [m]."""
+SLEY_HEIGHT, SLEY_TAIL = 15 * mm, 12 * mm
+"""Of the sley along the warps, and of its arm within the case [m]."""
 
 LOWER_PLATE, UPPER_PLATE, SLEY_TOOL = "lower plate of the opener", "opener", "sley"
 
@@ -50,6 +57,7 @@ class HeadShape:
     body   its lower corner next to the warps [m]     size   depth + i height of the body [m]
     bay    depth behind its face for the tools' ends, before levers and cams [m]
     tools  that reach to the warps                    reach  the least x of any tool at rest [m]
+    rail   height of the axis along the row that carries the head, in front of all [m]
     magazine, magazine_size   of the yarn tubes, in front of the body, with its motion from tier to tier [m]
     """
 
@@ -58,6 +66,7 @@ class HeadShape:
     bay: float
     tools: tuple[HeadTool, ...]
     reach: float
+    rail: float
     magazine: complex
     magazine_size: complex
 
@@ -123,7 +132,7 @@ def _with_grippers(params: WeaverParams, grippers: Grippers, drawn: float) -> He
             complex(face + grippers.depth, grippers.finger),
             -1 + 0j,
         ),
-        _sley(params, complex(front, face)),
+        _sley(params, complex(front, face + SLEY_TAIL)),
     )
     return HeadTools(tools, face, params.pull_back)
 
@@ -138,7 +147,7 @@ def _with_arms(params: WeaverParams, drawn: float) -> HeadTools:
     tools = (
         *(HeadTool(name, name, corner, size, -1 + 0j) for name in (LEFT_ARM, RIGHT_ARM, CENTRE_ARM)),
         *_opener(params, OPENER, complex(out, face + params.opening), params.opening),
-        _sley(params, complex(radius + standoff, face)),
+        _sley(params, complex(radius + standoff, face + SLEY_TAIL)),
     )
     return HeadTools(tools, face)
 
@@ -158,15 +167,18 @@ def _sley(params: WeaverParams, span: complex) -> HeadTool:
     return HeadTool(SLEY_TOOL, SLEY, complex(span.real, height), complex(span.imag - span.real, SLEY_HEIGHT), -1j)
 
 
-def head_shape(reaching: HeadTools, cams: Sequence[LoadedPlateCam], magazine: Magazine) -> HeadShape:
+def head_shape(
+    reaching: HeadTools, cams: Sequence[LoadedPlateCam], magazine: Magazine, selector: Selector
+) -> HeadShape:
     """The head with its tools: the body in front of its face, as deep as tools' ends and its largest cam, the magazine.
 
-    The magazine stands in front of the body, and moves each tier to the height at which the knot is tied.
+    The magazine stands in front of the body, and moves each tier to the height at which the knot is tied. Its motor,
+    the selector's, stands below it on the bracket that leads from the body to the rail.
     """
     tools, face = reaching.tools, reaching.face
     tied = (tools[0].corner + tools[0].size / 2).imag
     tall = (2 * magazine.tiers - 1) * magazine.pitch
-    wide = magazine.width if magazine.kind == DRUM else magazine.pitch
+    wide = max(magazine.width if magazine.kind == DRUM else magazine.pitch, selector.face)
     deep = 2 * max(cam.radius for cam in cams) + 2 * CASE
     top, bay = max((tool.corner + tool.size).imag for tool in tools) + CASE, reaching.bay + APART
     return HeadShape(
@@ -175,6 +187,7 @@ def head_shape(reaching: HeadTools, cams: Sequence[LoadedPlateCam], magazine: Ma
         bay=bay,
         tools=tools,
         reach=min(tool.corner.real for tool in tools),
+        rail=tied - tall / 2 - CARRIER - AXLE - selector.length - RAIL_AXIS / 2,
         magazine=complex(face + bay + deep, tied - tall / 2),
         magazine_size=complex(wide, tall),
     )

@@ -162,7 +162,7 @@ class ToolBodies:
         return Profile(polygon(np.concatenate([half, np.conj(half[::-1])])))
 
     def _sley(self) -> Occurrence:
-        """A foot over the pair, short enough to pass before the opener's points, and its arm beside the opener."""
+        """A foot over the pair that passes before the opener's points; its arm goes beside the opener into the face."""
         tool, rest = self.tools.tool(SLEY_TOOL), self.tools.tool(LOWER_PLATE).corner.real
         half, outer, deep = self.grippers.axis, self.sley_arm, tool.size.real
         foot = min(max(rest - tool.corner.real - self.params.clearance, self.params.finger), SLEY_FOOT)
