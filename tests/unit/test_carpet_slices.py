@@ -47,13 +47,20 @@ def test_slices_change_nothing(monkeypatch: pytest.MonkeyPatch, quality: float, 
     assert draw_carpet(sliced).jpeg == picture
 
 
-def test_cells_are_numbered_as_their_keys_ascend() -> None:
+@pytest.mark.parametrize("most", [5, 300, 3000])
+def test_colours_are_pooled_by_cells_in_the_order_of_their_keys(most: int) -> None:
     codes = np.random.default_rng(5).integers(0, 256, (5000, 3), dtype=np.uint8)
     corners = np.array([[r, g, b] for r in (0, 255) for g in (0, 255) for b in (0, 255)], dtype=np.uint8)
-    labs = palette.srgb_to_lab(np.concatenate([codes, corners]))
-    for cell in (1.0, 1.5, 5.1):
-        keys = (np.floor(labs / cell).astype(np.int64) + 512) @ np.array([1 << 20, 1 << 10, 1])
-        assert np.array_equal(palette._cells(labs, cell), np.unique(keys, return_inverse=True)[1])
+    colours = palette.distinct_colours(np.concatenate([codes, codes[:1000], corners])[None])
+    labs, weights = palette.pooled(colours, most)
+    cell, cells = 1.0, most + 1
+    while cells > most:
+        keys = (np.floor(colours.labs / cell).astype(np.int64) + 512) @ np.array([1 << 20, 1 << 10, 1])
+        group = np.unique(keys, return_inverse=True)[1]
+        cells, cell = group.max() + 1, 1.5 * cell
+    assert np.array_equal(weights, np.bincount(group, colours.counts))
+    means = [np.bincount(group, colours.counts * axis) / weights for axis in colours.labs.T]
+    assert np.allclose(labs, np.stack(means, axis=-1), rtol=1e-12)
 
 
 def test_progress_ascends_and_is_cancelled() -> None:
