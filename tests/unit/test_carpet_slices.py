@@ -47,13 +47,21 @@ def test_slices_change_nothing(monkeypatch: pytest.MonkeyPatch, quality: float, 
     assert draw_carpet(sliced).jpeg == picture
 
 
-def test_cells_are_numbered_as_their_keys_ascend() -> None:
+@pytest.mark.parametrize("most", [3000, 1500, 60])
+def test_pooled_colours_ascend_by_the_keys_of_their_cells(most: int) -> None:
     codes = np.random.default_rng(5).integers(0, 256, (5000, 3), dtype=np.uint8)
     corners = np.array([[r, g, b] for r in (0, 255) for g in (0, 255) for b in (0, 255)], dtype=np.uint8)
-    labs = palette.srgb_to_lab(np.concatenate([codes, corners]))
-    for cell in (1.0, 1.5, 5.1):
-        keys = (np.floor(labs / cell).astype(np.int64) + 512) @ np.array([1 << 20, 1 << 10, 1])
-        assert np.array_equal(palette._cells(labs, cell), np.unique(keys, return_inverse=True)[1])
+    colours = palette.distinct_colours(np.concatenate([codes, corners, codes[:700]])[None])
+    cell = 1.0
+    while len(np.unique(cells := np.floor(colours.labs / cell).astype(np.int64), axis=0)) > most:
+        cell *= 1.5
+    group = np.unique((cells + 512) @ np.array([1 << 20, 1 << 10, 1]), return_inverse=True)[1]
+    knots = np.bincount(group, weights=colours.counts)
+    sums = [np.bincount(group, weights=colours.counts * axis) for axis in colours.labs.T]
+    labs, weights = palette.pooled(colours, most)
+    assert len(knots) < len(colours.labs)
+    assert np.array_equal(weights, knots)
+    assert np.allclose(labs, np.stack(sums, axis=-1) / knots[:, None], rtol=0.0, atol=1e-12)
 
 
 def test_progress_ascends_and_is_cancelled() -> None:
