@@ -332,16 +332,13 @@ def chart_of_design(
     labs = yarn_labs(own.palette.yarns)
     painted = paint(design.colours, distinct, own.yarn_of, progress.part(0.6, 0.7))
     tones = design if exact is None else replace(design, colours=exact)
-    knots, drawn = _halftone(painted, tones, labs, reading.halftone, progress.part(0.7, 0.8))
-    least, merging = reading.least_patch_of(design.kind), progress.part(0.8, 0.9)
-    knots, changed = merge_patches(knots, tones.colours, labs, least, kept=drawn, progress=merging)
+    knots, changed, drawn = _without_patches(painted, tones, labs, reading, progress.part(0.7, 0.9))
     taken, charts = (own.yarn_of, own.difference), (painted, knots)
     to_design = differences(design.colours, distinct, taken, charts, labs, progress.part(0.9, 0.95))
     lost_by_reading = reading_loss(design.colours, design.averages, knots, labs)
-    words = [design.reason, *(["tones stretched onto the yarns"] if own.stretched else [])]
     read = ChartReading(
         design.kind,
-        "; ".join(words) + _halftone_in_words(design, drawn),
+        _reason(design, drawn, stretched=own.stretched),
         to_design.mean + lost_by_reading,
         own.least + lost_by_reading,
         changed,
@@ -364,6 +361,15 @@ def chart_of_design(
     return chart
 
 
+def _without_patches(
+    painted: Indices, tones: Design, labs: FloatArray, reading: ReadParams, progress: Progress
+) -> tuple[Indices, int, BoolArray | None]:
+    """The chart with its halftone and without small patches, the knots that these changed, and the dots as below."""
+    knots, dots = _halftone(painted, tones, labs, reading.halftone, progress.part(0.0, 0.5))
+    least, merging = reading.least_patch_of(tones.kind), progress.part(0.5, 1.0)
+    return *merge_patches(knots, tones.colours, labs, least, kept=dots, progress=merging), dots
+
+
 def _halftone(
     knots: Indices, design: Design, labs: FloatArray, share: float | None, progress: Progress
 ) -> tuple[Indices, BoolArray | None]:
@@ -381,10 +387,11 @@ def _halftone(
     return draw_halftone(knots, design.colours, labs, strength, progress)
 
 
-def _halftone_in_words(design: Design, dots: BoolArray | None) -> str:
-    """What was done to the tones between the yarns of a photo, and how to have the other; the end of a sentence."""
+def _reason(design: Design, dots: BoolArray | None, *, stretched: bool) -> str:
+    """Why the design was read so, what was done to the tones of a photo, and how to have the other."""
+    reason = f"{design.reason}; tones stretched onto the yarns" if stretched else design.reason
     if design.kind != "photo":
-        return ""
+        return reason
     if dots is None:
-        return "; no patterns between the yarns (with: --halftone 100%)"
-    return f"; patterns on {dots.mean():.1%} of it (without: --halftone 0%)"
+        return f"{reason}; no patterns between the yarns (with: --halftone 100%)"
+    return f"{reason}; patterns on {dots.mean():.1%} of it (without: --halftone 0%)"

@@ -43,12 +43,12 @@ _MOVES = sorted(np.ndindex(3, 3), key=(1, 1).__ne__)
 class Detail:
     """The detail of a picture on a grid of knots.
 
-    places  row and column of the first knot of each window
-    spread  |p| of each, as it is moved; the first is that of the window as it is
-    means   of p over each knot of a window, row by row
+    corners  row and column of the first knot of each window
+    spread   |p| of each, as it is moved; the first is that of the window as it is
+    means    of p over each knot of a window, row by row
     """
 
-    places: IntArray
+    corners: IntArray
     spread: Float[np.ndarray, "moves windows"]
     means: Float[np.ndarray, "moves windows knots 3"]
 
@@ -67,7 +67,7 @@ def detail_of(picture: Rgb, grid: tuple[int, int]) -> Detail | None:
         return resampled_band(picture, fine, band)[:, points].swapaxes(0, 1)
 
     rgb = np.concatenate([found for _, found in in_threads(windows, tops.tolist())])
-    places = np.stack([axis.ravel() for axis in np.meshgrid(tops, lefts, indexing="ij")], axis=-1)
+    corners = np.stack([axis.ravel() for axis in np.meshgrid(tops, lefts, indexing="ij")], axis=-1)
     uneven = np.flatnonzero(np.max(np.ptp(rgb, axis=(1, 2)), axis=-1) >= _RANGE)
     labs = srgb_to_lab(rgb[uneven])
     detailed = _centred(labs[:, 1:-1, 1:-1])[1] >= DETAILED
@@ -77,7 +77,7 @@ def detail_of(picture: Rgb, grid: tuple[int, int]) -> Detail | None:
     moved = [_centred(labs[:, y : y + side, x : x + side]) for y, x in _MOVES]
     means = [window.reshape(-1, SIDE, FINE, SIDE, FINE, 3).mean(axis=(2, 4)) for window, _ in moved]
     spread = np.stack([spread for _, spread in moved])
-    return Detail(places[uneven[detailed]], spread, np.stack(means).reshape(len(moved), -1, SIDE * SIDE, 3))
+    return Detail(corners[uneven[detailed]], spread, np.stack(means).reshape(len(moved), -1, SIDE * SIDE, 3))
 
 
 def _centred(labs: Float[np.ndarray, "windows y x 3"]) -> tuple[Float[np.ndarray, "windows y x 3"], FloatArray]:
@@ -91,7 +91,7 @@ def detail_kept(detail: Detail | None, knots: Indices, yarn_labs: FloatArray) ->
     if detail is None:
         return None
     y, x = (axis[None] for axis in np.mgrid[:SIDE, :SIDE])
-    top, left = detail.places.T[:, :, None, None]
+    top, left = detail.corners.T[:, :, None, None]
     tied, contrast = _centred(yarn_labs[knots[top + y, left + x]])
     common = np.mean(np.sum(detail.means * tied.reshape(-1, SIDE * SIDE, 3), axis=-1), axis=-1)
     share = np.max(common / np.maximum(detail.spread * contrast, 1e-9), axis=0)

@@ -26,8 +26,8 @@ from ilmek.carpet.paper.sheet import squared_paper
 from ilmek.carpet.picture_points import Points
 from ilmek.carpet.projection import MadeRgb
 from ilmek.carpet.straight_edges import (
-    Band,
     Edge,
+    SideBand,
     SideStrip,
     band_inside,
     edges_of,
@@ -228,13 +228,13 @@ def _edges_around(strips: list[SideStrip], tilt: float, floor: FloatArray) -> tu
     return [edges[0] for edges in tried], [Sentence("picture.outline-fringe")]
 
 
-def _apart(bands: list[Band]) -> float:
+def _apart(bands: list[SideBand]) -> float:
     """Largest distance of the bands' colours from their median."""
     colours = np.array([band.colour for band in bands])
     return float(np.linalg.norm(colours - np.median(colours, axis=0), axis=1).max())
 
 
-def _of_threads(band: Band, floor: FloatArray, *, sure: bool = False) -> bool:
+def _of_threads(band: SideBand, floor: FloatArray, *, sure: bool = False) -> bool:
     """Whether a band may be, or surely is, a fringe: undyed threads with that floor between them."""
     most = max(_MOST_CHROMA, float(np.hypot(floor[1], floor[2])))
     light = band.colour[0] + BLACK[0] > _SHADOW * (min(floor[0], _LEAST_LIGHT) + BLACK[0])

@@ -101,7 +101,7 @@ class Edge:
 
 
 @record
-class Band:
+class SideBand:
     """A band along a side: its median colour, least mean L* just outside it, whether threads show in it, and may show.
 
     Threads are lighter and darker along the side, the same inwards, and of one hue with what shows between them.
@@ -170,7 +170,7 @@ def _crossed(edge: Edge, other: Edge) -> bool:
     return other.share > edge.share and abs(apart) < abs(turned)
 
 
-def band_inside(strip: SideStrip, edge: Edge, end: Edge | None) -> Band:
+def band_inside(strip: SideStrip, edge: Edge, end: Edge | None) -> SideBand:
     """The band inside an edge, as far as the edge `end`."""
     column = edge.column(strip)
     depth = np.inf if end is None else float(np.median(end.column(strip) - column))
@@ -185,7 +185,7 @@ def band_inside(strip: SideStrip, edge: Edge, end: Edge | None) -> Band:
     if np.quantile(wide[..., 0], 0.9) < _UNDYED:
         threads = perhaps = False
     outside = float(_samples(strip, column - _PART, _PART)[..., 0].mean(axis=0).min())
-    return Band(np.median(near, axis=(0, 1)), outside, threads and deep > 0, threads or perhaps)
+    return SideBand(np.median(near, axis=(0, 1)), outside, threads and deep > 0, threads or perhaps)
 
 
 def _of_threads(colours: Float[np.ndarray, "along across 3"]) -> tuple[float, float]:

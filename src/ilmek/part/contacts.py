@@ -25,7 +25,7 @@ _ROUNDED = 7
 
 
 @record
-class Group:
+class TouchingParts:
     """Parts that touch each other, directly or by others: how many of each, by id."""
 
     parts: Mapping[str, int]
@@ -45,7 +45,7 @@ class _Piece:
     high: Float[np.ndarray, " 3"]
 
 
-def groups(tree: Tree, gap: float = TOUCHING) -> tuple[Group, ...]:
+def groups(tree: Tree, gap: float = TOUCHING) -> tuple[TouchingParts, ...]:
     """The groups of parts that touch within a gap [m], the largest first; parts without a shape are left out."""
     pieces = tuple(_pieces(tree))
     if not pieces:
@@ -56,7 +56,7 @@ def groups(tree: Tree, gap: float = TOUCHING) -> tuple[Group, ...]:
     members: dict[int, Counter[str]] = {}
     for piece, label in zip(pieces, labels.tolist(), strict=True):
         members.setdefault(label, Counter())[piece.part] += 1
-    return tuple(sorted((Group(parts) for parts in members.values()), key=lambda group: -group.pieces))
+    return tuple(sorted((TouchingParts(parts) for parts in members.values()), key=lambda group: -group.pieces))
 
 
 def _pieces(tree: Tree) -> Iterator[_Piece]:

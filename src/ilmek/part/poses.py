@@ -32,7 +32,7 @@ Points = Float[np.ndarray, "points 3"]
 
 
 @dataclass(frozen=True, slots=True)
-class Link:
+class ChainLink:
     """A body in a chain, at one of its positions; equal links are the same thing."""
 
     body: RigidBody = field(compare=False)
@@ -50,7 +50,7 @@ class Link:
         return motion is not None and motion.drive == drive and bool(np.ptp(motion.rotation))
 
 
-Chain = tuple[Link, ...]
+Chain = tuple[ChainLink, ...]
 
 
 def chains(tree: Tree) -> Iterator[Chain]:
@@ -58,7 +58,7 @@ def chains(tree: Tree) -> Iterator[Chain]:
     ends: dict[str, tuple[Chain, ...]] = {GROUND: ((),)}
     for body in tree.bodies:
         ends[body.id] = tuple(
-            (*carrier, Link(body, body.id, index))
+            (*carrier, ChainLink(body, body.id, index))
             for carrier in ends[body.parent]
             for index in range(len(body.positions))
         )
@@ -203,7 +203,7 @@ def _largest_shift(motion: SceneMotion | None) -> float:
 
 
 def _travelled(
-    link: Link,
+    link: ChainLink,
     drive: str,
     angle: FloatArray,
     length: Callable[[Float[np.ndarray, "n 3"]], FloatArray],

@@ -49,7 +49,7 @@ class View(Enum):
 
 
 @record
-class Outline:
+class PieceOutline:
     """What is seen of a piece of a part: closed curves [m], and its nearest distance towards the eye [m]."""
 
     part: Part
@@ -84,14 +84,14 @@ class _Piece:
     corners: Float[np.ndarray, "corners 3"] | None = None
 
 
-def outlines(tree: Tree, view: View, drive: str = "", angle: float = 0.0) -> tuple[Outline, ...]:
+def outlines(tree: Tree, view: View, drive: str = "", angle: float = 0.0) -> tuple[PieceOutline, ...]:
     """The outlines of all pieces that have a shape, the farthest first.
 
     Pieces that cover each other alike are one; so are those of a part that is in its body `MANY` times, as their hull.
 
     drive, angle  the angle of a drive [rad]; default: all stand at 0
     """
-    seen: dict[tuple[str, bytes], Outline] = {}
+    seen: dict[tuple[str, bytes], PieceOutline] = {}
     for chain in chains(tree):
         body = poses(chain, drive, np.array([angle]))
         for occurrence in chain[-1].body.occurrences:
@@ -108,11 +108,11 @@ def outlines(tree: Tree, view: View, drive: str = "", angle: float = 0.0) -> tup
     return tuple(sorted(seen.values(), key=lambda outline: outline.near))
 
 
-def _at_rest(part: Part, chain: Chain, body: Poses, position: Placement, view: View) -> Outline:
+def _at_rest(part: Part, chain: Chain, body: Poses, position: Placement, view: View) -> PieceOutline:
     here = _seen(body, position, view)
     curves, near = _projected(part, here.rotation[0].tobytes())
     right, up, towards = here.origin[0].tolist()
-    return Outline(part, chain[-1].name, tuple(curve + complex(right, up) for curve in curves), near + towards)
+    return PieceOutline(part, chain[-1].name, tuple(curve + complex(right, up) for curve in curves), near + towards)
 
 
 def moving_outlines(

@@ -23,7 +23,7 @@ _MOST_OFF, _NEAR = 0.15, 4
 """Largest distance of a cell from the course [pitch], and the cells around one beyond it that are not sure either."""
 
 
-def off_course(x: Float[np.ndarray, "rows columns"], y: Float[np.ndarray, "rows columns"]) -> BoolArray:
+def off_lattice(x: Float[np.ndarray, "rows columns"], y: Float[np.ndarray, "rows columns"]) -> BoolArray:
     """The cells, with their middles at x, y [pixels], that are off the course of the others, and those near them."""
     places = x + 1j * y
     v, u = np.meshgrid(*(np.linspace(-1, 1, side) for side in places.shape), indexing="ij")

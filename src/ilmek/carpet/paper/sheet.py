@@ -24,7 +24,7 @@ from ilmek.carpet.paper.lines import (
     pitches,
 )
 from ilmek.carpet.paper.parts import parts
-from ilmek.carpet.paper.placing import border_beside, off_course
+from ilmek.carpet.paper.placing import border_beside, off_lattice
 from ilmek.errors import PictureError
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
@@ -133,7 +133,7 @@ def read_sheet(rgb: Rgb, progress: Progress = SILENT, spread: Spread = SOMEWHERE
     rgb = np.ascontiguousarray(rgb)
     energy, cells = _clearest(rgb, progress.part(0.0, 0.9), spread)
     found = cell_colours(cells.colours, cells.spread)
-    doubtful = found.doubtful | off_course(cells.x, cells.y)
+    doubtful = found.doubtful | off_lattice(cells.x, cells.y)
     beside = border_beside(cells.around, found.palette, found.numbers)
     rows, columns = np.nonzero(doubtful)
     order = np.argsort(found.confidence[rows, columns], kind="stable")[:MOST_SHOWN]

@@ -9,7 +9,7 @@ from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.automated_loom.nearest_parts import machines_of_bodies, nearest_parts
 from ilmek.machines.automated_loom.report import LoomVerdict
 from ilmek.part.clearances import DEVIATION, Approach
-from ilmek.part.contacts import Group, groups
+from ilmek.part.contacts import TouchingParts, groups
 from ilmek.records import computed, record
 from ilmek.report import Check, Json, Report, Table, at_least, at_most, columns, results_of
 from ilmek.units import deg, format_quantity
@@ -27,7 +27,7 @@ class LoomAssembly:
 
     loom: LoomDesign
     nearest: tuple[Approach, ...]
-    groups: tuple[Group, ...]
+    groups: tuple[TouchingParts, ...]
 
     clashes = computed(
         "1",

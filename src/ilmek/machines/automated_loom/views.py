@@ -16,7 +16,7 @@ from ilmek.machines.automated_loom.cyclogram import HEADS
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.maker import ROW, half_width
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
-from ilmek.part.projection import Outline, View, outlines
+from ilmek.part.projection import PieceOutline, View, outlines
 from ilmek.report import Dot, Drawing, Stroke
 from ilmek.timing.track import sample
 from ilmek.units import format_quantity, turn
@@ -86,7 +86,7 @@ def _angle_at_fell(loom: LoomDesign, window: tuple[float, float]) -> float:
     return start + float(path.share[int(np.argmin(np.abs(path.tip)))]) * (end - start)
 
 
-def _inside(outline: Outline, low: float, high: float) -> bool:
+def _inside(outline: PieceOutline, low: float, high: float) -> bool:
     """Whether it lies between two heights, or reaches a little beyond them [m]."""
     every = np.concatenate(outline.curves)
     return bool(low < outline.middle.imag < 1.2 * high and np.ptp(every.imag) < 1.5 * (high - low))
@@ -110,7 +110,7 @@ def _across(loom: LoomDesign, view: View, name: str, title: str) -> Drawing:
     return Drawing(name, title, strokes, (), "m", note)
 
 
-def _drawn(seen: Iterable[Outline]) -> tuple[Stroke, ...]:
+def _drawn(seen: Iterable[PieceOutline]) -> tuple[Stroke, ...]:
     return tuple(
         Stroke(curve, "construction" if outline.part.envelope else "outline", closed=True, filled=True)
         for outline in seen
@@ -118,15 +118,15 @@ def _drawn(seen: Iterable[Outline]) -> tuple[Stroke, ...]:
     )
 
 
-def _box(seen: Iterable[Outline]) -> ComplexArray:
+def _box(seen: Iterable[PieceOutline]) -> ComplexArray:
     """Lower left and upper right corner of all that is seen [m]."""
     every = np.concatenate([curve for outline in seen for curve in outline.curves])
     return np.array([complex(every.real.min(), every.imag.min()), complex(every.real.max(), every.imag.max())])
 
 
-def _names(seen: tuple[Outline, ...], box: ComplexArray) -> tuple[Stroke, ...]:
+def _names(seen: tuple[PieceOutline, ...], box: ComplexArray) -> tuple[Stroke, ...]:
     """Leaders from the bodies to their names at the right, in the order of their heights."""
-    largest: dict[str, Outline] = {}
+    largest: dict[str, PieceOutline] = {}
     for outline in sorted(seen, key=_extent, reverse=True):
         largest.setdefault(outline.body.rpartition("/")[2], outline)
     order = sorted(list(largest.items())[:NAMED], key=lambda item: _right_end(item[1]).imag)
@@ -139,12 +139,12 @@ def _names(seen: tuple[Outline, ...], box: ComplexArray) -> tuple[Stroke, ...]:
     )
 
 
-def _extent(outline: Outline) -> float:
+def _extent(outline: PieceOutline) -> float:
     every = np.concatenate(outline.curves)
     return float(np.hypot(np.ptp(every.real), np.ptp(every.imag)))
 
 
-def _right_end(outline: Outline) -> complex:
+def _right_end(outline: PieceOutline) -> complex:
     every = np.concatenate(outline.curves)
     return complex(every[int(every.real.argmax())])
 

@@ -11,7 +11,7 @@ from ilmek.linkage.solve import solve
 from ilmek.machines.automated_loom.bodies import beat_tip, beat_windows
 from ilmek.machines.automated_loom.cyclogram import SLIDE
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.in_space.maker import ROW, Branch, along_track, half_width
+from ilmek.machines.automated_loom.in_space.maker import ROW, MachineTree, along_track, half_width
 from ilmek.machines.beat_up.design import BeatUp
 from ilmek.machines.beat_up.links import PART_IDS
 from ilmek.machines.beat_up.tree import CARRIAGE, in_side_view, link_motions, travelling
@@ -25,10 +25,10 @@ from ilmek.units import turn
 _TABLE = 721
 
 
-def beating(loom: LoomDesign) -> Branch:
+def beating(loom: LoomDesign) -> MachineTree:
     """The machine of the beat, on the ground."""
     bodies, position = _placed(loom)
-    return Branch(loom.beat.name, bodies, position)
+    return MachineTree(loom.beat.name, bodies, position)
 
 
 def _placed(loom: LoomDesign) -> tuple[Tree, Placement]:

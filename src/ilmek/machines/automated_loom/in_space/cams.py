@@ -11,7 +11,7 @@ from ilmek.machines.automated_loom.in_space.maker import (
     COARSEST,
     FINE,
     ROW,
-    Branch,
+    MachineTree,
     track_angles,
 )
 from ilmek.machines.automated_loom.room import GUIDED
@@ -27,11 +27,11 @@ def warp_positions(loom: LoomDesign) -> FloatArray:
     return positions_of(loom.shedding)
 
 
-def cams(loom: LoomDesign) -> Branch:
+def cams(loom: LoomDesign) -> MachineTree:
     """Shafts, cams, guide cams, spacers and dents of all shafts, with their bearings and drives."""
     positions = [placement(0.0, cam.at.imag, cam.at.real).after(IN_SIDE_VIEW) for cam in loom.side.cams]
     bodies = tree(loom.shedding, positions, _turning(loom), _sinking(loom))
-    return Branch("shedding", bodies, deviations=(FINE, COARSE, COARSEST))
+    return MachineTree("shedding", bodies, deviations=(FINE, COARSE, COARSEST))
 
 
 def _turning(loom: LoomDesign) -> SceneMotion:

@@ -12,7 +12,7 @@ from ilmek.machines.automated_loom.in_space.maker import (
     COARSEST,
     FINE,
     KNOT,
-    Branch,
+    MachineTree,
     along_track,
     half_width,
     motion,
@@ -35,9 +35,9 @@ from ilmek.units import turn
 _YARN_SAMPLES, _YARN_POINTS, _EACH = 91, 48, 41
 
 
-def heads(loom: LoomDesign) -> Branch:
+def heads(loom: LoomDesign) -> MachineTree:
     """The heads on their rail."""
-    return Branch("weaver", heads_tree(loom), parent=RAIL, deviations=(FINE, COARSE, COARSEST))
+    return MachineTree("weaver", heads_tree(loom), parent=RAIL, deviations=(FINE, COARSE, COARSEST))
 
 
 def arms(loom: LoomDesign) -> tuple[tuple[SceneFrame, ...], tuple[ScenePart, ...]]:

@@ -25,7 +25,7 @@ _STEPS = 24
 
 
 @record
-class Branch:
+class MachineTree:
     """The tree of a machine of the loom, and where its ground lies.
 
     parent      id of the body that carries it      position    in that body's frame

@@ -11,7 +11,7 @@ from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.beating import beating
 from ilmek.machines.automated_loom.in_space.cams import cams, warp_positions
 from ilmek.machines.automated_loom.in_space.heads import arms, heads, knot_yarn
-from ilmek.machines.automated_loom.in_space.maker import KNOT, ROW, STANDS, Branch, track_angles
+from ilmek.machines.automated_loom.in_space.maker import KNOT, ROW, STANDS, MachineTree, track_angles
 from ilmek.machines.automated_loom.in_space.standing import carpet_roll, standing
 from ilmek.machines.automated_loom.in_space.weft import weft, wefts
 from ilmek.machines.shedding.tree import warp_shafts
@@ -59,7 +59,7 @@ def scene(loom: LoomDesign, report: Report) -> Scene:
     )
 
 
-def branches_of(loom: LoomDesign) -> tuple[Branch, ...]:
+def branches_of(loom: LoomDesign) -> tuple[MachineTree, ...]:
     """The trees of all machines of a loom, each after what carries it."""
     return (*standing(loom), cams(loom), beating(loom), weft(loom), heads(loom))
 

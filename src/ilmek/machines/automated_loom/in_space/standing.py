@@ -6,7 +6,7 @@ from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.maker import (
     COARSE,
     STANDS,
-    Branch,
+    MachineTree,
     along_track,
     half_width,
     motion,
@@ -25,14 +25,14 @@ from ilmek.report.scene import ScenePart, Solid
 from ilmek.timing.track import sample
 
 
-def standing(loom: LoomDesign) -> tuple[Branch, ...]:
+def standing(loom: LoomDesign) -> tuple[MachineTree, ...]:
     """Frame with its rail, what it carries, cylinders, and compensator."""
     listed = parts_of_loom(loom)
     retreat = along_track(loom.row_cyclogram, HEADS, (0.0, RETREAT.imag, RETREAT.real))
     return (
-        Branch("automated-loom", frame_tree(loom, listed.frame, listed.axes, retreat)),
-        Branch("automated-loom", carried_tree(loom), deviations=(COARSE,)),
-        Branch("warp-tension", _warp_cylinders(loom), deviations=(COARSE,)),
+        MachineTree("automated-loom", frame_tree(loom, listed.frame, listed.axes, retreat)),
+        MachineTree("automated-loom", carried_tree(loom), deviations=(COARSE,)),
+        MachineTree("warp-tension", _warp_cylinders(loom), deviations=(COARSE,)),
         *compensator(loom),
     )
 

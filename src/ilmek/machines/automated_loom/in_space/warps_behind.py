@@ -5,7 +5,7 @@ import numpy as np
 from ilmek.machines.automated_loom.cyclogram import EVEN as EVEN_WARPS
 from ilmek.machines.automated_loom.cyclogram import ODD as ODD_WARPS
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.in_space.maker import ROW, Branch, track_angles
+from ilmek.machines.automated_loom.in_space.maker import ROW, MachineTree, track_angles
 from ilmek.machines.tension_compensator.analysis import lever_rotations
 from ilmek.machines.tension_compensator.tree import EVEN, ODD, lever_motion, tree
 from ilmek.part.placement import Placement
@@ -18,12 +18,12 @@ _BEHIND = np.array([[0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.0, -1.0, 0.0]])
 """Axes of a compensator on warps that run level to the back: its x up, its y to the back."""
 
 
-def compensator(loom: LoomDesign) -> tuple[Branch, ...]:
+def compensator(loom: LoomDesign) -> tuple[MachineTree, ...]:
     """The compensator, on the ground; nothing where the loom has none."""
     machine = loom.machines.get(COMPENSATOR)
     if machine is None:
         return ()
-    return (Branch(COMPENSATOR, tree(machine.design, _motions(loom)), compensator_position(loom)),)
+    return (MachineTree(COMPENSATOR, tree(machine.design, _motions(loom)), compensator_position(loom)),)
 
 
 def compensator_position(loom: LoomDesign) -> Placement:

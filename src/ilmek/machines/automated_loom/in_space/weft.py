@@ -5,7 +5,7 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.machines.automated_loom.cyclogram import BEATER, weft_windows
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.in_space.maker import ROW, STANDS, Branch, half_width, motion, track_angles
+from ilmek.machines.automated_loom.in_space.maker import ROW, STANDS, MachineTree, half_width, motion, track_angles
 from ilmek.machines.weft import Shuttle
 from ilmek.machines.weft.tree import DRAGGING, RAPIER_BODY, RIGHT_BOX, SINUOUS, STRAIGHT
 from ilmek.part.placement import placement
@@ -14,7 +14,7 @@ from ilmek.timing.track import sample
 from ilmek.units import turn
 
 
-def weft(loom: LoomDesign) -> Branch:
+def weft(loom: LoomDesign) -> MachineTree:
     """The bodies of the weft side over a row.
 
     The shuttle of the straight weft goes to the right and waits there, that of the sinuous weft comes from there.
@@ -32,7 +32,7 @@ def weft(loom: LoomDesign) -> Branch:
             RIGHT_BOX: low,
         }
     motions = {name: motion(row, angle, shift=shift) for name, shift in runs.items()}
-    return Branch("weft", loom.weft.bodies.tree.moving(motions), placement(0.0, *_middle(loom)))
+    return MachineTree("weft", loom.weft.bodies.tree.moving(motions), placement(0.0, *_middle(loom)))
 
 
 def _shifted(loom: LoomDesign, angle: FloatArray) -> FloatArray:

@@ -13,7 +13,7 @@ from ilmek.machines.weaver.knot import led_between
 from ilmek.machines.weaver.motions import CENTRE_MOTION, SIDE_MOTION, SLEY
 from ilmek.machines.weaver.parts import case_plates
 from ilmek.machines.weaver.tree import CAM_SHAFT, HEAD
-from ilmek.part.projection import Outline, View, moving_outlines, outlines
+from ilmek.part.projection import PieceOutline, View, moving_outlines, outlines
 from ilmek.report import Animation, Axis, Dot, Drawing, MovingStroke, Reading, Stroke
 from ilmek.timing.track import Track, sample
 from ilmek.units import mm, turn
@@ -50,7 +50,7 @@ def knot_from_the_side(loom: LoomDesign) -> Animation:
     )
 
 
-def _case(loom: LoomDesign, view: View) -> list[Outline]:
+def _case(loom: LoomDesign, view: View) -> list[PieceOutline]:
     plates = case_plates(loom.weaver)
     return [outline for outline in outlines(head_alone(loom), view) if outline.part.id in plates]
 
