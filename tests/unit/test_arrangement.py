@@ -246,7 +246,9 @@ def test_front_and_side_show_the_same_heights() -> None:
     made = loom()
     heights = [
         (min(one.points.imag.min() for one in closed), max(one.points.imag.max() for one in closed))
-        for closed in ([one for one in view(made).strokes if one.role == "outline"] for view in (front, side))
+        for closed in (
+            [one for one in view(made).strokes if one.closed and one.role != "yarn"] for view in (front, side)
+        )
     ]
     assert heights[0] == pytest.approx(heights[1], abs=1 * mm)
     assert heights[0][0] == pytest.approx(made.side.floor, abs=1 * mm)
