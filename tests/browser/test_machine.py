@@ -105,4 +105,4 @@ def test_a_machine_of_the_catalogue_is_opened_with_the_results_of_the_command_li
     page.get_by_role("tab", name="Command").click()
     expect(page.get_by_text(re.compile("^ilmek design hammer"))).to_be_visible(timeout=PATIENCE)
     page.get_by_label("What each parameter does").check()
-    expect(page.locator(".machine-strip").first).to_be_visible(timeout=PATIENCE)
+    expect(page.locator(".machine-strip:visible").first).to_be_visible(timeout=PATIENCE)

@@ -22,7 +22,7 @@ made = {name: digest(json.dumps(MACHINES[name].report_for({}).as_json()).encode(
 for call in (
     "design cam --workshop cam",
     "chart ../noise.png --size 50x50cm --quality 25x25/dm --out chart",
-    "weave ../noise.png --size 24x24cm --quality 10x10/dm --out carpet",
+    "weave ../noise.png --size 24x24cm --quality 10x10/dm --least-detail 0% --out carpet",
 ):
     try:
         main(call.split())

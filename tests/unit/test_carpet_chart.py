@@ -1,5 +1,7 @@
 """Chart and yarn bill: picture in, knots, statistics and yarn out."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -16,6 +18,7 @@ from ilmek.elements.carpet_yarns import CarpetYarnParams
 from ilmek.elements.knot_kinds import asymmetric_wrap, parse_knot, symmetric_wrap
 from ilmek.errors import CarpetError, PictureError, YarnError
 from ilmek.io.yarn_file import yarns_from_records
+from ilmek.jobs.yarn_choice import yarn_notes
 from ilmek.progress import Progress
 
 SIZE, QUALITY = CarpetSize(0.6, 0.9), Quality(1000.0, 1000.0)
@@ -204,3 +207,13 @@ def test_a_chart_that_is_read_otherwise_keeps_its_tally() -> None:
     assert again.tally() is tally
     assert again.reading.reason == "as a test"
     assert again.counts == tuple(np.bincount(knots.ravel(), minlength=3))
+
+
+def test_a_dyed_yarn_that_no_knot_has_is_not_counted() -> None:
+    """The reading may propose a shade whose last knots are then woven in another."""
+    reading = ChartReading("photo", "as a test", 1.0, 0.5, dyed=("1b2442", "efe6d0"))
+    knots, size, quality = np.array([[0, 1], [1, 0]]), parse_size("2x2cm"), parse_quality("10x10/dm")
+    chart = Chart(knots, YARNS, size, quality, "symmetric", reading)
+    assert (chart.colours, chart.dyed) == (2, 1)
+    assert yarn_notes(chart)[0].startswith("1 of 2 yarns dyed to order")
+    assert chart.read_as(replace(reading, dyed=("efe6d0",))).dyed == 0

@@ -51,7 +51,7 @@ def test_the_coupling_holds_what_its_geometry_gives() -> None:
     sides, gap = carried.coupling.sides, carried.coupling.gap
     lags = np.linspace(0.0, sides[0], 9)[1:]
     found = [np.abs(2 * _by_charges(sides, sides, np.array([lag, 0.0, gap + sides[2]]))) for lag in lags]
-    friction = WeftParams().yarns.friction
+    friction = WeftParams().cloth.yarns.friction
     assert carried.coupling.hold == pytest.approx(max(force[0] - friction * force[2] for force in found), rel=0.03)
     far = design(WeftParams(carrier="shuttle", play=30 * mm, lift=0.3)).carried
     assert isinstance(far, Shuttle)

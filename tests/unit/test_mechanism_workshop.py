@@ -74,9 +74,9 @@ def test_a_synthesised_four_bar_gives_its_links(name: str) -> None:
     machine = MACHINES[name]
     made = machine.design(machine.params(link_width=0.012))
     links = {plate.name: plate for plate in machine.plates(made)}
-    assert list(links) == ["crank", "coupler", "rocker"]
+    assert list(links) == ["frame", "crank", "rocker", "coupler"]
     lengths = made.best.candidate.four_bar.lengths
     for link, plate in links.items():
-        first, second = plate.holes[:2]
-        assert abs(second.at - first.at) == pytest.approx(getattr(lengths, link))
+        first, second = plate.holes[-2:]
+        assert abs(second.at - first.at) == pytest.approx(getattr(lengths, "ground" if link == "frame" else link))
         assert plate.thickness == pytest.approx(0.004)

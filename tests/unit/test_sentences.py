@@ -119,7 +119,15 @@ def test_an_unclear_outline_is_in_turkish(context: Context) -> None:
     with pytest.raises(IlmekError) as caught:
         corners(PictureRequest("drawing.png"), context)
     assert in_page(caught.value.given).startswith("halının çevresi açık değil (")
-    assert in_page(caught.value.do) == "köşeleri kendiniz verin"
+    assert re.fullmatch(r"köşeleri bunlarsa, verin:( \d+\.\d,\d+\.\d){4}", in_page(caught.value.do))
+
+
+def test_a_picture_without_an_outline_is_in_turkish(context: Context) -> None:
+    Image.new("RGB", (160, 240), (150, 20, 30)).save(Path(context.folder) / "plain.png")
+    with pytest.raises(IlmekError) as caught:
+        corners(PictureRequest("plain.png"), context)
+    assert in_page(caught.value.given) == "halının çevresi açık değil (resmin kenarından farklı bir şey yok)"
+    assert in_page(caught.value.do) == "köşeleri kendiniz verin: x,y x,y x,y x,y"
 
 
 def test_the_checks_of_a_chart_are_in_the_language_of_the_page(context: Context) -> None:

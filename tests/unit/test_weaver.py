@@ -198,7 +198,9 @@ def test_parts_and_work_of_one_head() -> None:
 
 def test_work_of_the_moves_is_their_greatest_kinetic_energy() -> None:
     params = WeaverParams(head_mass=3.0)
-    tubes = params.tubes * params.tube_mass
+    radius, tube = 16 * 12e-3 / (2 * np.pi) + 6e-3, 0.3 * 12e-3
+    drum = np.pi * (radius**2 - 16 * tube**2) * 3e-3 * 2700  # aluminium, open below each tube
+    tubes = params.tubes * params.tube_mass + drum
     carriage = AxisLimits(params.carriage_speed, params.carriage_acceleration, params.carriage_jerk)
     selector = AxisLimits(params.selector_speed, params.selector_acceleration, params.selector_jerk)
     work = {one.name: one for one in MACHINE.work(design(params))}

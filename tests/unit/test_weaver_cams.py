@@ -131,7 +131,7 @@ def test_the_limits_of_the_cycle_are_where_they_are_stated(faster: float) -> Non
     """Designed for a cycle a little shorter or longer than a limit, the head breaks or keeps it."""
     found = cycle_limits(usual())
     assert max(found, key=lambda name: found[name]) == "tools"
-    free = WeaverParams(cycle=faster * found["cutter"], acceleration_limit=1e4)
+    free = WeaverParams(cycle=faster * found["cutter"], acceleration_limit=1e4, speed_limit=10.0)
     head = design(free)
     assert (head.params.cutting_time <= cut_share(head) * head.cycle) == (faster > 1)
 

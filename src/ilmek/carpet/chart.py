@@ -188,6 +188,11 @@ class Chart:
         return len(self.used)
 
     @property
+    def dyed(self) -> int:
+        """Number of those yarns that are dyed for it."""
+        return sum(self.yarns[yarn].name in self.reading.dyed for yarn in self.used)
+
+    @property
     def lone_fraction(self) -> float:
         """Share of lone knots [-]."""
         return self.tally().lone / self.knots.size

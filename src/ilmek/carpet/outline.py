@@ -290,11 +290,11 @@ def _region(difference: FloatArray, step: int) -> BoolArray:
     mask = scipy.ndimage.binary_opening(mask, np.ones((2 * radius + 1, 2 * radius + 1), dtype=bool))
     labels, count = scipy.ndimage.label(mask)
     if count == 0:
-        raise _unclear("nothing differs from the margin of the picture")
+        raise _unclear(Sentence("picture.outline-plain"))
     areas = np.bincount(labels.ravel())
     areas[0] = 0
     if areas.max() < _LEAST_AREA * mask.size:
-        raise _unclear("what differs from the margin of the picture is too small")
+        raise _unclear(Sentence("picture.outline-small"))
     largest: BoolArray = scipy.ndimage.binary_fill_holes(labels == areas.argmax())
     parts = np.flatnonzero(areas > _LEAST_PART * areas.max())
     together = np.isin(labels, parts)
@@ -315,7 +315,7 @@ def _hull(region: BoolArray) -> Points:
 def _largest_quadrilateral(polygon: Points) -> Float[np.ndarray, "4 2"]:
     """The largest quadrilateral with corners among those of a convex polygon, clockwise from the upper left."""
     if len(polygon) < 4:
-        raise _unclear("what differs from the margin of the picture has no four corners")
+        raise _unclear(Sentence("picture.outline-no-corners"))
     polygon = polygon[:: -(-len(polygon) // 120)] if len(polygon) > 120 else polygon
     x, y = polygon.T
     largest, corners = -1.0, (0, 1, 2, 3)

@@ -48,7 +48,7 @@ def changes_in_words(chart: Chart) -> str:
 
 def yarns_in_words(charted: ChartResult) -> str:
     """The number of yarns that are used, of a list or dyed to order."""
-    chart, dyed = charted.chart, len(charted.chart.reading.dyed)
+    chart, dyed = charted.chart, charted.chart.dyed
     if dyed:
         return f"{counted(chart.colours, 'yarn')}, {dyed} dyed to order"
     return f"{chart.colours} of {len(charted.order.yarns)} yarns"

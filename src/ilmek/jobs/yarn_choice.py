@@ -62,9 +62,9 @@ def twin_warnings(chart: Chart) -> tuple[str, ...]:
 def yarn_notes(chart: Chart) -> tuple[str, ...]:
     """The yarns that are dyed, the number of yarns that was found, and the yarns that were merged."""
     palette, notes = chart.reading.palette, []
-    if dyed := chart.reading.dyed:
+    if dyed := chart.dyed:
         notes.append(
-            f"{len(dyed)} of {counted(chart.colours, 'yarn')} dyed to order, for lack of a near wool; the yarns 'wool' "
+            f"{dyed} of {counted(chart.colours, 'yarn')} dyed to order, for lack of a near wool; the yarns 'wool' "
             "keep to those in stock"
         )
     if (knee := palette.knee) is not None:

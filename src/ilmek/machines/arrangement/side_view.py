@@ -191,9 +191,6 @@ def laid_out(task: "LoomTask", path: "BeatPath | None" = None) -> SideView:
     shape, comb = head.shape, _comb(room, spans, path)
     spacer, lower, roll = _lower_cylinders(task, radius, head)
     behind, rest = cylinder_offset(room), complex(-room.back_rest, spans.back_rest)
-    # Level with the middle of the heads, or below the pivots of what beats.
-    middle = (shape.body + shape.size / 2).imag
-    rail = min(middle - RAIL / 2, -below(path) - room.clearance - RAIL)
     return SideView(
         room=room,
         spans=spans,
@@ -214,7 +211,7 @@ def laid_out(task: "LoomTask", path: "BeatPath | None" = None) -> SideView:
         roll=roll,
         pile=head.drawn / 2,
         head=shape,
-        rail=SideBox(complex(shape.front, rail), complex(RAIL, RAIL)),
+        rail=SideBox(complex(shape.front, shape.rail - RAIL / 2), complex(RAIL, RAIL)),
         retreat=(shape.top + room.clearance + below(path)) / -RETREAT.imag,
     )
 

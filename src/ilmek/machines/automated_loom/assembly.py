@@ -8,7 +8,7 @@ from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.automated_loom.nearest_parts import machines_of_bodies, nearest_parts
 from ilmek.machines.automated_loom.report import LoomVerdict
-from ilmek.part.clearances import Approach
+from ilmek.part.clearances import DEVIATION, Approach
 from ilmek.part.contacts import TouchingParts, groups
 from ilmek.records import computed, record
 from ilmek.report import Check, Json, Report, Table, at_least, at_most, columns, results_of
@@ -102,9 +102,9 @@ def _too_near(found: LoomAssembly, titles: Mapping[str, str]) -> tuple[Check, ..
         at_least(
             f"clearance in space: {titles[pair.parts[0]]} and {titles[pair.parts[1]]}",
             pair.distance,
-            limit,
+            limit - DEVIATION,
             "mm",
-            f"parameter clearance, assumed by this project; {_where(pair)}",
+            f"parameter clearance, assumed by this project, less the meshes' deviation; {_where(pair)}",
             cure="set a larger clearance",
             parts=pair.parts,
         )

@@ -34,9 +34,6 @@ LEVELLING, PAD = (20 * mm, 40 * mm), (80 * mm, 15 * mm)
 FOOT = LEVELLING[1] + PAD[1]
 """Height of the frame over the floor, on its levelling feet [m]."""
 
-RETREAT_AXIS = 40 * mm
-"""Side of the section of a linear axis of the rail [m]; assumed by this project."""
-
 
 def part_id(name: str) -> str:
     """Id of a part or body of the loom itself."""

@@ -8,12 +8,12 @@ import cmath
 from ilmek.elements.drive_parts import PULLEY
 from ilmek.elements.motors import smallest_motor
 from ilmek.machines.arrangement.side_view import RETREAT
-from ilmek.machines.automated_loom.brackets import brackets_of
 from ilmek.machines.automated_loom.cyclogram import HEADS
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.frame import RETREAT_AXIS, LoomFrame, part_id
+from ilmek.machines.automated_loom.frame import LoomFrame, part_id
 from ilmek.machines.automated_loom.standing_frame import member, standing_frame
 from ilmek.machines.weaver import head_mass
+from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.part import catalogue
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import ALONG_WIDTH, placement
@@ -42,15 +42,15 @@ def _retreat(loom: LoomDesign) -> RigidBody:
         "axis of the rail's retreat",
         "linear axis",
         "belt drive, one at each column",
-        box(RETREAT_AXIS, RETREAT_AXIS, heads.stroke + 2 * room),
+        box(RAIL_AXIS, RAIL_AXIS, heads.stroke + 2 * room),
         purchase=Bought("belt drive", length=heads.stroke),
         envelope=True,
     )
     chosen = smallest_motor(torque, turning)
     motor = catalogue.motor(part_id("retreat-motor"), "motor of the rail's retreat", chosen, torque, turning)
     # At the upper end, above the post; wider than its axis, it reaches outwards.
-    outwards = ((chosen.face if chosen else catalogue.SPECIAL_FACE) - RETREAT_AXIS) / 2
-    middle, beside, slope = _rail_middle(loom), brackets_of(loom).face - RETREAT_AXIS / 2, -cmath.phase(RETREAT)
+    outwards = ((chosen.face if chosen else catalogue.SPECIAL_FACE) - RAIL_AXIS) / 2
+    middle, beside, slope = _rail_middle(loom), (loom.task.width + RAIL_AXIS) / 2, -cmath.phase(RETREAT)
     ends = [placement(x, middle.imag, middle.real, about=(1.0, 0.0, 0.0), angle=slope) for x in (-beside, beside)]
     flange = placement(outwards, z=-room)
     return RigidBody(
@@ -73,19 +73,19 @@ def frame_tree(loom: LoomDesign, frame: LoomFrame, axes: int, retreat: SceneMoti
         "axes of the heads on their rail",
         "linear axis",
         "with a belt for each head",
-        box(RETREAT_AXIS, RETREAT_AXIS, frame.task.width),
+        box(RAIL_AXIS, RAIL_AXIS, frame.task.width),
         purchase=Bought("linear axis", length=frame.task.width),
         envelope=True,
     )
     middle = _rail_middle(loom)
-    along = placement(x=-frame.task.rail / 2).after(ALONG_WIDTH)
-    below = placement(-frame.task.width / 2, -(frame.rail.side + RETREAT_AXIS) / 2).after(ALONG_WIDTH)
+    along = placement(-frame.task.rail / 2, z=frame.rail.side / 2).after(ALONG_WIDTH)
+    before = placement(-frame.task.width / 2, z=-RAIL_AXIS / 2).after(ALONG_WIDTH)
     return Tree(
         (
             standing_frame(loom, frame, axes),
             RigidBody(
                 RAIL,
-                (Occurrence(rail, (along,)), Occurrence(axis, (below,))),
+                (Occurrence(rail, (along,)), Occurrence(axis, (before,))),
                 joint=Joint(JointKind.SLIDE, motion=retreat),
                 positions=(placement(0.0, middle.imag, middle.real),),
             ),

@@ -7,9 +7,8 @@ from functools import lru_cache
 
 from ilmek.elements.prices import PriceRates, price_of, read_prices
 from ilmek.machines.arrangement.side_view import SideBox, SideView
-from ilmek.machines.automated_loom.brackets import brackets_of
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.frame import RETREAT_AXIS, FrameTask, LoomFrame, frame_for
+from ilmek.machines.automated_loom.frame import FrameTask, LoomFrame, frame_for
 from ilmek.machines.automated_loom.own_parts import carried_tree, frame_tree
 from ilmek.machines.weaver import head_mass
 from ilmek.part.bill import bill
@@ -90,7 +89,7 @@ def frame_task(loom: LoomDesign, carried: float) -> FrameTask:
         lever=abs(loom.side.column),
         carried=carried,
         heads=loom.heads,
-        rail=2 * (brackets_of(loom).face - RETREAT_AXIS),
+        rail=loom.task.width,
         head_mass=head_mass(loom.weaver),
         head_width=loom.head_width,
         rail_spans=math.ceil(wide / params.rail_span - 1e-9),

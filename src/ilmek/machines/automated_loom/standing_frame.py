@@ -11,8 +11,9 @@ from ilmek.elements.columns import STEEL, HollowSquare
 from ilmek.elements.tubes import TUBES, Tube
 from ilmek.machines.automated_loom.brackets import ROOM, Bracket, Brackets, CarriedBeam, brackets_of, compensator_beams
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.frame import FOOT, LEVELLING, PAD, RETREAT_AXIS, LoomFrame, part_id
+from ilmek.machines.automated_loom.frame import FOOT, LEVELLING, PAD, LoomFrame, part_id
 from ilmek.machines.automated_loom.supports import base_section, post_depth, support_bodies
+from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, UPRIGHT, Placement, placement
 from ilmek.part.profile import Profile
@@ -66,7 +67,7 @@ def _uprights(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Oc
         member("column", "column of the frame", section, side.top - under),
         (placement(x, under, side.column).after(UPRIGHT) for x in (-beside, beside)),
     )
-    yield _rail_posts(loom, frame, made)
+    yield from _rail_posts(loom, frame, made)
     spans, wide = frame.task.rail_spans, frame.task.width
     if spans > 1:
         middles = ((k / spans - 0.5) * wide for k in range(1, spans))
@@ -79,13 +80,16 @@ def _uprights(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Oc
         )
 
 
-def _rail_posts(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Occurrence:
-    """Posts on the front feet that carry the axes of the rail's retreat, at their upper ends."""
+def _rail_posts(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Occurrence]:
+    """Posts on the front feet, and the arms by which they carry the axes of the rail's retreat."""
     side, section = loom.side, frame.column
     bottom, axis = side.floor + FOOT + base_section(loom, frame).side, side.rail.corner + side.rail.size / 2
-    beside, depth = made.face + section.side / 2, axis.real + RETREAT_AXIS / 2 - section.side / 2
+    beside, depth = made.face + section.side / 2, axis.real + RAIL_AXIS / 2 - section.side / 2
     post = member("rail-post", "post of the rail's axes", section, axis.imag - bottom)
-    return _placed(post, (placement(x, bottom, depth).after(UPRIGHT) for x in (-beside, beside)))
+    yield _placed(post, (placement(x, bottom, depth).after(UPRIGHT) for x in (-beside, beside)))
+    near = loom.task.width / 2 + RAIL_AXIS
+    arm = member("rail-arm", "arm of the rail's axes", HollowSquare(RAIL_AXIS, 3 * mm), made.face - near)
+    yield _placed(arm, (placement(x, axis.imag, axis.real).after(ALONG_WIDTH) for x in (near, -made.face)))
 
 
 def _front(loom: LoomDesign, section: HollowSquare) -> float:

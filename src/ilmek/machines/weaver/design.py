@@ -19,6 +19,7 @@ from ilmek.machines.weaver.magazine import Magazine, fewest_tiers
 from ilmek.machines.weaver.motions import CENTRE_MOTION, HANDLER, OPENER, SIDE_MOTION, SLEY
 from ilmek.machines.weaver.opener import TEETH, Opener, opener_for
 from ilmek.machines.weaver.params import WeaverParams
+from ilmek.machines.weaver.selector import selector_of
 from ilmek.machines.weaver.tool_parts import ToolBodies
 from ilmek.records import computed, record, result
 from ilmek.timing.cyclogram import Cyclogram, Relation
@@ -163,7 +164,7 @@ def design(params: WeaverParams) -> Weaver:
         drive=drive_for(cams, cycle.speed, lambda angle: cutter_torque(params, cycle, angle)),
         opener=opener,
         magazine=magazine,
-        shape=head_shape(reaching, cams, magazine),
+        shape=head_shape(reaching, cams, magazine, selector_of(params, magazine)),
         tool_bodies=tools,
         width=params.head_width or math.ceil(max(needs.values()) / mm - _WHOLE) * mm,
         needs=needs,

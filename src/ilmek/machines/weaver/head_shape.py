@@ -9,17 +9,27 @@ from collections.abc import Iterator, Sequence
 
 from ilmek.cams.loaded_plate_cam import LoadedPlateCam
 from ilmek.machines.weaver.grippers import Grippers
-from ilmek.machines.weaver.magazine import DRUM, Magazine
+from ilmek.machines.weaver.magazine import CARRIER, DRUM, Magazine
 from ilmek.machines.weaver.motions import CENTRE_ARM, CENTRE_MOTION, LEFT_ARM, OPENER, RIGHT_ARM, SIDE_MOTION, SLEY
 from ilmek.machines.weaver.params import WeaverParams
+from ilmek.machines.weaver.selector import Selector
 from ilmek.records import record
 from ilmek.units import mm
 
 CASE = 10 * mm
 """Wall and room around the largest cam of a head [m]."""
 
-SLEY_HEIGHT = 15 * mm
-"""Of the sley, along the warps [m]."""
+RAIL_AXIS = 40 * mm
+"""Side of the section of the linear axis that carries the heads [m]; assumed by this project."""
+
+AXLE = 5 * mm
+"""From the flange of the colours' motor to the tubes' carrier [m]; assumed by this project."""
+
+APART = 0.5 * mm
+"""From the tools' ends to the levers behind them [m]."""
+
+SLEY_HEIGHT, SLEY_TAIL = 15 * mm, 12 * mm
+"""Of the sley along the warps, and of its arm within the case [m]."""
 
 LOWER_PLATE, UPPER_PLATE, SLEY_TOOL = "lower plate of the opener", "opener", "sley"
 
@@ -45,16 +55,25 @@ class HeadShape:
     """A head while it knots.
 
     body   its lower corner next to the warps [m]     size   depth + i height of the body [m]
+    bay    depth behind its face for the tools' ends, before levers and cams [m]
     tools  that reach to the warps                    reach  the least x of any tool at rest [m]
+    rail   height of the axis along the row that carries the head, in front of all [m]
     magazine, magazine_size   of the yarn tubes, in front of the body, with its motion from tier to tier [m]
     """
 
     body: complex
     size: complex
+    bay: float
     tools: tuple[HeadTool, ...]
     reach: float
+    rail: float
     magazine: complex
     magazine_size: complex
+
+    @property
+    def axis(self) -> complex:
+        """The axis of the cam shaft [m]."""
+        return self.body + self.bay + (self.size - self.bay) / 2
 
     @property
     def front(self) -> float:
@@ -69,10 +88,16 @@ class HeadShape:
 
 @record
 class HeadTools:
-    """The tools that reach to the warps, and the case's face behind them [m]."""
+    """The tools that reach to the warps, the case's face behind them, and the most that they are pulled back [m]."""
 
     tools: tuple[HeadTool, ...]
     face: float
+    back: float = 0.0
+
+    @property
+    def bay(self) -> float:
+        """Depth of the case that the tools' ends take [m]."""
+        return max((tool.corner + tool.size).real for tool in self.tools) + self.back - self.face
 
     def tool(self, name: str) -> HeadTool:
         """The tool of a name."""
@@ -107,9 +132,9 @@ def _with_grippers(params: WeaverParams, grippers: Grippers, drawn: float) -> He
             complex(face + grippers.depth, grippers.finger),
             -1 + 0j,
         ),
-        _sley(params, complex(front, face)),
+        _sley(params, complex(front, face + SLEY_TAIL)),
     )
-    return HeadTools(tools, face)
+    return HeadTools(tools, face, params.pull_back)
 
 
 def _with_arms(params: WeaverParams, drawn: float) -> HeadTools:
@@ -122,7 +147,7 @@ def _with_arms(params: WeaverParams, drawn: float) -> HeadTools:
     tools = (
         *(HeadTool(name, name, corner, size, -1 + 0j) for name in (LEFT_ARM, RIGHT_ARM, CENTRE_ARM)),
         *_opener(params, OPENER, complex(out, face + params.opening), params.opening),
-        _sley(params, complex(radius + standoff, face)),
+        _sley(params, complex(radius + standoff, face + SLEY_TAIL)),
     )
     return HeadTools(tools, face)
 
@@ -142,22 +167,27 @@ def _sley(params: WeaverParams, span: complex) -> HeadTool:
     return HeadTool(SLEY_TOOL, SLEY, complex(span.real, height), complex(span.imag - span.real, SLEY_HEIGHT), -1j)
 
 
-def head_shape(reaching: HeadTools, cams: Sequence[LoadedPlateCam], magazine: Magazine) -> HeadShape:
-    """The head with its tools: the body in front of its face, as deep as its largest cam, and the magazine.
+def head_shape(
+    reaching: HeadTools, cams: Sequence[LoadedPlateCam], magazine: Magazine, selector: Selector
+) -> HeadShape:
+    """The head with its tools: the body in front of its face, as deep as tools' ends and its largest cam, the magazine.
 
-    The magazine stands in front of the body, and moves each tier to the height at which the knot is tied.
+    The magazine stands in front of the body, and moves each tier to the height at which the knot is tied. Its motor,
+    the selector's, stands below it on the bracket that leads from the body to the rail.
     """
     tools, face = reaching.tools, reaching.face
     tied = (tools[0].corner + tools[0].size / 2).imag
     tall = (2 * magazine.tiers - 1) * magazine.pitch
-    wide = magazine.width if magazine.kind == DRUM else magazine.pitch
+    wide = max(magazine.width if magazine.kind == DRUM else magazine.pitch, selector.face)
     deep = 2 * max(cam.radius for cam in cams) + 2 * CASE
-    top = max((tool.corner + tool.size).imag for tool in tools) + CASE
+    top, bay = max((tool.corner + tool.size).imag for tool in tools) + CASE, reaching.bay + APART
     return HeadShape(
         body=complex(face, top - deep),
-        size=complex(deep, deep),
+        size=complex(bay + deep, deep),
+        bay=bay,
         tools=tools,
         reach=min(tool.corner.real for tool in tools),
-        magazine=complex(face + deep, tied - tall / 2),
+        rail=tied - tall / 2 - CARRIER - AXLE - selector.length - RAIL_AXIS / 2,
+        magazine=complex(face + bay + deep, tied - tall / 2),
         magazine_size=complex(wide, tall),
     )

@@ -53,5 +53,5 @@ def work(weaver: Weaver) -> tuple[Work, ...]:
     return (
         Work("knotting", positive_work(lambda angle: shaft_torque(weaver, angle)), "knot"),
         Work("carriages", 0.5 * head_mass(weaver) * step.speed**2, "knot"),
-        Work("colours", 0.5 * params.tubes * params.tube_mass * change.speed**2, "colour change"),
+        Work("colours", 0.5 * weaver.magazine.moved(params.tube_mass) * change.speed**2, "colour change"),
     )

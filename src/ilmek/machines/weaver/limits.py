@@ -58,7 +58,7 @@ def head_limits(weaver: Weaver) -> HeadLimits:
         cutting_force=weaver.params.strength,
         cutting_time=weaver.params.cutting_time,
         cutting_window=cut_share(weaver) * weaver.cycle,
-        selector=selector_of(weaver.params),
+        selector=selector_of(weaver.params, weaver.magazine),
         masses=mass_of(weaver),
     )
 

@@ -12,11 +12,24 @@ from functools import lru_cache
 
 import numpy as np
 
-from ilmek.arrays import FloatArray
+from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.elements.materials import MATERIALS
+from ilmek.part.profile import Profile
+from ilmek.part.shapes import Prism, disc, rectangle
+from ilmek.plane.contours import circle
 from ilmek.records import computed, record, result
 from ilmek.timing.s_curve import AxisLimits, move_time
+from ilmek.units import mm, turn
 
 DRUM, SLIDE = "drum", "slide"
+
+CARRIER = 3 * mm
+"""Thickness of the plate that carries the tubes [m]; assumed by this project."""
+
+TUBE_OUTER, TUBE_BORE = 0.8, 0.6
+"""Outer and inner diameter of a tube, over the pitch; assumed by this project."""
+
+ALUMINIUM = MATERIALS["aluminium alloy"]
 
 
 @record
@@ -40,6 +53,26 @@ class Magazine:
     @computed("mm", "height of all tiers", name="magazine_height")
     def height(self) -> float:
         return self.tiers * self.pitch
+
+    @property
+    def tubes_at(self) -> ComplexArray:
+        """Axes of a tier's tubes in plan, about the drum's axis or the slide's middle [m]."""
+        number = np.arange(self.per_tier)
+        if self.kind == DRUM:
+            return np.asarray(self.pitch * self.per_tier / turn * np.exp(1j * turn * number / self.per_tier))
+        return np.asarray((number - (self.per_tier - 1) / 2) * self.pitch + 0j)
+
+    @property
+    def carrier(self) -> Prism:
+        """The plate under the lowest tier, open below each tube: of a drum round, of a slide straight."""
+        holes = tuple(circle(complex(at), TUBE_BORE * self.pitch / 2) for at in self.tubes_at)
+        if self.kind == DRUM:
+            return Prism(disc(self.pitch * (self.per_tier / turn + 0.5), *holes), CARRIER)
+        return Prism(Profile(rectangle(self.per_tier * self.pitch, self.pitch), holes), CARRIER)
+
+    def moved(self, tube: float) -> float:
+        """Mass that the selector moves [kg]: the tubes, each of a mass, and their carrier."""
+        return self.tubes * tube + self.carrier.volume * ALUMINIUM.density
 
     @property
     def mean_time(self) -> float:

@@ -8,7 +8,8 @@ keeps the order [thesis, 2.2.3, Figure 2.11; the thesis prints no angles, the sh
     3 knot       side grippers go on along the screw, linear and turning, until the pile crosses; the centre gripper
                  comes, closes; side grippers open
     4 press      side grippers turn back; the centre gripper draws the ends out between the warps; side grippers and
-                 opener return; the sley pushes the knot down; the centre gripper opens; the sley returns
+                 opener return, and as they leave its path the sley pushes the knot down; the centre gripper opens;
+                 the sley returns
 
 The thesis lets the centre gripper return "finally", after it has opened. It must return before: ends that are released
 behind the warps stay there, and no knot is tied.
@@ -46,7 +47,7 @@ MOTIONS: Mapping[str, tuple[tuple[StepMotion, ...], tuple[StepMotion, ...]]] = {
         (("pull back", 2, 0.02, 0.215), ("open warps", 2, 0.62, 1.0), ("cross", 3, 0.0, 0.26)),
         (("turn back", 4, 0.015, 0.24), ("return", 4, 0.35, 0.64)),
     ),
-    CENTRE_GRASP: ((("close", 3, 0.695, 0.83),), (("open", 4, 0.685, 0.80),)),
+    CENTRE_GRASP: ((("close", 3, 0.695, 0.83),), (("open", 4, 0.745, 0.86),)),
     CENTRE_MOTION: ((("forward", 3, 0.275, 0.68),), (("return", 4, 0.015, 0.335),)),
     HANDLER: (
         (
@@ -55,7 +56,7 @@ MOTIONS: Mapping[str, tuple[tuple[StepMotion, ...], tuple[StepMotion, ...]]] = {
         ),
         (("home", 2, 0.23, 0.605),),
     ),
-    SLEY: ((("down", 4, 0.35, 0.67),), (("up", 4, 0.685, 1.0),)),
+    SLEY: ((("down", 4, 0.48, 0.735),), (("up", 4, 0.745, 1.0),)),
     OPENER: ((("open warps", 2, 0.62, 1.0),), (("return", 4, 0.35, 0.64),)),
 }
 """Of each track its motions forward, and its motions back; the opener has a track of its own where arms tie."""

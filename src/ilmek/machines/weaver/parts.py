@@ -1,4 +1,4 @@
-"""The parts of a head's case: side plates, cam shaft with cams and spacers, levers, magazine and motors.
+"""The parts in a head's case: side plates, cam shaft with cams and spacers, levers, and its motors.
 
 What stands in the case lies about the cam shaft's axis, z to the weaver's left, 0 in the middle of the head. From right
 to left: a side plate, then gap and cam in turn, a gap, and the other side plate. So the case is as wide as its cams.
@@ -11,12 +11,11 @@ import numpy as np
 from ilmek.cams.loaded_plate_cam import STEEL, LoadedPlateCam
 from ilmek.elements.bearing_table import DEEP_GROOVE, ROLLING_BEARINGS, RollingBearing
 from ilmek.elements.bearings import life
-from ilmek.elements.materials import MATERIALS
 from ilmek.elements.plates import round_bore, zero_mark
 from ilmek.machines.weaver.cams import case_width
+from ilmek.machines.weaver.case import ALUMINIUM, sheet
 from ilmek.machines.weaver.design import Weaver
-from ilmek.machines.weaver.head_shape import CASE
-from ilmek.machines.weaver.magazine import DRUM
+from ilmek.machines.weaver.head_shape import CASE, RAIL_AXIS
 from ilmek.machines.weaver.selector import selector_of
 from ilmek.machines.weaver.tool_parts import part_id
 from ilmek.part import catalogue
@@ -27,8 +26,6 @@ from ilmek.part.shapes import Prism, bar, box, rectangle, tube
 from ilmek.part.tree import Occurrence
 from ilmek.plane.contours import circle, polygon
 from ilmek.units import format_quantity, mm, turn
-
-ALUMINIUM = MATERIALS["aluminium alloy"]
 
 BEARING_LIFE = 1e8
 """Turns of the cam shaft, one for each knot, that its bearings must last; assumed by this project."""
@@ -78,20 +75,27 @@ def _deep_groove() -> Iterator[RollingBearing]:
 
 def case_parts(weaver: Weaver) -> Iterator[Occurrence]:
     """What stands in the case: the side plates with the bearings, and the levers between cams and tools."""
-    params, deep, wide = weaver.params, weaver.shape.size.real, case_width(weaver.params, len(weaver.cams))
-    row, plate = bearing_of(weaver), params.side_plate
+    params, high, wide = weaver.params, weaver.shape.size.imag, case_width(weaver.params, len(weaver.cams))
+    row, plate, bay, flat = bearing_of(weaver), params.side_plate, weaver.shape.bay, sheet(weaver)
     if plate > 0:
-        hole = () if row is None or row.outer >= deep else (circle(0j, row.outer / 2),)
-        shape = Prism(Profile(rectangle(deep, deep), hole), plate)
-        size = f"{format_quantity(deep / mm, '')} x {format_quantity(deep / mm, '')} x {_mm(plate)}"
+        deep, before = weaver.shape.size.real - flat, (bay - flat) / 2
+        hole = () if row is None or row.outer >= high else (circle(complex(before), row.outer / 2),)
+        shape = Prism(Profile(rectangle(deep, high), hole), plate)
+        size = f"{format_quantity(deep / mm, '')} x {format_quantity(high / mm, '')} x {_mm(plate)}"
         part = Part(SIDE_PLATE, "side plate of the head", "machined link", size, shape, ALUMINIUM)
-        yield Occurrence(part, (placement(z=-wide / 2), placement(z=wide / 2 - plate)))
+        yield Occurrence(part, (placement(-before, z=-wide / 2), placement(-before, z=wide / 2 - plate)))
     if row is not None:
         part = catalogue.bearing(BEARING, "bearing of the head's cam shaft", row)
-        inside = (plate + row.width) / 2
-        yield Occurrence(part, (placement(z=-wide / 2 + plate - inside), placement(z=wide / 2 - inside)))
+        face = wide / 2 - plate - _into_gap(weaver)
+        yield Occurrence(part, (placement(z=-face - row.width), placement(z=face)))
     for cam, z in zip(weaver.cams, _stations(weaver), strict=True):
-        yield Occurrence(_lever(weaver, cam), (placement(-(deep - CASE) / 2, 0.0, z),))
+        yield Occurrence(_lever(weaver, cam), (placement(-(high - CASE) / 2, 0.0, z),))
+
+
+def _into_gap(weaver: Weaver) -> float:
+    """How far a bearing wider than its side plate stands into the gap before the first cam, at most half of it [m]."""
+    row, params = bearing_of(weaver), weaver.params
+    return 0.0 if row is None else min(max(row.width - params.side_plate, 0.0), params.cam_gap / 2)
 
 
 def _lever(weaver: Weaver, cam: LoadedPlateCam) -> Part:
@@ -102,7 +106,7 @@ def _lever(weaver: Weaver, cam: LoadedPlateCam) -> Part:
         f"lever, slide and roller of the {cam.name}",
         "machined link",
         f"ratio {cam.ratio:.3g}" if cam.ratio < 100 else "rack and pinion",
-        box(CASE, weaver.shape.size.imag, weaver.params.cam_thickness),
+        box(CASE, weaver.shape.size.imag - 2 * sheet(weaver), weaver.params.cam_thickness),
         purchase=Bought("lever, slide and roller", rest),
         envelope=True,
     )
@@ -116,13 +120,19 @@ def shaft_parts(weaver: Weaver) -> Iterator[Occurrence]:
     stations = _stations(weaver)
     for cam, z in zip(weaver.cams, stations, strict=True):
         yield Occurrence(_cam(weaver, cam), (placement(z=z),))
-    gap = params.cam_gap
+    gap, within = params.cam_gap, _into_gap(weaver)
     if gap > 0:
         outer = params.shaft + 2 * SPACER_WALL
-        ring = tube(outer, SPACER_WALL, gap)
-        spacer = Part(part_id("spacer"), "spacer of the cams", "pin or bush", _round(outer), ring, STEEL)
-        ends = [*(z + params.cam_thickness for z in stations), stations[-1] - gap]
-        yield Occurrence(spacer, tuple(placement(z=z) for z in ends))
+
+        def spacer(name: str, title: str, length: float) -> Part:
+            ring = tube(outer, SPACER_WALL, length)
+            return Part(part_id(name), title, "pin or bush", f"{_round(outer)}, {_mm(length)}", ring, STEEL)
+
+        first = stations[0] + params.cam_thickness
+        between = [z + params.cam_thickness for z in stations[1:]]
+        yield Occurrence(spacer("spacer", "spacer of the cams", gap), tuple(placement(z=z) for z in between))
+        ends = placement(z=first), placement(z=stations[-1] - gap + within)
+        yield Occurrence(spacer("end-spacer", "spacer of cam and bearing", gap - within), ends)
 
 
 def _stations(weaver: Weaver) -> list[float]:
@@ -159,8 +169,7 @@ def _cam(weaver: Weaver, cam: LoadedPlateCam) -> Part:
 def drive_parts(weaver: Weaver) -> Iterator[Occurrence]:
     """The motor of the cam shaft with its reducer, upright below the case; that place is assumed by this project."""
     servo, drive, shape = weaver.drive.servo, weaver.drive, weaver.shape
-    middle = shape.body + shape.size.real / 2
-    low = middle.imag
+    middle, low = shape.axis, shape.body.imag
     motor = servo.motor if servo else None
     if servo is not None:
         geared = catalogue.reducer(part_id("reducer"), "reducer of a head", servo.reducer.ratio, motor)
@@ -168,44 +177,15 @@ def drive_parts(weaver: Weaver) -> Iterator[Occurrence]:
         yield Occurrence(geared, (_upright(low, middle.real),))
     part = catalogue.motor(MOTOR, "motor of a head", motor, drive.torque_max, weaver.cyclogram.speed)
     yield Occurrence(part, (_upright(low, middle.real),))
-    chosen, under = selector_of(weaver.params), shape.magazine + shape.magazine_size.real / 2
+    chosen, under = selector_of(weaver.params, weaver.magazine), shape.magazine + shape.magazine_size.real / 2
+    flange = shape.rail + RAIL_AXIS / 2 + chosen.length
     colours = [("colour-motor", "motor of the colours"), ("tier-motor", "motor of the tiers")]
-    beside = catalogue.SPECIAL_FACE / 2 if chosen.stepper is None else chosen.stepper.face / 2
+    beside = chosen.face / 2
     two = weaver.magazine.tiers > 1
     for number, (name, title) in enumerate(colours[: 2 if two else 1]):
         part = catalogue.motor(part_id(name), title, chosen.stepper, chosen.torque, chosen.speed)
         x = (2 * number - 1) * beside if two else 0.0
-        yield Occurrence(part, (placement(x).after(_upright(under.imag, under.real)),))
-
-
-def tube_parts(weaver: Weaver) -> Occurrence:
-    """The yarn tubes: in each tier on the circle of a drum, or in a line."""
-    magazine, shape = weaver.magazine, weaver.shape
-    number, pitch = magazine.per_tier, magazine.pitch
-    if magazine.kind == DRUM:
-        flat = pitch * number / turn * np.exp(1j * turn * np.arange(number) / number)
-    else:
-        flat = (np.arange(number) - (number - 1) / 2) * pitch + 0j
-    middle = shape.magazine + shape.magazine_size / 2
-    depth = max(middle.real, shape.magazine.real + float(np.max(flat.imag)) + pitch / 2)
-    low = middle.imag - magazine.tiers * pitch / 2
-    part = Part(
-        TUBE,
-        "yarn tube",
-        "yarn tube",
-        "one for each colour, with its share of the slide",
-        tube(0.8 * pitch, 0.1 * pitch, pitch),
-        purchase=Bought("yarn tube", weaver.params.tube_mass),
-        envelope=True,
-    )
-    cells = (divmod(cell, number) for cell in range(magazine.tubes))
-    return Occurrence(
-        part,
-        tuple(
-            placement(float(flat[column].real), low + tier * pitch, depth + float(flat[column].imag)).after(UPRIGHT)
-            for tier, column in cells
-        ),
-    )
+        yield Occurrence(part, (placement(x).after(_upright(flange, under.real)),))
 
 
 def _upright(height: float, front: float) -> Placement:

@@ -23,15 +23,19 @@ from ilmek.machines.weaver.params import WeaverParams
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import ALONG_WIDTH, IDENTITY, IN_SIDE_VIEW, UPRIGHT, Placement, placement
 from ilmek.part.profile import Profile, drilled
-from ilmek.part.shapes import Placed, Prism, Shape, Sum, bar, box, rectangle
+from ilmek.part.shapes import Placed, Prism, Shape, Sum, bar, box
 from ilmek.part.tree import GROUND, Joint, JointKind, Occurrence, RigidBody
-from ilmek.plane.contours import polygon, rounded_hull
+from ilmek.plane.contours import bounds, polygon, rounded_hull
 from ilmek.records import record
 from ilmek.report import Hole
 from ilmek.units import format_quantity, mm
 
 HANDLER_ARM = (12 * mm, 4 * mm)
 """Width and thickness of the pile handler's arm [m]; assumed by this project."""
+
+SLEY_FOOT, SLEY_ARM, BESIDE_SLEY = 6 * mm, 3 * mm, 3 * mm
+"""Depth of the sley's foot over the pair, at most, width of its arm, and from the opener to it [m]; assumed by this
+project."""
 
 KNIFE = (10 * mm, 2 * mm, 20 * mm)
 """Room of the cutter's blade with its slide, across, along the warps and to the front [m]; assumed by this project."""
@@ -158,12 +162,26 @@ class ToolBodies:
         return Profile(polygon(np.concatenate([half, np.conj(half[::-1])])))
 
     def _sley(self) -> Occurrence:
-        tool = self.tools.tool(SLEY_TOOL)
-        wide = 2 * self.grippers.axis
-        section = Profile(rectangle(tool.size.real, wide))
-        size = f"{format_quantity(wide / mm, '')} x {format_quantity(tool.size.imag, 'mm')}"
-        part = _made(SLEY_BAR, "sley", "machined link", Prism(section, tool.size.imag), size)
-        return Occurrence(part, (_upright(tool, tool.size.real / 2),))
+        """A foot over the pair that passes before the opener's points; its arm goes beside the opener into the face."""
+        tool, rest = self.tools.tool(SLEY_TOOL), self.tools.tool(LOWER_PLATE).corner.real
+        half, outer, deep = self.grippers.axis, self.sley_arm, tool.size.real
+        foot = min(max(rest - tool.corner.real - self.params.clearance, self.params.finger), SLEY_FOOT)
+        inner = outer - SLEY_ARM
+        corners = [1j * half, foot + 1j * half, foot - 1j * inner, deep - 1j * inner, deep - 1j * outer, -1j * outer]
+        size = f"{format_quantity((half + outer) / mm, '')} x {format_quantity(tool.size.imag, 'mm')}"
+        shape = Prism(Profile(polygon(np.array(corners))), tool.size.imag)
+        part = _made(SLEY_BAR, "sley", "machined link", shape, size)
+        return Occurrence(part, (_upright(tool),))
+
+    @property
+    def sley_arm(self) -> float:
+        """From the middle of the pair to the outer side of the sley's arm, on the weaver's left [m]."""
+        return max(self.opener_half, self.grippers.axis) + BESIDE_SLEY + SLEY_ARM
+
+    @property
+    def opener_half(self) -> float:
+        """Half the width of a plate of the opener [m]."""
+        return bounds(self._comb(self.tools.tool(LOWER_PLATE)).outline)[1].imag
 
     def _handler(self, parent: str) -> RigidBody:
         """The arm on its pinion's shaft, and the knife; how they are held is not designed."""

@@ -10,8 +10,11 @@ from functools import lru_cache
 
 from ilmek.elements.drive_parts import PULLEY
 from ilmek.elements.motors import smallest_motor
+from ilmek.machines.weaver.case import closing_parts
 from ilmek.machines.weaver.design import Weaver
-from ilmek.machines.weaver.parts import cam_id, case_parts, drive_parts, shaft_parts, tube_parts
+from ilmek.machines.weaver.head_shape import RAIL_AXIS
+from ilmek.machines.weaver.magazine_parts import magazine_parts
+from ilmek.machines.weaver.parts import cam_id, case_parts, drive_parts, shaft_parts
 from ilmek.machines.weaver.tool_parts import part_id
 from ilmek.part import catalogue
 from ilmek.part.placement import IDENTITY, IN_SIDE_VIEW, UPRIGHT, Placement, placement
@@ -41,19 +44,18 @@ def placed(weaver: Weaver, heads: Sequence[Placement], drives: Sequence[Placemen
 
 
 def _at_rail(weaver: Weaver) -> Placement:
-    """Under the rail, which runs in front of the magazine half-way up the case."""
+    """Under the axis of the rail, which runs in front of the magazine."""
     shape = weaver.shape
-    low = shape.body.imag + shape.size.imag / 2
-    return placement(weaver.width / 2, low, shape.front).after(UPRIGHT)
+    return placement(weaver.width / 2, shape.rail - RAIL_AXIS / 2, shape.front).after(UPRIGHT)
 
 
 @lru_cache(maxsize=8)
 def head_tree(weaver: Weaver) -> Tree:
     """All that a carriage moves.
 
-    The case slides on the rail; between cams and tools, and for the magazine, nothing that carries is designed yet.
+    The case slides on the rail; between cams and tools nothing that carries is designed yet.
     """
-    axis = weaver.shape.body + weaver.shape.size / 2
+    axis = weaver.shape.axis
     about = placement(0.0, axis.imag, axis.real).after(IN_SIDE_VIEW)
     case = (
         Occurrence(stands.part, tuple(about.after(position) for position in stands.positions))
@@ -61,10 +63,14 @@ def head_tree(weaver: Weaver) -> Tree:
     )
     return Tree(
         (
-            RigidBody(HEAD, (*case, *drive_parts(weaver)), joint=Joint(JointKind.SLIDE, (1.0, 0.0, 0.0))),
+            RigidBody(
+                HEAD,
+                (*case, *closing_parts(weaver), *drive_parts(weaver)),
+                joint=Joint(JointKind.SLIDE, (1.0, 0.0, 0.0)),
+            ),
             RigidBody(CAM_SHAFT, tuple(shaft_parts(weaver)), HEAD, Joint(JointKind.PIN), (about,)),
             *(body for _, body in weaver.tool_bodies.bodies(HEAD)),
-            RigidBody(MAGAZINE, (tube_parts(weaver),), HEAD, Joint(JointKind.MISSING)),
+            RigidBody(MAGAZINE, tuple(magazine_parts(weaver)), HEAD, Joint(JointKind.PIN, (0.0, 1.0, 0.0))),
         )
     )
 

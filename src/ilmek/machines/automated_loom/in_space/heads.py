@@ -20,7 +20,7 @@ from ilmek.machines.automated_loom.in_space.maker import (
     track_angles,
 )
 from ilmek.machines.automated_loom.own_parts import RAIL
-from ilmek.machines.weaver.head_shape import LOWER_PLATE, HeadTool
+from ilmek.machines.weaver.head_shape import LOWER_PLATE, RAIL_AXIS, HeadTool
 from ilmek.machines.weaver.knot import led_between
 from ilmek.machines.weaver.motions import CENTRE_ARM, CENTRE_MOTION, LEFT_ARM, RIGHT_ARM, SIDE_MOTION, SLEY
 from ilmek.machines.weaver.tool_parts import CENTRE, LEFT, PLATES, RIGHT, SLEY_BODY
@@ -56,11 +56,10 @@ def heads_tree(loom: LoomDesign) -> Tree:
     rail = loom.side.rail
     middle, share = rail.corner + rail.size / 2, loom.task.cloth.width / loom.heads
     middles = [(number + 0.5) * share - half_width(loom) for number in range(loom.heads)]
-    under = -rail.size.imag / 2
     return placed(
         loom.weaver,
         [placement(x, -middle.imag, -middle.real) for x in middles],
-        [_drive(x + share / 2, under) for x in middles],
+        [_drive(x + share / 2) for x in middles],
     ).moving(motions(loom))
 
 
@@ -71,8 +70,9 @@ def head_alone(loom: LoomDesign) -> Tree:
     return bodies.moving({HEAD: motion(loom.knot_cyclogram, np.array([0.0, turn]))})
 
 
-def _drive(x: float, height: float) -> Placement:
-    return placement(x, height).after(UPRIGHT)
+def _drive(x: float) -> Placement:
+    """Under the axis of the rail, in front of which the rail stands."""
+    return placement(x, -RAIL_AXIS / 2, -RAIL_AXIS).after(UPRIGHT)
 
 
 def motions(loom: LoomDesign) -> Mapping[str, SceneMotion]:
