@@ -230,13 +230,9 @@ def used_first(chart: Chart) -> Chart:
         return chart
     moved = np.empty(len(order), dtype=np.uint8)
     moved[list(order)] = np.arange(len(order), dtype=np.uint8)
-    ordered = rearranged(
-        chart,
-        order,
-        recoded(chart.knots, moved),
-        overlay=chart.overlay.with_yarns(moved),
-        creel=chart.creel and tuple(chart.creel[yarn] for yarn in order),
-    )
+    creel = chart.creel and tuple(chart.creel[yarn] for yarn in order)
+    knots, overlay = recoded(chart.knots, moved), chart.overlay.with_yarns(moved)
+    ordered = rearranged(chart, order, knots, overlay=overlay, creel=creel)
     tally = chart.tally()
     ordered._tallies.append(replace(tally, counts=tuple(tally.counts[yarn] for yarn in order)))
     return ordered
