@@ -140,7 +140,19 @@ def test_a_loom_that_cannot_be_designed_leaves_chart_yarn_and_the_reason(
 ) -> None:
     for module in ("loom", "wishes"):
         monkeypatch.setattr(f"ilmek.jobs.{module}.design", cannot)
-    result = run("weave", MEDALLION, *SMALL, "--deadline", "90h", "--out", str(tmp_path / "out"), "--json", "-")
+    result = run(
+        "weave",
+        MEDALLION,
+        *SMALL,
+        "--least-detail",
+        "0%",
+        "--deadline",
+        "90h",
+        "--out",
+        str(tmp_path / "out"),
+        "--json",
+        "-",
+    )
     found = json.loads(result.stdout)
     assert (result.exit_code, found["weaves"], found["heads"], found["row_pitch_left"]) == (3, False, None, None)
     (reason,) = found["reasons"]

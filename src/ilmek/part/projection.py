@@ -26,7 +26,7 @@ from ilmek.units import mm, turn
 COARSE = 0.5 * mm
 """Deviation of outlines [m]."""
 
-DIRECTIONS = 32
+DIRECTIONS = 16
 """Directions in which the hull of a part is measured that turns out of the plane of the view."""
 
 _SAME = 1e-9
@@ -186,6 +186,9 @@ def _projected(part: Part, rotation: bytes) -> tuple[tuple[ComplexArray, ...], f
     seen = solid.transform(np.column_stack([turned, np.zeros(3)]))
     curves = [polygon[:, 0] + 1j * polygon[:, 1] for polygon in seen.project().simplify(COARSE / 2).to_polygons()]
     outer = tuple(curve for curve in curves if _area(curve) > 0)
+    if not outer:  # thinner than the deviation
+        flat = mesh.points @ turned[:2].T
+        outer = (hull(flat[:, 0] + 1j * flat[:, 1]),)
     return outer, float(seen.bounding_box()[5])
 
 

@@ -52,7 +52,6 @@ class FrameTask:
     across, along   force of the beat on the frame, across and along the columns [N]
     carried         mass on the columns [kg]
     heads           that ride on the rail                      head_mass, head_width  of one [kg, m]
-    rail            length of the rail [m]
     rail_spans      of the rail, between columns and posts     sag_limit  of the rail [m]
     stress_safety, buckling_safety   of a column, against yield and Euler's load      bow_limit  of a column [m]
     """
@@ -64,7 +63,6 @@ class FrameTask:
     lever: float
     carried: float
     heads: int
-    rail: float
     head_mass: float
     head_width: float
     rail_spans: int
@@ -172,7 +170,7 @@ def rail_sag(task: FrameTask, section: HollowSquare) -> float:
 
     Of a load w over the middle b of a span l: w b (8 l^3 - 4 l b^2 + b^3) / (384 E I); for b = l the whole span's.
     """
-    span, stiff = task.rail / task.rail_spans, STEEL.modulus * section.inertia
+    span, stiff = task.width / task.rail_spans, STEEL.modulus * section.inertia
     own = uniform.deflection_max(section.line_mass * GRAVITY, span, STEEL.modulus, section.inertia)
     number = min(task.heads, math.ceil(span / task.head_width))
     wide = min(number * task.head_width, span)

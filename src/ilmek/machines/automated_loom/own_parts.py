@@ -67,7 +67,7 @@ def frame_tree(loom: LoomDesign, frame: LoomFrame, axes: int, retreat: SceneMoti
 
     axes  of the control      retreat  motion of the rail to the front; default: it stands
     """
-    rail = member("rail", "rail of the heads", frame.rail, frame.task.rail)
+    rail = member("rail", "rail of the heads", frame.rail, frame.task.width)
     axis = Part(
         part_id("rail-axis"),
         "axes of the heads on their rail",
@@ -78,7 +78,7 @@ def frame_tree(loom: LoomDesign, frame: LoomFrame, axes: int, retreat: SceneMoti
         envelope=True,
     )
     middle = _rail_middle(loom)
-    along = placement(-frame.task.rail / 2, z=frame.rail.side / 2).after(ALONG_WIDTH)
+    along = placement(-frame.task.width / 2, z=frame.rail.side / 2).after(ALONG_WIDTH)
     before = placement(-frame.task.width / 2, z=-RAIL_AXIS / 2).after(ALONG_WIDTH)
     return Tree(
         (

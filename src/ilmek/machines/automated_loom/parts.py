@@ -89,7 +89,6 @@ def frame_task(loom: LoomDesign, carried: float) -> FrameTask:
         lever=abs(loom.side.column),
         carried=carried,
         heads=loom.heads,
-        rail=loom.task.width,
         head_mass=head_mass(loom.weaver),
         head_width=loom.head_width,
         rail_spans=math.ceil(wide / params.rail_span - 1e-9),

@@ -21,7 +21,7 @@ from ilmek.report import Animation, Axis, Dot, Drawing, MovingStroke, Reading, S
 from ilmek.timing.track import sample
 from ilmek.units import turn
 
-FRAMES = 120
+FRAMES = 72
 DRIVE = Axis("angle of the row", "deg")
 
 _LINES = 24
@@ -30,7 +30,7 @@ _LINES = 24
 _CLOTH = 0.12
 """Height of the cloth below the fell that is drawn, in widths of the cloth."""
 
-_LARGEST = 3
+_LARGEST = 2
 """Parts of a body that are drawn: those that are seen largest."""
 
 
