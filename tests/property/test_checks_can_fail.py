@@ -94,6 +94,7 @@ WITNESSES: Mapping[str, tuple[dict[str, str], ...]] = {
     ),
     "weft": (
         {"carrier": "shuttle", "crossed": "no"},
+        {"carrier": "rapier", "turn": "8mm"},
         {"carrier": "shuttle", "bobbin_diameter": "12mm"},
         {"cloth.yarns.friction": "2"},
         {"acceleration": "0.1m/s^2"},

@@ -97,6 +97,8 @@ picture = "medallion.png"
 size = "60x90cm"
 colours = 6
 due = 2026-12-18
+most_lost = "100%"
+least_detail = "0%"
 """
 LOOMS = """[[shift]]
 name = "day"
