@@ -9,7 +9,9 @@ Intervals whose bound lies below both the least distance so far and the required
 than `TOLERANCE`: a result above the required distance proves it for the whole turn, one below it is exact. This is done
 with the convex hulls of the parts first, then, where these come near, with their meshes [`fcl`]. Parts at distance 0
 may touch, or be through each other: the volume that they have in common [`manifold3d`] and its mean depth, twice the
-volume over the surface, tell which. What touches, a pin in its bore, is looked at `POSES` times.
+volume over the surface, tell which. What touches, a pin in its bore, is looked at `POSES` times. Of a part that is in
+its body `MANY` times or more the first, the middle and the last stand for all where it is compared with what does not
+move against it, or with another of these.
 """
 
 from collections.abc import Callable, Iterable, Iterator

@@ -2,10 +2,10 @@
 
 Columns: the cylinders at their ends are drawn together by all warps, in the worst of their three cases half of the pull
 on each column, off its axis by the radius e of the cylinder; half the weight of what the frame carries comes on top, P
-in all, as if at e too [`elements.columns`]. A beat by vertical axes presses along the columns, and adds to P. The
-force F of crank-rockers may have any direction and is taken across, at half height, half of it on each column: stress
-F h c / (8 I) and bow F h^3 / (96 E I) more, magnified by the compression by 1 / (1 - P / Euler's load)
-[Timoshenko and Gere, Theory of Elastic Stability, 1.11].
+in all, as if at e too [`elements.columns`]. A force along the columns would add
+to P; one F across, at half height, half of it on each column, gives stress F h c / (8 I) and bow F h^3 / (96 E I) more,
+magnified by the compression by 1 / (1 - P / Euler's load) [Timoshenko and Gere, Theory of Elastic Stability, 1.11]. The
+beats of the loom stand on posts of their own (`supports`).
 
 The rail: each span between columns and posts simply supported, its own weight and as many heads as find room side by
 side in its middle, which is the worst they can do.
@@ -21,6 +21,8 @@ import numpy as np
 from ilmek.elements.beam import uniform
 from ilmek.elements.columns import STEEL, HollowSquare, ascending, eccentric, euler
 from ilmek.elements.materials import GRAVITY
+from ilmek.part.part import Part
+from ilmek.part.shapes import square_tube
 from ilmek.records import computed, record, result
 from ilmek.report import Alternative, Check, Choice, at_least, at_most, choose
 from ilmek.units import mm
@@ -38,6 +40,12 @@ FOOT = LEVELLING[1] + PAD[1]
 def part_id(name: str) -> str:
     """Id of a part or body of the loom itself."""
     return f"automated-loom/{name}"
+
+
+def member(name: str, title: str, section: HollowSquare, length: float) -> Part:
+    """A piece of square hollow section, cut to length and welded."""
+    shape = square_tube(section.side, section.wall, length)
+    return Part(part_id(name), title, "welded frame", section.name, shape, STEEL)
 
 
 _COLUMN = (part_id("column"),)

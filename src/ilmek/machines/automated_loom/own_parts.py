@@ -10,8 +10,8 @@ from ilmek.elements.motors import smallest_motor
 from ilmek.machines.arrangement.side_view import RETREAT
 from ilmek.machines.automated_loom.cyclogram import HEADS
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.frame import LoomFrame, part_id
-from ilmek.machines.automated_loom.standing_frame import member, standing_frame
+from ilmek.machines.automated_loom.frame import LoomFrame, member, part_id
+from ilmek.machines.automated_loom.standing_frame import standing_frame
 from ilmek.machines.weaver import head_mass
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.part import catalogue

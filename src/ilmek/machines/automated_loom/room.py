@@ -26,6 +26,7 @@ from ilmek.machines.automated_loom.bodies import (
     knot_bodies,
     row_bodies,
 )
+from ilmek.machines.automated_loom.brackets import GUIDED
 from ilmek.machines.automated_loom.cyclogram import EVEN, ODD
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import part_id as loom_part
@@ -44,9 +45,6 @@ from ilmek.report import Check, Table, at_least, columns
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.timing.track import joints
 from ilmek.units import deg, mm
-
-GUIDED = "guide-cams"
-"""The beat with which the cams go down."""
 
 HORIZON = 50 * mm
 """Bodies that are always farther apart are not reported [m]."""

@@ -11,13 +11,13 @@ from ilmek.elements.columns import STEEL, HollowSquare
 from ilmek.elements.tubes import TUBES, Tube
 from ilmek.machines.automated_loom.brackets import ROOM, Bracket, Brackets, CarriedBeam, brackets_of, compensator_beams
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.frame import FOOT, LEVELLING, PAD, LoomFrame, part_id
+from ilmek.machines.automated_loom.frame import FOOT, LEVELLING, PAD, LoomFrame, member, part_id
 from ilmek.machines.automated_loom.supports import base_section, post_depth, support_bodies
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, UPRIGHT, Placement, placement
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Placed, Prism, Sum, box, rectangle, square_tube, stepped, tube
+from ilmek.part.shapes import Placed, Prism, Sum, box, rectangle, stepped, tube
 from ilmek.part.tree import Occurrence, RigidBody
 from ilmek.units import format_quantity, mm
 
@@ -210,9 +210,3 @@ def _control(loom: LoomDesign, frame: LoomFrame, made: Brackets, axes: int) -> I
 
 def _placed(part: Part, positions: Iterable[Placement]) -> Occurrence:
     return Occurrence(part, tuple(positions))
-
-
-def member(name: str, title: str, section: HollowSquare, length: float) -> Part:
-    """A piece of square hollow section, cut to length and welded."""
-    shape = square_tube(section.side, section.wall, length)
-    return Part(part_id(name), title, "welded frame", section.name, shape, STEEL)

@@ -11,19 +11,17 @@ from collections.abc import Iterator
 from ilmek.elements.columns import SECTIONS, STEEL, HollowSquare, ascending, euler
 from ilmek.machines.automated_loom.brackets import ROOM, brackets_of
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.frame import FOOT, LoomFrame, part_id
+from ilmek.machines.automated_loom.frame import FOOT, LoomFrame, member, part_id
 from ilmek.machines.beat_up.beam import POST, BeatBeam
 from ilmek.machines.beat_up.carriage import beam_corner
 from ilmek.machines.beat_up.design import BeatUp
 from ilmek.machines.hammer.tree import beam_of
 from ilmek.machines.weft import Shuttle
-from ilmek.part.part import Part
 from ilmek.part.placement import ALONG_WIDTH, UPRIGHT, placement
-from ilmek.part.shapes import square_tube
 from ilmek.part.tree import Occurrence
 from ilmek.records import record
 from ilmek.report import Check, at_least, at_most
-from ilmek.units import format_quantity, mm
+from ilmek.units import mm
 
 _LEAST = 0.05 * mm
 """Shorter arms are left out [m]."""
@@ -44,7 +42,7 @@ TUBE_SAG = 0.5 * mm
 @record
 class LoomSupports:
     """Section, height [m] and force [N] of a post, whether it is across; section of the tube, None where there is none,
-    its span [m] and the pull on it [N].
+    its span between the middles of the columns [m] and the pull on it [N].
     """
 
     post: HollowSquare
@@ -70,12 +68,15 @@ def supports(loom: LoomDesign, frame: LoomFrame) -> LoomSupports:
     force = beam.carried / 2 if across else beam.carried
     posts = (one for one in ascending() if all(check.ok for check in _post_checks(one, height, force, across=across)))
     post = next(posts, ascending()[-1])
-    pull = made.coupling.pull if isinstance(made, Shuttle) else 0.0
+    pull, span = (
+        made.coupling.pull if isinstance(made, Shuttle) else 0.0,
+        2 * brackets_of(loom).face + frame.column.side,
+    )
     tube = None
     if isinstance(made, Shuttle):
-        sections = (one for one in ascending() if all(c.ok for c in _tube_checks(one, loom.task.width, pull)))
+        sections = (one for one in ascending() if all(c.ok for c in _tube_checks(one, span, pull)))
         tube = next(sections, ascending()[-1])
-    return LoomSupports(post, height, force, across, tube, loom.task.width, pull)
+    return LoomSupports(post, height, force, across, tube, span, pull)
 
 
 def beat_beam(loom: LoomDesign) -> tuple[BeatBeam, complex]:
@@ -160,7 +161,7 @@ def support_bodies(loom: LoomDesign, frame: LoomFrame, face: float) -> Iterator[
     aside = loom.task.width / 2 + POST - held.post.side / 2
     ends = (-aside, aside)
     yield Occurrence(
-        _member("beat-post", "post of the beat", held.post, held.height),
+        member("beat-post", "post of the beat", held.post, held.height),
         tuple(placement(x, _bottom(loom, frame), post_depth(loom)).after(UPRIGHT) for x in ends),
     )
     if held.tube is not None:
@@ -173,14 +174,9 @@ def _tube(loom: LoomDesign, frame: LoomFrame, section: HollowSquare, face: float
     depth = middle.real + loom.weft.bodies.guide.rear - section.side / 2
     height, reach = middle.imag - section.side / 2, face + section.side
     along = placement(-reach, height, depth).after(ALONG_WIDTH)
-    yield Occurrence(_member("weft-tube", "tube behind the shuttle's bar", section, 2 * reach), (along,))
+    yield Occurrence(member("weft-tube", "tube behind the shuttle's bar", section, 2 * reach), (along,))
     front = loom.side.column + frame.column.side / 2
     gap, beside = depth - section.side / 2 - front, face + section.side / 2
     if gap > _LEAST:
-        arm = _member("weft-arm", "arm of the tube", section, gap)
+        arm = member("weft-arm", "arm of the tube", section, gap)
         yield Occurrence(arm, tuple(placement(x, height, front) for x in (-beside, beside)))
-
-
-def _member(name: str, title: str, section: HollowSquare, length: float) -> Part:
-    size = f"{section.name}, {format_quantity(length, 'mm', 4)}"
-    return Part(part_id(name), title, "welded frame", size, square_tube(section.side, section.wall, length), STEEL)

@@ -34,7 +34,7 @@ EDGE, WEB = 6 * mm, 0.3 * mm
 """From a guide to the edge of the face, and between two guides, at least [m]; assumed by this project."""
 
 BRACKET_WALL = 5 * mm
-"""Wall of the bracket [m]; assumed by this project, its stress is checked."""
+"""Wall of the bracket [m]; assumed by this project."""
 
 
 def sheet(weaver: Weaver) -> float:

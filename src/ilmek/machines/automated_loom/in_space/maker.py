@@ -85,9 +85,3 @@ def motion(
         np.zeros((len(angle), 3)) if shift is None else shift,
         still if rotation is None else rotation,
     )
-
-
-def in_side_view(points: np.ndarray) -> Float[np.ndarray, "points 3"]:
-    """Points of the side view [m] in the middle of the width: (0, up, front)."""
-    points = np.atleast_1d(points)
-    return np.stack([np.zeros(len(points)), points.imag, points.real], axis=1)
