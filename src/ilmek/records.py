@@ -26,9 +26,12 @@ import typing
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, fields, is_dataclass, replace
 from functools import cache
-from typing import Any, Generic, TypeVar, dataclass_transform, overload
+from typing import Any, Generic, TypeAlias, TypeVar, dataclass_transform, overload
 
 T = TypeVar("T")
+
+JsonObject: TypeAlias = dict[str, Any]
+"""An object of JSON, as results become: its writer knows the kind of each value, no type of Python says it."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,7 @@ from __future__ import annotations  # so that `help` shows the aliases
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from ilmek.arguments import Arguments, Quantity
 from ilmek.arrays import Rgb
@@ -27,6 +27,7 @@ from ilmek.jobs.order import QUALITY, read_groups, read_order, read_size
 from ilmek.jobs.weave import WeaveResult
 from ilmek.params import Setting
 from ilmek.progress import SILENT, Progress
+from ilmek.records import JsonObject
 
 T = TypeVar("T")
 
@@ -196,7 +197,7 @@ def weave(
     given = Arguments("a carpet")
     if "yarn_file" in settings:
         raise ParameterError("unknown parameter 'yarn_file' of a carpet", do="did you mean 'yarns'?")
-    further: dict[str, Any] = settings
+    further: JsonObject = settings
     order = read_order(
         given.path("picture", picture),
         size=_optional(given.text, "size", size),

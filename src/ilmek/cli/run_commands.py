@@ -1,7 +1,6 @@
 """What `ilmek status`, `hold`, `resume` and `stop` share."""
 
 from pathlib import Path
-from typing import Any
 
 import click
 
@@ -9,6 +8,7 @@ from ilmek.cli.call_outputs import call_outputs
 from ilmek.cli.options import json_option
 from ilmek.cli.terminal import show_pairs
 from ilmek.jobs.status import give, run_status, status_in_words
+from ilmek.report.json import Json
 
 journal_option = click.option(
     "--journal", type=click.Path(path_type=Path), required=True, metavar="DIR", help="Folder of the run's journal."
@@ -40,7 +40,7 @@ def run_command(name: str, text: str) -> click.Command:
 
 def show_status(journal: Path, json_to: str | None, command: str) -> None:
     """Give a command, and show the state of a run."""
-    found: dict[str, Any] = {}
+    found: dict[str, Json] = {}
     with call_outputs({"--json": json_to}, bar=False) as call:
         give(journal, command)
         found = run_status(journal)

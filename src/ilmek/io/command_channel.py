@@ -14,9 +14,10 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 from ilmek.errors import LoomError, shortened
+from ilmek.records import JsonObject
 from ilmek.report import Json
 
 LONGEST_REQUEST = 500
@@ -107,7 +108,7 @@ class CommandServer:
         self._clients.remove(client)
 
 
-def request(path: Path, command: str) -> dict[str, Any] | None:
+def request(path: Path, command: str) -> JsonObject | None:
     """The answer of the controller that listens at a socket; None if there is none.
 
     Raises LoomError for a controller that does not answer in ANSWER_TIME, and for an answer that cannot be read.

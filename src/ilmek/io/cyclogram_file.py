@@ -35,15 +35,15 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 from ilmek.cams.laws import LAWS
 from ilmek.errors import MechanismError, ParameterError
 from ilmek.io.cyclogram_entries import CyclogramEntry
 from ilmek.io.data_text import DataText, parse_data, read_data
 from ilmek.io.output import write_file
-from ilmek.io.schema import SourceText
+from ilmek.io.schema import SourceText, Table
 from ilmek.io.toml_text import toml_section, toml_text, written_quantity
+from ilmek.records import JsonObject
 from ilmek.report import Json
 from ilmek.timing.crossings import passing_share
 from ilmek.timing.cyclogram import (
@@ -97,7 +97,7 @@ def cyclogram_of_data(data: Mapping[str, object], *, name: str = "cyclogram") ->
     return _read(DataText(data, {}, ""), name)
 
 
-def timed_data(data: Mapping[str, Any], cyclogram: Cyclogram) -> dict[str, Any]:
+def timed_data(data: Table, cyclogram: Cyclogram) -> JsonObject:
     """The data of a file with the timing of another cyclogram of the same tracks; all else is kept as it is written.
 
     Changed are the period, start and end of motions, and the angles of events that follow no motion; an angle of an
@@ -295,7 +295,7 @@ def _presence(entry: CyclogramEntry, units: Mapping[str, str]) -> Presence:
     return Zone(track, *ends, entry.text("name", ""))
 
 
-def cyclogram_data(cyclogram: Cyclogram) -> dict[str, Any]:
+def cyclogram_data(cyclogram: Cyclogram) -> JsonObject:
     """The cyclogram as the data of a file."""
     units = cyclogram.units
     data: dict[str, Json] = {
@@ -351,7 +351,7 @@ def _events_data(events: Sequence[TrackEvent]) -> dict[str, Json]:
     return found
 
 
-def _event_data(event: TrackEvent) -> dict[str, Any]:
+def _event_data(event: TrackEvent) -> JsonObject:
     rides = {"on": event.on, "share": event.share} if event.on else {}
     return {"angle": written_quantity(event.angle, "deg"), **rides}
 

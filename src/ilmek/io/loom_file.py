@@ -11,9 +11,9 @@ from typing import Any
 from ilmek.errors import IlmekError, LoomError
 from ilmek.io.data_text import DataText, read_data
 from ilmek.io.line_numbers import Path as KeyPath
-from ilmek.io.schema import key_faults, shown
+from ilmek.io.schema import Table, key_faults, shown
 from ilmek.params.parameter import LONGEST_TEXT
-from ilmek.records import record
+from ilmek.records import JsonObject, record
 
 LARGEST = 2_000_000
 """Largest size of a loom file [bytes]; a loom with all its machines has 100,000."""
@@ -35,9 +35,9 @@ class LoomFile:
     """
 
     name: str
-    parameters: Mapping[str, Any]
-    machines: Mapping[str, Mapping[str, Any]]
-    results: Mapping[str, Any]
+    parameters: Table
+    machines: Mapping[str, Table]
+    results: Table
 
 
 def read_loom_file(path: Path, machine: str) -> LoomFile:
@@ -51,7 +51,7 @@ def read_loom_file(path: Path, machine: str) -> LoomFile:
         source.refuse(("machine",), LoomError(f"{shown(data['machine'])} is no loom", allowed=machine))
     machines = source.table(data.get("machines", {}), ("machines",))
     results = dict(source.table(data.get("results", {}), ("results",)))
-    parameters: dict[str, Mapping[str, Any]] = {}
+    parameters: dict[str, Table] = {}
     for name, inner in machines.items():
         at: KeyPath = ("machines", name)
         for key, fault in key_faults(source.table(inner, at), KNOWN, needs=("parameters",)):
@@ -78,13 +78,13 @@ class _Source:
         given = f"{self.name}, line {self.read.lines[at]}{f', {key}' if key else ''}: {error.given}"
         raise LoomError(given, allowed=error.allowed, do=error.do) from None
 
-    def table(self, value: Any, path: KeyPath) -> dict[str, Any]:
+    def table(self, value: Any, path: KeyPath) -> JsonObject:
         """A table of the file."""
         if not isinstance(value, dict):
             self.refuse(path, LoomError(f"{shown(value)} is not a table"))
         return dict(value)
 
-    def settings(self, value: object, path: KeyPath) -> dict[str, Any]:
+    def settings(self, value: object, path: KeyPath) -> JsonObject:
         """A table of plain values: numbers, texts, yes or no, null."""
         found = self.table(value, path)
         for key, one in found.items():

@@ -34,7 +34,6 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from importlib import resources
 from pathlib import Path
-from typing import Any
 
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.own_machine import FlatMember, OwnMachine
@@ -50,7 +49,7 @@ from ilmek.io.mechanism.tasks import forward_of, paths_of, servo_of, study_of, t
 from ilmek.io.mechanism.values import named_values
 from ilmek.io.mechanism.writing import machine_data
 from ilmek.io.output import write_file
-from ilmek.io.schema import Reader, Schema, SourceText
+from ilmek.io.schema import Reader, Schema, SourceText, Table
 from ilmek.io.toml_text import toml_text
 from ilmek.linkage.model import Mechanism
 from ilmek.linkage.structure import Plan, plan
@@ -138,7 +137,7 @@ def schema() -> Schema:
     return found
 
 
-def _machine(data: Mapping[str, Any], source: SourceText) -> OwnMachine:
+def _machine(data: Table, source: SourceText) -> OwnMachine:
     """The records from data that satisfy the schema."""
     mechanism = mechanism_of(data, source)
     if len(mechanism.joints) > MOST_ENTRIES:
@@ -165,9 +164,7 @@ def _machine(data: Mapping[str, Any], source: SourceText) -> OwnMachine:
     )
 
 
-def _masses(
-    data: Mapping[str, Any], mechanism: Mechanism, source: SourceText
-) -> tuple[dict[str, FlatMember], dict[str, Inertia]]:
+def _masses(data: Table, mechanism: Mechanism, source: SourceText) -> tuple[dict[str, FlatMember], dict[str, Inertia]]:
     """Sections and inertias of the bodies."""
     bodies = members_of(data["joints"])
     joints = {name: [joint for joint, own in bodies.items() if name in own] for name in data["bodies"]}

@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -13,6 +12,7 @@ from ilmek.carpet.sizes import CarpetSize, parse_size
 from ilmek.carpet.yarn import Yarn
 from ilmek.errors import CarpetError
 from ilmek.io.recipe_file import RecipeFile
+from ilmek.io.schema import Table
 from ilmek.io.toml_text import toml_list, toml_section, toml_text
 from ilmek.io.yarn_file import WOOL, default_yarns
 from ilmek.report import Json
@@ -58,7 +58,7 @@ def recipe_text(made: RecipeFile, folder: Path) -> str:
     return "\n\n".join(parts) + "\n"
 
 
-def _edit_table(table: Mapping[str, Any]) -> str:
+def _edit_table(table: Table) -> str:
     """A table of edits, one line for each."""
     keys = {key: value for key, value in table.items() if key != "lines"}
     return "\n".join([toml_section(("edits",), keys, many=True), toml_list("lines", table["lines"])])
@@ -97,7 +97,7 @@ def _same(one: CarpetSize, other: CarpetSize) -> bool:
     return (one.width, one.length) == (other.width, other.length)
 
 
-def _yarn(yarn: Yarn) -> Mapping[str, Any]:
+def _yarn(yarn: Yarn) -> Table:
     """A yarn as an entry of a yarn list."""
     lab = tuple(srgb_to_lab(np.array(yarn.srgb, dtype=np.uint8)).tolist())
     colour: dict[str, Json] = {"srgb": yarn.hex} if lab == yarn.lab else {"lab": list(yarn.lab)}

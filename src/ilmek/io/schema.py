@@ -18,6 +18,9 @@ from ilmek.units import GREATEST, parse_quantity, read_number, real_number
 
 Schema: TypeAlias = Mapping[str, Any]
 
+Table: TypeAlias = Mapping[str, Any]
+"""A table of a file that has passed its schema, which says the keys and the kinds of their values."""
+
 _NAMES = {"object": "a table", "array": "a list", "string": "text in quotes", "boolean": "true or false"}
 _TYPES: Mapping[str, type] = {"object": dict, "array": list, "string": str, "boolean": bool}
 

@@ -14,6 +14,7 @@ from tomlkit.exceptions import TOMLKitError
 from tomlkit.items import AoT, Array
 
 from ilmek.errors import ParameterError
+from ilmek.io.schema import Table
 from ilmek.io.toml_text import toml_text
 
 MOST_MERGED = 60_000
@@ -120,7 +121,7 @@ def _made(value: object) -> Any:
     return _inline(value)
 
 
-def _heading(value: Mapping[str, Any]) -> Any:
+def _heading(value: Table) -> Any:
     table = tomlkit.table()
     for key, inner in value.items():
         deep = isinstance(inner, Mapping) and any(isinstance(one, Mapping) for one in inner.values())

@@ -14,9 +14,9 @@ points = {}
 import json
 import re
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 from ilmek.errors import UnitError
+from ilmek.io.schema import Table
 from ilmek.units import in_bounds, parse_quantity, parse_unit
 
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
@@ -59,7 +59,7 @@ def toml_list(key: str, entries: Sequence[object]) -> str:
     return "\n".join([f"{_key(key)} = [", *(f"    {_value(entry)}," for entry in entries), "]"])
 
 
-def _tables(heading: str, table: Mapping[str, Any]) -> list[str]:
+def _tables(heading: str, table: Table) -> list[str]:
     """A table under its heading; entries that contain tables follow, each under its own heading."""
     deep = {
         key: value

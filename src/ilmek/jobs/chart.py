@@ -39,7 +39,7 @@ from ilmek.jobs.yarn_choice import (
 )
 from ilmek.jobs.yarn_warnings import yarn_warnings
 from ilmek.progress import SILENT, Progress
-from ilmek.records import record
+from ilmek.records import JsonObject, record
 from ilmek.report import Check, Json, plain, verdict_json
 from ilmek.report.left_out import made_or_left_out
 from ilmek.viz.carpet_page import CarpetPage, carpet_page
@@ -317,8 +317,8 @@ def chart_json(charted: ChartResult, files: Sequence[str]) -> dict[str, Json]:
 
 
 def job_json(
-    job: str, parameters: dict[str, Any], results: dict[str, Any], *, checks: Sequence[Check], **more: Any
-) -> dict[str, Any]:
+    job: str, parameters: JsonObject, results: JsonObject, *, checks: Sequence[Check], **more: Any
+) -> JsonObject:
     """The JSON of a job: `job`, its verdict, `parameters`, `results`, `checks`, and `more` (notes, files ...).
 
     Each result is given twice: under `results`, as in a machine's report, and at the top level, where a reader of one

@@ -4,7 +4,6 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -30,7 +29,7 @@ from ilmek.io.rendered.resolution import Rendering
 from ilmek.jobs.order import GROUPS, CarpetOrder, ResolvedOrder, check_sheets
 from ilmek.jobs.stages import ANEW, Stages
 from ilmek.progress import SILENT, Progress
-from ilmek.records import record
+from ilmek.records import JsonObject, record
 from ilmek.units import counted
 
 SHOWN = 1000
@@ -355,7 +354,7 @@ def _keeps_knots(order: CarpetOrder, chart: Chart) -> bool:
     if reading.least_patch == 0:
         reading = replace(reading, least_patch=None)
     changed = {"reading": reading, "fit": replace(order.fit, ground=None)}  # all cells of a chart have knots
-    given: dict[str, Any] = {group: getattr(order, group) for group in _OF_THE_KNOTS} | changed
+    given: JsonObject = {group: getattr(order, group) for group in _OF_THE_KNOTS} | changed
     untouched = all(given[group] == GROUPS[group]() for group in _OF_THE_KNOTS)
     return untouched and has_grid((chart.rows, chart.columns), order.size, order.quality)
 

@@ -4,7 +4,6 @@ import itertools
 import random
 from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -14,7 +13,7 @@ from ilmek.io.programme_file import ProgrammeFile, open_programme
 from ilmek.loom.account import stop_duration
 from ilmek.loom.operations import RowOperations, Stop
 from ilmek.progress import SILENT, Progress
-from ilmek.records import record
+from ilmek.records import JsonObject, record
 from ilmek.report import Json
 
 
@@ -42,7 +41,7 @@ class InspectionResult:
         first = self.ties[0].pairs
         return len(first) == 0 or bool(first[0] <= first[-1])
 
-    def as_json(self) -> dict[str, Any]:
+    def as_json(self) -> JsonObject:
         """The programme's statistics and the row, SI.
 
         Rows count from 1 at the bottom and pairs of warps (one knot each) from 1 at the left, as on the printed chart.

@@ -4,7 +4,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
 
 from ilmek.carpet.pile import knot_length
 from ilmek.carpet.recipe.edits import located
@@ -33,6 +32,7 @@ from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, LoomDesi
 from ilmek.params import Setting
 from ilmek.progress import SILENT, Progress
 from ilmek.report import Check, Report, Result, at_most, must
+from ilmek.report.json import Json
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +57,7 @@ class LoomOrder:
         """Time for the whole carpet [s]; None: any."""
         return self.wishes.deadline
 
-    def as_dict(self) -> dict[str, Any]:
+    def as_dict(self) -> dict[str, Json]:
         """The order as plain data, SI."""
         wishes = self.wishes
         return {

@@ -1,9 +1,10 @@
 """The catalogue of machines, and the parameters of one of them."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ilmek.machines import SUMMARIES
+from ilmek.records import JsonObject
 from ilmek.units import si_unit
 
 if TYPE_CHECKING:
@@ -25,7 +26,7 @@ class MachineForm:
     parameters: "tuple[Parameter, ...]"
     machines: tuple[str, ...] = ()
 
-    def as_json(self) -> dict[str, Any]:
+    def as_json(self) -> JsonObject:
         """The parameters as plain data: default and bounds in SI, their unit, and the unit in which they are shown."""
         parameters = [
             {name: getattr(parameter, name) for name in FIELDS}

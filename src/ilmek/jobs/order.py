@@ -8,7 +8,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
 
 from ilmek.carpet.design import knot_grid
 from ilmek.carpet.fitting import FitParams
@@ -24,9 +23,11 @@ from ilmek.elements.knot_kinds import parse_knot
 from ilmek.errors import CarpetError, ParameterError, did_you_mean
 from ilmek.io.chart.sheets import cut, require_wall
 from ilmek.io.recipe_file import LoomKeys, RecipeFile, read_recipe, recipe_of_data
+from ilmek.io.schema import Table
 from ilmek.io.yarn_file import default_yarns, read_yarns
 from ilmek.jobs.carpet_files import FileParams
 from ilmek.params import Parameter, Params, Setting, declared
+from ilmek.records import JsonObject
 from ilmek.viz.carpet_picture import check_carpet_width
 
 SIZE, QUALITY, KNOT = "seccade", "25x25/dm", "symmetric"
@@ -122,7 +123,7 @@ class ResolvedOrder:
         names = {yarn.name for yarn in self.yarns}
         return replace(self, yarns=(*self.yarns, *(yarn for yarn in yarns if yarn.name not in names)))
 
-    def as_dict(self) -> dict[str, Any]:
+    def as_dict(self) -> JsonObject:
         """The order as plain data, SI."""
         return {
             "picture": str(self.order.picture),
@@ -159,7 +160,7 @@ def read_order(
     if size is not None or keys.keys() & SIDES:
         base = replace(base, size=None)
         sides = {**dict.fromkeys(SIDES), **keys, **sides}
-    given: dict[str, Any] = {
+    given: JsonObject = {
         "size": sized,
         "quality": None if quality is None else parse_quality(quality),
         "knot": None if knot is None else parse_knot(knot),
@@ -192,7 +193,7 @@ def read_size(size: str | CarpetSize, settings: Mapping[str, Setting]) -> tuple[
     return stated, {**sides}
 
 
-def order_of_data(path: Path, data: Mapping[str, Any]) -> CarpetOrder:
+def order_of_data(path: Path, data: Table) -> CarpetOrder:
     """The order of a recipe from its data, as `read_order` of a file at this path that holds them."""
     found = recipe_of_data(data, path, recipe_parameters())
     with located(str(path)):
@@ -248,11 +249,11 @@ def recipe_key(parameter: Parameter) -> str:
     return (parameter.alias or parameter.name).replace("-", "_")
 
 
-def _given(settings: Mapping[str, object]) -> dict[str, Any]:
+def _given(settings: Mapping[str, object]) -> JsonObject:
     return {name: setting for name, setting in settings.items() if setting is not None}
 
 
-def read_groups(settings: Mapping[str, Setting]) -> dict[str, Any]:
+def read_groups(settings: Mapping[str, Setting]) -> JsonObject:
     """The groups of parameters from settings by name or by option; None: the default. Raises ParameterError.
 
     >>> read_groups({"read": "photo"})["reading"].reading

@@ -4,7 +4,6 @@ import time
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 from ilmek.errors import LoomError, ParameterError, did_you_mean
 from ilmek.factory.heuristic import first_plan
@@ -19,7 +18,7 @@ from ilmek.jobs.chart import job_json
 from ilmek.jobs.order import recipe_parameters
 from ilmek.jobs.plan_inputs import FactoryInputs, PlannedOrder, read_inputs
 from ilmek.progress import SILENT, Progress
-from ilmek.records import record
+from ilmek.records import JsonObject, record
 from ilmek.report import Check, Json, at_most
 from ilmek.units import g, minute, parse_quantity
 
@@ -222,7 +221,7 @@ def rescue_text(done: PlanResult, rescue: Rescue) -> str:
     return texts[rescue.kind]
 
 
-def plan_results(done: PlanResult) -> dict[str, Any]:
+def plan_results(done: PlanResult) -> JsonObject:
     """The results by their JSON names, SI; money in the currency, times as local dates."""
     solved, plan = done.solved, done.plan
     return {
@@ -311,7 +310,7 @@ def _rescue_json(done: PlanResult, rescue: Rescue) -> dict[str, Json]:
     }
 
 
-def purchase_json(done: PlanResult, one: Purchase) -> dict[str, Any]:
+def purchase_json(done: PlanResult, one: Purchase) -> JsonObject:
     """A yarn to buy: masses [kg], price, when it is needed, and when to order it."""
     factory = done.inputs.factory
     yarn = factory.yarns[one.yarn]
@@ -349,7 +348,7 @@ def _yarn_price(done: PlanResult) -> float | None:
     return sum(known) if len(known) == len(prices) else None
 
 
-def plan_json(done: PlanResult, files: Sequence[str] = ()) -> dict[str, Any]:
+def plan_json(done: PlanResult, files: Sequence[str] = ()) -> JsonObject:
     """The JSON of the job."""
     parameters = {
         "orders": str(done.inputs.orders_file.path),

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 from datetime import datetime, timedelta
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -30,7 +29,7 @@ from ilmek.jobs.weave import overlay_checks
 from ilmek.jobs.wishes import Wishes
 from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, design
 from ilmek.progress import SILENT, Progress
-from ilmek.records import record
+from ilmek.records import JsonObject, record
 from ilmek.report import Check, must
 from ilmek.units import g, hour, minute
 
@@ -153,7 +152,7 @@ def _planned_orders(
 
 def _of_picture(entry: FactoryOrder, looms: Sequence[ExistingLoom]) -> PlannedOrder:
     assert entry.picture is not None
-    settings: dict[str, Any] = dict(entry.carpet)
+    settings: JsonObject = dict(entry.carpet)
     order = read_order(entry.picture, yarn_file=entry.yarns, **settings)
     charted = make_charted(order)
     fits: dict[int, LoomFit] = {}

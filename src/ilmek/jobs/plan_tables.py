@@ -1,14 +1,14 @@
 """The tables of a plan, for the terminal and for its page."""
 
 from datetime import datetime
-from typing import Any
 
 from ilmek.jobs.plan import PlanResult, plan_results
+from ilmek.records import JsonObject
 from ilmek.units import hour
 from ilmek.viz.plan_page import PlanTable
 
 
-def order_table(found: dict[str, Any]) -> PlanTable:
+def order_table(found: JsonObject) -> PlanTable:
     """The carpets of the results of a plan, in the order of the file."""
     rows = []
     for order in found["orders"]:
@@ -22,7 +22,7 @@ def order_table(found: dict[str, Any]) -> PlanTable:
     return PlanTable("Orders", headings, tuple(rows), (5, 6))
 
 
-def measure_table(found: dict[str, Any]) -> PlanTable:
+def measure_table(found: JsonObject) -> PlanTable:
     """What would save the late orders: each measure with the cost of its plan."""
     rows = tuple(
         (order["name"], one["text"], f"{one['cost']:,.2f}")
@@ -33,7 +33,7 @@ def measure_table(found: dict[str, Any]) -> PlanTable:
     return PlanTable("What would save late orders", headings, rows, (2,))
 
 
-def yarn_table(found: dict[str, Any]) -> PlanTable:
+def yarn_table(found: JsonObject) -> PlanTable:
     """The yarn to buy for all orders together."""
     rows = tuple(
         (
@@ -50,7 +50,7 @@ def yarn_table(found: dict[str, Any]) -> PlanTable:
     return PlanTable("Yarn to buy", headings, rows, (1, 2, 3, 4))
 
 
-def loom_table(found: dict[str, Any]) -> PlanTable:
+def loom_table(found: JsonObject) -> PlanTable:
     """The work of each loom."""
     rows = tuple(
         (

@@ -2,11 +2,10 @@
 
 import time
 from collections.abc import Sequence
-from typing import Any
 
 from ilmek.errors import ParameterError
 from ilmek.progress import SILENT, Progress
-from ilmek.records import record
+from ilmek.records import JsonObject, record
 from ilmek.verification import PAPERS, Verdict, reproduce
 
 
@@ -17,7 +16,7 @@ class ReproductionResult:
     verdicts: dict[str, tuple[Verdict, ...]]
     seconds: float
 
-    def as_json(self) -> list[dict[str, Any]]:
+    def as_json(self) -> list[JsonObject]:
         """Every verdict as plain data, in SI."""
         return [verdict.as_json() for of_paper in self.verdicts.values() for verdict in of_paper]
 

@@ -23,6 +23,7 @@ from ilmek.loom.twin.seed_runs import MOST_SEEDS
 from ilmek.loom.twin.statistics import CarpetStatistics
 from ilmek.params import Setting
 from ilmek.progress import SILENT, Progress
+from ilmek.records import JsonObject
 from ilmek.report import Report
 
 GREATEST_SEED = 2**53
@@ -72,7 +73,7 @@ class SimulationResult:
     report: Report
     files: tuple[str, ...] = ()
 
-    def as_json(self) -> dict[str, Any]:
+    def as_json(self) -> JsonObject:
         """The JSON of the job: the report's, and the files."""
         return {**self.report.as_json(), "job": "simulate", "files": list(self.files)}
 

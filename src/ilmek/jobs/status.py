@@ -1,7 +1,6 @@
 """The state of a run from another process: of the controller that runs, else of its journal; and commands to it."""
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -11,6 +10,7 @@ from ilmek.io.journal_folder import CHANNEL, journal_bytes, require_journal, run
 from ilmek.loom.control.journal import RecordKind, read_journal
 from ilmek.loom.control.packml import PackState, state_name
 from ilmek.loom.operations import RowEnd
+from ilmek.records import JsonObject
 from ilmek.report import Json
 from ilmek.units import BILLION, format_quantity
 
@@ -40,7 +40,7 @@ def give(folder: Path, command: str) -> None:
         raise LoomError(f"{command} is refused: {found.get('reason', '')}")
 
 
-def status_in_words(found: dict[str, Any]) -> list[tuple[str, str]]:
+def status_in_words(found: JsonObject) -> list[tuple[str, str]]:
     """A state as names and values."""
     process = f"process {found['process']}" if found["running"] else "none runs"
     pairs = [("controller", process), ("state", str(found["state"]))]

@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 from ilmek.carpet.bill import yarn_bill
 from ilmek.carpet.chart import Chart
@@ -19,6 +18,7 @@ from ilmek.jobs.yarn_warnings import currency_warning
 from ilmek.loom.explicit import CompiledProgramme
 from ilmek.loom.programme import Programme
 from ilmek.progress import SILENT, Progress
+from ilmek.records import JsonObject
 from ilmek.report import NEAREST, Check, Json, Report, must, verdict_json
 from ilmek.report.left_out import made_or_left_out
 from ilmek.units import counted, format_quantity, hour
@@ -154,7 +154,7 @@ def _write_programme(woven: WeaveResult, folder: Path, progress: Progress) -> tu
     return ("programme.ilmek",)
 
 
-def weave_results(woven: WeaveResult) -> dict[str, Any]:
+def weave_results(woven: WeaveResult) -> JsonObject:
     """The results of the job by their JSON names, SI; those of the loom are null where it cannot be designed."""
     programme, made = woven.loomed.programme, woven.loomed.design
     return {

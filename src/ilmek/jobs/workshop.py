@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from types import ModuleType
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from ilmek.errors import OutputError, ParameterError, UnitError
 from ilmek.io.cam_tables import FORMATS
@@ -16,8 +16,9 @@ from ilmek.io.cam_tables.sampling import sample, stroke
 from ilmek.io.dxf import read_dxf, write_dxf
 from ilmek.io.json_file import write_json
 from ilmek.io.output import Outputs, joined
+from ilmek.io.schema import Table
 from ilmek.plane.contours import area
-from ilmek.records import record
+from ilmek.records import JsonObject, record
 from ilmek.report import CamTable, Check, Json, Plate, Report, WorkPiece, at_most
 from ilmek.report.left_out import made_or_left_out
 from ilmek.units import deg, format_quantity, parse_quantity, parse_unit, si_unit, turn, um
@@ -67,7 +68,7 @@ class Workshop:
     """
 
     folder: Path
-    entries: tuple[dict[str, Any], ...]
+    entries: tuple[JsonObject, ...]
     left_out: tuple[str, ...] = ()
 
     @property
@@ -202,7 +203,7 @@ def _own_names(parts: Sequence[_Named]) -> dict[str, _Named]:
     return named
 
 
-def _plate_files(plate: Plate, work: Path, name: str) -> Iterator[dict[str, Any]]:
+def _plate_files(plate: Plate, work: Path, name: str) -> Iterator[JsonObject]:
     shape = write_dxf(work / f"{name}.dxf", plate)
     facts = read_dxf(work / f"{name}.dxf")
     known = area(shape.outline) if plate.area is None else plate.area
@@ -271,7 +272,7 @@ def _step() -> ModuleType | None:
         return None
 
 
-def _table_check(entry: Mapping[str, Any]) -> Check:
+def _table_check(entry: Table) -> Check:
     name, points = f"{entry['file']}: error of the motion", f"tolerance; {entry['points']} points"
     cure = "set a larger --tolerance, or take a controller with more points"
     return at_most(name, entry["error"], entry["tolerance"], entry["file_unit"], points, cure=cure)

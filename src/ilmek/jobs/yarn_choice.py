@@ -5,7 +5,6 @@ shades of the picture; and what the chart keeps of the picture, as checks.
 import math
 from collections.abc import Iterator
 from functools import reduce
-from typing import Any
 
 import numpy as np
 
@@ -21,6 +20,7 @@ from ilmek.carpet.picture_points import hex_colour
 from ilmek.carpet.proposal import MatchedShade, match_shades
 from ilmek.io.yarn_file import default_yarns
 from ilmek.jobs.order import CarpetOrder
+from ilmek.records import JsonObject
 from ilmek.report import Check, Json
 from ilmek.report.check import at_least, at_most
 from ilmek.sentences import Sentence, joined
@@ -142,7 +142,7 @@ def _edges_cure(chart: Chart, order: CarpetOrder) -> str:
     return Sentence("cure.halftone", shades=shades) if halftone else shades
 
 
-def assignment_results(chart: Chart) -> list[dict[str, Any]]:
+def assignment_results(chart: Chart) -> list[JsonObject]:
     """The yarn of each colour of a drawing by JSON names; merged_with: the other colours of its yarn, but for twins."""
     of_yarn: dict[int, list[ColourMatch]] = {}
     for match in chart.reading.matches:

@@ -2,10 +2,10 @@
 
 import math
 from dataclasses import fields
-from typing import Any, Protocol, runtime_checkable
+from typing import Protocol, runtime_checkable
 
 from ilmek.records import value_record
-from ilmek.report.json import plain
+from ilmek.report.json import Json, plain
 from ilmek.report.rounding import without_noise
 from ilmek.units import format_quantity, si_unit
 
@@ -30,7 +30,7 @@ class Check:
     cure: str = ""
     parts: tuple[str, ...] = ()
 
-    def as_json(self) -> dict[str, Any]:
+    def as_json(self) -> dict[str, Json]:
         """The check as plain data: name, value and limit [SI], their unit, ok, source, relation, cure, shown."""
         return {field.name: plain(getattr(self, field.name)) for field in fields(self)} | in_si(self)
 

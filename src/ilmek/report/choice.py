@@ -2,8 +2,8 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
+from ilmek.records import JsonObject
 from ilmek.report.check import Check, in_words
 from ilmek.report.json import plain
 from ilmek.report.verdict import weight
@@ -25,7 +25,7 @@ class Choice:
     next_cheaper: str = ""
     failed: str = ""
 
-    def as_json(self) -> dict[str, Any]:
+    def as_json(self) -> JsonObject:
         """The choice as plain data."""
         return {name: plain(getattr(self, name)) for name in Choice.__slots__}
 

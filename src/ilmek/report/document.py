@@ -164,12 +164,12 @@ class Report:
         held = len(self.all_checks) - len(self.failed)
         return f"<Report {self.machine}: {len(self.results)} results, {held} of {len(self.all_checks)} checks hold>"
 
-    def results_as_json(self) -> dict[str, Any]:
+    def results_as_json(self) -> dict[str, Json]:
         """Name to value, and under the key of each machine in it its results."""
         own = {result.name: plain(result.value) for result in self.results}
         return own | {child.key: child.results_as_json() for child in self.children}
 
-    def as_json(self) -> dict[str, Any]:
+    def as_json(self) -> dict[str, Json]:
         """The contract of `--json`: machine, verdict, parameters, results, checks, choices; SI, full precision.
 
         `machines` has the parameters in force of the machines in it.
@@ -188,7 +188,7 @@ class Report:
             **({"machines": self._machines()} if self.children else {}),
         }
 
-    def _machines(self) -> dict[str, Any]:
+    def _machines(self) -> dict[str, Json]:
         """The parameters of the machines in it, by their names, each with those of its own machines."""
         return {
             child.machine: {"parameters": plain(child.parameters)}

@@ -7,10 +7,9 @@ the value misses its limit, |ln(value / limit)|; a value that is no number, or h
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any
 
 from ilmek.report.check import Check, in_si
-from ilmek.report.json import plain
+from ilmek.report.json import Json, plain
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,7 +24,7 @@ class Reason:
     source: str
     relation: str
 
-    def as_json(self) -> dict[str, Any]:
+    def as_json(self) -> dict[str, Json]:
         """The reason as plain data: name, value and limit [SI], their unit, cure, shown."""
         return {name: plain(getattr(self, name)) for name in ("name", "value", "limit", "unit", "cure")} | in_si(self)
 
@@ -51,7 +50,7 @@ def _usual_cure(check: Check) -> str:
     return f"change what sets its value, or its limit: {check.source}" if check.source else "change what sets its value"
 
 
-def verdict_json(checks: Iterable[Check]) -> dict[str, Any]:
+def verdict_json(checks: Iterable[Check]) -> dict[str, Json]:
     """The verdict as plain data: whether all checks hold, and the reasons where they do not."""
     failed = reasons(checks)
     return {"holds": not failed, "reasons": [reason.as_json() for reason in failed]}

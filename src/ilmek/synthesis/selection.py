@@ -79,7 +79,7 @@ class FourBarOption:
     apart: float = math.nan
     merit: Merit | None = None
 
-    def as_json(self) -> dict[str, Any]:
+    def as_json(self) -> dict[str, Json]:
         """The solution, SI and radians: see NAMED."""
         one, positions = self.candidate, self.candidate.positions
         return {
@@ -96,7 +96,7 @@ class FourBarOption:
             **self.details,
         }
 
-    def with_merit(self) -> dict[str, Any]:
+    def with_merit(self) -> dict[str, Json]:
         """The solution with its merit and proof: see CANDIDATES."""
         return {
             **self.as_json(),
@@ -105,7 +105,7 @@ class FourBarOption:
             "certified": self.certified,
         }
 
-    def removed_as_json(self, reasons: Mapping[str, str]) -> dict[str, Any]:
+    def removed_as_json(self, reasons: Mapping[str, str]) -> dict[str, Json]:
         """A removed four-bar: links, pins, how it was found, reasons by filter."""
         four_bar = self.candidate.four_bar
         pins = {name: getattr(four_bar, name) for name in PINS}
@@ -116,7 +116,7 @@ def _or_none(value: float) -> float | None:
     return None if math.isnan(value) else value
 
 
-def dimensions(four_bar: FourBar) -> dict[str, Any]:
+def dimensions(four_bar: FourBar) -> dict[str, Json]:
     """Links [m], pins and tracer as drawn [m], branch and Grashof type of a four-bar, by the names of the JSON."""
     pins = {name: getattr(four_bar, name) for name in (*PINS, "tracer_on_coupler")}
     return {**four_bar.lengths._asdict(), **pins, "branch": four_bar.branch, "grashof": four_bar.grashof.kind}

@@ -5,11 +5,11 @@ scale.
 """
 
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 
 from ilmek.arrays import ComplexArray
+from ilmek.records import JsonObject
 from ilmek.report import Drawing, Stroke
 from ilmek.units import parse_unit
 from ilmek.viz.labels import LabelRequest, placed
@@ -103,7 +103,7 @@ def names(pen: Pen, drawing: Drawing, covered: ComplexArray, foot: float = FOOT)
     Returns the centre of each name and half its width + i half its height [pt].
     """
     requests: list[LabelRequest] = []
-    looks: list[dict[str, Any]] = []
+    looks: list[JsonObject] = []
     for dot in drawing.dots:
         if dot.label:
             requests.append(LabelRequest(pen(np.array([dot.at])), dot.label, STRONG, 5.5, pull=3.0))

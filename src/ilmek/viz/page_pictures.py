@@ -9,7 +9,6 @@ import base64
 import io
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from PIL import Image
@@ -20,7 +19,7 @@ from ilmek.carpet.colour import takes_white
 from ilmek.carpet.fitting import Fit
 from ilmek.carpet.overlay import HALF, JUFTI
 from ilmek.progress import SILENT, Progress
-from ilmek.records import record
+from ilmek.records import JsonObject, record
 from ilmek.report.left_out import made_or_left_out
 from ilmek.units import counted
 from ilmek.viz.carpet_picture import WHOLE, DrawnCarpet, Pile, close_up, draw_carpet
@@ -63,7 +62,7 @@ class CarpetPictures:
     carpet: PagePicture | None
     knots: PagePicture | None
     pile: Pile
-    data: dict[str, Any]
+    data: JsonObject
 
     @property
     def widest(self) -> int:

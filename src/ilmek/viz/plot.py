@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.records import JsonObject
 from ilmek.report import Mark, Plot, Series
 from ilmek.units import parse_unit
 from ilmek.viz.cursor import cursor, has_cursor
@@ -131,7 +132,7 @@ def _padded(low: float, high: float) -> tuple[float, float]:
     return low - margin, high + margin
 
 
-def _line(series: Series, number: int) -> dict[str, Any]:
+def _line(series: Series, number: int) -> JsonObject:
     """Style of a curve."""
     return {"color": colour(number), "linewidth": 1.5, "dashes": dashes(number, dashed=series.dashed)}
 

@@ -3,11 +3,11 @@
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 
 from ilmek.arrays import FloatArray, Int32, IntArray
+from ilmek.records import JsonObject
 from ilmek.report import Json
 from ilmek.report.scene import Scene, SceneFrame, SceneMotion, ScenePart, SceneYarn, Solid
 
@@ -19,7 +19,7 @@ SHIFT_ERROR, TURN_ERROR = 2e-5, 2e-4
 class SceneData:
     """A scene: JSON, 32-bit floats, and 32-bit integers; a part of a block is [first, number]."""
 
-    about: dict[str, Any]
+    about: JsonObject
     floats: bytes
     integers: bytes
 
@@ -156,7 +156,7 @@ def _solid(blocks: _Blocks, one: Solid, deviation: float) -> dict[str, Json]:
     }
 
 
-def _yarn(blocks: _Blocks, one: SceneYarn) -> dict[str, Any]:
+def _yarn(blocks: _Blocks, one: SceneYarn) -> JsonObject:
     return {
         "name": one.name,
         "title": one.title,

@@ -7,11 +7,11 @@ the motions are known, a script of the page (`timing.js`) moves a cursor over th
 """
 
 from collections.abc import Mapping
-from typing import Any
 from xml.sax.saxutils import escape
 
 import numpy as np
 
+from ilmek.records import JsonObject
 from ilmek.report import Lane, Move, Shade, Timing
 from ilmek.units import deg, format_number, format_quantity, parse_unit
 from ilmek.viz.cursor import drive, metadata
@@ -175,7 +175,7 @@ def _events(sheet: Sheet, lane: Lane, lane_flags: list[Flag], floor: complex) ->
 
 def _name(sheet: Sheet, lane: Lane, middle: complex) -> None:
     """Write the names of track and actuator, and a law that all motions share, left of the axis."""
-    right: dict[str, Any] = {"ha": "right", "va": "center_baseline"}
+    right: JsonObject = {"ha": "right", "va": "center_baseline"}
     shift = 5.2j if lane.actuator else 0j
     sheet.text(middle - 8.0 + shift, lane.name, fontsize=STRONG, bold=True, **right)
     if lane.actuator:

@@ -4,10 +4,10 @@ import inspect
 import re
 from dataclasses import dataclass
 from functools import cache
-from typing import Any
 
 from ilmek import __version__
 from ilmek.jobs.studio.answers import Context
+from ilmek.records import JsonObject
 from ilmek.web.endpoints import ENDPOINTS, Endpoint
 from ilmek.web.framing import JSON
 from ilmek.web.schema import answer_type, record_schemas, request_type
@@ -64,16 +64,16 @@ class OpenApiRequest:
     """A request without fields."""
 
 
-def openapi_answer(request: OpenApiRequest, context: Context) -> dict[str, Any]:  # noqa: ARG001 - a task's signature
+def openapi_answer(request: OpenApiRequest, context: Context) -> JsonObject:  # noqa: ARG001 - a task's signature
     """The API as OpenAPI 3.1."""
     return openapi()
 
 
 @cache
-def openapi(endpoints: tuple[Endpoint, ...] = ENDPOINTS) -> dict[str, Any]:
+def openapi(endpoints: tuple[Endpoint, ...] = ENDPOINTS) -> JsonObject:
     """The API as OpenAPI 3.1."""
     schemas, components = record_schemas(endpoints, "#/components/schemas/{name}")
-    paths: dict[str, Any] = {}
+    paths: JsonObject = {}
     for endpoint in endpoints:
         path = "/api" + re.sub(r":\w+}", "}", endpoint.path)
         request = _followed(schemas[request_type(endpoint)], components)
@@ -103,14 +103,14 @@ def _name(method: str, path: str) -> str:
     return "_".join([method.lower(), *re.findall(r"[a-z]+", path.removeprefix("/api"))])
 
 
-def _followed(schema: dict[str, Any], components: dict[str, Any]) -> dict[str, Any]:
+def _followed(schema: JsonObject, components: JsonObject) -> JsonObject:
     name = str(schema.get("$ref", "")).rpartition("/")[2]
     return dict(components[name]) if name else schema
 
 
-def _taken(endpoint: Endpoint, request: dict[str, Any]) -> dict[str, Any]:
+def _taken(endpoint: Endpoint, request: JsonObject) -> JsonObject:
     """The parameters and the body of a request."""
-    fields: dict[str, Any] = {name: one for name, one in request.get("properties", {}).items() if name != "content"}
+    fields: JsonObject = {name: one for name, one in request.get("properties", {}).items() if name != "content"}
     required = [name for name in request.get("required", ()) if name in fields]
     in_path = [name for name in fields if re.search(rf"{{{name}[:}}]", endpoint.path)]
     further = [name for name in fields if name not in in_path]
@@ -133,11 +133,11 @@ def _taken(endpoint: Endpoint, request: dict[str, Any]) -> dict[str, Any]:
     return {"parameters": parameters, "requestBody": {"required": bool(needed), "content": {JSON: {"schema": body}}}}
 
 
-def _parameter(where: str, name: str, schema: dict[str, Any], *, required: bool) -> dict[str, Any]:
+def _parameter(where: str, name: str, schema: JsonObject, *, required: bool) -> JsonObject:
     return {"name": name, "in": where, "required": required, "schema": schema}
 
 
-def _responses(endpoint: Endpoint, answer: dict[str, Any]) -> dict[str, Any]:
+def _responses(endpoint: Endpoint, answer: JsonObject) -> JsonObject:
     statuses = sorted((*_ALWAYS, *_OF_TASKS, *(_OF_BODIES if endpoint.has_body else ())))
     errors = {str(status): {"$ref": f"#/components/responses/{status}"} for status in statuses}
     if endpoint.work:
@@ -145,18 +145,18 @@ def _responses(endpoint: Endpoint, answer: dict[str, Any]) -> dict[str, Any]:
         return {"202": begun, **errors}
     kind = endpoint.answer or JSON
     schema = {"type": "object"} if endpoint.answer == JSON else answer
-    good: dict[str, Any] = {"description": "The answer.", "content": {kind: {"schema": schema} if schema else {}}}
+    good: JsonObject = {"description": "The answer.", "content": {kind: {"schema": schema} if schema else {}}}
     return {"200": good, **errors}
 
 
-def _error(status: int) -> dict[str, Any]:
+def _error(status: int) -> JsonObject:
     return {
         "description": ERRORS[status],
         "content": {JSON: {"schema": {"$ref": "#/components/schemas/Error"}}},
     }
 
 
-def _own(summary: str, parameters: list[dict[str, Any]], answers: dict[str, Any], *further: int) -> dict[str, Any]:
+def _own(summary: str, parameters: list[JsonObject], answers: JsonObject, *further: int) -> JsonObject:
     """A request that the server answers itself."""
     errors = {str(status): {"$ref": f"#/components/responses/{status}"} for status in sorted((*_ALWAYS, *further))}
     return {
@@ -168,7 +168,7 @@ def _own(summary: str, parameters: list[dict[str, Any]], answers: dict[str, Any]
     }
 
 
-def _own_paths() -> dict[str, Any]:
+def _own_paths() -> JsonObject:
     number = _parameter("path", "number", {"type": "integer", "minimum": 1}, required=True)
     path = _parameter("path", "path", {"type": "string"}, required=True)
     download = _parameter("query", "download", {"type": "integer"}, required=False)

@@ -13,11 +13,12 @@ from typing import Any, get_type_hints
 import msgspec
 
 from ilmek.jobs.studio.answers import Binary
+from ilmek.records import JsonObject
 from ilmek.web.endpoints import ENDPOINTS, Endpoint
 from ilmek.web.worker import resolved
 
 
-def messages(endpoints: Iterable[Endpoint] = ENDPOINTS) -> dict[str, Any]:
+def messages(endpoints: Iterable[Endpoint] = ENDPOINTS) -> JsonObject:
     """All records of the API as one JSON Schema; the client's types are made from it."""
     _, components = record_schemas(tuple(endpoints), "#/definitions/{name}")
     return {
@@ -57,7 +58,7 @@ def _further(endpoint: Endpoint) -> list[Any]:
     return [getattr(module, name) for name in endpoint.records]
 
 
-def record_schemas(endpoints: tuple[Endpoint, ...], template: str) -> tuple[dict[Any, Any], dict[str, Any]]:
+def record_schemas(endpoints: tuple[Endpoint, ...], template: str) -> tuple[dict[Any, Any], JsonObject]:
     """The schema of each type of requests and answers, and the records that they refer to, by name."""
     requests = [request_type(endpoint) for endpoint in endpoints]
     answers = [answer_type(endpoint) for endpoint in endpoints]
@@ -74,14 +75,14 @@ def record_schemas(endpoints: tuple[Endpoint, ...], template: str) -> tuple[dict
     return schemas, dict(sorted(components.items()))
 
 
-def _any(kind: type) -> dict[str, Any]:
+def _any(kind: type) -> JsonObject:
     """The schema of `object`: any JSON."""
     if kind is not object:
         raise TypeError(f"{kind} in a record of the API")
     return {"description": "any JSON"}
 
 
-def _reached(schemas: Iterable[Any], components: dict[str, Any]) -> set[str]:
+def _reached(schemas: Iterable[Any], components: JsonObject) -> set[str]:
     """The names of the records that schemas refer to, directly or not."""
     names: set[str] = set()
     waiting = list(schemas)
@@ -98,7 +99,7 @@ def _reached(schemas: Iterable[Any], components: dict[str, Any]) -> set[str]:
     return names
 
 
-def _complete(schema: dict[str, Any], *, optional: bool) -> None:
+def _complete(schema: JsonObject, *, optional: bool) -> None:
     """Have a record name all its fields as required where it is never part of a request: answers are whole."""
     schema.pop("title", None)
     if "properties" in schema and not optional:

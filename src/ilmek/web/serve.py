@@ -8,13 +8,13 @@ import webbrowser
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import uvicorn
 
 from ilmek.errors import LoomError, ParameterError
 from ilmek.io.secret_file import read_bounded, write_secret
 from ilmek.jobs.studio.project.opening import served_alone
+from ilmek.records import JsonObject
 from ilmek.web.app import studio_app
 from ilmek.web.connection import BoundedConnection
 from ilmek.web.safety import Access
@@ -125,7 +125,7 @@ def serve(order: StudioOrder, note: Callable[[str], None], show: Callable[[str],
         uvicorn.Server(uvicorn.Config(app, **server_settings())).run(sockets=[listener])
 
 
-def server_settings() -> dict[str, Any]:
+def server_settings() -> JsonObject:
     """How uvicorn serves the studio."""
     return {
         "loop": "asyncio",

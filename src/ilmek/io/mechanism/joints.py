@@ -9,20 +9,20 @@ dyad keeps its closed form. The first of these pins has the joint's name, the ot
 
 from collections.abc import Iterator, Mapping
 from itertools import combinations
-from typing import Any
 
+from ilmek.io.schema import Table
 from ilmek.linkage.model import GROUND, KINDS, Joint, Pin, Slide
 
 Members = Mapping[str, tuple[str, ...]]
 """Joint -> its bodies, two or more."""
 
 
-def members_of(tables: Mapping[str, Any]) -> Members:
+def members_of(tables: Table) -> Members:
     """The bodies of each joint of the file."""
     return {name: tuple(table.get("pin") or table["slide"]) for name, table in tables.items()}
 
 
-def joints_of(tables: Mapping[str, Any], inputs: Mapping[str, str], couplings: Mapping[str, Any]) -> tuple[Joint, ...]:
+def joints_of(tables: Table, inputs: Mapping[str, str], couplings: Table) -> tuple[Joint, ...]:
     """The joints of the file, each of two bodies.
 
     tables, inputs, couplings  as in the file, checked by the schema
@@ -33,7 +33,7 @@ def joints_of(tables: Mapping[str, Any], inputs: Mapping[str, str], couplings: M
     return tuple(joint for name, table in tables.items() for joint in _joints(name, table, rank))
 
 
-def _joints(name: str, table: Mapping[str, Any], rank: Mapping[str, int]) -> Iterator[Joint]:
+def _joints(name: str, table: Table, rank: Mapping[str, int]) -> Iterator[Joint]:
     if "slide" in table:
         body, guide = table["slide"]
         yield Slide(name, body, guide, along=table.get("along", 0.0), turned=table.get("turned", 0.0))
@@ -49,7 +49,7 @@ def _joints(name: str, table: Mapping[str, Any], rank: Mapping[str, int]) -> Ite
         yield Pin(name if number == 0 else f"{name}.{other}", *pair)
 
 
-def _ranks(members: Members, inputs: Mapping[str, str], couplings: Mapping[str, Any]) -> dict[str, int]:
+def _ranks(members: Members, inputs: Mapping[str, str], couplings: Table) -> dict[str, int]:
     """Body -> number of the step in which it is located: driven bodies, wheels and dyads, outward from the ground."""
     known = {GROUND: 0}
     while True:
@@ -68,7 +68,7 @@ def _driven(known: Mapping[str, int], members: Members, inputs: Mapping[str, str
     return ()
 
 
-def _geared(known: Mapping[str, int], couplings: Mapping[str, Any]) -> tuple[str, ...]:
+def _geared(known: Mapping[str, int], couplings: Table) -> tuple[str, ...]:
     for table in couplings.values():
         kind = next(kind for kind in KINDS if kind in table)
         bodies = {table[kind][0][0], table[kind][1][0], table.get("carrier", GROUND)}

@@ -13,11 +13,11 @@ from ilmek.errors import MechanismError
 from ilmek.io.mechanism.masses import Tables
 from ilmek.io.mechanism.names import input_of, unknown, value_of
 from ilmek.io.mechanism.points import complex_of, polar
-from ilmek.io.schema import SourceText
+from ilmek.io.schema import SourceText, Table
 from ilmek.linkage.model import Input, Joint, Mechanism, Rotation, Slide
 
 
-def loads_of(data: Mapping[str, Any], mechanism: Mechanism, source: SourceText) -> tuple[NamedLoad, ...]:
+def loads_of(data: Table, mechanism: Mechanism, source: SourceText) -> tuple[NamedLoad, ...]:
     """The loads, springs and dampers of a file whose data satisfy the schema. Raises MechanismError with the line."""
     kinds = {"loads": _load, "springs": _spring, "dampers": _spring}
     found: dict[str, Load] = {}
@@ -41,7 +41,7 @@ def gravity_of(given: Any) -> complex:
     return complex_of(given) if isinstance(given, list) else complex(0.0, -given)
 
 
-def _load(table: Mapping[str, Any], mechanism: Mechanism) -> Load:
+def _load(table: Table, mechanism: Mechanism) -> Load:
     load = _varying(table, mechanism)
     if "while" not in table or isinstance(load, Friction):
         return load
@@ -49,7 +49,7 @@ def _load(table: Mapping[str, Any], mechanism: Mechanism) -> Load:
     return WindowedLoad(load, entry.name, window)
 
 
-def _varying(table: Mapping[str, Any], mechanism: Mechanism) -> Load:
+def _varying(table: Table, mechanism: Mechanism) -> Load:
     """The load without its window."""
     if "force" in table:
         return _tabulated(table, "N", _force(table, mechanism), mechanism)
@@ -68,7 +68,7 @@ def _varying(table: Mapping[str, Any], mechanism: Mechanism) -> Load:
     return Friction(body, point, table["friction"], input_of(table.get("over"), mechanism).name)
 
 
-def _force(table: Mapping[str, Any], mechanism: Mechanism) -> PointForce | FollowerForce:
+def _force(table: Table, mechanism: Mechanism) -> PointForce | FollowerForce:
     body, point = _spot(table["on"], mechanism)
     given, tabulated = table["force"], "table" in table
     if isinstance(given, list):
@@ -86,7 +86,7 @@ def _force(table: Mapping[str, Any], mechanism: Mechanism) -> PointForce | Follo
     return (FollowerForce if table.get("frame") == "body" else PointForce)(body, point, force)
 
 
-def _tabulated(table: Mapping[str, Any], unit: str, load: Load, mechanism: Mechanism) -> Load:
+def _tabulated(table: Table, unit: str, load: Load, mechanism: Mechanism) -> Load:
     if "table" not in table:
         if "over" in table:
             raise MechanismError("`over` is given without a table", do="give the table, or use `while`")
@@ -98,7 +98,7 @@ def _tabulated(table: Mapping[str, Any], unit: str, load: Load, mechanism: Mecha
     return TabulatedLoad(load, entry.name, at, factors, turning)
 
 
-def _window(table: Mapping[str, Any], mechanism: Mechanism) -> tuple[Input, AngleRange | ValueRange]:
+def _window(table: Table, mechanism: Mechanism) -> tuple[Input, AngleRange | ValueRange]:
     entry = input_of(table.get("input"), mechanism)
     turning = isinstance(entry, Rotation)
     start, end = (value_of(table[key], "rad" if turning else "m", key) for key in ("from", "to"))
@@ -114,7 +114,7 @@ def _spot(spot: Sequence[str], mechanism: Mechanism) -> tuple[str, str]:
     return body, point
 
 
-def _spring(table: Mapping[str, Any], mechanism: Mechanism) -> Load:
+def _spring(table: Table, mechanism: Mechanism) -> Load:
     stiffness, damping = table.get("stiffness", 0.0), table.get("damping", 0.0)
     if "torsion" in table:
         first, second = table["torsion"]
@@ -144,7 +144,7 @@ def frictions_of(
 
 def _frictions(
     name: str,
-    table: Mapping[str, Any],
+    table: Table,
     parts: Mapping[str, Sequence[Joint]],
     pins: Mapping[str, PinMember],
     source: SourceText,

@@ -13,24 +13,25 @@ from ilmek.elements.materials import find_material
 from ilmek.errors import MechanismError
 from ilmek.io.mechanism.names import unknown
 from ilmek.io.mechanism.points import complex_of
-from ilmek.io.schema import SourceText
+from ilmek.io.schema import SourceText, Table
 from ilmek.linkage.model import GROUND, Body, Joint, Mechanism, Pin, Slide
+from ilmek.records import JsonObject
 
 LEAST_SIZE, GREATEST_SIZE = 1e-9, 1e15
 """Bounds of sizes and allowed stresses of sections and pins [SI]."""
 
-Tables = Mapping[str, Mapping[str, Any]]
+Tables = Mapping[str, Table]
 """Name -> table, checked by the schema."""
 
 
 def sections_of(
-    bodies: Tables, links: Mapping[str, Any] | None, mechanism: Mechanism, joints: Mapping[str, Sequence[str]]
-) -> dict[str, Any]:
+    bodies: Tables, links: Table | None, mechanism: Mechanism, joints: Mapping[str, Sequence[str]]
+) -> JsonObject:
     """Body -> section: its own, or that of `links` for a link without a mass, shapes or a section of its own.
 
     joints  body -> names of its joints in the file; a link has two or more, apart from one another
     """
-    found: dict[str, Any] = {}
+    found: JsonObject = {}
     for name, table in bodies.items():
         if "section" in table:
             found[name] = table["section"]
@@ -41,7 +42,7 @@ def sections_of(
     return found
 
 
-def flat_member(section: Mapping[str, Any]) -> FlatMember:
+def flat_member(section: Table) -> FlatMember:
     """The section of a link. Raises IlmekError for a material that is not in the table."""
     material = find_material(section["material"]).name
     for key in ("width", "thickness", "stress", "safety"):
@@ -59,7 +60,7 @@ def check_link(body: Body, joints: Sequence[str]) -> None:
             raise MechanismError(given, allowed=f"0, or {LEAST_SIZE:g} m or more for a link with a section")
 
 
-def inertia_of(table: Mapping[str, Any], body: Body, member: FlatMember | None) -> Inertia | None:
+def inertia_of(table: Table, body: Body, member: FlatMember | None) -> Inertia | None:
     """The inertia of a body: given, of its shapes, else of bars of its section between its points; None: massless.
 
     Raises IlmekError for masses that are negative or given twice, and for shapes that cannot be.
@@ -100,7 +101,7 @@ def _at(at: Any, body: Body) -> complex:
     return body.points[at]
 
 
-def _shape(table: Mapping[str, Any], body: Body) -> Inertia:
+def _shape(table: Table, body: Body) -> Inertia:
     if "point" in table:
         return point_mass(_positive(table, "mass"), _at(table["point"], body))
     by_mass = "mass" in table
@@ -114,7 +115,7 @@ def _shape(table: Mapping[str, Any], body: Body) -> Inertia:
     return replace(made, mass=mass, moment=made.moment * mass / made.mass)
 
 
-def _flat(table: Mapping[str, Any], body: Body, thickness: float, density: float) -> Inertia:
+def _flat(table: Table, body: Body, thickness: float, density: float) -> Inertia:
     if "bar" in table:
         start, end = (_at(one, body) for one in table["bar"])
         return shapes.link(start, end, table["width"], thickness, density)
@@ -125,7 +126,7 @@ def _flat(table: Mapping[str, Any], body: Body, thickness: float, density: float
     return shapes.plate([_at(one, body) for one in table["plate"]], thickness, density)
 
 
-def _density(table: Mapping[str, Any]) -> float:
+def _density(table: Table) -> float:
     given = table.keys() & {"material", "density", "mass"}
     if len(given) != 1:
         stated = " and ".join(sorted(given)) or "no mass"
@@ -133,7 +134,7 @@ def _density(table: Mapping[str, Any]) -> float:
     return find_material(table["material"]).density if "material" in table else float(table["density"])
 
 
-def _positive(table: Mapping[str, Any], key: str) -> float:
+def _positive(table: Table, key: str) -> float:
     other = table.keys() & {"material", "density", "thickness"}
     if other and key == "mass":
         raise MechanismError(f"a shape has a mass and {', '.join(sorted(other))}", do="leave one of them")
@@ -169,9 +170,9 @@ def pin_members(tables: Tables, parts: Mapping[str, Sequence[Joint]], source: So
     return found
 
 
-def _pin_of(table: Mapping[str, Any]) -> dict[str, Any]:
+def _pin_of(table: Table) -> JsonObject:
     """A pin's table with the bore and width of its bearing where it has no sizes of its own."""
-    made: dict[str, Any] = {"bearing": None}
+    made: JsonObject = {"bearing": None}
     if "bearing" in table:
         found = find_bearing(table["bearing"])
         made = {"diameter": found.bore, "length": found.width}

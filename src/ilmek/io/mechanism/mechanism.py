@@ -1,18 +1,17 @@
 """The mechanism of a file: bodies, joints, couplings, inputs, branches."""
 
 from collections.abc import Mapping
-from typing import Any
 
 from ilmek.errors import MechanismError, did_you_mean
 from ilmek.io.mechanism.joints import joints_of, members_of
 from ilmek.io.mechanism.points import check_lengths, complex_of, points_of
-from ilmek.io.schema import SourceText
+from ilmek.io.schema import SourceText, Table
 from ilmek.linkage.drawing import as_drawn
 from ilmek.linkage.model import GROUND, KINDS, Body, Coupling, Displacement, Input, Joint, Mechanism, Rotation, Slide
 from ilmek.plane.teeth import PRESSURE_ANGLE
 
 
-def mechanism_of(data: Mapping[str, Any], source: SourceText) -> Mechanism:
+def mechanism_of(data: Table, source: SourceText) -> Mechanism:
     """The mechanism of data that satisfy the schema. Raises MechanismError with the line and the key."""
     name = data.get("name", "mechanism")
     _check_bodies(data, name, source)
@@ -39,7 +38,7 @@ def mechanism_of(data: Mapping[str, Any], source: SourceText) -> Mechanism:
     return mechanism
 
 
-def _check_bodies(data: Mapping[str, Any], name: str, source: SourceText) -> None:
+def _check_bodies(data: Table, name: str, source: SourceText) -> None:
     """Raise MechanismError for a joint with an unknown body, or twice with the same."""
     known = data["bodies"]
     for joint, bodies in members_of(data["joints"]).items():
@@ -86,7 +85,7 @@ def _check_driven(mechanism: Mechanism, entry: Input, bodies: Mapping[str, str])
         raise MechanismError(given, allowed=f"its sliding body is {joint.body!r}", about=("inputs", joint.name))
 
 
-def _coupling(name: str, table: Mapping[str, Any]) -> Coupling:
+def _coupling(name: str, table: Table) -> Coupling:
     kind = next(kind for kind in KINDS if kind in table)
     first, second = (tuple(end) for end in table[kind])
     carrier = table.get("carrier", GROUND)

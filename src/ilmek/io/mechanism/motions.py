@@ -4,7 +4,6 @@ import itertools
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import scipy
@@ -15,7 +14,7 @@ from ilmek.cams.laws.law import Law
 from ilmek.dynamics.own_machine import GivenMotion
 from ilmek.errors import MechanismError
 from ilmek.io.mechanism.names import input_of, value_of
-from ilmek.io.schema import Measured, SourceText
+from ilmek.io.schema import Measured, SourceText, Table
 from ilmek.linkage.model import Mechanism, Rotation
 from ilmek.units import turn
 
@@ -115,7 +114,7 @@ def _wrapped(time: FloatArray, period: float | None, rise: float) -> tuple[Float
 
 
 def motions_of(
-    tables: Mapping[str, Mapping[str, Any] | Measured], mechanism: Mechanism, source: SourceText
+    tables: Mapping[str, Table | Measured], mechanism: Mechanism, source: SourceText
 ) -> dict[str, GivenMotion]:
     """Input -> the motion that it follows. Raises MechanismError with the line."""
     found: dict[str, GivenMotion] = {}
@@ -128,7 +127,7 @@ def motions_of(
     return found
 
 
-def _motion(table: Mapping[str, Any] | Measured, *, turning: bool) -> GivenMotion:
+def _motion(table: Table | Measured, *, turning: bool) -> GivenMotion:
     if isinstance(table, Measured):
         table = {"speed": table}
     unit = "rad" if turning else "m"
@@ -152,7 +151,7 @@ def _motion(table: Mapping[str, Any] | Measured, *, turning: bool) -> GivenMotio
     return GivenMotion(law, law.ends[-1] if repeats else None, tuple(breaks))
 
 
-def _steps(rows: Sequence[Mapping[str, Any]], unit: str, start: float) -> tuple[MotionStep, ...]:
+def _steps(rows: Sequence[Table], unit: str, start: float) -> tuple[MotionStep, ...]:
     steps: list[MotionStep] = []
     at = start
     for number, row in enumerate(rows, start=1):
@@ -170,13 +169,13 @@ def _steps(rows: Sequence[Mapping[str, Any]], unit: str, start: float) -> tuple[
     return tuple(steps)
 
 
-def _law(given: str | Mapping[str, Any]) -> Law:
+def _law(given: str | Table) -> Law:
     if isinstance(given, str):
         return law_of(given)
     return law_of(given["name"], {key: value for key, value in given.items() if key != "name"})
 
 
-def _table_motion(table: Mapping[str, Any], unit: str) -> GivenMotion:
+def _table_motion(table: Table, unit: str) -> GivenMotion:
     rows = table["table"]
     times = tuple(value_of(row[0], "s", "the first of a row") for row in rows)
     values = tuple(value_of(row[1], unit, "the second of a row") for row in rows)

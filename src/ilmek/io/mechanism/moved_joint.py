@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 
 from ilmek.errors import MechanismError
 from ilmek.io.mechanism.joints import Members, members_of
+from ilmek.io.schema import Table
 from ilmek.linkage.model import GROUND, Mechanism, Slide
 from ilmek.units import deg, mm
 
@@ -42,7 +43,7 @@ class MovedJoint(NamedTuple):
     pose: Pose
 
 
-def moved_joint(data: Mapping[str, Any], mechanism: Mechanism, pose: Pose, joint: str, to: complex) -> MovedJoint:
+def moved_joint(data: Table, mechanism: Mechanism, pose: Pose, joint: str, to: complex) -> MovedJoint:
     """The changes that move a joint of the file to a position.
 
     data   plain data of the file         mechanism  made of them
@@ -68,7 +69,7 @@ def moved_joint(data: Mapping[str, Any], mechanism: Mechanism, pose: Pose, joint
 class _Moving:
     """Changes in the making."""
 
-    def __init__(self, data: Mapping[str, Any], mechanism: Mechanism, pose: Pose, members: Members) -> None:
+    def __init__(self, data: Table, mechanism: Mechanism, pose: Pose, members: Members) -> None:
         self.data, self.mechanism, self.pose, self.members = data, mechanism, pose, members
         self.changes: list[FileChange] = []
         self.si = data.get("units") == "SI"

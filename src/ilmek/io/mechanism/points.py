@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from ilmek.errors import MechanismError, did_you_mean
 from ilmek.io.mechanism.joints import Members
-from ilmek.io.schema import SourceText
+from ilmek.io.schema import SourceText, Table
 from ilmek.linkage.model import GROUND, Joint
 
 _ROUNDING = 1e-15
@@ -33,7 +33,7 @@ def polar(radius: float, angle: float) -> complex:
 
 
 def points_of(
-    body: str, table: Mapping[str, Any], members: Members, joints: Iterable[Joint], source: SourceText
+    body: str, table: Table, members: Members, joints: Iterable[Joint], source: SourceText
 ) -> dict[str, complex]:
     """The points of a body in its frame [m], those of all its joints among them where they follow from the file.
 
@@ -56,7 +56,7 @@ def points_of(
     return ordered
 
 
-def _ends(body: str, table: Mapping[str, Any], free: list[str], source: SourceText) -> tuple[str, ...]:
+def _ends(body: str, table: Table, free: list[str], source: SourceText) -> tuple[str, ...]:
     """The two joints of a link that is given by its length."""
     if "length" not in table:
         if "between" in table:
@@ -82,7 +82,7 @@ class _Points:
     """Points that may be given by other points of the body."""
 
     def __init__(
-        self, body: str, given: Mapping[str, Any], ends: tuple[str, ...], found: dict[str, complex], source: SourceText
+        self, body: str, given: Table, ends: tuple[str, ...], found: dict[str, complex], source: SourceText
     ) -> None:
         self.body, self.given, self.ends, self.found, self.source = body, given, ends, found, source
 

@@ -1,7 +1,6 @@
 """What is computed of a machine: a run under its motor, speeds to compare, a servo, paths, transmission angles."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 import numpy as np
 
@@ -9,7 +8,7 @@ from ilmek.dynamics.friction import Friction
 from ilmek.dynamics.own_machine import ForwardTask, MotorDrive, NamedLoad, SpeedStudy, StopEvent
 from ilmek.errors import MechanismError
 from ilmek.io.mechanism.names import input_of, unknown, value_of
-from ilmek.io.schema import SourceText
+from ilmek.io.schema import SourceText, Table
 from ilmek.linkage.model import Joint, Mechanism, Pin, Rotation
 
 MOST_SPEEDS_RATIO = 1e4
@@ -17,7 +16,7 @@ MOST_SPEEDS_RATIO = 1e4
 
 
 def forward_of(
-    table: Mapping[str, Any] | None, mechanism: Mechanism, loads: Sequence[NamedLoad], source: SourceText
+    table: Table | None, mechanism: Mechanism, loads: Sequence[NamedLoad], source: SourceText
 ) -> ForwardTask | None:
     """The forward run of a file. Raises MechanismError with the line."""
     if table is None:
@@ -41,7 +40,7 @@ def forward_of(
         return ForwardTask(table["duration"], position, speed, drive, tuple(events))
 
 
-def _event(name: str, table: Mapping[str, Any], unit: str) -> StopEvent:
+def _event(name: str, table: Table, unit: str) -> StopEvent:
     units = {"position": unit, "speed": f"{unit}/s", "time": "s"}
     given = [key for key in units if key in table]
     if len(given) != 1:
@@ -53,7 +52,7 @@ def _event(name: str, table: Mapping[str, Any], unit: str) -> StopEvent:
     return StopEvent(name, of, value, table.get("stop", True), direction)
 
 
-def _motor(table: Mapping[str, Any] | None, unit: str) -> MotorDrive | None:
+def _motor(table: Table | None, unit: str) -> MotorDrive | None:
     if table is None:
         return None
     effort, other = ("torque", "force") if unit == "rad" else ("force", "torque")
@@ -69,7 +68,7 @@ def _motor(table: Mapping[str, Any] | None, unit: str) -> MotorDrive | None:
     return MotorDrive(table[effort], table.get("speed"), table.get("slip", 0.05), table.get("inertia", 0.0))
 
 
-def study_of(table: Mapping[str, Any] | None, mechanism: Mechanism, source: SourceText) -> SpeedStudy | None:
+def study_of(table: Table | None, mechanism: Mechanism, source: SourceText) -> SpeedStudy | None:
     """The speeds to compare, ascending. Raises MechanismError with the line."""
     if table is None:
         return None

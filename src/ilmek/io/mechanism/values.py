@@ -15,7 +15,7 @@ from ilmek.io.mechanism.expressions import (
     names_in,
     printed_dimension,
 )
-from ilmek.io.schema import Measured, SourceText, read_quantity, shown
+from ilmek.io.schema import Measured, SourceText, Table, read_quantity, shown
 from ilmek.records import record
 from ilmek.units import has_unit, parse_quantity, parse_unit, read_number, similar_units
 
@@ -71,7 +71,7 @@ def named_values(texts: Any, source: SourceText, *, si: bool) -> NamedValues:
     return NamedValues(known, si)
 
 
-def _add(first: str, texts: Mapping[str, Any], source: SourceText, known: dict[str, Amount]) -> None:
+def _add(first: str, texts: Table, source: SourceText, known: dict[str, Amount]) -> None:
     """Evaluate a value after those that it uses."""
     waiting = [first]
     while waiting:

@@ -1,7 +1,5 @@
 """Numbers of a mechanism in motion by sample: for JSON, and as columns of a table. SI and radians, points as [x, y]."""
 
-from typing import Any
-
 import numpy as np
 
 from ilmek.arrays import FloatArray
@@ -10,6 +8,7 @@ from ilmek.jobs.mechanism.run import MechanismRun
 from ilmek.linkage.model import Rotation, Slide
 from ilmek.linkage.motion import Status, moving_points
 from ilmek.linkage.outputs import Travel, output_history
+from ilmek.records import JsonObject
 from ilmek.report import Report
 
 
@@ -49,7 +48,7 @@ def _slides(run: MechanismRun) -> dict[str, tuple[FloatArray, FloatArray, FloatA
     return {name: (one.value, one.rate, one.second_rate) for name, one in moved.items()}
 
 
-def _force_histories(run: MechanismRun) -> dict[str, Any]:
+def _force_histories(run: MechanismRun) -> JsonObject:
     if run.forces is None:
         return {}
     found, forces = run.forces, run.forces.forces

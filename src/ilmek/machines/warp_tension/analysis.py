@@ -5,14 +5,13 @@ the lower one winds: the correction, w c / R of its angle. A full step of the st
 degrees over the ratio: the smallest change that the motor can set.
 """
 
-from typing import Any
-
 from ilmek.arrays import FloatArray
 from ilmek.elements.motors import FULL_STEPS
 from ilmek.machines.warp_tension.cylinders import Cylinder, Slots, cylinders, slots_of, tension_beyond
 from ilmek.machines.warp_tension.design import WarpTensionDesign
 from ilmek.machines.warp_tension.loads import tensions_of
 from ilmek.records import computed, group, record, result
+from ilmek.report.json import Json
 from ilmek.units import turn
 from ilmek.weaving.tension import TakeUpTension, tension_history
 
@@ -91,7 +90,7 @@ class WarpTensionAnalysis:
         """The spacer."""
         return self.cylinders[2]
 
-    def of_each(self, attribute: str) -> dict[str, Any]:
+    def of_each(self, attribute: str) -> dict[str, Json]:
         """An attribute of the cylinders by their names."""
         return {one.name: getattr(one, attribute) for one in self.cylinders}
 

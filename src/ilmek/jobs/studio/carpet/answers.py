@@ -1,9 +1,9 @@
 """Requests and answers of the carpet's view: plain data."""
 
 from dataclasses import dataclass, field
-from typing import Any
 
 from ilmek.jobs.studio.checks import ShownCheck
+from ilmek.records import JsonObject
 
 RECIPE = "carpet.toml"
 """The recipe of a project."""
@@ -21,7 +21,7 @@ class ChartRequest:
     source  key of the fitted picture that the caller has: it is not sent again
     """
 
-    recipe: dict[str, Any]
+    recipe: JsonObject
     path: str = RECIPE
     draft: bool = False
     source: str = ""
@@ -31,7 +31,7 @@ class ChartRequest:
 class ProposalRequest:
     """Shades that suit the picture of a recipe best: at most `count`."""
 
-    recipe: dict[str, Any]
+    recipe: JsonObject
     count: int = 8
     path: str = RECIPE
 
@@ -40,7 +40,7 @@ class ProposalRequest:
 class RowRequest:
     """A row of the chart of a recipe, from 1 at the lower edge."""
 
-    recipe: dict[str, Any]
+    recipe: JsonObject
     row: int
     path: str = RECIPE
 
@@ -49,7 +49,7 @@ class RowRequest:
 class SpecksRequest:
     """The specks of the chart of a recipe: its patches of at most `most` knots that are no dots of a pattern."""
 
-    recipe: dict[str, Any]
+    recipe: JsonObject
     most: int = 3
     path: str = RECIPE
 

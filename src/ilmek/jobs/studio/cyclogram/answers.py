@@ -1,7 +1,8 @@
 """What the studio shows of a cyclogram: tracks, relations and exclusions with their margins, checks, solutions."""
 
 from dataclasses import dataclass, field
-from typing import Any
+
+from ilmek.records import JsonObject
 
 
 @dataclass(frozen=True, slots=True)
@@ -161,7 +162,7 @@ class CyclogramSolution:
     goal  acceleration or period      measure, shown_unit  of before and after [SI]: description, unit
     """
 
-    data: dict[str, Any]
+    data: JsonObject
     goal: str
     measure: str
     shown_unit: str
@@ -176,7 +177,7 @@ class NamedCyclogram:
     """A cyclogram of a machine, as the data of a file."""
 
     name: str
-    data: dict[str, Any]
+    data: JsonObject
     text: str
 
 

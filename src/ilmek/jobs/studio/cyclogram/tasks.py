@@ -2,7 +2,6 @@
 
 import math
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 
@@ -26,6 +25,7 @@ from ilmek.jobs.studio.cyclogram.answers import (
     ShownTrack,
 )
 from ilmek.params import Setting
+from ilmek.records import JsonObject
 from ilmek.timing.cyclogram import (
     Cyclogram,
     Exclusion,
@@ -52,14 +52,14 @@ STEPS = 720
 class CyclogramRequest:
     """A cyclogram as the plain data of its file."""
 
-    data: dict[str, Any]
+    data: JsonObject
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class SolveRequest:
     """A cyclogram as the plain data of its file, and its goal: acceleration or period."""
 
-    data: dict[str, Any]
+    data: JsonObject
     goal: str = "acceleration"
 
 

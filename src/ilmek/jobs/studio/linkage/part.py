@@ -1,24 +1,24 @@
 """The part of an unfinished mechanism that can be computed: bodies that are joined, and groups that are determined."""
 
 import dataclasses
-from collections.abc import Mapping
 from typing import Any
 
 from ilmek.dynamics.own_machine import OwnMachine
 from ilmek.errors import IlmekError
 from ilmek.io.mechanism.joints import members_of
 from ilmek.io.mechanism_file import mechanism_of_data
-from ilmek.io.schema import LocatedError
+from ilmek.io.schema import LocatedError, Table
 from ilmek.linkage.branches_in_pose import Pose, branches_in_pose, required_branches
 from ilmek.linkage.groups.group import Step
 from ilmek.linkage.model import GROUND, Mechanism
 from ilmek.linkage.structure import solvable_steps
+from ilmek.records import JsonObject
 
 REFERRING = ("loads", "springs", "dampers", "couplings", "pose")
 """Tables whose entries name bodies."""
 
 
-def joined_part(data: Mapping[str, Any]) -> tuple[dict[str, Any], tuple[str, ...]]:
+def joined_part(data: Table) -> tuple[JsonObject, tuple[str, ...]]:
     """The data of a file without the bodies that no joint holds, and the names of these.
 
     What refers to such a body is left out with it. Keys that an empty drawing lacks are added.
@@ -49,7 +49,7 @@ MOST_LEFT_OUT = 20
 """Largest number of wrong entries of a file that are left out to draw the rest."""
 
 
-def is_unfinished(data: Mapping[str, Any]) -> bool:
+def is_unfinished(data: Table) -> bool:
     """Whether a mechanism file can be read as far as its bodies are joined: what is missing is named by the drawing."""
     try:
         mechanism_of_data(joined_part(data)[0])
@@ -58,9 +58,9 @@ def is_unfinished(data: Mapping[str, Any]) -> bool:
     return True
 
 
-def sound_part(data: Mapping[str, Any]) -> dict[str, Any] | None:
+def sound_part(data: Table) -> JsonObject | None:
     """The data of a file without the entries that cannot be read; None where too much is wrong."""
-    rest: dict[str, Any] | None = dict(data)
+    rest: JsonObject | None = dict(data)
     for _ in range(MOST_LEFT_OUT):
         if rest is None:
             return None
@@ -75,7 +75,7 @@ def sound_part(data: Mapping[str, Any]) -> dict[str, Any] | None:
     return None
 
 
-def _without(data: dict[str, Any], path: tuple[str | int, ...]) -> dict[str, Any] | None:
+def _without(data: JsonObject, path: tuple[str | int, ...]) -> JsonObject | None:
     """Data without the body, the joint or another entry at a path, and without the joints that a body has."""
     table = _table(data, str(path[0])) if path else {}
     if not path or path[0] not in data:
@@ -100,7 +100,7 @@ def _without(data: dict[str, Any], path: tuple[str | int, ...]) -> dict[str, Any
     return made
 
 
-def _with_ends(body: str, table: Any, before: dict[str, Any], after: dict[str, Any]) -> Any:
+def _with_ends(body: str, table: Any, before: JsonObject, after: JsonObject) -> Any:
     """A body whose length was between two joints, with their names where one of them is gone."""
     if not isinstance(table, dict) or "length" not in table or "between" in table:
         return table
@@ -117,7 +117,7 @@ def _without_body(joint: Any, body: str) -> Any | None:
     return {**joint, "pin": left} if len(left) > 1 else None
 
 
-def loose_points(data: Mapping[str, Any], body: str) -> dict[str, tuple[float, float]]:
+def loose_points(data: Table, body: str) -> dict[str, tuple[float, float]]:
     """The points of a body without a joint [m]; none where they cannot be read, or follow from its joints alone.
 
     It is read as if its first point were pinned to the ground.
@@ -140,7 +140,7 @@ def loose_points(data: Mapping[str, Any], body: str) -> dict[str, tuple[float, f
     return {name: (at.real, at.imag) for name, at in points.items()}
 
 
-def _table(data: Mapping[str, Any], key: str) -> dict[str, Any]:
+def _table(data: Table, key: str) -> JsonObject:
     """A table of the file; empty if it is missing or no table, which the reader of the file reports."""
     found = data.get(key)
     return found if isinstance(found, dict) else {}

@@ -2,7 +2,6 @@
 
 import math
 from dataclasses import dataclass, field, replace
-from typing import Any
 
 import numpy as np
 
@@ -24,6 +23,7 @@ from ilmek.linkage.one_input import OneInput
 from ilmek.linkage.status import Status
 from ilmek.linkage.structure import solvable_steps
 from ilmek.linkage.transmission import transmission_angles
+from ilmek.records import JsonObject
 
 MOST_BRANCHES = 5
 """Largest number of branches whose combinations are followed to find circuits."""
@@ -96,7 +96,7 @@ class QualityAnswer:
     curves: tuple[CurveAnswer, ...] = ()
     transmission: tuple[LeastTransmission, ...] = ()
     mobility: str = ""
-    checks: tuple[dict[str, Any], ...] = ()
+    checks: tuple[JsonObject, ...] = ()
     warnings: tuple[str, ...] = ()
     left_out: tuple[str, ...] = field(default_factory=tuple)
     fault: LinkageFault | None = None
@@ -211,7 +211,7 @@ def _mobility(made: MechanismRun) -> str:
         return str(error)
 
 
-def _checks(made: MechanismRun, context: Context) -> tuple[tuple[dict[str, Any], ...], tuple[str, ...]]:
+def _checks(made: MechanismRun, context: Context) -> tuple[tuple[JsonObject, ...], tuple[str, ...]]:
     """The checks and warnings of the mechanism, as the command line reports them."""
     try:
         found = analysis(made, context.progress.part(0.6, 0.9, "forces"))

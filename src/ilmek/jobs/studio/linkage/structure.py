@@ -1,10 +1,9 @@
 """The structure of a mechanism in plain data: bodies, joints, degrees of freedom, Assur groups."""
 
 import dataclasses
-from collections.abc import Mapping
-from typing import Any
 
 from ilmek.io.mechanism.names import is_part
+from ilmek.io.schema import Table
 from ilmek.jobs.studio.linkage.answer import (
     BodyAnswer,
     CouplingAnswer,
@@ -27,12 +26,12 @@ def bodies_of(mechanism: Mechanism, known: set[str]) -> tuple[BodyAnswer, ...]:
     )
 
 
-def joints_of(mechanism: Mechanism, file_joints: Mapping[str, Any]) -> tuple[JointAnswer, ...]:
+def joints_of(mechanism: Mechanism, file_joints: Table) -> tuple[JointAnswer, ...]:
     """All joints of two bodies."""
     return tuple(_joint(joint, file_joints) for joint in mechanism.joints)
 
 
-def _joint(joint: Joint, file_joints: Mapping[str, Any]) -> JointAnswer:
+def _joint(joint: Joint, file_joints: Table) -> JointAnswer:
     own = joint.name
     if own not in file_joints:
         own = next((name for name in file_joints if is_part(joint.name, name)), own)

@@ -5,7 +5,6 @@ from collections.abc import Mapping
 from copy import deepcopy
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import Any
 
 import msgspec
 
@@ -13,6 +12,7 @@ from ilmek.dynamics.own_machine import OwnMachine
 from ilmek.errors import IlmekError, MechanismError, ParameterError
 from ilmek.io.mechanism.moved_joint import FileChange, moved_joint
 from ilmek.io.mechanism_file import MechanismFile, mechanism_of_data
+from ilmek.io.schema import Table
 from ilmek.jobs.studio.answers import Context
 from ilmek.jobs.studio.linkage.answer import BodyAnswer, LinkageFault, MechanismAnswer
 from ilmek.jobs.studio.linkage.motion import RunOptions, motion_of
@@ -31,6 +31,7 @@ from ilmek.linkage.branches_in_pose import Pose
 from ilmek.linkage.initial_pose import inputs_in_pose
 from ilmek.linkage.model import GROUND, Mechanism
 from ilmek.linkage.structure import Plan, solvable_steps
+from ilmek.records import JsonObject
 
 MOST_STEPS = 3600
 """Largest number of steps of a range."""
@@ -59,7 +60,7 @@ class MechanismRequest:
     rates, forces  whether velocities and accelerations, or forces, are required
     """
 
-    mechanism: dict[str, Any]
+    mechanism: JsonObject
     fixed: dict[str, str] = field(default_factory=dict)
     over: str = ""
     speed: str = ""
@@ -165,7 +166,7 @@ def drawn_mechanism(request: MechanismRequest) -> DrawnMechanism:
 
 
 def _dragged(
-    data: dict[str, Any], file: MechanismFile, pose: Pose, drag: DraggedJoint, loose: tuple[str, ...]
+    data: JsonObject, file: MechanismFile, pose: Pose, drag: DraggedJoint, loose: tuple[str, ...]
 ) -> DrawnMechanism:
     """The mechanism with a joint moved: its branches are those of the new drawing, or else of the new pose."""
     moved = moved_joint(data, file.mechanism, dict(pose), drag.joint, complex(drag.x, drag.y))
@@ -192,9 +193,9 @@ def _file(data: bytes) -> MechanismFile:
     return mechanism_of_data(msgspec.json.decode(data))
 
 
-def changed(data: Mapping[str, Any], changes: list[FileChange]) -> dict[str, Any]:
+def changed(data: Table, changes: list[FileChange]) -> JsonObject:
     """Data with new values of some entries."""
-    made: dict[str, Any] = deepcopy(dict(data))
+    made: JsonObject = deepcopy(dict(data))
     for change in changes:
         table = made
         for key in change.path[:-1]:

@@ -3,7 +3,6 @@
 import time
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from ilmek.errors import LoomError, ParameterError
 from ilmek.io.command_channel import request as send_command
@@ -16,6 +15,7 @@ from ilmek.jobs.studio.loom.scene import RECIPE, project_loom
 from ilmek.jobs.studio.project.folder import OWN
 from ilmek.loom.control.view import Snapshot
 from ilmek.loom.explicit import CompiledProgramme
+from ilmek.records import JsonObject
 from ilmek.units import BILLION
 
 COMMANDS = ("hold", "resume", "stop", "acknowledge", "yes", "no")
@@ -134,7 +134,7 @@ def command(request: LoomCommand, context: Context) -> CommandAnswer:
     """Give a command to the run of the project. Raises ParameterError for an unknown one, LoomError without a run."""
     if request.command not in COMMANDS:
         raise ParameterError(f"the command {request.command!r}", allowed=", ".join(COMMANDS))
-    answer: dict[str, Any] | None = send_command(_journal(context.folder) / CHANNEL, request.command)
+    answer: JsonObject | None = send_command(_journal(context.folder) / CHANNEL, request.command)
     if answer is None:
         raise LoomError("no run of this project goes on", do="start one")
     return CommandAnswer(bool(answer.get("ok")), str(answer.get("reason", "")))

@@ -16,6 +16,7 @@ from ilmek.jobs.studio.words import all_in_page, in_page
 from ilmek.machines.catalogue import find_machine
 from ilmek.params import Params, Setting, Value
 from ilmek.progress import SILENT, Progress
+from ilmek.records import JsonObject
 from ilmek.report import Report, result_text
 from ilmek.units import si_unit
 from ilmek.viz.number_format import quantity
@@ -89,7 +90,7 @@ class NearestTasks:
     """The nearest tasks that a machine could do, where it cannot do what is required; "" where there are none."""
 
     text: str = ""
-    wishes: tuple[dict[str, Any], ...] = field(default=())
+    wishes: tuple[JsonObject, ...] = field(default=())
 
 
 def view(request: DesignRequest, context: Context) -> DesignView:
@@ -173,7 +174,7 @@ def in_force(report: Report, params: Params) -> dict[str, ForceValue]:
     }
 
 
-def _of_machines(report: Report) -> dict[str, Any]:
+def _of_machines(report: Report) -> JsonObject:
     return {f"{child.machine}.{name}": value for child in report.children for name, value in child.parameters.items()}
 
 

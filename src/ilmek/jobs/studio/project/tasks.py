@@ -24,6 +24,7 @@ from ilmek.jobs.studio.project.folder import (
     write_bytes,
 )
 from ilmek.jobs.studio.project.history import History, move_history, read_history
+from ilmek.records import JsonObject
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +55,7 @@ class SaveRequest:
 
     path: str
     base: str
-    data: dict[str, Any] | None = None
+    data: JsonObject | None = None
     text: str | None = None
     aside: bool = False
 
@@ -127,7 +128,7 @@ class FileContent:
     path: str
     kind: str
     text: str
-    data: dict[str, Any] | None
+    data: JsonObject | None
     digest: str
     error: FileError | None = None
     undo: bool = False
@@ -348,7 +349,7 @@ def _content(folder: ProjectFolder, path: str) -> FileContent:
     )
 
 
-def _data(text: str) -> dict[str, Any] | None:
+def _data(text: str) -> JsonObject | None:
     try:
         return tomllib.loads(text)
     except (ValueError, RecursionError):

@@ -1,9 +1,10 @@
 """Tasks of synthesis that are not finished: fewer points, poses or samples than any method takes."""
 
 from collections.abc import Callable, Mapping
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from ilmek.errors import IlmekError
+from ilmek.io.schema import Table
 from ilmek.machines.motion_four_bar.params import TAKEN
 from ilmek.machines.path_four_bar.params import EXACT
 from ilmek.params.text_lists import read_pairs, read_points, read_poses
@@ -25,7 +26,7 @@ LISTS: Mapping[str, TaskList] = {
 }
 
 
-def is_unfinished(data: Mapping[str, Any]) -> bool:
+def is_unfinished(data: Table) -> bool:
     """Whether the file of a task states its points, and too few of them."""
     task, settings = LISTS.get(str(data.get("machine"))), data.get("settings")
     if task is None or not isinstance(settings, dict):
@@ -40,6 +41,6 @@ def is_unfinished(data: Mapping[str, Any]) -> bool:
         return False
 
 
-def is_exact(settings: Mapping[str, Any]) -> bool:
+def is_exact(settings: Table) -> bool:
     """Whether the points are to be met exactly."""
     return settings.get("exact") in (True, "yes", "true", "on")

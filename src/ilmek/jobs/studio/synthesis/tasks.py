@@ -3,7 +3,6 @@
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
 
 from ilmek.errors import ParameterError
 from ilmek.io.mechanism_file import mechanism_toml
@@ -22,6 +21,7 @@ from ilmek.jobs.studio.synthesis.task import is_exact
 from ilmek.machines.catalogue import find_machine
 from ilmek.machines.four_bar_figures import own_four_bar
 from ilmek.params import Params, Setting
+from ilmek.records import JsonObject
 from ilmek.synthesis.filters import JAM
 from ilmek.synthesis.four_bar import FourBar
 
@@ -41,7 +41,7 @@ class SynthesisRequest:
     quick  a short search, for a task that is being dragged: it answers in a fraction of a second and may miss the best
     """
 
-    data: dict[str, Any] = field(default_factory=dict)
+    data: JsonObject = field(default_factory=dict)
     quick: bool = False
 
 
