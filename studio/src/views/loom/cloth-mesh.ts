@@ -20,13 +20,17 @@ void main() {
 const FRAGMENT = `
 #include <clipping_planes_pars_fragment>
 uniform sampler2D chart;
+uniform vec2 knots;
 varying vec2 knot;
 varying vec3 at;
 ${LIT}
 void main() {
   #include <clipping_planes_fragment>
   if (knot.y < 0.0) discard;
-  gl_FragColor = vec4(lit(texture2D(chart, knot).rgb, flatNormal(at)), 1.0);
+  vec2 inKnot = fract(knot * knots) - 0.5;
+  float seen = clamp(0.45 - max(fwidth(knot.x * knots.x), fwidth(knot.y * knots.y)), 0.0, 0.45) / 0.45;
+  float tuft = 1.0 - seen * 0.9 * dot(inKnot, inKnot);
+  gl_FragColor = vec4(lit(tuft * texture2D(chart, knot).rgb, flatNormal(at), at, 0.0), 1.0);
 }`;
 
 export class Cloth {
@@ -54,7 +58,12 @@ export class Cloth {
     this.material = new three.ShaderMaterial({
       vertexShader: VERTEX,
       fragmentShader: FRAGMENT,
-      uniforms: { ...light.uniforms, woven: this.woven, chart: { value: this.texture } },
+      uniforms: {
+        ...light.uniforms,
+        woven: this.woven,
+        chart: { value: this.texture },
+        knots: { value: new three.Vector2(carpet.columns, carpet.rows) },
+      },
       side: three.DoubleSide,
       clipping: true,
     });

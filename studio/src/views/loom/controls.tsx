@@ -12,6 +12,7 @@ export interface PictureState {
   cut: number;
   apart: number;
   names: boolean;
+  measures: boolean;
   rows: number;
 }
 
@@ -86,6 +87,7 @@ export function Controls({ state, heads, rows, onShow, onChange }: ControlsProps
         />
       )}
       <Toggle label={t("loom.labels")} value={state.names} onChange={(names) => onChange({ names })} />
+      <Toggle label={t("loom.measure")} value={state.measures} onChange={(measures) => onChange({ measures })} />
     </>
   );
 }

@@ -1,8 +1,9 @@
 /** A part in the picture: its copies as instances, as fine as the picture needs. */
 import * as three from "three";
 import { oddFrom, spacingOf, strideFor, thinned } from "./crowd";
+import { Edges } from "./edges";
 import { type Light, screenColour } from "./light";
-import { colourOf, type Look } from "./look";
+import { colourOf, finishOf, isRoom, type Look } from "./look";
 import type { Placed } from "./motion";
 import { failures, type SceneModel, type ScenePart } from "./scene";
 import { solidMaterial } from "./solid-material";
@@ -14,11 +15,20 @@ const CROWD = 64;
 /** Deviation of a solid from the part that is not seen [px]. */
 const COARSE = 1.3;
 
+/** Neighbours of a crowd are nearer to one another than this where their edges would be all that is seen [px]. */
+const DENSE = 8;
+
+/** How much is seen of what is looked through: a room that is kept free, and the case of a head. */
+const ROOM = 0.25;
+const CASE = 0.1;
+const MARKED = 0.55;
+
 /** Copies that are looked at for the box of a part. */
 const MOST_BOXED = 9;
 
 export class PartMesh {
   readonly mesh: three.InstancedMesh<three.BufferGeometry, three.ShaderMaterial>;
+  readonly edges: Edges;
   /** Where the part is moved when the loom is exploded, for the factor 1 [m]. */
   readonly apart = new three.Vector3();
   private readonly levels: three.BufferGeometry[];
@@ -42,9 +52,10 @@ export class PartMesh {
       geometry.computeBoundingBox();
       return geometry;
     });
-    this.mesh = new three.InstancedMesh(this.finest, solidMaterial(light, part.envelope), placed.count);
+    this.mesh = new three.InstancedMesh(this.finest, solidMaterial(light, finishOf(part)), placed.count);
     this.mesh.name = part.name;
     this.mesh.frustumCulled = false;
+    this.edges = new Edges(this.mesh.instanceMatrix, this.mesh.material.uniforms["colour"] as three.IUniform);
     this.sphere = this.finest.boundingSphere ?? new three.Sphere();
     this.spacing = spacingOf(placed.matrices, placed.count);
     this.all = this.isCrowd ? placed.matrices.slice() : (this.mesh.instanceMatrix.array as Float32Array);
@@ -76,11 +87,17 @@ export class PartMesh {
    *
    * pixel  size of one where the camera looks [m]        right  the camera stands on the right
    * most   copies of a crowd that are drawn; of more, some are drawn wider in their stead
+   * fine   with edges
    */
-  detail(pixel: number, view: three.Frustum, right: boolean, most: number): void {
+  detail(pixel: number, view: three.Frustum, right: boolean, most: number, fine: boolean): void {
     const deviations = this.part.solids.map((solid) => solid.deviation);
     this.mesh.geometry = this.levels[levelFor(deviations, COARSE * pixel)] ?? this.finest;
-    if (!this.isCrowd) return;
+    if (this.isCrowd) this.choose(pixel, view, right, most);
+    if (fine && !(this.isCrowd && this.spacing < DENSE * pixel)) this.edges.show(this.mesh.geometry, this.mesh.count);
+    else this.edges.hide();
+  }
+
+  private choose(pixel: number, view: three.Frustum, right: boolean, most: number): void {
     const into = this.mesh.instanceMatrix.array as Float32Array;
     const draw = (stride: number) => {
       const reach = this.sphere.radius + this.sphere.center.length() + stride * this.spacing;
@@ -96,10 +113,23 @@ export class PartMesh {
     this.changed();
   }
 
-  paint(look: Look, chosen: boolean): void {
-    const { colour, opacity } = this.mesh.material.uniforms;
-    screenColour(chosen ? look.chosen : this.failed ? look.failed : colourOf(this.part, look), colour?.value);
-    if (this.part.envelope && opacity) opacity.value = chosen || this.failed ? 0.55 : 0.25;
+  /** Colours the part; chosen: it is marked, open: it is looked through, tool: its number among those of a head. */
+  paint(look: Look, chosen: boolean, open: boolean, tool?: number): void {
+    const { material } = this.mesh;
+    const { colour, opacity } = material.uniforms;
+    screenColour(chosen ? look.chosen : this.failed ? look.failed : colourOf(this.part, look, tool), colour?.value);
+    const clear = open || isRoom(this.part);
+    const seen = !clear ? 1 : chosen || this.failed ? MARKED : open ? CASE : ROOM;
+    if (opacity) opacity.value = seen;
+    material.transparent = clear;
+    material.depthWrite = !clear;
+    const line = this.edges.lines.material.uniforms["opacity"];
+    if (line) line.value = clear ? 0.5 : 1;
+  }
+
+  /** Whether it throws a shadow. */
+  get solid(): boolean {
+    return !this.mesh.material.transparent;
   }
 
   /** The box of the copies, into `box`. */

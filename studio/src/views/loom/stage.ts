@@ -2,20 +2,23 @@
 import * as three from "three";
 import { Camera } from "./camera";
 import { Cloth } from "./cloth-mesh";
-import { Light } from "./light";
+import { Light, screenColour } from "./light";
 import { type Look, look } from "./look";
-import { type Angles, Frames } from "./motion";
+import { Measure, snapped } from "./measure";
+import { type Angles, Frames, type Placed } from "./motion";
 import { Pace } from "./pace";
 import { PartMesh } from "./part-mesh";
 import type { Drive, SceneModel } from "./scene";
-import { floorGrid, graphics } from "./surroundings";
+import { Shadow } from "./shadow";
+import { Smooth } from "./smooth";
+import { floor, graphics } from "./surroundings";
 import { Threads } from "./threads";
 import { DIRECTIONS, type ViewName } from "./views";
 
 /** What an exploded machine is moved to the front beside, for the factor 1 [m]. */
 const FORWARD: Record<string, number> = { weaver: 0.35, shedding: -0.3 };
 
-/** Time without a change after which a coarse picture is drawn finely [ms]. */
+/** Time without a change after which a picture is drawn with edges, shadows and all pixels by a processor [ms]. */
 const REST = 200;
 
 /** Copies of a part that are drawn at most while pictures are coarse. */
@@ -27,10 +30,22 @@ export class Stage {
   /** Called after each picture. */
   drawn: () => void = () => {};
 
+  /** Whether it looks through the case of a head, at the tools that tie. */
+  get looksInside(): boolean {
+    return this.opened;
+  }
+
+  /** Whether a press measures, rather than chooses. */
+  measures = false;
+
   private readonly scene = new three.Scene();
   private readonly camera: Camera;
   private readonly renderer: three.WebGLRenderer;
   private readonly light = new Light();
+  private readonly floor: ReturnType<typeof floor>;
+  private readonly shadow = new Shadow();
+  private readonly smooth = graphics() === "card" ? null : new Smooth();
+  private readonly measured = new Measure();
   private readonly pace = new Pace();
   private readonly frames: Frames;
   private readonly parts: PartMesh[] = [];
@@ -41,12 +56,17 @@ export class Stage {
   private look: Look = look(null);
   private waiting = 0;
   private resting: ReturnType<typeof setTimeout> | undefined;
+  private rests = false;
+  private opened = false;
+  /** Numbers of the frames that move in a head, by name. */
+  private readonly tools: ReadonlyMap<string, number>;
   private size: [width: number, height: number] = [1, 1];
   private pictures = 0;
   private angles: Angles = { row: 0, knot: 0 };
   private followed: number | null = null;
   private followedAt = new three.Vector3();
   private exploded = 0;
+  private cuts: three.Plane[] = [];
   private chosen = "";
 
   constructor(
@@ -55,22 +75,26 @@ export class Stage {
   ) {
     this.renderer = new three.WebGLRenderer({
       canvas,
-      antialias: graphics() === "card", // smooth edges take most of a processor's time
+      antialias: graphics() === "card", // smooth edges take most of a processor's time: it smooths when nothing moves
       powerPreference: "high-performance",
     });
+    this.renderer.outputColorSpace = three.LinearSRGBColorSpace; // colours are those of the screen, see `light`
     this.renderer.localClippingEnabled = true;
     this.frames = new Frames(model);
     this.frames.update(this.angles);
+    this.tools = toolsOf(model);
     for (const part of model.about.parts) {
       const placed = this.frames.byName.get(part.frame);
       if (placed !== undefined) this.parts.push(new PartMesh(part, placed, model, this.light));
     }
     this.cloth = new Cloth(model, this.light);
     this.threads = new Threads(model, this.frames);
+    this.floor = floor(model.about.floor, this.light);
     this.scene.add(...this.parts.map((one) => one.mesh), this.cloth.mesh, this.threads.group);
-    this.scene.add(floorGrid(model.about.floor));
+    this.scene.add(this.floor, ...this.parts.map((one) => one.edges.lines), this.measured.line);
     for (const one of this.parts) one.arrange(0);
     this.measure();
+    this.shadow.fit(this.box);
     this.camera = new Camera(canvas, this.invalidate);
     canvas.addEventListener("webglcontextrestored", this.invalidate);
   }
@@ -88,6 +112,8 @@ export class Stage {
     });
     for (const one of this.parts) one.dispose();
     this.cloth.dispose();
+    this.shadow.dispose();
+    this.smooth?.dispose();
     this.renderer.dispose();
     this.renderer.forceContextLoss();
   }
@@ -102,17 +128,31 @@ export class Stage {
   private readonly draw = (): void => {
     this.waiting = 0;
     const share = this.pace.drawn(performance.now());
-    this.sharpen(share);
+    const fine = this.rests || this.smooth === null;
+    this.rests = false;
+    this.sharpen(fine ? 1 : share, fine);
     const pixel = Camera.pixelAtOne(this.canvas.height) * this.camera.distance;
     const view = this.camera.view();
     const right = this.camera.lens.position.x > 0;
-    for (const one of this.parts) one.detail(pixel, view, right, share < 1 ? FEW : Number.POSITIVE_INFINITY);
-    this.light.update(this.camera.lens);
-    this.renderer.render(this.scene, this.camera.lens);
+    const most = share < 1 && !fine ? FEW : Number.POSITIVE_INFINITY;
+    for (const one of this.parts) one.detail(pixel, view, right, most, fine);
+    if (fine) this.shadow.throw(this.renderer, this.scene, this.shadowless(), this.cuts);
+    this.light.update(this.camera.lens, this.plane, pixel);
+    this.shadow.light(this.light, this.camera.lens, fine);
+    if (fine && this.smooth !== null) this.smooth.render(this.renderer, this.scene, this.camera.lens);
+    else this.renderer.render(this.scene, this.camera.lens);
     this.pictures += 1;
     this.canvas.dataset["pictures"] = String(this.pictures);
+    this.canvas.dataset["fine"] = String(fine);
     this.drawn();
   };
+
+  /** What throws no shadow. */
+  private shadowless(): three.Object3D[] {
+    const lines = this.parts.map((one) => one.edges.lines);
+    const clear = this.parts.filter((one) => !one.solid).map((one) => one.mesh);
+    return [this.floor, this.threads.group, this.measured.line, ...lines, ...clear];
+  }
 
   /** Fits the picture to the size of the canvas [px]. */
   resize(width: number, height: number): void {
@@ -122,10 +162,10 @@ export class Stage {
     this.invalidate();
   }
 
-  /** Draws with a share of the screen's pixels; where that is less than all, with all of them when nothing moves. */
-  private sharpen(share: number): void {
+  /** Draws with a share of the screen's pixels; what is not fine is drawn finely when nothing moves. */
+  private sharpen(share: number, fine: boolean): void {
     clearTimeout(this.resting);
-    if (share < 1) this.resting = setTimeout(this.invalidate, REST);
+    if (!fine) this.resting = setTimeout(this.rest, REST);
     const ratio = share * Math.min(devicePixelRatio, 2);
     const [width, height] = this.size.map((one) => Math.floor(one * ratio)) as [number, number];
     if (this.canvas.width === width && this.canvas.height === height) return;
@@ -134,9 +174,19 @@ export class Stage {
     this.threads.setPixel(Camera.pixelAtOne(height));
   }
 
+  private readonly rest = (): void => {
+    this.rests = true;
+    this.invalidate();
+  };
+
   setTheme(theme: string | null): void {
     this.look = look(theme);
-    this.scene.background = new three.Color(this.look.ground);
+    const ground = new three.Color();
+    screenColour(this.look.ground, ground);
+    this.scene.background = ground;
+    const { uniforms } = this.floor.material;
+    screenColour(this.look.ground, uniforms["ground"]?.value);
+    screenColour(this.look.line, uniforms["line"]?.value);
     this.threads.paint(this.look);
     this.choose(this.chosen);
   }
@@ -149,7 +199,7 @@ export class Stage {
     for (const one of this.parts) if (changed.some((drive) => one.placed.moves[drive])) one.arrange(this.exploded);
     this.threads.update(angles);
     this.follow();
-    this.invalidate();
+    this.changed();
   }
 
   /** Puts the heads at positions across [m]. */
@@ -163,17 +213,30 @@ export class Stage {
     for (const one of this.parts) one.arrange(this.exploded);
     this.threads.update(this.angles);
     this.follow();
-    this.invalidate();
+    this.changed();
   }
 
   /** Rows that are woven; a part of one too. */
   weave(rows: number): void {
     this.cloth.weave(rows);
+    this.changed();
+  }
+
+  /** Something has moved: shadows too. */
+  private changed(): void {
+    this.shadow.stale = true;
     this.invalidate();
   }
 
+  /** A standard view; that of a head looks through its case. */
   show(name: ViewName): void {
-    this.camera.look(this.boxOf(name), DIRECTIONS[name]);
+    this.opened = name === "head";
+    this.choose(this.chosen);
+    const box = this.boxOf(name);
+    this.camera.look(box, DIRECTIONS[name]);
+    if (this.opened) this.shadow.fit(box.clone().expandByVector(box.getSize(new three.Vector3())));
+    else this.shadow.fit(this.box);
+    this.threads.mark(this.opened ? this.headAt(this.followed ?? 0) : null);
     this.invalidate();
   }
 
@@ -195,31 +258,36 @@ export class Stage {
 
   /** Cuts away what lies beyond a share of the loom along an axis; null: nothing. */
   section(axis: SectionAxis | null, share: number): void {
-    const planes = axis === null ? [] : [this.plane];
     if (axis !== null) {
       this.plane.normal.set(axis === "x" ? -1 : 0, axis === "y" ? -1 : 0, axis === "z" ? -1 : 0);
       this.plane.constant = this.box.min[axis] + share * (this.box.max[axis] - this.box.min[axis]);
     }
-    for (const { mesh } of this.parts) {
-      mesh.material.clippingPlanes = planes;
-      mesh.material.side = planes.length > 0 ? three.DoubleSide : three.FrontSide;
+    this.cuts = axis === null ? [] : [this.plane];
+    for (const { mesh, edges } of this.parts) {
+      mesh.material.clippingPlanes = this.cuts;
+      mesh.material.side = axis === null ? three.FrontSide : three.DoubleSide;
+      edges.lines.material.clippingPlanes = this.cuts;
     }
-    for (const material of [this.cloth.material, ...this.threads.materials]) material.clippingPlanes = planes;
-    this.invalidate();
+    for (const material of [this.cloth.material, ...this.threads.materials]) material.clippingPlanes = this.cuts;
+    this.changed();
   }
 
   /** Moves the parts apart: 0 as they are. */
   explode(factor: number): void {
     this.exploded = factor;
     for (const one of this.parts) one.arrange(factor);
-    this.invalidate();
+    this.changed();
   }
 
   /** Marks a part; "": none. */
   choose(name: string): void {
     this.chosen = name;
-    for (const one of this.parts) one.paint(this.look, one.part.name === name);
-    this.invalidate();
+    const heads = this.frames.byName.get(this.model.about.heads) ?? null;
+    for (const one of this.parts) {
+      const open = this.opened && isOf(one.placed, heads) && !this.tools.has(one.part.frame);
+      one.paint(this.look, one.part.name === name, open, this.tools.get(one.part.frame));
+    }
+    this.changed();
   }
 
   /** Brings a part into the middle of the picture. */
@@ -232,18 +300,53 @@ export class Stage {
 
   /** The name of the part under a point of the picture, from -1 to 1; "": none. */
   pick(x: number, y: number): string {
+    return this.hit(x, y)?.object.name ?? "";
+  }
+
+  /** Measures from or to the point of a part under a point of the picture, or its corner that is near. */
+  mark(x: number, y: number): void {
+    const hit = this.hit(x, y);
+    if (hit?.face == null) return;
+    const mesh = hit.object as three.InstancedMesh;
+    const copy = new three.Matrix4();
+    mesh.getMatrixAt(hit.instanceId ?? 0, copy);
+    const position = mesh.geometry.getAttribute("position") as three.BufferAttribute;
+    const corners = [hit.face.a, hit.face.b, hit.face.c].map((k) =>
+      new three.Vector3().fromBufferAttribute(position, k).applyMatrix4(copy),
+    );
+    this.measured.take(snapped(hit.point, corners, Camera.pixelAtOne(this.canvas.height) * hit.distance));
+    this.invalidate();
+  }
+
+  /** Measures, or chooses, by a press from now on. */
+  measureByPress(on: boolean): void {
+    this.measures = on;
+    if (!on) this.measured.clear();
+    this.invalidate();
+  }
+
+  /** What is measured, and where it is written, from -1 to 1. */
+  distance(): { text: string; x: number; y: number } | null {
+    const label = this.measured.label();
+    if (label === null) return null;
+    label.at.project(this.camera.lens);
+    return { text: label.text, x: label.at.x, y: label.at.y };
+  }
+
+  private hit(x: number, y: number): three.Intersection | undefined {
     const ray = new three.Raycaster();
     ray.setFromCamera(new three.Vector2(x, y), this.camera.lens);
     const hits = ray.intersectObjects(
-      this.parts.map((one) => one.mesh),
+      this.parts.filter((one) => one.solid || !this.opened).map((one) => one.mesh),
       false,
     );
-    return hits.find((hit) => !this.isCut(hit.point))?.object.name ?? "";
+    return hits.find((one) => !this.isCut(one.point));
   }
 
   /** Positions in the picture, from -1 to 1, of parts; those behind the camera are left out. */
   labels(): { name: string; x: number; y: number }[] {
-    return this.parts.flatMap((one) => {
+    const parts = this.opened ? this.parts.filter((one) => this.tools.has(one.part.frame)) : this.parts;
+    return parts.flatMap((one) => {
       const at = one.shownAt();
       if (this.isCut(at)) return [];
       at.project(this.camera.lens);
@@ -253,7 +356,7 @@ export class Stage {
   }
 
   private isCut(point: three.Vector3): boolean {
-    return (this.cloth.material.clippingPlanes ?? []).some((plane) => plane.distanceToPoint(point) < 0);
+    return this.cuts.some((plane) => plane.distanceToPoint(point) < 0);
   }
 
   /** The loom's box, and where each part goes when it is exploded: away from the middle, machines apart. */
@@ -289,5 +392,20 @@ export class Stage {
     if (at === null) return;
     this.camera.shift(at.clone().sub(this.followedAt));
     this.followedAt.copy(at);
+    if (this.opened) this.threads.mark(at);
   }
+}
+
+/** Whether a frame is another, or stands on it. */
+function isOf(placed: Placed, other: Placed | null): boolean {
+  return placed === other || (placed.parent !== null && isOf(placed.parent, other));
+}
+
+/** The frames whose parent is the head, or a frame that moves in it, and that move themselves: its tools. */
+function toolsOf({ about }: SceneModel): ReadonlyMap<string, number> {
+  const tools = new Map<string, number>();
+  for (const { name, parent, motion } of about.frames)
+    if ((parent === about.heads && motion?.shift) || tools.has(parent))
+      tools.set(name, tools.get(parent) ?? tools.size);
+  return tools;
 }

@@ -15,9 +15,13 @@ attribute float odd;
 uniform float radius;
 uniform float pixel;
 uniform vec2 shares;
+uniform vec2 marked;
 varying float across;
+varying float along;
 varying float thick;
+varying float mark;
 void main() {
+  mark = step(abs(from.x - marked.x), marked.y);
   vec3 lift = vec3(0.0, 0.0, mix(shares.x, shares.y, odd));
   vec3 begin = (modelViewMatrix * vec4(from + lifts.x * lift, 1.0)).xyz;
   vec3 end = (modelViewMatrix * vec4(to + lifts.y * lift, 1.0)).xyz;
@@ -25,6 +29,7 @@ void main() {
   float least = 0.5 * pixel * max(-mvPosition.z, 0.0);
   mvPosition.xyz += normalize(cross(end - begin, mvPosition.xyz)) * max(radius, least) * position.x;
   across = position.x;
+  along = position.y * length(end - begin) / radius;
   thick = clamp(radius / least - 1.0, 0.0, 1.0);
   #include <clipping_planes_vertex>
   gl_Position = projectionMatrix * mvPosition;
@@ -34,11 +39,15 @@ const FRAGMENT = `
 #include <clipping_planes_pars_fragment>
 uniform vec3 colour;
 varying float across;
+varying float along;
 varying float thick;
+varying float mark;
 void main() {
   #include <clipping_planes_fragment>
   float lit = mix(0.45, 1.15, sqrt(max(0.0, 1.0 - across * across)));
-  gl_FragColor = vec4(colour * mix(1.0, lit, thick), 1.0);
+  lit *= 1.0 + 0.14 * sin(2.1 * along + 2.2 * across); // two plies that are twisted
+  vec3 shown = mix(colour, vec3(0.85, 0.2, 0.15), 0.7 * mark);
+  gl_FragColor = vec4(shown * mix(1.0, lit, thick), 1.0);
 }`;
 
 interface ShownYarn {
@@ -92,6 +101,12 @@ export class Threads {
     }
   }
 
+  /** Marks the warps about which a head ties; null: none. */
+  mark(head: three.Vector3 | null): void {
+    const pitch = this.model.about.carpet.columnPitch;
+    this.warps.uniforms["marked"]?.value.set(head?.x ?? 0, head === null ? -1 : pitch / 2);
+  }
+
   paint(look: Look): void {
     screenColour(look.warp, this.warps.uniforms["colour"]?.value);
     for (const { drive, material } of this.yarns)
@@ -112,6 +127,7 @@ function threadMaterial(diameter: number): three.ShaderMaterial {
       radius: { value: diameter / 2 },
       pixel: { value: 1e-3 },
       shares: { value: new three.Vector2() },
+      marked: { value: new three.Vector2(0, -1) },
       colour: { value: new three.Color() },
     },
     side: three.DoubleSide,

@@ -39,7 +39,7 @@ export function usePicture(
     paint();
     sized();
     made.show("iso");
-    const end = clicks(element, (x, y) => wanted.current.onPick(made.pick(x, y)));
+    const end = clicks(element, (x, y) => (made.measures ? made.mark(x, y) : wanted.current.onPick(made.pick(x, y))));
     return () => {
       end();
       watch.disconnect();
@@ -72,27 +72,34 @@ function clicks(element: HTMLElement, chosen: (x: number, y: number) => void): (
 }
 
 function drawLabels(stage: Stage, into: HTMLElement, shown: boolean, canvas: HTMLElement): void {
-  const { parts } = stage.model.about;
-  const found = shown ? spaced(stage.labels(), canvas) : [];
-  while (into.children.length > found.length) into.lastElementChild?.remove();
-  while (into.children.length < found.length) into.append(document.createElement("span"));
-  found.forEach((one, k) => {
+  const distance = stage.distance();
+  const found = [
+    ...(distance === null ? [] : [{ ...distance, name: "" }]),
+    ...(shown || stage.looksInside ? stage.labels().map((one) => ({ ...one, text: nameOf(stage, one.name) })) : []),
+  ];
+  const kept = spaced(found, canvas);
+  while (into.children.length > kept.length) into.lastElementChild?.remove();
+  while (into.children.length < kept.length) into.append(document.createElement("span"));
+  kept.forEach((one, k) => {
     const label = into.children[k] as HTMLElement;
-    const part = parts.find((each) => each.name === one.name);
-    const mark = part && failures(part).length > 0 ? "⚠ " : "";
-    label.textContent = mark + (part?.title ?? one.name).split(/[:,]/)[0];
+    label.textContent = one.text;
     const left = Math.min(one.left, canvas.clientWidth - label.offsetWidth - 8);
     label.style.transform = `translate(${Math.round(left)}px, ${Math.round(one.top)}px)`;
   });
 }
 
-/** Names that do not lie upon each other. */
-function spaced(found: { name: string; x: number; y: number }[], canvas: HTMLElement) {
-  const kept: { name: string; left: number; top: number }[] = [];
-  for (const { name, x, y } of found) {
+function nameOf(stage: Stage, name: string): string {
+  const part = stage.model.about.parts.find((each) => each.name === name);
+  return (part && failures(part).length > 0 ? "⚠ " : "") + (part?.title ?? name).split(/[:,]/)[0];
+}
+
+/** Texts that do not lie upon each other. */
+function spaced(found: { text: string; x: number; y: number }[], canvas: HTMLElement) {
+  const kept: { text: string; left: number; top: number }[] = [];
+  for (const { text, x, y } of found) {
     const [left, top] = [((x + 1) / 2) * canvas.clientWidth, ((1 - y) / 2) * canvas.clientHeight];
     const free = kept.every((one) => Math.abs(one.top - top) > 18 || Math.abs(one.left - left) > 130);
-    if (free && kept.length < MOST_NAMES) kept.push({ name, left, top });
+    if (free && kept.length < MOST_NAMES) kept.push({ text, left, top });
   }
   return kept;
 }

@@ -11,7 +11,7 @@ export const DIRECTIONS: Record<ViewName, [number, number, number]> = {
   above: [0, 1, 0.0001],
   fell: [0.5, 0.35, 1],
   shed: [1, 0.06, 0.62],
-  head: [1, 0.3, 0.4],
+  head: [1, 0.35, 0.9],
 };
 
 export interface Box {

@@ -43,6 +43,7 @@ export function Workbench({ model, above, below, running, drawing, live = null }
     cut: 0.5,
     apart: 0,
     names: false,
+    measures: false,
     rows: Math.round(0.6 * about.carpet.rows),
   }));
   const canvas = useRef<HTMLCanvasElement>(null);
@@ -64,6 +65,7 @@ export function Workbench({ model, above, below, running, drawing, live = null }
     [state.axis, state.cut],
   );
   useEffect(() => stage.current?.explode(state.apart), [state.apart]);
+  useEffect(() => stage.current?.measureByPress(state.measures), [state.measures]);
   useEffect(() => stage.current?.weave(state.rows), [state.rows]);
   useEffect(() => {
     if (live === null) return;

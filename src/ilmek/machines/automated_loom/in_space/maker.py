@@ -47,7 +47,7 @@ def half_width(loom: LoomDesign) -> float:
 def room_part(name: str, frame: str, solid: Solid, machine: str) -> ScenePart:
     """A room that the design keeps for what is in no list of parts."""
     return ScenePart(
-        name=name, title=name, machine=machine, frame=frame, solids=(solid,), deviations=(0.0,), envelope=True
+        name=name, title=name, machine=machine, frame=frame, solids=(solid,), deviations=(0.0,), envelope=True, number=0
     )
 
 
