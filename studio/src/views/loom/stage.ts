@@ -378,7 +378,7 @@ export class Stage {
     if (name === "fell") return box([-half, -0.1, -0.1], [half, 0.35, 0.2]);
     if (name === "shed") return box([half - 0.05, 0, -0.05], [half, lifted, 0.1]);
     const at = name === "head" ? this.headAt(this.followed ?? 0) : null;
-    return at === null ? this.box : box([-0.035, -0.02, -0.01], [0.035, 0.06, 0.07]).translate(at);
+    return at === null ? this.box : box([-0.025, -0.01, -0.01], [0.025, 0.05, 0.055]).translate(at);
   }
 
   private headAt(number: number): three.Vector3 | null {
