@@ -9,7 +9,6 @@ import math
 import random
 from collections import defaultdict
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 
 import pytest
 from designs import random_settings
@@ -106,12 +105,13 @@ WITNESSES: Mapping[str, tuple[dict[str, str], ...]] = {
 
 def reports(machine: str) -> Iterator[Report]:
     """The default, random designs, and the witnesses."""
-    component = replace(MACHINES[machine], figures=lambda _: ())
+    component = MACHINES[machine]
     designs = NUMBER // 4 if machine in SLOW else NUMBER
     drawn = [random_settings(machine, random.Random(f"{machine} moves {seed}"), most=3) for seed in range(designs)]
     for settings in ({}, *drawn, *WITNESSES.get(machine, ())):
         try:
-            yield component.report_for(settings | FEWER.get(machine, {}))
+            params = component.params.read(settings | FEWER.get(machine, {}))
+            yield component.report(component.design(params), illustrated=False)
         except IlmekError:
             continue
 

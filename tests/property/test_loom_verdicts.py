@@ -11,8 +11,9 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
+from default_machines import loom_report
 
-from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, LoomDesign, design
+from ilmek.machines.automated_loom import AutomatedLoomParams, LoomDesign, design
 from ilmek.machines.automated_loom.report import all_checks
 from ilmek.report import Check, reasons
 from ilmek.units import GPa, mm
@@ -165,7 +166,7 @@ def test_every_check_that_can_fail_in_a_loom_names_its_cure() -> None:
 
 
 def test_the_reasons_stand_in_order_of_weight() -> None:
-    report = MACHINE.report(design(AutomatedLoomParams.read({"beat": "comb", "hammer.force": "1N", "tension": "60N"})))
+    report = loom_report(design(AutomatedLoomParams.read({"beat": "comb", "hammer.force": "1N", "tension": "60N"})))
     found = reasons(report.all_checks)
     assert len(found) == len(report.failed) > 1
     ratios = [one.value / one.limit if one.limit else math.inf for one in found]

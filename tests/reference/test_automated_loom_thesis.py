@@ -1,9 +1,10 @@
 """The loom of the thesis (chapter 3): 600 warps at 2 mm, 15 N each, tube 140 x 5 mm, cams at 5 rpm, four steps."""
 
 import pytest
+from default_machines import loom_report
 
 from ilmek.elements.carpet_yarns import CarpetYarnParams
-from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, LoomDesign, design
+from ilmek.machines.automated_loom import AutomatedLoomParams, LoomDesign, design
 from ilmek.machines.automated_loom.cyclogram import BEATER, EVEN, ODD
 from ilmek.timing.cyclogram import Moment, moment_angle
 from ilmek.timing.track import peak_acceleration, peak_speed
@@ -62,7 +63,7 @@ def test_four_steps_of_chapter_3_3(loom: LoomDesign) -> None:
 
 
 def test_every_check_of_the_thesis_loom_holds(loom: LoomDesign) -> None:
-    assert MACHINE.report(loom).failed == ()
+    assert loom_report(loom).failed == ()
 
 
 def test_one_head_takes_the_time_of_the_facts_sheet() -> None:

@@ -1,16 +1,36 @@
-"""The machines with all parameters at their defaults, designed and drawn once in a process: read only."""
+"""Reports that many tests read, made once in a process: of the machines at their defaults, and of looms."""
 
-from functools import cache
+from functools import cache, lru_cache
+from typing import Any
 
+from ilmek.machines.automated_loom import MACHINE, LoomDesign
 from ilmek.machines.catalogue import MACHINES
 from ilmek.report import Report
 from ilmek.viz.page import machine_page
 
 
 @cache
+def default_design(machine: str) -> Any:
+    """The design of a machine."""
+    return MACHINES[machine].designed(MACHINES[machine].params.read({}))
+
+
+@cache
 def default_report(machine: str) -> Report:
     """The report of a machine."""
-    return MACHINES[machine].report_for({})
+    return MACHINES[machine].report(default_design(machine))
+
+
+@cache
+def default_results(machine: str) -> Report:
+    """The report of a machine without tables and figures, which take longer than all the rest."""
+    return MACHINES[machine].report(default_design(machine), illustrated=False)
+
+
+@lru_cache(maxsize=16)
+def loom_report(loom: LoomDesign) -> Report:
+    """The report of a loom without tables and figures."""
+    return MACHINE.report(loom, illustrated=False)
 
 
 @cache

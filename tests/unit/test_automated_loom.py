@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from default_machines import default_report, loom_report
 from examples.draw_loom_scaling import OUT, drawn
 
 from ilmek.arrays import Indices
@@ -14,13 +15,14 @@ from ilmek.errors import IlmekError, LoomError, ParameterError
 from ilmek.loom.programme import make_programme
 from ilmek.machines import BEATS
 from ilmek.machines.automated_loom import (
-    MACHINE,
     AutomatedLoomParams,
+    LoomDesign,
     design,
     estimated_time,
     production_time,
 )
 from ilmek.machines.automated_loom.cyclogram import BEATER
+from ilmek.machines.automated_loom.figures import figures, time_against_pitch, time_of_one_head
 from ilmek.machines.automated_loom.report import all_checks
 from ilmek.report import Drawing, Plot, Report, Timing
 from ilmek.timing.track import peak_acceleration, peak_speed, sample
@@ -30,7 +32,7 @@ from ilmek.units import deg, dm, hour, mm
 @cache
 def reported(**settings: Any) -> Report:
     """A loom's report: the same settings are designed once."""
-    return MACHINE.report(design(AutomatedLoomParams(**settings)))
+    return loom_report(design(AutomatedLoomParams(**settings)))
 
 
 @pytest.mark.matrix(light=3)
@@ -47,7 +49,7 @@ def reported(**settings: Any) -> Report:
 )
 def test_looms_for_other_carpets_keep_all_limits(settings: dict[str, Any]) -> None:
     loom = design(AutomatedLoomParams(**settings))
-    made = MACHINE.report(loom)
+    made = loom_report(loom)
     # The columns of the widest stand between its cylinders and their brackets, where there is no room for them.
     assert [check.name for check in made.failed] == (["frame: room of a column"] if loom.params.width >= 5.0 else [])
     assert loom.warps == 2 * loom.columns + 8
@@ -75,7 +77,7 @@ def test_checks_carry_the_name_of_their_machine() -> None:
 
 
 def test_results_and_figures() -> None:
-    made = reported()
+    made = default_report("automated-loom")
     results = made.as_json()["results"]
     assert len(results) == len(made.results) + len(made.children)
     assert results["beat_up"]["transmission_angle_min"] > 0
@@ -105,7 +107,7 @@ def test_a_wide_loom_takes_the_time_that_its_shuttle_needs() -> None:
     assert peak_speed(shuttle, period) == pytest.approx(2.0)
     assert peak_acceleration(shuttle, period) < 20.0
     assert loom.shedding.params.speed == pytest.approx(2 * math.pi / (loom.row_timing.turning * period))
-    assert any("shedding cams turn at" in said for said in MACHINE.report(loom).all_warnings)
+    assert any("shedding cams turn at" in said for said in loom_report(loom).all_warnings)
 
 
 @pytest.mark.matrix(light=2)
@@ -260,7 +262,7 @@ def test_a_deadline_that_no_number_of_heads_meets() -> None:
 
 def test_the_machine_reads_its_parameters() -> None:
     settings = {"width": "1.2m", "warp_pitch": "2mm", "heads": "4", "knots_along": "30 1/dm"}
-    results = MACHINE.report(MACHINE.design(AutomatedLoomParams.read(settings))).as_json()["results"]
+    results = loom_report(design(AutomatedLoomParams.read(settings))).as_json()["results"]
     assert (results["heads"], results["rows"], results["columns"]) == (4, 540, 300)
 
 
@@ -271,20 +273,24 @@ def test_figure_of_the_scaling_has_a_curve_for_each_pitch() -> None:
         assert pitch in made
 
 
+def scaling(loom: LoomDesign) -> Plot:
+    """The figure of a loom's weaving time over the warp pitch, among those that it has."""
+    plots = [make() for make in figures(loom) if make.func in (time_against_pitch, time_of_one_head)]
+    (plot,) = plots
+    assert isinstance(plot, Plot)
+    assert plot.name == "weaving-time-pitch"
+    return plot
+
+
 @pytest.mark.parametrize("width", [0.01, 0.1])
 def test_a_loom_of_one_head_shows_its_time_over_the_pitch(width: float) -> None:
     """Knots grow as the square of the density, rows with their wefts as the density itself: between both."""
-    figures = {one.name: one for one in MACHINE.report(design(AutomatedLoomParams(width=width))).figures}
-    scaling = figures["weaving-time-pitch"]
-    assert isinstance(scaling, Plot)
-    curve = scaling.series[0]
+    curve = scaling(design(AutomatedLoomParams(width=width))).series[0]
     finer = curve.x[-1] / curve.x[0]
     assert finer < curve.y[0] / curve.y[-1] < finer**2
 
 
 def test_the_coarsest_carpet_has_its_loom() -> None:
     """Its page shows how time scales without asking for a carpet that is none."""
-    made = MACHINE.report(design(AutomatedLoomParams(warp_pitch=50 * mm)))
-    scaling = next(one for one in made.figures if one.name == "weaving-time-pitch")
-    assert isinstance(scaling, Plot)
-    assert not any(series.label.startswith(("75 mm", "100 mm")) for series in scaling.series)
+    plot = scaling(design(AutomatedLoomParams(warp_pitch=50 * mm)))
+    assert not any(series.label.startswith(("75 mm", "100 mm")) for series in plot.series)

@@ -6,6 +6,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from default_machines import default_report, loom_report
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -15,7 +16,7 @@ from ilmek.elements.prices import PRICES, read_prices
 from ilmek.errors import ParameterError
 from ilmek.loom.bobbins import stop_time
 from ilmek.machines import BEATS, warp_tension
-from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, LoomDesign, design
+from ilmek.machines.automated_loom import AutomatedLoomParams, LoomDesign, design
 from ilmek.machines.automated_loom.cyclogram import BEATER
 from ilmek.machines.automated_loom.energy import energy_of
 from ilmek.machines.automated_loom.estimate import estimated_time, estimated_times_at, time_shares
@@ -49,9 +50,8 @@ def task_of_frame() -> FrameTask:
     return listed().frame.task
 
 
-@cache
 def loose() -> Report:
-    return MACHINE.report(loom())
+    return default_report("automated-loom")
 
 
 def test_a_price_list_from_a_text_changes_what_it_names_and_nothing_else():
@@ -238,7 +238,7 @@ def beaten(kind: str) -> LoomDesign:
 
 @cache
 def beaten_report(kind: str) -> Report:
-    return MACHINE.report(beaten(kind))
+    return loom_report(beaten(kind))
 
 
 def comb_loom() -> LoomDesign:

@@ -1,8 +1,9 @@
 """Every check of a loom says what would cure it, and every reason repeats it."""
 
 import pytest
+from default_machines import loom_report
 
-from ilmek.machines.catalogue import MACHINES
+from ilmek.machines.automated_loom import AutomatedLoomParams, design
 from ilmek.report import Check, Report, at_most
 
 LOOMS = (
@@ -19,7 +20,7 @@ LOOMS = (
 @pytest.mark.matrix(light=3)
 @pytest.mark.parametrize("settings", LOOMS, ids=str)
 def test_every_check_of_a_loom_has_a_cure(settings: dict[str, str]) -> None:
-    report = MACHINES["automated-loom"].report_for(settings)
+    report = loom_report(design(AutomatedLoomParams.read(settings)))
     assert [check.name for check in report.all_checks if not check.cure] == []
 
 

@@ -6,6 +6,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from default_machines import loom_report
 from plate_solids import plate_solid
 
 from ilmek.elements.columns import STEEL
@@ -29,7 +30,7 @@ from ilmek.timing.track import sample
 @cache
 def _made(*settings: tuple[str, str]) -> tuple[LoomDesign, Scene]:
     loom = MACHINE.designed(MACHINE.params.read(dict(settings)))
-    return loom, scene(loom, MACHINE.report(loom))
+    return loom, scene(loom, loom_report(loom))
 
 
 def _part(found: Scene, name: str) -> ScenePart:
@@ -76,7 +77,7 @@ def test_the_frames_members_weigh_what_the_parts_list_states() -> None:
 
 def test_every_plate_of_the_loom_has_the_volume_of_its_drawing() -> None:
     loom, found = _made()
-    plates = {one.name: one for one in MACHINE.report(loom).all_plates}
+    plates = {one.name: one for one in loom_report(loom).all_plates}
     drawn = [part for part in found.parts if part.plate]
     assert {part.plate for part in drawn} == set(plates)
     for part in drawn:

@@ -4,6 +4,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from default_machines import loom_report
 
 from ilmek.errors import LoomError
 from ilmek.machines import weaver
@@ -61,7 +62,7 @@ def test_the_choice_names_what_the_cams_failed() -> None:
 
 
 def test_cams_for_the_asymmetric_knot_are_refused_by_name_at_the_head_of_the_reasons() -> None:
-    report = MACHINE.report(loom("asymmetric", "cams"))
+    report = loom_report(loom("asymmetric", "cams"))
     assert report.reasons[0].name == "weaver: asymmetric knot tied"
     assert "knotting=arms" in report.reasons[0].cure
 

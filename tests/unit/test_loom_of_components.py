@@ -7,6 +7,7 @@ from dataclasses import fields, replace
 from pathlib import Path
 
 import pytest
+from default_machines import loom_report
 
 import ilmek.machines
 from ilmek.cams.laws import LAWS
@@ -170,7 +171,7 @@ def test_a_value_that_contradicts_the_machine_is_refused_with_its_name() -> None
 
 
 def test_loom_sums_what_its_machines_return() -> None:
-    report = MACHINE.report(loom := design(AutomatedLoomParams()))
+    report = loom_report(loom := design(AutomatedLoomParams()))
     assert [child.machine for child in report.children] == [child.name for child in loom.children]
     checks = {check.name for child in report.children for check in child.all_checks}
     assert {check.name.split(": ", 1)[-1] for check in report.all_checks} > checks

@@ -43,15 +43,18 @@ class ExistingLoom:
     differs: tuple[str, ...] = ()
 
 
-def read_existing_loom(path: Path) -> ExistingLoom:
-    """The loom of a file. Raises LoomError for a file that is none, or whose loom cannot be designed."""
+def read_existing_loom(path: Path, *, illustrated: bool = False) -> ExistingLoom:
+    """The loom of a file; `illustrated`: with tables and figures in its report, which take as long as all the rest.
+
+    Raises LoomError for a file that is none, or whose loom cannot be designed.
+    """
     file = read_loom_file(path, MACHINE.name)
     settings = {name: value for name, value in file.parameters.items() if name not in WISHES}
     try:
         made = design(AutomatedLoomParams.read(settings))
     except IlmekError as error:
         raise LoomError(f"{path}, parameters: {error.given}", allowed=error.allowed, do=error.do) from None
-    report = MACHINE.report(made)
+    report = MACHINE.report(made, illustrated=illustrated)
     return ExistingLoom(path, made, report, tuple(_differences(file, report)))
 
 

@@ -134,7 +134,8 @@ def read_loom_order(
     wishes = Wishes(keys.heads, limit)
     if keys.loom_file is not None:
         fixed = {"--aim": keys.aim, "--warp-pitch": keys.warp_pitch}
-        return replace(_order_on(read_existing_loom(keys.loom_file), wishes, keys.loom, fixed), given=keys)
+        existing = read_existing_loom(keys.loom_file, illustrated=True)
+        return replace(_order_on(existing, wishes, keys.loom, fixed), given=keys)
     given = {"heads": keys.heads, "deadline": limit, "aim": keys.aim, "warp_pitch": keys.warp_pitch, **keys.loom}
     given = {name: value for name, value in given.items() if value is not None}
     params = AutomatedLoomParams.read({**_of_the_order(order), **given})

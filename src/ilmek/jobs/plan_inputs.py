@@ -131,7 +131,7 @@ def _existing(entry: LoomEntry) -> ExistingLoom:
     if entry.file is not None:
         return read_existing_loom(entry.file)
     made = design(AutomatedLoomParams.read(dict(entry.design)))
-    return ExistingLoom(Path(entry.name), made, MACHINE.report(made))
+    return ExistingLoom(Path(entry.name), made, MACHINE.report(made, illustrated=False))
 
 
 def _planned_orders(

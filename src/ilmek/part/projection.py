@@ -7,7 +7,7 @@ or does not turn keeps it; of one that turns otherwise the convex hull of what i
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from enum import Enum
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 from manifold3d import Manifold, Mesh
@@ -21,6 +21,7 @@ from ilmek.part.poses import Chain, Poses, chains, poses
 from ilmek.part.tree import Tree
 from ilmek.plane.curves import hull
 from ilmek.records import record
+from ilmek.report.scene import Solid
 from ilmek.units import mm, turn
 
 COARSE = 0.5 * mm
@@ -41,7 +42,7 @@ class View(Enum):
     TOP = ((0.0, -1.0, 0.0), (1.0, 0.0, 0.0), (0.0, 0.0, -1.0))
     """From above: the weaver stands below."""
 
-    @property
+    @cached_property
     def rotation(self) -> Float[np.ndarray, "3 3"]:
         """From the axes of the scene to those of the view: right, up, towards the eye."""
         sight, right, up = (np.array(axis) for axis in self.value)
@@ -179,8 +180,7 @@ def _curves(piece: _Piece, turned: Float[np.ndarray, "3 3"]) -> tuple[ComplexArr
 def _projected(part: Part, rotation: bytes) -> tuple[tuple[ComplexArray, ...], float]:
     """Outer curves of a part turned about its origin [m], and its nearest distance towards the eye [m]."""
     turned = np.frombuffer(rotation).reshape(3, 3)
-    assert part.shape is not None
-    mesh = part.shape.mesh(COARSE)
+    mesh = _mesh(part)
     # Not kept: a Manifold that lives as long as the process is reported as leaked at its end.
     solid = Manifold(Mesh(mesh.points.astype(np.float32), mesh.triangles.astype(np.uint32)))
     seen = solid.transform(np.column_stack([turned, np.zeros(3)]))
@@ -190,6 +190,12 @@ def _projected(part: Part, rotation: bytes) -> tuple[tuple[ComplexArray, ...], f
         flat = mesh.points @ turned[:2].T
         outer = (hull(flat[:, 0] + 1j * flat[:, 1]),)
     return outer, float(seen.bounding_box()[5])
+
+
+@lru_cache(maxsize=512)
+def _mesh(part: Part) -> Solid:
+    assert part.shape is not None
+    return part.shape.mesh(COARSE)
 
 
 def _area(curve: ComplexArray) -> float:

@@ -138,7 +138,7 @@ def _of_machine(path: str, _digest: str) -> ProjectLoom:
     if order.machine != MACHINE.name:
         raise ParameterError(f"{Path(path).name} is the file of a {order.machine}", allowed=_NO_LOOM)
     design = MACHINE.designed(MACHINE.params.read(order.settings))
-    return ProjectLoom(design, MACHINE.report(design))
+    return ProjectLoom(design, MACHINE.report(design, illustrated=False))
 
 
 _recipes: dict[tuple[str, str], ProjectLoom] = {}

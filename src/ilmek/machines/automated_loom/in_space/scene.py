@@ -59,11 +59,13 @@ def scene(loom: LoomDesign, report: Report) -> Scene:
     )
 
 
+@lru_cache(maxsize=2)
 def branches_of(loom: LoomDesign) -> tuple[MachineTree, ...]:
     """The trees of all machines of a loom, each after what carries it."""
     return (*standing(loom), cams(loom), beating(loom), weft(loom), heads(loom))
 
 
+@lru_cache(maxsize=2)
 def loom_tree(loom: LoomDesign) -> Tree:
     """All bodies of a loom in the axes of the scene, with their motions."""
     whole = Tree()
