@@ -66,7 +66,7 @@ def test_detail_is_the_best_correlation_of_the_windows(seed: int) -> None:
                 if y == x == 1:
                     spread = np.linalg.norm(window) / 9
             if spread >= DETAILED:
-                shares.append(max(0.0, *found))
+                shares.append(max(0.0, *found) * min(1.0, np.linalg.norm(tied) / 9 / spread))
                 weights.append(spread)
     expected = np.average(shares, weights=weights)
     assert detail_kept(detail_of(picture, (26, 50)), knots, labs) == pytest.approx(expected, abs=2e-3)

@@ -3,9 +3,9 @@
 Small print, dust and hair may be finer than the knots: their mean light over the knots is grey, and the chart that
 keeps all edges of that grey shows nothing. So windows of SIDE × SIDE knots are compared at FINE × FINE points a knot,
 on a lattice. With p the CIELAB of a window's points about their mean and c that of the yarns of their knots, it is kept
-by the correlation
+by the correlation, and by the contrast where that is less: print that became a grey has little
 
-    r = max(0, ⟨p, c⟩ / (|p| |c|)),   0 where the yarns are one
+    r = max(0, ⟨p, c⟩ / (|p| |c|)) min(1, |c| / |p|),   0 where the yarns are one
 
 the largest with the picture moved by up to one point, since a line is tied in whole knots. The detail kept is the mean
 of r over the windows, each with the weight |p|. Only windows whose |p|, the root of the mean square, is DETAILED or
@@ -94,6 +94,6 @@ def detail_kept(detail: Detail | None, knots: Indices, yarn_labs: FloatArray) ->
     top, left = detail.corners.T[:, :, None, None]
     tied, contrast = _centred(yarn_labs[knots[top + y, left + x]])
     common = np.mean(np.sum(detail.means * tied.reshape(-1, SIDE * SIDE, 3), axis=-1), axis=-1)
-    share = np.max(common / np.maximum(detail.spread * contrast, 1e-9), axis=0)
     weight = detail.spread[0]
+    share = np.max(common / np.maximum(detail.spread * contrast, 1e-9), axis=0) * np.minimum(1.0, contrast / weight)
     return float((np.maximum(share, 0.0) * weight).cumsum()[-1] / weight.cumsum()[-1])
