@@ -354,7 +354,7 @@ def chart_of_design(
         dyed=tuple(shade.name for shade in own.proposed),
         lost=own.lost(distinct),
         edges_kept=edges_kept(edges_of(design.colours, distinct, design.averages), knots, labs),
-        detail_kept=detail_kept(design.detail, knots, labs),
+        detail_kept=detail_kept(design.detail, knots, labs, photo=design.kind == "photo"),
         paper=design.paper,
     )
     chart = Chart(knots, own.palette.yarns, size, quality, kind, read)
