@@ -7,10 +7,10 @@ by the correlation
 
     r = max(0, ⟨p, c⟩ / (|p| |c|)),   0 where the yarns are one
 
-and in a photo, whose knots have mean light, times min(1, |c| / |p|): print that became a grey has little contrast. It is
-the largest with the picture moved by up to one point, since a line is tied in whole knots. The detail kept is the mean
-of r over the windows, each with the weight |p|. Only windows whose |p|, the root of the mean square, is DETAILED or
-more have detail.
+and in a photo, whose knots have mean light, times min(1, |c| / |p|): print that became a grey has little contrast. It
+is the largest with the picture moved by up to one point, since a line is tied in whole knots. The detail kept is the
+mean of r over the windows, each with the weight |p|. Only windows whose |p|, the root of the mean square, is DETAILED
+or more have detail.
 """
 
 import numpy as np

@@ -134,6 +134,7 @@ ENGLISH = {
     "picture.outline-no-edge": "a side has no straight edge",
     "picture.outline-fringe": "what lies along a side may be a fringe",
     "picture.outline-parallel": "two sides that meet are parallel",
+    "picture.outline-parts": "another part that differs from the floor lies beside it",
     "picture.outline-plain": "nothing differs from the margin of the picture",
     "picture.outline-small": "what differs from the margin of the picture is too small",
     "picture.outline-no-corners": "what differs from the margin of the picture has no four corners",

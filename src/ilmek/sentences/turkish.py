@@ -134,6 +134,7 @@ TURKISH = {
     "picture.outline-no-edge": "bir kenar düz değil",
     "picture.outline-fringe": "bir kenar boyunca uzanan saçak olabilir",
     "picture.outline-parallel": "buluşan iki kenar paralel",
+    "picture.outline-parts": "yanında zeminden farklı başka bir parça var",
     "picture.outline-plain": "resmin kenarından farklı bir şey yok",
     "picture.outline-small": "resmin kenarından farklı olan bölge çok küçük",
     "picture.outline-no-corners": "resmin kenarından farklı olan bölgenin dört köşesi yok",
