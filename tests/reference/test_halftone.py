@@ -119,7 +119,7 @@ def test_the_default_of_a_photo_at_viewing_distance(name: str, own: bool) -> Non
 @pytest.mark.parametrize("name", ["astronaut.png", "chelsea.png", "coffee.png"])
 def test_no_dot_contrasts_with_its_tone(name: str) -> None:
     rgb = photo(name)[:126]
-    made, dots = draw_halftone(nearest_knots(rgb), rgb, LABS, 1.0)
+    made, dots = draw_halftone(nearest_knots(rgb), rgb, LABS, 1.0, off=9.0)
     where = np.repeat(np.repeat(dots, CELL, axis=0), CELL, axis=1)[: len(rgb), : rgb.shape[1]]
     rgb, made = rgb[: len(where), : where.shape[1]], made[: len(where), : where.shape[1]]
     tones, yarns = seen(rgb, 0), seen(codes_of(made), 0)
@@ -168,7 +168,7 @@ def test_lines_and_areas_of_a_yarn_stay() -> None:
     rgb[30:50, 60:] = (120, 110, 115)
     rgb[39, 64:] = (0, 0, 0)
     knots = nearest_knots(rgb)
-    made, drawn = draw_halftone(knots, rgb, LABS, 1.0)
+    made, drawn = draw_halftone(knots, rgb, LABS, 1.0, off=9.0)
     same = np.ones((80, 80), dtype=bool)
     same[30:50, 60:] = False
     same[39, 64:] = True
@@ -186,7 +186,7 @@ def test_confetti_keeps_the_pattern() -> None:
 @pytest.mark.parametrize("shape", [(1, 9), (9, 1), (5, 7), (64, 3)])
 def test_any_grid(shape: tuple[int, int]) -> None:
     rgb = np.full((*shape, 3), (120, 110, 115), dtype=np.uint8)
-    made, drawn = draw_halftone(np.full(shape, 15, dtype=np.uint8), rgb, LABS, 1.0)
+    made, drawn = draw_halftone(np.full(shape, 15, dtype=np.uint8), rgb, LABS, 1.0, off=9.0)
     assert made.shape == shape
     assert drawn.shape == (max(1, shape[0] // CELL), max(1, shape[1] // CELL))
 

@@ -35,7 +35,7 @@ from ilmek.carpet.sizes import CarpetSize, carpet_size
 from ilmek.carpet.tally import Tally, tally_of
 from ilmek.carpet.usual_pile import with_counts
 from ilmek.carpet.yarn import Yarn, yarn_labs, yarn_list
-from ilmek.carpet.yarns_of_design import yarns_of_design
+from ilmek.carpet.yarns_of_design import YarnsOfDesign, yarns_of_design
 from ilmek.elements.knot_kinds import parse_knot
 from ilmek.errors import CarpetError, PictureError
 from ilmek.progress import SILENT, Progress
@@ -333,7 +333,7 @@ def chart_of_design(
     labs = yarn_labs(own.palette.yarns)
     painted = paint(design.colours, distinct, own.yarn_of, progress.part(0.6, 0.7))
     tones = design if exact is None else replace(design, colours=exact)
-    knots, changed, drawn = _without_patches(painted, tones, labs, reading, progress.part(0.7, 0.9))
+    knots, changed, drawn = _without_patches(painted, tones, own, reading, progress.part(0.7, 0.9))
     taken, charts = (own.yarn_of, own.difference), (painted, knots)
     to_design = differences(design.colours, distinct, taken, charts, labs, progress.part(0.9, 0.95))
     lost_by_reading = reading_loss(design.colours, design.averages, knots, labs)
@@ -354,7 +354,7 @@ def chart_of_design(
         dyed=tuple(shade.name for shade in own.proposed),
         lost=own.lost(distinct),
         edges_kept=edges_kept(edges_of(design.colours, distinct, design.averages), knots, labs),
-        detail_kept=detail_kept(design.detail, knots, labs),
+        detail_kept=detail_kept(design.detail, knots, labs, photo=design.kind == "photo"),
         paper=design.paper,
     )
     chart = Chart(knots, own.palette.yarns, size, quality, kind, read)
@@ -363,16 +363,17 @@ def chart_of_design(
 
 
 def _without_patches(
-    painted: Indices, tones: Design, labs: FloatArray, reading: ReadParams, progress: Progress
+    painted: Indices, tones: Design, own: YarnsOfDesign, reading: ReadParams, progress: Progress
 ) -> tuple[Indices, int, BoolArray | None]:
     """The chart with its halftone and without small patches, the knots that these changed, and the dots as below."""
-    knots, dots = _halftone(painted, tones, labs, reading.halftone, progress.part(0.0, 0.5))
+    labs = yarn_labs(own.palette.yarns)
+    knots, dots = _halftone(painted, tones, labs, own.least, reading.halftone, progress.part(0.0, 0.5))
     least, merging = reading.least_patch_of(tones.kind), progress.part(0.5, 1.0)
     return *merge_patches(knots, tones.colours, labs, least, kept=dots, progress=merging), dots
 
 
-def _halftone(
-    knots: Indices, design: Design, labs: FloatArray, share: float | None, progress: Progress
+def _halftone(  # noqa: PLR0917
+    knots: Indices, design: Design, labs: FloatArray, off: float, share: float | None, progress: Progress
 ) -> tuple[Indices, BoolArray | None]:
     """The chart with its halftone, and the cells that are dots; None: no halftone."""
     photo = design.kind == "photo"
@@ -385,7 +386,7 @@ def _halftone(
             allowed=Sentence("picture.halftone-allowed"),
             do=Sentence("picture.halftone-do"),
         )
-    return draw_halftone(knots, design.colours, labs, strength, progress)
+    return draw_halftone(knots, design.colours, labs, strength, off=off, progress=progress)
 
 
 def _reason(design: Design, dots: BoolArray | None, *, stretched: bool) -> str:

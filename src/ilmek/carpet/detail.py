@@ -7,9 +7,10 @@ by the correlation
 
     r = max(0, ⟨p, c⟩ / (|p| |c|)),   0 where the yarns are one
 
-the largest with the picture moved by up to one point, since a line is tied in whole knots. The detail kept is the mean
-of r over the windows, each with the weight |p|. Only windows whose |p|, the root of the mean square, is DETAILED or
-more have detail.
+and in a photo, whose knots have mean light, times min(1, |c| / |p|): print that became a grey has little contrast. It
+is the largest with the picture moved by up to one point, since a line is tied in whole knots. The detail kept is the
+mean of r over the windows, each with the weight |p|. Only windows whose |p|, the root of the mean square, is DETAILED
+or more have detail.
 """
 
 import numpy as np
@@ -86,7 +87,7 @@ def _centred(labs: Float[np.ndarray, "windows y x 3"]) -> tuple[Float[np.ndarray
     return centred, np.sqrt(np.mean(np.sum(centred**2, axis=-1), axis=(1, 2)))
 
 
-def detail_kept(detail: Detail | None, knots: Indices, yarn_labs: FloatArray) -> float | None:
+def detail_kept(detail: Detail | None, knots: Indices, yarn_labs: FloatArray, *, photo: bool) -> float | None:
     """The share of a picture's detail that a chart keeps [-]; None without detail."""
     if detail is None:
         return None
@@ -94,6 +95,7 @@ def detail_kept(detail: Detail | None, knots: Indices, yarn_labs: FloatArray) ->
     top, left = detail.corners.T[:, :, None, None]
     tied, contrast = _centred(yarn_labs[knots[top + y, left + x]])
     common = np.mean(np.sum(detail.means * tied.reshape(-1, SIDE * SIDE, 3), axis=-1), axis=-1)
-    share = np.max(common / np.maximum(detail.spread * contrast, 1e-9), axis=0)
     weight = detail.spread[0]
+    share = np.max(common / np.maximum(detail.spread * contrast, 1e-9), axis=0)
+    share *= np.minimum(1.0, contrast / weight) if photo else 1.0
     return float((np.maximum(share, 0.0) * weight).cumsum()[-1] / weight.cumsum()[-1])

@@ -129,6 +129,7 @@ class Fit:
     clearness  of the outline, 0 to 1, where the corners were found in the picture
     shown    left, top, right and bottom of what the carpet shows, as shares of the prepared picture; beyond 0 and 1
              where it is padded
+    outside  share of a round picture that lies outside of its outline, and has no ground of its own [-]
     """
 
     kind: str = "whole"
@@ -140,6 +141,7 @@ class Fit:
     corners: tuple[tuple[float, float], ...] | None = None
     clearness: float | None = None
     shown: tuple[float, float, float, float] = _WHOLE
+    outside: float = 0.0
 
     @property
     def words(self) -> str:

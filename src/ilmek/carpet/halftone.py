@@ -5,13 +5,15 @@ cells beside and below it, row by row, forth and back, in the shares of Floyd an
 
 smooth  A cell of a smooth area is a dot: one yarn of the mixture of its tone [`mixtures`], that which comes nearest to
         the light of the mixture and of what was carried on. No yarn of a mixture contrasts with its tone by more than
-        CONTRAST, so no dot does with what lies around it.
+        the yarns need, so no dot does with what lies around it.
 other   In a cell that holds or touches an outline, or belongs to no smooth square of 3 × 3 others, each knot has the
-        yarn nearest to its own colour, moved by what was carried on, at most by MOST_MOVED codes. So lines and
-        textures stay sharp, and the borders of their areas make the tone right.
+        yarn nearest to its own colour, moved by what was carried on, at most by MOST_MOVED codes, and by no more than
+        its tone differs from its yarn. So lines and textures stay sharp, and the borders of their areas make the tone
+        right.
 
-An outline: knots of a cell differ by more than OUTLINE_INSIDE, or its mean from that of a cell beside it by more than
-OUTLINE, in codes of a channel. The strength is the share of the light that is carried on.
+An outline: the means of two cells side by side differ by more than twice what either lacks to its nearest yarn, at most
+by OUTLINE, in codes of a channel, or knots of a cell by half as much again. A texture that its nearest yarns show needs
+no dots, which would hide it. The strength is the share of the light that is carried on.
 
 Light is in whole numbers, so that the chart does not depend on the machine.
 
@@ -28,7 +30,7 @@ from ilmek.carpet.colour import lab_to_srgb
 from ilmek.carpet.colour_difference import ciede2000
 from ilmek.carpet.design import bands
 from ilmek.carpet.light import LIGHT, code_of_light, lab_of_light
-from ilmek.carpet.mixtures import WHITE, mix, yarn_lights
+from ilmek.carpet.mixtures import WHITE, greatest_contrast, mix, yarn_lights
 from ilmek.carpet.nearest_colour import NearestSearch, nearest_of, nearest_search
 from ilmek.carpet.patches import grown, is_lone
 from ilmek.num.compiled import compiled, embedded, uncounted
@@ -37,11 +39,11 @@ from ilmek.progress import SILENT, Progress
 CELL = 2
 """Knots along a side of a cell."""
 
-OUTLINE, OUTLINE_INSIDE = 32, 48
-"""Differences of an outline, in codes of a channel."""
+OUTLINE, FAINTEST = 32, 4
+"""Greatest and least difference between the tones of two cells that is an outline, in codes of a channel."""
 
-MOST_MOVED = 32
-"""Codes by which what is carried on moves the colours of a cell that is no dot."""
+MOST_MOVED, LEAST_MOVED = 32, 4
+"""Codes by which at most, and in any case, what is carried on moves the colours of a cell that is no dot."""
 
 STEP, FINE = 8, 4
 """Codes between the channels of the tones whose mixtures are computed, and of the colours whose nearest yarns are; what
@@ -71,7 +73,7 @@ class _Shelf(NamedTuple):
 
     search    of the nearest yarn
     lights, codes  linear light of each yarn in units of LIGHT, and its codes
-    strength  of the light that is carried on, in shares of _WHOLE
+    strength  of the light that is carried on, in shares of _WHOLE      contrast  greatest of a yarn with its tone
     nearest   of colours in steps of FINE the nearest yarn, _UNKNOWN before it is computed
     known     of tones in steps of STEP whether the mixture is computed
     yarns, aims, positions, slopes  of mixtures [`mixtures.mix`]
@@ -81,6 +83,7 @@ class _Shelf(NamedTuple):
     lights: IntArray
     codes: IntArray
     strength: int
+    contrast: float
     nearest: Indices
     known: BoolArray
     yarns: Indices
@@ -89,13 +92,14 @@ class _Shelf(NamedTuple):
     slopes: IntArray
 
 
-def _shelf(labs: FloatArray, strength: float) -> _Shelf:
+def _shelf(labs: FloatArray, strength: float, contrast: float) -> _Shelf:
     tones = _TONES**3  # memory that is never touched costs nothing
     return _Shelf(
         nearest_search(labs),
         np.rint(WHITE * yarn_lights(labs)).astype(np.int64),
         lab_to_srgb(labs).astype(np.int64),
         round(_WHOLE * strength),
+        contrast,
         np.full((_COLOURS**2, _COLOURS), _UNKNOWN, dtype=np.uint8),
         np.zeros(tones, dtype=bool),
         np.empty((tones, 3), dtype=np.uint8),
@@ -105,9 +109,52 @@ def _shelf(labs: FloatArray, strength: float) -> _Shelf:
     )
 
 
+@compiled
+def _find_mixture(shelf: _Shelf, key: int) -> None:
+    """Compute the mixture of a tone."""
+    light = np.empty(3)
+    for channel in range(3):
+        step = key // _TONES ** (2 - channel) % _TONES
+        light[channel] = LIGHT[min(step * STEP, 255)] / WHITE
+    shelf.known[key] = True
+    share, lights = shelf.strength / _WHOLE, shelf.lights / WHITE
+    yarns, aim, position, slope = shelf.yarns[key], shelf.aims[key], shelf.positions[key], shelf.slopes[key]
+    mix(light, shelf.search.labs, lights, share, shelf.contrast, yarns, aim, position, slope)
+
+
 @uncounted
-def _tones(rgb: Rgb, tones: Tones, rough: BoolArray) -> None:
-    """The tone of each cell as a code r·65536 + g·256 + b, and whether it holds or touches an outline."""
+def _find_nearest(shelf: _Shelf, first: int, second: int) -> None:
+    """Compute the yarn nearest to a colour, in steps of FINE codes."""
+    red, green, blue = FINE * (first // _COLOURS), FINE * (first % _COLOURS), FINE * second
+    half = FINE // 2
+    lightness, a, b = lab_of_light(LIGHT[red + half], LIGHT[green + half], LIGHT[blue + half])
+    shelf.nearest[first, second] = nearest_of(shelf.search, lightness, a, b)[0]
+
+
+@embedded
+def _nearest_yarn(shelf: _Shelf, red: int, green: int, blue: int) -> int:
+    """The yarn nearest to a colour, in steps of FINE codes."""
+    first = min(max(red, 0), 255) // FINE * _COLOURS + min(max(green, 0), 255) // FINE
+    second = min(max(blue, 0), 255) // FINE
+    if shelf.nearest[first, second] == _UNKNOWN:
+        _find_nearest(shelf, first, second)
+    return int(shelf.nearest[first, second])
+
+
+@embedded
+def _off(shelf: _Shelf, tone: int) -> int:
+    """Difference of a tone and its nearest yarn, in codes of a channel."""
+    red, green, blue = tone >> 16, tone >> 8 & 255, tone & 255
+    codes = shelf.codes[_nearest_yarn(shelf, red, green, blue)]
+    return int(max(abs(red - codes[0]), abs(green - codes[1]), abs(blue - codes[2])))
+
+
+@uncounted
+def _tones(rgb: Rgb, tones: Tones, rough: BoolArray, shelf: _Shelf, most: IntArray) -> None:
+    """The tone of each cell as a code r·65536 + g·256 + b, and whether it holds or touches an outline.
+
+    most  room for the greatest differences without an outline of two rows of cells (2, columns)
+    """
     rows, columns = tones.shape
     for i in range(rows):
         top, bottom = CELL * i, rgb.shape[0] if i == rows - 1 else CELL * (i + 1)
@@ -122,10 +169,11 @@ def _tones(rgb: Rgb, tones: Tones, rough: BoolArray) -> None:
                 tone = tone << 8 | code_of_light(light)
                 widest = max(widest, width)
             tones[i, j] = tone
-            rough[i, j] = widest > OUTLINE_INSIDE
-            if i > 0 and _apart(tone, tones[i - 1, j]):
+            own = most[i % 2, j] = min(OUTLINE, max(FAINTEST, 2 * _off(shelf, tone)))
+            rough[i, j] = 2 * widest > 3 * own
+            if i > 0 and _apart(tone, tones[i - 1, j], max(own, most[1 - i % 2, j])):
                 rough[i, j] = rough[i - 1, j] = True
-            if j > 0 and _apart(tone, tones[i, j - 1]):
+            if j > 0 and _apart(tone, tones[i, j - 1], max(own, most[i % 2, j - 1])):
                 rough[i, j] = rough[i, j - 1] = True
 
 
@@ -152,46 +200,20 @@ def _of_cell(rgb: Rgb, place: tuple[int, int, int, int], channel: int) -> tuple[
 
 
 @uncounted
-def _apart(tone: int, other: int) -> bool:
+def _apart(tone: int, other: int, most: int) -> bool:
     """Whether an outline lies between two cells."""
     red, green, blue = (
         (tone >> 16) - (other >> 16),
         (tone >> 8 & 255) - (other >> 8 & 255),
         (tone & 255) - (other & 255),
     )
-    return max(abs(red), abs(green), abs(blue)) > OUTLINE
-
-
-@compiled
-def _find_mixture(shelf: _Shelf, key: int) -> None:
-    """Compute the mixture of a tone."""
-    light = np.empty(3)
-    for channel in range(3):
-        step = key // _TONES ** (2 - channel) % _TONES
-        light[channel] = LIGHT[min(step * STEP, 255)] / WHITE
-    shelf.known[key] = True
-    share, lights = shelf.strength / _WHOLE, shelf.lights / WHITE
-    yarns, aim, position, slope = shelf.yarns[key], shelf.aims[key], shelf.positions[key], shelf.slopes[key]
-    mix(light, shelf.search.labs, lights, share, yarns, aim, position, slope)
-
-
-@uncounted
-def _find_nearest(shelf: _Shelf, first: int, second: int) -> None:
-    """Compute the yarn nearest to a colour, in steps of FINE codes."""
-    red, green, blue = FINE * (first // _COLOURS), FINE * (first % _COLOURS), FINE * second
-    half = FINE // 2
-    lightness, a, b = lab_of_light(LIGHT[red + half], LIGHT[green + half], LIGHT[blue + half])
-    shelf.nearest[first, second] = nearest_of(shelf.search, lightness, a, b)[0]
+    return max(abs(red), abs(green), abs(blue)) > most
 
 
 @embedded
-def _nearest_yarn(shelf: _Shelf, red: int, green: int, blue: int) -> int:
-    """The yarn nearest to a colour, in steps of FINE codes."""
-    first = min(max(red, 0), 255) // FINE * _COLOURS + min(max(green, 0), 255) // FINE
-    second = min(max(blue, 0), 255) // FINE
-    if shelf.nearest[first, second] == _UNKNOWN:
-        _find_nearest(shelf, first, second)
-    return int(shelf.nearest[first, second])
+def _along(slope: IntArray, light: Light) -> int:
+    """Light along an axis of CIELAB."""
+    return int(slope[0] * (light[0] >> 8) + slope[1] * (light[1] >> 8) + slope[2] * (light[2] >> 8)) >> 8
 
 
 @embedded
@@ -204,23 +226,8 @@ def _dot(shelf: _Shelf, tone: int, light: Light) -> tuple[int, Light]:
         key = ((red + half) // STEP * _TONES + (green + half) // STEP) * _TONES + (blue + half) // STEP
         if not shelf.known[key]:
             _find_mixture(shelf, key)
-        positions, slopes, lights = shelf.positions, shelf.slopes, shelf.lights
-        x = (
-            slopes[key, 0, 0] * (light[0] >> 8)
-            + slopes[key, 0, 1] * (light[1] >> 8)
-            + slopes[key, 0, 2] * (light[2] >> 8)
-        )
-        y = (
-            slopes[key, 1, 0] * (light[0] >> 8)
-            + slopes[key, 1, 1] * (light[1] >> 8)
-            + slopes[key, 1, 2] * (light[2] >> 8)
-        )
-        z = (
-            slopes[key, 2, 0] * (light[0] >> 8)
-            + slopes[key, 2, 1] * (light[1] >> 8)
-            + slopes[key, 2, 2] * (light[2] >> 8)
-        )
-        x, y, z = x >> 8, y >> 8, z >> 8
+        positions, slopes, lights = shelf.positions, shelf.slopes[key], shelf.lights
+        x, y, z = _along(slopes[0], light), _along(slopes[1], light), _along(slopes[2], light)
         best, least = 0, np.int64(1) << 62
         for k in range(3):
             far = (positions[key, k, 0] - x) ** 2 + (positions[key, k, 1] - y) ** 2 + (positions[key, k, 2] - z) ** 2
@@ -242,9 +249,9 @@ def _part(light: int, knots: int) -> int:
 
 
 @embedded
-def _moved(code: int, light: int) -> tuple[int, int]:
+def _moved(code: int, light: int, most: int) -> tuple[int, int]:
     """The light of a code with what was carried on, within MOST_MOVED codes of it, and the codes that it moves."""
-    light = min(max(light + LIGHT[code], LIGHT[max(code - MOST_MOVED, 0)]), LIGHT[min(code + MOST_MOVED, 255)])
+    light = min(max(light + LIGHT[code], LIGHT[max(code - most, 0)]), LIGHT[min(code + most, 255)])
     return light, code_of_light(light) - code
 
 
@@ -254,9 +261,10 @@ def _detail(  # noqa: PLR0917
 ) -> Light:
     """Tie each knot of a cell in the yarn nearest to its colour, moved by what was carried on; `light` as for a dot."""
     top, bottom, left, right = place
-    first, red = _moved(tone >> 16, light[0])
-    second, green = _moved(tone >> 8 & 255, light[1])
-    third, blue = _moved(tone & 255, light[2])
+    most = min(MOST_MOVED, max(LEAST_MOVED, _off(shelf, tone)))
+    first, red = _moved(tone >> 16, light[0], most)
+    second, green = _moved(tone >> 8 & 255, light[1], most)
+    third, blue = _moved(tone & 255, light[2], most)
     moves = red != 0 or green != 0 or blue != 0
     x, y, z = 0, 0, 0
     for i in range(top, bottom):
@@ -343,28 +351,35 @@ def _join(knots: Indices, rgb: Rgb, labs: FloatArray, first: int, stop: int) -> 
                         knots[y, x] = yarn
 
 
-def _dots(part: Rgb, tones: Tones) -> BoolArray:
+def _dots(part: Rgb, tones: Tones, shelf: _Shelf) -> BoolArray:
     """Write the tones of the cells of a part; those that belong to a smooth square of 3 × 3 cells."""
     rough = np.empty(tones.shape, dtype=bool)
-    _tones(part, tones, rough)
+    _tones(part, tones, rough, shelf, np.empty((2, tones.shape[1]), dtype=np.int64))
     return grown(~grown(rough))
 
 
 def draw_halftone(
-    knots: Indices, rgb: Rgb, yarn_labs: Float[np.ndarray, "yarns 3"], strength: float, progress: Progress = SILENT
+    knots: Indices,
+    rgb: Rgb,
+    yarn_labs: Float[np.ndarray, "yarns 3"],
+    strength: float,
+    *,
+    off: float,
+    progress: Progress = SILENT,
 ) -> tuple[Indices, BoolArray]:
     """The chart with the pattern, and which cells of CELL × CELL knots are dots.
 
     knots  chart of the nearest yarns      rgb  the design      strength  share of the light that is carried on [-]
+    off    mean difference of the design and the nearest yarns [CIEDE2000]
     """
-    rgb, out, shelf = np.ascontiguousarray(rgb), knots.copy(), _shelf(yarn_labs, strength)
+    rgb, out, shelf = np.ascontiguousarray(rgb), knots.copy(), _shelf(yarn_labs, strength, greatest_contrast(off))
     rows, columns = max(1, knots.shape[0] // CELL), max(1, knots.shape[1] // CELL)
     drawn, owed = np.zeros((rows, columns), dtype=bool), np.zeros((2, columns + 2, 3), dtype=np.int64)
     for band in bands(rows, CELL**2 * columns):
         around = slice(max(band.start - 3, 0), min(band.stop + 3, rows))
         part = _knots_of(rgb, around, rows)
         tones = np.empty((around.stop - around.start, columns), dtype=np.int32)
-        dots = _dots(part, tones)
+        dots = _dots(part, tones, shelf)
         own = (band.start - around.start, band.stop - around.start, around.start)
         drawn[band] = dots[own[0] : own[1]]
         _draw(_knots_of(out, around, rows), part, tones, dots, shelf, own, owed)

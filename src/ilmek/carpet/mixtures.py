@@ -5,9 +5,10 @@ CIELAB with light at c, its chroma weighted as in CIEDE2000, and d the CIEDE2000
 mixtures of one tone that which shows least is taken. Light mixes linearly.
 
 A yarn is in a mixture only where its contrast d with the tone is at most min(CONTRAST, NEAR + WIDER n²), n that of the
-nearest yarn: a tone that nearly is a yarn has no strong dots, whatever they would better. Its difference to the tone in
-a, b, divided by 1 + 0.045 C as in CIEDE2000, is at most CHROMA where CONTRAST is allowed, and less in proportion: yarns
-of other hues make no skin, and no grey. A yarn of few dots, each of which shows, is left out.
+nearest yarn, and no more than a tone with the picture's mean of n has [`greatest_contrast`]: a tone that nearly is a
+yarn has no strong dots, whatever they would better, and a picture in shades of its own has none. Its difference to the
+tone in a, b, divided by 1 + 0.045 C as in CIEDE2000, is at most CHROMA where CONTRAST is allowed, and less in
+proportion: yarns of other hues make no skin, and no grey. A yarn of few dots, each of which shows, is left out.
 """
 
 import math
@@ -38,7 +39,7 @@ CONTRAST = 31.0
 CHROMA = 24.0
 """Greatest difference of a yarn of a mixture to its tone in a, b, weighted as in CIEDE2000."""
 
-NEAR, WIDER = 8.0, 0.5
+NEAR, WIDER = 6.0, 0.5
 """Greatest contrast with a tone that is a yarn [CIEDE2000], and what the square of its difference to the nearest adds
 [1/CIEDE2000]; with less, charts of ten photographs are beyond 1.1 times error diffusion across the room.
 """
@@ -47,6 +48,15 @@ SLOPES = 16
 """Whole numbers of a unit of the slope."""
 
 WHITE = float(LIGHT[255])
+
+
+def greatest_contrast(mean: float) -> float:
+    """Greatest contrast of a yarn of a mixture with its tone, of a picture whose yarns differ by `mean` from it.
+
+    >>> greatest_contrast(2.0), greatest_contrast(9.0)
+    (8.0, 31.0)
+    """
+    return min(CONTRAST, NEAR + WIDER * mean**2)
 
 
 def yarn_lights(labs: FloatArray) -> FloatArray:
@@ -137,11 +147,11 @@ def _leave_out_specks(far: FloatArray, yarns: UInt8[np.ndarray, "3"], shares: Fl
 
 
 @compiled
-def _allowed(far: FloatArray, labs: FloatArray, a: float, b: float, tried: IntArray) -> int:
+def _allowed(far: FloatArray, labs: FloatArray, a: float, b: float, most: float, tried: IntArray) -> int:  # noqa: PLR0917
     """Write the yarns that a mixture of a tone may have, the nearest first; returns their number."""
     count, weight = 0, 1.0 + 0.045 * math.hypot(a, b)
     order = np.argsort(far, kind="mergesort")
-    contrast = min(CONTRAST, NEAR + WIDER * far[order[0]] ** 2)
+    contrast = min(most, NEAR + WIDER * far[order[0]] ** 2)
     chroma = CHROMA / CONTRAST * contrast
     for yarn in order:
         apart = math.hypot(labs[yarn, 1] - a, labs[yarn, 2] - b) / weight
@@ -153,8 +163,8 @@ def _allowed(far: FloatArray, labs: FloatArray, a: float, b: float, tried: IntAr
 
 @compiled
 def mix(  # noqa: PLR0917
-    tone: FloatArray, labs: FloatArray, lights: FloatArray, strength: float, yarns: UInt8[np.ndarray, "3"],
-    aim: IntArray, position: IntArray, slope: IntArray
+    tone: FloatArray, labs: FloatArray, lights: FloatArray, strength: float, contrast: float,
+    yarns: UInt8[np.ndarray, "3"], aim: IntArray, position: IntArray, slope: IntArray
 ) -> None:  # fmt: skip
     """Write the mixture of a tone in whole numbers.
 
@@ -163,6 +173,7 @@ def mix(  # noqa: PLR0917
     slope  of CIELAB with light there, in units of SLOPES
 
     tone  linear light, 1 is white      labs, lights  CIELAB and light of the yarns
+    contrast  greatest of a yarn with the tone [CIEDE2000]
     strength  the light aimed at lies at this share of the path from that of the nearest yarn to that of the tone
     """
     count = len(labs)
@@ -171,7 +182,7 @@ def mix(  # noqa: PLR0917
     lightness, a, b = lab_of_light(WHITE * tone[0], WHITE * tone[1], WHITE * tone[2])
     for yarn in range(count):
         far[yarn] = ciede2000(lightness, a, b, labs[yarn, 0], labs[yarn, 1], labs[yarn, 2])
-    some = _allowed(far, labs, a, b, tried)
+    some = _allowed(far, labs, a, b, contrast, tried)
     yarns[:], shares[0] = tried[0], 1.0
     for channel in range(3):
         light[channel] = min(max(strength * tone[channel] + (1.0 - strength) * lights[tried[0], channel], 0.0), 1.0)

@@ -53,8 +53,10 @@ _LONG, _COARSE = 2400, 600
 _LEAST_AREA = 0.05
 """Least area of a carpet in the picture."""
 
-_LEAST_PART, _LEAST_TOGETHER = 0.01, 0.85
-"""Least area of a part of a carpet, of its largest, and least share of a quadrilateral that the parts fill."""
+_LEAST_PART, _LEAST_TOGETHER, _MOST_BESIDE = 0.01, 0.85, 0.1
+"""Least area of a part of a carpet, of its largest, least share of a quadrilateral that the parts fill, and largest
+area of all parts beside a carpet, of its own.
+"""
 
 _PLAIN = 2.0
 """Difference to the floor in the region of the carpet: above that of its grain."""
@@ -95,6 +97,9 @@ _BEYOND, _GOES_ON = ((-0.2, -0.07), (1.07, 1.2)), 0.4
 
 _LIKE_FLOOR = 0.5
 """Share of the band inside an edge that may look like the floor."""
+
+_BETWEEN_THREADS = 0.03
+"""Share of it between the threads of a fringe: of two opposite sides alone."""
 
 _LARGEST_STEP = 2.8
 """Largest step outside an edge, CIELAB, on three of the sides: a fainter edge has more."""
@@ -169,8 +174,12 @@ def _sides(
         like_floor = np.linalg.norm(band_inside(strip, middle, None).colour - floor) < _ALIKE
         if like_floor and _goes_on(lab, difference, strip, (reach, 0.0, step_beside(strip, 0.0))):
             doubts.append(Sentence("picture.outline-goes-on"))
-    if max(map(share_like_floor, strips)) > _LIKE_FLOOR:
+    shares_like_floor = [share_like_floor(strip) for strip in strips]
+    if max(shares_like_floor) > _LIKE_FLOOR:
         doubts.append(Sentence("picture.outline-like-floor"))
+    ends, sides = sorted((shares_like_floor[::2], shares_like_floor[1::2]), key=min)[::-1]
+    if min(ends) > _BETWEEN_THREADS > max(sides):
+        doubts.append(Sentence("picture.outline-fringe"))
     return corners, shares, doubts
 
 
@@ -300,6 +309,8 @@ def _region(difference: FloatArray, step: int) -> BoolArray:
     together = np.isin(labels, parts)
     if len(parts) > 1 and _common_share(together, _largest_quadrilateral(_hull(together))) > _LEAST_TOGETHER:
         return together
+    if areas.sum() - areas.max() > _MOST_BESIDE * areas.max():
+        raise _unclear(Sentence("picture.outline-parts"))
     return largest
 
 

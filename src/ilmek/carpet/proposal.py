@@ -16,8 +16,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ilmek.arrays import FloatArray
+from ilmek.arrays import FloatArray, Rgb
 from ilmek.carpet.colour import lab_to_srgb, srgb_to_lab
+from ilmek.carpet.colour_difference import delta_e_2000
 from ilmek.carpet.colour_names import colour_name, unique_name
 from ilmek.carpet.nearest_colour import nearest
 from ilmek.carpet.palette import Colours, additions, difference_table, pooled, swap_while_better
@@ -33,6 +34,9 @@ NEAR, FAR = 5.0, 12.0
 
 PLAIN = 0.05
 """Share of the knots above which one colour of a photo is a plain ground: white paper, black night."""
+
+RARE = 0.03
+"""Share of the knots below which a shade of a photo is left out if it is a copy of another."""
 
 _CANDIDATES = 300
 """Largest number of pooled colours among which the medoids are."""
@@ -108,6 +112,8 @@ def propose_shades(
         shades = _chosen(others, number, evenness, least_gain, progress, drawn=False)
         shades = np.concatenate([colours.labs[plain], shades])
     codes = np.unique(lab_to_srgb(shades), axis=0)
+    if not drawn:
+        codes = _apart(codes, labs, knots)
     index, _ = nearest(labs, srgb_to_lab(codes))
     shares = np.bincount(index, weights=knots, minlength=len(codes)) / float(knots.sum())
     shades_by_name: dict[str, ProposedShade] = {}
@@ -116,6 +122,19 @@ def propose_shades(
         name = unique_name(colour_name(srgb_to_lab(codes[number])), shades_by_name)
         shades_by_name[name] = ProposedShade(name, (red, green, blue), float(shares[number]))
     return tuple(shades_by_name.values())
+
+
+def _apart(codes: Rgb, labs: FloatArray, knots: FloatArray) -> Rgb:
+    """The shades without the rare ones within SAME of one with more knots: smoothed edges have such copies."""
+    shades = srgb_to_lab(codes)
+    counts = np.bincount(nearest(labs, shades)[0], weights=knots, minlength=len(codes))
+    order = np.argsort(-counts, kind="stable").tolist()
+    kept = order[:2]
+    for number in order[2:]:
+        rare = counts[number] < RARE * counts.sum()
+        if not rare or float(np.min(delta_e_2000(shades[kept], shades[number]))) >= SAME:
+            kept.append(number)
+    return np.asarray(codes[sorted(kept)])
 
 
 def _chosen(

@@ -32,7 +32,7 @@ from ilmek.units import counted
 
 READINGS = ("auto", "exact", "flat", "photo")
 
-LEAST_PATCHES = MappingProxyType({"exact": 0, "flat": 2, "photo": 4})
+LEAST_PATCHES = MappingProxyType({"exact": 0, "flat": 2, "photo": 3})
 """Default of the least patch by the kind of reading."""
 
 DARKEST_WHITE = 64
@@ -53,7 +53,7 @@ class ReadParams(Params):
         None,
         at_least=0,
         at_most=100,
-        doc="patches of fewer knots are merged where they hardly show; default: exact 0, flat 2, photo 4",
+        doc="patches of fewer knots are merged where they hardly show; default: exact 0, flat 2, photo 3",
     )
 
     halftone: float | None = kind.ratio(

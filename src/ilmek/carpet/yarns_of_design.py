@@ -39,7 +39,7 @@ from ilmek.errors import YarnError
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 
-DRAWN_SHADES, MOST_DRAWN, PHOTO_SHADES = 24, 48, 16
+DRAWN_SHADES, MOST_DRAWN, PHOTO_SHADES = 24, 48, 24
 """Largest number of shades of a drawing, of one that would lose colours with fewer, and of a photo, without a yarn list
 and unless the number of colours is given.
 """

@@ -36,6 +36,7 @@ from ilmek.io.picture_file import (
 from ilmek.io.picture_pixels import srgb_pixels, turned
 from ilmek.io.rendered.kind import rendered
 from ilmek.io.rendered.resolution import Rendering
+from ilmek.io.round_picture import share_outside
 from ilmek.progress import SILENT, Cancelled, Progress
 from ilmek.records import record
 from ilmek.sentences import Sentence
@@ -98,6 +99,7 @@ class Picture:
     rgb      rows x columns x 3, whole numbers 0 to 255; other integers become uint8. Raises PictureError for others
     density  pixels per metre across and along, as the file states them; None: it does not
     ground   colour behind its transparent parts; None: it has none
+    outside  share of it outside of its round outline, where no ground is given for that [-]
     indices  of an opaque indexed picture of at most MOST_INDEXED pixels, rows x columns; None: it is none
     """
 
@@ -105,6 +107,7 @@ class Picture:
     notes: tuple[str, ...] = ()
     density: tuple[float, float] | None = None
     ground: Colour | None = None
+    outside: float = 0.0
     indices: Indices | None = None
 
     def __post_init__(self) -> None:
@@ -225,6 +228,7 @@ def _decoded(opened: Image.Image, stream: MeteredBytes, ground: Colour | None, p
         orientation, about_exif = _orientation(opened)
     pixels, behind, converted = srgb_pixels(opened, progress.part(0.7, 1.0), ground)
     density, indices = _density(opened), _indices(opened)
+    outside = share_outside(opened) if behind is not None and ground is None else 0.0
     opened.close()  # before the pixels are copied
     upright = pixels if by_pillow else turned(pixels, orientation)
     across, along = density or (0.0, 0.0)
@@ -232,7 +236,7 @@ def _decoded(opened: Image.Image, stream: MeteredBytes, ground: Colour | None, p
         across, along = along, across
     stated = (across, along) if density else None
     indices = None if indices is None or orientation != 1 else indices
-    return Picture(upright, (*notes, *about_exif, *deep, *converted), stated, behind, indices)
+    return Picture(upright, (*notes, *about_exif, *deep, *converted), stated, behind, outside, indices)
 
 
 def _density(opened: Image.Image) -> tuple[float, float] | None:

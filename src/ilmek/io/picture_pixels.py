@@ -58,11 +58,11 @@ def srgb_pixels(
     behind = None
     for top, bottom in _strips(image):
         strip = to_eight_bits(image.crop((0, top, image.width, bottom)))
-        coloured, cover = to_rgb(_flat(strip)), _cover(strip)
-        if cover is not None:
+        coloured, hiding = to_rgb(_flat(strip)), cover(strip)
+        if hiding is not None:
             behind = behind or ground or _contrasting(image, to_eight_bits, to_rgb)
             below = Image.new("RGB", strip.size, behind)
-            below.paste(coloured, mask=cover)
+            below.paste(coloured, mask=hiding)
             coloured = below
         out[top:bottom] = np.asarray(coloured)
         progress(bottom / image.height)
@@ -73,10 +73,10 @@ def _contrasting(image: Image.Image, to_eight_bits: _Convert, to_rgb: _Convert) 
     """White, or DARK where what is seen of a picture is nearly white along its rim."""
     scale = max(1.0, max(image.size) / _JUDGED)
     few = to_eight_bits(image.resize([max(1, int(side / scale)) for side in image.size], Image.Resampling.NEAREST))
-    cover = _cover(few)
-    if cover is None:
+    hiding = cover(few)
+    if hiding is None:
         return WHITE
-    seen = np.asarray(cover, dtype=float) / 255
+    seen = np.asarray(hiding, dtype=float) / 255
     rim = seen * (1 - _least_around(seen, _RIM))
     apart = np.linalg.norm(srgb_to_lab(np.asarray(to_rgb(_flat(few)))) - (100.0, 0.0, 0.0), axis=-1)
     limits = ((rim, NEARLY_WHITE), (seen, LIGHT))
@@ -164,7 +164,7 @@ def _flat(image: Image.Image) -> Image.Image:
     return image.convert("RGBA").convert("RGB") if image.mode in _ALPHA else image
 
 
-def _cover(image: Image.Image) -> Image.Image | None:
+def cover(image: Image.Image) -> Image.Image | None:
     """The alpha channel if it hides something, else None."""
     if not image.has_transparency_data:
         return None

@@ -81,7 +81,8 @@ def yarn_notes(chart: Chart) -> tuple[str, ...]:
 
 
 def kept_checks(chart: Chart, order: CarpetOrder) -> tuple[Check, ...]:
-    """The edges of the picture that the chart keeps, and the colours of a drawing that it loses, with their cure.
+    """The edges of the picture that the chart keeps, and the colours of a drawing that it loses, with their cure; and
+    what a round picture lacks for a rectangular carpet.
 
     None for a chart that is taken as it is.
     """
@@ -98,6 +99,9 @@ def kept_checks(chart: Chart, order: CarpetOrder) -> tuple[Check, ...]:
     if made.matches:
         share, cure = sum(lost.share for lost in made.lost), reduce(joined, _lost_cures(chart, order), "")
         checks.append(at_most(Sentence("check.colours-lost"), share, rules.most_lost, "%", _KEPT, cure=cure))
+    if made.fit.outside:
+        cure, source = Sentence("check.round-cure"), Sentence("check.round-source")
+        checks.append(at_most(Sentence("check.round"), made.fit.outside, 0.0, "%", source, cure=cure))
     return tuple(checks)
 
 
