@@ -21,7 +21,9 @@ from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.energy import Energy, energy_of
 from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time, time_shares
 from ilmek.machines.automated_loom.parts import PartsList, parts_of_loom
+from ilmek.machines.automated_loom.rail_supports import rail_supports
 from ilmek.machines.automated_loom.room import HORIZON, RoomFound, clearances, room_checks, room_tables
+from ilmek.machines.automated_loom.steady_posts import steady_checks
 from ilmek.machines.automated_loom.supports import supports
 from ilmek.machines.beat import BeatDrive
 from ilmek.machines.weaver.parts import case_plates
@@ -158,6 +160,8 @@ def checks(found: LoomAnalysis) -> tuple[Check, ...]:
         *found.listed.frame.checks,
         *bracket_checks(loom, brackets_of(loom), found.listed.frame.column),
         *supports(loom, found.listed.frame).checks,
+        *(check for one in rail_supports(loom, found.listed.frame) for check in one.checks),
+        *steady_checks(loom, found.listed.frame, brackets_of(loom)),
     )
 
 
