@@ -23,6 +23,7 @@ from ilmek.elements.beam import uniform
 from ilmek.elements.columns import STEEL, HollowSquare, ascending, eccentric, euler
 from ilmek.elements.materials import GRAVITY
 from ilmek.machines.arrangement.side_view import RETREAT
+from ilmek.machines.automated_loom.feet import FEET, Foot
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.part.part import Part
 from ilmek.part.shapes import square_tube
@@ -32,12 +33,6 @@ from ilmek.units import mm
 
 EULER = "Euler's load; assumed by this project: parameter buckling_safety"
 
-
-LEVELLING, PAD = (20 * mm, 40 * mm), (80 * mm, 15 * mm)
-"""Diameter and length of a levelling foot's screw, and of its pad [m]: M20; makers differ by some millimetres."""
-
-FOOT = LEVELLING[1] + PAD[1]
-"""Height of the frame over the floor, on its levelling feet [m]."""
 
 MOST_COLUMNS = 4
 """Columns of a side at most; assumed by this project."""
@@ -61,6 +56,11 @@ def member(name: str, title: str, section: HollowSquare, length: float) -> Part:
 
 
 _COLUMN = (part_id("column"),)
+
+
+def welded_to(frame: "LoomFrame", depth: float) -> HollowSquare:
+    """Section of the spacer between a column and a bracket of a height [m]: the largest up to both."""
+    return max((own for own in ascending() if own.side <= min(frame.column.side, depth)), key=lambda own: own.side)
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,7 +102,7 @@ class FrameTask:
 @record
 class LoomFrame:
     """The frame, designed: choice of its sections, sections, columns of a side, stress [Pa] and bow [m] of a column,
-    its safety against buckling, sag [m] of the rail.
+    its safety against buckling, sag [m] of the rail; levelling foot.
     """
 
     task: FrameTask
@@ -114,6 +114,8 @@ class LoomFrame:
     column_bow: float
     buckling_factor: float
     rail_sag: float
+    foot: Foot = FEET[0]
+    foot_load: float = result("N", "load of a levelling foot, where two bear the loom", default=math.nan)
     mass: float = result("kg", "mass of the frame with its brackets and its rail", name="frame_mass", default=math.nan)
 
     frame_column = computed("", "square hollow section of the columns", lambda it: it.column.name)
@@ -126,8 +128,14 @@ class LoomFrame:
 
     @property
     def checks(self) -> tuple[Check, ...]:
-        """Strength and stiffness of the columns and of the heads' rail."""
-        return (*column_checks(self.task, self.column, self.number), *rail_checks(self.task, self.rail))
+        """Strength and stiffness of the columns and of the heads' rail, load of the feet."""
+        source, cure = f"rating of {self.foot.name}", "set a narrower carpet"
+        foot = at_most(
+            *("load of a levelling foot", self.foot_load, self.foot.rating, "N", source),
+            cure=cure,
+            parts=(part_id("levelling-foot"),),
+        )
+        return (*column_checks(self.task, self.column, self.number), *rail_checks(self.task, self.rail), foot)
 
 
 def frame_for(task: FrameTask) -> LoomFrame:

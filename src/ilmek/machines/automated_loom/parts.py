@@ -5,9 +5,11 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from functools import lru_cache
 
+from ilmek.elements.materials import GRAVITY
 from ilmek.elements.prices import PriceRates, price_of, read_prices
 from ilmek.machines.arrangement.side_view import RETREAT, SideBox, SideView, below
 from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.automated_loom.feet import foot_for
 from ilmek.machines.automated_loom.frame import ROOM, FrameTask, LoomFrame, frame_for
 from ilmek.machines.automated_loom.own_parts import carried_tree, frame_tree
 from ilmek.machines.weaver import head_mass
@@ -60,9 +62,10 @@ def parts_of_loom(loom: LoomDesign) -> PartsList:
     frame = frame_for(frame_task(loom, sum(part.mass_all for part in machines) - on_posts))
     carried = (*machines, *bill(carried_tree(loom, frame)))
     own = bill(frame_tree(loom, frame, driven_axes(carried)))
-    frame = replace(frame, mass=sum(line.mass_all for line in own if line.kind in _OF_FRAME))
-    lines = (*carried, *own)
-    return PartsList(lines, prices, frame)
+    load = sum(line.mass_all for line in (*carried, *own)) * GRAVITY / (2 * frame.number)
+    mass = sum(line.mass_all for line in own if line.kind in _OF_FRAME)
+    frame = replace(frame, mass=mass, foot=foot_for(load), foot_load=load)
+    return PartsList((*carried, *bill(frame_tree(loom, frame, driven_axes(carried)))), prices, frame)
 
 
 def own_tree(loom: LoomDesign) -> Tree:

@@ -20,6 +20,7 @@ from ilmek.machines.automated_loom.cyclogram import (
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.energy import Energy, energy_of
 from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time, time_shares
+from ilmek.machines.automated_loom.joints import joint_checks
 from ilmek.machines.automated_loom.parts import PartsList, parts_of_loom
 from ilmek.machines.automated_loom.rail_supports import rail_supports
 from ilmek.machines.automated_loom.room import HORIZON, RoomFound, clearances, room_checks, room_tables
@@ -162,6 +163,7 @@ def checks(found: LoomAnalysis) -> tuple[Check, ...]:
         *supports(loom, found.listed.frame).checks,
         *(check for one in rail_supports(loom, found.listed.frame) for check in one.checks),
         *steady_checks(loom, found.listed.frame, brackets_of(loom)),
+        *joint_checks(loom, found.listed.frame),
     )
 
 

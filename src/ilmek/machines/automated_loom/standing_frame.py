@@ -7,18 +7,19 @@ stand outside of all bearings; a bracket that ends before a column's face has a 
 import cmath
 from collections.abc import Iterable, Iterator
 
-from ilmek.elements.columns import STEEL, ascending
+from ilmek.elements.columns import STEEL
 from ilmek.elements.tubes import TUBES, Tube
 from ilmek.machines.automated_loom.brackets import Bracket, Brackets, CarriedBeam, brackets_of, compensator_beams
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.frame import FOOT, LEVELLING, PAD, ROOM, LoomFrame, member, part_id
+from ilmek.machines.automated_loom.feet import FOOT
+from ilmek.machines.automated_loom.frame import ROOM, LoomFrame, member, part_id, welded_to
 from ilmek.machines.automated_loom.rail_supports import rail_supports, support_parts
 from ilmek.machines.automated_loom.steady_posts import cam_beam, steady_posts
 from ilmek.machines.automated_loom.supports import base_section, floor_top, post_depth, support_bodies
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, UPRIGHT, Placement, placement
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Placed, Prism, Sum, box, rectangle, stepped, tube
+from ilmek.part.shapes import Placed, Prism, Sum, box, rectangle, tube
 from ilmek.part.tree import Occurrence, RigidBody
 from ilmek.units import format_quantity, mm
 
@@ -27,9 +28,6 @@ CABINET, WALL = (0.8, 1.0, 0.3), 2 * mm
 
 _MODULE, _MODULE_PITCH, _MODULE_ROWS = (40 * mm, 170 * mm, 160 * mm), (50 * mm, 230 * mm), 4
 """Width, height and depth of an axis' amplifier in the cabinet [m], distances of neighbours, rows; assumed."""
-
-_MASS = 1.1
-"""Mass of a levelling foot [kg]: that of its shape in steel, rounded up."""
 
 _LEAST = 0.05 * mm
 """Thinner spacers are left out [m]."""
@@ -113,21 +111,25 @@ def _across(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Occu
         yield _placed(member(name, title, chosen, long), places)
 
 
+def foot_reach(loom: LoomDesign, frame: LoomFrame) -> tuple[float, float]:
+    """Levelling feet behind and before the columns' axis [m]."""
+    return frame.task.depth, _front(loom, frame) - loom.side.column
+
+
 def _feet(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Occurrence]:
     """Feet to the back and to the front, under what stands before the heads, on levelling feet at their ends."""
     side, section, base = loom.side, frame.column, base_section(loom, frame)
     edge, low = section.side / 2, side.floor + FOOT + base.side / 2
     stations = tuple(_both(frame.beside(made.face)))
-    rear, front = frame.task.depth, _front(loom, frame) - side.column
+    rear, front = foot_reach(loom, frame)
     lengths = (
         ("rear-foot", "rear foot of the frame", rear, side.column - edge - rear),
         ("front-foot", "front foot of the frame", front, side.column + edge),
     )
     for name, title, long, start in lengths:
         yield _placed(member(name, title, base, long), (placement(x, low, start) for x in stations))
-    shape, bought = stepped(PAD, LEVELLING), Bought("M20", _MASS)
-    foot = Part(part_id("levelling-foot"), "levelling foot", "pin or bush", shape=shape, purchase=bought, envelope=True)
     ends = (side.column - rear, side.column + front)
+    foot = frame.foot.part(part_id("levelling-foot"))
     yield _placed(foot, (placement(x, side.floor, z).after(UPRIGHT) for x in stations for z in ends))
 
 
@@ -137,9 +139,7 @@ def _bracket(loom: LoomDesign, frame: LoomFrame, made: Brackets, one: Bracket) -
     part = Part(part_id(one.name), one.title, "laser-cut part", size, one.plate, STEEL)
     yield _placed(part, (placement(x).after(IN_SIDE_VIEW) for x in (-one.inner, one.outer)))
     gap = made.face - one.outer
-    section = max(
-        (own for own in ascending() if own.side <= min(frame.column.side, one.depth)), key=lambda own: own.side
-    )
+    section = welded_to(frame, one.depth)
     if gap > _LEAST:
         spacer = member(f"{one.name}-spacer", f"spacer of the {one.title}", section, gap)
         height = float(one.nodes.imag.mean())

@@ -11,7 +11,8 @@ from collections.abc import Iterator
 from ilmek.elements.columns import SECTIONS, STEEL, HollowSquare, ascending, euler
 from ilmek.machines.automated_loom.brackets import brackets_of
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.frame import FOOT, ROOM, LoomFrame, member, part_id
+from ilmek.machines.automated_loom.feet import FOOT
+from ilmek.machines.automated_loom.frame import ROOM, LoomFrame, member, part_id
 from ilmek.machines.beat_up.beam import POST, BeatBeam
 from ilmek.machines.beat_up.carriage import beam_corner
 from ilmek.machines.beat_up.design import BeatUp
