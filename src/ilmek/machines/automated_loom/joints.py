@@ -95,7 +95,7 @@ def tipping(loom: LoomDesign, frame: LoomFrame) -> Check:
     lever, (_, corner) = min(foot_reach(loom, frame)), beat_beam(loom)
     height = corner.imag - loom.side.floor
     pushes = sum(own.push * len(own.stations) * (own.height + FOOT) for own in rail_supports(loom, frame))
-    moment = (2 * held.force * height if held.across else 0.0) + pushes
+    moment = (loom.beat.frame_force * height if held.across else 0.0) + pushes
     return at_least(
         "frame: against tipping over its feet",
         weight * lever / moment,
