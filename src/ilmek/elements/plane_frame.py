@@ -20,6 +20,9 @@ from ilmek.errors import ParameterError
 ELEMENTS = 2
 """Elements of a member: the first mode of a member by itself is then exact to 0.4 %."""
 
+_NOTHING = 1e-12
+"""Share of a stiffness that counts as rounding."""
+
 _BENT = np.array([[12.0, 6, -12, 6], [6, 4, -6, 2], [-12, -6, 12, -6], [6, 2, -6, 4]])
 _SHAKEN = np.array([[156.0, 22, 54, -13], [22, 4, 13, -3], [54, 13, 156, -22], [-13, -3, -22, 4]])
 _ALONG, _ACROSS = [0, 3], [1, 2, 4, 5]
@@ -62,10 +65,13 @@ def frame_frequencies(
         inertia[3 * node + 1, 3 * node + 1] += mass
     fixed = [3 * node + way for node, held in supports.items() for way in range(3) if held[way]]
     free = np.setdiff1d(np.arange(len(stiffness)), fixed)
+    held = stiffness[np.ix_(free, free)]
     try:
-        lower = np.linalg.cholesky(stiffness[np.ix_(free, free)])
+        lower = np.linalg.cholesky(held)
     except np.linalg.LinAlgError:
-        raise ParameterError("a frame that moves as a mechanism", do="hold its feet, or join its members") from None
+        lower = np.zeros_like(held)
+    if np.min(np.diag(lower) ** 2 / np.diag(held)) < _NOTHING:
+        raise ParameterError("a frame that moves as a mechanism", do="hold its feet, or join its members")
     half = np.linalg.solve(lower, inertia[np.ix_(free, free)])
     slowness = np.linalg.eigvalsh(np.linalg.solve(lower, half.T))[::-1][:count]
     return np.asarray(1 / np.sqrt(slowness) / (2 * math.pi))
