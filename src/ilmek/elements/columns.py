@@ -60,6 +60,15 @@ class HollowSquare:
         return float(hollow)
 
     @property
+    def torsion(self) -> float:
+        """J of the thin-walled tube, (a - t)^3 t, with the mean side a - t and the wall t [m^4]: Bredt's formula."""
+        return (self.side - self.wall) ** 3 * self.wall
+
+    def twist(self, torque: float, length: float) -> float:
+        """Twist T l / (G J) [rad] of a length [m] under a torque [N m], G = E / 2.6: Poisson's ratio 0.3."""
+        return torque * length / (STEEL.modulus / 2.6 * self.torsion)
+
+    @property
     def line_mass(self) -> float:
         """Mass per length [kg/m]."""
         return self.area * STEEL.density

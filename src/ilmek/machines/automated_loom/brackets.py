@@ -20,7 +20,7 @@ from ilmek.arrays import ComplexArray
 from ilmek.elements.beam import uniform
 from ilmek.elements.columns import SECTIONS, STEEL, HollowSquare
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.frame import part_id
+from ilmek.machines.automated_loom.frame import ROOM, part_id
 from ilmek.machines.bearing_seats import BRACKET, BearingSeat
 from ilmek.machines.shedding.tree import bearing_inner
 from ilmek.machines.warp_tension.cylinders import cylinders
@@ -33,9 +33,6 @@ from ilmek.units import mm
 
 BACK_REST_SAG = 2e-3
 """Deflection of the back rest's beam over its width, as that of the compensator's; assumed by this project."""
-
-ROOM = 3 * mm
-"""Least room between a column's sides and what stands beside it [m]; assumed by this project."""
 
 GUIDED = "guide-cams"
 """The beat by the cams themselves: they sink with their bearings, along slots of their brackets."""

@@ -2,18 +2,19 @@
 
 Columns: the cylinders at their ends are drawn together by all warps, in the worst of their three cases half of the pull
 on each column, off its axis by the radius e of the cylinder; half the weight of what the frame carries comes on top, P
-in all, as if at e too [`elements.columns`]. A force along the columns would add
-to P; one F across, at half height, half of it on each column, gives stress F h c / (8 I) and bow F h^3 / (96 E I) more,
-magnified by the compression by 1 / (1 - P / Euler's load) [Timoshenko and Gere, Theory of Elastic Stability, 1.11]. The
-beats of the loom stand on posts of their own (`supports`).
+in all, as if at e too [`elements.columns`]. The beats of the loom stand on posts of their own (`supports`). A column
+finds room between the bearings of the cylinders; where none of that room bears the load, a side has several, welded
+together side by side, which share P and bend as one: each has the stress and the bow of P over their number.
 
-The rail: each span between columns and posts simply supported, its own weight and as many heads as find room side by
-side in its middle, which is the worst they can do.
+The rail: each span between its supports simply supported, its own weight and as many heads as find room side by side
+in its middle, which is the worst they can do. A support between the ends stands a before the rail, so that the heads
+pass: the load R that it bears twists the rail by R a l / (2 G J), a thin-walled tube between its neighbours, and lets
+it sink by a of that [Bredt; Timoshenko, Strength of Materials II, 58].
 Sections are the lightest square hollow ones of a table that keep the limits, the largest where none does.
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,6 +22,9 @@ import numpy as np
 from ilmek.elements.beam import uniform
 from ilmek.elements.columns import STEEL, HollowSquare, ascending, eccentric, euler
 from ilmek.elements.materials import GRAVITY
+from ilmek.machines.arrangement.side_view import RETREAT
+from ilmek.machines.automated_loom.feet import FEET, Foot
+from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.part.part import Part
 from ilmek.part.shapes import square_tube
 from ilmek.records import computed, record, result
@@ -30,11 +34,14 @@ from ilmek.units import mm
 EULER = "Euler's load; assumed by this project: parameter buckling_safety"
 
 
-LEVELLING, PAD = (20 * mm, 40 * mm), (80 * mm, 15 * mm)
-"""Diameter and length of a levelling foot's screw, and of its pad [m]: M20; makers differ by some millimetres."""
+MOST_COLUMNS = 4
+"""Columns of a side at most; assumed by this project."""
 
-FOOT = LEVELLING[1] + PAD[1]
-"""Height of the frame over the floor, on its levelling feet [m]."""
+ROOM = 3 * mm
+"""Least room between a column's sides and what stands beside it [m]; assumed by this project."""
+
+RAIL_POST = 120 * mm
+"""Room for a post of the heads' rail [m]; assumed by this project."""
 
 
 def part_id(name: str) -> str:
@@ -51,17 +58,22 @@ def member(name: str, title: str, section: HollowSquare, length: float) -> Part:
 _COLUMN = (part_id("column"),)
 
 
+def welded_to(frame: "LoomFrame", depth: float) -> HollowSquare:
+    """Section of the spacer between a column and a bracket of a height [m]: the largest up to both."""
+    return max((own for own in ascending() if own.side <= min(frame.column.side, depth)), key=lambda own: own.side)
+
+
 @dataclass(frozen=True, slots=True)
 class FrameTask:
     """What the frame bears.
 
     width, height   between the columns, and of them [m]      depth   of the feet [m]
     pull            of all warps, worst case [N]               lever   of the pull off a column's axis [m]
-    across, along   force of the beat on the frame, across and along the columns [N]
     carried         mass on the columns [kg]
     heads           that ride on the rail                      head_mass, head_width  of one [kg, m]
     rail_spans      of the rail, between columns and posts     sag_limit  of the rail [m]
     stress_safety, buckling_safety   of a column, against yield and Euler's load      bow_limit  of a column [m]
+    room            for the side of a column [m]               rail_drop  of a support before the rail, below it [m]
     """
 
     width: float
@@ -78,74 +90,92 @@ class FrameTask:
     stress_safety: float
     buckling_safety: float
     bow_limit: float
-    across: float = 0.0
-    along: float = 0.0
+    room: float = math.inf
+    rail_drop: float = 0.0
 
     @property
     def force(self) -> float:
-        """Compression of a column [N]."""
-        return (self.pull + self.carried * GRAVITY + self.along) / 2
+        """Compression of the columns of a side [N]."""
+        return (self.pull + self.carried * GRAVITY) / 2
 
 
 @record
 class LoomFrame:
-    """The frame, designed: choice of its sections, sections, stress [Pa] and bow [m] of a column, its safety against
-    buckling, sag [m] of the rail.
+    """The frame, designed: choice of its sections, sections, columns of a side, stress [Pa] and bow [m] of a column,
+    its safety against buckling, sag [m] of the rail; levelling foot.
     """
 
     task: FrameTask
     choices: tuple[Choice, ...]
     column: HollowSquare
     rail: HollowSquare
+    number: int
     column_stress: float
     column_bow: float
     buckling_factor: float
     rail_sag: float
+    foot: Foot = FEET[0]
+    foot_load: float = result("N", "load of a levelling foot, where two bear the loom", default=math.nan)
     mass: float = result("kg", "mass of the frame with its brackets and its rail", name="frame_mass", default=math.nan)
 
-    frame_column = computed("", "square hollow section of the two columns", lambda it: it.column.name)
+    frame_column = computed("", "square hollow section of the columns", lambda it: it.column.name)
+    columns_of_a_side = computed("1", "columns of a side of the frame, side by side", lambda it: it.number)
     frame_rail = computed("", "square hollow section of the heads' rail", lambda it: it.rail.name)
+
+    def beside(self, face: float) -> tuple[float, ...]:
+        """Axes of the columns of a side, the inmost first, from the middle of the width [m]; face  of that one [m]."""
+        return tuple(face + (k + 0.5) * self.column.side for k in range(self.number))
 
     @property
     def checks(self) -> tuple[Check, ...]:
-        """Strength and stiffness of the columns and of the heads' rail."""
-        return (*column_checks(self.task, self.column), *rail_checks(self.task, self.rail))
+        """Strength and stiffness of the columns and of the heads' rail, load of the feet."""
+        source, cure = f"rating of {self.foot.name}", "set a narrower carpet"
+        foot = at_most(
+            *("load of a levelling foot", self.foot_load, self.foot.rating, "N", source),
+            cure=cure,
+            parts=(part_id("levelling-foot"),),
+        )
+        return (*column_checks(self.task, self.column, self.number), *rail_checks(self.task, self.rail), foot)
 
 
 def frame_for(task: FrameTask) -> LoomFrame:
-    """The frame of the lightest sections that keep their checks; of the largest where none of the table does."""
-    (column, of_column), (rail, of_rail) = _chosen(task, "columns", column_checks), _chosen(task, "rail", rail_checks)
-    stress, bow = column_load(task, column)
-    factor, sag = euler(task.height, column) / task.force, rail_sag(task, rail)
-    return LoomFrame(task, (of_column, of_rail), column, rail, stress, bow, factor, sag)
+    """The frame of the lightest sections that keep their checks; of the largest where none of the table does.
+
+    A side has one column if any has room that keeps its checks, else the least number of them.
+    """
+    sections = ascending()
+    narrow = tuple(section for section in sections if section.side <= task.room) or sections[:1]
+    columns = [(number, section) for number in range(1, MOST_COLUMNS + 1) for section in narrow]
+    (number, column), of_column = _chosen("columns", columns, lambda one: column_checks(task, one[1], one[0]))
+    (_, rail), of_rail = _chosen("rail", [(1, one) for one in sections], lambda one: rail_checks(task, one[1]))
+    stress, bow = column_load(task, column, number)
+    factor, sag = number * euler(task.height, column) / task.force, rail_sag(task, rail)
+    return LoomFrame(task, (of_column, of_rail), column, rail, number, stress, bow, factor, sag)
 
 
 def _chosen(
-    task: FrameTask, name: str, checks_of: Callable[[FrameTask, HollowSquare], tuple[Check, ...]]
-) -> tuple[HollowSquare, Choice]:
-    """The lightest section that keeps its checks, or the largest, and the choice."""
-    sections = ascending()
-    candidates = [Alternative(section.name, checks_of(task, section)) for section in sections]
+    name: str,
+    offered: Sequence[tuple[int, HollowSquare]],
+    checks_of: Callable[[tuple[int, HollowSquare]], tuple[Check, ...]],
+) -> tuple[tuple[int, HollowSquare], Choice]:
+    """The first number and section that keep their checks, or the last, and the choice."""
+    names = [section.name if number == 1 else f"{number} x ({section.name})" for number, section in offered]
+    candidates = [Alternative(label, checks_of(one)) for label, one in zip(names, offered, strict=True)]
     index, choice = choose(f"frame_{name}", candidates)
     if not candidates[index].failed:
-        return sections[index], choice
-    return sections[-1], Choice(choice.name, sections[-1].name, "the largest of the table")
+        return offered[index], choice
+    return offered[-1], Choice(choice.name, names[-1], "the largest that has room")
 
 
-def column_load(task: FrameTask, section: HollowSquare) -> tuple[float, float]:
-    """Greatest stress [Pa] and bow [m] of a column; inf at or above Euler's load."""
-    stress, bow = eccentric(task.force, task.lever, task.height, section)
-    if not math.isfinite(stress):
-        return stress, bow
-    share = task.across / 2 / (1 - task.force / euler(task.height, section))
-    bent = share * task.height * section.side / 2 / (4 * section.inertia)
-    return stress + bent, bow + share * task.height**3 / (48 * STEEL.modulus * section.inertia)
+def column_load(task: FrameTask, section: HollowSquare, number: int = 1) -> tuple[float, float]:
+    """Greatest stress [Pa] and bow [m] of each of some columns of a side; inf at or above Euler's load."""
+    return eccentric(task.force / number, task.lever, task.height, section)
 
 
-def column_checks(task: FrameTask, section: HollowSquare) -> tuple[Check, ...]:
-    """Stress, bow and buckling of a column of a section."""
-    (stress, bow), limit = column_load(task, section), STEEL.strength / task.stress_safety
-    cure, factor = "set a lower tension, or a narrower carpet", euler(task.height, section)
+def column_checks(task: FrameTask, section: HollowSquare, number: int = 1) -> tuple[Check, ...]:
+    """Stress, bow and buckling of a column of a section, one of some of a side."""
+    (stress, bow), limit = column_load(task, section, number), STEEL.strength / task.stress_safety
+    cure, factor = "set a lower tension, or a narrower carpet", number * euler(task.height, section)
     return (
         at_most(
             "frame: stress of a column",
@@ -174,7 +204,8 @@ def rail_checks(task: FrameTask, section: HollowSquare) -> tuple[Check]:
 
 
 def rail_sag(task: FrameTask, section: HollowSquare) -> float:
-    """Deflection [m] in the middle of the rail under its own weight and the heads, spread over their width there.
+    """Deflection [m] in the middle of a span of the rail under its own weight and the heads, spread over their width
+    there, and what a support between the ends lets it sink.
 
     Of a load w over the middle b of a span l: w b (8 l^3 - 4 l b^2 + b^3) / (384 E I); for b = l the whole span's.
     """
@@ -183,4 +214,29 @@ def rail_sag(task: FrameTask, section: HollowSquare) -> float:
     number = min(task.heads, math.ceil(span / task.head_width))
     wide = min(number * task.head_width, span)
     force = number * task.head_mass * GRAVITY
-    return float(np.add(own, force * (8 * span**3 - 4 * span * wide**2 + wide**3) / (384 * stiff)))
+    bent = float(np.add(own, force * (8 * span**3 - 4 * span * wide**2 + wide**3) / (384 * stiff)))
+    if task.rail_spans == 1:
+        return bent
+    twist = section.twist(rail_support_load(task, section) * rail_ahead(section, task.rail_drop) / 2, span)
+    return bent + rail_ahead(section, task.rail_drop) * twist
+
+
+def rail_support_load(task: FrameTask, section: HollowSquare, spans: int = 2) -> float:
+    """Greatest load of a support of the rail [N]: half of the spans beside it, and all heads that find room on them."""
+    span = task.width / task.rail_spans
+    number = min(task.heads, math.ceil(spans * span / task.head_width))
+    return (section.line_mass * spans * span / 2 + number * task.head_mass) * GRAVITY
+
+
+def rail_ahead(section: HollowSquare, drop: float) -> float:
+    """From the back of the rail to the axis of a support before it [m], in the side view.
+
+    The support's axis lies along the retreat, so that the rail passes under it, its upper front edge nearest; and its
+    post stands before the rail that has retreated.
+
+    drop  of the support's axis below that of the rail [m]
+    """
+    across = 1j * RETREAT
+    edge = section.side * (1 + 0.5j)
+    past = ((edge + 1j * drop) * np.conj(across)).real + RAIL_AXIS / 2 + ROOM
+    return float(max(past / across.real, section.side + RAIL_POST / 2 + ROOM))

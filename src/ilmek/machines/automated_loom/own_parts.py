@@ -6,11 +6,13 @@ Axes of the scene: x along the width, 0 in the middle of the cloth, y up from th
 import cmath
 
 from ilmek.elements.drive_parts import PULLEY
+from ilmek.elements.materials import GRAVITY
 from ilmek.elements.motors import smallest_motor
 from ilmek.machines.arrangement.side_view import RETREAT
 from ilmek.machines.automated_loom.cyclogram import HEADS
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import LoomFrame, member, part_id
+from ilmek.machines.automated_loom.rail_supports import rail_brackets, rail_middle, rail_supports
 from ilmek.machines.automated_loom.standing_frame import standing_frame
 from ilmek.machines.weaver import head_mass
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
@@ -26,22 +28,26 @@ RAIL = "heads' rail"
 """Id of the body that carries the heads."""
 
 
-def carried_tree(loom: LoomDesign) -> Tree:
+def carried_tree(loom: LoomDesign, frame: LoomFrame) -> Tree:
     """What the frame carries beside the machines: axes and motor of the rail's retreat."""
-    return Tree((_retreat(loom),))
+    return Tree((_retreat(loom, frame),))
 
 
-def _retreat(loom: LoomDesign) -> RigidBody:
-    """The axes of the rail's retreat at its ends, and their motor."""
-    row = loom.row_cyclogram
+def _retreat(loom: LoomDesign, frame: LoomFrame) -> RigidBody:
+    """The axes of the rail's retreat at its ends and between, and their motor at an end.
+
+    The motor accelerates heads and rail, and lifts them: m (a + g sin) along the retreat.
+    """
+    row, held = loom.row_cyclogram, rail_supports(loom, frame)
     heads, room = row.track(HEADS), loom.side.rail.size.real / 2  # the axes carry the rail beyond both ends of its run
-    moved = loom.heads * head_mass(loom.weaver) * peak_acceleration(heads, row.period)
+    mass = loom.heads * head_mass(loom.weaver) + frame.rail.line_mass * frame.task.width
+    moved = mass * (peak_acceleration(heads, row.period) - GRAVITY * RETREAT.imag)
     torque, turning = moved * PULLEY, peak_speed(heads, row.period) / PULLEY
     axis = Part(
         part_id("retreat-axis"),
         "axis of the rail's retreat",
         "linear axis",
-        "belt drive, one at each column",
+        "belt drive, one at each support of the rail",
         box(RAIL_AXIS, RAIL_AXIS, heads.stroke + 2 * room),
         purchase=Bought("belt drive", length=heads.stroke),
         envelope=True,
@@ -49,15 +55,18 @@ def _retreat(loom: LoomDesign) -> RigidBody:
     chosen = smallest_motor(torque, turning)
     motor = catalogue.motor(part_id("retreat-motor"), "motor of the rail's retreat", chosen, torque, turning)
     # At the upper end, above the post; wider than its axis, it reaches outwards.
-    outwards = ((chosen.face if chosen else catalogue.SPECIAL_FACE) - RAIL_AXIS) / 2
-    middle, beside, slope = _rail_middle(loom), (loom.task.width + RAIL_AXIS) / 2, -cmath.phase(RETREAT)
-    ends = [placement(x, middle.imag, middle.real, about=(1.0, 0.0, 0.0), angle=slope) for x in (-beside, beside)]
+    outwards, slope = ((chosen.face if chosen else catalogue.SPECIAL_FACE) - RAIL_AXIS) / 2, -cmath.phase(RETREAT)
+    ends = [
+        placement(x, own.axis.imag, own.axis.real, about=(1.0, 0.0, 0.0), angle=slope)
+        for own in held
+        for x in own.stations
+    ]
     flange = placement(outwards, z=-room)
     return RigidBody(
         part_id("retreat"),
         (
             Occurrence(axis, tuple(end.after(placement(z=-room)) for end in ends)),
-            Occurrence(motor, (ends[1].after(flange),)),
+            Occurrence(motor, (ends[0].after(flange),)),
         ),
     )
 
@@ -77,7 +86,7 @@ def frame_tree(loom: LoomDesign, frame: LoomFrame, axes: int, retreat: SceneMoti
         purchase=Bought("linear axis", length=frame.task.width),
         envelope=True,
     )
-    middle = _rail_middle(loom)
+    middle = rail_middle(loom)
     along = placement(-frame.task.width / 2, z=frame.rail.side / 2).after(ALONG_WIDTH)
     before = placement(-frame.task.width / 2, z=-RAIL_AXIS / 2).after(ALONG_WIDTH)
     return Tree(
@@ -85,15 +94,9 @@ def frame_tree(loom: LoomDesign, frame: LoomFrame, axes: int, retreat: SceneMoti
             standing_frame(loom, frame, axes),
             RigidBody(
                 RAIL,
-                (Occurrence(rail, (along,)), Occurrence(axis, (before,))),
+                (Occurrence(rail, (along,)), Occurrence(axis, (before,)), *rail_brackets(loom, frame)),
                 joint=Joint(JointKind.SLIDE, motion=retreat),
                 positions=(placement(0.0, middle.imag, middle.real),),
             ),
         )
     )
-
-
-def _rail_middle(loom: LoomDesign) -> complex:
-    """Axis of the heads' rail in the side view [m]."""
-    rail = loom.side.rail
-    return rail.corner + rail.size / 2

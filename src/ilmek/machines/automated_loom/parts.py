@@ -5,12 +5,15 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from functools import lru_cache
 
+from ilmek.elements.materials import GRAVITY
 from ilmek.elements.prices import PriceRates, price_of, read_prices
-from ilmek.machines.arrangement.side_view import SideBox, SideView
+from ilmek.machines.arrangement.side_view import RETREAT, SideBox, SideView, below
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.frame import FrameTask, LoomFrame, frame_for
+from ilmek.machines.automated_loom.feet import foot_for
+from ilmek.machines.automated_loom.frame import ROOM, FrameTask, LoomFrame, frame_for
 from ilmek.machines.automated_loom.own_parts import carried_tree, frame_tree
 from ilmek.machines.weaver import head_mass
+from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.part.bill import bill
 from ilmek.part.tree import Tree
 from ilmek.records import computed, group, record
@@ -55,19 +58,20 @@ def driven_axes(parts: tuple[BillLine, ...]) -> int:
 def parts_of_loom(loom: LoomDesign) -> PartsList:
     """The parts list. Raises ParameterError for unreadable prices."""
     prices = read_prices(loom.params.prices)
-    carried = (*_of_machines(loom), *bill(carried_tree(loom)))
-    on_posts = sum(part.mass_all for part in loom.beat.parts)
-    frame = frame_for(frame_task(loom, sum(part.mass_all for part in carried) - on_posts))
+    machines, on_posts = tuple(_of_machines(loom)), sum(part.mass_all for part in loom.beat.parts)
+    frame = frame_for(frame_task(loom, sum(part.mass_all for part in machines) - on_posts))
+    carried = (*machines, *bill(carried_tree(loom, frame)))
     own = bill(frame_tree(loom, frame, driven_axes(carried)))
-    frame = replace(frame, mass=sum(line.mass_all for line in own if line.kind in _OF_FRAME))
-    lines = (*carried, *own)
-    return PartsList(lines, prices, frame)
+    load = sum(line.mass_all for line in (*carried, *own)) * GRAVITY / (2 * frame.number)
+    mass = sum(line.mass_all for line in own if line.kind in _OF_FRAME)
+    frame = replace(frame, mass=mass, foot=foot_for(load), foot_load=load)
+    return PartsList((*carried, *bill(frame_tree(loom, frame, driven_axes(carried)))), prices, frame)
 
 
 def own_tree(loom: LoomDesign) -> Tree:
     """The loom's own bodies that are in none of its machines."""
     listed = parts_of_loom(loom)
-    return Tree((*carried_tree(loom).bodies, *frame_tree(loom, listed.frame, listed.axes).bodies))
+    return Tree((*carried_tree(loom, listed.frame).bodies, *frame_tree(loom, listed.frame, listed.axes).bodies))
 
 
 def built_side(loom: LoomDesign) -> SideView:
@@ -80,7 +84,7 @@ def built_side(loom: LoomDesign) -> SideView:
 def frame_task(loom: LoomDesign, carried: float) -> FrameTask:
     """The load of this loom's frame, with the mass that its columns carry [kg]; posts bear crank-rockers."""
     params, cylinder = loom.params, loom.warp_tension
-    wide = loom.task.width
+    wide, (behind, before) = loom.task.width, loom.side.column_room
     return FrameTask(
         width=wide,
         height=loom.side.loom_height,
@@ -96,7 +100,16 @@ def frame_task(loom: LoomDesign, carried: float) -> FrameTask:
         stress_safety=params.column_safety,
         buckling_safety=params.buckling_safety,
         bow_limit=params.column_bow,
+        room=before - behind - 2 * ROOM,
+        rail_drop=_rail_drop(loom),
     )
+
+
+def _rail_drop(loom: LoomDesign) -> float:
+    """How far axes of the retreat before the rail lie below it, so that what beats passes above their ends [m]."""
+    rail = loom.side.rail
+    end = (rail.corner + rail.size / 2).imag - rail.size.real / 2 * RETREAT.imag + RAIL_AXIS / 2 * RETREAT.real
+    return max(0.0, end + below(loom.beat.path) + loom.params.clearance)
 
 
 def _of_machines(loom: LoomDesign) -> Iterator[BillLine]:

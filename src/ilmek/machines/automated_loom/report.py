@@ -20,8 +20,12 @@ from ilmek.machines.automated_loom.cyclogram import (
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.energy import Energy, energy_of
 from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time, time_shares
+from ilmek.machines.automated_loom.frame_modes import frame_modes
+from ilmek.machines.automated_loom.joints import joint_checks
 from ilmek.machines.automated_loom.parts import PartsList, parts_of_loom
+from ilmek.machines.automated_loom.rail_supports import rail_supports
 from ilmek.machines.automated_loom.room import HORIZON, RoomFound, clearances, room_checks, room_tables
+from ilmek.machines.automated_loom.steady_posts import steady_checks
 from ilmek.machines.automated_loom.supports import supports
 from ilmek.machines.beat import BeatDrive
 from ilmek.machines.weaver.parts import case_plates
@@ -104,7 +108,8 @@ def analyse(loom: LoomDesign) -> LoomAnalysis:
 
 def results(found: LoomAnalysis) -> tuple[object, ...]:
     """The records whose results are reported, in order."""
-    return (found, found.loom.side, found.shares, found.beat, found.energy, found.listed)
+    modes = frame_modes(found.loom, found.listed.frame)
+    return (found, found.loom.side, found.shares, found.beat, found.energy, found.listed, modes)
 
 
 def _heads_checks(loom: LoomDesign) -> tuple[Check, ...]:
@@ -158,6 +163,10 @@ def checks(found: LoomAnalysis) -> tuple[Check, ...]:
         *found.listed.frame.checks,
         *bracket_checks(loom, brackets_of(loom), found.listed.frame.column),
         *supports(loom, found.listed.frame).checks,
+        *(check for one in rail_supports(loom, found.listed.frame) for check in one.checks),
+        *steady_checks(loom, found.listed.frame, brackets_of(loom)),
+        *joint_checks(loom, found.listed.frame),
+        *frame_modes(loom, found.listed.frame).checks,
     )
 
 

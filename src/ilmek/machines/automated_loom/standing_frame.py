@@ -7,17 +7,19 @@ stand outside of all bearings; a bracket that ends before a column's face has a 
 import cmath
 from collections.abc import Iterable, Iterator
 
-from ilmek.elements.columns import STEEL, HollowSquare
+from ilmek.elements.columns import STEEL
 from ilmek.elements.tubes import TUBES, Tube
-from ilmek.machines.automated_loom.brackets import ROOM, Bracket, Brackets, CarriedBeam, brackets_of, compensator_beams
+from ilmek.machines.automated_loom.brackets import Bracket, Brackets, CarriedBeam, brackets_of, compensator_beams
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.frame import FOOT, LEVELLING, PAD, LoomFrame, member, part_id
-from ilmek.machines.automated_loom.supports import base_section, post_depth, support_bodies
-from ilmek.machines.weaver.head_shape import RAIL_AXIS
+from ilmek.machines.automated_loom.feet import FOOT
+from ilmek.machines.automated_loom.frame import ROOM, LoomFrame, member, part_id, welded_to
+from ilmek.machines.automated_loom.rail_supports import rail_supports, support_parts
+from ilmek.machines.automated_loom.steady_posts import cam_beam, steady_posts
+from ilmek.machines.automated_loom.supports import base_section, floor_top, post_depth, support_bodies
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, UPRIGHT, Placement, placement
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Placed, Prism, Sum, box, rectangle, stepped, tube
+from ilmek.part.shapes import Placed, Prism, Sum, box, rectangle, tube
 from ilmek.part.tree import Occurrence, RigidBody
 from ilmek.units import format_quantity, mm
 
@@ -26,9 +28,6 @@ CABINET, WALL = (0.8, 1.0, 0.3), 2 * mm
 
 _MODULE, _MODULE_PITCH, _MODULE_ROWS = (40 * mm, 170 * mm, 160 * mm), (50 * mm, 230 * mm), 4
 """Width, height and depth of an axis' amplifier in the cabinet [m], distances of neighbours, rows; assumed."""
-
-_MASS = 1.1
-"""Mass of a levelling foot [kg]: that of its shape in steel, rounded up."""
 
 _LEAST = 0.05 * mm
 """Thinner spacers are left out [m]."""
@@ -56,84 +55,82 @@ def standing_frame(loom: LoomDesign, frame: LoomFrame, axes: int) -> RigidBody:
             *_carried(loom, made),
             *_control(loom, frame, made, axes),
             *support_bodies(loom, frame, made.face),
+            *steady_posts(loom, frame, made),
         ),
     )
 
 
 def _uprights(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Occurrence]:
     side, section = loom.side, frame.column
-    beside, under = made.face + section.side / 2, side.floor + FOOT
+    under = side.floor + FOOT
     yield _placed(
         member("column", "column of the frame", section, side.top - under),
-        (placement(x, under, side.column).after(UPRIGHT) for x in (-beside, beside)),
+        (placement(x, under, side.column).after(UPRIGHT) for x in _both(frame.beside(made.face))),
     )
-    yield from _rail_posts(loom, frame, made)
-    spans, wide = frame.task.rail_spans, frame.task.width
-    if spans > 1:
-        middles = ((k / spans - 0.5) * wide for k in range(1, spans))
-        yield _placed(
-            member("post", "post of the rail", section, frame.task.height / 2),
-            (
-                placement(x, under + base_section(loom, frame).side, _front(loom, section)).after(UPRIGHT)
-                for x in middles
-            ),
-        )
+    yield from support_parts(loom, frame)
 
 
-def _rail_posts(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Occurrence]:
-    """Posts on the front feet, and the arms by which they carry the axes of the rail's retreat."""
-    side, section = loom.side, frame.column
-    bottom, axis = side.floor + FOOT + base_section(loom, frame).side, side.rail.corner + side.rail.size / 2
-    beside, depth = made.face + section.side / 2, axis.real + RAIL_AXIS / 2 - section.side / 2
-    post = member("rail-post", "post of the rail's axes", section, axis.imag - bottom)
-    yield _placed(post, (placement(x, bottom, depth).after(UPRIGHT) for x in (-beside, beside)))
-    near = loom.task.width / 2 + RAIL_AXIS
-    arm = member("rail-arm", "arm of the rail's axes", HollowSquare(RAIL_AXIS, 3 * mm), made.face - near)
-    yield _placed(arm, (placement(x, axis.imag, axis.real).after(ALONG_WIDTH) for x in (near, -made.face)))
+def _front_depths(loom: LoomDesign, frame: LoomFrame) -> tuple[float, ...]:
+    """Axes of the beams across before the columns, on which posts of the beat and of the rail stand [m]."""
+    own = (one.depth for one in rail_supports(loom, frame) if one.name != "rail-post")
+    return tuple(dict.fromkeys((post_depth(loom), *own)))
 
 
-def _front(loom: LoomDesign, section: HollowSquare) -> float:
-    """Axis of what stands before the retreated rail and under the beat's beam, in the side view [m]."""
+def _front(loom: LoomDesign, frame: LoomFrame) -> float:
+    """Axis of the last of what stands before the columns, in the side view [m]."""
     rail = (loom.side.rail.corner + loom.side.rail.size).real + loom.side.retreat
-    return max(rail + section.side / 2, post_depth(loom))
+    return max(rail + frame.column.side / 2, *_front_depths(loom, frame))
+
+
+def _before_the_roll(loom: LoomDesign, frame: LoomFrame) -> tuple[float, bool]:
+    """Axis of the beam at the floor in the side view [m]: between the columns, or behind the full roll of carpet where
+    that reaches so low, and behind the columns.
+    """
+    side, half, column = loom.side, base_section(loom, frame).side / 2, loom.side.column
+    behind = side.lower.at.real - side.roll - ROOM - half
+    under = floor_top(loom, frame) <= side.lower.at.imag - side.roll - ROOM
+    if under or column <= behind:
+        return column, True
+    return min(behind, column - frame.column.side / 2 - half), False
 
 
 def _across(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Occurrence]:
     """Beams between the columns: at the floor, behind the cams between the brackets, at the front under the posts."""
     side, section, base = loom.side, frame.column, base_section(loom, frame)
     low = side.floor + FOOT + base.side / 2
-    behind = min(cam.at.real - cam.guide_radius for cam in side.cams) - ROOM - section.side / 2
-    spacer, _, *of_cams = made.shafts
-    lowest = min(float(one.nodes.imag.min()) - one.radius for one in of_cams)
-    middle = (float(spacer.nodes.imag.max()) + spacer.radius + lowest) / 2
-    front = [(low, post_depth(loom))]
-    if frame.task.rail_spans > 1:
-        front.append((low, _front(loom, section)))
+    middle = cam_beam(loom, frame, made)
+    front = [(low, depth) for depth in _front_depths(loom, frame)]
+    rear, between_columns = _before_the_roll(loom, frame)
     between = 2 * made.face + section.side - base.side  # the feet stand in the middle of the columns' sections
     for name, title, chosen, own, long in (
-        ("beam", "beam across", section, [(middle, min(side.column, behind))], 2 * made.face),
-        ("floor-beam", "beam across at the floor", base, [(low, side.column)], 2 * made.face),
+        ("beam", "beam across", section, [(middle.imag, middle.real)], 2 * made.face),
+        ("floor-beam", "beam across at the floor", base, [(low, rear)], 2 * made.face if between_columns else between),
         ("front-beam", "beam across between the front feet", base, front, between),
     ):
         places = [placement(-long / 2, y, z).after(ALONG_WIDTH) for y, z in own]
         yield _placed(member(name, title, chosen, long), places)
 
 
+def foot_reach(loom: LoomDesign, frame: LoomFrame) -> tuple[float, float]:
+    """Levelling feet behind and before the columns' axis [m]."""
+    return frame.task.depth, _front(loom, frame) - loom.side.column
+
+
 def _feet(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Occurrence]:
     """Feet to the back and to the front, under what stands before the heads, on levelling feet at their ends."""
     side, section, base = loom.side, frame.column, base_section(loom, frame)
-    edge, beside, low = section.side / 2, made.face + section.side / 2, side.floor + FOOT + base.side / 2
-    rear, front = frame.task.depth, _front(loom, section) + edge - side.column - edge
+    edge, low = section.side / 2, side.floor + FOOT + base.side / 2
+    stations = tuple(_both(frame.beside(made.face)))
+    rear, front = foot_reach(loom, frame)
     lengths = (
         ("rear-foot", "rear foot of the frame", rear, side.column - edge - rear),
         ("front-foot", "front foot of the frame", front, side.column + edge),
     )
     for name, title, long, start in lengths:
-        yield _placed(member(name, title, base, long), (placement(x, low, start) for x in (-beside, beside)))
-    shape, bought = stepped(PAD, LEVELLING), Bought("M20", _MASS)
-    foot = Part(part_id("levelling-foot"), "levelling foot", "pin or bush", shape=shape, purchase=bought, envelope=True)
+        yield _placed(member(name, title, base, long), (placement(x, low, start) for x in stations))
     ends = (side.column - rear, side.column + front)
-    yield _placed(foot, (placement(x, side.floor, z).after(UPRIGHT) for x in (-beside, beside) for z in ends))
+    foot = frame.foot.part(part_id("levelling-foot"))
+    yield _placed(foot, (placement(x, side.floor, z).after(UPRIGHT) for x in stations for z in ends))
 
 
 def _bracket(loom: LoomDesign, frame: LoomFrame, made: Brackets, one: Bracket) -> Iterator[Occurrence]:
@@ -141,7 +138,8 @@ def _bracket(loom: LoomDesign, frame: LoomFrame, made: Brackets, one: Bracket) -
     size = f"plate {format_quantity(one.outer - one.inner, 'mm')}, {format_quantity(one.depth, 'mm')} high"
     part = Part(part_id(one.name), one.title, "laser-cut part", size, one.plate, STEEL)
     yield _placed(part, (placement(x).after(IN_SIDE_VIEW) for x in (-one.inner, one.outer)))
-    gap, section = made.face - one.outer, frame.column
+    gap = made.face - one.outer
+    section = welded_to(frame, one.depth)
     if gap > _LEAST:
         spacer = member(f"{one.name}-spacer", f"spacer of the {one.title}", section, gap)
         height = float(one.nodes.imag.mean())
@@ -206,6 +204,11 @@ def _control(loom: LoomDesign, frame: LoomFrame, made: Brackets, axes: int) -> I
                 for number in range(axes)
             ),
         )
+
+
+def _both(sides: Iterable[float]) -> Iterator[float]:
+    """Distances from the middle to both sides [m]."""
+    return (x for one in sides for x in (-one, one))
 
 
 def _placed(part: Part, positions: Iterable[Placement]) -> Occurrence:

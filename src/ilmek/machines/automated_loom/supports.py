@@ -9,9 +9,10 @@ across, in its middle.
 from collections.abc import Iterator
 
 from ilmek.elements.columns import SECTIONS, STEEL, HollowSquare, ascending, euler
-from ilmek.machines.automated_loom.brackets import ROOM, brackets_of
+from ilmek.machines.automated_loom.brackets import brackets_of
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.frame import FOOT, LoomFrame, member, part_id
+from ilmek.machines.automated_loom.feet import FOOT
+from ilmek.machines.automated_loom.frame import ROOM, LoomFrame, member, part_id
 from ilmek.machines.beat_up.beam import POST, BeatBeam
 from ilmek.machines.beat_up.carriage import beam_corner
 from ilmek.machines.beat_up.design import BeatUp
@@ -63,7 +64,7 @@ class LoomSupports:
 def supports(loom: LoomDesign, frame: LoomFrame) -> LoomSupports:
     """The lightest sections that keep their checks; the largest where none does."""
     made, (beam, corner) = loom.weft.carried, beat_beam(loom)
-    height, across = corner.imag - _bottom(loom, frame), loom.beat.crank_rockers > 0
+    height, across = corner.imag - floor_top(loom, frame), loom.beat.crank_rockers > 0
     # The axes of a comb press along the posts; their beam counts half of what is spread over it.
     force = beam.carried / 2 if across else beam.carried
     posts = (one for one in ascending() if all(check.ok for check in _post_checks(one, height, force, across=across)))
@@ -147,8 +148,8 @@ def base_section(loom: LoomDesign, frame: LoomFrame) -> HollowSquare:
     return max((one for one in offered if one.side <= room), key=lambda one: one.area, default=offered[0])
 
 
-def _bottom(loom: LoomDesign, frame: LoomFrame) -> float:
-    """Where the posts stand: on the beam across between the front feet [m]."""
+def floor_top(loom: LoomDesign, frame: LoomFrame) -> float:
+    """Upper side of feet and beams at the floor, on which posts stand [m]."""
     return loom.side.floor + FOOT + base_section(loom, frame).side
 
 
@@ -162,7 +163,7 @@ def support_bodies(loom: LoomDesign, frame: LoomFrame, face: float) -> Iterator[
     ends = (-aside, aside)
     yield Occurrence(
         member("beat-post", "post of the beat", held.post, held.height),
-        tuple(placement(x, _bottom(loom, frame), post_depth(loom)).after(UPRIGHT) for x in ends),
+        tuple(placement(x, floor_top(loom, frame), post_depth(loom)).after(UPRIGHT) for x in ends),
     )
     if held.tube is not None:
         yield from _tube(loom, frame, held.tube, face)

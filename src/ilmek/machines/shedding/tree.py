@@ -18,11 +18,12 @@ from ilmek.elements.materials import MATERIALS, Material
 from ilmek.machines.shedding.cam_shaft import CamShaft
 from ilmek.machines.shedding.design import SheddingDesign
 from ilmek.machines.shedding.stack import POINTS, cam_outline, part_id
+from ilmek.machines.shedding.steady import steadies
 from ilmek.part import catalogue
-from ilmek.part.part import Bought, Part
+from ilmek.part.part import Part
 from ilmek.part.placement import Placement, placement
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Placed, Prism, Shape, Sum, tube
+from ilmek.part.shapes import Placed, Prism, Shape, Sum
 from ilmek.part.shapes import bar as round_bar
 from ilmek.part.tree import GROUND, Joint, JointKind, Occurrence, RigidBody, Tree
 from ilmek.plane.contours import circle, polygon
@@ -200,24 +201,12 @@ def _reed(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
 def _bearings(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
     """The bearings at both ends, and the steadies of rollers between the spans."""
     shaft = design.shafts[index]
-    inner, half = bearing_inner(design, index), shaft.shaft.length / 2
+    inner = bearing_inner(design, index)
     flipped = placement(z=-inner, about=(1.0, 0.0, 0.0), angle=math.pi)
     ids = part_id("bearing", index), part_id("housing", index)
     title = _numbered(design, index, "bearing of the cam shaft")
     yield from shaft.seat.occurrences(ids, title, (placement(z=inner), flipped))
-    spans = shaft.params.spans
-    if spans > 1:
-        bar = shaft.shaft.bar
-        steady = Part(
-            part_id("steady", index),
-            _numbered(design, index, "steady of the cam shaft"),
-            "bearing",
-            shape=tube(2 * bar, bar * (1 - math.sqrt(0.5)), bar),
-            purchase=Bought("rollers"),
-            envelope=True,
-        )
-        between = tuple(placement(z=2 * half * (k / spans - 0.5) - bar / 2) for k in range(1, spans))
-        yield Occurrence(steady, between)
+    yield from steadies(shaft, part_id("steady", index), _numbered(design, index, "steady of the cam shaft"))
 
 
 def _drive(design: SheddingDesign, index: int) -> Iterator[Occurrence]:

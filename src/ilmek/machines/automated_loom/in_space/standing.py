@@ -31,7 +31,7 @@ def standing(loom: LoomDesign) -> tuple[MachineTree, ...]:
     retreat = along_track(loom.row_cyclogram, HEADS, (0.0, RETREAT.imag, RETREAT.real))
     return (
         MachineTree("automated-loom", frame_tree(loom, listed.frame, listed.axes, retreat)),
-        MachineTree("automated-loom", carried_tree(loom), deviations=(COARSE,)),
+        MachineTree("automated-loom", carried_tree(loom, listed.frame), deviations=(COARSE,)),
         MachineTree("warp-tension", _warp_cylinders(loom), deviations=(COARSE,)),
         *compensator(loom),
     )

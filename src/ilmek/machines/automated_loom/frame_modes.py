@@ -1,0 +1,205 @@
+"""Natural frequencies of the loom's frame against the frequencies of its drives.
+
+Across the width the columns sway as a portal with the beams across, hinged on their feet. Along the warps each side
+sways on its feet, which bend between the levelling feet at their ends, with the posts of beat and rail on them. Both
+are plane frames [`elements.plane_frame`]; cylinders, cams and all else that the columns carry are masses at the heights
+of their axes. Brackets are taken as rigid, the heads as masses in the middle of a span of their rail, what beats as a
+mass in the middle of its beam [`elements.whirl`].
+
+A drive shakes the frame at most once a stroke of the beat, once a knot of each head in turn, once a pick. The frame is
+stiff for it where every natural frequency is DISTANCE times higher: at a ratio r = 1 / DISTANCE the amplitude is
+1 / (1 - r²) of that at rest.                                                       [Rao, Mechanical Vibrations, 3.3]
+"""
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from functools import lru_cache
+from itertools import pairwise
+
+from ilmek.elements.beam.model import Beam
+from ilmek.elements.columns import STEEL, HollowSquare
+from ilmek.elements.plane_frame import FrameMember, frame_frequencies
+from ilmek.elements.whirl import Mass, frequencies
+from ilmek.machines.automated_loom.brackets import brackets_of
+from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.automated_loom.frame import LoomFrame, part_id
+from ilmek.machines.automated_loom.rail_supports import rail_supports
+from ilmek.machines.automated_loom.standing_frame import foot_reach
+from ilmek.machines.automated_loom.steady_posts import cam_beam
+from ilmek.machines.automated_loom.supports import base_section, beat_beam, floor_top, post_depth, supports
+from ilmek.records import computed, record, result
+from ilmek.report import Check, at_least
+from ilmek.units import turn
+
+DISTANCE = 2.0
+"""Least natural frequency over the greatest frequency of a drive; assumed by this project."""
+
+_NEAR = 1e-6
+_HINGED = True, True, False
+
+
+@record
+class FrameModes:
+    """Lowest natural frequencies of the frame [Hz], and the greatest frequency of a drive with its name."""
+
+    across: float = result("Hz", "the frame sways across the width", name="frame_sway_across")
+    along: float = result("Hz", "the frame sways along the warps", name="frame_sway_along")
+    rail: float = result("Hz", "the heads' rail bends between its supports", name="rail_frequency")
+    beam: float = result("Hz", "the beat's beam bends between its posts", name="beat_beam_frequency")
+    drives: Mapping[str, float]
+
+    fastest = computed(
+        "Hz", "greatest frequency of a drive", lambda it: max(it.drives.values()), name="greatest_drive_frequency"
+    )
+
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """The distance of each from the drives."""
+        name = max(self.drives, key=self.drives.__getitem__)
+        rows = (
+            ("frame: sway across the width", self.across, "column"),
+            ("frame: sway along the warps", self.along, "column"),
+            ("frame: heads' rail bends", self.rail, "rail"),
+            ("frame: beam of the beat bends", self.beam, "beat-post"),
+        )
+        source = f"{DISTANCE:g} times the {name}, {self.fastest:.3g} Hz; assumed by this project"
+        return tuple(
+            at_least(
+                f"{title}: natural frequency",
+                value,
+                DISTANCE * self.fastest,
+                "Hz",
+                source,
+                cure="set a slower beat, or a narrower carpet",
+                parts=(part_id(part),),
+            )
+            for title, value, part in rows
+        )
+
+
+@lru_cache(maxsize=4)
+def frame_modes(loom: LoomDesign, frame: LoomFrame) -> FrameModes:
+    """The natural frequencies of a loom's frame and the frequencies of its drives."""
+    return FrameModes(
+        across=_across(loom, frame),
+        along=_along(loom, frame),
+        rail=_rail(frame),
+        beam=_beat_beam(loom),
+        drives=drive_frequencies(loom),
+    )
+
+
+def drive_frequencies(loom: LoomDesign) -> Mapping[str, float]:
+    """Strokes of the beat, turns of its crank, knots of all heads in turn, picks: frequency of each [Hz]."""
+    crank = {"crank of the beat": loom.params.beat_speed / turn} if loom.beat.crank_rockers else {}
+    return {
+        "strokes of the beat": loom.beat.beat.strokes / loom.beat.beat.time,
+        **crank,
+        "knots of the heads": loom.heads / loom.times.knot,
+        "picks of the weft": 1 / loom.weft.passage.time,
+    }
+
+
+def carried_masses(loom: LoomDesign) -> Iterator[tuple[float, float]]:
+    """Masses that both sides of the frame carry [kg], each with its height above the floor [m]."""
+    side = loom.side
+    heights = {
+        "warp-tension": [side.upper.at.imag, side.spacer.at.imag, side.lower.at.imag],
+        "shedding": [cam.at.imag for cam in side.cams],
+        "tension-compensator": [(side.compensator.corner + side.compensator.size / 2).imag],
+        "weft": [(side.carrier.corner + side.carrier.size / 2).imag],
+    }
+    for name, own in heights.items():
+        machine = loom.machines.get(name)
+        mass = 0.0 if machine is None else sum(machine.number * part.mass_all for part in machine.parts)
+        yield from ((mass / len(own), height - side.floor) for height in own)
+    for one in brackets_of(loom).plates:
+        yield 2 * one.plate.volume * STEEL.density, float(one.nodes.imag.mean()) - side.floor
+
+
+def _member(start: int, end: int, section: HollowSquare, number: int = 1) -> FrameMember:
+    return FrameMember(start, end, number * section.area, number * section.inertia, number * section.line_mass)
+
+
+def _levels(loom: LoomDesign, beams: Iterable[float]) -> tuple[list[float], list[float]]:
+    """Heights above the floor at which a side has nodes, from its feet on, and what it carries at each [m, kg]."""
+    top = loom.side.top - loom.side.floor
+    masses = [(mass / 2, min(height, top)) for mass, height in carried_masses(loom)]
+    heights = sorted({0.0, top, *beams, *(height for _, height in masses)})
+    levels = [low for low, high in zip(heights, [*heights[1:], math.inf], strict=True) if high - low > _NEAR]
+    carried = [0.0] * len(levels)
+    for mass, height in masses:
+        carried[min(range(len(levels)), key=lambda k: abs(levels[k] - height))] += mass
+    return levels, carried
+
+
+def _across(loom: LoomDesign, frame: LoomFrame) -> float:
+    """Both columns hinged at the floor, with the beams at the floor, behind the cams and under the back rest."""
+    made, floor = brackets_of(loom), loom.side.floor
+    base = base_section(loom, frame)
+    beams = {
+        floor_top(loom, frame) - base.side / 2 - floor: base,
+        cam_beam(loom, frame, made).imag - floor: frame.column,
+        made.rest.imag - floor: made.beam,
+    }
+    levels, carried = _levels(loom, beams)
+    half, number = sum(frame.beside(made.face)) / frame.number, len(levels)
+    nodes = [complex(x, y) for x in (-half, half) for y in levels]
+    members = [
+        _member(begin + k, begin + k + 1, frame.column, frame.number)
+        for begin in (0, number)
+        for k in range(number - 1)
+    ]
+    members += [_member(levels.index(y), number + levels.index(y), section) for y, section in beams.items()]
+    masses = dict(enumerate([*carried, *carried]))
+    held = dict.fromkeys((0, number), _HINGED)
+    return float(frame_frequencies(nodes, members, held, masses, STEEL.modulus)[0])
+
+
+def _along(loom: LoomDesign, frame: LoomFrame) -> float:
+    """A side: its columns, on feet that bend between their ends, and the posts before the columns."""
+    levels, carried = _levels(loom, ())
+    rear, front = foot_reach(loom, frame)
+    base, column = base_section(loom, frame), loom.side.column
+    posts = [(depth - column, height, section, mass) for depth, height, section, mass in _posts(loom, frame)]
+    feet = sorted({-rear, 0.0, front, *(min(x, front) for x, *_ in posts)})
+    nodes = (
+        [complex(x) for x in feet] + [1j * y for y in levels[1:]] + [complex(min(x, front), h) for x, h, *_ in posts]
+    )
+    upright = [feet.index(0.0), *range(len(feet), len(feet) + len(levels) - 1)]
+    members = [_member(k, k + 1, base, frame.number) for k in range(len(feet) - 1)]
+    members += [_member(low, high, frame.column, frame.number) for low, high in pairwise(upright)]
+    masses = dict(zip(upright, carried, strict=True))
+    for top, (x, _, section, mass) in enumerate(posts, start=len(nodes) - len(posts)):
+        members.append(_member(feet.index(min(x, front)), top, section))
+        masses[top] = mass
+    held = dict.fromkeys((0, len(feet) - 1), _HINGED)
+    return float(frame_frequencies(nodes, members, held, masses, STEEL.modulus)[0])
+
+
+def _posts(loom: LoomDesign, frame: LoomFrame) -> Iterator[tuple[float, float, HollowSquare, float]]:
+    """Posts on a side's front foot: depth, height, section, and what each carries [m, m, kg]."""
+    held = supports(loom, frame)
+    yield post_depth(loom), held.height, held.post, sum(part.mass_all for part in loom.beat.parts) / 2
+    ends, rail = rail_supports(loom, frame)[0], frame.rail.line_mass * frame.task.width
+    yield ends.depth, ends.height, ends.post, (loom.heads * frame.task.head_mass + rail) / (2 * frame.task.rail_spans)
+
+
+def _rail(frame: LoomFrame) -> float:
+    """The rail on its supports, the heads that find room on a span in the middle of the first."""
+    task = frame.task
+    span = task.width / task.rail_spans
+    mass = min(task.heads, math.ceil(span / task.head_width)) * task.head_mass
+    beam = Beam(task.width, tuple(k * span for k in range(task.rail_spans + 1)))
+    return _lowest(beam, frame.rail, Mass(span / 2, mass))
+
+
+def _beat_beam(loom: LoomDesign) -> float:
+    """The beat's beam on its posts, all that beats in its middle."""
+    beam, _ = beat_beam(loom)
+    mass = sum(part.mass_all for part in loom.beat.parts) - beam.part.mass
+    return _lowest(Beam(beam.span, (0.0, beam.span)), beam.section, Mass(beam.span / 2, max(mass, 0.0)))
+
+
+def _lowest(beam: Beam, section: HollowSquare, mass: Mass) -> float:
+    return float(frequencies(beam, STEEL.modulus * section.inertia, section.line_mass, (mass,), count=1)[0]) / turn

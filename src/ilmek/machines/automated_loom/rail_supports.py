@@ -1,0 +1,230 @@
+"""What carries the heads' rail: axes of its retreat on arms and posts at its ends, and on posts of their own between.
+
+At an end the axis lies beside the rail, on an arm of a post that stands on a front foot. Between the ends the heads
+pass behind the rail: there an arm of the rail reaches to an axis before it [`frame.rail_ahead`], beside which its post
+stands on a beam across.
+
+A support bears half of the rail's spans beside it and all heads that find room on these, R, and what accelerates them
+to the front, F. Its post is free at its end, R at the lever e beside it:
+
+    sigma = R / A + (R e + F h) c / I,    sway = (R e / 2 + F h / 3) h² / (E I)            [cantilevers]
+
+and an arm of the length l has sigma = R l c / I and sinks by R l³ / (3 E I).
+"""
+
+import math
+from collections.abc import Callable, Iterator
+
+from ilmek.elements.columns import STEEL, HollowSquare, ascending
+from ilmek.elements.materials import GRAVITY
+from ilmek.machines.arrangement.side_view import RETREAT
+from ilmek.machines.automated_loom.brackets import brackets_of
+from ilmek.machines.automated_loom.cyclogram import HEADS
+from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.automated_loom.frame import (
+    RAIL_POST,
+    LoomFrame,
+    member,
+    part_id,
+    rail_ahead,
+    rail_support_load,
+)
+from ilmek.machines.automated_loom.supports import base_section, floor_top, post_depth
+from ilmek.machines.weaver.head_shape import RAIL_AXIS
+from ilmek.part.placement import ALONG_WIDTH, UPRIGHT, placement
+from ilmek.part.tree import Occurrence
+from ilmek.records import record
+from ilmek.report import Check, at_most
+from ilmek.timing.track import peak_acceleration
+from ilmek.units import mm
+
+SAFETY = 2.0
+"""Of posts and arms against yielding; assumed by this project."""
+
+SWAY = 1 / 1000
+"""Allowed deflection of a post or an arm over its length; assumed by this project."""
+
+ARM_WALLS = (3 * mm, 4 * mm, 5 * mm)
+"""Walls of the arms, as wide as their axes [m]: of EN 10219-2."""
+
+_CURE = "set a lower retreat_acceleration, or fewer heads"
+
+
+@record
+class RailSupport:
+    """A post of the rail, and the arm by which it carries, or is reached by, the axis of the retreat.
+
+    name     of the post's part, its arm's         height   of the post [m]     lever   of the load beside its axis [m]
+    reach    free length of the arm [m]            load, push   on it, down and to the front [N]
+    post, arm   sections                           depth    of the post's axis in the side view [m]
+    axis     where the axis of the retreat begins while the heads knot, in the side view [m]
+    stations of the axes of the retreat across the width [m], that with the motor first
+    """
+
+    name: str
+    arm_name: str
+    height: float
+    lever: float
+    reach: float
+    load: float
+    push: float
+    post: HollowSquare
+    arm: HollowSquare
+    depth: float
+    axis: complex
+    stations: tuple[float, ...]
+
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """Strength and stiffness of post and arm."""
+        return (*_post_checks(self), *_arm_checks(self))
+
+    @property
+    def stress(self) -> float:
+        """Greatest stress of the post [Pa]."""
+        moment = self.load * self.lever + self.push * self.height
+        return self.load / self.post.area + moment * self.post.side / 2 / self.post.inertia
+
+    @property
+    def sway(self) -> float:
+        """Deflection of the post's end [m]."""
+        moment = self.load * self.lever / 2 + self.push * self.height / 3
+        return moment * self.height**2 / (STEEL.modulus * self.post.inertia)
+
+
+def rail_supports(loom: LoomDesign, frame: LoomFrame) -> tuple[RailSupport, ...]:
+    """The supports at the ends, and those between where the rail has several spans."""
+    return (_at_ends(loom, frame), *(() if frame.task.rail_spans == 1 else (_between(loom, frame),)))
+
+
+def rail_middle(loom: LoomDesign) -> complex:
+    """Back of the heads' rail, where its axes of the retreat begin, in the side view [m]."""
+    rail = loom.side.rail
+    return rail.corner + rail.size / 2
+
+
+def _at_ends(loom: LoomDesign, frame: LoomFrame) -> RailSupport:
+    axis, near, bottom = rail_middle(loom), loom.task.width / 2 + RAIL_AXIS, floor_top(loom, frame)
+    beside = frame.beside(brackets_of(loom).face)[0]
+    load = rail_support_load(frame.task, frame.rail, spans=1)
+
+    def chosen(post: HollowSquare, arm: HollowSquare) -> RailSupport:
+        return RailSupport(
+            name="rail-post",
+            arm_name="rail-arm",
+            height=axis.imag - bottom,
+            lever=beside - near + RAIL_AXIS / 2,
+            reach=beside - post.side / 2 - near,
+            load=load + _push(loom, load) * -RETREAT.imag,
+            push=_push(loom, load) * RETREAT.real,
+            post=post,
+            arm=arm,
+            depth=axis.real + RAIL_AXIS / 2 - post.side / 2,
+            axis=axis,
+            stations=(near - RAIL_AXIS / 2, RAIL_AXIS / 2 - near),
+        )
+
+    return _lightest(chosen, math.inf)
+
+
+def _between(loom: LoomDesign, frame: LoomFrame) -> RailSupport:
+    spans, wide, ahead = frame.task.rail_spans, frame.task.width, _ahead(loom, frame)
+    axis = rail_middle(loom) + ahead - 1j * frame.task.rail_drop
+    end = axis + loom.side.retreat * RETREAT
+    load = rail_support_load(frame.task, frame.rail, spans=2)
+
+    def chosen(post: HollowSquare, arm: HollowSquare) -> RailSupport:
+        return RailSupport(
+            name="post",
+            arm_name="rail-bracket",
+            height=end.imag - floor_top(loom, frame),
+            lever=RAIL_AXIS / 2 + post.side / 2,
+            reach=ahead - frame.rail.side / 2,
+            load=load + _push(loom, load) * -RETREAT.imag,
+            push=_push(loom, load) * RETREAT.real,
+            post=post,
+            arm=arm,
+            depth=end.real,
+            axis=axis,
+            stations=tuple((k / spans - 0.5) * wide + RAIL_AXIS for k in range(1, spans)),
+        )
+
+    return _lightest(chosen, RAIL_POST)
+
+
+def _ahead(loom: LoomDesign, frame: LoomFrame) -> float:
+    """From the back of the rail to the axes between its ends [m]: their posts stand on a beam of their own, clear of
+    that of the beat's posts, or on that.
+    """
+    least = rail_ahead(frame.rail, frame.task.rail_drop)
+    depth, beam = (rail_middle(loom) + least + loom.side.retreat * RETREAT).real, base_section(loom, frame).side
+    apart = post_depth(loom) - depth
+    if abs(apart) >= beam:
+        return least
+    return least + (apart if apart >= 0 else beam + apart)
+
+
+def _push(loom: LoomDesign, load: float) -> float:
+    """Force of the retreat's greatest acceleration on what weighs a load [N]."""
+    row = loom.row_cyclogram
+    return load / GRAVITY * peak_acceleration(row.track(HEADS), row.period)
+
+
+def _lightest(chosen: Callable[[HollowSquare, HollowSquare], RailSupport], most: float) -> RailSupport:
+    """The support of the lightest sections that keep its checks; of the largest that have room where none does."""
+    posts = [one for one in ascending() if RAIL_AXIS <= one.side <= most]
+    arms = [HollowSquare(RAIL_AXIS, wall) for wall in ARM_WALLS]
+    post = next((one for one in posts if all(c.ok for c in _post_checks(chosen(one, arms[0])))), posts[-1])
+    arm = next((one for one in arms if all(c.ok for c in _arm_checks(chosen(post, one)))), arms[-1])
+    return chosen(post, arm)
+
+
+def _post_checks(own: RailSupport) -> tuple[Check, Check]:
+    where, parts = "" if own.name == "rail-post" else " between its ends", (part_id(own.name),)
+    limit, sway = STEEL.strength / SAFETY, SWAY * own.height
+    return (
+        at_most(f"stress of a post of the rail{where}", own.stress, limit, "MPa", _YIELD, cure=_CURE, parts=parts),
+        at_most(f"deflection of a post of the rail{where}", own.sway, sway, "mm", _HEIGHT, cure=_CURE, parts=parts),
+    )
+
+
+def _arm_checks(own: RailSupport) -> tuple[Check, Check]:
+    where, parts = "" if own.name == "rail-post" else " between its ends", (part_id(own.arm_name),)
+    bent = own.load * own.reach * own.arm.side / 2 / own.arm.inertia
+    sag = own.load * own.reach**3 / (3 * STEEL.modulus * own.arm.inertia)
+    limit, most = STEEL.strength / SAFETY, SWAY * own.reach
+    return (
+        at_most(f"stress of an arm of the rail{where}", bent, limit, "MPa", _YIELD, cure=_CURE, parts=parts),
+        at_most(f"deflection of an arm of the rail{where}", sag, most, "mm", _HEIGHT, cure=_CURE, parts=parts),
+    )
+
+
+_YIELD = "yield of S235 over 2, assumed by this project"
+_HEIGHT = "length over 1000, assumed by this project"
+
+
+def support_parts(loom: LoomDesign, frame: LoomFrame) -> Iterator[Occurrence]:
+    """Posts of both kinds, and the arms at the ends; they belong to the frame's body."""
+    bottom = floor_top(loom, frame)
+    for own in rail_supports(loom, frame):
+        ends, title = own.name == "rail-post", "post of the rail's axes"
+        post = member(own.name, title if ends else f"{title} between its ends", own.post, own.height)
+        aside = own.lever if not ends else frame.beside(brackets_of(loom).face)[0]
+        places = (-aside, aside) if ends else [x + aside for x in own.stations]
+        yield Occurrence(post, tuple(placement(x, bottom, own.depth).after(UPRIGHT) for x in places))
+        if ends:
+            arm = member(own.arm_name, "arm of the rail's axes", own.arm, own.reach)
+            first = own.stations[0] + RAIL_AXIS / 2
+            at = (placement(x, own.axis.imag, own.axis.real).after(ALONG_WIDTH) for x in (first, -first - own.reach))
+            yield Occurrence(arm, tuple(at))
+
+
+def rail_brackets(loom: LoomDesign, frame: LoomFrame) -> Iterator[Occurrence]:
+    """The arms of the rail between its ends, in its own axes."""
+    for own in rail_supports(loom, frame):
+        if own.name != "rail-post":
+            reach = (own.axis - rail_middle(loom)).real + RAIL_AXIS / 2 - frame.rail.side
+            arm = member(own.arm_name, "arm of the rail", own.arm, reach)
+            yield Occurrence(
+                arm, tuple(placement(x - RAIL_AXIS, -frame.task.rail_drop, frame.rail.side) for x in own.stations)
+            )
