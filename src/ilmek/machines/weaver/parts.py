@@ -96,11 +96,11 @@ def case_parts(weaver: Weaver) -> Iterator[Occurrence]:
     for cam, z in zip(weaver.cams, stations(weaver), strict=True):
         yield Occurrence(_lever(weaver, cam), (_before_guide(weaver, z),))
     if plate > 0:
-        size = stack_width(params, len(weaver.cams))
+        length = stack_width(params, len(weaver.cams))
         axle = Part(
-            part_id("lever-axle"), "axle of the levers", "pin or bush", _round(LEVER_AXLE), bar(LEVER_AXLE, size), STEEL
+            part_id("lever-axle"), "axle of the levers", "pin or bush", _round(LEVER_AXLE), bar(LEVER_AXLE, length), STEEL
         )
-        yield Occurrence(axle, (_before_guide(weaver, -size / 2),))
+        yield Occurrence(axle, (_before_guide(weaver, -length / 2),))
 
 
 def _into_gap(weaver: Weaver) -> float:
