@@ -98,7 +98,12 @@ def case_parts(weaver: Weaver) -> Iterator[Occurrence]:
     if plate > 0:
         length = stack_width(params, len(weaver.cams))
         axle = Part(
-            part_id("lever-axle"), "axle of the levers", "pin or bush", _round(LEVER_AXLE), bar(LEVER_AXLE, length), STEEL
+            part_id("lever-axle"),
+            "axle of the levers",
+            "pin or bush",
+            _round(LEVER_AXLE),
+            bar(LEVER_AXLE, length),
+            STEEL,
         )
         yield Occurrence(axle, (_before_guide(weaver, -length / 2),))
 
