@@ -7,6 +7,7 @@ from ilmek.cams.loaded_plate_cam import PRESSURE_LIMIT, STEEL
 from ilmek.loom.production import HAND_KNOT
 from ilmek.machines.weaver.cams import case_width
 from ilmek.machines.weaver.design import Weaver, head_relations
+from ilmek.machines.weaver.followers import FORK_STRESS, follower_id, fork_stress
 from ilmek.machines.weaver.forces import cutting_energy
 from ilmek.machines.weaver.grippers import YARN_TOLERANCE
 from ilmek.machines.weaver.limits import HeadLimits
@@ -238,7 +239,22 @@ def cam_checks(weaver: Weaver) -> tuple[Check, ...]:
             cure=larger,
             parts=(cam_id(widest.name),),
         ),
+        _fork_check(weaver),
         _closure_check(weaver),
+    )
+
+
+def _fork_check(weaver: Weaver) -> Check:
+    """The most loaded fork of a follower bears its roller's force."""
+    worst = max(weaver.cams, key=lambda cam: cam.contact_max)
+    return at_most(
+        f"stress of the follower, {worst.name}",
+        fork_stress(weaver, worst),
+        FORK_STRESS,
+        "MPa",
+        f"{STEEL.name}, fatigue limit over 2; assumed by this project",
+        cure="set a larger weaver.cam_gap, or lighter tools",
+        parts=(follower_id(worst.name),),
     )
 
 
@@ -300,7 +316,7 @@ def rounded(value: float, digits: int) -> float:
 
 def _moved(track: str) -> tuple[str, ...]:
     """Ids of the parts that a track moves."""
-    return (*_MOVED[track], lever_id(track))
+    return (*_MOVED[track], lever_id(track), follower_id(track))
 
 
 _MOVED: Mapping[str, tuple[str, ...]] = {

@@ -25,6 +25,10 @@ RAIL_AXIS = 40 * mm
 AXLE = 5 * mm
 """From the flange of the colours' motor to the tubes' carrier [m]; assumed by this project."""
 
+GUIDE, PLAY, LAP = 10 * mm, 1 * mm, 4 * mm
+"""Thickness of the followers' guide, from a roller to its fork's bar, and lap of its cheeks on that; assumed by this
+project."""
+
 APART = 0.5 * mm
 """From the tools' ends to the levers behind them [m]."""
 
@@ -55,7 +59,8 @@ class HeadShape:
     """A head while it knots.
 
     body   its lower corner next to the warps [m]     size   depth + i height of the body [m]
-    bay    depth behind its face for the tools' ends, before levers and cams [m]
+    bay    depth behind its face for the ends of tools and followers, before the cams [m]
+    guide  from the cam shaft's axis to the guide of the followers [m]
     tools  that reach to the warps                    reach  the least x of any tool at rest [m]
     rail   height of the axis along the row that carries the head, in front of all [m]
     magazine, magazine_size   of the yarn tubes, in front of the body, with its motion from tier to tier [m]
@@ -64,6 +69,7 @@ class HeadShape:
     body: complex
     size: complex
     bay: float
+    guide: float
     tools: tuple[HeadTool, ...]
     reach: float
     rail: float
@@ -180,11 +186,15 @@ def head_shape(
     tall = (2 * magazine.tiers - 1) * magazine.pitch
     wide = max(magazine.width if magazine.kind == DRUM else magazine.pitch, selector.face)
     deep = 2 * max(cam.radius for cam in cams) + 2 * CASE
-    top, bay = max((tool.corner + tool.size).imag for tool in tools) + CASE, reaching.bay + APART
+    largest, radius = deep / 2 - CASE, max(cam.cam.roller_radius for cam in cams)
+    guide = largest + 2 * radius + PLAY + LAP
+    ends = guide + GUIDE + max(float(cam.motion.s.max()) for cam in cams) + CASE + APART - deep / 2
+    top, bay = max((tool.corner + tool.size).imag for tool in tools) + CASE, max(reaching.bay + APART, ends)
     return HeadShape(
         body=complex(face, top - deep),
         size=complex(bay + deep, deep),
         bay=bay,
+        guide=guide,
         tools=tools,
         reach=min(tool.corner.real for tool in tools),
         rail=tied - tall / 2 - CARRIER - AXLE - selector.length - RAIL_AXIS / 2,

@@ -12,17 +12,19 @@ from ilmek.cams.loaded_plate_cam import STEEL, LoadedPlateCam
 from ilmek.elements.bearing_table import DEEP_GROOVE, ROLLING_BEARINGS, RollingBearing
 from ilmek.elements.bearings import life
 from ilmek.elements.plates import round_bore, zero_mark
-from ilmek.machines.weaver.cams import case_width
+from ilmek.machines.weaver.cams import case_width, stack_width
 from ilmek.machines.weaver.case import ALUMINIUM, sheet
 from ilmek.machines.weaver.design import Weaver
-from ilmek.machines.weaver.head_shape import CASE, RAIL_AXIS
+from ilmek.machines.weaver.followers import follower_mass
+from ilmek.machines.weaver.head_shape import GUIDE, RAIL_AXIS
+from ilmek.machines.weaver.motions import HANDLER
 from ilmek.machines.weaver.selector import selector_of
 from ilmek.machines.weaver.tool_parts import part_id
 from ilmek.part import catalogue
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import UPRIGHT, Placement, placement
 from ilmek.part.profile import Profile, drilled
-from ilmek.part.shapes import Prism, bar, box, rectangle, tube
+from ilmek.part.shapes import Prism, bar, rectangle, tube
 from ilmek.part.tree import Occurrence
 from ilmek.plane.contours import circle, polygon
 from ilmek.units import format_quantity, mm, turn
@@ -32,6 +34,9 @@ BEARING_LIFE = 1e8
 
 SAMPLES = 720
 """Angles of the turn at which the force on the bearings is summed."""
+
+LEVER, LEVER_AXLE = 20 * mm, 8 * mm
+"""Side of the room of a lever and its slide, and their axle's diameter [m]; assumed by this project."""
 
 SPACER_WALL = 5 * mm
 """Wall of the rings between the cams [m]; assumed by this project."""
@@ -88,8 +93,19 @@ def case_parts(weaver: Weaver) -> Iterator[Occurrence]:
         part = catalogue.bearing(BEARING, "bearing of the head's cam shaft", row)
         face = wide / 2 - plate - _into_gap(weaver)
         yield Occurrence(part, (placement(z=-face - row.width), placement(z=face)))
-    for cam, z in zip(weaver.cams, _stations(weaver), strict=True):
-        yield Occurrence(_lever(weaver, cam), (placement(-(high - CASE) / 2, 0.0, z),))
+    for cam, z in zip(weaver.cams, stations(weaver), strict=True):
+        yield Occurrence(_lever(weaver, cam), (_before_guide(weaver, z),))
+    if plate > 0:
+        length = stack_width(params, len(weaver.cams))
+        axle = Part(
+            part_id("lever-axle"),
+            "axle of the levers",
+            "pin or bush",
+            _round(LEVER_AXLE),
+            bar(LEVER_AXLE, length),
+            STEEL,
+        )
+        yield Occurrence(axle, (_before_guide(weaver, -length / 2),))
 
 
 def _into_gap(weaver: Weaver) -> float:
@@ -98,16 +114,24 @@ def _into_gap(weaver: Weaver) -> float:
     return 0.0 if row is None else min(max(row.width - params.side_plate, 0.0), params.cam_gap / 2)
 
 
+def _before_guide(weaver: Weaver, z: float) -> Placement:
+    """Between guide and face, below the followers, about the cam shaft's axis."""
+    return placement(-weaver.shape.guide - GUIDE - LEVER / 2, -2 * weaver.params.roller_radius - LEVER / 2, z)
+
+
 def _lever(weaver: Weaver, cam: LoadedPlateCam) -> Part:
-    """Lever, slide and roller between a cam and its tool: their room is the case's wall beside the cam."""
-    rest = weaver.tool_bodies.moved(cam.name) - weaver.tool_bodies.of_track(cam.name)
+    """Lever and slide between a follower and its tool, on an axle below the followers: their room."""
+    tools, arm = weaver.tool_bodies, weaver.handler_radius if cam.name == HANDLER else 1.0
+    follower = follower_mass(weaver, cam) / (cam.ratio * arm) ** 2  # as it counts at the tool
+    rest = max(tools.moved(cam.name) - tools.of_track(cam.name) - follower, 0.0)
+    room = Profile(rectangle(LEVER, LEVER), (circle(0j, LEVER_AXLE / 2),))
     return Part(
         lever_id(cam.name),
-        f"lever, slide and roller of the {cam.name}",
+        f"lever and slide of the {cam.name}",
         "machined link",
         f"ratio {cam.ratio:.3g}" if cam.ratio < 100 else "rack and pinion",
-        box(CASE, weaver.shape.size.imag - 2 * sheet(weaver), weaver.params.cam_thickness),
-        purchase=Bought("lever, slide and roller", rest),
+        Prism(room, weaver.params.cam_thickness),
+        purchase=Bought("lever and slide", rest),
         envelope=True,
     )
 
@@ -117,8 +141,8 @@ def shaft_parts(weaver: Weaver) -> Iterator[Occurrence]:
     params, wide = weaver.params, case_width(weaver.params, len(weaver.cams))
     shaft = Part(SHAFT, "cam shaft of the head", "turned part", _round(params.shaft), bar(params.shaft, wide), STEEL)
     yield Occurrence(shaft, (placement(z=-wide / 2),))
-    stations = _stations(weaver)
-    for cam, z in zip(weaver.cams, stations, strict=True):
+    begins = stations(weaver)
+    for cam, z in zip(weaver.cams, begins, strict=True):
         yield Occurrence(_cam(weaver, cam), (placement(z=z),))
     gap, within = params.cam_gap, _into_gap(weaver)
     if gap > 0:
@@ -128,14 +152,14 @@ def shaft_parts(weaver: Weaver) -> Iterator[Occurrence]:
             ring = tube(outer, SPACER_WALL, length)
             return Part(part_id(name), title, "pin or bush", f"{_round(outer)}, {_mm(length)}", ring, STEEL)
 
-        first = stations[0] + params.cam_thickness
-        between = [z + params.cam_thickness for z in stations[1:]]
+        first = begins[0] + params.cam_thickness
+        between = [z + params.cam_thickness for z in begins[1:]]
         yield Occurrence(spacer("spacer", "spacer of the cams", gap), tuple(placement(z=z) for z in between))
-        ends = placement(z=first), placement(z=stations[-1] - gap + within)
+        ends = placement(z=first), placement(z=begins[-1] - gap + within)
         yield Occurrence(spacer("end-spacer", "spacer of cam and bearing", gap - within), ends)
 
 
-def _stations(weaver: Weaver) -> list[float]:
+def stations(weaver: Weaver) -> list[float]:
     """Where each cam begins along the axis [m], from the right."""
     params = weaver.params
     inner = case_width(params, len(weaver.cams)) / 2 - params.side_plate

@@ -12,13 +12,15 @@ from ilmek.elements.drive_parts import PULLEY
 from ilmek.elements.motors import smallest_motor
 from ilmek.machines.weaver.case import closing_parts
 from ilmek.machines.weaver.design import Weaver
+from ilmek.machines.weaver.followers import follower_bodies, guide
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.machines.weaver.magazine_parts import magazine_parts
-from ilmek.machines.weaver.parts import cam_id, case_parts, drive_parts, shaft_parts
+from ilmek.machines.weaver.parts import cam_id, case_parts, drive_parts, shaft_parts, stations
 from ilmek.machines.weaver.tool_parts import part_id
 from ilmek.part import catalogue
 from ilmek.part.placement import IDENTITY, IN_SIDE_VIEW, UPRIGHT, Placement, placement
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
+from ilmek.units import turn
 
 HEAD, CAM_SHAFT, MAGAZINE = part_id("head"), part_id("turning cam shaft"), part_id("magazine")
 CARRIAGE = part_id("drive of the carriage")
@@ -57,9 +59,10 @@ def head_tree(weaver: Weaver) -> Tree:
     """
     axis = weaver.shape.axis
     about = placement(0.0, axis.imag, axis.real).after(IN_SIDE_VIEW)
+    turned, between = about.after(placement(about=(0.0, 0.0, 1.0), angle=turn / 2)), stations(weaver)
     case = (
         Occurrence(stands.part, tuple(about.after(position) for position in stands.positions))
-        for stands in case_parts(weaver)
+        for stands in (*case_parts(weaver), guide(weaver, between))
     )
     return Tree(
         (
@@ -68,7 +71,8 @@ def head_tree(weaver: Weaver) -> Tree:
                 (*case, *closing_parts(weaver), *drive_parts(weaver)),
                 joint=Joint(JointKind.SLIDE, (1.0, 0.0, 0.0)),
             ),
-            RigidBody(CAM_SHAFT, tuple(shaft_parts(weaver)), HEAD, Joint(JointKind.PIN), (about,)),
+            RigidBody(CAM_SHAFT, tuple(shaft_parts(weaver)), HEAD, Joint(JointKind.PIN), (turned,)),
+            *follower_bodies(weaver, HEAD, about, between),
             *(body for _, body in weaver.tool_bodies.bodies(HEAD)),
             RigidBody(MAGAZINE, tuple(magazine_parts(weaver)), HEAD, Joint(JointKind.PIN, (0.0, 1.0, 0.0))),
         )

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from ilmek.arrays import FloatArray
+from ilmek.cams.loaded_plate_cam import LoadedPlateCam
 from ilmek.machines.automated_loom.cyclogram import CARRIAGE
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.maker import (
@@ -20,6 +21,7 @@ from ilmek.machines.automated_loom.in_space.maker import (
     track_angles,
 )
 from ilmek.machines.automated_loom.own_parts import RAIL
+from ilmek.machines.weaver.followers import follower_id
 from ilmek.machines.weaver.head_shape import LOWER_PLATE, RAIL_AXIS, HeadTool
 from ilmek.machines.weaver.knot import led_between
 from ilmek.machines.weaver.motions import CENTRE_ARM, CENTRE_MOTION, LEFT_ARM, RIGHT_ARM, SIDE_MOTION, SLEY
@@ -29,10 +31,11 @@ from ilmek.part.placement import ALONG_WIDTH, UPRIGHT, Placement, placement
 from ilmek.part.shapes import box
 from ilmek.part.tree import Tree
 from ilmek.report.scene import SceneFrame, SceneMotion, ScenePart, SceneYarn, Solid
+from ilmek.timing.cyclogram import Cyclogram
 from ilmek.timing.track import sample
 from ilmek.units import turn
 
-_YARN_SAMPLES, _YARN_POINTS, _EACH = 91, 48, 41
+_YARN_SAMPLES, _YARN_POINTS, _EACH, _LIFTS = 91, 48, 41, 241
 
 
 def heads(loom: LoomDesign) -> MachineTree:
@@ -80,7 +83,8 @@ def motions(loom: LoomDesign) -> Mapping[str, SceneMotion]:
     weaver, knot, angle = loom.weaver, loom.knot_cyclogram, np.linspace(0.0, turn, 3)
     (opener,) = (tool for tool in loom.side.head.tools if tool.name == LOWER_PLATE)
     back = (0.0, 0.0, -1.0)
-    moved = {
+    followers = {follower_id(cam.name): _lifted(knot, cam) for cam in weaver.cams}
+    moved = followers | {
         HEAD: along_track(knot, CARRIAGE, (1.0, 0.0, 0.0)),
         CAM_SHAFT: motion(knot, angle, rotation=angle),
         PLATES: along_track(knot, opener.track, back, opener.limit),
@@ -94,6 +98,13 @@ def motions(loom: LoomDesign) -> Mapping[str, SceneMotion]:
     shift = position[:, None] * np.array(back)
     hands = {name: motion(knot, angle, shift=shift, rotation=hand * by.turned(position)) for name, hand in _HANDS}
     return {**moved, **hands, CENTRE: along_track(knot, CENTRE_MOTION, back)}
+
+
+def _lifted(knot: Cyclogram, cam: LoadedPlateCam) -> SceneMotion:
+    """The motion of a cam's follower from where it is at angle 0, along x of its frame."""
+    angle = np.linspace(0.0, turn, _LIFTS)
+    lift = np.interp(angle, cam.angle, cam.motion.s) - cam.motion.s[0]
+    return motion(knot, angle, shift=np.stack([-lift, 0 * lift, 0 * lift], axis=1))
 
 
 _HANDS = ((LEFT, -1), (RIGHT, 1))
