@@ -19,11 +19,11 @@ from ilmek.machines.automated_loom.parts import parts_of_loom
 from ilmek.machines.component import Component
 from ilmek.machines.weaver import MACHINE as HEAD
 from ilmek.machines.weaver import Weaver, WeaverParams, head_mass
-from ilmek.machines.weaver.cams import case_width
 from ilmek.machines.weaver.motions import SLEY
 from ilmek.machines.weaver.parts import SIDE_PLATE
 from ilmek.machines.weaver.tool_parts import OPENER_PLATE
 from ilmek.machines.weaver.tree import CAM_SHAFT, head_tree
+from ilmek.machines.weaver.widths import case_width
 from ilmek.machines.weft import MACHINE as WEFT
 from ilmek.machines.weft import Rapier, Shuttle, WeftParams
 from ilmek.machines.weft.carriers import BOBBIN, FITTINGS, MAGNET, RAPIER_TUBE, SHUTTLE_WOOD

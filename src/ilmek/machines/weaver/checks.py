@@ -5,7 +5,6 @@ from dataclasses import replace
 
 from ilmek.cams.loaded_plate_cam import PRESSURE_LIMIT, STEEL
 from ilmek.loom.production import HAND_KNOT
-from ilmek.machines.weaver.cams import case_width
 from ilmek.machines.weaver.design import Weaver, head_relations
 from ilmek.machines.weaver.followers import FORK_STRESS, follower_id, fork_stress
 from ilmek.machines.weaver.forces import cutting_energy
@@ -21,7 +20,7 @@ from ilmek.machines.weaver.motions import (
     SLEY,
 )
 from ilmek.machines.weaver.opener_checks import opener_checks, room_checks
-from ilmek.machines.weaver.parts import BEARING, MOTOR, SHAFT, bearing_of, cam_id, case_plates, lever_id
+from ilmek.machines.weaver.parts import BEARING, MOTOR, SHAFT, bearing_of, cam_id, case_plates
 from ilmek.machines.weaver.rods import ROD_STRESS, ROD_TIME, rod_bend, rod_stress, rod_time_ratio
 from ilmek.machines.weaver.tool_parts import (
     CENTRE_GRIPPER,
@@ -31,6 +30,7 @@ from ilmek.machines.weaver.tool_parts import (
     SIDE_GRIPPER,
     SLEY_BAR,
 )
+from ilmek.machines.weaver.widths import case_width
 from ilmek.report import Check, at_least, at_most, must
 from ilmek.timing.cyclogram import Relation, check_all
 
@@ -315,8 +315,8 @@ def rounded(value: float, digits: int) -> float:
 
 
 def _moved(track: str) -> tuple[str, ...]:
-    """Ids of the parts that a track moves."""
-    return (*_MOVED[track], lever_id(track), follower_id(track))
+    """Ids of the parts that a track moves, and of its follower."""
+    return (*_MOVED[track], follower_id(track))
 
 
 _MOVED: Mapping[str, tuple[str, ...]] = {
@@ -328,4 +328,4 @@ _MOVED: Mapping[str, tuple[str, ...]] = {
     SLEY: (SLEY_BAR,),
     OPENER: (OPENER_PLATE,),
 }
-"""Parts that a track moves, beside its lever."""
+"""Parts that a track moves, beside its follower."""

@@ -8,7 +8,7 @@ import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.cams.loaded_plate_cam import CamShaftDrive, LoadedPlateCam, drive_for, torque_at
-from ilmek.machines.weaver.cams import cams_for, case_width
+from ilmek.machines.weaver.cams import cams_for
 from ilmek.machines.weaver.cyclogram import DRAW_TURN, arms_window, optimised, relations
 from ilmek.machines.weaver.cyclogram import cyclogram as knot_cyclogram
 from ilmek.machines.weaver.forces import HeadForces, cutter_torque
@@ -21,6 +21,7 @@ from ilmek.machines.weaver.opener import TEETH, Opener, opener_for
 from ilmek.machines.weaver.params import WeaverParams
 from ilmek.machines.weaver.selector import selector_of
 from ilmek.machines.weaver.tool_parts import ToolBodies
+from ilmek.machines.weaver.widths import case_width
 from ilmek.records import computed, record, result
 from ilmek.timing.cyclogram import Cyclogram, Relation
 from ilmek.timing.s_curve import move_time, travel_time
@@ -114,6 +115,10 @@ class Weaver:
     @computed("s", "time from the first tube to the last")
     def colour_change_longest(self) -> float:
         return self.magazine.longest_time
+
+    def cam(self, track: str) -> LoadedPlateCam:
+        """The cam of a track. Raises KeyError where it has none."""
+        return {cam.name: cam for cam in self.cams}[track]
 
     @property
     def tools(self) -> tuple[Track, ...]:

@@ -1,7 +1,7 @@
-"""The parts in a head's case: side plates, cam shaft with cams and spacers, levers, and its motors.
+"""The parts in a head's case: side plates, cam shaft with cams and spacers, and its motors.
 
-What stands in the case lies about the cam shaft's axis, z to the weaver's left, 0 in the middle of the head. From right
-to left: a side plate, then gap and cam in turn, a gap, and the other side plate. So the case is as wide as its cams.
+What stands in the case lies about the cam shaft's axis, z to the weaver's left, 0 in the middle of the head. From side
+plate to side plate: gap and cam in turn, in the order of the stations, and a gap. So the case is as wide as its cams.
 """
 
 from collections.abc import Iterator
@@ -12,16 +12,15 @@ from ilmek.cams.loaded_plate_cam import STEEL, LoadedPlateCam
 from ilmek.elements.bearing_table import DEEP_GROOVE, ROLLING_BEARINGS, RollingBearing
 from ilmek.elements.bearings import life
 from ilmek.elements.plates import round_bore, zero_mark
-from ilmek.machines.weaver.cams import case_width, stack_width
-from ilmek.machines.weaver.case import ALUMINIUM, sheet
+from ilmek.machines.weaver.case import ALUMINIUM
 from ilmek.machines.weaver.design import Weaver
-from ilmek.machines.weaver.followers import follower_mass
-from ilmek.machines.weaver.head_shape import GUIDE, RAIL_AXIS
-from ilmek.machines.weaver.motions import HANDLER
+from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.machines.weaver.selector import selector_of
+from ilmek.machines.weaver.stations import sheet, station
 from ilmek.machines.weaver.tool_parts import part_id
+from ilmek.machines.weaver.widths import case_width
 from ilmek.part import catalogue
-from ilmek.part.part import Bought, Part
+from ilmek.part.part import Part
 from ilmek.part.placement import UPRIGHT, Placement, placement
 from ilmek.part.profile import Profile, drilled
 from ilmek.part.shapes import Prism, bar, rectangle, tube
@@ -35,9 +34,6 @@ BEARING_LIFE = 1e8
 SAMPLES = 720
 """Angles of the turn at which the force on the bearings is summed."""
 
-LEVER, LEVER_AXLE = 20 * mm, 8 * mm
-"""Side of the room of a lever and its slide, and their axle's diameter [m]; assumed by this project."""
-
 SPACER_WALL = 5 * mm
 """Wall of the rings between the cams [m]; assumed by this project."""
 
@@ -45,11 +41,6 @@ SPACER_WALL = 5 * mm
 def cam_id(track: str) -> str:
     """Id of the cam of a track."""
     return part_id(f"{track.replace(' ', '-')}-cam")
-
-
-def lever_id(track: str) -> str:
-    """Id of what leads the motion of a cam to its tool."""
-    return part_id(f"{track.replace(' ', '-')}-lever")
 
 
 SHAFT, BEARING, SIDE_PLATE = part_id("cam-shaft"), part_id("bearing"), part_id("side-plate")
@@ -79,33 +70,22 @@ def _deep_groove() -> Iterator[RollingBearing]:
 
 
 def case_parts(weaver: Weaver) -> Iterator[Occurrence]:
-    """What stands in the case: the side plates with the bearings, and the levers between cams and tools."""
-    params, high, wide = weaver.params, weaver.shape.size.imag, case_width(weaver.params, len(weaver.cams))
-    row, plate, bay, flat = bearing_of(weaver), params.side_plate, weaver.shape.bay, sheet(weaver)
+    """What stands in the case about the cam shaft: the side plates with its bearings."""
+    params, shape, wide = weaver.params, weaver.shape, case_width(weaver.params, len(weaver.cams))
+    row, plate, flat = bearing_of(weaver), params.side_plate, sheet(weaver)
     if plate > 0:
-        deep, before = weaver.shape.size.real - flat, (bay - flat) / 2
-        hole = () if row is None or row.outer >= high else (circle(complex(before), row.outer / 2),)
-        shape = Prism(Profile(rectangle(deep, high), hole), plate)
+        middle = shape.body + (shape.size + flat) / 2 - shape.axis
+        deep, high = shape.size.real - flat, shape.size.imag
+        hole = () if row is None or row.outer >= deep else (circle(0j, row.outer / 2),)
+        outline = polygon(rectangle(deep, high).points + middle)
         size = f"{format_quantity(deep / mm, '')} x {format_quantity(high / mm, '')} x {_mm(plate)}"
-        part = Part(SIDE_PLATE, "side plate of the head", "machined link", size, shape, ALUMINIUM)
-        yield Occurrence(part, (placement(-before, z=-wide / 2), placement(-before, z=wide / 2 - plate)))
+        section = Profile(outline, hole)
+        part = Part(SIDE_PLATE, "side plate of the head", "machined link", size, Prism(section, plate), ALUMINIUM)
+        yield Occurrence(part, (placement(z=-wide / 2), placement(z=wide / 2 - plate)))
     if row is not None:
         part = catalogue.bearing(BEARING, "bearing of the head's cam shaft", row)
         face = wide / 2 - plate - _into_gap(weaver)
         yield Occurrence(part, (placement(z=-face - row.width), placement(z=face)))
-    for cam, z in zip(weaver.cams, stations(weaver), strict=True):
-        yield Occurrence(_lever(weaver, cam), (_before_guide(weaver, z),))
-    if plate > 0:
-        length = stack_width(params, len(weaver.cams))
-        axle = Part(
-            part_id("lever-axle"),
-            "axle of the levers",
-            "pin or bush",
-            _round(LEVER_AXLE),
-            bar(LEVER_AXLE, length),
-            STEEL,
-        )
-        yield Occurrence(axle, (_before_guide(weaver, -length / 2),))
 
 
 def _into_gap(weaver: Weaver) -> float:
@@ -114,37 +94,15 @@ def _into_gap(weaver: Weaver) -> float:
     return 0.0 if row is None else min(max(row.width - params.side_plate, 0.0), params.cam_gap / 2)
 
 
-def _before_guide(weaver: Weaver, z: float) -> Placement:
-    """Between guide and face, below the followers, about the cam shaft's axis."""
-    return placement(-weaver.shape.guide - GUIDE - LEVER / 2, -2 * weaver.params.roller_radius - LEVER / 2, z)
-
-
-def _lever(weaver: Weaver, cam: LoadedPlateCam) -> Part:
-    """Lever and slide between a follower and its tool, on an axle below the followers: their room."""
-    tools, arm = weaver.tool_bodies, weaver.handler_radius if cam.name == HANDLER else 1.0
-    follower = follower_mass(weaver, cam) / (cam.ratio * arm) ** 2  # as it counts at the tool
-    rest = max(tools.moved(cam.name) - tools.of_track(cam.name) - follower, 0.0)
-    room = Profile(rectangle(LEVER, LEVER), (circle(0j, LEVER_AXLE / 2),))
-    return Part(
-        lever_id(cam.name),
-        f"lever and slide of the {cam.name}",
-        "machined link",
-        f"ratio {cam.ratio:.3g}" if cam.ratio < 100 else "rack and pinion",
-        Prism(room, weaver.params.cam_thickness),
-        purchase=Bought("lever and slide", rest),
-        envelope=True,
-    )
-
-
 def shaft_parts(weaver: Weaver) -> Iterator[Occurrence]:
     """What turns: the shaft, a cam for each track, and a spacer in each gap."""
     params, wide = weaver.params, case_width(weaver.params, len(weaver.cams))
     shaft = Part(SHAFT, "cam shaft of the head", "turned part", _round(params.shaft), bar(params.shaft, wide), STEEL)
     yield Occurrence(shaft, (placement(z=-wide / 2),))
-    begins = stations(weaver)
-    for cam, z in zip(weaver.cams, begins, strict=True):
-        yield Occurrence(_cam(weaver, cam), (placement(z=z),))
-    gap, within = params.cam_gap, _into_gap(weaver)
+    begins = {cam.name: -station(weaver, cam.name) - params.cam_thickness / 2 for cam in weaver.cams}
+    for cam in weaver.cams:
+        yield Occurrence(_cam(weaver, cam), (placement(z=begins[cam.name]),))
+    gap, within, low, high = params.cam_gap, _into_gap(weaver), min(begins.values()), max(begins.values())
     if gap > 0:
         outer = params.shaft + 2 * SPACER_WALL
 
@@ -152,19 +110,10 @@ def shaft_parts(weaver: Weaver) -> Iterator[Occurrence]:
             ring = tube(outer, SPACER_WALL, length)
             return Part(part_id(name), title, "pin or bush", f"{_round(outer)}, {_mm(length)}", ring, STEEL)
 
-        first = begins[0] + params.cam_thickness
-        between = [z + params.cam_thickness for z in begins[1:]]
-        yield Occurrence(spacer("spacer", "spacer of the cams", gap), tuple(placement(z=z) for z in between))
-        ends = placement(z=first), placement(z=begins[-1] - gap + within)
+        between = tuple(placement(z=z - gap) for z in begins.values() if z > low)
+        yield Occurrence(spacer("spacer", "spacer of the cams", gap), between)
+        ends = placement(z=high + params.cam_thickness), placement(z=low - gap + within)
         yield Occurrence(spacer("end-spacer", "spacer of cam and bearing", gap - within), ends)
-
-
-def stations(weaver: Weaver) -> list[float]:
-    """Where each cam begins along the axis [m], from the right."""
-    params = weaver.params
-    inner = case_width(params, len(weaver.cams)) / 2 - params.side_plate
-    pitch = params.cam_thickness + params.cam_gap
-    return [inner - (number + 1) * pitch for number in range(len(weaver.cams))]
 
 
 def _cam(weaver: Weaver, cam: LoadedPlateCam) -> Part:
